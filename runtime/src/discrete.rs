@@ -1,0 +1,371 @@
+//! The discrete system: L_d, f_d, the Legendre transforms and the flows.
+//!
+//! Paper, section 3, with the signs and corrections of the crate documentation:
+//!
+//! ```text
+//! p0 = −D1 L_d − f_d⁻   (minus)        p1 = D2 L_d + f_d⁺   (plus)
+//! D2 L_d(q0, q1) + f_d⁺(q0, q1) + D1 L_d(q1, q2) + f_d⁻(q1, q2) = 0
+//! ```
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::derivatives::linear;
+use crate::error::{Quantity, StepError};
+use crate::newton::{self, Evaluation};
+use crate::state::require_regular;
+use crate::{CovectorDerivatives, Derivatives, Lagrangian, Rayleigh, Scalar, State};
+
+/// The discrete force f_d = (f_d⁻, f_d⁺): covectors at q0 and at q1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DiscreteForce<S, const N: usize> {
+    /// f_d⁻(q0, q1), at q0.
+    pub minus: SVector<S, N>,
+    /// f_d⁺(q0, q1), at q1.
+    pub plus: SVector<S, N>,
+}
+
+/// The discrete force with its derivatives by q0 (`d1`) and q1 (`d2`).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DiscreteForceDerivatives<S, const N: usize> {
+    /// f_d⁻, D1 f_d⁻, D2 f_d⁻.
+    pub minus: CovectorDerivatives<S, N>,
+    /// f_d⁺, D1 f_d⁺, D2 f_d⁺.
+    pub plus: CovectorDerivatives<S, N>,
+}
+
+/// The step's equation at a trial v̄ = (q1 − q0)/h.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepKernel<S, const N: usize> {
+    /// The momentum −D1 L_d − f_d⁻ at q0, to be matched with the state's.
+    pub p0: SVector<S, N>,
+    /// Newton matrix ∂p0/∂v̄ = −h (D2 D1 L_d + D2 f_d⁻).
+    pub matrix: SMatrix<S, N, N>,
+}
+
+/// Both momenta of a segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Momenta<S, const N: usize> {
+    /// −D1 L_d − f_d⁻, at q0.
+    pub p0: SVector<S, N>,
+    /// D2 L_d + f_d⁺, at q1.
+    pub p1: SVector<S, N>,
+}
+
+linear!(DiscreteForce { minus, plus });
+linear!(StepKernel { p0, matrix });
+linear!(Momenta { p0, p1 });
+
+impl<S: Scalar, const N: usize> DiscreteForceDerivatives<S, N> {
+    /// Zero in every field.
+    #[inline]
+    #[must_use]
+    pub fn zero() -> Self {
+        Self { minus: CovectorDerivatives::zero(), plus: CovectorDerivatives::zero() }
+    }
+}
+
+impl<S: Scalar, const N: usize> core::ops::Add for DiscreteForceDerivatives<S, N> {
+    type Output = Self;
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        Self { minus: self.minus + other.minus, plus: self.plus + other.plus }
+    }
+}
+
+/// How a step went.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Report<S> {
+    /// Newton iterations.
+    pub iterations: u32,
+    /// Iterations whose Newton step had to be shortened.
+    pub damped: u32,
+    /// Largest |𝔽⁻(q0, q1) − p0| at the solution, as evaluated there; in units of momentum.
+    pub residual: S,
+    /// The round-off floor that the residual was held against; a residual far above it is lost precision.
+    pub floor: S,
+    /// Largest entry of the last correction of v̄.
+    pub last_correction: S,
+}
+
+/// A step taken: the new state, the mean velocity over the segment, and how the solver fared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step<S, const N: usize> {
+    /// (q1, p1).
+    pub state: State<S, N>,
+    /// v̄ = (q1 − q0)/h, a good guess for the next step.
+    pub velocity: SVector<S, N>,
+    /// How the solver fared.
+    pub report: Report<S>,
+}
+
+/// A system discretised by rule `R`: L_d, f_d and what follows from them.
+///
+/// The required functions are what `#[rayleigh_system]` writes; the provided ones hold for every system and rule.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not discretised by `{R}`",
+    label = "no discrete system by `{R}`",
+    note = "list the rule in the attribute: `#[rayleigh_system(rule = [midpoint, trapezoidal])]`"
+)]
+pub trait Discrete<R, const N: usize>: Lagrangian<N> {
+    /// L_d(q0, q1, h).
+    fn discrete_lagrangian(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> Self::Scalar;
+
+    /// L_d with D1, D2, D11, D12, D22.
+    fn discrete_lagrangian_derivatives(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> Derivatives<Self::Scalar, N>;
+
+    /// The step's equation and Newton matrix at the trial mean velocity `v`.
+    fn step_kernel(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> StepKernel<Self::Scalar, N>;
+
+    /// Both momenta of the segment from q0 with mean velocity `v`.
+    fn momenta(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> Momenta<Self::Scalar, N>;
+
+    /// Energy on the segment: E_L at the points and velocity that the rule sees.
+    fn segment_energy(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> Self::Scalar;
+
+    /// f_d = (f_d⁻, f_d⁺), of the Rayleigh function and the general force together; 0 where the system has neither.
+    #[inline]
+    fn discrete_force(
+        &self,
+        _q0: &SVector<Self::Scalar, N>,
+        _q1: &SVector<Self::Scalar, N>,
+        _h: Self::Scalar,
+    ) -> DiscreteForce<Self::Scalar, N> {
+        DiscreteForce::zero()
+    }
+
+    /// f_d with its derivatives by q0 and q1.
+    #[inline]
+    fn discrete_force_derivatives(
+        &self,
+        _q0: &SVector<Self::Scalar, N>,
+        _q1: &SVector<Self::Scalar, N>,
+        _h: Self::Scalar,
+    ) -> DiscreteForceDerivatives<Self::Scalar, N> {
+        DiscreteForceDerivatives::zero()
+    }
+
+    /// f_d⁻(q0, q1), a covector at q0.
+    #[inline]
+    fn force_minus(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> SVector<Self::Scalar, N> {
+        self.discrete_force(q0, q1, h).minus
+    }
+
+    /// f_d⁺(q0, q1), a covector at q1.
+    #[inline]
+    fn force_plus(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> SVector<Self::Scalar, N> {
+        self.discrete_force(q0, q1, h).plus
+    }
+
+    /// 𝔽⁻: (q0, q1) ↦ (q0, −D1 L_d − f_d⁻).
+    #[inline]
+    fn legendre_minus(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> State<Self::Scalar, N> {
+        State { q: *q0, p: self.momenta(q0, &((q1 - q0) / h), h).p0 }
+    }
+
+    /// 𝔽⁺: (q0, q1) ↦ (q1, D2 L_d + f_d⁺).
+    #[inline]
+    fn legendre_plus(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> State<Self::Scalar, N> {
+        State { q: *q1, p: self.momenta(q0, &((q1 - q0) / h), h).p1 }
+    }
+
+    /// Left side of the forced discrete Euler–Lagrange equation at q1, 0 along solutions:
+    /// D2 L_d(q0, q1) + f_d⁺(q0, q1) + D1 L_d(q1, q2) + f_d⁻(q1, q2).
+    #[inline]
+    fn del_residual(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        q2: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> SVector<Self::Scalar, N> {
+        self.legendre_plus(q0, q1, h).p - self.legendre_minus(q1, q2, h).p
+    }
+
+    /// The flow on T*Q: solves p0 = −D1 L_d − f_d⁻ for q1, then p1 = D2 L_d + f_d⁺.
+    ///
+    /// `guess` is a guess for v̄ = (q1 − q0)/h; a [`Trajectory`](crate::Trajectory) extrapolates one. Without it Newton's
+    /// method starts at rest, and ∂²L/∂v² is checked to be invertible. h may be negative. Neither allocates nor panics
+    /// (unless L, R or f do), and takes at most a fixed number of iterations.
+    ///
+    /// # Errors
+    /// A [`StepError`]; the state given is untouched.
+    #[inline]
+    fn step(
+        &self,
+        state: &State<Self::Scalar, N>,
+        h: Self::Scalar,
+        guess: Option<&SVector<Self::Scalar, N>>,
+    ) -> Result<Step<Self::Scalar, N>, StepError> {
+        let State { q: q0, p: p0 } = state;
+        require_step_size(h)?;
+        StepError::require_finite(q0, Quantity::Configuration)?;
+        StepError::require_finite(p0, Quantity::Momentum)?;
+        let guess = match guess {
+            Some(v) => {
+                StepError::require_finite(v, Quantity::Velocity)?;
+                *v
+            }
+            None => {
+                let rest = nalgebra::zero();
+                require_regular(&self.lagrangian_derivatives(q0, &rest).d22)?;
+                rest
+            }
+        };
+        let solution = newton::solve(
+            |v| {
+                let kernel = self.step_kernel(q0, v, h);
+                Evaluation { value: kernel.p0, matrix: kernel.matrix }
+            },
+            |v| {
+                let momenta = self.momenta(q0, v, h);
+                (momenta.p0, momenta.p1)
+            },
+            p0,
+            guess,
+        )?;
+        let state = State { q: q0 + solution.unknown * h, p: solution.by_product };
+        StepError::require_finite(&state.q, Quantity::Configuration)?;
+        StepError::require_finite(&state.p, Quantity::Momentum)?;
+        Ok(Step { state, velocity: solution.unknown, report: solution.report })
+    }
+
+    /// The flow on Q×Q: (q0, q1) ↦ (q1, q2), with q2 = `state.q` of the step returned.
+    ///
+    /// # Errors
+    /// Those of [`step`](Self::step).
+    #[inline]
+    fn step_configurations(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+        guess: Option<&SVector<Self::Scalar, N>>,
+    ) -> Result<Step<Self::Scalar, N>, StepError> {
+        require_step_size(h)?;
+        StepError::require_finite(q0, Quantity::Configuration)?;
+        self.step(&self.legendre_plus(q0, q1, h), h, guess)
+    }
+}
+
+/// A discrete Rayleigh system: f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d, with L_d⁺ = L_d + R_d and L_d⁻ = L_d − R_d.
+///
+/// Plus goes with D1 and minus with D2: p0 = −D1 L_d⁺, p1 = D2 L_d⁻ (paper, section 3.3). Where the system has a general
+/// force as well, these are the objects of the Rayleigh part alone.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no discrete Rayleigh function by `{R}`",
+    label = "this needs R_d, and `{Self}` has none",
+    note = "add `fn rayleigh(&self, v: [f64; {N}]) -> f64` to the `#[rayleigh_system]` block; `Discrete` holds all that exists without R"
+)]
+pub trait DiscreteRayleigh<R, const N: usize>: Discrete<R, N> + Rayleigh<N> {
+    /// R_d(q0, q1, h).
+    fn discrete_rayleigh(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> Self::Scalar;
+
+    /// R_d with D1, D2, D11, D12, D22.
+    fn discrete_rayleigh_derivatives(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> Derivatives<Self::Scalar, N>;
+
+    /// L_d⁺ = L_d + R_d.
+    #[inline]
+    fn modified_plus(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> Self::Scalar {
+        self.discrete_lagrangian(q0, q1, h) + self.discrete_rayleigh(q0, q1, h)
+    }
+
+    /// L_d⁻ = L_d − R_d.
+    #[inline]
+    fn modified_minus(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> Self::Scalar {
+        self.discrete_lagrangian(q0, q1, h) - self.discrete_rayleigh(q0, q1, h)
+    }
+
+    /// L_d⁺ with D1, D2, D11, D12, D22.
+    #[inline]
+    fn modified_plus_derivatives(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> Derivatives<Self::Scalar, N> {
+        self.discrete_lagrangian_derivatives(q0, q1, h) + self.discrete_rayleigh_derivatives(q0, q1, h)
+    }
+
+    /// L_d⁻ with D1, D2, D11, D12, D22.
+    #[inline]
+    fn modified_minus_derivatives(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> Derivatives<Self::Scalar, N> {
+        self.discrete_lagrangian_derivatives(q0, q1, h)
+            + self.discrete_rayleigh_derivatives(q0, q1, h) * -Self::Scalar::constant(1.0)
+    }
+}
+
+#[inline]
+fn require_step_size<S: Scalar>(h: S) -> Result<(), StepError> {
+    if h.is_finite() && h != S::zero() { Ok(()) } else { Err(StepError::StepSize { h: h.widen() }) }
+}

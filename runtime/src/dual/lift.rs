@@ -1,0 +1,264 @@
+//! From the user's types to those over `Real<D>` and back; and the operations that have no derivative.
+
+use super::{Dual, Real};
+
+/// A value that can be taken into a differentiated body: numbers, `bool`, arrays and tuples of them.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` cannot be used in a differentiated body",
+    label = "neither a number, nor a bool, nor an array of them",
+    note = "a system's L, R and f may depend on numbers, bools and arrays of them; keep other data outside the struct, or convert it to numbers first"
+)]
+pub trait Lift<D>: Sized {
+    /// The same shape with `Real<D>` for floating-point numbers.
+    type Lifted;
+
+    /// The value with constants for floating-point numbers.
+    fn lift(self) -> Self::Lifted;
+}
+
+/// A value of a differentiated body that can be handed back to plain code.
+pub trait Lower: Sized {
+    /// The same shape with plain floating-point numbers.
+    type Lowered;
+
+    /// The value without derivatives.
+    fn lower(self) -> Self::Lowered;
+}
+
+/// What `as f64` accepts.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` cannot be cast to the scalar type of this system",
+    label = "neither an integer nor a floating-point number of this system"
+)]
+pub trait Number<D> {
+    /// The number as a `Real<D>`.
+    fn number(self) -> Real<D>;
+}
+
+/// What a cast to an integer accepts: integers and `bool`.
+#[diagnostic::on_unimplemented(
+    message = "a floating-point number of a differentiated body cannot become an integer",
+    label = "an integer has no derivative",
+    note = "keep it as a floating-point number; to choose between cases, compare: `if q[0] > 0.0 {{ … }} else {{ … }}`"
+)]
+pub trait Integer<T> {
+    /// `self as T`.
+    fn integer(self) -> T;
+}
+
+/// What `%` accepts in a differentiated body: integers.
+#[diagnostic::on_unimplemented(
+    message = "`%` cannot be used on floating-point numbers of a differentiated body",
+    label = "the remainder jumps, and has no derivative there",
+    note = "angles need no wrapping: coordinates live in ℝ; for a periodic function use `sin` and `cos`"
+)]
+pub trait Remainder<Right = Self> {
+    /// The type of the remainder.
+    type Output;
+
+    /// `self % right`.
+    fn remainder(self, right: Right) -> Self::Output;
+}
+
+/// What rounding and bit methods accept: nothing, since they have no derivative.
+#[diagnostic::on_unimplemented(
+    message = "rounding and bit methods cannot be used in a differentiated body",
+    label = "piecewise constant: it has no useful derivative",
+    note = "leave it out, or choose between smooth cases with `if`"
+)]
+pub trait Roundable {}
+
+/// `value as T` for integers.
+#[inline]
+pub fn integer<V: Integer<T>, T>(value: V) -> T {
+    value.integer()
+}
+
+/// `left % right` for integers.
+#[inline]
+pub fn remainder<L: Remainder<R>, R>(left: L, right: R) -> L::Output {
+    left.remainder(right)
+}
+
+macro_rules! floats {
+    ($($float:ty)*) => {$(
+        impl<D: Dual<$float>> Lift<D> for $float {
+            type Lifted = Real<D>;
+            #[inline]
+            fn lift(self) -> Real<D> {
+                D::real(self)
+            }
+        }
+
+        impl<D: Dual<$float>> Number<D> for $float {
+            #[inline]
+            fn number(self) -> Real<D> {
+                D::real(self)
+            }
+        }
+
+        impl Lower for Real<$float> {
+            type Lowered = $float;
+            #[inline]
+            fn lower(self) -> $float {
+                self.0
+            }
+        }
+    )*};
+}
+floats!(f64 f32);
+
+impl<D> Lift<D> for Real<D> {
+    type Lifted = Self;
+    #[inline]
+    fn lift(self) -> Self {
+        self
+    }
+}
+
+impl<D> Number<D> for Real<D> {
+    #[inline]
+    fn number(self) -> Self {
+        self
+    }
+}
+
+macro_rules! unchanged {
+    ($($type:ty)*) => {$(
+        impl<D> Lift<D> for $type {
+            type Lifted = Self;
+            #[inline]
+            fn lift(self) -> Self {
+                self
+            }
+        }
+
+        impl Lower for $type {
+            type Lowered = Self;
+            #[inline]
+            fn lower(self) -> Self {
+                self
+            }
+        }
+    )*};
+}
+unchanged!(i8 i16 i32 i64 i128 isize u8 u16 u32 u64 u128 usize bool);
+
+macro_rules! casts {
+    ($from:ty => $($to:ty)*) => {$(
+        impl Integer<$to> for $from {
+            #[inline]
+            fn integer(self) -> $to {
+                self as $to
+            }
+        }
+    )*};
+}
+
+macro_rules! integers {
+    ($($int:ty)*) => {$(
+        casts!($int => i8 i16 i32 i64 i128 isize u8 u16 u32 u64 u128 usize);
+
+        impl FromInteger<$int> for f64 {
+            #[inline]
+            fn from_integer(value: $int) -> Self {
+                value as Self
+            }
+        }
+
+        impl FromInteger<$int> for f32 {
+            #[inline]
+            fn from_integer(value: $int) -> Self {
+                value as Self
+            }
+        }
+
+        impl<D: num_dual::DualNum> Number<D> for $int
+        where
+            D::Primitive: FromInteger<$int>,
+        {
+            #[inline]
+            fn number(self) -> Real<D> {
+                Real(D::from(D::Primitive::from_integer(self)))
+            }
+        }
+
+        impl Remainder for $int {
+            type Output = Self;
+            #[inline]
+            fn remainder(self, right: Self) -> Self {
+                self % right
+            }
+        }
+
+        impl Remainder<&$int> for $int {
+            type Output = Self;
+            #[inline]
+            fn remainder(self, right: &Self) -> Self {
+                self % right
+            }
+        }
+
+        impl Remainder<$int> for &$int {
+            type Output = $int;
+            #[inline]
+            fn remainder(self, right: $int) -> $int {
+                self % right
+            }
+        }
+    )*};
+}
+integers!(i8 i16 i32 i64 i128 isize u8 u16 u32 u64 u128 usize);
+casts!(bool => i8 i16 i32 i64 i128 isize u8 u16 u32 u64 u128 usize);
+
+/// `integer as f64`, `integer as f32`.
+pub trait FromInteger<I> {
+    /// The nearest number.
+    fn from_integer(value: I) -> Self;
+}
+
+impl<D, T: Lift<D>, const M: usize> Lift<D> for [T; M] {
+    type Lifted = [T::Lifted; M];
+    #[inline]
+    fn lift(self) -> Self::Lifted {
+        self.map(T::lift)
+    }
+}
+
+impl<T: Lower, const M: usize> Lower for [T; M] {
+    type Lowered = [T::Lowered; M];
+    #[inline]
+    fn lower(self) -> Self::Lowered {
+        self.map(T::lower)
+    }
+}
+
+macro_rules! tuples {
+    ($($name:ident)+) => {
+        impl<D, $($name: Lift<D>),+> Lift<D> for ($($name,)+) {
+            type Lifted = ($($name::Lifted,)+);
+            #[inline]
+            fn lift(self) -> Self::Lifted {
+                #[allow(non_snake_case)]
+                let ($($name,)+) = self;
+                ($($name.lift(),)+)
+            }
+        }
+
+        impl<$($name: Lower),+> Lower for ($($name,)+) {
+            type Lowered = ($($name::Lowered,)+);
+            #[inline]
+            fn lower(self) -> Self::Lowered {
+                #[allow(non_snake_case)]
+                let ($($name,)+) = self;
+                ($($name.lower(),)+)
+            }
+        }
+    };
+}
+tuples!(A);
+tuples!(A B);
+tuples!(A B C);
+tuples!(A B C E);
+tuples!(A B C E F);
+tuples!(A B C E F G);

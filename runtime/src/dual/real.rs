@@ -1,0 +1,578 @@
+//! The scalar of a differentiated body.
+
+use core::cmp::Ordering;
+use core::fmt;
+use core::iter::{Product, Sum};
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use num_dual::DualNum;
+
+use super::Dual;
+use super::lift::Roundable;
+use super::primitive::Primitive;
+
+/// What stands for `f64` (or `f32`) in a differentiated body: a number of type `D`, plain or dual.
+///
+/// Operators take `Real<D>`, references to it and plain numbers, in any mixture, as `f64` does. Methods are those of `f64`
+/// that have a derivative; they give the value that `f64` gives, and where a derivative does not exist, its one-sided limit
+/// or infinity:
+///
+/// | at | value | derivative |
+/// |---|---|---|
+/// | `abs` at ±0 | 0 | sign of the zero |
+/// | `signum`, `copysign` by the sign | as `f64` | 0 |
+/// | `min`, `max` of equal numbers | the first | that of the first |
+/// | `sqrt`, `cbrt`, `powf` below 1 at 0 | 0 | ∞ (NaN where the argument's own derivative is 0) |
+/// | `hypot`, `atan2` at (0, 0) | 0 | NaN |
+#[derive(Clone, Copy)]
+pub struct Real<D>(pub D);
+
+/// Forwards one method to num-dual.
+macro_rules! forward {
+    ($($(#[$doc:meta])* $name:ident)*) => {$(
+        $(#[$doc])*
+        #[inline]
+        #[must_use]
+        pub fn $name(self) -> Self {
+            Self(DualNum::$name(&self.0))
+        }
+    )*};
+}
+
+/// Methods of `f64` without a derivative: the bound gives their use a message of its own.
+macro_rules! refuse {
+    ($($name:ident($($argument:ident)?))*) => {$(
+        /// Refused: see [`Roundable`].
+        #[inline]
+        #[must_use]
+        pub fn $name(self $(, $argument: Self)?) -> Self
+        where
+            Self: Roundable,
+        {
+            $(let _ = $argument;)?
+            self
+        }
+    )*};
+}
+
+impl<D, F> Real<D>
+where
+    F: Primitive,
+    D: Dual<F> + DualNum<Primitive = F>,
+{
+    forward! {
+        /// 1/x.
+        recip
+        /// eˣ.
+        exp
+        /// 2ˣ.
+        exp2
+        /// eˣ − 1, accurate near 0.
+        exp_m1
+        /// Natural logarithm.
+        ln
+        /// Logarithm to base 2.
+        log2
+        /// Logarithm to base 10.
+        log10
+        /// ln(1 + x), accurate near 0.
+        ln_1p
+        /// Sine.
+        sin
+        /// Cosine.
+        cos
+        /// Arcsine.
+        asin
+        /// Arccosine.
+        acos
+        /// Arctangent.
+        atan
+        /// Hyperbolic sine.
+        sinh
+        /// Hyperbolic cosine.
+        cosh
+        /// Inverse hyperbolic sine.
+        asinh
+        /// Inverse hyperbolic cosine.
+        acosh
+        /// Inverse hyperbolic tangent.
+        atanh
+    }
+
+    refuse! {
+        floor() ceil() round() round_ties_even() trunc() fract() next_up() next_down() to_bits()
+        rem_euclid(right) div_euclid(right)
+    }
+
+    /// g(self), from g and its first three derivatives as functions of the value.
+    #[inline]
+    fn chain(self, g: [F; 4]) -> Self {
+        Self(self.0.chain(g))
+    }
+
+    /// Sine and cosine.
+    #[inline]
+    #[must_use]
+    pub fn sin_cos(self) -> (Self, Self) {
+        let (sine, cosine) = DualNum::sin_cos(&self.0);
+        (Self(sine), Self(cosine))
+    }
+
+    /// Tangent. num-dual divides sine by cosine, which rounds differently from `f64::tan`.
+    #[inline]
+    #[must_use]
+    pub fn tan(self) -> Self {
+        let [one, two, three] = [1.0, 2.0, 3.0].map(F::constant);
+        let t = Primitive::tan(self.0.primal());
+        let slope = one + t * t;
+        self.chain([t, slope, two * t * slope, two * slope * (one + three * t * t)])
+    }
+
+    /// Hyperbolic tangent. num-dual divides sinh by cosh: NaN beyond |x| ≈ 710. Here the slope comes from e^(−2|x|).
+    #[inline]
+    #[must_use]
+    pub fn tanh(self) -> Self {
+        let [one, two, four] = [1.0, 2.0, 4.0].map(F::constant);
+        let x = self.0.primal();
+        let t = Primitive::tanh(x);
+        let decay = Primitive::exp(-two * Primitive::abs(x));
+        let slope = four * decay / ((one + decay) * (one + decay));
+        self.chain([t, slope, -two * t * slope, slope * (four * t * t - two * slope)])
+    }
+
+    /// Square root.
+    #[inline]
+    #[must_use]
+    pub fn sqrt(self) -> Self {
+        let x = self.0.primal();
+        let root = Primitive::sqrt(x);
+        let first = F::constant(0.5) / root;
+        let second = F::constant(-0.5) * first / x;
+        self.chain([root, first, second, F::constant(-1.5) * second / x])
+    }
+
+    /// Cube root.
+    #[inline]
+    #[must_use]
+    pub fn cbrt(self) -> Self {
+        let [one, two, three, five] = [1.0, 2.0, 3.0, 5.0].map(F::constant);
+        let x = self.0.primal();
+        let root = Primitive::cbrt(x);
+        let first = one / (three * root * root);
+        let second = -two * first / (three * x);
+        self.chain([root, first, second, -five * second / (three * x)])
+    }
+
+    /// Integer power.
+    #[inline]
+    #[must_use]
+    pub fn powi(self, n: i32) -> Self {
+        match n {
+            0 => D::real(F::constant(1.0)),
+            1 => self,
+            2 => self * self,
+            3 => self * self * self,
+            _ => {
+                let x = self.0.primal();
+                let mut factor = F::constant(1.0);
+                self.chain([0, 1, 2, 3].map(|order: i32| {
+                    let exponent = n.saturating_sub(order);
+                    let term = factor * Primitive::powi(x, exponent);
+                    factor *= F::constant(f64::from(exponent));
+                    term
+                }))
+            }
+        }
+    }
+
+    /// Real power. An exponent that depends on q or v needs a positive base, as its derivative is xⁿ ln x.
+    #[inline]
+    #[must_use]
+    pub fn powf(self, exponent: Self) -> Self {
+        let (x, n) = (self.0.primal(), exponent.0.primal());
+        if !exponent.0.is_constant() {
+            let value = Primitive::powf(x, n);
+            return (exponent * self.ln()).chain([value; 4]);
+        }
+        let mut factor = F::constant(1.0);
+        self.chain([0.0, 1.0, 2.0, 3.0].map(|order| {
+            let exponent = n - F::constant(order);
+            // n(n−1)…(n−k+1) x^(n−k) vanishes for a whole n < k, also where the power itself is infinite.
+            let vanishes = factor == F::constant(0.0);
+            let term = if vanishes { factor } else { factor * Primitive::powf(x, exponent) };
+            factor *= exponent;
+            term
+        }))
+    }
+
+    /// Logarithm to any base.
+    #[inline]
+    #[must_use]
+    pub fn log(self, base: Self) -> Self {
+        self.ln() / base.ln()
+    }
+
+    /// Angle of the point (`x`, self), with the derivative (x dy − y dx)/(x² + y²).
+    #[inline]
+    #[must_use]
+    pub fn atan2(self, x: Self) -> Self {
+        let y = self;
+        let angle = Primitive::atan2(y.0.primal(), x.0.primal());
+        // Both quotients have the derivative of the angle; the one with the larger divisor is finite.
+        let quotient = if Primitive::abs(x.0.primal()) >= Primitive::abs(y.0.primal()) {
+            (y / x).atan()
+        } else {
+            -(x / y).atan()
+        };
+        Self(quotient.0.with_primal(angle))
+    }
+
+    /// √(x² + y²), without overflow on the way.
+    #[inline]
+    #[must_use]
+    pub fn hypot(self, other: Self) -> Self {
+        let (x, y) = (Primitive::abs(self.0.primal()), Primitive::abs(other.0.primal()));
+        let value = Primitive::hypot(x, y);
+        let largest = if x > y { x } else { y };
+        let root = if largest > F::constant(0.0) {
+            let scale = D::real(largest);
+            let (a, b) = (self / scale, other / scale);
+            (a * a + b * b).sqrt() * scale
+        } else {
+            (self * self + other * other).sqrt()
+        };
+        Self(root.0.with_primal(value))
+    }
+
+    /// |x|.
+    #[inline]
+    #[must_use]
+    pub fn abs(self) -> Self {
+        if self.is_sign_negative() { -self } else { self }
+    }
+
+    /// 1 or −1 by the sign bit, NaN for NaN; derivative 0.
+    #[inline]
+    #[must_use]
+    pub fn signum(self) -> Self {
+        D::real(Primitive::signum(self.0.primal()))
+    }
+
+    /// |self| with the sign of `sign`.
+    #[inline]
+    #[must_use]
+    pub fn copysign(self, sign: Self) -> Self {
+        if self.is_sign_negative() == sign.is_sign_negative() { self } else { -self }
+    }
+
+    /// The smaller number; NaN only where both are.
+    #[inline]
+    #[must_use]
+    pub fn min(self, other: Self) -> Self {
+        if other < self || self.is_nan() { other } else { self }
+    }
+
+    /// The larger number; NaN only where both are.
+    #[inline]
+    #[must_use]
+    pub fn max(self, other: Self) -> Self {
+        if other > self || self.is_nan() { other } else { self }
+    }
+
+    /// The number limited to [`low`, `high`]. Where `low` > `high`, on which `f64::clamp` panics, it is `high`.
+    #[inline]
+    #[must_use]
+    pub fn clamp(self, low: Self, high: Self) -> Self {
+        if self > high {
+            high
+        } else if self < low {
+            low
+        } else {
+            self
+        }
+    }
+
+    /// self·a + b, rounded twice.
+    #[inline]
+    #[must_use]
+    pub fn mul_add(self, a: Self, b: Self) -> Self {
+        self * a + b
+    }
+
+    /// Degrees to radians.
+    #[inline]
+    #[must_use]
+    pub fn to_radians(self) -> Self {
+        self * D::real(F::constant(core::f64::consts::PI / 180.0))
+    }
+
+    /// Radians to degrees.
+    #[inline]
+    #[must_use]
+    pub fn to_degrees(self) -> Self {
+        self * D::real(F::constant(180.0 / core::f64::consts::PI))
+    }
+
+    /// Whether the value is NaN.
+    #[inline]
+    #[must_use]
+    pub fn is_nan(self) -> bool {
+        Primitive::is_nan(self.0.primal())
+    }
+
+    /// Whether the value is finite.
+    #[inline]
+    #[must_use]
+    pub fn is_finite(self) -> bool {
+        Primitive::is_finite(self.0.primal())
+    }
+
+    /// Whether the value is infinite.
+    #[inline]
+    #[must_use]
+    pub fn is_infinite(self) -> bool {
+        !self.is_finite() && !self.is_nan()
+    }
+
+    /// Whether the sign bit is unset.
+    #[inline]
+    #[must_use]
+    pub fn is_sign_positive(self) -> bool {
+        !self.is_sign_negative()
+    }
+
+    /// Whether the sign bit is set.
+    #[inline]
+    #[must_use]
+    pub fn is_sign_negative(self) -> bool {
+        Primitive::is_sign_negative(self.0.primal())
+    }
+}
+
+/// An operator between numbers of a differentiated body, by value and by reference.
+macro_rules! operator {
+    ($($trait:ident $name:ident $assign:ident $assign_name:ident)*) => {$(
+        impl<D: DualNum + Copy> $trait for Real<D> {
+            type Output = Self;
+            #[inline]
+            fn $name(self, right: Self) -> Self {
+                Self(self.0.$name(right.0))
+            }
+        }
+
+        impl<D: DualNum + Copy> $trait<&Self> for Real<D> {
+            type Output = Self;
+            #[inline]
+            fn $name(self, right: &Self) -> Self {
+                self.$name(*right)
+            }
+        }
+
+        impl<D: DualNum + Copy> $trait<Real<D>> for &Real<D> {
+            type Output = Real<D>;
+            #[inline]
+            fn $name(self, right: Real<D>) -> Real<D> {
+                (*self).$name(right)
+            }
+        }
+
+        impl<D: DualNum + Copy> $trait for &Real<D> {
+            type Output = Real<D>;
+            #[inline]
+            fn $name(self, right: Self) -> Real<D> {
+                (*self).$name(*right)
+            }
+        }
+
+        impl<D: DualNum + Copy> $assign for Real<D> {
+            #[inline]
+            fn $assign_name(&mut self, right: Self) {
+                *self = (*self).$name(right);
+            }
+        }
+
+        impl<D: DualNum + Copy> $assign<&Self> for Real<D> {
+            #[inline]
+            fn $assign_name(&mut self, right: &Self) {
+                *self = (*self).$name(*right);
+            }
+        }
+
+        operator!(primitive $trait $name $assign $assign_name f64);
+        operator!(primitive $trait $name $assign $assign_name f32);
+    )*};
+    (primitive $trait:ident $name:ident $assign:ident $assign_name:ident $float:ty) => {
+        impl<D: Dual<$float>> $trait<$float> for Real<D> {
+            type Output = Self;
+            #[inline]
+            fn $name(self, right: $float) -> Self {
+                Self(self.0.$name(right))
+            }
+        }
+
+        impl<D: Dual<$float>> $trait<$float> for &Real<D> {
+            type Output = Real<D>;
+            #[inline]
+            fn $name(self, right: $float) -> Real<D> {
+                (*self).$name(right)
+            }
+        }
+
+        impl<D: Dual<$float>> $trait<Real<D>> for $float {
+            type Output = Real<D>;
+            #[inline]
+            fn $name(self, right: Real<D>) -> Real<D> {
+                D::real(self).$name(right)
+            }
+        }
+
+        impl<D: Dual<$float>> $trait<&Real<D>> for $float {
+            type Output = Real<D>;
+            #[inline]
+            fn $name(self, right: &Real<D>) -> Real<D> {
+                D::real(self).$name(*right)
+            }
+        }
+
+        impl<D: Dual<$float>> $assign<$float> for Real<D> {
+            #[inline]
+            fn $assign_name(&mut self, right: $float) {
+                *self = (*self).$name(right);
+            }
+        }
+    };
+}
+operator! {
+    Add add AddAssign add_assign
+    Sub sub SubAssign sub_assign
+    Mul mul MulAssign mul_assign
+    Div div DivAssign div_assign
+}
+
+impl<D: DualNum + Copy> Neg for Real<D> {
+    type Output = Self;
+    #[inline]
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+impl<D: DualNum + Copy> Neg for &Real<D> {
+    type Output = Real<D>;
+    #[inline]
+    fn neg(self) -> Real<D> {
+        -*self
+    }
+}
+
+impl<D: DualNum + Copy> Sum for Real<D> {
+    #[inline]
+    fn sum<I: Iterator<Item = Self>>(numbers: I) -> Self {
+        Self(numbers.fold(D::zero(), |sum, x| sum + x.0))
+    }
+}
+
+impl<'a, D: DualNum + Copy> Sum<&'a Self> for Real<D> {
+    #[inline]
+    fn sum<I: Iterator<Item = &'a Self>>(numbers: I) -> Self {
+        numbers.copied().sum()
+    }
+}
+
+impl<D: DualNum + Copy> Product for Real<D> {
+    #[inline]
+    fn product<I: Iterator<Item = Self>>(numbers: I) -> Self {
+        Self(numbers.fold(D::one(), |product, x| product * x.0))
+    }
+}
+
+impl<'a, D: DualNum + Copy> Product<&'a Self> for Real<D> {
+    #[inline]
+    fn product<I: Iterator<Item = &'a Self>>(numbers: I) -> Self {
+        numbers.copied().product()
+    }
+}
+
+/// Comparisons see the value alone.
+impl<D: DualNum> PartialEq for Real<D> {
+    #[inline]
+    fn eq(&self, other: &Self) -> bool {
+        self.0.re() == other.0.re()
+    }
+}
+
+impl<D: DualNum> PartialOrd for Real<D> {
+    #[inline]
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        self.0.re().partial_cmp(&other.0.re())
+    }
+}
+
+/// Conversions and comparisons with the plain numbers of the system.
+macro_rules! primitive {
+    ($($float:ty)*) => {$(
+        impl<D: Dual<$float>> From<$float> for Real<D> {
+            #[inline]
+            fn from(value: $float) -> Self {
+                D::real(value)
+            }
+        }
+
+        impl<D: Dual<$float>> PartialEq<$float> for Real<D> {
+            #[inline]
+            fn eq(&self, other: &$float) -> bool {
+                self.0.primal() == *other
+            }
+        }
+
+        impl<D: Dual<$float>> PartialOrd<$float> for Real<D> {
+            #[inline]
+            fn partial_cmp(&self, other: &$float) -> Option<Ordering> {
+                self.0.primal().partial_cmp(other)
+            }
+        }
+
+        impl<D: Dual<$float>> PartialEq<Real<D>> for $float {
+            #[inline]
+            fn eq(&self, other: &Real<D>) -> bool {
+                *self == other.0.primal()
+            }
+        }
+
+        impl<D: Dual<$float>> PartialOrd<Real<D>> for $float {
+            #[inline]
+            fn partial_cmp(&self, other: &Real<D>) -> Option<Ordering> {
+                self.partial_cmp(&other.0.primal())
+            }
+        }
+    )*};
+}
+primitive!(f64 f32);
+
+/// `f64::from(i)` for the integers that `f64` takes.
+macro_rules! from_integer {
+    ($($int:ty)*) => {$(
+        impl<D: DualNum + Copy> From<$int> for Real<D>
+        where
+            D::Primitive: From<$int>,
+        {
+            #[inline]
+            fn from(value: $int) -> Self {
+                Self(D::from(D::Primitive::from(value)))
+            }
+        }
+    )*};
+}
+from_integer!(i8 i16 i32 u8 u16 u32 bool);
+
+impl<D: DualNum> Default for Real<D> {
+    fn default() -> Self {
+        Self(D::zero())
+    }
+}
+
+impl<D: DualNum> fmt::Debug for Real<D> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(&self.0, f)
+    }
+}

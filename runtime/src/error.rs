@@ -1,0 +1,137 @@
+//! What can go wrong in a step.
+
+use core::fmt;
+
+use nalgebra::SVector;
+
+use crate::Scalar;
+
+/// A quantity that an error speaks of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Quantity {
+    /// The configuration q.
+    Configuration,
+    /// The velocity v, or the guess for v̄.
+    Velocity,
+    /// The momentum p.
+    Momentum,
+    /// The derivatives of L, R or f, at the point where the step evaluated them.
+    Derivatives,
+}
+
+/// Why a step was not taken. The state that it started from is untouched; most failures pass with a smaller step size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum StepError {
+    /// The step size is zero or not finite.
+    StepSize {
+        /// The step size given.
+        h: f64,
+    },
+    /// A value is NaN or infinite.
+    NonFinite {
+        /// Which value.
+        quantity: Quantity,
+        /// Its coordinate.
+        index: usize,
+    },
+    /// ∂²L/∂v² is singular: momenta do not determine velocities.
+    DegenerateLagrangian {
+        /// The coordinate whose pivot vanishes.
+        column: usize,
+    },
+    /// The Newton matrix −h D2 D1 L_d⁺ is singular at an iterate.
+    SingularNewtonMatrix {
+        /// The iteration, from 0.
+        iteration: u32,
+        /// The coordinate whose pivot vanishes.
+        column: usize,
+    },
+    /// No shorter Newton step lowers the residual: the equation has no real solution near the guess.
+    NoRealSolution {
+        /// The iteration, from 0.
+        iteration: u32,
+        /// Largest residual of the momentum equation.
+        residual: f64,
+    },
+    /// The residual cannot be brought to its round-off floor: digits cancel inside L, R or f.
+    LostPrecision {
+        /// Largest residual of the momentum equation.
+        residual: f64,
+        /// The round-off floor expected.
+        floor: f64,
+    },
+    /// The iteration limit was reached while the residual was still falling.
+    NotConverged {
+        /// Iterations taken.
+        iterations: u32,
+        /// Largest residual of the momentum equation.
+        residual: f64,
+        /// The round-off floor aimed at.
+        floor: f64,
+    },
+}
+
+impl StepError {
+    /// Fails with the first coordinate of `vector` that is not finite.
+    #[inline]
+    pub(crate) fn require_finite<S: Scalar, const N: usize>(
+        vector: &SVector<S, N>,
+        quantity: Quantity,
+    ) -> Result<(), Self> {
+        match vector.iter().position(|entry| !entry.is_finite()) {
+            None => Ok(()),
+            Some(index) => Err(Self::NonFinite { quantity, index }),
+        }
+    }
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Configuration => "configuration",
+            Self::Velocity => "velocity",
+            Self::Momentum => "momentum",
+            Self::Derivatives => "derivative of L, R or f",
+        })
+    }
+}
+
+impl fmt::Display for StepError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::StepSize { h } => write!(f, "step size {h} is zero or not finite; give a finite h ≠ 0"),
+            Self::NonFinite { quantity, index } => write!(
+                f,
+                "{quantity} {index} is NaN or infinite; check the state given, or try a smaller step"
+            ),
+            Self::DegenerateLagrangian { column } => write!(
+                f,
+                "∂²L/∂v² is singular (pivot of coordinate {column}): momenta do not determine velocities; \
+                 give every coordinate a kinetic energy, or remove it"
+            ),
+            Self::SingularNewtonMatrix { iteration, column } => write!(
+                f,
+                "Newton matrix singular at iteration {iteration} (pivot of coordinate {column}); try a smaller step"
+            ),
+            Self::NoRealSolution { iteration, residual } => write!(
+                f,
+                "no real solution in reach: at iteration {iteration} no shorter Newton step lowers the residual \
+                 {residual:.3e}; try a smaller step"
+            ),
+            Self::LostPrecision { residual, floor } => write!(
+                f,
+                "residual {residual:.3e} stays above its round-off floor {floor:.3e}: digits cancel in L, R or f; \
+                 shift or rescale the coordinates"
+            ),
+            Self::NotConverged { iterations, residual, floor } => write!(
+                f,
+                "not converged after {iterations} iterations: residual {residual:.3e}, floor {floor:.3e}; \
+                 try a smaller step"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for StepError {}

@@ -1,0 +1,33 @@
+//! Structure-preserving integrators for mechanical systems with dissipation, generated from a Lagrangian and a Rayleigh
+//! function.
+//!
+//! See the README for the equations, and [`rayleigh_system`] for what the attribute accepts and generates.
+#![cfg_attr(not(feature = "std"), no_std)]
+
+extern crate self as dalembert;
+
+mod derivatives;
+mod discrete;
+mod error;
+mod linear;
+mod newton;
+mod rules;
+mod scalar;
+mod state;
+mod system;
+mod trajectory;
+
+#[cfg(feature = "std")]
+pub mod dual;
+
+pub use dalembert_macros::rayleigh_system;
+pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
+pub use discrete::{
+    Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Report, Step, StepKernel,
+};
+pub use error::{Quantity, StepError};
+pub use rules::{DisplacementRule, Midpoint, Node, Trapezoidal};
+pub use scalar::Scalar;
+pub use state::State;
+pub use system::{Force, Lagrangian, Rayleigh};
+pub use trajectory::{Sample, Samples, Trajectory};

@@ -1,0 +1,327 @@
+//! Rules that see a segment through its displacement alone: quadrature along the straight line from q0 to q1.
+//!
+//! ```text
+//! v̄ = (q1 − q0)/h,   qᵢ = (1 − cᵢ) q0 + cᵢ q1
+//! L_d = h Σ bᵢ L(qᵢ, v̄),   R_d = (h²/2) Σ bᵢ R(qᵢ, v̄)
+//! f_d⁻ = h Σ bᵢ (1 − cᵢ) f(qᵢ, v̄),   f_d⁺ = h Σ bᵢ cᵢ f(qᵢ, v̄)
+//! ```
+//!
+//! Everything else is the chain rule: varying q0 moves (qᵢ, v̄) by (1 − cᵢ, −1/h), varying q1 by (cᵢ, 1/h).
+
+use nalgebra::SVector;
+
+use crate::discrete::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
+use crate::{
+    CovectorDerivatives, Derivatives, Direction, Force, Lagrangian, Rayleigh, Scalar,
+};
+
+/// A node of the quadrature over one segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Node {
+    /// cᵢ ∈ [0, 1], the share of q1.
+    pub position: f64,
+    /// bᵢ; the weights of a rule sum to 1.
+    pub weight: f64,
+}
+
+/// One node on one segment: the point and what varying q0 and q1 does to it.
+struct Sample<S, const N: usize> {
+    weight: S,
+    position: S,
+    q: SVector<S, N>,
+    /// Variation of q0, times −h where the unknown is v̄.
+    minus: Direction<S>,
+    /// Variation of q1, times h where the unknown is v̄.
+    plus: Direction<S>,
+}
+
+/// A rule given by its [`NODES`](Self::NODES); the discrete objects follow by formula.
+///
+/// Each function gives one term, so that a system sums those that it has: no R, no dissipation.
+pub trait DisplacementRule: Copy {
+    /// Nodes and weights.
+    const NODES: &'static [Node];
+
+    /// L_d(q0, q1, h) = h Σ bᵢ L(qᵢ, v̄).
+    #[inline]
+    fn discrete_lagrangian<L: Lagrangian<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> L::Scalar {
+        let v = (q1 - q0) / h;
+        on_configurations::<Self, _, N>(q0, q1, h)
+            .fold(nalgebra::zero(), |sum: L::Scalar, node| sum + system.lagrangian(&node.q, &v) * node.weight)
+            * h
+    }
+
+    /// L_d with its derivatives by q0 and q1.
+    #[inline]
+    fn discrete_lagrangian_derivatives<L: Lagrangian<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Derivatives<L::Scalar, N> {
+        let v = (q1 - q0) / h;
+        on_configurations::<Self, _, N>(q0, q1, h).fold(Derivatives::zero(), |sum, node| {
+            sum + system.lagrangian_derivatives(&node.q, &v).pull_back(node.minus, node.plus)
+                * (h * node.weight)
+        })
+    }
+
+    /// R_d(q0, q1, h) = (h²/2) Σ bᵢ R(qᵢ, v̄).
+    #[inline]
+    fn discrete_rayleigh<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> L::Scalar {
+        let v = (q1 - q0) / h;
+        on_configurations::<Self, _, N>(q0, q1, h)
+            .fold(nalgebra::zero(), |sum: L::Scalar, node| sum + system.rayleigh(&node.q, &v) * node.weight)
+            * (h * h * L::Scalar::constant(0.5))
+    }
+
+    /// R_d with its derivatives by q0 and q1.
+    #[inline]
+    fn discrete_rayleigh_derivatives<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Derivatives<L::Scalar, N> {
+        let v = (q1 - q0) / h;
+        let half_square = h * h * L::Scalar::constant(0.5);
+        on_configurations::<Self, _, N>(q0, q1, h).fold(Derivatives::zero(), |sum, node| {
+            sum + system.rayleigh_derivatives(&node.q, &v).pull_back(node.minus, node.plus)
+                * (half_square * node.weight)
+        })
+    }
+
+    /// f_d of the Rayleigh function: f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d.
+    #[inline]
+    fn rayleigh_force<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> DiscreteForce<L::Scalar, N> {
+        let v = (q1 - q0) / h;
+        let half_square = h * h * L::Scalar::constant(0.5);
+        on_configurations::<Self, _, N>(q0, q1, h).fold(DiscreteForce::zero(), |sum, node| {
+            let r = system.rayleigh_gradient(&node.q, &v);
+            let weight = half_square * node.weight;
+            sum + DiscreteForce {
+                minus: r.along(node.minus) * weight,
+                plus: r.along(node.plus) * -weight,
+            }
+        })
+    }
+
+    /// Derivatives of f_d of the Rayleigh function by q0 and q1.
+    #[inline]
+    fn rayleigh_force_derivatives<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> DiscreteForceDerivatives<L::Scalar, N> {
+        let r = Self::discrete_rayleigh_derivatives(system, q0, q1, h);
+        DiscreteForceDerivatives {
+            minus: CovectorDerivatives { value: r.d1, d1: r.d11, d2: r.d12 },
+            plus: CovectorDerivatives { value: -r.d2, d1: -r.d12.transpose(), d2: -r.d22 },
+        }
+    }
+
+    /// f_d of the general force: f_d⁻ = h Σ bᵢ (1 − cᵢ) f(qᵢ, v̄), f_d⁺ = h Σ bᵢ cᵢ f(qᵢ, v̄).
+    #[inline]
+    fn general_force<L: Force<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> DiscreteForce<L::Scalar, N> {
+        let v = (q1 - q0) / h;
+        on_configurations::<Self, _, N>(q0, q1, h).fold(DiscreteForce::zero(), |sum, node| {
+            let f = system.force(&node.q, &v) * (h * node.weight);
+            sum + DiscreteForce {
+                minus: f * (L::Scalar::constant(1.0) - node.position),
+                plus: f * node.position,
+            }
+        })
+    }
+
+    /// Derivatives of f_d of the general force by q0 and q1.
+    #[inline]
+    fn general_force_derivatives<L: Force<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> DiscreteForceDerivatives<L::Scalar, N> {
+        let v = (q1 - q0) / h;
+        on_configurations::<Self, _, N>(q0, q1, h).fold(DiscreteForceDerivatives::zero(), |sum, node| {
+            let f = system.force_derivatives(&node.q, &v);
+            let pulled = CovectorDerivatives {
+                value: f.value,
+                d1: f.along(node.minus),
+                d2: f.along(node.plus),
+            } * (h * node.weight);
+            sum + DiscreteForceDerivatives {
+                minus: pulled * (L::Scalar::constant(1.0) - node.position),
+                plus: pulled * node.position,
+            }
+        })
+    }
+
+    /// What L adds to the step's equation: −D1 L_d and its derivative by v̄.
+    #[inline]
+    fn lagrangian_kernel<L: Lagrangian<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> StepKernel<L::Scalar, N> {
+        on_velocity::<Self, _, N>(q0, v, h).fold(StepKernel::zero(), |sum, node| {
+            let l = system.lagrangian_variations(&node.q, v, node.minus, node.plus) * node.weight;
+            sum + StepKernel { p0: l.minus, matrix: l.mixed }
+        })
+    }
+
+    /// What R adds: −D1 R_d and its derivative by v̄.
+    #[inline]
+    fn rayleigh_kernel<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> StepKernel<L::Scalar, N> {
+        let half = h * L::Scalar::constant(0.5);
+        on_velocity::<Self, _, N>(q0, v, h).fold(StepKernel::zero(), |sum, node| {
+            let r = system.rayleigh_variations(&node.q, v, node.minus, node.plus) * (half * node.weight);
+            sum + StepKernel { p0: r.minus, matrix: r.mixed }
+        })
+    }
+
+    /// What the general force adds: −f_d⁻ and its derivative by v̄.
+    #[inline]
+    fn force_kernel<L: Force<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> StepKernel<L::Scalar, N> {
+        on_velocity::<Self, _, N>(q0, v, h).fold(StepKernel::zero(), |sum, node| {
+            let (f, by_v) = system.force_variation(&node.q, v, node.plus);
+            let weight = h * node.weight * (node.position - L::Scalar::constant(1.0));
+            sum + StepKernel { p0: f * weight, matrix: by_v * weight }
+        })
+    }
+
+    /// What L adds to both momenta: −D1 L_d and D2 L_d.
+    #[inline]
+    fn lagrangian_momenta<L: Lagrangian<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Momenta<L::Scalar, N> {
+        on_velocity::<Self, _, N>(q0, v, h).fold(Momenta::zero(), |sum, node| {
+            let l = system.lagrangian_gradient(&node.q, v);
+            sum + Momenta {
+                p0: l.along(node.minus) * node.weight,
+                p1: l.along(node.plus) * node.weight,
+            }
+        })
+    }
+
+    /// What R adds to both momenta: −D1 R_d and −D2 R_d.
+    #[inline]
+    fn rayleigh_momenta<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Momenta<L::Scalar, N> {
+        let half = h * L::Scalar::constant(0.5);
+        on_velocity::<Self, _, N>(q0, v, h).fold(Momenta::zero(), |sum, node| {
+            let r = system.rayleigh_gradient(&node.q, v);
+            sum + Momenta {
+                p0: r.along(node.minus) * (half * node.weight),
+                p1: r.along(node.plus) * (-half * node.weight),
+            }
+        })
+    }
+
+    /// What the general force adds to both momenta: −f_d⁻ and f_d⁺.
+    #[inline]
+    fn force_momenta<L: Force<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Momenta<L::Scalar, N> {
+        on_velocity::<Self, _, N>(q0, v, h).fold(Momenta::zero(), |sum, node| {
+            let f = system.force(&node.q, v) * (h * node.weight);
+            sum + Momenta {
+                p0: f * (node.position - L::Scalar::constant(1.0)),
+                p1: f * node.position,
+            }
+        })
+    }
+
+    /// Energy on the segment, Σ bᵢ E_L(qᵢ, v̄).
+    #[inline]
+    fn segment_energy<L: Lagrangian<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> L::Scalar {
+        let v = (q1 - q0) / h;
+        on_configurations::<Self, _, N>(q0, q1, h)
+            .fold(nalgebra::zero(), |sum: L::Scalar, node| sum + system.energy(&node.q, &v) * node.weight)
+    }
+}
+
+/// The nodes as functions of (q0, q1): derivatives by q0 and q1 themselves.
+#[inline]
+fn on_configurations<R: DisplacementRule, S: Scalar, const N: usize>(
+    q0: &SVector<S, N>,
+    q1: &SVector<S, N>,
+    h: S,
+) -> impl Iterator<Item = Sample<S, N>> {
+    R::NODES.iter().map(move |node| {
+        let c = S::constant(node.position);
+        let rest = S::one() - c;
+        Sample {
+            weight: S::constant(node.weight),
+            position: c,
+            q: q0 * rest + q1 * c,
+            minus: Direction { first: rest, second: -S::one() / h },
+            plus: Direction { first: c, second: S::one() / h },
+        }
+    })
+}
+
+/// The nodes as functions of (q0, v̄), derivatives scaled by ∓h so that no division by h is left.
+#[inline]
+fn on_velocity<R: DisplacementRule, S: Scalar, const N: usize>(
+    q0: &SVector<S, N>,
+    v: &SVector<S, N>,
+    h: S,
+) -> impl Iterator<Item = Sample<S, N>> {
+    R::NODES.iter().map(move |node| {
+        let c = S::constant(node.position);
+        Sample {
+            weight: S::constant(node.weight),
+            position: c,
+            q: q0 + v * (c * h),
+            minus: Direction { first: (c - S::one()) * h, second: S::one() },
+            plus: Direction { first: c * h, second: S::one() },
+        }
+    })
+}

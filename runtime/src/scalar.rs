@@ -1,0 +1,51 @@
+//! The scalar type of a system: `f64` or `f32`.
+
+use nalgebra::RealField;
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for f64 {}
+    impl Sealed for f32 {}
+}
+
+/// The scalar type that a system is written in: `f64` or `f32`.
+///
+/// Sealed: tolerances are derived from [`EPSILON`](Scalar::EPSILON) and hold for IEEE formats only.
+pub trait Scalar: RealField + Copy + sealed::Sealed {
+    /// Distance from 1 to the next larger number.
+    const EPSILON: Self;
+
+    /// The nearest scalar to an `f64` constant.
+    fn constant(value: f64) -> Self;
+
+    /// The same number in `f64`, exact for both types.
+    fn widen(self) -> f64;
+}
+
+impl Scalar for f64 {
+    const EPSILON: Self = f64::EPSILON;
+
+    #[inline]
+    fn constant(value: f64) -> Self {
+        value
+    }
+
+    #[inline]
+    fn widen(self) -> f64 {
+        self
+    }
+}
+
+impl Scalar for f32 {
+    const EPSILON: Self = f32::EPSILON;
+
+    #[inline]
+    fn constant(value: f64) -> Self {
+        value as f32
+    }
+
+    #[inline]
+    fn widen(self) -> f64 {
+        f64::from(self)
+    }
+}

@@ -1,0 +1,199 @@
+//! Runs of steps.
+
+use core::marker::PhantomData;
+
+use nalgebra::SVector;
+
+use crate::{Discrete, Scalar, State, Step, StepError};
+
+/// The trajectory of a system from a state, one step at a time.
+///
+/// An iterator over steps; it holds the present state and four mean velocities, from which it extrapolates the next
+/// (order 3) as the solver's guess. After an error it ends, its state being the last good one; another step size
+/// ([`Trajectory::change_step_size`]) lets it go on.
+pub struct Trajectory<'a, L, R, const N: usize>
+where
+    L: Discrete<R, N>,
+{
+    system: &'a L,
+    rule: PhantomData<R>,
+    h: L::Scalar,
+    origin: f64,
+    steps: u64,
+    state: State<L::Scalar, N>,
+    history: History<L::Scalar, N>,
+    failed: bool,
+}
+
+/// The latest mean velocities, newest first.
+struct History<S, const N: usize> {
+    velocities: [SVector<S, N>; 4],
+    known: usize,
+}
+
+impl<S: Scalar, const N: usize> History<S, N> {
+    fn empty() -> Self {
+        Self { velocities: [nalgebra::zero(); 4], known: 0 }
+    }
+
+    #[inline]
+    fn push(&mut self, velocity: SVector<S, N>) {
+        let [a, b, c, _] = self.velocities;
+        self.velocities = [velocity, a, b, c];
+        self.known = (self.known + 1).min(4);
+    }
+
+    /// The polynomial through the known velocities, one step on.
+    #[inline]
+    fn extrapolation(&self) -> Option<SVector<S, N>> {
+        let [a, b, c, d] = &self.velocities;
+        let (two, three, four, six) =
+            (S::constant(2.0), S::constant(3.0), S::constant(4.0), S::constant(6.0));
+        match self.known {
+            0 => None,
+            1 => Some(*a),
+            2 => Some(a * two - b),
+            3 => Some((a - b) * three + c),
+            _ => Some((a + c) * four - b * six - d),
+        }
+    }
+}
+
+impl<'a, L, R, const N: usize> Trajectory<'a, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    /// The trajectory of `system` by `rule` with step size `h` from `state`, at time 0.
+    pub fn new(system: &'a L, _rule: R, h: L::Scalar, state: State<L::Scalar, N>) -> Self {
+        Self {
+            system,
+            rule: PhantomData,
+            h,
+            origin: 0.0,
+            steps: 0,
+            state,
+            history: History::empty(),
+            failed: false,
+        }
+    }
+
+    /// The present state: that of the last step that succeeded.
+    pub fn state(&self) -> &State<L::Scalar, N> {
+        &self.state
+    }
+
+    /// The step size h.
+    pub fn step_size(&self) -> L::Scalar {
+        self.h
+    }
+
+    /// The time, h × the number of steps taken (and what earlier step sizes took): no sum of roundings.
+    pub fn time(&self) -> f64 {
+        self.origin + self.h.widen() * self.steps as f64
+    }
+
+    /// Goes on with another step size from the present state, also after an error.
+    pub fn change_step_size(&mut self, h: L::Scalar) {
+        self.origin = self.time();
+        self.steps = 0;
+        self.h = h;
+        self.history = History::empty();
+        self.failed = false;
+    }
+
+    /// Every `stride`-th step only, with what the steps between reported: long runs in constant memory.
+    ///
+    /// A stride of 0 counts as 1. An error on any step is returned at once.
+    pub fn sample_every(&mut self, stride: u64) -> Samples<'_, 'a, L, R, N> {
+        Samples { trajectory: self, stride: stride.max(1) }
+    }
+}
+
+impl<L, R, const N: usize> Iterator for Trajectory<'_, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    type Item = Result<Step<L::Scalar, N>, StepError>;
+
+    #[inline]
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.failed {
+            return None;
+        }
+        let guess = self.history.extrapolation();
+        let step = match (self.system.step(&self.state, self.h, guess.as_ref()), guess) {
+            // A guess that leads nowhere is not the step's fault: try again from rest.
+            (Err(_), Some(_)) => self.system.step(&self.state, self.h, None),
+            (step, _) => step,
+        };
+        match &step {
+            Ok(step) => {
+                self.state = step.state;
+                self.history.push(step.velocity);
+                self.steps += 1;
+            }
+            Err(_) => self.failed = true,
+        }
+        Some(step)
+    }
+}
+
+/// A state recorded on a trajectory.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Sample<S, const N: usize> {
+    /// The time of the state.
+    pub time: f64,
+    /// The state.
+    pub state: State<S, N>,
+    /// Configuration one step before; with `state.q` it makes the last segment.
+    pub previous: SVector<S, N>,
+    /// Newton iterations since the last sample, all steps together.
+    pub iterations: u64,
+    /// Steps since the last sample whose Newton step had to be shortened.
+    pub damped: u64,
+    /// Largest residual since the last sample, in units of its round-off floor.
+    pub worst_residual: f64,
+}
+
+/// Iterator over every k-th state of a trajectory; see [`Trajectory::sample_every`].
+pub struct Samples<'t, 'a, L, R, const N: usize>
+where
+    L: Discrete<R, N>,
+{
+    trajectory: &'t mut Trajectory<'a, L, R, N>,
+    stride: u64,
+}
+
+impl<L, R, const N: usize> Iterator for Samples<'_, '_, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    type Item = Result<Sample<L::Scalar, N>, StepError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let (mut iterations, mut damped, mut worst_residual) = (0, 0, 0.0_f64);
+        let mut previous = self.trajectory.state.q;
+        for _ in 0..self.stride {
+            previous = self.trajectory.state.q;
+            let report = match self.trajectory.next()? {
+                Ok(step) => step.report,
+                Err(error) => return Some(Err(error)),
+            };
+            iterations += u64::from(report.iterations);
+            damped += u64::from(report.damped > 0);
+            if report.residual > L::Scalar::constant(0.0) {
+                worst_residual = worst_residual.max((report.residual / report.floor).widen());
+            }
+        }
+        let trajectory = &*self.trajectory;
+        Some(Ok(Sample {
+            time: trajectory.time(),
+            state: trajectory.state,
+            previous,
+            iterations,
+            damped,
+            worst_residual,
+        }))
+    }
+}
