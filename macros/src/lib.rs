@@ -2,9 +2,12 @@
 
 use proc_macro::TokenStream;
 
-/// x
+mod rayleigh_system;
+
+/// Generates the discrete mechanical system of a Lagrangian and a Rayleigh function.
+///
+/// See the documentation of the crate `dalembert` for what it accepts and generates.
 #[proc_macro_attribute]
 pub fn rayleigh_system(attribute: TokenStream, item: TokenStream) -> TokenStream {
-    let _ = attribute;
-    item
+    rayleigh_system::rayleigh_system(attribute.into(), item.into()).into()
 }

@@ -14,7 +14,9 @@ use num_dual::{Derivative, DualNum, DualSVec};
 
 use crate::{CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, Variations};
 
-pub use lift::{FromInteger, Integer, Lift, Lower, Number, Remainder, Roundable, integer, remainder};
+pub use lift::{
+    FromInteger, Integer, Lift, Lower, Number, Remainder, Roundable, integer, lift, lower, remainder,
+};
 pub use primitive::Primitive;
 pub use real::Real;
 
@@ -140,12 +142,7 @@ fn seeded<F: Primitive, const M: usize>(value: F, index: usize, factor: F) -> Fi
 
 /// Value with an outer and an inner derivative.
 #[inline]
-fn seeded_twice<F: Primitive, const M: usize>(
-    value: F,
-    index: usize,
-    outer: F,
-    inner: F,
-) -> Second<F, M> {
+fn seeded_twice<F: Primitive, const M: usize>(value: F, index: usize, outer: F, inner: F) -> Second<F, M> {
     let mut eps = SVector::<First<F, M>, M>::from_element(First::from_re(nalgebra::zero()));
     eps[index] = First::from_re(outer);
     DualSVec::new(seeded(value, index, inner), Derivative::some(eps))

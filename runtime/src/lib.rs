@@ -9,6 +9,7 @@ extern crate self as dalembert;
 mod derivatives;
 mod discrete;
 mod error;
+mod fields;
 mod linear;
 mod newton;
 mod rules;
@@ -21,11 +22,14 @@ mod trajectory;
 pub mod dual;
 
 pub use dalembert_macros::rayleigh_system;
+pub use nalgebra;
+
 pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
 pub use discrete::{
     Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Report, Step, StepKernel,
 };
 pub use error::{Quantity, StepError};
+pub use fields::{ScalarField, VectorField};
 pub use rules::{DisplacementRule, Midpoint, Node, Trapezoidal};
 pub use scalar::Scalar;
 pub use state::State;

@@ -25,6 +25,8 @@ pub(crate) struct Factors<S, const N: usize> {
 /// A pivot this much smaller than its column is looked at more closely.
 const SUSPICIOUS: f64 = 1e-6;
 
+#[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a NaN pivot must fail the comparison")]
+#[expect(clippy::needless_range_loop, reason = "rows k and i of one array are used together")]
 impl<S: Scalar, const N: usize> Factors<S, N> {
     #[inline]
     pub(crate) fn of(matrix: &SMatrix<S, N, N>) -> Result<Self, Singular> {

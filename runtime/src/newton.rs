@@ -64,7 +64,9 @@ pub(crate) fn solve<S: Scalar, T, const N: usize>(
         let correction = factors.solve(&residual);
         let floor = floor(target, &at_v.matrix, &(v - correction));
         let size = in_units_of(&residual, &floor);
-        if !size.is_finite() && let Some(index) = first_non_finite(&residual, &at_v.matrix) {
+        if !size.is_finite()
+            && let Some(index) = first_non_finite(&residual, &at_v.matrix)
+        {
             return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
         }
 

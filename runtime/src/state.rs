@@ -50,11 +50,16 @@ impl<S: Scalar, const N: usize> State<S, N> {
             let l = system.lagrangian_derivatives(&self.q, v);
             Evaluation { value: l.d2, matrix: l.d22 }
         };
-        let solution = newton::solve(transform, |v| (system.lagrangian_gradient(&self.q, v).d2, ()), &self.p, nalgebra::zero())
-            .map_err(|error| match error {
-                StepError::SingularNewtonMatrix { column, .. } => StepError::DegenerateLagrangian { column },
-                other => other,
-            })?;
+        let solution = newton::solve(
+            transform,
+            |v| (system.lagrangian_gradient(&self.q, v).d2, ()),
+            &self.p,
+            nalgebra::zero(),
+        )
+        .map_err(|error| match error {
+            StepError::SingularNewtonMatrix { column, .. } => StepError::DegenerateLagrangian { column },
+            other => other,
+        })?;
         Ok(solution.unknown)
     }
 

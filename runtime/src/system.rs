@@ -110,11 +110,7 @@ pub trait Rayleigh<const N: usize>: Lagrangian<N> {
 )]
 pub trait Force<const N: usize>: Lagrangian<N> {
     /// f(q, v).
-    fn force(
-        &self,
-        q: &SVector<Self::Scalar, N>,
-        v: &SVector<Self::Scalar, N>,
-    ) -> SVector<Self::Scalar, N>;
+    fn force(&self, q: &SVector<Self::Scalar, N>, v: &SVector<Self::Scalar, N>) -> SVector<Self::Scalar, N>;
 
     /// f with ∂f/∂q and ∂f/∂v at (q, v).
     fn force_derivatives(

@@ -68,6 +68,18 @@ pub trait Remainder<Right = Self> {
 )]
 pub trait Roundable {}
 
+/// [`Lift::lift`] as a function.
+#[inline]
+pub fn lift<D, T: Lift<D>>(value: T) -> T::Lifted {
+    value.lift()
+}
+
+/// [`Lower::lower`] as a function.
+#[inline]
+pub fn lower<T: Lower>(value: T) -> T::Lowered {
+    value.lower()
+}
+
 /// `value as T` for integers.
 #[inline]
 pub fn integer<V: Integer<T>, T>(value: V) -> T {

@@ -11,9 +11,7 @@
 use nalgebra::SVector;
 
 use crate::discrete::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
-use crate::{
-    CovectorDerivatives, Derivatives, Direction, Force, Lagrangian, Rayleigh, Scalar,
-};
+use crate::{CovectorDerivatives, Derivatives, Direction, Force, Lagrangian, Rayleigh, Scalar};
 
 /// A node of the quadrature over one segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,10 +112,7 @@ pub trait DisplacementRule: Copy {
         on_configurations::<Self, _, N>(q0, q1, h).fold(DiscreteForce::zero(), |sum, node| {
             let r = system.rayleigh_gradient(&node.q, &v);
             let weight = half_square * node.weight;
-            sum + DiscreteForce {
-                minus: r.along(node.minus) * weight,
-                plus: r.along(node.plus) * -weight,
-            }
+            sum + DiscreteForce { minus: r.along(node.minus) * weight, plus: r.along(node.plus) * -weight }
         })
     }
 
@@ -165,11 +160,9 @@ pub trait DisplacementRule: Copy {
         let v = (q1 - q0) / h;
         on_configurations::<Self, _, N>(q0, q1, h).fold(DiscreteForceDerivatives::zero(), |sum, node| {
             let f = system.force_derivatives(&node.q, &v);
-            let pulled = CovectorDerivatives {
-                value: f.value,
-                d1: f.along(node.minus),
-                d2: f.along(node.plus),
-            } * (h * node.weight);
+            let pulled =
+                CovectorDerivatives { value: f.value, d1: f.along(node.minus), d2: f.along(node.plus) }
+                    * (h * node.weight);
             sum + DiscreteForceDerivatives {
                 minus: pulled * (L::Scalar::constant(1.0) - node.position),
                 plus: pulled * node.position,
@@ -231,10 +224,7 @@ pub trait DisplacementRule: Copy {
     ) -> Momenta<L::Scalar, N> {
         on_velocity::<Self, _, N>(q0, v, h).fold(Momenta::zero(), |sum, node| {
             let l = system.lagrangian_gradient(&node.q, v);
-            sum + Momenta {
-                p0: l.along(node.minus) * node.weight,
-                p1: l.along(node.plus) * node.weight,
-            }
+            sum + Momenta { p0: l.along(node.minus) * node.weight, p1: l.along(node.plus) * node.weight }
         })
     }
 
@@ -266,10 +256,7 @@ pub trait DisplacementRule: Copy {
     ) -> Momenta<L::Scalar, N> {
         on_velocity::<Self, _, N>(q0, v, h).fold(Momenta::zero(), |sum, node| {
             let f = system.force(&node.q, v) * (h * node.weight);
-            sum + Momenta {
-                p0: f * (node.position - L::Scalar::constant(1.0)),
-                p1: f * node.position,
-            }
+            sum + Momenta { p0: f * (node.position - L::Scalar::constant(1.0)), p1: f * node.position }
         })
     }
 

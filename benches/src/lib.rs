@@ -1,0 +1,1 @@
+//! Benchmarks of dalembert. See `benches/`.

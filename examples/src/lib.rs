@@ -1,0 +1,1 @@
+//! What the scenes share: the picture style. Each scene is one file of `examples/`.

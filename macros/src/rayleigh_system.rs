@@ -1,0 +1,32 @@
+//! `#[rayleigh_system]`, from tokens to tokens.
+//!
+//! parse → check → rewrite → expand. Plain proc_macro2 code, so that tests and fuzzers can call it. Stages stop between
+//! each other: a stage that reported anything is the last one, and the user's item is returned beside the diagnostics.
+
+mod attribute;
+mod check;
+mod diagnostics;
+mod expand;
+mod fallback;
+mod model;
+mod parse;
+mod rewrite;
+mod scope;
+
+use proc_macro2::TokenStream;
+
+use diagnostics::Report;
+
+/// The expansion of `#[rayleigh_system(attribute)] item`.
+pub fn rayleigh_system(attribute: TokenStream, item: TokenStream) -> TokenStream {
+    let mut report = Report::default();
+    let rules = attribute::rules(attribute, &mut report);
+    let Some(source) = parse::source(item.clone(), &mut report) else {
+        return fallback::item_alone(item, report);
+    };
+    let Some(system) = check::system(&source, rules, &mut report) else {
+        return fallback::with_stubs(&source, report);
+    };
+    let system = rewrite::over_duals(system, &mut report);
+    if report.is_empty() { expand::system(&system) } else { fallback::with_stubs(&source, report) }
+}

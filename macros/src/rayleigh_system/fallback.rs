@@ -1,0 +1,93 @@
+//! What stands in for the expansion of a wrong system: the user's item, the diagnostics, and stubs of the traits, so that
+//! one mistake gives one message and not one more for each use of the system.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+use syn::{FnArg, Signature, Type};
+
+use super::diagnostics::Report;
+use super::model::{Degrees, Source, simple_name};
+
+/// The item as it came, beside the diagnostics.
+pub fn item_alone(item: TokenStream, report: Report) -> TokenStream {
+    let errors = report.into_tokens();
+    quote!(#item #errors)
+}
+
+/// The item, the diagnostics and stubs, as far as the signature of L tells the number of degrees of freedom.
+pub fn with_stubs(source: &Source, report: Report) -> TokenStream {
+    let errors = report.into_tokens();
+    let name = source.name();
+    let (item, lagrangian) = match source {
+        Source::Block(block) => {
+            let lagrangian = source.functions().find(|function| function.sig.ident == "lagrangian");
+            let item = &block.item;
+            (quote!(#item), lagrangian.map(|function| &function.sig))
+        }
+        Source::Function(function) => {
+            let item = &function.item;
+            let visibility = function.visibility();
+            let fields = item.sig.inputs.iter().skip(2);
+            let fields = quote!({ #(#visibility #fields),* });
+            (quote!(#item #[allow(dead_code)] #visibility struct #name #fields), Some(&item.sig))
+        }
+    };
+    let stubs =
+        lagrangian.and_then(|signature| shape(signature, name)).map(|(scalar, n)| stubs(name, &scalar, &n));
+    quote!(#item #errors #stubs)
+}
+
+/// Scalar and N, from the first array among the parameters.
+fn shape(signature: &Signature, system: &syn::Ident) -> Option<(TokenStream, TokenStream)> {
+    signature.inputs.iter().find_map(|parameter| match parameter {
+        FnArg::Typed(parameter) => match &*parameter.ty {
+            Type::Array(array) => {
+                let scalar = simple_name(&array.elem)?;
+                if scalar != "f64" && scalar != "f32" {
+                    return None;
+                }
+                let degrees = Degrees { length: array.len.clone(), system: system.clone() };
+                Some((quote!(#scalar), degrees.times(1)))
+            }
+            _ => None,
+        },
+        FnArg::Receiver(_) => None,
+    })
+}
+
+/// Implementations that no program will run: the diagnostics stop the compilation.
+fn stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream) -> TokenStream {
+    let vector = quote!(&::dalembert::nalgebra::SVector<#scalar, #n>);
+    let derivatives = quote!(::dalembert::Derivatives<#scalar, #n>);
+    let rules = ["Midpoint", "Trapezoidal"].map(|rule| format_ident!("{rule}"));
+    quote! {
+        const _: () = {
+            impl ::dalembert::Lagrangian<#n> for #name {
+                type Scalar = #scalar;
+                fn lagrangian(&self, _: #vector, _: #vector) -> #scalar { ::core::unreachable!() }
+                fn lagrangian_derivatives(&self, _: #vector, _: #vector) -> #derivatives { ::core::unreachable!() }
+            }
+            impl ::dalembert::Rayleigh<#n> for #name {
+                fn rayleigh(&self, _: #vector, _: #vector) -> #scalar { ::core::unreachable!() }
+                fn rayleigh_derivatives(&self, _: #vector, _: #vector) -> #derivatives { ::core::unreachable!() }
+            }
+            impl ::dalembert::Force<#n> for #name {
+                fn force(&self, _: #vector, _: #vector) -> ::dalembert::nalgebra::SVector<#scalar, #n> { ::core::unreachable!() }
+                fn force_derivatives(&self, _: #vector, _: #vector) -> ::dalembert::CovectorDerivatives<#scalar, #n> { ::core::unreachable!() }
+            }
+            #(
+                impl ::dalembert::Discrete<::dalembert::#rules, #n> for #name {
+                    fn discrete_lagrangian(&self, _: #vector, _: #vector, _: #scalar) -> #scalar { ::core::unreachable!() }
+                    fn discrete_lagrangian_derivatives(&self, _: #vector, _: #vector, _: #scalar) -> #derivatives { ::core::unreachable!() }
+                    fn step_kernel(&self, _: #vector, _: #vector, _: #scalar) -> ::dalembert::StepKernel<#scalar, #n> { ::core::unreachable!() }
+                    fn momenta(&self, _: #vector, _: #vector, _: #scalar) -> ::dalembert::Momenta<#scalar, #n> { ::core::unreachable!() }
+                    fn segment_energy(&self, _: #vector, _: #vector, _: #scalar) -> #scalar { ::core::unreachable!() }
+                }
+                impl ::dalembert::DiscreteRayleigh<::dalembert::#rules, #n> for #name {
+                    fn discrete_rayleigh(&self, _: #vector, _: #vector, _: #scalar) -> #scalar { ::core::unreachable!() }
+                    fn discrete_rayleigh_derivatives(&self, _: #vector, _: #vector, _: #scalar) -> #derivatives { ::core::unreachable!() }
+                }
+            )*
+        };
+    }
+}

@@ -1,0 +1,160 @@
+//! What is known of a system once it is checked.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{ToTokens, quote};
+use syn::{Expr, ExprLit, Ident, ImplItem, ImplItemFn, ItemFn, Lit, Type, Visibility};
+
+/// A rule of discretisation that the attribute lists.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Rule {
+    Midpoint,
+    Trapezoidal,
+}
+
+impl Rule {
+    /// The rule's type in the runtime.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Midpoint => "Midpoint",
+            Self::Trapezoidal => "Trapezoidal",
+        }
+    }
+}
+
+/// The annotated item as parsed.
+pub enum Source {
+    Block(Box<Block>),
+    Function(Box<Function>),
+}
+
+/// `impl Ring { … }`.
+pub struct Block {
+    pub item: syn::ItemImpl,
+    /// The name of the system, `Ring`.
+    pub name: Ident,
+}
+
+/// `fn oscillator(q: [f64; 1], v: [f64; 1], m: f64) -> (f64, f64) { … }`.
+pub struct Function {
+    pub item: ItemFn,
+    /// The name of the struct generated, `Oscillator`.
+    pub name: Ident,
+}
+
+/// The number of degrees of freedom, as written in the array type.
+#[derive(Clone)]
+pub struct Degrees {
+    pub length: Expr,
+    /// `Self` in the length stands for this type.
+    pub system: Ident,
+}
+
+impl Degrees {
+    /// The literal, if the length is one.
+    pub fn literal(&self) -> Option<usize> {
+        match &self.length {
+            Expr::Lit(ExprLit { lit: Lit::Int(literal), .. }) => literal.base10_parse().ok(),
+            _ => None,
+        }
+    }
+
+    /// `factor` × N as a const generic argument.
+    pub fn times(&self, factor: usize) -> TokenStream {
+        if let Some(n) = self.literal() {
+            return Literal::usize_unsuffixed(factor * n).into_token_stream();
+        }
+        let length = super::rewrite::with_self_named(&self.length, &self.system);
+        if factor == 1 {
+            quote!({ #length })
+        } else {
+            let factor = Literal::usize_unsuffixed(factor);
+            quote!({ #factor * (#length) })
+        }
+    }
+}
+
+/// A checked system.
+pub struct System<'a> {
+    pub source: &'a Source,
+    /// The name of the type.
+    pub name: Ident,
+    pub degrees: Degrees,
+    /// `f64` or `f32`.
+    pub scalar: Ident,
+    pub rules: Vec<Rule>,
+    /// Functions to differentiate: L, R, f and the helpers that they call.
+    pub bodies: Vec<Body>,
+    pub rayleigh: Option<RayleighArguments>,
+    pub has_force: bool,
+}
+
+/// What the Rayleigh function takes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum RayleighArguments {
+    Velocity,
+    ConfigurationAndVelocity,
+}
+
+/// A function that is differentiated.
+pub struct Body {
+    /// As the user wrote it.
+    pub plain: ImplItemFn,
+    /// Rewritten over `Real<D>`; the same as `plain` until then.
+    pub over: ImplItemFn,
+}
+
+impl Source {
+    pub fn name(&self) -> &Ident {
+        match self {
+            Self::Block(block) => &block.name,
+            Self::Function(function) => &function.name,
+        }
+    }
+
+    /// Functions of the annotated block.
+    pub fn functions(&self) -> impl Iterator<Item = &ImplItemFn> {
+        let items: &[ImplItem] = match self {
+            Self::Block(block) => &block.item.items,
+            Self::Function(_) => &[],
+        };
+        items.iter().filter_map(|item| match item {
+            ImplItem::Fn(function) => Some(function),
+            _ => None,
+        })
+    }
+
+    /// Constants of the annotated block whose type is no floating-point number.
+    pub fn integer_constants(&self) -> impl Iterator<Item = &Ident> {
+        let items: &[ImplItem] = match self {
+            Self::Block(block) => &block.item.items,
+            Self::Function(_) => &[],
+        };
+        items.iter().filter_map(|item| match item {
+            ImplItem::Const(constant) if is_integer(&constant.ty) => Some(&constant.ident),
+            _ => None,
+        })
+    }
+}
+
+impl Function {
+    pub fn visibility(&self) -> &Visibility {
+        &self.item.vis
+    }
+}
+
+/// Whether the type is a primitive integer.
+pub fn is_integer(ty: &Type) -> bool {
+    const INTEGERS: [&str; 12] =
+        ["i8", "i16", "i32", "i64", "i128", "isize", "u8", "u16", "u32", "u64", "u128", "usize"];
+    simple_name(ty).is_some_and(|name| INTEGERS.iter().any(|integer| name == integer))
+}
+
+/// The name of a type that is one plain identifier.
+pub fn simple_name(ty: &Type) -> Option<&Ident> {
+    match ty {
+        Type::Path(path) if path.qself.is_none() => path.path.get_ident(),
+        Type::Group(group) => simple_name(&group.elem),
+        Type::Paren(paren) => simple_name(&paren.elem),
+        _ => None,
+    }
+}

@@ -1,0 +1,92 @@
+//! From tokens to the annotated item.
+
+use proc_macro2::TokenStream;
+use syn::{Ident, Item, ItemFn, ItemImpl};
+
+use super::diagnostics::{Mistake, Report};
+use super::model::{Block, Function, Source, simple_name};
+
+/// Names that the generated code brings into its scope.
+const RESERVED: &[&str] = &[
+    "Real",
+    "Dual",
+    "Lagrangian",
+    "Rayleigh",
+    "Force",
+    "Discrete",
+    "DiscreteRayleigh",
+    "DisplacementRule",
+    "Midpoint",
+    "Trapezoidal",
+    "Gradient",
+    "Derivatives",
+    "CovectorDerivatives",
+    "Variations",
+    "Direction",
+    "StepKernel",
+    "Momenta",
+    "DiscreteForce",
+    "DiscreteForceDerivatives",
+    "SVector",
+    "SMatrix",
+    "D",
+];
+
+/// The annotated block or function, or nothing if it is neither.
+pub fn source(item: TokenStream, report: &mut Report) -> Option<Source> {
+    let source = match syn::parse2::<Item>(item) {
+        Ok(Item::Impl(item)) => Source::Block(Box::new(block(item, report)?)),
+        Ok(Item::Fn(item)) => Source::Function(Box::new(function(item))),
+        Ok(other) => {
+            report.at(&other, Mistake::WrongItem);
+            return None;
+        }
+        Err(error) => {
+            report.error(error);
+            return None;
+        }
+    };
+    let name = source.name();
+    if RESERVED.iter().any(|reserved| name == reserved) {
+        report.at(name, Mistake::ReservedName(name.to_string()));
+        return None;
+    }
+    Some(source)
+}
+
+fn block(item: ItemImpl, report: &mut Report) -> Option<Block> {
+    if let Some((path, _)) = &item.trait_ {
+        report.at(path, Mistake::TraitImpl);
+        return None;
+    }
+    if !item.generics.params.is_empty() {
+        report.at(&item.generics, Mistake::GenericBlock);
+        return None;
+    }
+    let Some(name) = simple_name(&item.self_ty).cloned() else {
+        report.at(&item.self_ty, Mistake::UnnamedType);
+        return None;
+    };
+    Some(Block { item, name })
+}
+
+fn function(item: ItemFn) -> Function {
+    let name = upper_camel_case(&item.sig.ident);
+    Function { item, name }
+}
+
+/// `damped_oscillator` → `DampedOscillator`.
+fn upper_camel_case(name: &Ident) -> Ident {
+    let camel: String = name
+        .to_string()
+        .trim_start_matches("r#")
+        .split('_')
+        .filter_map(|word| {
+            let mut letters = word.chars();
+            letters.next().map(|first| first.to_uppercase().chain(letters).collect::<String>())
+        })
+        .collect();
+    // A name without a leading letter makes no type name.
+    let camel = if camel.starts_with(char::is_alphabetic) { camel } else { format!("System{camel}") };
+    Ident::new(&camel, name.span())
+}

@@ -1,0 +1,550 @@
+//! Bodies over `Real<D>`: one pass that rewrites what has a meaning there and refuses what has none.
+//!
+//! | written | becomes |
+//! |---|---|
+//! | the type `f64` | `Real<D>` |
+//! | `0.5` beside an operator, as in `0.5 * x` | itself |
+//! | `0.5` elsewhere | `D::real(0.5)` |
+//! | `PI`, `Self::G` | `D::lift(PI)`, `D::lift(Self::G)` |
+//! | `self.k` | `k`, with `let k = D::lift(self.k);` at the top of the body |
+//! | `self.height(q)`, `Self::square(x)` | `self.height_over(q)`, `Self::square_over(x)` |
+//! | `f64::sin(x)` | `Real::<D>::sin(x)` |
+//! | `i as f64` | `D::number(i)` |
+//! | `i as usize`, `i % n` | `dual::integer::<_, usize>(i)`, `dual::remainder(i, n)`: integers alone have them |
+
+use std::collections::{BTreeMap, HashSet};
+
+use proc_macro2::Span;
+use quote::format_ident;
+use syn::visit_mut::{self, VisitMut};
+use syn::{
+    BinOp, Expr, ExprBinary, ExprCall, ExprCast, ExprLit, ExprMethodCall, ExprPath, FnArg, Ident, ImplItemFn,
+    Item, Lit, Member, Pat, Path, PathArguments, ReturnType, Stmt, Type, UnOp, parse_quote,
+    parse_quote_spanned,
+};
+
+use super::check::qualifiers;
+use super::diagnostics::{Mistake, Report, span_of};
+use super::model::{Body, System, is_integer, simple_name};
+use super::scope::bound_names;
+
+/// Rewrites L, R, f and, transitively, the functions of the block that they call.
+pub fn over_duals<'a>(mut system: System<'a>, report: &mut Report) -> System<'a> {
+    let mut done = 0;
+    while done < system.bodies.len() {
+        let called = rewrite(&system, done, report);
+        for name in called.functions {
+            let known = system.bodies.iter().any(|body| body.plain.sig.ident == name);
+            if !known && let Some(helper) = system.source.functions().find(|f| f.sig.ident == name) {
+                helper_signature(helper, report);
+                system.bodies.push(Body::of(helper));
+            }
+        }
+        system.bodies[done].over = called.over;
+        done += 1;
+    }
+    system
+}
+
+/// The name of the differentiated twin.
+pub fn over(name: &Ident) -> Ident {
+    format_ident!("{name}_over", span = name.span())
+}
+
+/// `Self` replaced by the name of the system: impl headers do not know it.
+pub fn with_self_named(length: &Expr, system: &Ident) -> Expr {
+    struct Named<'n>(&'n Ident);
+    impl VisitMut for Named<'_> {
+        fn visit_ident_mut(&mut self, ident: &mut Ident) {
+            if ident == "Self" {
+                *ident = Ident::new(&self.0.to_string(), ident.span());
+            }
+        }
+    }
+    let mut length = length.clone();
+    Named(system).visit_expr_mut(&mut length);
+    length
+}
+
+struct Rewritten {
+    over: ImplItemFn,
+    functions: Vec<Ident>,
+}
+
+fn rewrite(system: &System<'_>, index: usize, report: &mut Report) -> Rewritten {
+    let mut over_function = system.bodies[index].plain.clone();
+    let mut rewriter = Rewriter {
+        system,
+        report,
+        bound: bound_names(&over_function),
+        fields: BTreeMap::new(),
+        functions: Vec::new(),
+    };
+    // Docs and lints of the plain function would be said twice.
+    over_function.attrs.clear();
+    over_function.vis = syn::Visibility::Inherited;
+    let scalar = system.scalar.clone();
+    let signature = &mut over_function.sig;
+    signature.ident = over(&signature.ident);
+    signature.generics = parse_quote!(<D: Dual<#scalar>>);
+    for parameter in &mut signature.inputs {
+        if let FnArg::Typed(parameter) = parameter {
+            rewriter.visit_type_mut(&mut parameter.ty);
+        }
+    }
+    if let ReturnType::Type(_, ty) = &mut signature.output {
+        rewriter.visit_type_mut(ty);
+    }
+    rewriter.visit_block_mut(&mut over_function.block);
+    let Rewriter { fields, functions, .. } = rewriter;
+    let prologue = fields.into_values().map(|field| -> Stmt {
+        let Field { local, access } = field;
+        let span = span_of(&access);
+        parse_quote_spanned!(span=> let #local = D::lift(#access);)
+    });
+    let statements = std::mem::take(&mut over_function.block.stmts);
+    over_function.block.stmts = prologue.chain(statements).collect();
+    Rewritten { over: over_function, functions }
+}
+
+fn helper_signature(helper: &ImplItemFn, report: &mut Report) {
+    qualifiers(&helper.sig, report);
+    for parameter in &helper.sig.inputs {
+        match parameter {
+            FnArg::Receiver(_) => {}
+            FnArg::Typed(parameter) => {
+                if !matches!(&*parameter.pat, Pat::Ident(_) | Pat::Wild(_)) {
+                    report.at(&parameter.pat, Mistake::ParameterPattern);
+                }
+                if !is_value(&parameter.ty) {
+                    report.at(&parameter.ty, Mistake::ParameterType);
+                }
+            }
+        }
+    }
+    if let ReturnType::Type(_, ty) = &helper.sig.output {
+        match &**ty {
+            Type::Reference(_) => report.at(ty, Mistake::HelperReturnsReference),
+            ty if !is_value(ty) => report.at(ty, Mistake::ParameterType),
+            _ => {}
+        }
+    }
+}
+
+/// Numbers, bools, arrays, tuples and shared references of them: what `Lift` and `Lower` take across.
+fn is_value(ty: &Type) -> bool {
+    match ty {
+        Type::Array(array) => is_value(&array.elem),
+        Type::Tuple(tuple) => tuple.elems.iter().all(is_value),
+        Type::Reference(reference) => reference.mutability.is_none() && is_value(&reference.elem),
+        Type::Paren(inner) => is_value(&inner.elem),
+        Type::Group(inner) => is_value(&inner.elem),
+        ty => {
+            is_integer(ty)
+                || simple_name(ty)
+                    .is_some_and(|name| ["f64", "f32", "bool"].iter().any(|known| name == known))
+        }
+    }
+}
+
+/// A field read by a body: the local that holds it, and the user's tokens.
+struct Field {
+    local: Ident,
+    access: Expr,
+}
+
+struct Rewriter<'r> {
+    system: &'r System<'r>,
+    report: &'r mut Report,
+    bound: HashSet<String>,
+    fields: BTreeMap<String, Field>,
+    functions: Vec<Ident>,
+}
+
+impl VisitMut for Rewriter<'_> {
+    fn visit_expr_mut(&mut self, expression: &mut Expr) {
+        if is_plain(expression) {
+            let span = span_of(expression);
+            *expression = parse_quote_spanned!(span=> D::real(#expression));
+            return;
+        }
+        match expression {
+            Expr::Binary(binary) => {
+                if let Some(replacement) = self.binary(binary) {
+                    *expression = replacement;
+                }
+            }
+            Expr::Assign(assignment) => {
+                self.refuse_assignment_to_field(&assignment.left);
+                visit_mut::visit_expr_assign_mut(self, assignment);
+            }
+            Expr::Reference(reference) => {
+                if reference.mutability.is_some() && is_place_of_self(&reference.expr) {
+                    self.report.at(reference, Mistake::FieldBorrowedMutably);
+                    return;
+                }
+                self.visit_expr_mut(&mut reference.expr);
+            }
+            Expr::Field(field) if is_self(&field.base) => {
+                let local = self.field(&field.member, Expr::Field(field.clone()));
+                *expression = parse_quote!(#local);
+            }
+            Expr::MethodCall(call) => self.method_call(call),
+            Expr::Call(call) => self.call(call),
+            Expr::Path(path) => {
+                if let Some(replacement) = self.path(path) {
+                    *expression = replacement;
+                }
+            }
+            Expr::Cast(cast) => {
+                if let Some(replacement) = self.cast(cast) {
+                    *expression = replacement;
+                }
+            }
+            // The length of `[x; N]` is a constant of the type system.
+            Expr::Repeat(repeat) => self.visit_expr_mut(&mut repeat.expr),
+            Expr::Macro(_) => self.report.at(expression, Mistake::Macro),
+            Expr::Unsafe(block) => self.report.at(&block.unsafe_token, Mistake::Unsafe),
+            Expr::Async(block) => self.report.at(&block.async_token, Mistake::Async),
+            Expr::Await(future) => self.report.at(&future.await_token, Mistake::Async),
+            _ => visit_mut::visit_expr_mut(self, expression),
+        }
+    }
+
+    fn visit_stmt_mut(&mut self, statement: &mut Stmt) {
+        match statement {
+            Stmt::Item(Item::Use(_)) => {}
+            Stmt::Item(item @ (Item::Const(_) | Item::Static(_))) => {
+                self.report.at(item, Mistake::LocalConst)
+            }
+            Stmt::Item(item) => self.report.at(item, Mistake::NestedItem),
+            Stmt::Macro(statement) => self.report.at(&statement.mac, Mistake::Macro),
+            _ => visit_mut::visit_stmt_mut(self, statement),
+        }
+    }
+
+    fn visit_pat_mut(&mut self, pattern: &mut Pat) {
+        match pattern {
+            Pat::Lit(literal) => {
+                if is_float_literal(&literal.lit) {
+                    self.report.at(literal, Mistake::FloatPattern);
+                }
+            }
+            Pat::Range(range) => {
+                let is_float = |bound: &Option<Box<Expr>>| bound.as_deref().is_some_and(is_plain);
+                if is_float(&range.start) || is_float(&range.end) {
+                    self.report.at(range, Mistake::FloatPattern);
+                }
+            }
+            Pat::Macro(_) => self.report.at(pattern, Mistake::Macro),
+            Pat::Const(_) | Pat::Path(_) => {}
+            _ => visit_mut::visit_pat_mut(self, pattern),
+        }
+    }
+
+    fn visit_type_mut(&mut self, ty: &mut Type) {
+        match ty {
+            // The length is a constant of the type system.
+            Type::Array(array) => self.visit_type_mut(&mut array.elem),
+            Type::Path(path) if is_generic_of_std(&path.path) => visit_mut::visit_type_path_mut(self, path),
+            Type::Path(_) => match simple_name(ty) {
+                Some(name) if *name == self.system.scalar => *ty = real_type(name.span()),
+                Some(name) if name == "f64" || name == "f32" => {
+                    let expected = self.system.scalar.to_string();
+                    self.report.at(ty, Mistake::OtherFloat { expected });
+                }
+                Some(name) if name == "bool" || name == "char" => {}
+                _ if is_integer(ty) => {}
+                _ => self.report.at(ty, Mistake::TypeAlias),
+            },
+            _ => visit_mut::visit_type_mut(self, ty),
+        }
+    }
+}
+
+impl Rewriter<'_> {
+    /// Literals beside an operator stay as they are: `0.5 * x` is defined for `Real<D>`.
+    fn binary(&mut self, binary: &mut ExprBinary) -> Option<Expr> {
+        if is_assignment(&binary.op) {
+            self.refuse_assignment_to_field(&binary.left);
+        }
+        if !is_plain(&binary.left) {
+            self.visit_expr_mut(&mut binary.left);
+        }
+        if !is_plain(&binary.right) {
+            self.visit_expr_mut(&mut binary.right);
+        }
+        let ExprBinary { left, op, right, .. } = binary;
+        let span = span_of(op);
+        match op {
+            BinOp::Rem(_) => Some(parse_quote_spanned!(span=> dual::remainder(#left, #right))),
+            BinOp::RemAssign(_) => Some(parse_quote_spanned!(span=> #left = dual::remainder(#left, #right))),
+            _ => None,
+        }
+    }
+
+    fn refuse_assignment_to_field(&mut self, place: &Expr) {
+        if is_place_of_self(place) {
+            self.report.at(place, Mistake::FieldAssignment);
+        }
+    }
+
+    /// The local that holds a field.
+    fn field(&mut self, member: &Member, access: Expr) -> Ident {
+        let (key, name) = match member {
+            Member::Named(name) => (name.to_string(), name.to_string()),
+            Member::Unnamed(index) => (index.index.to_string(), format!("field_{}", index.index)),
+        };
+        let name =
+            if self.bound.contains(&name) { format!("self_{}", name.trim_start_matches("r#")) } else { name };
+        let span = span_of(member);
+        let field =
+            self.fields.entry(key).or_insert_with(|| Field { local: identifier(&name, span), access });
+        Ident::new(&field.local.to_string(), span)
+    }
+
+    fn method_call(&mut self, call: &mut ExprMethodCall) {
+        if is_self(&call.receiver) {
+            if self.is_function_of_block(&call.method) {
+                self.functions.push(call.method.clone());
+                call.method = over(&call.method);
+                if call.args.is_empty() {
+                    call.turbofish = Some(parse_quote!(::<D>));
+                }
+            } else {
+                self.report.at(&call.method, Mistake::OutsideMethod(call.method.to_string()));
+            }
+        } else {
+            self.visit_expr_mut(&mut call.receiver);
+        }
+        if let Some(turbofish) = &mut call.turbofish
+            && !is_self(&call.receiver)
+        {
+            self.visit_angle_bracketed_generic_arguments_mut(turbofish);
+        }
+        for argument in &mut call.args {
+            self.visit_expr_mut(argument);
+        }
+    }
+
+    fn call(&mut self, call: &mut ExprCall) {
+        match &mut *call.func {
+            Expr::Path(path) => {
+                let without_arguments = call.args.is_empty();
+                if let Some(replacement) = self.called_path(path, without_arguments) {
+                    *call.func = replacement;
+                }
+            }
+            function => self.visit_expr_mut(function),
+        }
+        for argument in &mut call.args {
+            // `Self::height(self, q)` hands the system on; its fields are lifted there.
+            if !is_self(argument) {
+                self.visit_expr_mut(argument);
+            }
+        }
+    }
+
+    /// A path that is called.
+    fn called_path(&mut self, path: &mut ExprPath, without_arguments: bool) -> Option<Expr> {
+        if let Some(replacement) = self.function_of_block(&path.path, without_arguments) {
+            return Some(replacement);
+        }
+        if let Some(replacement) = self.function_of_scalar(&path.path) {
+            return Some(replacement);
+        }
+        let last = path.path.segments.last()?.ident.to_string();
+        let is_local = path.path.get_ident().is_some_and(|name| self.bound.contains(&name.to_string()));
+        let is_constructor = last.starts_with(char::is_uppercase);
+        if is_local || is_constructor || is_function_of_std(&path.path) {
+            visit_mut::visit_expr_path_mut(self, path);
+        } else {
+            self.report.at(&path.path, Mistake::OutsideFunction(last));
+        }
+        None
+    }
+
+    /// A path that stands as a value: a local, a constant, or a function handed on.
+    fn path(&mut self, path: &mut ExprPath) -> Option<Expr> {
+        if path.path.is_ident("self") {
+            self.report.at(path, Mistake::BareSelf);
+            return None;
+        }
+        if path.path.get_ident().is_some_and(|name| self.bound.contains(&name.to_string())) {
+            return None;
+        }
+        if let Some(replacement) = self.function_of_block(&path.path, false) {
+            return Some(replacement);
+        }
+        let last = &path.path.segments.last()?.ident;
+        if is_constant_name(last) {
+            if self.system.source.integer_constants().any(|constant| constant == last) {
+                return None;
+            }
+            let span = span_of(path);
+            return Some(parse_quote_spanned!(span=> D::lift(#path)));
+        }
+        self.called_path(path, false)
+    }
+
+    /// `Self::square` → `Self::square_over`.
+    fn function_of_block(&mut self, path: &Path, without_arguments: bool) -> Option<Expr> {
+        let mut segments = path.segments.iter();
+        let (first, last) = (segments.next()?, segments.next()?);
+        let is_system = first.ident == "Self" || first.ident == self.system.name;
+        if segments.next().is_some() || !is_system || !self.is_function_of_block(&last.ident) {
+            return None;
+        }
+        self.functions.push(last.ident.clone());
+        let name = over(&last.ident);
+        let first = &first.ident;
+        Some(if without_arguments { parse_quote!(#first::#name::<D>) } else { parse_quote!(#first::#name) })
+    }
+
+    /// `f64::sin` → `Real::<D>::sin`.
+    fn function_of_scalar(&self, path: &Path) -> Option<Expr> {
+        let mut segments = path.segments.iter();
+        let (first, last) = (segments.next()?, segments.next()?);
+        if segments.next().is_some() || first.ident != self.system.scalar || is_constant_name(&last.ident) {
+            return None;
+        }
+        let span = first.ident.span();
+        Some(parse_quote_spanned!(span=> Real::<D>::#last))
+    }
+
+    fn is_function_of_block(&self, name: &Ident) -> bool {
+        self.system.source.functions().any(|function| function.sig.ident == *name)
+    }
+
+    fn cast(&mut self, cast: &mut ExprCast) -> Option<Expr> {
+        let is_literal = matches!(&*cast.expr, Expr::Lit(_)) && !is_plain(&cast.expr);
+        if is_integer(&cast.ty) {
+            if is_literal {
+                return None;
+            }
+            self.visit_expr_mut(&mut cast.expr);
+            let ExprCast { expr, ty, .. } = cast;
+            let span = span_of(expr);
+            return Some(parse_quote_spanned!(span=> dual::integer::<_, #ty>(#expr)));
+        }
+        match simple_name(&cast.ty) {
+            Some(name) if *name == self.system.scalar => {
+                self.visit_expr_mut(&mut cast.expr);
+                let expr = &cast.expr;
+                let span = span_of(expr);
+                Some(parse_quote_spanned!(span=> D::number(#expr)))
+            }
+            Some(name) if name == "f64" || name == "f32" => {
+                let expected = self.system.scalar.to_string();
+                self.report.at(&cast.ty, Mistake::OtherFloat { expected });
+                None
+            }
+            _ => {
+                visit_mut::visit_expr_cast_mut(self, cast);
+                None
+            }
+        }
+    }
+}
+
+/// An expression of floating-point literals alone.
+fn is_plain(expression: &Expr) -> bool {
+    match expression {
+        Expr::Lit(ExprLit { lit, .. }) => is_float_literal(lit),
+        Expr::Unary(unary) => matches!(unary.op, UnOp::Neg(_)) && is_plain(&unary.expr),
+        Expr::Paren(inner) => is_plain(&inner.expr),
+        Expr::Group(inner) => is_plain(&inner.expr),
+        Expr::Binary(binary) => {
+            is_arithmetic(&binary.op) && is_plain(&binary.left) && is_plain(&binary.right)
+        }
+        _ => false,
+    }
+}
+
+fn is_float_literal(literal: &Lit) -> bool {
+    match literal {
+        Lit::Float(_) => true,
+        Lit::Int(integer) => matches!(integer.suffix(), "f64" | "f32"),
+        _ => false,
+    }
+}
+
+fn is_arithmetic(operator: &BinOp) -> bool {
+    matches!(operator, BinOp::Add(_) | BinOp::Sub(_) | BinOp::Mul(_) | BinOp::Div(_))
+}
+
+fn is_assignment(operator: &BinOp) -> bool {
+    matches!(
+        operator,
+        BinOp::AddAssign(_)
+            | BinOp::SubAssign(_)
+            | BinOp::MulAssign(_)
+            | BinOp::DivAssign(_)
+            | BinOp::RemAssign(_)
+    )
+}
+
+fn is_self(expression: &Expr) -> bool {
+    matches!(expression, Expr::Path(path) if path.path.is_ident("self"))
+}
+
+/// `self.field`, `self.field[i]`, `self.field.0`.
+fn is_place_of_self(expression: &Expr) -> bool {
+    match expression {
+        Expr::Field(field) => is_self(&field.base) || is_place_of_self(&field.base),
+        Expr::Index(index) => is_place_of_self(&index.expr),
+        Expr::Paren(inner) => is_place_of_self(&inner.expr),
+        _ => false,
+    }
+}
+
+/// Names in capitals are constants.
+fn is_constant_name(name: &Ident) -> bool {
+    let name = name.to_string();
+    name.contains(char::is_uppercase) && !name.contains(char::is_lowercase)
+}
+
+/// Functions of the standard library that work on any type, by their last two segments; and those of integers.
+fn is_function_of_std(path: &Path) -> bool {
+    const GENERIC: &[(&str, &str)] = &[
+        ("array", "from_fn"),
+        ("iter", "empty"),
+        ("iter", "from_fn"),
+        ("iter", "once"),
+        ("iter", "repeat"),
+        ("iter", "repeat_n"),
+        ("iter", "successors"),
+        ("iter", "zip"),
+        ("mem", "replace"),
+        ("mem", "swap"),
+        ("mem", "take"),
+        ("Default", "default"),
+        ("Vec", "new"),
+        ("Vec", "with_capacity"),
+    ];
+    let mut segments = path.segments.iter().rev();
+    let (Some(last), Some(module)) = (segments.next(), segments.next()) else { return false };
+    let integer: Type =
+        Type::Path(syn::TypePath { attrs: Vec::new(), qself: None, path: module.ident.clone().into() });
+    is_integer(&integer) || GENERIC.iter().any(|(from, name)| module.ident == from && last.ident == name)
+}
+
+/// Types of the standard library that hold others.
+fn is_generic_of_std(path: &Path) -> bool {
+    path.segments.last().is_some_and(|segment| {
+        ["Option", "Vec", "Result", "Box"].iter().any(|name| segment.ident == name)
+            && matches!(segment.arguments, PathArguments::AngleBracketed(_))
+    })
+}
+
+fn real_type(span: Span) -> Type {
+    parse_quote_spanned!(span=> Real<D>)
+}
+
+/// An identifier, raw where the name is a keyword.
+fn identifier(name: &str, span: Span) -> Ident {
+    match name.strip_prefix("r#") {
+        Some(raw) => Ident::new_raw(raw, span),
+        None => Ident::new(name, span),
+    }
+}

@@ -1,0 +1,1 @@
+//! Systems that the tests share. Each claim is one file of `tests/`.
