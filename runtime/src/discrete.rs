@@ -11,7 +11,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::derivatives::linear;
 use crate::error::{Quantity, StepError};
-use crate::newton::{self, Evaluation};
+use crate::newton;
 use crate::state::require_regular;
 use crate::{CovectorDerivatives, Derivatives, Lagrangian, Rayleigh, Scalar, State};
 
@@ -80,7 +80,8 @@ pub struct Report<S> {
     pub iterations: u32,
     /// Iterations whose Newton step had to be shortened.
     pub damped: u32,
-    /// Largest |𝔽⁻(q0, q1) − p0| at the solution, as evaluated there; in units of momentum.
+    /// Largest |𝔽⁻(q0, q1) − p0| expected at the solution, in units of momentum: that of the last evaluation, lowered by
+    /// the contraction that the last correction brings.
     pub residual: S,
     /// The round-off floor that the residual was held against; a residual far above it is lost precision.
     pub floor: S,
@@ -257,22 +258,12 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
                 rest
             }
         };
-        let solution = newton::solve(
-            |v| {
-                let kernel = self.step_kernel(q0, v, h);
-                Evaluation { value: kernel.p0, matrix: kernel.matrix }
-            },
-            |v| {
-                let momenta = self.momenta(q0, v, h);
-                (momenta.p0, momenta.p1)
-            },
-            p0,
-            guess,
-        )?;
-        let state = State { q: q0 + solution.unknown * h, p: solution.by_product };
+        let solution = newton::solve(|q0, v| self.step_kernel(q0, v, h), state, guess)?;
+        let v = solution.unknown;
+        let state = State { q: q0 + v * h, p: self.momenta(q0, &v, h).p1 };
         StepError::require_finite(&state.q, Quantity::Configuration)?;
         StepError::require_finite(&state.p, Quantity::Momentum)?;
-        Ok(Step { state, velocity: solution.unknown, report: solution.report })
+        Ok(Step { state, velocity: v, report: solution.report })
     }
 
     /// The flow on Q×Q: (q0, q1) ↦ (q1, q2), with q2 = `state.q` of the step returned.

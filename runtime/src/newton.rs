@@ -6,24 +6,20 @@
 //! floorᵢ = 4ε (|targetᵢ| + Σⱼ |Jᵢⱼ||vⱼ|)        v: the iterate that the Newton step leads to
 //! ```
 //!
-//! so that neither the unit of a coordinate nor its neighbours' size matters.
+//! so that neither the unit of a coordinate nor its neighbours' size matters. Forces that cancel, as at an equilibrium, are
+//! noisier than that: where the residual stops falling above its floor, it is held against the change that one rounding of
+//! q makes, measured then and there.
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::discrete::StepKernel;
 use crate::error::{Quantity, StepError};
-use crate::linear::Factors;
-use crate::{Report, Scalar};
+use crate::linear;
+use crate::{Report, Scalar, State};
 
-/// The function whose root is sought, less its target: value and matrix of derivatives.
-pub(crate) struct Evaluation<S, const N: usize> {
-    pub(crate) value: SVector<S, N>,
-    pub(crate) matrix: SMatrix<S, N, N>,
-}
-
-/// A root, with what the last evaluation gave beside it.
-pub(crate) struct Solution<S, T, const N: usize> {
+/// A root.
+pub(crate) struct Solution<S, const N: usize> {
     pub(crate) unknown: SVector<S, N>,
-    pub(crate) by_product: T,
     pub(crate) report: Report<S>,
 }
 
@@ -33,108 +29,115 @@ const MAX_ITERATIONS: u32 = 50;
 /// Halvings of a Newton step before its direction is given up.
 const MAX_HALVINGS: u32 = 12;
 
-/// A residual of at most this many floors is as good as rounding allows once it has stopped falling.
-const STAGNATION: f64 = 4096.0;
+/// Rounding errors of an evaluation, in units of the change that one rounding of q makes.
+const ROUNDINGS: f64 = 32.0;
 
-/// Solves value(v) = target.
-///
-/// `evaluate` gives value and matrix; `finish` the value alone, with the by-product wanted at the root. The residual that
-/// the report states is the one that `finish` measured there.
+/// Solves p0(q, v) = p for v at the `state` (q, p).
 #[inline]
-pub(crate) fn solve<S: Scalar, T, const N: usize>(
-    evaluate: impl Fn(&SVector<S, N>) -> Evaluation<S, N>,
-    finish: impl Fn(&SVector<S, N>) -> (SVector<S, N>, T),
-    target: &SVector<S, N>,
+pub(crate) fn solve<S: Scalar, const N: usize>(
+    evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N>,
+    state: &State<S, N>,
     guess: SVector<S, N>,
-) -> Result<Solution<S, T, N>, StepError> {
+) -> Result<Solution<S, N>, StepError> {
+    let State { q, p: target } = state;
     let mut v = guess;
-    let mut at_v = evaluate(&v);
-    let mut residual = at_v.value - target;
-    let mut last_correction = S::zero();
+    let mut at_v = evaluate(q, &v);
+    let mut residual = at_v.p0 - target;
     let mut contraction = S::one();
     let mut damped = 0;
 
     for iteration in 0..MAX_ITERATIONS {
-        let factors = Factors::of(&at_v.matrix).map_err(|singular| {
-            match first_non_finite(&residual, &at_v.matrix) {
-                Some(index) => StepError::NonFinite { quantity: Quantity::Derivatives, index },
-                None => StepError::SingularNewtonMatrix { iteration, column: singular.column },
-            }
-        })?;
-        let correction = factors.solve(&residual);
-        let floor = floor(target, &at_v.matrix, &(v - correction));
-        let size = in_units_of(&residual, &floor);
+        let correction =
+            linear::solve(&at_v.matrix, &residual).map_err(|singular| {
+                match first_non_finite(&residual, &at_v.matrix) {
+                    Some(index) => StepError::NonFinite { quantity: Quantity::Derivatives, index },
+                    None => StepError::SingularNewtonMatrix { iteration, column: singular.column },
+                }
+            })?;
+        let full = v - correction;
+        let units = reciprocal_floor(target, &at_v.matrix, &full);
+        let size = in_units(&residual, &units);
         if !size.is_finite()
             && let Some(index) = first_non_finite(&residual, &at_v.matrix)
         {
             return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
         }
 
-        // Newton's residuals satisfy |r′| ≈ C|r|², so one contraction predicts the next.
-        let predicted = contraction * contraction * size;
-        if predicted <= S::one() || size <= S::one() {
-            let candidate = v - correction;
-            let (value, by_product) = finish(&candidate);
-            let remaining = value - target;
-            if in_units_of(&remaining, &floor) <= S::constant(4.0) {
-                let report = Report {
-                    iterations: iteration + 1,
-                    damped,
-                    residual: remaining.amax(),
-                    floor: floor.amax(),
-                    last_correction: correction.amax(),
-                };
-                return Ok(Solution { unknown: candidate, by_product, report });
-            }
+        // Newton's residuals fall as |r′| ≈ C|r|², so the last contraction c predicts the next one, c². Where that ends at
+        // the floor, the Newton matrix is not needed again.
+        let square = contraction * contraction;
+        if size <= S::one() || square * size <= S::one() {
+            let report = Report {
+                iterations: iteration + 1,
+                damped,
+                residual: residual.amax() * square,
+                floor: largest_floor(&units),
+                last_correction: correction.amax(),
+            };
+            return Ok(Solution { unknown: full, report });
         }
 
+        let mut candidate = full;
         let mut share = S::one();
         let mut halvings = 0;
         loop {
-            let candidate = v - correction * share;
-            let next = evaluate(&candidate);
-            let next_residual = next.value - target;
-            let next_size = in_units_of(&next_residual, &floor);
+            let next = evaluate(q, &candidate);
+            let next_residual = next.p0 - target;
+            let next_size = in_units(&next_residual, &units);
             if next_size < size {
                 contraction = next_size / size;
-                last_correction = (correction * share).amax();
                 (v, at_v, residual) = (candidate, next, next_residual);
                 break;
             }
-            if size <= S::constant(STAGNATION) {
-                return stagnated(finish, target, v, &floor, iteration, damped, last_correction);
+            if halvings == 0 {
+                let noise = noise(&evaluate, q, &v, &at_v);
+                if (0..N).all(|i| residual[i].abs() <= noise[i] + S::one() / units[i]) {
+                    let report = Report {
+                        iterations: iteration + 1,
+                        damped,
+                        residual: residual.amax(),
+                        floor: noise.amax(),
+                        last_correction: correction.amax(),
+                    };
+                    return Ok(Solution { unknown: v, report });
+                }
             }
             halvings += 1;
             if halvings > MAX_HALVINGS {
-                return Err(give_up(iteration, &residual, &floor, &correction, &v));
+                return Err(give_up(iteration, &residual, &units, &correction, &v));
             }
             share *= S::constant(0.5);
+            candidate = v - correction * share;
         }
-        damped += u32::from(halvings > 0);
+        if halvings > 0 {
+            damped += 1;
+            // A damped step says nothing of Newton's own convergence.
+            contraction = S::one();
+        }
     }
 
     Err(StepError::NotConverged {
         iterations: MAX_ITERATIONS,
         residual: residual.amax().widen(),
-        floor: floor(target, &at_v.matrix, &v).amax().widen(),
+        floor: largest_floor(&reciprocal_floor(target, &at_v.matrix, &v)).widen(),
     })
 }
 
-/// Accepts an iterate whose residual is at rounding level, though above the estimated floor.
+/// What rounding leaves of the residual: the change of p0 as each coordinate of q moves by a rounding error.
 #[cold]
-fn stagnated<S: Scalar, T, const N: usize>(
-    finish: impl Fn(&SVector<S, N>) -> (SVector<S, N>, T),
-    target: &SVector<S, N>,
-    v: SVector<S, N>,
-    floor: &SVector<S, N>,
-    iterations: u32,
-    damped: u32,
-    last_correction: S,
-) -> Result<Solution<S, T, N>, StepError> {
-    let (value, by_product) = finish(&v);
-    let residual = (value - target).amax();
-    let report = Report { iterations, damped, residual, floor: floor.amax(), last_correction };
-    Ok(Solution { unknown: v, by_product, report })
+fn noise<S: Scalar, const N: usize>(
+    evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N>,
+    q: &SVector<S, N>,
+    v: &SVector<S, N>,
+    at_v: &StepKernel<S, N>,
+) -> SVector<S, N> {
+    let mut noise = SVector::zeros();
+    for j in 0..N {
+        let mut moved = *q;
+        moved[j] *= S::one() + S::EPSILON * S::constant(ROUNDINGS);
+        noise += (evaluate(&moved, v).p0 - at_v.p0).abs();
+    }
+    noise
 }
 
 /// Tells a residual that rounding holds up from one that has no root.
@@ -142,20 +145,21 @@ fn stagnated<S: Scalar, T, const N: usize>(
 fn give_up<S: Scalar, const N: usize>(
     iteration: u32,
     residual: &SVector<S, N>,
-    floor: &SVector<S, N>,
+    units: &SVector<S, N>,
     correction: &SVector<S, N>,
     v: &SVector<S, N>,
 ) -> StepError {
     let residual = residual.amax().widen();
     if correction.amax() <= S::EPSILON.sqrt() * v.amax() {
-        StepError::LostPrecision { residual, floor: floor.amax().widen() }
+        StepError::LostPrecision { residual, floor: largest_floor(units).widen() }
     } else {
         StepError::NoRealSolution { iteration, residual }
     }
 }
 
+/// 1/floorᵢ; infinite where the floor is 0.
 #[inline]
-fn floor<S: Scalar, const N: usize>(
+fn reciprocal_floor<S: Scalar, const N: usize>(
     target: &SVector<S, N>,
     matrix: &SMatrix<S, N, N>,
     v: &SVector<S, N>,
@@ -165,21 +169,31 @@ fn floor<S: Scalar, const N: usize>(
         for j in 0..N {
             sum += (matrix[(i, j)] * v[j]).abs();
         }
-        sum * (S::EPSILON * S::constant(4.0))
+        S::one() / (sum * (S::EPSILON * S::constant(4.0)))
     })
+}
+
+/// The largest floor.
+#[inline]
+fn largest_floor<S: Scalar, const N: usize>(units: &SVector<S, N>) -> S {
+    let smallest =
+        units.iter().fold(units[0], |smallest, unit| if *unit < smallest { *unit } else { smallest });
+    S::one() / smallest
 }
 
 /// max |residualᵢ|/floorᵢ. An exact 0 counts 0, even over a floor of 0; a NaN or infinite ratio is returned as it is.
 #[inline]
-fn in_units_of<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: &SVector<S, N>) -> S {
+fn in_units<S: Scalar, const N: usize>(residual: &SVector<S, N>, units: &SVector<S, N>) -> S {
     let mut largest = S::zero();
     for i in 0..N {
         if residual[i] != S::zero() {
-            let units = residual[i].abs() / floor[i];
-            if !units.is_finite() {
-                return units;
+            let size = residual[i].abs() * units[i];
+            if !size.is_finite() {
+                return size;
             }
-            largest = largest.max(units);
+            if size > largest {
+                largest = size;
+            }
         }
     }
     largest

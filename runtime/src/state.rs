@@ -1,11 +1,11 @@
 //! A point of T*Q.
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use crate::error::{Quantity, StepError};
-use crate::linear::Factors;
-use crate::newton::{self, Evaluation};
-use crate::{Lagrangian, Scalar};
+use crate::linear;
+use crate::newton;
+use crate::{Lagrangian, Scalar, StepKernel};
 
 /// Configuration and momentum, a point (q, p) of T*Q.
 ///
@@ -46,17 +46,12 @@ impl<S: Scalar, const N: usize> State<S, N> {
     pub fn velocity<L: Lagrangian<N, Scalar = S>>(&self, system: &L) -> Result<SVector<S, N>, StepError> {
         StepError::require_finite(&self.q, Quantity::Configuration)?;
         StepError::require_finite(&self.p, Quantity::Momentum)?;
-        let transform = |v: &SVector<S, N>| {
-            let l = system.lagrangian_derivatives(&self.q, v);
-            Evaluation { value: l.d2, matrix: l.d22 }
+        // 𝔽L is the limit h → 0 of the discrete transforms.
+        let transform = |q: &SVector<S, N>, v: &SVector<S, N>| {
+            let l = system.lagrangian_derivatives(q, v);
+            StepKernel { p0: l.d2, matrix: l.d22 }
         };
-        let solution = newton::solve(
-            transform,
-            |v| (system.lagrangian_gradient(&self.q, v).d2, ()),
-            &self.p,
-            nalgebra::zero(),
-        )
-        .map_err(|error| match error {
+        let solution = newton::solve(transform, self, nalgebra::zero()).map_err(|error| match error {
             StepError::SingularNewtonMatrix { column, .. } => StepError::DegenerateLagrangian { column },
             other => other,
         })?;
@@ -74,10 +69,8 @@ impl<S: Scalar, const N: usize> State<S, N> {
 
 /// Says whether ∂²L/∂v² can be inverted.
 pub(crate) fn require_regular<S: Scalar, const N: usize>(
-    mass_matrix: &nalgebra::SMatrix<S, N, N>,
+    mass_matrix: &SMatrix<S, N, N>,
 ) -> Result<(), StepError> {
-    match Factors::of(mass_matrix) {
-        Ok(_) => Ok(()),
-        Err(singular) => Err(StepError::DegenerateLagrangian { column: singular.column }),
-    }
+    linear::require_regular(mass_matrix)
+        .map_err(|singular| StepError::DegenerateLagrangian { column: singular.column })
 }
