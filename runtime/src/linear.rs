@@ -131,6 +131,7 @@ fn eliminate<S: Scalar, const N: usize>(
 /// The test compares each uᵢᵢ with |aᵢᵢ| + Σ|lᵢₖ||uₖᵢ|: scaling rows or columns changes neither verdict.
 #[cold]
 #[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a NaN pivot must fail the comparison")]
+#[expect(clippy::needless_range_loop, reason = "rows k and j of one array are used together")]
 fn check_cancellation<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,
     rows: &[[S; N]; N],
