@@ -80,9 +80,9 @@ pub struct Report<S> {
     pub iterations: u32,
     /// Iterations whose Newton step had to be shortened.
     pub damped: u32,
-    /// Largest |𝔽⁻(q0, q1) − p0| at the solution, as evaluated there; in units of momentum.
+    /// |𝔽⁻(q0, q1) − p0| at the solution, as evaluated there, of the coordinate where it is largest in units of its floor.
     pub residual: S,
-    /// The round-off floor that the residual was held against; a residual far above it is lost precision.
+    /// The round-off floor that this residual was held against, in units of the same momentum.
     pub floor: S,
     /// Largest entry of the last correction of v̄.
     pub last_correction: S,
@@ -262,10 +262,11 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
                 let kernel = self.step_kernel(q0, v, h);
                 Evaluation { value: kernel.p0, matrix: kernel.matrix }
             },
-            |v| {
+            |q0, v| {
                 let momenta = self.momenta(q0, v, h);
                 (momenta.p0, momenta.p1)
             },
+            q0,
             p0,
             guess,
         )?;

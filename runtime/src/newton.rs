@@ -6,7 +6,9 @@
 //! floorᵢ = 4ε (|targetᵢ| + Σⱼ |Jᵢⱼ||vⱼ|)        v: the iterate that the Newton step leads to
 //! ```
 //!
-//! so that neither the unit of a coordinate nor its neighbours' size matters.
+//! so that neither the unit of a coordinate nor its neighbours' size matters. This estimate knows nothing of what q
+//! contributes: near an equilibrium away from q = 0 large forces cancel, and v and p go to 0 while the rounding of those
+//! forces stays. Where the residual stops falling above the estimate, its rounding is therefore measured ([`rounding`]).
 
 use nalgebra::{SMatrix, SVector};
 
@@ -30,20 +32,22 @@ pub(crate) struct Solution<S, T, const N: usize> {
 /// Newton's method needs a few iterations where it converges at all; damped ones near a fold take some more.
 const MAX_ITERATIONS: u32 = 50;
 
-/// Halvings of a Newton step before its direction is given up.
-const MAX_HALVINGS: u32 = 12;
-
-/// A residual of at most this many floors is as good as rounding allows once it has stopped falling.
+/// A residual of at most this many estimated floors is as good as rounding allows once it has stopped falling.
 const STAGNATION: f64 = 4096.0;
 
-/// Solves value(v) = target.
+/// The same in units of the measured floor.
+const MEASURED_STAGNATION: f64 = 4.0;
+
+/// Solves value(q, v) = target for v.
 ///
 /// `evaluate` gives value and matrix; `finish` the value alone, with the by-product wanted at the root. The residual that
-/// the report states is the one that `finish` measured there.
+/// the report states is the one that `finish` measured there. `q` is what the value depends on beside v, given to
+/// `finish` so that the effect of rounding it can be measured.
 #[inline]
 pub(crate) fn solve<S: Scalar, T, const N: usize>(
     evaluate: impl Fn(&SVector<S, N>) -> Evaluation<S, N>,
-    finish: impl Fn(&SVector<S, N>) -> (SVector<S, N>, T),
+    finish: impl Fn(&SVector<S, N>, &SVector<S, N>) -> (SVector<S, N>, T),
+    q: &SVector<S, N>,
     target: &SVector<S, N>,
     guess: SVector<S, N>,
 ) -> Result<Solution<S, T, N>, StepError> {
@@ -58,6 +62,10 @@ pub(crate) fn solve<S: Scalar, T, const N: usize>(
         let factors = Factors::of(&at_v.matrix).map_err(|singular| {
             match first_non_finite(&residual, &at_v.matrix) {
                 Some(index) => StepError::NonFinite { quantity: Quantity::Derivatives, index },
+                // Damped descent ends at a singular matrix where the residual has its least value, above 0.
+                None if damped > 0 => {
+                    StepError::NoRealSolution { iteration, residual: residual.amax().widen() }
+                }
                 None => StepError::SingularNewtonMatrix { iteration, column: singular.column },
             }
         })?;
@@ -74,14 +82,15 @@ pub(crate) fn solve<S: Scalar, T, const N: usize>(
         let predicted = contraction * contraction * size;
         if predicted <= S::one() || size <= S::one() {
             let candidate = v - correction;
-            let (value, by_product) = finish(&candidate);
+            let (value, by_product) = finish(q, &candidate);
             let remaining = value - target;
             if in_units_of(&remaining, &floor) <= S::constant(4.0) {
+                let (residual, floor) = worst(&remaining, &floor);
                 let report = Report {
                     iterations: iteration + 1,
                     damped,
-                    residual: remaining.amax(),
-                    floor: floor.amax(),
+                    residual,
+                    floor,
                     last_correction: correction.amax(),
                 };
                 return Ok(Solution { unknown: candidate, by_product, report });
@@ -89,7 +98,6 @@ pub(crate) fn solve<S: Scalar, T, const N: usize>(
         }
 
         let mut share = S::one();
-        let mut halvings = 0;
         loop {
             let candidate = v - correction * share;
             let next = evaluate(&candidate);
@@ -101,40 +109,98 @@ pub(crate) fn solve<S: Scalar, T, const N: usize>(
                 (v, at_v, residual) = (candidate, next, next_residual);
                 break;
             }
-            if size <= S::constant(STAGNATION) {
-                return stagnated(finish, target, v, &floor, iteration, damped, last_correction);
+            if share == S::one() {
+                let floor =
+                    if size <= S::constant(STAGNATION) { floor } else { floor + rounding(&finish, q, &v) };
+                if size <= S::constant(STAGNATION)
+                    || in_units_of(&residual, &floor) <= S::constant(MEASURED_STAGNATION)
+                {
+                    return Ok(stagnated(
+                        finish(q, &v),
+                        target,
+                        v,
+                        &floor,
+                        [iteration, damped],
+                        last_correction,
+                    ));
+                }
             }
-            halvings += 1;
-            if halvings > MAX_HALVINGS {
-                return Err(give_up(iteration, &residual, &floor, &correction, &v));
+            share = shorter(share, size, next_size);
+            if is_negligible(&(correction * share), &v) || share < S::EPSILON * S::EPSILON {
+                return Err(match first_non_finite(&next_residual, &next.matrix) {
+                    Some(index) => StepError::NonFinite { quantity: Quantity::Derivatives, index },
+                    None => give_up(iteration, &residual, &floor, &correction, &v),
+                });
             }
-            share *= S::constant(0.5);
         }
-        damped += u32::from(halvings > 0);
+        damped += u32::from(share < S::one());
     }
 
+    let floor = floor(target, &at_v.matrix, &v);
+    let (residual, floor) = worst(&residual, &floor);
     Err(StepError::NotConverged {
         iterations: MAX_ITERATIONS,
-        residual: residual.amax().widen(),
-        floor: floor(target, &at_v.matrix, &v).amax().widen(),
+        residual: residual.widen(),
+        floor: floor.widen(),
     })
 }
 
 /// Accepts an iterate whose residual is at rounding level, though above the estimated floor.
 #[cold]
 fn stagnated<S: Scalar, T, const N: usize>(
-    finish: impl Fn(&SVector<S, N>) -> (SVector<S, N>, T),
+    (value, by_product): (SVector<S, N>, T),
     target: &SVector<S, N>,
     v: SVector<S, N>,
     floor: &SVector<S, N>,
-    iterations: u32,
-    damped: u32,
+    [iterations, damped]: [u32; 2],
     last_correction: S,
-) -> Result<Solution<S, T, N>, StepError> {
-    let (value, by_product) = finish(&v);
-    let residual = (value - target).amax();
-    let report = Report { iterations, damped, residual, floor: floor.amax(), last_correction };
-    Ok(Solution { unknown: v, by_product, report })
+) -> Solution<S, T, N> {
+    let (residual, floor) = worst(&(value - target), floor);
+    let report = Report { iterations, damped, residual, floor, last_correction };
+    Solution { unknown: v, by_product, report }
+}
+
+/// What rounding does to the value: its changes when each entry of q and of v moves by its last place, added up.
+#[cold]
+fn rounding<S: Scalar, T, const N: usize>(
+    finish: impl Fn(&SVector<S, N>, &SVector<S, N>) -> (SVector<S, N>, T),
+    q: &SVector<S, N>,
+    v: &SVector<S, N>,
+) -> SVector<S, N> {
+    let (value, _) = finish(q, v);
+    let mut sum: SVector<S, N> = nalgebra::zero();
+    let mut add = |q: &SVector<S, N>, v: &SVector<S, N>| sum += (finish(q, v).0 - value).abs();
+    for factor in [S::one() + S::EPSILON, S::one() - S::EPSILON] {
+        for i in 0..N {
+            let mut moved = *q;
+            moved[i] *= factor;
+            add(&moved, v);
+            let mut moved = *v;
+            moved[i] *= factor;
+            add(q, &moved);
+        }
+    }
+    sum
+}
+
+/// A share of the Newton step to try after `share` gave `next_size` ≥ `size`: where (1 − s) + C s², the residual's first
+/// two terms along the step, is least; between a tenth and a half of the present share.
+#[cold]
+fn shorter<S: Scalar>(share: S, size: S, next_size: S) -> S {
+    let curvature = (next_size / size - S::one() + share) / (share * share);
+    let least = S::constant(0.5) / curvature;
+    let (tenth, half) = (share * S::constant(0.1), share * S::constant(0.5));
+    // Not finite where the step left the domain of L, R or f: `least` is 0 or NaN, and fails the comparison.
+    if least > tenth { if least < half { least } else { half } } else { tenth }
+}
+
+/// Whether adding `change` to `v` makes no difference worth a step.
+fn is_negligible<S: Scalar, const N: usize>(change: &SVector<S, N>, v: &SVector<S, N>) -> bool {
+    is_below(S::EPSILON.sqrt(), change, v)
+}
+
+fn is_below<S: Scalar, const N: usize>(factor: S, change: &SVector<S, N>, v: &SVector<S, N>) -> bool {
+    (0..N).all(|i| change[i].abs() <= factor * v[i].abs())
 }
 
 /// Tells a residual that rounding holds up from one that has no root.
@@ -146,12 +212,26 @@ fn give_up<S: Scalar, const N: usize>(
     correction: &SVector<S, N>,
     v: &SVector<S, N>,
 ) -> StepError {
-    let residual = residual.amax().widen();
-    if correction.amax() <= S::EPSILON.sqrt() * v.amax() {
-        StepError::LostPrecision { residual, floor: floor.amax().widen() }
+    // Near a fold the matrix is almost singular and the correction large; lost digits leave it small.
+    if is_below(S::EPSILON.cbrt(), correction, v) {
+        let (residual, floor) = worst(residual, floor);
+        StepError::LostPrecision { residual: residual.widen(), floor: floor.widen() }
     } else {
-        StepError::NoRealSolution { iteration, residual }
+        StepError::NoRealSolution { iteration, residual: residual.amax().widen() }
     }
+}
+
+/// The residual that is largest in units of its floor, and this floor.
+#[inline]
+fn worst<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: &SVector<S, N>) -> (S, S) {
+    let mut worst = (residual[0].abs(), floor[0]);
+    for i in 1..N {
+        let other = (residual[i].abs(), floor[i]);
+        if other.0 * worst.1 > worst.0 * other.1 {
+            worst = other;
+        }
+    }
+    worst
 }
 
 #[inline]
@@ -165,11 +245,12 @@ fn floor<S: Scalar, const N: usize>(
         for j in 0..N {
             sum += (matrix[(i, j)] * v[j]).abs();
         }
-        sum * (S::EPSILON * S::constant(4.0))
+        // Below the normal numbers ε no longer bounds the rounding.
+        sum * (S::EPSILON * S::constant(4.0)) + S::SMALLEST_NORMAL
     })
 }
 
-/// max |residualᵢ|/floorᵢ. An exact 0 counts 0, even over a floor of 0; a NaN or infinite ratio is returned as it is.
+/// max |residualᵢ|/floorᵢ. An exact 0 counts 0, whatever its floor; a NaN or infinite ratio is returned as it is.
 #[inline]
 fn in_units_of<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: &SVector<S, N>) -> S {
     let mut largest = S::zero();

@@ -24,7 +24,7 @@ impl<S: Scalar, const N: usize> State<S, N> {
     /// The state (q, ∂L/∂v(q, v)), by the Legendre transform of L.
     ///
     /// # Errors
-    /// [`StepError::NonFinite`] if q, v or p is not finite, [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is singular.
+    /// [`StepError::NonFinite`] if q, v, p or ∂²L/∂v² is not finite, [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is singular.
     pub fn from_velocity<L: Lagrangian<N, Scalar = S>>(
         system: &L,
         q: impl Into<SVector<S, N>>,
@@ -52,7 +52,8 @@ impl<S: Scalar, const N: usize> State<S, N> {
         };
         let solution = newton::solve(
             transform,
-            |v| (system.lagrangian_gradient(&self.q, v).d2, ()),
+            |q, v| (system.lagrangian_gradient(q, v).d2, ()),
+            &self.q,
             &self.p,
             nalgebra::zero(),
         )
@@ -72,10 +73,13 @@ impl<S: Scalar, const N: usize> State<S, N> {
     }
 }
 
-/// Says whether ∂²L/∂v² can be inverted.
+/// Fails where ∂²L/∂v² is not finite or cannot be inverted.
 pub(crate) fn require_regular<S: Scalar, const N: usize>(
     mass_matrix: &nalgebra::SMatrix<S, N, N>,
 ) -> Result<(), StepError> {
+    if let Some(index) = (0..N).find(|&i| mass_matrix.row(i).iter().any(|entry| !entry.is_finite())) {
+        return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
+    }
     match Factors::of(mass_matrix) {
         Ok(_) => Ok(()),
         Err(singular) => Err(StepError::DegenerateLagrangian { column: singular.column }),
