@@ -80,10 +80,9 @@ pub struct Report<S> {
     pub iterations: u32,
     /// Iterations whose Newton step had to be shortened.
     pub damped: u32,
-    /// Largest |𝔽⁻(q0, q1) − p0| expected at the solution, in units of momentum: that of the last evaluation, lowered by
-    /// the contraction that the last correction brings.
+    /// |𝔽⁻(q0, q1) − p0| at the solution, as evaluated there, of the coordinate where it is largest in units of its floor.
     pub residual: S,
-    /// The round-off floor that the residual was held against; a residual far above it is lost precision.
+    /// The round-off floor that this residual was held against, in units of the same momentum.
     pub floor: S,
     /// Largest entry of the last correction of v̄.
     pub last_correction: S,
@@ -258,12 +257,12 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
                 rest
             }
         };
-        let solution = newton::solve(|q0, v| self.step_kernel(q0, v, h), state, guess)?;
-        let v = solution.unknown;
-        let state = State { q: q0 + v * h, p: self.momenta(q0, &v, h).p1 };
+        let solution =
+            newton::solve(|q0, v| self.step_kernel(q0, v, h), |q0, v| self.momenta(q0, v, h), state, guess)?;
+        let state = State { q: q0 + solution.unknown * h, p: solution.momenta.p1 };
         StepError::require_finite(&state.q, Quantity::Configuration)?;
         StepError::require_finite(&state.p, Quantity::Momentum)?;
-        Ok(Step { state, velocity: v, report: solution.report })
+        Ok(Step { state, velocity: solution.unknown, report: solution.report })
     }
 
     /// The flow on Q×Q: (q0, q1) ↦ (q1, q2), with q2 = `state.q` of the step returned.
