@@ -17,7 +17,8 @@ use plotters::element::{
     Circle, Cross, Drawable, EmptyElement, PathElement, PointCollection, TriangleMarker,
 };
 use plotters::series::LineSeries;
-use plotters::style::{Color, RGBColor, WHITE};
+pub use plotters::style::RGBColor;
+use plotters::style::{Color, WHITE};
 
 /// Colours that readers with any colour vision tell apart (Okabe and Ito, 2008).
 pub mod colour {
@@ -79,6 +80,8 @@ pub struct Panel<'a> {
 /// A corner of a panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Corner {
+    /// Top left.
+    UpperLeft,
     /// Top right.
     UpperRight,
     /// Bottom right.
@@ -112,14 +115,14 @@ pub fn write(name: &str, size: (u32, u32), columns: usize, panels: &[Panel<'_>])
     };
     let folder = path.parent().unwrap_or(Path::new(""));
     fs::create_dir_all(folder).and_then(|()| fs::write(&path, svg)).with_context(|| {
-        format!("cannot write the picture to {}; give a path as argument", path.display())
+        format!("cannot write the picture to {}; give another path as argument", path.display())
     })?;
     Ok(path)
 }
 
 fn draw<'a>(area: &DrawingArea<SVGBackend<'a>, Shift>, panel: &Panel<'_>) -> Result<()> {
     let all = || panel.curves.iter().flat_map(|curve| &curve.points);
-    let (x, y) = (extent(all().map(|point| point.0), 0.0), extent(all().map(|point| point.1), 0.05));
+    let (x, y) = (extent(all().map(|point| point.0), 0.02), extent(all().map(|point| point.1), 0.05));
     let pixel = (x.end - x.start) / f64::from(area.dim_in_pixel().0);
     let mut chart = ChartBuilder::on(area)
         .caption(panel.title, (FONT, 24))
@@ -154,7 +157,7 @@ fn draw<'a>(area: &DrawingArea<SVGBackend<'a>, Shift>, panel: &Panel<'_>) -> Res
             }
             Mark::Disc => draw_points(&mut chart, curve, move |at| Circle::new(at, 3, colour.filled()))?,
             Mark::Circle => {
-                draw_points(&mut chart, curve, move |at| Circle::new(at, 6, colour.stroke_width(2)))?
+                draw_points(&mut chart, curve, move |at| Circle::new(at, 5, colour.stroke_width(2)))?
             }
             Mark::Cross => {
                 draw_points(&mut chart, curve, move |at| Cross::new(at, 5, colour.stroke_width(2)))?
@@ -165,6 +168,7 @@ fn draw<'a>(area: &DrawingArea<SVGBackend<'a>, Shift>, panel: &Panel<'_>) -> Res
         }
     }
     let position = match panel.legend {
+        Corner::UpperLeft => SeriesLabelPosition::UpperLeft,
         Corner::UpperRight => SeriesLabelPosition::UpperRight,
         Corner::LowerRight => SeriesLabelPosition::LowerRight,
     };
