@@ -114,7 +114,7 @@ fn draw(motions: &[Motion]) -> Result<PathBuf> {
             |_, state| (state.q[0], state.p[0] / SYSTEM.m),
         ),
     ];
-    picture::write("oscillator", (1600, 1100), 2, &panels)
+    picture::write("oscillator", [1600, 1100], 2, &panels)
 }
 
 fn panel<'a>(

@@ -68,6 +68,6 @@ fn main() -> Result<()> {
             (state.q[0], state.p[0])
         }),
     ];
-    println!("\nPicture: {}", picture::write("pendulum", (1600, 600), 2, &panels)?.display());
+    println!("\nPicture: {}", picture::write("pendulum", [1600, 600], 2, &panels)?.display());
     Ok(())
 }

@@ -226,5 +226,5 @@ fn draw(
         panel("Error of the energy", "E − reference", Corner::LowerRight, &energy_error)?,
         panel("Error of the angular momentum", "J − reference", Corner::UpperRight, &momentum_error)?,
     ];
-    picture::write("ring", (1600, 1100), 2, &panels)
+    picture::write("ring", [1600, 1100], 2, &panels)
 }

@@ -18,7 +18,7 @@ use plotters::element::{
 };
 use plotters::series::LineSeries;
 pub use plotters::style::RGBColor;
-use plotters::style::{Color, WHITE};
+use plotters::style::{BLACK, Color, TRANSPARENT, WHITE};
 
 /// Colours that readers with any colour vision tell apart (Okabe and Ito, 2008).
 pub mod colour {
@@ -92,14 +92,18 @@ type Chart<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<RangedCoordf64, Ra
 
 const FONT: &str = "sans-serif";
 
+/// Units of the drawing to a pixel: plotters rounds coordinates to whole units, which shows as steps in thin lines.
+const PIXEL: i32 = 8;
+
 /// Writes the picture to the path that the command line gives, or else to `target/<name>.svg`, and returns the path.
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn write(name: &str, size: (u32, u32), columns: usize, panels: &[Panel<'_>]) -> Result<PathBuf> {
+pub fn write(name: &str, size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -> Result<PathBuf> {
     let mut svg = String::new();
+    let units = size.map(|pixels| pixels * PIXEL as u32);
     {
-        let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
+        let root = SVGBackend::with_string(&mut svg, units.into()).into_drawing_area();
         root.fill(&WHITE)?;
         let areas = root.split_evenly((panels.len().div_ceil(columns), columns));
         for (area, panel) in areas.iter().zip(panels) {
@@ -107,6 +111,13 @@ pub fn write(name: &str, size: (u32, u32), columns: usize, panels: &[Panel<'_>])
         }
         root.present()?;
     }
+    // The picture's size is in pixels; its view box stays in units.
+    let [[width, height], [from_width, from_height]] = [size, units];
+    let svg = svg.replacen(
+        &format!("width=\"{from_width}\" height=\"{from_height}\""),
+        &format!("width=\"{width}\" height=\"{height}\""),
+        1,
+    );
     let path = match env::args_os().nth(1) {
         Some(path) => PathBuf::from(path),
         None => {
@@ -123,13 +134,13 @@ pub fn write(name: &str, size: (u32, u32), columns: usize, panels: &[Panel<'_>])
 fn draw<'a>(area: &DrawingArea<SVGBackend<'a>, Shift>, panel: &Panel<'_>) -> Result<()> {
     let all = || panel.curves.iter().flat_map(|curve| &curve.points);
     let (x, y) = (extent(all().map(|point| point.0), 0.02), extent(all().map(|point| point.1), 0.05));
-    let pixel = (x.end - x.start) / f64::from(area.dim_in_pixel().0);
+    let pixel = (x.end - x.start) / f64::from(area.dim_in_pixel().0) * f64::from(PIXEL);
     let mut chart = ChartBuilder::on(area)
-        .caption(panel.title, (FONT, 24))
-        .margin(14)
-        .margin_right(36)
-        .x_label_area_size(52)
-        .y_label_area_size(84)
+        .caption(panel.title, (FONT, 24 * PIXEL))
+        .margin(14 * PIXEL)
+        .margin_right(36 * PIXEL)
+        .x_label_area_size(52 * PIXEL)
+        .y_label_area_size(94 * PIXEL)
         .build_cartesian_2d(x, y)?;
     chart
         .configure_mesh()
@@ -139,31 +150,34 @@ fn draw<'a>(area: &DrawingArea<SVGBackend<'a>, Shift>, panel: &Panel<'_>) -> Res
         .y_labels(8)
         .x_label_formatter(&|x| number(*x))
         .y_label_formatter(&|y| number(*y))
-        .label_style((FONT, 19))
-        .axis_desc_style((FONT, 21))
-        .light_line_style(WHITE)
-        .bold_line_style(RGBColor(225, 225, 225))
+        .label_style((FONT, 19 * PIXEL))
+        .axis_desc_style((FONT, 21 * PIXEL))
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(RGBColor(225, 225, 225).stroke_width(PIXEL as u32))
+        .axis_style(BLACK.stroke_width(PIXEL as u32))
+        .set_all_tick_mark_size(5 * PIXEL)
         .draw()?;
     for curve in &panel.curves {
         let colour = curve.colour;
+        let stroke = move |width: u32| colour.stroke_width(width * PIXEL as u32);
         match curve.mark {
             Mark::Line(width) => {
-                let series = LineSeries::new(thinned(&curve.points, pixel), colour.stroke_width(width));
-                let sample = colour.stroke_width(width.max(2));
+                let series = LineSeries::new(thinned(&curve.points, pixel), stroke(width));
+                let sample = stroke(width.max(2));
                 chart
                     .draw_series(series)?
                     .label(curve.label)
-                    .legend(move |(x, y)| PathElement::new([(x, y), (x + 24, y)], sample));
+                    .legend(move |(x, y)| PathElement::new([(x, y), (x + 24 * PIXEL, y)], sample));
             }
-            Mark::Disc => draw_points(&mut chart, curve, move |at| Circle::new(at, 3, colour.filled()))?,
-            Mark::Circle => {
-                draw_points(&mut chart, curve, move |at| Circle::new(at, 5, colour.stroke_width(2)))?
+            Mark::Disc => {
+                draw_points(&mut chart, curve, move |at| Circle::new(at, 3 * PIXEL, colour.filled()))?
             }
-            Mark::Cross => {
-                draw_points(&mut chart, curve, move |at| Cross::new(at, 5, colour.stroke_width(2)))?
-            }
+            Mark::Circle => draw_points(&mut chart, curve, move |at| Circle::new(at, 5 * PIXEL, stroke(2)))?,
+            Mark::Cross => draw_points(&mut chart, curve, move |at| Cross::new(at, 5 * PIXEL, stroke(2)))?,
             Mark::Triangle => {
-                draw_points(&mut chart, curve, move |at| TriangleMarker::new(at, 6, colour.filled()))?;
+                draw_points(&mut chart, curve, move |at| {
+                    TriangleMarker::new(at, 6 * PIXEL, colour.filled())
+                })?;
             }
         }
     }
@@ -175,9 +189,9 @@ fn draw<'a>(area: &DrawingArea<SVGBackend<'a>, Shift>, panel: &Panel<'_>) -> Res
     chart
         .configure_series_labels()
         .position(position)
-        .margin(8)
-        .legend_area_size(32)
-        .label_font((FONT, 19))
+        .margin(8 * PIXEL)
+        .legend_area_size(32 * PIXEL)
+        .label_font((FONT, 19 * PIXEL))
         .background_style(WHITE.mix(0.85))
         .draw()?;
     Ok(())
@@ -196,7 +210,7 @@ where
     chart
         .draw_series(curve.points.iter().map(|&point| EmptyElement::at(point) + shape((0, 0))))?
         .label(curve.label)
-        .legend(move |(x, y)| shape((x + 12, y)));
+        .legend(move |(x, y)| shape((x + 12 * PIXEL, y)));
     Ok(())
 }
 
