@@ -8,10 +8,11 @@
 //! cargo run --release --example ring [picture.svg]
 //! ```
 
+use std::iter::once;
 use std::path::PathBuf;
 
 use anyhow::Result;
-use dalembert::{Discrete, Midpoint, Rayleigh, State, Step, Trajectory, rayleigh_system};
+use dalembert::{Discrete, Lagrangian, Midpoint, Rayleigh, State, Step, Trajectory, rayleigh_system};
 use dalembert_examples::baseline::{self, Method};
 use dalembert_examples::picture::{self, Corner, Curve, Mark, Panel, colour};
 use indicatif::ProgressBar;
@@ -43,6 +44,7 @@ fn main() -> Result<()> {
     let ring = Ring { k: 1e-3 };
     let start = start(&ring)?;
 
+    // Drawn on a terminal only.
     let bar = ProgressBar::new(4 * STEPS as u64);
     let (midpoint, solver) = variational_midpoint(&ring, start, &bar)?;
     let runge_kutta = standard_method(&ring, Method::RungeKutta4, start, &bar)?;
@@ -50,21 +52,59 @@ fn main() -> Result<()> {
     let looser = standard_method(&ring, Method::DormandPrince853(1e-11), start, &bar)?;
     bar.finish_and_clear();
 
-    print_energy(&ring, &midpoint, &runge_kutta, &reference)?;
-    print_balance(&ring, [("midpoint", &midpoint), ("RK4", &runge_kutta), ("reference", &reference)])?;
+    print_energy(&midpoint, &runge_kutta, &reference);
+    print_balance(&midpoint, &runge_kutta, &reference);
     print_angular_momentum(&ring, &midpoint, &runge_kutta, &reference);
-    print_quality(&ring, &solver, &reference, &looser)?;
-    println!("\nPicture: {}", draw(&ring, &midpoint, &runge_kutta, &reference)?.display());
+    print_quality(&solver, &reference, &looser);
+    println!("\nPicture: {}", draw(&midpoint, &runge_kutta, &reference)?.display());
     Ok(())
 }
 
-/// q = (0, 1.155…) and v = (½, 0): E = 11/40, above the hump at s = ⅓.
+/// q = (0, 1.155…) and v = (½, 0): E = 11/40.
 pub fn start(ring: &Ring) -> Result<State<f64, 2>> {
     Ok(State::from_velocity(ring, [0.0, 1.15549918674982], [0.5, 0.0])?)
 }
 
-/// The states at t = 0, h, 2h, …
-pub type Motion = Vec<State<f64, 2>>;
+/// A motion at t = 0, h, 2h, …: one entry for each time.
+#[derive(Default)]
+pub struct Motion {
+    /// E = v·∂L/∂v − L at the node (q, p).
+    pub energy: Vec<f64>,
+    /// E on the segment that ends at the node, taken at its midpoint and mean velocity; at t = 0 that of the node.
+    pub segment_energy: Vec<f64>,
+    /// J = q × p.
+    pub angular_momentum: Vec<f64>,
+    /// What drag takes in unit time, v·∂R/∂v.
+    pub drag_power: Vec<f64>,
+}
+
+impl Motion {
+    fn of(ring: &Ring, states: &[State<f64, 2>]) -> Result<Self> {
+        let mut motion = Self::default();
+        let mut previous = None;
+        for state in states {
+            let v = state.velocity(ring)?;
+            let energy = ring.energy(&state.q, &v);
+            let segment_energy = previous.map_or(energy, |q0| ring.segment_energy(q0, &state.q, H));
+            motion.energy.push(energy);
+            motion.segment_energy.push(segment_energy);
+            motion.angular_momentum.push(state.q.perp(&state.p));
+            motion.drag_power.push(v.dot(&ring.rayleigh_gradient(&state.q, &v).d2));
+            previous = Some(&state.q);
+        }
+        Ok(motion)
+    }
+
+    /// What was lost from the first state to the last.
+    pub fn energy_lost(&self) -> f64 {
+        self.energy[0] - self.energy[STEPS]
+    }
+
+    /// What drag took of it, ∫ v·∂R/∂v dt by the trapezoidal rule.
+    pub fn drag_work(&self) -> f64 {
+        self.drag_power.windows(2).map(|ends| 0.5 * H * (ends[0] + ends[1])).sum()
+    }
+}
 
 /// How the solver of the implicit step fared.
 #[derive(Default)]
@@ -83,16 +123,16 @@ pub fn variational_midpoint(
     start: State<f64, 2>,
     bar: &ProgressBar,
 ) -> Result<(Motion, Solver)> {
-    let (mut motion, mut solver) = (vec![start], Solver::default());
+    let (mut states, mut solver) = (vec![start], Solver::default());
     for step in Trajectory::new(ring, Midpoint, H, start).take(STEPS) {
         let Step { state, report, .. } = step?;
-        motion.push(state);
+        states.push(state);
         solver.iterations += report.iterations;
         solver.damped += u32::from(report.damped > 0);
         solver.worst_residual = solver.worst_residual.max(report.residual / report.floor);
         bar.inc(1);
     }
-    Ok((motion, solver))
+    Ok((Motion::of(ring, &states)?, solver))
 }
 
 /// The motion by a method that knows nothing of L and R but the equations of motion.
@@ -103,21 +143,8 @@ pub fn standard_method(
     bar: &ProgressBar,
 ) -> Result<Motion> {
     let states = baseline::states(ring, method, H, start)?.take(STEPS);
-    std::iter::once(Ok(start)).chain(bar.wrap_iter(states)).collect()
-}
-
-/// What drag took, ∫ v·∂R/∂v dt by the trapezoidal rule over the states.
-pub fn drag_work(ring: &Ring, motion: &[State<f64, 2>]) -> Result<f64> {
-    let power = |state: &State<f64, 2>| -> Result<f64> {
-        let v = state.velocity(ring)?;
-        Ok(v.dot(&ring.rayleigh_gradient(&state.q, &v).d2))
-    };
-    motion.windows(2).map(|ends| Ok(0.5 * H * (power(&ends[0])? + power(&ends[1])?))).sum()
-}
-
-/// J = q × p.
-pub fn angular_momentum(state: &State<f64, 2>) -> f64 {
-    state.q.perp(&state.p)
+    let states: Vec<_> = once(Ok(start)).chain(bar.wrap_iter(states)).collect::<Result<_>>()?;
+    Motion::of(ring, &states)
 }
 
 fn time(step: usize) -> f64 {
@@ -129,68 +156,50 @@ fn rows() -> impl Iterator<Item = usize> {
     (0..=STEPS).step_by(STEPS / 10)
 }
 
-fn print_energy(
-    ring: &Ring,
-    midpoint: &[State<f64, 2>],
-    runge_kutta: &[State<f64, 2>],
-    reference: &[State<f64, 2>],
-) -> Result<()> {
+fn print_energy(midpoint: &Motion, runge_kutta: &Motion, reference: &Motion) {
     println!("Energy, h = {H}; errors are against the reference, segments end at t. All is dimensionless.");
     println!("     t  reference   midpoint     error    segment       RK4     error");
     for k in rows() {
-        let exact = reference[k].energy(ring)?;
-        let [variational, standard] = [midpoint[k].energy(ring)?, runge_kutta[k].energy(ring)?];
-        let segment = match k {
-            0 => "–".to_string(),
-            _ => format!("{:.6}", ring.segment_energy(&midpoint[k - 1].q, &midpoint[k].q, H)),
-        };
+        let [exact, node, rk4] = [reference, midpoint, runge_kutta].map(|motion| motion.energy[k]);
+        let segment = midpoint.segment_energy[k];
         println!(
-            "{:6} {exact:10.6} {variational:10.6} {:9.1e} {segment:>10} {standard:9.6} {:9.1e}",
+            "{:6} {exact:10.6} {node:10.6} {:9.1e} {segment:10.6} {rk4:9.6} {:9.1e}",
             time(k),
-            variational - exact,
-            standard - exact,
+            node - exact,
+            rk4 - exact,
         );
     }
-    Ok(())
 }
 
-fn print_balance(ring: &Ring, motions: [(&str, &Motion); 3]) -> Result<()> {
-    println!("\nWhere the energy went    lost      to drag   to the method");
-    for (name, motion) in motions {
-        let lost = motion[0].energy(ring)? - motion[STEPS].energy(ring)?;
-        let work = drag_work(ring, motion)?;
+fn print_balance(midpoint: &Motion, runge_kutta: &Motion, reference: &Motion) {
+    println!(
+        "\nWhere the energy went    lost      to drag  to the method (reference: to the sum over states)"
+    );
+    for (name, motion) in [("midpoint", midpoint), ("RK4", runge_kutta), ("reference", reference)] {
+        let (lost, work) = (motion.energy_lost(), motion.drag_work());
         println!("{name:20} {lost:11.7} {work:11.7} {:11.1e}", lost - work);
     }
-    Ok(())
 }
 
-fn print_angular_momentum(
-    ring: &Ring,
-    midpoint: &[State<f64, 2>],
-    runge_kutta: &[State<f64, 2>],
-    reference: &[State<f64, 2>],
-) {
+fn print_angular_momentum(ring: &Ring, midpoint: &Motion, runge_kutta: &Motion, reference: &Motion) {
     println!("\nAngular momentum; errors are against the exact J(t) = J(0) exp(−k t).");
     println!("     t      exact   midpoint     error       RK4     error  reference's error");
     for k in rows() {
-        let exact = angular_momentum(&reference[0]) * (-ring.k * time(k)).exp();
-        let [variational, standard, accurate] =
-            [midpoint, runge_kutta, reference].map(|motion| angular_momentum(&motion[k]));
+        let exact = reference.angular_momentum[0] * (-ring.k * time(k)).exp();
+        let [node, rk4, accurate] =
+            [midpoint, runge_kutta, reference].map(|motion| motion.angular_momentum[k]);
         println!(
-            "{:6} {exact:10.6} {variational:10.6} {:9.1e} {standard:9.6} {:9.1e} {:18.1e}",
+            "{:6} {exact:10.6} {node:10.6} {:9.1e} {rk4:9.6} {:9.1e} {:18.1e}",
             time(k),
-            variational - exact,
-            standard - exact,
+            node - exact,
+            rk4 - exact,
             accurate - exact,
         );
     }
 }
 
-fn print_quality(ring: &Ring, solver: &Solver, reference: &Motion, looser: &Motion) -> Result<()> {
-    let mut uncertainty = 0.0_f64;
-    for (tight, loose) in reference.iter().zip(looser) {
-        uncertainty = uncertainty.max((tight.energy(ring)? - loose.energy(ring)?).abs());
-    }
+fn print_quality(solver: &Solver, reference: &Motion, looser: &Motion) {
+    let uncertainty = difference(&reference.energy, &looser.energy).fold(0.0, |a: f64, b| a.max(b.abs()));
     println!(
         "\nMidpoint: {:.2} Newton iterations a step, {} of {STEPS} steps damped, worst residual {:.1} × round-off.",
         f64::from(solver.iterations) / STEPS as f64,
@@ -198,38 +207,38 @@ fn print_quality(ring: &Ring, solver: &Solver, reference: &Motion, looser: &Moti
         solver.worst_residual,
     );
     println!("Reference: DOP853 to 1e-13; to 1e-11 its energy differs by at most {uncertainty:.0e}.");
-    Ok(())
 }
 
-fn draw(
-    ring: &Ring,
-    midpoint: &[State<f64, 2>],
-    runge_kutta: &[State<f64, 2>],
-    reference: &[State<f64, 2>],
-) -> Result<PathBuf> {
-    let panel =
-        |title, y, legend, quantity: &dyn Fn(usize, &State<f64, 2>) -> Result<f64>| -> Result<Panel> {
-            let curve = |label, colour, width, motion: &[State<f64, 2>]| -> Result<Curve> {
-                let points = motion.iter().enumerate().map(|(k, state)| Ok((time(k), quantity(k, state)?)));
-                Ok(Curve { label, colour, mark: Mark::Line(width), points: points.collect::<Result<_>>()? })
-            };
-            let curves = vec![
-                curve("reference", colour::REFERENCE, 3, reference)?,
-                curve("Runge–Kutta 4", colour::RUNGE_KUTTA, 2, runge_kutta)?,
-                curve("variational midpoint", colour::VARIATIONAL, 1, midpoint)?,
-            ];
-            Ok(Panel { title, x: "time t (dimensionless)", y, legend, curves })
+fn difference(a: &[f64], b: &[f64]) -> impl Iterator<Item = f64> {
+    a.iter().zip(b).map(|(a, b)| a - b)
+}
+
+/// Energy and angular momentum above, their errors below.
+fn draw(midpoint: &Motion, runge_kutta: &Motion, reference: &Motion) -> Result<PathBuf> {
+    let panel = |title, y, legend, quantity: &dyn Fn(&Motion) -> Vec<f64>| {
+        let curve = |label, colour, width, motion| {
+            let points =
+                quantity(motion).into_iter().enumerate().map(|(k, value)| (time(k), value)).collect();
+            Curve { label, colour, mark: Mark::Line(width), points }
         };
-    let energy = |_, state: &State<f64, 2>| Ok(state.energy(ring)?);
-    let energy_error = |k: usize, state: &State<f64, 2>| Ok(state.energy(ring)? - reference[k].energy(ring)?);
-    let momentum = |_, state: &State<f64, 2>| Ok(angular_momentum(state));
-    let momentum_error =
-        |k: usize, state: &State<f64, 2>| Ok(angular_momentum(state) - angular_momentum(&reference[k]));
+        let curves = vec![
+            curve("reference", colour::REFERENCE, 3, reference),
+            curve("Runge–Kutta 4", colour::RUNGE_KUTTA, 2, runge_kutta),
+            curve("variational midpoint", colour::VARIATIONAL, 1, midpoint),
+        ];
+        Panel { title, x: "time t (dimensionless)", y, legend, curves }
+    };
     let panels = [
-        panel("Energy, h = 0.2", "E (dimensionless)", Corner::UpperRight, &energy)?,
-        panel("Angular momentum, h = 0.2", "J (dimensionless)", Corner::LowerRight, &momentum)?,
-        panel("Error of the energy", "E − reference", Corner::LowerRight, &energy_error)?,
-        panel("Error of the angular momentum", "J − reference", Corner::UpperRight, &momentum_error)?,
+        panel("Energy, h = 0.2", "E (dimensionless)", Corner::UpperRight, &|motion| motion.energy.clone()),
+        panel("Angular momentum, h = 0.2", "J (dimensionless)", Corner::LowerRight, &|motion| {
+            motion.angular_momentum.clone()
+        }),
+        panel("Error of the energy", "E − reference", Corner::LowerRight, &|motion| {
+            difference(&motion.energy, &reference.energy).collect()
+        }),
+        panel("Error of the angular momentum", "J − reference", Corner::UpperRight, &|motion| {
+            difference(&motion.angular_momentum, &reference.angular_momentum).collect()
+        }),
     ];
     picture::write("ring", [1600, 1100], 2, &panels)
 }

@@ -13,9 +13,7 @@ use plotters::coord::Shift;
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::coord::types::RangedCoordf64;
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
-use plotters::element::{
-    Circle, Cross, Drawable, EmptyElement, PathElement, PointCollection, TriangleMarker,
-};
+use plotters::element::{Circle, Drawable, EmptyElement, PathElement, PointCollection, TriangleMarker};
 use plotters::series::LineSeries;
 pub use plotters::style::RGBColor;
 use plotters::style::{BLACK, Color, TRANSPARENT, WHITE};
@@ -43,8 +41,6 @@ pub enum Mark {
     Disc,
     /// An open circle at each point.
     Circle,
-    /// A cross at each point.
-    Cross,
     /// A triangle at each point.
     Triangle,
 }
@@ -100,24 +96,7 @@ const PIXEL: i32 = 8;
 /// # Errors
 /// The file cannot be written.
 pub fn write(name: &str, size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -> Result<PathBuf> {
-    let mut svg = String::new();
-    let units = size.map(|pixels| pixels * PIXEL as u32);
-    {
-        let root = SVGBackend::with_string(&mut svg, units.into()).into_drawing_area();
-        root.fill(&WHITE)?;
-        let areas = root.split_evenly((panels.len().div_ceil(columns), columns));
-        for (area, panel) in areas.iter().zip(panels) {
-            draw(area, panel)?;
-        }
-        root.present()?;
-    }
-    // The picture's size is in pixels; its view box stays in units.
-    let [[width, height], [from_width, from_height]] = [size, units];
-    let svg = svg.replacen(
-        &format!("width=\"{from_width}\" height=\"{from_height}\""),
-        &format!("width=\"{width}\" height=\"{height}\""),
-        1,
-    );
+    let svg = svg(size, columns, panels)?;
     let path = match env::args_os().nth(1) {
         Some(path) => PathBuf::from(path),
         None => {
@@ -129,6 +108,24 @@ pub fn write(name: &str, size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -
         format!("cannot write the picture to {}; give another path as argument", path.display())
     })?;
     Ok(path)
+}
+
+/// The picture, `size` pixels wide and high, with its panels in rows of `columns`.
+fn svg(size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -> Result<String> {
+    let mut svg = String::new();
+    let units = size.map(|pixels| pixels * PIXEL as u32);
+    {
+        let root = SVGBackend::with_string(&mut svg, units.into()).into_drawing_area();
+        root.fill(&WHITE)?;
+        let areas = root.split_evenly((panels.len().div_ceil(columns), columns));
+        for (area, panel) in areas.iter().zip(panels) {
+            draw(area, panel)?;
+        }
+        root.present()?;
+    }
+    // The size becomes one in pixels; the view box stays in units.
+    let header = |[width, height]: [u32; 2]| format!("<svg width=\"{width}\" height=\"{height}\"");
+    Ok(svg.replacen(&header(units), &header(size), 1))
 }
 
 fn draw<'a>(area: &DrawingArea<SVGBackend<'a>, Shift>, panel: &Panel<'_>) -> Result<()> {
@@ -173,7 +170,6 @@ fn draw<'a>(area: &DrawingArea<SVGBackend<'a>, Shift>, panel: &Panel<'_>) -> Res
                 draw_points(&mut chart, curve, move |at| Circle::new(at, 3 * PIXEL, colour.filled()))?
             }
             Mark::Circle => draw_points(&mut chart, curve, move |at| Circle::new(at, 5 * PIXEL, stroke(2)))?,
-            Mark::Cross => draw_points(&mut chart, curve, move |at| Cross::new(at, 5 * PIXEL, stroke(2)))?,
             Mark::Triangle => {
                 draw_points(&mut chart, curve, move |at| {
                     TriangleMarker::new(at, 6 * PIXEL, colour.filled())
@@ -250,4 +246,45 @@ fn extent(values: impl Iterator<Item = f64>, margin: f64) -> Range<f64> {
 fn number(value: f64) -> String {
     let rounded = (value * 1e6).round() / 1e6 + 0.0;
     rounded.to_string().replace('-', "−")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_picture_has_its_size_in_pixels_and_its_words() -> Result<()> {
+        let points = vec![(0.0, -1.0), (1.0, 1.0)];
+        let curves = vec![Curve { label: "a line", colour: colour::REFERENCE, mark: Mark::Line(1), points }];
+        let panel = Panel { title: "Title", x: "time t", y: "q", legend: Corner::UpperLeft, curves };
+        let svg = svg([400, 300], 1, &[panel])?;
+        assert!(
+            svg.starts_with("<svg width=\"400\" height=\"300\" viewBox=\"0 0 3200 2400\""),
+            "{}",
+            &svg[..80]
+        );
+        for word in ["Title", "time t", "q", "a line", "−0.5"] {
+            assert!(svg.lines().any(|line| line == word), "{word}");
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn a_thinned_line_keeps_its_extremes_and_its_order() {
+        let points = [(0.1, 0.0), (0.2, 5.0), (0.3, 1.0), (0.4, -5.0), (0.5, 2.0), (1.1, 3.0)];
+        assert_eq!(thinned(&points, 1.0), [(0.1, 0.0), (0.2, 5.0), (0.4, -5.0), (0.5, 2.0), (1.1, 3.0)]);
+        assert_eq!(thinned(&points, 0.01), points);
+    }
+
+    #[test]
+    fn numbers_are_rounded_and_have_a_minus() {
+        assert_eq!([0.1 + 0.2, -0.05, -0.0, 2000.0].map(number), ["0.3", "−0.05", "0", "2000"]);
+    }
+
+    #[test]
+    fn an_extent_without_width_is_widened() {
+        assert_eq!(extent([1.0, 3.0, f64::NAN].into_iter(), 0.5), 0.0..4.0);
+        assert_eq!(extent([2.0, 2.0].into_iter(), 0.5), 1.0..3.0);
+        assert_eq!(extent([].into_iter(), 0.5), -1.0..1.0);
+    }
 }

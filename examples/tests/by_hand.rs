@@ -180,9 +180,12 @@ fn the_discrete_objects_are_those_of_the_midpoint_rule() {
     }
 }
 
-/// The system by hand with one derivative off by a factor.
+/// Changes a derivative of L or of R.
+type Mistake = fn(&mut Derivatives<f64, 2>, &mut Derivatives<f64, 2>);
+
+/// The system by hand with one mistake.
 struct Wrong {
-    which: fn(&mut Derivatives<f64, 2>, &mut Derivatives<f64, 2>),
+    mistake: Mistake,
 }
 
 impl Wrong {
@@ -198,7 +201,7 @@ impl Lagrangian<2> for Wrong {
 
     fn lagrangian_derivatives(&self, q: &Vector2<f64>, v: &Vector2<f64>) -> Derivatives<f64, 2> {
         let mut l = Self::RIGHT.lagrangian_derivatives(q, v);
-        (self.which)(&mut l, &mut Derivatives::zero());
+        (self.mistake)(&mut l, &mut Derivatives::zero());
         l
     }
 }
@@ -210,7 +213,7 @@ impl Rayleigh<2> for Wrong {
 
     fn rayleigh_derivatives(&self, q: &Vector2<f64>, v: &Vector2<f64>) -> Derivatives<f64, 2> {
         let mut r = Self::RIGHT.rayleigh_derivatives(q, v);
-        (self.which)(&mut Derivatives::zero(), &mut r);
+        (self.mistake)(&mut Derivatives::zero(), &mut r);
         r
     }
 }
@@ -219,9 +222,9 @@ impl Rayleigh<2> for Wrong {
 #[test]
 fn a_wrong_derivative_is_found() {
     const OFF: f64 = 1.0 + 1e-10;
-    let right = Wrong { which: |_, _| {} };
+    let right = Wrong { mistake: |_, _| {} };
     assert!(of_functions(&Ring { k: K }, &right) <= 1.0);
-    let mistakes: [fn(&mut Derivatives<f64, 2>, &mut Derivatives<f64, 2>); 6] = [
+    let mistakes: [Mistake; 6] = [
         |l, _| l.d1 *= OFF,
         |l, _| l.d2 *= OFF,
         |l, _| l.d11 *= OFF,
@@ -229,8 +232,8 @@ fn a_wrong_derivative_is_found() {
         |_, r| r.d2 *= OFF,
         |_, r| r.d22 *= OFF,
     ];
-    for (index, which) in mistakes.into_iter().enumerate() {
-        let worst = of_functions(&Ring { k: K }, &Wrong { which });
+    for (index, mistake) in mistakes.into_iter().enumerate() {
+        let worst = of_functions(&Ring { k: K }, &Wrong { mistake });
         assert!(worst > 1.0, "mistake {index} passed: {worst} units of rounding");
     }
 }
