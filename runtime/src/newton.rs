@@ -35,8 +35,11 @@ const MAX_ITERATIONS: u32 = 50;
 /// A residual of at most this many estimated floors is as good as rounding allows once it has stopped falling.
 const STAGNATION: f64 = 4096.0;
 
-/// The same in units of the measured floor.
-const MEASURED_STAGNATION: f64 = 4.0;
+/// A residual of at most this many floors, estimated or measured, is a root.
+const ACCEPTED: f64 = 4.0;
+
+/// A Newton step that leaves more than this share of the residual calls for a measurement of the rounding.
+const SLOW: f64 = 0.25;
 
 /// Solves value(q, v) = target for v.
 ///
@@ -84,7 +87,7 @@ pub(crate) fn solve<S: Scalar, T, const N: usize>(
             let candidate = v - correction;
             let (value, by_product) = finish(q, &candidate);
             let remaining = value - target;
-            if in_units_of(&remaining, &floor) <= S::constant(4.0) {
+            if in_units_of(&remaining, &floor) <= S::constant(ACCEPTED) {
                 let (residual, floor) = worst(&remaining, &floor);
                 let report = Report {
                     iterations: iteration + 1,
@@ -103,27 +106,27 @@ pub(crate) fn solve<S: Scalar, T, const N: usize>(
             let next = evaluate(&candidate);
             let next_residual = next.value - target;
             let next_size = in_units_of(&next_residual, &floor);
-            if next_size < size {
+            let falls = next_size < size;
+            // Newton's steps contract fast, or not for a reason: rounding is one.
+            if share == S::one() && !(next_size < size * S::constant(SLOW)) {
+                let (best, size) = if falls { (candidate, next_size) } else { (v, size) };
+                if let Some(floor) = rounding_floor(&finish, q, target, &best, &floor, size, falls) {
+                    let correction = if falls { correction.amax() } else { last_correction };
+                    return Ok(at_floor(
+                        finish(q, &best),
+                        target,
+                        best,
+                        &floor,
+                        [iteration + 1, damped],
+                        correction,
+                    ));
+                }
+            }
+            if falls {
                 contraction = next_size / size;
                 last_correction = (correction * share).amax();
                 (v, at_v, residual) = (candidate, next, next_residual);
                 break;
-            }
-            if share == S::one() {
-                let floor =
-                    if size <= S::constant(STAGNATION) { floor } else { floor + rounding(&finish, q, &v) };
-                if size <= S::constant(STAGNATION)
-                    || in_units_of(&residual, &floor) <= S::constant(MEASURED_STAGNATION)
-                {
-                    return Ok(stagnated(
-                        finish(q, &v),
-                        target,
-                        v,
-                        &floor,
-                        [iteration, damped],
-                        last_correction,
-                    ));
-                }
             }
             share = shorter(share, size, next_size);
             if is_negligible(&(correction * share), &v) || share < S::EPSILON * S::EPSILON {
@@ -145,9 +148,29 @@ pub(crate) fn solve<S: Scalar, T, const N: usize>(
     })
 }
 
-/// Accepts an iterate whose residual is at rounding level, though above the estimated floor.
+/// The floor that the residual at `v` has reached, if rounding is what holds it up; `size` is its size in units of the
+/// estimated `floor`, and `falls` whether a Newton step still lowers it.
 #[cold]
-fn stagnated<S: Scalar, T, const N: usize>(
+fn rounding_floor<S: Scalar, T, const N: usize>(
+    finish: impl Fn(&SVector<S, N>, &SVector<S, N>) -> (SVector<S, N>, T),
+    q: &SVector<S, N>,
+    target: &SVector<S, N>,
+    v: &SVector<S, N>,
+    floor: &SVector<S, N>,
+    size: S,
+    falls: bool,
+) -> Option<SVector<S, N>> {
+    if !falls && size <= S::constant(STAGNATION) {
+        return Some(*floor);
+    }
+    let measured = floor + rounding(&finish, q, v);
+    let residual = finish(q, v).0 - target;
+    (in_units_of(&residual, &measured) <= S::constant(ACCEPTED)).then_some(measured)
+}
+
+/// The root at an iterate whose residual rounding keeps above the estimated floor.
+#[cold]
+fn at_floor<S: Scalar, T, const N: usize>(
     (value, by_product): (SVector<S, N>, T),
     target: &SVector<S, N>,
     v: SVector<S, N>,
@@ -203,7 +226,7 @@ fn is_below<S: Scalar, const N: usize>(factor: S, change: &SVector<S, N>, v: &SV
     (0..N).all(|i| change[i].abs() <= factor * v[i].abs())
 }
 
-/// Tells a residual that rounding holds up from one that has no root.
+/// Tells a residual that lost digits hold up from one that has no root.
 #[cold]
 fn give_up<S: Scalar, const N: usize>(
     iteration: u32,
