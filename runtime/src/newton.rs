@@ -29,8 +29,9 @@ pub(crate) struct Solution<S, T, const N: usize> {
     pub(crate) report: Report<S>,
 }
 
-/// Newton's method needs a few iterations where it converges at all; damped ones near a fold take some more.
-const MAX_ITERATIONS: u32 = 50;
+/// Newton's method needs a few iterations near a root; damped ones near a fold, or undamped ones from far out on a power
+/// law, where each takes off a fixed share, need some dozens.
+const MAX_ITERATIONS: u32 = 100;
 
 /// A residual of at most this many estimated floors is as good as rounding allows once it has stopped falling.
 const STAGNATION: f64 = 4096.0;
@@ -263,13 +264,15 @@ fn floor<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,
     v: &SVector<S, N>,
 ) -> SVector<S, N> {
+    // Scaled before they are added up, so that only what overflows itself does.
+    let unit = S::EPSILON * S::constant(4.0);
     SVector::from_fn(|i, _| {
-        let mut sum = target[i].abs();
-        for j in 0..N {
-            sum += (matrix[(i, j)] * v[j]).abs();
-        }
         // Below the normal numbers ε no longer bounds the rounding.
-        sum * (S::EPSILON * S::constant(4.0)) + S::SMALLEST_NORMAL
+        let mut sum = target[i].abs() * unit + S::SMALLEST_NORMAL;
+        for j in 0..N {
+            sum += (matrix[(i, j)] * (v[j] * unit)).abs();
+        }
+        sum
     })
 }
 
