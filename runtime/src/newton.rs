@@ -1,20 +1,15 @@
 //! Newton's method with the analytic matrix, damped where a full step does not lower the residual.
 //!
-//! Residuals are measured in units of their round-off floor, component by component,
-//!
-//! ```text
-//! floorᵢ = 4ε (|targetᵢ| + Σⱼ |Jᵢⱼ||vⱼ|)        v: the iterate that the Newton step leads to
-//! ```
-//!
-//! so that neither the unit of a coordinate nor its neighbours' size matters. This estimate knows nothing of what q
-//! contributes: near an equilibrium away from q = 0 large forces cancel, and v and p go to 0 while the rounding of those
-//! forces stays. Where the residual stops falling above the estimate, its rounding is therefore measured ([`rounding`]).
+//! Residuals are measured in units of their round-off floor, component by component; see [`rounding`].
 
 use nalgebra::{SMatrix, SVector};
 
 use crate::error::{Quantity, StepError};
 use crate::linear::Factors;
 use crate::{Report, Scalar};
+
+mod rounding;
+use rounding::{ACCEPTED, floor, in_units_of, rounding_floor, worst};
 
 /// The function whose root is sought, less its target: value and matrix of derivatives.
 pub(crate) struct Evaluation<S, const N: usize> {
@@ -32,12 +27,6 @@ pub(crate) struct Solution<S, T, const N: usize> {
 /// Newton's method needs a few iterations near a root; damped ones near a fold, or undamped ones from far out on a power
 /// law, where each takes off a fixed share, need some dozens.
 const MAX_ITERATIONS: u32 = 100;
-
-/// A residual of at most this many estimated floors is as good as rounding allows once it has stopped falling.
-const STAGNATION: f64 = 4096.0;
-
-/// A residual of at most this many floors, estimated or measured, is a root.
-const ACCEPTED: f64 = 4.0;
 
 /// A Newton step that leaves more than this share of the residual calls for a measurement of the rounding.
 const SLOW: f64 = 0.25;
@@ -109,7 +98,8 @@ pub(crate) fn solve<S: Scalar, T, const N: usize>(
             let next_size = in_units_of(&next_residual, &floor);
             let falls = next_size < size;
             // Newton's steps contract fast, or not for a reason: rounding is one.
-            if share == S::one() && !(next_size < size * S::constant(SLOW)) {
+            let fast = next_size < size * S::constant(SLOW);
+            if share == S::one() && !fast {
                 let (best, size) = if falls { (candidate, next_size) } else { (v, size) };
                 if let Some(floor) = rounding_floor(&finish, q, target, &best, &floor, size, falls) {
                     let correction = if falls { correction.amax() } else { last_correction };
@@ -149,26 +139,6 @@ pub(crate) fn solve<S: Scalar, T, const N: usize>(
     })
 }
 
-/// The floor that the residual at `v` has reached, if rounding is what holds it up; `size` is its size in units of the
-/// estimated `floor`, and `falls` whether a Newton step still lowers it.
-#[cold]
-fn rounding_floor<S: Scalar, T, const N: usize>(
-    finish: impl Fn(&SVector<S, N>, &SVector<S, N>) -> (SVector<S, N>, T),
-    q: &SVector<S, N>,
-    target: &SVector<S, N>,
-    v: &SVector<S, N>,
-    floor: &SVector<S, N>,
-    size: S,
-    falls: bool,
-) -> Option<SVector<S, N>> {
-    if !falls && size <= S::constant(STAGNATION) {
-        return Some(*floor);
-    }
-    let measured = floor + rounding(&finish, q, v);
-    let residual = finish(q, v).0 - target;
-    (in_units_of(&residual, &measured) <= S::constant(ACCEPTED)).then_some(measured)
-}
-
 /// The root at an iterate whose residual rounding keeps above the estimated floor.
 #[cold]
 fn at_floor<S: Scalar, T, const N: usize>(
@@ -182,29 +152,6 @@ fn at_floor<S: Scalar, T, const N: usize>(
     let (residual, floor) = worst(&(value - target), floor);
     let report = Report { iterations, damped, residual, floor, last_correction };
     Solution { unknown: v, by_product, report }
-}
-
-/// What rounding does to the value: its changes when each entry of q and of v moves by its last place, added up.
-#[cold]
-fn rounding<S: Scalar, T, const N: usize>(
-    finish: impl Fn(&SVector<S, N>, &SVector<S, N>) -> (SVector<S, N>, T),
-    q: &SVector<S, N>,
-    v: &SVector<S, N>,
-) -> SVector<S, N> {
-    let (value, _) = finish(q, v);
-    let mut sum: SVector<S, N> = nalgebra::zero();
-    let mut add = |q: &SVector<S, N>, v: &SVector<S, N>| sum += (finish(q, v).0 - value).abs();
-    for factor in [S::one() + S::EPSILON, S::one() - S::EPSILON] {
-        for i in 0..N {
-            let mut moved = *q;
-            moved[i] *= factor;
-            add(&moved, v);
-            let mut moved = *v;
-            moved[i] *= factor;
-            add(q, &moved);
-        }
-    }
-    sum
 }
 
 /// A share of the Newton step to try after `share` gave `next_size` ≥ `size`: where (1 − s) + C s², the residual's first
@@ -245,57 +192,28 @@ fn give_up<S: Scalar, const N: usize>(
     }
 }
 
-/// The residual that is largest in units of its floor, and this floor.
-#[inline]
-fn worst<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: &SVector<S, N>) -> (S, S) {
-    let mut worst = (residual[0].abs(), floor[0]);
-    for i in 1..N {
-        let other = (residual[i].abs(), floor[i]);
-        if other.0 * worst.1 > worst.0 * other.1 {
-            worst = other;
-        }
-    }
-    worst
-}
-
-#[inline]
-fn floor<S: Scalar, const N: usize>(
-    target: &SVector<S, N>,
-    matrix: &SMatrix<S, N, N>,
-    v: &SVector<S, N>,
-) -> SVector<S, N> {
-    // Scaled before they are added up, so that only what overflows itself does.
-    let unit = S::EPSILON * S::constant(4.0);
-    SVector::from_fn(|i, _| {
-        // Below the normal numbers ε no longer bounds the rounding.
-        let mut sum = target[i].abs() * unit + S::SMALLEST_NORMAL;
-        for j in 0..N {
-            sum += (matrix[(i, j)] * (v[j] * unit)).abs();
-        }
-        sum
-    })
-}
-
-/// max |residualᵢ|/floorᵢ. An exact 0 counts 0, whatever its floor; a NaN or infinite ratio is returned as it is.
-#[inline]
-fn in_units_of<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: &SVector<S, N>) -> S {
-    let mut largest = S::zero();
-    for i in 0..N {
-        if residual[i] != S::zero() {
-            let units = residual[i].abs() / floor[i];
-            if !units.is_finite() {
-                return units;
-            }
-            largest = largest.max(units);
-        }
-    }
-    largest
-}
-
 #[cold]
 fn first_non_finite<S: Scalar, const N: usize>(
     residual: &SVector<S, N>,
     matrix: &SMatrix<S, N, N>,
 ) -> Option<usize> {
     (0..N).find(|&i| !residual[i].is_finite() || matrix.row(i).iter().any(|entry| !entry.is_finite()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shorter_share_lies_where_the_residual_is_least() {
+        // (1 − s) + 2s²: 2 at s = 1, least at ¼.
+        assert_eq!(shorter(1.0, 1.0, 2.0), 0.25);
+        // From the share ½, where it is 1, the same.
+        assert_eq!(shorter(0.5, 1.0, 1.0), 0.25);
+        // Within a tenth and a half of the present share; the least of them where the step left the domain.
+        assert_eq!(shorter(1.0, 1.0, 1.0), 0.5);
+        assert_eq!(shorter(1.0, 1.0, 1e9), 0.1);
+        assert_eq!(shorter(0.5, 1.0, f64::INFINITY), 0.05);
+        assert_eq!(shorter(0.5, 1.0, f64::NAN), 0.05);
+    }
 }
