@@ -34,7 +34,7 @@ impl Chain {
     fn lagrangian(&self, q: [f64; SITES], v: [f64; SITES]) -> f64 {
         let mut lagrangian = -self.spring(q[0]) - self.spring(q[SITES - 1]);
         for i in 0..SITES {
-            lagrangian += 0.5 * (i + 1) as f64 * self.m * v[i] * v[i];
+            lagrangian += 0.5 * self.m * (1.0 + i as f64) * v[i] * v[i];
             if i > 0 {
                 lagrangian -= self.spring(q[i] - q[i - 1]);
             }
