@@ -139,7 +139,7 @@ mod tests {
         let solution = Factors::of(&a).unwrap().solve(&vector![1e-12, 1e12]);
         let expected = vector![1e12 * 2.0 / 3.0, 1e-12 * 2.0 / 3.0];
         for i in 0..2 {
-            assert!((solution[i] / expected[i] - 1.0).abs() < 1e-15, "{solution}");
+            assert!(f64::abs(solution[i] / expected[i] - 1.0) < 1e-15, "{solution}");
         }
     }
 
