@@ -20,6 +20,10 @@ mod trajectory;
 
 #[cfg(feature = "std")]
 pub mod dual;
+#[cfg(feature = "std")]
+pub mod noether;
+#[cfg(feature = "std")]
+pub mod samples;
 
 pub use dalembert_macros::rayleigh_system;
 pub use nalgebra;
