@@ -23,6 +23,8 @@ pub mod dual;
 #[cfg(feature = "std")]
 pub mod noether;
 #[cfg(feature = "std")]
+pub mod rayleigh;
+#[cfg(feature = "std")]
 pub mod samples;
 
 pub use dalembert_macros::rayleigh_system;

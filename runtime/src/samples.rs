@@ -46,6 +46,15 @@ impl<S: fmt::Display, const N: usize> fmt::Display for Segment<S, N> {
     }
 }
 
+/// A point (q, v) of TQ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TangentPoint<S, const N: usize> {
+    /// Configuration.
+    pub q: SVector<S, N>,
+    /// Velocity.
+    pub v: SVector<S, N>,
+}
+
 /// Writes (x, y, …).
 pub(crate) fn coordinates<S: fmt::Display, const N: usize>(
     f: &mut fmt::Formatter<'_>,
@@ -97,6 +106,20 @@ pub fn segments<S: Scalar, const N: usize>(
             let both_ways = |i| share(N + i) * S::constant(2.0) - S::one();
             Segment { q0, q1: SVector::from_fn(|i, _| q0[i] + reach[i] * both_ways(i)) }
         })
+        .collect()
+}
+
+/// `count` points (q, v): q in the box from `low` to `high`, each coordinate of v between ∓`speed`.
+#[must_use]
+pub fn tangent_points<S: Scalar, const N: usize>(
+    low: impl Into<SVector<S, N>>,
+    high: impl Into<SVector<S, N>>,
+    speed: impl Into<SVector<S, N>>,
+    count: usize,
+) -> Vec<TangentPoint<S, N>> {
+    segments(low, high, speed, count)
+        .into_iter()
+        .map(|segment| TangentPoint { q: segment.q0, v: segment.q1 - segment.q0 })
         .collect()
 }
 
