@@ -238,7 +238,11 @@ fn combination(coefficients: &[f64], names: &[String]) -> String {
             (false, false) => " + ",
             (false, true) => " − ",
         };
-        let factor = if c.abs() == 1.0 { String::new() } else { format!("{:.6}·", c.abs()) };
+        let digits = format!("{:.6}", c.abs());
+        let factor = match digits.trim_end_matches('0').trim_end_matches('.') {
+            "1" => String::new(),
+            digits => format!("{digits}·"),
+        };
         text.push_str(&format!("{sign}{factor}{name}"));
     }
     text
