@@ -133,3 +133,33 @@ fn samples_that_decide_nothing_are_refused() {
     segments[3].q1[0] = f64::NAN;
     assert_eq!(noether.symmetry(&shear, &segments).unwrap_err(), SampleError::NonFinite { index: 3 });
 }
+
+/// The same in single precision.
+#[derive(Clone, Copy)]
+struct Single {
+    k: f32,
+}
+
+#[rayleigh_system]
+impl Single {
+    fn lagrangian(&self, q: [f32; 2], v: [f32; 2]) -> f32 {
+        let s = q[0] * q[0] + q[1] * q[1];
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - s * s
+    }
+    fn rayleigh(&self, v: [f32; 2]) -> f32 {
+        0.5 * self.k * (v[0] * v[0] + v[1] * v[1])
+    }
+}
+
+/// Tolerances follow the scalar type: f32 rounding is no loss of a symmetry, and drag is still seen.
+#[test]
+fn single_precision_is_judged_by_its_own_rounding() {
+    let segments = samples::segments([-1.0_f32; 2], [1.0; 2], [0.1; 2], 100);
+    let verdict = |k| {
+        let system = Single { k };
+        Noether::new(&system, Midpoint, 0.1).symmetry(&Generator::rotation(0, 1), &segments).unwrap()
+    };
+    let free = verdict(0.0);
+    assert!(free.is_conserved() && free.is_consistent() && free.defect.worst.value.abs() > 1e-10, "{free}");
+    assert!(!verdict(0.1).is_conserved());
+}
