@@ -158,6 +158,15 @@ impl<S: Scalar, const N: usize> fmt::Debug for Generator<S, N> {
 /// The bracket of vector fields, [ξ, η] = Dη ξ − Dξ η, at q.
 ///
 /// For a left action, ξ ↦ ξ_Q reverses the sign of the bracket of the Lie algebra; subalgebras are the same.
+///
+/// ```
+/// use dalembert::nalgebra::vector;
+/// use dalembert::noether::{Generator, bracket};
+///
+/// // [∂x, x ∂y − y ∂x] = ∂y
+/// let (x, rotation) = (Generator::translation("x", [1.0, 0.0]), Generator::rotation(0, 1));
+/// assert_eq!(bracket(&x, &rotation, &vector![0.3, 0.7]), vector![0.0, 1.0]);
+/// ```
 pub fn bracket<S: Scalar, const N: usize>(
     xi: &impl VectorField<N, Scalar = S>,
     eta: &impl VectorField<N, Scalar = S>,

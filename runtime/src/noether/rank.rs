@@ -84,11 +84,10 @@ pub(crate) fn null_space(conditions: &[Conditions], tolerance: f64) -> (RankDeci
     let rows: usize = conditions.iter().map(|block| block.values.nrows()).sum();
     let mut scaled = DMatrix::zeros(rows, columns);
     let mut first = 0;
-    for (block, scale) in conditions.iter().zip(&row_scales) {
-        for ((i, j), target) in block.values.row_iter().enumerate().flat_map(|(i, row)| {
-            row.iter().enumerate().map(|(j, value)| ((i, j), *value)).collect::<Vec<_>>()
-        }) {
-            scaled[(first + i, j)] = target / (scale * column_scales[j]);
+    for (block, row_scale) in conditions.iter().zip(&row_scales) {
+        for (j, column_scale) in column_scales.iter().enumerate() {
+            let column = block.values.column(j) / (row_scale * column_scale);
+            scaled.view_mut((first, j), (column.len(), 1)).copy_from(&column);
         }
         first += block.values.nrows();
     }

@@ -1,6 +1,6 @@
 use core::fmt;
 
-use super::{Defect, Generator, Noether};
+use super::{Generator, Noether};
 use crate::samples::{SampleError, Segment, Tolerance, Worst};
 use crate::{Discrete, Scalar};
 
@@ -97,13 +97,12 @@ where
             let jump = self.momentum_map_plus(generator, q0, q1) - self.momentum_map_minus(generator, q0, q1);
             jump.widen() - terms[index].defect.total()
         };
-        let of = |defect: &Defect<f64>| (defect.lagrangian, defect.force);
         Ok(Symmetry {
             generator: generator.name().to_owned(),
             h: self.h.widen(),
             samples: segments.len(),
-            lagrangian: contribution(&|index, _| of(&terms[index].defect).0, of_lagrangian)?,
-            force: contribution(&|index, _| of(&terms[index].defect).1, of_force)?,
+            lagrangian: contribution(&|index, _| terms[index].defect.lagrangian, of_lagrangian)?,
+            force: contribution(&|index, _| terms[index].defect.force, of_force)?,
             defect: contribution(&|index, _| terms[index].defect.total(), of_lagrangian + of_force)?,
             identity: contribution(&identity, of_lagrangian + of_force)?,
         })
