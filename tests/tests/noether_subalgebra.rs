@@ -153,6 +153,33 @@ fn what_keeps_j_need_not_be_closed() {
     assert!(report.conserved.closure.is_closed(), "{report}");
 }
 
+/// A central potential given as a force: f_d = −h dU(q̄) is closed, so that ι_ξ df_d = 0 although f_d varies along ξ.
+#[derive(Clone, Copy)]
+struct Attracted {
+    off_centre: f64,
+}
+
+#[rayleigh_system]
+impl Attracted {
+    fn lagrangian(&self, _q: [f64; 3], v: [f64; 3]) -> f64 {
+        0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+    }
+    fn force(&self, q: [f64; 3], _v: [f64; 3]) -> [f64; 3] {
+        let s = q[0] * q[0] + q[1] * q[1] + q[2] * q[2];
+        [-s * q[0], -s * q[1], -s * q[2] - self.off_centre]
+    }
+}
+
+#[test]
+fn a_closed_central_force_leaves_all_rotations() {
+    let report = subalgebra(&Attracted { off_centre: 0.0 }, &so3());
+    assert_eq!((report.conserved.dimension(), report.invariant.dimension()), (3, 3), "{report}");
+    // Positive control: a uniform pull along z leaves the rotations about z.
+    let report = subalgebra(&Attracted { off_centre: 0.1 }, &so3());
+    assert_eq!(report.conserved.basis, [[0.0, 0.0, 1.0]], "{report}");
+    assert_eq!(report.invariant.basis, [[0.0, 0.0, 1.0]], "{report}");
+}
+
 /// A dimension that hangs on rounding is announced.
 #[test]
 fn a_rank_without_a_gap_says_so() {

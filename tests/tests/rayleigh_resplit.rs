@@ -3,7 +3,7 @@
 
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::rayleigh::Resplit;
-use dalembert::{Discrete, Midpoint, rayleigh_system, samples};
+use dalembert::{Discrete, Midpoint, Trapezoidal, rayleigh_system, samples};
 
 /// Friction that depends on q and a force that drives: not Rayleigh.
 #[derive(Clone, Copy)]
@@ -11,7 +11,7 @@ struct Driven {
     m: f64,
 }
 
-#[rayleigh_system]
+#[rayleigh_system(rule = [midpoint, trapezoidal])]
 impl Driven {
     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
         0.5 * self.m * (1.0 + q[0] * q[0]) * v[0] * v[0] + q[0].cos()
@@ -41,8 +41,8 @@ impl Plane {
 }
 
 /// −D1 L_d⁺ and D2 L_d⁻ by central differences of order 4, whose error is about 1e-12 here.
-fn momenta<L: Discrete<Midpoint, N, Scalar = f64>, const N: usize>(
-    resplit: &Resplit<'_, L, Midpoint, N>,
+fn momenta<L: Discrete<R, N, Scalar = f64>, R, const N: usize>(
+    resplit: &Resplit<'_, L, R, N>,
     q0: &SVector<f64, N>,
     q1: &SVector<f64, N>,
 ) -> (SVector<f64, N>, SVector<f64, N>) {
@@ -63,10 +63,12 @@ fn momenta<L: Discrete<Midpoint, N, Scalar = f64>, const N: usize>(
     )
 }
 
-#[test]
-fn one_degree_of_freedom_always_has_one() {
+fn driven_has_one<R: Copy>(rule: R)
+where
+    Driven: Discrete<R, 1, Scalar = f64>,
+{
     let (system, h) = (Driven { m: 1.4 }, 0.2);
-    let resplit = Resplit::new(&system, Midpoint, h, [0.1]);
+    let resplit = Resplit::new(&system, rule, h, [0.1]);
     let segments = samples::segments([-1.5], [1.5], [0.4], 40);
     let report = resplit.check(&segments).unwrap();
     assert!(report.exists() && !report.structure.is_rayleigh(), "{report}");
@@ -79,6 +81,13 @@ fn one_degree_of_freedom_always_has_one() {
         assert!((l.value + r.value - resplit.modified_plus(&q0, &q1).value).abs() < 1e-14);
         assert!((l.value - r.value - resplit.modified_minus(&q0, &q1).value).abs() < 1e-14);
     }
+}
+
+#[test]
+fn one_degree_of_freedom_always_has_one() {
+    driven_has_one(Midpoint);
+    // Here f⁻ and f⁺ differ.
+    driven_has_one(Trapezoidal);
 }
 
 #[test]
