@@ -17,6 +17,12 @@ mod trajectory;
 
 #[cfg(feature = "std")]
 pub mod dual;
+#[cfg(feature = "std")]
+pub mod noether;
+#[cfg(feature = "std")]
+pub mod rayleigh;
+#[cfg(feature = "std")]
+pub mod samples;
 
 pub use dalembert_macros::rayleigh_system;
 pub use nalgebra;
