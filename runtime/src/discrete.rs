@@ -11,7 +11,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::derivatives::linear;
 use crate::error::{Quantity, StepError};
-use crate::newton::{self, Evaluation};
+use crate::newton;
 use crate::state::require_regular;
 use crate::{CovectorDerivatives, Derivatives, Lagrangian, Rayleigh, Scalar, State};
 
@@ -257,20 +257,9 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
                 rest
             }
         };
-        let solution = newton::solve(
-            |v| {
-                let kernel = self.step_kernel(q0, v, h);
-                Evaluation { value: kernel.p0, matrix: kernel.matrix }
-            },
-            |q0, v| {
-                let momenta = self.momenta(q0, v, h);
-                (momenta.p0, momenta.p1)
-            },
-            q0,
-            p0,
-            guess,
-        )?;
-        let state = State { q: q0 + solution.unknown * h, p: solution.by_product };
+        let solution =
+            newton::solve(|q0, v| self.step_kernel(q0, v, h), |q0, v| self.momenta(q0, v, h), state, guess)?;
+        let state = State { q: q0 + solution.unknown * h, p: solution.momenta.p1 };
         StepError::require_finite(&state.q, Quantity::Configuration)?;
         StepError::require_finite(&state.p, Quantity::Momentum)?;
         Ok(Step { state, velocity: solution.unknown, report: solution.report })

@@ -4,23 +4,18 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::discrete::{Momenta, StepKernel};
 use crate::error::{Quantity, StepError};
-use crate::linear::Factors;
-use crate::{Report, Scalar};
+use crate::linear::{self, Singular};
+use crate::{Report, Scalar, State};
 
 mod rounding;
-use rounding::{ACCEPTED, floor, in_units_of, rounding_floor, worst};
+use rounding::{AT_FLOOR, STAGNATION, estimated_floor, in_units_of, rounding, worst};
 
-/// The function whose root is sought, less its target: value and matrix of derivatives.
-pub(crate) struct Evaluation<S, const N: usize> {
-    pub(crate) value: SVector<S, N>,
-    pub(crate) matrix: SMatrix<S, N, N>,
-}
-
-/// A root, with what the last evaluation gave beside it.
-pub(crate) struct Solution<S, T, const N: usize> {
+/// A root, with both momenta there.
+pub(crate) struct Solution<S, const N: usize> {
     pub(crate) unknown: SVector<S, N>,
-    pub(crate) by_product: T,
+    pub(crate) momenta: Momenta<S, N>,
     pub(crate) report: Report<S>,
 }
 
@@ -28,130 +23,149 @@ pub(crate) struct Solution<S, T, const N: usize> {
 /// law, where each takes off a fixed share, need some dozens.
 const MAX_ITERATIONS: u32 = 100;
 
-/// A Newton step that leaves more than this share of the residual calls for a measurement of the rounding.
+/// A contraction above this is not that of Newton's method: rounding slows it, or the root is far.
 const SLOW: f64 = 0.25;
 
-/// Solves value(q, v) = target for v.
-///
-/// `evaluate` gives value and matrix; `finish` the value alone, with the by-product wanted at the root. The residual that
-/// the report states is the one that `finish` measured there. `q` is what the value depends on beside v, given to
-/// `finish` so that the effect of rounding it can be measured.
-#[inline]
-pub(crate) fn solve<S: Scalar, T, const N: usize>(
-    evaluate: impl Fn(&SVector<S, N>) -> Evaluation<S, N>,
-    finish: impl Fn(&SVector<S, N>, &SVector<S, N>) -> (SVector<S, N>, T),
-    q: &SVector<S, N>,
-    target: &SVector<S, N>,
-    guess: SVector<S, N>,
-) -> Result<Solution<S, T, N>, StepError> {
-    let mut v = guess;
-    let mut at_v = evaluate(&v);
-    let mut residual = at_v.value - target;
-    let mut last_correction = S::zero();
-    let mut contraction = S::one();
-    let mut damped = 0;
+/// Both momenta as a function of (q, v); behind a pointer where it is called seldom.
+type Finish<'f, S, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N> + 'f;
 
-    for iteration in 0..MAX_ITERATIONS {
-        let factors = Factors::of(&at_v.matrix).map_err(|singular| {
-            match first_non_finite(&residual, &at_v.matrix) {
-                Some(index) => StepError::NonFinite { quantity: Quantity::Derivatives, index },
-                // Damped descent ends at a singular matrix where the residual has its least value, above 0.
-                None if damped > 0 => {
-                    StepError::NoRealSolution { iteration, residual: residual.amax().widen() }
-                }
-                None => StepError::SingularNewtonMatrix { iteration, column: singular.column },
+/// An iterate, the Newton step from it, and the measure of its residual.
+struct Iterate<S, const N: usize> {
+    v: SVector<S, N>,
+    residual: SVector<S, N>,
+    /// The full Newton step leads to v − correction.
+    correction: SVector<S, N>,
+    floor: SVector<S, N>,
+    /// max |residualᵢ|/floorᵢ.
+    size: S,
+}
+
+/// Solves p0(q, v) = p for v at the `state` (q, p).
+///
+/// `evaluate` gives p0 and the Newton matrix, `finish` both momenta. The residual that the report states is the one that
+/// `finish` measured at the root.
+#[inline]
+pub(crate) fn solve<S: Scalar, const N: usize>(
+    evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N>,
+    finish: impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
+    state: &State<S, N>,
+    guess: SVector<S, N>,
+) -> Result<Solution<S, N>, StepError> {
+    let State { q, p } = state;
+    let mut trial = guess;
+    let mut share = S::one();
+    let mut contraction = S::one();
+    let mut iterations = 0;
+    let mut damped = 0;
+    let mut iterate: Option<Iterate<S, N>> = None;
+
+    loop {
+        let kernel = evaluate(q, &trial);
+        let residual = kernel.p0 - p;
+        if let Some(last) = &iterate {
+            let size = in_units_of(&residual, &last.floor);
+            let lower = size < last.size;
+            // A contraction that is none, or that is no longer Newton's, may be rounding.
+            if share == S::one()
+                && !(lower && size <= last.size * S::constant(SLOW))
+                && let Some(solution) =
+                    stagnated(&finish, state, last, lower.then_some(&trial), [iterations, damped])
+            {
+                return Ok(solution);
             }
-        })?;
-        let correction = factors.solve(&residual);
-        let floor = floor(target, &at_v.matrix, &(v - correction));
+            if !lower {
+                share = shorter(share, last.size, size);
+                let change = last.correction * share;
+                if is_negligible(&change, &last.v) || share < S::EPSILON * S::EPSILON {
+                    return Err(match first_non_finite(&residual, &kernel.matrix) {
+                        Some(index) => StepError::NonFinite { quantity: Quantity::Derivatives, index },
+                        None => give_up(iterations, last),
+                    });
+                }
+                trial = last.v - change;
+                continue;
+            }
+            damped += u32::from(share < S::one());
+            contraction = size / last.size;
+        }
+
+        let correction = linear::solve(&kernel.matrix, &residual)
+            .map_err(|singular| unsolvable(singular, &residual, &kernel.matrix, iterations, damped))?;
+        let v = trial;
+        trial = v - correction;
+        let floor = estimated_floor(p, &kernel.matrix, &trial);
         let size = in_units_of(&residual, &floor);
         if !size.is_finite()
-            && let Some(index) = first_non_finite(&residual, &at_v.matrix)
+            && let Some(index) = first_non_finite(&residual, &kernel.matrix)
         {
             return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
         }
+        if iterations == MAX_ITERATIONS {
+            let (residual, floor) = worst(&residual, &floor);
+            return Err(StepError::NotConverged {
+                iterations,
+                residual: residual.widen(),
+                floor: floor.widen(),
+            });
+        }
+        iterations += 1;
 
-        // Newton's residuals satisfy |r′| ≈ C|r|², so one contraction predicts the next.
-        let predicted = contraction * contraction * size;
-        if predicted <= S::one() || size <= S::one() {
-            let candidate = v - correction;
-            let (value, by_product) = finish(q, &candidate);
-            let remaining = value - target;
-            if in_units_of(&remaining, &floor) <= S::constant(ACCEPTED) {
+        // Newton's residuals fall as |r′| ≈ C|r|², so the last contraction c predicts the next one, c². Where that ends at
+        // the floor, the matrix is not needed again.
+        if size <= S::one() || contraction * contraction * size <= S::one() {
+            let momenta = finish(q, &trial);
+            let remaining = momenta.p0 - p;
+            if in_units_of(&remaining, &floor) <= S::constant(AT_FLOOR) {
                 let (residual, floor) = worst(&remaining, &floor);
-                let report = Report {
-                    iterations: iteration + 1,
-                    damped,
-                    residual,
-                    floor,
-                    last_correction: correction.amax(),
-                };
-                return Ok(Solution { unknown: candidate, by_product, report });
+                let last_correction = correction.amax();
+                let report = Report { iterations, damped, residual, floor, last_correction };
+                return Ok(Solution { unknown: trial, momenta, report });
             }
         }
-
-        let mut share = S::one();
-        loop {
-            let candidate = v - correction * share;
-            let next = evaluate(&candidate);
-            let next_residual = next.value - target;
-            let next_size = in_units_of(&next_residual, &floor);
-            let falls = next_size < size;
-            // Newton's steps contract fast, or not for a reason: rounding is one.
-            let fast = next_size < size * S::constant(SLOW);
-            if share == S::one() && !fast {
-                let (best, size) = if falls { (candidate, next_size) } else { (v, size) };
-                if let Some(floor) = rounding_floor(&finish, q, target, &best, &floor, size, falls) {
-                    let correction = if falls { correction.amax() } else { last_correction };
-                    return Ok(at_floor(
-                        finish(q, &best),
-                        target,
-                        best,
-                        &floor,
-                        [iteration + 1, damped],
-                        correction,
-                    ));
-                }
-            }
-            if falls {
-                contraction = next_size / size;
-                last_correction = (correction * share).amax();
-                (v, at_v, residual) = (candidate, next, next_residual);
-                break;
-            }
-            share = shorter(share, size, next_size);
-            if is_negligible(&(correction * share), &v) || share < S::EPSILON * S::EPSILON {
-                return Err(match first_non_finite(&next_residual, &next.matrix) {
-                    Some(index) => StepError::NonFinite { quantity: Quantity::Derivatives, index },
-                    None => give_up(iteration, &residual, &floor, &correction, &v),
-                });
-            }
-        }
-        damped += u32::from(share < S::one());
+        share = S::one();
+        iterate = Some(Iterate { v, residual, correction, floor, size });
     }
-
-    let floor = floor(target, &at_v.matrix, &v);
-    let (residual, floor) = worst(&residual, &floor);
-    Err(StepError::NotConverged {
-        iterations: MAX_ITERATIONS,
-        residual: residual.widen(),
-        floor: floor.widen(),
-    })
 }
 
-/// The root at an iterate whose residual rounding keeps above the estimated floor.
+/// The root at an iterate whose residual has stopped falling, if rounding holds the residual up there. `lower` is where the
+/// Newton step led, if that still lowered it.
 #[cold]
-fn at_floor<S: Scalar, T, const N: usize>(
-    (value, by_product): (SVector<S, N>, T),
-    target: &SVector<S, N>,
-    v: SVector<S, N>,
-    floor: &SVector<S, N>,
+fn stagnated<S: Scalar, const N: usize>(
+    finish: &Finish<'_, S, N>,
+    state: &State<S, N>,
+    last: &Iterate<S, N>,
+    lower: Option<&SVector<S, N>>,
     [iterations, damped]: [u32; 2],
-    last_correction: S,
-) -> Solution<S, T, N> {
-    let (residual, floor) = worst(&(value - target), floor);
-    let report = Report { iterations, damped, residual, floor, last_correction };
-    Solution { unknown: v, by_product, report }
+) -> Option<Solution<S, N>> {
+    let unknown = *lower.unwrap_or(&last.v);
+    let momenta = finish(&state.q, &unknown);
+    let residual = momenta.p0 - state.p;
+    let measured = last.floor + rounding(|q, v| finish(q, v).p0, &state.q, &unknown);
+    let explained = in_units_of(&residual, &measured) <= S::constant(AT_FLOOR);
+    let close = last.size <= S::constant(STAGNATION);
+    if !explained && (lower.is_some() || !close) {
+        return None;
+    }
+    let (residual, floor) = worst(&residual, if explained { &measured } else { &last.floor });
+    let report = Report { iterations, damped, residual, floor, last_correction: last.correction.amax() };
+    Some(Solution { unknown, momenta, report })
+}
+
+/// What a Newton matrix that cannot be solved with means.
+#[cold]
+fn unsolvable<S: Scalar, const N: usize>(
+    singular: Singular,
+    residual: &SVector<S, N>,
+    matrix: &SMatrix<S, N, N>,
+    iteration: u32,
+    damped: u32,
+) -> StepError {
+    match first_non_finite(residual, matrix) {
+        Some(index) => StepError::NonFinite { quantity: Quantity::Derivatives, index },
+        // Damped descent ends at a singular matrix where the residual has its least value, above 0.
+        None if damped > 0 => StepError::NoRealSolution { iteration, residual: residual.amax().widen() },
+        None => StepError::SingularNewtonMatrix { iteration, column: singular.column },
+    }
 }
 
 /// A share of the Newton step to try after `share` gave `next_size` ≥ `size`: where (1 − s) + C s², the residual's first
@@ -174,21 +188,15 @@ fn is_below<S: Scalar, const N: usize>(factor: S, change: &SVector<S, N>, v: &SV
     (0..N).all(|i| change[i].abs() <= factor * v[i].abs())
 }
 
-/// Tells a residual that lost digits hold up from one that has no root.
+/// Tells a residual that rounding holds up from one that has no root.
 #[cold]
-fn give_up<S: Scalar, const N: usize>(
-    iteration: u32,
-    residual: &SVector<S, N>,
-    floor: &SVector<S, N>,
-    correction: &SVector<S, N>,
-    v: &SVector<S, N>,
-) -> StepError {
+fn give_up<S: Scalar, const N: usize>(iteration: u32, last: &Iterate<S, N>) -> StepError {
     // Near a fold the matrix is almost singular and the correction large; lost digits leave it small.
-    if is_below(S::EPSILON.cbrt(), correction, v) {
-        let (residual, floor) = worst(residual, floor);
+    if is_below(S::EPSILON.cbrt(), &last.correction, &last.v) {
+        let (residual, floor) = worst(&last.residual, &last.floor);
         StepError::LostPrecision { residual: residual.widen(), floor: floor.widen() }
     } else {
-        StepError::NoRealSolution { iteration, residual: residual.amax().widen() }
+        StepError::NoRealSolution { iteration, residual: last.residual.amax().widen() }
     }
 }
 

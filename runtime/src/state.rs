@@ -1,11 +1,11 @@
 //! A point of T*Q.
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use crate::error::{Quantity, StepError};
-use crate::linear::Factors;
-use crate::newton::{self, Evaluation};
-use crate::{Lagrangian, Scalar};
+use crate::linear;
+use crate::newton;
+use crate::{Lagrangian, Momenta, Scalar, StepKernel};
 
 /// Configuration and momentum, a point (q, p) of T*Q.
 ///
@@ -46,15 +46,18 @@ impl<S: Scalar, const N: usize> State<S, N> {
     pub fn velocity<L: Lagrangian<N, Scalar = S>>(&self, system: &L) -> Result<SVector<S, N>, StepError> {
         StepError::require_finite(&self.q, Quantity::Configuration)?;
         StepError::require_finite(&self.p, Quantity::Momentum)?;
-        let transform = |v: &SVector<S, N>| {
-            let l = system.lagrangian_derivatives(&self.q, v);
-            Evaluation { value: l.d2, matrix: l.d22 }
+        // 𝔽L is the limit h → 0 of the discrete transforms.
+        let transform = |q: &SVector<S, N>, v: &SVector<S, N>| {
+            let l = system.lagrangian_derivatives(q, v);
+            StepKernel { p0: l.d2, matrix: l.d22 }
         };
         let solution = newton::solve(
             transform,
-            |q, v| (system.lagrangian_gradient(q, v).d2, ()),
-            &self.q,
-            &self.p,
+            |q, v| {
+                let p = system.lagrangian_gradient(q, v).d2;
+                Momenta { p0: p, p1: p }
+            },
+            self,
             nalgebra::zero(),
         )
         .map_err(|error| match error {
@@ -75,13 +78,11 @@ impl<S: Scalar, const N: usize> State<S, N> {
 
 /// Fails where ∂²L/∂v² is not finite or cannot be inverted.
 pub(crate) fn require_regular<S: Scalar, const N: usize>(
-    mass_matrix: &nalgebra::SMatrix<S, N, N>,
+    mass_matrix: &SMatrix<S, N, N>,
 ) -> Result<(), StepError> {
     if let Some(index) = (0..N).find(|&i| mass_matrix.row(i).iter().any(|entry| !entry.is_finite())) {
         return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
     }
-    match Factors::of(mass_matrix) {
-        Ok(_) => Ok(()),
-        Err(singular) => Err(StepError::DegenerateLagrangian { column: singular.column }),
-    }
+    linear::require_regular(mass_matrix)
+        .map_err(|singular| StepError::DegenerateLagrangian { column: singular.column })
 }

@@ -19,7 +19,8 @@ where
     let states: Vec<_> = std::iter::once(start)
         .chain(Trajectory::new(system, rule, H, start).take(50).map(|step| step.unwrap().state))
         .collect();
-    for [a, b, c] in states.array_windows() {
+    for window in states.windows(3) {
+        let [a, b, c] = [window[0], window[1], window[2]];
         // A configuration is known to ε|q|, a momentum made of two to ε|q|/h times the mass.
         let scale = b.p.amax() + (a.q.amax() + b.q.amax()) / H;
         let tolerance = 1e-14 * scale;

@@ -3,7 +3,7 @@
 //! Each component has its own,
 //!
 //! ```text
-//! floorᵢ = 4ε (|targetᵢ| + Σⱼ |Jᵢⱼ||vⱼ|)        v: the iterate that the Newton step leads to
+//! floorᵢ = 4ε (|pᵢ| + Σⱼ |Jᵢⱼ||vⱼ|)        v: the iterate that the Newton step leads to
 //! ```
 //!
 //! so that neither the unit of a coordinate nor its neighbours' size matters. This estimate knows nothing of what q
@@ -16,15 +16,15 @@ use crate::Scalar;
 
 /// A residual that has stopped falling is accepted up to this many floors, also where no rounding of q or v explains it:
 /// the report then shows it far above its floor.
-const STAGNATION: f64 = 4096.0;
+pub(super) const STAGNATION: f64 = 4096.0;
 
 /// A residual of at most this many floors, estimated or measured, is a root.
-pub(super) const ACCEPTED: f64 = 4.0;
+pub(super) const AT_FLOOR: f64 = 4.0;
 
-/// The estimate 4ε (|targetᵢ| + Σⱼ |Jᵢⱼ||vⱼ|), component by component.
+/// The floor that the terms of p0 give, 4ε (|pᵢ| + Σⱼ |Jᵢⱼ||vⱼ|).
 #[inline]
-pub(super) fn floor<S: Scalar, const N: usize>(
-    target: &SVector<S, N>,
+pub(super) fn estimated_floor<S: Scalar, const N: usize>(
+    p: &SVector<S, N>,
     matrix: &SMatrix<S, N, N>,
     v: &SVector<S, N>,
 ) -> SVector<S, N> {
@@ -32,7 +32,7 @@ pub(super) fn floor<S: Scalar, const N: usize>(
     let unit = S::EPSILON * S::constant(4.0);
     SVector::from_fn(|i, _| {
         // Below the normal numbers ε no longer bounds the rounding.
-        let mut sum = target[i].abs() * unit + S::SMALLEST_NORMAL;
+        let mut sum = p[i].abs() * unit + S::SMALLEST_NORMAL;
         for j in 0..N {
             sum += (matrix[(i, j)] * (v[j] * unit)).abs();
         }
@@ -69,36 +69,16 @@ pub(super) fn worst<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: 
     worst
 }
 
-/// The floor that the residual at `v` has reached, if rounding is what holds it up; `size` is its size in units of the
-/// estimated `floor`, and `falls` whether a Newton step still lowers it.
+/// What rounding does to p0: its changes when each entry of q and of v moves by its last place, added up.
 #[cold]
-pub(super) fn rounding_floor<S: Scalar, T, const N: usize>(
-    finish: impl Fn(&SVector<S, N>, &SVector<S, N>) -> (SVector<S, N>, T),
-    q: &SVector<S, N>,
-    target: &SVector<S, N>,
-    v: &SVector<S, N>,
-    floor: &SVector<S, N>,
-    size: S,
-    falls: bool,
-) -> Option<SVector<S, N>> {
-    let measured = floor + rounding(&finish, q, v);
-    let residual = finish(q, v).0 - target;
-    if in_units_of(&residual, &measured) <= S::constant(ACCEPTED) {
-        return Some(measured);
-    }
-    (!falls && size <= S::constant(STAGNATION)).then_some(*floor)
-}
-
-/// What rounding does to the value: its changes when each entry of q and of v moves by its last place, added up.
-#[cold]
-fn rounding<S: Scalar, T, const N: usize>(
-    finish: impl Fn(&SVector<S, N>, &SVector<S, N>) -> (SVector<S, N>, T),
+pub(super) fn rounding<S: Scalar, const N: usize>(
+    p0: impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
     q: &SVector<S, N>,
     v: &SVector<S, N>,
 ) -> SVector<S, N> {
-    let (value, _) = finish(q, v);
+    let value = p0(q, v);
     let mut sum: SVector<S, N> = nalgebra::zero();
-    let mut add = |q: &SVector<S, N>, v: &SVector<S, N>| sum += (finish(q, v).0 - value).abs();
+    let mut add = |q: &SVector<S, N>, v: &SVector<S, N>| sum += (p0(q, v) - value).abs();
     for factor in [S::one() + S::EPSILON, S::one() - S::EPSILON] {
         for i in 0..N {
             let mut moved = *q;
@@ -133,14 +113,14 @@ mod tests {
 
     #[test]
     fn floors_neither_vanish_nor_overflow() {
-        let floor = |p: f64| floor(&vector![p], &matrix![1.0], &vector![p])[0];
+        let floor = |p: f64| estimated_floor(&vector![p], &matrix![1.0], &vector![p])[0];
         assert_eq!(floor(1.0), 8.0 * f64::EPSILON + f64::MIN_POSITIVE);
         assert!(floor(1e308) < 1e294 && floor(1e-320) == f64::MIN_POSITIVE);
     }
 
     #[test]
     fn the_rounding_of_cancelling_forces_is_measured() {
-        let value = |q: &SVector<f64, 1>, v: &SVector<f64, 1>| (vector![v[0] + 1e3 * (q[0] - 0.7)], ());
+        let value = |q: &SVector<f64, 1>, v: &SVector<f64, 1>| vector![v[0] + 1e3 * (q[0] - 0.7)];
         // The last place of 0.7 is ε/2; q moves by one or two of them either way.
         let measured = rounding(value, &vector![0.7], &vector![0.0])[0];
         assert!((1e3 * f64::EPSILON..=2e3 * f64::EPSILON).contains(&measured), "{measured:e}");
