@@ -10,7 +10,7 @@ use crate::linear::{self, Singular};
 use crate::{Report, Scalar, State};
 
 mod rounding;
-use rounding::{ACCEPTED, floor, in_units_of, rounding_floor, worst};
+use rounding::{AT_FLOOR, STAGNATION, estimated_floor, in_units_of, rounding, worst};
 
 /// A root, with both momenta there.
 pub(crate) struct Solution<S, const N: usize> {
@@ -45,7 +45,6 @@ struct Iterate<S, const N: usize> {
 /// `evaluate` gives p0 and the Newton matrix, `finish` both momenta. The residual that the report states is the one that
 /// `finish` measured at the root.
 #[inline]
-#[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a size that is NaN is no contraction")]
 pub(crate) fn solve<S: Scalar, const N: usize>(
     evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N>,
     finish: impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
@@ -66,16 +65,13 @@ pub(crate) fn solve<S: Scalar, const N: usize>(
         if let Some(last) = &iterate {
             let size = in_units_of(&residual, &last.floor);
             let lower = size < last.size;
-            // Newton's steps contract fast, or not for a reason: rounding is one.
-            if share == S::one() && !(size < last.size * S::constant(SLOW)) {
-                let (best, size) = if lower { (&trial, size) } else { (&last.v, last.size) };
-                if let Some((momenta, floor)) = rounding_floor(&finish, state, best, &last.floor, size, lower)
-                {
-                    let (residual, floor) = worst(&(momenta.p0 - p), &floor);
-                    let last_correction = last.correction.amax();
-                    let report = Report { iterations, damped, residual, floor, last_correction };
-                    return Ok(Solution { unknown: *best, momenta, report });
-                }
+            // A contraction that is none, or that is no longer Newton's, may be rounding.
+            if share == S::one()
+                && !(lower && size <= last.size * S::constant(SLOW))
+                && let Some(solution) =
+                    stagnated(&finish, state, last, lower.then_some(&trial), [iterations, damped])
+            {
+                return Ok(solution);
             }
             if !lower {
                 share = shorter(share, last.size, size);
@@ -91,26 +87,26 @@ pub(crate) fn solve<S: Scalar, const N: usize>(
             }
             damped += u32::from(share < S::one());
             contraction = size / last.size;
-            if iterations == MAX_ITERATIONS {
-                let (residual, floor) = worst(&residual, &last.floor);
-                return Err(StepError::NotConverged {
-                    iterations,
-                    residual: residual.widen(),
-                    floor: floor.widen(),
-                });
-            }
         }
 
         let correction = linear::solve(&kernel.matrix, &residual)
             .map_err(|singular| unsolvable(singular, &residual, &kernel.matrix, iterations, damped))?;
         let v = trial;
         trial = v - correction;
-        let floor = floor(p, &kernel.matrix, &trial);
+        let floor = estimated_floor(p, &kernel.matrix, &trial);
         let size = in_units_of(&residual, &floor);
         if !size.is_finite()
             && let Some(index) = first_non_finite(&residual, &kernel.matrix)
         {
             return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
+        }
+        if iterations == MAX_ITERATIONS {
+            let (residual, floor) = worst(&residual, &floor);
+            return Err(StepError::NotConverged {
+                iterations,
+                residual: residual.widen(),
+                floor: floor.widen(),
+            });
         }
         iterations += 1;
 
@@ -119,7 +115,7 @@ pub(crate) fn solve<S: Scalar, const N: usize>(
         if size <= S::one() || contraction * contraction * size <= S::one() {
             let momenta = finish(q, &trial);
             let remaining = momenta.p0 - p;
-            if in_units_of(&remaining, &floor) <= S::constant(ACCEPTED) {
+            if in_units_of(&remaining, &floor) <= S::constant(AT_FLOOR) {
                 let (residual, floor) = worst(&remaining, &floor);
                 let last_correction = correction.amax();
                 let report = Report { iterations, damped, residual, floor, last_correction };
@@ -129,6 +125,30 @@ pub(crate) fn solve<S: Scalar, const N: usize>(
         share = S::one();
         iterate = Some(Iterate { v, residual, correction, floor, size });
     }
+}
+
+/// The root at an iterate whose residual has stopped falling, if rounding holds the residual up there. `lower` is where the
+/// Newton step led, if that still lowered it.
+#[cold]
+fn stagnated<S: Scalar, const N: usize>(
+    finish: &Finish<'_, S, N>,
+    state: &State<S, N>,
+    last: &Iterate<S, N>,
+    lower: Option<&SVector<S, N>>,
+    [iterations, damped]: [u32; 2],
+) -> Option<Solution<S, N>> {
+    let unknown = *lower.unwrap_or(&last.v);
+    let momenta = finish(&state.q, &unknown);
+    let residual = momenta.p0 - state.p;
+    let measured = last.floor + rounding(|q, v| finish(q, v).p0, &state.q, &unknown);
+    let explained = in_units_of(&residual, &measured) <= S::constant(AT_FLOOR);
+    let close = last.size <= S::constant(STAGNATION);
+    if !explained && (lower.is_some() || !close) {
+        return None;
+    }
+    let (residual, floor) = worst(&residual, if explained { &measured } else { &last.floor });
+    let report = Report { iterations, damped, residual, floor, last_correction: last.correction.amax() };
+    Some(Solution { unknown, momenta, report })
 }
 
 /// What a Newton matrix that cannot be solved with means.
@@ -168,7 +188,7 @@ fn is_below<S: Scalar, const N: usize>(factor: S, change: &SVector<S, N>, v: &SV
     (0..N).all(|i| change[i].abs() <= factor * v[i].abs())
 }
 
-/// Tells a residual that lost digits hold up from one that has no root.
+/// Tells a residual that rounding holds up from one that has no root.
 #[cold]
 fn give_up<S: Scalar, const N: usize>(iteration: u32, last: &Iterate<S, N>) -> StepError {
     // Near a fold the matrix is almost singular and the correction large; lost digits leave it small.

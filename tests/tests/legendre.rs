@@ -20,7 +20,7 @@ where
         .chain(Trajectory::new(system, rule, H, start).take(50).map(|step| step.unwrap().state))
         .collect();
     for window in states.windows(3) {
-        let [a, b, c] = window else { unreachable!("windows of three") };
+        let [a, b, c] = [window[0], window[1], window[2]];
         // A configuration is known to ε|q|, a momentum made of two to ε|q|/h times the mass.
         let scale = b.p.amax() + (a.q.amax() + b.q.amax()) / H;
         let tolerance = 1e-14 * scale;

@@ -12,19 +12,18 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::Finish;
-use crate::{Momenta, Scalar, State};
+use crate::Scalar;
 
 /// A residual that has stopped falling is accepted up to this many floors, also where no rounding of q or v explains it:
 /// the report then shows it far above its floor.
-const STAGNATION: f64 = 4096.0;
+pub(super) const STAGNATION: f64 = 4096.0;
 
 /// A residual of at most this many floors, estimated or measured, is a root.
-pub(super) const ACCEPTED: f64 = 4.0;
+pub(super) const AT_FLOOR: f64 = 4.0;
 
-/// The estimate 4ε (|pᵢ| + Σⱼ |Jᵢⱼ||vⱼ|), component by component.
+/// The floor that the terms of p0 give, 4ε (|pᵢ| + Σⱼ |Jᵢⱼ||vⱼ|).
 #[inline]
-pub(super) fn floor<S: Scalar, const N: usize>(
+pub(super) fn estimated_floor<S: Scalar, const N: usize>(
     p: &SVector<S, N>,
     matrix: &SMatrix<S, N, N>,
     v: &SVector<S, N>,
@@ -70,35 +69,16 @@ pub(super) fn worst<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: 
     worst
 }
 
-/// Both momenta at `v`, and the floor that the residual there has reached, if rounding is what holds it up.
-///
-/// `size` is its size in units of the estimated `floor`, and `falls` whether a Newton step still lowers it.
-#[cold]
-pub(super) fn rounding_floor<S: Scalar, const N: usize>(
-    finish: &Finish<'_, S, N>,
-    state: &State<S, N>,
-    v: &SVector<S, N>,
-    floor: &SVector<S, N>,
-    size: S,
-    falls: bool,
-) -> Option<(Momenta<S, N>, SVector<S, N>)> {
-    let momenta = finish(&state.q, v);
-    let measured = floor + rounding(finish, &state.q, v);
-    if in_units_of(&(momenta.p0 - state.p), &measured) <= S::constant(ACCEPTED) {
-        return Some((momenta, measured));
-    }
-    (!falls && size <= S::constant(STAGNATION)).then_some((momenta, *floor))
-}
-
 /// What rounding does to p0: its changes when each entry of q and of v moves by its last place, added up.
-fn rounding<S: Scalar, const N: usize>(
-    finish: &Finish<'_, S, N>,
+#[cold]
+pub(super) fn rounding<S: Scalar, const N: usize>(
+    p0: impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
     q: &SVector<S, N>,
     v: &SVector<S, N>,
 ) -> SVector<S, N> {
-    let p0 = finish(q, v).p0;
+    let value = p0(q, v);
     let mut sum: SVector<S, N> = nalgebra::zero();
-    let mut add = |q: &SVector<S, N>, v: &SVector<S, N>| sum += (finish(q, v).p0 - p0).abs();
+    let mut add = |q: &SVector<S, N>, v: &SVector<S, N>| sum += (p0(q, v) - value).abs();
     for factor in [S::one() + S::EPSILON, S::one() - S::EPSILON] {
         for i in 0..N {
             let mut moved = *q;
@@ -133,21 +113,18 @@ mod tests {
 
     #[test]
     fn floors_neither_vanish_nor_overflow() {
-        let floor = |p: f64| floor(&vector![p], &matrix![1.0], &vector![p])[0];
+        let floor = |p: f64| estimated_floor(&vector![p], &matrix![1.0], &vector![p])[0];
         assert_eq!(floor(1.0), 8.0 * f64::EPSILON + f64::MIN_POSITIVE);
         assert!(floor(1e308) < 1e294 && floor(1e-320) == f64::MIN_POSITIVE);
     }
 
     #[test]
     fn the_rounding_of_cancelling_forces_is_measured() {
-        let momenta = |q: &SVector<f64, 1>, v: &SVector<f64, 1>| {
-            let p0 = vector![v[0] + 1e3 * (q[0] - 0.7)];
-            Momenta { p0, p1: p0 }
-        };
+        let value = |q: &SVector<f64, 1>, v: &SVector<f64, 1>| vector![v[0] + 1e3 * (q[0] - 0.7)];
         // The last place of 0.7 is ε/2; q moves by one or two of them either way.
-        let measured = rounding(&momenta, &vector![0.7], &vector![0.0])[0];
+        let measured = rounding(value, &vector![0.7], &vector![0.0])[0];
         assert!((1e3 * f64::EPSILON..=2e3 * f64::EPSILON).contains(&measured), "{measured:e}");
         // Positive control: nothing cancels at q = 0.
-        assert_eq!(rounding(&momenta, &vector![0.0], &vector![0.0])[0], 0.0);
+        assert_eq!(rounding(value, &vector![0.0], &vector![0.0])[0], 0.0);
     }
 }
