@@ -8,6 +8,7 @@ mod discrete;
 mod error;
 mod fields;
 mod linear;
+mod linearization;
 mod newton;
 mod rules;
 mod scalar;
@@ -17,6 +18,8 @@ mod trajectory;
 
 #[cfg(feature = "std")]
 pub mod dual;
+#[cfg(feature = "std")]
+pub mod hamilton_jacobi;
 
 pub use dalembert_macros::rayleigh_system;
 pub use nalgebra;
@@ -27,6 +30,7 @@ pub use discrete::{
 };
 pub use error::{Quantity, StepError};
 pub use fields::{ScalarField, VectorField};
+pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix};
 pub use rules::{DisplacementRule, Midpoint, Node, Trapezoidal};
 pub use scalar::Scalar;
 pub use state::State;

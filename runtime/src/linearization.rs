@@ -19,8 +19,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::linear::Factors;
-use crate::{Discrete, Momenta, Scalar, StepError};
+use crate::{Discrete, Momenta, Scalar, StepError, linear};
 
 /// Both momenta of a segment with their derivatives by its two configurations; see the formulas above.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -157,13 +156,13 @@ impl<S: Scalar, const N: usize> PhaseMatrix<S, N> {
 pub(crate) fn inverse<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,
 ) -> Result<SMatrix<S, N, N>, StepError> {
-    let factors = Factors::of(matrix)
-        .map_err(|singular| StepError::SingularNewtonMatrix { iteration: 0, column: singular.column })?;
     let mut inverse = SMatrix::<S, N, N>::zeros();
     for j in 0..N {
         let mut unit: SVector<S, N> = nalgebra::zero();
         unit[j] = S::one();
-        inverse.set_column(j, &factors.solve(&unit));
+        let column = linear::solve(matrix, &unit)
+            .map_err(|singular| StepError::SingularNewtonMatrix { iteration: 0, column: singular.column })?;
+        inverse.set_column(j, &column);
     }
     Ok(inverse)
 }
