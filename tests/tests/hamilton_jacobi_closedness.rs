@@ -136,9 +136,11 @@ fn for_a_rayleigh_force_it_is_the_antisymmetric_part_of_d1d2r_df() {
         assert!((defect - expected).amax() < 1e-14, "{defect}{expected}");
         assert!(defect.amax() > 1e-5, "{defect}");
     }
-    // The check of candidates says the same: no W_k exists.
+    // The check of candidates says the same: no W_k exists, by as much.
     let report = theory.check_sections(&[Start, Start], &[LABEL]).unwrap();
     assert!(report.closed_sections.unwrap().holds() && !report.closed_work.unwrap().holds(), "{report}");
+    let defect = theory.carry(&Start, &LABEL, 1).unwrap().frames[1].closedness_defect()[(0, 1)];
+    assert!((report.closed_work.unwrap().size - defect.abs()).abs() < 1e-14, "{report}");
 }
 
 #[test]
@@ -164,6 +166,9 @@ fn proportional_friction_on_an_uncoupled_well_keeps_it_closed() {
         }
     }
     let characteristic = carried(&Uncoupled, Midpoint, LABEL);
-    let report = HamiltonJacobi::new(&Uncoupled, Midpoint, H).characteristics_report(&[characteristic]);
+    let theory = HamiltonJacobi::new(&Uncoupled, Midpoint, H);
+    let report = theory.characteristics_report(&[characteristic]);
     assert!(report.closed.unwrap().holds(), "{report}");
+    let report = theory.check_sections(&[Start, Start], &[LABEL]).unwrap();
+    assert!(report.closed_work.unwrap().holds() && !report.no_work.unwrap().holds(), "{report}");
 }

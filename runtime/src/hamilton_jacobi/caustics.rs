@@ -47,7 +47,9 @@ impl<S: Scalar, const N: usize> Characteristic<S, N> {
     /// of zeros closer than √ε to each other is one caustic of multiplicity 2.
     #[must_use]
     pub fn caustics(&self) -> Vec<Caustic<N>> {
-        let frames: Vec<DMatrix<S>> = self.frames.iter().map(|frame| dynamic(&frame.q)).collect();
+        // A frame that has overflowed ends the search; `carry` does not return one.
+        let finite = self.frames.iter().take_while(|frame| frame.q.iter().all(|entry| entry.is_finite()));
+        let frames: Vec<DMatrix<S>> = finite.map(|frame| dynamic(&frame.q)).collect();
         let kernels: Vec<usize> = (0..frames.len()).map(|k| kernel(&frames, k)).collect();
         let mut caustics = Vec::new();
         for k in 1..frames.len() {
@@ -72,7 +74,7 @@ fn kernel<S: Scalar>(frames: &[DMatrix<S>], k: usize) -> usize {
     let neighbours = &frames[k.saturating_sub(1)..(k + 2).min(frames.len())];
     let size = neighbours.iter().fold(S::zero(), |size, frame| size.max(frame.amax()));
     let threshold = size * S::EPSILON.sqrt();
-    frames[k].singular_values().iter().filter(|value| !(**value > threshold)).count()
+    frames[k].singular_values().iter().filter(|value| **value <= threshold).count()
 }
 
 /// The zeros of det Q(t) in 0 < t ≤ 1 with their multiplicities, in order.

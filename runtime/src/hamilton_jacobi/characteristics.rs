@@ -6,6 +6,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::residual::{Outcome, Worst, line, tolerance_line};
 use super::{Caustic, HamiltonJacobi, HamiltonJacobiError, ImplicitEquation, Section};
+use crate::error::{Quantity, StepError};
 use crate::linearization::inverse;
 use crate::{Discrete, Linearization, PhaseMatrix, Scalar, State};
 
@@ -57,6 +58,13 @@ impl<S: Scalar, const N: usize> Frame<S, N> {
         Some(self.p * inverse(&self.q).ok()?)
     }
 
+    /// The coordinate whose row of Q or P is not finite.
+    fn first_non_finite(&self) -> Option<usize> {
+        let finite =
+            |i: usize| self.q.row(i).iter().chain(self.p.row(i).iter()).all(|entry| entry.is_finite());
+        (0..N).find(|i| !finite(*i))
+    }
+
     /// The frame a step later, A (Q, P).
     #[must_use]
     pub fn carried(&self, a: &PhaseMatrix<S, N>) -> Self {
@@ -75,7 +83,7 @@ where
     /// γ_k(c_k) = p_k, wherever det Q_k ≠ 0.
     ///
     /// # Errors
-    /// [`HamiltonJacobiError::Implicit`] with the step that has no solution or no derivative.
+    /// [`HamiltonJacobiError::Implicit`] with the step that has no solution or no finite derivative.
     pub fn carry<G>(
         &self,
         section: &G,
@@ -98,6 +106,10 @@ where
             let linearization = Linearization::from_legendre(&self.legendre(&state.q, &step.state.q))
                 .map_err(ImplicitEquation::Derivative.at(k))?;
             frame = frame.carried(&linearization.a);
+            if let Some(index) = frame.first_non_finite() {
+                let cause = StepError::NonFinite { quantity: Quantity::Derivatives, index };
+                return Err(ImplicitEquation::Derivative.at(k)(cause));
+            }
             state = step.state;
             guess = Some(step.velocity);
             states.push(state);
