@@ -3,7 +3,7 @@
 //! Start from [`HamiltonJacobi::new`]. Every check returns a report: for each equation whether it holds, the residual, the
 //! place where it is worst, and the tolerance that it was held against.
 //!
-//! **As printed** (paper, section 5). One family of functions S_k gives γ⁻ = DS_k − f_d⁻ and γ⁺ = DS_{k+1} + f_d⁺, which
+//! **As printed** (paper, section 4). One family of functions S_k gives γ⁻ = DS_k − f_d⁻ and γ⁺ = DS_{k+1} + f_d⁺, which
 //! are to be the momenta at both ends of a segment. They are only where there is no net force at the nodes,
 //!
 //! ```text

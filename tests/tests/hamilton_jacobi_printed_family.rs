@@ -1,5 +1,5 @@
 //! The paper's theory as printed, on functions S_k: by what each statement misses under force, in closed form, and that all
-//! hold without (paper, section 5).
+//! hold without (paper, section 4).
 
 use dalembert::hamilton_jacobi::{HamiltonJacobi, PrintedReport};
 use dalembert::nalgebra::vector;

@@ -1,5 +1,5 @@
 //! γ⁻ = DS∘π1 − f⁻ as printed misses the momentum by the net force, the example's γ⁻ = D1 G_d by twice that; both hold with
-//! the net force added, and without force (paper, section 5 and its example).
+//! the net force added, and without force (paper, section 4 and Example 4).
 
 use dalembert::hamilton_jacobi::HamiltonJacobi;
 use dalembert::nalgebra::{SVector, vector};

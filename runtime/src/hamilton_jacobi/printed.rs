@@ -1,4 +1,4 @@
-//! The paper's section 5 as printed, for one family S_k: sections, flows, equations, generating function.
+//! The paper's section 4 as printed, for one family S_k: sections, flows, equations, generating function.
 //!
 //! Index convention: on the segment (q_j, q_{j+1}) the functions S_j and S_{j+1} are used, `s0` and `s1` below.
 
