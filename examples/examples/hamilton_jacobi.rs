@@ -9,20 +9,11 @@
 //! is a curve with a cusp, and the carried section folds over. Prints what holds of the paper's equations as printed and of
 //! the corrected ones.
 
-use std::path::{Path, PathBuf};
-use std::{env, fs};
-
-use anyhow::{Context, Result};
+use anyhow::Result;
 use dalembert::hamilton_jacobi::{Caustic, Characteristic, HamiltonJacobi};
 use dalembert::{Midpoint, ScalarField, rayleigh_system};
+use dalembert_examples::picture::{self, Corner, Curve, Mark, Panel, RGBColor};
 use nalgebra::{SMatrix, SVector, vector};
-use plotters::backend::SVGBackend;
-use plotters::chart::{ChartBuilder, SeriesLabelPosition};
-use plotters::coord::Shift;
-use plotters::drawing::{DrawingArea, IntoDrawingArea};
-use plotters::element::{Circle, PathElement};
-use plotters::series::{LineSeries, PointSeries};
-use plotters::style::{BLACK, Color, RGBColor, WHITE};
 
 #[rayleigh_system]
 fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
@@ -109,18 +100,38 @@ fn main() -> Result<()> {
     let dense = spread(-2.9, 2.9, 401).into_iter().map(swing_carry).collect::<Result<Vec<_>, _>>()?;
 
     // Lines of the sections in closed form, over the range that the fan covers at that k.
-    let lines = [0, 4, 8, 9, 14].map(|k| {
-        let on_line = |q: f64| (q, family[k].s * q + family[k].lambda);
-        let ends = [&fan[0], &fan[fan.len() - 1]].map(|characteristic| characteristic.states[k].q[0]);
-        (k, spread(ends[0], ends[1], 2).into_iter().map(on_line).collect())
+    let lines = [("k = 0", 0), ("k = 4", 4), ("k = 8", 8), ("k = 9", 9), ("k = 14", 14)];
+    let carried = lines.map(|(_, k)| section_points(&fan, k));
+    let lines = lines.map(|(label, k)| {
+        let on_line = |characteristic: &Characteristic<f64, 1>| {
+            let q = characteristic.states[k].q;
+            (q[0], family[k].gradient(&q)[0])
+        };
+        (label, [&fan[0], &fan[fan.len() - 1]].map(on_line).to_vec())
     });
-    let folds = [0, 10, 16, 20, 30].map(|k| (k, section_points(&dense, k)));
-    let path = picture(&[
-        fan_panel("Damped oscillator: characteristics c_k(x)", h, &fan, &caustics(&fan)),
-        section_panel("Its sections γ_k: carried points, closed-form lines", lines, Some(&fan)),
-        fan_panel("Damped pendulum from rest: characteristics", 0.1, &swing_fan, &caustics(&dense)),
-        section_panel("Its sections γ_k fold over beyond the caustic", folds, None),
-    ])?;
+    let folds = [("k = 0", 0), ("k = 10", 10), ("k = 16", 16), ("k = 20", 20), ("k = 30", 30)]
+        .map(|(label, k)| (label, section_points(&dense, k)));
+    let path = picture::write(
+        "hamilton_jacobi",
+        [1300, 1000],
+        2,
+        &[
+            fan_panel("Damped oscillator: characteristics", h, &fan, &caustics(&fan)),
+            section_panel(
+                "Its sections: carried points on closed-form lines",
+                lines,
+                carried,
+                Corner::LowerLeft,
+            ),
+            fan_panel("Damped pendulum from rest: characteristics", 0.1, &swing_fan, &caustics(&dense)),
+            section_panel(
+                "Its sections fold over beyond the caustic",
+                folds,
+                Default::default(),
+                Corner::UpperRight,
+            ),
+        ],
+    )?;
     println!("picture: {}", path.display());
     Ok(())
 }
@@ -134,23 +145,6 @@ fn section_points(fan: &[Characteristic<f64, 1>], k: usize) -> Vec<(f64, f64)> {
     fan.iter().map(|characteristic| (characteristic.states[k].q[0], characteristic.states[k].p[0])).collect()
 }
 
-/// Points of one colour, as a line or as dots.
-struct Curve {
-    label: Option<String>,
-    colour: RGBColor,
-    dots: bool,
-    points: Vec<(f64, f64)>,
-}
-
-struct Panel {
-    title: &'static str,
-    x: &'static str,
-    y: &'static str,
-    /// Where the legend covers nothing.
-    legend: SeriesLabelPosition,
-    curves: Vec<Curve>,
-}
-
 /// Colours that readers with any colour vision tell apart (Okabe and Ito, 2008).
 const COLOURS: [RGBColor; 5] = [
     RGBColor(0, 0, 0),
@@ -161,124 +155,45 @@ const COLOURS: [RGBColor; 5] = [
 ];
 const CAUSTIC: RGBColor = RGBColor(213, 94, 0);
 
-fn fan_panel(title: &'static str, h: f64, fan: &[Characteristic<f64, 1>], caustics: &[Caustic<1>]) -> Panel {
+/// The characteristics over time, the caustics on them marked.
+fn fan_panel<'a>(
+    title: &'a str,
+    h: f64,
+    fan: &[Characteristic<f64, 1>],
+    caustics: &[Caustic<1>],
+) -> Panel<'a> {
     let mut curves: Vec<_> = fan
         .iter()
         .enumerate()
         .map(|(index, characteristic)| Curve {
-            label: (index == 0).then(|| "characteristics".to_owned()),
+            label: if index == 0 { "characteristics" } else { "" },
             colour: COLOURS[1],
-            dots: false,
+            mark: Mark::Line(1),
             points: (0..characteristic.states.len())
                 .map(|k| (k as f64 * h, characteristic.states[k].q[0]))
                 .collect(),
         })
         .collect();
     curves.push(Curve {
-        label: Some("caustic, det Q = 0".to_owned()),
+        label: "caustic, det Q = 0",
         colour: CAUSTIC,
-        dots: true,
+        mark: Mark::Disc,
         points: caustics.iter().map(|c| ((c.step as f64 + c.fraction) * h, c.q[0])).collect(),
     });
-    Panel { title, x: "time kh", y: "configuration q", legend: SeriesLabelPosition::UpperRight, curves }
+    Panel { title, x: "time kh", y: "configuration q", legend: Corner::UpperRight, curves }
 }
 
-fn section_panel(
-    title: &'static str,
-    lines: [(usize, Vec<(f64, f64)>); 5],
-    carried: Option<&[Characteristic<f64, 1>]>,
-) -> Panel {
+/// Sections in the phase plane, and on them the points of a carried fan.
+fn section_panel<'a>(
+    title: &'a str,
+    lines: [(&'a str, Vec<(f64, f64)>); 5],
+    carried: [Vec<(f64, f64)>; 5],
+    legend: Corner,
+) -> Panel<'a> {
     let mut curves = Vec::new();
-    for ((k, points), colour) in lines.into_iter().zip(COLOURS) {
-        curves.push(Curve { label: Some(format!("k = {k}")), colour, dots: false, points });
-        if let Some(fan) = carried {
-            curves.push(Curve { label: None, colour, dots: true, points: section_points(fan, k) });
-        }
+    for (((label, points), carried), colour) in lines.into_iter().zip(carried).zip(COLOURS) {
+        curves.push(Curve { label, colour, mark: Mark::Line(2), points });
+        curves.push(Curve { label: "", colour, mark: Mark::Disc, points: carried });
     }
-    let legend =
-        if carried.is_some() { SeriesLabelPosition::LowerLeft } else { SeriesLabelPosition::UpperRight };
     Panel { title, x: "configuration q", y: "momentum p", legend, curves }
-}
-
-/// Units of the drawing to a pixel: plotters rounds coordinates to whole units, which shows as steps in thin lines.
-const PIXEL: i32 = 8;
-const SIZE: [i32; 2] = [1300, 1000];
-const FONT: &str = "sans-serif";
-
-/// Writes the panels to the path that the command line gives, or else to `target/hamilton_jacobi.svg`.
-fn picture(panels: &[Panel]) -> Result<PathBuf> {
-    let mut svg = String::new();
-    let units = SIZE.map(|pixels| (pixels * PIXEL) as u32);
-    {
-        let root = SVGBackend::with_string(&mut svg, units.into()).into_drawing_area();
-        root.fill(&WHITE)?;
-        for (area, panel) in root.split_evenly((2, 2)).iter().zip(panels) {
-            draw(area, panel)?;
-        }
-        root.present()?;
-    }
-    let header = |width: i32, height: i32| format!("<svg width=\"{width}\" height=\"{height}\"");
-    let svg = svg.replacen(&header(SIZE[0] * PIXEL, SIZE[1] * PIXEL), &header(SIZE[0], SIZE[1]), 1);
-    let path = match env::args_os().nth(1) {
-        Some(path) => PathBuf::from(path),
-        None => Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("target").join("hamilton_jacobi.svg"),
-    };
-    fs::create_dir_all(path.parent().unwrap_or(Path::new("")))
-        .and_then(|()| fs::write(&path, svg))
-        .with_context(|| format!("cannot write {}; give another path as argument", path.display()))?;
-    Ok(path)
-}
-
-fn draw(area: &DrawingArea<SVGBackend<'_>, Shift>, panel: &Panel) -> Result<()> {
-    let extent = |of: fn(&(f64, f64)) -> f64| {
-        let all = || panel.curves.iter().flat_map(|curve| &curve.points).map(of);
-        let (least, most) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
-        let margin = 0.04 * (most - least);
-        least - margin..most + margin
-    };
-    let mut chart = ChartBuilder::on(area)
-        .caption(panel.title, (FONT, 22 * PIXEL))
-        .margin(14 * PIXEL)
-        .x_label_area_size(48 * PIXEL)
-        .y_label_area_size(70 * PIXEL)
-        .build_cartesian_2d(extent(|point| point.0), extent(|point| point.1))?;
-    chart
-        .configure_mesh()
-        .x_desc(panel.x)
-        .y_desc(panel.y)
-        .x_labels(8)
-        .y_labels(8)
-        .x_label_formatter(&|x| format!("{x:.1}"))
-        .y_label_formatter(&|y| format!("{y:.1}"))
-        .label_style((FONT, 17 * PIXEL))
-        .axis_desc_style((FONT, 19 * PIXEL))
-        .bold_line_style(BLACK.mix(0.12).stroke_width(PIXEL as u32))
-        .light_line_style(BLACK.mix(0.0))
-        .draw()?;
-    for curve in &panel.curves {
-        let (colour, points) = (curve.colour, curve.points.iter().copied());
-        let drawn = if curve.dots {
-            let dots: PointSeries<_, _, Circle<_, _>, _> =
-                PointSeries::new(points, 3 * PIXEL, colour.filled());
-            chart.draw_series(dots)?
-        } else {
-            chart.draw_series(LineSeries::new(points, colour.stroke_width(3 * PIXEL as u32 / 2)))?
-        };
-        if let Some(label) = &curve.label {
-            let width = if curve.dots { 6 } else { 2 } * PIXEL as u32;
-            drawn.label(label.as_str()).legend(move |(x, y)| {
-                PathElement::new([(x, y), (x + 22 * PIXEL, y)], colour.stroke_width(width))
-            });
-        }
-    }
-    chart
-        .configure_series_labels()
-        .position(panel.legend.clone())
-        .background_style(WHITE.mix(0.85))
-        .border_style(BLACK.mix(0.3).stroke_width(PIXEL as u32))
-        .label_font((FONT, 17 * PIXEL))
-        .legend_area_size(30 * PIXEL)
-        .margin(8 * PIXEL)
-        .draw()?;
-    Ok(())
 }
