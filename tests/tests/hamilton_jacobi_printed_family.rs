@@ -150,6 +150,31 @@ fn the_lemmas_flow_solves_neither_the_forced_nor_the_unforced_equations() {
     }
 }
 
+/// The lemma's 𝓕⁻ under force, in closed form: q = −ρ (x − q)/(s − ρ) + q̂ − ρ (x − q̂)/(α + ρ) with
+/// (α + ρ) q̂ = β x − (s − ρ) q − λ, s and λ those of S_k. It is no flow of the system either.
+#[test]
+fn the_lemmas_other_flow_is_its_closed_form_and_no_solution() {
+    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, H);
+    let CompleteSolution { alpha, beta, rho, .. } = solution(&DAMPED);
+    for (k, family) in [solution(&UNDAMPED), solution(&DAMPED)].iter().flat_map(|f| [(1, f), (4, f)]) {
+        let function = family.function(k);
+        let Quadratic { s, lambda, .. } = function;
+        let q = 0.8;
+        let x = theory.lemma_flow_minus(&function, &vector![q], None).unwrap()[0];
+        // q̂ = hat_x x + hat_0.
+        let (hat_x, hat_0) = (beta / (alpha + rho), -((s - rho) * q + lambda) / (alpha + rho));
+        let stretch = 1.0 + rho / (alpha + rho);
+        let by_x = stretch * hat_x - rho / (s - rho) - rho / (alpha + rho);
+        let expected = (q - rho * q / (s - rho) - stretch * hat_0) / by_x;
+        assert!((x - expected).abs() < 1e-12 * (1.0 + expected.abs()), "k = {k}: {x} {expected}");
+        // The step from (q, dS_k(q)) leads elsewhere.
+        let p = function.gradient(&vector![q]);
+        let state = dalembert::State { q: vector![q], p };
+        let step = Discrete::<Midpoint, 1>::step(&DAMPED, &state, H, None).unwrap().state.q[0];
+        assert!((x - step).abs() > 1e-3, "k = {k}: {x} {step}");
+    }
+}
+
 /// With q_j not eliminated from H_d⁻ the left equation holds whatever γ⁻ is.
 #[test]
 fn the_left_equation_without_elimination_is_empty() {
