@@ -1,4 +1,8 @@
 #![cfg_attr(feature = "std", doc = include_str!("../README.md"))]
+#![cfg_attr(
+    not(feature = "std"),
+    doc = "Structure-preserving integrators for mechanical systems, without std: the step of hand-written systems."
+)]
 #![cfg_attr(not(feature = "std"), no_std)]
 
 extern crate self as dalembert;
