@@ -48,7 +48,7 @@ pub enum Mark {
 /// Points drawn in one way.
 #[derive(Clone, Debug)]
 pub struct Curve<'a> {
-    /// Its line in the legend.
+    /// Its line in the legend; empty, it has none.
     pub label: &'a str,
     /// One of [`colour`].
     pub colour: RGBColor,
@@ -80,6 +80,8 @@ pub enum Corner {
     UpperLeft,
     /// Top right.
     UpperRight,
+    /// Bottom left.
+    LowerLeft,
     /// Bottom right.
     LowerRight,
 }
@@ -161,10 +163,12 @@ fn draw<'a>(area: &DrawingArea<SVGBackend<'a>, Shift>, panel: &Panel<'_>) -> Res
             Mark::Line(width) => {
                 let series = LineSeries::new(thinned(&curve.points, pixel), stroke(width));
                 let sample = stroke(width.max(2));
-                chart
-                    .draw_series(series)?
-                    .label(curve.label)
-                    .legend(move |(x, y)| PathElement::new([(x, y), (x + 24 * PIXEL, y)], sample));
+                let drawn = chart.draw_series(series)?;
+                if !curve.label.is_empty() {
+                    drawn
+                        .label(curve.label)
+                        .legend(move |(x, y)| PathElement::new([(x, y), (x + 24 * PIXEL, y)], sample));
+                }
             }
             Mark::Disc => {
                 draw_points(&mut chart, curve, move |at| Circle::new(at, 3 * PIXEL, colour.filled()))?
@@ -180,6 +184,7 @@ fn draw<'a>(area: &DrawingArea<SVGBackend<'a>, Shift>, panel: &Panel<'_>) -> Res
     let position = match panel.legend {
         Corner::UpperLeft => SeriesLabelPosition::UpperLeft,
         Corner::UpperRight => SeriesLabelPosition::UpperRight,
+        Corner::LowerLeft => SeriesLabelPosition::LowerLeft,
         Corner::LowerRight => SeriesLabelPosition::LowerRight,
     };
     chart
@@ -203,10 +208,11 @@ where
     E: Drawable<SVGBackend<'a>> + 'a,
     for<'b> &'b E: PointCollection<'b, (i32, i32)>,
 {
-    chart
-        .draw_series(curve.points.iter().map(|&point| EmptyElement::at(point) + shape((0, 0))))?
-        .label(curve.label)
-        .legend(move |(x, y)| shape((x + 12 * PIXEL, y)));
+    let drawn =
+        chart.draw_series(curve.points.iter().map(|&point| EmptyElement::at(point) + shape((0, 0))))?;
+    if !curve.label.is_empty() {
+        drawn.label(curve.label).legend(move |(x, y)| shape((x + 12 * PIXEL, y)));
+    }
     Ok(())
 }
 

@@ -1,4 +1,8 @@
 #![cfg_attr(feature = "std", doc = include_str!("../README.md"))]
+#![cfg_attr(
+    not(feature = "std"),
+    doc = "Structure-preserving integrators for mechanical systems, without std: the step of hand-written systems."
+)]
 #![cfg_attr(not(feature = "std"), no_std)]
 
 extern crate self as dalembert;
@@ -8,6 +12,7 @@ mod discrete;
 mod error;
 mod fields;
 mod linear;
+mod linearization;
 mod newton;
 mod rules;
 mod scalar;
@@ -17,6 +22,8 @@ mod trajectory;
 
 #[cfg(feature = "std")]
 pub mod dual;
+#[cfg(feature = "std")]
+pub mod hamilton_jacobi;
 #[cfg(feature = "std")]
 pub mod noether;
 #[cfg(feature = "std")]
@@ -33,6 +40,7 @@ pub use discrete::{
 };
 pub use error::{Quantity, StepError};
 pub use fields::{ScalarField, VectorField};
+pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix};
 pub use rules::{DisplacementRule, Midpoint, Node, Trapezoidal};
 pub use scalar::Scalar;
 pub use state::State;

@@ -2,5 +2,6 @@
 
 pub mod by_hand;
 pub mod convergence;
+pub mod damped_oscillator;
 pub mod reference;
 pub mod systems;
