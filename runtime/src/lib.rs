@@ -20,6 +20,8 @@ mod trajectory;
 
 #[cfg(feature = "std")]
 pub mod dual;
+#[cfg(feature = "std")]
+pub mod exact;
 
 pub use dalembert_macros::rayleigh_system;
 pub use nalgebra;
