@@ -7,8 +7,9 @@
 //! |L_d − L_d^ex| = O(hʳ⁺¹),  |f_d^± − f_d^ex±| = O(hʳ⁺¹)   sufficient for it, but not necessary
 //! ```
 //!
-//! A rule may share work between L_d and f_d differently from the exact pair: the midpoint rule's f_d^± are off by
-//! ∓(h²/12) df_L/dt, which its D L_d makes up for. So the order of the flow is read off the momenta.
+//! A rule may share the work between L_d and f_d differently from the exact pair. With constant mass matrix M, the midpoint
+//! rule's f_d^± are off by ∓(h²/12)(df_L/dt − (∂f_L/∂v)ᵀM⁻¹f_L), which its D L_d makes up for. So the order of the flow is
+//! read off the momenta.
 
 use core::fmt;
 
