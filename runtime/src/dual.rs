@@ -1,16 +1,18 @@
 //! Derivatives by num-dual: the one place that names its types.
 //!
 //! A body annotated with `#[rayleigh_system]` is written once, over [`Real<D>`](Real); D = `f64` gives the plain value, a
-//! dual number the derivatives. Second derivatives nest [`DualSVec`] in itself: seeding the outer number along one family
-//! of directions and the inner one along another makes the cross block their mixed second derivative. With the directions
+//! dual number the derivatives. Second derivatives come from [`HyperDualVec`]: seeding its first part along one family of
+//! directions and its second part along another makes the cross block their mixed second derivative. With the directions
 //! of a rule that block is the Newton matrix, and nothing else is computed.
 
 mod lift;
 mod primitive;
 mod real;
 
-use nalgebra::{SMatrix, SVector};
-use num_dual::{Derivative, DualNum, DualSVec};
+use core::array;
+
+use nalgebra::{Const, SMatrix, SVector};
+use num_dual::{Derivative, DualNum, DualSVec, HyperDualVec};
 
 use crate::{CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, Variations};
 
@@ -38,6 +40,24 @@ pub trait Dual<F: Scalar>: DualNum<Primitive = F> + Copy {
 
     /// Whether all derivatives are absent: a number that depends on neither q nor v.
     fn is_constant(self) -> bool;
+
+    /// self + right.
+    fn plus(self, right: Self) -> Self;
+
+    /// self − right.
+    #[inline(always)]
+    fn minus(self, right: Self) -> Self {
+        self.plus(right.negated())
+    }
+
+    /// self × right.
+    fn times(self, right: Self) -> Self;
+
+    /// self / right.
+    fn over(self, right: Self) -> Self;
+
+    /// −self.
+    fn negated(self) -> Self;
 
     /// The constant `value`.
     #[inline]
@@ -80,88 +100,283 @@ macro_rules! primitive {
             fn is_constant(self) -> bool {
                 true
             }
+
+            #[inline]
+            fn plus(self, right: Self) -> Self {
+                self + right
+            }
+
+            #[inline]
+            fn minus(self, right: Self) -> Self {
+                self - right
+            }
+
+            #[inline]
+            fn times(self, right: Self) -> Self {
+                self * right
+            }
+
+            #[inline]
+            fn over(self, right: Self) -> Self {
+                self / right
+            }
+
+            #[inline]
+            fn negated(self) -> Self {
+                -self
+            }
         }
     )*};
 }
 primitive!(f64 f32);
 
+/// Hyper-dual numbers of fixed shape.
+type HyperDualSVec<T, const M: usize, const N: usize> = HyperDualVec<T, Const<M>, Const<N>>;
+
+/// Derivatives of a number: absent (`None`) where it depends on nothing, which is known when a body is compiled.
+type Part<T, const R: usize, const C: usize> = Derivative<T, Const<R>, Const<C>>;
+
+// The operations on num-dual's numbers, written out so that they inline: num-dual's own are calls, and a body of thirty
+// operations would make hundreds of them.
+
+/// `operation` on every entry.
+#[inline(always)]
+fn map<T: DualNum + Copy, const R: usize, const C: usize>(
+    part: Part<T, R, C>,
+    operation: impl Fn(T) -> T,
+) -> Part<T, R, C> {
+    Derivative(part.0.map(|mut entries| {
+        for entry in entries.data.0.as_flattened_mut() {
+            *entry = operation(*entry);
+        }
+        entries
+    }))
+}
+
+/// Sum of two parts, one of which may be absent.
+#[inline(always)]
+fn sum<F: Primitive, T: Dual<F>, const R: usize, const C: usize>(
+    left: Part<T, R, C>,
+    right: Part<T, R, C>,
+) -> Part<T, R, C> {
+    Derivative(match (left.0, right.0) {
+        (Some(mut left), Some(right)) => {
+            for (l, r) in left.data.0.as_flattened_mut().iter_mut().zip(right.data.0.as_flattened()) {
+                *l = l.plus(*r);
+            }
+            Some(left)
+        }
+        (left, None) => left,
+        (None, right) => right,
+    })
+}
+
+/// Every entry times `factor`.
+#[inline(always)]
+fn scaled<F: Primitive, T: Dual<F>, const R: usize, const C: usize>(
+    part: Part<T, R, C>,
+    factor: T,
+) -> Part<T, R, C> {
+    map(part, |entry| entry.times(factor))
+}
+
+/// The product of a column and a row.
+#[inline(always)]
+fn outer<F: Primitive, T: Dual<F>, const R: usize, const C: usize>(
+    column: Part<T, R, 1>,
+    row: Part<T, 1, C>,
+) -> Part<T, R, C> {
+    Derivative(match (column.0, row.0) {
+        (Some(column), Some(row)) => {
+            let mut product = SMatrix::<T, R, C>::from_element(column[0]);
+            for (j, entries) in product.data.0.iter_mut().enumerate() {
+                for (i, entry) in entries.iter_mut().enumerate() {
+                    *entry = column.data.0[0][i].times(row.data.0[j][0]);
+                }
+            }
+            Some(product)
+        }
+        _ => None,
+    })
+}
+
 impl<F, T, const M: usize> Dual<F> for DualSVec<T, M>
 where
-    F: Scalar,
+    F: Primitive,
     T: Dual<F>,
     Self: DualNum<Primitive = F> + Copy,
 {
-    #[inline]
+    #[inline(always)]
     fn primal(self) -> F {
         self.re.primal()
     }
 
-    #[inline]
+    #[inline(always)]
     fn with_primal(self, value: F) -> Self {
-        Self { re: self.re.with_primal(value), eps: self.eps }
+        Self { re: self.re.with_primal(value), ..self }
     }
 
-    #[inline]
-    fn chain(self, [g, g1, g2, g3]: [F; 4]) -> Self {
-        // g′ as a number of the inner type; its third derivative would be g⁗, beyond what nesting to depth 3 asks for.
-        let slope = self.re.chain([g1, g2, g3, nalgebra::zero()]);
-        Self { re: self.re.chain([g, g1, g2, g3]), eps: Derivative::new(self.eps.0.map(|eps| eps * slope)) }
-    }
-
-    #[inline]
+    #[inline(always)]
     fn is_constant(self) -> bool {
         self.eps.0.is_none() && self.re.is_constant()
+    }
+
+    #[inline(always)]
+    fn chain(self, [g, g1, g2, g3]: [F; 4]) -> Self {
+        let slope = self.re.chain([g1, g2, g3, nalgebra::zero()]);
+        Self { re: self.re.chain([g, g1, g2, g3]), eps: scaled(self.eps, slope) }
+    }
+
+    #[inline(always)]
+    fn plus(self, right: Self) -> Self {
+        Self { re: self.re.plus(right.re), eps: sum(self.eps, right.eps) }
+    }
+
+    #[inline(always)]
+    fn times(self, right: Self) -> Self {
+        Self { re: self.re.times(right.re), eps: sum(scaled(self.eps, right.re), scaled(right.eps, self.re)) }
+    }
+
+    #[inline(always)]
+    fn over(self, right: Self) -> Self {
+        // (a/b)′ = (a′ − (a/b) b′)/b.
+        let re = self.re.over(right.re);
+        let numerator = sum(self.eps, scaled(right.eps, re.negated()));
+        Self { re, eps: map(numerator, |entry| entry.over(right.re)) }
+    }
+
+    #[inline(always)]
+    fn negated(self) -> Self {
+        Self { re: self.re.negated(), eps: map(self.eps, T::negated) }
+    }
+}
+
+impl<F, T, const M: usize, const N: usize> Dual<F> for HyperDualSVec<T, M, N>
+where
+    F: Primitive,
+    T: Dual<F>,
+    Self: DualNum<Primitive = F> + Copy,
+{
+    #[inline(always)]
+    fn primal(self) -> F {
+        self.re.primal()
+    }
+
+    #[inline(always)]
+    fn with_primal(self, value: F) -> Self {
+        Self { re: self.re.with_primal(value), ..self }
+    }
+
+    #[inline(always)]
+    fn is_constant(self) -> bool {
+        self.eps1.0.is_none() && self.eps2.0.is_none() && self.re.is_constant()
+    }
+
+    #[inline(always)]
+    fn chain(self, [g, g1, g2, g3]: [F; 4]) -> Self {
+        let slope = self.re.chain([g1, g2, g3, nalgebra::zero()]);
+        let curvature = self.re.chain([g2, g3, nalgebra::zero(), nalgebra::zero()]);
+        Self {
+            re: self.re.chain([g, g1, g2, g3]),
+            eps1: scaled(self.eps1, slope),
+            eps2: scaled(self.eps2, slope),
+            eps1eps2: sum(scaled(self.eps1eps2, slope), outer(scaled(self.eps1, curvature), self.eps2)),
+        }
+    }
+
+    #[inline(always)]
+    fn plus(self, right: Self) -> Self {
+        Self {
+            re: self.re.plus(right.re),
+            eps1: sum(self.eps1, right.eps1),
+            eps2: sum(self.eps2, right.eps2),
+            eps1eps2: sum(self.eps1eps2, right.eps1eps2),
+        }
+    }
+
+    #[inline(always)]
+    fn times(self, right: Self) -> Self {
+        let cross = sum(outer(self.eps1, right.eps2), outer(right.eps1, self.eps2));
+        Self {
+            re: self.re.times(right.re),
+            eps1: sum(scaled(self.eps1, right.re), scaled(right.eps1, self.re)),
+            eps2: sum(scaled(self.eps2, right.re), scaled(right.eps2, self.re)),
+            eps1eps2: sum(sum(scaled(self.eps1eps2, right.re), scaled(right.eps1eps2, self.re)), cross),
+        }
+    }
+
+    #[inline(always)]
+    fn over(self, right: Self) -> Self {
+        // q = a/b: q′ = (a′ − q b′)/b, and once more for the mixed derivative.
+        let re = self.re.over(right.re);
+        let (negated, divided) = (re.negated(), |entry: T| entry.over(right.re));
+        let eps1 = map(sum(self.eps1, scaled(right.eps1, negated)), divided);
+        let eps2 = map(sum(self.eps2, scaled(right.eps2, negated)), divided);
+        let cross = sum(outer(eps1, right.eps2), outer(right.eps1, eps2));
+        let numerator = sum(sum(self.eps1eps2, scaled(right.eps1eps2, negated)), map(cross, T::negated));
+        Self { re, eps1, eps2, eps1eps2: map(numerator, divided) }
+    }
+
+    #[inline(always)]
+    fn negated(self) -> Self {
+        Self {
+            re: self.re.negated(),
+            eps1: map(self.eps1, T::negated),
+            eps2: map(self.eps2, T::negated),
+            eps1eps2: map(self.eps1eps2, T::negated),
+        }
     }
 }
 
 /// First derivatives by M seeds.
 type First<F, const M: usize> = DualSVec<F, M>;
 
-/// Mixed second derivatives: inner seeds are the columns, outer seeds the rows.
-type Second<F, const M: usize> = DualSVec<DualSVec<F, M>, M>;
+/// First derivatives by two families of M seeds, and the mixed second ones.
+type Second<F, const M: usize> = HyperDualSVec<F, M, M>;
 
-/// The derivatives of a number, zeros where it carries none.
-#[inline]
-fn derivatives_of<T: Dual<F>, F: Primitive, const M: usize>(number: &DualSVec<T, M>) -> SVector<T, M>
-where
-    DualSVec<T, M>: Sized,
-{
-    match &number.eps.0 {
-        Some(eps) => *eps,
-        None => SVector::from_element(T::from(nalgebra::zero::<F>())),
-    }
+/// `factor` in entry `index`, zero elsewhere.
+#[inline(always)]
+fn seed<F: Primitive, const R: usize, const C: usize>(index: usize, factor: F) -> Part<F, R, C> {
+    let mut entries = SMatrix::zeros();
+    entries[index] = factor;
+    Derivative(Some(entries))
 }
 
-/// Value with the M unit-vector derivatives `seed`.
-#[inline]
-fn seeded<F: Primitive, const M: usize>(value: F, index: usize, factor: F) -> First<F, M> {
-    let mut eps = SVector::<F, M>::zeros();
-    eps[index] = factor;
-    DualSVec::new(value, Derivative::some(eps))
+#[inline(always)]
+fn first<F: Primitive, const M: usize>(value: F, index: usize, factor: F) -> Real<First<F, M>> {
+    Real(DualSVec { re: value, eps: seed(index, factor) })
 }
 
-/// Value with an outer and an inner derivative.
-#[inline]
-fn seeded_twice<F: Primitive, const M: usize>(value: F, index: usize, outer: F, inner: F) -> Second<F, M> {
-    let mut eps = SVector::<First<F, M>, M>::from_element(First::from_re(nalgebra::zero()));
-    eps[index] = First::from_re(outer);
-    DualSVec::new(seeded(value, index, inner), Derivative::some(eps))
+#[inline(always)]
+fn second<F: Primitive, const M: usize>(
+    value: F,
+    eps1: Part<F, M, 1>,
+    eps2: Part<F, 1, M>,
+) -> Real<Second<F, M>> {
+    Real(HyperDualSVec { re: value, eps1, eps2, eps1eps2: Derivative(None) })
 }
 
-/// Value, ∂f/∂q and ∂f/∂v of `f`; M = 2N.
+/// The entries, zeros where absent.
+#[inline(always)]
+fn entries<F: Primitive, const R: usize, const C: usize>(part: Part<F, R, C>) -> SMatrix<F, R, C> {
+    part.0.unwrap_or_else(SMatrix::zeros)
+}
+
+/// Value, ∂f/∂q and ∂f/∂v of `f`.
+///
+/// q is seeded in the first part and v in the second, so that what depends on one alone carries N derivatives and not 2N;
+/// the mixed part is not read, and so not computed.
 #[inline]
-pub fn gradient<F: Primitive, const N: usize, const M: usize>(
+pub fn gradient<F: Primitive, const N: usize>(
     q: &SVector<F, N>,
     v: &SVector<F, N>,
-    f: impl Fn([Real<First<F, M>>; N], [Real<First<F, M>>; N]) -> Real<First<F, M>>,
+    f: impl Fn([Real<Second<F, N>>; N], [Real<Second<F, N>>; N]) -> Real<Second<F, N>>,
 ) -> Gradient<F, N> {
-    const { assert!(M == 2 * N) };
     let one = nalgebra::one();
-    let q: [_; N] = core::array::from_fn(|i| Real(seeded(q[i], i, one)));
-    let v: [_; N] = core::array::from_fn(|i| Real(seeded(v[i], N + i, one)));
+    let q = array::from_fn(|i| second(q[i], seed(i, one), Derivative(None)));
+    let v = array::from_fn(|i| second(v[i], Derivative(None), seed(i, one)));
     let f = f(q, v).0;
-    let by = derivatives_of(&f);
-    Gradient { value: f.re, d1: SVector::from_fn(|i, _| by[i]), d2: SVector::from_fn(|i, _| by[N + i]) }
+    Gradient { value: f.re, d1: entries(f.eps1), d2: entries(f.eps2).transpose() }
 }
 
 /// Value, first and second derivatives of `f`; M = 2N.
@@ -173,19 +388,17 @@ pub fn derivatives<F: Primitive, const N: usize, const M: usize>(
 ) -> Derivatives<F, N> {
     const { assert!(M == 2 * N) };
     let one = nalgebra::one();
-    let q: [_; N] = core::array::from_fn(|i| Real(seeded_twice(q[i], i, one, one)));
-    let v: [_; N] = core::array::from_fn(|i| Real(seeded_twice(v[i], N + i, one, one)));
+    let q = array::from_fn(|i| second(q[i], seed(i, one), seed(i, one)));
+    let v = array::from_fn(|i| second(v[i], seed(N + i, one), seed(N + i, one)));
     let f = f(q, v).0;
-    let first = derivatives_of(&f.re);
-    let second = derivatives_of(&f).map(|row| derivatives_of(&row));
-    let block = |row: usize, column: usize| SMatrix::from_fn(|i, j| second[row + i][column + j]);
+    let (first, second) = (entries(f.eps1), entries(f.eps1eps2));
     Derivatives {
-        value: f.re.re,
-        d1: SVector::from_fn(|i, _| first[i]),
-        d2: SVector::from_fn(|i, _| first[N + i]),
-        d11: block(0, 0),
-        d12: block(0, N),
-        d22: block(N, N),
+        value: f.re,
+        d1: block(&first, 0, 0),
+        d2: block(&first, N, 0),
+        d11: block(&second, 0, 0),
+        d12: block(&second, 0, N),
+        d22: block(&second, N, N),
     }
 }
 
@@ -198,16 +411,10 @@ pub fn variations<F: Primitive, const N: usize>(
     plus: Direction<F>,
     f: impl Fn([Real<Second<F, N>>; N], [Real<Second<F, N>>; N]) -> Real<Second<F, N>>,
 ) -> Variations<F, N> {
-    let q: [_; N] = core::array::from_fn(|i| Real(seeded_twice(q[i], i, minus.first, plus.first)));
-    let v: [_; N] = core::array::from_fn(|i| Real(seeded_twice(v[i], i, minus.second, plus.second)));
+    let q = array::from_fn(|i| second(q[i], seed(i, minus.first), seed(i, plus.first)));
+    let v = array::from_fn(|i| second(v[i], seed(i, minus.second), seed(i, plus.second)));
     let f = f(q, v).0;
-    let outer = derivatives_of(&f);
-    let rows = outer.map(|row| derivatives_of(&row));
-    Variations {
-        minus: outer.map(|row| row.re),
-        plus: derivatives_of(&f.re),
-        mixed: SMatrix::from_fn(|i, j| rows[i][j]),
-    }
+    Variations { minus: entries(f.eps1), plus: entries(f.eps2).transpose(), mixed: entries(f.eps1eps2) }
 }
 
 /// Value and Jacobians of the covector-valued `f`; M = 2N.
@@ -219,10 +426,8 @@ pub fn covector_derivatives<F: Primitive, const N: usize, const M: usize>(
 ) -> CovectorDerivatives<F, N> {
     const { assert!(M == 2 * N) };
     let one = nalgebra::one();
-    let q: [_; N] = core::array::from_fn(|i| Real(seeded(q[i], i, one)));
-    let v: [_; N] = core::array::from_fn(|i| Real(seeded(v[i], N + i, one)));
-    let f = f(q, v);
-    let rows = f.map(|component| derivatives_of(&component.0));
+    let f = f(array::from_fn(|i| first(q[i], i, one)), array::from_fn(|i| first(v[i], N + i, one)));
+    let rows = f.map(|component| entries(component.0.eps));
     CovectorDerivatives {
         value: SVector::from_fn(|i, _| f[i].0.re),
         d1: SMatrix::from_fn(|i, j| rows[i][j]),
@@ -238,9 +443,19 @@ pub fn covector_variation<F: Primitive, const N: usize>(
     direction: Direction<F>,
     f: impl Fn([Real<First<F, N>>; N], [Real<First<F, N>>; N]) -> [Real<First<F, N>>; N],
 ) -> (SVector<F, N>, SMatrix<F, N, N>) {
-    let q: [_; N] = core::array::from_fn(|i| Real(seeded(q[i], i, direction.first)));
-    let v: [_; N] = core::array::from_fn(|i| Real(seeded(v[i], i, direction.second)));
+    let q = array::from_fn(|i| first(q[i], i, direction.first));
+    let v = array::from_fn(|i| first(v[i], i, direction.second));
     let f = f(q, v);
-    let rows = f.map(|component| derivatives_of(&component.0));
+    let rows = f.map(|component| entries(component.0.eps));
     (SVector::from_fn(|i, _| f[i].0.re), SMatrix::from_fn(|i, j| rows[i][j]))
+}
+
+/// The block of `matrix` that starts at (`row`, `column`).
+#[inline(always)]
+fn block<F: Primitive, const R: usize, const C: usize, const A: usize, const B: usize>(
+    matrix: &SMatrix<F, A, B>,
+    row: usize,
+    column: usize,
+) -> SMatrix<F, R, C> {
+    SMatrix::from_fn(|i, j| matrix[(row + i, column + j)])
 }

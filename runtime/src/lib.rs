@@ -1,7 +1,4 @@
-//! Structure-preserving integrators for mechanical systems with dissipation, generated from a Lagrangian and a Rayleigh
-//! function.
-//!
-//! See the README for the equations, and [`rayleigh_system`] for what the attribute accepts and generates.
+#![cfg_attr(feature = "std", doc = include_str!("../README.md"))]
 #![cfg_attr(not(feature = "std"), no_std)]
 
 extern crate self as dalembert;

@@ -90,7 +90,10 @@ fn annotated_block(system: &System<'_>, mut block: syn::ItemImpl) -> TokenStream
                 _ => None,
             };
             match body {
-                Some(body) => vec![ImplItem::Fn(plain(system, body)), ImplItem::Fn(documented_twin(body))],
+                Some(body) => vec![
+                    ImplItem::Fn(plain(system, body)),
+                    ImplItem::Fn(documented_twin(body, is_root(body))),
+                ],
                 None => vec![item],
             }
         })
@@ -137,10 +140,18 @@ fn lifted_arguments<'p>(
         .collect()
 }
 
-fn documented_twin(body: &Body) -> ImplItemFn {
+/// Whether the function is L, R or f, and not a helper that they call.
+fn is_root(body: &Body) -> bool {
+    ["lagrangian", "rayleigh", "force"].iter().any(|root| body.plain.sig.ident == root)
+}
+
+fn documented_twin(body: &Body, is_root: bool) -> ImplItemFn {
     let mut twin = body.over.clone();
     let text = format!(" `{}` over plain and dual numbers.", body.plain.sig.ident);
     twin.attrs.push(parse_quote!(#[doc = #text]));
+    // L, R and f are called from one closure for each kind of number: called, they would hide from the compiler which
+    // derivatives are absent.
+    twin.attrs.push(if is_root { parse_quote!(#[inline(always)]) } else { parse_quote!(#[inline]) });
     twin
 }
 
@@ -174,7 +185,7 @@ fn function_and_struct(system: &System<'_>, function: &Function) -> TokenStream 
 fn function_bodies(system: &System<'_>, function: &Function) -> TokenStream {
     let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
-    let twin = documented_twin(&system.bodies[0]);
+    let twin = documented_twin(&system.bodies[0], true);
     let twin_name = &twin.sig.ident;
     let lifted: Vec<_> = parameters(function).map(|(field, _)| quote!(D::lift(self.#field))).collect();
     let part = |name: &str, text: &str, index: Option<TokenStream>| {
@@ -183,6 +194,7 @@ fn function_bodies(system: &System<'_>, function: &Function) -> TokenStream {
         // fn lagrangian_over<D: Dual<f64>>(&self, q: …, v: …) -> Real<D> { Self::oscillator_over(q, v, D::lift(self.m)).0 }
         quote! {
             #[doc = #text]
+            #[inline(always)]
             fn #name<D: Dual<#scalar>>(&self, q: [Real<D>; #n], v: [Real<D>; #n]) -> Real<D> {
                 Self::#twin_name(q, v, #(#lifted),*) #index
             }
@@ -278,7 +290,7 @@ fn value_and_derivatives(system: &System<'_>, function: &str, arguments: Rayleig
         RayleighArguments::ConfigurationAndVelocity => (quote!(q), quote!(|q, v| self.#over(q, v))),
     };
     // fn lagrangian_gradient(&self, q: …, v: …) -> Gradient<f64, 2> {
-    //     dual::gradient::<f64, 2, 4>(q, v, |q, v| self.lagrangian_over(q, v))
+    //     dual::gradient::<f64, 2>(q, v, |q, v| self.lagrangian_over(q, v))
     // }
     quote! {
         fn #plain(&self, #unused: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>) -> #scalar {
@@ -286,7 +298,7 @@ fn value_and_derivatives(system: &System<'_>, function: &str, arguments: Rayleig
         }
 
         fn #gradient(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>) -> Gradient<#scalar, #n> {
-            dual::gradient::<#scalar, #n, #twice>(q, v, #closure)
+            dual::gradient::<#scalar, #n>(q, v, #closure)
         }
 
         fn #derivatives(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>) -> Derivatives<#scalar, #n> {

@@ -423,14 +423,14 @@ impl Rewriter<'_> {
                 return None;
             }
             self.visit_expr_mut(&mut cast.expr);
-            let ExprCast { expr, ty, .. } = cast;
+            let (expr, ty) = (without_parentheses(&cast.expr), &cast.ty);
             let span = span_of(expr);
             return Some(parse_quote_spanned!(span=> dual::integer::<_, #ty>(#expr)));
         }
         match simple_name(&cast.ty) {
             Some(name) if *name == self.system.scalar => {
                 self.visit_expr_mut(&mut cast.expr);
-                let expr = &cast.expr;
+                let expr = without_parentheses(&cast.expr);
                 let span = span_of(expr);
                 Some(parse_quote_spanned!(span=> D::number(#expr)))
             }
@@ -444,6 +444,14 @@ impl Rewriter<'_> {
                 None
             }
         }
+    }
+}
+
+/// `i + 1` of `(i + 1) as f64`: around an argument, parentheses would warn.
+fn without_parentheses(expression: &Expr) -> &Expr {
+    match expression {
+        Expr::Paren(inner) => without_parentheses(&inner.expr),
+        other => other,
     }
 }
 

@@ -7,6 +7,38 @@ use crate::Scalar;
 
 /// A plain scalar with its elementary functions, those of the standard library.
 pub trait Primitive: Scalar + DualNumFloat + Dual<Self> {
+    /// 1/x.
+    fn recip(self) -> Self;
+    /// 2ˣ.
+    fn exp2(self) -> Self;
+    /// eˣ − 1.
+    fn exp_m1(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+    /// Logarithm to base 2.
+    fn log2(self) -> Self;
+    /// Logarithm to base 10.
+    fn log10(self) -> Self;
+    /// ln(1 + x).
+    fn ln_1p(self) -> Self;
+    /// Sine and cosine.
+    fn sin_cos(self) -> (Self, Self);
+    /// Arcsine.
+    fn asin(self) -> Self;
+    /// Arccosine.
+    fn acos(self) -> Self;
+    /// Arctangent.
+    fn atan(self) -> Self;
+    /// Hyperbolic sine.
+    fn sinh(self) -> Self;
+    /// Hyperbolic cosine.
+    fn cosh(self) -> Self;
+    /// Inverse hyperbolic sine.
+    fn asinh(self) -> Self;
+    /// Inverse hyperbolic cosine.
+    fn acosh(self) -> Self;
+    /// Inverse hyperbolic tangent.
+    fn atanh(self) -> Self;
     /// Tangent.
     fn tan(self) -> Self;
     /// Hyperbolic tangent.
@@ -40,8 +72,10 @@ pub trait Primitive: Scalar + DualNumFloat + Dual<Self> {
 macro_rules! primitive {
     ($($float:ident)*) => {$(
         impl Primitive for $float {
-            primitive!($float: tan() tanh() exp() sqrt() cbrt() abs() signum() powi(n: i32) powf(n: $float)
+            primitive!($float: recip() exp2() exp_m1() ln() log2() log10() ln_1p() asin() acos() atan() sinh() cosh()
+                asinh() acosh() atanh() tan() tanh() exp() sqrt() cbrt() abs() signum() powi(n: i32) powf(n: $float)
                 atan2(x: $float) hypot(y: $float) => $float);
+            primitive!($float: sin_cos() => ($float, $float));
             primitive!($float: is_nan() is_finite() is_sign_negative() => bool);
         }
     )*};

@@ -27,18 +27,6 @@ use super::primitive::Primitive;
 #[derive(Clone, Copy)]
 pub struct Real<D>(pub D);
 
-/// Forwards one method to num-dual.
-macro_rules! forward {
-    ($($(#[$doc:meta])* $name:ident)*) => {$(
-        $(#[$doc])*
-        #[inline]
-        #[must_use]
-        pub fn $name(self) -> Self {
-            Self(DualNum::$name(&self.0))
-        }
-    )*};
-}
-
 /// Methods of `f64` without a derivative: the bound gives their use a message of its own.
 macro_rules! refuse {
     ($($name:ident($($argument:ident)?))*) => {$(
@@ -60,45 +48,6 @@ where
     F: Primitive,
     D: Dual<F> + DualNum<Primitive = F>,
 {
-    forward! {
-        /// 1/x.
-        recip
-        /// eˣ.
-        exp
-        /// 2ˣ.
-        exp2
-        /// eˣ − 1, accurate near 0.
-        exp_m1
-        /// Natural logarithm.
-        ln
-        /// Logarithm to base 2.
-        log2
-        /// Logarithm to base 10.
-        log10
-        /// ln(1 + x), accurate near 0.
-        ln_1p
-        /// Sine.
-        sin
-        /// Cosine.
-        cos
-        /// Arcsine.
-        asin
-        /// Arccosine.
-        acos
-        /// Arctangent.
-        atan
-        /// Hyperbolic sine.
-        sinh
-        /// Hyperbolic cosine.
-        cosh
-        /// Inverse hyperbolic sine.
-        asinh
-        /// Inverse hyperbolic cosine.
-        acosh
-        /// Inverse hyperbolic tangent.
-        atanh
-    }
-
     refuse! {
         floor() ceil() round() round_ties_even() trunc() fract() next_up() next_down() to_bits()
         rem_euclid(right) div_euclid(right)
@@ -110,12 +59,192 @@ where
         Self(self.0.chain(g))
     }
 
+    /// 1/x.
+    #[inline]
+    #[must_use]
+    pub fn recip(self) -> Self {
+        let r = Primitive::recip(self.0.primal());
+        let square = r * r;
+        self.chain([r, -square, F::constant(2.0) * square * r, F::constant(-6.0) * square * square])
+    }
+
+    /// eˣ.
+    #[inline]
+    #[must_use]
+    pub fn exp(self) -> Self {
+        self.chain([Primitive::exp(self.0.primal()); 4])
+    }
+
+    /// 2ˣ.
+    #[inline]
+    #[must_use]
+    pub fn exp2(self) -> Self {
+        let (power, ln2) = (Primitive::exp2(self.0.primal()), F::constant(core::f64::consts::LN_2));
+        self.chain([power, ln2 * power, ln2 * ln2 * power, ln2 * ln2 * ln2 * power])
+    }
+
+    /// eˣ − 1, accurate near 0.
+    #[inline]
+    #[must_use]
+    pub fn exp_m1(self) -> Self {
+        let exp = Primitive::exp(self.0.primal());
+        self.chain([Primitive::exp_m1(self.0.primal()), exp, exp, exp])
+    }
+
+    /// Natural logarithm.
+    #[inline]
+    #[must_use]
+    pub fn ln(self) -> Self {
+        let x = self.0.primal();
+        self.logarithm(Primitive::ln(x), Primitive::recip(x), F::constant(1.0))
+    }
+
+    /// Logarithm to base 2.
+    #[inline]
+    #[must_use]
+    pub fn log2(self) -> Self {
+        let x = self.0.primal();
+        self.logarithm(Primitive::log2(x), Primitive::recip(x), F::constant(core::f64::consts::LOG2_E))
+    }
+
+    /// Logarithm to base 10.
+    #[inline]
+    #[must_use]
+    pub fn log10(self) -> Self {
+        let x = self.0.primal();
+        self.logarithm(Primitive::log10(x), Primitive::recip(x), F::constant(core::f64::consts::LOG10_E))
+    }
+
+    /// ln(1 + x), accurate near 0.
+    #[inline]
+    #[must_use]
+    pub fn ln_1p(self) -> Self {
+        let x = self.0.primal();
+        self.logarithm(Primitive::ln_1p(x), Primitive::recip(F::constant(1.0) + x), F::constant(1.0))
+    }
+
+    /// A function with the derivative `scale`·r, r the reciprocal of its argument up to a shift.
+    #[inline]
+    fn logarithm(self, value: F, r: F, scale: F) -> Self {
+        self.chain([value, scale * r, -scale * r * r, F::constant(2.0) * scale * r * r * r])
+    }
+
+    /// Sine.
+    #[inline]
+    #[must_use]
+    pub fn sin(self) -> Self {
+        self.sin_cos().0
+    }
+
+    /// Cosine.
+    #[inline]
+    #[must_use]
+    pub fn cos(self) -> Self {
+        self.sin_cos().1
+    }
+
     /// Sine and cosine.
     #[inline]
     #[must_use]
     pub fn sin_cos(self) -> (Self, Self) {
-        let (sine, cosine) = DualNum::sin_cos(&self.0);
-        (Self(sine), Self(cosine))
+        let (sine, cosine) = Primitive::sin_cos(self.0.primal());
+        (self.chain([sine, cosine, -sine, -cosine]), self.chain([cosine, -sine, -cosine, sine]))
+    }
+
+    /// Arcsine.
+    #[inline]
+    #[must_use]
+    pub fn asin(self) -> Self {
+        let x = self.0.primal();
+        self.arc(Primitive::asin(x), F::constant(1.0))
+    }
+
+    /// Arccosine.
+    #[inline]
+    #[must_use]
+    pub fn acos(self) -> Self {
+        let x = self.0.primal();
+        self.arc(Primitive::acos(x), F::constant(-1.0))
+    }
+
+    /// A function with the derivative ±1/√(1 − x²).
+    #[inline]
+    fn arc(self, value: F, sign: F) -> Self {
+        let [one, two] = [1.0, 2.0].map(F::constant);
+        let x = self.0.primal();
+        let square = one / ((one - x) * (one + x));
+        let first = sign * Primitive::sqrt(square);
+        self.chain([value, first, x * first * square, (one + two * x * x) * first * square * square])
+    }
+
+    /// Arctangent.
+    #[inline]
+    #[must_use]
+    pub fn atan(self) -> Self {
+        let [one, two, six] = [1.0, 2.0, 6.0].map(F::constant);
+        let x = self.0.primal();
+        let first = one / (one + x * x);
+        let square = first * first;
+        self.chain([Primitive::atan(x), first, -two * x * square, (six * x * x - two) * square * first])
+    }
+
+    /// Hyperbolic sine.
+    #[inline]
+    #[must_use]
+    pub fn sinh(self) -> Self {
+        let (sinh, cosh) = (Primitive::sinh(self.0.primal()), Primitive::cosh(self.0.primal()));
+        self.chain([sinh, cosh, sinh, cosh])
+    }
+
+    /// Hyperbolic cosine.
+    #[inline]
+    #[must_use]
+    pub fn cosh(self) -> Self {
+        let (sinh, cosh) = (Primitive::sinh(self.0.primal()), Primitive::cosh(self.0.primal()));
+        self.chain([cosh, sinh, cosh, sinh])
+    }
+
+    /// Inverse hyperbolic sine.
+    #[inline]
+    #[must_use]
+    pub fn asinh(self) -> Self {
+        let [one, two] = [1.0, 2.0].map(F::constant);
+        let x = self.0.primal();
+        let square = one / (one + x * x);
+        let first = Primitive::sqrt(square);
+        self.chain([
+            Primitive::asinh(x),
+            first,
+            -x * first * square,
+            (two * x * x - one) * first * square * square,
+        ])
+    }
+
+    /// Inverse hyperbolic cosine.
+    #[inline]
+    #[must_use]
+    pub fn acosh(self) -> Self {
+        let [one, two] = [1.0, 2.0].map(F::constant);
+        let x = self.0.primal();
+        let square = one / ((x - one) * (x + one));
+        let first = Primitive::sqrt(square);
+        self.chain([
+            Primitive::acosh(x),
+            first,
+            -x * first * square,
+            (two * x * x + one) * first * square * square,
+        ])
+    }
+
+    /// Inverse hyperbolic tangent.
+    #[inline]
+    #[must_use]
+    pub fn atanh(self) -> Self {
+        let [one, two, six] = [1.0, 2.0, 6.0].map(F::constant);
+        let x = self.0.primal();
+        let first = one / ((one - x) * (one + x));
+        let square = first * first;
+        self.chain([Primitive::atanh(x), first, two * x * square, (two + six * x * x) * square * first])
     }
 
     /// Tangent. num-dual divides sine by cosine, which rounds differently from `f64::tan`.
@@ -351,16 +480,24 @@ where
 
 /// An operator between numbers of a differentiated body, by value and by reference.
 macro_rules! operator {
-    ($($trait:ident $name:ident $assign:ident $assign_name:ident)*) => {$(
-        impl<D: DualNum + Copy> $trait for Real<D> {
+    ($($trait:ident $name:ident $assign:ident $assign_name:ident $operation:ident)*) => {$(
+        impl<D, F> $trait for Real<D>
+where
+    F: Primitive,
+    D: Dual<F> + DualNum<Primitive = F>,
+{
             type Output = Self;
             #[inline]
             fn $name(self, right: Self) -> Self {
-                Self(self.0.$name(right.0))
+                Self(self.0.$operation(right.0))
             }
         }
 
-        impl<D: DualNum + Copy> $trait<&Self> for Real<D> {
+        impl<D, F> $trait<&Self> for Real<D>
+where
+    F: Primitive,
+    D: Dual<F> + DualNum<Primitive = F>,
+{
             type Output = Self;
             #[inline]
             fn $name(self, right: &Self) -> Self {
@@ -368,7 +505,11 @@ macro_rules! operator {
             }
         }
 
-        impl<D: DualNum + Copy> $trait<Real<D>> for &Real<D> {
+        impl<D, F> $trait<Real<D>> for &Real<D>
+where
+    F: Primitive,
+    D: Dual<F> + DualNum<Primitive = F>,
+{
             type Output = Real<D>;
             #[inline]
             fn $name(self, right: Real<D>) -> Real<D> {
@@ -376,7 +517,11 @@ macro_rules! operator {
             }
         }
 
-        impl<D: DualNum + Copy> $trait for &Real<D> {
+        impl<D, F> $trait for &Real<D>
+where
+    F: Primitive,
+    D: Dual<F> + DualNum<Primitive = F>,
+{
             type Output = Real<D>;
             #[inline]
             fn $name(self, right: Self) -> Real<D> {
@@ -384,14 +529,22 @@ macro_rules! operator {
             }
         }
 
-        impl<D: DualNum + Copy> $assign for Real<D> {
+        impl<D, F> $assign for Real<D>
+where
+    F: Primitive,
+    D: Dual<F> + DualNum<Primitive = F>,
+{
             #[inline]
             fn $assign_name(&mut self, right: Self) {
                 *self = (*self).$name(right);
             }
         }
 
-        impl<D: DualNum + Copy> $assign<&Self> for Real<D> {
+        impl<D, F> $assign<&Self> for Real<D>
+where
+    F: Primitive,
+    D: Dual<F> + DualNum<Primitive = F>,
+{
             #[inline]
             fn $assign_name(&mut self, right: &Self) {
                 *self = (*self).$name(*right);
@@ -406,7 +559,7 @@ macro_rules! operator {
             type Output = Self;
             #[inline]
             fn $name(self, right: $float) -> Self {
-                Self(self.0.$name(right))
+                self.$name(D::real(right))
             }
         }
 
@@ -443,21 +596,29 @@ macro_rules! operator {
     };
 }
 operator! {
-    Add add AddAssign add_assign
-    Sub sub SubAssign sub_assign
-    Mul mul MulAssign mul_assign
-    Div div DivAssign div_assign
+    Add add AddAssign add_assign plus
+    Sub sub SubAssign sub_assign minus
+    Mul mul MulAssign mul_assign times
+    Div div DivAssign div_assign over
 }
 
-impl<D: DualNum + Copy> Neg for Real<D> {
+impl<D, F> Neg for Real<D>
+where
+    F: Primitive,
+    D: Dual<F> + DualNum<Primitive = F>,
+{
     type Output = Self;
     #[inline]
     fn neg(self) -> Self {
-        Self(-self.0)
+        Self(self.0.negated())
     }
 }
 
-impl<D: DualNum + Copy> Neg for &Real<D> {
+impl<D, F> Neg for &Real<D>
+where
+    F: Primitive,
+    D: Dual<F> + DualNum<Primitive = F>,
+{
     type Output = Real<D>;
     #[inline]
     fn neg(self) -> Real<D> {
@@ -465,28 +626,44 @@ impl<D: DualNum + Copy> Neg for &Real<D> {
     }
 }
 
-impl<D: DualNum + Copy> Sum for Real<D> {
+impl<D, F> Sum for Real<D>
+where
+    F: Primitive,
+    D: Dual<F> + DualNum<Primitive = F>,
+{
     #[inline]
     fn sum<I: Iterator<Item = Self>>(numbers: I) -> Self {
-        Self(numbers.fold(D::zero(), |sum, x| sum + x.0))
+        Self(numbers.fold(D::zero(), |sum, x| sum.plus(x.0)))
     }
 }
 
-impl<'a, D: DualNum + Copy> Sum<&'a Self> for Real<D> {
+impl<'a, D, F> Sum<&'a Self> for Real<D>
+where
+    F: Primitive,
+    D: Dual<F> + DualNum<Primitive = F>,
+{
     #[inline]
     fn sum<I: Iterator<Item = &'a Self>>(numbers: I) -> Self {
         numbers.copied().sum()
     }
 }
 
-impl<D: DualNum + Copy> Product for Real<D> {
+impl<D, F> Product for Real<D>
+where
+    F: Primitive,
+    D: Dual<F> + DualNum<Primitive = F>,
+{
     #[inline]
     fn product<I: Iterator<Item = Self>>(numbers: I) -> Self {
-        Self(numbers.fold(D::one(), |product, x| product * x.0))
+        Self(numbers.fold(D::one(), |product, x| product.times(x.0)))
     }
 }
 
-impl<'a, D: DualNum + Copy> Product<&'a Self> for Real<D> {
+impl<'a, D, F> Product<&'a Self> for Real<D>
+where
+    F: Primitive,
+    D: Dual<F> + DualNum<Primitive = F>,
+{
     #[inline]
     fn product<I: Iterator<Item = &'a Self>>(numbers: I) -> Self {
         numbers.copied().product()
@@ -552,7 +729,7 @@ primitive!(f64 f32);
 /// `f64::from(i)` for the integers that `f64` takes.
 macro_rules! from_integer {
     ($($int:ty)*) => {$(
-        impl<D: DualNum + Copy> From<$int> for Real<D>
+        impl<D: DualNum> From<$int> for Real<D>
         where
             D::Primitive: From<$int>,
         {

@@ -6,11 +6,10 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::motion::{Dynamics, Family, Point, Writer};
+use super::motion::{Dynamics, Family, Local, Point, Writer, inverse};
 use super::resolve::{Breakdown, Problem, Resolved};
 use super::{ActingForce, ExactError};
 use crate::Lagrangian;
-use crate::linear::Factors;
 
 /// Points count as conjugate when the end determines the motion inside to less than half the digits, 1/√ε.
 pub(super) const CONJUGATE: f64 = 6.7e7;
@@ -61,12 +60,17 @@ impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Dynam
     pub(super) fn carry(&self, start: &Point<N>, h: f64, sufficient: f64) -> Result<Resolved, ExactError> {
         let mut numbers = vec![0.0; Point::<N>::LENGTH];
         start.write(&mut numbers);
-        let rate = |y: &[f64], rate: &mut [f64]| self.point_rate(y, rate, h);
+        let rate = |y: &[f64], rate: &mut [f64]| self.point_rate(y, rate, h).map(drop);
         Problem { start: numbers, blocks: &Point::<N>::BLOCKS, rate, h }.resolve(sufficient)
     }
 
-    /// Rates of change of a [`Point`], times h.
-    pub(super) fn point_rate(&self, y: &[f64], rate: &mut [f64], h: f64) -> Result<(), Breakdown> {
+    /// Writes the rates of change of a [`Point`], times h; gives the point and what was evaluated there.
+    pub(super) fn point_rate(
+        &self,
+        y: &[f64],
+        rate: &mut [f64],
+        h: f64,
+    ) -> Result<(Point<N>, Local<N>), Breakdown> {
         let point = Point::<N>::read(y);
         let local = self.local(&point.q, &point.v)?;
         let mut writer = Writer(rate);
@@ -77,7 +81,7 @@ impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Dynam
             writer.put((v * h).as_slice());
             writer.put((local.momentum_rates(&family.q, &v) * h).as_slice());
         }
-        Ok(())
+        Ok((point, local))
     }
 }
 
@@ -194,20 +198,15 @@ impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Bound
         let end = Point::read(&resolved.end);
         let largest = Point::<N>::read(&resolved.largest).plus.q;
         let conjugate = ExactError::ConjugatePoints { h, growth: f64::INFINITY };
-        let factors = Factors::of(&end.plus.q).map_err(|_| conjugate)?;
-        let mut inverse = SMatrix::<f64, N, N>::zeros();
-        for j in 0..N {
-            let unit = SVector::from_fn(|i, _| if i == j { 1.0 } else { 0.0 });
-            inverse.set_column(j, &factors.solve(&unit));
-        }
+        let inverse = inverse(&end.plus.q).map_err(|_| conjugate)?;
         // Diagonal entries of max|∂q(t)/∂p0| |∂q(h)/∂p0|⁻¹ carry no unit.
-        let growth = (largest * inverse.abs()).diagonal().amax().max(1.0);
+        let growth = (largest * SMatrix::abs(&inverse)).diagonal().amax().max(1.0);
         let residual = end.q - self.q1;
         let local = self.dynamics.local(&self.q0, &v0).map_err(|breakdown| match breakdown {
             Breakdown::Degenerate { column } => ExactError::DegenerateLagrangian { time: 0.0, column },
             Breakdown::NotFinite => ExactError::MotionNotFinite { time: 0.0 },
         })?;
-        let correction = -local.mass.solve(&(inverse * residual));
+        let correction = -(local.inverse_mass * (inverse * residual));
         Ok(Trial { v0, end, residual, correction, inverse, growth })
     }
 }

@@ -58,12 +58,12 @@ impl<const N: usize> Existence<N> {
     /// Which conditions hold.
     #[must_use]
     pub fn verdict(&self) -> ExistenceVerdict {
-        if !(self.mixed.amax() <= self.tolerance) {
-            ExistenceVerdict::MixedFails
-        } else if !(self.minus.amax().max(self.plus.amax()) <= self.tolerance) {
-            ExistenceVerdict::SymmetryFails
-        } else {
-            ExistenceVerdict::Holds
+        let mixed = self.mixed.amax() <= self.tolerance;
+        let symmetric = self.minus.amax().max(self.plus.amax()) <= self.tolerance;
+        match (mixed, symmetric) {
+            (true, true) => ExistenceVerdict::Holds,
+            (true, false) => ExistenceVerdict::SymmetryFails,
+            (false, _) => ExistenceVerdict::MixedFails,
         }
     }
 }

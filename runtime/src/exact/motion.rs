@@ -14,7 +14,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::ActingForce;
 use super::resolve::Breakdown;
-use crate::linear::Factors;
+use crate::linear::{self, Singular};
 use crate::{CovectorDerivatives, Derivatives, Lagrangian};
 
 /// A system with the force that acts on it.
@@ -35,7 +35,8 @@ impl<L, F, const N: usize> Copy for Dynamics<'_, L, F, N> {}
 pub(super) struct Local<const N: usize> {
     pub(super) l: Derivatives<f64, N>,
     pub(super) f: CovectorDerivatives<f64, N>,
-    pub(super) mass: Factors<f64, N>,
+    /// (∂²L/∂v²)⁻¹.
+    pub(super) inverse_mass: SMatrix<f64, N, N>,
     pub(super) acceleration: SVector<f64, N>,
 }
 
@@ -63,10 +64,10 @@ impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Dynam
     /// Everything that the equations need at (q, v).
     pub(super) fn local(&self, q: &SVector<f64, N>, v: &SVector<f64, N>) -> Result<Local<N>, Breakdown> {
         let (l, f) = self.derivatives(q, v)?;
-        let mass =
-            Factors::of(&l.d22).map_err(|singular| Breakdown::Degenerate { column: singular.column })?;
-        let acceleration = mass.solve(&(l.d1 + f.value - l.d12.transpose() * v));
-        Ok(Local { l, f, mass, acceleration })
+        let inverse_mass =
+            inverse(&l.d22).map_err(|singular| Breakdown::Degenerate { column: singular.column })?;
+        let acceleration = inverse_mass * (l.d1 + f.value - l.d12.tr_mul(v));
+        Ok(Local { l, f, inverse_mass, acceleration })
     }
 
     /// L and f with their derivatives, all finite.
@@ -85,6 +86,16 @@ impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Dynam
     }
 }
 
+/// The inverse of `matrix`, for right sides by the dozen.
+pub(super) fn inverse<const N: usize>(matrix: &SMatrix<f64, N, N>) -> Result<SMatrix<f64, N, N>, Singular> {
+    let mut inverse = SMatrix::<f64, N, N>::zeros();
+    for j in 0..N {
+        let unit = SVector::from_fn(|i, _| if i == j { 1.0 } else { 0.0 });
+        inverse.set_column(j, &linear::solve(matrix, &unit)?);
+    }
+    Ok(inverse)
+}
+
 impl<const N: usize> Local<N> {
     /// δv, from δp = L_vq δq + L_vv δv; `excess` is what else makes up δp.
     pub(super) fn velocity(
@@ -93,21 +104,12 @@ impl<const N: usize> Local<N> {
         p: &SVector<f64, N>,
         excess: &SVector<f64, N>,
     ) -> SVector<f64, N> {
-        self.mass.solve(&(p - self.l.d12.transpose() * q - excess))
+        self.inverse_mass * (p - self.l.d12.tr_mul(q) - excess)
     }
 
     /// δv of each column.
     pub(super) fn velocities(&self, family: &Family<N>) -> SMatrix<f64, N, N> {
-        let mut v = SMatrix::<f64, N, N>::zeros();
-        for j in 0..N {
-            let column = self.velocity(
-                &family.q.column(j).into_owned(),
-                &family.p.column(j).into_owned(),
-                &SVector::zeros(),
-            );
-            v.set_column(j, &column);
-        }
-        v
+        self.inverse_mass * (family.p - self.l.d12.tr_mul(&family.q))
     }
 
     /// δp′ of variations δq, δv.

@@ -117,14 +117,12 @@ where
     segment.start.write(&mut numbers);
 
     let rate = |y: &[f64], rate: &mut [f64]| {
-        dynamics.point_rate(&y[..motion], &mut rate[..motion], h)?;
-        let point = Point::<N>::read(y);
-        let local = dynamics.local(&point.q, &point.v)?;
+        let (point, local) = dynamics.point_rate(y, &mut rate[..motion], h)?;
         let Local { l, f, .. } = &local;
         let along = Columns::of(&point, &local);
         let mut bends = Vec::with_capacity(2 * N);
-        for a in 0..2 * N {
-            bends.push(bend(dynamics, &point, &along.q[a], &along.v[a], spacings[a])?);
+        for ((x, y), spacing) in along.q.iter().zip(&along.v).zip(spacings) {
+            bends.push(bend(dynamics, &point, x, y, *spacing)?);
         }
 
         let (eta_rates, rest) = rate[motion..].split_at_mut(N * count);

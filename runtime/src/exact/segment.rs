@@ -127,9 +127,7 @@ where
     let blocks: Vec<usize> = Point::<N>::BLOCKS.into_iter().chain([1, 2 * N, 2 * N]).collect();
     let rate = |y: &[f64], rate: &mut [f64]| {
         let (motion, integrands) = rate.split_at_mut(Point::<N>::LENGTH);
-        dynamics.point_rate(&y[..Point::<N>::LENGTH], motion, h)?;
-        let point = Point::<N>::read(y);
-        let local = dynamics.local(&point.q, &point.v)?;
+        let (point, local) = dynamics.point_rate(y, motion, h)?;
         let mut writer = Writer(integrands);
         writer.put(&[local.l.value * h]);
         for family in [&point.minus, &point.plus] {
