@@ -90,7 +90,7 @@ fn second_derivatives_of_the_exact_lagrangian() {
     assert_close(&second.lagrangian.d12, &d12, "D12 L_d");
     assert_close(&second.lagrangian.d12.transpose(), &d21, "D21 L_d");
     assert_close(&second.lagrangian.d22, &d22, "D22 L_d");
-    assert!(second.error < 1e-11, "{:e}", second.error);
+    assert!(second.lagrangian_error < 1e-11, "{:e}", second.lagrangian_error);
 }
 
 #[test]

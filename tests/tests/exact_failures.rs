@@ -32,6 +32,12 @@ fn springs(q: [f64; 2], v: [f64; 2]) -> f64 {
     0.5 * (v[0] * v[0] + v[1] * v[1]) - 0.5 * (q[0] * q[0] + 4.0 * q[1] * q[1])
 }
 
+/// V = q⁴/4: the wider the swing, the shorter its period.
+#[rayleigh_system]
+fn quartic(q: [f64; 1], v: [f64; 1]) -> f64 {
+    0.5 * v[0] * v[0] - 0.25 * q[0].powi(4)
+}
+
 const PENDULUM: Pendulum = Pendulum { r: 0.1 };
 
 #[test]
@@ -66,6 +72,33 @@ fn conjugate_points_of_one_coordinate_among_two() {
     assert!(segment.report.error() < 1e-13, "{}", segment.report);
 }
 
+/// Time from q0 out to the turning point A and back to q1 in V = q⁴/4: with q = A sin φ,
+/// (√2/A)(∫ from arcsin q0/A + ∫ from arcsin q1/A) to π/2 of dφ/√(1 + sin²φ).
+fn time_by_way_of(turning: f64, q0: f64, q1: f64) -> f64 {
+    let leg = |q: f64| {
+        let (from, cells) = ((q / turning).asin(), 400);
+        let width = (std::f64::consts::FRAC_PI_2 - from) / f64::from(2 * cells);
+        let at = |i: i32| 1.0 / (1.0 + (from + f64::from(i) * width).sin().powi(2)).sqrt();
+        let sum: f64 = (0..cells).map(|i| at(2 * i) + 4.0 * at(2 * i + 1) + at(2 * i + 2)).sum();
+        sum * width / 3.0
+    };
+    std::f64::consts::SQRT_2 / turning * (leg(q0) + leg(q1))
+}
+
+#[test]
+fn the_step_size_where_a_motion_ceases_is_found() {
+    // The longest time from 0.6 to 1.1 with one turn: beyond it the motion near the straight line ceases to exist.
+    let turnings = (1..4000).map(|i| 1.1 + 1e-4 * f64::from(i));
+    let longest = turnings.map(|turning| time_by_way_of(turning, 0.6, 1.1)).fold(0.0, f64::max);
+    let exact = Exact::unforced(&Quartic);
+    let error = exact.segment(vector![0.6], vector![1.1], 2.0).unwrap_err();
+    let ExactError::ConjugatePoints { h, growth } = error else { panic!("{error}") };
+    assert!((h / longest - 1.0).abs() < 1e-5 && growth > 100.0, "{error}, longest {longest}");
+    // Positive control: just before it the motion exists, and is found by following it from small h.
+    let segment = exact.segment(vector![0.6], vector![1.1], 0.999 * longest).unwrap();
+    assert!(segment.report.error() < 1e-12 && segment.report.growth > 5.0, "{}", segment.report);
+}
+
 #[test]
 fn points_too_far_apart_for_the_swing() {
     // Frequency near 1 in small swings: past half a period every motion from 0.3 to 0.9 has turned back or gone round.
@@ -96,7 +129,7 @@ fn a_force_with_a_corner_has_no_second_derivatives() {
     assert_eq!(error, ExactError::NotDifferentiable { index: 0 });
     // Positive control: a motion that goes one way has them.
     let segment = exact.segment(vector![0.2], vector![0.9], 0.5).unwrap();
-    assert!(exact.second_derivatives(&segment).unwrap().error < 1e-10);
+    assert!(exact.second_derivatives(&segment).unwrap().force_error < 1e-10);
 }
 
 #[test]

@@ -123,7 +123,7 @@ fn second_derivatives_are_those_of_the_closed_forms() {
         assert_close(second.force.minus.d2[0], -half * c, scale, 1e-13, "D2 f-");
         assert_close(second.force.plus.d1[0], half * c, scale, 1e-13, "D1 f+");
         assert_close(second.force.plus.d2[0], -half, scale, 1e-13, "D2 f+");
-        assert!(second.error < 1e-12 * scale, "{:e}", second.error);
+        assert!(second.force_error < 1e-12 * scale, "{:e}", second.force_error);
     }
 }
 

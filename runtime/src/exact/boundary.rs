@@ -20,8 +20,12 @@ const MAX_ITERATIONS: u32 = 40;
 /// Halvings of a Newton step.
 const MAX_HALVINGS: u32 = 10;
 
-/// A motion followed to where it ceases grows at least this much there; else it is Newton's method that gave up.
-const CEASING: f64 = 100.0;
+/// Step sizes less far apart, relatively, are not tried when a motion is followed.
+const FINEST: f64 = 1e-6;
+
+/// Two motions meet and cease where a variation grows like 1/√(1 − h/h*): followed to h* as closely as above, a motion that
+/// grows less than this has not been lost to conjugate points, but to Newton's method.
+const CEASING: f64 = 50.0;
 
 /// The initial velocity found, and ∂(q, p)(h)/∂(q0, p0) with it.
 #[derive(Clone, Copy, Debug)]
@@ -104,18 +108,23 @@ impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Bound
             return Err(first_failure);
         };
         let mut ratio = 2.0_f64;
+        let mut in_a_row = 0;
         let mut continuation = 1;
         while reached != h {
             let next = if (reached * ratio / h) < 1.0 { reached * ratio } else { h };
             match self.shoot(next, shot.v0 * (reached / next)) {
                 Ok(further) => {
                     (reached, shot) = (next, further);
-                    ratio = (ratio * ratio).min(2.0);
+                    in_a_row += 1;
+                    if in_a_row > 2 {
+                        ratio = (ratio * ratio).min(2.0);
+                    }
                     continuation += 1;
                 }
                 Err(failure) => {
+                    in_a_row = 0;
                     ratio = ratio.sqrt();
-                    if ratio < 1.001 {
+                    if ratio < 1.0 + FINEST {
                         return Err(if shot.growth > CEASING {
                             ExactError::ConjugatePoints { h: reached, growth: shot.growth }
                         } else if let ExactError::NoMotion { residual, .. } = failure {

@@ -97,7 +97,7 @@ pub(super) fn of<const N: usize>(segment: &Segment<N>, second: &SecondDerivative
         mixed: force.plus.d1 + force.minus.d2.transpose(),
         minus: force.minus.d1 - force.minus.d1.transpose(),
         plus: force.plus.d2 - force.plus.d2.transpose(),
-        tolerance: 10.0 * second.error,
+        tolerance: 10.0 * second.force_error,
         h: segment.h,
     }
 }

@@ -14,7 +14,7 @@
 //! they are central differences of order 8 of the second derivatives, along δ_a, with a spacing that the motion itself is
 //! asked for: the one whose result changes least when it is halved.
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use super::motion::{Dynamics, Local, Point, Reader, Writer};
 use super::resolve::{Breakdown, Problem};
@@ -30,9 +30,11 @@ pub struct SecondDerivatives<const N: usize> {
     pub lagrangian: Derivatives<f64, N>,
     /// f_d^ex± with D1 and D2.
     pub force: DiscreteForceDerivatives<f64, N>,
-    /// Error estimate of every entry of D11, D12, D22 of L_d^ex and of D1, D2 of f_d^ex±, absolute: how much halving the
-    /// spacing of the differences changes them, and the relative error of the integration times their size.
-    pub error: f64,
+    /// Absolute error estimate of the entries of D11, D12, D22 of L_d^ex: how much halving the spacing of the differences
+    /// changes them, and the relative error of the integration times their size.
+    pub lagrangian_error: f64,
+    /// Absolute error estimate of the entries of D1, D2 of f_d^ex±, likewise.
+    pub force_error: f64,
 }
 
 /// Weights of the central difference of order 8, for ±1, ±2, ±3, ±4 spacings.
@@ -84,16 +86,22 @@ where
     let halved: Vec<f64> = spacings.iter().map(|spacing| spacing / 2.0).collect();
     let (lagrangian, force, integration) = carry(dynamics, segment, &spacings)?;
     let (other, ..) = carry(dynamics, segment, &halved)?;
-    let blocks = |l: &Derivatives<f64, N>| [l.d11, l.d12, l.d22];
-    let spread =
-        blocks(&lagrangian).iter().zip(&blocks(&other)).map(|(a, b)| (a - b).amax()).fold(0.0, f64::max);
-    let size = blocks(&lagrangian)
+    // The differences enter both through ∫ f·w dt alone.
+    let hessian = |l: &Derivatives<f64, N>| [l.d11, l.d12, l.d22];
+    let largest = |blocks: &[SMatrix<f64, N, N>]| blocks.iter().map(SMatrix::amax).fold(0.0, f64::max);
+    let jacobian = [force.minus.d1, force.minus.d2, force.plus.d1, force.plus.d2];
+    let spread = hessian(&lagrangian)
         .iter()
-        .chain([&force.minus.d1, &force.minus.d2, &force.plus.d1, &force.plus.d2])
-        .map(|block| block.amax())
+        .zip(&hessian(&other))
+        .map(|(wide, narrow)| (wide - narrow).amax())
         .fold(0.0, f64::max);
-    let error = spread + integration.max(segment.report.error()) * size;
-    Ok(SecondDerivatives { lagrangian, force, error })
+    let relative = integration.max(segment.report.error());
+    Ok(SecondDerivatives {
+        lagrangian_error: spread + relative * largest(&hessian(&lagrangian)),
+        force_error: spread + relative * largest(&jacobian),
+        lagrangian,
+        force,
+    })
 }
 
 /// D²L_d^ex and Df_d^ex with these spacings, and the relative error of the integration.
@@ -165,7 +173,7 @@ where
         by_pair[b * 2 * N + a] = by_pair[a * 2 * N + b];
     }
     let block = |row: usize, column: usize, entry: &dyn Fn(usize) -> f64| {
-        nalgebra::SMatrix::<f64, N, N>::from_fn(|i, j| entry((row + i) * 2 * N + column + j))
+        SMatrix::<f64, N, N>::from_fn(|i, j| entry((row + i) * 2 * N + column + j))
     };
     let hessian = |at: usize| by_pair[at].1;
     let jacobian = |at: usize| own_work[at] + by_pair[at].0;
@@ -261,7 +269,7 @@ where
 
 /// Largest disagreement of two differences, relative to the derivatives that were differenced.
 fn spread<const N: usize>(
-    at: &[nalgebra::SMatrix<f64, N, N>; 5],
+    at: &[SMatrix<f64, N, N>; 5],
     wide: &Bend<N>,
     narrow: &Bend<N>,
     spacing: f64,
@@ -276,6 +284,6 @@ fn spread<const N: usize>(
     worst
 }
 
-fn matrices<const N: usize>(bend: &Bend<N>) -> [nalgebra::SMatrix<f64, N, N>; 5] {
+fn matrices<const N: usize>(bend: &Bend<N>) -> [SMatrix<f64, N, N>; 5] {
     [bend.l.d11, bend.l.d12, bend.l.d22, bend.f.d1, bend.f.d2]
 }
