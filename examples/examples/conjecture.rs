@@ -153,7 +153,7 @@ fn draw(potentials: &[Potential]) -> Result<PathBuf> {
 
 fn draw_into(svg: &mut String, potentials: &[Potential]) -> Result<()> {
     const FONT: &str = "sans-serif";
-    const H: Range<f64> = 0.0125..1.25;
+    const H: Range<f64> = 0.01..1.25;
     const OBSTRUCTION: Range<f64> = 1e-17..1.0;
     let root = SVGBackend::with_string(svg, (1100, 800)).into_drawing_area();
     root.fill(&WHITE)?;
@@ -187,7 +187,11 @@ fn draw_into(svg: &mut String, potentials: &[Potential]) -> Result<()> {
         let visible = points.map(|(h, y)| (h, y.max(OBSTRUCTION.start)));
         chart
             .draw_series(visible.map(|at| Circle::new(at, 5, colour.filled())))?
-            .label(potential.name)
+            .label(if potential.leading(1.0) == 0.0 {
+                format!("{} (0 on the lower edge)", potential.name)
+            } else {
+                potential.name.to_owned()
+            })
             .legend(move |(x, y)| Circle::new((x + 12, y), 5, colour.filled()));
         let line: Vec<_> = step_sizes().map(|h| (h, potential.leading(h).abs())).collect();
         if line.iter().all(|point| point.1 > 0.0) {

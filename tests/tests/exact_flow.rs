@@ -130,3 +130,19 @@ fn a_segment_backwards_is_the_segment_with_opposite_sign() {
     // Positive control: the force does tell forwards from backwards.
     assert!((forwards.force.minus - forwards.force.plus).amax() > 1e-3);
 }
+
+#[test]
+fn unforced_curves_through_the_points_do_not_join() {
+    // The paper's "solutions of the Euler–Lagrange equations for L" between the nodes must be those of (L, f_L).
+    let h = 0.7;
+    let [y0, y1, y2] = motion(h);
+    let points = [configuration(&y0), configuration(&y1), configuration(&y2)];
+    let unforced = Exact::unforced(&SYSTEM);
+    let before = unforced.segment(points[0], points[1], h).unwrap();
+    let after = unforced.segment(points[1], points[2], h).unwrap();
+    assert!((before.v1 - after.v0).amax() > 0.1, "{before}\n{after}");
+    let forced = Exact::rayleigh_and_general(&SYSTEM);
+    let before = forced.segment(points[0], points[1], h).unwrap();
+    let after = forced.segment(points[1], points[2], h).unwrap();
+    assert!((before.v1 - after.v0).amax() < 1e-12, "{before}\n{after}");
+}
