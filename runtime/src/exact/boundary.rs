@@ -7,7 +7,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::motion::{Dynamics, Family, Local, Point, Writer, inverse};
-use super::resolve::{Breakdown, Problem, Resolved};
+use super::resolve::{Breakdown, Problem, ROUNDING, Resolved};
 use super::{ActingForce, ExactError};
 use crate::Lagrangian;
 
@@ -65,7 +65,8 @@ impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Dynam
         let mut numbers = vec![0.0; Point::<N>::LENGTH];
         start.write(&mut numbers);
         let rate = |y: &[f64], rate: &mut [f64]| self.point_rate(y, rate, h).map(drop);
-        Problem { start: numbers, blocks: &Point::<N>::BLOCKS, rate, h }.resolve(sufficient)
+        Problem { start: numbers, blocks: &Point::<N>::BLOCKS, rate, h, rounding: ROUNDING }
+            .resolve(sufficient)
     }
 
     /// Writes the rates of change of a [`Point`], times h; gives the point and what was evaluated there.

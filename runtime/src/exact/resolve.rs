@@ -21,8 +21,8 @@ const FIRST: usize = 8;
 /// Steps of the last attempt.
 const LAST: usize = 1 << 14;
 
-/// Differences between attempts at this size may be rounding, if they have stopped falling.
-const ROUNDING: f64 = 1e-10;
+/// Differences between attempts at this size may be rounding, where the right-hand side itself is right to rounding.
+pub(super) const ROUNDING: f64 = 1e-10;
 
 /// Order 9 divides the difference by 512 when the steps double; less than this, and rounding holds it up.
 const FALLING: f64 = 16.0;
@@ -46,6 +46,8 @@ pub(super) struct Problem<'a, F> {
     pub(super) rate: F,
     /// The time that τ = 1 stands for; for messages.
     pub(super) h: f64,
+    /// Relative differences between attempts that may be rounding, once they have stopped falling.
+    pub(super) rounding: f64,
 }
 
 /// The solution of a [`Problem`].
@@ -73,12 +75,12 @@ impl<F: Fn(&[f64], &mut [f64]) -> Result<(), Breakdown>> Problem<'_, F> {
             let mut fine = self.attempt(steps)?;
             let difference = self.difference(&coarse, &fine);
             fine.difference = difference;
-            let stagnant = difference <= ROUNDING && difference > previous / FALLING;
+            let stagnant = difference <= self.rounding && difference > previous / FALLING;
             if difference <= sufficient || stagnant {
                 return Ok(fine);
             }
             if steps >= LAST {
-                return if difference <= ROUNDING {
+                return if difference <= self.rounding {
                     Ok(fine)
                 } else {
                     Err(ExactError::Unresolved { steps, difference })
@@ -194,7 +196,8 @@ mod tests {
 
     #[test]
     fn the_end_is_right_to_rounding() {
-        let problem = Problem { start: vec![0.0, 1.0], blocks: &[2], rate: swing, h: 1.0 };
+        let problem =
+            Problem { start: vec![0.0, 1.0], blocks: &[2], rate: swing, h: 1.0, rounding: ROUNDING };
         let resolved = problem.resolve(0.0).unwrap();
         assert!((resolved.end[0] - 2.0_f64.sin()).abs() < 2e-15, "{:?}", resolved.end);
         assert!((resolved.end[1] - 2.0_f64.cos()).abs() < 2e-15, "{:?}", resolved.end);
@@ -211,7 +214,7 @@ mod tests {
             rate[1] = -60.0 * y[0];
             Ok(())
         };
-        let problem = Problem { start: vec![0.0, 1.0], blocks: &[2], rate: fast, h: 1.0 };
+        let problem = Problem { start: vec![0.0, 1.0], blocks: &[2], rate: fast, h: 1.0, rounding: ROUNDING };
         let rough = problem.resolve(1e-2).unwrap();
         let error = (rough.end[0] - 60.0_f64.sin()).abs();
         assert!(error > 1e-12 && error < rough.difference, "{error} {}", rough.difference);
@@ -224,7 +227,7 @@ mod tests {
             rate[0] = 1.0;
             if y[0] < 0.5 { Ok(()) } else { Err(Breakdown::NotFinite) }
         };
-        let problem = Problem { start: vec![0.0], blocks: &[1], rate, h: 4.0 };
+        let problem = Problem { start: vec![0.0], blocks: &[1], rate, h: 4.0, rounding: ROUNDING };
         match problem.resolve(0.0) {
             Err(ExactError::MotionNotFinite { time }) => assert!((1.9..2.6).contains(&time), "{time}"),
             other => panic!("{:?}", other.map(|resolved| resolved.end)),

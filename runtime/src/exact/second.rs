@@ -40,11 +40,19 @@ pub struct SecondDerivatives<const N: usize> {
 /// Weights of the central difference of order 8, for ±1, ±2, ±3, ±4 spacings.
 const WEIGHTS: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
 
-/// Spacings tried, in powers of ½ of the coordinate's size.
-const SPACINGS: core::ops::Range<i32> = -3..15;
+/// Spacings tried, in powers of 2 of the coordinate's size, narrow ones first.
+const SPACINGS: core::ops::Range<i32> = -20..20;
 
-/// Differences that disagree by more, relative to the second derivatives over the coordinate's size, show that there is no third derivative.
-const ROUGH: f64 = 1e-4;
+/// A spread so many times the least so far shows that the spacing has outgrown the functions. Wider ones are not tried:
+/// their differences may agree again, having stepped over what is to be differenced.
+const OUTGROWN: f64 = 1e3;
+
+/// Differences that disagree by more over one spacing, relative to the second derivatives, show that there is no third
+/// derivative: those of a jump disagree by about 1 at every spacing.
+const ROUGH: f64 = 1e-6;
+
+/// The differences round: the second variations may stop converging at this relative error, which is then reported.
+const ROUNDING: f64 = 1e-6;
 
 /// Derivatives of the second derivatives of L and the first ones of f along one variation.
 #[derive(Clone, Copy)]
@@ -118,10 +126,10 @@ where
     let count = pairs::<N>().count();
     let (motion, variations) = (Point::<N>::LENGTH, 2 * N * count);
     let own = 4 * N * N;
-    // Beside the motion: η of all pairs, ζ of all pairs, ∫ (f′ δ_b)·δ_a, ∫ f·η, ∫ L″[δ_a, δ_b].
-    let blocks: Vec<usize> =
-        Point::<N>::BLOCKS.into_iter().chain([N * count, N * count, own, count, count]).collect();
-    let mut numbers = vec![0.0; motion + variations + own + 2 * count];
+    // Beside the motion: ∫ (f′ δ_b)·δ_a, ∫ f·η, ∫ L″[δ_a, δ_b], then η of all pairs and ζ of all pairs. The first two make up
+    // one Jacobian and are judged together; η and ζ are not judged, as they matter through ∫ f·η alone.
+    let blocks: Vec<usize> = Point::<N>::BLOCKS.into_iter().chain([own + count, count]).collect();
+    let mut numbers = vec![0.0; motion + own + 2 * count + variations];
     segment.start.write(&mut numbers);
 
     let rate = |y: &[f64], rate: &mut [f64]| {
@@ -133,12 +141,12 @@ where
             bends.push(bend(dynamics, &point, x, y, *spacing)?);
         }
 
-        let (eta_rates, rest) = rate[motion..].split_at_mut(N * count);
-        let (zeta_rates, rest) = rest.split_at_mut(N * count);
-        let (own_rates, rest) = rest.split_at_mut(own);
-        let (work_rates, hessian_rates) = rest.split_at_mut(count);
-        let mut etas = Reader(&y[motion..motion + N * count]);
-        let mut zetas = Reader(&y[motion + N * count..motion + variations]);
+        let (own_rates, rest) = rate[motion..].split_at_mut(own);
+        let (work_rates, rest) = rest.split_at_mut(count);
+        let (hessian_rates, rest) = rest.split_at_mut(count);
+        let (eta_rates, zeta_rates) = rest.split_at_mut(N * count);
+        let (etas, zetas) = y[motion + own + 2 * count..].split_at(N * count);
+        let (mut etas, mut zetas) = (Reader(etas), Reader(zetas));
         let (mut eta_rates, mut zeta_rates) = (Writer(eta_rates), Writer(zeta_rates));
         for (index, (a, b)) in pairs::<N>().enumerate() {
             let (xa, va, xb, vb) = (&along.q[a], &along.v[a], &along.q[b], &along.v[b]);
@@ -160,12 +168,12 @@ where
         }
         Ok(())
     };
-    let resolved = Problem { start: numbers, blocks: &blocks, rate, h }.resolve(0.0)?;
+    let resolved = Problem { start: numbers, blocks: &blocks, rate, h, rounding: ROUNDING }.resolve(0.0)?;
 
-    let mut etas = Reader(&resolved.end[motion..motion + N * count]);
-    let integrals = &resolved.end[motion + variations..];
-    let (own_work, rest) = integrals.split_at(own);
-    let (work, hessian) = rest.split_at(count);
+    let (own_work, rest) = resolved.end[motion..].split_at(own);
+    let (work, rest) = rest.split_at(count);
+    let (hessian, etas) = rest.split_at(count);
+    let mut etas = Reader(etas);
     let mut by_pair = vec![(0.0, 0.0); own];
     for (index, (a, b)) in pairs::<N>().enumerate() {
         let of_w = work[index] - segment.force.plus.dot(&etas.vector::<N>());
@@ -217,6 +225,8 @@ where
 }
 
 /// For each variation the spacing at which halving it changes the differences least, over the quarters of the motion.
+///
+/// From narrow to wide the spread first falls, as rounding does, and then rises as truncation does.
 fn spacings<L, F, const N: usize>(
     dynamics: Dynamics<'_, L, F, N>,
     segment: &Segment<N>,
@@ -229,8 +239,16 @@ where
     let mut points = Vec::with_capacity(segment.quarters.len());
     for point in &segment.quarters {
         let local = dynamics.local(&point.q, &point.v).map_err(start)?;
-        points.push((point, Columns::of(point, &local), matrices(&Bend { l: local.l, f: local.f })));
+        points.push((point, Columns::of(point, &local), Bend { l: local.l, f: local.f }));
     }
+    // Weights by the masses take the units of the coordinates out of what is compared.
+    let unit = SVector::from_fn(|i, _| {
+        let row = |at: &Bend<N>| match at.l.d22[(i, i)].abs() {
+            0.0 => at.l.d22.row(i).amax(),
+            own => own,
+        };
+        points.iter().map(|(.., at)| row(at)).fold(0.0, f64::max).sqrt()
+    });
 
     (0..2 * N)
         .map(|a| {
@@ -242,48 +260,45 @@ where
                 along.collect()
             };
             let mut best: Option<(f64, f64)> = None;
-            let mut wide: Option<Vec<Bend<N>>> = None;
+            let mut narrow: Option<Vec<Bend<N>>> = None;
             for power in SPACINGS {
-                let spacing = size * 0.5_f64.powi(power);
-                let narrow = differences(spacing);
-                if let (Some(wide), Some(narrow)) = (&wide, &narrow) {
+                let spacing = size * 2.0_f64.powi(power);
+                let wide = differences(spacing);
+                if let (Some(narrow), Some(wide)) = (&narrow, &wide) {
+                    // Differences that agree by chance are no better than rounding.
                     let spread = points
                         .iter()
                         .zip(wide.iter().zip(narrow))
-                        .map(|((.., at), (wide, narrow))| spread(at, wide, narrow, spacing))
-                        .fold(0.0, f64::max);
-                    // A tie goes to the wider spacing, which rounds less.
-                    if best.is_none_or(|(least, _)| spread < least) {
-                        best = Some((spread, 2.0 * spacing));
+                        .map(|((.., at), (wide, narrow))| spread(&unit, [at, wide, narrow], spacing))
+                        .fold(f64::EPSILON / spacing, f64::max);
+                    match best {
+                        Some((least, _)) if spread > OUTGROWN * least => break,
+                        Some((least, _)) if spread >= least => {}
+                        _ => best = Some((spread, spacing)),
                     }
                 }
-                wide = narrow;
+                narrow = wide;
             }
             match best {
-                Some((spread, spacing)) if spread * size <= ROUGH => Ok(spacing),
+                Some((spread, spacing)) if spread * spacing <= ROUGH => Ok(spacing),
                 _ => Err(ExactError::NotDifferentiable { index }),
             }
         })
         .collect()
 }
 
-/// Largest disagreement of two differences, relative to the derivatives that were differenced.
-fn spread<const N: usize>(
-    at: &[SMatrix<f64, N, N>; 5],
-    wide: &Bend<N>,
-    narrow: &Bend<N>,
-    spacing: f64,
-) -> f64 {
+/// Largest disagreement of two differences, relative to the derivatives that were differenced, in mass-weighted coordinates.
+fn spread<const N: usize>(unit: &SVector<f64, N>, [at, wide, narrow]: [&Bend<N>; 3], spacing: f64) -> f64 {
+    let matrices = |bend: &Bend<N>| {
+        [bend.l.d11, bend.l.d12, bend.l.d22, bend.f.d1, bend.f.d2]
+            .map(|matrix| SMatrix::<f64, N, N>::from_fn(|i, j| matrix[(i, j)] / (unit[i] * unit[j])))
+    };
     let mut worst = 0.0_f64;
-    for ((at, wide), narrow) in at.iter().zip(matrices(wide)).zip(matrices(narrow)) {
+    for ((at, wide), narrow) in matrices(at).iter().zip(matrices(wide)).zip(matrices(narrow)) {
         let apart = (wide - narrow).amax();
         if apart > 0.0 {
             worst = worst.max(apart / at.amax().max(spacing * narrow.amax()));
         }
     }
     worst
-}
-
-fn matrices<const N: usize>(bend: &Bend<N>) -> [SMatrix<f64, N, N>; 5] {
-    [bend.l.d11, bend.l.d12, bend.l.d22, bend.f.d1, bend.f.d2]
 }

@@ -6,7 +6,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::boundary::{Boundary, Shot};
 use super::motion::{Family, Point, Reader, Writer};
-use super::resolve::Problem;
+use super::resolve::{Problem, ROUNDING};
 use super::{ActingForce, ExactError};
 use crate::{CovectorDerivatives, DiscreteForce, Gradient, Lagrangian};
 
@@ -139,7 +139,7 @@ where
         }
         Ok(())
     };
-    let resolved = Problem { start: numbers, blocks: &blocks, rate, h }.resolve(0.0)?;
+    let resolved = Problem { start: numbers, blocks: &blocks, rate, h, rounding: ROUNDING }.resolve(0.0)?;
 
     let end = Point::<N>::read(&resolved.end);
     let mut integrals = Reader(&resolved.end[Point::<N>::LENGTH..]);
