@@ -23,6 +23,8 @@ mod trajectory;
 #[cfg(feature = "std")]
 pub mod dual;
 #[cfg(feature = "std")]
+pub mod exact;
+#[cfg(feature = "std")]
 pub mod hamilton_jacobi;
 #[cfg(feature = "std")]
 pub mod noether;
