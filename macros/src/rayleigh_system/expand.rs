@@ -4,45 +4,48 @@
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};
-use syn::{FnArg, Ident, ImplItem, ImplItemFn, Pat, Type, parse_quote};
+use syn::{Attribute, FnArg, Ident, ImplItem, ImplItemFn, ItemImpl, Pat, Receiver, Type, parse_quote};
 
-use super::model::{Body, Function, RayleighArguments, Rule, Source, System};
+use super::model::{Body, Function, RayleighArguments, Rule, Source, System, simple_name};
 use super::rewrite::over;
 
-/// The whole expansion.
+/// The whole expansion: the user's item, its functions over dual numbers, and the system that they make.
 pub fn system(system: &System<'_>) -> TokenStream {
-    let outside = match system.source {
-        Source::Block(_) => TokenStream::new(),
-        Source::Function(function) => function_and_struct(system, function),
+    let (item, twins) = match system.source {
+        Source::Block(block) => (plain_block(system, &block.item), twins_of_block(system, &block.item)),
+        Source::Function(function) => {
+            (function_and_struct(system, function), twins_of_function(system, function))
+        }
     };
     let imports = imports(system);
-    let bodies = match system.source {
-        Source::Block(block) => annotated_block(system, block.item.clone()),
-        Source::Function(function) => function_bodies(system, function),
-    };
     let lagrangian = lagrangian(system);
     let rayleigh = system.rayleigh.map(|_| rayleigh(system));
     let force = system.has_force.then(|| force(system));
-    let discrete = system.rules.iter().map(|&rule| discrete(system, rule));
-    let discrete_rayleigh = system
-        .rayleigh
-        .map(|_| system.rules.iter().map(|&rule| discrete_rayleigh(system, rule)).collect::<TokenStream>());
-    // const _: () = { use …; impl Ring { … } impl Lagrangian<2> for Ring { … } … };
+    let discrete = system.rules.iter().map(|&rule| {
+        let discrete = discrete(system, rule);
+        let discrete_rayleigh = system.rayleigh.map(|_| discrete_rayleigh(system, rule));
+        quote!(#discrete #discrete_rayleigh)
+    });
+    // Bodies stand apart from the implementations: the fewer names are imported beside a user's code, the fewer collide.
     quote! {
-        #outside
+        #item
+
+        const _: () = {
+            use ::dalembert::dual::{self, Dual, Real};
+            #twins
+        };
+
         const _: () = {
             #imports
-            #bodies
             #lagrangian
             #rayleigh
             #force
             #(#discrete)*
-            #discrete_rayleigh
         };
     }
 }
 
-/// What the expansion uses, and nothing else: an unused import would warn in the user's crate.
+/// What the implementations use, and nothing else: an unused import would warn in the user's crate.
 fn imports(system: &System<'_>) -> TokenStream {
     let mut names = vec![
         "Derivatives",
@@ -64,59 +67,59 @@ fn imports(system: &System<'_>) -> TokenStream {
     if system.rayleigh.is_some() || system.has_force {
         names.extend(["DiscreteForce", "DiscreteForceDerivatives"]);
     }
-    for rule in &system.rules {
-        names.push(rule.name());
-    }
+    names.extend(system.rules.iter().map(|rule| rule.name()));
     names.sort_unstable();
     let names = names.into_iter().map(|name| format_ident!("{name}"));
     let linear = if system.has_force { quote!({SMatrix, SVector}) } else { quote!(SVector) };
     quote! {
-        use ::dalembert::dual::{self, Dual, Real};
         use ::dalembert::nalgebra::#linear;
-        use ::dalembert::{#(#names),*};
+        use ::dalembert::{#(#names,)* dual};
     }
 }
 
-/// The user's block, each differentiated function followed by its twin over `Real<D>`.
-fn annotated_block(system: &System<'_>, mut block: syn::ItemImpl) -> TokenStream {
-    block.items = block
-        .items
-        .into_iter()
-        .flat_map(|item| {
-            let body = match &item {
-                ImplItem::Fn(function) => {
-                    system.bodies.iter().find(|body| body.plain.sig.ident == function.sig.ident)
-                }
-                _ => None,
-            };
-            match body {
-                Some(body) => vec![ImplItem::Fn(plain(system, body)), ImplItem::Fn(documented_twin(body))],
-                None => vec![item],
-            }
-        })
-        .collect();
+/// The user's block, each differentiated function handing its work to the twin.
+fn plain_block(system: &System<'_>, block: &ItemImpl) -> TokenStream {
+    let mut block = block.clone();
+    for item in &mut block.items {
+        if let ImplItem::Fn(function) = item
+            && system.bodies.iter().any(|body| body.plain.sig.ident == function.sig.ident)
+        {
+            plain(system, function);
+        }
+    }
     block.into_token_stream()
 }
 
-/// `fn height(&self, x: f64) -> f64 { dual::lower(self.height_over::<f64>(dual::lift(x))) }`
-fn plain(system: &System<'_>, body: &Body) -> ImplItemFn {
-    let mut function = body.plain.clone();
+/// The differentiated functions over `Real<D>`, in the order of the block.
+fn twins_of_block(system: &System<'_>, block: &ItemImpl) -> TokenStream {
+    let name = &system.name;
+    let attributes = lints(&block.attrs);
+    let twins = system.source.functions().filter_map(|function| {
+        let body = system.bodies.iter().find(|body| body.plain.sig.ident == function.sig.ident)?;
+        Some(twin(body))
+    });
+    quote! {
+        #(#attributes)*
+        impl #name { #(#twins)* }
+    }
+}
+
+/// `fn height(&self, x: f64) -> f64 { ::dalembert::dual::lower(self.height_over::<f64>(::dalembert::dual::lift(x))) }`
+fn plain(system: &System<'_>, function: &mut ImplItemFn) {
     let scalar = &system.scalar;
     let name = over(&function.sig.ident);
-    let arguments = lifted_arguments(function.sig.inputs.iter_mut(), &quote!(dual));
+    // The user's own `self`: one of the macro's would be another variable where a `macro_rules!` wrote the attribute.
     let callee = match function.sig.receiver() {
-        Some(_) => quote!(self.#name::<#scalar>),
+        Some(Receiver { self_token, .. }) => quote!(#self_token.#name::<#scalar>),
         None => quote!(Self::#name::<#scalar>),
     };
-    function.block = parse_quote!({ dual::lower(#callee(#(#arguments),*)) });
-    function
+    let arguments = lifted_arguments(function.sig.inputs.iter_mut());
+    function.attrs.retain(|attribute| !attribute.path().is_ident("expect"));
+    function.block = parse_quote!({ ::dalembert::dual::lower(#callee(#(#arguments),*)) });
 }
 
 /// The arguments of the twin; patterns that are no plain name become one.
-fn lifted_arguments<'p>(
-    parameters: impl Iterator<Item = &'p mut FnArg>,
-    dual: &TokenStream,
-) -> Vec<TokenStream> {
+fn lifted_arguments<'p>(parameters: impl Iterator<Item = &'p mut FnArg>) -> Vec<TokenStream> {
     parameters
         .enumerate()
         .filter_map(|(index, parameter)| match parameter {
@@ -129,19 +132,43 @@ fn lifted_arguments<'p>(
                 // The twin alone changes a `mut` parameter.
                 *parameter.pat = parse_quote!(#name);
                 Some(match &*parameter.ty {
-                    Type::Reference(_) => quote!(&#dual::lift(*#name)),
-                    _ => quote!(#dual::lift(#name)),
+                    ty if !has_floats(ty) => quote!(#name),
+                    Type::Reference(_) => quote!(&::dalembert::dual::lift(*#name)),
+                    _ => quote!(::dalembert::dual::lift(#name)),
                 })
             }
         })
         .collect()
 }
 
-fn documented_twin(body: &Body) -> ImplItemFn {
-    let mut twin = body.over.clone();
+/// Whether a value of the type holds floating-point numbers; others are the same in both worlds.
+fn has_floats(ty: &Type) -> bool {
+    match ty {
+        Type::Array(array) => has_floats(&array.elem),
+        Type::Tuple(tuple) => tuple.elems.iter().any(has_floats),
+        Type::Reference(reference) => has_floats(&reference.elem),
+        Type::Paren(inner) => has_floats(&inner.elem),
+        Type::Group(inner) => has_floats(&inner.elem),
+        ty => simple_name(ty).is_some_and(|name| name == "f64" || name == "f32"),
+    }
+}
+
+/// The function over `Real<D>`, with the lint levels that the user set for its body.
+fn twin(body: &Body) -> TokenStream {
     let text = format!(" `{}` over plain and dual numbers.", body.plain.sig.ident);
-    twin.attrs.push(parse_quote!(#[doc = #text]));
-    twin
+    let attributes = lints(&body.plain.attrs);
+    let twin = &body.over;
+    quote! {
+        #[doc = #text]
+        #(#attributes)*
+        #twin
+    }
+}
+
+/// Attributes that hold for a body wherever it stands.
+fn lints(attributes: &[Attribute]) -> impl Iterator<Item = &Attribute> {
+    const LEVELS: [&str; 6] = ["allow", "expect", "warn", "deny", "forbid", "cfg"];
+    attributes.iter().filter(|attribute| LEVELS.iter().any(|level| attribute.path().is_ident(level)))
 }
 
 /// The user's function, callable as before, and the struct of its parameters.
@@ -159,7 +186,8 @@ fn function_and_struct(system: &System<'_>, function: &Function) -> TokenStream 
     let mut plain = function.item.clone();
     let scalar = &system.scalar;
     let twin = over(function_name);
-    let arguments = lifted_arguments(plain.sig.inputs.iter_mut(), &quote!(::dalembert::dual));
+    let arguments = lifted_arguments(plain.sig.inputs.iter_mut());
+    plain.attrs.retain(|attribute| !attribute.path().is_ident("expect"));
     plain.block = parse_quote!({ ::dalembert::dual::lower(#name::#twin::<#scalar>(#(#arguments),*)) });
     quote! {
         #plain
@@ -171,11 +199,11 @@ fn function_and_struct(system: &System<'_>, function: &Function) -> TokenStream 
 }
 
 /// The function's twin, and L and R taken out of it.
-fn function_bodies(system: &System<'_>, function: &Function) -> TokenStream {
+fn twins_of_function(system: &System<'_>, function: &Function) -> TokenStream {
     let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
-    let twin = documented_twin(&system.bodies[0]);
-    let twin_name = &twin.sig.ident;
+    let twin_name = &system.bodies[0].over.sig.ident;
+    let twin = twin(&system.bodies[0]);
     let lifted: Vec<_> = parameters(function).map(|(field, _)| quote!(D::lift(self.#field))).collect();
     let part = |name: &str, text: &str, index: Option<TokenStream>| {
         let name = format_ident!("{name}_over");

@@ -10,7 +10,7 @@
 //! | `self.height(q)`, `Self::square(x)` | `self.height_over(q)`, `Self::square_over(x)` |
 //! | `f64::sin(x)` | `Real::<D>::sin(x)` |
 //! | `i as f64` | `D::number(i)` |
-//! | `i as usize`, `i % n` | `dual::integer::<_, usize>(i)`, `dual::remainder(i, n)`: integers alone have them |
+//! | `i as usize`, `i % n` | `dual::integer::<_, usize>(i)`, `dual::remainder(i % n)`: for integers alone |
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -116,7 +116,11 @@ fn helper_signature(helper: &ImplItemFn, report: &mut Report) {
                 if !matches!(&*parameter.pat, Pat::Ident(_) | Pat::Wild(_)) {
                     report.at(&parameter.pat, Mistake::ParameterPattern);
                 }
-                if !is_value(&parameter.ty) {
+                let value = match &*parameter.ty {
+                    Type::Reference(reference) if reference.mutability.is_none() => &reference.elem,
+                    ty => ty,
+                };
+                if !is_value(value) {
                     report.at(&parameter.ty, Mistake::ParameterType);
                 }
             }
@@ -131,12 +135,11 @@ fn helper_signature(helper: &ImplItemFn, report: &mut Report) {
     }
 }
 
-/// Numbers, bools, arrays, tuples and shared references of them: what `Lift` and `Lower` take across.
+/// Numbers, bools, arrays and tuples of them: what `Lift` and `Lower` take across.
 fn is_value(ty: &Type) -> bool {
     match ty {
         Type::Array(array) => is_value(&array.elem),
         Type::Tuple(tuple) => tuple.elems.iter().all(is_value),
-        Type::Reference(reference) => reference.mutability.is_none() && is_value(&reference.elem),
         Type::Paren(inner) => is_value(&inner.elem),
         Type::Group(inner) => is_value(&inner.elem),
         ty => {
@@ -276,9 +279,13 @@ impl Rewriter<'_> {
         }
         let ExprBinary { left, op, right, .. } = binary;
         let span = span_of(op);
+        // The operator itself stays: through a function, the type of an integer literal would not be inferred.
         match op {
-            BinOp::Rem(_) => Some(parse_quote_spanned!(span=> dual::remainder(#left, #right))),
-            BinOp::RemAssign(_) => Some(parse_quote_spanned!(span=> #left = dual::remainder(#left, #right))),
+            BinOp::Rem(_) => Some(parse_quote_spanned!(span=> dual::remainder(#left % #right))),
+            BinOp::RemAssign(_) => {
+                let right = without_parentheses(right);
+                Some(parse_quote_spanned!(span=> #left = dual::remainder(#left % (#right))))
+            }
             _ => None,
         }
     }
@@ -295,12 +302,20 @@ impl Rewriter<'_> {
             Member::Named(name) => (name.to_string(), name.to_string()),
             Member::Unnamed(index) => (index.index.to_string(), format!("field_{}", index.index)),
         };
-        let name =
-            if self.bound.contains(&name) { format!("self_{}", name.trim_start_matches("r#")) } else { name };
+        // A local of the same name keeps it: the field becomes `self_k`, and `self_k_` if there is that one too.
+        let mut free = name;
+        if self.bound.contains(&free) {
+            free = format!("self_{}", free.trim_start_matches("r#"));
+        }
+        while self.bound.contains(&free) {
+            free.push('_');
+        }
         let span = span_of(member);
         let field =
-            self.fields.entry(key).or_insert_with(|| Field { local: identifier(&name, span), access });
-        Ident::new(&field.local.to_string(), span)
+            self.fields.entry(key).or_insert_with(|| Field { local: identifier(&free, span), access });
+        let mut local = field.local.clone();
+        local.set_span(span);
+        local
     }
 
     fn method_call(&mut self, call: &mut ExprMethodCall) {
@@ -403,9 +418,11 @@ impl Rewriter<'_> {
 
     /// `f64::sin` → `Real::<D>::sin`.
     fn function_of_scalar(&self, path: &Path) -> Option<Expr> {
-        let mut segments = path.segments.iter();
-        let (first, last) = (segments.next()?, segments.next()?);
-        if segments.next().is_some() || first.ident != self.system.scalar || is_constant_name(&last.ident) {
+        let mut segments = path.segments.iter().rev();
+        let (last, first) = (segments.next()?, segments.next()?);
+        // `core::primitive::f64::sin`, or no module at all.
+        let in_module = segments.next().is_some_and(|module| module.ident != "primitive");
+        if in_module || first.ident != self.system.scalar || is_constant_name(&last.ident) {
             return None;
         }
         let span = first.ident.span();
@@ -424,13 +441,14 @@ impl Rewriter<'_> {
             }
             self.visit_expr_mut(&mut cast.expr);
             let ExprCast { expr, ty, .. } = cast;
+            let expr = without_parentheses(expr);
             let span = span_of(expr);
             return Some(parse_quote_spanned!(span=> dual::integer::<_, #ty>(#expr)));
         }
         match simple_name(&cast.ty) {
             Some(name) if *name == self.system.scalar => {
                 self.visit_expr_mut(&mut cast.expr);
-                let expr = &cast.expr;
+                let expr = without_parentheses(&cast.expr);
                 let span = span_of(expr);
                 Some(parse_quote_spanned!(span=> D::number(#expr)))
             }
@@ -444,6 +462,14 @@ impl Rewriter<'_> {
                 None
             }
         }
+    }
+}
+
+/// Parentheses that a function's argument does not need, and that would warn there.
+fn without_parentheses(expression: &Expr) -> &Expr {
+    match expression {
+        Expr::Paren(inner) => without_parentheses(&inner.expr),
+        _ => expression,
     }
 }
 

@@ -46,19 +46,13 @@ pub trait Integer<T> {
     fn integer(self) -> T;
 }
 
-/// What `%` accepts in a differentiated body: integers.
+/// What `%` may give in a differentiated body: an integer.
 #[diagnostic::on_unimplemented(
     message = "`%` cannot be used on floating-point numbers of a differentiated body",
     label = "the remainder jumps, and has no derivative there",
     note = "angles need no wrapping: coordinates live in ℝ; for a periodic function use `sin` and `cos`"
 )]
-pub trait Remainder<Right = Self> {
-    /// The type of the remainder.
-    type Output;
-
-    /// `self % right`.
-    fn remainder(self, right: Right) -> Self::Output;
-}
+pub trait Remainder {}
 
 /// What rounding and bit methods accept: nothing, since they have no derivative.
 #[diagnostic::on_unimplemented(
@@ -86,10 +80,10 @@ pub fn integer<V: Integer<T>, T>(value: V) -> T {
     value.integer()
 }
 
-/// `left % right` for integers.
+/// `left % right`, given as `remainder(left % right)`, for integers.
 #[inline]
-pub fn remainder<L: Remainder<R>, R>(left: L, right: R) -> L::Output {
-    left.remainder(right)
+pub fn remainder<T: Remainder>(remainder: T) -> T {
+    remainder
 }
 
 macro_rules! floats {
@@ -195,29 +189,7 @@ macro_rules! integers {
             }
         }
 
-        impl Remainder for $int {
-            type Output = Self;
-            #[inline]
-            fn remainder(self, right: Self) -> Self {
-                self % right
-            }
-        }
-
-        impl Remainder<&$int> for $int {
-            type Output = Self;
-            #[inline]
-            fn remainder(self, right: &Self) -> Self {
-                self % right
-            }
-        }
-
-        impl Remainder<$int> for &$int {
-            type Output = $int;
-            #[inline]
-            fn remainder(self, right: $int) -> $int {
-                self % right
-            }
-        }
+        impl Remainder for $int {}
     )*};
 }
 integers!(i8 i16 i32 i64 i128 isize u8 u16 u32 u64 u128 usize);

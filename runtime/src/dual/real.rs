@@ -3,7 +3,7 @@
 use core::cmp::Ordering;
 use core::fmt;
 use core::iter::{Product, Sum};
-use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAssign, Sub, SubAssign};
 
 use num_dual::DualNum;
 
@@ -478,6 +478,25 @@ where
     }
 }
 
+/// x % y = x − y·trunc(x/y). Bodies are refused it by [`Remainder`](super::lift::Remainder); that it exists for all numbers
+/// lets the compiler infer the integers that it is for.
+trait Modulo<F>: Sized {
+    fn modulo(self, right: Self) -> Self;
+}
+
+impl<D, F> Modulo<F> for D
+where
+    F: Primitive,
+    D: Dual<F> + DualNum<Primitive = F>,
+{
+    fn modulo(self, right: Self) -> Self {
+        let (x, y) = (self.primal(), right.primal());
+        let remainder = x % y;
+        let whole = D::from((x - remainder) / y);
+        self.minus(right.times(whole)).with_primal(remainder)
+    }
+}
+
 /// An operator between numbers of a differentiated body, by value and by reference.
 macro_rules! operator {
     ($($trait:ident $name:ident $assign:ident $assign_name:ident $operation:ident)*) => {$(
@@ -600,6 +619,7 @@ operator! {
     Sub sub SubAssign sub_assign minus
     Mul mul MulAssign mul_assign times
     Div div DivAssign div_assign over
+    Rem rem RemAssign rem_assign modulo
 }
 
 impl<D, F> Neg for Real<D>
@@ -631,9 +651,10 @@ where
     F: Primitive,
     D: Dual<F> + DualNum<Primitive = F>,
 {
+    // From −0, as the standard library does: the sum of nothing, and of zeros, has its sign.
     #[inline]
     fn sum<I: Iterator<Item = Self>>(numbers: I) -> Self {
-        Self(numbers.fold(D::zero(), |sum, x| sum.plus(x.0)))
+        Self(numbers.fold(D::from(F::constant(-0.0)), |sum, x| sum.plus(x.0)))
     }
 }
 
