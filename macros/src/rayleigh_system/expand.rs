@@ -98,8 +98,10 @@ fn twins_of_block(system: &System<'_>, block: &ItemImpl) -> TokenStream {
         let body = system.bodies.iter().find(|body| body.plain.sig.ident == function.sig.ident)?;
         Some(twin(body))
     });
+    // Where nobody makes a value of the type, rustc says so at the type; the twins add nothing to that.
     quote! {
         #(#attributes)*
+        #[allow(dead_code)]
         impl #name { #(#twins)* }
     }
 }
@@ -115,6 +117,8 @@ fn plain(system: &System<'_>, function: &mut ImplItemFn) {
     };
     let arguments = lifted_arguments(function.sig.inputs.iter_mut());
     function.attrs.retain(|attribute| !attribute.path().is_ident("expect"));
+    // Bodies call the twins: a private helper may have no other caller.
+    function.attrs.push(parse_quote!(#[allow(dead_code)]));
     function.block = parse_quote!({ ::dalembert::dual::lower(#callee(#(#arguments),*)) });
 }
 
@@ -194,6 +198,7 @@ fn function_and_struct(system: &System<'_>, function: &Function) -> TokenStream 
 
         #[doc = #text]
         #[derive(Clone, Copy, Debug, PartialEq)]
+        #[allow(dead_code)]
         #visibility struct #name #body
     }
 }
@@ -221,6 +226,7 @@ fn twins_of_function(system: &System<'_>, function: &Function) -> TokenStream {
     let rayleigh = of_pair
         .then(|| part("rayleigh", " The Rayleigh function over plain and dual numbers.", Some(quote!(1))));
     quote! {
+        #[allow(dead_code)]
         impl #name {
             #twin
             #lagrangian

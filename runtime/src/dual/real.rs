@@ -360,17 +360,14 @@ where
     #[inline]
     #[must_use]
     pub fn hypot(self, other: Self) -> Self {
-        let (x, y) = (Primitive::abs(self.0.primal()), Primitive::abs(other.0.primal()));
+        let (x, y) = (self.0.primal(), other.0.primal());
         let value = Primitive::hypot(x, y);
-        let largest = if x > y { x } else { y };
-        let root = if largest > F::constant(0.0) {
-            let scale = D::real(largest);
-            let (a, b) = (self / scale, other / scale);
-            (a * a + b * b).sqrt() * scale
-        } else {
-            (self * self + other * other).sqrt()
-        };
-        Self(root.0.with_primal(value))
+        let (cosine, sine) = (D::real(x / value), D::real(y / value));
+        // Along the vector and across it, where the value is 0: √(u² + w²) = u + w²/2u up to w⁴.
+        let along = Self((self * cosine + other * sine).0.with_primal(value));
+        let across = Self((other * cosine - self * sine).0.with_primal(F::constant(0.0)));
+        let bend = across * (across / (along + along));
+        Self((along + bend).0.with_primal(value))
     }
 
     /// |x|.
@@ -421,25 +418,58 @@ where
         }
     }
 
-    /// self·a + b, rounded twice.
+    /// self·a + b, rounded once.
     #[inline]
     #[must_use]
     pub fn mul_add(self, a: Self, b: Self) -> Self {
-        self * a + b
+        let value = Primitive::mul_add(self.0.primal(), a.0.primal(), b.0.primal());
+        Self((self * a + b).0.with_primal(value))
+    }
+
+    /// Half the sum, without overflow on the way.
+    #[inline]
+    #[must_use]
+    pub fn midpoint(self, other: Self) -> Self {
+        let half = D::real(F::constant(0.5));
+        let value = Primitive::midpoint(self.0.primal(), other.0.primal());
+        Self((self * half + other * half).0.with_primal(value))
     }
 
     /// Degrees to radians.
     #[inline]
     #[must_use]
     pub fn to_radians(self) -> Self {
-        self * D::real(F::constant(core::f64::consts::PI / 180.0))
+        let radians = self * D::real(F::constant(core::f64::consts::PI / 180.0));
+        Self(radians.0.with_primal(Primitive::to_radians(self.0.primal())))
     }
 
     /// Radians to degrees.
     #[inline]
     #[must_use]
     pub fn to_degrees(self) -> Self {
-        self * D::real(F::constant(180.0 / core::f64::consts::PI))
+        let degrees = self * D::real(F::constant(180.0 / core::f64::consts::PI));
+        Self(degrees.0.with_primal(Primitive::to_degrees(self.0.primal())))
+    }
+
+    /// Order of all values, NaN and the two zeros included.
+    #[inline]
+    #[must_use]
+    pub fn total_cmp(&self, other: &Self) -> Ordering {
+        Primitive::total_cmp(self.0.primal(), other.0.primal())
+    }
+
+    /// Whether the value is neither zero, subnormal, infinite nor NaN.
+    #[inline]
+    #[must_use]
+    pub fn is_normal(self) -> bool {
+        Primitive::is_normal(self.0.primal())
+    }
+
+    /// Whether the value is subnormal.
+    #[inline]
+    #[must_use]
+    pub fn is_subnormal(self) -> bool {
+        Primitive::is_subnormal(self.0.primal())
     }
 
     /// Whether the value is NaN.

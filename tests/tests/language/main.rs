@@ -7,6 +7,10 @@
 mod constants;
 mod control_flow;
 mod fields;
+mod forms;
+mod methods;
+mod names;
+mod quiet;
 mod statements;
 
 use dalembert::nalgebra::SVector;
@@ -25,6 +29,7 @@ macro_rules! case {
         $(#[$doc])*
         mod $case {
             mod plain {
+                #![allow(non_snake_case, reason = "a local may be named like a generated type")]
                 #![allow(dead_code, reason = "the annotated twin uses all of it")]
                 #![allow(clippy::all, reason = "cases spell out forms that users write")]
                 $($definitions)*
@@ -35,19 +40,19 @@ macro_rules! case {
             }
 
             mod annotated {
+                #![allow(non_snake_case, reason = "a local may be named like a generated type")]
                 #![allow(clippy::all, reason = "cases spell out forms that users write")]
-                use dalembert::{Derivatives, Gradient, Lagrangian};
-                use dalembert::nalgebra::SVector;
+                use dalembert::Lagrangian as _;
                 $($definitions)*
                 #[dalembert::rayleigh_system]
                 impl System { $($functions)* }
                 pub fn value(q: [f64; $n], v: [f64; $n]) -> f64 {
                     system().lagrangian(q, v)
                 }
-                pub fn gradient(q: &SVector<f64, $n>, v: &SVector<f64, $n>) -> Gradient<f64, $n> {
+                pub fn gradient(q: &$crate::Vector<$n>, v: &$crate::Vector<$n>) -> dalembert::Gradient<f64, $n> {
                     system().lagrangian_gradient(q, v)
                 }
-                pub fn derivatives(q: &SVector<f64, $n>, v: &SVector<f64, $n>) -> Derivatives<f64, $n> {
+                pub fn derivatives(q: &$crate::Vector<$n>, v: &$crate::Vector<$n>) -> dalembert::Derivatives<f64, $n> {
                     system().lagrangian_derivatives(q, v)
                 }
             }
@@ -72,7 +77,7 @@ macro_rules! case {
 }
 pub(crate) use case;
 
-type Vector<const N: usize> = SVector<f64, N>;
+pub(crate) type Vector<const N: usize> = SVector<f64, N>;
 
 /// Fourth-order central difference of `f` along the i-th unit vector; error of the order of ε^(4/5).
 fn difference(f: impl Fn(f64) -> f64) -> f64 {
