@@ -43,6 +43,12 @@ pub fn over_duals<'a>(mut system: System<'a>, report: &mut Report) -> System<'a>
         system.bodies[done].over = called.over;
         done += 1;
     }
+    for body in &system.bodies {
+        let twin = &body.over.sig.ident;
+        if let Some(taken) = system.source.functions().find(|function| function.sig.ident == *twin) {
+            report.at(&taken.sig.ident, Mistake::TwinName(twin.to_string()));
+        }
+    }
     system
 }
 
@@ -195,6 +201,7 @@ impl VisitMut for Rewriter<'_> {
             Expr::MethodCall(call) => self.method_call(call),
             Expr::Call(call) => self.call(call),
             Expr::Path(path) => {
+                self.refuse_generated_name(&path.path);
                 if let Some(replacement) = self.path(path) {
                     *expression = replacement;
                 }
@@ -290,6 +297,15 @@ impl Rewriter<'_> {
         }
     }
 
+    /// `Real::G` of the user: the body stands beside the runtime's `Real`.
+    fn refuse_generated_name(&mut self, path: &Path) {
+        if let [first, _, ..] = &path.segments.iter().collect::<Vec<_>>()[..]
+            && ["Real", "Dual", "dual", "D"].iter().any(|name| first.ident == name)
+        {
+            self.report.at(&first.ident, Mistake::GeneratedName(first.ident.to_string()));
+        }
+    }
+
     fn refuse_assignment_to_field(&mut self, place: &Expr) {
         if is_place_of_self(place) {
             self.report.at(place, Mistake::FieldAssignment);
@@ -338,13 +354,27 @@ impl Rewriter<'_> {
             self.visit_angle_bracketed_generic_arguments_mut(turbofish);
         }
         for argument in &mut call.args {
-            self.visit_expr_mut(argument);
+            // `.map(square)`: a name that is no local is a function handed on, which must be one of the block.
+            match argument {
+                Expr::Path(path) if takes_function(&call.method) && self.is_unknown(&path.path) => {
+                    self.called_path(path, false);
+                }
+                _ => self.visit_expr_mut(argument),
+            }
         }
+    }
+
+    /// A plain name in small letters that is bound nowhere in the body.
+    fn is_unknown(&self, path: &Path) -> bool {
+        path.get_ident().is_some_and(|name| {
+            *name != "self" && !self.bound.contains(&name.to_string()) && !is_constant_name(name)
+        })
     }
 
     fn call(&mut self, call: &mut ExprCall) {
         match &mut *call.func {
             Expr::Path(path) => {
+                self.refuse_generated_name(&path.path);
                 let without_arguments = call.args.is_empty();
                 if let Some(replacement) = self.called_path(path, without_arguments) {
                     *call.func = replacement;
@@ -373,6 +403,11 @@ impl Rewriter<'_> {
         let is_constructor = last.starts_with(char::is_uppercase);
         if is_local || is_constructor || is_function_of_std(&path.path) {
             visit_mut::visit_expr_path_mut(self, path);
+        } else if path.path.get_ident().is_some_and(|name| self.is_function_of_block(name)) {
+            self.report.at(&path.path, Mistake::WithoutSelf(last));
+        } else if path.path.get_ident().is_some() && METHODS.contains(&&*last) {
+            let scalar = self.system.scalar.to_string();
+            self.report.at(&path.path, Mistake::MethodAsFunction { method: last, scalar });
         } else {
             self.report.at(&path.path, Mistake::OutsideFunction(last));
         }
@@ -398,6 +433,10 @@ impl Rewriter<'_> {
             }
             let span = span_of(path);
             return Some(parse_quote_spanned!(span=> D::lift(#path)));
+        }
+        // A misspelled local: rustc knows better which one was meant.
+        if path.path.get_ident().is_some() {
+            return None;
         }
         self.called_path(path, false)
     }
@@ -529,6 +568,71 @@ fn is_constant_name(name: &Ident) -> bool {
     let name = name.to_string();
     name.contains(char::is_uppercase) && !name.contains(char::is_lowercase)
 }
+
+/// Methods whose argument is often a function's name.
+fn takes_function(method: &Ident) -> bool {
+    const METHODS: &[&str] = &[
+        "map",
+        "for_each",
+        "filter_map",
+        "flat_map",
+        "fold",
+        "reduce",
+        "scan",
+        "map_while",
+        "inspect",
+        "filter",
+        "any",
+        "all",
+        "position",
+        "and_then",
+        "unwrap_or_else",
+        "map_or",
+        "zip_with",
+    ];
+    METHODS.iter().any(|known| method == known)
+}
+
+/// Methods of floating-point numbers that a user may call like functions, as in C.
+const METHODS: &[&str] = &[
+    "abs",
+    "acos",
+    "acosh",
+    "asin",
+    "asinh",
+    "atan",
+    "atan2",
+    "atanh",
+    "cbrt",
+    "clamp",
+    "copysign",
+    "cos",
+    "cosh",
+    "exp",
+    "exp2",
+    "exp_m1",
+    "hypot",
+    "ln",
+    "ln_1p",
+    "log",
+    "log10",
+    "log2",
+    "max",
+    "min",
+    "mul_add",
+    "powf",
+    "powi",
+    "recip",
+    "signum",
+    "sin",
+    "sin_cos",
+    "sinh",
+    "sqrt",
+    "tan",
+    "tanh",
+    "to_degrees",
+    "to_radians",
+];
 
 /// Functions of the standard library that work on any type, by their last two segments; and those of integers.
 fn is_function_of_std(path: &Path) -> bool {

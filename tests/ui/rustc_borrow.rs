@@ -1,0 +1,15 @@
+use dalembert::rayleigh_system;
+
+struct System { k: f64 }
+
+#[rayleigh_system]
+impl System {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let x = [q, v];
+        let y = Box::new(x);
+        let z = y;
+        y[0][0] * z[0][0] * self.k
+    }
+}
+
+fn main() {}
