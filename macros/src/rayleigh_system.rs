@@ -1,7 +1,8 @@
 //! `#[rayleigh_system]`, from tokens to tokens.
 //!
-//! parse → check → rewrite → expand. Plain proc_macro2 code, so that tests and fuzzers can call it. Stages stop between
-//! each other: a stage that reported anything is the last one, and the user's item is returned beside the diagnostics.
+//! parse → check → rewrite → expand. Plain proc_macro2 code, so that tests and fuzzers can call it. Each stage goes on with
+//! what the one before it found sound, so that all mistakes show in one compile; if there is any, the user's item is returned
+//! beside the diagnostics.
 
 mod attribute;
 mod check;

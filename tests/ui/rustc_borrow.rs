@@ -5,10 +5,9 @@ struct System { k: f64 }
 #[rayleigh_system]
 impl System {
     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
-        let x = [q, v];
-        let y = Box::new(x);
-        let z = y;
-        y[0][0] * z[0][0] * self.k
+        let x: Vec<f64> = Vec::new();
+        let y = x;
+        q[x.len()] * v[y.len()] * self.k
     }
 }
 

@@ -5,10 +5,10 @@ struct System;
 #[rayleigh_system]
 impl System {
     fn lagrangian(&self, q: [f32; 1], v: [f64; 1]) -> f64 {
-        0.0
+        q[0] as f64 * v[0]
     }
     fn rayleigh(&self, v: [f64; 1]) -> f32 {
-        0.0
+        v[0] as f32
     }
 }
 

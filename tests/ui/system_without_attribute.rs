@@ -1,8 +1,9 @@
-use dalembert::nalgebra::vector;
-use dalembert::{Lagrangian, Trajectory};
+use dalembert::Lagrangian;
 
 struct System;
 
+fn integrate<L: Lagrangian<1>>(_: &L) {}
+
 fn main() {
-    let _ = Lagrangian::<1>::lagrangian(&System, &vector![0.0], &vector![1.0]);
+    integrate(&System);
 }

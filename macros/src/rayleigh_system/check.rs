@@ -9,7 +9,7 @@ use syn::{
 use super::diagnostics::{Mistake, Report};
 use super::model::{Body, Degrees, Function, RayleighArguments, Rule, Source, System, simple_name};
 
-/// The system, or nothing if a signature is wrong; every wrong one is reported.
+/// The system as far as its signatures tell, or nothing if not even N is known; every wrong one is reported.
 pub fn system<'a>(source: &'a Source, rules: Vec<Rule>, report: &mut Report) -> Option<System<'a>> {
     match source {
         Source::Block(_) => block(source, rules, report),
@@ -33,18 +33,29 @@ fn block<'a>(source: &'a Source, rules: Vec<Rule>, report: &mut Report) -> Optio
         }
         return None;
     };
+    let before = report.count();
     let shape = lagrangian_signature(&lagrangian.sig, source.name(), report)?;
-    let mut bodies = vec![Body::of(lagrangian)];
+    // A function with a wrong signature is not rewritten: what is wrong there would be said again.
+    let mut bodies = Vec::new();
+    let mut keep = |function, before, report: &Report| {
+        if report.count() == before {
+            bodies.push(Body::of(function));
+        }
+    };
+    keep(lagrangian, before, report);
     let arguments = rayleigh.and_then(|rayleigh| {
-        bodies.push(Body::of(rayleigh));
-        rayleigh_signature(&rayleigh.sig, &shape, report)
+        let before = report.count();
+        let arguments = rayleigh_signature(&rayleigh.sig, &shape, report);
+        keep(rayleigh, before, report);
+        arguments
     });
     let force = named("force");
     if let Some(force) = force {
-        bodies.push(Body::of(force));
+        let before = report.count();
         force_signature(&force.sig, &shape, report);
+        keep(force, before, report);
     }
-    report.is_empty().then(|| System {
+    Some(System {
         source,
         name: source.name().clone(),
         degrees: shape.degrees,
@@ -62,15 +73,12 @@ fn free_function<'a>(
     rules: Vec<Rule>,
     report: &mut Report,
 ) -> Option<System<'a>> {
-    const EXPECTED: Mistake = Mistake::Parameters {
-        function: "a system",
-        expected: "`q: [f64; N]` and `v: [f64; N]` first, then its parameters",
-    };
+    let before = report.count();
     let signature = &function.item.sig;
     qualifiers(signature, report);
     let mut parameters = typed_parameters(signature, report);
     if parameters.len() < 2 {
-        report.at(&signature.ident, EXPECTED);
+        report.at(&signature.ident, Mistake::FunctionParameters { scalar: "f64" });
         return None;
     }
     let fields = parameters.split_off(2);
@@ -89,10 +97,8 @@ fn free_function<'a>(
         }
         Some(ty) if is(ty, &shape.scalar) => None,
         _ => {
-            let scalar = &shape.scalar;
-            let expected =
-                format!("`{scalar}` for L alone, or `({scalar}, {scalar})` for L and the Rayleigh function");
-            report.at(&result_tokens(signature), Mistake::Returns { function: "a system", expected });
+            let scalar = shape.scalar.to_string();
+            report.at(&result_tokens(signature), Mistake::FunctionReturns { scalar });
             None
         }
     };
@@ -103,7 +109,7 @@ fn free_function<'a>(
         sig: signature.clone(),
         block: (*function.item.block).clone(),
     };
-    report.is_empty().then(|| System {
+    (report.count() == before).then(|| System {
         source,
         name: function.name.clone(),
         degrees: shape.degrees,

@@ -14,12 +14,12 @@
 
 use std::collections::{BTreeMap, HashSet};
 
-use proc_macro2::Span;
-use quote::format_ident;
+use proc_macro2::{Span, TokenStream};
+use quote::{ToTokens, format_ident};
 use syn::visit_mut::{self, VisitMut};
 use syn::{
-    BinOp, Expr, ExprBinary, ExprCall, ExprCast, ExprLit, ExprMethodCall, ExprPath, FnArg, Ident, ImplItemFn,
-    Item, Lit, Member, Pat, Path, PathArguments, ReturnType, Stmt, Type, UnOp, parse_quote,
+    BinOp, Expr, ExprBinary, ExprCall, ExprCast, ExprField, ExprLit, ExprMethodCall, ExprPath, FnArg, Ident,
+    ImplItemFn, Item, Lit, Member, Pat, Path, PathArguments, ReturnType, Stmt, Type, UnOp, parse_quote,
     parse_quote_spanned,
 };
 
@@ -32,12 +32,20 @@ use super::scope::bound_names;
 pub fn over_duals<'a>(mut system: System<'a>, report: &mut Report) -> System<'a> {
     let mut done = 0;
     while done < system.bodies.len() {
+        let before = report.count();
         let called = rewrite(&system, done, report);
+        if report.count() > before {
+            report.mark_body(&system.bodies[done].plain.sig.ident);
+        }
         for name in called.functions {
             let known = system.bodies.iter().any(|body| body.plain.sig.ident == name);
             if !known && let Some(helper) = system.source.functions().find(|f| f.sig.ident == name) {
-                helper_signature(helper, report);
-                system.bodies.push(Body::of(helper));
+                let before = report.count();
+                helper_signature(helper, &system.scalar, report);
+                // What is wrong with a signature would be said again by the rewriting.
+                if report.count() == before {
+                    system.bodies.push(Body::of(helper));
+                }
             }
         }
         system.bodies[done].over = called.over;
@@ -105,15 +113,30 @@ fn rewrite(system: &System<'_>, index: usize, report: &mut Report) -> Rewritten 
     let Rewriter { fields, functions, .. } = rewriter;
     let prologue = fields.into_values().map(|field| -> Stmt {
         let Field { local, access } = field;
-        let span = span_of(&access);
-        parse_quote_spanned!(span=> let #local = D::lift(#access);)
+        // One span for all tokens: a field of a wrong type is then reported once.
+        let span = local.span();
+        let ExprField { base, member, .. } = access;
+        let member = respanned(member.into_token_stream(), span);
+        let base = respanned(base.into_token_stream(), span);
+        parse_quote_spanned!(span=> let #local = D::lift(#base.#member);)
     });
     let statements = std::mem::take(&mut over_function.block.stmts);
     over_function.block.stmts = prologue.chain(statements).collect();
     Rewritten { over: over_function, functions }
 }
 
-fn helper_signature(helper: &ImplItemFn, report: &mut Report) {
+/// The tokens, all seen at `span` but resolved where they were.
+fn respanned(tokens: TokenStream, span: Span) -> TokenStream {
+    tokens
+        .into_iter()
+        .map(|mut token| {
+            token.set_span(span.resolved_at(token.span()));
+            token
+        })
+        .collect()
+}
+
+fn helper_signature(helper: &ImplItemFn, scalar: &Ident, report: &mut Report) {
     qualifiers(&helper.sig, report);
     for parameter in &helper.sig.inputs {
         match parameter {
@@ -126,7 +149,11 @@ fn helper_signature(helper: &ImplItemFn, report: &mut Report) {
                     Type::Reference(reference) if reference.mutability.is_none() => &reference.elem,
                     ty => ty,
                 };
-                if !is_value(value) {
+                if matches!(&*parameter.ty, Type::Reference(reference) if reference.mutability.is_some()) {
+                    report.at(&parameter.ty, Mistake::ParameterChanged);
+                } else if matches!(value, Type::Slice(_)) {
+                    report.at(&parameter.ty, Mistake::ParameterSlice { scalar: scalar.to_string() });
+                } else if !is_value(value) {
                     report.at(&parameter.ty, Mistake::ParameterType);
                 }
             }
@@ -159,7 +186,7 @@ fn is_value(ty: &Type) -> bool {
 /// A field read by a body: the local that holds it, and the user's tokens.
 struct Field {
     local: Ident,
-    access: Expr,
+    access: ExprField,
 }
 
 struct Rewriter<'r> {
@@ -195,7 +222,7 @@ impl VisitMut for Rewriter<'_> {
                 self.visit_expr_mut(&mut reference.expr);
             }
             Expr::Field(field) if is_self(&field.base) => {
-                let local = self.field(&field.member, Expr::Field(field.clone()));
+                let local = self.field(&field.member, field.clone());
                 *expression = parse_quote!(#local);
             }
             Expr::MethodCall(call) => self.method_call(call),
@@ -313,7 +340,7 @@ impl Rewriter<'_> {
     }
 
     /// The local that holds a field.
-    fn field(&mut self, member: &Member, access: Expr) -> Ident {
+    fn field(&mut self, member: &Member, access: ExprField) -> Ident {
         let (key, name) = match member {
             Member::Named(name) => (name.to_string(), name.to_string()),
             Member::Unnamed(index) => (index.index.to_string(), format!("field_{}", index.index)),
@@ -346,6 +373,9 @@ impl Rewriter<'_> {
                 self.report.at(&call.method, Mistake::OutsideMethod(call.method.to_string()));
             }
         } else {
+            if ROUNDING.iter().any(|rounding| call.method == rounding) {
+                self.report.at(&call.method, Mistake::Rounding(call.method.to_string()));
+            }
             self.visit_expr_mut(&mut call.receiver);
         }
         if let Some(turbofish) = &mut call.turbofish
@@ -404,12 +434,20 @@ impl Rewriter<'_> {
         if is_local || is_constructor || is_function_of_std(&path.path) {
             visit_mut::visit_expr_path_mut(self, path);
         } else if path.path.get_ident().is_some_and(|name| self.is_function_of_block(name)) {
-            self.report.at(&path.path, Mistake::WithoutSelf(last));
+            let takes_self = self
+                .system
+                .source
+                .functions()
+                .any(|function| function.sig.ident == last && function.sig.receiver().is_some());
+            let call = if takes_self { format!("self.{last}(…)") } else { format!("Self::{last}(…)") };
+            self.report.at(&path.path, Mistake::WithoutSelf { name: last, call });
         } else if path.path.get_ident().is_some() && METHODS.contains(&&*last) {
             let scalar = self.system.scalar.to_string();
             self.report.at(&path.path, Mistake::MethodAsFunction { method: last, scalar });
         } else {
-            self.report.at(&path.path, Mistake::OutsideFunction(last));
+            let segments: Vec<_> =
+                path.path.segments.iter().map(|segment| segment.ident.to_string()).collect();
+            self.report.at(&path.path, Mistake::OutsideFunction { path: segments.join("::"), name: last });
         }
         None
     }
@@ -456,13 +494,16 @@ impl Rewriter<'_> {
     }
 
     /// `f64::sin` → `Real::<D>::sin`.
-    fn function_of_scalar(&self, path: &Path) -> Option<Expr> {
+    fn function_of_scalar(&mut self, path: &Path) -> Option<Expr> {
         let mut segments = path.segments.iter().rev();
         let (last, first) = (segments.next()?, segments.next()?);
         // `core::primitive::f64::sin`, or no module at all.
         let in_module = segments.next().is_some_and(|module| module.ident != "primitive");
         if in_module || first.ident != self.system.scalar || is_constant_name(&last.ident) {
             return None;
+        }
+        if ROUNDING.iter().chain(&["rem_euclid", "div_euclid"]).any(|rounding| last.ident == rounding) {
+            self.report.at(path, Mistake::Rounding(last.ident.to_string()));
         }
         let span = first.ident.span();
         Some(parse_quote_spanned!(span=> Real::<D>::#last))
@@ -479,9 +520,9 @@ impl Rewriter<'_> {
                 return None;
             }
             self.visit_expr_mut(&mut cast.expr);
-            let ExprCast { expr, ty, .. } = cast;
+            let ExprCast { expr, ty, .. } = &*cast;
             let expr = without_parentheses(expr);
-            let span = span_of(expr);
+            let span = cast.as_token.span;
             return Some(parse_quote_spanned!(span=> dual::integer::<_, #ty>(#expr)));
         }
         match simple_name(&cast.ty) {
@@ -592,6 +633,10 @@ fn takes_function(method: &Ident) -> bool {
     ];
     METHODS.iter().any(|known| method == known)
 }
+
+/// Methods that floating-point numbers alone have, and that have no derivative.
+const ROUNDING: &[&str] =
+    &["ceil", "floor", "fract", "next_down", "next_up", "round", "round_ties_even", "to_bits", "trunc"];
 
 /// Methods of floating-point numbers that a user may call like functions, as in C.
 const METHODS: &[&str] = &[

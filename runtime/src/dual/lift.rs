@@ -96,6 +96,7 @@ macro_rules! floats {
             }
         }
 
+        #[diagnostic::do_not_recommend]
         impl<D: Dual<$float>> Number<D> for $float {
             #[inline]
             fn number(self) -> Real<D> {
@@ -114,6 +115,7 @@ macro_rules! floats {
 }
 floats!(f64 f32);
 
+#[diagnostic::do_not_recommend]
 impl<D> Lift<D> for Real<D> {
     type Lifted = Self;
     #[inline]
@@ -122,6 +124,7 @@ impl<D> Lift<D> for Real<D> {
     }
 }
 
+#[diagnostic::do_not_recommend]
 impl<D> Number<D> for Real<D> {
     #[inline]
     fn number(self) -> Self {
@@ -131,6 +134,7 @@ impl<D> Number<D> for Real<D> {
 
 macro_rules! unchanged {
     ($($type:ty)*) => {$(
+        #[diagnostic::do_not_recommend]
         impl<D> Lift<D> for $type {
             type Lifted = Self;
             #[inline]
@@ -152,6 +156,7 @@ unchanged!(i8 i16 i32 i64 i128 isize u8 u16 u32 u64 u128 usize bool);
 
 macro_rules! casts {
     ($from:ty => $($to:ty)*) => {$(
+        #[diagnostic::do_not_recommend]
         impl Integer<$to> for $from {
             #[inline]
             fn integer(self) -> $to {
@@ -179,6 +184,7 @@ macro_rules! integers {
             }
         }
 
+        #[diagnostic::do_not_recommend]
         impl<D: num_dual::DualNum> Number<D> for $int
         where
             D::Primitive: FromInteger<$int>,
@@ -189,6 +195,7 @@ macro_rules! integers {
             }
         }
 
+        #[diagnostic::do_not_recommend]
         impl Remainder for $int {}
     )*};
 }
@@ -201,6 +208,7 @@ pub trait FromInteger<I> {
     fn from_integer(value: I) -> Self;
 }
 
+#[diagnostic::do_not_recommend]
 impl<D, T: Lift<D>, const M: usize> Lift<D> for [T; M] {
     type Lifted = [T::Lifted; M];
     #[inline]
@@ -219,6 +227,7 @@ impl<T: Lower, const M: usize> Lower for [T; M] {
 
 macro_rules! tuples {
     ($($name:ident)+) => {
+        #[diagnostic::do_not_recommend]
         impl<D, $($name: Lift<D>),+> Lift<D> for ($($name,)+) {
             type Lifted = ($($name::Lifted,)+);
             #[inline]
