@@ -18,6 +18,7 @@ pub fn system(system: &System<'_>) -> TokenStream {
         }
     };
     let imports = imports(system);
+    let (scalar, n) = (&system.scalar, system.degrees.times(1));
     let lagrangian = lagrangian(system);
     let rayleigh = system.rayleigh.map(|_| rayleigh(system));
     let force = system.has_force.then(|| force(system));
@@ -37,6 +38,9 @@ pub fn system(system: &System<'_>) -> TokenStream {
 
         const _: () = {
             #imports
+
+            type Vector = SVector<#scalar, #n>;
+
             #lagrangian
             #rayleigh
             #force
@@ -106,7 +110,7 @@ fn twins_of_block(system: &System<'_>, block: &ItemImpl) -> TokenStream {
     }
 }
 
-/// `fn height(&self, x: f64) -> f64 { ::dalembert::dual::lower(self.height_over::<f64>(::dalembert::dual::lift(x))) }`
+/// `fn height(&self, x: f64) -> f64 { use ::dalembert::dual; dual::lower(self.height_over::<f64>(dual::lift(x))) }`
 fn plain(system: &System<'_>, function: &mut ImplItemFn) {
     let scalar = &system.scalar;
     let name = over(&function.sig.ident);
@@ -118,8 +122,13 @@ fn plain(system: &System<'_>, function: &mut ImplItemFn) {
     let arguments = lifted_arguments(function.sig.inputs.iter_mut());
     function.attrs.retain(|attribute| !attribute.path().is_ident("expect"));
     // Bodies call the twins: a private helper may have no other caller.
-    function.attrs.push(parse_quote!(#[allow(dead_code)]));
-    function.block = parse_quote!({ ::dalembert::dual::lower(#callee(#(#arguments),*)) });
+    if !["lagrangian", "rayleigh", "force"].iter().any(|name| function.sig.ident == name) {
+        function.attrs.push(parse_quote!(#[allow(dead_code)]));
+    }
+    function.block = parse_quote!({
+        use ::dalembert::dual;
+        dual::lower(#callee(#(#arguments),*))
+    });
 }
 
 /// The arguments of the twin; patterns that are no plain name become one.
@@ -137,8 +146,8 @@ fn lifted_arguments<'p>(parameters: impl Iterator<Item = &'p mut FnArg>) -> Vec<
                 *parameter.pat = parse_quote!(#name);
                 Some(match &*parameter.ty {
                     ty if !has_floats(ty) => quote!(#name),
-                    Type::Reference(_) => quote!(&::dalembert::dual::lift(*#name)),
-                    _ => quote!(::dalembert::dual::lift(#name)),
+                    Type::Reference(_) => quote!(&dual::lift(*#name)),
+                    _ => quote!(dual::lift(#name)),
                 })
             }
         })
@@ -192,7 +201,10 @@ fn function_and_struct(system: &System<'_>, function: &Function) -> TokenStream 
     let twin = over(function_name);
     let arguments = lifted_arguments(plain.sig.inputs.iter_mut());
     plain.attrs.retain(|attribute| !attribute.path().is_ident("expect"));
-    plain.block = parse_quote!({ ::dalembert::dual::lower(#name::#twin::<#scalar>(#(#arguments),*)) });
+    plain.block = parse_quote!({
+        use ::dalembert::dual;
+        dual::lower(#name::#twin::<#scalar>(#(#arguments),*))
+    });
     quote! {
         #plain
 
@@ -315,26 +327,26 @@ fn value_and_derivatives(system: &System<'_>, function: &str, arguments: Rayleig
     //     dual::gradient::<f64, 2, 4>(q, v, |q, v| self.lagrangian_over(q, v))
     // }
     quote! {
-        fn #plain(&self, #unused: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>) -> #scalar {
+        fn #plain(&self, #unused: &Vector, v: &Vector) -> #scalar {
             #value
         }
 
-        fn #gradient(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>) -> Gradient<#scalar, #n> {
+        fn #gradient(&self, q: &Vector, v: &Vector) -> Gradient<#scalar, #n> {
             dual::gradient::<#scalar, #n, #twice>(q, v, #closure)
         }
 
-        fn #derivatives(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>) -> Derivatives<#scalar, #n> {
+        fn #derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<#scalar, #n> {
             dual::derivatives::<#scalar, #n, #twice>(q, v, #closure)
         }
 
         fn #variations(
             &self,
-            q: &SVector<#scalar, #n>,
-            v: &SVector<#scalar, #n>,
+            q: &Vector,
+            v: &Vector,
             minus: Direction<#scalar>,
             plus: Direction<#scalar>,
         ) -> Variations<#scalar, #n> {
-            dual::variations::<#scalar, #n>(q, v, minus, plus, #closure)
+            dual::variations(q, v, minus, plus, #closure)
         }
     }
 }
@@ -346,25 +358,25 @@ fn force(system: &System<'_>) -> TokenStream {
     quote! {
         #[automatically_derived]
         impl Force<#n> for #name {
-            fn force(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>) -> SVector<#scalar, #n> {
+            fn force(&self, q: &Vector, v: &Vector) -> Vector {
                 self.force((*q).into(), (*v).into()).into()
             }
 
             fn force_derivatives(
                 &self,
-                q: &SVector<#scalar, #n>,
-                v: &SVector<#scalar, #n>,
+                q: &Vector,
+                v: &Vector,
             ) -> CovectorDerivatives<#scalar, #n> {
                 dual::covector_derivatives::<#scalar, #n, #twice>(q, v, |q, v| self.force_over(q, v))
             }
 
             fn force_variation(
                 &self,
-                q: &SVector<#scalar, #n>,
-                v: &SVector<#scalar, #n>,
+                q: &Vector,
+                v: &Vector,
                 direction: Direction<#scalar>,
-            ) -> (SVector<#scalar, #n>, SMatrix<#scalar, #n, #n>) {
-                dual::covector_variation::<#scalar, #n>(q, v, direction, |q, v| self.force_over(q, v))
+            ) -> (Vector, SMatrix<#scalar, #n, #n>) {
+                dual::covector_variation(q, v, direction, |q, v| self.force_over(q, v))
             }
         }
     }
@@ -374,8 +386,9 @@ fn force(system: &System<'_>) -> TokenStream {
 fn discrete(system: &System<'_>, rule: Rule) -> TokenStream {
     let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
+    let lagrangian = rule.lagrangian();
+    let force = rule.force(system.rayleigh.is_some(), system.has_force);
     let rule = format_ident!("{}", rule.name());
-    let vector = quote!(&SVector<#scalar, #n>);
     let terms = |of_rayleigh: &str, of_force: &str| {
         let of_rayleigh = system.rayleigh.map(|_| format_ident!("{of_rayleigh}"));
         let of_force = system.has_force.then(|| format_ident!("{of_force}"));
@@ -388,16 +401,16 @@ fn discrete(system: &System<'_>, rule: Rule) -> TokenStream {
     // f_d⁻, f_d⁺: Midpoint::rayleigh_force(self, q0, q1, h)
     let discrete_force = (!forces.is_empty()).then(|| {
         quote! {
-            /// f_d = (f_d⁻, f_d⁺).
-            fn discrete_force(&self, q0: #vector, q1: #vector, h: #scalar) -> DiscreteForce<#scalar, #n> {
+            #[doc = #force]
+            fn discrete_force(&self, q0: &Vector, q1: &Vector, h: #scalar) -> DiscreteForce<#scalar, #n> {
                 #(#rule::#forces(self, q0, q1, h))+*
             }
 
             /// f_d with its derivatives by q0 and q1.
             fn discrete_force_derivatives(
                 &self,
-                q0: #vector,
-                q1: #vector,
+                q0: &Vector,
+                q1: &Vector,
                 h: #scalar,
             ) -> DiscreteForceDerivatives<#scalar, #n> {
                 #(#rule::#force_derivatives(self, q0, q1, h))+*
@@ -408,16 +421,16 @@ fn discrete(system: &System<'_>, rule: Rule) -> TokenStream {
     quote! {
         #[automatically_derived]
         impl Discrete<#rule, #n> for #name {
-            /// L_d(q0, q1, h).
-            fn discrete_lagrangian(&self, q0: #vector, q1: #vector, h: #scalar) -> #scalar {
+            #[doc = #lagrangian]
+            fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
                 #rule::discrete_lagrangian(self, q0, q1, h)
             }
 
             /// L_d with D1, D2, D11, D12, D22.
             fn discrete_lagrangian_derivatives(
                 &self,
-                q0: #vector,
-                q1: #vector,
+                q0: &Vector,
+                q1: &Vector,
                 h: #scalar,
             ) -> Derivatives<#scalar, #n> {
                 #rule::discrete_lagrangian_derivatives(self, q0, q1, h)
@@ -426,17 +439,17 @@ fn discrete(system: &System<'_>, rule: Rule) -> TokenStream {
             #discrete_force
 
             /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
-            fn step_kernel(&self, q0: #vector, v: #vector, h: #scalar) -> StepKernel<#scalar, #n> {
+            fn step_kernel(&self, q0: &Vector, v: &Vector, h: #scalar) -> StepKernel<#scalar, #n> {
                 #rule::lagrangian_kernel(self, q0, v, h) #(+ #rule::#kernels(self, q0, v, h))*
             }
 
             /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
-            fn momenta(&self, q0: #vector, v: #vector, h: #scalar) -> Momenta<#scalar, #n> {
+            fn momenta(&self, q0: &Vector, v: &Vector, h: #scalar) -> Momenta<#scalar, #n> {
                 #rule::lagrangian_momenta(self, q0, v, h) #(+ #rule::#momenta(self, q0, v, h))*
             }
 
             /// E_L on the segment.
-            fn segment_energy(&self, q0: #vector, q1: #vector, h: #scalar) -> #scalar {
+            fn segment_energy(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
                 #rule::segment_energy(self, q0, q1, h)
             }
         }
@@ -447,21 +460,21 @@ fn discrete(system: &System<'_>, rule: Rule) -> TokenStream {
 fn discrete_rayleigh(system: &System<'_>, rule: Rule) -> TokenStream {
     let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
+    let rayleigh = rule.rayleigh();
     let rule = format_ident!("{}", rule.name());
-    let vector = quote!(&SVector<#scalar, #n>);
     quote! {
         #[automatically_derived]
         impl DiscreteRayleigh<#rule, #n> for #name {
-            /// R_d(q0, q1, h).
-            fn discrete_rayleigh(&self, q0: #vector, q1: #vector, h: #scalar) -> #scalar {
+            #[doc = #rayleigh]
+            fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
                 #rule::discrete_rayleigh(self, q0, q1, h)
             }
 
             /// R_d with D1, D2, D11, D12, D22.
             fn discrete_rayleigh_derivatives(
                 &self,
-                q0: #vector,
-                q1: #vector,
+                q0: &Vector,
+                q1: &Vector,
                 h: #scalar,
             ) -> Derivatives<#scalar, #n> {
                 #rule::discrete_rayleigh_derivatives(self, q0, q1, h)

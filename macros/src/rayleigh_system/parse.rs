@@ -29,6 +29,7 @@ const RESERVED: &[&str] = &[
     "DiscreteForceDerivatives",
     "SVector",
     "SMatrix",
+    "Vector",
     "D",
 ];
 
