@@ -11,7 +11,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::derivatives::linear;
 use crate::error::{Quantity, StepError};
-use crate::newton::{self, Evaluation};
+use crate::newton;
 use crate::state::require_regular;
 use crate::{CovectorDerivatives, Derivatives, Lagrangian, Rayleigh, Scalar, State};
 
@@ -80,9 +80,9 @@ pub struct Report<S> {
     pub iterations: u32,
     /// Iterations whose Newton step had to be shortened.
     pub damped: u32,
-    /// Largest |𝔽⁻(q0, q1) − p0| at the solution, as evaluated there; in units of momentum.
+    /// |𝔽⁻(q0, q1) − p0| at the solution, as evaluated there, of the coordinate where it is largest in units of its floor.
     pub residual: S,
-    /// The round-off floor that the residual was held against; a residual far above it is lost precision.
+    /// The round-off floor that this residual was held against, in units of the same momentum.
     pub floor: S,
     /// Largest entry of the last correction of v̄.
     pub last_correction: S,
@@ -257,19 +257,9 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
                 rest
             }
         };
-        let solution = newton::solve(
-            |v| {
-                let kernel = self.step_kernel(q0, v, h);
-                Evaluation { value: kernel.p0, matrix: kernel.matrix }
-            },
-            |v| {
-                let momenta = self.momenta(q0, v, h);
-                (momenta.p0, momenta.p1)
-            },
-            p0,
-            guess,
-        )?;
-        let state = State { q: q0 + solution.unknown * h, p: solution.by_product };
+        let solution =
+            newton::solve(|q0, v| self.step_kernel(q0, v, h), |q0, v| self.momenta(q0, v, h), state, guess)?;
+        let state = State { q: q0 + solution.unknown * h, p: solution.momenta.p1 };
         StepError::require_finite(&state.q, Quantity::Configuration)?;
         StepError::require_finite(&state.p, Quantity::Momentum)?;
         Ok(Step { state, velocity: solution.unknown, report: solution.report })

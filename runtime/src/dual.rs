@@ -5,6 +5,7 @@
 //! directions and its second part along another makes the cross block their mixed second derivative. With the directions
 //! of a rule that block is the Newton matrix, and nothing else is computed.
 
+mod fields;
 mod lift;
 mod primitive;
 mod real;
@@ -16,6 +17,7 @@ use num_dual::{Derivative, DualNum, DualSVec, HyperDualVec};
 
 use crate::{CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, Variations};
 
+pub use fields::{differential, hessian, jacobian};
 pub use lift::{
     FromInteger, Integer, Lift, Lower, Number, Remainder, Roundable, integer, lift, lower, remainder,
 };
@@ -348,13 +350,12 @@ fn first<F: Primitive, const M: usize>(value: F, index: usize, factor: F) -> Rea
 }
 
 #[inline(always)]
-fn second<F: Primitive, const M: usize>(value: F, index: usize, minus: F, plus: F) -> Real<Second<F, M>> {
-    Real(HyperDualSVec {
-        re: value,
-        eps1: seed(index, minus),
-        eps2: seed(index, plus),
-        eps1eps2: Derivative(None),
-    })
+fn second<F: Primitive, const M: usize>(
+    value: F,
+    eps1: Part<F, M, 1>,
+    eps2: Part<F, 1, M>,
+) -> Real<Second<F, M>> {
+    Real(HyperDualSVec { re: value, eps1, eps2, eps1eps2: Derivative(None) })
 }
 
 /// The entries, zeros where absent.
@@ -363,18 +364,21 @@ fn entries<F: Primitive, const R: usize, const C: usize>(part: Part<F, R, C>) ->
     part.0.unwrap_or_else(SMatrix::zeros)
 }
 
-/// Value, ∂f/∂q and ∂f/∂v of `f`; M = 2N.
+/// Value, ∂f/∂q and ∂f/∂v of `f`.
+///
+/// q is seeded in the first part and v in the second, so that what depends on one alone carries N derivatives and not 2N;
+/// the mixed part is not read, and so not computed.
 #[inline]
-pub fn gradient<F: Primitive, const N: usize, const M: usize>(
+pub fn gradient<F: Primitive, const N: usize>(
     q: &SVector<F, N>,
     v: &SVector<F, N>,
-    f: impl Fn([Real<First<F, M>>; N], [Real<First<F, M>>; N]) -> Real<First<F, M>>,
+    f: impl Fn([Real<Second<F, N>>; N], [Real<Second<F, N>>; N]) -> Real<Second<F, N>>,
 ) -> Gradient<F, N> {
-    const { assert!(M == 2 * N) };
     let one = nalgebra::one();
-    let f = f(array::from_fn(|i| first(q[i], i, one)), array::from_fn(|i| first(v[i], N + i, one))).0;
-    let by = entries(f.eps);
-    Gradient { value: f.re, d1: block(&by, 0, 0), d2: block(&by, N, 0) }
+    let q = array::from_fn(|i| second(q[i], seed(i, one), Derivative(None)));
+    let v = array::from_fn(|i| second(v[i], Derivative(None), seed(i, one)));
+    let f = f(q, v).0;
+    Gradient { value: f.re, d1: entries(f.eps1), d2: entries(f.eps2).transpose() }
 }
 
 /// Value, first and second derivatives of `f`; M = 2N.
@@ -386,8 +390,8 @@ pub fn derivatives<F: Primitive, const N: usize, const M: usize>(
 ) -> Derivatives<F, N> {
     const { assert!(M == 2 * N) };
     let one = nalgebra::one();
-    let q = array::from_fn(|i| second(q[i], i, one, one));
-    let v = array::from_fn(|i| second(v[i], N + i, one, one));
+    let q = array::from_fn(|i| second(q[i], seed(i, one), seed(i, one)));
+    let v = array::from_fn(|i| second(v[i], seed(N + i, one), seed(N + i, one)));
     let f = f(q, v).0;
     let (first, second) = (entries(f.eps1), entries(f.eps1eps2));
     Derivatives {
@@ -409,8 +413,8 @@ pub fn variations<F: Primitive, const N: usize>(
     plus: Direction<F>,
     f: impl Fn([Real<Second<F, N>>; N], [Real<Second<F, N>>; N]) -> Real<Second<F, N>>,
 ) -> Variations<F, N> {
-    let q = array::from_fn(|i| second(q[i], i, minus.first, plus.first));
-    let v = array::from_fn(|i| second(v[i], i, minus.second, plus.second));
+    let q = array::from_fn(|i| second(q[i], seed(i, minus.first), seed(i, plus.first)));
+    let v = array::from_fn(|i| second(v[i], seed(i, minus.second), seed(i, plus.second)));
     let f = f(q, v).0;
     Variations { minus: entries(f.eps1), plus: entries(f.eps2).transpose(), mixed: entries(f.eps1eps2) }
 }

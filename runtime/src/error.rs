@@ -80,10 +80,18 @@ impl StepError {
         vector: &SVector<S, N>,
         quantity: Quantity,
     ) -> Result<(), Self> {
-        match vector.iter().position(|entry| !entry.is_finite()) {
-            None => Ok(()),
-            Some(index) => Err(Self::NonFinite { quantity, index }),
+        // 0·x is 0 for every finite x and NaN for the others: one pass without a branch.
+        let mut poison = S::zero();
+        for entry in vector.iter() {
+            poison += *entry * S::zero();
         }
+        if poison == S::zero() { Ok(()) } else { Err(Self::non_finite(vector, quantity)) }
+    }
+
+    #[cold]
+    fn non_finite<S: Scalar, const N: usize>(vector: &SVector<S, N>, quantity: Quantity) -> Self {
+        let index = vector.iter().position(|entry| !entry.is_finite()).unwrap_or(0);
+        Self::NonFinite { quantity, index }
     }
 }
 

@@ -1,11 +1,11 @@
 //! A point of T*Q.
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use crate::error::{Quantity, StepError};
-use crate::linear::Factors;
-use crate::newton::{self, Evaluation};
-use crate::{Lagrangian, Scalar};
+use crate::linear;
+use crate::newton;
+use crate::{Lagrangian, Momenta, Scalar, StepKernel};
 
 /// Configuration and momentum, a point (q, p) of T*Q.
 ///
@@ -24,7 +24,7 @@ impl<S: Scalar, const N: usize> State<S, N> {
     /// The state (q, ∂L/∂v(q, v)), by the Legendre transform of L.
     ///
     /// # Errors
-    /// [`StepError::NonFinite`] if q, v or p is not finite, [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is singular.
+    /// [`StepError::NonFinite`] if q, v, p or ∂²L/∂v² is not finite, [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is singular.
     pub fn from_velocity<L: Lagrangian<N, Scalar = S>>(
         system: &L,
         q: impl Into<SVector<S, N>>,
@@ -46,14 +46,18 @@ impl<S: Scalar, const N: usize> State<S, N> {
     pub fn velocity<L: Lagrangian<N, Scalar = S>>(&self, system: &L) -> Result<SVector<S, N>, StepError> {
         StepError::require_finite(&self.q, Quantity::Configuration)?;
         StepError::require_finite(&self.p, Quantity::Momentum)?;
-        let transform = |v: &SVector<S, N>| {
-            let l = system.lagrangian_derivatives(&self.q, v);
-            Evaluation { value: l.d2, matrix: l.d22 }
+        // 𝔽L is the limit h → 0 of the discrete transforms.
+        let transform = |q: &SVector<S, N>, v: &SVector<S, N>| {
+            let l = system.lagrangian_derivatives(q, v);
+            StepKernel { p0: l.d2, matrix: l.d22 }
         };
         let solution = newton::solve(
             transform,
-            |v| (system.lagrangian_gradient(&self.q, v).d2, ()),
-            &self.p,
+            |q, v| {
+                let p = system.lagrangian_gradient(q, v).d2;
+                Momenta { p0: p, p1: p }
+            },
+            self,
             nalgebra::zero(),
         )
         .map_err(|error| match error {
@@ -72,12 +76,13 @@ impl<S: Scalar, const N: usize> State<S, N> {
     }
 }
 
-/// Says whether ∂²L/∂v² can be inverted.
+/// Fails where ∂²L/∂v² is not finite or cannot be inverted.
 pub(crate) fn require_regular<S: Scalar, const N: usize>(
-    mass_matrix: &nalgebra::SMatrix<S, N, N>,
+    mass_matrix: &SMatrix<S, N, N>,
 ) -> Result<(), StepError> {
-    match Factors::of(mass_matrix) {
-        Ok(_) => Ok(()),
-        Err(singular) => Err(StepError::DegenerateLagrangian { column: singular.column }),
+    if let Some(index) = (0..N).find(|&i| mass_matrix.row(i).iter().any(|entry| !entry.is_finite())) {
+        return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
     }
+    linear::require_regular(mass_matrix)
+        .map_err(|singular| StepError::DegenerateLagrangian { column: singular.column })
 }

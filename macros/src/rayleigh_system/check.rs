@@ -77,18 +77,14 @@ fn free_function<'a>(
     let signature = &function.item.sig;
     qualifiers(signature, report);
     let mut parameters = typed_parameters(signature, report);
-    if parameters.len() < 2 {
+    if parameters.len() < 2 || signature.receiver().is_some() {
         report.at(&signature.ident, Mistake::FunctionParameters { scalar: "f64" });
         return None;
     }
     let fields = parameters.split_off(2);
     let shape = shape_of(parameters[0].1, "q", &function.name, report)?;
     same_shape(parameters[1].1, "v", &shape, report);
-    for (_, ty) in fields {
-        if matches!(ty, Type::Reference(_)) {
-            report.at(ty, Mistake::ParameterType);
-        }
-    }
+    owned_parameters(&fields, report);
     let rayleigh = match result(signature) {
         Some(Type::Tuple(pair))
             if pair.elems.len() == 2 && pair.elems.iter().all(|ty| is(ty, &shape.scalar)) =>
@@ -102,14 +98,73 @@ fn free_function<'a>(
             None
         }
     };
+    (report.count() == before).then(|| function_system(source, function, shape, rules, rayleigh))
+}
+
+/// What a field is: the number of its components.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Field {
+    Vector,
+    Scalar,
+}
+
+/// The function of a field on the configuration space.
+pub fn field<'a>(source: &'a Source, report: &mut Report) -> Option<(System<'a>, Field)> {
+    let Source::Function(function) = source else { return None };
+    let before = report.count();
+    let signature = &function.item.sig;
+    qualifiers(signature, report);
+    let parameters = typed_parameters(signature, report);
+    let [(_, q), fields @ ..] = &parameters[..] else {
+        report.at(&signature.ident, Mistake::FieldParameters);
+        return None;
+    };
+    if signature.receiver().is_some() {
+        report.at(&signature.ident, Mistake::FieldParameters);
+        return None;
+    }
+    let shape = shape_of(q, "q", &function.name, report)?;
+    owned_parameters(fields, report);
+    let field = match result(signature) {
+        Some(ty @ Type::Array(_)) => {
+            same_shape(ty, "q", &shape, report);
+            Field::Vector
+        }
+        Some(ty) if is(ty, &shape.scalar) => Field::Scalar,
+        _ => {
+            let (scalar, degrees) =
+                (shape.scalar.to_string(), shape.degrees.length.to_token_stream().to_string());
+            report.at(&result_tokens(signature), Mistake::FieldReturns { scalar, degrees });
+            return None;
+        }
+    };
+    (report.count() == before).then(|| (function_system(source, function, shape, Vec::new(), None), field))
+}
+
+/// Parameters that become fields cannot be references.
+fn owned_parameters(parameters: &[(&Ident, &Type)], report: &mut Report) {
+    for (_, ty) in parameters {
+        if matches!(ty, Type::Reference(_)) {
+            report.at(ty, Mistake::ParameterType);
+        }
+    }
+}
+
+fn function_system<'a>(
+    source: &'a Source,
+    function: &Function,
+    shape: Shape,
+    rules: Vec<Rule>,
+    rayleigh: Option<RayleighArguments>,
+) -> System<'a> {
     let body = ImplItemFn {
-        attrs: Vec::new(),
+        attrs: function.item.attrs.clone(),
         vis: syn::Visibility::Inherited,
         modifiers: Default::default(),
-        sig: signature.clone(),
+        sig: function.item.sig.clone(),
         block: (*function.item.block).clone(),
     };
-    (report.count() == before).then(|| System {
+    System {
         source,
         name: function.name.clone(),
         degrees: shape.degrees,
@@ -118,7 +173,7 @@ fn free_function<'a>(
         bodies: vec![Body::of(&body)],
         rayleigh,
         has_force: false,
-    })
+    }
 }
 
 impl Body {

@@ -4,9 +4,12 @@
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};
-use syn::{Attribute, FnArg, Ident, ImplItem, ImplItemFn, ItemImpl, Pat, Receiver, Type, parse_quote};
+use syn::{
+    AttrStyle, Attribute, FnArg, Ident, ImplItem, ImplItemFn, ItemImpl, Pat, Receiver, Type, parse_quote,
+};
 
-use super::model::{Body, Function, RayleighArguments, Rule, Source, System, simple_name};
+use super::check::Field;
+use super::model::{Body, Function, RayleighArguments, Role, Rule, Source, System, simple_name};
 use super::rewrite::over;
 
 /// The whole expansion: the user's item, its functions over dual numbers, and the system that they make.
@@ -19,6 +22,7 @@ pub fn system(system: &System<'_>) -> TokenStream {
     };
     let imports = imports(system);
     let (scalar, n) = (&system.scalar, system.degrees.times(1));
+    let conditions = conditions(system.source);
     let lagrangian = lagrangian(system);
     let rayleigh = system.rayleigh.map(|_| rayleigh(system));
     let force = system.has_force.then(|| force(system));
@@ -31,11 +35,13 @@ pub fn system(system: &System<'_>) -> TokenStream {
     quote! {
         #item
 
+        #(#conditions)*
         const _: () = {
             use ::dalembert::dual::{self, Dual, Real};
             #twins
         };
 
+        #(#conditions)*
         const _: () = {
             #imports
 
@@ -45,6 +51,93 @@ pub fn system(system: &System<'_>) -> TokenStream {
             #rayleigh
             #force
             #(#discrete)*
+        };
+    }
+}
+
+/// The whole expansion of a field: the user's function, the struct of its parameters, and the field that it is.
+pub fn field(system: &System<'_>, function: &Function, kind: Field) -> TokenStream {
+    let System { name, scalar, .. } = system;
+    let n = system.degrees.times(1);
+    let item = function_and_struct(system, function);
+    let conditions = conditions(system.source);
+    let twin_name = &system.bodies[0].over.sig.ident;
+    let twin = twin(&system.bodies[0], true);
+    let lifted: Vec<_> = parameters(function).map(|(field, _)| quote!(D::lift(self.#field))).collect();
+    let result = match kind {
+        Field::Vector => quote!([Real<D>; #n]),
+        Field::Scalar => quote!(Real<D>),
+    };
+    let plain = &function.item.sig.ident;
+    let fields = parameters(function).map(|(field, _)| quote!(self.#field));
+    let implementation = match kind {
+        // impl VectorField<2> for Rotation
+        Field::Vector => quote! {
+            use ::dalembert::nalgebra::{SMatrix, SVector};
+            use ::dalembert::{VectorField, dual};
+
+            type Vector = SVector<#scalar, #n>;
+
+            #[automatically_derived]
+            impl VectorField<#n> for #name {
+                type Scalar = #scalar;
+
+                fn vector(&self, q: &Vector) -> Vector {
+                    #plain((*q).into(), #(#fields),*).into()
+                }
+
+                fn jacobian(&self, q: &Vector) -> SMatrix<#scalar, #n, #n> {
+                    dual::jacobian(q, |q| self.field_over(q))
+                }
+            }
+        },
+        // impl ScalarField<1> for Generating
+        Field::Scalar => quote! {
+            use ::dalembert::nalgebra::{SMatrix, SVector};
+            use ::dalembert::{ScalarField, dual};
+
+            type Vector = SVector<#scalar, #n>;
+
+            #[automatically_derived]
+            impl ScalarField<#n> for #name {
+                type Scalar = #scalar;
+
+                fn value(&self, q: &Vector) -> #scalar {
+                    #plain((*q).into(), #(#fields),*)
+                }
+
+                fn gradient(&self, q: &Vector) -> Vector {
+                    dual::differential(q, |q| self.field_over(q))
+                }
+
+                fn hessian(&self, q: &Vector) -> SMatrix<#scalar, #n, #n> {
+                    dual::hessian(q, |q| self.field_over(q))
+                }
+            }
+        },
+    };
+    quote! {
+        #item
+
+        #(#conditions)*
+        const _: () = {
+            use ::dalembert::dual::{self, Dual, Real};
+
+            #[allow(dead_code)]
+            impl #name {
+                #twin
+
+                /// The field over plain and dual numbers.
+                #[inline(always)]
+                fn field_over<D: Dual<#scalar>>(&self, q: [Real<D>; #n]) -> #result {
+                    Self::#twin_name(q, #(#lifted),*)
+                }
+            }
+        };
+
+        #(#conditions)*
+        const _: () = {
+            #implementation
         };
     }
 }
@@ -100,7 +193,7 @@ fn twins_of_block(system: &System<'_>, block: &ItemImpl) -> TokenStream {
     let attributes = lints(&block.attrs);
     let twins = system.source.functions().filter_map(|function| {
         let body = system.bodies.iter().find(|body| body.plain.sig.ident == function.sig.ident)?;
-        Some(twin(body))
+        Some(twin(body, is_root(function)))
     });
     // Where nobody makes a value of the type, rustc says so at the type; the twins add nothing to that.
     quote! {
@@ -122,7 +215,7 @@ fn plain(system: &System<'_>, function: &mut ImplItemFn) {
     let arguments = lifted_arguments(function.sig.inputs.iter_mut());
     function.attrs.retain(|attribute| !attribute.path().is_ident("expect"));
     // Bodies call the twins: a private helper may have no other caller.
-    if !["lagrangian", "rayleigh", "force"].iter().any(|name| function.sig.ident == name) {
+    if !is_root(function) {
         function.attrs.push(parse_quote!(#[allow(dead_code)]));
     }
     function.block = parse_quote!({
@@ -166,22 +259,48 @@ fn has_floats(ty: &Type) -> bool {
     }
 }
 
+/// Whether the function is L, R or f, and not a helper that they call.
+fn is_root(function: &ImplItemFn) -> bool {
+    ["lagrangian", "rayleigh", "force"].iter().any(|root| function.sig.ident == root)
+}
+
 /// The function over `Real<D>`, with the lint levels that the user set for its body.
-fn twin(body: &Body) -> TokenStream {
+fn twin(body: &Body, is_root: bool) -> TokenStream {
     let text = format!(" `{}` over plain and dual numbers.", body.plain.sig.ident);
     let attributes = lints(&body.plain.attrs);
     let twin = &body.over;
+    // L, R and f are called from one closure for each kind of number: called, they would hide from the compiler which
+    // derivatives are absent.
+    let inline = if is_root { quote!(#[inline(always)]) } else { quote!(#[inline]) };
     quote! {
         #[doc = #text]
+        #inline
         #(#attributes)*
         #twin
     }
 }
 
 /// Attributes that hold for a body wherever it stands.
-fn lints(attributes: &[Attribute]) -> impl Iterator<Item = &Attribute> {
-    const LEVELS: [&str; 6] = ["allow", "expect", "warn", "deny", "forbid", "cfg"];
-    attributes.iter().filter(|attribute| LEVELS.iter().any(|level| attribute.path().is_ident(level)))
+fn lints(attributes: &[Attribute]) -> impl Iterator<Item = Attribute> {
+    named(attributes, &["allow", "expect", "warn", "deny", "forbid", "cfg"])
+}
+
+/// Attributes of these names, as outer ones.
+fn named(attributes: &[Attribute], names: &[&str]) -> impl Iterator<Item = Attribute> {
+    let is_named = |attribute: &&Attribute| names.iter().any(|name| attribute.path().is_ident(name));
+    attributes
+        .iter()
+        .filter(is_named)
+        .map(|attribute| Attribute { style: AttrStyle::Outer, ..attribute.clone() })
+}
+
+/// The conditions under which the user's item exists at all.
+fn conditions(source: &Source) -> Vec<Attribute> {
+    let attributes = match source {
+        Source::Block(block) => &block.item.attrs,
+        Source::Function(function) => &function.item.attrs,
+    };
+    named(attributes, &["cfg"]).collect()
 }
 
 /// The user's function, callable as before, and the struct of its parameters.
@@ -189,7 +308,11 @@ fn function_and_struct(system: &System<'_>, function: &Function) -> TokenStream 
     let name = &system.name;
     let visibility = function.visibility();
     let function_name = &function.item.sig.ident;
-    let text = format!(" The mechanical system of [`{function_name}`], with its parameters.");
+    let what = match function.role {
+        Role::System => "mechanical system",
+        Role::Field => "field",
+    };
+    let text = format!(" The {what} of [`{function_name}`], with its parameters.");
     let fields = parameters(function).map(|(field, ty)| {
         let text = format!(" Parameter `{field}` of [`{function_name}`].");
         quote!(#[doc = #text] #visibility #field: #ty)
@@ -205,9 +328,11 @@ fn function_and_struct(system: &System<'_>, function: &Function) -> TokenStream 
         use ::dalembert::dual;
         dual::lower(#name::#twin::<#scalar>(#(#arguments),*))
     });
+    let conditions = conditions(system.source);
     quote! {
         #plain
 
+        #(#conditions)*
         #[doc = #text]
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[allow(dead_code)]
@@ -220,7 +345,7 @@ fn twins_of_function(system: &System<'_>, function: &Function) -> TokenStream {
     let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
     let twin_name = &system.bodies[0].over.sig.ident;
-    let twin = twin(&system.bodies[0]);
+    let twin = twin(&system.bodies[0], true);
     let lifted: Vec<_> = parameters(function).map(|(field, _)| quote!(D::lift(self.#field))).collect();
     let part = |name: &str, text: &str, index: Option<TokenStream>| {
         let name = format_ident!("{name}_over");
@@ -228,6 +353,7 @@ fn twins_of_function(system: &System<'_>, function: &Function) -> TokenStream {
         // fn lagrangian_over<D: Dual<f64>>(&self, q: …, v: …) -> Real<D> { Self::oscillator_over(q, v, D::lift(self.m)).0 }
         quote! {
             #[doc = #text]
+            #[inline(always)]
             fn #name<D: Dual<#scalar>>(&self, q: [Real<D>; #n], v: [Real<D>; #n]) -> Real<D> {
                 Self::#twin_name(q, v, #(#lifted),*) #index
             }
@@ -249,7 +375,7 @@ fn twins_of_function(system: &System<'_>, function: &Function) -> TokenStream {
 
 /// Names and types of a free function's parameters after q and v.
 fn parameters(function: &Function) -> impl Iterator<Item = (&Ident, &Type)> {
-    function.item.sig.inputs.iter().skip(2).filter_map(|parameter| match parameter {
+    function.item.sig.inputs.iter().skip(function.role.arguments()).filter_map(|parameter| match parameter {
         FnArg::Typed(parameter) => match &*parameter.pat {
             Pat::Ident(pattern) => Some((&pattern.ident, &*parameter.ty)),
             _ => None,
@@ -324,7 +450,7 @@ fn value_and_derivatives(system: &System<'_>, function: &str, arguments: Rayleig
         RayleighArguments::ConfigurationAndVelocity => (quote!(q), quote!(|q, v| self.#over(q, v))),
     };
     // fn lagrangian_gradient(&self, q: …, v: …) -> Gradient<f64, 2> {
-    //     dual::gradient::<f64, 2, 4>(q, v, |q, v| self.lagrangian_over(q, v))
+    //     dual::gradient(q, v, |q, v| self.lagrangian_over(q, v))
     // }
     quote! {
         fn #plain(&self, #unused: &Vector, v: &Vector) -> #scalar {
@@ -332,7 +458,7 @@ fn value_and_derivatives(system: &System<'_>, function: &str, arguments: Rayleig
         }
 
         fn #gradient(&self, q: &Vector, v: &Vector) -> Gradient<#scalar, #n> {
-            dual::gradient::<#scalar, #n, #twice>(q, v, #closure)
+            dual::gradient(q, v, #closure)
         }
 
         fn #derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<#scalar, #n> {

@@ -4,10 +4,10 @@
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
-use syn::{FnArg, ImplItem, ImplItemFn, Pat, Signature, Type, parse_quote};
+use syn::{FnArg, ImplItem, ImplItemFn, Pat, ReturnType, Signature, Type, parse_quote};
 
 use super::diagnostics::Report;
-use super::model::{Degrees, Source, simple_name};
+use super::model::{Degrees, Role, Source, simple_name};
 
 /// The item as it came, beside the diagnostics.
 pub fn item_alone(item: TokenStream, report: Report) -> TokenStream {
@@ -41,16 +41,50 @@ pub fn with_stubs(source: &Source, report: Report) -> TokenStream {
             }
             let visibility = function.visibility();
             let fields =
-                item.sig.inputs.iter().skip(2).filter(
+                item.sig.inputs.iter().skip(function.role.arguments()).filter(
                     |field| matches!(field, FnArg::Typed(field) if matches!(&*field.pat, Pat::Ident(_))),
                 );
             let fields = quote!({ #(#visibility #fields),* });
             (quote!(#item #[allow(dead_code)] #visibility struct #name #fields), Some(&function.item.sig))
         }
     };
-    let stubs =
-        lagrangian.and_then(|signature| shape(signature, name)).map(|(scalar, n)| stubs(name, &scalar, &n));
+    let is_field = matches!(source, Source::Function(function) if function.role == Role::Field);
+    let stubs = if is_field { field_stubs(source) } else { stubs_of(lagrangian, name) };
     quote!(#item #errors #stubs)
+}
+
+/// Stubs of the one trait that the function's result names.
+fn field_stubs(source: &Source) -> Option<TokenStream> {
+    let Source::Function(function) = source else { return None };
+    let (name, signature) = (&function.name, &function.item.sig);
+    let (scalar, n) = shape(signature, name)?;
+    let vector = quote!(::dalembert::nalgebra::SVector<#scalar, #n>);
+    let matrix = quote!(::dalembert::nalgebra::SMatrix<#scalar, #n, #n>);
+    Some(match &signature.output {
+        ReturnType::Type(_, ty) if matches!(**ty, Type::Array(_)) => quote! {
+            const _: () = {
+                impl ::dalembert::VectorField<#n> for #name {
+                    type Scalar = #scalar;
+                    fn vector(&self, _: &#vector) -> #vector { ::core::unreachable!() }
+                    fn jacobian(&self, _: &#vector) -> #matrix { ::core::unreachable!() }
+                }
+            };
+        },
+        _ => quote! {
+            const _: () = {
+                impl ::dalembert::ScalarField<#n> for #name {
+                    type Scalar = #scalar;
+                    fn value(&self, _: &#vector) -> #scalar { ::core::unreachable!() }
+                    fn gradient(&self, _: &#vector) -> #vector { ::core::unreachable!() }
+                    fn hessian(&self, _: &#vector) -> #matrix { ::core::unreachable!() }
+                }
+            };
+        },
+    })
+}
+
+fn stubs_of(lagrangian: Option<&Signature>, name: &syn::Ident) -> Option<TokenStream> {
+    lagrangian.and_then(|signature| shape(signature, name)).map(|(scalar, n)| stubs(name, &scalar, &n))
 }
 
 /// Scalar and N, from the first array among the parameters.

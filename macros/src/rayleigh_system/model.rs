@@ -68,6 +68,26 @@ pub struct Function {
     pub item: ItemFn,
     /// The name of the struct generated, `Oscillator`.
     pub name: Ident,
+    pub role: Role,
+}
+
+/// What a free function stands for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// L and R of (q, v, parameters…).
+    System,
+    /// A field on the configuration space, of (q, parameters…).
+    Field,
+}
+
+impl Role {
+    /// How many parameters come before those that become fields of the struct.
+    pub fn arguments(self) -> usize {
+        match self {
+            Self::System => 2,
+            Self::Field => 1,
+        }
+    }
 }
 
 /// The number of degrees of freedom, as written in the array type.

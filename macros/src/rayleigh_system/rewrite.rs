@@ -25,7 +25,7 @@ use syn::{
 
 use super::check::qualifiers;
 use super::diagnostics::{Mistake, Report, span_of};
-use super::model::{Body, System, is_integer, simple_name};
+use super::model::{Body, Source, System, is_integer, simple_name};
 use super::scope::bound_names;
 
 /// Rewrites L, R, f and, transitively, the functions of the block that they call.
@@ -294,6 +294,7 @@ impl VisitMut for Rewriter<'_> {
                 _ if is_integer(ty) => {}
                 _ => self.report.at(ty, Mistake::TypeAlias),
             },
+            Type::Macro(_) => self.report.at(ty, Mistake::Macro),
             _ => visit_mut::visit_type_mut(self, ty),
         }
     }
@@ -447,7 +448,15 @@ impl Rewriter<'_> {
         } else {
             let segments: Vec<_> =
                 path.path.segments.iter().map(|segment| segment.ident.to_string()).collect();
-            self.report.at(&path.path, Mistake::OutsideFunction { path: segments.join("::"), name: last });
+            let mistake = match self.system.source {
+                Source::Block(_) => Mistake::OutsideFunction { path: segments.join("::"), name: last },
+                Source::Function(_) => Mistake::OutsideOfFunction {
+                    path: segments.join("::"),
+                    name: last,
+                    scalar: self.system.scalar.to_string(),
+                },
+            };
+            self.report.at(&path.path, mistake);
         }
         None
     }

@@ -6,6 +6,7 @@
 
 mod constants;
 mod control_flow;
+mod differentiable;
 mod fields;
 mod forms;
 mod methods;

@@ -23,6 +23,7 @@ const _: () = {
     #[allow(dead_code)]
     impl Oscillator {
         /// `oscillator` over plain and dual numbers.
+        #[inline(always)]
         fn oscillator_over<D: Dual<f64>>(
             q: [Real<D>; 1],
             v: [Real<D>; 1],
@@ -33,6 +34,7 @@ const _: () = {
             (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
         }
         /// L over plain and dual numbers.
+        #[inline(always)]
         fn lagrangian_over<D: Dual<f64>>(
             &self,
             q: [Real<D>; 1],
@@ -48,6 +50,7 @@ const _: () = {
                 .0
         }
         /// The Rayleigh function over plain and dual numbers.
+        #[inline(always)]
         fn rayleigh_over<D: Dual<f64>>(
             &self,
             q: [Real<D>; 1],
@@ -79,7 +82,7 @@ const _: () = {
             oscillator((*q).into(), (*v).into(), self.m, self.k, self.r).0
         }
         fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
-            dual::gradient::<f64, 1, 2>(q, v, |q, v| self.lagrangian_over(q, v))
+            dual::gradient(q, v, |q, v| self.lagrangian_over(q, v))
         }
         fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
             dual::derivatives::<f64, 1, 2>(q, v, |q, v| self.lagrangian_over(q, v))
@@ -100,7 +103,7 @@ const _: () = {
             oscillator((*q).into(), (*v).into(), self.m, self.k, self.r).1
         }
         fn rayleigh_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
-            dual::gradient::<f64, 1, 2>(q, v, |q, v| self.rayleigh_over(q, v))
+            dual::gradient(q, v, |q, v| self.rayleigh_over(q, v))
         }
         fn rayleigh_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
             dual::derivatives::<f64, 1, 2>(q, v, |q, v| self.rayleigh_over(q, v))

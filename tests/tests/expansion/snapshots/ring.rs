@@ -13,6 +13,7 @@ const _: () = {
     #[allow(dead_code)]
     impl Ring {
         /// `lagrangian` over plain and dual numbers.
+        #[inline(always)]
         fn lagrangian_over<D: Dual<f64>>(
             &self,
             q: [Real<D>; 2],
@@ -22,6 +23,7 @@ const _: () = {
             0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2)
         }
         /// `rayleigh` over plain and dual numbers.
+        #[inline(always)]
         fn rayleigh_over<D: Dual<f64>>(&self, v: [Real<D>; 2]) -> Real<D> {
             let k = D::lift(self.k);
             0.5 * k * (v[0] * v[0] + v[1] * v[1])
@@ -43,7 +45,7 @@ const _: () = {
             self.lagrangian((*q).into(), (*v).into())
         }
         fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 2> {
-            dual::gradient::<f64, 2, 4>(q, v, |q, v| self.lagrangian_over(q, v))
+            dual::gradient(q, v, |q, v| self.lagrangian_over(q, v))
         }
         fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
             dual::derivatives::<f64, 2, 4>(q, v, |q, v| self.lagrangian_over(q, v))
@@ -64,7 +66,7 @@ const _: () = {
             self.rayleigh((*v).into())
         }
         fn rayleigh_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 2> {
-            dual::gradient::<f64, 2, 4>(q, v, |_, v| self.rayleigh_over(v))
+            dual::gradient(q, v, |_, v| self.rayleigh_over(v))
         }
         fn rayleigh_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
             dual::derivatives::<f64, 2, 4>(q, v, |_, v| self.rayleigh_over(v))

@@ -1,25 +1,20 @@
-//! The expansion of the ring, as committed: it guards the form of the generated code, not its correctness.
+//! Expansions as committed: they guard the form of the generated code, not its correctness.
 //!
-//! After a change that is meant, write it anew and read it:
+//! After a change that is meant, write them anew and read them:
 //! `UPDATE_SNAPSHOTS=1 cargo test -p dalembert-tests --test expansion`.
-
-/// The pipeline of the macro crate: plain proc_macro2 code.
-#[path = "../../macros/src"]
-mod pipeline {
-    pub mod rayleigh_system;
-}
 
 use std::path::Path;
 
-use pipeline::rayleigh_system;
 use quote::quote;
+
+use crate::pipeline::rayleigh_system::{differentiable, rayleigh_system};
 
 fn formatted(tokens: proc_macro2::TokenStream) -> String {
     prettyplease::unparse(&syn::parse2(tokens).expect("the expansion is a sequence of items"))
 }
 
 fn assert_snapshot(name: &str, actual: &str) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/snapshots").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/expansion/snapshots").join(name);
     if std::env::var_os("UPDATE_SNAPSHOTS").is_some() {
         std::fs::write(&path, actual).expect("the folder of snapshots is writable");
     }
@@ -34,7 +29,7 @@ fn assert_snapshot(name: &str, actual: &str) {
 
 #[test]
 fn ring() {
-    let expansion = rayleigh_system::rayleigh_system(
+    let expansion = rayleigh_system(
         quote!(),
         quote! {
             impl Ring {
@@ -53,7 +48,7 @@ fn ring() {
 
 #[test]
 fn oscillator() {
-    let expansion = rayleigh_system::rayleigh_system(
+    let expansion = rayleigh_system(
         quote!(rule = [midpoint, trapezoidal]),
         quote! {
             /// L and R of a damped oscillator.
@@ -63,4 +58,17 @@ fn oscillator() {
         },
     );
     assert_snapshot("oscillator.rs", &formatted(expansion));
+}
+
+#[test]
+fn rotation() {
+    let expansion = differentiable(
+        quote!(),
+        quote! {
+            fn rotation(q: [f64; 2], speed: f64) -> [f64; 2] {
+                [-speed * q[1], speed * q[0]]
+            }
+        },
+    );
+    assert_snapshot("rotation.rs", &formatted(expansion));
 }
