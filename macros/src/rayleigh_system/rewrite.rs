@@ -335,8 +335,16 @@ impl Rewriter<'_> {
     }
 
     fn refuse_assignment_to_field(&mut self, place: &Expr) {
-        if is_place_of_self(place) {
-            self.report.at(place, Mistake::FieldAssignment);
+        match place {
+            // `(self.k, x) = …`
+            Expr::Tuple(places) => {
+                places.elems.iter().for_each(|place| self.refuse_assignment_to_field(place))
+            }
+            Expr::Array(places) => {
+                places.elems.iter().for_each(|place| self.refuse_assignment_to_field(place))
+            }
+            place if is_place_of_self(place) => self.report.at(place, Mistake::FieldAssignment),
+            _ => {}
         }
     }
 

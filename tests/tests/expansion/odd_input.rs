@@ -46,6 +46,9 @@ fn odd_but_right_systems_expand() {
         "fn ALL_CAPITALS(q: [f64; 0x1_usize], v: [f64; 0x1_usize]) -> f64 { q[0] * v[0] }",
         "fn braces(q: [f64; { 1 + 1 }], v: [f64; { 1 + 1 }]) -> f64 { q[0] * v[1] }",
         "fn group(q: [(f64); 1], v: [f64; 1]) -> (f64) { q[0] * v[0] }",
+        // Lengths that rustc refuses.
+        "fn f(q: [f64; 1u8], v: [f64; 1u8]) -> f64 { 0.0 }",
+        "fn f(q: [f64; 99999999999999999999999999], v: [f64; 99999999999999999999999999]) -> f64 { 0.0 }",
         // Empty and wrong bodies are for rustc, which has the types.
         "impl System { fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {} }",
         "impl System { fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 { return } }",
@@ -139,8 +142,6 @@ fn odd_items_are_answered() {
         "impl System { fn lagrangian(self: &Self, q: [f64; 1], v: [f64; 1]) -> f64 { 0.0 } }",
         "impl System { fn lagrangian(&'a self, q: [f64; _], v: [f64; 1]) -> ! { loop {} } }",
         "fn f(q: [f64; 0], v: [f64; 0]) -> f64 { 0.0 }",
-        "fn f(q: [f64; 1u8], v: [f64; 1]) -> f64 { 0.0 }",
-        "fn f(q: [f64; 99999999999999999999999999], v: [f64; 99999999999999999999999999]) -> f64 { 0.0 }",
     ] {
         // What is no item for syn comes back as it is, beside the message.
         let tokens: TokenStream = item.parse().unwrap();
