@@ -145,7 +145,7 @@ pub fn field<'a>(source: &'a Source, report: &mut Report) -> Option<(System<'a>,
 fn owned_parameters(parameters: &[(&Ident, &Type)], report: &mut Report) {
     for (_, ty) in parameters {
         if matches!(ty, Type::Reference(_)) {
-            report.at(ty, Mistake::ParameterType);
+            report.at(ty, Mistake::FieldByReference);
         }
     }
 }

@@ -42,7 +42,7 @@ pub fn with_stubs(source: &Source, report: Report) -> TokenStream {
             let visibility = function.visibility();
             let fields =
                 item.sig.inputs.iter().skip(function.role.arguments()).filter(
-                    |field| matches!(field, FnArg::Typed(field) if matches!(&*field.pat, Pat::Ident(_))),
+                    |field| matches!(field, FnArg::Typed(field) if matches!(&*field.pat, Pat::Ident(_)) && !matches!(&*field.ty, Type::Reference(_))),
                 );
             let fields = quote!({ #(#visibility #fields),* });
             (quote!(#item #[allow(dead_code)] #visibility struct #name #fields), Some(&function.item.sig))

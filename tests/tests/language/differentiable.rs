@@ -60,7 +60,7 @@ fn parameters_become_fields() {
     for (n, reverse, sign) in [(0, false, 1.0), (1, true, -1.0), (2, false, 1.0)] {
         let field = fields::Spiral { axis: axis.into(), n, reverse };
         let s: f64 = q.norm_squared();
-        assert_eq!(fields::spiral(q.into(), axis.into(), n, reverse), *field.vector(&q).as_ref());
+        assert_eq!(fields::spiral(q.into(), axis.into(), n, reverse), <[f64; 3]>::from(field.vector(&q)));
         assert!((field.vector(&q) - cross * (sign * s.powi(n))).amax() < 1e-14 * (1.0 + s.powi(n)));
         let jacobian = (axis.cross_matrix() * s.powi(n)
             + cross * q.transpose() * (2.0 * f64::from(n) * s.powi(n - 1)))
