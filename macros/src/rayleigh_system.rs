@@ -9,10 +9,12 @@ mod check;
 mod diagnostics;
 mod expand;
 mod fallback;
+mod implement;
 mod model;
 mod parse;
 mod rewrite;
 mod scope;
+mod syntax;
 
 use proc_macro2::TokenStream;
 

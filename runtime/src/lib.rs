@@ -42,7 +42,8 @@ pub mod dual;
 /// let ring = Ring { k: 1e-3 };
 /// assert_eq!(ring.rayleigh([1.0, 0.0]), 5e-4); // still a plain function
 /// assert_eq!(ring.energy(&vector![0.0, 1.0], &vector![0.5, 0.0]), 0.125);
-/// let momentum = Discrete::<Midpoint, 2>::legendre_minus(&ring, &vector![0.0, 0.0], &vector![0.1, 0.0], 0.1).p;
+/// let p = Discrete::<Midpoint, 2>::legendre_minus(&ring, &vector![0.0, 1.0], &vector![0.0, 1.0], 0.1).p;
+/// assert_eq!(p, vector![0.0, 0.0]); // the bottom of the ring is an equilibrium
 /// ```
 ///
 /// # The block
