@@ -3,5 +3,6 @@
 pub mod by_hand;
 pub mod convergence;
 pub mod damped_oscillator;
+pub mod documented;
 pub mod reference;
 pub mod systems;
