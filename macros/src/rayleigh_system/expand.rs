@@ -23,7 +23,7 @@ pub fn system(system: &System<'_>) -> TokenStream {
     let lagrangian = lagrangian(system);
     let rayleigh = system.rayleigh.map(|_| rayleigh(system));
     let force = system.has_force.then(|| force(system));
-    let discrete = system.rules.iter().map(|&rule| discrete(system, rule));
+    let discrete = system.rules.iter().map(|&rule| discrete(system, rule, None));
     let discrete_rayleigh = system
         .rayleigh
         .map(|_| system.rules.iter().map(|&rule| discrete_rayleigh(system, rule)).collect::<TokenStream>());
@@ -44,6 +44,17 @@ pub fn system(system: &System<'_>) -> TokenStream {
 
 /// What the expansion uses, and nothing else: an unused import would warn in the user's crate.
 fn imports(system: &System<'_>) -> TokenStream {
+    let names = imported(system);
+    let linear = if system.has_force { quote!({SMatrix, SVector}) } else { quote!(SVector) };
+    quote! {
+        use ::dalembert::dual::{self, Dual, Real};
+        use ::dalembert::nalgebra::#linear;
+        use ::dalembert::{#(#names),*};
+    }
+}
+
+/// The names of the runtime's own items among them.
+pub fn imported(system: &System<'_>) -> Vec<Ident> {
     let mut names = vec![
         "Derivatives",
         "Direction",
@@ -68,13 +79,7 @@ fn imports(system: &System<'_>) -> TokenStream {
         names.push(rule.name());
     }
     names.sort_unstable();
-    let names = names.into_iter().map(|name| format_ident!("{name}"));
-    let linear = if system.has_force { quote!({SMatrix, SVector}) } else { quote!(SVector) };
-    quote! {
-        use ::dalembert::dual::{self, Dual, Real};
-        use ::dalembert::nalgebra::#linear;
-        use ::dalembert::{#(#names),*};
-    }
+    names.into_iter().map(|name| format_ident!("{name}")).collect()
 }
 
 /// The user's block, each differentiated function followed by its twin over `Real<D>`.
@@ -158,15 +163,8 @@ fn documented_twin(body: &Body, is_root: bool) -> ImplItemFn {
 /// The user's function, callable as before, and the struct of its parameters.
 fn function_and_struct(system: &System<'_>, function: &Function) -> TokenStream {
     let name = &system.name;
-    let visibility = function.visibility();
     let function_name = &function.item.sig.ident;
-    let text = format!(" The mechanical system of [`{function_name}`], with its parameters.");
-    let fields = parameters(function).map(|(field, ty)| {
-        let text = format!(" Parameter `{field}` of [`{function_name}`].");
-        quote!(#[doc = #text] #visibility #field: #ty)
-    });
-    let body = if parameters(function).next().is_some() { quote!({ #(#fields),* }) } else { quote!(;) };
-
+    let structure = structure(system, function);
     let mut plain = function.item.clone();
     let scalar = &system.scalar;
     let twin = over(function_name);
@@ -175,6 +173,22 @@ fn function_and_struct(system: &System<'_>, function: &Function) -> TokenStream 
     quote! {
         #plain
 
+        #structure
+    }
+}
+
+/// The struct of a free function's parameters.
+pub fn structure(system: &System<'_>, function: &Function) -> TokenStream {
+    let name = &system.name;
+    let visibility = function.visibility();
+    let function_name = &function.item.sig.ident;
+    let text = format!(" The mechanical system of [`{function_name}`], with its parameters.");
+    let fields = parameters(function).map(|(field, ty)| {
+        let text = format!(" Parameter `{field}` of [`{function_name}`].");
+        quote!(#[doc = #text] #visibility #field: #ty)
+    });
+    let body = if parameters(function).next().is_some() { quote!({ #(#fields),* }) } else { quote!(;) };
+    quote! {
         #[doc = #text]
         #[derive(Clone, Copy, Debug, PartialEq)]
         #visibility struct #name #body
@@ -225,7 +239,7 @@ fn parameters(function: &Function) -> impl Iterator<Item = (&Ident, &Type)> {
 }
 
 /// The plain value of L (0) or R (1) at the vectors q and v.
-fn value(system: &System<'_>, function: &str, arguments: RayleighArguments) -> TokenStream {
+pub fn value(system: &System<'_>, function: &str, arguments: RayleighArguments) -> TokenStream {
     match system.source {
         Source::Block(_) => {
             let function = format_ident!("{function}");
@@ -348,8 +362,16 @@ fn force(system: &System<'_>) -> TokenStream {
     }
 }
 
+/// Bodies of the functions that a step calls.
+pub struct Kernel {
+    pub step_kernel: TokenStream,
+    pub momenta: TokenStream,
+}
+
 /// `impl Discrete<Midpoint, 2> for Ring`: one term for each of L, R and f that the system has.
-fn discrete(system: &System<'_>, rule: Rule) -> TokenStream {
+///
+/// An engine may give the kernel's bodies; without them each term is asked for its own.
+pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> TokenStream {
     let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
     let rule = format_ident!("{}", rule.name());
@@ -383,6 +405,10 @@ fn discrete(system: &System<'_>, rule: Rule) -> TokenStream {
         }
     });
     // p0 = −D1 L_d − f_d⁻: Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0, v, h)
+    let Kernel { step_kernel, momenta } = kernel.unwrap_or_else(|| Kernel {
+        step_kernel: quote!(#rule::lagrangian_kernel(self, q0, v, h) #(+ #rule::#kernels(self, q0, v, h))*),
+        momenta: quote!(#rule::lagrangian_momenta(self, q0, v, h) #(+ #rule::#momenta(self, q0, v, h))*),
+    });
     quote! {
         #[automatically_derived]
         impl Discrete<#rule, #n> for #name {
@@ -405,12 +431,12 @@ fn discrete(system: &System<'_>, rule: Rule) -> TokenStream {
 
             /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
             fn step_kernel(&self, q0: #vector, v: #vector, h: #scalar) -> StepKernel<#scalar, #n> {
-                #rule::lagrangian_kernel(self, q0, v, h) #(+ #rule::#kernels(self, q0, v, h))*
+                #step_kernel
             }
 
             /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
             fn momenta(&self, q0: #vector, v: #vector, h: #scalar) -> Momenta<#scalar, #n> {
-                #rule::lagrangian_momenta(self, q0, v, h) #(+ #rule::#momenta(self, q0, v, h))*
+                #momenta
             }
 
             /// E_L on the segment.
@@ -422,7 +448,7 @@ fn discrete(system: &System<'_>, rule: Rule) -> TokenStream {
 }
 
 /// `impl DiscreteRayleigh<Midpoint, 2> for Ring`
-fn discrete_rayleigh(system: &System<'_>, rule: Rule) -> TokenStream {
+pub fn discrete_rayleigh(system: &System<'_>, rule: Rule) -> TokenStream {
     let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
     let rule = format_ident!("{}", rule.name());
