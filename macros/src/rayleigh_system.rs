@@ -19,6 +19,9 @@ mod parse;
 mod rewrite;
 mod scope;
 
+#[cfg(test)]
+mod tests;
+
 use proc_macro2::TokenStream;
 
 use diagnostics::{Mistake, Report};

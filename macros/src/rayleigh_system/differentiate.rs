@@ -15,6 +15,8 @@ use std::rc::Rc;
 
 use super::graph::{Graph, Node, Operation};
 pub use partials::extremum;
+#[cfg(test)]
+pub use partials::fault;
 use partials::{Partials, partials};
 
 /// First derivatives by the variables, where there are any.

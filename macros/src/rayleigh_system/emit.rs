@@ -20,14 +20,14 @@ pub struct StraightLine {
     pub uses_coordinates: bool,
     /// Whether v occurs.
     pub uses_velocities: bool,
-    /// The text of the parameters that occur.
+    /// The first word of each parameter that occurs.
     parameters: Vec<String>,
 }
 
 impl StraightLine {
-    /// Whether the parameter occurs, or one that starts so.
+    /// Whether a parameter or a member of it occurs.
     pub fn uses(&self, parameter: &str) -> bool {
-        self.parameters.iter().any(|text| text == parameter || text.starts_with(&format!("{parameter} .")))
+        self.parameters.iter().any(|word| word == parameter)
     }
 }
 
@@ -62,7 +62,11 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
         match operation {
             Operation::Coordinate(_) => uses_coordinates = true,
             Operation::Velocity(_) => uses_velocities = true,
-            Operation::Parameter(index) => parameters.push(graph.parameter(index).tokens.to_string()),
+            Operation::Parameter(index) => {
+                parameters.extend(
+                    graph.parameter(index).tokens.clone().into_iter().next().map(|word| word.to_string()),
+                );
+            }
             _ => {}
         }
         let is_leaf =

@@ -430,11 +430,13 @@ pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> Toke
             #discrete_force
 
             /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+            #[inline]
             fn step_kernel(&self, q0: #vector, v: #vector, h: #scalar) -> StepKernel<#scalar, #n> {
                 #step_kernel
             }
 
             /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+            #[inline]
             fn momenta(&self, q0: #vector, v: #vector, h: #scalar) -> Momenta<#scalar, #n> {
                 #momenta
             }

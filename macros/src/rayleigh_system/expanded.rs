@@ -132,6 +132,7 @@ impl Code<'_> {
         let (q, v, statements) =
             (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
         let gradient = quote! {
+            #[inline]
             fn #gradient(&self, #q: &SVector<#scalar, #n>, #v: &SVector<#scalar, #n>) -> Gradient<#scalar, #n> {
                 #statements
                 Gradient { value: #value_of, d1: #d1, d2: #d2 }
@@ -154,6 +155,7 @@ impl Code<'_> {
         let (q, v, statements) =
             (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
         let derivatives = quote! {
+            #[inline]
             fn #derivatives(&self, #q: &SVector<#scalar, #n>, #v: &SVector<#scalar, #n>) -> Derivatives<#scalar, #n> {
                 #statements
                 Derivatives { value: #value_of, d1: #d1, d2: #d2, d11: #d11, d12: #d12, d22: #d22 }
@@ -162,6 +164,7 @@ impl Code<'_> {
 
         let variations = self.variations(&variations, &second);
         quote! {
+            #[inline]
             fn #plain(&self, #unused: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>) -> #scalar {
                 #value
             }
@@ -194,10 +197,13 @@ impl Code<'_> {
         quote! {
             #[automatically_derived]
             impl Force<#n> for #name {
+                #[inline]
                 fn force(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>) -> SVector<#scalar, #n> {
                     self.force((*q).into(), (*v).into()).into()
                 }
 
+                #[inline]
+                #[inline]
                 fn force_derivatives(
                     &self,
                     #q: &SVector<#scalar, #n>,

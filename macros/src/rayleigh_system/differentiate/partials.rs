@@ -46,6 +46,8 @@ pub fn partials(graph: &mut Graph, node: Node, operation: Operation, order: Orde
         }
         Operation::Function(function, x) => {
             let (first, second) = of_function(graph, function, x, node);
+            #[cfg(test)]
+            let (first, second) = fault::injected(graph, function, first, second);
             Partials {
                 first: first.map(|first| (x, first)).into_iter().collect(),
                 second: second.map(|second| (x, x, second)).into_iter().collect(),
@@ -306,4 +308,31 @@ pub fn extremum(graph: &mut Graph, comparison: Comparison, a: Node, b: Node) -> 
     let missing = graph.node(Operation::Is(Predicate::IsNan, a));
     let other = graph.node(Operation::Or(wins, missing));
     graph.select(other, b, a)
+}
+
+/// A wrong rule on purpose: the control of the tests that compare derivatives.
+#[cfg(test)]
+pub mod fault {
+    use std::cell::Cell;
+
+    use super::{Function, Graph, Node};
+
+    thread_local! {
+        /// The function whose first (0) or second (1) derivative is off by one part in 10⁹.
+        pub static FAULT: Cell<Option<(Function, usize)>> = const { Cell::new(None) };
+    }
+
+    pub fn injected(
+        graph: &mut Graph,
+        function: Function,
+        first: Option<Node>,
+        second: Option<Node>,
+    ) -> (Option<Node>, Option<Node>) {
+        let mut wrong = |node| graph.scaled(1.0 + 1e-9, node);
+        match FAULT.get() {
+            Some((faulty, 0)) if faulty == function => (first.map(&mut wrong), second),
+            Some((faulty, 1)) if faulty == function => (first, second.map(&mut wrong)),
+            _ => (first, second),
+        }
+    }
 }

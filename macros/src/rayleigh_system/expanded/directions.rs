@@ -18,6 +18,7 @@ impl Code<'_> {
         let (minus, plus) = (parameter("minus", line.uses("minus")), parameter("plus", line.uses("plus")));
         let statements = &line.statements;
         quote! {
+            #[inline]
             fn #function(
                 &self,
                 #q: &SVector<#scalar, #n>,
@@ -44,6 +45,8 @@ impl Code<'_> {
         let direction = parameter("direction", line.uses("direction"));
         let statements = &line.statements;
         quote! {
+            #[inline]
+            #[inline]
             fn force_variation(
                 &self,
                 #q: &SVector<#scalar, #n>,

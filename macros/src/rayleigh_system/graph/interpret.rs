@@ -2,8 +2,13 @@
 
 use super::{Comparison, Function, Graph, Node, Operation, PairFunction, Predicate};
 
-/// The values of `roots` at (q, v); parameters by index. Truth values are 1 and 0.
-pub fn values(graph: &Graph, roots: &[Node], q: &[f64], v: &[f64], parameters: &[f64]) -> Vec<f64> {
+/// The values of `roots` at (q, v), each operation's result passed through `rounded`. Truth values are 1 and 0.
+pub fn values(
+    graph: &Graph,
+    roots: &[Node],
+    [q, v]: [&[f64]; 2],
+    mut rounded: impl FnMut(f64) -> f64,
+) -> Vec<f64> {
     let mut values = vec![f64::NAN; graph.len()];
     for node in graph.reachable(roots.iter().copied()) {
         let at = |node: Node| values[node.index()];
@@ -11,7 +16,7 @@ pub fn values(graph: &Graph, roots: &[Node], q: &[f64], v: &[f64], parameters: &
         values[node.index()] = match graph.operation(node) {
             Operation::Coordinate(i) => q[i],
             Operation::Velocity(i) => v[i],
-            Operation::Parameter(i) => parameters[i],
+            Operation::Parameter(i) => panic!("parameter {i} has no value here"),
             Operation::Constant(bits) => f64::from_bits(bits),
             Operation::Add(a, b) => at(a) + at(b),
             Operation::Subtract(a, b) => at(a) - at(b),
@@ -56,6 +61,16 @@ pub fn values(graph: &Graph, roots: &[Node], q: &[f64], v: &[f64], parameters: &
             Operation::And(a, b) => truth(at(a) != 0.0 && at(b) != 0.0),
             Operation::Or(a, b) => truth(at(a) != 0.0 || at(b) != 0.0),
         };
+        let is_computed = !matches!(
+            graph.operation(node),
+            Operation::Coordinate(_)
+                | Operation::Velocity(_)
+                | Operation::Constant(_)
+                | Operation::Select(..)
+        );
+        if is_computed {
+            values[node.index()] = rounded(values[node.index()]);
+        }
     }
     roots.iter().map(|root| values[root.index()]).collect()
 }

@@ -58,11 +58,6 @@ impl Operation {
         };
         arguments.into_iter().flatten()
     }
-
-    /// Whether the value is true or false.
-    pub fn is_truth(self) -> bool {
-        matches!(self, Self::Compare(..) | Self::Is(..) | Self::Not(_) | Self::And(..) | Self::Or(..))
-    }
 }
 
 /// Names a set of methods of `f64`, each called as it is spelled.

@@ -1,0 +1,292 @@
+impl Ring {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let s = q[0] * q[0] + q[1] * q[1];
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2)
+    }
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        0.5 * self.k * (v[0] * v[0] + v[1] * v[1])
+    }
+}
+const _: () = {
+    use ::dalembert::nalgebra::{SMatrix, SVector};
+    use ::dalembert::{
+        Derivatives, Direction, Discrete, DiscreteForce, DiscreteForceDerivatives,
+        DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
+        Rayleigh, StepKernel, Variations,
+    };
+    #[automatically_derived]
+    impl Lagrangian<2> for Ring {
+        type Scalar = f64;
+        #[inline]
+        fn lagrangian(&self, q: &SVector<f64, 2>, v: &SVector<f64, 2>) -> f64 {
+            self.lagrangian((*q).into(), (*v).into())
+        }
+        #[inline]
+        fn lagrangian_gradient(
+            &self,
+            q: &SVector<f64, 2>,
+            v: &SVector<f64, 2>,
+        ) -> Gradient<f64, 2> {
+            let s = q[0] * q[0] + q[1] * q[1];
+            let t1 = s - 1.0;
+            let t2 = t1 * t1;
+            let t3 = t2 + s * (2.0 * t1);
+            Gradient {
+                value: 0.5 * (v[0] * v[0] + v[1] * v[1]) - s * t2,
+                d1: SVector::from([-(t3 * (2.0 * q[0])), -(t3 * (2.0 * q[1]))]),
+                d2: SVector::from([v[0], v[1]]),
+            }
+        }
+        #[inline]
+        fn lagrangian_derivatives(
+            &self,
+            q: &SVector<f64, 2>,
+            v: &SVector<f64, 2>,
+        ) -> Derivatives<f64, 2> {
+            let s = q[0] * q[0] + q[1] * q[1];
+            let t1 = s - 1.0;
+            let t2 = t1 * t1;
+            let t3 = t2 + s * (2.0 * t1);
+            let t4 = 2.0 * q[1];
+            let t5 = 2.0 * q[0];
+            let t6 = 2.0 * s + 4.0 * t1;
+            let t7 = t4 * t6;
+            let t8 = 2.0 * t3;
+            let t9 = -(t5 * t7);
+            Derivatives {
+                value: 0.5 * (v[0] * v[0] + v[1] * v[1]) - s * t2,
+                d1: SVector::from([-(t3 * t5), -(t3 * t4)]),
+                d2: SVector::from([v[0], v[1]]),
+                d11: SMatrix::from([
+                    [-(t8 + t5 * (t5 * t6)), t9],
+                    [t9, -(t4 * t7 + t8)],
+                ]),
+                d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                d22: SMatrix::from([[1.0, 0.0], [0.0, 1.0]]),
+            }
+        }
+        #[inline]
+        fn lagrangian_variations(
+            &self,
+            q: &SVector<f64, 2>,
+            v: &SVector<f64, 2>,
+            minus: Direction<f64>,
+            plus: Direction<f64>,
+        ) -> Variations<f64, 2> {
+            let s = q[0] * q[0] + q[1] * q[1];
+            let t1 = s - 1.0;
+            let t2 = t1 * t1 + s * (2.0 * t1);
+            let t3 = 2.0 * q[1];
+            let t4 = t2 * t3;
+            let t5 = 2.0 * q[0];
+            let t6 = t2 * t5;
+            let t7 = 2.0 * s + 4.0 * t1;
+            let t8 = t3 * t7;
+            let t9 = 2.0 * t2;
+            let minus_first = minus.first;
+            let minus_second = minus.second;
+            let plus_first = plus.first;
+            let plus_second = plus.second;
+            let t10 = minus_second * plus_second;
+            let t11 = minus_first * plus_first;
+            let t12 = -(t5 * t8 * t11);
+            Variations {
+                minus: SVector::from([
+                    v[0] * minus_second - t6 * minus_first,
+                    v[1] * minus_second - t4 * minus_first,
+                ]),
+                plus: SVector::from([
+                    v[0] * plus_second - t6 * plus_first,
+                    v[1] * plus_second - t4 * plus_first,
+                ]),
+                mixed: SMatrix::from([
+                    [t10 - (t9 + t5 * (t5 * t7)) * t11, t12],
+                    [t12, t10 - (t3 * t8 + t9) * t11],
+                ]),
+            }
+        }
+    }
+    #[automatically_derived]
+    impl Rayleigh<2> for Ring {
+        #[inline]
+        fn rayleigh(&self, _q: &SVector<f64, 2>, v: &SVector<f64, 2>) -> f64 {
+            self.rayleigh((*v).into())
+        }
+        #[inline]
+        fn rayleigh_gradient(
+            &self,
+            _q: &SVector<f64, 2>,
+            v: &SVector<f64, 2>,
+        ) -> Gradient<f64, 2> {
+            let k = self.k;
+            Gradient {
+                value: (v[0] * v[0] + v[1] * v[1]) * (0.5 * k),
+                d1: SVector::from([0.0, 0.0]),
+                d2: SVector::from([v[0] * k, v[1] * k]),
+            }
+        }
+        #[inline]
+        fn rayleigh_derivatives(
+            &self,
+            _q: &SVector<f64, 2>,
+            v: &SVector<f64, 2>,
+        ) -> Derivatives<f64, 2> {
+            let k = self.k;
+            Derivatives {
+                value: (v[0] * v[0] + v[1] * v[1]) * (0.5 * k),
+                d1: SVector::from([0.0, 0.0]),
+                d2: SVector::from([v[0] * k, v[1] * k]),
+                d11: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                d22: SMatrix::from([[k, 0.0], [0.0, k]]),
+            }
+        }
+        #[inline]
+        fn rayleigh_variations(
+            &self,
+            _q: &SVector<f64, 2>,
+            v: &SVector<f64, 2>,
+            minus: Direction<f64>,
+            plus: Direction<f64>,
+        ) -> Variations<f64, 2> {
+            let k = self.k;
+            let minus_second = minus.second;
+            let plus_second = plus.second;
+            let t1 = v[1] * k;
+            let t2 = v[0] * k;
+            let t3 = k * (minus_second * plus_second);
+            Variations {
+                minus: SVector::from([minus_second * t2, minus_second * t1]),
+                plus: SVector::from([plus_second * t2, plus_second * t1]),
+                mixed: SMatrix::from([[t3, 0.0], [0.0, t3]]),
+            }
+        }
+    }
+    #[automatically_derived]
+    impl Discrete<Midpoint, 2> for Ring {
+        /// L_d(q0, q1, h).
+        fn discrete_lagrangian(
+            &self,
+            q0: &SVector<f64, 2>,
+            q1: &SVector<f64, 2>,
+            h: f64,
+        ) -> f64 {
+            Midpoint::discrete_lagrangian(self, q0, q1, h)
+        }
+        /// L_d with D1, D2, D11, D12, D22.
+        fn discrete_lagrangian_derivatives(
+            &self,
+            q0: &SVector<f64, 2>,
+            q1: &SVector<f64, 2>,
+            h: f64,
+        ) -> Derivatives<f64, 2> {
+            Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
+        }
+        /// f_d = (f_d⁻, f_d⁺).
+        fn discrete_force(
+            &self,
+            q0: &SVector<f64, 2>,
+            q1: &SVector<f64, 2>,
+            h: f64,
+        ) -> DiscreteForce<f64, 2> {
+            Midpoint::rayleigh_force(self, q0, q1, h)
+        }
+        /// f_d with its derivatives by q0 and q1.
+        fn discrete_force_derivatives(
+            &self,
+            q0: &SVector<f64, 2>,
+            q1: &SVector<f64, 2>,
+            h: f64,
+        ) -> DiscreteForceDerivatives<f64, 2> {
+            Midpoint::rayleigh_force_derivatives(self, q0, q1, h)
+        }
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        #[inline]
+        fn step_kernel(
+            &self,
+            q0: &SVector<f64, 2>,
+            v: &SVector<f64, 2>,
+            h: f64,
+        ) -> StepKernel<f64, 2> {
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0], q0[1] + half * v[1]];
+            let s = q[0] * q[0] + q[1] * q[1];
+            let t1 = s - 1.0;
+            let t2 = t1 * t1 + s * (2.0 * t1);
+            let t3 = 2.0 * q[1];
+            let t4 = 2.0 * q[0];
+            let t5 = 2.0 * s + 4.0 * t1;
+            let t6 = t3 * t5;
+            let t7 = 2.0 * t2;
+            let t8 = half;
+            let t9 = 0.5 + 0.5 * self.k * t8;
+            let t10 = 2.0 * t9;
+            let t11 = t8 * t8;
+            let t12 = t4 * t6 * t11;
+            StepKernel {
+                p0: SVector::from([
+                    2.0 * v[0] * t9 + t2 * t4 * t8,
+                    2.0 * v[1] * t9 + t2 * t3 * t8,
+                ]),
+                matrix: SMatrix::from([
+                    [t10 + (t7 + t4 * (t4 * t5)) * t11, t12],
+                    [t12, t10 + (t3 * t6 + t7) * t11],
+                ]),
+            }
+        }
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        #[inline]
+        fn momenta(
+            &self,
+            q0: &SVector<f64, 2>,
+            v: &SVector<f64, 2>,
+            h: f64,
+        ) -> Momenta<f64, 2> {
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0], q0[1] + half * v[1]];
+            let s = q[0] * q[0] + q[1] * q[1];
+            let t1 = s - 1.0;
+            let k = self.k;
+            let t2 = t1 * t1 + s * (2.0 * t1);
+            let t3 = half;
+            let t4 = t2 * (2.0 * q[0]) * t3;
+            let t5 = t2 * (2.0 * q[1]) * t3;
+            let t6 = v[0] * k * t3;
+            let t7 = v[1] * k * t3;
+            Momenta {
+                p0: SVector::from([t4 + (v[0] + t6), t5 + (v[1] + t7)]),
+                p1: SVector::from([v[0] - t6 - t4, v[1] - t7 - t5]),
+            }
+        }
+        /// E_L on the segment.
+        fn segment_energy(
+            &self,
+            q0: &SVector<f64, 2>,
+            q1: &SVector<f64, 2>,
+            h: f64,
+        ) -> f64 {
+            Midpoint::segment_energy(self, q0, q1, h)
+        }
+    }
+    #[automatically_derived]
+    impl DiscreteRayleigh<Midpoint, 2> for Ring {
+        /// R_d(q0, q1, h).
+        fn discrete_rayleigh(
+            &self,
+            q0: &SVector<f64, 2>,
+            q1: &SVector<f64, 2>,
+            h: f64,
+        ) -> f64 {
+            Midpoint::discrete_rayleigh(self, q0, q1, h)
+        }
+        /// R_d with D1, D2, D11, D12, D22.
+        fn discrete_rayleigh_derivatives(
+            &self,
+            q0: &SVector<f64, 2>,
+            q1: &SVector<f64, 2>,
+            h: f64,
+        ) -> Derivatives<f64, 2> {
+            Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
+        }
+    }
+};
