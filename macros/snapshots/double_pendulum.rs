@@ -41,19 +41,22 @@ const _: () = {
             let l2 = self.l[1];
             let t3 = v[1] * (l2 * (0.5 * m2 * l2));
             let t4 = q[0] - q[1];
-            let t5 = l2 * (m2 * l1);
-            let t6 = t4.cos() * t5;
-            let t7 = v[0] * t6;
-            let kinetic = v[0] * t2 + v[1] * t3 + v[1] * t7;
+            let (t6, t5) = t4.sin_cos();
+            let t7 = l2 * (m2 * l1);
+            let t8 = t5 * t7;
+            let t9 = v[0] * t8;
+            let kinetic = v[0] * t2 + v[1] * t3 + v[1] * t9;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
             let g = self.g;
-            let t8 = l1 * (-t1 * g);
-            let t9 = l2 * (m2 * g);
-            let potential = q[0].cos() * t8 - q[1].cos() * t9;
-            let t10 = t5 * (v[0] * v[1]) * t4.sin();
+            let t10 = l1 * (-t1 * g);
+            let (sin_q1, cos_q1) = q[1].sin_cos();
+            let t11 = l2 * (m2 * g);
+            let potential = cos_q0 * t10 - cos_q1 * t11;
+            let t12 = t7 * (v[0] * v[1]) * t6;
             Gradient {
                 value: kinetic - potential,
-                d1: SVector::from([t8 * q[0].sin() - t10, t10 - t9 * q[1].sin()]),
-                d2: SVector::from([t2 + (t2 + v[1] * t6), t3 + (t3 + t7)]),
+                d1: SVector::from([t10 * sin_q0 - t12, t12 - t11 * sin_q1]),
+                d2: SVector::from([t2 + (t2 + v[1] * t8), t3 + (t3 + t9)]),
             }
         }
         #[inline]
@@ -76,20 +79,22 @@ const _: () = {
             let t10 = t7 * t9;
             let t11 = v[0] * t10;
             let kinetic = v[0] * t3 + v[1] * t5 + v[1] * t11;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
             let g = self.g;
             let t12 = l1 * (-t1 * g);
-            let t13 = q[0].cos() * t12;
+            let t13 = cos_q0 * t12;
+            let (sin_q1, cos_q1) = q[1].sin_cos();
             let t14 = l2 * (m2 * g);
-            let t15 = q[1].cos() * t14;
+            let t15 = cos_q1 * t14;
             let potential = t13 - t15;
-            let t16 = t9 * (v[0] * v[1]);
-            let t17 = t16 * t8;
+            let t16 = v[0] * v[1];
+            let t17 = t9 * t16 * t8;
             let t18 = t8 * (v[1] * t9);
             let t19 = t8 * (v[0] * t9);
-            let t20 = t7 * t16;
+            let t20 = t10 * t16;
             Derivatives {
                 value: kinetic - potential,
-                d1: SVector::from([t12 * q[0].sin() - t17, t17 - t14 * q[1].sin()]),
+                d1: SVector::from([t12 * sin_q0 - t17, t17 - t14 * sin_q1]),
                 d2: SVector::from([t3 + (t3 + v[1] * t10), t5 + (t5 + t11)]),
                 d11: SMatrix::from([[t13 - t20, t20], [t20, -(t15 + t20)]]),
                 d12: SMatrix::from([[-t18, t18], [-t19, t19]]),
@@ -116,18 +121,20 @@ const _: () = {
             let (t8, t7) = t6.sin_cos();
             let t9 = l2 * (m2 * l1);
             let t10 = t7 * t9;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
             let g = self.g;
             let t11 = l1 * (-t1 * g);
+            let (sin_q1, cos_q1) = q[1].sin_cos();
             let t12 = l2 * (m2 * g);
-            let t13 = t9 * (v[0] * v[1]);
-            let t14 = t13 * t8;
-            let t15 = t11 * q[0].sin() - t14;
-            let t16 = t14 - t12 * q[1].sin();
+            let t13 = v[0] * v[1];
+            let t14 = t9 * t13 * t8;
+            let t15 = t11 * sin_q0 - t14;
+            let t16 = t14 - t12 * sin_q1;
             let t17 = t5 + (t5 + v[0] * t10);
             let t18 = t3 + (t3 + v[1] * t10);
             let t19 = t8 * (v[1] * t9);
             let t20 = t8 * (v[0] * t9);
-            let t21 = t7 * t13;
+            let t21 = t10 * t13;
             let minus_first = minus.first;
             let minus_second = minus.second;
             let plus_first = plus.first;
@@ -153,12 +160,12 @@ const _: () = {
                 ]),
                 mixed: SMatrix::from([
                     [
-                        2.0 * t2 * t22 - t26 - t27 + (q[0].cos() * t11 - t21) * t25,
+                        2.0 * t2 * t22 - t26 - t27 + (cos_q0 * t11 - t21) * t25,
                         t27 + (t28 - t29) + t30,
                     ],
                     [
                         t30 + (t26 + t28 - t31),
-                        t31 + (t29 + 2.0 * t4 * t22) - (q[1].cos() * t12 + t21) * t25,
+                        t31 + (t29 + 2.0 * t4 * t22) - (cos_q1 * t12 + t21) * t25,
                     ],
                 ]),
             }
@@ -293,42 +300,39 @@ const _: () = {
             let (t8, t7) = t6.sin_cos();
             let t9 = l2 * (m2 * l1);
             let t10 = t7 * t9;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
             let g = self.g;
             let t11 = l1 * (-t1 * g);
+            let (sin_q1, cos_q1) = q[1].sin_cos();
             let t12 = l2 * (m2 * g);
             let relative = v[1] - v[0];
             let t13 = 0.5 * self.c[0];
             let t14 = 0.5 * self.c[1];
-            let t15 = t9 * (v[0] * v[1]);
-            let t16 = t15 * t8;
-            let t17 = t7 * t15;
-            let t18 = half;
-            let t19 = 2.0 * (t14 * t18);
-            let dk_drelative = relative * t14 * t18 + t14 * (relative * t18);
-            let t20 = t10 - t19;
-            let t21 = t18 * t18;
-            let t22 = t8 * (v[1] * t9) * t18;
-            let t23 = t8 * (v[0] * t9) * t18;
-            let t24 = t17 * t21;
+            let t15 = v[0] * v[1];
+            let t16 = t9 * t15 * t8;
+            let t17 = t10 * t15;
+            let t18 = 2.0 * (t14 * half);
+            let dk_drelative = 2.0 * (relative * t14 * half);
+            let t19 = t10 - t18;
+            let t20 = half * half;
+            let t21 = t8 * (v[0] * t9) * half;
+            let t22 = t8 * (v[1] * t9) * half;
+            let t23 = t17 * t20;
             StepKernel {
                 p0: SVector::from([
-                    t3
-                        + (t3
-                            + (v[1] * t10
-                                + (v[0] * t13 * t18 + t13 * (v[0] * t18) - dk_drelative)))
-                        - (t11 * q[0].sin() - t16) * t18,
-                    t5 + (t5 + (v[0] * t10 + dk_drelative))
-                        - (t16 - t12 * q[1].sin()) * t18,
+                    t3 + (t3 + (v[1] * t10 + (2.0 * (v[0] * t13 * half) - dk_drelative)))
+                        - (t11 * sin_q0 - t16) * half,
+                    t5 + (t5 + (v[0] * t10 + dk_drelative)) - (t16 - t12 * sin_q1) * half,
                 ]),
                 matrix: SMatrix::from([
                     [
-                        t22 + (2.0 * t2 + (t19 + 2.0 * (t13 * t18)) - t22)
-                            - (q[0].cos() * t11 - t17) * t21,
-                        t20 - t23 - t22 - t24,
+                        2.0 * t2 + (t18 + 2.0 * (t13 * half))
+                            - (cos_q0 * t11 - t17) * t20,
+                        t19 - t21 - t22 - t23,
                     ],
                     [
-                        t23 + (t20 + t22) - t24,
-                        2.0 * t4 + t19 + t23 - t23 + (q[1].cos() * t12 + t17) * t21,
+                        t21 + (t19 + t22) - t23,
+                        2.0 * t4 + t18 + (cos_q1 * t12 + t17) * t20,
                     ],
                 ]),
             }
@@ -350,22 +354,23 @@ const _: () = {
             let l2 = self.l[1];
             let t3 = v[1] * (l2 * (0.5 * m2 * l2));
             let t4 = q[0] - q[1];
-            let t5 = l2 * (m2 * l1);
-            let t6 = t4.cos() * t5;
+            let (t6, t5) = t4.sin_cos();
+            let t7 = l2 * (m2 * l1);
+            let t8 = t5 * t7;
             let g = self.g;
             let relative = v[1] - v[0];
-            let t7 = t5 * (v[0] * v[1]) * t4.sin();
-            let t8 = t3 + (t3 + v[0] * t6);
-            let t9 = t2 + (t2 + v[1] * t6);
-            let dr_drelative = 2.0 * (relative * (0.5 * self.c[1]));
-            let t10 = half;
-            let t11 = (l1 * (-t1 * g) * q[0].sin() - t7) * t10;
-            let t12 = (t7 - l2 * (m2 * g) * q[1].sin()) * t10;
-            let t13 = (2.0 * (v[0] * (0.5 * self.c[0])) - dr_drelative) * t10;
-            let t14 = dr_drelative * t10;
+            let t9 = relative * (0.5 * self.c[1]);
+            let t10 = t7 * (v[0] * v[1]) * t6;
+            let t11 = t3 + (t3 + v[0] * t8);
+            let t12 = t2 + (t2 + v[1] * t8);
+            let dr_drelative = 2.0 * t9;
+            let dk_drelative = 2.0 * (t9 * half);
+            let t13 = (l1 * (-t1 * g) * q[0].sin() - t10) * half;
+            let t14 = (t10 - l2 * (m2 * g) * q[1].sin()) * half;
+            let t15 = (2.0 * (v[0] * (0.5 * self.c[0])) - dr_drelative) * half;
             Momenta {
-                p0: SVector::from([t9 + t13 - t11, t8 + t14 - t12]),
-                p1: SVector::from([t11 + (t9 - t13), t12 + (t8 - t14)]),
+                p0: SVector::from([t12 + t15 - t13, t11 + dk_drelative - t14]),
+                p1: SVector::from([t13 + (t12 - t15), t14 + (t11 - dk_drelative)]),
             }
         }
         /// E_L on the segment.

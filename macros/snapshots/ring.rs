@@ -152,13 +152,17 @@ const _: () = {
             let k = self.k;
             let minus_second = minus.second;
             let plus_second = plus.second;
-            let t1 = v[1] * k;
-            let t2 = v[0] * k;
-            let t3 = k * (minus_second * plus_second);
+            let t1 = k * (minus_second * plus_second);
             Variations {
-                minus: SVector::from([minus_second * t2, minus_second * t1]),
-                plus: SVector::from([plus_second * t2, plus_second * t1]),
-                mixed: SMatrix::from([[t3, 0.0], [0.0, t3]]),
+                minus: SVector::from([
+                    k * (v[0] * minus_second),
+                    k * (v[1] * minus_second),
+                ]),
+                plus: SVector::from([
+                    k * (v[0] * plus_second),
+                    k * (v[1] * plus_second),
+                ]),
+                mixed: SMatrix::from([[t1, 0.0], [0.0, t1]]),
             }
         }
     }
@@ -218,19 +222,17 @@ const _: () = {
             let t5 = 2.0 * s + 4.0 * t1;
             let t6 = t3 * t5;
             let t7 = 2.0 * t2;
-            let t8 = half;
-            let t9 = 0.5 + 0.5 * self.k * t8;
-            let t10 = 2.0 * t9;
-            let t11 = t8 * t8;
-            let t12 = t4 * t6 * t11;
+            let t8 = 2.0 * (0.5 + 0.5 * self.k * half);
+            let t9 = half * half;
+            let t10 = t4 * t6 * t9;
             StepKernel {
                 p0: SVector::from([
-                    2.0 * v[0] * t9 + t2 * t4 * t8,
-                    2.0 * v[1] * t9 + t2 * t3 * t8,
+                    v[0] * t8 + t2 * t4 * half,
+                    v[1] * t8 + t2 * t3 * half,
                 ]),
                 matrix: SMatrix::from([
-                    [t10 + (t7 + t4 * (t4 * t5)) * t11, t12],
-                    [t12, t10 + (t3 * t6 + t7) * t11],
+                    [t8 + (t7 + t4 * (t4 * t5)) * t9, t10],
+                    [t10, t8 + (t3 * t6 + t7) * t9],
                 ]),
             }
         }
@@ -248,14 +250,13 @@ const _: () = {
             let t1 = s - 1.0;
             let k = self.k;
             let t2 = t1 * t1 + s * (2.0 * t1);
-            let t3 = half;
-            let t4 = t2 * (2.0 * q[0]) * t3;
-            let t5 = t2 * (2.0 * q[1]) * t3;
-            let t6 = v[0] * k * t3;
-            let t7 = v[1] * k * t3;
+            let t3 = t2 * (2.0 * q[0]) * half;
+            let t4 = t2 * (2.0 * q[1]) * half;
+            let t5 = v[0] * k * half;
+            let t6 = v[1] * k * half;
             Momenta {
-                p0: SVector::from([t4 + (v[0] + t6), t5 + (v[1] + t7)]),
-                p1: SVector::from([v[0] - t6 - t4, v[1] - t7 - t5]),
+                p0: SVector::from([t3 + (v[0] + t5), t4 + (v[1] + t6)]),
+                p1: SVector::from([v[0] - t5 - t3, v[1] - t6 - t4]),
             }
         }
         /// E_L on the segment.

@@ -69,9 +69,15 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
             }
             _ => {}
         }
-        let is_leaf =
-            matches!(operation, Operation::Coordinate(_) | Operation::Velocity(_) | Operation::Constant(_));
-        let is_single = uses[node.index()] <= 1
+        let is_leaf = match operation {
+            Operation::Coordinate(_) | Operation::Velocity(_) | Operation::Constant(_) => true,
+            // A local already.
+            Operation::Parameter(index) => graph.parameter(index).is_word(),
+            _ => false,
+        };
+        let is_paired = partner(graph, node, &nodes).is_some();
+        let is_single = !is_paired
+            && uses[node.index()] <= 1
             && !matches!(operation, Operation::Select(..))
             && (graph.name(node).is_none() || matches!(operation, Operation::Parameter(_)));
         if is_leaf || is_single || writer.locals[node.index()].is_some() {
@@ -81,6 +87,17 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
     }
     let outputs = outputs.iter().map(|&node| writer.expression(node).tokens).collect();
     StraightLine { statements, outputs, uses_coordinates, uses_velocities, parameters }
+}
+
+/// The cosine of the angle that `node` is the sine of, or the other way about, if it comes later; and the angle.
+fn partner(graph: &Graph, node: Node, nodes: &[Node]) -> Option<(Node, Node)> {
+    let (other, angle) = match graph.operation(node) {
+        Operation::Function(Function::Sin, angle) => (Function::Cos, angle),
+        Operation::Function(Function::Cos, angle) => (Function::Sin, angle),
+        _ => return None,
+    };
+    let partner = graph.known(Operation::Function(other, angle))?;
+    (partner > node && nodes.binary_search(&partner).is_ok()).then_some((partner, angle))
 }
 
 /// How tightly an expression holds together.
@@ -122,23 +139,16 @@ impl Writer<'_> {
     /// `let s = …;`
     fn statement(&mut self, node: Node, nodes: &[Node]) -> TokenStream {
         // Sine and cosine of one angle are one call.
-        if let Operation::Function(function @ (Function::Sin | Function::Cos), angle) =
-            self.graph.operation(node)
-        {
-            let other = if function == Function::Sin { Function::Cos } else { Function::Sin };
-            let partner = nodes.iter().copied().find(|&candidate| {
-                candidate > node && self.graph.operation(candidate) == Operation::Function(other, angle)
+        if let Some((partner, angle)) = partner(self.graph, node, nodes) {
+            let argument = self.receiver(angle);
+            let [own, its] = [node, partner].map(|node| {
+                let name = self.names.of(self.graph, node);
+                self.locals[node.index()] = Some(name.clone());
+                name
             });
-            if let Some(partner) = partner {
-                let argument = self.receiver(angle);
-                let [own, its] = [node, partner].map(|node| {
-                    let name = self.names.of(self.graph, node);
-                    self.locals[node.index()] = Some(name.clone());
-                    name
-                });
-                let (sine, cosine) = if function == Function::Sin { (own, its) } else { (its, own) };
-                return quote!(let (#sine, #cosine) = #argument.sin_cos(););
-            }
+            let is_sine = matches!(self.graph.operation(node), Operation::Function(Function::Sin, _));
+            let (sine, cosine) = if is_sine { (own, its) } else { (its, own) };
+            return quote!(let (#sine, #cosine) = #argument.sin_cos(););
         }
         let value = self.expression(node).tokens;
         let name = self.names.of(self.graph, node);

@@ -203,7 +203,6 @@ impl Code<'_> {
                 }
 
                 #[inline]
-                #[inline]
                 fn force_derivatives(
                     &self,
                     #q: &SVector<#scalar, #n>,

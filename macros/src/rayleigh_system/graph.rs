@@ -35,6 +35,13 @@ pub struct Parameter {
     text: String,
 }
 
+impl Parameter {
+    /// Whether it is one word, such as `half`.
+    pub fn is_word(&self) -> bool {
+        self.tokens.clone().into_iter().count() == 1
+    }
+}
+
 /// The expressions of one system.
 #[derive(Default)]
 pub struct Graph {
@@ -95,6 +102,11 @@ impl Graph {
         self.depends.push(depends);
         self.nodes.insert(operation, node);
         node
+    }
+
+    /// The node of an operation that occurs already.
+    pub fn known(&self, operation: Operation) -> Option<Node> {
+        self.nodes.get(&operation.ordered()).copied()
     }
 
     pub fn constant(&mut self, value: f64) -> Node {

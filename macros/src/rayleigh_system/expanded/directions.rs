@@ -46,7 +46,6 @@ impl Code<'_> {
         let statements = &line.statements;
         quote! {
             #[inline]
-            #[inline]
             fn force_variation(
                 &self,
                 #q: &SVector<#scalar, #n>,
@@ -95,13 +94,18 @@ impl Code<'_> {
         (i, minus): (usize, Along),
         (j, plus): (usize, Along),
     ) -> Option<Node> {
-        let mut terms = Vec::new();
+        let mut terms: Vec<(Option<Node>, Option<Node>)> = Vec::new();
         // Velocities first: the mass matrix leads.
         for (factor_i, velocity_i) in [(minus.second, true), (minus.first, false)] {
             for (factor_j, velocity_j) in [(plus.second, true), (plus.first, false)] {
-                if let (Some(a), Some(b)) = (factor_i, factor_j) {
-                    let factor = self.graph.times(a, b);
-                    terms.push((Some(factor), self.second(of, (i, velocity_i), (j, velocity_j))));
+                let (Some(a), Some(b)) = (factor_i, factor_j) else { continue };
+                let factor = self.graph.times(a, b);
+                let second = self.second(of, (i, velocity_i), (j, velocity_j));
+                let opposite = self.graph.negated(factor);
+                // On the diagonal the two orders are one derivative; opposite factors leave nothing of it.
+                match terms.iter().position(|&term| second.is_some() && term == (Some(opposite), second)) {
+                    Some(cancelled) => drop(terms.remove(cancelled)),
+                    None => terms.push((Some(factor), second)),
                 }
             }
         }

@@ -68,7 +68,26 @@ impl Graph {
             let rest = self.times(a, b);
             return self.scaled(product, rest);
         }
-        self.node(Operation::Multiply(a, b))
+        self.regrouped(a, b).unwrap_or_else(|| self.node(Operation::Multiply(a, b)))
+    }
+
+    /// a b with three factors grouped so that two of them are a product that is there already.
+    fn regrouped(&mut self, a: Node, b: Node) -> Option<Node> {
+        if self.known(Operation::Multiply(a, b)).is_some() {
+            return None;
+        }
+        let mut grouped = None;
+        for (single, product) in [(a, b), (b, a)] {
+            let Operation::Multiply(x, y) = self.operation(product) else { continue };
+            for (x, y) in [(x, y), (y, x)] {
+                let Some(pair) = self.known(Operation::Multiply(single, x)) else { continue };
+                if let Some(whole) = self.known(Operation::Multiply(pair, y)) {
+                    return Some(whole);
+                }
+                grouped = grouped.or(Some((pair, y)));
+            }
+        }
+        grouped.map(|(pair, rest)| self.node(Operation::Multiply(pair, rest)))
     }
 
     /// factor × a.

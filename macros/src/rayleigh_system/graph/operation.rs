@@ -72,6 +72,7 @@ macro_rules! methods {
         impl $set {
             /// Every one, for tests that must leave none out.
             #[cfg(test)]
+            #[allow(dead_code, reason = "of one set alone")]
             pub const ALL: &[Self] = &[$(Self::$variant),*];
 
             /// The method's name.
