@@ -71,7 +71,8 @@ macro_rules! systems {
                 0.5 * self.drag * v.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum::<f64>()
             }
 
-            fn spring(&self, d: f64) -> f64 {
+            /// Energy of a spring.
+            pub fn spring(&self, d: f64) -> f64 {
                 let square = d * d;
                 0.5 * square + 0.25 * self.beta * square * square
             }
@@ -105,14 +106,16 @@ macro_rules! systems {
                 [-q[1] * spin, q[0] * spin, (q[2] - q[0]).abs().min(2.0)]
             }
 
-            fn wall(&self, x: f64) -> f64 {
+            /// A soft wall.
+            pub fn wall(&self, x: f64) -> f64 {
                 if x > 0.0 {
                     return 0.0;
                 }
                 (1.0 + x * x).sqrt() - 1.0
             }
 
-            fn bowl(q: [f64; 3]) -> f64 {
+            /// Elementary functions of all coordinates.
+            pub fn bowl(q: [f64; 3]) -> f64 {
                 let square = |x: f64| x * x;
                 let depth: f64 = q.iter().zip(1..4).map(|(q, i)| square(*q) / f64::from(i)).sum();
                 (1.0 + depth).ln() + q[0].hypot(1.0 + q[1] * q[1]) + q[2].atan2(2.0 + q[1])
@@ -147,7 +150,7 @@ mod num_dual {
 
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::{
-    Derivatives, Direction, Discrete, DiscreteRayleigh, Force, Lagrangian, Midpoint, Rayleigh, Scalar, State,
+    Derivatives, Direction, Discrete, DiscreteRayleigh, Force, Lagrangian, Midpoint, Scalar, State,
     Trapezoidal,
 };
 

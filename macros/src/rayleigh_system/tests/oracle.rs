@@ -69,7 +69,11 @@ impl Expression {
             0..=2 => Binary('+', part(random), part(random)),
             3..=4 => Binary('-', part(random), part(random)),
             5..=7 => Binary('*', part(random), part(random)),
-            8 => Binary('/', part(random), part(random)),
+            8 => {
+                let (a, b) = (part(random), part(random));
+                // num-dual's a/a is 1 to rounding; the graph's has no derivative at all.
+                if a.text() == b.text() { Negated(a) } else { Binary('/', a, b) }
+            }
             9 => Negated(part(random)),
             10..=12 => {
                 let function = Function::ALL[random.below(Function::ALL.len())];
@@ -131,7 +135,12 @@ impl Expression {
             PowerOfBoth(a, b) => {
                 let base = a.value(at);
                 let base = base.clone() * base + 1.0;
-                (base.ln() * b.value(at)).exp()
+                let exponent = b.value(at);
+                // A NaN to the power 0 is 1.
+                let value = base.re().powf(exponent.re());
+                let mut power = (base.ln() * exponent).exp();
+                power.re = value;
+                power
             }
             Choice([a, b, c, d]) => {
                 if a.value(at).re() < b.value(at).re() {
@@ -181,7 +190,12 @@ fn elementary(function: Function, x: Number) -> Number {
         Function::Atan => x.atan(),
         Function::Sinh => x.sinh(),
         Function::Cosh => x.cosh(),
-        Function::Tanh => x.tanh(),
+        // num-dual's own loses the derivative beyond |x| ≈ 20.
+        Function::Tanh => {
+            let sign = x.re().signum();
+            let twice = x * (-2.0 * sign);
+            -twice.clone().exp_m1() / (twice.exp() + 1.0) * sign
+        }
         Function::Asinh => x.asinh(),
         Function::Acosh => x.acosh(),
         Function::Atanh => x.atanh(),
