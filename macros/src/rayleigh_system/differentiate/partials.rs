@@ -305,7 +305,7 @@ fn power_of_both(graph: &mut Graph, x: Node, n: Node, y: Node) -> Partials {
 /// The smaller or larger of two numbers as the runtime's `Real` has it: the first of equal ones, NaN only where both are.
 pub fn extremum(graph: &mut Graph, comparison: Comparison, a: Node, b: Node) -> Node {
     let wins = graph.node(Operation::Compare(comparison, b, a));
-    let missing = graph.node(Operation::Is(Predicate::IsNan, a));
+    let missing = graph.node(Operation::Is(Predicate::Nan, a));
     let other = graph.node(Operation::Or(wins, missing));
     graph.select(other, b, a)
 }

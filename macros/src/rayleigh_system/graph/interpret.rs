@@ -50,11 +50,11 @@ pub fn values(
             Operation::Is(predicate, x) => {
                 let x = at(x);
                 truth(match predicate {
-                    Predicate::IsNan => x.is_nan(),
-                    Predicate::IsFinite => x.is_finite(),
-                    Predicate::IsInfinite => x.is_infinite(),
-                    Predicate::IsSignNegative => x.is_sign_negative(),
-                    Predicate::IsSignPositive => x.is_sign_positive(),
+                    Predicate::Nan => x.is_nan(),
+                    Predicate::Finite => x.is_finite(),
+                    Predicate::Infinite => x.is_infinite(),
+                    Predicate::SignNegative => x.is_sign_negative(),
+                    Predicate::SignPositive => x.is_sign_positive(),
                 })
             }
             Operation::Not(a) => truth(at(a) == 0.0),

@@ -136,11 +136,11 @@ methods! {
 methods! {
     /// Questions about a number.
     Predicate {
-        IsNan "is_nan"
-        IsFinite "is_finite"
-        IsInfinite "is_infinite"
-        IsSignNegative "is_sign_negative"
-        IsSignPositive "is_sign_positive"
+        Nan "is_nan"
+        Finite "is_finite"
+        Infinite "is_infinite"
+        SignNegative "is_sign_negative"
+        SignPositive "is_sign_positive"
     }
 }
 

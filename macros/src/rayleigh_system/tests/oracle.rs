@@ -117,7 +117,7 @@ impl Expression {
 
     fn value(&self, at: &[Number; 4]) -> Number {
         match self {
-            Variable(index) => at[*index].clone(),
+            Variable(index) => at[*index],
             Constant(value) => Number::from(*value),
             Binary(symbol, a, b) => {
                 let (a, b) = (a.value(at), b.value(at));
@@ -134,7 +134,7 @@ impl Expression {
             RealPower(a, n) => a.value(at).powf(*n),
             PowerOfBoth(a, b) => {
                 let base = a.value(at);
-                let base = base.clone() * base + 1.0;
+                let base = base * base + 1.0;
                 let exponent = b.value(at);
                 // A NaN to the power 0 is 1.
                 let value = base.re().powf(exponent.re());
@@ -162,11 +162,11 @@ impl Expression {
             }
             Distance(a, b) => {
                 let (a, b) = (a.value(at), b.value(at));
-                (a.clone() * a + b.clone() * b).sqrt()
+                (a * a + b * b).sqrt()
             }
             Shared(a, b) => {
                 let x = a.value(at);
-                x.clone() * x.clone() + x * b.value(at)
+                x * x + x * b.value(at)
             }
         }
     }
@@ -194,7 +194,7 @@ fn elementary(function: Function, x: Number) -> Number {
         Function::Tanh => {
             let sign = x.re().signum();
             let twice = x * (-2.0 * sign);
-            -twice.clone().exp_m1() / (twice.exp() + 1.0) * sign
+            -twice.exp_m1() / (twice.exp() + 1.0) * sign
         }
         Function::Asinh => x.asinh(),
         Function::Acosh => x.acosh(),
@@ -227,7 +227,7 @@ fn lowered(text: &str) -> Lowered {
 /// Value, gradient and Hessian by num-dual.
 fn reference(expression: &Expression, point: [f64; 4]) -> Vec<f64> {
     let (value, gradient, hessian) = hessian(
-        |x: SVector<Number, 4>| expression.value(&std::array::from_fn(|i| x[i].clone())),
+        |x: SVector<Number, 4>| expression.value(&std::array::from_fn(|i| x[i])),
         &SVector::from(point),
     );
     let second = (0..4).flat_map(|i| (i..4).map(move |j| (i, j))).map(|(i, j)| hessian[(i, j)]);
