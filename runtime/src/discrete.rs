@@ -42,6 +42,15 @@ pub struct StepKernel<S, const N: usize> {
     pub matrix: SMatrix<S, N, N>,
 }
 
+/// p1 = D2 L_d + f_d⁺ at a trial v̄, with its derivative: what the step needs besides its equation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outgoing<S, const N: usize> {
+    /// The momentum at q1.
+    pub p1: SVector<S, N>,
+    /// ∂p1/∂v̄.
+    pub by_v: SMatrix<S, N, N>,
+}
+
 /// Both momenta of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Momenta<S, const N: usize> {
@@ -132,6 +141,20 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         v: &SVector<Self::Scalar, N>,
         h: Self::Scalar,
     ) -> StepKernel<Self::Scalar, N>;
+
+    /// The step's equation, and the momentum p1 with its derivative where that costs little beside it.
+    ///
+    /// A solver's last correction d then gives p1 − (∂p1/∂v̄) d, to the order to which it solves the equation, without
+    /// another evaluation of the [`momenta`](Self::momenta).
+    #[inline]
+    fn step_evaluation(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> (StepKernel<Self::Scalar, N>, Option<Outgoing<Self::Scalar, N>>) {
+        (self.step_kernel(q0, v, h), None)
+    }
 
     /// Both momenta of the segment from q0 with mean velocity `v`.
     fn momenta(
@@ -258,9 +281,13 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
                 rest
             }
         };
-        let solution = newton::solve(|q0, v| self.step_kernel(q0, v, h), state, guess)?;
+        let solution = newton::solve(|q0, v| self.step_evaluation(q0, v, h), state, guess)?;
         let v = solution.unknown;
-        let state = State { q: q0 + v * h, p: self.momenta(q0, &v, h).p1 };
+        let p1 = match &solution.last {
+            Some(outgoing) => outgoing.p1 - outgoing.by_v * solution.correction,
+            None => self.momenta(q0, &v, h).p1,
+        };
+        let state = State { q: q0 + v * h, p: p1 };
         StepError::require_finite(&state.q, Quantity::Configuration)?;
         StepError::require_finite(&state.p, Quantity::Momentum)?;
         Ok(Step { state, velocity: v, report: solution.report })

@@ -23,7 +23,8 @@ pub use nalgebra;
 
 pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
 pub use discrete::{
-    Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Report, Step, StepKernel,
+    Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Outgoing, Report, Step,
+    StepKernel,
 };
 pub use error::{Quantity, StepError};
 pub use fields::{ScalarField, VectorField};

@@ -18,9 +18,13 @@ use crate::linear;
 use crate::{Report, Scalar, State};
 
 /// A root.
-pub(crate) struct Solution<S, const N: usize> {
+pub(crate) struct Solution<S, E, const N: usize> {
     pub(crate) unknown: SVector<S, N>,
     pub(crate) report: Report<S>,
+    /// What else the last evaluation gave,
+    pub(crate) last: E,
+    /// and how far from there the root is: unknown = point of the last evaluation − correction.
+    pub(crate) correction: SVector<S, N>,
 }
 
 /// Newton's method needs a few iterations where it converges at all; damped ones near a fold take some more.
@@ -32,16 +36,16 @@ const MAX_HALVINGS: u32 = 12;
 /// Rounding errors of an evaluation, in units of the change that one rounding of q makes.
 const ROUNDINGS: f64 = 32.0;
 
-/// Solves p0(q, v) = p for v at the `state` (q, p).
+/// Solves p0(q, v) = p for v at the `state` (q, p). What the evaluation gives beside the kernel is handed through.
 #[inline]
-pub(crate) fn solve<S: Scalar, const N: usize>(
-    evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N>,
+pub(crate) fn solve<S: Scalar, E: Copy, const N: usize>(
+    evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> (StepKernel<S, N>, E),
     state: &State<S, N>,
     guess: SVector<S, N>,
-) -> Result<Solution<S, N>, StepError> {
+) -> Result<Solution<S, E, N>, StepError> {
     let State { q, p: target } = state;
     let mut v = guess;
-    let mut at_v = evaluate(q, &v);
+    let (mut at_v, mut last) = evaluate(q, &v);
     let mut residual = at_v.p0 - target;
     let mut contraction = S::one();
     let mut damped = 0;
@@ -74,19 +78,19 @@ pub(crate) fn solve<S: Scalar, const N: usize>(
                 floor: largest_floor(&units),
                 last_correction: correction.amax(),
             };
-            return Ok(Solution { unknown: full, report });
+            return Ok(Solution { unknown: full, report, last, correction });
         }
 
         let mut candidate = full;
         let mut share = S::one();
         let mut halvings = 0;
         loop {
-            let next = evaluate(q, &candidate);
+            let (next, next_last) = evaluate(q, &candidate);
             let next_residual = next.p0 - target;
             let next_size = in_units(&next_residual, &units);
             if next_size < size {
                 contraction = next_size / size;
-                (v, at_v, residual) = (candidate, next, next_residual);
+                (v, at_v, residual, last) = (candidate, next, next_residual, next_last);
                 break;
             }
             if halvings == 0 {
@@ -99,7 +103,7 @@ pub(crate) fn solve<S: Scalar, const N: usize>(
                         floor: noise.amax(),
                         last_correction: correction.amax(),
                     };
-                    return Ok(Solution { unknown: v, report });
+                    return Ok(Solution { unknown: v, report, last, correction: SVector::zeros() });
                 }
             }
             halvings += 1;
@@ -125,8 +129,8 @@ pub(crate) fn solve<S: Scalar, const N: usize>(
 
 /// What rounding leaves of the residual: the change of p0 as each coordinate of q moves by a rounding error.
 #[cold]
-fn noise<S: Scalar, const N: usize>(
-    evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N>,
+fn noise<S: Scalar, E, const N: usize>(
+    evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> (StepKernel<S, N>, E),
     q: &SVector<S, N>,
     v: &SVector<S, N>,
     at_v: &StepKernel<S, N>,
@@ -135,7 +139,7 @@ fn noise<S: Scalar, const N: usize>(
     for j in 0..N {
         let mut moved = *q;
         moved[j] *= S::one() + S::EPSILON * S::constant(ROUNDINGS);
-        noise += (evaluate(&moved, v).p0 - at_v.p0).abs();
+        noise += (evaluate(&moved, v).0.p0 - at_v.p0).abs();
     }
     noise
 }

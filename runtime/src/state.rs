@@ -49,7 +49,7 @@ impl<S: Scalar, const N: usize> State<S, N> {
         // 𝔽L is the limit h → 0 of the discrete transforms.
         let transform = |q: &SVector<S, N>, v: &SVector<S, N>| {
             let l = system.lagrangian_derivatives(q, v);
-            StepKernel { p0: l.d2, matrix: l.d22 }
+            (StepKernel { p0: l.d2, matrix: l.d22 }, ())
         };
         let solution = newton::solve(transform, self, nalgebra::zero()).map_err(|error| match error {
             StepError::SingularNewtonMatrix { column, .. } => StepError::DegenerateLagrangian { column },

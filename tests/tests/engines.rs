@@ -72,7 +72,7 @@ macro_rules! systems {
             }
 
             /// Energy of a spring.
-            pub fn spring(&self, d: f64) -> f64 {
+            fn spring(&self, d: f64) -> f64 {
                 let square = d * d;
                 0.5 * square + 0.25 * self.beta * square * square
             }
@@ -107,7 +107,7 @@ macro_rules! systems {
             }
 
             /// A soft wall.
-            pub fn wall(&self, x: f64) -> f64 {
+            fn wall(&self, x: f64) -> f64 {
                 if x > 0.0 {
                     return 0.0;
                 }
@@ -115,7 +115,7 @@ macro_rules! systems {
             }
 
             /// Elementary functions of all coordinates.
-            pub fn bowl(q: [f64; 3]) -> f64 {
+            fn bowl(q: [f64; 3]) -> f64 {
                 let square = |x: f64| x * x;
                 let depth: f64 = q.iter().zip(1..4).map(|(q, i)| square(*q) / f64::from(i)).sum();
                 (1.0 + depth).ln() + q[0].hypot(1.0 + q[1] * q[1]) + q[2].atan2(2.0 + q[1])

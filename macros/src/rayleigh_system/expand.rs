@@ -109,6 +109,10 @@ fn annotated_block(system: &System<'_>, mut block: syn::ItemImpl) -> TokenStream
 /// `fn height(&self, x: f64) -> f64 { dual::lower(self.height_over::<f64>(dual::lift(x))) }`
 fn plain(system: &System<'_>, body: &Body) -> ImplItemFn {
     let mut function = body.plain.clone();
+    if !is_root(body) {
+        // A private helper that L alone calls would count as dead: L calls its twin.
+        function.attrs.push(parse_quote!(#[allow(dead_code)]));
+    }
     let scalar = &system.scalar;
     let name = over(&function.sig.ident);
     let arguments = lifted_arguments(function.sig.inputs.iter_mut(), &quote!(dual));
@@ -365,6 +369,8 @@ fn force(system: &System<'_>) -> TokenStream {
 /// Bodies of the functions that a step calls.
 pub struct Kernel {
     pub step_kernel: TokenStream,
+    /// Where p1 and its derivative come with the kernel.
+    pub step_evaluation: Option<TokenStream>,
     pub momenta: TokenStream,
 }
 
@@ -405,9 +411,24 @@ pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> Toke
         }
     });
     // p0 = −D1 L_d − f_d⁻: Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0, v, h)
-    let Kernel { step_kernel, momenta } = kernel.unwrap_or_else(|| Kernel {
+    let Kernel { step_kernel, step_evaluation, momenta } = kernel.unwrap_or_else(|| Kernel {
         step_kernel: quote!(#rule::lagrangian_kernel(self, q0, v, h) #(+ #rule::#kernels(self, q0, v, h))*),
+        step_evaluation: None,
         momenta: quote!(#rule::lagrangian_momenta(self, q0, v, h) #(+ #rule::#momenta(self, q0, v, h))*),
+    });
+    let step_evaluation = step_evaluation.map(|step_evaluation| {
+        quote! {
+            /// The kernel, and p1 with ∂p1/∂v̄.
+            #[inline]
+            fn step_evaluation(
+                &self,
+                q0: #vector,
+                v: #vector,
+                h: #scalar,
+            ) -> (StepKernel<#scalar, #n>, Option<::dalembert::Outgoing<#scalar, #n>>) {
+                #step_evaluation
+            }
+        }
     });
     quote! {
         #[automatically_derived]
@@ -434,6 +455,8 @@ pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> Toke
             fn step_kernel(&self, q0: #vector, v: #vector, h: #scalar) -> StepKernel<#scalar, #n> {
                 #step_kernel
             }
+
+            #step_evaluation
 
             /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
             #[inline]

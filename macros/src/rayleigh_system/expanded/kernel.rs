@@ -1,12 +1,15 @@
 //! The step's equation, fused: L, R and f with the rule's directions folded in, each shared expression once.
 //!
-//! With K = L + (h/2) R at q̄ = q0 + h v̄/2:
+//! With K = L + (h/2) R and K⁻ = L − (h/2) R at q̄ = q0 + h v̄/2:
 //!
 //! ```text
 //! p0      = K_v − (h/2) (K_q + f)
 //! ∂p0/∂v̄  = K_vv + (h/2) K_vq − (h/2) (K_qv + f_v) − (h²/4) (K_qq + f_q)
-//! p1      = K⁻_v + (h/2) (K⁻_q + f)                                           K⁻ = L − (h/2) R
+//! p1      = K⁻_v + (h/2) (K⁻_q + f)
+//! ∂p1/∂v̄  = K⁻_vv + (h/2) K⁻_vq + (h/2) (K⁻_qv + f_v) + (h²/4) (K⁻_qq + f_q)
 //! ```
+
+use std::collections::BTreeMap;
 
 use super::directions::Along;
 use super::*;
@@ -29,43 +32,63 @@ impl Code<'_> {
         let minus = Along { first: Some(negative), second: Some(one) };
         let plus = Along { first: Some(half), second: Some(one) };
 
-        let (modified, symbol) = match rayleigh {
-            Some(rayleigh) => {
-                let share = self.graph.times(half, rayleigh);
-                (self.graph.plus(lagrangian, share), "k")
-            }
-            None => (lagrangian, "l"),
-        };
-        let of = self.derivation.hessian(&mut self.graph, modified, symbol);
-        let by_v: Option<Vec<Vec<Node>>> = force.map(|components| {
-            let rows = self.rows(components);
-            rows.iter().map(|row| self.along(row, plus)).collect()
-        });
-        let p0 = self.with_force(&of.gradient, minus, force);
-        let matrix = self.matrix(|code, i, j| {
-            let entry = code.mixed(&of, (i, minus), (j, plus));
-            match by_v.as_ref().map(|by_v| by_v[i][j]) {
-                Some(by_v) if code.graph.constant_value(by_v) != Some(0.0) => {
-                    let share = code.graph.times(negative, by_v);
+        let of_lagrangian = self.derivation.hessian(&mut self.graph, lagrangian, "l");
+        let of_rayleigh =
+            rayleigh.map(|root| self.derivation.hessian(&mut self.graph, root, "r")).unwrap_or_default();
+        let before = self.modified(&of_lagrangian, half, &of_rayleigh);
+        let after = self.modified(&of_lagrangian, negative, &of_rayleigh);
+        let rows: Vec<Gradient> = force.map(|components| self.rows(components)).unwrap_or_default();
+        let by_v: Vec<Vec<Node>> = rows.iter().map(|row| self.along(row, plus)).collect();
+
+        let p0 = self.with_force(&before.gradient, minus, force);
+        let p1 = self.with_force(&after.gradient, plus, force);
+        let p0_by_v = self.by_velocity(&before, minus, plus, &by_v);
+        let p1_by_v = self.by_velocity(&after, plus, plus, &by_v);
+
+        let line = self.code(&[&p0[..], &p0_by_v].concat());
+        let [value, matrix] = self.parts(&line.outputs, [Shape::Vector, Shape::Matrix]);
+        let step_kernel = self.at_midpoint(&line, quote!(StepKernel { p0: #value, matrix: #matrix }));
+
+        let line = self.code(&[&p0[..], &p0_by_v, &p1, &p1_by_v].concat());
+        let [value, matrix, after, after_by_v] =
+            self.parts(&line.outputs, [Shape::Vector, Shape::Matrix, Shape::Vector, Shape::Matrix]);
+        let kernel = quote!(StepKernel { p0: #value, matrix: #matrix });
+        let outgoing = quote!(::dalembert::Outgoing { p1: #after, by_v: #after_by_v });
+        let step_evaluation = self.at_midpoint(&line, quote!((#kernel, Some(#outgoing))));
+
+        let line = self.code(&[p0, p1].concat());
+        let [p0, p1] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
+        let momenta = self.at_midpoint(&line, quote!(Momenta { p0: #p0, p1: #p1 }));
+        Some(Kernel { step_kernel, step_evaluation: Some(step_evaluation), momenta })
+    }
+
+    /// L ± (h/2) R.
+    fn modified(&mut self, lagrangian: &Derivatives, share: Node, rayleigh: &Derivatives) -> Derivatives {
+        Derivatives {
+            gradient: self.combined(&lagrangian.gradient, share, &rayleigh.gradient),
+            hessian: self.combined(&lagrangian.hessian, share, &rayleigh.hessian),
+        }
+    }
+
+    /// The derivative of ∂_direction (L ± (h/2) R), with the force's share, by v̄: column by column.
+    fn by_velocity(
+        &mut self,
+        of: &Derivatives,
+        direction: Along,
+        plus: Along,
+        force_by_v: &[Vec<Node>],
+    ) -> Vec<Node> {
+        self.matrix(|code, i, j| {
+            let entry = code.mixed(of, (i, direction), (j, plus));
+            let force = force_by_v.get(i).map(|row| row[j]);
+            match (force, direction.first) {
+                (Some(force), Some(share)) if code.graph.constant_value(force) != Some(0.0) => {
+                    let share = code.graph.times(share, force);
                     Some(code.added(entry, share))
                 }
                 _ => entry,
             }
-        });
-        let line = self.code(&[p0, matrix].concat());
-        let [p0, matrix] = self.parts(&line.outputs, [Shape::Vector, Shape::Matrix]);
-        let step_kernel = self.at_midpoint(&line, quote!(StepKernel { p0: #p0, matrix: #matrix }));
-
-        let plain = self.derivation.gradient(&mut self.graph, lagrangian);
-        let dissipative =
-            rayleigh.map(|rayleigh| self.derivation.gradient(&mut self.graph, rayleigh)).unwrap_or_default();
-        let before = self.combined(&plain, half, &dissipative);
-        let after = self.combined(&plain, negative, &dissipative);
-        let outputs = [self.with_force(&before, minus, force), self.with_force(&after, plus, force)];
-        let line = self.code(&outputs.concat());
-        let [p0, p1] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
-        let momenta = self.at_midpoint(&line, quote!(Momenta { p0: #p0, p1: #p1 }));
-        Some(Kernel { step_kernel, momenta })
+        })
     }
 
     /// K_v + first (K_q + f).
@@ -80,12 +103,17 @@ impl Code<'_> {
     }
 
     /// a + factor × b.
-    fn combined(&mut self, a: &Gradient, factor: Node, b: &Gradient) -> Gradient {
+    fn combined<K: Ord + Copy>(
+        &mut self,
+        a: &BTreeMap<K, Node>,
+        factor: Node,
+        b: &BTreeMap<K, Node>,
+    ) -> BTreeMap<K, Node> {
         let mut total = a.clone();
-        for (&variable, &part) in b {
+        for (&key, &part) in b {
             let share = self.graph.times(factor, part);
-            let entry = self.added(total.get(&variable).copied(), share);
-            total.insert(variable, entry);
+            let entry = self.added(total.get(&key).copied(), share);
+            total.insert(key, entry);
         }
         total
     }

@@ -292,8 +292,9 @@ fn compare(expression: &Expression, point: [f64; 4], random: &mut Random) -> Out
         let is_zero = lowered.graph.constant_value(outputs[index]) == Some(0.0);
         let floor = if is_zero { 1e-9 } else { 128.0 * f64::EPSILON };
         let tolerance = 40.0 * spread + floor * scale;
-        // A NaN must not pass.
-        if !((exact - reference).abs() <= tolerance) {
+        // A NaN does not agree.
+        let agrees = (exact - reference).abs() <= tolerance;
+        if !agrees {
             return Outcome::Differs(format!(
                 "output {index} of {text} at {point:?}: {exact:e}, num-dual {reference:e}, tolerance {tolerance:e}"
             ));
