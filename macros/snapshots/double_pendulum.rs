@@ -306,36 +306,106 @@ const _: () = {
             let (sin_q1, cos_q1) = q[1].sin_cos();
             let t12 = l2 * (m2 * g);
             let relative = v[1] - v[0];
-            let t13 = 0.5 * self.c[0];
-            let t14 = 0.5 * self.c[1];
-            let t15 = v[0] * v[1];
-            let t16 = t9 * t15 * t8;
-            let t17 = t10 * t15;
-            let t18 = 2.0 * (t14 * half);
-            let dk_drelative = 2.0 * (relative * t14 * half);
-            let t19 = t10 - t18;
-            let t20 = half * half;
-            let t21 = t8 * (v[0] * t9) * half;
-            let t22 = t8 * (v[1] * t9) * half;
-            let t23 = t17 * t20;
+            let c_0 = self.c[0];
+            let c_1 = self.c[1];
+            let t13 = v[0] * v[1];
+            let t14 = t9 * t13 * t8;
+            let t15 = t10 * t13;
+            let dr_drelative = 2.0 * (relative * (0.5 * c_1));
+            let t16 = c_1 * half;
+            let t17 = t10 - t16;
+            let t18 = half * half;
+            let t19 = t8 * (v[0] * t9) * half;
+            let t20 = t8 * (v[1] * t9) * half;
+            let t21 = t15 * t18;
             StepKernel {
                 p0: SVector::from([
-                    t3 + (t3 + (v[1] * t10 + (2.0 * (v[0] * t13 * half) - dk_drelative)))
-                        - (t11 * sin_q0 - t16) * half,
-                    t5 + (t5 + (v[0] * t10 + dk_drelative)) - (t16 - t12 * sin_q1) * half,
+                    t3 + (t3 + v[1] * t10)
+                        + (2.0 * (v[0] * (0.5 * c_0)) - dr_drelative) * half
+                        - (t11 * sin_q0 - t14) * half,
+                    t5 + (t5 + v[0] * t10) + dr_drelative * half
+                        - (t14 - t12 * sin_q1) * half,
                 ]),
                 matrix: SMatrix::from([
                     [
-                        2.0 * t2 + (t18 + 2.0 * (t13 * half))
-                            - (cos_q0 * t11 - t17) * t20,
-                        t19 - t21 - t22 - t23,
+                        2.0 * t2 + (c_0 + c_1) * half - (cos_q0 * t11 - t15) * t18,
+                        t17 - t19 - t20 - t21,
                     ],
                     [
-                        t21 + (t19 + t22) - t23,
-                        2.0 * t4 + t18 + (cos_q1 * t12 + t17) * t20,
+                        t19 + (t17 + t20) - t21,
+                        2.0 * t4 + t16 + (cos_q1 * t12 + t15) * t18,
                     ],
                 ]),
             }
+        }
+        /// The kernel, and p1 with ∂p1/∂v̄.
+        #[inline]
+        fn step_evaluation(
+            &self,
+            q0: &SVector<f64, 2>,
+            v: &SVector<f64, 2>,
+            h: f64,
+        ) -> (StepKernel<f64, 2>, Option<::dalembert::Outgoing<f64, 2>>) {
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0], q0[1] + half * v[1]];
+            let m2 = self.m[1];
+            let t1 = self.m[0] + m2;
+            let l1 = self.l[0];
+            let t2 = l1 * (0.5 * t1 * l1);
+            let t3 = v[0] * t2;
+            let l2 = self.l[1];
+            let t4 = l2 * (0.5 * m2 * l2);
+            let t5 = v[1] * t4;
+            let t6 = q[0] - q[1];
+            let (t8, t7) = t6.sin_cos();
+            let t9 = l2 * (m2 * l1);
+            let t10 = t7 * t9;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            let g = self.g;
+            let t11 = l1 * (-t1 * g);
+            let (sin_q1, cos_q1) = q[1].sin_cos();
+            let t12 = l2 * (m2 * g);
+            let relative = v[1] - v[0];
+            let c_0 = self.c[0];
+            let c_1 = self.c[1];
+            let t13 = v[0] * v[1];
+            let t14 = t9 * t13 * t8;
+            let t15 = t5 + (t5 + v[0] * t10);
+            let t16 = t3 + (t3 + v[1] * t10);
+            let t17 = t10 * t13;
+            let t18 = 2.0 * t4;
+            let t19 = 2.0 * t2;
+            let dr_drelative = 2.0 * (relative * (0.5 * c_1));
+            let t20 = (2.0 * (v[0] * (0.5 * c_0)) - dr_drelative) * half;
+            let t21 = dr_drelative * half;
+            let t22 = (c_0 + c_1) * half;
+            let t23 = c_1 * half;
+            let t24 = t10 - t23;
+            let t25 = t10 + t23;
+            let t26 = (t11 * sin_q0 - t14) * half;
+            let t27 = (t14 - t12 * sin_q1) * half;
+            let t28 = half * half;
+            let t29 = (cos_q0 * t11 - t17) * t28;
+            let t30 = t8 * (v[0] * t9) * half;
+            let t31 = t8 * (v[1] * t9) * half;
+            let t32 = t17 * t28;
+            let t33 = (cos_q1 * t12 + t17) * t28;
+            (
+                StepKernel {
+                    p0: SVector::from([t16 + t20 - t26, t15 + t21 - t27]),
+                    matrix: SMatrix::from([
+                        [t19 + t22 - t29, t24 - t30 - t31 - t32],
+                        [t30 + (t24 + t31) - t32, t18 + t23 + t33],
+                    ]),
+                },
+                Some(::dalembert::Outgoing {
+                    p1: SVector::from([t16 - t20 + t26, t15 - t21 + t27]),
+                    by_v: SMatrix::from([
+                        [t29 + (t19 - t22 - t31 - t31), t32 + (t31 + (t25 - t30))],
+                        [t32 + (t25 + t31 - t30), t30 + (t18 - t23 + t30) - t33],
+                    ]),
+                }),
+            )
         }
         /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
         #[inline]
@@ -359,18 +429,17 @@ const _: () = {
             let t8 = t5 * t7;
             let g = self.g;
             let relative = v[1] - v[0];
-            let t9 = relative * (0.5 * self.c[1]);
-            let t10 = t7 * (v[0] * v[1]) * t6;
-            let t11 = t3 + (t3 + v[0] * t8);
-            let t12 = t2 + (t2 + v[1] * t8);
-            let dr_drelative = 2.0 * t9;
-            let dk_drelative = 2.0 * (t9 * half);
-            let t13 = (l1 * (-t1 * g) * q[0].sin() - t10) * half;
-            let t14 = (t10 - l2 * (m2 * g) * q[1].sin()) * half;
-            let t15 = (2.0 * (v[0] * (0.5 * self.c[0])) - dr_drelative) * half;
+            let t9 = t7 * (v[0] * v[1]) * t6;
+            let t10 = t3 + (t3 + v[0] * t8);
+            let t11 = t2 + (t2 + v[1] * t8);
+            let dr_drelative = 2.0 * (relative * (0.5 * self.c[1]));
+            let t12 = (2.0 * (v[0] * (0.5 * self.c[0])) - dr_drelative) * half;
+            let t13 = dr_drelative * half;
+            let t14 = (l1 * (-t1 * g) * q[0].sin() - t9) * half;
+            let t15 = (t9 - l2 * (m2 * g) * q[1].sin()) * half;
             Momenta {
-                p0: SVector::from([t12 + t15 - t13, t11 + dk_drelative - t14]),
-                p1: SVector::from([t13 + (t12 - t15), t14 + (t11 - dk_drelative)]),
+                p0: SVector::from([t11 + t12 - t14, t10 + t13 - t15]),
+                p1: SVector::from([t11 - t12 + t14, t10 - t13 + t15]),
             }
         }
         /// E_L on the segment.

@@ -216,25 +216,68 @@ const _: () = {
             let q = [q0[0] + half * v[0], q0[1] + half * v[1]];
             let s = q[0] * q[0] + q[1] * q[1];
             let t1 = s - 1.0;
+            let k = self.k;
             let t2 = t1 * t1 + s * (2.0 * t1);
             let t3 = 2.0 * q[1];
             let t4 = 2.0 * q[0];
             let t5 = 2.0 * s + 4.0 * t1;
             let t6 = t3 * t5;
             let t7 = 2.0 * t2;
-            let t8 = 2.0 * (0.5 + 0.5 * self.k * half);
+            let t8 = 1.0 + k * half;
             let t9 = half * half;
             let t10 = t4 * t6 * t9;
             StepKernel {
                 p0: SVector::from([
-                    v[0] * t8 + t2 * t4 * half,
-                    v[1] * t8 + t2 * t3 * half,
+                    v[0] + v[0] * k * half + t2 * t4 * half,
+                    v[1] + v[1] * k * half + t2 * t3 * half,
                 ]),
                 matrix: SMatrix::from([
                     [t8 + (t7 + t4 * (t4 * t5)) * t9, t10],
                     [t10, t8 + (t3 * t6 + t7) * t9],
                 ]),
             }
+        }
+        /// The kernel, and p1 with ∂p1/∂v̄.
+        #[inline]
+        fn step_evaluation(
+            &self,
+            q0: &SVector<f64, 2>,
+            v: &SVector<f64, 2>,
+            h: f64,
+        ) -> (StepKernel<f64, 2>, Option<::dalembert::Outgoing<f64, 2>>) {
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0], q0[1] + half * v[1]];
+            let s = q[0] * q[0] + q[1] * q[1];
+            let t1 = s - 1.0;
+            let k = self.k;
+            let t2 = t1 * t1 + s * (2.0 * t1);
+            let t3 = 2.0 * q[1];
+            let t4 = 2.0 * q[0];
+            let t5 = 2.0 * s + 4.0 * t1;
+            let t6 = t3 * t5;
+            let t7 = 2.0 * t2;
+            let t8 = v[0] * k * half;
+            let t9 = v[1] * k * half;
+            let t10 = k * half;
+            let t11 = 1.0 + t10;
+            let t12 = 1.0 - t10;
+            let t13 = t2 * t4 * half;
+            let t14 = t2 * t3 * half;
+            let t15 = half * half;
+            let t16 = (t7 + t4 * (t4 * t5)) * t15;
+            let t17 = t4 * t6 * t15;
+            let t18 = -t17;
+            let t19 = (t3 * t6 + t7) * t15;
+            (
+                StepKernel {
+                    p0: SVector::from([v[0] + t8 + t13, v[1] + t9 + t14]),
+                    matrix: SMatrix::from([[t11 + t16, t17], [t17, t11 + t19]]),
+                },
+                Some(::dalembert::Outgoing {
+                    p1: SVector::from([v[0] - t8 - t13, v[1] - t9 - t14]),
+                    by_v: SMatrix::from([[t12 - t16, t18], [t18, t12 - t19]]),
+                }),
+            )
         }
         /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
         #[inline]
@@ -250,13 +293,13 @@ const _: () = {
             let t1 = s - 1.0;
             let k = self.k;
             let t2 = t1 * t1 + s * (2.0 * t1);
-            let t3 = t2 * (2.0 * q[0]) * half;
-            let t4 = t2 * (2.0 * q[1]) * half;
-            let t5 = v[0] * k * half;
-            let t6 = v[1] * k * half;
+            let t3 = v[0] * k * half;
+            let t4 = v[1] * k * half;
+            let t5 = t2 * (2.0 * q[0]) * half;
+            let t6 = t2 * (2.0 * q[1]) * half;
             Momenta {
-                p0: SVector::from([t3 + (v[0] + t5), t4 + (v[1] + t6)]),
-                p1: SVector::from([v[0] - t5 - t3, v[1] - t6 - t4]),
+                p0: SVector::from([v[0] + t3 + t5, v[1] + t4 + t6]),
+                p1: SVector::from([v[0] - t3 - t5, v[1] - t4 - t6]),
             }
         }
         /// E_L on the segment.
