@@ -37,20 +37,22 @@ pub fn rayleigh_system(attribute: TokenStream, item: TokenStream) -> TokenStream
     let Some(system) = check::system(&source, options.rules, &mut report) else {
         return fallback::with_stubs(&source, report);
     };
-    if options.engine != Engine::NumDual && report.is_empty() {
+    if options.engine == Engine::Expanded && report.is_empty() {
         let expansion = match lower::system(&system) {
-            Ok(lowered) => expanded::system(&system, lowered).ok_or((None, Mistake::TooLong)),
-            Err(refusal) => Err((Some(refusal.span), Mistake::NotLowered(refusal.reason))),
+            Ok(lowered) => expanded::system(&system, lowered).ok_or((source.name().span(), Mistake::TooLong)),
+            Err(refusal) => Err((refusal.span, Mistake::NotLowered(refusal.reason))),
         };
-        match expansion {
-            Ok(expansion) => return expansion,
-            Err((span, mistake)) if options.engine == Engine::Expanded => {
-                report.at_span(span.unwrap_or_else(|| source.name().span()), mistake);
-                return fallback::with_stubs(&source, report);
-            }
-            Err(_) => {}
-        }
+        return expansion.unwrap_or_else(|(span, mistake)| {
+            report.at_span(span, mistake);
+            fallback::with_stubs(&source, report)
+        });
     }
+    let lowered = if options.engine == Engine::Auto { lower::system(&system).ok() } else { None };
+    // What auto accepts does not depend on how far the lowering goes.
     let system = rewrite::over_duals(system, &mut report);
-    if report.is_empty() { expand::system(&system) } else { fallback::with_stubs(&source, report) }
+    if !report.is_empty() {
+        return fallback::with_stubs(&source, report);
+    }
+    let expansion = lowered.and_then(|lowered| expanded::system(&system, lowered));
+    expansion.unwrap_or_else(|| expand::system(&system))
 }
