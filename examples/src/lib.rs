@@ -1,1 +1,7 @@
-//! What the scenes share: the picture style. Each scene is one file of `examples/`.
+//! What the scenes share: the comparison methods, the style of the pictures, and the ring system written by hand.
+//!
+//! Each scene is one file of `examples/`.
+
+pub mod baseline;
+pub mod by_hand;
+pub mod picture;

@@ -1,13 +1,23 @@
-//! The attribute macro of dalembert. Use it through the crate `dalembert`, which re-exports it.
+//! The attribute macros of dalembert. Use them through the crate `dalembert`, which re-exports them.
 
 use proc_macro::TokenStream;
 
 mod rayleigh_system;
 
-/// Generates the discrete mechanical system of a Lagrangian and a Rayleigh function.
-///
-/// See the documentation of the crate `dalembert` for what it accepts and generates.
+#[allow(
+    missing_docs,
+    reason = "documented where `dalembert` re-exports it, beside the types that the examples use"
+)]
 #[proc_macro_attribute]
 pub fn rayleigh_system(attribute: TokenStream, item: TokenStream) -> TokenStream {
     rayleigh_system::rayleigh_system(attribute.into(), item.into()).into()
+}
+
+#[allow(
+    missing_docs,
+    reason = "documented where `dalembert` re-exports it, beside the types that the examples use"
+)]
+#[proc_macro_attribute]
+pub fn differentiable(attribute: TokenStream, item: TokenStream) -> TokenStream {
+    rayleigh_system::differentiable(attribute.into(), item.into()).into()
 }

@@ -1,8 +1,8 @@
-//! `#[rayleigh_system]`, from tokens to tokens.
+//! `#[rayleigh_system]` and `#[differentiable]`, from tokens to tokens.
 //!
 //! parse → check → lower → differentiate → emit, or, where a body cannot be lowered, parse → check → rewrite → expand.
-//! Plain proc_macro2 code, so that tests and fuzzers can call it. Stages stop between each other: a stage that reported
-//! anything is the last one, and the user's item is returned beside the diagnostics.
+//! Plain proc_macro2 code, so that tests and fuzzers can call it. Each stage goes on with what the one before it found sound,
+//! so that all mistakes show in one compile; if there is any, the user's item is returned beside the diagnostics.
 
 mod attribute;
 mod check;
@@ -13,11 +13,13 @@ mod expand;
 mod expanded;
 mod fallback;
 mod graph;
+mod implement;
 mod lower;
 mod model;
 mod parse;
 mod rewrite;
 mod scope;
+mod syntax;
 
 #[cfg(test)]
 mod tests;
@@ -25,7 +27,7 @@ mod tests;
 use proc_macro2::TokenStream;
 
 use diagnostics::{Mistake, Report};
-use model::Engine;
+use model::{Engine, Source};
 
 /// The expansion of `#[rayleigh_system(attribute)] item`.
 pub fn rayleigh_system(attribute: TokenStream, item: TokenStream) -> TokenStream {
@@ -55,4 +57,23 @@ pub fn rayleigh_system(attribute: TokenStream, item: TokenStream) -> TokenStream
     }
     let expansion = lowered.and_then(|lowered| expanded::system(&system, lowered));
     expansion.unwrap_or_else(|| expand::system(&system))
+}
+
+/// The expansion of `#[differentiable] item`: the same stages, for a function of (q, parameters…).
+pub fn differentiable(attribute: TokenStream, item: TokenStream) -> TokenStream {
+    let mut report = Report::default();
+    if !attribute.is_empty() {
+        report.at(&attribute, Mistake::FieldOption);
+    }
+    let Some(source) = parse::field(item.clone(), &mut report) else {
+        return fallback::item_alone(item, report);
+    };
+    let Some((system, field)) = check::field(&source, &mut report) else {
+        return fallback::with_stubs(&source, report);
+    };
+    let system = rewrite::over_duals(system, &mut report);
+    match &source {
+        Source::Function(function) if report.is_empty() => expand::field(&system, function, field),
+        _ => fallback::with_stubs(&source, report),
+    }
 }

@@ -42,15 +42,6 @@ pub struct StepKernel<S, const N: usize> {
     pub matrix: SMatrix<S, N, N>,
 }
 
-/// p1 = D2 L_d + f_d⁺ at a trial v̄, with its derivative: what the step needs besides its equation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outgoing<S, const N: usize> {
-    /// The momentum at q1.
-    pub p1: SVector<S, N>,
-    /// ∂p1/∂v̄.
-    pub by_v: SMatrix<S, N, N>,
-}
-
 /// Both momenta of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Momenta<S, const N: usize> {
@@ -89,10 +80,9 @@ pub struct Report<S> {
     pub iterations: u32,
     /// Iterations whose Newton step had to be shortened.
     pub damped: u32,
-    /// Largest |𝔽⁻(q0, q1) − p0| expected at the solution, in units of momentum: that of the last evaluation, lowered by
-    /// the contraction that the last correction brings.
+    /// |𝔽⁻(q0, q1) − p0| at the solution, as evaluated there, of the coordinate where it is largest in units of its floor.
     pub residual: S,
-    /// The round-off floor that the residual was held against; a residual far above it is lost precision.
+    /// The round-off floor that this residual was held against, in units of the same momentum.
     pub floor: S,
     /// Largest entry of the last correction of v̄.
     pub last_correction: S,
@@ -141,20 +131,6 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         v: &SVector<Self::Scalar, N>,
         h: Self::Scalar,
     ) -> StepKernel<Self::Scalar, N>;
-
-    /// The step's equation, and the momentum p1 with its derivative where that costs little beside it.
-    ///
-    /// A solver's last correction d then gives p1 − (∂p1/∂v̄) d, to the order to which it solves the equation, without
-    /// another evaluation of the [`momenta`](Self::momenta).
-    #[inline]
-    fn step_evaluation(
-        &self,
-        q0: &SVector<Self::Scalar, N>,
-        v: &SVector<Self::Scalar, N>,
-        h: Self::Scalar,
-    ) -> (StepKernel<Self::Scalar, N>, Option<Outgoing<Self::Scalar, N>>) {
-        (self.step_kernel(q0, v, h), None)
-    }
 
     /// Both momenta of the segment from q0 with mean velocity `v`.
     fn momenta(
@@ -281,16 +257,12 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
                 rest
             }
         };
-        let solution = newton::solve(|q0, v| self.step_evaluation(q0, v, h), state, guess)?;
-        let v = solution.unknown;
-        let p1 = match &solution.last {
-            Some(outgoing) => outgoing.p1 - outgoing.by_v * solution.correction,
-            None => self.momenta(q0, &v, h).p1,
-        };
-        let state = State { q: q0 + v * h, p: p1 };
+        let solution =
+            newton::solve(|q0, v| self.step_kernel(q0, v, h), |q0, v| self.momenta(q0, v, h), state, guess)?;
+        let state = State { q: q0 + solution.unknown * h, p: solution.momenta.p1 };
         StepError::require_finite(&state.q, Quantity::Configuration)?;
         StepError::require_finite(&state.p, Quantity::Momentum)?;
-        Ok(Step { state, velocity: v, report: solution.report })
+        Ok(Step { state, velocity: solution.unknown, report: solution.report })
     }
 
     /// The flow on Q×Q: (q0, q1) ↦ (q1, q2), with q2 = `state.q` of the step returned.

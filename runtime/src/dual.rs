@@ -5,6 +5,7 @@
 //! directions and its second part along another makes the cross block their mixed second derivative. With the directions
 //! of a rule that block is the Newton matrix, and nothing else is computed.
 
+mod fields;
 mod lift;
 mod primitive;
 mod real;
@@ -16,6 +17,7 @@ use num_dual::{Derivative, DualNum, DualSVec, HyperDualVec};
 
 use crate::{CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, Variations};
 
+pub use fields::{differential, hessian, jacobian};
 pub use lift::{
     FromInteger, Integer, Lift, Lower, Number, Remainder, Roundable, integer, lift, lower, remainder,
 };

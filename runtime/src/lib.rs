@@ -1,4 +1,8 @@
 #![cfg_attr(feature = "std", doc = include_str!("../README.md"))]
+#![cfg_attr(
+    not(feature = "std"),
+    doc = "Structure-preserving integrators for mechanical systems, without std: the step of hand-written systems."
+)]
 #![cfg_attr(not(feature = "std"), no_std)]
 
 extern crate self as dalembert;
@@ -8,6 +12,7 @@ mod discrete;
 mod error;
 mod fields;
 mod linear;
+mod linearization;
 mod newton;
 mod rules;
 mod scalar;
@@ -17,17 +22,130 @@ mod trajectory;
 
 #[cfg(feature = "std")]
 pub mod dual;
+#[cfg(feature = "std")]
+pub mod exact;
+#[cfg(feature = "std")]
+pub mod hamilton_jacobi;
+#[cfg(feature = "std")]
+pub mod noether;
+#[cfg(feature = "std")]
+pub mod rayleigh;
+#[cfg(feature = "std")]
+pub mod samples;
 
+/// Generates the discrete mechanical system of a Lagrangian and a Rayleigh function, written as plain Rust.
+///
+/// ```
+/// use dalembert::nalgebra::vector;
+/// use dalembert::{Discrete, Lagrangian, Midpoint, rayleigh_system};
+///
+/// struct Ring {
+///     k: f64,
+/// }
+///
+/// #[rayleigh_system] // rule = midpoint unless said; rule = [midpoint, trapezoidal] generates both
+/// impl Ring {
+///     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+///         let s = q[0] * q[0] + q[1] * q[1];
+///         0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2)
+///     }
+///     fn rayleigh(&self, v: [f64; 2]) -> f64 {
+///         0.5 * self.k * (v[0] * v[0] + v[1] * v[1])
+///     }
+/// }
+///
+/// let ring = Ring { k: 1e-3 };
+/// assert_eq!(ring.rayleigh([1.0, 0.0]), 5e-4); // still a plain function
+/// assert_eq!(ring.energy(&vector![0.0, 1.0], &vector![0.5, 0.0]), 0.125);
+/// let p = Discrete::<Midpoint, 2>::legendre_minus(&ring, &vector![0.0, 1.0], &vector![0.0, 1.0], 0.1).p;
+/// assert_eq!(p, vector![0.0, 0.0]); // the bottom of the ring is an equilibrium
+/// ```
+///
+/// # The block
+///
+/// | function | |
+/// |---|---|
+/// | `fn lagrangian(&self, q: [f64; N], v: [f64; N]) -> f64` | L; its array type says N, a number or a constant |
+/// | `fn rayleigh(&self, v: [f64; N]) -> f64`, or `(&self, q, v)` | R, if there is dissipation: the force is −∂R/∂v |
+/// | `fn force(&self, q: [f64; N], v: [f64; N]) -> [f64; N]` | a general force, if there is one |
+/// | any other | a helper: differentiated if L, R or the force call it, untouched otherwise |
+///
+/// `f32` in place of `f64` makes a system in single precision.
+///
+/// # One free function
+///
+/// The parameters after q and v become the fields of a struct named after the function:
+///
+/// ```
+/// use dalembert::{Lagrangian, nalgebra::vector, rayleigh_system};
+///
+/// #[rayleigh_system]
+/// fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+///     (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+/// }
+///
+/// let system = Oscillator { m: 2.0, k: 8.0, r: 0.5 };
+/// assert_eq!(system.energy(&vector![1.0], &vector![0.0]), 4.0);
+/// ```
+///
+/// `-> (f64, f64)` is (L, R), `-> f64` is L alone.
+///
+/// # What bodies may contain
+///
+/// Fields that are `f64`, integers, `bool`, arrays or tuples of them; constants of the standard library, the module and the
+/// block; `let`, `mut` locals, arrays, tuples, references, loops, iterators, `if` and `match`, early return, closures, casts,
+/// literals and functions of the block. The value is bit by bit that of the same code outside the macro.
+///
+/// | methods of floating-point numbers, as `x.sin()`, `f64::sin(x)` or `.map(f64::sin)` | |
+/// |---|---|
+/// | powers and roots | `powi` `powf` `sqrt` `cbrt` `recip` `hypot` |
+/// | exponentials and logarithms | `exp` `exp2` `exp_m1` `ln` `log` `log2` `log10` `ln_1p` |
+/// | trigonometric | `sin` `cos` `tan` `sin_cos` `asin` `acos` `atan` `atan2` `to_radians` `to_degrees` |
+/// | hyperbolic | `sinh` `cosh` `tanh` `asinh` `acosh` `atanh` |
+/// | piecewise | `abs` `signum` `copysign` `min` `max` `clamp` |
+/// | sums | `mul_add` `midpoint`, `sum()` and `product()` of iterators |
+/// | questions, on the value alone | `is_nan` `is_finite` `is_infinite` `is_normal` `is_subnormal` `is_sign_positive` `is_sign_negative` `total_cmp`, `==` `<` `partial_cmp` |
+///
+/// Where a derivative does not exist, it is what the table of [`Real`](dual::Real) says.
+///
+/// Refused, with a message at the token: type aliases, items and macros inside a body, functions outside the block, generic
+/// helpers, assignment to a field, casts of coordinates to integers, `%` and rounding and bit methods on them, fields of other
+/// types.
 pub use dalembert_macros::rayleigh_system;
+
+/// Makes a function of the configuration a field with derivatives: a [`VectorField`] if it returns `[f64; N]`, such as the
+/// generator of a symmetry, a [`ScalarField`] if it returns `f64`, such as a generating function.
+///
+/// Parameters after q become the fields of a struct named after the function, which stays callable. Bodies may contain what
+/// those of [`rayleigh_system`](macro@rayleigh_system) may, with closures for helpers.
+///
+/// ```
+/// use dalembert::nalgebra::{matrix, vector};
+/// use dalembert::{ScalarField, VectorField, differentiable};
+///
+/// #[differentiable]
+/// fn rotation(q: [f64; 2]) -> [f64; 2] {
+///     [-q[1], q[0]]
+/// }
+///
+/// #[differentiable]
+/// fn generating(q: [f64; 1], s: f64) -> f64 {
+///     0.5 * s * q[0] * q[0]
+/// }
+///
+/// assert_eq!(Rotation.jacobian(&vector![3.0, 4.0]), matrix![0.0, -1.0; 1.0, 0.0]);
+/// assert_eq!(Generating { s: 2.0 }.gradient(&vector![3.0]), vector![6.0]);
+/// ```
+pub use dalembert_macros::differentiable;
 pub use nalgebra;
 
 pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
 pub use discrete::{
-    Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Outgoing, Report, Step,
-    StepKernel,
+    Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Report, Step, StepKernel,
 };
 pub use error::{Quantity, StepError};
 pub use fields::{ScalarField, VectorField};
+pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix};
 pub use rules::{DisplacementRule, Midpoint, Node, Trapezoidal};
 pub use scalar::Scalar;
 pub use state::State;

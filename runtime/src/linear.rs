@@ -176,7 +176,7 @@ mod tests {
         let solution = solve(&a, &vector![1e-12, 1e12]).unwrap();
         let expected: SVector<f64, 2> = vector![1e12 * 2.0 / 3.0, 1e-12 * 2.0 / 3.0];
         for i in 0..2 {
-            assert!((solution[i] / expected[i] - 1.0).abs() < 1e-15, "{solution}");
+            assert!(f64::abs(solution[i] / expected[i] - 1.0) < 1e-15, "{solution}");
         }
     }
 

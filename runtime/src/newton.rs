@@ -1,206 +1,203 @@
 //! Newton's method with the analytic matrix, damped where a full step does not lower the residual.
 //!
-//! Residuals are measured in units of their round-off floor, component by component,
-//!
-//! ```text
-//! floorᵢ = 4ε (|targetᵢ| + Σⱼ |Jᵢⱼ||vⱼ|)        v: the iterate that the Newton step leads to
-//! ```
-//!
-//! so that neither the unit of a coordinate nor its neighbours' size matters. Forces that cancel, as at an equilibrium, are
-//! noisier than that: where the residual stops falling above its floor, it is held against the change that one rounding of
-//! q makes, measured then and there.
+//! Residuals are measured in units of their round-off floor, component by component; see [`rounding`].
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::discrete::StepKernel;
+use crate::discrete::{Momenta, StepKernel};
 use crate::error::{Quantity, StepError};
-use crate::linear;
+use crate::linear::{self, Singular};
 use crate::{Report, Scalar, State};
 
-/// A root.
-pub(crate) struct Solution<S, E, const N: usize> {
+mod rounding;
+use rounding::{AT_FLOOR, STAGNATION, estimated_floor, in_units_of, rounding, worst};
+
+/// A root, with both momenta there.
+pub(crate) struct Solution<S, const N: usize> {
     pub(crate) unknown: SVector<S, N>,
+    pub(crate) momenta: Momenta<S, N>,
     pub(crate) report: Report<S>,
-    /// What else the last evaluation gave,
-    pub(crate) last: E,
-    /// and how far from there the root is: unknown = point of the last evaluation − correction.
-    pub(crate) correction: SVector<S, N>,
 }
 
-/// Newton's method needs a few iterations where it converges at all; damped ones near a fold take some more.
-const MAX_ITERATIONS: u32 = 50;
+/// Newton's method needs a few iterations near a root; damped ones near a fold, or undamped ones from far out on a power
+/// law, where each takes off a fixed share, need some dozens.
+const MAX_ITERATIONS: u32 = 100;
 
-/// Halvings of a Newton step before its direction is given up.
-const MAX_HALVINGS: u32 = 12;
+/// A contraction above this is not that of Newton's method: rounding slows it, or the root is far.
+const SLOW: f64 = 0.25;
 
-/// Rounding errors of an evaluation, in units of the change that one rounding of q makes.
-const ROUNDINGS: f64 = 32.0;
+/// Both momenta as a function of (q, v); behind a pointer where it is called seldom.
+type Finish<'f, S, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N> + 'f;
 
-/// Solves p0(q, v) = p for v at the `state` (q, p). What the evaluation gives beside the kernel is handed through.
+/// An iterate, the Newton step from it, and the measure of its residual.
+struct Iterate<S, const N: usize> {
+    v: SVector<S, N>,
+    residual: SVector<S, N>,
+    /// The full Newton step leads to v − correction.
+    correction: SVector<S, N>,
+    floor: SVector<S, N>,
+    /// max |residualᵢ|/floorᵢ.
+    size: S,
+}
+
+/// Solves p0(q, v) = p for v at the `state` (q, p).
+///
+/// `evaluate` gives p0 and the Newton matrix, `finish` both momenta. The residual that the report states is the one that
+/// `finish` measured at the root.
 #[inline]
-pub(crate) fn solve<S: Scalar, E: Copy, const N: usize>(
-    evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> (StepKernel<S, N>, E),
+pub(crate) fn solve<S: Scalar, const N: usize>(
+    evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N>,
+    finish: impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
     state: &State<S, N>,
     guess: SVector<S, N>,
-) -> Result<Solution<S, E, N>, StepError> {
-    let State { q, p: target } = state;
-    let mut v = guess;
-    let (mut at_v, mut last) = evaluate(q, &v);
-    let mut residual = at_v.p0 - target;
+) -> Result<Solution<S, N>, StepError> {
+    let State { q, p } = state;
+    let mut trial = guess;
+    let mut share = S::one();
     let mut contraction = S::one();
+    let mut iterations = 0;
     let mut damped = 0;
+    let mut iterate: Option<Iterate<S, N>> = None;
 
-    for iteration in 0..MAX_ITERATIONS {
-        let correction =
-            linear::solve(&at_v.matrix, &residual).map_err(|singular| {
-                match first_non_finite(&residual, &at_v.matrix) {
-                    Some(index) => StepError::NonFinite { quantity: Quantity::Derivatives, index },
-                    None => StepError::SingularNewtonMatrix { iteration, column: singular.column },
+    loop {
+        let kernel = evaluate(q, &trial);
+        let residual = kernel.p0 - p;
+        if let Some(last) = &iterate {
+            let size = in_units_of(&residual, &last.floor);
+            let lower = size < last.size;
+            // A contraction that is none, or that is no longer Newton's, may be rounding.
+            if share == S::one()
+                && !(lower && size <= last.size * S::constant(SLOW))
+                && let Some(solution) =
+                    stagnated(&finish, state, last, lower.then_some(&trial), [iterations, damped])
+            {
+                return Ok(solution);
+            }
+            if !lower {
+                share = shorter(share, last.size, size);
+                let change = last.correction * share;
+                if is_negligible(&change, &last.v) || share < S::EPSILON * S::EPSILON {
+                    return Err(match first_non_finite(&residual, &kernel.matrix) {
+                        Some(index) => StepError::NonFinite { quantity: Quantity::Derivatives, index },
+                        None => give_up(iterations, last),
+                    });
                 }
-            })?;
-        let full = v - correction;
-        let units = reciprocal_floor(target, &at_v.matrix, &full);
-        let size = in_units(&residual, &units);
+                trial = last.v - change;
+                continue;
+            }
+            damped += u32::from(share < S::one());
+            contraction = size / last.size;
+        }
+
+        let correction = linear::solve(&kernel.matrix, &residual)
+            .map_err(|singular| unsolvable(singular, &residual, &kernel.matrix, iterations, damped))?;
+        let v = trial;
+        trial = v - correction;
+        let floor = estimated_floor(p, &kernel.matrix, &trial);
+        let size = in_units_of(&residual, &floor);
         if !size.is_finite()
-            && let Some(index) = first_non_finite(&residual, &at_v.matrix)
+            && let Some(index) = first_non_finite(&residual, &kernel.matrix)
         {
             return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
         }
+        if iterations == MAX_ITERATIONS {
+            let (residual, floor) = worst(&residual, &floor);
+            return Err(StepError::NotConverged {
+                iterations,
+                residual: residual.widen(),
+                floor: floor.widen(),
+            });
+        }
+        iterations += 1;
 
         // Newton's residuals fall as |r′| ≈ C|r|², so the last contraction c predicts the next one, c². Where that ends at
-        // the floor, the Newton matrix is not needed again.
-        let square = contraction * contraction;
-        if size <= S::one() || square * size <= S::one() {
-            let report = Report {
-                iterations: iteration + 1,
-                damped,
-                residual: residual.amax() * square,
-                floor: largest_floor(&units),
-                last_correction: correction.amax(),
-            };
-            return Ok(Solution { unknown: full, report, last, correction });
-        }
-
-        let mut candidate = full;
-        let mut share = S::one();
-        let mut halvings = 0;
-        loop {
-            let (next, next_last) = evaluate(q, &candidate);
-            let next_residual = next.p0 - target;
-            let next_size = in_units(&next_residual, &units);
-            if next_size < size {
-                contraction = next_size / size;
-                (v, at_v, residual, last) = (candidate, next, next_residual, next_last);
-                break;
+        // the floor, the matrix is not needed again.
+        if size <= S::one() || contraction * contraction * size <= S::one() {
+            let momenta = finish(q, &trial);
+            let remaining = momenta.p0 - p;
+            if in_units_of(&remaining, &floor) <= S::constant(AT_FLOOR) {
+                let (residual, floor) = worst(&remaining, &floor);
+                let last_correction = correction.amax();
+                let report = Report { iterations, damped, residual, floor, last_correction };
+                return Ok(Solution { unknown: trial, momenta, report });
             }
-            if halvings == 0 {
-                let noise = noise(&evaluate, q, &v, &at_v);
-                if (0..N).all(|i| residual[i].abs() <= noise[i] + S::one() / units[i]) {
-                    let report = Report {
-                        iterations: iteration + 1,
-                        damped,
-                        residual: residual.amax(),
-                        floor: noise.amax(),
-                        last_correction: correction.amax(),
-                    };
-                    return Ok(Solution { unknown: v, report, last, correction: SVector::zeros() });
-                }
-            }
-            halvings += 1;
-            if halvings > MAX_HALVINGS {
-                return Err(give_up(iteration, &residual, &units, &correction, &v));
-            }
-            share *= S::constant(0.5);
-            candidate = v - correction * share;
         }
-        if halvings > 0 {
-            damped += 1;
-            // A damped step says nothing of Newton's own convergence.
-            contraction = S::one();
-        }
+        share = S::one();
+        iterate = Some(Iterate { v, residual, correction, floor, size });
     }
-
-    Err(StepError::NotConverged {
-        iterations: MAX_ITERATIONS,
-        residual: residual.amax().widen(),
-        floor: largest_floor(&reciprocal_floor(target, &at_v.matrix, &v)).widen(),
-    })
 }
 
-/// What rounding leaves of the residual: the change of p0 as each coordinate of q moves by a rounding error.
+/// The root at an iterate whose residual has stopped falling, if rounding holds the residual up there. `lower` is where the
+/// Newton step led, if that still lowered it.
 #[cold]
-fn noise<S: Scalar, E, const N: usize>(
-    evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> (StepKernel<S, N>, E),
-    q: &SVector<S, N>,
-    v: &SVector<S, N>,
-    at_v: &StepKernel<S, N>,
-) -> SVector<S, N> {
-    let mut noise = SVector::zeros();
-    for j in 0..N {
-        let mut moved = *q;
-        moved[j] *= S::one() + S::EPSILON * S::constant(ROUNDINGS);
-        noise += (evaluate(&moved, v).0.p0 - at_v.p0).abs();
+fn stagnated<S: Scalar, const N: usize>(
+    finish: &Finish<'_, S, N>,
+    state: &State<S, N>,
+    last: &Iterate<S, N>,
+    lower: Option<&SVector<S, N>>,
+    [iterations, damped]: [u32; 2],
+) -> Option<Solution<S, N>> {
+    let unknown = *lower.unwrap_or(&last.v);
+    let momenta = finish(&state.q, &unknown);
+    let residual = momenta.p0 - state.p;
+    let measured = last.floor + rounding(|q, v| finish(q, v).p0, &state.q, &unknown);
+    let explained = in_units_of(&residual, &measured) <= S::constant(AT_FLOOR);
+    let close = last.size <= S::constant(STAGNATION);
+    if !explained && (lower.is_some() || !close) {
+        return None;
     }
-    noise
+    let (residual, floor) = worst(&residual, if explained { &measured } else { &last.floor });
+    let report = Report { iterations, damped, residual, floor, last_correction: last.correction.amax() };
+    Some(Solution { unknown, momenta, report })
+}
+
+/// What a Newton matrix that cannot be solved with means.
+#[cold]
+fn unsolvable<S: Scalar, const N: usize>(
+    singular: Singular,
+    residual: &SVector<S, N>,
+    matrix: &SMatrix<S, N, N>,
+    iteration: u32,
+    damped: u32,
+) -> StepError {
+    match first_non_finite(residual, matrix) {
+        Some(index) => StepError::NonFinite { quantity: Quantity::Derivatives, index },
+        // Damped descent ends at a singular matrix where the residual has its least value, above 0.
+        None if damped > 0 => StepError::NoRealSolution { iteration, residual: residual.amax().widen() },
+        None => StepError::SingularNewtonMatrix { iteration, column: singular.column },
+    }
+}
+
+/// A share of the Newton step to try after `share` gave `next_size` ≥ `size`: where (1 − s) + C s², the residual's first
+/// two terms along the step, is least; between a tenth and a half of the present share.
+#[cold]
+fn shorter<S: Scalar>(share: S, size: S, next_size: S) -> S {
+    let curvature = (next_size / size - S::one() + share) / (share * share);
+    let least = S::constant(0.5) / curvature;
+    let (tenth, half) = (share * S::constant(0.1), share * S::constant(0.5));
+    // Not finite where the step left the domain of L, R or f: `least` is 0 or NaN, and fails the comparison.
+    if least > tenth { if least < half { least } else { half } } else { tenth }
+}
+
+/// Whether adding `change` to `v` makes no difference worth a step.
+fn is_negligible<S: Scalar, const N: usize>(change: &SVector<S, N>, v: &SVector<S, N>) -> bool {
+    is_below(S::EPSILON.sqrt(), change, v)
+}
+
+fn is_below<S: Scalar, const N: usize>(factor: S, change: &SVector<S, N>, v: &SVector<S, N>) -> bool {
+    (0..N).all(|i| change[i].abs() <= factor * v[i].abs())
 }
 
 /// Tells a residual that rounding holds up from one that has no root.
 #[cold]
-fn give_up<S: Scalar, const N: usize>(
-    iteration: u32,
-    residual: &SVector<S, N>,
-    units: &SVector<S, N>,
-    correction: &SVector<S, N>,
-    v: &SVector<S, N>,
-) -> StepError {
-    let residual = residual.amax().widen();
-    if correction.amax() <= S::EPSILON.sqrt() * v.amax() {
-        StepError::LostPrecision { residual, floor: largest_floor(units).widen() }
+fn give_up<S: Scalar, const N: usize>(iteration: u32, last: &Iterate<S, N>) -> StepError {
+    // Near a fold the matrix is almost singular and the correction large; lost digits leave it small.
+    if is_below(S::EPSILON.cbrt(), &last.correction, &last.v) {
+        let (residual, floor) = worst(&last.residual, &last.floor);
+        StepError::LostPrecision { residual: residual.widen(), floor: floor.widen() }
     } else {
-        StepError::NoRealSolution { iteration, residual }
+        StepError::NoRealSolution { iteration, residual: last.residual.amax().widen() }
     }
-}
-
-/// 1/floorᵢ; infinite where the floor is 0.
-#[inline]
-fn reciprocal_floor<S: Scalar, const N: usize>(
-    target: &SVector<S, N>,
-    matrix: &SMatrix<S, N, N>,
-    v: &SVector<S, N>,
-) -> SVector<S, N> {
-    SVector::from_fn(|i, _| {
-        let mut sum = target[i].abs();
-        for j in 0..N {
-            sum += (matrix[(i, j)] * v[j]).abs();
-        }
-        S::one() / (sum * (S::EPSILON * S::constant(4.0)))
-    })
-}
-
-/// The largest floor.
-#[inline]
-fn largest_floor<S: Scalar, const N: usize>(units: &SVector<S, N>) -> S {
-    let smallest =
-        units.iter().fold(units[0], |smallest, unit| if *unit < smallest { *unit } else { smallest });
-    S::one() / smallest
-}
-
-/// max |residualᵢ|/floorᵢ. An exact 0 counts 0, even over a floor of 0; a NaN or infinite ratio is returned as it is.
-#[inline]
-fn in_units<S: Scalar, const N: usize>(residual: &SVector<S, N>, units: &SVector<S, N>) -> S {
-    let mut largest = S::zero();
-    for i in 0..N {
-        if residual[i] != S::zero() {
-            let size = residual[i].abs() * units[i];
-            if !size.is_finite() {
-                return size;
-            }
-            if size > largest {
-                largest = size;
-            }
-        }
-    }
-    largest
 }
 
 #[cold]
@@ -209,4 +206,22 @@ fn first_non_finite<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,
 ) -> Option<usize> {
     (0..N).find(|&i| !residual[i].is_finite() || matrix.row(i).iter().any(|entry| !entry.is_finite()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_shorter_share_lies_where_the_residual_is_least() {
+        // (1 − s) + 2s²: 2 at s = 1, least at ¼.
+        assert_eq!(shorter(1.0, 1.0, 2.0), 0.25);
+        // From the share ½, where it is 1, the same.
+        assert_eq!(shorter(0.5, 1.0, 1.0), 0.25);
+        // Within a tenth and a half of the present share; the least of them where the step left the domain.
+        assert_eq!(shorter(1.0, 1.0, 1.0), 0.5);
+        assert_eq!(shorter(1.0, 1.0, 1e9), 0.1);
+        assert_eq!(shorter(0.5, 1.0, f64::INFINITY), 0.05);
+        assert_eq!(shorter(0.5, 1.0, f64::NAN), 0.05);
+    }
 }

@@ -15,6 +15,9 @@ pub trait Scalar: RealField + Copy + sealed::Sealed {
     /// Distance from 1 to the next larger number.
     const EPSILON: Self;
 
+    /// The smallest positive number that carries all its digits.
+    const SMALLEST_NORMAL: Self;
+
     /// The nearest scalar to an `f64` constant.
     fn constant(value: f64) -> Self;
 
@@ -24,6 +27,7 @@ pub trait Scalar: RealField + Copy + sealed::Sealed {
 
 impl Scalar for f64 {
     const EPSILON: Self = f64::EPSILON;
+    const SMALLEST_NORMAL: Self = f64::MIN_POSITIVE;
 
     #[inline]
     fn constant(value: f64) -> Self {
@@ -38,6 +42,7 @@ impl Scalar for f64 {
 
 impl Scalar for f32 {
     const EPSILON: Self = f32::EPSILON;
+    const SMALLEST_NORMAL: Self = f32::MIN_POSITIVE;
 
     #[inline]
     fn constant(value: f64) -> Self {

@@ -5,7 +5,7 @@ use nalgebra::{SMatrix, SVector};
 use crate::error::{Quantity, StepError};
 use crate::linear;
 use crate::newton;
-use crate::{Lagrangian, Scalar, StepKernel};
+use crate::{Lagrangian, Momenta, Scalar, StepKernel};
 
 /// Configuration and momentum, a point (q, p) of T*Q.
 ///
@@ -24,7 +24,7 @@ impl<S: Scalar, const N: usize> State<S, N> {
     /// The state (q, ∂L/∂v(q, v)), by the Legendre transform of L.
     ///
     /// # Errors
-    /// [`StepError::NonFinite`] if q, v or p is not finite, [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is singular.
+    /// [`StepError::NonFinite`] if q, v, p or ∂²L/∂v² is not finite, [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is singular.
     pub fn from_velocity<L: Lagrangian<N, Scalar = S>>(
         system: &L,
         q: impl Into<SVector<S, N>>,
@@ -49,9 +49,18 @@ impl<S: Scalar, const N: usize> State<S, N> {
         // 𝔽L is the limit h → 0 of the discrete transforms.
         let transform = |q: &SVector<S, N>, v: &SVector<S, N>| {
             let l = system.lagrangian_derivatives(q, v);
-            (StepKernel { p0: l.d2, matrix: l.d22 }, ())
+            StepKernel { p0: l.d2, matrix: l.d22 }
         };
-        let solution = newton::solve(transform, self, nalgebra::zero()).map_err(|error| match error {
+        let solution = newton::solve(
+            transform,
+            |q, v| {
+                let p = system.lagrangian_gradient(q, v).d2;
+                Momenta { p0: p, p1: p }
+            },
+            self,
+            nalgebra::zero(),
+        )
+        .map_err(|error| match error {
             StepError::SingularNewtonMatrix { column, .. } => StepError::DegenerateLagrangian { column },
             other => other,
         })?;
@@ -67,10 +76,13 @@ impl<S: Scalar, const N: usize> State<S, N> {
     }
 }
 
-/// Says whether ∂²L/∂v² can be inverted.
+/// Fails where ∂²L/∂v² is not finite or cannot be inverted.
 pub(crate) fn require_regular<S: Scalar, const N: usize>(
     mass_matrix: &SMatrix<S, N, N>,
 ) -> Result<(), StepError> {
+    if let Some(index) = (0..N).find(|&i| mass_matrix.row(i).iter().any(|entry| !entry.is_finite())) {
+        return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
+    }
     linear::require_regular(mass_matrix)
         .map_err(|singular| StepError::DegenerateLagrangian { column: singular.column })
 }

@@ -12,7 +12,7 @@ use crate::{CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, Varia
 
 /// A Lagrangian L(q, v) on TQ, Q = ℝᴺ, with its derivatives.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is not a Lagrangian system with {N} degrees of freedom",
+    message = "`{Self}` is not a Lagrangian system with N = {N}",
     label = "no Lagrangian",
     note = "put `#[rayleigh_system]` on an `impl` block of `{Self}` with `fn lagrangian(&self, q: [f64; {N}], v: [f64; {N}]) -> f64`"
 )]

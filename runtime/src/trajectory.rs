@@ -89,7 +89,8 @@ where
 
     /// The time, h × the number of steps taken (and what earlier step sizes took): no sum of roundings.
     pub fn time(&self) -> f64 {
-        self.origin + self.h.widen() * self.steps as f64
+        // Without a step the product would be NaN for a step size that is not finite.
+        if self.steps == 0 { self.origin } else { self.origin + self.h.widen() * self.steps as f64 }
     }
 
     /// Goes on with another step size from the present state, also after an error.
@@ -97,7 +98,8 @@ where
         self.origin = self.time();
         self.steps = 0;
         self.h = h;
-        self.history = History::empty();
+        // The extrapolation needs equal steps; the latest velocity alone is a guess for any step size.
+        self.history.known = self.history.known.min(1);
         self.failed = false;
     }
 

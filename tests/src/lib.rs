@@ -1,1 +1,8 @@
-//! Systems that the tests share. Each claim is one file of `tests/`.
+//! What the tests share. Each claim is one file of `tests/`.
+
+pub mod by_hand;
+pub mod convergence;
+pub mod damped_oscillator;
+pub mod documented;
+pub mod reference;
+pub mod systems;

@@ -16,7 +16,10 @@ struct Setting {
 
 impl Parse for Setting {
     fn parse(input: ParseStream) -> syn::Result<Self> {
-        let name = input.parse()?;
+        let name: Ident = input.parse()?;
+        if !input.peek(Token![=]) {
+            return Err(syn::Error::new(name.span(), Mistake::UnknownOption));
+        }
         input.parse::<Token![=]>()?;
         let values = if input.peek(token::Bracket) {
             let list;

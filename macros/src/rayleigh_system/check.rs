@@ -9,7 +9,7 @@ use syn::{
 use super::diagnostics::{Mistake, Report};
 use super::model::{Body, Degrees, Function, RayleighArguments, Rule, Source, System, simple_name};
 
-/// The system, or nothing if a signature is wrong; every wrong one is reported.
+/// The system as far as its signatures tell, or nothing if not even N is known; every wrong one is reported.
 pub fn system<'a>(source: &'a Source, rules: Vec<Rule>, report: &mut Report) -> Option<System<'a>> {
     match source {
         Source::Block(_) => block(source, rules, report),
@@ -33,18 +33,29 @@ fn block<'a>(source: &'a Source, rules: Vec<Rule>, report: &mut Report) -> Optio
         }
         return None;
     };
+    let before = report.count();
     let shape = lagrangian_signature(&lagrangian.sig, source.name(), report)?;
-    let mut bodies = vec![Body::of(lagrangian)];
+    // A function with a wrong signature is not rewritten: what is wrong there would be said again.
+    let mut bodies = Vec::new();
+    let mut keep = |function, before, report: &Report| {
+        if report.count() == before {
+            bodies.push(Body::of(function));
+        }
+    };
+    keep(lagrangian, before, report);
     let arguments = rayleigh.and_then(|rayleigh| {
-        bodies.push(Body::of(rayleigh));
-        rayleigh_signature(&rayleigh.sig, &shape, report)
+        let before = report.count();
+        let arguments = rayleigh_signature(&rayleigh.sig, &shape, report);
+        keep(rayleigh, before, report);
+        arguments
     });
     let force = named("force");
     if let Some(force) = force {
-        bodies.push(Body::of(force));
+        let before = report.count();
         force_signature(&force.sig, &shape, report);
+        keep(force, before, report);
     }
-    report.is_empty().then(|| System {
+    Some(System {
         source,
         name: source.name().clone(),
         degrees: shape.degrees,
@@ -62,25 +73,18 @@ fn free_function<'a>(
     rules: Vec<Rule>,
     report: &mut Report,
 ) -> Option<System<'a>> {
-    const EXPECTED: Mistake = Mistake::Parameters {
-        function: "a system",
-        expected: "`q: [f64; N]` and `v: [f64; N]` first, then its parameters",
-    };
+    let before = report.count();
     let signature = &function.item.sig;
     qualifiers(signature, report);
     let mut parameters = typed_parameters(signature, report);
-    if parameters.len() < 2 {
-        report.at(&signature.ident, EXPECTED);
+    if parameters.len() < 2 || signature.receiver().is_some() {
+        report.at(&signature.ident, Mistake::FunctionParameters { scalar: "f64" });
         return None;
     }
     let fields = parameters.split_off(2);
     let shape = shape_of(parameters[0].1, "q", &function.name, report)?;
     same_shape(parameters[1].1, "v", &shape, report);
-    for (_, ty) in fields {
-        if matches!(ty, Type::Reference(_)) {
-            report.at(ty, Mistake::ParameterType);
-        }
-    }
+    owned_parameters(&fields, report);
     let rayleigh = match result(signature) {
         Some(Type::Tuple(pair))
             if pair.elems.len() == 2 && pair.elems.iter().all(|ty| is(ty, &shape.scalar)) =>
@@ -89,21 +93,78 @@ fn free_function<'a>(
         }
         Some(ty) if is(ty, &shape.scalar) => None,
         _ => {
-            let scalar = &shape.scalar;
-            let expected =
-                format!("`{scalar}` for L alone, or `({scalar}, {scalar})` for L and the Rayleigh function");
-            report.at(&result_tokens(signature), Mistake::Returns { function: "a system", expected });
+            let scalar = shape.scalar.to_string();
+            report.at(&result_tokens(signature), Mistake::FunctionReturns { scalar });
             None
         }
     };
+    (report.count() == before).then(|| function_system(source, function, shape, rules, rayleigh))
+}
+
+/// What a field is: the number of its components.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Field {
+    Vector,
+    Scalar,
+}
+
+/// The function of a field on the configuration space.
+pub fn field<'a>(source: &'a Source, report: &mut Report) -> Option<(System<'a>, Field)> {
+    let Source::Function(function) = source else { return None };
+    let before = report.count();
+    let signature = &function.item.sig;
+    qualifiers(signature, report);
+    let parameters = typed_parameters(signature, report);
+    let [(_, q), fields @ ..] = &parameters[..] else {
+        report.at(&signature.ident, Mistake::FieldParameters);
+        return None;
+    };
+    if signature.receiver().is_some() {
+        report.at(&signature.ident, Mistake::FieldParameters);
+        return None;
+    }
+    let shape = shape_of(q, "q", &function.name, report)?;
+    owned_parameters(fields, report);
+    let field = match result(signature) {
+        Some(ty @ Type::Array(_)) => {
+            same_shape(ty, "q", &shape, report);
+            Field::Vector
+        }
+        Some(ty) if is(ty, &shape.scalar) => Field::Scalar,
+        _ => {
+            let (scalar, degrees) =
+                (shape.scalar.to_string(), shape.degrees.length.to_token_stream().to_string());
+            report.at(&result_tokens(signature), Mistake::FieldReturns { scalar, degrees });
+            return None;
+        }
+    };
+    (report.count() == before).then(|| (function_system(source, function, shape, Vec::new(), None), field))
+}
+
+/// Parameters that become fields cannot be references.
+fn owned_parameters(parameters: &[(&Ident, &Type)], report: &mut Report) {
+    for (_, ty) in parameters {
+        if matches!(ty, Type::Reference(_)) {
+            report.at(ty, Mistake::FieldByReference);
+        }
+    }
+}
+
+fn function_system<'a>(
+    source: &'a Source,
+    function: &Function,
+    shape: Shape,
+    rules: Vec<Rule>,
+    rayleigh: Option<RayleighArguments>,
+) -> System<'a> {
     let body = ImplItemFn {
-        attrs: Vec::new(),
+        attrs: function.item.attrs.clone(),
         vis: syn::Visibility::Inherited,
         modifiers: Default::default(),
-        sig: signature.clone(),
+        sig: function.item.sig.clone(),
         block: (*function.item.block).clone(),
     };
-    report.is_empty().then(|| System {
+    System {
         source,
         name: function.name.clone(),
         degrees: shape.degrees,
@@ -112,7 +173,7 @@ fn free_function<'a>(
         bodies: vec![Body::of(&body)],
         rayleigh,
         has_force: false,
-    })
+    }
 }
 
 impl Body {

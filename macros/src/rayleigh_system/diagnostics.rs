@@ -6,18 +6,36 @@ use std::fmt::Display;
 
 use proc_macro2::{Span, TokenStream};
 use quote::ToTokens;
-use syn::Error;
 use syn::spanned::Spanned;
+use syn::{Error, Ident};
 
 /// The mistakes found, in order of discovery; shown all in one compile.
 #[derive(Default)]
 pub struct Report {
     errors: Option<Error>,
+    count: usize,
+    /// Functions whose bodies hold mistakes.
+    bodies: Vec<String>,
 }
 
 impl Report {
     pub fn is_empty(&self) -> bool {
         self.errors.is_none()
+    }
+
+    /// How many mistakes there are so far.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Notes that the body of `function` holds mistakes: rustc shall not speak of them too.
+    pub fn mark_body(&mut self, function: &Ident) {
+        self.bodies.push(function.to_string());
+    }
+
+    /// Whether the body of `function` was marked.
+    pub fn has_mistakes_in(&self, function: &Ident) -> bool {
+        self.bodies.iter().any(|body| function == body)
     }
 
     /// Records `mistake` at `tokens`.
@@ -32,6 +50,7 @@ impl Report {
 
     /// Records an error of syn's own.
     pub fn error(&mut self, error: Error) {
+        self.count += 1;
         match &mut self.errors {
             Some(errors) => errors.combine(error),
             None => self.errors = Some(error),
@@ -39,8 +58,8 @@ impl Report {
     }
 
     /// `compile_error!` for each mistake.
-    pub fn into_tokens(self) -> TokenStream {
-        self.errors.map(|errors| errors.into_compile_error()).unwrap_or_default()
+    pub fn to_tokens(&self) -> TokenStream {
+        self.errors.as_ref().map(Error::to_compile_error).unwrap_or_default()
     }
 }
 
@@ -56,6 +75,8 @@ pub enum Mistake {
     TooLong,
     // The item.
     WrongItem,
+    WrongField,
+    FieldOption,
     TraitImpl,
     GenericBlock,
     UnnamedType,
@@ -72,8 +93,15 @@ pub enum Mistake {
     OtherDegrees { expected: String },
     OtherScalar { expected: String },
     Returns { function: &'static str, expected: String },
+    FunctionParameters { scalar: &'static str },
+    FunctionReturns { scalar: String },
+    FieldParameters,
+    FieldReturns { scalar: String, degrees: String },
     ParameterPattern,
     ParameterType,
+    ParameterSlice { scalar: String },
+    ParameterChanged,
+    FieldByReference,
     GenericHelper,
     HelperReturnsReference,
     // Bodies.
@@ -81,11 +109,17 @@ pub enum Mistake {
     NestedItem,
     LocalConst,
     Macro,
-    OutsideFunction(String),
+    OutsideFunction { path: String, name: String },
     OutsideMethod(String),
+    OutsideOfFunction { path: String, name: String, scalar: String },
+    WithoutSelf { name: String, call: String },
+    MethodAsFunction { method: String, scalar: String },
+    TwinName(String),
+    GeneratedName(String),
     BareSelf,
     FieldAssignment,
     FieldBorrowedMutably,
+    Rounding(String),
     OtherFloat { expected: String },
     FloatPattern,
     Unsafe,
@@ -105,9 +139,11 @@ impl Display for Mistake {
             Self::TooLong => f.write_str("the derivatives are too long to be written out; use `derivatives = num_dual`"),
 
             Self::WrongItem => f.write_str("`#[rayleigh_system]` goes on an `impl` block with `fn lagrangian`, or on one free function of (q, v, parameters…)"),
+            Self::WrongField => f.write_str("`#[differentiable]` goes on one free function of (q, parameters…)"),
+            Self::FieldOption => f.write_str("`#[differentiable]` has no options; remove this"),
             Self::TraitImpl => f.write_str("`#[rayleigh_system]` goes on an inherent `impl` block; remove the trait"),
-            Self::GenericBlock => f.write_str("a system cannot be generic; write the concrete type, one block for each"),
-            Self::UnnamedType => f.write_str("the system must be a named struct of this crate"),
+            Self::GenericBlock => f.write_str("a system cannot be generic; write a struct of concrete numbers, such as `struct System { m: f64 }`"),
+            Self::UnnamedType => f.write_str("the system must be a plain named type, without type arguments and lifetimes; write a struct that owns its numbers"),
             Self::ReservedName(name) => write!(f, "`{name}` is a name that the generated code uses; give the system another one"),
             Self::NoLagrangian => f.write_str("no Lagrangian; add `fn lagrangian(&self, q: [f64; N], v: [f64; N]) -> f64`"),
             Self::RayleighWithoutLagrangian => f.write_str("a Rayleigh function alone is no system; put `fn lagrangian(&self, q: [f64; N], v: [f64; N]) -> f64` into the same block"),
@@ -118,11 +154,18 @@ impl Display for Mistake {
             Self::NotAnArray(name) => write!(f, "`{name}` must be an array whose length is the number of degrees of freedom, such as `[f64; 2]`; write the array type out, an alias hides its length"),
             Self::NotAScalar => f.write_str("coordinates are `f64` or `f32`"),
             Self::ZeroDegrees => f.write_str("a system has at least one degree of freedom"),
-            Self::OtherDegrees { expected } => write!(f, "this length differs from that of `lagrangian`'s `q`, which is `{expected}`"),
+            Self::OtherDegrees { expected } => write!(f, "this length differs from that of `q`, which is `{expected}`"),
             Self::OtherScalar { expected } => write!(f, "the system is written in `{expected}`; use it here too"),
             Self::Returns { function, expected } => write!(f, "`{function}` returns {expected}"),
+            Self::FunctionParameters { scalar } => write!(f, "a system takes `q: [{scalar}; N]` and `v: [{scalar}; N]` first, then its parameters"),
+            Self::FunctionReturns { scalar } => write!(f, "a system returns `{scalar}` for L alone, or `({scalar}, {scalar})` for L and the Rayleigh function"),
+            Self::FieldParameters => f.write_str("a differentiable function takes `q: [f64; N]` first, then its parameters"),
+            Self::FieldReturns { scalar, degrees } => write!(f, "a differentiable function returns `[{scalar}; {degrees}]` for a vector field, or `{scalar}` for a scalar one"),
             Self::ParameterPattern => f.write_str("write a plain name here, and take the pattern apart with `let` in the body"),
             Self::ParameterType => f.write_str("a parameter is a number, a bool, or an array, tuple or reference of them; write the type out, an alias hides it"),
+            Self::ParameterSlice { scalar } => write!(f, "a slice hides its length; write a reference to an array, such as `&[{scalar}; 2]`"),
+            Self::FieldByReference => f.write_str("this parameter becomes a field of the generated struct; take it by value"),
+            Self::ParameterChanged => f.write_str("a differentiated function cannot change its argument; take the value and return the new one"),
             Self::GenericHelper => f.write_str("a function that L, R or the force call cannot be generic; write the concrete types"),
             Self::HelperReturnsReference => f.write_str("return the value, not a reference: the plain function and the differentiated one share this body"),
 
@@ -130,11 +173,25 @@ impl Display for Mistake {
             Self::NestedItem => f.write_str("no items inside a differentiated body; make it a function or constant of the annotated block"),
             Self::LocalConst => f.write_str("no `const` or `static` inside a differentiated body; use `let`, or a constant of the annotated block"),
             Self::Macro => f.write_str("macros hide what they compute from the differentiation; write the expression out"),
-            Self::OutsideFunction(name) => write!(f, "`{name}` is outside the annotated block and cannot be differentiated; move it into the block and call `Self::{name}`"),
+            Self::OutsideFunction { path, name } => write!(f, "`{path}` is outside the annotated block and cannot be differentiated; move it into the block and call `Self::{name}`"),
+            Self::OutsideOfFunction { path, name, scalar } => write!(f, "`{path}` is another function and cannot be differentiated; write it as a closure in this body, such as `let {name} = |x: {scalar}| …;`"),
             Self::OutsideMethod(name) => write!(f, "`{name}` is not a function of the annotated block and cannot be differentiated; move it into the block"),
+            Self::WithoutSelf { name, call } => write!(f, "`{name}` is a function of the annotated block; call it as `{call}`"),
+            Self::MethodAsFunction { method, scalar } => {
+                let (one, all) = match &**method {
+                    "clamp" | "mul_add" => ("a, b", "x, a, b"),
+                    "atan2" | "copysign" | "hypot" | "log" | "max" | "min" | "powf" => ("y", "x, y"),
+                    "powi" => ("n", "x, n"),
+                    _ => ("", "x"),
+                };
+                write!(f, "`{method}` is a method; write `x.{method}({one})` or `{scalar}::{method}({all})`")
+            }
+            Self::TwinName(name) => write!(f, "`{name}` is the name of the differentiated twin of a function of this block; choose another one"),
+            Self::GeneratedName(name) => write!(f, "`{name}` is a name that the generated code uses in this body; import the other one under another name, with `use … as …`"),
             Self::BareSelf => f.write_str("use `self` only as `self.field` or `self.function(…)`"),
             Self::FieldAssignment => f.write_str("L, R and forces are functions: they cannot assign to a field; copy it to a local with `let mut`"),
             Self::FieldBorrowedMutably => f.write_str("L, R and forces are functions: they cannot borrow a field mutably; copy it to a local with `let mut`"),
+            Self::Rounding(method) => write!(f, "`{method}` has no derivative; leave it out, or choose between smooth cases with `if`"),
             Self::OtherFloat { expected } => write!(f, "this system is written in `{expected}`; a detour through another precision would lose digits and derivatives"),
             Self::FloatPattern => f.write_str("a floating-point number cannot be matched by a pattern here; compare it with `if`"),
             Self::Unsafe => f.write_str("no `unsafe` inside a differentiated body"),

@@ -13,6 +13,7 @@ use super::differentiate::{Derivatives, Differentiation, Gradient};
 use super::emit::{StraightLine, straight_line};
 use super::expand;
 use super::graph::{Graph, Node, Operation};
+use super::implement::{self, Kernel};
 use super::lower::{Lowered, MAX_NODES};
 use super::model::{RayleighArguments, Rule, Source, System};
 
@@ -28,12 +29,12 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
         .iter()
         .map(|&rule| {
             let kernel = code.kernel(rule, lagrangian, rayleigh, force.as_deref());
-            expand::discrete(system, rule, kernel)
+            implement::discrete(system, rule, kernel)
         })
         .collect();
     let discrete_rayleigh: Option<TokenStream> = system
         .rayleigh
-        .map(|_| system.rules.iter().map(|&rule| expand::discrete_rayleigh(system, rule)).collect());
+        .map(|_| system.rules.iter().map(|&rule| implement::discrete_rayleigh(system, rule)).collect());
     if code.graph.len() > MAX_NODES {
         return None;
     }
@@ -46,10 +47,17 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
         }
     };
     let imports = imports(system);
+    let conditions = expand::conditions(system.source);
+    let (scalar, dimension) = (&system.scalar, system.degrees.times(1));
     Some(quote! {
         #item
+
+        #(#conditions)*
         const _: () = {
             #imports
+
+            type Vector = SVector<#scalar, #dimension>;
+
             #of_lagrangian
             #of_rayleigh
             #of_force
@@ -116,7 +124,7 @@ impl Code<'_> {
     ) -> TokenStream {
         let scalar = &self.system.scalar;
         let n = self.system.degrees.times(1);
-        let value = expand::value(self.system, function, arguments);
+        let value = implement::value(self.system, function, arguments);
         let [plain, gradient, derivatives, variations] = ["", "_gradient", "_derivatives", "_variations"]
             .map(|suffix| format_ident!("{function}{suffix}"));
         let unused = match arguments {
@@ -133,7 +141,7 @@ impl Code<'_> {
             (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
         let gradient = quote! {
             #[inline]
-            fn #gradient(&self, #q: &SVector<#scalar, #n>, #v: &SVector<#scalar, #n>) -> Gradient<#scalar, #n> {
+            fn #gradient(&self, #q: &Vector, #v: &Vector) -> Gradient<#scalar, #n> {
                 #statements
                 Gradient { value: #value_of, d1: #d1, d2: #d2 }
             }
@@ -156,7 +164,7 @@ impl Code<'_> {
             (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
         let derivatives = quote! {
             #[inline]
-            fn #derivatives(&self, #q: &SVector<#scalar, #n>, #v: &SVector<#scalar, #n>) -> Derivatives<#scalar, #n> {
+            fn #derivatives(&self, #q: &Vector, #v: &Vector) -> Derivatives<#scalar, #n> {
                 #statements
                 Derivatives { value: #value_of, d1: #d1, d2: #d2, d11: #d11, d12: #d12, d22: #d22 }
             }
@@ -165,7 +173,7 @@ impl Code<'_> {
         let variations = self.variations(&variations, &second);
         quote! {
             #[inline]
-            fn #plain(&self, #unused: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>) -> #scalar {
+            fn #plain(&self, #unused: &Vector, v: &Vector) -> #scalar {
                 #value
             }
 
@@ -198,15 +206,15 @@ impl Code<'_> {
             #[automatically_derived]
             impl Force<#n> for #name {
                 #[inline]
-                fn force(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>) -> SVector<#scalar, #n> {
+                fn force(&self, q: &Vector, v: &Vector) -> Vector {
                     self.force((*q).into(), (*v).into()).into()
                 }
 
                 #[inline]
                 fn force_derivatives(
                     &self,
-                    #q: &SVector<#scalar, #n>,
-                    #v: &SVector<#scalar, #n>,
+                    #q: &Vector,
+                    #v: &Vector,
                 ) -> CovectorDerivatives<#scalar, #n> {
                     #statements
                     CovectorDerivatives { value: #value, d1: #d1, d2: #d2 }

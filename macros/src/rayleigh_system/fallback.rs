@@ -1,40 +1,90 @@
 //! What stands in for the expansion of a wrong system: the user's item, the diagnostics, and stubs of the traits, so that
-//! one mistake gives one message and not one more for each use of the system.
+//! one mistake gives one message and not one more for each use of the system. Bodies with mistakes are left out: rustc would
+//! say the same in other words.
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
-use syn::{FnArg, Signature, Type};
+use syn::{FnArg, ImplItem, ImplItemFn, Pat, ReturnType, Signature, Type, parse_quote};
 
 use super::diagnostics::Report;
-use super::model::{Degrees, Source, simple_name};
+use super::model::{Degrees, Role, Source, simple_name};
 
 /// The item as it came, beside the diagnostics.
 pub fn item_alone(item: TokenStream, report: Report) -> TokenStream {
-    let errors = report.into_tokens();
+    let errors = report.to_tokens();
     quote!(#item #errors)
 }
 
 /// The item, the diagnostics and stubs, as far as the signature of L tells the number of degrees of freedom.
 pub fn with_stubs(source: &Source, report: Report) -> TokenStream {
-    let errors = report.into_tokens();
+    let errors = report.to_tokens();
     let name = source.name();
     let (item, lagrangian) = match source {
         Source::Block(block) => {
             let lagrangian = source.functions().find(|function| function.sig.ident == "lagrangian");
-            let item = &block.item;
+            let mut item = block.item.clone();
+            for function in &mut item.items {
+                if let ImplItem::Fn(ImplItemFn { attrs, sig, block, .. }) = function
+                    && report.has_mistakes_in(&sig.ident)
+                {
+                    attrs.push(parse_quote!(#[allow(unused, clippy::all)]));
+                    *block = parse_quote!({ ::core::unreachable!() });
+                }
+            }
             (quote!(#item), lagrangian.map(|function| &function.sig))
         }
         Source::Function(function) => {
-            let item = &function.item;
+            let mut item = function.item.clone();
+            if report.has_mistakes_in(&item.sig.ident) {
+                item.attrs.push(parse_quote!(#[allow(unused, clippy::all)]));
+                item.block = parse_quote!({ ::core::unreachable!() });
+            }
             let visibility = function.visibility();
-            let fields = item.sig.inputs.iter().skip(2);
+            let fields =
+                item.sig.inputs.iter().skip(function.role.arguments()).filter(
+                    |field| matches!(field, FnArg::Typed(field) if matches!(&*field.pat, Pat::Ident(_)) && !matches!(&*field.ty, Type::Reference(_))),
+                );
             let fields = quote!({ #(#visibility #fields),* });
-            (quote!(#item #[allow(dead_code)] #visibility struct #name #fields), Some(&item.sig))
+            (quote!(#item #[allow(dead_code)] #visibility struct #name #fields), Some(&function.item.sig))
         }
     };
-    let stubs =
-        lagrangian.and_then(|signature| shape(signature, name)).map(|(scalar, n)| stubs(name, &scalar, &n));
+    let is_field = matches!(source, Source::Function(function) if function.role == Role::Field);
+    let stubs = if is_field { field_stubs(source) } else { stubs_of(lagrangian, name) };
     quote!(#item #errors #stubs)
+}
+
+/// Stubs of the one trait that the function's result names.
+fn field_stubs(source: &Source) -> Option<TokenStream> {
+    let Source::Function(function) = source else { return None };
+    let (name, signature) = (&function.name, &function.item.sig);
+    let (scalar, n) = shape(signature, name)?;
+    let vector = quote!(::dalembert::nalgebra::SVector<#scalar, #n>);
+    let matrix = quote!(::dalembert::nalgebra::SMatrix<#scalar, #n, #n>);
+    Some(match &signature.output {
+        ReturnType::Type(_, ty) if matches!(**ty, Type::Array(_)) => quote! {
+            const _: () = {
+                impl ::dalembert::VectorField<#n> for #name {
+                    type Scalar = #scalar;
+                    fn vector(&self, _: &#vector) -> #vector { ::core::unreachable!() }
+                    fn jacobian(&self, _: &#vector) -> #matrix { ::core::unreachable!() }
+                }
+            };
+        },
+        _ => quote! {
+            const _: () = {
+                impl ::dalembert::ScalarField<#n> for #name {
+                    type Scalar = #scalar;
+                    fn value(&self, _: &#vector) -> #scalar { ::core::unreachable!() }
+                    fn gradient(&self, _: &#vector) -> #vector { ::core::unreachable!() }
+                    fn hessian(&self, _: &#vector) -> #matrix { ::core::unreachable!() }
+                }
+            };
+        },
+    })
+}
+
+fn stubs_of(lagrangian: Option<&Signature>, name: &syn::Ident) -> Option<TokenStream> {
+    lagrangian.and_then(|signature| shape(signature, name)).map(|(scalar, n)| stubs(name, &scalar, &n))
 }
 
 /// Scalar and N, from the first array among the parameters.

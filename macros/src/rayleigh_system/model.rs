@@ -19,6 +19,35 @@ impl Rule {
             Self::Trapezoidal => "Trapezoidal",
         }
     }
+
+    /// The formula of L_d, as documentation.
+    pub fn lagrangian(self) -> &'static str {
+        match self {
+            Self::Midpoint => " L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.",
+            Self::Trapezoidal => " L_d = (h/2) [L(q0, v̄) + L(q1, v̄)], with v̄ = (q1 − q0)/h.",
+        }
+    }
+
+    /// The formula of R_d.
+    pub fn rayleigh(self) -> &'static str {
+        match self {
+            Self::Midpoint => " R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.",
+            Self::Trapezoidal => " R_d = (h²/4) [R(q0, v̄) + R(q1, v̄)], with v̄ = (q1 − q0)/h.",
+        }
+    }
+
+    /// The formula of f_d, by the parts that the system has.
+    pub fn force(self, of_rayleigh: bool, general: bool) -> &'static str {
+        match (of_rayleigh, general, self) {
+            (true, false, _) => " f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d.",
+            (true, true, Self::Midpoint) => " f_d⁻ = D1 R_d + (h/2) f(q̄, v̄), f_d⁺ = −D2 R_d + (h/2) f(q̄, v̄).",
+            (true, true, Self::Trapezoidal) => {
+                " f_d⁻ = D1 R_d + (h/2) f(q0, v̄), f_d⁺ = −D2 R_d + (h/2) f(q1, v̄)."
+            }
+            (false, _, Self::Midpoint) => " f_d⁻ = f_d⁺ = (h/2) f(q̄, v̄).",
+            (false, _, Self::Trapezoidal) => " f_d⁻ = (h/2) f(q0, v̄), f_d⁺ = (h/2) f(q1, v̄).",
+        }
+    }
 }
 
 /// Who makes the derivatives.
@@ -50,6 +79,26 @@ pub struct Function {
     pub item: ItemFn,
     /// The name of the struct generated, `Oscillator`.
     pub name: Ident,
+    pub role: Role,
+}
+
+/// What a free function stands for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// L and R of (q, v, parameters…).
+    System,
+    /// A field on the configuration space, of (q, parameters…).
+    Field,
+}
+
+impl Role {
+    /// How many parameters come before those that become fields of the struct.
+    pub fn arguments(self) -> usize {
+        match self {
+            Self::System => 2,
+            Self::Field => 1,
+        }
+    }
 }
 
 /// The number of degrees of freedom, as written in the array type.

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use syn::{Ident, Item, ItemFn, ItemImpl};
 
 use super::diagnostics::{Mistake, Report};
-use super::model::{Block, Function, Source, simple_name};
+use super::model::{Block, Function, Role, Source, simple_name};
 
 /// Names that the generated code brings into its scope.
 const RESERVED: &[&str] = &[
@@ -29,6 +29,9 @@ const RESERVED: &[&str] = &[
     "DiscreteForceDerivatives",
     "SVector",
     "SMatrix",
+    "Vector",
+    "VectorField",
+    "ScalarField",
     "D",
 ];
 
@@ -36,7 +39,7 @@ const RESERVED: &[&str] = &[
 pub fn source(item: TokenStream, report: &mut Report) -> Option<Source> {
     let source = match syn::parse2::<Item>(item) {
         Ok(Item::Impl(item)) => Source::Block(Box::new(block(item, report)?)),
-        Ok(Item::Fn(item)) => Source::Function(Box::new(function(item))),
+        Ok(Item::Fn(item)) => Source::Function(Box::new(function(item, Role::System))),
         Ok(other) => {
             report.at(&other, Mistake::WrongItem);
             return None;
@@ -46,6 +49,11 @@ pub fn source(item: TokenStream, report: &mut Report) -> Option<Source> {
             return None;
         }
     };
+    free_name(source, report)
+}
+
+/// The source, if the generated code does not use its name.
+fn free_name(source: Source, report: &mut Report) -> Option<Source> {
     let name = source.name();
     if RESERVED.iter().any(|reserved| name == reserved) {
         report.at(name, Mistake::ReservedName(name.to_string()));
@@ -70,9 +78,25 @@ fn block(item: ItemImpl, report: &mut Report) -> Option<Block> {
     Some(Block { item, name })
 }
 
-fn function(item: ItemFn) -> Function {
+/// The function of a field, or nothing if the item is no function.
+pub fn field(item: TokenStream, report: &mut Report) -> Option<Source> {
+    let source = match syn::parse2::<Item>(item) {
+        Ok(Item::Fn(item)) => Source::Function(Box::new(function(item, Role::Field))),
+        Ok(other) => {
+            report.at(&other, Mistake::WrongField);
+            return None;
+        }
+        Err(error) => {
+            report.error(error);
+            return None;
+        }
+    };
+    free_name(source, report)
+}
+
+fn function(item: ItemFn, role: Role) -> Function {
     let name = upper_camel_case(&item.sig.ident);
-    Function { item, name }
+    Function { item, name, role }
 }
 
 /// `damped_oscillator` → `DampedOscillator`.

@@ -10,38 +10,55 @@
 //! | `self.height(q)`, `Self::square(x)` | `self.height_over(q)`, `Self::square_over(x)` |
 //! | `f64::sin(x)` | `Real::<D>::sin(x)` |
 //! | `i as f64` | `D::number(i)` |
-//! | `i as usize`, `i % n` | `dual::integer::<_, usize>(i)`, `dual::remainder(i, n)`: integers alone have them |
+//! | `i as usize`, `i % n` | `dual::integer::<_, usize>(i)`, `dual::remainder(i % n)`: for integers alone |
 
 use std::collections::{BTreeMap, HashSet};
 
-use proc_macro2::Span;
-use quote::format_ident;
+use proc_macro2::{Span, TokenStream};
+use quote::{ToTokens, format_ident};
 use syn::visit_mut::{self, VisitMut};
 use syn::{
-    BinOp, Expr, ExprBinary, ExprCall, ExprCast, ExprLit, ExprMethodCall, ExprPath, FnArg, Ident, ImplItemFn,
-    Item, Lit, Member, Pat, Path, PathArguments, ReturnType, Stmt, Type, UnOp, parse_quote,
-    parse_quote_spanned,
+    BinOp, Expr, ExprBinary, ExprCall, ExprCast, ExprField, ExprMethodCall, ExprPath, FnArg, Ident,
+    ImplItemFn, Item, Member, Pat, Path, ReturnType, Stmt, Type, parse_quote, parse_quote_spanned,
 };
 
 use super::check::qualifiers;
 use super::diagnostics::{Mistake, Report, span_of};
-use super::model::{Body, System, is_integer, simple_name};
+use super::model::{Body, Source, System, is_integer, simple_name};
 use super::scope::bound_names;
+use super::syntax::{
+    METHODS, ROUNDING, identifier, is_assignment, is_constant_name, is_float_literal, is_function_of_std,
+    is_generic_of_std, is_place_of_self, is_plain, is_self, real_type, takes_function, without_parentheses,
+};
 
 /// Rewrites L, R, f and, transitively, the functions of the block that they call.
 pub fn over_duals<'a>(mut system: System<'a>, report: &mut Report) -> System<'a> {
     let mut done = 0;
     while done < system.bodies.len() {
+        let before = report.count();
         let called = rewrite(&system, done, report);
+        if report.count() > before {
+            report.mark_body(&system.bodies[done].plain.sig.ident);
+        }
         for name in called.functions {
             let known = system.bodies.iter().any(|body| body.plain.sig.ident == name);
             if !known && let Some(helper) = system.source.functions().find(|f| f.sig.ident == name) {
-                helper_signature(helper, report);
-                system.bodies.push(Body::of(helper));
+                let before = report.count();
+                helper_signature(helper, &system.scalar, report);
+                // What is wrong with a signature would be said again by the rewriting.
+                if report.count() == before {
+                    system.bodies.push(Body::of(helper));
+                }
             }
         }
         system.bodies[done].over = called.over;
         done += 1;
+    }
+    for body in &system.bodies {
+        let twin = &body.over.sig.ident;
+        if let Some(taken) = system.source.functions().find(|function| function.sig.ident == *twin) {
+            report.at(&taken.sig.ident, Mistake::TwinName(twin.to_string()));
+        }
     }
     system
 }
@@ -99,15 +116,30 @@ fn rewrite(system: &System<'_>, index: usize, report: &mut Report) -> Rewritten 
     let Rewriter { fields, functions, .. } = rewriter;
     let prologue = fields.into_values().map(|field| -> Stmt {
         let Field { local, access } = field;
-        let span = span_of(&access);
-        parse_quote_spanned!(span=> let #local = D::lift(#access);)
+        // One span for all tokens: a field of a wrong type is then reported once.
+        let span = local.span();
+        let ExprField { base, member, .. } = access;
+        let member = respanned(member.into_token_stream(), span);
+        let base = respanned(base.into_token_stream(), span);
+        parse_quote_spanned!(span=> let #local = D::lift(#base.#member);)
     });
     let statements = std::mem::take(&mut over_function.block.stmts);
     over_function.block.stmts = prologue.chain(statements).collect();
     Rewritten { over: over_function, functions }
 }
 
-fn helper_signature(helper: &ImplItemFn, report: &mut Report) {
+/// The tokens, all seen at `span` but resolved where they were.
+fn respanned(tokens: TokenStream, span: Span) -> TokenStream {
+    tokens
+        .into_iter()
+        .map(|mut token| {
+            token.set_span(span.resolved_at(token.span()));
+            token
+        })
+        .collect()
+}
+
+fn helper_signature(helper: &ImplItemFn, scalar: &Ident, report: &mut Report) {
     qualifiers(&helper.sig, report);
     for parameter in &helper.sig.inputs {
         match parameter {
@@ -116,7 +148,15 @@ fn helper_signature(helper: &ImplItemFn, report: &mut Report) {
                 if !matches!(&*parameter.pat, Pat::Ident(_) | Pat::Wild(_)) {
                     report.at(&parameter.pat, Mistake::ParameterPattern);
                 }
-                if !is_value(&parameter.ty) {
+                let value = match &*parameter.ty {
+                    Type::Reference(reference) if reference.mutability.is_none() => &reference.elem,
+                    ty => ty,
+                };
+                if matches!(&*parameter.ty, Type::Reference(reference) if reference.mutability.is_some()) {
+                    report.at(&parameter.ty, Mistake::ParameterChanged);
+                } else if matches!(value, Type::Slice(_)) {
+                    report.at(&parameter.ty, Mistake::ParameterSlice { scalar: scalar.to_string() });
+                } else if !is_value(value) {
                     report.at(&parameter.ty, Mistake::ParameterType);
                 }
             }
@@ -131,12 +171,11 @@ fn helper_signature(helper: &ImplItemFn, report: &mut Report) {
     }
 }
 
-/// Numbers, bools, arrays, tuples and shared references of them: what `Lift` and `Lower` take across.
+/// Numbers, bools, arrays and tuples of them: what `Lift` and `Lower` take across.
 fn is_value(ty: &Type) -> bool {
     match ty {
         Type::Array(array) => is_value(&array.elem),
         Type::Tuple(tuple) => tuple.elems.iter().all(is_value),
-        Type::Reference(reference) => reference.mutability.is_none() && is_value(&reference.elem),
         Type::Paren(inner) => is_value(&inner.elem),
         Type::Group(inner) => is_value(&inner.elem),
         ty => {
@@ -150,7 +189,7 @@ fn is_value(ty: &Type) -> bool {
 /// A field read by a body: the local that holds it, and the user's tokens.
 struct Field {
     local: Ident,
-    access: Expr,
+    access: ExprField,
 }
 
 struct Rewriter<'r> {
@@ -186,12 +225,13 @@ impl VisitMut for Rewriter<'_> {
                 self.visit_expr_mut(&mut reference.expr);
             }
             Expr::Field(field) if is_self(&field.base) => {
-                let local = self.field(&field.member, Expr::Field(field.clone()));
+                let local = self.field(&field.member, field.clone());
                 *expression = parse_quote!(#local);
             }
             Expr::MethodCall(call) => self.method_call(call),
             Expr::Call(call) => self.call(call),
             Expr::Path(path) => {
+                self.refuse_generated_name(&path.path);
                 if let Some(replacement) = self.path(path) {
                     *expression = replacement;
                 }
@@ -257,6 +297,7 @@ impl VisitMut for Rewriter<'_> {
                 _ if is_integer(ty) => {}
                 _ => self.report.at(ty, Mistake::TypeAlias),
             },
+            Type::Macro(_) => self.report.at(ty, Mistake::Macro),
             _ => visit_mut::visit_type_mut(self, ty),
         }
     }
@@ -276,31 +317,60 @@ impl Rewriter<'_> {
         }
         let ExprBinary { left, op, right, .. } = binary;
         let span = span_of(op);
+        // The operator itself stays: through a function, the type of an integer literal would not be inferred.
         match op {
-            BinOp::Rem(_) => Some(parse_quote_spanned!(span=> dual::remainder(#left, #right))),
-            BinOp::RemAssign(_) => Some(parse_quote_spanned!(span=> #left = dual::remainder(#left, #right))),
+            BinOp::Rem(_) => Some(parse_quote_spanned!(span=> dual::remainder(#left % #right))),
+            BinOp::RemAssign(_) => {
+                let right = without_parentheses(right);
+                Some(parse_quote_spanned!(span=> #left = dual::remainder(#left % (#right))))
+            }
             _ => None,
         }
     }
 
+    /// `Real::G` of the user: the body stands beside the runtime's `Real`.
+    fn refuse_generated_name(&mut self, path: &Path) {
+        if let [first, _, ..] = &path.segments.iter().collect::<Vec<_>>()[..]
+            && ["Real", "Dual", "dual", "D"].iter().any(|name| first.ident == name)
+        {
+            self.report.at(&first.ident, Mistake::GeneratedName(first.ident.to_string()));
+        }
+    }
+
     fn refuse_assignment_to_field(&mut self, place: &Expr) {
-        if is_place_of_self(place) {
-            self.report.at(place, Mistake::FieldAssignment);
+        match place {
+            // `(self.k, x) = …`
+            Expr::Tuple(places) => {
+                places.elems.iter().for_each(|place| self.refuse_assignment_to_field(place))
+            }
+            Expr::Array(places) => {
+                places.elems.iter().for_each(|place| self.refuse_assignment_to_field(place))
+            }
+            place if is_place_of_self(place) => self.report.at(place, Mistake::FieldAssignment),
+            _ => {}
         }
     }
 
     /// The local that holds a field.
-    fn field(&mut self, member: &Member, access: Expr) -> Ident {
+    fn field(&mut self, member: &Member, access: ExprField) -> Ident {
         let (key, name) = match member {
             Member::Named(name) => (name.to_string(), name.to_string()),
             Member::Unnamed(index) => (index.index.to_string(), format!("field_{}", index.index)),
         };
-        let name =
-            if self.bound.contains(&name) { format!("self_{}", name.trim_start_matches("r#")) } else { name };
+        // A local of the same name keeps it: the field becomes `self_k`, and `self_k_` if there is that one too.
+        let mut free = name;
+        if self.bound.contains(&free) {
+            free = format!("self_{}", free.trim_start_matches("r#"));
+        }
+        while self.bound.contains(&free) {
+            free.push('_');
+        }
         let span = span_of(member);
         let field =
-            self.fields.entry(key).or_insert_with(|| Field { local: identifier(&name, span), access });
-        Ident::new(&field.local.to_string(), span)
+            self.fields.entry(key).or_insert_with(|| Field { local: identifier(&free, span), access });
+        let mut local = field.local.clone();
+        local.set_span(span);
+        local
     }
 
     fn method_call(&mut self, call: &mut ExprMethodCall) {
@@ -315,6 +385,9 @@ impl Rewriter<'_> {
                 self.report.at(&call.method, Mistake::OutsideMethod(call.method.to_string()));
             }
         } else {
+            if ROUNDING.iter().any(|rounding| call.method == rounding) {
+                self.report.at(&call.method, Mistake::Rounding(call.method.to_string()));
+            }
             self.visit_expr_mut(&mut call.receiver);
         }
         if let Some(turbofish) = &mut call.turbofish
@@ -323,13 +396,27 @@ impl Rewriter<'_> {
             self.visit_angle_bracketed_generic_arguments_mut(turbofish);
         }
         for argument in &mut call.args {
-            self.visit_expr_mut(argument);
+            // `.map(square)`: a name that is no local is a function handed on, which must be one of the block.
+            match argument {
+                Expr::Path(path) if takes_function(&call.method) && self.is_unknown(&path.path) => {
+                    self.called_path(path, false);
+                }
+                _ => self.visit_expr_mut(argument),
+            }
         }
+    }
+
+    /// A plain name in small letters that is bound nowhere in the body.
+    fn is_unknown(&self, path: &Path) -> bool {
+        path.get_ident().is_some_and(|name| {
+            *name != "self" && !self.bound.contains(&name.to_string()) && !is_constant_name(name)
+        })
     }
 
     fn call(&mut self, call: &mut ExprCall) {
         match &mut *call.func {
             Expr::Path(path) => {
+                self.refuse_generated_name(&path.path);
                 let without_arguments = call.args.is_empty();
                 if let Some(replacement) = self.called_path(path, without_arguments) {
                     *call.func = replacement;
@@ -358,8 +445,29 @@ impl Rewriter<'_> {
         let is_constructor = last.starts_with(char::is_uppercase);
         if is_local || is_constructor || is_function_of_std(&path.path) {
             visit_mut::visit_expr_path_mut(self, path);
+        } else if path.path.get_ident().is_some_and(|name| self.is_function_of_block(name)) {
+            let takes_self = self
+                .system
+                .source
+                .functions()
+                .any(|function| function.sig.ident == last && function.sig.receiver().is_some());
+            let call = if takes_self { format!("self.{last}(…)") } else { format!("Self::{last}(…)") };
+            self.report.at(&path.path, Mistake::WithoutSelf { name: last, call });
+        } else if path.path.get_ident().is_some() && METHODS.contains(&&*last) {
+            let scalar = self.system.scalar.to_string();
+            self.report.at(&path.path, Mistake::MethodAsFunction { method: last, scalar });
         } else {
-            self.report.at(&path.path, Mistake::OutsideFunction(last));
+            let segments: Vec<_> =
+                path.path.segments.iter().map(|segment| segment.ident.to_string()).collect();
+            let mistake = match self.system.source {
+                Source::Block(_) => Mistake::OutsideFunction { path: segments.join("::"), name: last },
+                Source::Function(_) => Mistake::OutsideOfFunction {
+                    path: segments.join("::"),
+                    name: last,
+                    scalar: self.system.scalar.to_string(),
+                },
+            };
+            self.report.at(&path.path, mistake);
         }
         None
     }
@@ -384,6 +492,10 @@ impl Rewriter<'_> {
             let span = span_of(path);
             return Some(parse_quote_spanned!(span=> D::lift(#path)));
         }
+        // A misspelled local: rustc knows better which one was meant.
+        if path.path.get_ident().is_some() {
+            return None;
+        }
         self.called_path(path, false)
     }
 
@@ -402,11 +514,16 @@ impl Rewriter<'_> {
     }
 
     /// `f64::sin` → `Real::<D>::sin`.
-    fn function_of_scalar(&self, path: &Path) -> Option<Expr> {
-        let mut segments = path.segments.iter();
-        let (first, last) = (segments.next()?, segments.next()?);
-        if segments.next().is_some() || first.ident != self.system.scalar || is_constant_name(&last.ident) {
+    fn function_of_scalar(&mut self, path: &Path) -> Option<Expr> {
+        let mut segments = path.segments.iter().rev();
+        let (last, first) = (segments.next()?, segments.next()?);
+        // `core::primitive::f64::sin`, or no module at all.
+        let in_module = segments.next().is_some_and(|module| module.ident != "primitive");
+        if in_module || first.ident != self.system.scalar || is_constant_name(&last.ident) {
             return None;
+        }
+        if ROUNDING.iter().chain(&["rem_euclid", "div_euclid"]).any(|rounding| last.ident == rounding) {
+            self.report.at(path, Mistake::Rounding(last.ident.to_string()));
         }
         let span = first.ident.span();
         Some(parse_quote_spanned!(span=> Real::<D>::#last))
@@ -423,14 +540,15 @@ impl Rewriter<'_> {
                 return None;
             }
             self.visit_expr_mut(&mut cast.expr);
-            let ExprCast { expr, ty, .. } = cast;
-            let span = span_of(expr);
+            let ExprCast { expr, ty, .. } = &*cast;
+            let expr = without_parentheses(expr);
+            let span = cast.as_token.span;
             return Some(parse_quote_spanned!(span=> dual::integer::<_, #ty>(#expr)));
         }
         match simple_name(&cast.ty) {
             Some(name) if *name == self.system.scalar => {
                 self.visit_expr_mut(&mut cast.expr);
-                let expr = &cast.expr;
+                let expr = without_parentheses(&cast.expr);
                 let span = span_of(expr);
                 Some(parse_quote_spanned!(span=> D::number(#expr)))
             }
@@ -444,107 +562,5 @@ impl Rewriter<'_> {
                 None
             }
         }
-    }
-}
-
-/// An expression of floating-point literals alone.
-fn is_plain(expression: &Expr) -> bool {
-    match expression {
-        Expr::Lit(ExprLit { lit, .. }) => is_float_literal(lit),
-        Expr::Unary(unary) => matches!(unary.op, UnOp::Neg(_)) && is_plain(&unary.expr),
-        Expr::Paren(inner) => is_plain(&inner.expr),
-        Expr::Group(inner) => is_plain(&inner.expr),
-        Expr::Binary(binary) => {
-            is_arithmetic(&binary.op) && is_plain(&binary.left) && is_plain(&binary.right)
-        }
-        _ => false,
-    }
-}
-
-fn is_float_literal(literal: &Lit) -> bool {
-    match literal {
-        Lit::Float(_) => true,
-        Lit::Int(integer) => matches!(integer.suffix(), "f64" | "f32"),
-        _ => false,
-    }
-}
-
-fn is_arithmetic(operator: &BinOp) -> bool {
-    matches!(operator, BinOp::Add(_) | BinOp::Sub(_) | BinOp::Mul(_) | BinOp::Div(_))
-}
-
-fn is_assignment(operator: &BinOp) -> bool {
-    matches!(
-        operator,
-        BinOp::AddAssign(_)
-            | BinOp::SubAssign(_)
-            | BinOp::MulAssign(_)
-            | BinOp::DivAssign(_)
-            | BinOp::RemAssign(_)
-    )
-}
-
-fn is_self(expression: &Expr) -> bool {
-    matches!(expression, Expr::Path(path) if path.path.is_ident("self"))
-}
-
-/// `self.field`, `self.field[i]`, `self.field.0`.
-fn is_place_of_self(expression: &Expr) -> bool {
-    match expression {
-        Expr::Field(field) => is_self(&field.base) || is_place_of_self(&field.base),
-        Expr::Index(index) => is_place_of_self(&index.expr),
-        Expr::Paren(inner) => is_place_of_self(&inner.expr),
-        _ => false,
-    }
-}
-
-/// Names in capitals are constants.
-fn is_constant_name(name: &Ident) -> bool {
-    let name = name.to_string();
-    name.contains(char::is_uppercase) && !name.contains(char::is_lowercase)
-}
-
-/// Functions of the standard library that work on any type, by their last two segments; and those of integers.
-fn is_function_of_std(path: &Path) -> bool {
-    const GENERIC: &[(&str, &str)] = &[
-        ("array", "from_fn"),
-        ("iter", "empty"),
-        ("iter", "from_fn"),
-        ("iter", "once"),
-        ("iter", "repeat"),
-        ("iter", "repeat_n"),
-        ("iter", "successors"),
-        ("iter", "zip"),
-        ("mem", "replace"),
-        ("mem", "swap"),
-        ("mem", "take"),
-        ("Default", "default"),
-        ("Vec", "new"),
-        ("Vec", "with_capacity"),
-    ];
-    let mut segments = path.segments.iter().rev();
-    let (Some(last), Some(module)) = (segments.next(), segments.next()) else { return false };
-    let integer: Type =
-        Type::Path(syn::TypePath { attrs: Vec::new(), qself: None, path: module.ident.clone().into() });
-    is_integer(&integer) || GENERIC.iter().any(|(from, name)| module.ident == from && last.ident == name)
-}
-
-/// Types of the standard library that hold others.
-fn is_generic_of_std(path: &Path) -> bool {
-    path.segments.last().is_some_and(|segment| {
-        ["Option", "Vec", "Result", "Box"].iter().any(|name| segment.ident == name)
-            && matches!(segment.arguments, PathArguments::AngleBracketed(_))
-    })
-}
-
-fn real_type(span: Span) -> Type {
-    parse_quote_spanned!(span=> Real<D>)
-}
-
-/// An identifier, raw where the name is a keyword.
-fn identifier(name: &str, span: Span) -> Ident {
-    match name.strip_prefix("r#") {
-        Some(raw) => Ident::new_raw(raw, span),
-        None => Ident::new(name, span),
     }
 }

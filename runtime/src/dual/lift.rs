@@ -46,19 +46,13 @@ pub trait Integer<T> {
     fn integer(self) -> T;
 }
 
-/// What `%` accepts in a differentiated body: integers.
+/// What `%` may give in a differentiated body: an integer.
 #[diagnostic::on_unimplemented(
     message = "`%` cannot be used on floating-point numbers of a differentiated body",
     label = "the remainder jumps, and has no derivative there",
     note = "angles need no wrapping: coordinates live in ℝ; for a periodic function use `sin` and `cos`"
 )]
-pub trait Remainder<Right = Self> {
-    /// The type of the remainder.
-    type Output;
-
-    /// `self % right`.
-    fn remainder(self, right: Right) -> Self::Output;
-}
+pub trait Remainder {}
 
 /// What rounding and bit methods accept: nothing, since they have no derivative.
 #[diagnostic::on_unimplemented(
@@ -86,10 +80,10 @@ pub fn integer<V: Integer<T>, T>(value: V) -> T {
     value.integer()
 }
 
-/// `left % right` for integers.
+/// `left % right`, given as `remainder(left % right)`, for integers.
 #[inline]
-pub fn remainder<L: Remainder<R>, R>(left: L, right: R) -> L::Output {
-    left.remainder(right)
+pub fn remainder<T: Remainder>(remainder: T) -> T {
+    remainder
 }
 
 macro_rules! floats {
@@ -102,6 +96,7 @@ macro_rules! floats {
             }
         }
 
+        #[diagnostic::do_not_recommend]
         impl<D: Dual<$float>> Number<D> for $float {
             #[inline]
             fn number(self) -> Real<D> {
@@ -120,6 +115,7 @@ macro_rules! floats {
 }
 floats!(f64 f32);
 
+#[diagnostic::do_not_recommend]
 impl<D> Lift<D> for Real<D> {
     type Lifted = Self;
     #[inline]
@@ -128,6 +124,7 @@ impl<D> Lift<D> for Real<D> {
     }
 }
 
+#[diagnostic::do_not_recommend]
 impl<D> Number<D> for Real<D> {
     #[inline]
     fn number(self) -> Self {
@@ -137,6 +134,7 @@ impl<D> Number<D> for Real<D> {
 
 macro_rules! unchanged {
     ($($type:ty)*) => {$(
+        #[diagnostic::do_not_recommend]
         impl<D> Lift<D> for $type {
             type Lifted = Self;
             #[inline]
@@ -158,6 +156,7 @@ unchanged!(i8 i16 i32 i64 i128 isize u8 u16 u32 u64 u128 usize bool);
 
 macro_rules! casts {
     ($from:ty => $($to:ty)*) => {$(
+        #[diagnostic::do_not_recommend]
         impl Integer<$to> for $from {
             #[inline]
             fn integer(self) -> $to {
@@ -185,6 +184,7 @@ macro_rules! integers {
             }
         }
 
+        #[diagnostic::do_not_recommend]
         impl<D: num_dual::DualNum> Number<D> for $int
         where
             D::Primitive: FromInteger<$int>,
@@ -195,29 +195,8 @@ macro_rules! integers {
             }
         }
 
-        impl Remainder for $int {
-            type Output = Self;
-            #[inline]
-            fn remainder(self, right: Self) -> Self {
-                self % right
-            }
-        }
-
-        impl Remainder<&$int> for $int {
-            type Output = Self;
-            #[inline]
-            fn remainder(self, right: &Self) -> Self {
-                self % right
-            }
-        }
-
-        impl Remainder<$int> for &$int {
-            type Output = $int;
-            #[inline]
-            fn remainder(self, right: $int) -> $int {
-                self % right
-            }
-        }
+        #[diagnostic::do_not_recommend]
+        impl Remainder for $int {}
     )*};
 }
 integers!(i8 i16 i32 i64 i128 isize u8 u16 u32 u64 u128 usize);
@@ -229,6 +208,7 @@ pub trait FromInteger<I> {
     fn from_integer(value: I) -> Self;
 }
 
+#[diagnostic::do_not_recommend]
 impl<D, T: Lift<D>, const M: usize> Lift<D> for [T; M] {
     type Lifted = [T::Lifted; M];
     #[inline]
@@ -247,6 +227,7 @@ impl<T: Lower, const M: usize> Lower for [T; M] {
 
 macro_rules! tuples {
     ($($name:ident)+) => {
+        #[diagnostic::do_not_recommend]
         impl<D, $($name: Lift<D>),+> Lift<D> for ($($name,)+) {
             type Lifted = ($($name::Lifted,)+);
             #[inline]

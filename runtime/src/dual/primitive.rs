@@ -1,5 +1,7 @@
 //! The elementary functions of `f64` and `f32` that the dual engine evaluates itself.
 
+use core::cmp::Ordering;
+
 use num_dual::DualNumFloat;
 
 use super::Dual;
@@ -61,6 +63,20 @@ pub trait Primitive: Scalar + DualNumFloat + Dual<Self> {
     fn atan2(self, x: Self) -> Self;
     /// √(self² + y²).
     fn hypot(self, y: Self) -> Self;
+    /// self·a + b, rounded once.
+    fn mul_add(self, a: Self, b: Self) -> Self;
+    /// Half the sum, without overflow on the way.
+    fn midpoint(self, other: Self) -> Self;
+    /// Degrees to radians.
+    fn to_radians(self) -> Self;
+    /// Radians to degrees.
+    fn to_degrees(self) -> Self;
+    /// Order of all numbers, NaN and the two zeros included.
+    fn total_cmp(self, other: Self) -> Ordering;
+    /// Whether it is neither zero, subnormal, infinite nor NaN.
+    fn is_normal(self) -> bool;
+    /// Whether it is subnormal.
+    fn is_subnormal(self) -> bool;
     /// Whether it is NaN.
     fn is_nan(self) -> bool;
     /// Whether it is finite.
@@ -74,15 +90,21 @@ macro_rules! primitive {
         impl Primitive for $float {
             primitive!($float: recip() exp2() exp_m1() ln() log2() log10() ln_1p() asin() acos() atan() sinh() cosh()
                 asinh() acosh() atanh() tan() tanh() exp() sqrt() cbrt() abs() signum() powi(n: i32) powf(n: $float)
-                atan2(x: $float) hypot(y: $float) => $float);
+                atan2(x: $float) hypot(y: $float) mul_add(a: $float, b: $float) midpoint(other: $float)
+                to_radians() to_degrees() => $float);
             primitive!($float: sin_cos() => ($float, $float));
-            primitive!($float: is_nan() is_finite() is_sign_negative() => bool);
+            primitive!($float: is_nan() is_finite() is_normal() is_subnormal() is_sign_negative() => bool);
+
+            #[inline]
+            fn total_cmp(self, other: $float) -> Ordering {
+                $float::total_cmp(&self, &other)
+            }
         }
     )*};
-    ($float:ident: $($name:ident($($argument:ident: $type:ty)?))* => $output:ty) => {$(
+    ($float:ident: $($name:ident($($argument:ident: $type:ty),*))* => $output:ty) => {$(
         #[inline]
-        fn $name(self $(, $argument: $type)?) -> $output {
-            $float::$name(self $(, $argument)?)
+        fn $name(self $(, $argument: $type)*) -> $output {
+            $float::$name(self $(, $argument)*)
         }
     )*};
 }

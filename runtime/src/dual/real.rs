@@ -3,7 +3,7 @@
 use core::cmp::Ordering;
 use core::fmt;
 use core::iter::{Product, Sum};
-use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAssign, Sub, SubAssign};
 
 use num_dual::DualNum;
 
@@ -360,17 +360,14 @@ where
     #[inline]
     #[must_use]
     pub fn hypot(self, other: Self) -> Self {
-        let (x, y) = (Primitive::abs(self.0.primal()), Primitive::abs(other.0.primal()));
+        let (x, y) = (self.0.primal(), other.0.primal());
         let value = Primitive::hypot(x, y);
-        let largest = if x > y { x } else { y };
-        let root = if largest > F::constant(0.0) {
-            let scale = D::real(largest);
-            let (a, b) = (self / scale, other / scale);
-            (a * a + b * b).sqrt() * scale
-        } else {
-            (self * self + other * other).sqrt()
-        };
-        Self(root.0.with_primal(value))
+        let (cosine, sine) = (D::real(x / value), D::real(y / value));
+        // Along the vector and across it, where the value is 0: √(u² + w²) = u + w²/2u up to w⁴.
+        let along = Self((self * cosine + other * sine).0.with_primal(value));
+        let across = Self((other * cosine - self * sine).0.with_primal(F::constant(0.0)));
+        let bend = across * (across / (along + along));
+        Self((along + bend).0.with_primal(value))
     }
 
     /// |x|.
@@ -421,25 +418,58 @@ where
         }
     }
 
-    /// self·a + b, rounded twice.
+    /// self·a + b, rounded once.
     #[inline]
     #[must_use]
     pub fn mul_add(self, a: Self, b: Self) -> Self {
-        self * a + b
+        let value = Primitive::mul_add(self.0.primal(), a.0.primal(), b.0.primal());
+        Self((self * a + b).0.with_primal(value))
+    }
+
+    /// Half the sum, without overflow on the way.
+    #[inline]
+    #[must_use]
+    pub fn midpoint(self, other: Self) -> Self {
+        let half = D::real(F::constant(0.5));
+        let value = Primitive::midpoint(self.0.primal(), other.0.primal());
+        Self((self * half + other * half).0.with_primal(value))
     }
 
     /// Degrees to radians.
     #[inline]
     #[must_use]
     pub fn to_radians(self) -> Self {
-        self * D::real(F::constant(core::f64::consts::PI / 180.0))
+        let radians = self * D::real(F::constant(core::f64::consts::PI / 180.0));
+        Self(radians.0.with_primal(Primitive::to_radians(self.0.primal())))
     }
 
     /// Radians to degrees.
     #[inline]
     #[must_use]
     pub fn to_degrees(self) -> Self {
-        self * D::real(F::constant(180.0 / core::f64::consts::PI))
+        let degrees = self * D::real(F::constant(180.0 / core::f64::consts::PI));
+        Self(degrees.0.with_primal(Primitive::to_degrees(self.0.primal())))
+    }
+
+    /// Order of all values, NaN and the two zeros included.
+    #[inline]
+    #[must_use]
+    pub fn total_cmp(&self, other: &Self) -> Ordering {
+        Primitive::total_cmp(self.0.primal(), other.0.primal())
+    }
+
+    /// Whether the value is neither zero, subnormal, infinite nor NaN.
+    #[inline]
+    #[must_use]
+    pub fn is_normal(self) -> bool {
+        Primitive::is_normal(self.0.primal())
+    }
+
+    /// Whether the value is subnormal.
+    #[inline]
+    #[must_use]
+    pub fn is_subnormal(self) -> bool {
+        Primitive::is_subnormal(self.0.primal())
     }
 
     /// Whether the value is NaN.
@@ -475,6 +505,25 @@ where
     #[must_use]
     pub fn is_sign_negative(self) -> bool {
         Primitive::is_sign_negative(self.0.primal())
+    }
+}
+
+/// x % y = x − y·trunc(x/y). Bodies are refused it by [`Remainder`](super::lift::Remainder); that it exists for all numbers
+/// lets the compiler infer the integers that it is for.
+trait Modulo<F>: Sized {
+    fn modulo(self, right: Self) -> Self;
+}
+
+impl<D, F> Modulo<F> for D
+where
+    F: Primitive,
+    D: Dual<F> + DualNum<Primitive = F>,
+{
+    fn modulo(self, right: Self) -> Self {
+        let (x, y) = (self.primal(), right.primal());
+        let remainder = x % y;
+        let whole = D::from((x - remainder) / y);
+        self.minus(right.times(whole)).with_primal(remainder)
     }
 }
 
@@ -600,6 +649,7 @@ operator! {
     Sub sub SubAssign sub_assign minus
     Mul mul MulAssign mul_assign times
     Div div DivAssign div_assign over
+    Rem rem RemAssign rem_assign modulo
 }
 
 impl<D, F> Neg for Real<D>
@@ -631,9 +681,10 @@ where
     F: Primitive,
     D: Dual<F> + DualNum<Primitive = F>,
 {
+    // From −0, as the standard library does: the sum of nothing, and of zeros, has its sign.
     #[inline]
     fn sum<I: Iterator<Item = Self>>(numbers: I) -> Self {
-        Self(numbers.fold(D::zero(), |sum, x| sum.plus(x.0)))
+        Self(numbers.fold(D::from(F::constant(-0.0)), |sum, x| sum.plus(x.0)))
     }
 }
 

@@ -21,8 +21,8 @@ impl Code<'_> {
             #[inline]
             fn #function(
                 &self,
-                #q: &SVector<#scalar, #n>,
-                #v: &SVector<#scalar, #n>,
+                #q: &Vector,
+                #v: &Vector,
                 #minus: Direction<#scalar>,
                 #plus: Direction<#scalar>,
             ) -> Variations<#scalar, #n> {
@@ -48,10 +48,10 @@ impl Code<'_> {
             #[inline]
             fn force_variation(
                 &self,
-                #q: &SVector<#scalar, #n>,
-                #v: &SVector<#scalar, #n>,
+                #q: &Vector,
+                #v: &Vector,
                 #direction: Direction<#scalar>,
-            ) -> (SVector<#scalar, #n>, SMatrix<#scalar, #n, #n>) {
+            ) -> (Vector, SMatrix<#scalar, #n, #n>) {
                 #statements
                 (#value, #matrix)
             }

@@ -6,14 +6,12 @@
 //! p0      = K_v − (h/2) (K_q + f)
 //! ∂p0/∂v̄  = K_vv + (h/2) K_vq − (h/2) (K_qv + f_v) − (h²/4) (K_qq + f_q)
 //! p1      = K⁻_v + (h/2) (K⁻_q + f)
-//! ∂p1/∂v̄  = K⁻_vv + (h/2) K⁻_vq + (h/2) (K⁻_qv + f_v) + (h²/4) (K⁻_qq + f_q)
 //! ```
 
 use std::collections::BTreeMap;
 
 use super::directions::Along;
 use super::*;
-use crate::rayleigh_system::expand::Kernel;
 
 impl Code<'_> {
     /// `step_kernel` and `momenta` of a rule that sees each segment at one point; the others sum over their points.
@@ -43,23 +41,15 @@ impl Code<'_> {
         let p0 = self.with_force(&before.gradient, minus, force);
         let p1 = self.with_force(&after.gradient, plus, force);
         let p0_by_v = self.by_velocity(&before, minus, plus, &by_v);
-        let p1_by_v = self.by_velocity(&after, plus, plus, &by_v);
 
         let line = self.code(&[&p0[..], &p0_by_v].concat());
         let [value, matrix] = self.parts(&line.outputs, [Shape::Vector, Shape::Matrix]);
         let step_kernel = self.at_midpoint(&line, quote!(StepKernel { p0: #value, matrix: #matrix }));
 
-        let line = self.code(&[&p0[..], &p0_by_v, &p1, &p1_by_v].concat());
-        let [value, matrix, after, after_by_v] =
-            self.parts(&line.outputs, [Shape::Vector, Shape::Matrix, Shape::Vector, Shape::Matrix]);
-        let kernel = quote!(StepKernel { p0: #value, matrix: #matrix });
-        let outgoing = quote!(::dalembert::Outgoing { p1: #after, by_v: #after_by_v });
-        let step_evaluation = self.at_midpoint(&line, quote!((#kernel, Some(#outgoing))));
-
         let line = self.code(&[p0, p1].concat());
         let [p0, p1] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
         let momenta = self.at_midpoint(&line, quote!(Momenta { p0: #p0, p1: #p1 }));
-        Some(Kernel { step_kernel, step_evaluation: Some(step_evaluation), momenta })
+        Some(Kernel { step_kernel, momenta })
     }
 
     /// L ± (h/2) R.

@@ -1,0 +1,199 @@
+//! The Hamilton–Jacobi problem with friction: characteristics, sections, caustics.
+//!
+//! ```text
+//! cargo run --release --example hamilton_jacobi
+//! ```
+//!
+//! Above, the damped oscillator m q̈ + r q̇ + k q = 0 by the midpoint rule, whose complete solution S_k = ½ s_k q² + λ_k q is
+//! known in closed form: all characteristics pass through one point. Below, a damped pendulum released at rest: the caustic
+//! is a curve with a cusp, and the carried section folds over. Prints what holds of the paper's equations as printed and of
+//! the corrected ones.
+
+use anyhow::Result;
+use dalembert::hamilton_jacobi::{Caustic, Characteristic, HamiltonJacobi};
+use dalembert::{Midpoint, ScalarField, rayleigh_system};
+use dalembert_examples::picture::{self, Corner, Curve, Mark, Panel, RGBColor};
+use nalgebra::{SMatrix, SVector, vector};
+
+#[rayleigh_system]
+fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+    (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+}
+
+#[rayleigh_system]
+fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
+}
+
+/// S_k = ½ s q² + λ q + c.
+struct Quadratic {
+    s: f64,
+    lambda: f64,
+    constant: f64,
+}
+
+impl ScalarField<1> for Quadratic {
+    type Scalar = f64;
+
+    fn value(&self, q: &SVector<f64, 1>) -> f64 {
+        0.5 * self.s * q[0] * q[0] + self.lambda * q[0] + self.constant
+    }
+
+    fn gradient(&self, q: &SVector<f64, 1>) -> SVector<f64, 1> {
+        vector![self.s * q[0] + self.lambda]
+    }
+
+    fn hessian(&self, _q: &SVector<f64, 1>) -> SMatrix<f64, 1, 1> {
+        SMatrix::from_element(self.s)
+    }
+}
+
+/// The oscillator's S_0, …, S_K with the parameters λ_0 = `lambda` and ϕ_0 = `phase`.
+fn complete_solution(system: &Oscillator, h: f64, phase: f64, lambda: f64, steps: usize) -> Vec<Quadratic> {
+    let Oscillator { m, k, r } = *system;
+    let (alpha, beta, rho) = (m / h - k * h / 4.0, m / h + k * h / 4.0, r / 2.0);
+    let omega = (k * m - rho * rho).sqrt();
+    let shrinkage = ((beta - rho) / (beta + rho)).sqrt();
+    let angle = |k: usize| phase + k as f64 * omega.atan2(alpha);
+    let mut constant = 0.0;
+    (0..=steps)
+        .map(|k| {
+            let s = |k: usize| -rho - omega * angle(k).tan();
+            let lambda = |k: usize| lambda * shrinkage.powi(k as i32) * phase.cos() / angle(k).cos();
+            let function = Quadratic { s: s(k), lambda: lambda(k), constant };
+            let mu = lambda(k) / (beta + rho);
+            constant += 0.5 * (alpha - s(k + 1)) * mu * mu - lambda(k + 1) * mu;
+            function
+        })
+        .collect()
+}
+
+/// `count` numbers from `from` to `to`.
+fn spread(from: f64, to: f64, count: usize) -> Vec<f64> {
+    (0..count).map(|i| from + (to - from) * i as f64 / (count - 1) as f64).collect()
+}
+
+fn main() -> Result<()> {
+    let (h, steps) = (0.25, 20);
+    let system = Oscillator { m: 1.0, k: 1.0, r: 0.5 };
+    let theory = HamiltonJacobi::new(&system, Midpoint, h);
+    let family = complete_solution(&system, h, -0.4, 0.7, steps);
+    let carry = |q: f64| theory.carry(&family[0], &vector![q], steps);
+    let fan = spread(-2.0, 2.0, 17).into_iter().map(carry).collect::<Result<Vec<_>, _>>()?;
+    println!("Damped oscillator, m = k = 1, r = 1/2, h = 1/4, closed-form S_k, k = 0 … {steps}\n");
+    let samples = spread(-2.0, 2.0, 9).into_iter().map(|q| vector![q]).collect::<Vec<_>>();
+    println!("{}", theory.check_generating_functions(&family, &samples)?);
+    println!("{}", theory.characteristics_report(&fan));
+    let trajectory: Vec<_> = fan[12].states.iter().map(|state| state.q).collect();
+    println!("The same S_k in the equations as the paper prints them, on the characteristic from q = 1:\n");
+    println!("{}", theory.as_printed(&family, &trajectory)?);
+    println!("{}", theory.along_trajectory(&trajectory)?);
+    println!("{}", theory.hamilton_equations(&trajectory));
+
+    let (rest, swings) = (Quadratic { s: 0.0, lambda: 0.0, constant: 0.0 }, 40);
+    let swinging = Pendulum { r: 0.1 };
+    let swing = HamiltonJacobi::new(&swinging, Midpoint, 0.1);
+    let swing_carry = |q: f64| swing.carry(&rest, &vector![q], swings);
+    let swing_fan = spread(-2.9, 2.9, 41).into_iter().map(swing_carry).collect::<Result<Vec<_>, _>>()?;
+    println!("Damped pendulum, r = 1/10, h = 1/10, released at rest\n");
+    println!("{}", swing.characteristics_report(&swing_fan));
+    let dense = spread(-2.9, 2.9, 401).into_iter().map(swing_carry).collect::<Result<Vec<_>, _>>()?;
+
+    // Lines of the sections in closed form, over the range that the fan covers at that k.
+    let lines = [("k = 0", 0), ("k = 4", 4), ("k = 8", 8), ("k = 9", 9), ("k = 14", 14)];
+    let carried = lines.map(|(_, k)| section_points(&fan, k));
+    let lines = lines.map(|(label, k)| {
+        let on_line = |characteristic: &Characteristic<f64, 1>| {
+            let q = characteristic.states[k].q;
+            (q[0], family[k].gradient(&q)[0])
+        };
+        (label, [&fan[0], &fan[fan.len() - 1]].map(on_line).to_vec())
+    });
+    let folds = [("k = 0", 0), ("k = 10", 10), ("k = 16", 16), ("k = 20", 20), ("k = 30", 30)]
+        .map(|(label, k)| (label, section_points(&dense, k)));
+    let path = picture::write(
+        "hamilton_jacobi",
+        [1300, 1000],
+        2,
+        &[
+            fan_panel("Damped oscillator: characteristics", h, &fan, &caustics(&fan)),
+            section_panel(
+                "Its sections: carried points on closed-form lines",
+                lines,
+                carried,
+                Corner::LowerLeft,
+            ),
+            fan_panel("Damped pendulum from rest: characteristics", 0.1, &swing_fan, &caustics(&dense)),
+            section_panel(
+                "Its sections fold over beyond the caustic",
+                folds,
+                Default::default(),
+                Corner::UpperRight,
+            ),
+        ],
+    )?;
+    println!("picture: {}", path.display());
+    Ok(())
+}
+
+fn caustics(fan: &[Characteristic<f64, 1>]) -> Vec<Caustic<1>> {
+    fan.iter().flat_map(Characteristic::caustics).collect()
+}
+
+/// (q_k, p_k) on every characteristic.
+fn section_points(fan: &[Characteristic<f64, 1>], k: usize) -> Vec<(f64, f64)> {
+    fan.iter().map(|characteristic| (characteristic.states[k].q[0], characteristic.states[k].p[0])).collect()
+}
+
+/// Colours that readers with any colour vision tell apart (Okabe and Ito, 2008).
+const COLOURS: [RGBColor; 5] = [
+    RGBColor(0, 0, 0),
+    RGBColor(0, 114, 178),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+];
+const CAUSTIC: RGBColor = RGBColor(213, 94, 0);
+
+/// The characteristics over time, the caustics on them marked.
+fn fan_panel<'a>(
+    title: &'a str,
+    h: f64,
+    fan: &[Characteristic<f64, 1>],
+    caustics: &[Caustic<1>],
+) -> Panel<'a> {
+    let mut curves: Vec<_> = fan
+        .iter()
+        .enumerate()
+        .map(|(index, characteristic)| Curve {
+            label: if index == 0 { "characteristics" } else { "" },
+            colour: COLOURS[1],
+            mark: Mark::Line(1),
+            points: (0..characteristic.states.len())
+                .map(|k| (k as f64 * h, characteristic.states[k].q[0]))
+                .collect(),
+        })
+        .collect();
+    curves.push(Curve {
+        label: "caustic, det Q = 0",
+        colour: CAUSTIC,
+        mark: Mark::Disc,
+        points: caustics.iter().map(|c| ((c.step as f64 + c.fraction) * h, c.q[0])).collect(),
+    });
+    Panel { title, x: "time kh", y: "configuration q", legend: Corner::UpperRight, curves }
+}
+
+/// Sections in the phase plane, and on them the points of a carried fan.
+fn section_panel<'a>(
+    title: &'a str,
+    lines: [(&'a str, Vec<(f64, f64)>); 5],
+    carried: [Vec<(f64, f64)>; 5],
+    legend: Corner,
+) -> Panel<'a> {
+    let mut curves = Vec::new();
+    for (((label, points), carried), colour) in lines.into_iter().zip(carried).zip(COLOURS) {
+        curves.push(Curve { label, colour, mark: Mark::Line(2), points });
+        curves.push(Curve { label: "", colour, mark: Mark::Disc, points: carried });
+    }
+    Panel { title, x: "configuration q", y: "momentum p", legend, curves }
+}

@@ -1,0 +1,135 @@
+//! The damped oscillator m q̈ + r q̇ + k q = 0: the variational midpoint rule, explicit Euler and the classical
+//! Runge–Kutta method against the exact solution.
+//!
+//! Position, momentum, energy and phase plane as in figure 3 of the paper. With m = k = 1 all quantities are in units of
+//! the undamped oscillator: time in √(m/k).
+//!
+//! ```text
+//! cargo run --release --example oscillator [picture.svg]
+//! ```
+
+use std::iter::once;
+use std::path::PathBuf;
+
+use anyhow::Result;
+use dalembert::{Midpoint, State, Trajectory, rayleigh_system};
+use dalembert_examples::baseline::{self, Method};
+use dalembert_examples::picture::{self, Corner, Curve, Mark, Panel, RGBColor, colour};
+use nalgebra::vector;
+
+/// L and R of a mass on a spring with linear drag.
+#[rayleigh_system]
+fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+    (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+}
+
+const SYSTEM: Oscillator = Oscillator { m: 1.0, k: 1.0, r: 0.5 };
+const H: f64 = 0.25;
+const STEPS: usize = 64;
+
+/// The solution with q = 0 and q̇ = 1 at t = 0.
+fn exact(t: f64) -> State<f64, 1> {
+    let Oscillator { m, k, r } = SYSTEM;
+    let (a, b) = (r / (2.0 * m), (4.0 * k * m - r * r).sqrt() / (2.0 * m));
+    let (sin, cos) = (b * t).sin_cos();
+    let decay = (-a * t).exp();
+    State { q: vector![decay * sin / b], p: vector![m * decay * (cos - a / b * sin)] }
+}
+
+fn main() -> Result<()> {
+    let start = exact(0.0);
+    let midpoint = Trajectory::new(&SYSTEM, Midpoint, H, start).map(|step| Ok(step?.state));
+    let euler = baseline::states(&SYSTEM, Method::Euler, H, start)?;
+    let runge_kutta = baseline::states(&SYSTEM, Method::RungeKutta4, H, start)?;
+    let motions = [
+        Motion::of(euler, "explicit Euler", colour::EULER, Mark::Triangle)?,
+        Motion::of(runge_kutta, "Runge–Kutta 4", colour::RUNGE_KUTTA, Mark::Circle)?,
+        Motion::of(midpoint, "variational midpoint", colour::VARIATIONAL, Mark::Disc)?,
+    ];
+
+    println!("Largest error over {STEPS} steps of h = {H}, dimensionless");
+    println!("                       position   momentum     energy");
+    for motion in &motions {
+        let error = |quantity: fn(&State<f64, 1>) -> f64| {
+            let errors =
+                motion.states.iter().map(|(t, state)| (quantity(state) - quantity(&exact(*t))).abs());
+            errors.fold(0.0, f64::max)
+        };
+        println!(
+            "{:20} {:10.2e} {:10.2e} {:10.2e}",
+            motion.method,
+            error(|state| state.q[0]),
+            error(|state| state.p[0]),
+            error(energy),
+        );
+    }
+    println!("\nPicture: {}", draw(&motions)?.display());
+    Ok(())
+}
+
+/// The states of a method with their times, from t = 0.
+struct Motion {
+    method: &'static str,
+    colour: RGBColor,
+    mark: Mark,
+    states: Vec<(f64, State<f64, 1>)>,
+}
+
+impl Motion {
+    fn of(
+        states: impl Iterator<Item = Result<State<f64, 1>>>,
+        method: &'static str,
+        colour: RGBColor,
+        mark: Mark,
+    ) -> Result<Self> {
+        let times = (0..=STEPS).map(|step| step as f64 * H);
+        let states = once(Ok(exact(0.0))).chain(states);
+        let states = times.zip(states).map(|(t, state)| Ok((t, state?))).collect::<Result<_>>()?;
+        Ok(Self { method, colour, mark, states })
+    }
+}
+
+fn energy(state: &State<f64, 1>) -> f64 {
+    let Oscillator { m, k, .. } = SYSTEM;
+    0.5 * state.p[0] * state.p[0] / m + 0.5 * k * state.q[0] * state.q[0]
+}
+
+fn draw(motions: &[Motion]) -> Result<PathBuf> {
+    const TIME: &str = "time t (dimensionless)";
+    let panels = [
+        panel("Position", [TIME, "q (dimensionless)"], Corner::UpperRight, motions, |t, state| {
+            (t, state.q[0])
+        }),
+        panel("Momentum", [TIME, "p (dimensionless)"], Corner::UpperRight, motions, |t, state| {
+            (t, state.p[0])
+        }),
+        panel("Energy", [TIME, "E (dimensionless)"], Corner::UpperRight, motions, |t, state| {
+            (t, energy(state))
+        }),
+        panel(
+            "Phase plane",
+            ["q (dimensionless)", "v (dimensionless)"],
+            Corner::UpperLeft,
+            motions,
+            |_, state| (state.q[0], state.p[0] / SYSTEM.m),
+        ),
+    ];
+    picture::write("oscillator", [1600, 1100], 2, &panels)
+}
+
+fn panel<'a>(
+    title: &'a str,
+    [x, y]: [&'a str; 2],
+    legend: Corner,
+    motions: &'a [Motion],
+    point: fn(f64, &State<f64, 1>) -> (f64, f64),
+) -> Panel<'a> {
+    let fine = (0..=20 * STEPS).map(|step| step as f64 * H / 20.0);
+    let curve = |label, colour, mark, points| Curve { label, colour, mark, points };
+    let exact = curve("exact", colour::REFERENCE, Mark::Line(2), fine.map(|t| point(t, &exact(t))).collect());
+    let methods = motions.iter().map(|motion| {
+        let points = motion.states.iter().map(|(t, state)| point(*t, state));
+        curve(motion.method, motion.colour, motion.mark, points.collect())
+    });
+    Panel { title, x, y, legend, curves: once(exact).chain(methods).collect() }
+}

@@ -1,0 +1,73 @@
+//! A pendulum with linear drag, released near the top: the discrete points of the variational midpoint rule on the
+//! continuous curve, as in figure 1 of the paper.
+//!
+//! Lengths in l, times in √(l/g), masses in m: all quantities are dimensionless.
+//!
+//! ```text
+//! cargo run --release --example pendulum [picture.svg]
+//! ```
+
+use std::iter::once;
+
+use anyhow::Result;
+use dalembert::{Midpoint, State, Trajectory, rayleigh_system};
+use dalembert_examples::baseline::{self, Method};
+use dalembert_examples::picture::{self, Corner, Curve, Mark, Panel, colour};
+
+/// L and R of a pendulum of unit mass and length; q is the angle from the lowest point.
+#[rayleigh_system]
+fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
+}
+
+const H: f64 = 0.2;
+const STEPS: usize = 150;
+/// Points of the continuous curve between two discrete ones.
+const FINE: usize = 10;
+
+fn main() -> Result<()> {
+    let system = Pendulum { r: 0.2 };
+    let start = State::from_velocity(&system, [3.0], [0.0])?;
+
+    let steps = Trajectory::new(&system, Midpoint, H, start).take(STEPS);
+    let discrete = once(Ok(start)).chain(steps.map(|step| Ok(step?.state))).collect::<Result<Vec<_>>>()?;
+    let states = baseline::states(&system, Method::DormandPrince853(1e-13), H / FINE as f64, start)?;
+    let continuous = once(Ok(start)).chain(states).take(FINE * STEPS + 1).collect::<Result<Vec<_>>>()?;
+
+    println!("Angle q and energy E, h = {H}, dimensionless; the discrete points and the continuous curve");
+    println!("     t          q   on curve     error          E   on curve     error");
+    for k in (0..=STEPS).step_by(STEPS / 10) {
+        let [point, on_curve] = [discrete[k], continuous[FINE * k]];
+        let [e, e_on_curve] = [point.energy(&system)?, on_curve.energy(&system)?];
+        println!(
+            "{:6.1} {:10.6} {:10.6} {:9.1e} {e:10.6} {e_on_curve:10.6} {:9.1e}",
+            k as f64 * H,
+            point.q[0],
+            on_curve.q[0],
+            point.q[0] - on_curve.q[0],
+            e - e_on_curve,
+        );
+    }
+
+    let panel = |title, x, y, legend, point: fn(f64, &State<f64, 1>) -> (f64, f64)| {
+        let curve = |label, colour, mark, h: f64, states: &[State<f64, 1>]| {
+            let points = states.iter().enumerate().map(|(k, state)| point(k as f64 * h, state)).collect();
+            Curve { label, colour, mark, points }
+        };
+        let curves = vec![
+            curve("continuous", colour::REFERENCE, Mark::Line(2), H / FINE as f64, &continuous),
+            curve("discrete, h = 0.2", colour::VARIATIONAL, Mark::Disc, H, &discrete),
+        ];
+        Panel { title, x, y, legend, curves }
+    };
+    let panels = [
+        panel("Angle", "time t (dimensionless)", "q (radians)", Corner::UpperRight, |t, state| {
+            (t, state.q[0])
+        }),
+        panel("Phase plane", "q (radians)", "p (dimensionless)", Corner::UpperRight, |_, state| {
+            (state.q[0], state.p[0])
+        }),
+    ];
+    println!("\nPicture: {}", picture::write("pendulum", [1600, 600], 2, &panels)?.display());
+    Ok(())
+}

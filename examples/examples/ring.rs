@@ -1,0 +1,244 @@
+//! A particle in a ring potential with weak drag, over 10 000 steps: energy and angular momentum by the variational
+//! midpoint rule, by the classical Runge–Kutta method at the same step size, and by an accurate reference.
+//!
+//! Marsden and West, Discrete mechanics and variational integrators (2001), example 3.2.3. All quantities are
+//! dimensionless.
+//!
+//! ```text
+//! cargo run --release --example ring [picture.svg]
+//! ```
+
+use std::iter::once;
+use std::path::PathBuf;
+
+use anyhow::Result;
+use dalembert::{Discrete, Lagrangian, Midpoint, Rayleigh, State, Step, Trajectory, rayleigh_system};
+use dalembert_examples::baseline::{self, Method};
+use dalembert_examples::picture::{self, Corner, Curve, Mark, Panel, colour};
+use indicatif::ProgressBar;
+
+/// A particle of unit mass in the potential s(s − 1)², s = |q|², with isotropic drag.
+pub struct Ring {
+    /// Coefficient of the drag.
+    pub k: f64,
+}
+
+#[rayleigh_system]
+impl Ring {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let s = q[0] * q[0] + q[1] * q[1];
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2)
+    }
+
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        0.5 * self.k * (v[0] * v[0] + v[1] * v[1])
+    }
+}
+
+/// The step size.
+pub const H: f64 = 0.2;
+/// The number of steps: T = 2000.
+pub const STEPS: usize = 10_000;
+
+fn main() -> Result<()> {
+    let ring = Ring { k: 1e-3 };
+    let start = start(&ring)?;
+
+    // Drawn on a terminal only.
+    let bar = ProgressBar::new(4 * STEPS as u64);
+    let (midpoint, solver) = variational_midpoint(&ring, start, &bar)?;
+    let runge_kutta = standard_method(&ring, Method::RungeKutta4, start, &bar)?;
+    let reference = standard_method(&ring, Method::DormandPrince853(1e-13), start, &bar)?;
+    let looser = standard_method(&ring, Method::DormandPrince853(1e-11), start, &bar)?;
+    bar.finish_and_clear();
+
+    print_energy(&midpoint, &runge_kutta, &reference);
+    print_balance(&midpoint, &runge_kutta, &reference);
+    print_angular_momentum(&ring, &midpoint, &runge_kutta, &reference);
+    print_quality(&solver, &reference, &looser);
+    println!("\nPicture: {}", draw(&midpoint, &runge_kutta, &reference)?.display());
+    Ok(())
+}
+
+/// q = (0, 1.155…) and v = (½, 0): E = 11/40.
+pub fn start(ring: &Ring) -> Result<State<f64, 2>> {
+    Ok(State::from_velocity(ring, [0.0, 1.15549918674982], [0.5, 0.0])?)
+}
+
+/// A motion at t = 0, h, 2h, …: one entry for each time.
+#[derive(Default)]
+pub struct Motion {
+    /// E = v·∂L/∂v − L at the node (q, p).
+    pub energy: Vec<f64>,
+    /// E on the segment that ends at the node, taken at its midpoint and mean velocity; at t = 0 that of the node.
+    pub segment_energy: Vec<f64>,
+    /// J = q × p.
+    pub angular_momentum: Vec<f64>,
+    /// What drag takes in unit time, v·∂R/∂v.
+    pub drag_power: Vec<f64>,
+}
+
+impl Motion {
+    fn of(ring: &Ring, states: &[State<f64, 2>]) -> Result<Self> {
+        let mut motion = Self::default();
+        let mut previous = None;
+        for state in states {
+            let v = state.velocity(ring)?;
+            let energy = ring.energy(&state.q, &v);
+            let segment_energy = previous.map_or(energy, |q0| ring.segment_energy(q0, &state.q, H));
+            motion.energy.push(energy);
+            motion.segment_energy.push(segment_energy);
+            motion.angular_momentum.push(state.q.perp(&state.p));
+            motion.drag_power.push(v.dot(&ring.rayleigh_gradient(&state.q, &v).d2));
+            previous = Some(&state.q);
+        }
+        Ok(motion)
+    }
+
+    /// What was lost from the first state to the last.
+    pub fn energy_lost(&self) -> f64 {
+        self.energy[0] - self.energy[STEPS]
+    }
+
+    /// What drag took of it, ∫ v·∂R/∂v dt by the trapezoidal rule.
+    pub fn drag_work(&self) -> f64 {
+        self.drag_power.windows(2).map(|ends| 0.5 * H * (ends[0] + ends[1])).sum()
+    }
+}
+
+/// How the solver of the implicit step fared.
+#[derive(Default)]
+pub struct Solver {
+    /// Newton iterations, all steps together.
+    pub iterations: u32,
+    /// Steps whose Newton step had to be shortened.
+    pub damped: u32,
+    /// The largest residual, in units of its round-off floor.
+    pub worst_residual: f64,
+}
+
+/// The motion by the variational midpoint rule.
+pub fn variational_midpoint(
+    ring: &Ring,
+    start: State<f64, 2>,
+    bar: &ProgressBar,
+) -> Result<(Motion, Solver)> {
+    let (mut states, mut solver) = (vec![start], Solver::default());
+    for step in Trajectory::new(ring, Midpoint, H, start).take(STEPS) {
+        let Step { state, report, .. } = step?;
+        states.push(state);
+        solver.iterations += report.iterations;
+        solver.damped += u32::from(report.damped > 0);
+        solver.worst_residual = solver.worst_residual.max(report.residual / report.floor);
+        bar.inc(1);
+    }
+    Ok((Motion::of(ring, &states)?, solver))
+}
+
+/// The motion by a method that knows nothing of L and R but the equations of motion.
+pub fn standard_method(
+    ring: &Ring,
+    method: Method,
+    start: State<f64, 2>,
+    bar: &ProgressBar,
+) -> Result<Motion> {
+    let states = baseline::states(ring, method, H, start)?.take(STEPS);
+    let states: Vec<_> = once(Ok(start)).chain(bar.wrap_iter(states)).collect::<Result<_>>()?;
+    Motion::of(ring, &states)
+}
+
+fn time(step: usize) -> f64 {
+    step as f64 * H
+}
+
+/// The steps that the tables show.
+fn rows() -> impl Iterator<Item = usize> {
+    (0..=STEPS).step_by(STEPS / 10)
+}
+
+fn print_energy(midpoint: &Motion, runge_kutta: &Motion, reference: &Motion) {
+    println!("Energy, h = {H}; errors are against the reference, segments end at t. All is dimensionless.");
+    println!("     t  reference   midpoint     error    segment       RK4     error");
+    for k in rows() {
+        let [exact, node, rk4] = [reference, midpoint, runge_kutta].map(|motion| motion.energy[k]);
+        let segment = midpoint.segment_energy[k];
+        println!(
+            "{:6} {exact:10.6} {node:10.6} {:9.1e} {segment:10.6} {rk4:9.6} {:9.1e}",
+            time(k),
+            node - exact,
+            rk4 - exact,
+        );
+    }
+}
+
+fn print_balance(midpoint: &Motion, runge_kutta: &Motion, reference: &Motion) {
+    println!(
+        "\nWhere the energy went    lost      to drag  to the method (reference: to the sum over states)"
+    );
+    for (name, motion) in [("midpoint", midpoint), ("RK4", runge_kutta), ("reference", reference)] {
+        let (lost, work) = (motion.energy_lost(), motion.drag_work());
+        println!("{name:20} {lost:11.7} {work:11.7} {:11.1e}", lost - work);
+    }
+}
+
+fn print_angular_momentum(ring: &Ring, midpoint: &Motion, runge_kutta: &Motion, reference: &Motion) {
+    println!("\nAngular momentum; errors are against the exact J(t) = J(0) exp(−k t).");
+    println!("     t      exact   midpoint     error       RK4     error  reference's error");
+    for k in rows() {
+        let exact = reference.angular_momentum[0] * (-ring.k * time(k)).exp();
+        let [node, rk4, accurate] =
+            [midpoint, runge_kutta, reference].map(|motion| motion.angular_momentum[k]);
+        println!(
+            "{:6} {exact:10.6} {node:10.6} {:9.1e} {rk4:9.6} {:9.1e} {:18.1e}",
+            time(k),
+            node - exact,
+            rk4 - exact,
+            accurate - exact,
+        );
+    }
+}
+
+fn print_quality(solver: &Solver, reference: &Motion, looser: &Motion) {
+    let uncertainty = difference(&reference.energy, &looser.energy).fold(0.0, |a: f64, b| a.max(b.abs()));
+    println!(
+        "\nMidpoint: {:.2} Newton iterations a step, {} of {STEPS} steps damped, worst residual {:.1} × round-off.",
+        f64::from(solver.iterations) / STEPS as f64,
+        solver.damped,
+        solver.worst_residual,
+    );
+    println!("Reference: DOP853 to 1e-13; to 1e-11 its energy differs by at most {uncertainty:.0e}.");
+}
+
+fn difference(a: &[f64], b: &[f64]) -> impl Iterator<Item = f64> {
+    a.iter().zip(b).map(|(a, b)| a - b)
+}
+
+/// Energy and angular momentum above, their errors below.
+fn draw(midpoint: &Motion, runge_kutta: &Motion, reference: &Motion) -> Result<PathBuf> {
+    let panel = |title, y, legend, quantity: &dyn Fn(&Motion) -> Vec<f64>| {
+        let curve = |label, colour, width, motion| {
+            let points =
+                quantity(motion).into_iter().enumerate().map(|(k, value)| (time(k), value)).collect();
+            Curve { label, colour, mark: Mark::Line(width), points }
+        };
+        let curves = vec![
+            curve("reference", colour::REFERENCE, 3, reference),
+            curve("Runge–Kutta 4", colour::RUNGE_KUTTA, 2, runge_kutta),
+            curve("variational midpoint", colour::VARIATIONAL, 1, midpoint),
+        ];
+        Panel { title, x: "time t (dimensionless)", y, legend, curves }
+    };
+    let panels = [
+        panel("Energy, h = 0.2", "E (dimensionless)", Corner::UpperRight, &|motion| motion.energy.clone()),
+        panel("Angular momentum, h = 0.2", "J (dimensionless)", Corner::LowerRight, &|motion| {
+            motion.angular_momentum.clone()
+        }),
+        panel("Error of the energy", "E − reference", Corner::LowerRight, &|motion| {
+            difference(&motion.energy, &reference.energy).collect()
+        }),
+        panel("Error of the angular momentum", "J − reference", Corner::UpperRight, &|motion| {
+            difference(&motion.angular_momentum, &reference.angular_momentum).collect()
+        }),
+    ];
+    picture::write("ring", [1600, 1100], 2, &panels)
+}

@@ -1,0 +1,112 @@
+//! The ring system without the macro: what `#[rayleigh_system]` writes, with derivatives taken by hand.
+//!
+//! ```text
+//! L = ½|v|² − V,  V = s(s − 1)²,  s = |q|²        R = ½ k |v|²
+//! ∂V/∂q = 2V′ q,  ∂²V/∂q² = 2V′ I + 4V″ q qᵀ      V′ = (s − 1)(3s − 1),  V″ = 6s − 4
+//! ```
+
+use dalembert::{
+    Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, DisplacementRule,
+    Lagrangian, Midpoint, Momenta, Rayleigh, StepKernel,
+};
+use nalgebra::{Matrix2, Vector2};
+
+/// A particle in the ring potential with isotropic drag, as in the scene `ring`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RingByHand {
+    /// Coefficient of the drag.
+    pub k: f64,
+}
+
+impl Lagrangian<2> for RingByHand {
+    type Scalar = f64;
+
+    fn lagrangian(&self, q: &Vector2<f64>, v: &Vector2<f64>) -> f64 {
+        let s = q.norm_squared();
+        0.5 * v.norm_squared() - s * (s - 1.0).powi(2)
+    }
+
+    fn lagrangian_derivatives(&self, q: &Vector2<f64>, v: &Vector2<f64>) -> Derivatives<f64, 2> {
+        let s = q.norm_squared();
+        let (first, second) = ((s - 1.0) * (3.0 * s - 1.0), 6.0 * s - 4.0);
+        Derivatives {
+            value: self.lagrangian(q, v),
+            d1: -2.0 * first * q,
+            d2: *v,
+            d11: -2.0 * first * Matrix2::identity() - 4.0 * second * q * q.transpose(),
+            d12: Matrix2::zeros(),
+            d22: Matrix2::identity(),
+        }
+    }
+}
+
+impl Rayleigh<2> for RingByHand {
+    fn rayleigh(&self, _q: &Vector2<f64>, v: &Vector2<f64>) -> f64 {
+        0.5 * self.k * v.norm_squared()
+    }
+
+    fn rayleigh_derivatives(&self, q: &Vector2<f64>, v: &Vector2<f64>) -> Derivatives<f64, 2> {
+        Derivatives {
+            value: self.rayleigh(q, v),
+            d2: self.k * v,
+            d22: self.k * Matrix2::identity(),
+            ..Derivatives::zero()
+        }
+    }
+}
+
+/// The rule supplies the formulas; a system sums one term for each of L and R.
+impl Discrete<Midpoint, 2> for RingByHand {
+    fn discrete_lagrangian(&self, q0: &Vector2<f64>, q1: &Vector2<f64>, h: f64) -> f64 {
+        Midpoint::discrete_lagrangian(self, q0, q1, h)
+    }
+
+    fn discrete_lagrangian_derivatives(
+        &self,
+        q0: &Vector2<f64>,
+        q1: &Vector2<f64>,
+        h: f64,
+    ) -> Derivatives<f64, 2> {
+        Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
+    }
+
+    fn discrete_force(&self, q0: &Vector2<f64>, q1: &Vector2<f64>, h: f64) -> DiscreteForce<f64, 2> {
+        Midpoint::rayleigh_force(self, q0, q1, h)
+    }
+
+    fn discrete_force_derivatives(
+        &self,
+        q0: &Vector2<f64>,
+        q1: &Vector2<f64>,
+        h: f64,
+    ) -> DiscreteForceDerivatives<f64, 2> {
+        Midpoint::rayleigh_force_derivatives(self, q0, q1, h)
+    }
+
+    fn step_kernel(&self, q0: &Vector2<f64>, v: &Vector2<f64>, h: f64) -> StepKernel<f64, 2> {
+        Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0, v, h)
+    }
+
+    fn momenta(&self, q0: &Vector2<f64>, v: &Vector2<f64>, h: f64) -> Momenta<f64, 2> {
+        Midpoint::lagrangian_momenta(self, q0, v, h) + Midpoint::rayleigh_momenta(self, q0, v, h)
+    }
+
+    fn segment_energy(&self, q0: &Vector2<f64>, q1: &Vector2<f64>, h: f64) -> f64 {
+        Midpoint::segment_energy(self, q0, q1, h)
+    }
+}
+
+impl DiscreteRayleigh<Midpoint, 2> for RingByHand {
+    fn discrete_rayleigh(&self, q0: &Vector2<f64>, q1: &Vector2<f64>, h: f64) -> f64 {
+        Midpoint::discrete_rayleigh(self, q0, q1, h)
+    }
+
+    fn discrete_rayleigh_derivatives(
+        &self,
+        q0: &Vector2<f64>,
+        q1: &Vector2<f64>,
+        h: f64,
+    ) -> Derivatives<f64, 2> {
+        Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
+    }
+}

@@ -1,0 +1,75 @@
+//! The figures of the scene `ring` against computations that share no code with it.
+
+#[path = "../examples/ring.rs"]
+#[expect(dead_code, reason = "of the scene, what it computes is tested here, not what it prints")]
+mod ring;
+
+use dalembert_examples::baseline::Method;
+use indicatif::ProgressBar;
+use ring::{H, Motion, Ring, STEPS, start};
+
+const RING: Ring = Ring { k: 1e-3 };
+
+fn variational_midpoint() -> Motion {
+    ring::variational_midpoint(&RING, start(&RING).unwrap(), &ProgressBar::hidden()).unwrap().0
+}
+
+fn standard_method(method: Method) -> Motion {
+    ring::standard_method(&RING, method, start(&RING).unwrap(), &ProgressBar::hidden()).unwrap()
+}
+
+fn reference() -> Motion {
+    standard_method(Method::DormandPrince853(1e-13))
+}
+
+/// E(2000) of the exact motion, by Taylor series of order 24 in steps of 0.1 with 30 digits (mpmath).
+const EXACT_ENERGY: f64 = 0.016291413218940473;
+/// E(2000) by the classical Runge–Kutta method and by the variational midpoint rule, h = 0.2, both written out in NumPy.
+const RUNGE_KUTTA_ENERGY: f64 = 0.0030525408796330603;
+const MIDPOINT_ENERGY: f64 = 0.017815102495656848;
+
+#[test]
+fn the_methods_end_with_the_energies_of_independent_computations() {
+    let [reference, runge_kutta, midpoint] =
+        [reference(), standard_method(Method::RungeKutta4), variational_midpoint()]
+            .map(|motion| motion.energy[STEPS]);
+    // Rounding of 10⁴ steps, and for the reference its tolerance, over a motion whose phase errors grow with t.
+    assert!((reference - EXACT_ENERGY).abs() < 1e-12, "{reference}");
+    assert!((runge_kutta - RUNGE_KUTTA_ENERGY).abs() < 1e-12, "{runge_kutta}");
+    assert!((midpoint - MIDPOINT_ENERGY).abs() < 1e-11, "{midpoint}");
+    // Positive control: a reference with a tolerance of 1e-6 is found out.
+    let rough = standard_method(Method::DormandPrince853(1e-6)).energy[STEPS];
+    assert!((rough - EXACT_ENERGY).abs() > 1e-11, "{rough}");
+}
+
+#[test]
+fn the_motion_starts_with_the_energy_of_the_paper() {
+    // E = 11/40 to the digits of the initial q.
+    assert!((start(&RING).unwrap().energy(&RING).unwrap() - 11.0 / 40.0).abs() < 1e-13);
+}
+
+#[test]
+fn the_angular_momentum_of_the_reference_decays_exactly() {
+    let j = reference().angular_momentum;
+    for (step, &value) in j.iter().enumerate() {
+        let exact = j[0] * (-RING.k * step as f64 * H).exp();
+        assert!((value - exact).abs() < 1e-12, "step {step}");
+    }
+}
+
+/// What figure 2 of the paper shows: the variational midpoint loses energy to drag alone, Runge–Kutta by itself as well.
+#[test]
+fn the_midpoint_follows_the_energy_and_runge_kutta_does_not() {
+    let (reference, midpoint) = (reference(), variational_midpoint());
+    let runge_kutta = standard_method(Method::RungeKutta4);
+    let largest_error = |motion: &Motion| {
+        let errors =
+            motion.energy.iter().zip(&reference.energy).map(|(energy, exact)| (energy - exact).abs());
+        errors.fold(0.0, f64::max)
+    };
+    let by_itself = |motion: &Motion| motion.energy_lost() - motion.drag_work();
+    assert!(7.0 * largest_error(&midpoint) < largest_error(&runge_kutta));
+    assert!(100.0 * by_itself(&midpoint).abs() < by_itself(&runge_kutta));
+    // The trapezoidal sum itself, on the reference.
+    assert!(by_itself(&reference).abs() < 1e-6);
+}

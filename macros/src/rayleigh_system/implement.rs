@@ -1,0 +1,246 @@
+//! The traits of the runtime, implemented for a system: each function below writes one `impl`, and the comment above each
+//! quotation shows what it expands to.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use super::expand::parameters;
+use super::model::{RayleighArguments, Rule, Source, System};
+
+/// The plain value of L (0) or R (1) at the vectors q and v.
+pub fn value(system: &System<'_>, function: &str, arguments: RayleighArguments) -> TokenStream {
+    match system.source {
+        Source::Block(_) => {
+            let function = format_ident!("{function}");
+            match arguments {
+                RayleighArguments::Velocity => quote!(self.#function((*v).into())),
+                RayleighArguments::ConfigurationAndVelocity => {
+                    quote!(self.#function((*q).into(), (*v).into()))
+                }
+            }
+        }
+        Source::Function(source) => {
+            let name = &source.item.sig.ident;
+            let fields = parameters(source).map(|(field, _)| quote!(self.#field));
+            let index = match (system.rayleigh, function) {
+                (None, _) => None,
+                (Some(_), "lagrangian") => Some(quote!(.0)),
+                (Some(_), _) => Some(quote!(.1)),
+            };
+            quote!(#name((*q).into(), (*v).into(), #(#fields),*) #index)
+        }
+    }
+}
+
+/// `impl Lagrangian<2> for Ring`
+pub fn lagrangian(system: &System<'_>) -> TokenStream {
+    let System { name, scalar, .. } = system;
+    let n = system.degrees.times(1);
+    let functions = value_and_derivatives(system, "lagrangian", RayleighArguments::ConfigurationAndVelocity);
+    quote! {
+        #[automatically_derived]
+        impl Lagrangian<#n> for #name {
+            type Scalar = #scalar;
+            #functions
+        }
+    }
+}
+
+/// `impl Rayleigh<2> for Ring`
+pub fn rayleigh(system: &System<'_>) -> TokenStream {
+    let name = &system.name;
+    let n = system.degrees.times(1);
+    let arguments = system.rayleigh.unwrap_or(RayleighArguments::ConfigurationAndVelocity);
+    let functions = value_and_derivatives(system, "rayleigh", arguments);
+    quote! {
+        #[automatically_derived]
+        impl Rayleigh<#n> for #name {
+            #functions
+        }
+    }
+}
+
+/// Value, gradient, derivatives and variations of L or R.
+fn value_and_derivatives(system: &System<'_>, function: &str, arguments: RayleighArguments) -> TokenStream {
+    let System { scalar, .. } = system;
+    let (n, twice) = (system.degrees.times(1), system.degrees.times(2));
+    let value = value(system, function, arguments);
+    let [plain, over, gradient, derivatives, variations] =
+        ["", "_over", "_gradient", "_derivatives", "_variations"]
+            .map(|suffix| format_ident!("{function}{suffix}"));
+    let (unused, closure) = match arguments {
+        RayleighArguments::Velocity => (quote!(_q), quote!(|_, v| self.#over(v))),
+        RayleighArguments::ConfigurationAndVelocity => (quote!(q), quote!(|q, v| self.#over(q, v))),
+    };
+    // fn lagrangian_gradient(&self, q: …, v: …) -> Gradient<f64, 2> {
+    //     dual::gradient(q, v, |q, v| self.lagrangian_over(q, v))
+    // }
+    quote! {
+        fn #plain(&self, #unused: &Vector, v: &Vector) -> #scalar {
+            #value
+        }
+
+        fn #gradient(&self, q: &Vector, v: &Vector) -> Gradient<#scalar, #n> {
+            dual::gradient(q, v, #closure)
+        }
+
+        fn #derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<#scalar, #n> {
+            dual::derivatives::<#scalar, #n, #twice>(q, v, #closure)
+        }
+
+        fn #variations(
+            &self,
+            q: &Vector,
+            v: &Vector,
+            minus: Direction<#scalar>,
+            plus: Direction<#scalar>,
+        ) -> Variations<#scalar, #n> {
+            dual::variations(q, v, minus, plus, #closure)
+        }
+    }
+}
+
+/// `impl Force<2> for Ring`
+pub fn force(system: &System<'_>) -> TokenStream {
+    let System { name, scalar, .. } = system;
+    let (n, twice) = (system.degrees.times(1), system.degrees.times(2));
+    quote! {
+        #[automatically_derived]
+        impl Force<#n> for #name {
+            fn force(&self, q: &Vector, v: &Vector) -> Vector {
+                self.force((*q).into(), (*v).into()).into()
+            }
+
+            fn force_derivatives(
+                &self,
+                q: &Vector,
+                v: &Vector,
+            ) -> CovectorDerivatives<#scalar, #n> {
+                dual::covector_derivatives::<#scalar, #n, #twice>(q, v, |q, v| self.force_over(q, v))
+            }
+
+            fn force_variation(
+                &self,
+                q: &Vector,
+                v: &Vector,
+                direction: Direction<#scalar>,
+            ) -> (Vector, SMatrix<#scalar, #n, #n>) {
+                dual::covector_variation(q, v, direction, |q, v| self.force_over(q, v))
+            }
+        }
+    }
+}
+
+/// Bodies of the functions that a step calls, L, R and f together.
+pub struct Kernel {
+    pub step_kernel: TokenStream,
+    pub momenta: TokenStream,
+}
+
+/// `impl Discrete<Midpoint, 2> for Ring`: one term for each of L, R and f that the system has, unless an engine gives the
+/// kernel's bodies.
+pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> TokenStream {
+    let System { name, scalar, .. } = system;
+    let n = system.degrees.times(1);
+    let lagrangian = rule.lagrangian();
+    let force = rule.force(system.rayleigh.is_some(), system.has_force);
+    let rule = format_ident!("{}", rule.name());
+    let terms = |of_rayleigh: &str, of_force: &str| {
+        let of_rayleigh = system.rayleigh.map(|_| format_ident!("{of_rayleigh}"));
+        let of_force = system.has_force.then(|| format_ident!("{of_force}"));
+        of_rayleigh.into_iter().chain(of_force)
+    };
+    let kernels = terms("rayleigh_kernel", "force_kernel");
+    let momenta = terms("rayleigh_momenta", "force_momenta");
+    let forces: Vec<_> = terms("rayleigh_force", "general_force").collect();
+    let force_derivatives = terms("rayleigh_force_derivatives", "general_force_derivatives");
+    // f_d⁻, f_d⁺: Midpoint::rayleigh_force(self, q0, q1, h)
+    let discrete_force = (!forces.is_empty()).then(|| {
+        quote! {
+            #[doc = #force]
+            fn discrete_force(&self, q0: &Vector, q1: &Vector, h: #scalar) -> DiscreteForce<#scalar, #n> {
+                #(#rule::#forces(self, q0, q1, h))+*
+            }
+
+            /// f_d with its derivatives by q0 and q1.
+            fn discrete_force_derivatives(
+                &self,
+                q0: &Vector,
+                q1: &Vector,
+                h: #scalar,
+            ) -> DiscreteForceDerivatives<#scalar, #n> {
+                #(#rule::#force_derivatives(self, q0, q1, h))+*
+            }
+        }
+    });
+    let Kernel { step_kernel, momenta } = kernel.unwrap_or_else(|| Kernel {
+        step_kernel: quote!(#rule::lagrangian_kernel(self, q0, v, h) #(+ #rule::#kernels(self, q0, v, h))*),
+        momenta: quote!(#rule::lagrangian_momenta(self, q0, v, h) #(+ #rule::#momenta(self, q0, v, h))*),
+    });
+    // p0 = −D1 L_d − f_d⁻: Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0, v, h)
+    quote! {
+        #[automatically_derived]
+        impl Discrete<#rule, #n> for #name {
+            #[doc = #lagrangian]
+            fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
+                #rule::discrete_lagrangian(self, q0, q1, h)
+            }
+
+            /// L_d with D1, D2, D11, D12, D22.
+            fn discrete_lagrangian_derivatives(
+                &self,
+                q0: &Vector,
+                q1: &Vector,
+                h: #scalar,
+            ) -> Derivatives<#scalar, #n> {
+                #rule::discrete_lagrangian_derivatives(self, q0, q1, h)
+            }
+
+            #discrete_force
+
+            /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+            #[inline]
+            fn step_kernel(&self, q0: &Vector, v: &Vector, h: #scalar) -> StepKernel<#scalar, #n> {
+                #step_kernel
+            }
+
+            /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+            #[inline]
+            fn momenta(&self, q0: &Vector, v: &Vector, h: #scalar) -> Momenta<#scalar, #n> {
+                #momenta
+            }
+
+            /// E_L on the segment.
+            fn segment_energy(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
+                #rule::segment_energy(self, q0, q1, h)
+            }
+        }
+    }
+}
+
+/// `impl DiscreteRayleigh<Midpoint, 2> for Ring`
+pub fn discrete_rayleigh(system: &System<'_>, rule: Rule) -> TokenStream {
+    let System { name, scalar, .. } = system;
+    let n = system.degrees.times(1);
+    let rayleigh = rule.rayleigh();
+    let rule = format_ident!("{}", rule.name());
+    quote! {
+        #[automatically_derived]
+        impl DiscreteRayleigh<#rule, #n> for #name {
+            #[doc = #rayleigh]
+            fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
+                #rule::discrete_rayleigh(self, q0, q1, h)
+            }
+
+            /// R_d with D1, D2, D11, D12, D22.
+            fn discrete_rayleigh_derivatives(
+                &self,
+                q0: &Vector,
+                q1: &Vector,
+                h: #scalar,
+            ) -> Derivatives<#scalar, #n> {
+                #rule::discrete_rayleigh_derivatives(self, q0, q1, h)
+            }
+        }
+    }
+}

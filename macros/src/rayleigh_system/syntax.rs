@@ -1,0 +1,185 @@
+//! What an expression, a path or a type is by its form alone: literals, places of `self`, names of the standard library.
+
+use proc_macro2::Span;
+use syn::{BinOp, Expr, ExprLit, Ident, Lit, Path, PathArguments, Type, UnOp, parse_quote_spanned};
+
+use super::model::is_integer;
+
+/// Parentheses that a function's argument does not need, and that would warn there.
+pub fn without_parentheses(expression: &Expr) -> &Expr {
+    match expression {
+        Expr::Paren(inner) => without_parentheses(&inner.expr),
+        _ => expression,
+    }
+}
+
+/// An expression of floating-point literals alone.
+pub fn is_plain(expression: &Expr) -> bool {
+    match expression {
+        Expr::Lit(ExprLit { lit, .. }) => is_float_literal(lit),
+        Expr::Unary(unary) => matches!(unary.op, UnOp::Neg(_)) && is_plain(&unary.expr),
+        Expr::Paren(inner) => is_plain(&inner.expr),
+        Expr::Group(inner) => is_plain(&inner.expr),
+        Expr::Binary(binary) => {
+            is_arithmetic(&binary.op) && is_plain(&binary.left) && is_plain(&binary.right)
+        }
+        _ => false,
+    }
+}
+
+pub fn is_float_literal(literal: &Lit) -> bool {
+    match literal {
+        Lit::Float(_) => true,
+        Lit::Int(integer) => matches!(integer.suffix(), "f64" | "f32"),
+        _ => false,
+    }
+}
+
+pub fn is_arithmetic(operator: &BinOp) -> bool {
+    matches!(operator, BinOp::Add(_) | BinOp::Sub(_) | BinOp::Mul(_) | BinOp::Div(_))
+}
+
+pub fn is_assignment(operator: &BinOp) -> bool {
+    matches!(
+        operator,
+        BinOp::AddAssign(_)
+            | BinOp::SubAssign(_)
+            | BinOp::MulAssign(_)
+            | BinOp::DivAssign(_)
+            | BinOp::RemAssign(_)
+    )
+}
+
+pub fn is_self(expression: &Expr) -> bool {
+    matches!(expression, Expr::Path(path) if path.path.is_ident("self"))
+}
+
+/// `self.field`, `self.field[i]`, `self.field.0`.
+pub fn is_place_of_self(expression: &Expr) -> bool {
+    match expression {
+        Expr::Field(field) => is_self(&field.base) || is_place_of_self(&field.base),
+        Expr::Index(index) => is_place_of_self(&index.expr),
+        Expr::Paren(inner) => is_place_of_self(&inner.expr),
+        _ => false,
+    }
+}
+
+/// Names in capitals are constants.
+pub fn is_constant_name(name: &Ident) -> bool {
+    let name = name.to_string();
+    name.contains(char::is_uppercase) && !name.contains(char::is_lowercase)
+}
+
+/// Methods whose argument is often a function's name.
+pub fn takes_function(method: &Ident) -> bool {
+    const METHODS: &[&str] = &[
+        "map",
+        "for_each",
+        "filter_map",
+        "flat_map",
+        "fold",
+        "reduce",
+        "scan",
+        "map_while",
+        "inspect",
+        "filter",
+        "any",
+        "all",
+        "position",
+        "and_then",
+        "unwrap_or_else",
+        "map_or",
+        "zip_with",
+    ];
+    METHODS.iter().any(|known| method == known)
+}
+
+/// Methods that floating-point numbers alone have, and that have no derivative.
+pub const ROUNDING: &[&str] =
+    &["ceil", "floor", "fract", "next_down", "next_up", "round", "round_ties_even", "to_bits", "trunc"];
+
+/// Methods of floating-point numbers that a user may call like functions, as in C.
+pub const METHODS: &[&str] = &[
+    "abs",
+    "acos",
+    "acosh",
+    "asin",
+    "asinh",
+    "atan",
+    "atan2",
+    "atanh",
+    "cbrt",
+    "clamp",
+    "copysign",
+    "cos",
+    "cosh",
+    "exp",
+    "exp2",
+    "exp_m1",
+    "hypot",
+    "ln",
+    "ln_1p",
+    "log",
+    "log10",
+    "log2",
+    "max",
+    "min",
+    "mul_add",
+    "powf",
+    "powi",
+    "recip",
+    "signum",
+    "sin",
+    "sin_cos",
+    "sinh",
+    "sqrt",
+    "tan",
+    "tanh",
+    "to_degrees",
+    "to_radians",
+];
+
+/// Functions of the standard library that work on any type, by their last two segments; and those of integers.
+pub fn is_function_of_std(path: &Path) -> bool {
+    const GENERIC: &[(&str, &str)] = &[
+        ("array", "from_fn"),
+        ("iter", "empty"),
+        ("iter", "from_fn"),
+        ("iter", "once"),
+        ("iter", "repeat"),
+        ("iter", "repeat_n"),
+        ("iter", "successors"),
+        ("iter", "zip"),
+        ("mem", "replace"),
+        ("mem", "swap"),
+        ("mem", "take"),
+        ("Default", "default"),
+        ("Vec", "new"),
+        ("Vec", "with_capacity"),
+    ];
+    let mut segments = path.segments.iter().rev();
+    let (Some(last), Some(module)) = (segments.next(), segments.next()) else { return false };
+    let integer: Type =
+        Type::Path(syn::TypePath { attrs: Vec::new(), qself: None, path: module.ident.clone().into() });
+    is_integer(&integer) || GENERIC.iter().any(|(from, name)| module.ident == from && last.ident == name)
+}
+
+/// Types of the standard library that hold others.
+pub fn is_generic_of_std(path: &Path) -> bool {
+    path.segments.last().is_some_and(|segment| {
+        ["Option", "Vec", "Result", "Box"].iter().any(|name| segment.ident == name)
+            && matches!(segment.arguments, PathArguments::AngleBracketed(_))
+    })
+}
+
+pub fn real_type(span: Span) -> Type {
+    parse_quote_spanned!(span=> Real<D>)
+}
+
+/// An identifier, raw where the name is a keyword.
+pub fn identifier(name: &str, span: Span) -> Ident {
+    match name.strip_prefix("r#") {
+        Some(raw) => Ident::new_raw(raw, span),
+        None => Ident::new(name, span),
+    }
+}

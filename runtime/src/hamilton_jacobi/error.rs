@@ -1,0 +1,102 @@
+//! What can keep an object of the theory from being evaluated.
+
+use core::fmt;
+
+use crate::StepError;
+
+/// Why a Hamilton–Jacobi object could not be evaluated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum HamiltonJacobiError {
+    /// An implicit equation has no solution in reach, or its matrix is singular.
+    Implicit {
+        /// The equation.
+        equation: ImplicitEquation,
+        /// The step k at which it was asked for.
+        step: usize,
+        /// What the solver met.
+        cause: StepError,
+    },
+    /// The points given are too few.
+    TooFewPoints {
+        /// Points needed.
+        needed: usize,
+        /// Points given.
+        found: usize,
+    },
+    /// The family S_k, γ_k or F_k has another length than the points ask for.
+    FamilyLength {
+        /// Members needed.
+        needed: usize,
+        /// Members given.
+        found: usize,
+    },
+}
+
+/// An implicit equation of the theory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ImplicitEquation {
+    /// 𝔽⁻(q0, q1) = (q0, p0) for q1: the step.
+    Step,
+    /// 𝔽⁺(q0, q1) = (q1, p1) for q1, which H_d⁺ is a function through.
+    RightHamiltonian,
+    /// 𝔽⁻(q0, q1) = (q0, p0) for q0, which H_d⁻ is a function through.
+    LeftHamiltonian,
+    /// 𝔽⁺(q0, q1) = (q1, p1) for q0: the step backwards.
+    BackwardStep,
+    /// The lemma's definition of 𝓕⁺.
+    LemmaFlowPlus,
+    /// The lemma's definition of 𝓕⁻.
+    LemmaFlowMinus,
+    /// γ⁺ = 𝔽⁺, that is DS_{k+1}(q1) = D2 L_d(q0, q1), for q1.
+    RightCharacteristic,
+    /// A matrix of derivatives, ∂p/∂q or DF_k, that is to be inverted.
+    Derivative,
+}
+
+impl ImplicitEquation {
+    pub(super) fn at(self, step: usize) -> impl Fn(StepError) -> HamiltonJacobiError {
+        move |cause| HamiltonJacobiError::Implicit { equation: self, step, cause }
+    }
+}
+
+impl fmt::Display for ImplicitEquation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Step => "𝔽⁻(q0, q1) = (q0, p0) for q1",
+            Self::RightHamiltonian => "𝔽⁺(q0, q1) = (q1, p1) for q1 (H_d⁺)",
+            Self::LeftHamiltonian => "𝔽⁻(q0, q1) = (q0, p0) for q0 (H_d⁻)",
+            Self::BackwardStep => "𝔽⁺(q0, q1) = (q1, p1) for q0 (backward step)",
+            Self::LemmaFlowPlus => "the lemma's 𝓕⁺",
+            Self::LemmaFlowMinus => "the lemma's 𝓕⁻",
+            Self::RightCharacteristic => "γ⁺ = 𝔽⁺ for q1",
+            Self::Derivative => "inverse of a matrix of derivatives",
+        })
+    }
+}
+
+impl fmt::Display for HamiltonJacobiError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Implicit { equation, step, cause } => {
+                write!(f, "{equation} has no solution at k = {step}: {cause}")
+            }
+            Self::TooFewPoints { needed, found } => {
+                write!(f, "{found} points given, {needed} needed; give a longer sequence of configurations")
+            }
+            Self::FamilyLength { needed, found } => {
+                write!(f, "{found} members of the family given, {needed} needed: one for each k")
+            }
+        }
+    }
+}
+
+impl core::error::Error for HamiltonJacobiError {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        match self {
+            Self::Implicit { cause, .. } => Some(cause),
+            _ => None,
+        }
+    }
+}

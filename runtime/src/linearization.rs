@@ -1,0 +1,168 @@
+//! The step's derivative by the state that it starts from, exact: no differences, the implicit function theorem.
+//!
+//! On a segment (q0, q1) the two Legendre transforms have the derivatives
+//!
+//! ```text
+//! K00 = ∂p0/∂q0 = −D1D1 L_d − D1 f_d⁻        K01 = ∂p0/∂q1 = −D1D2 L_d − D2 f_d⁻
+//! K10 = ∂p1/∂q0 = (D1D2 L_d)ᵀ + D1 f_d⁺      K11 = ∂p1/∂q1 = D2D2 L_d + D2 f_d⁺
+//! ```
+//!
+//! The step holds p0 fixed and solves for q1, so that dq1 = K01⁻¹ (dp0 − K00 dq0) and dp1 = K10 dq0 + K11 dq1:
+//!
+//! ```text
+//!     ∂(q1, p1)     ⎡     −K01⁻¹ K00            K01⁻¹     ⎤
+//! A = ─────────  =  ⎢                                     ⎥
+//!     ∂(q0, p0)     ⎣ K10 − K11 K01⁻¹ K00    K11 K01⁻¹    ⎦
+//!
+//! det A = det K10 / det(−K01) = det(D1D2 L_d⁻) / det(D1D2 L_d⁺)      the second form for a Rayleigh force
+//! ```
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::{Discrete, Momenta, Scalar, StepError, linear};
+
+/// Both momenta of a segment with their derivatives by its two configurations; see the formulas above.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LegendreDerivatives<S, const N: usize> {
+    /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺.
+    pub momenta: Momenta<S, N>,
+    /// K00 = ∂p0/∂q0: entry (i, j) differentiates p0ᵢ by q0ⱼ.
+    pub p0_by_q0: SMatrix<S, N, N>,
+    /// K01 = ∂p0/∂q1; times h it is the Newton matrix of the step.
+    pub p0_by_q1: SMatrix<S, N, N>,
+    /// K10 = ∂p1/∂q0.
+    pub p1_by_q0: SMatrix<S, N, N>,
+    /// K11 = ∂p1/∂q1.
+    pub p1_by_q1: SMatrix<S, N, N>,
+}
+
+/// A matrix on T*Q = ℝ²ᴺ in its four blocks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PhaseMatrix<S, const N: usize> {
+    /// ∂q1/∂q0.
+    pub q_by_q: SMatrix<S, N, N>,
+    /// ∂q1/∂p0.
+    pub q_by_p: SMatrix<S, N, N>,
+    /// ∂p1/∂q0.
+    pub p_by_q: SMatrix<S, N, N>,
+    /// ∂p1/∂p0.
+    pub p_by_p: SMatrix<S, N, N>,
+}
+
+/// The derivatives of one step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Linearization<S, const N: usize> {
+    /// The step matrix A = ∂(q1, p1)/∂(q0, p0).
+    pub a: PhaseMatrix<S, N>,
+}
+
+impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
+    /// The derivatives on the segment (`q0`, `q1`) of `system` by `rule` with step size `h`.
+    #[must_use]
+    pub fn of_segment<L, R>(system: &L, _rule: R, q0: &SVector<S, N>, q1: &SVector<S, N>, h: S) -> Self
+    where
+        L: Discrete<R, N, Scalar = S>,
+    {
+        Self::new::<L, R>(system, q0, q1, h)
+    }
+
+    pub(crate) fn new<L, R>(system: &L, q0: &SVector<S, N>, q1: &SVector<S, N>, h: S) -> Self
+    where
+        L: Discrete<R, N, Scalar = S>,
+    {
+        let l = system.discrete_lagrangian_derivatives(q0, q1, h);
+        let f = system.discrete_force_derivatives(q0, q1, h);
+        Self {
+            momenta: system.momenta(q0, &((q1 - q0) / h), h),
+            p0_by_q0: -l.d11 - f.minus.d1,
+            p0_by_q1: -l.d12 - f.minus.d2,
+            p1_by_q0: l.d12.transpose() + f.plus.d1,
+            p1_by_q1: l.d22 + f.plus.d2,
+        }
+    }
+}
+
+impl<S: Scalar, const N: usize> Linearization<S, N> {
+    /// The step matrix of the segment (`q0`, `q1`), that is of the step from (q0, p0), p0 = −D1 L_d − f_d⁻, to (q1, p1).
+    ///
+    /// ```
+    /// use dalembert::{Linearization, Midpoint, rayleigh_system};
+    /// use dalembert::nalgebra::vector;
+    ///
+    /// #[rayleigh_system]
+    /// fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+    ///     (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+    /// }
+    /// let (m, k, r, h) = (1.0, 1.0, 0.5, 0.25);
+    /// let system = Oscillator { m, k, r };
+    /// let step = Linearization::of_segment(&system, Midpoint, &vector![0.0], &vector![0.2], h)?;
+    /// let determinant = step.a.assembled::<2>().determinant();
+    /// assert!((determinant - (4.0 * m + h * h * k - 2.0 * h * r) / (4.0 * m + h * h * k + 2.0 * h * r)).abs() < 1e-15);
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular on the segment: there the step has no derivative.
+    pub fn of_segment<L, R>(
+        system: &L,
+        _rule: R,
+        q0: &SVector<S, N>,
+        q1: &SVector<S, N>,
+        h: S,
+    ) -> Result<Self, StepError>
+    where
+        L: Discrete<R, N, Scalar = S>,
+    {
+        Self::from_legendre(&LegendreDerivatives::new::<L, R>(system, q0, q1, h))
+    }
+
+    /// The step matrix from the derivatives of both Legendre transforms.
+    ///
+    /// # Errors
+    /// Those of [`of_segment`](Self::of_segment).
+    pub fn from_legendre(k: &LegendreDerivatives<S, N>) -> Result<Self, StepError> {
+        let q_by_p = inverse(&k.p0_by_q1)?;
+        let q_by_q = -(q_by_p * k.p0_by_q0);
+        Ok(Self {
+            a: PhaseMatrix {
+                q_by_q,
+                q_by_p,
+                p_by_q: k.p1_by_q0 + k.p1_by_q1 * q_by_q,
+                p_by_p: k.p1_by_q1 * q_by_p,
+            },
+        })
+    }
+}
+
+impl<S: Scalar, const N: usize> PhaseMatrix<S, N> {
+    /// The blocks as one matrix in the order (q, p); M = 2N.
+    #[must_use]
+    pub fn assembled<const M: usize>(&self) -> SMatrix<S, M, M> {
+        const { assert!(M == 2 * N) };
+        SMatrix::from_fn(|i, j| {
+            let block = match (i < N, j < N) {
+                (true, true) => &self.q_by_q,
+                (true, false) => &self.q_by_p,
+                (false, true) => &self.p_by_q,
+                (false, false) => &self.p_by_p,
+            };
+            block[(i % N, j % N)]
+        })
+    }
+}
+
+/// The inverse, or the column whose pivot is lost to rounding.
+pub(crate) fn inverse<S: Scalar, const N: usize>(
+    matrix: &SMatrix<S, N, N>,
+) -> Result<SMatrix<S, N, N>, StepError> {
+    let mut inverse = SMatrix::<S, N, N>::zeros();
+    for j in 0..N {
+        let mut unit: SVector<S, N> = nalgebra::zero();
+        unit[j] = S::one();
+        let column = linear::solve(matrix, &unit)
+            .map_err(|singular| StepError::SingularNewtonMatrix { iteration: 0, column: singular.column })?;
+        inverse.set_column(j, &column);
+    }
+    Ok(inverse)
+}

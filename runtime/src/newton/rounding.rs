@@ -1,0 +1,130 @@
+//! How small a residual can get: its round-off floor.
+//!
+//! Each component has its own,
+//!
+//! ```text
+//! floorᵢ = 4ε (|pᵢ| + Σⱼ |Jᵢⱼ||vⱼ|)        v: the iterate that the Newton step leads to
+//! ```
+//!
+//! so that neither the unit of a coordinate nor its neighbours' size matters. This estimate knows nothing of what q
+//! contributes: near an equilibrium away from q = 0 large forces cancel, and v and p go to 0 while the rounding of those
+//! forces stays. Where the residual stops falling above the estimate, its rounding is therefore measured ([`rounding`]).
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::Scalar;
+
+/// A residual that has stopped falling is accepted up to this many floors, also where no rounding of q or v explains it:
+/// the report then shows it far above its floor.
+pub(super) const STAGNATION: f64 = 4096.0;
+
+/// A residual of at most this many floors, estimated or measured, is a root.
+pub(super) const AT_FLOOR: f64 = 4.0;
+
+/// The floor that the terms of p0 give, 4ε (|pᵢ| + Σⱼ |Jᵢⱼ||vⱼ|).
+#[inline]
+pub(super) fn estimated_floor<S: Scalar, const N: usize>(
+    p: &SVector<S, N>,
+    matrix: &SMatrix<S, N, N>,
+    v: &SVector<S, N>,
+) -> SVector<S, N> {
+    // Scaled before they are added up, so that only what overflows itself does.
+    let unit = S::EPSILON * S::constant(4.0);
+    SVector::from_fn(|i, _| {
+        // Below the normal numbers ε no longer bounds the rounding.
+        let mut sum = p[i].abs() * unit + S::SMALLEST_NORMAL;
+        for j in 0..N {
+            sum += (matrix[(i, j)] * (v[j] * unit)).abs();
+        }
+        sum
+    })
+}
+
+/// max |residualᵢ|/floorᵢ. An exact 0 counts 0, whatever its floor; a NaN or infinite ratio is returned as it is.
+#[inline]
+pub(super) fn in_units_of<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: &SVector<S, N>) -> S {
+    let mut largest = S::zero();
+    for i in 0..N {
+        if residual[i] != S::zero() {
+            let units = residual[i].abs() / floor[i];
+            if !units.is_finite() {
+                return units;
+            }
+            largest = largest.max(units);
+        }
+    }
+    largest
+}
+
+/// The residual that is largest in units of its floor, and this floor.
+#[inline]
+pub(super) fn worst<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: &SVector<S, N>) -> (S, S) {
+    let mut worst = (residual[0].abs(), floor[0]);
+    for i in 1..N {
+        let other = (residual[i].abs(), floor[i]);
+        if other.0 / other.1 > worst.0 / worst.1 {
+            worst = other;
+        }
+    }
+    worst
+}
+
+/// What rounding does to p0: its changes when each entry of q and of v moves by its last place, added up.
+#[cold]
+pub(super) fn rounding<S: Scalar, const N: usize>(
+    p0: impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
+    q: &SVector<S, N>,
+    v: &SVector<S, N>,
+) -> SVector<S, N> {
+    let value = p0(q, v);
+    let mut sum: SVector<S, N> = nalgebra::zero();
+    let mut add = |q: &SVector<S, N>, v: &SVector<S, N>| sum += (p0(q, v) - value).abs();
+    for factor in [S::one() + S::EPSILON, S::one() - S::EPSILON] {
+        for i in 0..N {
+            let mut moved = *q;
+            moved[i] *= factor;
+            add(&moved, v);
+            let mut moved = *v;
+            moved[i] *= factor;
+            add(q, &moved);
+        }
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{matrix, vector};
+
+    #[test]
+    fn the_worst_residual_is_taken_in_units_of_its_own_floor() {
+        let (residual, floor) = (vector![1e9, -3e-9], vector![1e9, 1e-9]);
+        assert_eq!(worst(&residual, &floor), (3e-9, 1e-9));
+        assert_eq!(in_units_of(&residual, &floor), 3.0);
+    }
+
+    #[test]
+    fn a_residual_that_is_no_number_has_no_size() {
+        assert!(in_units_of(&vector![1.0, f64::NAN, 2.0], &vector![1.0, 1.0, 1.0]).is_nan());
+        assert_eq!(in_units_of(&vector![f64::INFINITY], &vector![1.0]), f64::INFINITY);
+        assert_eq!(in_units_of(&vector![0.0], &vector![0.0]), 0.0);
+    }
+
+    #[test]
+    fn floors_neither_vanish_nor_overflow() {
+        let floor = |p: f64| estimated_floor(&vector![p], &matrix![1.0], &vector![p])[0];
+        assert_eq!(floor(1.0), 8.0 * f64::EPSILON + f64::MIN_POSITIVE);
+        assert!(floor(1e308) < 1e294 && floor(1e-320) == f64::MIN_POSITIVE);
+    }
+
+    #[test]
+    fn the_rounding_of_cancelling_forces_is_measured() {
+        let value = |q: &SVector<f64, 1>, v: &SVector<f64, 1>| vector![v[0] + 1e3 * (q[0] - 0.7)];
+        // The last place of 0.7 is ε/2; q moves by one or two of them either way.
+        let measured = rounding(value, &vector![0.7], &vector![0.0])[0];
+        assert!((1e3 * f64::EPSILON..=2e3 * f64::EPSILON).contains(&measured), "{measured:e}");
+        // Positive control: nothing cancels at q = 0.
+        assert_eq!(rounding(value, &vector![0.0], &vector![0.0])[0], 0.0);
+    }
+}

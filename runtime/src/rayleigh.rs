@@ -1,0 +1,107 @@
+//! The Rayleigh structure of forced discrete systems (paper, sections 3.3 and 3.4): does f_d have a potential, which one,
+//! which systems are equivalent, and is R dissipative.
+//!
+//! ```text
+//! f_d⁻ = D1 R_d,  f_d⁺ = −D2 R_d                                                   f_d is Rayleigh
+//!   iff D2 f_d⁺ and D1 f_d⁻ are symmetric and D1 f_d⁺ = −(D2 f_d⁻)ᵀ                 structure, Potential
+//! L_d + φ, R_d + χ has the same equations as L_d, R_d                              Comparison
+//!   iff φ = ψ(q0) + φ1(q1) + φ0(q0) − ψ(q1),  χ = ψ(q0) + φ1(q1) − φ0(q0) + ψ(q1)
+//! −D1 L_d⁺ = p0 and D2 L_d⁻ = p1 have a solution                                   Resplit
+//!   iff D1 f_d⁻ and D2 f_d⁺ are symmetric; always for n = 1
+//! v·∂R/∂v ≥ 0                                                                      dissipation
+//! ```
+//!
+//! The first condition has three parts (the paper prints the last alone, which is enough for n = 1), and χ the sign + before
+//! φ1 and − before φ0.
+//!
+//! ```
+//! use dalembert::rayleigh::{Potential, structure};
+//! use dalembert::samples::{self, Segment};
+//! use dalembert::{Midpoint, rayleigh_system};
+//!
+//! struct Drag { c: [f64; 2] }
+//!
+//! #[rayleigh_system]
+//! impl Drag {
+//!     fn lagrangian(&self, _q: [f64; 2], v: [f64; 2]) -> f64 {
+//!         0.5 * (v[0] * v[0] + v[1] * v[1])
+//!     }
+//!     fn force(&self, _q: [f64; 2], v: [f64; 2]) -> [f64; 2] {
+//!         [-v[0] - self.c[0] * v[1], -self.c[1] * v[0] - v[1]]
+//!     }
+//! }
+//!
+//! let segments = samples::segments([-1.0; 2], [1.0; 2], [0.3; 2], 40);
+//! let symmetric = Drag { c: [0.5, 0.5] };
+//! assert!(structure(&symmetric, Midpoint, 0.1, &segments)?.is_rayleigh());
+//! assert!(!structure(&Drag { c: [0.5, 0.4] }, Midpoint, 0.1, &segments)?.is_rayleigh());
+//!
+//! // R = ½(vx² + vx vy + vy²), R_d = (h²/2) R, recovered from the force alone.
+//! let potential = Potential::new(&symmetric, Midpoint, 0.1, Segment::new([0.0; 2], [0.0; 2]));
+//! let recovered = potential.at(&[0.0, 0.0].into(), &[0.1, 0.2].into());
+//! assert!((recovered.value - 0.5 * 0.5 * (0.01 + 0.02 + 0.04)).abs() < 1e-15);
+//! # Ok::<(), dalembert::samples::SampleError>(())
+//! ```
+
+mod comparison;
+mod dissipation;
+mod potential;
+mod quadrature;
+mod resplit;
+mod structure;
+
+pub use comparison::{Comparison, Equivalence};
+pub use dissipation::{Dissipation, dissipation};
+pub use potential::{Potential, Recovery};
+pub use quadrature::Integral;
+pub use resplit::{Resplit, ResplitReport};
+pub use structure::{Condition, Structure, structure};
+
+use core::fmt;
+
+use crate::samples::{Segment, Tolerance, Worst};
+
+/// A quantity that has to vanish: its worst value over the samples, in units of what counts as zero there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Residual<const N: usize> {
+    /// The value furthest above its tolerance.
+    pub worst: Worst<N>,
+    /// What counts as zero for that value.
+    pub tolerance: f64,
+}
+
+impl<const N: usize> Residual<N> {
+    /// Whether it is zero to rounding at every sample.
+    #[must_use]
+    pub fn vanishes(&self) -> bool {
+        self.worst.value.abs() <= self.tolerance
+    }
+
+    /// Keeps the entry that is worse in units of its tolerance.
+    fn keep_worse(worst: &mut Option<Self>, value: f64, tolerance: f64, at: Segment<f64, N>) {
+        let ratio = |value: f64, tolerance: f64| if value == 0.0 { 0.0 } else { value.abs() / tolerance };
+        let known = worst.map_or(-1.0, |known| ratio(known.worst.value, known.tolerance));
+        if ratio(value, tolerance) > known {
+            *worst = Some(Self { worst: Worst { value, at }, tolerance });
+        }
+    }
+}
+
+impl<const N: usize> fmt::Display for Residual<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:+.2e}, zero below {:.1e}", self.worst.value, self.tolerance)?;
+        if !self.vanishes() {
+            write!(f, ", at {}", self.worst.at)?;
+        }
+        Ok(())
+    }
+}
+
+/// Relative size of what counts as rounding, for reports.
+fn rounding_note(f: &mut fmt::Formatter<'_>, relative: f64) -> fmt::Result {
+    write!(
+        f,
+        "  tolerances: {relative:.1e} ({} ε) of the terms, and the quadrature's error",
+        Tolerance::ROUNDINGS
+    )
+}

@@ -1,0 +1,70 @@
+//! Neither a step nor a trajectory allocates, whether steps succeed, are damped or fail.
+
+use allocation_counter::measure;
+use dalembert::nalgebra::{SVector, vector};
+use dalembert::{Discrete, Midpoint, State, StepError, Trajectory, Trapezoidal, rayleigh_system};
+use dalembert_tests::systems::{Chain, Charge, DoublePendulum};
+
+fn assert_no_allocation(run: impl FnOnce()) {
+    let count = measure(run);
+    assert_eq!((count.count_total, count.bytes_total), (0, 0));
+}
+
+/// Positive control.
+#[test]
+fn the_counter_counts() {
+    let count = measure(|| {
+        std::hint::black_box(vec![1_u8; 100]);
+    });
+    assert_eq!((count.count_total, count.bytes_total), (1, 100));
+}
+
+#[test]
+fn none_in_a_step() {
+    let start = State::from_velocity(&DoublePendulum::EXAMPLE, [1.1, -0.6], [0.3, 1.2]).unwrap();
+    assert_no_allocation(|| {
+        let step = Discrete::<Midpoint, 2>::step(&DoublePendulum::EXAMPLE, &start, 0.1, None).unwrap();
+        Discrete::<Trapezoidal, 2>::step(&DoublePendulum::EXAMPLE, &start, 0.1, Some(&step.velocity))
+            .unwrap();
+        Discrete::<Midpoint, 2>::step_configurations(
+            &DoublePendulum::EXAMPLE,
+            &start.q,
+            &step.state.q,
+            0.1,
+            None,
+        )
+        .unwrap();
+        step.state.energy(&DoublePendulum::EXAMPLE).unwrap();
+    });
+}
+
+#[test]
+fn none_in_a_trajectory() {
+    let chain = State::from_velocity(&Chain::EXAMPLE, [0.5, -0.2, 0.7, 0.1, -0.6], [0.0; 5]).unwrap();
+    let charge = State::from_velocity(&Charge::EXAMPLE, [0.9, -0.4, 0.6], [0.2, 1.1, -0.7]).unwrap();
+    assert_no_allocation(|| {
+        let mut chain = Trajectory::new(&Chain::EXAMPLE, Midpoint, 0.1, chain);
+        let mut charge = Trajectory::new(&Charge::EXAMPLE, Trapezoidal, 0.1, charge);
+        for _ in 0..200 {
+            chain.next().unwrap().unwrap();
+            charge.next().unwrap().unwrap();
+        }
+        charge.sample_every(10).take(10).for_each(|sample| assert!(sample.is_ok()));
+    });
+}
+
+/// Cubic drag, R = r v³/3.
+#[rayleigh_system]
+fn cubic_drag(q: [f64; 1], v: [f64; 1], m: f64, r: f64) -> (f64, f64) {
+    (0.5 * m * v[0] * v[0] - 0.0 * q[0], r * v[0].powi(3) / 3.0)
+}
+
+#[test]
+fn none_in_a_step_that_fails() {
+    let system = CubicDrag { m: 1.0, r: 1.0 };
+    let state = State { q: SVector::zeros(), p: vector![-10.0] };
+    assert_no_allocation(|| {
+        let error = Discrete::<Midpoint, 1>::step(&system, &state, 1.0, None).unwrap_err();
+        assert!(matches!(error, StepError::NoRealSolution { .. }));
+    });
+}

@@ -1,0 +1,166 @@
+//! Conjecture of section 3.4: "the exact discrete force of a natural Lagrangian with a Rayleigh force is Rayleigh".
+//!
+//! It is false. For L = ½mv² − V(q), R = ½rv²,
+//!
+//! ```text
+//! D1 f_d^ex+ + D2 f_d^ex− = −(r/m)(q1−q0) h² ∫₀¹ τ²(1−τ)² V'''(q0 + τ(q1−q0)) dτ + O(h³)
+//! ```
+//!
+//! which is −(r/30m) V'''(q)(q1−q0)h² for some q between; it vanishes for the harmonic oscillator, the paper's example.
+
+use dalembert::exact::{Exact, Existence, ExistenceVerdict};
+use dalembert::nalgebra::{Matrix2, vector};
+use dalembert::rayleigh_system;
+
+#[rayleigh_system]
+fn harmonic(q: [f64; 1], v: [f64; 1], m: f64, r: f64, k: f64) -> (f64, f64) {
+    (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+}
+
+#[rayleigh_system]
+fn pendulum(q: [f64; 1], v: [f64; 1], m: f64, r: f64) -> (f64, f64) {
+    (0.5 * m * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
+}
+
+#[rayleigh_system]
+fn quartic(q: [f64; 1], v: [f64; 1], m: f64, r: f64) -> (f64, f64) {
+    (0.5 * m * v[0] * v[0] - 0.25 * q[0].powi(4), 0.5 * r * v[0] * v[0])
+}
+
+/// Two coupled springs with damping that is not proportional to mass and stiffness.
+#[rayleigh_system]
+fn springs(q: [f64; 2], v: [f64; 2], c: f64) -> (f64, f64) {
+    let kinetic = 0.5 * (2.0 * v[0] * v[0] + v[1] * v[1]);
+    let potential = 0.5 * (3.0 * q[0] * q[0] + q[1] * q[1]) + 0.7 * q[0] * q[1];
+    // C = diag(c, 1/5) is proportional to neither M nor K.
+    (kinetic - potential, 0.5 * (c * v[0] * v[0] + 0.2 * v[1] * v[1]))
+}
+
+/// The same springs with C = c M.
+#[rayleigh_system]
+fn proportional_springs(q: [f64; 2], v: [f64; 2], c: f64) -> (f64, f64) {
+    let kinetic = 0.5 * (2.0 * v[0] * v[0] + v[1] * v[1]);
+    let potential = 0.5 * (3.0 * q[0] * q[0] + q[1] * q[1]) + 0.7 * q[0] * q[1];
+    (kinetic - potential, c * kinetic)
+}
+
+fn obstruction(existence: &Existence<1>) -> f64 {
+    existence.mixed[(0, 0)]
+}
+
+/// −(r/m)(q1−q0) h² ∫₀¹ τ²(1−τ)² V'''(q0+τ(q1−q0)) dτ, by Simpson's rule.
+fn leading(r: f64, m: f64, third: impl Fn(f64) -> f64, q0: f64, q1: f64, h: f64) -> f64 {
+    let cells = 2000;
+    let integrand = |tau: f64| (tau * (1.0 - tau)).powi(2) * third(q0 + tau * (q1 - q0));
+    let at = |i: usize| integrand(i as f64 / (2 * cells) as f64);
+    let sum: f64 = (0..cells).map(|i| at(2 * i) + 4.0 * at(2 * i + 1) + at(2 * i + 2)).sum();
+    -(r / m) * (q1 - q0) * h * h * sum / (6.0 * cells as f64)
+}
+
+/// Order in h of a quantity from its values at h and h/2.
+fn halving_order(at_h: f64, at_half: f64) -> f64 {
+    (at_h / at_half).abs().log2()
+}
+
+#[test]
+fn the_pendulum_violates_it_by_known_amounts() {
+    let system = Pendulum { m: 1.0, r: 0.3 };
+    // Figures of an independent computation, nine digits (mathematics, 6.6).
+    for (h, expected) in [(0.5, 1.009_485_51e-3), (1.0, 4.967_192_29e-3)] {
+        let existence = Exact::rayleigh(&system).existence(vector![0.6], vector![1.1], h).unwrap();
+        let found = obstruction(&existence);
+        assert!((found - expected).abs() <= 0.5e-8 * expected, "{h}: {found:.12e}");
+        assert_eq!(existence.verdict(), ExistenceVerdict::MixedFails);
+        assert!(found > 1e6 * existence.tolerance, "{existence}");
+    }
+}
+
+#[test]
+fn it_holds_for_the_harmonic_oscillator() {
+    // The paper's example, and the positive control of the others: the same tool says 0 where the closed form says 0.
+    let system = Harmonic { m: 1.3, r: 0.3, k: 2.0 };
+    for h in [0.1, 0.5, 1.0, 2.0] {
+        let existence = Exact::rayleigh(&system).existence(vector![0.6], vector![1.1], h).unwrap();
+        assert_eq!(existence.verdict(), ExistenceVerdict::Holds, "{existence}");
+        assert!(obstruction(&existence).abs() < 1e-13, "{existence}");
+    }
+}
+
+#[test]
+fn the_leading_term_is_the_integral_over_the_third_derivative() {
+    // Two potentials, masses, damping coefficients, directions; the remainder is of order h³.
+    let cases: [(f64, f64, f64, f64); 3] =
+        [(1.0, 0.3, 0.6, 1.1), (2.5, 0.8, 0.9, 0.2), (0.7, 0.1, -0.4, 0.5)];
+    for (m, r, q0, q1) in cases {
+        let pendulum = Pendulum { m, r };
+        let quartic = Quartic { m, r };
+        let steps = [0.02, 0.01, 0.005];
+        let of_pendulum = steps.map(|h| {
+            let existence = Exact::rayleigh(&pendulum).existence(vector![q0], vector![q1], h).unwrap();
+            // V = −cos q, V''' = −sin q.
+            (obstruction(&existence), leading(r, m, |q| -q.sin(), q0, q1, h))
+        });
+        let of_quartic = steps.map(|h| {
+            let existence = Exact::rayleigh(&quartic).existence(vector![q0], vector![q1], h).unwrap();
+            // V = q⁴/4, V''' = 6q.
+            (obstruction(&existence), leading(r, m, |q| 6.0 * q, q0, q1, h))
+        });
+        for values in [of_pendulum, of_quartic] {
+            for pair in values.windows(2) {
+                let order = halving_order(pair[0].0, pair[1].0);
+                assert!((order - 2.0).abs() < 0.02, "order {order} of the obstruction: {values:?}");
+                let order = halving_order(pair[0].0 - pair[0].1, pair[1].0 - pair[1].1);
+                assert!(order > 2.8, "order {order} of the remainder: {values:?}");
+            }
+            let (found, predicted) = values[2];
+            assert!((found / predicted - 1.0).abs() < 2e-3, "{found:e} {predicted:e}");
+        }
+    }
+}
+
+#[test]
+fn the_coefficient_is_one_thirtieth() {
+    // V = q⁴/4: V''' = 6q is odd about the middle, so the integral is V'''/30 there, whatever q1 − q0. What is left is
+    // c1 h + c2 h² + …, extrapolated away.
+    let (m, r, q0, q1) = (1.0, 0.3, 0.6, 1.1);
+    let system = Quartic { m, r };
+    let coefficient = |h: f64| {
+        let existence = Exact::rayleigh(&system).existence(vector![q0], vector![q1], h).unwrap();
+        obstruction(&existence) * m / (r * 3.0 * (q0 + q1) * (q1 - q0) * h * h)
+    };
+    let [coarse, middle, fine] = [0.04, 0.02, 0.01].map(coefficient);
+    let extrapolated = (coarse - 6.0 * middle + 8.0 * fine) / 3.0;
+    println!("{coarse:.9} {middle:.9} {fine:.9} {extrapolated:.9}");
+    assert!((extrapolated + 1.0 / 30.0).abs() < 1e-7, "{extrapolated}");
+}
+
+#[test]
+fn for_two_degrees_of_freedom_a_quadratic_potential_violates_it() {
+    // D2f+ − (D2f+)ᵀ = (h²/12)(C M⁻¹K − K M⁻¹C) + O(h³): M = diag(2, 1), K = [[3, .7], [.7, 1]], C = diag(c, 1/5).
+    let c = 0.9;
+    let system = Springs { c };
+    let (mass_inverse, stiffness, damping) =
+        (Matrix2::new(0.5, 0.0, 0.0, 1.0), Matrix2::new(3.0, 0.7, 0.7, 1.0), Matrix2::new(c, 0.0, 0.0, 0.2));
+    let commutator = damping * mass_inverse * stiffness - stiffness * mass_inverse * damping;
+    let steps = [0.1, 0.05, 0.025];
+    let remainders = steps.map(|h| {
+        let existence = Exact::rayleigh(&system).existence(vector![0.3, -0.2], vector![0.5, 0.4], h).unwrap();
+        assert_ne!(existence.verdict(), ExistenceVerdict::Holds, "{existence}");
+        let predicted = commutator * (h * h / 12.0);
+        assert!((existence.plus - predicted).amax() < 0.2 * predicted.amax(), "{existence}");
+        (existence.plus - predicted).amax()
+    });
+    for pair in remainders.windows(2) {
+        assert!(halving_order(pair[0], pair[1]) > 2.9, "{remainders:?}");
+    }
+}
+
+#[test]
+fn proportional_damping_keeps_it_for_a_quadratic_potential() {
+    // Positive control of the last test: C = c M commutes, the normal modes are damped oscillators each.
+    let existence = Exact::rayleigh(&ProportionalSprings { c: 0.4 })
+        .existence(vector![0.3, -0.2], vector![0.5, 0.4], 0.5)
+        .unwrap();
+    assert_eq!(existence.verdict(), ExistenceVerdict::Holds, "{existence}");
+    assert!(existence.largest() < 1e-12, "{existence}");
+}

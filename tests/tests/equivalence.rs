@@ -1,0 +1,197 @@
+//! Re-gauging (L_d, R_d) leaves the motion as it is and changes momenta by a known gradient.
+//!
+//! ```text
+//! L_d + φ, φ = ψ(q0) + φ1(q1) + φ0(q0) − ψ(q1)
+//! R_d + χ, χ = ψ(q0) + φ1(q1) − φ0(q0) + ψ(q1)
+//! ```
+//!
+//! Then L_d⁺ gains 2ψ(q0) + 2φ1(q1) and L_d⁻ gains 2φ0(q0) − 2ψ(q1): both momenta change by −2∇ψ. The paper prints
+//! −φ1(q1) in χ.
+
+use dalembert::nalgebra::{Matrix2, Vector2};
+use dalembert::{
+    Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Lagrangian, Midpoint,
+    Momenta, State, StepKernel, Trajectory, Trapezoidal,
+};
+use dalembert_tests::systems::DoublePendulum;
+
+/// A function on Q with its gradient and second derivatives.
+#[derive(Clone, Copy)]
+struct Function {
+    value: fn(&Vector2<f64>) -> f64,
+    gradient: fn(&Vector2<f64>) -> Vector2<f64>,
+    hessian: fn(&Vector2<f64>) -> Matrix2<f64>,
+}
+
+/// ψ = 0.3 sin x cos y.
+const PSI: Function = Function {
+    value: |q| 0.3 * q[0].sin() * q[1].cos(),
+    gradient: |q| Vector2::new(0.3 * q[0].cos() * q[1].cos(), -0.3 * q[0].sin() * q[1].sin()),
+    hessian: |q| {
+        let (same, mixed) = (-0.3 * q[0].sin() * q[1].cos(), -0.3 * q[0].cos() * q[1].sin());
+        Matrix2::new(same, mixed, mixed, same)
+    },
+};
+
+/// φ0 = 0.2 x²y.
+const PHI_0: Function = Function {
+    value: |q| 0.2 * q[0] * q[0] * q[1],
+    gradient: |q| Vector2::new(0.4 * q[0] * q[1], 0.2 * q[0] * q[0]),
+    hessian: |q| Matrix2::new(0.4 * q[1], 0.4 * q[0], 0.4 * q[0], 0.0),
+};
+
+/// φ1 = 0.4 eˣ + 0.1 y³.
+const PHI_1: Function = Function {
+    value: |q| 0.4 * q[0].exp() + 0.1 * q[1].powi(3),
+    gradient: |q| Vector2::new(0.4 * q[0].exp(), 0.3 * q[1] * q[1]),
+    hessian: |q| Matrix2::new(0.4 * q[0].exp(), 0.0, 0.0, 0.6 * q[1]),
+};
+
+/// The double pendulum with (L_d + φ, R_d + χ) by the rule `R`; `sign` is φ1's in χ: +1, or the paper's −1.
+struct Regauged<R> {
+    system: DoublePendulum,
+    rule: std::marker::PhantomData<R>,
+    sign: f64,
+}
+
+impl<R> Regauged<R> {
+    fn new(sign: f64) -> Self {
+        Self { system: DoublePendulum::EXAMPLE, rule: std::marker::PhantomData, sign }
+    }
+
+    /// a(q0) + b(q1) with derivatives, for a = Σ factor·function and b likewise.
+    fn separated(
+        q0: &Vector2<f64>,
+        q1: &Vector2<f64>,
+        a: [(f64, Function); 2],
+        b: [(f64, Function); 2],
+    ) -> Derivatives<f64, 2> {
+        let sum = |terms: [(f64, Function); 2], q: &Vector2<f64>| {
+            terms.iter().fold(
+                (0.0, Vector2::zeros(), Matrix2::zeros()),
+                |(value, gradient, hessian), (factor, f)| {
+                    (
+                        value + factor * (f.value)(q),
+                        gradient + (f.gradient)(q) * *factor,
+                        hessian + (f.hessian)(q) * *factor,
+                    )
+                },
+            )
+        };
+        let ((a, d1, d11), (b, d2, d22)) = (sum(a, q0), sum(b, q1));
+        Derivatives { value: a + b, d1, d2, d11, d12: Matrix2::zeros(), d22 }
+    }
+
+    fn phi(&self, q0: &Vector2<f64>, q1: &Vector2<f64>) -> Derivatives<f64, 2> {
+        Self::separated(q0, q1, [(1.0, PSI), (1.0, PHI_0)], [(1.0, PHI_1), (-1.0, PSI)])
+    }
+
+    fn chi(&self, q0: &Vector2<f64>, q1: &Vector2<f64>) -> Derivatives<f64, 2> {
+        Self::separated(q0, q1, [(1.0, PSI), (-1.0, PHI_0)], [(self.sign, PHI_1), (1.0, PSI)])
+    }
+}
+
+impl<R> Lagrangian<2> for Regauged<R> {
+    type Scalar = f64;
+
+    fn lagrangian(&self, q: &Vector2<f64>, v: &Vector2<f64>) -> f64 {
+        Lagrangian::lagrangian(&self.system, q, v)
+    }
+
+    fn lagrangian_derivatives(&self, q: &Vector2<f64>, v: &Vector2<f64>) -> Derivatives<f64, 2> {
+        self.system.lagrangian_derivatives(q, v)
+    }
+}
+
+impl<R> Discrete<R, 2> for Regauged<R>
+where
+    DoublePendulum: DiscreteRayleigh<R, 2, Scalar = f64>,
+{
+    fn discrete_lagrangian(&self, q0: &Vector2<f64>, q1: &Vector2<f64>, h: f64) -> f64 {
+        self.system.discrete_lagrangian(q0, q1, h) + self.phi(q0, q1).value
+    }
+
+    fn discrete_lagrangian_derivatives(
+        &self,
+        q0: &Vector2<f64>,
+        q1: &Vector2<f64>,
+        h: f64,
+    ) -> Derivatives<f64, 2> {
+        self.system.discrete_lagrangian_derivatives(q0, q1, h) + self.phi(q0, q1)
+    }
+
+    fn discrete_force(&self, q0: &Vector2<f64>, q1: &Vector2<f64>, h: f64) -> DiscreteForce<f64, 2> {
+        let force = self.discrete_force_derivatives(q0, q1, h);
+        DiscreteForce { minus: force.minus.value, plus: force.plus.value }
+    }
+
+    fn discrete_force_derivatives(
+        &self,
+        q0: &Vector2<f64>,
+        q1: &Vector2<f64>,
+        h: f64,
+    ) -> DiscreteForceDerivatives<f64, 2> {
+        let (mut force, chi) = (self.system.discrete_force_derivatives(q0, q1, h), self.chi(q0, q1));
+        force.minus.value += chi.d1;
+        force.minus.d1 += chi.d11;
+        force.plus.value -= chi.d2;
+        force.plus.d2 -= chi.d22;
+        force
+    }
+
+    fn step_kernel(&self, q0: &Vector2<f64>, v: &Vector2<f64>, h: f64) -> StepKernel<f64, 2> {
+        let q1 = q0 + v * h;
+        let l = self.discrete_lagrangian_derivatives(q0, &q1, h);
+        let force = self.discrete_force_derivatives(q0, &q1, h);
+        StepKernel { p0: -l.d1 - force.minus.value, matrix: -(l.d12 + force.minus.d2) * h }
+    }
+
+    fn momenta(&self, q0: &Vector2<f64>, v: &Vector2<f64>, h: f64) -> Momenta<f64, 2> {
+        let q1 = q0 + v * h;
+        let l = self.discrete_lagrangian_derivatives(q0, &q1, h);
+        let force = self.discrete_force(q0, &q1, h);
+        Momenta { p0: -l.d1 - force.minus, p1: l.d2 + force.plus }
+    }
+
+    fn segment_energy(&self, q0: &Vector2<f64>, q1: &Vector2<f64>, h: f64) -> f64 {
+        self.system.segment_energy(q0, q1, h)
+    }
+}
+
+/// Largest difference of the two motions over some steps in q, and in p once −2∇ψ is taken out.
+fn differences<R: Copy>(rule: R, sign: f64, steps: usize) -> [f64; 2]
+where
+    DoublePendulum: DiscreteRayleigh<R, 2, Scalar = f64>,
+{
+    let (system, regauged) = (DoublePendulum::EXAMPLE, Regauged::<R>::new(sign));
+    let start = State::from_velocity(&system, [1.1, -0.6], [0.3, 1.2]).unwrap();
+    let shifted = |state: State<f64, 2>| State { p: state.p - (PSI.gradient)(&state.q) * 2.0, ..state };
+    let plain = Trajectory::new(&system, rule, 0.1, start);
+    let other = Trajectory::new(&regauged, rule, 0.1, shifted(start));
+    plain.zip(other).take(steps).fold([0.0, 0.0], |[in_q, in_p]: [f64; 2], (a, b)| {
+        let (a, b) = (a.unwrap().state, b.unwrap().state);
+        [in_q.max((a.q - b.q).amax()), in_p.max((shifted(a).p - b.p).amax())]
+    })
+}
+
+#[test]
+fn regauged_systems_move_alike() {
+    for [in_q, in_p] in [differences(Midpoint, 1.0, 100), differences(Trapezoidal, 1.0, 100)] {
+        // The regauged momenta are differences of L_d's derivatives, which carry 1/h: rounding grows over 100 steps.
+        assert!(in_q < 1e-11 && in_p < 1e-11, "{in_q:e} {in_p:e}");
+    }
+}
+
+/// Positive control: with the sign that the paper prints the motions differ at once.
+#[test]
+fn with_the_printed_sign_they_do_not() {
+    let [in_q, _] = differences(Midpoint, -1.0, 2);
+    assert!(in_q > 1e-2, "{in_q:e}");
+}
+
+/// Positive control: the momenta do change, so that leaving −2∇ψ out would be seen.
+#[test]
+fn momenta_change() {
+    let start = State::from_velocity(&DoublePendulum::EXAMPLE, [1.1, -0.6], [0.3, 1.2]).unwrap();
+    assert!((PSI.gradient)(&start.q).amax() > 0.05);
+}

@@ -1,0 +1,10 @@
+//! The macros' pipeline called as plain code: what it writes, and that nothing makes it panic.
+
+mod odd_input;
+mod snapshots;
+
+/// The pipeline of the macro crate.
+#[path = "../../../macros/src"]
+mod pipeline {
+    pub mod rayleigh_system;
+}

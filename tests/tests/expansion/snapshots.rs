@@ -1,0 +1,74 @@
+//! Expansions as committed: they guard the form of the generated code, not its correctness.
+//!
+//! After a change that is meant, write them anew and read them:
+//! `UPDATE_SNAPSHOTS=1 cargo test -p dalembert-tests --test expansion`.
+
+use std::path::Path;
+
+use quote::quote;
+
+use crate::pipeline::rayleigh_system::{differentiable, rayleigh_system};
+
+fn formatted(tokens: proc_macro2::TokenStream) -> String {
+    prettyplease::unparse(&syn::parse2(tokens).expect("the expansion is a sequence of items"))
+}
+
+fn assert_snapshot(name: &str, actual: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/expansion/snapshots").join(name);
+    if std::env::var_os("UPDATE_SNAPSHOTS").is_some() {
+        std::fs::write(&path, actual).expect("the folder of snapshots is writable");
+    }
+    let expected = std::fs::read_to_string(&path).unwrap_or_default();
+    let first = expected.lines().zip(actual.lines()).position(|(expected, actual)| expected != actual);
+    assert!(
+        expected == actual,
+        "the expansion differs from {name}, first in line {:?}; if that is meant, run with UPDATE_SNAPSHOTS=1 and read it",
+        first.map(|line| line + 1)
+    );
+}
+
+#[test]
+fn ring() {
+    let expansion = rayleigh_system(
+        quote!(),
+        quote! {
+            impl Ring {
+                fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+                    let s = q[0] * q[0] + q[1] * q[1];
+                    0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2)
+                }
+                fn rayleigh(&self, v: [f64; 2]) -> f64 {
+                    0.5 * self.k * (v[0] * v[0] + v[1] * v[1])
+                }
+            }
+        },
+    );
+    assert_snapshot("ring.rs", &formatted(expansion));
+}
+
+#[test]
+fn oscillator() {
+    let expansion = rayleigh_system(
+        quote!(rule = [midpoint, trapezoidal]),
+        quote! {
+            /// L and R of a damped oscillator.
+            pub fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+                (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+            }
+        },
+    );
+    assert_snapshot("oscillator.rs", &formatted(expansion));
+}
+
+#[test]
+fn rotation() {
+    let expansion = differentiable(
+        quote!(),
+        quote! {
+            fn rotation(q: [f64; 2], speed: f64) -> [f64; 2] {
+                [-speed * q[1], speed * q[0]]
+            }
+        },
+    );
+    assert_snapshot("rotation.rs", &formatted(expansion));
+}

@@ -1,0 +1,192 @@
+//! Caustics are found and located between steps, double ones too, and none where there is none.
+
+use dalembert::hamilton_jacobi::{Characteristic, HamiltonJacobi, Section};
+use dalembert::nalgebra::{SMatrix, SVector, vector};
+use dalembert::{LegendreDerivatives, Midpoint, rayleigh_system};
+use dalembert_tests::damped_oscillator::{CompleteSolution, DAMPED, H};
+
+/// γ(q) = M q + l.
+struct Linear<const N: usize> {
+    matrix: SMatrix<f64, N, N>,
+    shift: SVector<f64, N>,
+}
+
+impl<const N: usize> Section<N> for Linear<N> {
+    type Scalar = f64;
+
+    fn covector(&self, q: &SVector<f64, N>) -> SVector<f64, N> {
+        self.matrix * q + self.shift
+    }
+
+    fn jacobian(&self, _q: &SVector<f64, N>) -> SMatrix<f64, N, N> {
+        self.matrix
+    }
+}
+
+#[test]
+fn the_oscillators_are_where_the_closed_form_says() {
+    let closed = CompleteSolution::new(&DAMPED, H, -0.3, 0.7);
+    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, H);
+    let steps = 60;
+    let caustics = theory.carry(&closed.function(0), &vector![0.9], steps).unwrap().caustics();
+    let expected: Vec<usize> =
+        (0..steps).filter(|k| closed.angle(*k).cos() * closed.angle(k + 1).cos() < 0.0).collect();
+    assert!(expected.len() >= 4);
+    assert_eq!(caustics.iter().map(|caustic| caustic.step).collect::<Vec<_>>(), expected);
+    for caustic in &caustics {
+        let (from, to) = (closed.frame(caustic.step), closed.frame(caustic.step + 1));
+        assert!((caustic.fraction - from / (from - to)).abs() < 1e-11, "{caustic}");
+        assert_eq!(caustic.multiplicity, 1);
+    }
+}
+
+/// On which side of the node rounding puts the zero differs from node to node.
+#[test]
+fn one_on_a_node_is_reported_once() {
+    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, H);
+    for node in 1..12 {
+        for lambda in [0.7, -0.2] {
+            let mut closed = CompleteSolution::new(&DAMPED, H, 0.0, lambda);
+            closed.phase = std::f64::consts::FRAC_PI_2 - node as f64 * closed.theta;
+            let caustics = theory.carry(&closed.function(0), &vector![0.9], 12).unwrap().caustics();
+            assert_eq!(caustics.len(), 1, "{caustics:?}");
+            let caustic = caustics[0];
+            assert_eq!((caustic.step, caustic.fraction, caustic.multiplicity), (node - 1, 1.0, 1));
+            assert!(closed.frame(node).abs() < 1e-14 && closed.frame(node + 1) < -0.01);
+        }
+    }
+}
+
+/// m_i = 1; stiffness matrix K with the given eigenvalues, turned by an angle so that nothing is diagonal.
+struct Plane {
+    stiffness: [f64; 2],
+    angle: f64,
+    friction: f64,
+}
+
+#[rayleigh_system]
+impl Plane {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let (a, b) = (self.along(q), self.across(q));
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - 0.5 * (self.stiffness[0] * a * a + self.stiffness[1] * b * b)
+    }
+
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        0.5 * self.friction * (v[0] * v[0] + v[1] * v[1])
+    }
+
+    fn along(&self, q: [f64; 2]) -> f64 {
+        self.angle.cos() * q[0] + self.angle.sin() * q[1]
+    }
+
+    fn across(&self, q: [f64; 2]) -> f64 {
+        self.angle.cos() * q[1] - self.angle.sin() * q[0]
+    }
+}
+
+const STEPS: usize = 60;
+
+fn carried(system: &Plane) -> Characteristic<f64, 2> {
+    let section = Linear { matrix: SMatrix::zeros(), shift: vector![0.3, -0.1] };
+    HamiltonJacobi::new(system, Midpoint, H).carry(&section, &vector![0.9, 0.4], STEPS).unwrap()
+}
+
+/// Focal points in (k, k + 1] by discrete Sturm theory: negative eigenvalues of Q_kᵀ (∂p0/∂q1) Q_{k+1}.
+fn focal_points(system: &Plane, characteristic: &Characteristic<f64, 2>, k: usize) -> usize {
+    let [from, to] = [characteristic.states[k].q, characteristic.states[k + 1].q];
+    let newton = LegendreDerivatives::of_segment(system, Midpoint, &from, &to, H).p0_by_q1;
+    let form = characteristic.frames[k].q.transpose() * newton * characteristic.frames[k + 1].q;
+    assert!((form - form.transpose()).amax() < 1e-12);
+    form.symmetric_eigenvalues().iter().filter(|value| **value < 0.0).count()
+}
+
+#[test]
+fn a_double_caustic_leaves_the_sign_of_the_determinant_and_is_found() {
+    for friction in [0.0, 0.5] {
+        let system = Plane { stiffness: [1.0, 1.0], angle: 0.6, friction };
+        let characteristic = carried(&system);
+        let caustics = characteristic.caustics();
+        // Positive control: a look at signs finds none.
+        assert!(characteristic.frames.iter().all(|frame| frame.q.determinant() > 0.0));
+        assert!(caustics.len() >= 4);
+        for caustic in &caustics {
+            assert_eq!(caustic.multiplicity, 2, "{caustic}");
+            assert_eq!(focal_points(&system, &characteristic, caustic.step), 2);
+        }
+        // The same in one degree of freedom.
+        let single = dalembert_tests::damped_oscillator::Oscillator { m: 1.0, k: 1.0, r: friction };
+        let section = Linear { matrix: SMatrix::zeros(), shift: vector![0.2] };
+        let single = HamiltonJacobi::new(&single, Midpoint, H)
+            .carry(&section, &vector![0.5], STEPS)
+            .unwrap()
+            .caustics();
+        assert_eq!(single.len(), caustics.len());
+        for (one, two) in single.iter().zip(&caustics) {
+            assert_eq!(one.step, two.step);
+            assert!((one.fraction - two.fraction).abs() < 1e-6, "{one} {two}");
+        }
+    }
+}
+
+#[test]
+fn unequal_stiffnesses_split_it_into_simple_ones_as_sturm_theory_counts() {
+    let system = Plane { stiffness: [1.0, 1.7], angle: 0.6, friction: 0.5 };
+    let characteristic = carried(&system);
+    let mut found = [0; STEPS];
+    for caustic in characteristic.caustics() {
+        found[caustic.step] += caustic.multiplicity;
+    }
+    for (k, found) in found.iter().enumerate() {
+        assert_eq!(*found, focal_points(&system, &characteristic, k), "k = {k}");
+    }
+    assert!(found.iter().sum::<usize>() >= 8);
+    assert!(characteristic.caustics().iter().all(|caustic| caustic.multiplicity == 1));
+}
+
+/// A pendulum: neighbouring characteristics cross in the step that the frame says.
+#[test]
+fn neighbours_of_a_nonlinear_fan_cross_where_the_caustic_is() {
+    #[rayleigh_system]
+    fn pendulum(q: [f64; 1], v: [f64; 1], friction: f64) -> (f64, f64) {
+        (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * friction * v[0] * v[0])
+    }
+    let system = Pendulum { friction: 0.1 };
+    let theory = HamiltonJacobi::new(&system, Midpoint, 0.2);
+    let section = Linear { matrix: SMatrix::zeros(), shift: vector![0.4] };
+    let (width, steps) = (1e-6, 60);
+    let mut places = Vec::new();
+    for label in [-2.0, -1.0, 0.3, 1.4] {
+        let middle = theory.carry(&section, &vector![label], steps).unwrap();
+        let [left, right] = [label - width, label + width]
+            .map(|label| theory.carry(&section, &vector![label], steps).unwrap());
+        let gap = |k: usize| right.states[k].q[0] - left.states[k].q[0];
+        let crossings: Vec<usize> = (0..steps).filter(|k| gap(*k) * gap(k + 1) < 0.0).collect();
+        let caustics = middle.caustics();
+        assert_eq!(caustics.iter().map(|caustic| caustic.step).collect::<Vec<_>>(), crossings, "{label}");
+        for caustic in &caustics {
+            let fraction = gap(caustic.step) / (gap(caustic.step) - gap(caustic.step + 1));
+            assert!((caustic.fraction - fraction).abs() < 1e-5, "{caustic} {fraction}");
+        }
+        places.push(caustics[0].step);
+    }
+    // Positive control: it is no point focus, the place depends on the label.
+    assert!(places.iter().any(|place| *place != places[0]), "{places:?}");
+}
+
+#[test]
+fn a_spreading_fan_has_none() {
+    #[rayleigh_system]
+    fn free(_q: [f64; 1], v: [f64; 1], friction: f64) -> (f64, f64) {
+        (0.5 * v[0] * v[0], 0.5 * friction * v[0] * v[0])
+    }
+    let system = Free { friction: 0.3 };
+    let theory = HamiltonJacobi::new(&system, Midpoint, 0.2);
+    let caustics = |slope: f64| {
+        let section = Linear { matrix: SMatrix::from_element(slope), shift: vector![0.4] };
+        theory.carry(&section, &vector![1.0], 100).unwrap().caustics()
+    };
+    assert!(caustics(0.5).is_empty());
+    // Damped motion covers p/r: a slope of −r just fails to focus, a steeper one does.
+    assert!(caustics(-0.29).is_empty());
+    assert_eq!(caustics(-0.5).len(), 1);
+}

@@ -1,0 +1,89 @@
+//! The paper's worked oscillator example: its sums, its coefficients of γ⁻, its 𝔽⁻, and its flow (which is right).
+
+use dalembert::hamilton_jacobi::HamiltonJacobi;
+use dalembert::nalgebra::vector;
+use dalembert::{Discrete, Midpoint};
+use dalembert_tests::damped_oscillator::{DAMPED, H, Oscillator, trajectory};
+
+/// The example's discrete action and G_d, printed with q_{j+1}, q_j inside the sum over k, and with the index put right.
+struct Example<'a> {
+    system: &'a Oscillator,
+    q: &'a [f64],
+}
+
+impl Example<'_> {
+    fn potential(&self, a: f64, b: f64) -> f64 {
+        0.5 * H * self.system.k * (0.5 * (a + b)).powi(2)
+    }
+
+    fn kinetic(&self, a: f64, b: f64) -> f64 {
+        0.5 * H * self.system.m * ((b - a) / H).powi(2)
+    }
+
+    /// Σ_{k<j} [kinetic(q_k, q_{k+1}) − potential(q_{j+1}, q_j)] as printed.
+    fn action_printed(&self, j: usize) -> f64 {
+        (0..j)
+            .map(|k| self.kinetic(self.q[k], self.q[k + 1]) - self.potential(self.q[j + 1], self.q[j]))
+            .sum()
+    }
+
+    /// D1 G_d at (q_j, q_{j+1}) with the coefficients given: of q_j, q_{j+1}, q_{j−1}.
+    fn gamma_minus(&self, j: usize, [here, next, last]: [f64; 3]) -> f64 {
+        here * self.q[j]
+            + next * self.q[j + 1]
+            + last * self.q[j - 1]
+            + 0.5 * self.system.r * (self.q[j + 1] - self.q[j])
+    }
+}
+
+#[test]
+fn the_examples_printed_coefficients_and_indices_are_wrong() {
+    let q = trajectory(&DAMPED, H, 0.0, 1.0, 12);
+    let plain: Vec<f64> = q.iter().map(|q| q[0]).collect();
+    let example = Example { system: &DAMPED, q: &plain };
+    let (m, k, r, h) = (DAMPED.m, DAMPED.k, DAMPED.r, H);
+    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, H);
+    for j in 2..11 {
+        // The action: its sum runs over k, the printed potential does not.
+        let action = theory.discrete_action(&q[..=j]);
+        let corrected: f64 = (0..j)
+            .map(|k| example.kinetic(plain[k], plain[k + 1]) - example.potential(plain[k], plain[k + 1]))
+            .sum();
+        assert!((action - corrected).abs() < 1e-14 && (action - example.action_printed(j)).abs() > 1e-3);
+
+        // D1 G_d, G_d = S_j + S_{j+1} − R_d with the actions along the trajectory, by differences in q_j (G_d is quadratic,
+        // so that central differences are exact).
+        let generating = |shift: f64| {
+            let mut moved = q.clone();
+            moved[j][0] += shift;
+            let d = moved[j + 1][0] - moved[j][0];
+            theory.discrete_action(&moved[..=j]) + theory.discrete_action(&moved[..=j + 1]) - r * d * d / 4.0
+        };
+        let gamma = (generating(0.5) - generating(-0.5)) / 1.0;
+        let corrected = [3.0 * m / h - 0.75 * k * h, -(m / h + 0.25 * k * h), -(2.0 * m / h + 0.5 * k * h)];
+        let printed = [m / h - 0.75 * k * h, -(m / h - 0.5 * k * h), -(2.0 * m / h + 0.5 * k * h)];
+        assert!((example.gamma_minus(j, corrected) - gamma).abs() < 1e-12, "j = {j}");
+        assert!((example.gamma_minus(j, printed) - gamma).abs() > 1e-3, "j = {j}");
+        // Even so it is not the momentum: it misses by r (q_{j+1} − q_{j−1}), twice the net force.
+        let p = Discrete::<Midpoint, 1>::legendre_minus(&DAMPED, &q[j], &q[j + 1], h).p[0];
+        assert!((gamma - p - r * (plain[j + 1] - plain[j - 1])).abs() < 1e-12, "j = {j}");
+    }
+}
+
+/// 𝔽⁻ has m/h, not (m − r)/h; the printed flow is right.
+#[test]
+fn the_examples_minus_transform_has_m_over_h() {
+    let (m, k, r, h) = (DAMPED.m, DAMPED.k, DAMPED.r, H);
+    let (q0, q1) = (0.3, 0.5);
+    let start = Discrete::<Midpoint, 1>::legendre_minus(&DAMPED, &vector![q0], &vector![q1], h);
+    let of = |mass: f64| mass / h * (q1 - q0) + 0.25 * k * h * (q1 + q0) + 0.5 * r * (q1 - q0);
+    assert!((start.p[0] - of(m)).abs() < 1e-15);
+    assert!((start.p[0] - of(m - r) - r / h * (q1 - q0)).abs() < 1e-15);
+
+    let end = Discrete::<Midpoint, 1>::step(&DAMPED, &start, h, None).unwrap().state;
+    let (q, p, d) = (q0, start.p[0], 4.0 * m + h * h * k + 2.0 * h * r);
+    assert!((end.q[0] - (-h * h * k * q + 4.0 * h * p + 2.0 * h * q * r + 4.0 * m * q) / d).abs() < 1e-15);
+    assert!(
+        (end.p[0] + (h * h * k * p + 4.0 * h * k * m * q + 2.0 * h * p * r - 4.0 * m * p) / d).abs() < 1e-15
+    );
+}

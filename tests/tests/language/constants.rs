@@ -1,0 +1,101 @@
+//! Constants: of the standard library, of the module, of the block; and N itself.
+
+use super::case;
+
+case! {
+    of_the_standard_library: [1] at [([0.3], [1.1])]
+    definitions {
+        use std::f64::consts::PI;
+        pub struct System;
+        fn system() -> System { System }
+    }
+    functions {
+        fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+            use std::f64::consts::{FRAC_PI_2, TAU};
+            let big = if q[0] < f64::MAX && f64::EPSILON < 1.0 { f64::MIN_POSITIVE } else { f64::INFINITY };
+            PI * v[0] * v[0] - (TAU * q[0]).sin() - FRAC_PI_2 * q[0].powi(2) * std::f64::consts::E + big
+        }
+    }
+}
+
+case! {
+    of_the_module: [2] at [([0.3, 0.4], [1.1, -0.2])]
+    definitions {
+        const G: f64 = 9.81;
+        const WEIGHTS: [f64; 2] = [0.25, 0.75];
+        static OFFSET: f64 = 0.125;
+        mod physics {
+            pub const LENGTH: f64 = 0.7;
+            pub const STEPS: usize = 2;
+        }
+        pub struct System;
+        fn system() -> System { System }
+    }
+    functions {
+        fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+            let mut l = 0.0;
+            for i in 0..physics::STEPS {
+                l += WEIGHTS[i] * v[i] * v[i] - G * physics::LENGTH * (1.0 - q[i].cos()) * (q[i] - OFFSET);
+            }
+            l * self::G
+        }
+    }
+}
+
+case! {
+    of_the_block: [2] at [([0.3, 0.4], [1.1, -0.2])]
+    definitions {
+        pub struct System;
+        fn system() -> System { System }
+    }
+    functions {
+        const G: f64 = 9.81;
+        const POWER: i32 = 3;
+        const MASSES: [f64; 2] = [1.0, 2.0];
+        const UP: bool = true;
+        fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+            let sign = if Self::UP { 1.0 } else { -1.0 };
+            Self::MASSES[0] * v[0] * v[0] + System::MASSES[1] * v[1] * v[1] * q[0] - sign * Self::G * q[1].powi(Self::POWER)
+        }
+    }
+}
+
+case! {
+    n_of_the_module: [3] at [([0.3, 0.4, -0.1], [1.1, -0.2, 0.6])]
+    definitions {
+        const N: usize = 3;
+        pub struct System { k: f64 }
+        fn system() -> System { System { k: 1.5 } }
+    }
+    functions {
+        fn lagrangian(&self, q: [f64; N], v: [f64; N]) -> f64 {
+            let mut l = 0.0;
+            for i in 0..N {
+                l += 0.5 * v[i] * v[i] - self.k * (q[i] - q[(i + 1) % N]).cos();
+            }
+            l
+        }
+    }
+}
+
+case! {
+    n_of_the_block: [3] at [([0.3, 0.4, -0.1], [1.1, -0.2, 0.6])]
+    definitions {
+        pub struct System { k: [f64; 2] }
+        fn system() -> System { System { k: [1.5, 0.3] } }
+    }
+    functions {
+        const N: usize = 3;
+        fn lagrangian(&self, q: [f64; Self::N], v: [f64; Self::N]) -> f64 {
+            let kinetic: f64 = v.iter().map(|v| 0.5 * v * v).sum();
+            let mut stretch = [0.0; Self::N - 1];
+            for i in 0..Self::N - 1 {
+                stretch[i] = q[i + 1] - q[i];
+            }
+            kinetic - self.potential(&stretch)
+        }
+        fn potential(&self, stretch: &[f64; Self::N - 1]) -> f64 {
+            stretch.iter().zip(&self.k).map(|(d, k)| 0.5 * k * d * d + 0.25 * d.powi(4)).sum()
+        }
+    }
+}

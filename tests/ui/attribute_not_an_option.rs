@@ -1,0 +1,17 @@
+use dalembert::rayleigh_system;
+
+struct System { k: f64 }
+
+#[rayleigh_system(midpoint)]
+impl System {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        v[0] * v[0] - self.k * q[1]
+    }
+}
+
+fn main() {
+    use dalembert::nalgebra::vector;
+    use dalembert::{Discrete, Midpoint, State};
+    let state = State { q: vector![0.0, 0.0], p: vector![0.0, 0.0] };
+    let _ = Discrete::<Midpoint, 2>::step(&System { k: 1.0 }, &state, 0.1, None);
+}

@@ -1,0 +1,14 @@
+use dalembert::rayleigh_system;
+
+struct System { k: f64 }
+
+#[rayleigh_system]
+impl System {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let Self { k } = self;
+        let other = self;
+        k * other.k * q[0] * v[0]
+    }
+}
+
+fn main() {}

@@ -1,0 +1,13 @@
+use dalembert::rayleigh_system;
+
+struct System { k: f64 }
+
+#[rayleigh_system]
+impl System {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        const G: f64 = 9.81;
+        G * self.k * v[0] * q[0]
+    }
+}
+
+fn main() {}

@@ -1,0 +1,15 @@
+use dalembert::rayleigh_system;
+
+struct System { k: f64 }
+
+#[rayleigh_system]
+impl System {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        Self::first(&q) + v[0] * self.k
+    }
+    fn first(x: &[f64; 2]) -> &f64 {
+        &x[0]
+    }
+}
+
+fn main() {}

@@ -1,0 +1,13 @@
+use dalembert::rayleigh_system;
+
+struct System { k: f64 }
+
+#[rayleigh_system]
+impl System {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let bits = q[0].to_bits();
+        self.k * v[0]
+    }
+}
+
+fn main() {}

@@ -1,0 +1,12 @@
+use dalembert::rayleigh_system;
+
+struct System { k: f64 }
+
+#[rayleigh_system]
+impl System {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        self.k * q[0].rem_euclid(2.0) + v[0]
+    }
+}
+
+fn main() {}
