@@ -4,25 +4,22 @@
 //! Plain proc_macro2 code, so that tests and fuzzers can call it. Each stage goes on with what the one before it found sound,
 //! so that all mistakes show in one compile; if there is any, the user's item is returned beside the diagnostics.
 
-mod attribute;
-mod check;
-mod diagnostics;
-mod differentiate;
+pub mod attribute;
+pub mod check;
+pub mod diagnostics;
+pub mod differentiate;
 mod emit;
 mod expand;
 mod expanded;
 mod fallback;
-mod graph;
+pub mod graph;
 mod implement;
-mod lower;
+pub mod lower;
 mod model;
-mod parse;
+pub mod parse;
 mod rewrite;
 mod scope;
 mod syntax;
-
-#[cfg(test)]
-mod tests;
 
 use proc_macro2::TokenStream;
 

@@ -8,15 +8,13 @@
 //! A selection stands for the function of q and v that it selects: its branches are differentiated whole, and the
 //! selection chooses between the results, so that nothing of a rejected branch is multiplied by anything.
 
-mod partials;
+pub mod partials;
 
 use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
 use super::graph::{Graph, Node, Operation};
 pub use partials::extremum;
-#[cfg(test)]
-pub use partials::fault;
 use partials::{Partials, partials};
 
 /// First derivatives by the variables, where there are any.

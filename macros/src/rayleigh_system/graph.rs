@@ -13,7 +13,7 @@ pub mod interpret;
 
 use std::collections::{BTreeMap, HashMap};
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 
 pub use operation::{Comparison, Function, Operation, PairFunction, Predicate};
 
@@ -123,6 +123,7 @@ impl Graph {
 
     /// The parameter written as `tokens`.
     pub fn written(&mut self, tokens: TokenStream) -> Node {
+        let tokens = with_own_self(tokens);
         let text = tokens.to_string();
         let index = self.parameters.iter().position(|known| known.text == text).unwrap_or_else(|| {
             self.parameters.push(Parameter { tokens, text });
@@ -175,4 +176,23 @@ impl Graph {
         }
         (0..).zip(seen).filter(|(_, seen)| *seen).map(|(index, _)| Node(index)).collect()
     }
+}
+
+/// The tokens with `self` that of the generated function: the user's is another variable where a `macro_rules!` wrote the
+/// attribute.
+fn with_own_self(tokens: TokenStream) -> TokenStream {
+    tokens
+        .into_iter()
+        .map(|token| match token {
+            TokenTree::Ident(word) if word == "self" => {
+                TokenTree::Ident(Ident::new("self", Span::call_site().located_at(word.span())))
+            }
+            TokenTree::Group(group) => {
+                let mut own = Group::new(group.delimiter(), with_own_self(group.stream()));
+                own.set_span(group.span());
+                TokenTree::Group(own)
+            }
+            other => other,
+        })
+        .collect()
 }

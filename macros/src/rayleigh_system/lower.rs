@@ -87,11 +87,8 @@ pub fn system(system: &System<'_>) -> Result<Lowered> {
             (lagrangian, rayleigh, force)
         }
         Source::Function(function) => {
-            let fields = function.item.sig.inputs.iter().skip(2).filter_map(|parameter| match parameter {
-                FnArg::Typed(parameter) => Some(&parameter.pat),
-                FnArg::Receiver(_) => None,
-            });
-            let fields = fields.map(|name| Value::Written(Written::leaf(quote!(self.#name))));
+            let fields = super::expand::parameters(function)
+                .map(|(name, _)| Value::Written(Written::leaf(quote!(self.#name))));
             let arguments = [q, v].into_iter().chain(fields).collect();
             let signature = &function.item.sig;
             let result = lowering.call(&signature.ident, signature, &function.item.block, arguments)?;

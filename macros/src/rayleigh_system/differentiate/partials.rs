@@ -4,8 +4,8 @@
 
 use std::f64::consts::{LN_2, LOG2_E, LOG10_E};
 
+use super::super::graph::{Comparison, Function, Graph, Node, Operation, PairFunction, Predicate};
 use super::Order;
-use crate::rayleigh_system::graph::{Comparison, Function, Graph, Node, Operation, PairFunction, Predicate};
 
 /// Partial derivatives of an operation; what is absent is 0 by structure. No argument occurs twice.
 #[derive(Default)]

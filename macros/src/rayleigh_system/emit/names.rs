@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use syn::Ident;
 
-use crate::rayleigh_system::graph::{Graph, Node, Operation};
+use super::super::graph::{Graph, Node, Operation};
 
 /// The names given within one function.
 pub struct Names {

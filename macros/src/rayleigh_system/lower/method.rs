@@ -3,10 +3,10 @@
 use proc_macro2::Ident;
 use syn::ExprMethodCall;
 
+use super::super::differentiate::extremum;
+use super::super::graph::{Comparison, Function, Operation, PairFunction, Predicate};
 use super::value::{Truth, Value};
 use super::{Lowering, Node, Result, refuse};
-use crate::rayleigh_system::differentiate::extremum;
-use crate::rayleigh_system::graph::{Comparison, Function, Operation, PairFunction, Predicate};
 
 impl Lowering<'_> {
     pub fn method_call(&mut self, call: &ExprMethodCall) -> Result<Value> {

@@ -6,10 +6,10 @@ use syn::{
     UnOp,
 };
 
+use super::super::graph::{Comparison, Operation};
+use super::super::model::{is_integer, simple_name};
 use super::value::{Truth, Value, Written};
 use super::{Lowering, Result, refuse};
-use crate::rayleigh_system::graph::{Comparison, Operation};
-use crate::rayleigh_system::model::{is_integer, simple_name};
 
 impl Lowering<'_> {
     /// Runs an expression.
@@ -114,6 +114,13 @@ impl Lowering<'_> {
         }
         if of_block && let Some(constant) = self.block_constant(&name) {
             return self.expression(&constant);
+        }
+        // `consts::PI` after `use std::f64::consts;`
+        if path.path.segments.len() > 1
+            && let Some(Value::Written(module)) = self.local(first).cloned()
+        {
+            let (module, rest) = (module.tokens(), path.path.segments.iter().skip(1));
+            return Ok(Value::Written(Written::leaf(quote!(#module #(:: #rest)*))));
         }
         let spelled = name.to_string();
         if spelled.contains(char::is_uppercase) && !spelled.contains(char::is_lowercase) {
@@ -417,7 +424,7 @@ fn integers(at: &ExprBinary, operator: &BinOp, a: i128, b: i128) -> Result<Value
 
 /// The operator of a compound assignment.
 fn plain(operator: &BinOp) -> Option<BinOp> {
-    let span = crate::rayleigh_system::diagnostics::span_of(operator);
+    let span = super::super::diagnostics::span_of(operator);
     Some(match operator {
         BinOp::AddAssign(_) => BinOp::Add(syn::Token![+](span)),
         BinOp::SubAssign(_) => BinOp::Sub(syn::Token![-](span)),

@@ -1,10 +1,12 @@
 //! Blocks, `if`, loops and departures from them.
 
-use syn::{Block, Expr, ExprForLoop, ExprIf, ExprMatch, ExprWhile, Item, Pat, Stmt};
+use proc_macro2::TokenStream;
+use quote::quote;
+use syn::{Block, Expr, ExprForLoop, ExprIf, ExprMatch, ExprWhile, Item, Pat, Stmt, UseTree};
 
-use super::value::{Truth, Value};
+use super::super::graph::Operation;
+use super::value::{Truth, Value, Written};
 use super::{Leaving, Lowering, Result, Returned, refuse};
-use crate::rayleigh_system::graph::Operation;
 
 impl Lowering<'_> {
     /// Runs a block; its value is that of its tail.
@@ -45,7 +47,11 @@ impl Lowering<'_> {
             }
             Stmt::Expr(expression, None) => self.expression(expression),
             Stmt::Expr(expression, Some(_)) => self.expression(expression).map(|_| Value::unit()),
-            Stmt::Item(Item::Use(_)) => Ok(Value::unit()),
+            Stmt::Item(Item::Use(import)) => {
+                let root = import.leading_colon.map(|colons| quote!(#colons)).unwrap_or_default();
+                self.import(root, &import.tree)?;
+                Ok(Value::unit())
+            }
             Stmt::Item(item) => {
                 refuse(item, "no items inside a body; make it a function or constant of the annotated block")
             }
@@ -53,6 +59,30 @@ impl Lowering<'_> {
                 refuse(&statement.mac, "macros hide what they compute; write the expression out")
             }
         }
+    }
+
+    /// Names that a `use` brings into a body, as the paths they stand for: the generated code is outside its scope.
+    fn import(&mut self, path: TokenStream, tree: &UseTree) -> Result<()> {
+        let (name, path) = match tree {
+            UseTree::Path(inner) => {
+                let name = &inner.ident;
+                return self.import(quote!(#path #name ::), &inner.tree);
+            }
+            UseTree::Group(group) => {
+                return group.items.iter().try_for_each(|tree| self.import(path.clone(), tree));
+            }
+            UseTree::Name(inner) => {
+                let name = &inner.ident;
+                (name, quote!(#path #name))
+            }
+            UseTree::Rename(inner) => {
+                let name = &inner.ident;
+                (&inner.rename, quote!(#path #name))
+            }
+            other => return refuse(other, "what a `*` imports is not known here; name what is used"),
+        };
+        self.locals.push((name.to_string(), Value::Written(Written::leaf(path))));
+        Ok(())
     }
 
     pub fn choice(&mut self, choice: &ExprIf) -> Result<Value> {

@@ -6,8 +6,8 @@ use proc_macro2::{TokenStream, TokenTree};
 use quote::{ToTokens, quote};
 use syn::{BinOp, Expr, Ident, Index, Pat};
 
+use super::super::graph::{Graph, Node, Operation};
 use super::indexed;
-use crate::rayleigh_system::graph::{Graph, Node, Operation};
 
 /// A value of a body.
 #[derive(Clone)]

@@ -7,7 +7,8 @@
 use nalgebra::SVector;
 use num_dual::{Dual2SVec64, DualNum, DualStruct, hessian};
 
-use crate::rayleigh_system::differentiate::{Differentiation, fault};
+use crate::rayleigh_system::differentiate::Differentiation;
+use crate::rayleigh_system::differentiate::partials::fault;
 use crate::rayleigh_system::graph::{Function, Node, Operation, interpret};
 use crate::rayleigh_system::lower::{self, Lowered};
 use crate::rayleigh_system::{attribute, check, diagnostics::Report, parse};

@@ -21,19 +21,16 @@ const _: () = {
         DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
         Rayleigh, StepKernel, Variations,
     };
+    type Vector = SVector<f64, 2>;
     #[automatically_derived]
     impl Lagrangian<2> for DoublePendulum {
         type Scalar = f64;
         #[inline]
-        fn lagrangian(&self, q: &SVector<f64, 2>, v: &SVector<f64, 2>) -> f64 {
+        fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             self.lagrangian((*q).into(), (*v).into())
         }
         #[inline]
-        fn lagrangian_gradient(
-            &self,
-            q: &SVector<f64, 2>,
-            v: &SVector<f64, 2>,
-        ) -> Gradient<f64, 2> {
+        fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 2> {
             let m2 = self.m[1];
             let t1 = self.m[0] + m2;
             let l1 = self.l[0];
@@ -60,11 +57,7 @@ const _: () = {
             }
         }
         #[inline]
-        fn lagrangian_derivatives(
-            &self,
-            q: &SVector<f64, 2>,
-            v: &SVector<f64, 2>,
-        ) -> Derivatives<f64, 2> {
+        fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
             let m2 = self.m[1];
             let t1 = self.m[0] + m2;
             let l1 = self.l[0];
@@ -104,8 +97,8 @@ const _: () = {
         #[inline]
         fn lagrangian_variations(
             &self,
-            q: &SVector<f64, 2>,
-            v: &SVector<f64, 2>,
+            q: &Vector,
+            v: &Vector,
             minus: Direction<f64>,
             plus: Direction<f64>,
         ) -> Variations<f64, 2> {
@@ -174,15 +167,11 @@ const _: () = {
     #[automatically_derived]
     impl Rayleigh<2> for DoublePendulum {
         #[inline]
-        fn rayleigh(&self, _q: &SVector<f64, 2>, v: &SVector<f64, 2>) -> f64 {
+        fn rayleigh(&self, _q: &Vector, v: &Vector) -> f64 {
             self.rayleigh((*v).into())
         }
         #[inline]
-        fn rayleigh_gradient(
-            &self,
-            _q: &SVector<f64, 2>,
-            v: &SVector<f64, 2>,
-        ) -> Gradient<f64, 2> {
+        fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 2> {
             let relative = v[1] - v[0];
             let t1 = v[0] * (0.5 * self.c[0]);
             let t2 = relative * (0.5 * self.c[1]);
@@ -194,11 +183,7 @@ const _: () = {
             }
         }
         #[inline]
-        fn rayleigh_derivatives(
-            &self,
-            _q: &SVector<f64, 2>,
-            v: &SVector<f64, 2>,
-        ) -> Derivatives<f64, 2> {
+        fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
             let relative = v[1] - v[0];
             let c_0 = self.c[0];
             let t1 = v[0] * (0.5 * c_0);
@@ -218,8 +203,8 @@ const _: () = {
         #[inline]
         fn rayleigh_variations(
             &self,
-            _q: &SVector<f64, 2>,
-            v: &SVector<f64, 2>,
+            _q: &Vector,
+            v: &Vector,
             minus: Direction<f64>,
             plus: Direction<f64>,
         ) -> Variations<f64, 2> {
@@ -242,29 +227,24 @@ const _: () = {
     }
     #[automatically_derived]
     impl Discrete<Midpoint, 2> for DoublePendulum {
-        /// L_d(q0, q1, h).
-        fn discrete_lagrangian(
-            &self,
-            q0: &SVector<f64, 2>,
-            q1: &SVector<f64, 2>,
-            h: f64,
-        ) -> f64 {
+        /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)
         }
         /// L_d with D1, D2, D11, D12, D22.
         fn discrete_lagrangian_derivatives(
             &self,
-            q0: &SVector<f64, 2>,
-            q1: &SVector<f64, 2>,
+            q0: &Vector,
+            q1: &Vector,
             h: f64,
         ) -> Derivatives<f64, 2> {
             Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
         }
-        /// f_d = (f_d⁻, f_d⁺).
+        /// f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d.
         fn discrete_force(
             &self,
-            q0: &SVector<f64, 2>,
-            q1: &SVector<f64, 2>,
+            q0: &Vector,
+            q1: &Vector,
             h: f64,
         ) -> DiscreteForce<f64, 2> {
             Midpoint::rayleigh_force(self, q0, q1, h)
@@ -272,20 +252,15 @@ const _: () = {
         /// f_d with its derivatives by q0 and q1.
         fn discrete_force_derivatives(
             &self,
-            q0: &SVector<f64, 2>,
-            q1: &SVector<f64, 2>,
+            q0: &Vector,
+            q1: &Vector,
             h: f64,
         ) -> DiscreteForceDerivatives<f64, 2> {
             Midpoint::rayleigh_force_derivatives(self, q0, q1, h)
         }
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
         #[inline]
-        fn step_kernel(
-            &self,
-            q0: &SVector<f64, 2>,
-            v: &SVector<f64, 2>,
-            h: f64,
-        ) -> StepKernel<f64, 2> {
+        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 2> {
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0], q0[1] + half * v[1]];
             let m2 = self.m[1];
@@ -338,83 +313,9 @@ const _: () = {
                 ]),
             }
         }
-        /// The kernel, and p1 with ∂p1/∂v̄.
-        #[inline]
-        fn step_evaluation(
-            &self,
-            q0: &SVector<f64, 2>,
-            v: &SVector<f64, 2>,
-            h: f64,
-        ) -> (StepKernel<f64, 2>, Option<::dalembert::Outgoing<f64, 2>>) {
-            let half = 0.5 * h;
-            let q = [q0[0] + half * v[0], q0[1] + half * v[1]];
-            let m2 = self.m[1];
-            let t1 = self.m[0] + m2;
-            let l1 = self.l[0];
-            let t2 = l1 * (0.5 * t1 * l1);
-            let t3 = v[0] * t2;
-            let l2 = self.l[1];
-            let t4 = l2 * (0.5 * m2 * l2);
-            let t5 = v[1] * t4;
-            let t6 = q[0] - q[1];
-            let (t8, t7) = t6.sin_cos();
-            let t9 = l2 * (m2 * l1);
-            let t10 = t7 * t9;
-            let (sin_q0, cos_q0) = q[0].sin_cos();
-            let g = self.g;
-            let t11 = l1 * (-t1 * g);
-            let (sin_q1, cos_q1) = q[1].sin_cos();
-            let t12 = l2 * (m2 * g);
-            let relative = v[1] - v[0];
-            let c_0 = self.c[0];
-            let c_1 = self.c[1];
-            let t13 = v[0] * v[1];
-            let t14 = t9 * t13 * t8;
-            let t15 = t5 + (t5 + v[0] * t10);
-            let t16 = t3 + (t3 + v[1] * t10);
-            let t17 = t10 * t13;
-            let t18 = 2.0 * t4;
-            let t19 = 2.0 * t2;
-            let dr_drelative = 2.0 * (relative * (0.5 * c_1));
-            let t20 = (2.0 * (v[0] * (0.5 * c_0)) - dr_drelative) * half;
-            let t21 = dr_drelative * half;
-            let t22 = (c_0 + c_1) * half;
-            let t23 = c_1 * half;
-            let t24 = t10 - t23;
-            let t25 = t10 + t23;
-            let t26 = (t11 * sin_q0 - t14) * half;
-            let t27 = (t14 - t12 * sin_q1) * half;
-            let t28 = half * half;
-            let t29 = (cos_q0 * t11 - t17) * t28;
-            let t30 = t8 * (v[0] * t9) * half;
-            let t31 = t8 * (v[1] * t9) * half;
-            let t32 = t17 * t28;
-            let t33 = (cos_q1 * t12 + t17) * t28;
-            (
-                StepKernel {
-                    p0: SVector::from([t16 + t20 - t26, t15 + t21 - t27]),
-                    matrix: SMatrix::from([
-                        [t19 + t22 - t29, t24 - t30 - t31 - t32],
-                        [t30 + (t24 + t31) - t32, t18 + t23 + t33],
-                    ]),
-                },
-                Some(::dalembert::Outgoing {
-                    p1: SVector::from([t16 - t20 + t26, t15 - t21 + t27]),
-                    by_v: SMatrix::from([
-                        [t29 + (t19 - t22 - t31 - t31), t32 + (t31 + (t25 - t30))],
-                        [t32 + (t25 + t31 - t30), t30 + (t18 - t23 + t30) - t33],
-                    ]),
-                }),
-            )
-        }
         /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
         #[inline]
-        fn momenta(
-            &self,
-            q0: &SVector<f64, 2>,
-            v: &SVector<f64, 2>,
-            h: f64,
-        ) -> Momenta<f64, 2> {
+        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 2> {
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0], q0[1] + half * v[1]];
             let m2 = self.m[1];
@@ -443,31 +344,21 @@ const _: () = {
             }
         }
         /// E_L on the segment.
-        fn segment_energy(
-            &self,
-            q0: &SVector<f64, 2>,
-            q1: &SVector<f64, 2>,
-            h: f64,
-        ) -> f64 {
+        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::segment_energy(self, q0, q1, h)
         }
     }
     #[automatically_derived]
     impl DiscreteRayleigh<Midpoint, 2> for DoublePendulum {
-        /// R_d(q0, q1, h).
-        fn discrete_rayleigh(
-            &self,
-            q0: &SVector<f64, 2>,
-            q1: &SVector<f64, 2>,
-            h: f64,
-        ) -> f64 {
+        /// R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_rayleigh(self, q0, q1, h)
         }
         /// R_d with D1, D2, D11, D12, D22.
         fn discrete_rayleigh_derivatives(
             &self,
-            q0: &SVector<f64, 2>,
-            q1: &SVector<f64, 2>,
+            q0: &Vector,
+            q1: &Vector,
             h: f64,
         ) -> Derivatives<f64, 2> {
             Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
