@@ -210,6 +210,10 @@ impl Writer<'_> {
                 let (x, n) = (self.receiver(x), Literal::i32_unsuffixed(n));
                 (quote!(#x.powi(#n)), Binding::Atom)
             }
+            Operation::MultiplyAdd(a, b, c) => {
+                let (a, b, c) = (self.receiver(a), self.expression(b).tokens, self.expression(c).tokens);
+                (quote!(#a.mul_add(#b, #c)), Binding::Atom)
+            }
             Operation::Select(condition, a, b) => {
                 let condition = self.expression(condition).tokens;
                 let (a, b) = (self.expression(a).tokens, self.expression(b).tokens);

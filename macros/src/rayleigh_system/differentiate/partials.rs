@@ -39,6 +39,16 @@ pub fn partials(graph: &mut Graph, node: Node, operation: Operation, order: Orde
             let one = graph.one();
             Partials { first: vec![(a, b), (b, a)], second: vec![(a, b, one)] }
         }
+        Operation::MultiplyAdd(a, b, c) => {
+            let product = graph.node(Operation::Multiply(a, b));
+            let mut of_product = partials(graph, product, graph.operation(product), order);
+            let one = graph.one();
+            match of_product.first.iter().position(|&(argument, _)| argument == c) {
+                Some(index) => of_product.first[index].1 = graph.plus(of_product.first[index].1, one),
+                None => of_product.first.push((c, one)),
+            }
+            of_product
+        }
         Operation::Divide(a, b) if a != b => quotient(graph, node, a, b),
         Operation::Negate(a) => {
             let minus = graph.constant(-1.0);

@@ -28,6 +28,7 @@ pub fn values(
             Operation::Pair(PairFunction::Atan2, a, b) => at(a).atan2(at(b)),
             Operation::Pair(PairFunction::Hypot, a, b) => at(a).hypot(at(b)),
             Operation::Pair(PairFunction::Copysign, a, b) => at(a).copysign(at(b)),
+            Operation::MultiplyAdd(a, b, c) => at(a).mul_add(at(b), at(c)),
             Operation::Power(x, n) => at(x).powi(n),
             Operation::Select(condition, a, b) => {
                 if at(condition) != 0.0 {

@@ -22,6 +22,8 @@ pub enum Operation {
     Pair(PairFunction, Node, Node),
     Power(Node, i32),
     Select(Node, Node, Node),
+    /// a b + c, rounded once.
+    MultiplyAdd(Node, Node, Node),
     // Truth values.
     Compare(Comparison, Node, Node),
     Is(Predicate, Node),
@@ -54,7 +56,7 @@ impl Operation {
             | Self::Compare(_, a, b)
             | Self::And(a, b)
             | Self::Or(a, b) => [Some(a), Some(b), None],
-            Self::Select(condition, a, b) => [Some(condition), Some(a), Some(b)],
+            Self::Select(a, b, c) | Self::MultiplyAdd(a, b, c) => [Some(a), Some(b), Some(c)],
         };
         arguments.into_iter().flatten()
     }

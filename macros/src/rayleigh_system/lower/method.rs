@@ -96,10 +96,7 @@ impl Lowering<'_> {
                 let raised = graph.select(below, low, x);
                 graph.select(above, high, raised)
             }
-            ("mul_add", &[a, b]) => {
-                let product = graph.node(Operation::Multiply(x, a));
-                graph.node(Operation::Add(product, b))
-            }
+            ("mul_add", &[a, b]) => graph.node(Operation::MultiplyAdd(x, a, b)),
             ("to_radians", []) => {
                 let factor = graph.constant(core::f64::consts::PI / 180.0);
                 graph.node(Operation::Multiply(x, factor))
