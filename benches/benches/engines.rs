@@ -38,8 +38,8 @@ macro_rules! systems {
         impl Chain {
             fn lagrangian(&self, q: [f64; 8], v: [f64; 8]) -> f64 {
                 let mut energy = 0.0;
-                for i in 0..8 {
-                    energy += 0.5 * v[i] * v[i];
+                for v in &v {
+                    energy += 0.5 * v * v;
                 }
                 energy -= Self::spring(self.beta, q[0]) + Self::spring(self.beta, q[7]);
                 for i in 1..8 {
