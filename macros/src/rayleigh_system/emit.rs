@@ -271,8 +271,13 @@ impl Writer<'_> {
 
     /// A number. Among other literals alone, or as a receiver, it has to say its type.
     fn constant(&self, value: f64, suffixed: bool) -> (TokenStream, Binding) {
+        use std::f64::consts::{LN_2, LOG2_E, LOG10_E};
         let size = value.abs();
-        let literal = if suffixed {
+        let named = [(LN_2, "LN_2"), (LOG2_E, "LOG2_E"), (LOG10_E, "LOG10_E")];
+        let literal = if let Some((_, name)) = named.iter().find(|(constant, _)| *constant == size) {
+            let (scalar, name) = (self.scalar, format_ident!("{name}"));
+            quote!(::core::#scalar::consts::#name)
+        } else if suffixed {
             let text = format!("{size:?}_{}", self.scalar);
             text.parse().unwrap_or_else(|_| quote!(#size))
         } else {
