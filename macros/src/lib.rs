@@ -3,6 +3,8 @@
 use proc_macro::TokenStream;
 
 mod rayleigh_system;
+#[cfg(test)]
+mod tests;
 
 #[allow(
     missing_docs,

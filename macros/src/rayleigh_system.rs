@@ -1,17 +1,22 @@
 //! `#[rayleigh_system]` and `#[differentiable]`, from tokens to tokens.
 //!
-//! parse → check → rewrite → expand. Plain proc_macro2 code, so that tests and fuzzers can call it. Each stage goes on with
-//! what the one before it found sound, so that all mistakes show in one compile; if there is any, the user's item is returned
-//! beside the diagnostics.
+//! parse → check → lower → differentiate → emit, or, where a body cannot be lowered, parse → check → rewrite → expand.
+//! Plain proc_macro2 code, so that tests and fuzzers can call it. Each stage goes on with what the one before it found sound,
+//! so that all mistakes show in one compile; if there is any, the user's item is returned beside the diagnostics.
 
-mod attribute;
-mod check;
-mod diagnostics;
+pub mod attribute;
+pub mod check;
+pub mod diagnostics;
+pub mod differentiate;
+mod emit;
 mod expand;
+mod expanded;
 mod fallback;
+pub mod graph;
 mod implement;
+pub mod lower;
 mod model;
-mod parse;
+pub mod parse;
 mod rewrite;
 mod scope;
 mod syntax;
@@ -19,20 +24,36 @@ mod syntax;
 use proc_macro2::TokenStream;
 
 use diagnostics::{Mistake, Report};
-use model::Source;
+use model::{Engine, Source};
 
 /// The expansion of `#[rayleigh_system(attribute)] item`.
 pub fn rayleigh_system(attribute: TokenStream, item: TokenStream) -> TokenStream {
     let mut report = Report::default();
-    let rules = attribute::rules(attribute, &mut report);
+    let options = attribute::options(attribute, &mut report);
     let Some(source) = parse::source(item.clone(), &mut report) else {
         return fallback::item_alone(item, report);
     };
-    let Some(system) = check::system(&source, rules, &mut report) else {
-        return fallback::with_stubs(&source, report);
+    let Some(system) = check::system(&source, options.rules.clone(), &mut report) else {
+        return fallback::with_stubs(&source, &options.rules, report);
     };
+    if options.engine == Engine::Expanded && report.is_empty() {
+        let expansion = match lower::system(&system) {
+            Ok(lowered) => expanded::system(&system, lowered).ok_or((source.name().span(), Mistake::TooLong)),
+            Err(refusal) => Err((refusal.span, Mistake::NotLowered(refusal.reason))),
+        };
+        return expansion.unwrap_or_else(|(span, mistake)| {
+            report.at_span(span, mistake);
+            fallback::with_stubs(&source, &options.rules, report)
+        });
+    }
+    let lowered = if options.engine == Engine::Auto { lower::system(&system).ok() } else { None };
+    // What auto accepts does not depend on how far the lowering goes.
     let system = rewrite::over_duals(system, &mut report);
-    if report.is_empty() { expand::system(&system) } else { fallback::with_stubs(&source, report) }
+    if !report.is_empty() {
+        return fallback::with_stubs(&source, &options.rules, report);
+    }
+    let expansion = lowered.and_then(|lowered| expanded::system(&system, lowered));
+    expansion.unwrap_or_else(|| expand::system(&system))
 }
 
 /// The expansion of `#[differentiable] item`: the same stages, for a function of (q, parameters…).
@@ -45,11 +66,11 @@ pub fn differentiable(attribute: TokenStream, item: TokenStream) -> TokenStream 
         return fallback::item_alone(item, report);
     };
     let Some((system, field)) = check::field(&source, &mut report) else {
-        return fallback::with_stubs(&source, report);
+        return fallback::with_stubs(&source, &[], report);
     };
     let system = rewrite::over_duals(system, &mut report);
     match &source {
         Source::Function(function) if report.is_empty() => expand::field(&system, function, field),
-        _ => fallback::with_stubs(&source, report),
+        _ => fallback::with_stubs(&source, &[], report),
     }
 }

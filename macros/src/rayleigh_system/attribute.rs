@@ -1,4 +1,4 @@
-//! The options of the attribute: `rule = midpoint`, `rule = [midpoint, trapezoidal]`.
+//! The options of the attribute: `rule = midpoint`, `rule = [midpoint, trapezoidal]`, `derivatives = expanded`.
 
 use proc_macro2::TokenStream;
 use syn::parse::{Parse, ParseStream, Parser};
@@ -6,7 +6,7 @@ use syn::punctuated::Punctuated;
 use syn::{Ident, Token, bracketed, token};
 
 use super::diagnostics::{Mistake, Report};
-use super::model::Rule;
+use super::model::{Engine, Rule};
 
 /// One option, `name = value` or `name = [value, …]`.
 struct Setting {
@@ -32,42 +32,76 @@ impl Parse for Setting {
     }
 }
 
-/// The rules listed, midpoint unless said.
-pub fn rules(attribute: TokenStream, report: &mut Report) -> Vec<Rule> {
-    if attribute.is_empty() {
-        return vec![Rule::Midpoint];
-    }
+/// What the attribute asks for.
+pub struct Options {
+    /// Midpoint unless said.
+    pub rules: Vec<Rule>,
+    /// Whichever can, unless said.
+    pub engine: Engine,
+}
+
+/// The options said, and defaults for the others.
+pub fn options(attribute: TokenStream, report: &mut Report) -> Options {
+    let mut options = Options { rules: Vec::new(), engine: Engine::Auto };
     let settings = match Punctuated::<Setting, Token![,]>::parse_terminated.parse2(attribute) {
         Ok(settings) => settings,
         Err(error) => {
             report.at_span(error.span(), Mistake::UnknownOption);
-            return vec![Rule::Midpoint];
+            return options;
         }
     };
-    let mut rules = Vec::new();
+    let mut says_rule = false;
     for setting in settings {
-        if setting.name != "rule" {
+        if setting.name == "rule" {
+            says_rule = true;
+            rules(setting, &mut options.rules, report);
+        } else if setting.name == "derivatives" {
+            engine(setting, &mut options.engine, report);
+        } else {
             report.at(&setting.name, Mistake::UnknownOption);
-            continue;
-        }
-        if setting.values.is_empty() {
-            report.at(&setting.name, Mistake::NoRule);
-        }
-        for value in setting.values {
-            let rule = match value.to_string().as_str() {
-                "midpoint" => Rule::Midpoint,
-                "trapezoidal" => Rule::Trapezoidal,
-                other => {
-                    report.at(&value, Mistake::UnknownRule(other.to_owned()));
-                    continue;
-                }
-            };
-            if rules.contains(&rule) {
-                report.at(&value, Mistake::RepeatedRule(value.to_string()));
-            } else {
-                rules.push(rule);
-            }
         }
     }
-    rules
+    if !says_rule {
+        options.rules.push(Rule::Midpoint);
+    }
+    options
+}
+
+/// `derivatives = expanded`
+fn engine(setting: Setting, engine: &mut Engine, report: &mut Report) {
+    let [value] = &setting.values[..] else {
+        report.at(&setting.name, Mistake::UnknownEngine(String::new()));
+        return;
+    };
+    *engine = match value.to_string().as_str() {
+        "auto" => Engine::Auto,
+        "expanded" => Engine::Expanded,
+        "num_dual" => Engine::NumDual,
+        other => {
+            report.at(value, Mistake::UnknownEngine(other.to_owned()));
+            return;
+        }
+    };
+}
+
+/// `rule = [midpoint, trapezoidal]`
+fn rules(setting: Setting, rules: &mut Vec<Rule>, report: &mut Report) {
+    if setting.values.is_empty() {
+        report.at(&setting.name, Mistake::NoRule);
+    }
+    for value in setting.values {
+        let rule = match value.to_string().as_str() {
+            "midpoint" => Rule::Midpoint,
+            "trapezoidal" => Rule::Trapezoidal,
+            other => {
+                report.at(&value, Mistake::UnknownRule(other.to_owned()));
+                continue;
+            }
+        };
+        if rules.contains(&rule) {
+            report.at(&value, Mistake::RepeatedRule(value.to_string()));
+        } else {
+            rules.push(rule);
+        }
+    }
 }

@@ -70,6 +70,9 @@ pub enum Mistake {
     UnknownRule(String),
     RepeatedRule(String),
     NoRule,
+    UnknownEngine(String),
+    NotLowered(String),
+    TooLong,
     // The item.
     WrongItem,
     WrongField,
@@ -126,10 +129,14 @@ pub enum Mistake {
 impl Display for Mistake {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::UnknownOption => f.write_str("unknown option; write `rule = midpoint`, `rule = trapezoidal` or a list `rule = [midpoint, trapezoidal]`"),
+            Self::UnknownOption => f.write_str("unknown option; write `rule = midpoint`, `rule = trapezoidal`, a list `rule = [midpoint, trapezoidal]`, or `derivatives = auto`, `expanded`, `num_dual`"),
             Self::UnknownRule(rule) => write!(f, "unknown rule `{rule}`; the rules are `midpoint` and `trapezoidal`"),
             Self::RepeatedRule(rule) => write!(f, "rule `{rule}` is listed twice; remove one"),
             Self::NoRule => f.write_str("no rule is listed; write at least one, or leave the option out for `midpoint`"),
+            Self::UnknownEngine(engine) if engine.is_empty() => f.write_str("write one of `derivatives = auto`, `expanded`, `num_dual`"),
+            Self::UnknownEngine(engine) => write!(f, "unknown engine `{engine}`; write `derivatives = auto`, `expanded` or `num_dual`"),
+            Self::NotLowered(reason) => write!(f, "derivatives cannot be written out: {reason}; or leave the derivatives to `derivatives = num_dual`"),
+            Self::TooLong => f.write_str("the derivatives are too long to be written out; use `derivatives = num_dual`"),
 
             Self::WrongItem => f.write_str("`#[rayleigh_system]` goes on an `impl` block with `fn lagrangian`, or on one free function of (q, v, parameters…)"),
             Self::WrongField => f.write_str("`#[differentiable]` goes on one free function of (q, parameters…)"),

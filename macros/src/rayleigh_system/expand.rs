@@ -28,7 +28,7 @@ pub fn system(system: &System<'_>) -> TokenStream {
     let rayleigh = system.rayleigh.map(|_| rayleigh(system));
     let force = system.has_force.then(|| force(system));
     let discrete = system.rules.iter().map(|&rule| {
-        let discrete = discrete(system, rule);
+        let discrete = discrete(system, rule, None);
         let discrete_rayleigh = system.rayleigh.map(|_| discrete_rayleigh(system, rule));
         quote!(#discrete #discrete_rayleigh)
     });
@@ -145,6 +145,16 @@ pub fn field(system: &System<'_>, function: &Function, kind: Field) -> TokenStre
 
 /// What the implementations use, and nothing else: an unused import would warn in the user's crate.
 fn imports(system: &System<'_>) -> TokenStream {
+    let names = imported(system);
+    let linear = if system.has_force { quote!({SMatrix, SVector}) } else { quote!(SVector) };
+    quote! {
+        use ::dalembert::nalgebra::#linear;
+        use ::dalembert::{#(#names,)* dual};
+    }
+}
+
+/// The names of the runtime's traits and results among them.
+pub fn imported(system: &System<'_>) -> Vec<Ident> {
     let mut names = vec![
         "Derivatives",
         "Direction",
@@ -167,12 +177,7 @@ fn imports(system: &System<'_>) -> TokenStream {
     }
     names.extend(system.rules.iter().map(|rule| rule.name()));
     names.sort_unstable();
-    let names = names.into_iter().map(|name| format_ident!("{name}"));
-    let linear = if system.has_force { quote!({SMatrix, SVector}) } else { quote!(SVector) };
-    quote! {
-        use ::dalembert::nalgebra::#linear;
-        use ::dalembert::{#(#names,)* dual};
-    }
+    names.into_iter().map(|name| format_ident!("{name}")).collect()
 }
 
 /// The user's block, each differentiated function handing its work to the twin.
@@ -296,7 +301,7 @@ fn named(attributes: &[Attribute], names: &[&str]) -> impl Iterator<Item = Attri
 }
 
 /// The conditions under which the user's item exists at all.
-fn conditions(source: &Source) -> Vec<Attribute> {
+pub fn conditions(source: &Source) -> Vec<Attribute> {
     let attributes = match source {
         Source::Block(block) => &block.item.attrs,
         Source::Function(function) => &function.item.attrs,
@@ -306,6 +311,26 @@ fn conditions(source: &Source) -> Vec<Attribute> {
 
 /// The user's function, callable as before, and the struct of its parameters.
 fn function_and_struct(system: &System<'_>, function: &Function) -> TokenStream {
+    let name = &system.name;
+    let mut plain = function.item.clone();
+    let scalar = &system.scalar;
+    let twin = over(&function.item.sig.ident);
+    let arguments = lifted_arguments(plain.sig.inputs.iter_mut());
+    plain.attrs.retain(|attribute| !attribute.path().is_ident("expect"));
+    plain.block = parse_quote!({
+        use ::dalembert::dual;
+        dual::lower(#name::#twin::<#scalar>(#(#arguments),*))
+    });
+    let structure = structure(system, function);
+    quote! {
+        #plain
+
+        #structure
+    }
+}
+
+/// The struct of a free function's parameters.
+pub fn structure(system: &System<'_>, function: &Function) -> TokenStream {
     let name = &system.name;
     let visibility = function.visibility();
     let function_name = &function.item.sig.ident;
@@ -319,20 +344,8 @@ fn function_and_struct(system: &System<'_>, function: &Function) -> TokenStream 
         quote!(#[doc = #text] #visibility #field: #ty)
     });
     let body = if parameters(function).next().is_some() { quote!({ #(#fields),* }) } else { quote!(;) };
-
-    let mut plain = function.item.clone();
-    let scalar = &system.scalar;
-    let twin = over(function_name);
-    let arguments = lifted_arguments(plain.sig.inputs.iter_mut());
-    plain.attrs.retain(|attribute| !attribute.path().is_ident("expect"));
-    plain.block = parse_quote!({
-        use ::dalembert::dual;
-        dual::lower(#name::#twin::<#scalar>(#(#arguments),*))
-    });
     let conditions = conditions(system.source);
     quote! {
-        #plain
-
         #(#conditions)*
         #[doc = #text]
         #[derive(Clone, Copy, Debug, PartialEq)]

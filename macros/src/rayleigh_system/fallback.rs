@@ -7,7 +7,7 @@ use quote::{format_ident, quote};
 use syn::{FnArg, ImplItem, ImplItemFn, Pat, ReturnType, Signature, Type, parse_quote};
 
 use super::diagnostics::Report;
-use super::model::{Degrees, Role, Source, simple_name};
+use super::model::{Degrees, Role, Rule, Source, simple_name};
 
 /// The item as it came, beside the diagnostics.
 pub fn item_alone(item: TokenStream, report: Report) -> TokenStream {
@@ -16,7 +16,7 @@ pub fn item_alone(item: TokenStream, report: Report) -> TokenStream {
 }
 
 /// The item, the diagnostics and stubs, as far as the signature of L tells the number of degrees of freedom.
-pub fn with_stubs(source: &Source, report: Report) -> TokenStream {
+pub fn with_stubs(source: &Source, rules: &[Rule], report: Report) -> TokenStream {
     let errors = report.to_tokens();
     let name = source.name();
     let (item, lagrangian) = match source {
@@ -49,7 +49,7 @@ pub fn with_stubs(source: &Source, report: Report) -> TokenStream {
         }
     };
     let is_field = matches!(source, Source::Function(function) if function.role == Role::Field);
-    let stubs = if is_field { field_stubs(source) } else { stubs_of(lagrangian, name) };
+    let stubs = if is_field { field_stubs(source) } else { stubs_of(lagrangian, name, rules) };
     quote!(#item #errors #stubs)
 }
 
@@ -83,8 +83,8 @@ fn field_stubs(source: &Source) -> Option<TokenStream> {
     })
 }
 
-fn stubs_of(lagrangian: Option<&Signature>, name: &syn::Ident) -> Option<TokenStream> {
-    lagrangian.and_then(|signature| shape(signature, name)).map(|(scalar, n)| stubs(name, &scalar, &n))
+fn stubs_of(lagrangian: Option<&Signature>, name: &syn::Ident, rules: &[Rule]) -> Option<TokenStream> {
+    lagrangian.and_then(|signature| shape(signature, name)).map(|(scalar, n)| stubs(name, &scalar, &n, rules))
 }
 
 /// Scalar and N, from the first array among the parameters.
@@ -106,10 +106,14 @@ fn shape(signature: &Signature, system: &syn::Ident) -> Option<(TokenStream, Tok
 }
 
 /// Implementations that no program will run: the diagnostics stop the compilation.
-fn stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream) -> TokenStream {
+///
+/// Only for the rules listed, since with others beside them `system.step(…)` would be ambiguous; for all where the list is what
+/// is wrong.
+fn stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream, rules: &[Rule]) -> TokenStream {
     let vector = quote!(&::dalembert::nalgebra::SVector<#scalar, #n>);
     let derivatives = quote!(::dalembert::Derivatives<#scalar, #n>);
-    let rules = ["Midpoint", "Trapezoidal"].map(|rule| format_ident!("{rule}"));
+    let rules = if rules.is_empty() { &[Rule::Midpoint, Rule::Trapezoidal] } else { rules };
+    let rules: Vec<_> = rules.iter().map(|rule| format_ident!("{}", rule.name())).collect();
     quote! {
         const _: () = {
             impl ::dalembert::Lagrangian<#n> for #name {

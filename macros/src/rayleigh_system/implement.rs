@@ -8,7 +8,7 @@ use super::expand::parameters;
 use super::model::{RayleighArguments, Rule, Source, System};
 
 /// The plain value of L (0) or R (1) at the vectors q and v.
-fn value(system: &System<'_>, function: &str, arguments: RayleighArguments) -> TokenStream {
+pub fn value(system: &System<'_>, function: &str, arguments: RayleighArguments) -> TokenStream {
     match system.source {
         Source::Block(_) => {
             let function = format_ident!("{function}");
@@ -131,8 +131,15 @@ pub fn force(system: &System<'_>) -> TokenStream {
     }
 }
 
-/// `impl Discrete<Midpoint, 2> for Ring`: one term for each of L, R and f that the system has.
-pub fn discrete(system: &System<'_>, rule: Rule) -> TokenStream {
+/// Bodies of the functions that a step calls, L, R and f together.
+pub struct Kernel {
+    pub step_kernel: TokenStream,
+    pub momenta: TokenStream,
+}
+
+/// `impl Discrete<Midpoint, 2> for Ring`: one term for each of L, R and f that the system has, unless an engine gives the
+/// kernel's bodies.
+pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> TokenStream {
     let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
     let lagrangian = rule.lagrangian();
@@ -166,6 +173,10 @@ pub fn discrete(system: &System<'_>, rule: Rule) -> TokenStream {
             }
         }
     });
+    let Kernel { step_kernel, momenta } = kernel.unwrap_or_else(|| Kernel {
+        step_kernel: quote!(#rule::lagrangian_kernel(self, q0, v, h) #(+ #rule::#kernels(self, q0, v, h))*),
+        momenta: quote!(#rule::lagrangian_momenta(self, q0, v, h) #(+ #rule::#momenta(self, q0, v, h))*),
+    });
     // p0 = −D1 L_d − f_d⁻: Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0, v, h)
     quote! {
         #[automatically_derived]
@@ -188,13 +199,15 @@ pub fn discrete(system: &System<'_>, rule: Rule) -> TokenStream {
             #discrete_force
 
             /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+            #[inline]
             fn step_kernel(&self, q0: &Vector, v: &Vector, h: #scalar) -> StepKernel<#scalar, #n> {
-                #rule::lagrangian_kernel(self, q0, v, h) #(+ #rule::#kernels(self, q0, v, h))*
+                #step_kernel
             }
 
             /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+            #[inline]
             fn momenta(&self, q0: &Vector, v: &Vector, h: #scalar) -> Momenta<#scalar, #n> {
-                #rule::lagrangian_momenta(self, q0, v, h) #(+ #rule::#momenta(self, q0, v, h))*
+                #momenta
             }
 
             /// E_L on the segment.

@@ -50,6 +50,17 @@ impl Rule {
     }
 }
 
+/// Who makes the derivatives.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Engine {
+    /// Written out where every body can be lowered, num-dual otherwise.
+    Auto,
+    /// Written out by the macro.
+    Expanded,
+    /// Dual numbers, when the program runs.
+    NumDual,
+}
+
 /// The annotated item as parsed.
 pub enum Source {
     Block(Box<Block>),

@@ -36,8 +36,8 @@ impl Charge {
     fn lagrangian(&self, q: [f64; 3], v: [f64; 3]) -> f64 {
         let [x, y, z] = q;
         let mut kinetic = 0.0;
-        for i in 0..3 {
-            kinetic += 0.5 * self.m[i] * v[i] * v[i];
+        for (i, v) in v.iter().enumerate() {
+            kinetic += 0.5 * self.m[i] * v * v;
         }
         let square: f64 = q.iter().map(|x| x * x).sum();
         kinetic + self.b * (1.0 + 0.5 * z * z) * (x * v[1] - y * v[0]) - 0.25 * square.powi(2)

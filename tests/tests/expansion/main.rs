@@ -5,6 +5,7 @@ mod snapshots;
 
 /// The pipeline of the macro crate.
 #[path = "../../../macros/src"]
+#[allow(dead_code, reason = "the macro crate's own tests look further inside")]
 mod pipeline {
     pub mod rayleigh_system;
 }

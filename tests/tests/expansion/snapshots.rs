@@ -47,6 +47,45 @@ fn ring() {
 }
 
 #[test]
+fn double_pendulum() {
+    let item = quote! {
+        impl DoublePendulum {
+            fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+                let [m1, m2] = self.m;
+                let [l1, l2] = self.l;
+                let kinetic = 0.5 * (m1 + m2) * l1 * l1 * v[0] * v[0]
+                    + 0.5 * m2 * l2 * l2 * v[1] * v[1]
+                    + m2 * l1 * l2 * (q[0] - q[1]).cos() * v[0] * v[1];
+                let potential = -(m1 + m2) * self.g * l1 * q[0].cos() - m2 * self.g * l2 * q[1].cos();
+                kinetic - potential
+            }
+            fn rayleigh(&self, v: [f64; 2]) -> f64 {
+                let relative = v[1] - v[0];
+                0.5 * self.c[0] * v[0] * v[0] + 0.5 * self.c[1] * relative * relative
+            }
+        }
+    };
+    let expansion = formatted(rayleigh_system(quote!(derivatives = expanded), item.clone()));
+    assert_snapshot("double_pendulum.rs", &expansion);
+    // Equal systems give equal text.
+    assert_eq!(expansion, formatted(rayleigh_system(quote!(derivatives = expanded), item)));
+}
+
+/// The same system with num-dual's derivatives.
+#[test]
+fn oscillator_by_num_dual() {
+    let expansion = rayleigh_system(
+        quote!(derivatives = num_dual),
+        quote! {
+            pub fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+                (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+            }
+        },
+    );
+    assert_snapshot("oscillator_by_num_dual.rs", &formatted(expansion));
+}
+
+#[test]
 fn oscillator() {
     let expansion = rayleigh_system(
         quote!(rule = [midpoint, trapezoidal]),

@@ -1,11 +1,6 @@
 /// L and R of a damped oscillator.
 pub fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
-    use ::dalembert::dual;
-    dual::lower(
-        Oscillator::oscillator_over::<
-            f64,
-        >(dual::lift(q), dual::lift(v), dual::lift(m), dual::lift(k), dual::lift(r)),
-    )
+    (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
 }
 /// The mechanical system of [`oscillator`], with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,74 +14,46 @@ pub struct Oscillator {
     pub r: f64,
 }
 const _: () = {
-    use ::dalembert::dual::{self, Dual, Real};
-    #[allow(dead_code)]
-    impl Oscillator {
-        /// `oscillator` over plain and dual numbers.
-        #[inline(always)]
-        fn oscillator_over<D: Dual<f64>>(
-            q: [Real<D>; 1],
-            v: [Real<D>; 1],
-            m: Real<D>,
-            k: Real<D>,
-            r: Real<D>,
-        ) -> (Real<D>, Real<D>) {
-            (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
-        }
-        /// L over plain and dual numbers.
-        #[inline(always)]
-        fn lagrangian_over<D: Dual<f64>>(
-            &self,
-            q: [Real<D>; 1],
-            v: [Real<D>; 1],
-        ) -> Real<D> {
-            Self::oscillator_over(
-                    q,
-                    v,
-                    D::lift(self.m),
-                    D::lift(self.k),
-                    D::lift(self.r),
-                )
-                .0
-        }
-        /// The Rayleigh function over plain and dual numbers.
-        #[inline(always)]
-        fn rayleigh_over<D: Dual<f64>>(
-            &self,
-            q: [Real<D>; 1],
-            v: [Real<D>; 1],
-        ) -> Real<D> {
-            Self::oscillator_over(
-                    q,
-                    v,
-                    D::lift(self.m),
-                    D::lift(self.k),
-                    D::lift(self.r),
-                )
-                .1
-        }
-    }
-};
-const _: () = {
-    use ::dalembert::nalgebra::SVector;
+    use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{
         Derivatives, Direction, Discrete, DiscreteForce, DiscreteForceDerivatives,
         DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
-        Rayleigh, StepKernel, Trapezoidal, Variations, dual,
+        Rayleigh, StepKernel, Trapezoidal, Variations,
     };
     type Vector = SVector<f64, 1>;
     #[automatically_derived]
     impl Lagrangian<1> for Oscillator {
         type Scalar = f64;
+        #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             oscillator((*q).into(), (*v).into(), self.m, self.k, self.r).0
         }
+        #[inline]
         fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
-            dual::gradient(q, v, |q, v| self.lagrangian_over(q, v))
+            let t1 = v[0] * (0.5 * self.m);
+            let t2 = q[0] * (0.5 * self.k);
+            Gradient {
+                value: v[0] * t1 - q[0] * t2,
+                d1: SVector::from([-(2.0 * t2)]),
+                d2: SVector::from([2.0 * t1]),
+            }
         }
+        #[inline]
         fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
-            dual::derivatives::<f64, 1, 2>(q, v, |q, v| self.lagrangian_over(q, v))
+            let m = self.m;
+            let t1 = v[0] * (0.5 * m);
+            let k = self.k;
+            let t2 = q[0] * (0.5 * k);
+            Derivatives {
+                value: v[0] * t1 - q[0] * t2,
+                d1: SVector::from([-(2.0 * t2)]),
+                d2: SVector::from([2.0 * t1]),
+                d11: SMatrix::from([[-k]]),
+                d12: SMatrix::from([[0.0]]),
+                d22: SMatrix::from([[m]]),
+            }
         }
+        #[inline]
         fn lagrangian_variations(
             &self,
             q: &Vector,
@@ -94,28 +61,68 @@ const _: () = {
             minus: Direction<f64>,
             plus: Direction<f64>,
         ) -> Variations<f64, 1> {
-            dual::variations(q, v, minus, plus, |q, v| self.lagrangian_over(q, v))
+            let m = self.m;
+            let k = self.k;
+            let t1 = 2.0 * (q[0] * (0.5 * k));
+            let t2 = 2.0 * (v[0] * (0.5 * m));
+            let minus_first = minus.first;
+            let minus_second = minus.second;
+            let plus_first = plus.first;
+            let plus_second = plus.second;
+            Variations {
+                minus: SVector::from([t2 * minus_second - t1 * minus_first]),
+                plus: SVector::from([t2 * plus_second - t1 * plus_first]),
+                mixed: SMatrix::from([
+                    [m * (minus_second * plus_second) - k * (minus_first * plus_first)],
+                ]),
+            }
         }
     }
     #[automatically_derived]
     impl Rayleigh<1> for Oscillator {
+        #[inline]
         fn rayleigh(&self, q: &Vector, v: &Vector) -> f64 {
             oscillator((*q).into(), (*v).into(), self.m, self.k, self.r).1
         }
-        fn rayleigh_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
-            dual::gradient(q, v, |q, v| self.rayleigh_over(q, v))
+        #[inline]
+        fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            let t1 = v[0] * (0.5 * self.r);
+            Gradient {
+                value: v[0] * t1,
+                d1: SVector::from([0.0]),
+                d2: SVector::from([2.0 * t1]),
+            }
         }
-        fn rayleigh_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
-            dual::derivatives::<f64, 1, 2>(q, v, |q, v| self.rayleigh_over(q, v))
+        #[inline]
+        fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            let r = self.r;
+            let t1 = v[0] * (0.5 * r);
+            Derivatives {
+                value: v[0] * t1,
+                d1: SVector::from([0.0]),
+                d2: SVector::from([2.0 * t1]),
+                d11: SMatrix::from([[0.0]]),
+                d12: SMatrix::from([[0.0]]),
+                d22: SMatrix::from([[r]]),
+            }
         }
+        #[inline]
         fn rayleigh_variations(
             &self,
-            q: &Vector,
+            _q: &Vector,
             v: &Vector,
             minus: Direction<f64>,
             plus: Direction<f64>,
         ) -> Variations<f64, 1> {
-            dual::variations(q, v, minus, plus, |q, v| self.rayleigh_over(q, v))
+            let r = self.r;
+            let minus_second = minus.second;
+            let plus_second = plus.second;
+            let t1 = 2.0 * (v[0] * (0.5 * r));
+            Variations {
+                minus: SVector::from([minus_second * t1]),
+                plus: SVector::from([plus_second * t1]),
+                mixed: SMatrix::from([[r * (minus_second * plus_second)]]),
+            }
         }
     }
     #[automatically_derived]
@@ -152,34 +159,37 @@ const _: () = {
             Midpoint::rayleigh_force_derivatives(self, q0, q1, h)
         }
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        #[inline]
         fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
-            Midpoint::lagrangian_kernel(self, q0, v, h)
-                + Midpoint::rayleigh_kernel(self, q0, v, h)
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0]];
+            let m = self.m;
+            let k = self.k;
+            let r = self.r;
+            StepKernel {
+                p0: SVector::from([
+                    2.0 * (v[0] * (0.5 * m)) + 2.0 * (v[0] * (0.5 * r)) * half
+                        + 2.0 * (q[0] * (0.5 * k)) * half,
+                ]),
+                matrix: SMatrix::from([[m + r * half + k * (half * half)]]),
+            }
         }
         /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        #[inline]
         fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
-            Midpoint::lagrangian_momenta(self, q0, v, h)
-                + Midpoint::rayleigh_momenta(self, q0, v, h)
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0]];
+            let t1 = 2.0 * (v[0] * (0.5 * self.m));
+            let t2 = 2.0 * (v[0] * (0.5 * self.r)) * half;
+            let t3 = 2.0 * (q[0] * (0.5 * self.k)) * half;
+            Momenta {
+                p0: SVector::from([t1 + t2 + t3]),
+                p1: SVector::from([t1 - t2 - t3]),
+            }
         }
         /// E_L on the segment.
         fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::segment_energy(self, q0, q1, h)
-        }
-    }
-    #[automatically_derived]
-    impl DiscreteRayleigh<Midpoint, 1> for Oscillator {
-        /// R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
-        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Midpoint::discrete_rayleigh(self, q0, q1, h)
-        }
-        /// R_d with D1, D2, D11, D12, D22.
-        fn discrete_rayleigh_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> Derivatives<f64, 1> {
-            Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
         }
     }
     #[automatically_derived]
@@ -216,11 +226,13 @@ const _: () = {
             Trapezoidal::rayleigh_force_derivatives(self, q0, q1, h)
         }
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        #[inline]
         fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
             Trapezoidal::lagrangian_kernel(self, q0, v, h)
                 + Trapezoidal::rayleigh_kernel(self, q0, v, h)
         }
         /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        #[inline]
         fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
             Trapezoidal::lagrangian_momenta(self, q0, v, h)
                 + Trapezoidal::rayleigh_momenta(self, q0, v, h)
@@ -228,6 +240,22 @@ const _: () = {
         /// E_L on the segment.
         fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Trapezoidal::segment_energy(self, q0, q1, h)
+        }
+    }
+    #[automatically_derived]
+    impl DiscreteRayleigh<Midpoint, 1> for Oscillator {
+        /// R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::discrete_rayleigh(self, q0, q1, h)
+        }
+        /// R_d with D1, D2, D11, D12, D22.
+        fn discrete_rayleigh_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 1> {
+            Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
         }
     }
     #[automatically_derived]

@@ -1,55 +1,64 @@
 impl Ring {
     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
-        use ::dalembert::dual;
-        dual::lower(self.lagrangian_over::<f64>(dual::lift(q), dual::lift(v)))
+        let s = q[0] * q[0] + q[1] * q[1];
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2)
     }
     fn rayleigh(&self, v: [f64; 2]) -> f64 {
-        use ::dalembert::dual;
-        dual::lower(self.rayleigh_over::<f64>(dual::lift(v)))
+        0.5 * self.k * (v[0] * v[0] + v[1] * v[1])
     }
 }
 const _: () = {
-    use ::dalembert::dual::{self, Dual, Real};
-    #[allow(dead_code)]
-    impl Ring {
-        /// `lagrangian` over plain and dual numbers.
-        #[inline(always)]
-        fn lagrangian_over<D: Dual<f64>>(
-            &self,
-            q: [Real<D>; 2],
-            v: [Real<D>; 2],
-        ) -> Real<D> {
-            let s = q[0] * q[0] + q[1] * q[1];
-            0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2)
-        }
-        /// `rayleigh` over plain and dual numbers.
-        #[inline(always)]
-        fn rayleigh_over<D: Dual<f64>>(&self, v: [Real<D>; 2]) -> Real<D> {
-            let k = D::lift(self.k);
-            0.5 * k * (v[0] * v[0] + v[1] * v[1])
-        }
-    }
-};
-const _: () = {
-    use ::dalembert::nalgebra::SVector;
+    use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{
         Derivatives, Direction, Discrete, DiscreteForce, DiscreteForceDerivatives,
         DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
-        Rayleigh, StepKernel, Variations, dual,
+        Rayleigh, StepKernel, Variations,
     };
     type Vector = SVector<f64, 2>;
     #[automatically_derived]
     impl Lagrangian<2> for Ring {
         type Scalar = f64;
+        #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             self.lagrangian((*q).into(), (*v).into())
         }
+        #[inline]
         fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 2> {
-            dual::gradient(q, v, |q, v| self.lagrangian_over(q, v))
+            let s = q[0] * q[0] + q[1] * q[1];
+            let t1 = s - 1.0;
+            let t2 = t1 * t1;
+            let t3 = t2 + s * (2.0 * t1);
+            Gradient {
+                value: 0.5 * (v[0] * v[0] + v[1] * v[1]) - s * t2,
+                d1: SVector::from([-(t3 * (2.0 * q[0])), -(t3 * (2.0 * q[1]))]),
+                d2: SVector::from([v[0], v[1]]),
+            }
         }
+        #[inline]
         fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
-            dual::derivatives::<f64, 2, 4>(q, v, |q, v| self.lagrangian_over(q, v))
+            let s = q[0] * q[0] + q[1] * q[1];
+            let t1 = s - 1.0;
+            let t2 = t1 * t1;
+            let t3 = t2 + s * (2.0 * t1);
+            let t4 = 2.0 * q[1];
+            let t5 = 2.0 * q[0];
+            let t6 = 2.0 * s + 4.0 * t1;
+            let t7 = t4 * t6;
+            let t8 = 2.0 * t3;
+            let t9 = -(t5 * t7);
+            Derivatives {
+                value: 0.5 * (v[0] * v[0] + v[1] * v[1]) - s * t2,
+                d1: SVector::from([-(t3 * t5), -(t3 * t4)]),
+                d2: SVector::from([v[0], v[1]]),
+                d11: SMatrix::from([
+                    [-(t8 + t5 * (t5 * t6)), t9],
+                    [t9, -(t4 * t7 + t8)],
+                ]),
+                d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                d22: SMatrix::from([[1.0, 0.0], [0.0, 1.0]]),
+            }
         }
+        #[inline]
         fn lagrangian_variations(
             &self,
             q: &Vector,
@@ -57,28 +66,89 @@ const _: () = {
             minus: Direction<f64>,
             plus: Direction<f64>,
         ) -> Variations<f64, 2> {
-            dual::variations(q, v, minus, plus, |q, v| self.lagrangian_over(q, v))
+            let s = q[0] * q[0] + q[1] * q[1];
+            let t1 = s - 1.0;
+            let t2 = t1 * t1 + s * (2.0 * t1);
+            let t3 = 2.0 * q[1];
+            let t4 = t2 * t3;
+            let t5 = 2.0 * q[0];
+            let t6 = t2 * t5;
+            let t7 = 2.0 * s + 4.0 * t1;
+            let t8 = t3 * t7;
+            let t9 = 2.0 * t2;
+            let minus_first = minus.first;
+            let minus_second = minus.second;
+            let plus_first = plus.first;
+            let plus_second = plus.second;
+            let t10 = minus_second * plus_second;
+            let t11 = minus_first * plus_first;
+            let t12 = -(t5 * t8 * t11);
+            Variations {
+                minus: SVector::from([
+                    v[0] * minus_second - t6 * minus_first,
+                    v[1] * minus_second - t4 * minus_first,
+                ]),
+                plus: SVector::from([
+                    v[0] * plus_second - t6 * plus_first,
+                    v[1] * plus_second - t4 * plus_first,
+                ]),
+                mixed: SMatrix::from([
+                    [t10 - (t9 + t5 * (t5 * t7)) * t11, t12],
+                    [t12, t10 - (t3 * t8 + t9) * t11],
+                ]),
+            }
         }
     }
     #[automatically_derived]
     impl Rayleigh<2> for Ring {
+        #[inline]
         fn rayleigh(&self, _q: &Vector, v: &Vector) -> f64 {
             self.rayleigh((*v).into())
         }
-        fn rayleigh_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 2> {
-            dual::gradient(q, v, |_, v| self.rayleigh_over(v))
+        #[inline]
+        fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 2> {
+            let k = self.k;
+            Gradient {
+                value: (v[0] * v[0] + v[1] * v[1]) * (0.5 * k),
+                d1: SVector::from([0.0, 0.0]),
+                d2: SVector::from([v[0] * k, v[1] * k]),
+            }
         }
-        fn rayleigh_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
-            dual::derivatives::<f64, 2, 4>(q, v, |_, v| self.rayleigh_over(v))
+        #[inline]
+        fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
+            let k = self.k;
+            Derivatives {
+                value: (v[0] * v[0] + v[1] * v[1]) * (0.5 * k),
+                d1: SVector::from([0.0, 0.0]),
+                d2: SVector::from([v[0] * k, v[1] * k]),
+                d11: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                d22: SMatrix::from([[k, 0.0], [0.0, k]]),
+            }
         }
+        #[inline]
         fn rayleigh_variations(
             &self,
-            q: &Vector,
+            _q: &Vector,
             v: &Vector,
             minus: Direction<f64>,
             plus: Direction<f64>,
         ) -> Variations<f64, 2> {
-            dual::variations(q, v, minus, plus, |_, v| self.rayleigh_over(v))
+            let k = self.k;
+            let minus_second = minus.second;
+            let plus_second = plus.second;
+            let t1 = k * (minus_second * plus_second);
+            Variations {
+                minus: SVector::from([
+                    k * (v[0] * minus_second),
+                    k * (v[1] * minus_second),
+                ]),
+                plus: SVector::from([
+                    k * (v[0] * plus_second),
+                    k * (v[1] * plus_second),
+                ]),
+                mixed: SMatrix::from([[t1, 0.0], [0.0, t1]]),
+            }
         }
     }
     #[automatically_derived]
@@ -115,14 +185,50 @@ const _: () = {
             Midpoint::rayleigh_force_derivatives(self, q0, q1, h)
         }
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        #[inline]
         fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 2> {
-            Midpoint::lagrangian_kernel(self, q0, v, h)
-                + Midpoint::rayleigh_kernel(self, q0, v, h)
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0], q0[1] + half * v[1]];
+            let s = q[0] * q[0] + q[1] * q[1];
+            let t1 = s - 1.0;
+            let k = self.k;
+            let t2 = t1 * t1 + s * (2.0 * t1);
+            let t3 = 2.0 * q[1];
+            let t4 = 2.0 * q[0];
+            let t5 = 2.0 * s + 4.0 * t1;
+            let t6 = t3 * t5;
+            let t7 = 2.0 * t2;
+            let t8 = 1.0 + k * half;
+            let t9 = half * half;
+            let t10 = t4 * t6 * t9;
+            StepKernel {
+                p0: SVector::from([
+                    v[0] + v[0] * k * half + t2 * t4 * half,
+                    v[1] + v[1] * k * half + t2 * t3 * half,
+                ]),
+                matrix: SMatrix::from([
+                    [t8 + (t7 + t4 * (t4 * t5)) * t9, t10],
+                    [t10, t8 + (t3 * t6 + t7) * t9],
+                ]),
+            }
         }
         /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        #[inline]
         fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 2> {
-            Midpoint::lagrangian_momenta(self, q0, v, h)
-                + Midpoint::rayleigh_momenta(self, q0, v, h)
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0], q0[1] + half * v[1]];
+            let s = q[0] * q[0] + q[1] * q[1];
+            let t1 = s - 1.0;
+            let k = self.k;
+            let t2 = t1 * t1 + s * (2.0 * t1);
+            let t3 = v[0] * k * half;
+            let t4 = v[1] * k * half;
+            let t5 = t2 * (2.0 * q[0]) * half;
+            let t6 = t2 * (2.0 * q[1]) * half;
+            Momenta {
+                p0: SVector::from([v[0] + t3 + t5, v[1] + t4 + t6]),
+                p1: SVector::from([v[0] - t3 - t5, v[1] - t4 - t6]),
+            }
         }
         /// E_L on the segment.
         fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {

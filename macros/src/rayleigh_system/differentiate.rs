@@ -1,0 +1,220 @@
+//! Derivatives of a graph, as expressions of the same graph.
+//!
+//! Reverse accumulation: from the result down, each node hands its derivative on to its arguments. For second derivatives
+//! the same sweep carries the symmetric edges ∂²f/∂a∂b between the nodes still open (R. M. Gower and M. P. Mello, *A new
+//! framework for the computation of Hessians*, Optimization Methods and Software 27, 2012): only pairs that interact get an
+//! entry, each once. A derivative that vanishes by structure is absent from the maps.
+//!
+//! A selection stands for the function of q and v that it selects: its branches are differentiated whole, and the
+//! selection chooses between the results, so that nothing of a rejected branch is multiplied by anything.
+
+pub mod partials;
+
+use std::collections::{BTreeMap, HashMap};
+use std::rc::Rc;
+
+use super::graph::{Graph, Node, Operation};
+pub use partials::extremum;
+use partials::{Partials, partials};
+
+/// First derivatives by the variables, where there are any.
+pub type Gradient = BTreeMap<Node, Node>;
+
+/// Second derivatives by pairs of variables in order, where there are any.
+pub type Hessian = BTreeMap<(Node, Node), Node>;
+
+/// Gradient and Hessian of one node.
+#[derive(Clone, Default)]
+pub struct Derivatives {
+    pub gradient: Gradient,
+    pub hessian: Hessian,
+}
+
+/// How far to differentiate.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Order {
+    First,
+    Second,
+}
+
+/// Differentiates nodes of a graph; selections that occur in several are differentiated once.
+#[derive(Default)]
+pub struct Differentiation {
+    known: HashMap<(Node, Order), Rc<Derivatives>>,
+}
+
+impl Differentiation {
+    /// ∂root/∂q and ∂root/∂v.
+    pub fn gradient(&mut self, graph: &mut Graph, root: Node) -> Gradient {
+        self.derivatives(graph, root, Order::First, None).gradient
+    }
+
+    /// First and second derivatives of `root`. Those by the user's named expressions get names: dL/ds is `dl_ds` where
+    /// `symbol` is `l`.
+    pub fn hessian(&mut self, graph: &mut Graph, root: Node, symbol: &str) -> Derivatives {
+        self.derivatives(graph, root, Order::Second, Some(symbol))
+    }
+
+    fn of_branch(&mut self, graph: &mut Graph, branch: Node, order: Order) -> Rc<Derivatives> {
+        if let Some(known) = self.known.get(&(branch, order)) {
+            return Rc::clone(known);
+        }
+        let derivatives = Rc::new(self.derivatives(graph, branch, order, None));
+        self.known.insert((branch, order), Rc::clone(&derivatives));
+        derivatives
+    }
+
+    fn derivatives(
+        &mut self,
+        graph: &mut Graph,
+        root: Node,
+        order: Order,
+        symbol: Option<&str>,
+    ) -> Derivatives {
+        let mut sweep = Sweep::default();
+        if graph.depends(root) {
+            let one = graph.one();
+            sweep.adjoints.insert(root, one);
+        }
+        // Derivatives are made of nodes later than the root, and so never met by the sweep.
+        let nodes = self.open_nodes(graph, root);
+        for node in nodes.into_iter().rev() {
+            let Some(&adjoint) = sweep.adjoints.get(&node) else { continue };
+            if let Some(symbol) = symbol
+                && node != root
+                && adjoint > root
+                && let Some(name) = graph.name(node).map(str::to_owned)
+            {
+                graph.give_name(adjoint, &format!("d{symbol}_d{name}"));
+            }
+            let local = match graph.operation(node) {
+                Operation::Coordinate(_) | Operation::Velocity(_) => continue,
+                Operation::Select(condition, a, b) => self.selected(graph, condition, a, b, order),
+                operation => partials(graph, node, operation, order),
+            };
+            sweep.adjoints.remove(&node);
+            if order == Order::Second {
+                sweep.push_edges(graph, node, &local);
+                for &(a, b, second) in &local.second {
+                    let weight = graph.times(adjoint, second);
+                    sweep.add_edge(graph, a, b, weight);
+                }
+            }
+            for &(argument, first) in &local.first {
+                let part = graph.times(adjoint, first);
+                sweep.add_adjoint(graph, argument, part);
+            }
+        }
+        Derivatives { gradient: sweep.adjoints, hessian: sweep.edges }
+    }
+
+    /// The nodes that the sweep visits, arguments first: not the branches of selections, which it differentiates whole.
+    fn open_nodes(&self, graph: &Graph, root: Node) -> Vec<Node> {
+        let mut seen = std::collections::BTreeSet::new();
+        let mut open = vec![root];
+        while let Some(node) = open.pop() {
+            if !graph.depends(node) || !seen.insert(node) {
+                continue;
+            }
+            match graph.operation(node) {
+                // Derivatives by the variables themselves, whichever they are.
+                Operation::Select(_, a, b) => open.extend(
+                    graph.reachable([a, b]).into_iter().filter(|&node| is_variable(graph.operation(node))),
+                ),
+                operation => open.extend(operation.arguments()),
+            }
+        }
+        seen.into_iter().collect()
+    }
+
+    /// A selection as a function of the variables.
+    fn selected(&mut self, graph: &mut Graph, condition: Node, a: Node, b: Node, order: Order) -> Partials {
+        let (a, b) = (self.of_branch(graph, a, order), self.of_branch(graph, b, order));
+        let mut local = Partials::default();
+        for &variable in union(a.gradient.keys(), b.gradient.keys()) {
+            let (a, b) = (a.gradient.get(&variable), b.gradient.get(&variable));
+            local.first.push((variable, select(graph, condition, a, b)));
+        }
+        for &(i, j) in union(a.hessian.keys(), b.hessian.keys()) {
+            let (a, b) = (a.hessian.get(&(i, j)), b.hessian.get(&(i, j)));
+            local.second.push((i, j, select(graph, condition, a, b)));
+        }
+        local
+    }
+}
+
+fn is_variable(operation: Operation) -> bool {
+    matches!(operation, Operation::Coordinate(_) | Operation::Velocity(_))
+}
+
+/// The keys of both maps, each once, in order.
+fn union<'k, K: Ord>(a: impl Iterator<Item = &'k K>, b: impl Iterator<Item = &'k K>) -> Vec<&'k K> {
+    a.chain(b).collect::<std::collections::BTreeSet<_>>().into_iter().collect()
+}
+
+/// Selects between derivatives, 0 where one is absent.
+fn select(graph: &mut Graph, condition: Node, a: Option<&Node>, b: Option<&Node>) -> Node {
+    let zero = graph.constant(0.0);
+    graph.select(condition, *a.unwrap_or(&zero), *b.unwrap_or(&zero))
+}
+
+/// What a sweep carries: derivatives of the root by the nodes still open.
+#[derive(Default)]
+struct Sweep {
+    adjoints: Gradient,
+    /// Second derivatives, the smaller node first.
+    edges: Hessian,
+    /// The partners of each node.
+    partners: BTreeMap<Node, std::collections::BTreeSet<Node>>,
+}
+
+impl Sweep {
+    fn add_adjoint(&mut self, graph: &mut Graph, node: Node, part: Node) {
+        let sum = match self.adjoints.get(&node) {
+            Some(&known) => graph.plus(known, part),
+            None => part,
+        };
+        self.adjoints.insert(node, sum);
+    }
+
+    /// Adds to ∂²f/∂a∂b.
+    fn add_edge(&mut self, graph: &mut Graph, a: Node, b: Node, part: Node) {
+        let pair = if a <= b { (a, b) } else { (b, a) };
+        let sum = match self.edges.get(&pair) {
+            Some(&known) => graph.plus(known, part),
+            None => part,
+        };
+        self.edges.insert(pair, sum);
+        self.partners.entry(a).or_default().insert(b);
+        self.partners.entry(b).or_default().insert(a);
+    }
+
+    /// Replaces the edges of `node` by edges of its arguments.
+    fn push_edges(&mut self, graph: &mut Graph, node: Node, local: &Partials) {
+        for partner in self.partners.remove(&node).unwrap_or_default() {
+            let pair = if partner <= node { (partner, node) } else { (node, partner) };
+            let Some(weight) = self.edges.remove(&pair) else { continue };
+            if partner == node {
+                for (index, &(a, first_a)) in local.first.iter().enumerate() {
+                    let by_a = graph.times(weight, first_a);
+                    for &(b, first_b) in &local.first[index..] {
+                        let part = graph.times(by_a, first_b);
+                        // The pair (a, b) and the pair (b, a) are one edge; if a and b are the same node, both count.
+                        self.add_edge(graph, a, b, part);
+                    }
+                }
+                continue;
+            }
+            if let Some(others) = self.partners.get_mut(&partner) {
+                others.remove(&node);
+            }
+            for &(argument, first) in &local.first {
+                let mut part = graph.times(weight, first);
+                if argument == partner {
+                    part = graph.scaled(2.0, part);
+                }
+                self.add_edge(graph, argument, partner, part);
+            }
+        }
+    }
+}

@@ -1,0 +1,289 @@
+//! From expressions to straight-line code that reads as if written by hand.
+//!
+//! What is used more than once, what the user named, and every selection becomes a `let`; the rest stands where it is used.
+//! Only what the outputs need is written, in the order in which it was found, so that equal systems give equal text.
+
+mod names;
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+use syn::Ident;
+
+use super::graph::{Comparison, Function, Graph, Node, Operation};
+use names::Names;
+
+/// Straight-line code: statements, then one expression for each output.
+pub struct StraightLine {
+    pub statements: TokenStream,
+    pub outputs: Vec<TokenStream>,
+    /// Whether q occurs.
+    pub uses_coordinates: bool,
+    /// Whether v occurs.
+    pub uses_velocities: bool,
+    /// The first word of each parameter that occurs.
+    parameters: Vec<String>,
+}
+
+impl StraightLine {
+    /// Whether a parameter or a member of it occurs.
+    pub fn uses(&self, parameter: &str) -> bool {
+        self.parameters.iter().any(|word| word == parameter)
+    }
+}
+
+/// The code for `outputs`. q and v are read as `q[0]`, `v[0]`; the names `taken` are not given to anything.
+pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&str]) -> StraightLine {
+    let nodes = graph.reachable(outputs.iter().copied());
+    let mut uses = vec![0_u32; graph.len()];
+    for &node in &nodes {
+        for argument in graph.operation(node).arguments() {
+            uses[argument.index()] += 1;
+        }
+    }
+    for output in outputs {
+        uses[output.index()] += 1;
+    }
+    let mut writer = Writer {
+        graph,
+        scalar,
+        locals: vec![None; graph.len()],
+        names: Names::new(taken),
+        typed: vec![false; graph.len()],
+    };
+    let mut statements = TokenStream::new();
+    let (mut uses_coordinates, mut uses_velocities, mut parameters) = (false, false, Vec::new());
+    for &node in &nodes {
+        let operation = graph.operation(node);
+        writer.typed[node.index()] = match operation {
+            Operation::Constant(_) => false,
+            Operation::Coordinate(_) | Operation::Velocity(_) | Operation::Parameter(_) => true,
+            operation => operation.arguments().any(|argument| writer.typed[argument.index()]),
+        };
+        match operation {
+            Operation::Coordinate(_) => uses_coordinates = true,
+            Operation::Velocity(_) => uses_velocities = true,
+            Operation::Parameter(index) => {
+                parameters.extend(
+                    graph.parameter(index).tokens.clone().into_iter().next().map(|word| word.to_string()),
+                );
+            }
+            _ => {}
+        }
+        let is_leaf = match operation {
+            Operation::Coordinate(_) | Operation::Velocity(_) | Operation::Constant(_) => true,
+            // A local already.
+            Operation::Parameter(index) => graph.parameter(index).is_word(),
+            _ => false,
+        };
+        let is_paired = partner(graph, node, &nodes).is_some();
+        let is_single = !is_paired
+            && uses[node.index()] <= 1
+            && !matches!(operation, Operation::Select(..))
+            && (graph.name(node).is_none() || matches!(operation, Operation::Parameter(_)));
+        if is_leaf || is_single || writer.locals[node.index()].is_some() {
+            continue;
+        }
+        statements.extend(writer.statement(node, &nodes));
+    }
+    let outputs = outputs.iter().map(|&node| writer.expression(node).tokens).collect();
+    StraightLine { statements, outputs, uses_coordinates, uses_velocities, parameters }
+}
+
+/// The cosine of the angle that `node` is the sine of, or the other way about, if it comes later; and the angle.
+fn partner(graph: &Graph, node: Node, nodes: &[Node]) -> Option<(Node, Node)> {
+    let (other, angle) = match graph.operation(node) {
+        Operation::Function(Function::Sin, angle) => (Function::Cos, angle),
+        Operation::Function(Function::Cos, angle) => (Function::Sin, angle),
+        _ => return None,
+    };
+    let partner = graph.known(Operation::Function(other, angle))?;
+    (partner > node && nodes.binary_search(&partner).is_ok()).then_some((partner, angle))
+}
+
+/// How tightly an expression holds together.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Binding {
+    Or,
+    And,
+    Comparison,
+    Sum,
+    Product,
+    Sign,
+    Atom,
+}
+
+struct Written {
+    tokens: TokenStream,
+    binding: Binding,
+}
+
+impl Written {
+    /// The tokens as an operand of something that binds as tightly as `binding`.
+    fn within(self, binding: Binding) -> TokenStream {
+        let tokens = self.tokens;
+        if self.binding < binding { quote!((#tokens)) } else { tokens }
+    }
+}
+
+struct Writer<'g> {
+    graph: &'g Graph,
+    scalar: &'g Ident,
+    /// The local that holds a node.
+    locals: Vec<Option<Ident>>,
+    names: Names,
+    /// Whether the type shows: an expression of literals alone has none of its own.
+    typed: Vec<bool>,
+}
+
+impl Writer<'_> {
+    /// `let s = …;`
+    fn statement(&mut self, node: Node, nodes: &[Node]) -> TokenStream {
+        // Sine and cosine of one angle are one call.
+        if let Some((partner, angle)) = partner(self.graph, node, nodes) {
+            let argument = self.receiver(angle);
+            let [own, its] = [node, partner].map(|node| {
+                let name = self.names.of(self.graph, node);
+                self.locals[node.index()] = Some(name.clone());
+                name
+            });
+            let is_sine = matches!(self.graph.operation(node), Operation::Function(Function::Sin, _));
+            let (sine, cosine) = if is_sine { (own, its) } else { (its, own) };
+            return quote!(let (#sine, #cosine) = #argument.sin_cos(););
+        }
+        let value = self.expression(node).tokens;
+        let name = self.names.of(self.graph, node);
+        self.locals[node.index()] = Some(name.clone());
+        let scalar = self.scalar;
+        match self.graph.operation(node) {
+            Operation::Select(_, a, b) if !self.typed[a.index()] && !self.typed[b.index()] => {
+                quote!(let #name: #scalar = #value;)
+            }
+            _ => quote!(let #name = #value;),
+        }
+    }
+
+    fn expression(&self, node: Node) -> Written {
+        if let Some(name) = &self.locals[node.index()] {
+            return Written { tokens: quote!(#name), binding: Binding::Atom };
+        }
+        let binary = |a: Node, symbol: TokenStream, b: Node, left: Binding, right: Binding| {
+            let (a, b) = (self.expression(a).within(left), self.expression(b).within(right));
+            quote!(#a #symbol #b)
+        };
+        let (tokens, binding) = match self.graph.operation(node) {
+            Operation::Coordinate(index) => {
+                let index = Literal::usize_unsuffixed(index);
+                (quote!(q[#index]), Binding::Atom)
+            }
+            Operation::Velocity(index) => {
+                let index = Literal::usize_unsuffixed(index);
+                (quote!(v[#index]), Binding::Atom)
+            }
+            Operation::Parameter(index) => (self.graph.parameter(index).tokens.clone(), Binding::Atom),
+            Operation::Constant(bits) => self.constant(f64::from_bits(bits), false),
+            Operation::Add(a, b) => (binary(a, quote!(+), b, Binding::Sum, Binding::Product), Binding::Sum),
+            Operation::Subtract(a, b) => {
+                (binary(a, quote!(-), b, Binding::Sum, Binding::Product), Binding::Sum)
+            }
+            Operation::Multiply(a, b) => {
+                // Constants in front: `2.0 * x`.
+                let (a, b) = if self.graph.constant_value(b).is_some() { (b, a) } else { (a, b) };
+                (binary(a, quote!(*), b, Binding::Product, Binding::Sign), Binding::Product)
+            }
+            Operation::Divide(a, b) => {
+                (binary(a, quote!(/), b, Binding::Product, Binding::Sign), Binding::Product)
+            }
+            Operation::Negate(a) => {
+                let a = self.expression(a).within(Binding::Atom);
+                (quote!(-#a), Binding::Sign)
+            }
+            Operation::Function(function, x) => {
+                let (x, name) = (self.receiver(x), format_ident!("{}", function.name()));
+                (quote!(#x.#name()), Binding::Atom)
+            }
+            Operation::Pair(function, a, b) => {
+                let (a, name) = (self.receiver(a), format_ident!("{}", function.name()));
+                let b = self.expression(b).tokens;
+                (quote!(#a.#name(#b)), Binding::Atom)
+            }
+            Operation::Power(x, n) => {
+                let (x, n) = (self.receiver(x), Literal::i32_unsuffixed(n));
+                (quote!(#x.powi(#n)), Binding::Atom)
+            }
+            Operation::MultiplyAdd(a, b, c) => {
+                let (a, b, c) = (self.receiver(a), self.expression(b).tokens, self.expression(c).tokens);
+                (quote!(#a.mul_add(#b, #c)), Binding::Atom)
+            }
+            Operation::Select(condition, a, b) => {
+                let condition = self.expression(condition).tokens;
+                let (a, b) = (self.expression(a).tokens, self.expression(b).tokens);
+                (quote!(if #condition { #a } else { #b }), Binding::Or)
+            }
+            Operation::Compare(comparison, a, b) => {
+                let symbol = match comparison {
+                    Comparison::Less => quote!(<),
+                    Comparison::LessOrEqual => quote!(<=),
+                    Comparison::Greater => quote!(>),
+                    Comparison::GreaterOrEqual => quote!(>=),
+                    Comparison::Equal => quote!(==),
+                    Comparison::NotEqual => quote!(!=),
+                };
+                (binary(a, symbol, b, Binding::Sum, Binding::Sum), Binding::Comparison)
+            }
+            Operation::Is(predicate, x) => {
+                let (x, name) = (self.receiver(x), format_ident!("{}", predicate.name()));
+                (quote!(#x.#name()), Binding::Atom)
+            }
+            Operation::Not(a) => {
+                let a = self.expression(a).within(Binding::Atom);
+                (quote!(!#a), Binding::Sign)
+            }
+            Operation::And(a, b) => {
+                (binary(a, quote!(&&), b, Binding::And, Binding::Comparison), Binding::And)
+            }
+            Operation::Or(a, b) => {
+                // Mixed `&&` and `||` in parentheses, as one reads them.
+                let operand = |node| {
+                    let written = self.expression(node);
+                    if written.binding == Binding::And {
+                        written.within(Binding::Atom)
+                    } else {
+                        written.tokens
+                    }
+                };
+                let (a, b) = (operand(a), operand(b));
+                (quote!(#a || #b), Binding::Or)
+            }
+        };
+        Written { tokens, binding }
+    }
+
+    /// What a method is called on.
+    fn receiver(&self, node: Node) -> TokenStream {
+        match self.graph.constant_value(node) {
+            Some(value) => {
+                let (tokens, binding) = self.constant(value, true);
+                Written { tokens, binding }.within(Binding::Atom)
+            }
+            None => self.expression(node).within(Binding::Atom),
+        }
+    }
+
+    /// A number. Among other literals alone, or as a receiver, it has to say its type.
+    fn constant(&self, value: f64, suffixed: bool) -> (TokenStream, Binding) {
+        use std::f64::consts::{LN_2, LOG2_E, LOG10_E};
+        let size = value.abs();
+        let named = [(LN_2, "LN_2"), (LOG2_E, "LOG2_E"), (LOG10_E, "LOG10_E")];
+        let literal = if let Some((_, name)) = named.iter().find(|(constant, _)| *constant == size) {
+            let (scalar, name) = (self.scalar, format_ident!("{name}"));
+            quote!(::core::#scalar::consts::#name)
+        } else if suffixed {
+            let text = format!("{size:?}_{}", self.scalar);
+            text.parse().unwrap_or_else(|_| quote!(#size))
+        } else {
+            let literal = Literal::f64_unsuffixed(size);
+            quote!(#literal)
+        };
+        if value.is_sign_negative() { (quote!(-#literal), Binding::Sign) } else { (literal, Binding::Atom) }
+    }
+}

@@ -1,0 +1,62 @@
+//! Names of temporaries: the user's own, or what the expression is.
+
+use std::collections::HashSet;
+
+use syn::Ident;
+
+use super::super::graph::{Graph, Node, Operation};
+
+/// The names given within one function.
+pub struct Names {
+    taken: HashSet<String>,
+    unnamed: usize,
+}
+
+impl Names {
+    pub fn new(taken: &[&str]) -> Self {
+        Self { taken: taken.iter().map(|&name| name.to_owned()).collect(), unnamed: 0 }
+    }
+
+    /// A name for the node that nothing else in the function has.
+    pub fn of(&mut self, graph: &Graph, node: Node) -> Ident {
+        let name = match described(graph, node) {
+            Some(name) => name,
+            None => {
+                self.unnamed += 1;
+                format!("t{}", self.unnamed)
+            }
+        };
+        // A keyword that the user wrote raw.
+        let name = if syn::parse_str::<Ident>(&name).is_ok() { name } else { format!("{name}_") };
+        let mut unique = name.clone();
+        let mut number = 1;
+        while !self.taken.insert(unique.clone()) {
+            number += 1;
+            unique = format!("{name}_{number}");
+        }
+        Ident::new(&unique, proc_macro2::Span::call_site())
+    }
+}
+
+/// The user's name, or one made of those of the arguments.
+fn described(graph: &Graph, node: Node) -> Option<String> {
+    if let Some(name) = graph.name(node)
+        && !name.is_empty()
+    {
+        return Some(name.to_owned());
+    }
+    match graph.operation(node) {
+        Operation::Function(function, x) => Some(format!("{}_{}", function.name(), short(graph, x)?)),
+        Operation::Multiply(a, b) if a == b => Some(format!("{}_squared", short(graph, a)?)),
+        _ => None,
+    }
+}
+
+/// The name of a variable or of a named expression.
+fn short(graph: &Graph, node: Node) -> Option<String> {
+    match graph.operation(node) {
+        Operation::Coordinate(index) => Some(format!("q{index}")),
+        Operation::Velocity(index) => Some(format!("v{index}")),
+        _ => graph.name(node).map(str::to_owned),
+    }
+}

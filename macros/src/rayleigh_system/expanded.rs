@@ -1,0 +1,304 @@
+//! The implementation with derivatives written out: straight-line code on plain numbers.
+//!
+//! The user's item stands as it was written; nothing of it is evaluated over other numbers.
+
+mod directions;
+mod kernel;
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{ToTokens, format_ident, quote};
+use syn::Ident;
+
+use super::differentiate::{Derivatives, Differentiation, Gradient};
+use super::emit::{StraightLine, straight_line};
+use super::expand;
+use super::graph::{Graph, Node, Operation};
+use super::implement::{self, Kernel};
+use super::lower::{Lowered, MAX_NODES};
+use super::model::{RayleighArguments, Rule, Source, System};
+
+/// The whole expansion; nothing where the derivatives are too long to be written out.
+pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
+    let Lowered { graph, n, lagrangian, rayleigh, force } = lowered;
+    let mut code = Code { system, graph, n, derivation: Differentiation::default() };
+    let of_lagrangian = code.lagrangian(lagrangian);
+    let of_rayleigh = rayleigh.map(|root| code.rayleigh(root));
+    let of_force = force.as_ref().map(|components| code.force(components));
+    let discrete: TokenStream = system
+        .rules
+        .iter()
+        .map(|&rule| {
+            let kernel = code.kernel(rule, lagrangian, rayleigh, force.as_deref());
+            implement::discrete(system, rule, kernel)
+        })
+        .collect();
+    let discrete_rayleigh: Option<TokenStream> = system
+        .rayleigh
+        .map(|_| system.rules.iter().map(|&rule| implement::discrete_rayleigh(system, rule)).collect());
+    if code.graph.len() > MAX_NODES {
+        return None;
+    }
+    let item = match system.source {
+        Source::Block(block) => block.item.to_token_stream(),
+        Source::Function(function) => {
+            let structure = expand::structure(system, function);
+            let item = &function.item;
+            quote!(#item #structure)
+        }
+    };
+    let imports = imports(system);
+    let conditions = expand::conditions(system.source);
+    let (scalar, dimension) = (&system.scalar, system.degrees.times(1));
+    Some(quote! {
+        #item
+
+        #(#conditions)*
+        const _: () = {
+            #imports
+
+            type Vector = SVector<#scalar, #dimension>;
+
+            #of_lagrangian
+            #of_rayleigh
+            #of_force
+            #discrete
+            #discrete_rayleigh
+        };
+    })
+}
+
+/// What the expansion uses.
+fn imports(system: &System<'_>) -> TokenStream {
+    let names = expand::imported(system);
+    quote! {
+        use ::dalembert::nalgebra::{SMatrix, SVector};
+        use ::dalembert::{#(#names),*};
+    }
+}
+
+/// A system while its code is written.
+struct Code<'s> {
+    system: &'s System<'s>,
+    graph: Graph,
+    n: usize,
+    derivation: Differentiation,
+}
+
+impl Code<'_> {
+    /// `impl Lagrangian<2> for Ring`
+    fn lagrangian(&mut self, root: Node) -> TokenStream {
+        let System { name, scalar, .. } = self.system;
+        let n = self.system.degrees.times(1);
+        let functions =
+            self.value_and_derivatives("lagrangian", "l", root, RayleighArguments::ConfigurationAndVelocity);
+        quote! {
+            #[automatically_derived]
+            impl Lagrangian<#n> for #name {
+                type Scalar = #scalar;
+                #functions
+            }
+        }
+    }
+
+    /// `impl Rayleigh<2> for Ring`
+    fn rayleigh(&mut self, root: Node) -> TokenStream {
+        let name = &self.system.name;
+        let n = self.system.degrees.times(1);
+        let arguments = self.system.rayleigh.unwrap_or(RayleighArguments::ConfigurationAndVelocity);
+        let functions = self.value_and_derivatives("rayleigh", "r", root, arguments);
+        quote! {
+            #[automatically_derived]
+            impl Rayleigh<#n> for #name {
+                #functions
+            }
+        }
+    }
+
+    /// Value, gradient, derivatives and variations of L or R.
+    fn value_and_derivatives(
+        &mut self,
+        function: &str,
+        symbol: &str,
+        root: Node,
+        arguments: RayleighArguments,
+    ) -> TokenStream {
+        let scalar = &self.system.scalar;
+        let n = self.system.degrees.times(1);
+        let value = implement::value(self.system, function, arguments);
+        let [plain, gradient, derivatives, variations] = ["", "_gradient", "_derivatives", "_variations"]
+            .map(|suffix| format_ident!("{function}{suffix}"));
+        let unused = match arguments {
+            RayleighArguments::Velocity => quote!(_q),
+            RayleighArguments::ConfigurationAndVelocity => quote!(q),
+        };
+        let first = self.derivation.gradient(&mut self.graph, root);
+        let second = self.derivation.hessian(&mut self.graph, root, symbol);
+
+        let outputs = [vec![root], self.covector(&first, false), self.covector(&first, true)];
+        let line = self.code(&outputs.concat());
+        let [value_of, d1, d2] = self.parts(&line.outputs, [Shape::Scalar, Shape::Vector, Shape::Vector]);
+        let (q, v, statements) =
+            (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
+        let gradient = quote! {
+            #[inline]
+            fn #gradient(&self, #q: &Vector, #v: &Vector) -> Gradient<#scalar, #n> {
+                #statements
+                Gradient { value: #value_of, d1: #d1, d2: #d2 }
+            }
+        };
+
+        let outputs = [
+            vec![root],
+            self.covector(&second.gradient, false),
+            self.covector(&second.gradient, true),
+            self.block(&second, false, false),
+            self.block(&second, false, true),
+            self.block(&second, true, true),
+        ];
+        let line = self.code(&outputs.concat());
+        let [value_of, d1, d2, d11, d12, d22] = self.parts(
+            &line.outputs,
+            [Shape::Scalar, Shape::Vector, Shape::Vector, Shape::Matrix, Shape::Matrix, Shape::Matrix],
+        );
+        let (q, v, statements) =
+            (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
+        let derivatives = quote! {
+            #[inline]
+            fn #derivatives(&self, #q: &Vector, #v: &Vector) -> Derivatives<#scalar, #n> {
+                #statements
+                Derivatives { value: #value_of, d1: #d1, d2: #d2, d11: #d11, d12: #d12, d22: #d22 }
+            }
+        };
+
+        let variations = self.variations(&variations, &second);
+        quote! {
+            #[inline]
+            fn #plain(&self, #unused: &Vector, v: &Vector) -> #scalar {
+                #value
+            }
+
+            #gradient
+
+            #derivatives
+
+            #variations
+        }
+    }
+
+    /// `impl Force<2> for Ring`
+    fn force(&mut self, components: &[Node]) -> TokenStream {
+        let System { name, scalar, .. } = self.system;
+        let n = self.system.degrees.times(1);
+        let rows = self.rows(components);
+        let by = |code: &mut Self, velocity| {
+            code.matrix(|code, i, j| {
+                let variable = code.variable(j, velocity);
+                rows[i].get(&variable).copied()
+            })
+        };
+        let outputs = [components.to_vec(), by(self, false), by(self, true)].concat();
+        let line = self.code(&outputs);
+        let [value, d1, d2] = self.parts(&line.outputs, [Shape::Vector, Shape::Matrix, Shape::Matrix]);
+        let (q, v, statements) =
+            (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
+        let variation = self.force_variation(components, &rows);
+        quote! {
+            #[automatically_derived]
+            impl Force<#n> for #name {
+                #[inline]
+                fn force(&self, q: &Vector, v: &Vector) -> Vector {
+                    self.force((*q).into(), (*v).into()).into()
+                }
+
+                #[inline]
+                fn force_derivatives(
+                    &self,
+                    #q: &Vector,
+                    #v: &Vector,
+                ) -> CovectorDerivatives<#scalar, #n> {
+                    #statements
+                    CovectorDerivatives { value: #value, d1: #d1, d2: #d2 }
+                }
+
+                #variation
+            }
+        }
+    }
+
+    /// The gradient of each component.
+    fn rows(&mut self, components: &[Node]) -> Vec<Gradient> {
+        components.iter().map(|&component| self.derivation.gradient(&mut self.graph, component)).collect()
+    }
+
+    fn variable(&mut self, index: usize, velocity: bool) -> Node {
+        self.graph.node(if velocity { Operation::Velocity(index) } else { Operation::Coordinate(index) })
+    }
+
+    fn or_zero(&mut self, node: Option<Node>) -> Node {
+        node.unwrap_or_else(|| self.graph.constant(0.0))
+    }
+
+    /// ∂f/∂q or ∂f/∂v, entry by entry.
+    fn covector(&mut self, gradient: &Gradient, velocity: bool) -> Vec<Node> {
+        (0..self.n)
+            .map(|index| {
+                let variable = self.variable(index, velocity);
+                self.or_zero(gradient.get(&variable).copied())
+            })
+            .collect()
+    }
+
+    /// ∂²f by the variable `row` and the variable `column`, if it is not 0 by structure.
+    fn second(&mut self, of: &Derivatives, row: (usize, bool), column: (usize, bool)) -> Option<Node> {
+        let (a, b) = (self.variable(row.0, row.1), self.variable(column.0, column.1));
+        of.hessian.get(&(a.min(b), a.max(b))).copied()
+    }
+
+    /// A block of the Hessian, column by column.
+    fn block(&mut self, of: &Derivatives, row_velocity: bool, column_velocity: bool) -> Vec<Node> {
+        self.matrix(|code, i, j| code.second(of, (i, row_velocity), (j, column_velocity)))
+    }
+
+    fn code(&self, outputs: &[Node]) -> StraightLine {
+        straight_line(
+            &self.graph,
+            &self.system.scalar,
+            outputs,
+            &["q", "v", "h", "half", "q0", "minus", "plus"],
+        )
+    }
+
+    /// Splits outputs into scalars, vectors and matrices.
+    fn parts<const K: usize>(&self, outputs: &[TokenStream], shapes: [Shape; K]) -> [TokenStream; K] {
+        let mut rest = outputs;
+        shapes.map(|shape| {
+            let (own, after) = rest.split_at(match shape {
+                Shape::Scalar => 1,
+                Shape::Vector => self.n,
+                Shape::Matrix => self.n * self.n,
+            });
+            rest = after;
+            match shape {
+                Shape::Scalar => own[0].clone(),
+                Shape::Vector => quote!(SVector::from([#(#own),*])),
+                Shape::Matrix => {
+                    let columns = own.chunks(self.n).map(|column| quote!([#(#column),*]));
+                    quote!(SMatrix::from([#(#columns),*]))
+                }
+            }
+        })
+    }
+}
+
+/// The shape of an output.
+#[derive(Clone, Copy)]
+enum Shape {
+    Scalar,
+    Vector,
+    Matrix,
+}
+
+/// A parameter of a function, marked where the body does not use it.
+fn parameter(name: &str, is_used: bool) -> Ident {
+    if is_used { format_ident!("{name}") } else { format_ident!("_{name}") }
+}

@@ -1,0 +1,153 @@
+//! Derivatives along directions: those that a rule passes when the program runs, and those folded into a kernel.
+
+use super::*;
+
+impl Code<'_> {
+    /// `lagrangian_variations`, `rayleigh_variations`
+    pub(super) fn variations(&mut self, function: &Ident, of: &Derivatives) -> TokenStream {
+        let scalar = &self.system.scalar;
+        let n = self.system.degrees.times(1);
+        let [minus, plus] = ["minus", "plus"].map(|name| Along::parameters(&mut self.graph, name));
+        let first = [minus, plus].map(|along| self.along(&of.gradient, along));
+        let mixed = self.matrix(|code, i, j| code.mixed(of, (i, minus), (j, plus)));
+        let outputs = [first.concat(), mixed].concat();
+        let line = self.code(&outputs);
+        let [by_minus, by_plus, mixed] =
+            self.parts(&line.outputs, [Shape::Vector, Shape::Vector, Shape::Matrix]);
+        let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
+        let (minus, plus) = (parameter("minus", line.uses("minus")), parameter("plus", line.uses("plus")));
+        let statements = &line.statements;
+        quote! {
+            #[inline]
+            fn #function(
+                &self,
+                #q: &Vector,
+                #v: &Vector,
+                #minus: Direction<#scalar>,
+                #plus: Direction<#scalar>,
+            ) -> Variations<#scalar, #n> {
+                #statements
+                Variations { minus: #by_minus, plus: #by_plus, mixed: #mixed }
+            }
+        }
+    }
+
+    /// `force_variation`
+    pub(super) fn force_variation(&mut self, components: &[Node], rows: &[Gradient]) -> TokenStream {
+        let scalar = &self.system.scalar;
+        let n = self.system.degrees.times(1);
+        let direction = Along::parameters(&mut self.graph, "direction");
+        let along: Vec<Vec<Node>> = rows.iter().map(|row| self.along(row, direction)).collect();
+        let outputs = [components.to_vec(), self.matrix(|_, i, j| Some(along[i][j]))].concat();
+        let line = self.code(&outputs);
+        let [value, matrix] = self.parts(&line.outputs, [Shape::Vector, Shape::Matrix]);
+        let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
+        let direction = parameter("direction", line.uses("direction"));
+        let statements = &line.statements;
+        quote! {
+            #[inline]
+            fn force_variation(
+                &self,
+                #q: &Vector,
+                #v: &Vector,
+                #direction: Direction<#scalar>,
+            ) -> (Vector, SMatrix<#scalar, #n, #n>) {
+                #statements
+                (#value, #matrix)
+            }
+        }
+    }
+
+    /// The entries of an n×n matrix, column by column.
+    pub(super) fn matrix(
+        &mut self,
+        mut entry: impl FnMut(&mut Self, usize, usize) -> Option<Node>,
+    ) -> Vec<Node> {
+        let mut entries = Vec::new();
+        for j in 0..self.n {
+            for i in 0..self.n {
+                let entry = entry(self, i, j);
+                entries.push(self.or_zero(entry));
+            }
+        }
+        entries
+    }
+
+    /// Entry i: first ∂f/∂qᵢ + second ∂f/∂vᵢ.
+    pub(super) fn along(&mut self, gradient: &Gradient, along: Along) -> Vec<Node> {
+        (0..self.n)
+            .map(|index| {
+                let terms = [(along.second, true), (along.first, false)].map(|(factor, velocity)| {
+                    let variable = self.variable(index, velocity);
+                    (factor, gradient.get(&variable).copied())
+                });
+                let sum = self.sum(terms);
+                self.or_zero(sum)
+            })
+            .collect()
+    }
+
+    /// The second derivative along both directions.
+    pub(super) fn mixed(
+        &mut self,
+        of: &Derivatives,
+        (i, minus): (usize, Along),
+        (j, plus): (usize, Along),
+    ) -> Option<Node> {
+        let mut terms: Vec<(Option<Node>, Option<Node>)> = Vec::new();
+        // Velocities first: the mass matrix leads.
+        for (factor_i, velocity_i) in [(minus.second, true), (minus.first, false)] {
+            for (factor_j, velocity_j) in [(plus.second, true), (plus.first, false)] {
+                let (Some(a), Some(b)) = (factor_i, factor_j) else { continue };
+                let factor = self.graph.times(a, b);
+                let second = self.second(of, (i, velocity_i), (j, velocity_j));
+                let opposite = self.graph.negated(factor);
+                // On the diagonal the two orders are one derivative; opposite factors leave nothing of it.
+                match terms.iter().position(|&term| second.is_some() && term == (Some(opposite), second)) {
+                    Some(cancelled) => drop(terms.remove(cancelled)),
+                    None => terms.push((Some(factor), second)),
+                }
+            }
+        }
+        self.sum(terms)
+    }
+
+    /// Σ factor × term over those that are there.
+    fn sum(&mut self, terms: impl IntoIterator<Item = (Option<Node>, Option<Node>)>) -> Option<Node> {
+        let mut sum = None;
+        for (factor, term) in terms {
+            let (Some(factor), Some(term)) = (factor, term) else { continue };
+            let product = self.graph.times(factor, term);
+            sum = Some(self.added(sum, product));
+        }
+        sum
+    }
+
+    /// sum + term, where there is a sum already.
+    pub(super) fn added(&mut self, sum: Option<Node>, term: Node) -> Node {
+        match sum {
+            Some(sum) => self.graph.plus(sum, term),
+            None => term,
+        }
+    }
+}
+
+/// A direction in (q, v), factors that are 0 by structure absent.
+#[derive(Clone, Copy)]
+pub(super) struct Along {
+    pub first: Option<Node>,
+    pub second: Option<Node>,
+}
+
+impl Along {
+    /// `minus.first`, `minus.second`.
+    fn parameters(graph: &mut Graph, name: &str) -> Self {
+        let [first, second] = ["first", "second"].map(|part| {
+            let (direction, member) = (format_ident!("{name}"), format_ident!("{part}"));
+            let node = graph.written(quote!(#direction.#member));
+            graph.give_name(node, &format!("{name}_{part}"));
+            Some(node)
+        });
+        Self { first, second }
+    }
+}

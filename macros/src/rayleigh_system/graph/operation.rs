@@ -1,0 +1,158 @@
+//! What a node computes.
+
+use super::Node;
+
+/// An operation on earlier nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Operation {
+    /// qᵢ.
+    Coordinate(usize),
+    /// vᵢ.
+    Velocity(usize),
+    /// See [`Parameter`](super::Parameter).
+    Parameter(usize),
+    /// A number, by its bits in `f64`.
+    Constant(u64),
+    Add(Node, Node),
+    Subtract(Node, Node),
+    Multiply(Node, Node),
+    Divide(Node, Node),
+    Negate(Node),
+    Function(Function, Node),
+    Pair(PairFunction, Node, Node),
+    Power(Node, i32),
+    Select(Node, Node, Node),
+    /// a b + c, rounded once.
+    MultiplyAdd(Node, Node, Node),
+    // Truth values.
+    Compare(Comparison, Node, Node),
+    Is(Predicate, Node),
+    Not(Node),
+    And(Node, Node),
+    Or(Node, Node),
+}
+
+impl Operation {
+    /// The same operation with the arguments of a commutative one in order: equal to the last bit.
+    pub fn ordered(self) -> Self {
+        match self {
+            Self::Add(a, b) if b < a => Self::Add(b, a),
+            Self::Multiply(a, b) if b < a => Self::Multiply(b, a),
+            other => other,
+        }
+    }
+
+    pub fn arguments(self) -> impl Iterator<Item = Node> {
+        let arguments = match self {
+            Self::Coordinate(_) | Self::Velocity(_) | Self::Parameter(_) | Self::Constant(_) => [None; 3],
+            Self::Negate(a) | Self::Function(_, a) | Self::Power(a, _) | Self::Is(_, a) | Self::Not(a) => {
+                [Some(a), None, None]
+            }
+            Self::Add(a, b)
+            | Self::Subtract(a, b)
+            | Self::Multiply(a, b)
+            | Self::Divide(a, b)
+            | Self::Pair(_, a, b)
+            | Self::Compare(_, a, b)
+            | Self::And(a, b)
+            | Self::Or(a, b) => [Some(a), Some(b), None],
+            Self::Select(a, b, c) | Self::MultiplyAdd(a, b, c) => [Some(a), Some(b), Some(c)],
+        };
+        arguments.into_iter().flatten()
+    }
+}
+
+/// Names a set of methods of `f64`, each called as it is spelled.
+macro_rules! methods {
+    ($(#[$doc:meta])* $set:ident { $($variant:ident $name:literal)* }) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum $set {
+            $($variant),*
+        }
+
+        impl $set {
+            /// Every one, for tests that must leave none out.
+            #[cfg(test)]
+            #[allow(dead_code, reason = "of one set alone")]
+            pub const ALL: &[Self] = &[$(Self::$variant),*];
+
+            /// The method's name.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$variant => $name),*
+                }
+            }
+
+            /// The method of that name.
+            pub fn named(name: &str) -> Option<Self> {
+                match name {
+                    $($name => Some(Self::$variant),)*
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+
+methods! {
+    /// Elementary functions of one number.
+    Function {
+        Recip "recip"
+        Exp "exp"
+        Exp2 "exp2"
+        ExpM1 "exp_m1"
+        Ln "ln"
+        Log2 "log2"
+        Log10 "log10"
+        Ln1p "ln_1p"
+        Sin "sin"
+        Cos "cos"
+        Tan "tan"
+        Asin "asin"
+        Acos "acos"
+        Atan "atan"
+        Sinh "sinh"
+        Cosh "cosh"
+        Tanh "tanh"
+        Asinh "asinh"
+        Acosh "acosh"
+        Atanh "atanh"
+        Sqrt "sqrt"
+        Cbrt "cbrt"
+        Abs "abs"
+        Signum "signum"
+    }
+}
+
+methods! {
+    /// Elementary functions of two numbers.
+    PairFunction {
+        Powf "powf"
+        Atan2 "atan2"
+        Hypot "hypot"
+        Copysign "copysign"
+    }
+}
+
+methods! {
+    /// Questions about a number.
+    Predicate {
+        Nan "is_nan"
+        Finite "is_finite"
+        Infinite "is_infinite"
+        SignNegative "is_sign_negative"
+        SignPositive "is_sign_positive"
+    }
+}
+
+/// Comparisons of numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Comparison {
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+    Equal,
+    NotEqual,
+}

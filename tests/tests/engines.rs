@@ -1,0 +1,341 @@
+//! The two engines of derivatives agree: the same systems, once with derivatives written out and once with num-dual.
+
+/// The systems, with the engine named.
+macro_rules! systems {
+    ($engine:ident) => {
+        use dalembert::rayleigh_system;
+
+        /// The ring potential with drag.
+        pub struct Ring {
+            pub k: f64,
+        }
+
+        #[rayleigh_system(rule = [midpoint, trapezoidal], derivatives = $engine)]
+        impl Ring {
+            fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+                let s = q[0] * q[0] + q[1] * q[1];
+                0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2)
+            }
+
+            fn rayleigh(&self, v: [f64; 2]) -> f64 {
+                0.5 * self.k * (v[0] * v[0] + v[1] * v[1])
+            }
+        }
+
+        /// The double pendulum, with friction in its joints.
+        pub struct DoublePendulum {
+            pub m: [f64; 2],
+            pub l: [f64; 2],
+            pub g: f64,
+            pub c: [f64; 2],
+        }
+
+        #[rayleigh_system(rule = [midpoint, trapezoidal], derivatives = $engine)]
+        impl DoublePendulum {
+            fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+                let [m1, m2] = self.m;
+                let [l1, l2] = self.l;
+                let kinetic = 0.5 * (m1 + m2) * l1 * l1 * v[0] * v[0]
+                    + 0.5 * m2 * l2 * l2 * v[1] * v[1]
+                    + m2 * l1 * l2 * (q[0] - q[1]).cos() * v[0] * v[1];
+                let potential = -(m1 + m2) * self.g * l1 * q[0].cos() - m2 * self.g * l2 * q[1].cos();
+                kinetic - potential
+            }
+
+            fn rayleigh(&self, v: [f64; 2]) -> f64 {
+                let relative = v[1] - v[0];
+                0.5 * self.c[0] * v[0] * v[0] + 0.5 * self.c[1] * relative * relative
+            }
+        }
+
+        /// The Fermi–Pasta–Ulam–Tsingou β-chain of eight masses between walls.
+        pub struct Chain {
+            pub beta: f64,
+            pub drag: f64,
+        }
+
+        #[rayleigh_system(rule = [midpoint, trapezoidal], derivatives = $engine)]
+        impl Chain {
+            const N: usize = 8;
+
+            fn lagrangian(&self, q: [f64; Self::N], v: [f64; Self::N]) -> f64 {
+                let kinetic = 0.5 * v.iter().map(|v| v * v).sum::<f64>();
+                let mut potential = self.spring(q[0]) + self.spring(-q[Self::N - 1]);
+                for i in 1..q.len() {
+                    potential += self.spring(q[i] - q[i - 1]);
+                }
+                kinetic - potential
+            }
+
+            fn rayleigh(&self, v: [f64; Self::N]) -> f64 {
+                0.5 * self.drag * v.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum::<f64>()
+            }
+
+            /// Energy of a spring.
+            fn spring(&self, d: f64) -> f64 {
+                let square = d * d;
+                0.5 * square + 0.25 * self.beta * square * square
+            }
+        }
+
+        /// Everything at once: `if`, early return, `abs`, `sqrt`, helpers, loops, a force, R that depends on q.
+        pub struct Medley {
+            pub stiff: bool,
+            pub weights: [f64; 3],
+            pub order: i32,
+        }
+
+        #[rayleigh_system(rule = [midpoint, trapezoidal], derivatives = $engine)]
+        impl Medley {
+            fn lagrangian(&self, q: [f64; 3], v: [f64; 3]) -> f64 {
+                let mut kinetic = 0.0;
+                for (i, v) in v.iter().enumerate() {
+                    kinetic += 0.5 * (self.weights[i] + 0.1 * (i as f64) + q[i].sin().powi(2)) * v * v;
+                }
+                kinetic - self.wall(q[0]) - Self::bowl(q) - if self.stiff { q[2].powi(4) } else { 0.0 }
+            }
+
+            fn rayleigh(&self, q: [f64; 3], v: [f64; 3]) -> f64 {
+                let near = (-(q[0] * q[0])).exp();
+                near * v.iter().fold(0.0, |sum, v| sum + v * v)
+                    + self.order as f64 * v[2].powi(2).sqrt().powi(3)
+            }
+
+            fn force(&self, q: [f64; 3], v: [f64; 3]) -> [f64; 3] {
+                let spin = v[0] * q[1] - v[1] * q[0];
+                [-q[1] * spin, q[0] * spin, (q[2] - q[0]).abs().min(2.0)]
+            }
+
+            /// A soft wall.
+            fn wall(&self, x: f64) -> f64 {
+                if x > 0.0 {
+                    return 0.0;
+                }
+                (1.0 + x * x).sqrt() - 1.0
+            }
+
+            /// Elementary functions of all coordinates.
+            fn bowl(q: [f64; 3]) -> f64 {
+                let square = |x: f64| x * x;
+                let depth: f64 = q.iter().zip(1..4).map(|(q, i)| square(*q) / f64::from(i)).sum();
+                (1.0 + depth).ln() + q[0].hypot(1.0 + q[1] * q[1]) + q[2].atan2(2.0 + q[1])
+            }
+        }
+
+        /// In single precision.
+        #[rayleigh_system(rule = [midpoint, trapezoidal], derivatives = $engine)]
+        pub fn single(q: [f32; 2], v: [f32; 2], m: f32, k: [f32; 2]) -> (f32, f32) {
+            let potential = k[0] * (1.0 - q[0].cos()) + 0.1 * k[1] * q[1] * q[1] * (q[0] - q[1]);
+            (0.5 * m * (v[0] * v[0] + (1.0 + q[0] * q[0]) * v[1] * v[1]) - potential, 0.3 * v[0] * v[0])
+        }
+
+        /// Its gradient and Hessian are finite also where x ≤ 0, and 0 there.
+        #[rayleigh_system(derivatives = $engine)]
+        pub fn half_line(q: [f64; 1], v: [f64; 1]) -> f64 {
+            let x = q[0] * v[0];
+            0.5 * v[0] * v[0] + if x > 0.0 { x.sqrt() } else { 0.0 }
+        }
+    };
+}
+
+/// Derivatives written out.
+mod expanded {
+    systems!(expanded);
+}
+
+/// Derivatives by num-dual.
+mod num_dual {
+    systems!(num_dual);
+}
+
+use dalembert::nalgebra::{SMatrix, SVector};
+use dalembert::{
+    Derivatives, Direction, Discrete, DiscreteRayleigh, Force, Lagrangian, Midpoint, Scalar, State,
+    Trapezoidal,
+};
+
+/// The largest difference seen, in units of the tolerance of `at`.
+struct Difference {
+    unit: f64,
+    largest: f64,
+}
+
+impl Difference {
+    fn vectors<S: Scalar, const R: usize, const C: usize>(
+        &mut self,
+        a: &SMatrix<S, R, C>,
+        b: &SMatrix<S, R, C>,
+    ) {
+        let scale = 1.0 + a.iter().chain(b.iter()).fold(0.0_f64, |scale, x| scale.max(x.widen().abs()));
+        for (a, b) in a.iter().zip(b.iter()) {
+            let difference = (a.widen() - b.widen()).abs() / (scale * self.unit);
+            // A NaN counts as far off.
+            self.largest = if difference <= self.largest { self.largest } else { difference };
+            assert!(!difference.is_nan(), "NaN");
+        }
+    }
+
+    fn numbers<S: Scalar>(&mut self, a: S, b: S) {
+        self.vectors(&SVector::<S, 1>::new(a), &SVector::<S, 1>::new(b));
+    }
+
+    fn derivatives<S: Scalar, const N: usize>(&mut self, a: &Derivatives<S, N>, b: &Derivatives<S, N>) {
+        self.numbers(a.value, b.value);
+        self.vectors(&a.d1, &b.d1);
+        self.vectors(&a.d2, &b.d2);
+        self.vectors(&a.d11, &b.d11);
+        self.vectors(&a.d12, &b.d12);
+        self.vectors(&a.d22, &b.d22);
+    }
+}
+
+/// Points spread over [−1, 1], the same for every run.
+fn points<S: Scalar, const N: usize>() -> impl Iterator<Item = (SVector<S, N>, SVector<S, N>)> {
+    (0..40_u32).map(|k| {
+        let spread = |i: usize, shift: f64| {
+            let phase = f64::from(k) * 0.754_877_666 + i as f64 * 0.569_840_291 + shift;
+            S::constant(2.0 * phase.fract() - 1.0)
+        };
+        (SVector::from_fn(|i, _| spread(i, 0.1)), SVector::from_fn(|i, _| spread(i, 0.4)))
+    })
+}
+
+/// Compares all that the traits offer for L and for the discrete system of rule `R`.
+fn compare<A, B, R, const N: usize>(a: &A, b: &B) -> f64
+where
+    A: DiscreteRayleigh<R, N>,
+    B: DiscreteRayleigh<R, N, Scalar = A::Scalar>,
+{
+    let mut difference = Difference { unit: 64.0 * A::Scalar::EPSILON.widen(), largest: 0.0 };
+    let constant = A::Scalar::constant;
+    let h = constant(0.15);
+    let minus = Direction { first: constant(-0.3), second: constant(1.1) };
+    let plus = Direction { first: constant(0.2), second: constant(0.7) };
+    for (q, v) in points::<A::Scalar, N>() {
+        difference.derivatives(&a.lagrangian_derivatives(&q, &v), &b.lagrangian_derivatives(&q, &v));
+        difference.derivatives(&a.rayleigh_derivatives(&q, &v), &b.rayleigh_derivatives(&q, &v));
+        let (la, lb) = (a.lagrangian_gradient(&q, &v), b.lagrangian_gradient(&q, &v));
+        difference.numbers(la.value, lb.value);
+        difference.vectors(&la.d1, &lb.d1);
+        difference.vectors(&la.d2, &lb.d2);
+        let (ra, rb) = (a.rayleigh_gradient(&q, &v), b.rayleigh_gradient(&q, &v));
+        difference.vectors(&ra.d1, &rb.d1);
+        difference.vectors(&ra.d2, &rb.d2);
+        for (va, vb) in [
+            (a.lagrangian_variations(&q, &v, minus, plus), b.lagrangian_variations(&q, &v, minus, plus)),
+            (a.rayleigh_variations(&q, &v, minus, plus), b.rayleigh_variations(&q, &v, minus, plus)),
+        ] {
+            difference.vectors(&va.minus, &vb.minus);
+            difference.vectors(&va.plus, &vb.plus);
+            difference.vectors(&va.mixed, &vb.mixed);
+        }
+        let (ka, kb) = (a.step_kernel(&q, &v, h), b.step_kernel(&q, &v, h));
+        difference.vectors(&ka.p0, &kb.p0);
+        difference.vectors(&ka.matrix, &kb.matrix);
+        let (ma, mb) = (a.momenta(&q, &v, h), b.momenta(&q, &v, h));
+        difference.vectors(&ma.p0, &mb.p0);
+        difference.vectors(&ma.p1, &mb.p1);
+        let q1 = q + v * h;
+        difference.derivatives(
+            &a.discrete_lagrangian_derivatives(&q, &q1, h),
+            &b.discrete_lagrangian_derivatives(&q, &q1, h),
+        );
+        let (fa, fb) = (a.discrete_force(&q, &q1, h), b.discrete_force(&q, &q1, h));
+        difference.vectors(&fa.minus, &fb.minus);
+        difference.vectors(&fa.plus, &fb.plus);
+    }
+    difference.largest
+}
+
+/// Both rules.
+macro_rules! agree {
+    ($system:ident { $($fields:tt)* }, $n:literal) => {
+        let (a, b) = (expanded::$system { $($fields)* }, num_dual::$system { $($fields)* });
+        let midpoint = compare::<_, _, Midpoint, $n>(&a, &b);
+        let trapezoidal = compare::<_, _, Trapezoidal, $n>(&a, &b);
+        assert!(midpoint <= 1.0, "midpoint: {midpoint} times the tolerance");
+        assert!(trapezoidal <= 1.0, "trapezoidal: {trapezoidal} times the tolerance");
+    };
+}
+
+#[test]
+fn ring() {
+    agree!(Ring { k: 0.3 }, 2);
+}
+
+#[test]
+fn double_pendulum() {
+    agree!(DoublePendulum { m: [1.0, 0.7], l: [1.0, 0.8], g: 9.81, c: [0.05, 0.03] }, 2);
+}
+
+#[test]
+fn chain() {
+    agree!(Chain { beta: 0.7, drag: 0.02 }, 8);
+}
+
+#[test]
+fn medley() {
+    agree!(Medley { stiff: true, weights: [1.0, 0.6, 2.0], order: 2 }, 3);
+    agree!(Medley { stiff: false, weights: [1.0, 0.6, 2.0], order: 1 }, 3);
+}
+
+#[test]
+fn single_precision() {
+    agree!(Single { m: 1.3, k: [0.7, 1.1] }, 2);
+}
+
+/// The control: parameters that differ by one part in 10⁹ are told apart.
+#[test]
+fn a_small_difference_is_seen() {
+    let (a, b) = (expanded::Ring { k: 0.3 }, num_dual::Ring { k: 0.3 * (1.0 + 1e-9) });
+    let difference = compare::<_, _, Midpoint, 2>(&a, &b);
+    assert!(difference > 1.0, "{difference}");
+}
+
+#[test]
+fn force_has_the_same_derivatives() {
+    let (a, b) = (
+        expanded::Medley { stiff: true, weights: [1.0, 0.6, 2.0], order: 2 },
+        num_dual::Medley { stiff: true, weights: [1.0, 0.6, 2.0], order: 2 },
+    );
+    let mut difference = Difference { unit: 64.0 * f64::EPSILON, largest: 0.0 };
+    let direction = Direction { first: 0.4, second: -1.2 };
+    for (q, v) in points::<f64, 3>() {
+        let (fa, fb) = (a.force_derivatives(&q, &v), b.force_derivatives(&q, &v));
+        difference.vectors(&fa.value, &fb.value);
+        difference.vectors(&fa.d1, &fb.d1);
+        difference.vectors(&fa.d2, &fb.d2);
+        let ((va, ma), (vb, mb)) =
+            (a.force_variation(&q, &v, direction), b.force_variation(&q, &v, direction));
+        difference.vectors(&va, &vb);
+        difference.vectors(&ma, &mb);
+    }
+    assert!(difference.largest <= 1.0, "{}", difference.largest);
+}
+
+#[test]
+fn a_rejected_branch_leaves_no_trace_in_either_engine() {
+    let (a, b) = (expanded::HalfLine {}, num_dual::HalfLine {});
+    for q in [0.0, -0.5] {
+        let (q, v) = (SVector::from([q]), SVector::from([0.25]));
+        for l in [a.lagrangian_derivatives(&q, &v), b.lagrangian_derivatives(&q, &v)] {
+            assert_eq!((l.value, l.d1[0], l.d2[0]), (0.5 * 0.25 * 0.25, 0.0, 0.25));
+            assert_eq!((l.d11[0], l.d12[0], l.d22[0]), (0.0, 0.0, 1.0));
+        }
+    }
+}
+
+#[test]
+fn trajectories_stay_together() {
+    let (a, b) = (
+        expanded::DoublePendulum { m: [1.0, 0.7], l: [1.0, 0.8], g: 9.81, c: [0.05, 0.03] },
+        num_dual::DoublePendulum { m: [1.0, 0.7], l: [1.0, 0.8], g: 9.81, c: [0.05, 0.03] },
+    );
+    let mut state_a = State::from_velocity(&a, [0.8, -0.4], [0.0, 0.5]).unwrap();
+    let mut state_b = State::from_velocity(&b, [0.8, -0.4], [0.0, 0.5]).unwrap();
+    for _ in 0..200 {
+        state_a = Discrete::<Midpoint, 2>::step(&a, &state_a, 0.01, None).unwrap().state;
+        state_b = Discrete::<Midpoint, 2>::step(&b, &state_b, 0.01, None).unwrap().state;
+    }
+    assert!((state_a.q - state_b.q).amax() < 1e-12, "{} and {}", state_a.q, state_b.q);
+}
