@@ -7,6 +7,7 @@
 
 mod fields;
 mod lift;
+mod operators;
 mod primitive;
 mod real;
 
