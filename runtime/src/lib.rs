@@ -17,6 +17,7 @@ mod newton;
 mod rules;
 mod scalar;
 mod state;
+mod structure;
 mod system;
 mod trajectory;
 
@@ -149,5 +150,6 @@ pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix};
 pub use rules::{DisplacementRule, Midpoint, Node, Trapezoidal};
 pub use scalar::Scalar;
 pub use state::State;
+pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
 pub use system::{Force, Lagrangian, Rayleigh};
 pub use trajectory::{Sample, Samples, Trajectory};

@@ -14,18 +14,25 @@ use super::emit::{StraightLine, straight_line};
 use super::expand;
 use super::graph::{Graph, Node, Operation};
 use super::implement::{self, Kernel};
-use super::lower::{Lowered, MAX_NODES};
+use super::lower::{Lowered, MAX_NODES, Refusal};
 use super::model::{Rule, Source, System};
+use super::structure::{self, Differentiated, Findings, Structure, Terms};
 
-/// The whole expansion; nothing where the derivatives are too long to be written out.
-pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
+/// The whole expansion, unless the derivatives are too long to be written out.
+pub fn system(system: &System<'_>, lowered: Lowered) -> Result<TokenStream, Refusal> {
     let Lowered { graph, n, lagrangian, rayleigh, force } = lowered;
     let mut code = Code { system, graph, n, derivation: Differentiation::default() };
-    let of_lagrangian = implement::lagrangian(system, code.function("lagrangian", "l", lagrangian));
-    let of_rayleigh = system.rayleigh.zip(rayleigh).map(|(arguments, root)| {
-        implement::rayleigh(system, arguments, code.function("rayleigh", "r", root))
-    });
-    let of_force = force.as_ref().map(|components| implement::force(system, code.force(components)));
+    let of_lagrangian = code.function("lagrangian", "l", lagrangian);
+    let of_rayleigh = rayleigh.map(|root| code.function("rayleigh", "r", root));
+    let of_force = force.as_ref().map(|components| code.force(components));
+    let findings = code.findings(lagrangian, rayleigh, force.as_deref());
+    let structure = Structure { engine: structure::Engine::Expanded, findings: Some(findings) };
+    let of_lagrangian = implement::lagrangian(system, &structure, of_lagrangian);
+    let of_rayleigh = system
+        .rayleigh
+        .zip(of_rayleigh)
+        .map(|(arguments, functions)| implement::rayleigh(system, arguments, functions));
+    let of_force = of_force.map(|functions| implement::force(system, functions));
     let discrete: TokenStream = system
         .rules
         .iter()
@@ -38,7 +45,9 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
         .rayleigh
         .map(|_| system.rules.iter().map(|&rule| implement::discrete_rayleigh(system, rule)).collect());
     if code.graph.len() > MAX_NODES {
-        return None;
+        let reason =
+            format!("the derivatives take more than {MAX_NODES} operations, too many for straight-line code");
+        return Err(Refusal::at(system.source.name(), reason));
     }
     let item = match system.source {
         Source::Block(block) => block.item.to_token_stream(),
@@ -51,7 +60,7 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
     let imports = imports(system);
     let conditions = expand::conditions(system.source);
     let (scalar, dimension) = (&system.scalar, system.degrees.times(1));
-    Some(quote! {
+    Ok(quote! {
         #item
 
         #(#conditions)*
@@ -87,6 +96,20 @@ struct Code<'s> {
 }
 
 impl Code<'_> {
+    /// What the expressions show of the system's structure.
+    fn findings(&mut self, lagrangian: Node, rayleigh: Option<Node>, force: Option<&[Node]>) -> Findings {
+        let mut differentiated = |root: Node, symbol: &str| Differentiated {
+            root,
+            derivatives: self.derivation.hessian(&mut self.graph, root, symbol),
+        };
+        let lagrangian = differentiated(lagrangian, "l");
+        let rayleigh = rayleigh.map(|root| differentiated(root, "r"));
+        let components = force.unwrap_or_default();
+        let force: Vec<_> = components.iter().copied().zip(self.rows(components)).collect();
+        let terms = Terms { lagrangian: &lagrangian, rayleigh: rayleigh.as_ref(), force: &force };
+        structure::findings(&self.graph, self.n, &terms, &self.system.rules)
+    }
+
     /// Gradient, derivatives and variations of L or R.
     fn function(&mut self, function: &str, symbol: &str, root: Node) -> TokenStream {
         let scalar = &self.system.scalar;

@@ -58,6 +58,11 @@ impl Graph {
         self.operations.len()
     }
 
+    /// All expressions, arguments first.
+    pub fn nodes(&self) -> impl Iterator<Item = Node> + use<> {
+        (0..u32::try_from(self.operations.len()).unwrap_or(u32::MAX)).map(Node)
+    }
+
     pub fn operation(&self, node: Node) -> Operation {
         self.operations[node.index()]
     }

@@ -6,6 +6,7 @@ use quote::{format_ident, quote};
 
 use super::expand::parameters;
 use super::model::{RayleighArguments, Rule, Source, System};
+use super::structure::Structure;
 
 /// The plain value of L (0) or R (1) at the vectors q and v.
 fn value(system: &System<'_>, function: &str, arguments: RayleighArguments) -> TokenStream {
@@ -33,14 +34,18 @@ fn value(system: &System<'_>, function: &str, arguments: RayleighArguments) -> T
 }
 
 /// `impl Lagrangian<2> for Ring`, with the derivatives of either engine.
-pub fn lagrangian(system: &System<'_>, derivatives: TokenStream) -> TokenStream {
+pub fn lagrangian(system: &System<'_>, structure: &Structure, derivatives: TokenStream) -> TokenStream {
     let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
     let value = value(system, "lagrangian", RayleighArguments::ConfigurationAndVelocity);
+    let (documentation, constant) = (structure.documentation(), structure.constant());
     quote! {
+        #documentation
         #[automatically_derived]
         impl Lagrangian<#n> for #name {
             type Scalar = #scalar;
+
+            #constant
 
             #[inline]
             fn lagrangian(&self, q: &Vector, v: &Vector) -> #scalar {

@@ -21,9 +21,28 @@ const _: () = {
         Rayleigh, StepKernel, Trapezoidal, Variations,
     };
     type Vector = SVector<f64, 1>;
+    /// Known at compile time:
+    /// - Derivatives are written out.
+    /// - L = T(v) − V(q), of degree at most 2.
+    /// - The mass matrix ∂²L/∂v² is constant.
+    /// - The damping force −∂R/∂v is linear in v with constant coefficients.
+    /// - By the rule `Midpoint` the Newton matrix is constant: a step is one linear solve.
+    /// - By the rule `Trapezoidal` the Newton matrix is constant: a step is one linear solve.
     #[automatically_derived]
     impl Lagrangian<1> for Oscillator {
         type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::Expanded)
+            .with_constant_mass_matrix()
+            .with_quadratic_lagrangian()
+            .with_separable_lagrangian()
+            .with_damping(::dalembert::Damping::Linear)
+            .with_newton_matrices(
+                &[
+                    ::dalembert::NewtonStructure::new("Midpoint", true, 0),
+                    ::dalembert::NewtonStructure::new("Trapezoidal", true, 0),
+                ],
+            );
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             oscillator((*q).into(), (*v).into(), self.m, self.k, self.r).0

@@ -74,9 +74,15 @@ const _: () = {
         Rayleigh, StepKernel, Variations, dual,
     };
     type Vector = SVector<f64, 1>;
+    /// Known at compile time:
+    /// - Derivatives are made by dual numbers, as asked.
     #[automatically_derived]
     impl Lagrangian<1> for Oscillator {
         type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::NumDual {
+                refusal: ::core::option::Option::None,
+            });
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             oscillator((*q).into(), (*v).into(), self.m, self.k, self.r).0

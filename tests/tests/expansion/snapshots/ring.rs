@@ -15,9 +15,23 @@ const _: () = {
         Rayleigh, StepKernel, Variations,
     };
     type Vector = SVector<f64, 2>;
+    /// Known at compile time:
+    /// - Derivatives are written out.
+    /// - L = T(v) − V(q).
+    /// - The mass matrix ∂²L/∂v² is constant.
+    /// - The damping force −∂R/∂v is linear in v with constant coefficients.
+    /// - By the rule `Midpoint` the Newton matrix changes with the state.
     #[automatically_derived]
     impl Lagrangian<2> for Ring {
         type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::Expanded)
+            .with_constant_mass_matrix()
+            .with_separable_lagrangian()
+            .with_damping(::dalembert::Damping::Linear)
+            .with_newton_matrices(
+                &[::dalembert::NewtonStructure::new("Midpoint", false, 1)],
+            );
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             self.lagrangian((*q).into(), (*v).into())
