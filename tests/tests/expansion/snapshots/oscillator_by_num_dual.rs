@@ -77,6 +77,7 @@ const _: () = {
     #[automatically_derived]
     impl Lagrangian<1> for Oscillator {
         type Scalar = f64;
+        #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             oscillator((*q).into(), (*v).into(), self.m, self.k, self.r).0
         }
@@ -98,6 +99,7 @@ const _: () = {
     }
     #[automatically_derived]
     impl Rayleigh<1> for Oscillator {
+        #[inline]
         fn rayleigh(&self, q: &Vector, v: &Vector) -> f64 {
             oscillator((*q).into(), (*v).into(), self.m, self.k, self.r).1
         }
