@@ -147,9 +147,9 @@ pub use discrete::{
 };
 pub use error::{Quantity, StepError};
 pub use fields::{ScalarField, VectorField};
-pub use linear::{Banded, NewtonMatrix, Singular};
+pub use linear::{Banded, Factored, FactoredBand, FactoredDense, NewtonMatrix, Singular};
 pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix};
-pub use memory::{Memory, VelocityHistory};
+pub use memory::{Explicit, ExplicitMemory, KeptMatrix, Memory, VelocityHistory};
 pub use rules::{DisplacementRule, Midpoint, Node, Trapezoidal};
 pub use scalar::Scalar;
 pub use state::State;

@@ -9,7 +9,7 @@ use crate::error::{Quantity, StepError};
 use crate::linear::{NewtonMatrix, Singular};
 use crate::{Report, Scalar, State};
 
-mod rounding;
+pub(crate) mod rounding;
 use rounding::{AT_FLOOR, STAGNATION, estimated_floor, in_units_of, rounding, worst};
 
 /// A root, with both momenta there.

@@ -175,7 +175,6 @@ pub fn imported(system: &System<'_>) -> Vec<Ident> {
         "Momenta",
         "StepKernel",
         "Variations",
-        "VelocityHistory",
     ];
     if system.rayleigh.is_some() {
         names.extend(["DiscreteRayleigh", "Rayleigh"]);

@@ -3,7 +3,10 @@
 //! The user's item stands as it was written; nothing of it is evaluated over other numbers.
 
 mod directions;
+mod explicit;
 mod kernel;
+mod midpoint;
+mod trapezoidal;
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
@@ -26,6 +29,14 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Result<TokenStream, Refu
     let of_rayleigh = rayleigh.map(|root| code.function("rayleigh", "r", root));
     let of_force = force.as_ref().map(|components| code.force(components));
     let findings = code.findings(lagrangian, rayleigh, force.as_deref());
+    let discrete: TokenStream = findings
+        .newton
+        .iter()
+        .map(|newton| {
+            let kernel = code.kernel(newton, lagrangian, rayleigh, force.as_deref());
+            implement::discrete(system, newton.rule, Some(kernel))
+        })
+        .collect();
     let structure = Structure { engine: structure::Engine::Expanded, findings: Some(findings) };
     let of_lagrangian = implement::lagrangian(system, &structure, of_lagrangian);
     let of_rayleigh = system
@@ -33,14 +44,6 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Result<TokenStream, Refu
         .zip(of_rayleigh)
         .map(|(arguments, functions)| implement::rayleigh(system, arguments, functions));
     let of_force = of_force.map(|functions| implement::force(system, functions));
-    let discrete: TokenStream = system
-        .rules
-        .iter()
-        .map(|&rule| {
-            let kernel = code.kernel(rule, lagrangian, rayleigh, force.as_deref());
-            implement::discrete(system, rule, kernel)
-        })
-        .collect();
     let discrete_rayleigh: Option<TokenStream> = system
         .rayleigh
         .map(|_| system.rules.iter().map(|&rule| implement::discrete_rayleigh(system, rule)).collect());
@@ -232,7 +235,7 @@ impl Code<'_> {
             &self.graph,
             &self.system.scalar,
             outputs,
-            &["q", "v", "h", "half", "q0", "minus", "plus"],
+            &["q", "v", "h", "half", "q0", "q1", "minus", "plus"],
         )
     }
 
@@ -269,4 +272,11 @@ enum Shape {
 /// A parameter of a function, marked where the body does not use it.
 fn parameter(name: &str, is_used: bool) -> Ident {
     if is_used { format_ident!("{name}") } else { format_ident!("_{name}") }
+}
+
+/// `let _ = (q0, h);` for the parameters that a body does not read.
+fn unused<const K: usize>(parameters: [(bool, &str); K]) -> Option<TokenStream> {
+    let unused: Vec<Ident> =
+        parameters.iter().filter(|(is_used, _)| !is_used).map(|(_, name)| format_ident!("{name}")).collect();
+    (!unused.is_empty()).then(|| quote!(let _ = (#(#unused),*);))
 }

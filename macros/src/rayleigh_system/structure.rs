@@ -70,6 +70,8 @@ pub struct Newton {
     pub constant: bool,
     /// Largest |i − j| of an entry.
     pub bandwidth: usize,
+    /// Constant by the trapezoidal rule, and no derivative holds both q and v: a step needs the force at one point.
+    pub is_explicit: bool,
 }
 
 /// A function with its derivatives.
@@ -141,15 +143,27 @@ pub fn findings(graph: &Graph, n: usize, terms: &Terms<'_>, rules: &[Rule]) -> F
             _ => degrees.joint(entry) <= 1,
         };
         let gradients = [Some(*lagrangian), *rayleigh].into_iter().flatten();
-        let mut momenta = gradients.flat_map(|of| &of.derivatives.gradient).filter_map(|(&by, &entry)| {
+        let momenta = gradients.flat_map(|of| &of.derivatives.gradient).filter_map(|(&by, &entry)| {
             let (_, by_velocity) = variable(graph, by)?;
             Some((entry, by_velocity))
         });
         let constant = is_constant(&entries)
-            && momenta.all(|(entry, by_velocity)| is_affine(entry, by_velocity))
+            && momenta.clone().all(|(entry, by_velocity)| is_affine(entry, by_velocity))
             && force.iter().all(|&(component, _)| is_affine(component, false));
         let bandwidth = entries.iter().map(|&(i, j, _)| i.abs_diff(j)).max().unwrap_or(0);
-        Newton { rule, constant, bandwidth }
+        let is_apart = |entry: Node, by_velocity: bool| {
+            !contains(graph, entry, |operation| match operation {
+                Operation::Coordinate(_) => by_velocity,
+                Operation::Velocity(_) => !by_velocity,
+                _ => false,
+            })
+        };
+        let is_explicit = constant
+            && rule == Rule::Trapezoidal
+            && momenta.clone().all(|(entry, by_velocity)| is_apart(entry, by_velocity))
+            && rayleigh.is_none_or(|r| !contains(graph, r.root, |o| matches!(o, Operation::Coordinate(_))))
+            && force.iter().all(|&(component, _)| is_apart(component, false));
+        Newton { rule, constant, bandwidth, is_explicit }
     });
 
     Findings {
@@ -212,7 +226,7 @@ impl Structure {
                 quote!(::dalembert::CyclicCoordinate::new(#index, #damped, #forced))
             });
             let cyclic = (!findings.cyclic.is_empty()).then(|| quote!(.with_cyclic(&[#(#cyclic),*])));
-            let newton = findings.newton.iter().map(|&Newton { rule, constant, bandwidth }| {
+            let newton = findings.newton.iter().map(|&Newton { rule, constant, bandwidth, .. }| {
                 let (rule, bandwidth) = (rule.name(), Literal::usize_unsuffixed(bandwidth));
                 quote!(::dalembert::NewtonStructure::new(#rule, #constant, #bandwidth))
             });

@@ -20,11 +20,11 @@ use crate::linear::NewtonMatrix;
 pub(super) const STAGNATION: f64 = 4096.0;
 
 /// A residual of at most this many floors, estimated or measured, is a root.
-pub(super) const AT_FLOOR: f64 = 4.0;
+pub(crate) const AT_FLOOR: f64 = 4.0;
 
 /// The floor that the terms of p0 give, 4ε (|pᵢ| + Σⱼ |Jᵢⱼ||vⱼ|).
 #[inline]
-pub(super) fn estimated_floor<S: Scalar, const N: usize>(
+pub(crate) fn estimated_floor<S: Scalar, const N: usize>(
     p: &SVector<S, N>,
     matrix: &impl NewtonMatrix<S, N>,
     v: &SVector<S, N>,
@@ -41,7 +41,7 @@ pub(super) fn estimated_floor<S: Scalar, const N: usize>(
 
 /// max |residualᵢ|/floorᵢ. An exact 0 counts 0, whatever its floor; a NaN or infinite ratio is returned as it is.
 #[inline]
-pub(super) fn in_units_of<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: &SVector<S, N>) -> S {
+pub(crate) fn in_units_of<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: &SVector<S, N>) -> S {
     let mut largest = S::zero();
     for i in 0..N {
         if residual[i] != S::zero() {
@@ -57,7 +57,7 @@ pub(super) fn in_units_of<S: Scalar, const N: usize>(residual: &SVector<S, N>, f
 
 /// The residual that is largest in units of its floor, and this floor.
 #[inline]
-pub(super) fn worst<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: &SVector<S, N>) -> (S, S) {
+pub(crate) fn worst<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: &SVector<S, N>) -> (S, S) {
     let mut worst = (residual[0].abs(), floor[0]);
     for i in 1..N {
         let other = (residual[i].abs(), floor[i]);

@@ -42,6 +42,28 @@ impl Operation {
         }
     }
 
+    /// The same operation on other arguments.
+    pub fn on(self, mut other: impl FnMut(Node) -> Node) -> Self {
+        match self {
+            Self::Coordinate(_) | Self::Velocity(_) | Self::Parameter(_) | Self::Constant(_) => self,
+            Self::Negate(a) => Self::Negate(other(a)),
+            Self::Function(function, a) => Self::Function(function, other(a)),
+            Self::Power(a, n) => Self::Power(other(a), n),
+            Self::Is(predicate, a) => Self::Is(predicate, other(a)),
+            Self::Not(a) => Self::Not(other(a)),
+            Self::Add(a, b) => Self::Add(other(a), other(b)),
+            Self::Subtract(a, b) => Self::Subtract(other(a), other(b)),
+            Self::Multiply(a, b) => Self::Multiply(other(a), other(b)),
+            Self::Divide(a, b) => Self::Divide(other(a), other(b)),
+            Self::Pair(function, a, b) => Self::Pair(function, other(a), other(b)),
+            Self::Compare(comparison, a, b) => Self::Compare(comparison, other(a), other(b)),
+            Self::And(a, b) => Self::And(other(a), other(b)),
+            Self::Or(a, b) => Self::Or(other(a), other(b)),
+            Self::Select(a, b, c) => Self::Select(other(a), other(b), other(c)),
+            Self::MultiplyAdd(a, b, c) => Self::MultiplyAdd(other(a), other(b), other(c)),
+        }
+    }
+
     pub fn arguments(self) -> impl Iterator<Item = Node> {
         let arguments = match self {
             Self::Coordinate(_) | Self::Velocity(_) | Self::Parameter(_) | Self::Constant(_) => [None; 3],
