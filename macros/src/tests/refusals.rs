@@ -72,7 +72,8 @@ fn auto_leaves_the_rest_to_num_dual() {
     let expanded = expansion("auto", &body);
     assert!(!expanded.contains("compile_error") && expanded.contains("lagrangian_over"), "{expanded}");
     // The same code, but for what the structure says of the reason.
-    let code = |expansion: &str| expansion.split_once("fn lagrangian_gradient").map(|(_, code)| code.to_owned());
+    let code =
+        |expansion: &str| expansion.split_once("fn lagrangian_gradient").map(|(_, code)| code.to_owned());
     assert!(code(&expanded).is_some());
     assert_eq!(code(&expanded), code(&expansion("num_dual", &body)));
     assert!(expanded.contains(r#"Refusal :: new ("sum" , 1 , "the length"#), "{expanded}");

@@ -49,25 +49,28 @@ impl<S: Scalar, const N: usize, const W: usize> Factored<S, N> for FactoredBand<
     #[inline]
     fn solve(&self, right: &SVector<S, N>) -> SVector<S, N> {
         let b = W / 2;
-        let mut x = *right;
+        let mut x: [S; N] = (*right).into();
         for i in 0..N {
+            let row = &self.rows[i];
+            let mut value = x[i];
             for k in 0..b {
                 if i + k >= b {
-                    let known = x[i + k - b];
-                    x[i] -= self.rows[i][k] * known;
+                    value -= row[k] * x[i + k - b];
                 }
             }
-            x[i] *= self.rows[i][b];
+            x[i] = value * row[b];
         }
         for i in (0..N).rev() {
+            let row = &self.rows[i];
+            let mut value = x[i];
             for l in 1..=b {
                 if i + l < N {
-                    let known = x[i + l];
-                    x[i] -= self.rows[i][b + l] * known;
+                    value -= row[b + l] * x[i + l];
                 }
             }
+            x[i] = value;
         }
-        x
+        x.into()
     }
 }
 

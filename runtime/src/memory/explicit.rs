@@ -12,7 +12,7 @@ use nalgebra::SVector;
 use super::Memory;
 use crate::error::Quantity;
 use crate::linear::{Factored, NewtonMatrix};
-use crate::newton::rounding::{AT_FLOOR, estimated_floor, in_units_of, worst};
+use crate::newton::rounding::{AT_FLOOR, Units, estimated_floor};
 use crate::{Discrete, Momenta, Report, Scalar, State, Step, StepError, Trapezoidal};
 
 /// A system that the trapezoidal rule steps explicitly: L = T(v) − V(q) with T quadratic, R quadratic in v, both with constant
@@ -117,13 +117,19 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Prepared<S, M, N> {
 
         let residual = p0 - right;
         let floor = estimated_floor(&state.p, &self.matrix, &v);
-        if !(in_units_of(&residual, &floor) <= S::constant(AT_FLOOR)) {
+        let (size, index) = Units::of(&floor).largest(&residual);
+        if !(size <= S::constant(AT_FLOOR)) {
             return None;
         }
         StepError::require_finite(&end.q, Quantity::Configuration).ok()?;
         StepError::require_finite(&end.p, Quantity::Momentum).ok()?;
-        let (residual, floor) = worst(&residual, &floor);
-        let report = Report { iterations: 1, damped: 0, residual, floor, last_correction: v.amax() };
+        let report = Report {
+            iterations: 1,
+            damped: 0,
+            residual: residual[index].abs(),
+            floor: floor[index],
+            last_correction: v.amax(),
+        };
         Some((Step { state: end, velocity: v, report }, force))
     }
 }

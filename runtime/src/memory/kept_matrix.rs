@@ -13,7 +13,7 @@ use nalgebra::SVector;
 use super::{Memory, VelocityHistory};
 use crate::error::Quantity;
 use crate::linear::{Factored, NewtonMatrix};
-use crate::newton::rounding::{AT_FLOOR, estimated_floor, in_units_of, worst};
+use crate::newton::rounding::{AT_FLOOR, Units, estimated_floor};
 use crate::{Discrete, Report, Scalar, State, Step, StepError};
 
 /// A correction must leave at most this share of the residual.
@@ -23,7 +23,7 @@ const CONTRACTION: f64 = 0.1;
 const MOST: u32 = 5;
 
 /// Where a step takes more corrections than this, the matrix is renewed.
-const STALE: u32 = 2;
+const STALE: u32 = 3;
 
 /// The Newton matrix of an earlier step, factored, and the latest mean velocities.
 #[derive(Clone, Copy, Debug)]
@@ -100,16 +100,22 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         let State { q, p } = state;
         let mut v = guess;
         let floor = estimated_floor(p, &self.matrix, &v);
-        let mut last_correction = S::zero();
+        let units = Units::of(&floor);
+        let mut correction: SVector<S, N> = nalgebra::zero();
         let mut last_size = None;
         for iterations in 0..=MOST {
             let momenta = system.momenta(q, &v, self.h);
             let residual = momenta.p0 - p;
-            let size = in_units_of(&residual, &floor);
+            let (size, index) = units.largest(&residual);
             // At least one correction: extrapolation alone, step after step, would let rounding grow.
             if iterations > 0 && size <= S::constant(AT_FLOOR) {
-                let (residual, floor) = worst(&residual, &floor);
-                let report = Report { iterations, damped: 0, residual, floor, last_correction };
+                let report = Report {
+                    iterations,
+                    damped: 0,
+                    residual: residual[index].abs(),
+                    floor: floor[index],
+                    last_correction: correction.amax(),
+                };
                 let state = State { q: q + v * self.h, p: momenta.p1 };
                 StepError::require_finite(&state.q, Quantity::Configuration).ok()?;
                 StepError::require_finite(&state.p, Quantity::Momentum).ok()?;
@@ -121,8 +127,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
                 return None;
             }
             last_size = Some(size);
-            let correction = self.factored.solve(&residual);
-            last_correction = correction.amax();
+            correction = self.factored.solve(&residual);
             v -= correction;
         }
         None

@@ -55,6 +55,33 @@ pub(crate) fn in_units_of<S: Scalar, const N: usize>(residual: &SVector<S, N>, f
     largest
 }
 
+/// Residuals in units of floors that stay for several of them.
+pub(crate) struct Units<S, const N: usize> {
+    reciprocals: SVector<S, N>,
+}
+
+impl<S: Scalar, const N: usize> Units<S, N> {
+    #[inline]
+    pub(crate) fn of(floor: &SVector<S, N>) -> Self {
+        Self { reciprocals: floor.map(|floor| S::one() / floor) }
+    }
+
+    /// max |residualᵢ|/floorᵢ and its i; not finite where a residual is not.
+    #[inline]
+    pub(crate) fn largest(&self, residual: &SVector<S, N>) -> (S, usize) {
+        let (mut largest, mut index, mut sum) = (S::zero(), 0, S::zero());
+        for i in 0..N {
+            let units = residual[i].abs() * self.reciprocals[i];
+            sum += units;
+            if units > largest {
+                (largest, index) = (units, i);
+            }
+        }
+        // A NaN is larger than nothing, but not lost in the sum.
+        if sum.is_finite() { (largest, index) } else { (sum, index) }
+    }
+}
+
 /// The residual that is largest in units of its floor, and this floor.
 #[inline]
 pub(crate) fn worst<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: &SVector<S, N>) -> (S, S) {
@@ -108,6 +135,19 @@ mod tests {
         assert!(in_units_of(&vector![1.0, f64::NAN, 2.0], &vector![1.0, 1.0, 1.0]).is_nan());
         assert_eq!(in_units_of(&vector![f64::INFINITY], &vector![1.0]), f64::INFINITY);
         assert_eq!(in_units_of(&vector![0.0], &vector![0.0]), 0.0);
+    }
+
+    #[test]
+    fn units_are_those_of_the_divisions() {
+        let floor = vector![0.25, 2.0, 0.5];
+        for residual in [vector![1.0, -3.0, 4.0], vector![0.0, 0.0, 0.0], vector![-2.0, 1.0, 0.5]] {
+            let (size, index) = Units::of(&floor).largest(&residual);
+            assert_eq!(size, in_units_of(&residual, &floor));
+            assert_eq!((residual[index].abs(), floor[index]), worst(&residual, &floor));
+        }
+        for lost in [f64::NAN, f64::INFINITY] {
+            assert!(!Units::of(&floor).largest(&vector![1.0, lost, 2.0]).0.is_finite());
+        }
     }
 
     #[test]

@@ -25,7 +25,7 @@ pub(super) struct Equation {
 const BANDED_FROM: usize = 4;
 
 /// From this N on a Newton matrix kept from the steps before is faster than a new one.
-const KEPT_FROM: usize = 4;
+const KEPT_FROM: usize = 3;
 
 impl Code<'_> {
     /// `step_kernel`, `momenta` and what the structure allows.

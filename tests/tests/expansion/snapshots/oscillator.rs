@@ -18,7 +18,7 @@ const _: () = {
     use ::dalembert::{
         Derivatives, Direction, Discrete, DiscreteForce, DiscreteForceDerivatives,
         DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
-        Rayleigh, StepKernel, Trapezoidal, Variations, VelocityHistory,
+        Rayleigh, StepKernel, Trapezoidal, Variations,
     };
     type Vector = SVector<f64, 1>;
     /// Known at compile time:
@@ -147,7 +147,8 @@ const _: () = {
     #[automatically_derived]
     impl Discrete<Midpoint, 1> for Oscillator {
         type Matrix = SMatrix<f64, 1, 1>;
-        type Memory = VelocityHistory<f64, 1>;
+        type Memory = ::dalembert::KeptMatrix<f64, Self::Matrix, 1>;
+        const LINEAR: bool = true;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)
@@ -216,7 +217,8 @@ const _: () = {
     #[automatically_derived]
     impl Discrete<Trapezoidal, 1> for Oscillator {
         type Matrix = SMatrix<f64, 1, 1>;
-        type Memory = VelocityHistory<f64, 1>;
+        type Memory = ::dalembert::ExplicitMemory<f64, Self::Matrix, 1>;
+        const LINEAR: bool = true;
         /// L_d = (h/2) [L(q0, v̄) + L(q1, v̄)], with v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Trapezoidal::discrete_lagrangian(self, q0, q1, h)
@@ -251,18 +253,55 @@ const _: () = {
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
         #[inline]
         fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
-            Trapezoidal::lagrangian_kernel(self, q0, v, h)
-                + Trapezoidal::rayleigh_kernel(self, q0, v, h)
+            let half = 0.5 * h;
+            let m = self.m;
+            let r = self.r;
+            StepKernel {
+                p0: SVector::from([
+                    2.0 * (v[0] * (0.5 * m)) + 2.0 * (v[0] * (0.5 * r)) * half
+                        + half * (2.0 * (0.5 * self.k * q0[0])),
+                ]),
+                matrix: SMatrix::from([[m + r * half]]),
+            }
         }
         /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
         #[inline]
         fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
-            Trapezoidal::lagrangian_momenta(self, q0, v, h)
-                + Trapezoidal::rayleigh_momenta(self, q0, v, h)
+            let half = 0.5 * h;
+            let q1 = [q0[0] + h * v[0]];
+            let t1 = 0.5 * self.k;
+            let t2 = 2.0 * (v[0] * (0.5 * self.m));
+            let t3 = 2.0 * (v[0] * (0.5 * self.r)) * half;
+            Momenta {
+                p0: SVector::from([t2 + t3 + half * (2.0 * (t1 * q0[0]))]),
+                p1: SVector::from([t2 - t3 - half * (2.0 * (t1 * q1[0]))]),
+            }
         }
         /// E_L on the segment.
         fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Trapezoidal::segment_energy(self, q0, q1, h)
+        }
+    }
+    #[automatically_derived]
+    impl ::dalembert::Explicit<1> for Oscillator {
+        #[inline]
+        fn step_matrix(&self, h: f64) -> <Self as Discrete<Trapezoidal, 1>>::Matrix {
+            let half = 0.5 * h;
+            SMatrix::from([[self.m + self.r * half]])
+        }
+        #[inline]
+        fn velocity_momenta(&self, v: &Vector, h: f64) -> Momenta<f64, 1> {
+            let half = 0.5 * h;
+            let t1 = 2.0 * (v[0] * (0.5 * self.m));
+            let t2 = 2.0 * (v[0] * (0.5 * self.r)) * half;
+            Momenta {
+                p0: SVector::from([t1 + t2]),
+                p1: SVector::from([t1 - t2]),
+            }
+        }
+        #[inline]
+        fn configuration_force(&self, q: &Vector) -> Vector {
+            SVector::from([-(2.0 * (q[0] * (0.5 * self.k)))])
         }
     }
     #[automatically_derived]
