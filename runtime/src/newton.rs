@@ -1,5 +1,7 @@
-//! Newton's method with the analytic matrix, damped where a full step does not lower the residual.
+//! Newton's method with the analytic matrix.
 //!
+//! Nearly every step is solved by the undamped method in two or three iterations ([`quick`]). Where that does not contract,
+//! the residual is held up by rounding, far from a root, or without one: [`careful`] damps it and tells these apart.
 //! Residuals are measured in units of their round-off floor, component by component; see [`rounding`].
 
 use nalgebra::SVector;
@@ -10,7 +12,7 @@ use crate::linear::{NewtonMatrix, Singular};
 use crate::{Report, Scalar, State};
 
 mod rounding;
-use rounding::{AT_FLOOR, STAGNATION, estimated_floor, in_units_of, rounding, worst};
+use rounding::{AT_FLOOR, STAGNATION, estimated_floor, held_against, in_units_of, rounding, worst};
 
 /// A root, with both momenta there.
 pub(crate) struct Solution<S, const N: usize> {
@@ -26,7 +28,13 @@ const MAX_ITERATIONS: u32 = 100;
 /// A contraction above this is not that of Newton's method: rounding slows it, or the root is far.
 const SLOW: f64 = 0.25;
 
-/// Both momenta as a function of (q, v); behind a pointer where it is called seldom.
+/// The undamped method's iterations: from a guess this far off the careful one goes on.
+const QUICK_ITERATIONS: u32 = 8;
+
+/// The step's equation as a function of (q, v); behind a pointer where it is called seldom.
+type Evaluate<'f, S, M, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M> + 'f;
+
+/// Both momenta as a function of (q, v).
 type Finish<'f, S, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N> + 'f;
 
 /// An iterate, the Newton step from it, and the measure of its residual.
@@ -61,11 +69,102 @@ pub(crate) fn solve<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     state: &State<S, N>,
     guess: SVector<S, N>,
 ) -> Result<Solution<S, N>, StepError> {
+    match quick(kind, &evaluate, &finish, state, guess) {
+        Ok(solution) => Ok(solution),
+        Err(reached) => careful(&evaluate, &finish, state, reached),
+    }
+}
+
+/// Where the undamped method left off: the last iterate that lowered the residual, and the corrections that led there.
+struct Reached<S, const N: usize> {
+    v: SVector<S, N>,
+    iterations: u32,
+}
+
+/// The undamped method, as long as it contracts as Newton's does.
+///
+/// Newton's residuals fall as |r′| ≈ C|r|², so the last contraction c predicts the next one, c². Where that ends at the
+/// floor, the matrix is not needed again. On the way residuals are weighed by the floor at the guess; the root is held
+/// against its own.
+#[inline]
+fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+    kind: Equation,
+    evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
+    finish: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
+    state: &State<S, N>,
+    guess: SVector<S, N>,
+) -> Result<Solution<S, N>, Reached<S, N>> {
     let State { q, p } = state;
-    let mut trial = guess;
+    let mut v = guess;
+    let mut weights: SVector<S, N> = nalgebra::zero();
+    let mut last_size = S::zero();
+    let mut reached = Reached { v, iterations: 0 };
+    for iterations in 0..QUICK_ITERATIONS {
+        let kernel = evaluate(q, &v);
+        let residual = kernel.p0 - p;
+        let Ok(correction) = kernel.matrix.solve(&residual) else { break };
+        let next = v - correction;
+        let close = if kind == Equation::Linear {
+            true
+        } else if iterations == 0 {
+            weights = estimated_floor(p, &kernel.matrix, &next).map(|floor| S::one() / floor);
+            last_size = weighted(&residual, &weights);
+            last_size <= S::one()
+        } else {
+            let size = weighted(&residual, &weights);
+            let contraction = size / last_size;
+            if !(contraction <= S::constant(SLOW)) {
+                break;
+            }
+            last_size = size;
+            size <= S::one() || contraction * contraction * size <= S::one()
+        };
+        reached = Reached { v, iterations };
+        v = next;
+        if close {
+            let momenta = finish(q, &v);
+            let residual = momenta.p0 - p;
+            let floor = estimated_floor(p, &kernel.matrix, &v);
+            let (residual, floor, is_root) = held_against(&residual, &floor);
+            if is_root {
+                let last_correction = correction.amax();
+                let iterations = iterations + 1;
+                let report = Report { iterations, damped: 0, residual, floor, last_correction };
+                return Ok(Solution { unknown: v, momenta, report });
+            }
+        }
+    }
+    Err(reached)
+}
+
+/// max |residualᵢ| weightᵢ; NaN if one of them is no finite number.
+#[inline]
+fn weighted<S: Scalar, const N: usize>(residual: &SVector<S, N>, weights: &SVector<S, N>) -> S {
+    let (mut largest, mut poison) = (S::zero(), S::zero());
+    for i in 0..N {
+        let units = residual[i].abs() * weights[i];
+        poison += units * S::zero();
+        if units > largest {
+            largest = units;
+        }
+    }
+    largest + poison
+}
+
+/// The damped method, and the verdicts.
+#[cold]
+#[inline(never)]
+fn careful<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+    evaluate: &Evaluate<'_, S, M, N>,
+    finish: &Finish<'_, S, N>,
+    state: &State<S, N>,
+    reached: Reached<S, N>,
+) -> Result<Solution<S, N>, StepError> {
+    let State { q, p } = state;
+    let mut trial = reached.v;
     let mut share = S::one();
     let mut contraction = S::one();
-    let mut iterations = 0;
+    let mut iterations = reached.iterations;
     let mut damped = 0;
     let mut iterate: Option<Iterate<S, N>> = None;
 
@@ -79,7 +178,7 @@ pub(crate) fn solve<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
             if share == S::one()
                 && !(lower && size <= last.size * S::constant(SLOW))
                 && let Some(solution) =
-                    stagnated(&finish, state, last, lower.then_some(&trial), [iterations, damped])
+                    stagnated(finish, state, last, lower.then_some(&trial), [iterations, damped])
             {
                 return Ok(solution);
             }
@@ -112,7 +211,7 @@ pub(crate) fn solve<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         {
             return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
         }
-        if iterations == MAX_ITERATIONS {
+        if iterations >= MAX_ITERATIONS {
             let (residual, floor) = worst(&residual, &floor);
             return Err(StepError::NotConverged {
                 iterations,
@@ -122,9 +221,7 @@ pub(crate) fn solve<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         }
         iterations += 1;
 
-        // Newton's residuals fall as |r′| ≈ C|r|², so the last contraction c predicts the next one, c². Where that ends at
-        // the floor, the matrix is not needed again.
-        if kind == Equation::Linear || size <= S::one() || contraction * contraction * size <= S::one() {
+        if size <= S::one() || contraction * contraction * size <= S::one() {
             let momenta = finish(q, &trial);
             let remaining = momenta.p0 - p;
             if in_units_of(&remaining, &floor) <= S::constant(AT_FLOOR) {
