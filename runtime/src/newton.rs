@@ -87,6 +87,7 @@ struct Reached<S, const N: usize> {
 /// floor, the matrix is not needed again. On the way residuals are weighed by the floor at the guess; the root is held
 /// against its own.
 #[inline]
+#[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a contraction that is NaN must fail the comparison")]
 fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     kind: Equation,
     evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
