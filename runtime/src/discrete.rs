@@ -257,8 +257,13 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
                 rest
             }
         };
-        let solution =
-            newton::solve(|q0, v| self.step_kernel(q0, v, h), |q0, v| self.momenta(q0, v, h), state, guess)?;
+        let solution = newton::solve(
+            |q0, v| self.step_kernel(q0, v, h),
+            |q0, v| self.momenta(q0, v, h),
+            |q0, v| self.lagrangian_derivatives(q0, v).d22.diagonal(),
+            state,
+            guess,
+        )?;
         let state = State { q: q0 + solution.unknown * h, p: solution.momenta.p1 };
         StepError::require_finite(&state.q, Quantity::Configuration)?;
         StepError::require_finite(&state.p, Quantity::Momentum)?;

@@ -1,6 +1,9 @@
 //! Newton's method with the analytic matrix, damped where a full step does not lower the residual.
 //!
-//! Residuals are measured in units of their round-off floor, component by component; see [`rounding`].
+//! Residuals are measured in units of their round-off floor, component by component; see [`rounding`]. That alone would refuse
+//! good steps: the residual of a coordinate at rest, without a force as yet, has a floor of next to nothing, and that of a
+//! stiff spring grows with the square of a long sideways step. A step is therefore taken as well where the one still to take
+//! after it is shorter ([`nearer`]; compare P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, on tests in the unknowns).
 
 use nalgebra::{SMatrix, SVector};
 
@@ -42,12 +45,13 @@ struct Iterate<S, const N: usize> {
 
 /// Solves p0(q, v) = p for v at the `state` (q, p).
 ///
-/// `evaluate` gives p0 and the Newton matrix, `finish` both momenta. The residual that the report states is the one that
-/// `finish` measured at the root.
+/// `evaluate` gives p0 and the Newton matrix, `finish` both momenta, `inertia` the metric that tells which of two velocities is
+/// longer. The residual that the report states is the one that `finish` measured at the root.
 #[inline]
 pub(crate) fn solve<S: Scalar, const N: usize>(
     evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N>,
     finish: impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
+    inertia: impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
     state: &State<S, N>,
     guess: SVector<S, N>,
 ) -> Result<Solution<S, N>, StepError> {
@@ -65,15 +69,17 @@ pub(crate) fn solve<S: Scalar, const N: usize>(
         if let Some(last) = &iterate {
             let size = in_units_of(&residual, &last.floor);
             let lower = size < last.size;
-            // A contraction that is none, or that is no longer Newton's, may be rounding.
+            // A contraction that is none, or that is no longer Newton's, may be rounding, unless the next step is a shorter one.
+            let slow = !(lower && size <= last.size * S::constant(SLOW));
+            let nearer = slow && nearer(&kernel, &evaluate, &inertia, state, last, share);
             if share == S::one()
-                && !(lower && size <= last.size * S::constant(SLOW))
-                && let Some(solution) =
-                    stagnated(&finish, state, last, lower.then_some(&trial), [iterations, damped])
+                && slow
+                && !nearer
+                && let Some(solution) = stagnated(&finish, state, last, (&trial, lower), [iterations, damped])
             {
                 return Ok(solution);
             }
-            if !lower {
+            if !lower && !nearer {
                 share = shorter(share, last.size, size);
                 let change = last.correction * share;
                 if is_negligible(&change, &last.v) || share < S::EPSILON * S::EPSILON {
@@ -86,7 +92,8 @@ pub(crate) fn solve<S: Scalar, const N: usize>(
                 continue;
             }
             damped += u32::from(share < S::one());
-            contraction = size / last.size;
+            // Unknown where the residual says nothing.
+            contraction = if lower { size / last.size } else { S::one() };
         }
 
         let correction = linear::solve(&kernel.matrix, &residual)
@@ -127,28 +134,63 @@ pub(crate) fn solve<S: Scalar, const N: usize>(
     }
 }
 
-/// The root at an iterate whose residual has stopped falling, if rounding holds the residual up there. `lower` is where the
-/// Newton step led, if that still lowered it.
+/// The root at an iterate whose residual has stopped falling, if rounding holds the residual up there. `trial` is where the
+/// Newton step led, and whether that still lowered it.
 #[cold]
 fn stagnated<S: Scalar, const N: usize>(
     finish: &Finish<'_, S, N>,
     state: &State<S, N>,
     last: &Iterate<S, N>,
-    lower: Option<&SVector<S, N>>,
+    (trial, lower): (&SVector<S, N>, bool),
     [iterations, damped]: [u32; 2],
 ) -> Option<Solution<S, N>> {
-    let unknown = *lower.unwrap_or(&last.v);
-    let momenta = finish(&state.q, &unknown);
-    let residual = momenta.p0 - state.p;
+    // One component that rounding holds up can hide that the step has brought the others down.
+    let mut unknown = *trial;
+    let mut momenta = finish(&state.q, &unknown);
     let measured = last.floor + rounding(|q, v| finish(q, v).p0, &state.q, &unknown);
-    let explained = in_units_of(&residual, &measured) <= S::constant(AT_FLOOR);
+    let is_explained = |momenta: &Momenta<S, N>| {
+        in_units_of(&(momenta.p0 - state.p), &measured) <= S::constant(AT_FLOOR)
+    };
+    let mut explained = is_explained(&momenta);
+    if !explained && !lower {
+        unknown = last.v;
+        momenta = finish(&state.q, &unknown);
+        explained = is_explained(&momenta);
+    }
     let close = last.size <= S::constant(STAGNATION);
-    if !explained && (lower.is_some() || !close) {
+    if !explained && (lower || !close) {
         return None;
     }
+    let residual = momenta.p0 - state.p;
     let (residual, floor) = worst(&residual, if explained { &measured } else { &last.floor });
     let report = Report { iterations, damped, residual, floor, last_correction: last.correction.amax() };
     Some(Solution { unknown, momenta, report })
+}
+
+/// Whether a trial whose residual is no lower is nearer to the root all the same: the Newton step from it is shorter than the
+/// last one, with Σ |Mᵢᵢ| vᵢ² for the square of a length, by a matrix that has not grown.
+///
+/// Neither the units of a coordinate nor a stiff direction that turns, nor a component that was 0, change this verdict. With one
+/// coordinate it is that of the residual.
+#[cold]
+fn nearer<S: Scalar, const N: usize>(
+    trial: &StepKernel<S, N>,
+    evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N>,
+    inertia: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
+    State { q, p }: &State<S, N>,
+    last: &Iterate<S, N>,
+    share: S,
+) -> bool {
+    let Ok(next) = linear::solve(&trial.matrix, &(trial.p0 - p)) else { return false };
+    let (before, after) = (evaluate(q, &last.v).matrix.diagonal(), trial.matrix.diagonal());
+    if (0..N).any(|i| after[i].abs() > before[i].abs() * S::constant(2.0)) {
+        return false;
+    }
+    let inertia = inertia(q, &last.v).abs();
+    let square = |v: &SVector<S, N>| v.component_mul(v).dot(&inertia);
+    // A step of the share s leaves (1 − s) of the correction to a linear equation.
+    let left = S::one() - share * S::constant(0.5);
+    square(&next) <= left * left * square(&last.correction)
 }
 
 /// What a Newton matrix that cannot be solved with means.
