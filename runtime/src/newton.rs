@@ -5,11 +5,11 @@
 //! stiff spring grows with the square of a long sideways step. A step is therefore taken as well where the one still to take
 //! after it is shorter ([`nearer`]; compare P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, on tests in the unknowns).
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
 use crate::discrete::{Momenta, StepKernel};
 use crate::error::{Quantity, StepError};
-use crate::linear::{self, Singular};
+use crate::linear::{NewtonMatrix, Singular};
 use crate::{Report, Scalar, State};
 
 mod rounding;
@@ -43,13 +43,23 @@ struct Iterate<S, const N: usize> {
     size: S,
 }
 
+/// What is known of the equation p0(q, v) = p before it is solved.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Equation {
+    /// Linear in v: the first correction leads to the root.
+    Linear,
+    /// Nothing.
+    General,
+}
+
 /// Solves p0(q, v) = p for v at the `state` (q, p).
 ///
 /// `evaluate` gives p0 and the Newton matrix, `finish` both momenta, `inertia` the metric that tells which of two velocities is
 /// longer. The residual that the report states is the one that `finish` measured at the root.
 #[inline]
-pub(crate) fn solve<S: Scalar, const N: usize>(
-    evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N>,
+pub(crate) fn solve<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+    kind: Equation,
+    evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
     finish: impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
     inertia: impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
     state: &State<S, N>,
@@ -70,10 +80,9 @@ pub(crate) fn solve<S: Scalar, const N: usize>(
             let size = in_units_of(&residual, &last.floor);
             let lower = size < last.size;
             // A contraction that is none, or that is no longer Newton's, may be rounding, unless the next step is a shorter one.
-            let slow = !(lower && size <= last.size * S::constant(SLOW));
-            let nearer = slow && nearer(&kernel, &evaluate, &inertia, state, last, share);
-            if share == S::one()
-                && slow
+            let slow = share == S::one() && !(lower && size <= last.size * S::constant(SLOW));
+            let nearer = slow && nearer(&kernel, &evaluate, &inertia, state, last);
+            if slow
                 && !nearer
                 && let Some(solution) = stagnated(&finish, state, last, (&trial, lower), [iterations, damped])
             {
@@ -96,7 +105,9 @@ pub(crate) fn solve<S: Scalar, const N: usize>(
             contraction = if lower { size / last.size } else { S::one() };
         }
 
-        let correction = linear::solve(&kernel.matrix, &residual)
+        let correction = kernel
+            .matrix
+            .solve(&residual)
             .map_err(|singular| unsolvable(singular, &residual, &kernel.matrix, iterations, damped))?;
         let v = trial;
         trial = v - correction;
@@ -119,7 +130,7 @@ pub(crate) fn solve<S: Scalar, const N: usize>(
 
         // Newton's residuals fall as |r′| ≈ C|r|², so the last contraction c predicts the next one, c². Where that ends at
         // the floor, the matrix is not needed again.
-        if size <= S::one() || contraction * contraction * size <= S::one() {
+        if kind == Equation::Linear || size <= S::one() || contraction * contraction * size <= S::one() {
             let momenta = finish(q, &trial);
             let remaining = momenta.p0 - p;
             if in_units_of(&remaining, &floor) <= S::constant(AT_FLOOR) {
@@ -144,61 +155,56 @@ fn stagnated<S: Scalar, const N: usize>(
     (trial, lower): (&SVector<S, N>, bool),
     [iterations, damped]: [u32; 2],
 ) -> Option<Solution<S, N>> {
-    // One component that rounding holds up can hide that the step has brought the others down.
-    let mut unknown = *trial;
-    let mut momenta = finish(&state.q, &unknown);
-    let measured = last.floor + rounding(|q, v| finish(q, v).p0, &state.q, &unknown);
-    let is_explained = |momenta: &Momenta<S, N>| {
-        in_units_of(&(momenta.p0 - state.p), &measured) <= S::constant(AT_FLOOR)
+    let candidate = |unknown: &SVector<S, N>| {
+        let momenta = finish(&state.q, unknown);
+        let residual = momenta.p0 - state.p;
+        let measured = last.floor + rounding(|q, v| finish(q, v).p0, &state.q, unknown);
+        let explained = in_units_of(&residual, &measured) <= S::constant(AT_FLOOR);
+        (*unknown, momenta, residual, measured, explained)
     };
-    let mut explained = is_explained(&momenta);
+    // A component that rounding holds up may hide that the step has brought the others down.
+    let (mut unknown, mut momenta, mut residual, mut measured, mut explained) = candidate(trial);
     if !explained && !lower {
-        unknown = last.v;
-        momenta = finish(&state.q, &unknown);
-        explained = is_explained(&momenta);
+        (unknown, momenta, residual, measured, explained) = candidate(&last.v);
     }
     let close = last.size <= S::constant(STAGNATION);
     if !explained && (lower || !close) {
         return None;
     }
-    let residual = momenta.p0 - state.p;
     let (residual, floor) = worst(&residual, if explained { &measured } else { &last.floor });
     let report = Report { iterations, damped, residual, floor, last_correction: last.correction.amax() };
     Some(Solution { unknown, momenta, report })
 }
 
-/// Whether a trial whose residual is no lower is nearer to the root all the same: the Newton step from it is shorter than the
-/// last one, with Σ |Mᵢᵢ| vᵢ² for the square of a length, by a matrix that has not grown.
+/// Whether a full step whose residual is no lower is nearer to the root all the same: the Newton step from there is at most
+/// half as long, with Σ |Mᵢᵢ| vᵢ² for the square of a length, by a matrix that has not grown.
 ///
 /// Neither the units of a coordinate nor a stiff direction that turns, nor a component that was 0, change this verdict. With one
 /// coordinate it is that of the residual.
 #[cold]
-fn nearer<S: Scalar, const N: usize>(
-    trial: &StepKernel<S, N>,
-    evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N>,
+fn nearer<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+    trial: &StepKernel<S, N, M>,
+    evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
     inertia: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
     State { q, p }: &State<S, N>,
     last: &Iterate<S, N>,
-    share: S,
 ) -> bool {
-    let Ok(next) = linear::solve(&trial.matrix, &(trial.p0 - p)) else { return false };
-    let (before, after) = (evaluate(q, &last.v).matrix.diagonal(), trial.matrix.diagonal());
-    if (0..N).any(|i| after[i].abs() > before[i].abs() * S::constant(2.0)) {
+    let Ok(next) = trial.matrix.solve(&(trial.p0 - p)) else { return false };
+    let before = evaluate(q, &last.v).matrix;
+    if (0..N).any(|i| trial.matrix.entry(i, i).abs() > before.entry(i, i).abs() * S::constant(2.0)) {
         return false;
     }
     let inertia = inertia(q, &last.v).abs();
     let square = |v: &SVector<S, N>| v.component_mul(v).dot(&inertia);
-    // A step of the share s leaves (1 − s) of the correction to a linear equation.
-    let left = S::one() - share * S::constant(0.5);
-    square(&next) <= left * left * square(&last.correction)
+    square(&next) <= square(&last.correction) * S::constant(0.25)
 }
 
 /// What a Newton matrix that cannot be solved with means.
 #[cold]
-fn unsolvable<S: Scalar, const N: usize>(
+fn unsolvable<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     singular: Singular,
     residual: &SVector<S, N>,
-    matrix: &SMatrix<S, N, N>,
+    matrix: &M,
     iteration: u32,
     damped: u32,
 ) -> StepError {
@@ -243,11 +249,11 @@ fn give_up<S: Scalar, const N: usize>(iteration: u32, last: &Iterate<S, N>) -> S
 }
 
 #[cold]
-fn first_non_finite<S: Scalar, const N: usize>(
+fn first_non_finite<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     residual: &SVector<S, N>,
-    matrix: &SMatrix<S, N, N>,
+    matrix: &M,
 ) -> Option<usize> {
-    (0..N).find(|&i| !residual[i].is_finite() || matrix.row(i).iter().any(|entry| !entry.is_finite()))
+    (0..N).find(|&i| !residual[i].is_finite() || !matrix.row_is_finite(i))
 }
 
 #[cfg(test)]
