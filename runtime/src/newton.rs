@@ -29,6 +29,9 @@ const MAX_ITERATIONS: u32 = 100;
 /// A contraction above this is not that of Newton's method: rounding slows it, or the root is far.
 const SLOW: f64 = 0.25;
 
+/// A share of the Newton step below which a singular matrix on the way is not passed by.
+const SHORTEST: f64 = 1e-3;
+
 /// Both momenta as a function of (q, v); behind a pointer where it is called seldom.
 type Finish<'f, S, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N> + 'f;
 
@@ -105,10 +108,20 @@ pub(crate) fn solve<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
             contraction = if lower { size / last.size } else { S::one() };
         }
 
-        let correction = kernel
-            .matrix
-            .solve(&residual)
-            .map_err(|singular| unsolvable(singular, &residual, &kernel.matrix, iterations, damped))?;
+        let correction = match (kernel.matrix.solve(&residual), &iterate) {
+            (Ok(correction), _) => correction,
+            // The matrix is singular along the way only; a shorter step leads elsewhere.
+            (Err(_), Some(last))
+                if share > S::constant(SHORTEST) && first_non_finite(&residual, &kernel.matrix).is_none() =>
+            {
+                share *= S::constant(0.5);
+                trial = last.v - last.correction * share;
+                continue;
+            }
+            (Err(singular), _) => {
+                return Err(unsolvable(singular, &residual, &kernel.matrix, iterations, damped));
+            }
+        };
         let v = trial;
         trial = v - correction;
         let floor = estimated_floor(p, &kernel.matrix, &trial);

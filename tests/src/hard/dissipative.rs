@@ -17,15 +17,28 @@ pub fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64, f: f64) -> (
 
 /// A block of mass 1 on a spring whose other end moves at speed u, on a floor with friction −μ tanh(v/ε).
 ///
-/// q is the stretch lost: in the frame of the moving end the floor moves at −u, R = με ln cosh((v + u)/ε), written so that it
-/// does not overflow.
+/// In the frame of the moving end the floor moves at −u: R = με ln cosh((v + u)/ε), in two pieces, of which the first keeps its
+/// digits near rest and the second does not overflow.
 #[rayleigh_system(rule = [midpoint, trapezoidal])]
 pub fn block(q: [f64; 1], v: [f64; 1], k: f64, mu: f64, u: f64, epsilon: f64) -> (f64, f64) {
     let x = ((v[0] + u) / epsilon).abs();
-    (
-        0.5 * v[0] * v[0] - 0.5 * k * q[0] * q[0],
-        mu * epsilon * (x + (-2.0 * x).exp().ln_1p()),
-    )
+    let ln_cosh = if x < 1.0 { x.cosh().ln() } else { x + (-2.0 * x).exp().ln_1p() - std::f64::consts::LN_2 };
+    (0.5 * v[0] * v[0] - 0.5 * k * q[0] * q[0], mu * epsilon * ln_cosh)
+}
+
+/// The friction of [`block`] without a spring, as one would write it first: cosh overflows.
+#[rayleigh_system(rule = [midpoint, trapezoidal])]
+pub fn overflowing(q: [f64; 1], v: [f64; 1], mu: f64, epsilon: f64) -> (f64, f64) {
+    let _ = q;
+    (0.5 * v[0] * v[0], mu * epsilon * (v[0] / epsilon).cosh().ln())
+}
+
+/// The same as one would write it next: near rest 1 is taken from 1.
+#[rayleigh_system(rule = [midpoint, trapezoidal])]
+pub fn cancelling(q: [f64; 1], v: [f64; 1], mu: f64, epsilon: f64) -> (f64, f64) {
+    let _ = q;
+    let x = (v[0] / epsilon).abs();
+    (0.5 * v[0] * v[0], mu * epsilon * (x + (-2.0 * x).exp().ln_1p()))
 }
 
 /// Cubic drag R = r v³/3, which accelerates for v < 0.
