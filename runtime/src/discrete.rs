@@ -268,11 +268,14 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
             kind,
             |q0, v| self.step_kernel(q0, v, h),
             |q0, v| self.momenta(q0, v, h),
+            |q0, v| self.lagrangian_derivatives(q0, v).d22.diagonal(),
             state,
             start,
         )
         .map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
-        let next = State { q: q0 + solution.unknown * h, p: solution.momenta.p1 };
+        let change = solution.momenta.p1 - solution.momenta.p0;
+        // Added to the p0 given: the residual of the solver, always of one sign, would make it drift.
+        let next = State { q: q0 + solution.unknown * h, p: state.p + change };
         // An argument that is not finite shows here or has failed above: none is looked at before.
         next.require_finite().map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
         Ok(Step { state: next, velocity: solution.unknown, report: solution.report })

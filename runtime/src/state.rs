@@ -57,6 +57,7 @@ impl<S: Scalar, const N: usize> State<S, N> {
                 let p = system.lagrangian_gradient(q, v).d2;
                 Momenta { p0: p, p1: p }
             },
+            |q, v| system.lagrangian_derivatives(q, v).d22.diagonal(),
             self,
             nalgebra::zero(),
         )
