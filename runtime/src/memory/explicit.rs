@@ -10,9 +10,8 @@
 use nalgebra::SVector;
 
 use super::Memory;
-use crate::error::Quantity;
 use crate::linear::{Factored, NewtonMatrix};
-use crate::newton::rounding::{AT_FLOOR, Units, estimated_floor};
+use crate::newton::{estimated_floor, held_against};
 use crate::{Discrete, Momenta, Report, Scalar, State, Step, StepError, Trapezoidal};
 
 /// A system that the trapezoidal rule steps explicitly: L = T(v) − V(q) with T quadratic, R quadratic in v, both with constant
@@ -108,28 +107,22 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Prepared<S, M, N> {
         L: Explicit<N, Scalar = S, Matrix = M>,
     {
         let half = self.h * S::constant(0.5);
-        let right = state.p + force * half;
+        let kick = force * half;
+        let right = state.p + kick;
         let v = self.factored.solve(&(right - self.at_rest));
         let q = state.q + v * self.h;
         let force = system.configuration_force(&q);
         let Momenta { p0, p1 } = system.velocity_momenta(&v, self.h);
-        let end = State { q, p: p1 + force * half };
+        let end = State { q, p: state.p + (kick + force * half + (p1 - p0)) };
 
         let residual = p0 - right;
         let floor = estimated_floor(&state.p, &self.matrix, &v);
-        let (size, index) = Units::of(&floor).largest(&residual);
-        if !(size <= S::constant(AT_FLOOR)) {
+        let (residual, floor, is_root) = held_against(&residual, &floor);
+        if !is_root {
             return None;
         }
-        StepError::require_finite(&end.q, Quantity::Configuration).ok()?;
-        StepError::require_finite(&end.p, Quantity::Momentum).ok()?;
-        let report = Report {
-            iterations: 1,
-            damped: 0,
-            residual: residual[index].abs(),
-            floor: floor[index],
-            last_correction: v.amax(),
-        };
+        end.require_finite().ok()?;
+        let report = Report { iterations: 1, damped: 0, residual, floor, last_correction: v.amax() };
         Some((Step { state: end, velocity: v, report }, force))
     }
 }

@@ -11,9 +11,8 @@
 use nalgebra::SVector;
 
 use super::{Memory, VelocityHistory};
-use crate::error::Quantity;
 use crate::linear::{Factored, NewtonMatrix};
-use crate::newton::rounding::{AT_FLOOR, Units, estimated_floor};
+use crate::newton::{estimated_floor, held_against, weighted};
 use crate::{Discrete, Report, Scalar, State, Step, StepError};
 
 /// A correction must leave at most this share of the residual.
@@ -100,27 +99,23 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         let State { q, p } = state;
         let mut v = guess;
         let floor = estimated_floor(p, &self.matrix, &v);
-        let units = Units::of(&floor);
+        let weights = floor.map(|floor| S::one() / floor);
         let mut correction: SVector<S, N> = nalgebra::zero();
         let mut last_size = None;
         for iterations in 0..=MOST {
             let momenta = system.momenta(q, &v, self.h);
             let residual = momenta.p0 - p;
-            let (size, index) = units.largest(&residual);
+            let (worst, its_floor, is_root) = held_against(&residual, &floor);
             // At least one correction: extrapolation alone, step after step, would let rounding grow.
-            if iterations > 0 && size <= S::constant(AT_FLOOR) {
-                let report = Report {
-                    iterations,
-                    damped: 0,
-                    residual: residual[index].abs(),
-                    floor: floor[index],
-                    last_correction: correction.amax(),
-                };
-                let state = State { q: q + v * self.h, p: momenta.p1 };
-                StepError::require_finite(&state.q, Quantity::Configuration).ok()?;
-                StepError::require_finite(&state.p, Quantity::Momentum).ok()?;
+            if iterations > 0 && is_root {
+                let last_correction = correction.amax();
+                let report =
+                    Report { iterations, damped: 0, residual: worst, floor: its_floor, last_correction };
+                let state = State { q: q + v * self.h, p: p + (momenta.p1 - momenta.p0) };
+                state.require_finite().ok()?;
                 return Some(Step { state, velocity: v, report });
             }
+            let size = weighted(&residual, &weights);
             if let Some(last) = last_size
                 && !(size <= last * S::constant(CONTRACTION))
             {

@@ -20,7 +20,7 @@ use crate::linear::NewtonMatrix;
 pub(super) const STAGNATION: f64 = 4096.0;
 
 /// A residual of at most this many floors, estimated or measured, is a root.
-pub(crate) const AT_FLOOR: f64 = 4.0;
+pub(super) const AT_FLOOR: f64 = 4.0;
 
 /// The floor that the terms of p0 give, 4ε (|pᵢ| + Σⱼ |Jᵢⱼ||vⱼ|).
 #[inline]
@@ -41,7 +41,7 @@ pub(crate) fn estimated_floor<S: Scalar, const N: usize>(
 
 /// max |residualᵢ|/floorᵢ. An exact 0 counts 0, whatever its floor; a NaN or infinite ratio is returned as it is.
 #[inline]
-pub(crate) fn in_units_of<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: &SVector<S, N>) -> S {
+pub(super) fn in_units_of<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: &SVector<S, N>) -> S {
     let mut largest = S::zero();
     for i in 0..N {
         if residual[i] != S::zero() {
@@ -55,36 +55,27 @@ pub(crate) fn in_units_of<S: Scalar, const N: usize>(residual: &SVector<S, N>, f
     largest
 }
 
-/// Residuals in units of floors that stay for several of them.
-pub(crate) struct Units<S, const N: usize> {
-    reciprocals: SVector<S, N>,
-}
-
-impl<S: Scalar, const N: usize> Units<S, N> {
-    #[inline]
-    pub(crate) fn of(floor: &SVector<S, N>) -> Self {
-        Self { reciprocals: floor.map(|floor| S::one() / floor) }
-    }
-
-    /// max |residualᵢ|/floorᵢ and its i; not finite where a residual is not.
-    #[inline]
-    pub(crate) fn largest(&self, residual: &SVector<S, N>) -> (S, usize) {
-        let (mut largest, mut index, mut sum) = (S::zero(), 0, S::zero());
-        for i in 0..N {
-            let units = residual[i].abs() * self.reciprocals[i];
-            sum += units;
-            if units > largest {
-                (largest, index) = (units, i);
-            }
+/// The residual that is largest in units of its floor, this floor, and whether it is a root's: at most [`AT_FLOOR`] of them.
+#[inline]
+pub(crate) fn held_against<S: Scalar, const N: usize>(
+    residual: &SVector<S, N>,
+    floor: &SVector<S, N>,
+) -> (S, S, bool) {
+    let (mut largest, mut its_floor) = (residual[0].abs(), floor[0]);
+    let mut is_root = largest <= its_floor * S::constant(AT_FLOOR);
+    for i in 1..N {
+        let size = residual[i].abs();
+        is_root &= size <= floor[i] * S::constant(AT_FLOOR);
+        if size * its_floor > largest * floor[i] {
+            (largest, its_floor) = (size, floor[i]);
         }
-        // A NaN is larger than nothing, but not lost in the sum.
-        if sum.is_finite() { (largest, index) } else { (sum, index) }
     }
+    (largest, its_floor, is_root)
 }
 
 /// The residual that is largest in units of its floor, and this floor.
 #[inline]
-pub(crate) fn worst<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: &SVector<S, N>) -> (S, S) {
+pub(super) fn worst<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: &SVector<S, N>) -> (S, S) {
     let mut worst = (residual[0].abs(), floor[0]);
     for i in 1..N {
         let other = (residual[i].abs(), floor[i]);
@@ -135,19 +126,6 @@ mod tests {
         assert!(in_units_of(&vector![1.0, f64::NAN, 2.0], &vector![1.0, 1.0, 1.0]).is_nan());
         assert_eq!(in_units_of(&vector![f64::INFINITY], &vector![1.0]), f64::INFINITY);
         assert_eq!(in_units_of(&vector![0.0], &vector![0.0]), 0.0);
-    }
-
-    #[test]
-    fn units_are_those_of_the_divisions() {
-        let floor = vector![0.25, 2.0, 0.5];
-        for residual in [vector![1.0, -3.0, 4.0], vector![0.0, 0.0, 0.0], vector![-2.0, 1.0, 0.5]] {
-            let (size, index) = Units::of(&floor).largest(&residual);
-            assert_eq!(size, in_units_of(&residual, &floor));
-            assert_eq!((residual[index].abs(), floor[index]), worst(&residual, &floor));
-        }
-        for lost in [f64::NAN, f64::INFINITY] {
-            assert!(!Units::of(&floor).largest(&vector![1.0, lost, 2.0]).0.is_finite());
-        }
     }
 
     #[test]
