@@ -8,7 +8,8 @@
 use std::env;
 
 use dalembert_benches::candidates::{self, Scene, Way};
-use dalembert_benches::{instructions, interleaved};
+use dalembert_benches::instructions::{self, Part};
+use dalembert_benches::interleaved;
 
 fn main() {
     let arguments: Vec<String> = env::args().collect();
@@ -28,15 +29,18 @@ fn main() {
 
 /// The run that valgrind watches.
 fn counted(arguments: &[String]) {
-    let [scene, way, steps] = arguments else { panic!("a scene, a way and a number of steps") };
+    let [scene, way, part, times] = arguments else { panic!("a scene, a way, a part and a number of times") };
     let scene = [candidates::scenes(), candidates::spring_chains()]
         .into_iter()
         .flatten()
         .find(|known| known.name == *scene)
         .expect("a scene");
     let way = Way::ALL.into_iter().find(|known| known.name() == *way).expect("a way");
-    let run = scene.way(way).expect("a way of this scene");
-    run(steps.parse().expect("a number of steps"));
+    let times = times.parse().expect("a number of times");
+    match Part::ALL.into_iter().find(|known| known.name() == *part).expect("a part") {
+        Part::Step => scene.way(way).expect("a way of this scene")(times),
+        Part::Evaluation => scene.evaluations(way).expect("a way of this scene")(times),
+    }
 }
 
 /// Nanoseconds per step.
@@ -68,28 +72,31 @@ fn times(scenes: &[Scene]) {
     println!("\ngeometric mean of generated / by hand: {:.2}", geometric_mean(&ratios));
 }
 
-/// Instructions per step.
+/// Instructions per step, and of one evaluation of what a step evaluates.
 fn counts(scenes: &[Scene]) {
-    println!("| scene | n | by hand | generated | generated / by hand | num-dual |");
-    println!("|---|--:|--:|--:|--:|--:|");
-    let mut ratios = Vec::new();
-    for scene in scenes {
-        let count = |way: Way, steps| instructions::per_step(scene.name, way.name(), steps);
-        let (Some(by_hand), Some(generated), Some(dual)) =
-            (count(Way::ByHand, 1000), count(Way::Generated, 1000), count(Way::NumDual, 20))
-        else {
-            println!("\nno valgrind: instructions not counted");
-            return;
-        };
-        ratios.push(generated / by_hand);
-        println!(
-            "| {} | {} | {by_hand:.0} | {generated:.0} | {:.2} | {dual:.0} |",
-            scene.name,
-            scene.degrees,
-            generated / by_hand
-        );
+    println!("| scene | n | part | by hand | generated | generated / by hand | num-dual |");
+    println!("|---|--:|---|--:|--:|--:|--:|");
+    for part in Part::ALL {
+        let mut ratios = Vec::new();
+        for scene in scenes {
+            let count = |way: Way, times| instructions::each(scene.name, way.name(), part, times);
+            let (Some(by_hand), Some(generated), Some(dual)) =
+                (count(Way::ByHand, 1000), count(Way::Generated, 1000), count(Way::NumDual, 20))
+            else {
+                println!("\nno valgrind: instructions not counted");
+                return;
+            };
+            ratios.push(generated / by_hand);
+            println!(
+                "| {} | {} | {} | {by_hand:.0} | {generated:.0} | {:.2} | {dual:.0} |",
+                scene.name,
+                scene.degrees,
+                part.name(),
+                generated / by_hand
+            );
+        }
+        println!("| geometric mean | | {} | | | {:.2} | |", part.name(), geometric_mean(&ratios));
     }
-    println!("\ngeometric mean of generated / by hand: {:.2}", geometric_mean(&ratios));
 }
 
 /// What one degree of freedom of the spring chain costs, at n = 8 and at n = 32.
@@ -105,7 +112,7 @@ fn costs_per_degree() {
     let mut costs = Vec::new();
     for (chain, seconds) in chains.iter().zip(times) {
         let (nanoseconds, degrees) = (seconds * 1e9, chain.degrees as f64);
-        let count = instructions::per_step(chain.name, Way::Generated.name(), 1000)
+        let count = instructions::each(chain.name, Way::Generated.name(), Part::Step, 1000)
             .map_or(String::new(), |count| format!("{:.0}", count / degrees));
         costs.push(nanoseconds / degrees);
         println!(

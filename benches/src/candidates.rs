@@ -1,7 +1,9 @@
 //! What is measured: every scene stepped in every way, from one state with one step size.
 
 use std::hint::black_box;
+use std::rc::Rc;
 
+use dalembert::nalgebra::SVector;
 use dalembert::{Discrete, Midpoint, State, Trajectory};
 
 use crate::by_hand::{self, ByHand};
@@ -46,6 +48,7 @@ pub struct Scene {
     /// Degrees of freedom.
     pub degrees: usize,
     ways: Vec<(Way, Run)>,
+    evaluations: Vec<(Way, Box<dyn Fn(usize)>)>,
 }
 
 /// After how many steps the ways of one scene are compared.
@@ -56,7 +59,7 @@ const TOLERANCE: f64 = 1e-12;
 
 impl Scene {
     fn new(name: &'static str, degrees: usize) -> Self {
-        Self { name, degrees, ways: Vec::new() }
+        Self { name, degrees, ways: Vec::new(), evaluations: Vec::new() }
     }
 
     /// Adds a way on the runtime's trajectory.
@@ -66,8 +69,10 @@ impl Scene {
     {
         let Start { q, v, h } = start;
         let start = State::from_velocity(&system, q, v).expect("the scene is regular");
+        let system = Rc::new(system);
+        self.evaluations.push((way, Box::new(evaluations(Rc::clone(&system), start.q, v.into(), h))));
         let run = move |steps: usize| {
-            let mut trajectory = Trajectory::new(black_box(&system), Midpoint, h, black_box(start));
+            let mut trajectory = Trajectory::new(black_box(&*system), Midpoint, h, black_box(start));
             for step in (&mut trajectory).take(steps) {
                 black_box(step.expect("the scene can be stepped"));
             }
@@ -106,6 +111,12 @@ impl Scene {
         })
     }
 
+    /// What a step evaluates, alone: a number of times the step's equation with its matrix, and both momenta.
+    pub fn evaluations(&self, way: Way) -> Option<&dyn Fn(usize)> {
+        let (_, run) = self.evaluations.iter().find(|(known, _)| *known == way)?;
+        Some(&**run)
+    }
+
     /// Asserts that all ways end in one state: to 1e-12 of the largest coordinate and of the largest momentum.
     pub fn assert_agreement(&self) {
         let ends: Vec<_> = self.ways.iter().map(|(way, run)| (way, run(COMPARED))).collect();
@@ -118,6 +129,24 @@ impl Scene {
                 self.name,
                 way.name()
             );
+        }
+    }
+}
+
+fn evaluations<L, const N: usize>(
+    system: Rc<L>,
+    q: SVector<f64, N>,
+    v: SVector<f64, N>,
+    h: f64,
+) -> impl Fn(usize)
+where
+    L: Discrete<Midpoint, N, Scalar = f64>,
+{
+    move |times| {
+        let system = black_box(&*system);
+        for _ in 0..times {
+            black_box(system.step_kernel(black_box(&q), black_box(&v), black_box(h)));
+            black_box(system.momenta(black_box(&q), black_box(&v), black_box(h)));
         }
     }
 }
