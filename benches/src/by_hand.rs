@@ -22,18 +22,28 @@ pub use ring::Ring;
 pub use spring_chain::SpringChain;
 
 use dalembert::nalgebra::SVector;
-use dalembert::{Derivatives, Discrete, Gradient, Lagrangian, Midpoint, Momenta, StepKernel};
+use dalembert::{
+    Derivatives, Discrete, Gradient, Lagrangian, Midpoint, Momenta, NewtonMatrix, StepKernel, VelocityHistory,
+};
 
 /// What a step evaluates, by hand.
 pub trait HandDerived<const N: usize> {
     /// The generated system, for what no step but the first evaluates.
     type Generated: Discrete<Midpoint, N, Scalar = f64>;
 
+    /// The form of the Newton matrix: banded for the chains of springs.
+    type Matrix: NewtonMatrix<f64, N>;
+
     /// The generated system.
     fn generated(&self) -> &Self::Generated;
 
     /// p0 and ∂p0/∂v̄.
-    fn step_kernel(&self, q0: &SVector<f64, N>, v: &SVector<f64, N>, h: f64) -> StepKernel<f64, N>;
+    fn step_kernel(
+        &self,
+        q0: &SVector<f64, N>,
+        v: &SVector<f64, N>,
+        h: f64,
+    ) -> StepKernel<f64, N, Self::Matrix>;
 
     /// p0 and p1.
     fn momenta(&self, q0: &SVector<f64, N>, v: &SVector<f64, N>, h: f64) -> Momenta<f64, N>;
@@ -59,6 +69,9 @@ impl<K: HandDerived<N>, const N: usize> Lagrangian<N> for ByHand<K> {
 }
 
 impl<K: HandDerived<N>, const N: usize> Discrete<Midpoint, N> for ByHand<K> {
+    type Matrix = K::Matrix;
+    type Memory = VelocityHistory<f64, N>;
+
     fn discrete_lagrangian(&self, q0: &SVector<f64, N>, q1: &SVector<f64, N>, h: f64) -> f64 {
         self.0.generated().discrete_lagrangian(q0, q1, h)
     }
@@ -73,7 +86,12 @@ impl<K: HandDerived<N>, const N: usize> Discrete<Midpoint, N> for ByHand<K> {
     }
 
     #[inline]
-    fn step_kernel(&self, q0: &SVector<f64, N>, v: &SVector<f64, N>, h: f64) -> StepKernel<f64, N> {
+    fn step_kernel(
+        &self,
+        q0: &SVector<f64, N>,
+        v: &SVector<f64, N>,
+        h: f64,
+    ) -> StepKernel<f64, N, K::Matrix> {
         self.0.step_kernel(q0, v, h)
     }
 

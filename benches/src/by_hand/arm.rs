@@ -5,7 +5,7 @@
 //! α = l1² (m1/3 + m2 + m),   δ = l1 l2 (m2/2 + m),   γ = l2² (m2/3 + m)
 //! ```
 
-use dalembert::nalgebra::{SVector, matrix, vector};
+use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::{Momenta, StepKernel};
 
 use super::HandDerived;
@@ -90,6 +90,7 @@ impl Arm {
 
 impl HandDerived<3> for Arm {
     type Generated = expanded::Arm;
+    type Matrix = SMatrix<f64, 3, 3>;
 
     fn generated(&self) -> &expanded::Arm {
         &self.generated

@@ -1,6 +1,6 @@
 //! The double pendulum, with C = cos(q0 − q1), S = sin(q0 − q1).
 
-use dalembert::nalgebra::{SVector, matrix, vector};
+use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::{Momenta, StepKernel};
 
 use super::HandDerived;
@@ -30,6 +30,7 @@ type Vector = SVector<f64, 2>;
 
 impl HandDerived<2> for DoublePendulum {
     type Generated = expanded::DoublePendulum;
+    type Matrix = SMatrix<f64, 2, 2>;
 
     fn generated(&self) -> &expanded::DoublePendulum {
         &self.generated

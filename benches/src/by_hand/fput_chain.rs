@@ -1,7 +1,7 @@
 //! The FPUT chain: spring i between the masses i − 1 and i (walls at both ends), force d + β d³, stiffness 1 + 3β d².
 
-use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::{Momenta, StepKernel};
+use dalembert::nalgebra::SVector;
+use dalembert::{Banded, Momenta, StepKernel};
 
 use super::HandDerived;
 use crate::scenes::expanded;
@@ -38,13 +38,14 @@ impl FputChain {
 
 impl HandDerived<N> for FputChain {
     type Generated = expanded::FputChain;
+    type Matrix = Banded<f64, N, 3>;
 
     fn generated(&self) -> &expanded::FputChain {
         &self.generated
     }
 
     #[inline]
-    fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, N> {
+    fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, N, Self::Matrix> {
         let expanded::FputChain { beta, drag } = self.generated;
         let half = 0.5 * h;
         let square = half * half;
@@ -54,17 +55,16 @@ impl HandDerived<N> for FputChain {
             force[i] = d + bend * d;
             stiffness[i] = square + square * 3.0 * bend;
         }
-        let mut matrix = SMatrix::zeros();
+        let mut rows = [[0.0; 3]; N];
         let mut p0 = *v;
         let diagonal = 1.0 + half * drag;
         for i in 0..N {
             p0[i] += half * (drag * v[i] + force[i] - force[i + 1]);
-            matrix[(i, i)] = diagonal + (stiffness[i] + stiffness[i + 1]);
+            rows[i] = [-stiffness[i], diagonal + (stiffness[i] + stiffness[i + 1]), -stiffness[i + 1]];
         }
-        for i in 1..N {
-            matrix[(i, i - 1)] = -stiffness[i];
-            matrix[(i - 1, i)] = -stiffness[i];
-        }
+        // Nothing lies beyond the walls.
+        (rows[0][0], rows[N - 1][2]) = (0.0, 0.0);
+        let matrix = Banded { rows };
         StepKernel { p0, matrix }
     }
 

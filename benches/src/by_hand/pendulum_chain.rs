@@ -93,6 +93,7 @@ impl PendulumChain {
 
 impl HandDerived<N> for PendulumChain {
     type Generated = expanded::PendulumChain;
+    type Matrix = SMatrix<f64, N, N>;
 
     fn generated(&self) -> &expanded::PendulumChain {
         &self.generated

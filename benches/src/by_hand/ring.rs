@@ -1,6 +1,6 @@
 //! The ring: V = s(s − 1)², dV/ds = (s − 1)(3s − 1), d²V/ds² = 6s − 4, G = −2 dV/ds q − k v.
 
-use dalembert::nalgebra::{SVector, matrix};
+use dalembert::nalgebra::{SMatrix, SVector, matrix};
 use dalembert::{Momenta, StepKernel};
 
 use super::HandDerived;
@@ -21,6 +21,7 @@ type Vector = SVector<f64, 2>;
 
 impl HandDerived<2> for Ring {
     type Generated = expanded::Ring;
+    type Matrix = SMatrix<f64, 2, 2>;
 
     fn generated(&self) -> &expanded::Ring {
         &self.generated

@@ -1,8 +1,8 @@
 //! The spring chain: spring and dashpot i between the masses i − 1 and i (the first on the wall), force k d + κ d³,
 //! stiffness k + 3κ d².
 
-use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::{Discrete, Midpoint, Momenta, StepKernel};
+use dalembert::nalgebra::SVector;
+use dalembert::{Banded, Discrete, Midpoint, Momenta, StepKernel};
 
 use super::HandDerived;
 
@@ -40,13 +40,19 @@ where
     L: Discrete<Midpoint, N, Scalar = f64>,
 {
     type Generated = L;
+    type Matrix = Banded<f64, N, 3>;
 
     fn generated(&self) -> &L {
         &self.generated
     }
 
     #[inline]
-    fn step_kernel(&self, q0: &SVector<f64, N>, v: &SVector<f64, N>, h: f64) -> StepKernel<f64, N> {
+    fn step_kernel(
+        &self,
+        q0: &SVector<f64, N>,
+        v: &SVector<f64, N>,
+        h: f64,
+    ) -> StepKernel<f64, N, Self::Matrix> {
         let half = 0.5 * h;
         let [d, rate] = Self::elongations(q0, v, half);
         let constant = half * (self.friction + half * self.stiffness);
@@ -57,18 +63,19 @@ where
             force[i] = half * ((self.stiffness + self.hardening * square) * d[i] + self.friction * rate[i]);
             stiffness[i] = constant + varying * square;
         }
-        let mut matrix = SMatrix::zeros();
+        let mut rows = [[0.0; 3]; N];
         let mut p0 = *v;
         for i in 0..N {
             p0[i] = self.m[i] * v[i] + force[i];
-            matrix[(i, i)] = self.m[i] + stiffness[i];
+            rows[i][1] = self.m[i] + stiffness[i];
         }
         for i in 1..N {
             p0[i - 1] -= force[i];
-            matrix[(i - 1, i - 1)] += stiffness[i];
-            matrix[(i, i - 1)] = -stiffness[i];
-            matrix[(i - 1, i)] = -stiffness[i];
+            rows[i - 1][1] += stiffness[i];
+            rows[i - 1][2] = -stiffness[i];
+            rows[i][0] = -stiffness[i];
         }
+        let matrix = Banded { rows };
         StepKernel { p0, matrix }
     }
 

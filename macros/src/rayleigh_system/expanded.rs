@@ -20,7 +20,8 @@ use super::model::{Rule, Source, System};
 /// The whole expansion; nothing where the derivatives are too long to be written out.
 pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
     let Lowered { graph, n, lagrangian, rayleigh, force } = lowered;
-    let mut code = Code { system, graph, n, derivation: Differentiation::default() };
+    let written = graph.len();
+    let mut code = Code { system, graph, written, n, derivation: Differentiation::default() };
     let of_lagrangian = implement::lagrangian(system, code.function("lagrangian", "l", lagrangian));
     let of_rayleigh = system.rayleigh.zip(rayleigh).map(|(arguments, root)| {
         implement::rayleigh(system, arguments, code.function("rayleigh", "r", root))
@@ -82,6 +83,8 @@ fn imports(system: &System<'_>) -> TokenStream {
 struct Code<'s> {
     system: &'s System<'s>,
     graph: Graph,
+    /// How many expressions the user wrote.
+    written: usize,
     n: usize,
     derivation: Differentiation,
 }
@@ -204,11 +207,12 @@ impl Code<'_> {
         self.matrix(|code, i, j| code.second(of, (i, row_velocity), (j, column_velocity)))
     }
 
-    fn code(&self, outputs: &[Node]) -> StraightLine {
+    fn code(&mut self, outputs: &[Node]) -> StraightLine {
+        let outputs = self.graph.factored(outputs, self.written);
         straight_line(
             &self.graph,
             &self.system.scalar,
-            outputs,
+            &outputs,
             &["q", "v", "h", "half", "q0", "minus", "plus"],
         )
     }

@@ -6,6 +6,7 @@
 //! because nothing depends on the variable is absent, never a factor 0: no NaN or infinity is hidden by a product.
 
 mod algebra;
+mod factor;
 mod operation;
 
 #[cfg(test)]

@@ -1,11 +1,10 @@
 //! The step's equation, fused: L, R and f with the rule's directions folded in, each shared expression once.
 //!
-//! With K = L + (h/2) R and K⁻ = L − (h/2) R at q̄ = q0 + h v̄/2:
+//! With K = L + (h/2) R at q̄ = q0 + h v̄/2:
 //!
 //! ```text
-//! p0      = K_v − (h/2) (K_q + f)
+//! p0, p1  = L_v − (h²/4) R_q ∓ (h/2) (L_q − R_v + f)
 //! ∂p0/∂v̄  = K_vv + (h/2) K_vq − (h/2) (K_qv + f_v) − (h²/4) (K_qq + f_q)
-//! p1      = K⁻_v + (h/2) (K⁻_q + f)
 //! ```
 
 use std::collections::BTreeMap;
@@ -33,13 +32,12 @@ impl Code<'_> {
         let of_lagrangian = self.derivation.hessian(&mut self.graph, lagrangian, "l");
         let of_rayleigh =
             rayleigh.map(|root| self.derivation.hessian(&mut self.graph, root, "r")).unwrap_or_default();
-        let before = self.modified(&of_lagrangian, half, &of_rayleigh);
-        let after = self.modified(&of_lagrangian, negative, &of_rayleigh);
+        let modified = self.combined(&of_lagrangian.hessian, half, &of_rayleigh.hessian);
+        let before = Derivatives { gradient: Gradient::new(), hessian: modified };
         let rows: Vec<Gradient> = force.map(|components| self.rows(components)).unwrap_or_default();
         let by_v: Vec<Vec<Node>> = rows.iter().map(|row| self.along(row, plus)).collect();
 
-        let p0 = self.with_force(&before.gradient, minus, force);
-        let p1 = self.with_force(&after.gradient, plus, force);
+        let [p0, p1] = self.momenta(half, &of_lagrangian.gradient, &of_rayleigh.gradient, force);
         let p0_by_v = self.by_velocity(&before, minus, plus, &by_v);
 
         let line = self.code(&[&p0[..], &p0_by_v].concat());
@@ -52,15 +50,7 @@ impl Code<'_> {
         Some(Kernel { step_kernel, momenta })
     }
 
-    /// L ± (h/2) R.
-    fn modified(&mut self, lagrangian: &Derivatives, share: Node, rayleigh: &Derivatives) -> Derivatives {
-        Derivatives {
-            gradient: self.combined(&lagrangian.gradient, share, &rayleigh.gradient),
-            hessian: self.combined(&lagrangian.hessian, share, &rayleigh.hessian),
-        }
-    }
-
-    /// The derivative of ∂_direction (L ± (h/2) R), with the force's share, by v̄: column by column.
+    /// The derivative of ∂_direction (L + (h/2) R), with the force's share, by v̄: column by column.
     fn by_velocity(
         &mut self,
         of: &Derivatives,
@@ -81,15 +71,47 @@ impl Code<'_> {
         })
     }
 
-    /// K_v + first (K_q + f).
-    fn with_force(&mut self, gradient: &Gradient, along: Along, force: Option<&[Node]>) -> Vec<Node> {
-        let mut gradient = gradient.clone();
-        for (index, &component) in force.unwrap_or_default().iter().enumerate() {
-            let variable = self.variable(index, false);
-            let sum = self.added(gradient.get(&variable).copied(), component);
-            gradient.insert(variable, sum);
+    /// p0 and p1: half their sum and half their difference, each once.
+    fn momenta(
+        &mut self,
+        half: Node,
+        lagrangian: &Gradient,
+        rayleigh: &Gradient,
+        force: Option<&[Node]>,
+    ) -> [Vec<Node>; 2] {
+        let (mut p0, mut p1) = (Vec::new(), Vec::new());
+        let square = self.graph.times(half, half);
+        for index in 0..self.n {
+            let [coordinate, velocity] = [false, true].map(|velocity| self.variable(index, velocity));
+            let of_rayleigh = |variable| rayleigh.get(&variable).copied();
+            let shift = of_rayleigh(coordinate).map(|by_q| self.graph.times(square, by_q));
+            let drag = of_rayleigh(velocity);
+            let mean = self.difference(lagrangian.get(&velocity).copied(), shift);
+            let of_force = force.map(|components| components[index]);
+            let acting = match (lagrangian.get(&coordinate).copied(), of_force) {
+                (sum, Some(component)) => Some(self.added(sum, component)),
+                (sum, None) => sum,
+            };
+            let acting = self.difference(acting, drag);
+            let impulse = acting.map(|acting| self.graph.times(half, acting));
+            let before = self.difference(mean, impulse);
+            let after = match (mean, impulse) {
+                (mean, Some(impulse)) => Some(self.added(mean, impulse)),
+                (mean, None) => mean,
+            };
+            p0.push(self.or_zero(before));
+            p1.push(self.or_zero(after));
         }
-        self.along(&gradient, along)
+        [p0, p1]
+    }
+
+    /// a − b, where they are there.
+    fn difference(&mut self, a: Option<Node>, b: Option<Node>) -> Option<Node> {
+        match (a, b) {
+            (Some(a), Some(b)) => Some(self.graph.minus(a, b)),
+            (None, Some(b)) => Some(self.graph.negated(b)),
+            (a, None) => a,
+        }
     }
 
     /// a + factor × b.
