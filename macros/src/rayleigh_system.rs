@@ -46,7 +46,8 @@ pub fn rayleigh_system(attribute: TokenStream, item: TokenStream) -> TokenStream
             fallback::with_stubs(&source, &options.rules, report)
         });
     }
-    let lowered = if options.engine == Engine::Auto { lower::system(&system).ok() } else { None };
+    let may_lower = options.engine == Engine::Auto && report.is_empty();
+    let lowered = if may_lower { lower::system(&system).ok() } else { None };
     // What auto accepts does not depend on how far the lowering goes: where it goes all the way, the twins serve for their
     // diagnostics alone.
     let twins = rewrite::over_duals(&system, &mut report);
