@@ -44,7 +44,8 @@ pub fn rayleigh_system(attribute: TokenStream, item: TokenStream) -> TokenStream
             fallback::with_stubs(&source, &options.rules, report)
         });
     }
-    let lowered = (options.engine == Engine::Auto).then(|| lower::system(&system));
+    let may_lower = options.engine == Engine::Auto && report.is_empty();
+    let lowered = may_lower.then(|| lower::system(&system));
     // What auto accepts does not depend on how far the lowering goes: where it goes all the way, the twins serve for their
     // diagnostics alone.
     let twins = rewrite::over_duals(&system, &mut report);

@@ -50,6 +50,10 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
         names: Names::new(taken),
         typed: vec![false; graph.len()],
     };
+    let mut receives = vec![false; graph.len()];
+    for receiver in nodes.iter().filter_map(|&node| graph.operation(node).receiver()) {
+        receives[receiver.index()] = true;
+    }
     let mut statements = TokenStream::new();
     let (mut uses_coordinates, mut uses_velocities, mut parameters) = (false, false, Vec::new());
     for &node in &nodes {
@@ -57,6 +61,8 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
         writer.typed[node.index()] = match operation {
             Operation::Constant(_) => false,
             Operation::Coordinate(_) | Operation::Velocity(_) | Operation::Parameter(_) => true,
+            Operation::Select(_, a, b) => writer.typed[a.index()] || writer.typed[b.index()],
+            operation if operation.receiver().is_some() => true,
             operation => operation.arguments().any(|argument| writer.typed[argument.index()]),
         };
         match operation {
@@ -76,7 +82,10 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
             _ => false,
         };
         let is_paired = partner(graph, node, &nodes).is_some();
+        // `(1.5 + 0.5).ln()` has no type: a local says it.
+        let needs_type = receives[node.index()] && !writer.typed[node.index()];
         let is_single = !is_paired
+            && !needs_type
             && uses[node.index()] <= 1
             && !matches!(operation, Operation::Select(..))
             && (graph.name(node).is_none() || matches!(operation, Operation::Parameter(_)));
@@ -153,13 +162,12 @@ impl Writer<'_> {
         let value = self.expression(node).tokens;
         let name = self.names.of(self.graph, node);
         self.locals[node.index()] = Some(name.clone());
-        let scalar = self.scalar;
-        match self.graph.operation(node) {
-            Operation::Select(_, a, b) if !self.typed[a.index()] && !self.typed[b.index()] => {
-                quote!(let #name: #scalar = #value;)
-            }
-            _ => quote!(let #name = #value;),
+        if self.typed[node.index()] || self.graph.operation(node).is_truth() {
+            return quote!(let #name = #value;);
         }
+        let scalar = self.scalar;
+        self.typed[node.index()] = true;
+        quote!(let #name: #scalar = #value;)
     }
 
     fn expression(&self, node: Node) -> Written {

@@ -11,16 +11,35 @@ use super::primitive::Primitive;
 /// What stands for `f64` (or `f32`) in a differentiated body: a number of type `D`, plain or dual.
 ///
 /// Operators take `Real<D>`, references to it and plain numbers, in any mixture, as `f64` does. Methods are those of `f64`
-/// that have a derivative; they give the value that `f64` gives, and where a derivative does not exist, its one-sided limit
-/// or infinity:
+/// that have a derivative; they give the value that `f64` gives.
 ///
-/// | at | value | derivative |
-/// |---|---|---|
-/// | `abs` at ±0 | 0 | sign of the zero |
-/// | `signum`, `copysign` by the sign | as `f64` | 0 |
-/// | `min`, `max` of equal numbers | the first | that of the first |
-/// | `sqrt`, `cbrt`, `powf` below 1 at 0 | 0 | ∞ (NaN where the argument's own derivative is 0) |
-/// | `hypot`, `atan2` at (0, 0) | 0 | NaN |
+/// # Where a derivative does not exist
+///
+/// Derivatives written out at compile time and those of this type are the same there: one-sided limits where there is a
+/// side, infinite where the slope is, NaN where the direction decides. Whatever does not depend on the argument of a singular
+/// function keeps its own derivative, 0 by that argument.
+///
+/// | at | value | derivative | second derivative |
+/// |---|---|---|---|
+/// | `abs` at ±0 | 0 | sign of the zero | 0 |
+/// | `signum`; `copysign`, by the sign | as `f64` | 0 | 0 |
+/// | `min`, `max` of equal numbers; with one NaN | the first; the number | that of the first; of the number | the same |
+/// | `clamp` at a bound | the bound | that of the number, as inside | the same |
+/// | `sqrt` at ±0 | ±0 | ±∞ | −∞ |
+/// | `cbrt` at ±0 | ±0 | ∞ | ∓∞ |
+/// | `powf` with constant n at 0 | as `f64` | n xⁿ⁻¹, 0 for n = 0 | n(n−1) xⁿ⁻², 0 for n = 0, 1 |
+/// | `powf` with n depending on q or v, base ≤ 0 | as `f64` | by the base as for constant n; by n NaN | the same; mixed NaN |
+/// | `powi` with n < 0 at 0, `recip`, a/b at b = 0 | ∞ (0/0: NaN) | as the formula: −∞ for 1/x (0/0: NaN) | ∞ |
+/// | `ln`, `log2`, `log10` at 0, `ln_1p` at −1 | −∞ | ∞ | −∞ |
+/// | the same below | NaN | 1/x, as of ln │x│ | −1/x² |
+/// | `asin`, `acos` at ±1 | ±π/2; 0, π | ∞; −∞ | ±∞; ∓∞ |
+/// | `acosh` at 1 | 0 | ∞ | −∞ |
+/// | `atanh` at ±1 | ±∞ | ∞ | ±∞ |
+/// | `sqrt`, `powf`, `asin`, `acos` outside their domain, `acosh` in (−1, 1) | NaN | NaN | NaN |
+/// | `hypot`, `atan2` at (0, 0) | 0 | NaN | NaN |
+///
+/// An infinite derivative times one that happens to be 0 is NaN, as for √(x²) at 0: it is 0 only where there is no
+/// dependence at all. What is summed up from infinite derivatives is not finite, ∞ or NaN by the order of the sum.
 #[derive(Clone, Copy)]
 pub struct Real<D>(pub D);
 
