@@ -17,6 +17,7 @@ mod implement;
 pub mod lower;
 mod model;
 pub mod parse;
+mod portable;
 mod rewrite;
 mod scope;
 mod syntax;
@@ -26,10 +27,28 @@ use proc_macro2::TokenStream;
 use diagnostics::{Mistake, Report};
 use model::{Engine, Source};
 
+/// How the runtime beside the macro is built: the runtime exports the macro that fits.
+#[derive(Clone, Copy)]
+pub struct Runtime {
+    /// With the standard library, and num-dual.
+    pub has_std: bool,
+    /// With elementary functions of its own, not the standard library's.
+    pub is_portable: bool,
+}
+
+impl Runtime {
+    /// With the standard library and its functions.
+    pub const STD: Self = Self { has_std: true, is_portable: false };
+    /// With the standard library, but not its functions.
+    pub const PORTABLE: Self = Self { has_std: true, is_portable: true };
+    /// On `core` alone.
+    pub const CORE: Self = Self { has_std: false, is_portable: true };
+}
+
 /// The expansion of `#[rayleigh_system(attribute)] item`.
-pub fn rayleigh_system(attribute: TokenStream, item: TokenStream) -> TokenStream {
+pub fn rayleigh_system(runtime: Runtime, attribute: TokenStream, item: TokenStream) -> TokenStream {
     let mut report = Report::default();
-    let options = attribute::options(attribute, &mut report);
+    let options = attribute::options(attribute, runtime, &mut report);
     let Some(source) = parse::source(item.clone(), &mut report) else {
         return fallback::item_alone(item, report);
     };
@@ -38,7 +57,8 @@ pub fn rayleigh_system(attribute: TokenStream, item: TokenStream) -> TokenStream
     };
     if options.engine == Engine::Expanded && report.is_empty() {
         let expansion = match lower::system(&system) {
-            Ok(lowered) => expanded::system(&system, lowered).ok_or((source.name().span(), Mistake::TooLong)),
+            Ok(lowered) => expanded::system(&system, lowered, runtime.is_portable)
+                .ok_or((source.name().span(), Mistake::TooLong)),
             Err(refusal) => Err((refusal.span, Mistake::NotLowered(refusal.reason))),
         };
         return expansion.unwrap_or_else(|(span, mistake)| {
@@ -46,18 +66,29 @@ pub fn rayleigh_system(attribute: TokenStream, item: TokenStream) -> TokenStream
             fallback::with_stubs(&source, &options.rules, report)
         });
     }
-    let lowered = if options.engine == Engine::Auto { lower::system(&system).ok() } else { None };
+    let lowered = if options.engine == Engine::Auto { Some(lower::system(&system)) } else { None };
     // What auto accepts does not depend on how far the lowering goes.
     let system = rewrite::over_duals(system, &mut report);
     if !report.is_empty() {
         return fallback::with_stubs(&source, &options.rules, report);
     }
-    let expansion = lowered.and_then(|lowered| expanded::system(&system, lowered));
-    expansion.unwrap_or_else(|| expand::system(&system))
+    let (span, mistake) = match lowered {
+        Some(Ok(lowered)) => match expanded::system(&system, lowered, runtime.is_portable) {
+            Some(expansion) => return expansion,
+            None => (source.name().span(), Mistake::TooLongWithoutStd),
+        },
+        Some(Err(refusal)) => (refusal.span, Mistake::NotLoweredWithoutStd(refusal.reason)),
+        None => return expand::system(&system),
+    };
+    if runtime.has_std {
+        return expand::system(&system);
+    }
+    report.at_span(span, mistake);
+    fallback::with_stubs(&source, &options.rules, report)
 }
 
 /// The expansion of `#[differentiable] item`: the same stages, for a function of (q, parameters…).
-pub fn differentiable(attribute: TokenStream, item: TokenStream) -> TokenStream {
+pub fn differentiable(runtime: Runtime, attribute: TokenStream, item: TokenStream) -> TokenStream {
     let mut report = Report::default();
     if !attribute.is_empty() {
         report.at(&attribute, Mistake::FieldOption);
@@ -69,6 +100,9 @@ pub fn differentiable(attribute: TokenStream, item: TokenStream) -> TokenStream 
         return fallback::with_stubs(&source, &[], report);
     };
     let system = rewrite::over_duals(system, &mut report);
+    if !runtime.has_std {
+        report.at_span(source.name().span(), Mistake::FieldWithoutStd);
+    }
     match &source {
         Source::Function(function) if report.is_empty() => expand::field(&system, function, field),
         _ => fallback::with_stubs(&source, &[], report),

@@ -9,6 +9,7 @@ extern crate self as dalembert;
 
 mod derivatives;
 mod discrete;
+mod elementary;
 mod error;
 mod fields;
 mod linear;
@@ -32,6 +33,20 @@ pub mod noether;
 pub mod rayleigh;
 #[cfg(feature = "std")]
 pub mod samples;
+
+/// The attributes that fit the features of this crate, which a macro cannot see.
+mod attributes {
+    #[cfg(feature = "std")]
+    pub use dalembert_macros::differentiable;
+    #[cfg(not(feature = "std"))]
+    pub use dalembert_macros::differentiable_core as differentiable;
+    #[cfg(all(feature = "std", not(feature = "libm")))]
+    pub use dalembert_macros::rayleigh_system;
+    #[cfg(not(feature = "std"))]
+    pub use dalembert_macros::rayleigh_system_core as rayleigh_system;
+    #[cfg(all(feature = "std", feature = "libm"))]
+    pub use dalembert_macros::rayleigh_system_portable as rayleigh_system;
+}
 
 /// Generates the discrete mechanical system of a Lagrangian and a Rayleigh function, written as plain Rust.
 ///
@@ -111,7 +126,7 @@ pub mod samples;
 /// Refused, with a message at the token: type aliases, items and macros inside a body, functions outside the block, generic
 /// helpers, assignment to a field, casts of coordinates to integers, `%` and rounding and bit methods on them, fields of other
 /// types.
-pub use dalembert_macros::rayleigh_system;
+pub use attributes::rayleigh_system;
 
 /// Makes a function of the configuration a field with derivatives: a [`VectorField`] if it returns `[f64; N]`, such as the
 /// generator of a symmetry, a [`ScalarField`] if it returns `f64`, such as a generating function.
@@ -136,13 +151,14 @@ pub use dalembert_macros::rayleigh_system;
 /// assert_eq!(Rotation.jacobian(&vector![3.0, 4.0]), matrix![0.0, -1.0; 1.0, 0.0]);
 /// assert_eq!(Generating { s: 2.0 }.gradient(&vector![3.0]), vector![6.0]);
 /// ```
-pub use dalembert_macros::differentiable;
+pub use attributes::differentiable;
 pub use nalgebra;
 
 pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
 pub use discrete::{
     Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Report, Step, StepKernel,
 };
+pub use elementary::Elementary;
 pub use error::{Quantity, StepError};
 pub use fields::{ScalarField, VectorField};
 pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix};

@@ -73,6 +73,10 @@ pub enum Mistake {
     UnknownEngine(String),
     NotLowered(String),
     TooLong,
+    NumDualWithoutStd,
+    NotLoweredWithoutStd(String),
+    TooLongWithoutStd,
+    FieldWithoutStd,
     // The item.
     WrongItem,
     WrongField,
@@ -137,6 +141,11 @@ impl Display for Mistake {
             Self::UnknownEngine(engine) => write!(f, "unknown engine `{engine}`; write `derivatives = auto`, `expanded` or `num_dual`"),
             Self::NotLowered(reason) => write!(f, "derivatives cannot be written out: {reason}; or leave the derivatives to `derivatives = num_dual`"),
             Self::TooLong => f.write_str("the derivatives are too long to be written out; use `derivatives = num_dual`"),
+
+            Self::NumDualWithoutStd => f.write_str("num-dual needs the standard library; use `derivatives = expanded`, or the feature `std` of dalembert"),
+            Self::NotLoweredWithoutStd(reason) => write!(f, "derivatives cannot be written out: {reason}; num-dual would need the feature `std` of dalembert"),
+            Self::TooLongWithoutStd => f.write_str("the derivatives are too long to be written out; num-dual would need the feature `std` of dalembert"),
+            Self::FieldWithoutStd => f.write_str("`#[differentiable]` takes its derivatives from num-dual, which needs the feature `std` of dalembert; put `#[cfg(feature = …)]` on the function where it is built without"),
 
             Self::WrongItem => f.write_str("`#[rayleigh_system]` goes on an `impl` block with `fn lagrangian`, or on one free function of (q, v, parameters…)"),
             Self::WrongField => f.write_str("`#[differentiable]` goes on one free function of (q, parameters…)"),

@@ -5,6 +5,8 @@
 mod directions;
 mod kernel;
 
+use std::cell::Cell;
+
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 use syn::Ident;
@@ -16,11 +18,16 @@ use super::graph::{Graph, Node, Operation};
 use super::implement::{self, Kernel};
 use super::lower::{Lowered, MAX_NODES};
 use super::model::{RayleighArguments, Rule, Source, System};
+use super::portable;
 
 /// The whole expansion; nothing where the derivatives are too long to be written out.
-pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
-    let Lowered { graph, n, lagrangian, rayleigh, force } = lowered;
-    let mut code = Code { system, graph, n, derivation: Differentiation::default() };
+///
+/// `is_portable`: the elementary functions are the runtime's, in the user's bodies too.
+pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Option<TokenStream> {
+    let Lowered { graph, n, lagrangian, rayleigh, force, functions } = lowered;
+    let calls_elementary = Cell::new(false);
+    let mut code =
+        Code { system, graph, n, derivation: Differentiation::default(), is_portable, calls_elementary };
     let of_lagrangian = code.lagrangian(lagrangian);
     let of_rayleigh = rayleigh.map(|root| code.rayleigh(root));
     let of_force = force.as_ref().map(|components| code.force(components));
@@ -39,14 +46,15 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
         return None;
     }
     let item = match system.source {
+        Source::Block(block) if is_portable => portable::block(&block.item, &functions).to_token_stream(),
         Source::Block(block) => block.item.to_token_stream(),
         Source::Function(function) => {
             let structure = expand::structure(system, function);
-            let item = &function.item;
+            let item = if is_portable { &portable::function(&function.item) } else { &function.item };
             quote!(#item #structure)
         }
     };
-    let imports = imports(system);
+    let imports = imports(system, code.calls_elementary.get());
     let conditions = expand::conditions(system.source);
     let (scalar, dimension) = (&system.scalar, system.degrees.times(1));
     Some(quote! {
@@ -68,11 +76,17 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
 }
 
 /// What the expansion uses.
-fn imports(system: &System<'_>) -> TokenStream {
+fn imports(system: &System<'_>, calls_elementary: bool) -> TokenStream {
     let names = expand::imported(system);
+    let elementary = calls_elementary.then(|| {
+        quote!(
+            use ::dalembert::Elementary as _;
+        )
+    });
     quote! {
         use ::dalembert::nalgebra::{SMatrix, SVector};
         use ::dalembert::{#(#names),*};
+        #elementary
     }
 }
 
@@ -82,6 +96,9 @@ struct Code<'s> {
     graph: Graph,
     n: usize,
     derivation: Differentiation,
+    is_portable: bool,
+    /// Whether any function written calls one of the runtime's elementary functions.
+    calls_elementary: Cell<bool>,
 }
 
 impl Code<'_> {
@@ -260,12 +277,17 @@ impl Code<'_> {
     }
 
     fn code(&self, outputs: &[Node]) -> StraightLine {
-        straight_line(
+        let line = straight_line(
             &self.graph,
             &self.system.scalar,
             outputs,
             &["q", "v", "h", "half", "q0", "minus", "plus"],
-        )
+            self.is_portable,
+        );
+        if line.calls_elementary {
+            self.calls_elementary.set(true);
+        }
+        line
     }
 
     /// Splits outputs into scalars, vectors and matrices.
