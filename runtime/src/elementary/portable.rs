@@ -70,7 +70,7 @@ portable! {
     cosh() = libm::cosh;
     tanh() = libm::tanh;
     asinh() = libm::asinh;
-    acosh() = libm::acosh;
+    acosh() = acosh;
     atanh() = libm::atanh;
     powf(n: Self) = libm::pow;
     atan2(other: Self) = libm::atan2;
@@ -97,12 +97,24 @@ portable! {
     atan() = libm::atanf;
     sinh() = libm::sinhf;
     cosh() = libm::coshf;
-    tanh() = libm::tanhf;
+    tanh() = single::tanh;
     asinh() = libm::asinhf;
-    acosh() = libm::acoshf;
+    acosh() = acoshf;
     atanh() = libm::atanhf;
     powf(n: Self) = libm::powf;
     atan2(other: Self) = libm::atan2f;
     hypot(other: Self) = single::hypot;
     mul_add(a: Self, b: Self) = libm::fmaf;
+}
+
+/// libm's value at x ≤ −1 is a number; there is none.
+#[inline]
+fn acosh(x: f64) -> f64 {
+    if x < 1.0 { f64::NAN } else { libm::acosh(x) }
+}
+
+/// The same in `f32`.
+#[inline]
+fn acoshf(x: f32) -> f32 {
+    if x < 1.0 { f32::NAN } else { libm::acoshf(x) }
 }
