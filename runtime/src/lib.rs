@@ -1,7 +1,7 @@
 #![cfg_attr(feature = "std", doc = include_str!("../README.md"))]
 #![cfg_attr(
     not(feature = "std"),
-    doc = "Structure-preserving integrators for mechanical systems, without std: the step of hand-written systems."
+    doc = "Structure-preserving integrators for mechanical systems, without std: the step, and systems whose derivatives are written out."
 )]
 #![cfg_attr(not(feature = "std"), no_std)]
 
@@ -121,6 +121,10 @@ mod attributes {
 /// | sums | `mul_add` `midpoint`, `sum()` and `product()` of iterators |
 /// | questions, on the value alone | `is_nan` `is_finite` `is_infinite` `is_normal` `is_subnormal` `is_sign_positive` `is_sign_negative` `total_cmp`, `==` `<` `partial_cmp` |
 ///
+/// Without the feature `std` the same source compiles: elementary functions are those of [`Elementary`]. With `std` and `libm`
+/// they are so too, and a host repeats a microcontroller bit by bit. Other functions of the block, and code of your own, import
+/// [`Elementary`] to call them. Bodies must then be such that their derivatives can be written out.
+///
 /// Where a derivative does not exist, it is what the table of [`Real`](dual::Real) says.
 ///
 /// Refused, with a message at the token: type aliases, items and macros inside a body, functions outside the block, generic
@@ -132,7 +136,7 @@ pub use attributes::rayleigh_system;
 /// generator of a symmetry, a [`ScalarField`] if it returns `f64`, such as a generating function.
 ///
 /// Parameters after q become the fields of a struct named after the function, which stays callable. Bodies may contain what
-/// those of [`rayleigh_system`](macro@rayleigh_system) may, with closures for helpers.
+/// those of [`rayleigh_system`](macro@rayleigh_system) may, with closures for helpers. Needs the feature `std`.
 ///
 /// ```
 /// use dalembert::nalgebra::{matrix, vector};

@@ -12,7 +12,7 @@ use core::hint::black_box;
 use core::panic::PanicInfo;
 use core::ptr;
 
-use dalembert::{Discrete, Midpoint, Scalar, State, Trajectory};
+use dalembert::{Discrete, Elementary, Midpoint, State, Trajectory};
 use firmware_scenes::{STEPS, digest, double, single};
 use report::Line;
 
@@ -45,9 +45,10 @@ fn stack_used() -> u32 {
 }
 
 /// Steps `system` from `start` and reports; false where a step failed.
-fn run<L, S: Scalar>(name: &str, counter: &machine::Counter, system: &L, start: State<S, 2>, h: S) -> bool
+fn run<L, S>(name: &str, counter: &machine::Counter, system: &L, start: State<S, 2>, h: S) -> bool
 where
     L: Discrete<Midpoint, 2, Scalar = S>,
+    S: Elementary,
 {
     let mut trajectory = Trajectory::new(system, Midpoint, h, start);
     let (mut sum, mut worst, mut iterations, mut hash) = (0, 0, 0, 0);
@@ -67,6 +68,14 @@ where
     }
     let line = Line::new("scene").word(name).bits(hash);
     line.number(sum / STEPS).number(worst).number(iterations).write();
+    // What a step is made of.
+    let (q, v) = (black_box(start.q), black_box(trajectory.state().p));
+    let part = |part: &str, work: &dyn Fn()| {
+        Line::new("part").word(name).word(part).number(counter.instructions(work)).write();
+    };
+    part("sin_cos", &|| _ = black_box(Elementary::sin_cos(q[0])));
+    part("step_kernel", &|| _ = black_box(system.step_kernel(&q, &v, h)));
+    part("momenta", &|| _ = black_box(system.momenta(&q, &v, h)));
     // What a failing step costs, and its stack: no state is near, and none is a number.
     for q in [S::constant(1e30), S::constant(f64::NAN)] {
         let mut start = start;
