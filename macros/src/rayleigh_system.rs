@@ -67,8 +67,9 @@ pub fn rayleigh_system(runtime: Runtime, attribute: TokenStream, item: TokenStre
         });
     }
     let lowered = if options.engine == Engine::Auto { Some(lower::system(&system)) } else { None };
-    // What auto accepts does not depend on how far the lowering goes.
-    let system = rewrite::over_duals(system, &mut report);
+    // What auto accepts does not depend on how far the lowering goes: where it goes all the way, the twins serve for their
+    // diagnostics alone.
+    let twins = rewrite::over_duals(&system, &mut report);
     if !report.is_empty() {
         return fallback::with_stubs(&source, &options.rules, report);
     }
@@ -78,10 +79,10 @@ pub fn rayleigh_system(runtime: Runtime, attribute: TokenStream, item: TokenStre
             None => (source.name().span(), Mistake::TooLongWithoutStd),
         },
         Some(Err(refusal)) => (refusal.span, Mistake::NotLoweredWithoutStd(refusal.reason)),
-        None => return expand::system(&system),
+        None => return expand::system(&system, &twins),
     };
     if runtime.has_std {
-        return expand::system(&system);
+        return expand::system(&system, &twins);
     }
     report.at_span(span, mistake);
     fallback::with_stubs(&source, &options.rules, report)
@@ -99,12 +100,12 @@ pub fn differentiable(runtime: Runtime, attribute: TokenStream, item: TokenStrea
     let Some((system, field)) = check::field(&source, &mut report) else {
         return fallback::with_stubs(&source, &[], report);
     };
-    let system = rewrite::over_duals(system, &mut report);
+    let twins = rewrite::over_duals(&system, &mut report);
     if !runtime.has_std {
         report.at_span(source.name().span(), Mistake::FieldWithoutStd);
     }
     match &source {
-        Source::Function(function) if report.is_empty() => expand::field(&system, function, field),
+        Source::Function(function) if report.is_empty() => expand::field(&system, &twins[0], function, field),
         _ => fallback::with_stubs(&source, &[], report),
     }
 }

@@ -11,9 +11,9 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::derivatives::linear;
 use crate::error::{Quantity, StepError};
-use crate::newton;
+use crate::newton::{self, Equation};
 use crate::state::require_regular;
-use crate::{CovectorDerivatives, Derivatives, Lagrangian, Rayleigh, Scalar, State};
+use crate::{CovectorDerivatives, Derivatives, Lagrangian, Memory, NewtonMatrix, Rayleigh, Scalar, State};
 
 /// The discrete force f_d = (f_d⁻, f_d⁺): covectors at q0 and at q1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,11 +35,11 @@ pub struct DiscreteForceDerivatives<S, const N: usize> {
 
 /// The step's equation at a trial v̄ = (q1 − q0)/h.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepKernel<S, const N: usize> {
+pub struct StepKernel<S, const N: usize, M = SMatrix<S, N, N>> {
     /// The momentum −D1 L_d − f_d⁻ at q0, to be matched with the state's.
     pub p0: SVector<S, N>,
     /// Newton matrix ∂p0/∂v̄ = −h (D2 D1 L_d + D2 f_d⁻).
-    pub matrix: SMatrix<S, N, N>,
+    pub matrix: M,
 }
 
 /// Both momenta of a segment.
@@ -108,6 +108,16 @@ pub struct Step<S, const N: usize> {
     note = "list the rule in the attribute: `#[rayleigh_system(rule = [midpoint, trapezoidal])]`"
 )]
 pub trait Discrete<R, const N: usize>: Lagrangian<N> {
+    /// The form of the Newton matrix: `SMatrix<Scalar, N, N>`, or [`Banded`](crate::Banded).
+    type Matrix: NewtonMatrix<Self::Scalar, N>;
+
+    /// What a run of steps keeps from one to the next: [`VelocityHistory`](crate::VelocityHistory), unless the rule has
+    /// something better.
+    type Memory: Memory<Self, R, N>;
+
+    /// Whether the step's equation is linear in v̄, so that one correction solves it.
+    const LINEAR: bool = false;
+
     /// L_d(q0, q1, h).
     fn discrete_lagrangian(
         &self,
@@ -130,7 +140,7 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         q0: &SVector<Self::Scalar, N>,
         v: &SVector<Self::Scalar, N>,
         h: Self::Scalar,
-    ) -> StepKernel<Self::Scalar, N>;
+    ) -> StepKernel<Self::Scalar, N, Self::Matrix>;
 
     /// Both momenta of the segment from q0 with mean velocity `v`.
     fn momenta(
@@ -242,27 +252,33 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         h: Self::Scalar,
         guess: Option<&SVector<Self::Scalar, N>>,
     ) -> Result<Step<Self::Scalar, N>, StepError> {
-        let State { q: q0, p: p0 } = state;
         require_step_size(h)?;
-        StepError::require_finite(q0, Quantity::Configuration)?;
-        StepError::require_finite(p0, Quantity::Momentum)?;
-        let guess = match guess {
-            Some(v) => {
-                StepError::require_finite(v, Quantity::Velocity)?;
-                *v
-            }
+        let q0 = &state.q;
+        let start = match guess {
+            Some(v) => *v,
             None => {
                 let rest = nalgebra::zero();
-                require_regular(&self.lagrangian_derivatives(q0, &rest).d22)?;
+                require_regular(&self.lagrangian_derivatives(q0, &rest).d22)
+                    .map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
                 rest
             }
         };
-        let solution =
-            newton::solve(|q0, v| self.step_kernel(q0, v, h), |q0, v| self.momenta(q0, v, h), state, guess)?;
-        let state = State { q: q0 + solution.unknown * h, p: solution.momenta.p1 };
-        StepError::require_finite(&state.q, Quantity::Configuration)?;
-        StepError::require_finite(&state.p, Quantity::Momentum)?;
-        Ok(Step { state, velocity: solution.unknown, report: solution.report })
+        let kind = if Self::LINEAR { Equation::Linear } else { Equation::General };
+        let solution = newton::solve(
+            kind,
+            |q0, v| self.step_kernel(q0, v, h),
+            |q0, v| self.momenta(q0, v, h),
+            |q0, v| self.lagrangian_derivatives(q0, v).d22.diagonal(),
+            state,
+            start,
+        )
+        .map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
+        let change = solution.momenta.p1 - solution.momenta.p0;
+        // Added to the p0 given: the residual of the solver, always of one sign, would make it drift.
+        let next = State { q: q0 + solution.unknown * h, p: state.p + change };
+        // An argument that is not finite shows here or has failed above: none is looked at before.
+        next.require_finite().map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
+        Ok(Step { state: next, velocity: solution.unknown, report: solution.report })
     }
 
     /// The flow on Q×Q: (q0, q1) ↦ (q1, q2), with q2 = `state.q` of the step returned.
@@ -353,6 +369,16 @@ pub trait DiscreteRayleigh<R, const N: usize>: Discrete<R, N> + Rayleigh<N> {
         self.discrete_lagrangian_derivatives(q0, q1, h)
             + self.discrete_rayleigh_derivatives(q0, q1, h) * -Self::Scalar::constant(1.0)
     }
+}
+
+/// The first argument that is not finite: the cause, where a step has failed.
+#[cold]
+fn in_arguments<S: Scalar, const N: usize>(
+    state: &State<S, N>,
+    guess: Option<&SVector<S, N>>,
+) -> Option<StepError> {
+    let of_guess = || guess.map_or(Ok(()), |v| StepError::require_finite(v, Quantity::Velocity));
+    state.require_finite().and_then(|()| of_guess()).err()
 }
 
 #[inline]

@@ -14,6 +14,7 @@ mod error;
 mod fields;
 mod linear;
 mod linearization;
+mod memory;
 mod newton;
 mod rules;
 mod scalar;
@@ -165,7 +166,9 @@ pub use discrete::{
 pub use elementary::Elementary;
 pub use error::{Quantity, StepError};
 pub use fields::{ScalarField, VectorField};
+pub use linear::{Banded, NewtonMatrix, Singular};
 pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix};
+pub use memory::{Memory, VelocityHistory};
 pub use rules::{DisplacementRule, Midpoint, Node, Trapezoidal};
 pub use scalar::Scalar;
 pub use state::State;

@@ -7,7 +7,7 @@ use syn::{
 };
 
 use super::diagnostics::{Mistake, Report};
-use super::model::{Body, Degrees, Function, RayleighArguments, Rule, Source, System, simple_name};
+use super::model::{Degrees, Function, RayleighArguments, Rule, Source, System, simple_name};
 
 /// The system as far as its signatures tell, or nothing if not even N is known; every wrong one is reported.
 pub fn system<'a>(source: &'a Source, rules: Vec<Rule>, report: &mut Report) -> Option<System<'a>> {
@@ -39,7 +39,7 @@ fn block<'a>(source: &'a Source, rules: Vec<Rule>, report: &mut Report) -> Optio
     let mut bodies = Vec::new();
     let mut keep = |function, before, report: &Report| {
         if report.count() == before {
-            bodies.push(Body::of(function));
+            bodies.push(ImplItemFn::clone(function));
         }
     };
     keep(lagrangian, before, report);
@@ -170,15 +170,9 @@ fn function_system<'a>(
         degrees: shape.degrees,
         scalar: shape.scalar,
         rules,
-        bodies: vec![Body::of(&body)],
+        bodies: vec![body],
         rayleigh,
         has_force: false,
-    }
-}
-
-impl Body {
-    pub fn of(function: &ImplItemFn) -> Self {
-        Self { plain: function.clone(), over: function.clone() }
     }
 }
 

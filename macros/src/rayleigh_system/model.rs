@@ -142,8 +142,8 @@ pub struct System<'a> {
     /// `f64` or `f32`.
     pub scalar: Ident,
     pub rules: Vec<Rule>,
-    /// Functions to differentiate: L, R, f and the helpers that they call.
-    pub bodies: Vec<Body>,
+    /// L, R and f, as far as their signatures are right.
+    pub bodies: Vec<ImplItemFn>,
     pub rayleigh: Option<RayleighArguments>,
     pub has_force: bool,
 }
@@ -153,14 +153,6 @@ pub struct System<'a> {
 pub enum RayleighArguments {
     Velocity,
     ConfigurationAndVelocity,
-}
-
-/// A function that is differentiated.
-pub struct Body {
-    /// As the user wrote it.
-    pub plain: ImplItemFn,
-    /// Rewritten over `Real<D>`; the same as `plain` until then.
-    pub over: ImplItemFn,
 }
 
 impl Source {

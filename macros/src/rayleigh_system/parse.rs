@@ -31,6 +31,7 @@ const RESERVED: &[&str] = &[
     "SMatrix",
     "Vector",
     "VectorField",
+    "VelocityHistory",
     "ScalarField",
     "D",
 ];

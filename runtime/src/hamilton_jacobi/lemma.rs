@@ -83,11 +83,13 @@ where
             StepKernel { p0: l.d2 - s1.gradient(&x), matrix: (l.d22 - s1.hessian(&x)) * h }
         };
         let solution = newton::solve(
+            newton::Equation::General,
             difference,
             |q, v| {
                 let p = difference(q, v).p0;
                 Momenta { p0: p, p1: p }
             },
+            |q, v| self.system.lagrangian_derivatives(q, v).d22.diagonal(),
             &State { q: *q, p: nalgebra::zero() },
             guess.copied().unwrap_or_else(nalgebra::zero),
         )
