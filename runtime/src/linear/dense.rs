@@ -15,7 +15,7 @@ impl<S: Scalar, const N: usize> NewtonMatrix<S, N> for SMatrix<S, N, N> {
 
     #[inline]
     fn entry(&self, row: usize, column: usize) -> S {
-        self[(row, column)]
+        self.get((row, column)).copied().unwrap_or_else(S::zero)
     }
 
     #[inline]
