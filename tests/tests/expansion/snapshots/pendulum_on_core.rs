@@ -14,7 +14,7 @@ const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{
         Derivatives, Direction, Discrete, DisplacementRule, Gradient, Lagrangian,
-        Midpoint, Momenta, StepKernel, Variations,
+        Midpoint, Momenta, StepKernel, Variations, VelocityHistory,
     };
     use ::dalembert::Elementary as _;
     type Vector = SVector<f64, 1>;
@@ -77,6 +77,8 @@ const _: () = {
     }
     #[automatically_derived]
     impl Discrete<Midpoint, 1> for Pendulum {
+        type Matrix = SMatrix<f64, 1, 1>;
+        type Memory = VelocityHistory<f64, 1>;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)
