@@ -20,6 +20,7 @@ pub mod parse;
 mod portable;
 mod rewrite;
 mod scope;
+mod structure;
 mod syntax;
 
 use proc_macro2::TokenStream;
@@ -56,36 +57,31 @@ pub fn rayleigh_system(runtime: Runtime, attribute: TokenStream, item: TokenStre
         return fallback::with_stubs(&source, &options.rules, report);
     };
     if options.engine == Engine::Expanded && report.is_empty() {
-        let expansion = match lower::system(&system) {
-            Ok(lowered) => expanded::system(&system, lowered, runtime.is_portable)
-                .ok_or((source.name().span(), Mistake::TooLong)),
-            Err(refusal) => Err((refusal.span, Mistake::NotLowered(refusal.reason))),
-        };
-        return expansion.unwrap_or_else(|(span, mistake)| {
-            report.at_span(span, mistake);
+        let expansion = lower::system(&system)
+            .and_then(|lowered| expanded::system(&system, lowered, runtime.is_portable));
+        return expansion.unwrap_or_else(|refusal| {
+            report.at_span(refusal.span, Mistake::NotLowered(refusal.reason));
             fallback::with_stubs(&source, &options.rules, report)
         });
     }
-    let lowered = if options.engine == Engine::Auto { Some(lower::system(&system)) } else { None };
+    let lowered = (options.engine == Engine::Auto).then(|| lower::system(&system));
     // What auto accepts does not depend on how far the lowering goes: where it goes all the way, the twins serve for their
     // diagnostics alone.
     let twins = rewrite::over_duals(&system, &mut report);
     if !report.is_empty() {
         return fallback::with_stubs(&source, &options.rules, report);
     }
-    let (span, mistake) = match lowered {
-        Some(Ok(lowered)) => match expanded::system(&system, lowered, runtime.is_portable) {
-            Some(expansion) => return expansion,
-            None => (source.name().span(), Mistake::TooLongWithoutStd),
-        },
-        Some(Err(refusal)) => (refusal.span, Mistake::NotLoweredWithoutStd(refusal.reason)),
-        None => return expand::system(&system, &twins),
-    };
-    if runtime.has_std {
-        return expand::system(&system, &twins);
+    let expansion = lowered
+        .map(|lowered| lowered.and_then(|lowered| expanded::system(&system, lowered, runtime.is_portable)));
+    match expansion {
+        Some(Ok(expansion)) => expansion,
+        Some(Err(refusal)) if !runtime.has_std => {
+            report.at_span(refusal.span, Mistake::NotLoweredWithoutStd(refusal.reason));
+            fallback::with_stubs(&source, &options.rules, report)
+        }
+        Some(Err(refusal)) => expand::system(&system, &twins, Some(refusal)),
+        None => expand::system(&system, &twins, None),
     }
-    report.at_span(span, mistake);
-    fallback::with_stubs(&source, &options.rules, report)
 }
 
 /// The expansion of `#[differentiable] item`: the same stages, for a function of (q, parameters…).

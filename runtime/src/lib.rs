@@ -19,6 +19,7 @@ mod newton;
 mod rules;
 mod scalar;
 mod state;
+mod structure;
 mod system;
 mod trajectory;
 
@@ -166,11 +167,12 @@ pub use discrete::{
 pub use elementary::Elementary;
 pub use error::{Quantity, StepError};
 pub use fields::{ScalarField, VectorField};
-pub use linear::{Banded, NewtonMatrix, Singular};
+pub use linear::{Banded, Factored, FactoredBand, FactoredDense, NewtonMatrix, Singular};
 pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix};
-pub use memory::{Memory, VelocityHistory};
+pub use memory::{Explicit, ExplicitMemory, KeptMatrix, Memory, VelocityHistory};
 pub use rules::{DisplacementRule, Midpoint, Node, Trapezoidal};
 pub use scalar::Scalar;
 pub use state::State;
+pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
 pub use system::{Force, Lagrangian, Rayleigh};
 pub use trajectory::{Sample, Samples, Trajectory};
