@@ -166,7 +166,7 @@ fn differences(
     }
     Some(std::array::from_fn(|group| {
         let pairs = at_a[group].iter().zip(&at_b[group]).zip(&spreads[group]);
-        pairs.fold(0.0, |largest, ((a, b), spread)| {
+        pairs.fold(0.0_f64, |largest, ((a, b), spread)| {
             let difference = (a - b).abs() / (40.0 * spread + 64.0 * f64::EPSILON * scale);
             // A NaN is farther off than anything.
             largest.max(if difference.is_nan() { f64::INFINITY } else { difference })
