@@ -106,6 +106,7 @@ fn oscillator() {
 #[test]
 fn chain() {
     let expansion = rayleigh_system(
+        Runtime::STD,
         quote!(derivatives = expanded),
         quote! {
             impl Chain {
@@ -128,6 +129,7 @@ fn chain() {
 #[test]
 fn linear_oscillators() {
     let expansion = rayleigh_system(
+        Runtime::STD,
         quote!(),
         quote! {
             fn linear(q: [f64; 2], v: [f64; 2], k: f64, c: f64) -> (f64, f64) {
@@ -143,6 +145,7 @@ fn linear_oscillators() {
 #[test]
 fn explicit_ring() {
     let expansion = rayleigh_system(
+        Runtime::STD,
         quote!(rule = trapezoidal),
         quote! {
             impl Ring {
@@ -163,6 +166,7 @@ fn explicit_ring() {
 #[test]
 fn findings_are_documented() {
     let expansion = rayleigh_system(
+        Runtime::STD,
         quote!(),
         quote! {
             fn polar(q: [f64; 3], v: [f64; 3], r: f64) -> (f64, f64) {

@@ -14,13 +14,26 @@ const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{
         Derivatives, Direction, Discrete, DisplacementRule, Gradient, Lagrangian,
-        Midpoint, Momenta, StepKernel, Variations, VelocityHistory,
+        Midpoint, Momenta, StepKernel, Variations,
     };
     use ::dalembert::Elementary as _;
     type Vector = SVector<f64, 1>;
+    /// Known at compile time:
+    /// - Derivatives are written out.
+    /// - L = T(v) − V(q).
+    /// - The mass matrix ∂²L/∂v² is constant.
+    /// - By the rule `Midpoint` the Newton matrix changes with the state.
     #[automatically_derived]
     impl Lagrangian<1> for Pendulum {
         type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::Expanded)
+            .with_constant_mass_matrix()
+            .with_separable_lagrangian()
+            .with_damping(::dalembert::Damping::Absent)
+            .with_newton_matrices(
+                &[::dalembert::NewtonStructure::new("Midpoint", false, 0)],
+            );
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             self.lagrangian((*q).into(), (*v).into())
@@ -69,7 +82,7 @@ const _: () = {
                 mixed: SMatrix::from([
                     [
                         minus_second * plus_second
-                            - cos_q0 * g * (minus_first * plus_first),
+                            - cos_q0 * (plus_first * (g * minus_first)),
                     ],
                 ]),
             }
@@ -78,7 +91,7 @@ const _: () = {
     #[automatically_derived]
     impl Discrete<Midpoint, 1> for Pendulum {
         type Matrix = SMatrix<f64, 1, 1>;
-        type Memory = VelocityHistory<f64, 1>;
+        type Memory = ::dalembert::VelocityHistory<f64, 1>;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)
@@ -98,10 +111,10 @@ const _: () = {
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0]];
             let (sin_q0, cos_q0) = q[0].elementary().sin_cos();
-            let g = self.g;
+            let t1 = self.g * half;
             StepKernel {
-                p0: SVector::from([v[0] + g * sin_q0 * half]),
-                matrix: SMatrix::from([[1.0 + cos_q0 * g * (half * half)]]),
+                p0: SVector::from([v[0] + sin_q0 * t1]),
+                matrix: SMatrix::from([[1.0 + cos_q0 * (half * t1)]]),
             }
         }
         /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
@@ -109,7 +122,7 @@ const _: () = {
         fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0]];
-            let t1 = self.g * q[0].elementary().sin() * half;
+            let t1 = q[0].elementary().sin() * (self.g * half);
             Momenta {
                 p0: SVector::from([v[0] + t1]),
                 p1: SVector::from([v[0] - t1]),
