@@ -24,7 +24,8 @@ use super::structure::{self, Differentiated, Findings, Structure, Terms};
 /// The whole expansion, unless the derivatives are too long to be written out.
 pub fn system(system: &System<'_>, lowered: Lowered) -> Result<TokenStream, Refusal> {
     let Lowered { graph, n, lagrangian, rayleigh, force } = lowered;
-    let mut code = Code { system, graph, n, derivation: Differentiation::default() };
+    let written = graph.len();
+    let mut code = Code { system, graph, written, n, derivation: Differentiation::default() };
     let of_lagrangian = code.function("lagrangian", "l", lagrangian);
     let of_rayleigh = rayleigh.map(|root| code.function("rayleigh", "r", root));
     let of_force = force.as_ref().map(|components| code.force(components));
@@ -94,6 +95,8 @@ fn imports(system: &System<'_>) -> TokenStream {
 struct Code<'s> {
     system: &'s System<'s>,
     graph: Graph,
+    /// How many expressions the user wrote.
+    written: usize,
     n: usize,
     derivation: Differentiation,
 }
@@ -230,11 +233,12 @@ impl Code<'_> {
         self.matrix(|code, i, j| code.second(of, (i, row_velocity), (j, column_velocity)))
     }
 
-    fn code(&self, outputs: &[Node]) -> StraightLine {
+    fn code(&mut self, outputs: &[Node]) -> StraightLine {
+        let outputs = self.graph.factored(outputs, self.written);
         straight_line(
             &self.graph,
             &self.system.scalar,
-            outputs,
+            &outputs,
             &["q", "v", "h", "half", "q0", "q1", "minus", "plus"],
         )
     }

@@ -6,6 +6,7 @@
 //! because nothing depends on the variable is absent, never a factor 0: no NaN or infinity is hidden by a product.
 
 mod algebra;
+mod factor;
 mod operation;
 
 #[cfg(test)]
@@ -191,7 +192,7 @@ impl Graph {
             let replacement = match operation {
                 Operation::Coordinate(index) => configuration[index],
                 _ => {
-                    let replacement = self.node(operation.on(|argument| moved[&argument]));
+                    let replacement = self.node(operation.with_arguments(|argument| moved[&argument]));
                     if let Some(name) = self.names.get(&node).cloned() {
                         self.give_name(replacement, &name);
                     }

@@ -1,9 +1,8 @@
-//! The midpoint rule's equation. With K = L + (h/2) R and K⁻ = L − (h/2) R at q̄ = q0 + h v̄/2:
+//! The midpoint rule's equation. With K = L + (h/2) R at q̄ = q0 + h v̄/2:
 //!
 //! ```text
-//! p0      = K_v − (h/2) (K_q + f)
+//! p0, p1  = L_v − (h²/4) R_q ∓ (h/2) (L_q − R_v + f)
 //! ∂p0/∂v̄  = K_vv + (h/2) K_vq − (h/2) (K_qv + f_v) − (h²/4) (K_qq + f_q)
-//! p1      = K⁻_v + (h/2) (K⁻_q + f)
 //! ```
 
 use std::collections::BTreeMap;
@@ -19,25 +18,16 @@ impl Code<'_> {
         let minus = Along { first: Some(negative), second: Some(one) };
         let plus = Along { first: Some(half), second: Some(one) };
 
-        let before = self.modified(&parts.lagrangian, half, &parts.rayleigh);
-        let after = self.modified(&parts.lagrangian, negative, &parts.rayleigh);
+        let modified = self.combined(&parts.lagrangian.hessian, half, &parts.rayleigh.hessian);
+        let before = Derivatives { gradient: Gradient::new(), hessian: modified };
         let by_v: Vec<Vec<Node>> = parts.rows.iter().map(|row| self.along(row, plus)).collect();
 
-        let p0 = self.with_force(&before.gradient, minus, &parts.force);
-        let p1 = self.with_force(&after.gradient, plus, &parts.force);
+        let [p0, p1] = self.momenta(half, parts);
         let matrix = self.by_velocity(&before, minus, plus, &by_v);
         Equation { p0, p1, matrix }
     }
 
-    /// L ± (h/2) R.
-    fn modified(&mut self, lagrangian: &Derivatives, share: Node, rayleigh: &Derivatives) -> Derivatives {
-        Derivatives {
-            gradient: self.combined(&lagrangian.gradient, share, &rayleigh.gradient),
-            hessian: self.combined(&lagrangian.hessian, share, &rayleigh.hessian),
-        }
-    }
-
-    /// The derivative of ∂_direction (L ± (h/2) R), with the force's share, by v̄: column by column.
+    /// The derivative of ∂_direction (L + (h/2) R), with the force's share, by v̄: column by column.
     fn by_velocity(
         &mut self,
         of: &Derivatives,
@@ -58,15 +48,41 @@ impl Code<'_> {
         })
     }
 
-    /// K_v + first (K_q + f).
-    fn with_force(&mut self, gradient: &Gradient, along: Along, force: &[Node]) -> Vec<Node> {
-        let mut gradient = gradient.clone();
-        for (index, &component) in force.iter().enumerate() {
-            let variable = self.variable(index, false);
-            let sum = self.added(gradient.get(&variable).copied(), component);
-            gradient.insert(variable, sum);
+    /// p0 and p1: half their sum and half their difference, each once.
+    fn momenta(&mut self, half: Node, Parts { lagrangian, rayleigh, force, .. }: &Parts) -> [Vec<Node>; 2] {
+        let (mut p0, mut p1) = (Vec::new(), Vec::new());
+        let square = self.graph.times(half, half);
+        for index in 0..self.n {
+            let [coordinate, velocity] = [false, true].map(|velocity| self.variable(index, velocity));
+            let of_rayleigh = |variable| rayleigh.gradient.get(&variable).copied();
+            let shift = of_rayleigh(coordinate).map(|by_q| self.graph.times(square, by_q));
+            let drag = of_rayleigh(velocity);
+            let mean = self.difference(lagrangian.gradient.get(&velocity).copied(), shift);
+            let of_force = force.get(index).copied();
+            let acting = match (lagrangian.gradient.get(&coordinate).copied(), of_force) {
+                (sum, Some(component)) => Some(self.added(sum, component)),
+                (sum, None) => sum,
+            };
+            let acting = self.difference(acting, drag);
+            let impulse = acting.map(|acting| self.graph.times(half, acting));
+            let before = self.difference(mean, impulse);
+            let after = match (mean, impulse) {
+                (mean, Some(impulse)) => Some(self.added(mean, impulse)),
+                (mean, None) => mean,
+            };
+            p0.push(self.or_zero(before));
+            p1.push(self.or_zero(after));
         }
-        self.along(&gradient, along)
+        [p0, p1]
+    }
+
+    /// a − b, where they are there.
+    fn difference(&mut self, a: Option<Node>, b: Option<Node>) -> Option<Node> {
+        match (a, b) {
+            (Some(a), Some(b)) => Some(self.graph.minus(a, b)),
+            (None, Some(b)) => Some(self.graph.negated(b)),
+            (a, None) => a,
+        }
     }
 
     /// a + factor × b.

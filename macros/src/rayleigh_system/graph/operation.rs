@@ -43,24 +43,24 @@ impl Operation {
     }
 
     /// The same operation on other arguments.
-    pub fn on(self, mut other: impl FnMut(Node) -> Node) -> Self {
+    pub fn with_arguments(self, mut of: impl FnMut(Node) -> Node) -> Self {
         match self {
             Self::Coordinate(_) | Self::Velocity(_) | Self::Parameter(_) | Self::Constant(_) => self,
-            Self::Negate(a) => Self::Negate(other(a)),
-            Self::Function(function, a) => Self::Function(function, other(a)),
-            Self::Power(a, n) => Self::Power(other(a), n),
-            Self::Is(predicate, a) => Self::Is(predicate, other(a)),
-            Self::Not(a) => Self::Not(other(a)),
-            Self::Add(a, b) => Self::Add(other(a), other(b)),
-            Self::Subtract(a, b) => Self::Subtract(other(a), other(b)),
-            Self::Multiply(a, b) => Self::Multiply(other(a), other(b)),
-            Self::Divide(a, b) => Self::Divide(other(a), other(b)),
-            Self::Pair(function, a, b) => Self::Pair(function, other(a), other(b)),
-            Self::Compare(comparison, a, b) => Self::Compare(comparison, other(a), other(b)),
-            Self::And(a, b) => Self::And(other(a), other(b)),
-            Self::Or(a, b) => Self::Or(other(a), other(b)),
-            Self::Select(a, b, c) => Self::Select(other(a), other(b), other(c)),
-            Self::MultiplyAdd(a, b, c) => Self::MultiplyAdd(other(a), other(b), other(c)),
+            Self::Add(a, b) => Self::Add(of(a), of(b)),
+            Self::Subtract(a, b) => Self::Subtract(of(a), of(b)),
+            Self::Multiply(a, b) => Self::Multiply(of(a), of(b)),
+            Self::Divide(a, b) => Self::Divide(of(a), of(b)),
+            Self::Negate(a) => Self::Negate(of(a)),
+            Self::Function(function, a) => Self::Function(function, of(a)),
+            Self::Pair(function, a, b) => Self::Pair(function, of(a), of(b)),
+            Self::Power(a, n) => Self::Power(of(a), n),
+            Self::Select(condition, a, b) => Self::Select(of(condition), of(a), of(b)),
+            Self::MultiplyAdd(a, b, c) => Self::MultiplyAdd(of(a), of(b), of(c)),
+            Self::Compare(comparison, a, b) => Self::Compare(comparison, of(a), of(b)),
+            Self::Is(predicate, a) => Self::Is(predicate, of(a)),
+            Self::Not(a) => Self::Not(of(a)),
+            Self::And(a, b) => Self::And(of(a), of(b)),
+            Self::Or(a, b) => Self::Or(of(a), of(b)),
         }
     }
 

@@ -45,22 +45,22 @@ const _: () = {
                 + (v[2] * (0.5 * v[2]) + (v[0] * (0.5 * v[0]) + v[1] * (0.5 * v[1])));
             let d = q[1] - q[0];
             let square = d * d;
-            let t1 = 0.25 * self.beta;
-            let t2 = square * t1;
+            let beta = self.beta;
+            let t1 = 0.25 * beta;
             let d_2 = q[2] - q[1];
             let square_2 = d_2 * d_2;
-            let t3 = t1 * square_2;
             let d_3 = q[3] - q[2];
             let square_3 = d_3 * d_3;
-            let t4 = t1 * square_3;
-            let springs = 0.5 * square_3 + square_3 * t4
-                + (0.5 * square + square * t2 + (0.5 * square_2 + square_2 * t3));
-            let dl_dsquare = -0.5 - 2.0 * t4;
-            let dl_dd = dl_dsquare * (2.0 * d_3);
-            let dl_dsquare_2 = -0.5 - 2.0 * t3;
-            let dl_dd_2 = dl_dsquare_2 * (2.0 * d_2);
-            let dl_dsquare_3 = -0.5 - 2.0 * t2;
-            let dl_dd_3 = dl_dsquare_3 * (2.0 * d);
+            let springs = 0.5 * square_3 + square_3 * (t1 * square_3)
+                + (0.5 * square + square * (square * t1)
+                    + (0.5 * square_2 + square_2 * (t1 * square_2)));
+            let t2 = 0.5 * beta;
+            let dl_dsquare = -(0.5 + square_3 * t2);
+            let dl_dd = 2.0 * d_3 * dl_dsquare;
+            let dl_dsquare_2 = -(0.5 + square_2 * t2);
+            let dl_dd_2 = 2.0 * d_2 * dl_dsquare_2;
+            let dl_dsquare_3 = -(0.5 + square * t2);
+            let dl_dd_3 = 2.0 * d * dl_dsquare_3;
             Gradient {
                 value: kinetic - springs,
                 d1: SVector::from([-dl_dd_3, dl_dd_3 - dl_dd_2, dl_dd_2 - dl_dd, dl_dd]),
@@ -75,39 +75,38 @@ const _: () = {
             let square = d * d;
             let beta = self.beta;
             let t1 = 0.25 * beta;
-            let t2 = square * t1;
             let d_2 = q[2] - q[1];
             let square_2 = d_2 * d_2;
-            let t3 = t1 * square_2;
             let d_3 = q[3] - q[2];
             let square_3 = d_3 * d_3;
-            let t4 = t1 * square_3;
-            let springs = 0.5 * square_3 + square_3 * t4
-                + (0.5 * square + square * t2 + (0.5 * square_2 + square_2 * t3));
-            let dl_dsquare = -0.5 - 2.0 * t4;
-            let t5 = 2.0 * d_3;
-            let dl_dd = dl_dsquare * t5;
-            let dl_dsquare_2 = -0.5 - 2.0 * t3;
-            let t6 = 2.0 * d_2;
-            let dl_dd_2 = dl_dsquare_2 * t6;
-            let dl_dsquare_3 = -0.5 - 2.0 * t2;
-            let t7 = 2.0 * d;
-            let dl_dd_3 = dl_dsquare_3 * t7;
-            let t8 = 2.0 * dl_dsquare - t5 * (beta * d_3);
+            let springs = 0.5 * square_3 + square_3 * (t1 * square_3)
+                + (0.5 * square + square * (square * t1)
+                    + (0.5 * square_2 + square_2 * (t1 * square_2)));
+            let t2 = 2.0 * d_3;
+            let t3 = 2.0 * d_2;
+            let t4 = 2.0 * d;
+            let t5 = 0.5 * beta;
+            let dl_dsquare = -(0.5 + square_3 * t5);
+            let dl_dd = t2 * dl_dsquare;
+            let dl_dsquare_2 = -(0.5 + square_2 * t5);
+            let dl_dd_2 = t3 * dl_dsquare_2;
+            let dl_dsquare_3 = -(0.5 + square * t5);
+            let dl_dd_3 = t4 * dl_dsquare_3;
+            let t6 = 2.0 * dl_dsquare - t2 * (beta * d_3);
+            let t7 = -t6;
+            let t8 = 2.0 * dl_dsquare_2 - t3 * (beta * d_2);
             let t9 = -t8;
-            let t10 = 2.0 * dl_dsquare_2 - t6 * (beta * d_2);
+            let t10 = 2.0 * dl_dsquare_3 - t4 * (d * beta);
             let t11 = -t10;
-            let t12 = 2.0 * dl_dsquare_3 - t7 * (d * beta);
-            let t13 = -t12;
             Derivatives {
                 value: kinetic - springs,
                 d1: SVector::from([-dl_dd_3, dl_dd_3 - dl_dd_2, dl_dd_2 - dl_dd, dl_dd]),
                 d2: SVector::from([v[0], v[1], v[2], v[3]]),
                 d11: SMatrix::from([
-                    [t12, t13, 0.0, 0.0],
-                    [t13, t10 + t12, t11, 0.0],
-                    [0.0, t11, t8 + t10, t9],
-                    [0.0, 0.0, t9, t8],
+                    [t10, t11, 0.0, 0.0],
+                    [t11, t8 + t10, t9, 0.0],
+                    [0.0, t9, t6 + t8, t7],
+                    [0.0, 0.0, t7, t6],
                 ]),
                 d12: SMatrix::from([
                     [0.0, 0.0, 0.0, 0.0],
@@ -134,25 +133,25 @@ const _: () = {
             let d = q[1] - q[0];
             let square = d * d;
             let beta = self.beta;
-            let t1 = 0.25 * beta;
             let d_2 = q[2] - q[1];
             let square_2 = d_2 * d_2;
             let d_3 = q[3] - q[2];
             let square_3 = d_3 * d_3;
-            let dl_dsquare = -0.5 - 2.0 * (t1 * square_3);
-            let t2 = 2.0 * d_3;
-            let dl_dd = dl_dsquare * t2;
-            let dl_dsquare_2 = -0.5 - 2.0 * (t1 * square_2);
-            let t3 = 2.0 * d_2;
-            let dl_dd_2 = dl_dsquare_2 * t3;
-            let t4 = dl_dd_2 - dl_dd;
-            let dl_dsquare_3 = -0.5 - 2.0 * (square * t1);
-            let t5 = 2.0 * d;
-            let dl_dd_3 = dl_dsquare_3 * t5;
+            let t1 = 2.0 * d_3;
+            let t2 = 2.0 * d_2;
+            let t3 = 2.0 * d;
+            let t4 = 0.5 * beta;
+            let dl_dsquare = -(0.5 + square_3 * t4);
+            let dl_dd = t1 * dl_dsquare;
+            let dl_dsquare_2 = -(0.5 + square_2 * t4);
+            let dl_dd_2 = t2 * dl_dsquare_2;
+            let t5 = dl_dd_2 - dl_dd;
+            let dl_dsquare_3 = -(0.5 + square * t4);
+            let dl_dd_3 = t3 * dl_dsquare_3;
             let t6 = dl_dd_3 - dl_dd_2;
-            let t7 = 2.0 * dl_dsquare - t2 * (beta * d_3);
-            let t8 = 2.0 * dl_dsquare_2 - t3 * (beta * d_2);
-            let t9 = 2.0 * dl_dsquare_3 - t5 * (d * beta);
+            let t7 = 2.0 * dl_dsquare - t1 * (beta * d_3);
+            let t8 = 2.0 * dl_dsquare_2 - t2 * (beta * d_2);
+            let t9 = 2.0 * dl_dsquare_3 - t3 * (d * beta);
             let minus_first = minus.first;
             let minus_second = minus.second;
             let plus_first = plus.first;
@@ -168,13 +167,13 @@ const _: () = {
                 minus: SVector::from([
                     v[0] * minus_second - dl_dd_3 * minus_first,
                     v[1] * minus_second + t6 * minus_first,
-                    v[2] * minus_second + t4 * minus_first,
+                    v[2] * minus_second + t5 * minus_first,
                     v[3] * minus_second + dl_dd * minus_first,
                 ]),
                 plus: SVector::from([
                     v[0] * plus_second - dl_dd_3 * plus_first,
                     v[1] * plus_second + t6 * plus_first,
-                    v[2] * plus_second + t4 * plus_first,
+                    v[2] * plus_second + t5 * plus_first,
                     v[3] * plus_second + dl_dd * plus_first,
                 ]),
                 mixed: SMatrix::from([
@@ -221,23 +220,23 @@ const _: () = {
             let d = q[1] - q[0];
             let square = d * d;
             let beta = self.beta;
-            let t1 = 0.25 * beta;
             let d_2 = q[2] - q[1];
             let square_2 = d_2 * d_2;
             let d_3 = q[3] - q[2];
             let square_3 = d_3 * d_3;
-            let dl_dsquare = -0.5 - 2.0 * (t1 * square_3);
-            let t2 = 2.0 * d_3;
-            let dl_dd = dl_dsquare * t2;
-            let dl_dsquare_2 = -0.5 - 2.0 * (t1 * square_2);
-            let t3 = 2.0 * d_2;
-            let dl_dd_2 = dl_dsquare_2 * t3;
-            let dl_dsquare_3 = -0.5 - 2.0 * (square * t1);
-            let t4 = 2.0 * d;
-            let dl_dd_3 = dl_dsquare_3 * t4;
-            let t5 = 2.0 * dl_dsquare - t2 * (beta * d_3);
-            let t6 = 2.0 * dl_dsquare_2 - t3 * (beta * d_2);
-            let t7 = 2.0 * dl_dsquare_3 - t4 * (d * beta);
+            let t1 = 2.0 * d_3;
+            let t2 = 2.0 * d_2;
+            let t3 = 2.0 * d;
+            let t4 = 0.5 * beta;
+            let dl_dsquare = -(0.5 + square_3 * t4);
+            let dl_dd = t1 * dl_dsquare;
+            let dl_dsquare_2 = -(0.5 + square_2 * t4);
+            let dl_dd_2 = t2 * dl_dsquare_2;
+            let dl_dsquare_3 = -(0.5 + square * t4);
+            let dl_dd_3 = t3 * dl_dsquare_3;
+            let t5 = 2.0 * dl_dsquare - t1 * (beta * d_3);
+            let t6 = 2.0 * dl_dsquare_2 - t2 * (beta * d_2);
+            let t7 = 2.0 * dl_dsquare_3 - t3 * (d * beta);
             let t8 = half * half;
             let t9 = t7 * t8;
             let t10 = t6 * t8;
@@ -271,17 +270,17 @@ const _: () = {
             ];
             let d = q[1] - q[0];
             let square = d * d;
-            let t1 = 0.25 * self.beta;
             let d_2 = q[2] - q[1];
             let square_2 = d_2 * d_2;
             let d_3 = q[3] - q[2];
             let square_3 = d_3 * d_3;
-            let dl_dsquare = -0.5 - 2.0 * (t1 * square_3);
-            let dl_dd = dl_dsquare * (2.0 * d_3);
-            let dl_dsquare_2 = -0.5 - 2.0 * (t1 * square_2);
-            let dl_dd_2 = dl_dsquare_2 * (2.0 * d_2);
-            let dl_dsquare_3 = -0.5 - 2.0 * (square * t1);
-            let dl_dd_3 = dl_dsquare_3 * (2.0 * d);
+            let t1 = 0.5 * self.beta;
+            let dl_dsquare = -(0.5 + square_3 * t1);
+            let dl_dd = 2.0 * d_3 * dl_dsquare;
+            let dl_dsquare_2 = -(0.5 + square_2 * t1);
+            let dl_dd_2 = 2.0 * d_2 * dl_dsquare_2;
+            let dl_dsquare_3 = -(0.5 + square * t1);
+            let dl_dd_3 = 2.0 * d * dl_dsquare_3;
             let t2 = dl_dd_3 * half;
             let t3 = (dl_dd_3 - dl_dd_2) * half;
             let t4 = (dl_dd_2 - dl_dd) * half;

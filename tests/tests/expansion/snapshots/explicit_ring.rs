@@ -41,10 +41,10 @@ const _: () = {
             let s = q[0] * q[0] + q[1] * q[1];
             let t1 = s - 1.0;
             let t2 = t1 * t1;
-            let t3 = t2 + s * (2.0 * t1);
+            let t3 = t2 + t1 * (2.0 * s);
             Gradient {
                 value: 0.5 * (v[0] * v[0] + v[1] * v[1]) - s * t2,
-                d1: SVector::from([-(t3 * (2.0 * q[0])), -(t3 * (2.0 * q[1]))]),
+                d1: SVector::from([-(2.0 * q[0] * t3), -(2.0 * q[1] * t3)]),
                 d2: SVector::from([v[0], v[1]]),
             }
         }
@@ -53,20 +53,21 @@ const _: () = {
             let s = q[0] * q[0] + q[1] * q[1];
             let t1 = s - 1.0;
             let t2 = t1 * t1;
-            let t3 = t2 + s * (2.0 * t1);
-            let t4 = 2.0 * q[1];
-            let t5 = 2.0 * q[0];
-            let t6 = 2.0 * s + 4.0 * t1;
-            let t7 = t4 * t6;
-            let t8 = 2.0 * t3;
-            let t9 = -(t5 * t7);
+            let t3 = 2.0 * q[1];
+            let t4 = 2.0 * q[0];
+            let t5 = 2.0 * s;
+            let t6 = t5 + 4.0 * t1;
+            let t7 = t3 * t6;
+            let t8 = -(t4 * t7);
+            let t9 = t2 + t1 * t5;
+            let t10 = 2.0 * t9;
             Derivatives {
                 value: 0.5 * (v[0] * v[0] + v[1] * v[1]) - s * t2,
-                d1: SVector::from([-(t3 * t5), -(t3 * t4)]),
+                d1: SVector::from([-(t4 * t9), -(t3 * t9)]),
                 d2: SVector::from([v[0], v[1]]),
                 d11: SMatrix::from([
-                    [-(t8 + t5 * (t5 * t6)), t9],
-                    [t9, -(t4 * t7 + t8)],
+                    [-(t10 + t6 * (t4 * t4)), t8],
+                    [t8, -(t3 * t7 + t10)],
                 ]),
                 d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
                 d22: SMatrix::from([[1.0, 0.0], [0.0, 1.0]]),
@@ -82,33 +83,34 @@ const _: () = {
         ) -> Variations<f64, 2> {
             let s = q[0] * q[0] + q[1] * q[1];
             let t1 = s - 1.0;
-            let t2 = t1 * t1 + s * (2.0 * t1);
-            let t3 = 2.0 * q[1];
-            let t4 = t2 * t3;
-            let t5 = 2.0 * q[0];
+            let t2 = 2.0 * q[1];
+            let t3 = 2.0 * q[0];
+            let t4 = 2.0 * s;
+            let t5 = t4 + 4.0 * t1;
             let t6 = t2 * t5;
-            let t7 = 2.0 * s + 4.0 * t1;
-            let t8 = t3 * t7;
-            let t9 = 2.0 * t2;
             let minus_first = minus.first;
             let minus_second = minus.second;
             let plus_first = plus.first;
             let plus_second = plus.second;
-            let t10 = minus_second * plus_second;
-            let t11 = minus_first * plus_first;
-            let t12 = -(t5 * t8 * t11);
+            let t7 = minus_second * plus_second;
+            let t8 = minus_first * plus_first;
+            let t9 = t1 * (t1 + t4);
+            let t10 = t2 * t9;
+            let t11 = t3 * t9;
+            let t12 = 2.0 * t9;
+            let t13 = -(t6 * (t3 * t8));
             Variations {
                 minus: SVector::from([
-                    v[0] * minus_second - t6 * minus_first,
-                    v[1] * minus_second - t4 * minus_first,
+                    v[0] * minus_second - minus_first * t11,
+                    v[1] * minus_second - minus_first * t10,
                 ]),
                 plus: SVector::from([
-                    v[0] * plus_second - t6 * plus_first,
-                    v[1] * plus_second - t4 * plus_first,
+                    v[0] * plus_second - plus_first * t11,
+                    v[1] * plus_second - plus_first * t10,
                 ]),
                 mixed: SMatrix::from([
-                    [t10 - (t9 + t5 * (t5 * t7)) * t11, t12],
-                    [t12, t10 - (t3 * t8 + t9) * t11],
+                    [t7 - t8 * (t5 * (t3 * t3) + t12), t13],
+                    [t13, t7 - t8 * (t2 * t6 + t12)],
                 ]),
             }
         }
@@ -149,19 +151,14 @@ const _: () = {
             plus: Direction<f64>,
         ) -> Variations<f64, 2> {
             let k = self.k;
-            let minus_second = minus.second;
             let plus_second = plus.second;
-            let t1 = k * (minus_second * plus_second);
+            let t1 = k * minus.second;
+            let t2 = k * plus_second;
+            let t3 = plus_second * t1;
             Variations {
-                minus: SVector::from([
-                    k * (v[0] * minus_second),
-                    k * (v[1] * minus_second),
-                ]),
-                plus: SVector::from([
-                    k * (v[0] * plus_second),
-                    k * (v[1] * plus_second),
-                ]),
-                mixed: SMatrix::from([[t1, 0.0], [0.0, t1]]),
+                minus: SVector::from([v[0] * t1, v[1] * t1]),
+                plus: SVector::from([v[0] * t2, v[1] * t2]),
+                mixed: SMatrix::from([[t3, 0.0], [0.0, t3]]),
             }
         }
     }
@@ -213,15 +210,15 @@ const _: () = {
             let k = self.k;
             let s = q0[0] * q0[0] + q0[1] * q0[1];
             let t1 = s - 1.0;
-            let t2 = t1 * t1 + s * (2.0 * t1);
-            let t3 = 1.0 + k * half;
+            let t2 = 1.0 + k * half;
+            let t3 = t1 * (t1 + 2.0 * s);
             StepKernel {
                 p0: SVector::from([
-                    half * (t2 * (2.0 * q0[0])) + (v[0] + v[0] * k * half),
-                    half * (t2 * (2.0 * q0[1])) + (v[1] + v[1] * k * half),
+                    v[0] + half * (v[0] * k + 2.0 * q0[0] * t3),
+                    v[1] + half * (v[1] * k + 2.0 * q0[1] * t3),
                 ]),
                 matrix: ::dalembert::Banded {
-                    rows: [[t3], [t3]],
+                    rows: [[t2], [t2]],
                 },
             }
         }
@@ -230,23 +227,24 @@ const _: () = {
         fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 2> {
             let half = 0.5 * h;
             let q1 = [q0[0] + h * v[0], q0[1] + h * v[1]];
-            let k = self.k;
-            let t1 = v[0] * k * half;
             let s = q0[0] * q0[0] + q0[1] * q0[1];
-            let t2 = s - 1.0;
-            let t3 = t2 * t2 + s * (2.0 * t2);
+            let t1 = s - 1.0;
             let s_2 = q1[0] * q1[0] + q1[1] * q1[1];
-            let t4 = s_2 - 1.0;
-            let t5 = t4 * t4 + s_2 * (2.0 * t4);
-            let t6 = v[1] * k * half;
+            let t2 = s_2 - 1.0;
+            let t3 = self.k * half;
+            let t4 = t1 * (t1 + 2.0 * s);
+            let t5 = v[0] * t3;
+            let t6 = t2 * (t2 + 2.0 * s_2);
+            let t7 = 2.0 * half;
+            let t8 = v[1] * t3;
             Momenta {
                 p0: SVector::from([
-                    half * (t3 * (2.0 * q0[0])) + (v[0] + t1),
-                    half * (t3 * (2.0 * q0[1])) + (v[1] + t6),
+                    t5 + (v[0] + t4 * (q0[0] * t7)),
+                    t8 + (v[1] + t4 * (q0[1] * t7)),
                 ]),
                 p1: SVector::from([
-                    v[0] - t1 - half * (t5 * (2.0 * q1[0])),
-                    v[1] - t6 - half * (t5 * (2.0 * q1[1])),
+                    v[0] - t5 - t6 * (q1[0] * t7),
+                    v[1] - t8 - t6 * (q1[1] * t7),
                 ]),
             }
         }
@@ -268,20 +266,20 @@ const _: () = {
         #[inline]
         fn velocity_momenta(&self, v: &Vector, h: f64) -> Momenta<f64, 2> {
             let half = 0.5 * h;
-            let k = self.k;
-            let t1 = v[0] * k * half;
-            let t2 = v[1] * k * half;
+            let t1 = self.k * half;
+            let t2 = v[0] * t1;
+            let t3 = v[1] * t1;
             Momenta {
-                p0: SVector::from([v[0] + t1, v[1] + t2]),
-                p1: SVector::from([v[0] - t1, v[1] - t2]),
+                p0: SVector::from([v[0] + t2, v[1] + t3]),
+                p1: SVector::from([v[0] - t2, v[1] - t3]),
             }
         }
         #[inline]
         fn configuration_force(&self, q: &Vector) -> Vector {
             let s = q[0] * q[0] + q[1] * q[1];
             let t1 = s - 1.0;
-            let t2 = t1 * t1 + s * (2.0 * t1);
-            SVector::from([-(t2 * (2.0 * q[0])), -(t2 * (2.0 * q[1]))])
+            let t2 = t1 * (t1 + 2.0 * s);
+            SVector::from([-(2.0 * q[0] * t2), -(2.0 * q[1] * t2)])
         }
     }
     #[automatically_derived]

@@ -113,21 +113,20 @@ const _: () = {
         }
         #[inline]
         fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 2> {
-            let t1 = v[1] * (0.5 * self.c);
+            let c = self.c;
             Gradient {
-                value: v[1] * t1,
+                value: v[1] * (v[1] * (0.5 * c)),
                 d1: SVector::from([0.0, 0.0]),
-                d2: SVector::from([0.0, 2.0 * t1]),
+                d2: SVector::from([0.0, v[1] * c]),
             }
         }
         #[inline]
         fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
             let c = self.c;
-            let t1 = v[1] * (0.5 * c);
             Derivatives {
-                value: v[1] * t1,
+                value: v[1] * (v[1] * (0.5 * c)),
                 d1: SVector::from([0.0, 0.0]),
-                d2: SVector::from([0.0, 2.0 * t1]),
+                d2: SVector::from([0.0, v[1] * c]),
                 d11: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
                 d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
                 d22: SMatrix::from([[0.0, 0.0], [0.0, c]]),
@@ -144,13 +143,13 @@ const _: () = {
             let c = self.c;
             let minus_second = minus.second;
             let plus_second = plus.second;
-            let t1 = 2.0 * (v[1] * (0.5 * c));
+            let t1 = v[1] * c;
             Variations {
                 minus: SVector::from([0.0, minus_second * t1]),
                 plus: SVector::from([0.0, plus_second * t1]),
                 mixed: SMatrix::from([
                     [0.0, 0.0],
-                    [0.0, c * (minus_second * plus_second)],
+                    [0.0, plus_second * (c * minus_second)],
                 ]),
             }
         }
@@ -206,7 +205,7 @@ const _: () = {
             StepKernel {
                 p0: SVector::from([
                     v[0] - (t1 - q[0] * k) * half,
-                    v[1] + 2.0 * (v[1] * (0.5 * c)) * half + t1 * half,
+                    v[1] + half * (t1 + v[1] * c),
                 ]),
                 matrix: SMatrix::from([
                     [1.0 + 2.0 * k * t2, t4],
@@ -222,12 +221,11 @@ const _: () = {
             let d = q[1] - q[0];
             let k = self.k;
             let t1 = d * k;
-            let t2 = 2.0 * (v[1] * (0.5 * self.c)) * half;
-            let t3 = (t1 - q[0] * k) * half;
-            let t4 = t1 * half;
+            let t2 = (t1 - q[0] * k) * half;
+            let t3 = half * (t1 + v[1] * self.c);
             Momenta {
-                p0: SVector::from([v[0] - t3, v[1] + t2 + t4]),
-                p1: SVector::from([v[0] + t3, v[1] - t2 - t4]),
+                p0: SVector::from([v[0] - t2, v[1] + t3]),
+                p1: SVector::from([v[0] + t2, v[1] - t3]),
             }
         }
         /// E_L on the segment.

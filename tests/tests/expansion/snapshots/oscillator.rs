@@ -49,24 +49,22 @@ const _: () = {
         }
         #[inline]
         fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
-            let t1 = v[0] * (0.5 * self.m);
-            let t2 = q[0] * (0.5 * self.k);
+            let m = self.m;
+            let k = self.k;
             Gradient {
-                value: v[0] * t1 - q[0] * t2,
-                d1: SVector::from([-(2.0 * t2)]),
-                d2: SVector::from([2.0 * t1]),
+                value: v[0] * (v[0] * (0.5 * m)) - q[0] * (q[0] * (0.5 * k)),
+                d1: SVector::from([-(q[0] * k)]),
+                d2: SVector::from([v[0] * m]),
             }
         }
         #[inline]
         fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
             let m = self.m;
-            let t1 = v[0] * (0.5 * m);
             let k = self.k;
-            let t2 = q[0] * (0.5 * k);
             Derivatives {
-                value: v[0] * t1 - q[0] * t2,
-                d1: SVector::from([-(2.0 * t2)]),
-                d2: SVector::from([2.0 * t1]),
+                value: v[0] * (v[0] * (0.5 * m)) - q[0] * (q[0] * (0.5 * k)),
+                d1: SVector::from([-(q[0] * k)]),
+                d2: SVector::from([v[0] * m]),
                 d11: SMatrix::from([[-k]]),
                 d12: SMatrix::from([[0.0]]),
                 d22: SMatrix::from([[m]]),
@@ -82,8 +80,8 @@ const _: () = {
         ) -> Variations<f64, 1> {
             let m = self.m;
             let k = self.k;
-            let t1 = 2.0 * (q[0] * (0.5 * k));
-            let t2 = 2.0 * (v[0] * (0.5 * m));
+            let t1 = q[0] * k;
+            let t2 = v[0] * m;
             let minus_first = minus.first;
             let minus_second = minus.second;
             let plus_first = plus.first;
@@ -92,7 +90,7 @@ const _: () = {
                 minus: SVector::from([t2 * minus_second - t1 * minus_first]),
                 plus: SVector::from([t2 * plus_second - t1 * plus_first]),
                 mixed: SMatrix::from([
-                    [m * (minus_second * plus_second) - k * (minus_first * plus_first)],
+                    [plus_second * (m * minus_second) - plus_first * (k * minus_first)],
                 ]),
             }
         }
@@ -105,21 +103,20 @@ const _: () = {
         }
         #[inline]
         fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 1> {
-            let t1 = v[0] * (0.5 * self.r);
+            let r = self.r;
             Gradient {
-                value: v[0] * t1,
+                value: v[0] * (v[0] * (0.5 * r)),
                 d1: SVector::from([0.0]),
-                d2: SVector::from([2.0 * t1]),
+                d2: SVector::from([v[0] * r]),
             }
         }
         #[inline]
         fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
             let r = self.r;
-            let t1 = v[0] * (0.5 * r);
             Derivatives {
-                value: v[0] * t1,
+                value: v[0] * (v[0] * (0.5 * r)),
                 d1: SVector::from([0.0]),
-                d2: SVector::from([2.0 * t1]),
+                d2: SVector::from([v[0] * r]),
                 d11: SMatrix::from([[0.0]]),
                 d12: SMatrix::from([[0.0]]),
                 d22: SMatrix::from([[r]]),
@@ -136,11 +133,11 @@ const _: () = {
             let r = self.r;
             let minus_second = minus.second;
             let plus_second = plus.second;
-            let t1 = 2.0 * (v[0] * (0.5 * r));
+            let t1 = v[0] * r;
             Variations {
                 minus: SVector::from([minus_second * t1]),
                 plus: SVector::from([plus_second * t1]),
-                mixed: SMatrix::from([[r * (minus_second * plus_second)]]),
+                mixed: SMatrix::from([[plus_second * (r * minus_second)]]),
             }
         }
     }
@@ -189,11 +186,8 @@ const _: () = {
             let k = self.k;
             let r = self.r;
             StepKernel {
-                p0: SVector::from([
-                    2.0 * (v[0] * (0.5 * m)) + 2.0 * (v[0] * (0.5 * r)) * half
-                        + 2.0 * (q[0] * (0.5 * k)) * half,
-                ]),
-                matrix: SMatrix::from([[m + r * half + k * (half * half)]]),
+                p0: SVector::from([v[0] * m + half * (q[0] * k + v[0] * r)]),
+                matrix: SMatrix::from([[m + half * (r + k * half)]]),
             }
         }
         /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
@@ -201,12 +195,11 @@ const _: () = {
         fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0]];
-            let t1 = 2.0 * (v[0] * (0.5 * self.m));
-            let t2 = 2.0 * (v[0] * (0.5 * self.r)) * half;
-            let t3 = 2.0 * (q[0] * (0.5 * self.k)) * half;
+            let t1 = v[0] * self.m;
+            let t2 = half * (q[0] * self.k + v[0] * self.r);
             Momenta {
-                p0: SVector::from([t1 + t2 + t3]),
-                p1: SVector::from([t1 - t2 - t3]),
+                p0: SVector::from([t1 + t2]),
+                p1: SVector::from([t1 - t2]),
             }
         }
         /// E_L on the segment.
@@ -254,14 +247,10 @@ const _: () = {
         #[inline]
         fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
             let half = 0.5 * h;
-            let m = self.m;
-            let r = self.r;
+            let t1 = self.m + self.r * half;
             StepKernel {
-                p0: SVector::from([
-                    2.0 * (v[0] * (0.5 * m)) + 2.0 * (v[0] * (0.5 * r)) * half
-                        + half * (2.0 * (0.5 * self.k * q0[0])),
-                ]),
-                matrix: SMatrix::from([[m + r * half]]),
+                p0: SVector::from([self.k * half * q0[0] + v[0] * t1]),
+                matrix: SMatrix::from([[t1]]),
             }
         }
         /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
@@ -269,12 +258,12 @@ const _: () = {
         fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
             let half = 0.5 * h;
             let q1 = [q0[0] + h * v[0]];
-            let t1 = 0.5 * self.k;
-            let t2 = 2.0 * (v[0] * (0.5 * self.m));
-            let t3 = 2.0 * (v[0] * (0.5 * self.r)) * half;
+            let t1 = v[0] * self.m;
+            let t2 = self.k * half;
+            let t3 = v[0] * (self.r * half);
             Momenta {
-                p0: SVector::from([t2 + t3 + half * (2.0 * (t1 * q0[0]))]),
-                p1: SVector::from([t2 - t3 - half * (2.0 * (t1 * q1[0]))]),
+                p0: SVector::from([t3 + (t1 + t2 * q0[0])]),
+                p1: SVector::from([t1 - t3 - t2 * q1[0]]),
             }
         }
         /// E_L on the segment.
@@ -292,8 +281,8 @@ const _: () = {
         #[inline]
         fn velocity_momenta(&self, v: &Vector, h: f64) -> Momenta<f64, 1> {
             let half = 0.5 * h;
-            let t1 = 2.0 * (v[0] * (0.5 * self.m));
-            let t2 = 2.0 * (v[0] * (0.5 * self.r)) * half;
+            let t1 = v[0] * self.m;
+            let t2 = v[0] * (self.r * half);
             Momenta {
                 p0: SVector::from([t1 + t2]),
                 p1: SVector::from([t1 - t2]),
@@ -301,7 +290,7 @@ const _: () = {
         }
         #[inline]
         fn configuration_force(&self, q: &Vector) -> Vector {
-            SVector::from([-(2.0 * (q[0] * (0.5 * self.k)))])
+            SVector::from([-(q[0] * self.k)])
         }
     }
     #[automatically_derived]
