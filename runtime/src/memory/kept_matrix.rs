@@ -90,9 +90,6 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> KeptMatrix<S, M, N> {
     where
         L: Discrete<R, N, Scalar = S, Matrix = M>,
     {
-        if L::LINEAR && self.kept.as_ref().is_some_and(|kept| kept.h == h) {
-            return;
-        }
         let matrix = system.step_kernel(&state.q, &step.velocity, h).matrix;
         self.kept = matrix.factored().map(|factored| Kept { h, matrix, factored });
     }
