@@ -16,8 +16,8 @@ use crate::linear::{NewtonMatrix, Singular};
 use crate::{Report, Scalar, State};
 
 mod rounding;
-use rounding::{AT_FLOOR, STAGNATION, in_units_of, rounding, worst};
-pub(crate) use rounding::{estimated_floor, held_against};
+pub(crate) use rounding::{AT_FLOOR, estimated_floor, held_against};
+use rounding::{STAGNATION, in_units_of, rounding, worst};
 
 /// A root, with both momenta there.
 pub(crate) struct Solution<S, const N: usize> {
@@ -154,15 +154,30 @@ fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
 /// max |residualᵢ| weightᵢ; NaN if one of them is no finite number.
 #[inline]
 pub(crate) fn weighted<S: Scalar, const N: usize>(residual: &SVector<S, N>, weights: &SVector<S, N>) -> S {
-    let (mut largest, mut poison) = (S::zero(), S::zero());
-    for i in 0..N {
-        let units = residual[i].abs() * weights[i];
-        poison += units * S::zero();
-        if units > largest {
-            largest = units;
+    const LANES: usize = 4;
+    let (mut largest, mut sums) = ([S::zero(); LANES], [S::zero(); LANES]);
+    // Lane by lane, the compiler takes several at once.
+    let (of, rest_of) = residual.as_slice().as_chunks::<LANES>();
+    let (by, rest_by) = weights.as_slice().as_chunks::<LANES>();
+    for (of, by) in of.iter().zip(by) {
+        for lane in 0..LANES {
+            let units = of[lane].abs() * by[lane];
+            sums[lane] += units;
+            largest[lane] = if units > largest[lane] { units } else { largest[lane] };
         }
     }
-    largest + poison
+    for (of, by) in rest_of.iter().zip(rest_by) {
+        let units = of.abs() * *by;
+        sums[0] += units;
+        largest[0] = if units > largest[0] { units } else { largest[0] };
+    }
+    let (mut size, mut sum) = (S::zero(), S::zero());
+    for lane in 0..LANES {
+        sum += sums[lane];
+        size = if largest[lane] > size { largest[lane] } else { size };
+    }
+    // 0 × sum is 0 for every finite sum, and NaN for the others.
+    size + sum * S::zero()
 }
 
 /// The damped method, and the verdicts.
@@ -375,6 +390,20 @@ fn first_non_finite<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_weighted_residual_is_the_largest_or_no_number() {
+        let weights = SVector::from([1.0, 2.0, 0.5, 1.0, 4.0, 1.0]);
+        for (i, expected) in [3.0, 6.0, 1.5, 3.0, 12.0, 3.0].into_iter().enumerate() {
+            let mut residual = SVector::from_element(0.25);
+            residual[i] = -3.0;
+            assert_eq!(weighted(&residual, &weights), expected);
+            for lost in [f64::NAN, f64::INFINITY] {
+                residual[i] = lost;
+                assert!(weighted(&residual, &weights).is_nan());
+            }
+        }
+    }
 
     #[test]
     fn a_shorter_share_lies_where_the_residual_is_least() {

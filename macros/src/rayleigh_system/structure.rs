@@ -151,11 +151,13 @@ pub fn findings(graph: &Graph, n: usize, terms: &Terms<'_>, rules: &[Rule]) -> F
             && momenta.clone().all(|(entry, by_velocity)| is_affine(entry, by_velocity))
             && force.iter().all(|&(component, _)| is_affine(component, false));
         let bandwidth = entries.iter().map(|&(i, j, _)| i.abs_diff(j)).max().unwrap_or(0);
+        // A force that is remembered from the last step has nothing but q and fields in it.
         let is_apart = |entry: Node, by_velocity: bool| {
             !contains(graph, entry, |operation| match operation {
                 Operation::Coordinate(_) => by_velocity,
                 Operation::Velocity(_) => !by_velocity,
-                _ => false,
+                Operation::Parameter(_) | Operation::Constant(_) => false,
+                other => other.arguments().next().is_none(),
             })
         };
         let is_explicit = constant

@@ -12,11 +12,15 @@ use nalgebra::SVector;
 
 use super::{Memory, VelocityHistory};
 use crate::linear::{Factored, NewtonMatrix};
-use crate::newton::{estimated_floor, held_against, weighted};
-use crate::{Discrete, Report, Scalar, State, Step, StepError};
+use crate::newton::{AT_FLOOR, estimated_floor, held_against, weighted};
+use crate::{Discrete, Momenta, Report, Scalar, State, Step, StepError};
 
 /// A correction must leave at most this share of the residual.
 const CONTRACTION: f64 = 0.1;
+
+/// A residual of the guess beyond this share of the terms that p0 is made of is no guess: they would say nothing of the
+/// rounding at the root.
+const CLOSE: f64 = 0.025;
 
 /// Corrections before Newton's method takes over.
 const MOST: u32 = 5;
@@ -78,15 +82,20 @@ where
         }
         if let Some(kept) = &self.kept
             && kept.h == h
-            && let Some(guess) = if L::LINEAR { self.history.latest() } else { self.history.extrapolation(h) }
-            && let Some(step) = kept.step(system, state, guess)
         {
-            self.history.push(step.velocity, h);
-            self.served = self.served.saturating_add(1);
-            if step.report.iterations > STALE {
-                self.renew(system, state, &step, h);
+            let step = if L::LINEAR {
+                self.history.latest().and_then(|guess| kept.linear_step(system, state, guess))
+            } else {
+                self.history.extrapolation(h).and_then(|guess| kept.step(system, state, guess))
+            };
+            if let Some(step) = step {
+                self.history.push(step.velocity, h);
+                self.served = self.served.saturating_add(1);
+                if step.report.iterations > STALE {
+                    self.renew(system, state, &step, h);
+                }
+                return Ok(step);
             }
-            return Ok(step);
         }
         let step = self.history.advance(system, state, h)?;
         self.renew(system, state, &step, h);
@@ -102,10 +111,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> KeptMatrix<S, M, N> {
     where
         L: Discrete<R, N, Scalar = S, Matrix = M>,
     {
-        if self.kept.as_ref().is_some_and(|kept| kept.h == h) {
-            if L::LINEAR {
-                return;
-            }
+        if !L::LINEAR && self.kept.as_ref().is_some_and(|kept| kept.h == h) {
             let [shortest, longest] = PAUSES;
             if self.served < WORTHWHILE {
                 (self.kept, self.pause) = (None, self.next_pause);
@@ -128,41 +134,68 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         L: Discrete<R, N, Scalar = S, Matrix = M>,
     {
         let State { q, p } = state;
-        let mut v = guess;
-        let floor = estimated_floor(p, &self.matrix, &v);
+        let floor = estimated_floor(p, &self.matrix, &guess);
         let weights = floor.map(|floor| S::one() / floor);
+        let mut v = guess;
         let mut correction: SVector<S, N> = nalgebra::zero();
-        let mut last_size = None;
+        let mut last_size = S::constant(CLOSE) / (S::EPSILON * S::constant(CONTRACTION));
+        // At least one correction: extrapolation alone, step after step, would let rounding grow.
         for iterations in 0..=MOST {
             let momenta = system.momenta(q, &v, self.h);
             let residual = momenta.p0 - p;
-            let (worst, its_floor, is_root) = held_against(&residual, &floor);
-            // At least one correction: extrapolation alone, step after step, would let rounding grow.
-            if iterations > 0 && is_root {
-                let last_correction = correction.amax();
-                let report =
-                    Report { iterations, damped: 0, residual: worst, floor: its_floor, last_correction };
-                let state = State { q: q + v * self.h, p: p + (momenta.p1 - momenta.p0) };
-                state.require_finite().ok()?;
-                return Some(Step { state, velocity: v, report });
+            let size = weighted(&residual, &weights);
+            if iterations > 0 && size <= S::constant(AT_FLOOR) {
+                let worst = (0..N).find(|&i| residual[i].abs() * weights[i] == size)?;
+                let (residual, floor) = (residual[worst].abs(), floor[worst]);
+                return self.taken(
+                    state,
+                    v,
+                    momenta,
+                    Report { iterations, damped: 0, residual, floor, last_correction: correction.amax() },
+                );
             }
-            if L::LINEAR {
-                // Rounding holds the residual up: the general path has the verdict.
-                if iterations > 0 {
-                    return None;
-                }
-            } else {
-                let size = weighted(&residual, &weights);
-                if let Some(last) = last_size
-                    && !(size <= last * S::constant(CONTRACTION))
-                {
-                    return None;
-                }
-                last_size = Some(size);
+            if !(size <= last_size * S::constant(CONTRACTION)) {
+                return None;
             }
+            last_size = size;
             correction = self.factored.solve(&residual);
             v -= correction;
         }
         None
+    }
+
+    /// The step where the equation is linear, from any `guess`; nothing where rounding holds the residual up or a number is
+    /// none: the general path has the verdict.
+    #[inline]
+    fn linear_step<L, R>(&self, system: &L, state: &State<S, N>, guess: SVector<S, N>) -> Option<Step<S, N>>
+    where
+        L: Discrete<R, N, Scalar = S, Matrix = M>,
+    {
+        let State { q, p } = state;
+        let correction = self.factored.solve(&(system.momenta(q, &guess, self.h).p0 - p));
+        let v = guess - correction;
+        let momenta = system.momenta(q, &v, self.h);
+        let floor = estimated_floor(p, &self.matrix, &v);
+        let (residual, floor, is_root) = held_against(&(momenta.p0 - p), &floor);
+        if !is_root {
+            return None;
+        }
+        let last_correction = correction.amax();
+        self.taken(state, v, momenta, Report { iterations: 1, damped: 0, residual, floor, last_correction })
+    }
+
+    /// The step that `v` leads to, if it is one of finite numbers.
+    #[inline]
+    fn taken(
+        &self,
+        State { q, p }: &State<S, N>,
+        v: SVector<S, N>,
+        momenta: Momenta<S, N>,
+        report: Report<S>,
+    ) -> Option<Step<S, N>> {
+        // Added to the p0 given: the residual of the solver would make it drift.
+        let state = State { q: q + v * self.h, p: p + (momenta.p1 - momenta.p0) };
+        state.require_finite().ok()?;
+        Some(Step { state, velocity: v, report })
     }
 }

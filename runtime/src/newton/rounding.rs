@@ -20,7 +20,7 @@ use crate::linear::NewtonMatrix;
 pub(super) const STAGNATION: f64 = 4096.0;
 
 /// A residual of at most this many floors, estimated or measured, is a root.
-pub(super) const AT_FLOOR: f64 = 4.0;
+pub(crate) const AT_FLOOR: f64 = 4.0;
 
 /// The floor that the terms of p0 give, 4ε (|pᵢ| + Σⱼ |Jᵢⱼ||vⱼ|).
 #[inline]
