@@ -251,7 +251,7 @@ struct Wrapped {
     turns: usize,
 }
 
-const REFUSED_AT: u32 = line!() + 7;
+const REFUSED_AT: u32 = line!() + 6;
 
 #[rayleigh_system]
 impl Wrapped {
