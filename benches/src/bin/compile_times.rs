@@ -1,11 +1,25 @@
 //! How long one system takes to compile: `cargo check` and a release build of a program that steps it, everything it depends
 //! on being built already. Prints the table of `docs/performance.md`.
 //!
-//! `cargo run --release -p dalembert-benches --bin compile_times`
+//! `cargo run --release -p dalembert-benches --bin compile_times`, with the number of builds of each behind `--` if not 3
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 use std::time::Instant;
+
+/// Seconds on the clock and, where the system tells, of processor time.
+#[derive(Clone, Copy, Default)]
+struct Seconds {
+    clock: f64,
+    processor: Option<f64>,
+}
+
+impl std::fmt::Display for Seconds {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{:.2}", self.clock)?;
+        self.processor.map_or(Ok(()), |processor| write!(f, " ({processor:.2})"))
+    }
+}
 use std::{env, fs};
 
 /// The scenes and what a program has to know of them: the macro of the file, and the fields.
@@ -16,7 +30,7 @@ const SCENES: [(&str, &str, &str); 2] = [
 
 const DEGREES: [usize; 4] = [2, 8, 16, 32];
 
-/// Builds of each; the median is printed.
+/// Builds of each, unless the command line says otherwise; the median is printed.
 const REPEATS: usize = 3;
 
 fn main() -> ExitCode {
@@ -30,22 +44,34 @@ fn main() -> ExitCode {
 }
 
 fn table() -> Result<(), String> {
+    let repeats = match env::args().nth(1) {
+        Some(number) => number.parse().map_err(|_| format!("`{number}` is not a number of builds"))?,
+        None => REPEATS,
+    };
     let crate_under_test = Package::create()?;
     crate_under_test.write("fn main() {}")?;
     for command in ["check", "build"] {
         crate_under_test.seconds(command)?;
     }
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    println!("| scene | n | `cargo check`, s | release build, s |");
+    println!("| scene | n | `cargo check`, s (of processor time) | release build, s (of processor time) |");
     println!("|---|--:|--:|--:|");
-    for (scene, name, fields) in SCENES {
+    for (scene, structure, fields) in SCENES {
         for n in DEGREES {
             crate_under_test.write(&program(scene, name, fields, n))?;
-            let [check, build] = ["check", "build"].map(|command| crate_under_test.median(command));
-            println!("| {} | {n} | {:.2} | {:.2} |", scene.replace('_', " "), check?, build?);
+            let (name, check) = (scene.replace('_', " "), crate_under_test.median("check", repeats));
+            match check {
+                Ok(check) => {
+                    println!("| {name} | {n} | {check} | {} |", crate_under_test.median("build", repeats)?)
+                }
+                Err(error) => println!(
+                    "| {name} | {n} | {} | |",
+                    error.lines().find(|line| line.starts_with("error")).unwrap_or(&error)
+                ),
+            }
         }
     }
-    println!("\non {cores} cores; median of {REPEATS} clean builds");
+    println!("\non {cores} cores; median of {repeats} clean builds");
     Ok(())
 }
 
@@ -100,20 +126,21 @@ impl Package {
         fs::write(self.0.join("src/main.rs"), program).map_err(|error| error.to_string())
     }
 
-    fn median(&self, command: &str) -> Result<f64, String> {
-        let mut times = [0.0; REPEATS];
+    fn median(&self, command: &str, repeats: usize) -> Result<Seconds, String> {
+        let mut times = vec![Seconds::default(); repeats.max(1)];
         for time in &mut times {
             self.cargo(&["clean", "--package", "compiled", "--profile", profile(command)])?;
             *time = self.seconds(command)?;
         }
-        times.sort_by(f64::total_cmp);
-        Ok(times[REPEATS / 2])
+        times.sort_by(|a, b| a.clock.total_cmp(&b.clock));
+        Ok(times[times.len() / 2])
     }
 
-    fn seconds(&self, command: &str) -> Result<f64, String> {
-        let start = Instant::now();
+    fn seconds(&self, command: &str) -> Result<Seconds, String> {
+        let (start, before) = (Instant::now(), processor_time());
         self.cargo(&[command, "--profile", profile(command)])?;
-        Ok(start.elapsed().as_secs_f64())
+        let processor = processor_time().zip(before).map(|(after, before)| after - before);
+        Ok(Seconds { clock: start.elapsed().as_secs_f64(), processor })
     }
 
     fn cargo(&self, arguments: &[&str]) -> Result<(), String> {
@@ -130,6 +157,15 @@ impl Package {
             Err(String::from_utf8_lossy(&output.stderr).into_owned())
         }
     }
+}
+
+/// Processor time of the programs that this one has started and waited for, on Linux.
+fn processor_time() -> Option<f64> {
+    let status = fs::read_to_string("/proc/self/stat").ok()?;
+    // After the name in parentheses: fields 16 and 17 of proc(5), in hundredths of a second.
+    let fields: Vec<&str> = status.rsplit(')').next()?.split_whitespace().collect();
+    let ticks = |index: usize| fields.get(index)?.parse::<f64>().ok();
+    Some((ticks(13)? + ticks(14)?) / 100.0)
 }
 
 fn profile(command: &str) -> &'static str {

@@ -30,7 +30,7 @@ const STALE: u32 = 3;
 
 /// A matrix that serves fewer steps than this costs more than it saves: Newton's method then takes a number of steps, twice
 /// as many each time in a row, before another is kept.
-const WORTHWHILE: u32 = 4;
+const WORTHWHILE: u32 = 3;
 
 /// The least and the largest of these numbers of steps.
 const PAUSES: [u32; 2] = [8, 1024];
