@@ -7,6 +7,7 @@
 
 extern crate self as dalembert;
 
+mod composition;
 mod derivatives;
 mod discrete;
 mod error;
@@ -140,6 +141,7 @@ pub use dalembert_macros::rayleigh_system;
 pub use dalembert_macros::differentiable;
 pub use nalgebra;
 
+pub use composition::{ComposedTrajectory, Composition};
 pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
 pub use discrete::{
     Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Report, Step, StepKernel,
