@@ -1,19 +1,26 @@
 //! Speed against error: what a trajectory costs to given errors, by this project's methods and by others, in one run.
 //!
-//! `cargo speed-against-error` measures and writes `docs/speed-against-error.md`; `cargo speed-against-error page` writes the page again from the
-//! figures measured last. Peers with a Python interface are run where the interpreter that `PYTHON` names has them.
+//! `cargo speed-against-error` measures and writes `docs/speed-against-error.md`; `… page` writes the page again from the figures
+//! measured last, `… scenes` and `… long-run` measure one part again. Peers with a Python interface are run where the
+//! interpreter that `PYTHON` names has them.
 
 mod frontier;
+mod long_run;
 mod measure;
 mod ours;
+mod page;
 mod peers;
+mod picture;
 mod reference;
 mod scenes;
 mod study;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use std::{env, fs};
 
-use anyhow::Result;
+use anyhow::{Context, Result, bail};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 use peers::python::Python;
 use scenes::{
@@ -22,19 +29,59 @@ use scenes::{
 use study::Record;
 
 fn main() -> Result<()> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("docs").join("speed-against-error");
-    std::fs::create_dir_all(&folder)?;
-    let python = Python::start()?;
-    for missing in &python.missing {
-        eprintln!("not installed: {missing}");
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("docs");
+    let folder = docs.join("speed-against-error");
+    match env::args().nth(1).as_deref() {
+        None => measure(&folder, true, true)?,
+        Some("scenes") => measure(&folder, true, false)?,
+        Some("long-run") => measure(&folder, false, true)?,
+        Some("page") => {}
+        Some(other) => {
+            bail!("what is {other:?}? `scenes` or `long-run`, to measure these alone, `page`, or nothing")
+        }
     }
-    let records = scenes(Some(&python))?;
-    let mut file = csv::Writer::from_path(folder.join("scenes.csv"))?;
-    for record in &records {
+    let records: Vec<Record> = read(&folder.join("scenes.csv"))?;
+    let setting = fs::read_to_string(folder.join("setting.md"))?;
+    let ours: Vec<&str> = ours::methods::<Ring, 2>().iter().map(|(name, _)| *name).collect();
+    let measured = page::Measured {
+        records: &records,
+        long: &read(&folder.join("long-run.csv"))?,
+        samples: &read(&folder.join("long-run-samples.csv"))?,
+        ours: &ours,
+        setting: &setting,
+        reading: include_str!("../reading.md"),
+    };
+    page::write(&docs, &measured)
+}
+
+/// Runs what is asked for and writes what it measured.
+fn measure(folder: &Path, short: bool, long: bool) -> Result<()> {
+    fs::create_dir_all(folder)?;
+    let python = Python::start().inspect_err(|error| eprintln!("{error:#}")).ok();
+    fs::write(folder.join("setting.md"), page::setting(python.as_ref()))?;
+    if short {
+        write(&folder.join("scenes.csv"), &scenes(python.as_ref())?)?;
+    }
+    if long {
+        eprintln!("long run");
+        let (records, samples) = long_run::measure(python.as_ref())?;
+        write(&folder.join("long-run.csv"), &records)?;
+        write(&folder.join("long-run-samples.csv"), &samples)?;
+    }
+    Ok(())
+}
+
+fn read<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
+    let mut file = csv::Reader::from_path(path).with_context(|| path.display().to_string())?;
+    Ok(file.deserialize().collect::<Result<_, _>>()?)
+}
+
+fn write<T: Serialize>(path: &Path, records: &[T]) -> Result<()> {
+    let mut file = csv::Writer::from_path(path)?;
+    for record in records {
         file.serialize(record)?;
     }
-    file.flush()?;
-    Ok(())
+    Ok(file.flush()?)
 }
 
 /// Every scene, by the names that `references.txt` has.

@@ -1,7 +1,7 @@
 //! This project's methods. One line adds one.
 
 use anyhow::Result;
-use dalembert::{Discrete, Midpoint, State, Trajectory, Trapezoidal};
+use dalembert::{Composition, Discrete, Midpoint, State, Trajectory, Trapezoidal};
 
 use crate::scenes::Scene;
 
@@ -13,6 +13,12 @@ pub fn methods<S: Scene<N>, const N: usize>() -> Vec<(&'static str, Steps<S, N>)
     vec![
         ("midpoint", |s, start, h, n| run(s, Midpoint, start, h, n)),
         ("trapezoidal", |s, start, h, n| run(s, Trapezoidal, start, h, n)),
+        ("trapezoidal, Kahan–Li 6", |s, start, h, n| {
+            composed(s, Composition::kahan_li_6(Trapezoidal), start, h, n)
+        }),
+        ("trapezoidal, Kahan–Li 8", |s, start, h, n| {
+            composed(s, Composition::kahan_li_8(Trapezoidal), start, h, n)
+        }),
     ]
 }
 
@@ -27,6 +33,23 @@ where
     S: Discrete<R, N, Scalar = f64>,
 {
     let mut trajectory = Trajectory::new(scene, rule, h, *start);
+    for step in trajectory.by_ref().take(steps as usize) {
+        step?;
+    }
+    Ok(*trajectory.state())
+}
+
+fn composed<S, R, const N: usize, const STAGES: usize>(
+    scene: &S,
+    composition: Composition<R, STAGES>,
+    start: &State<f64, N>,
+    h: f64,
+    steps: u32,
+) -> Result<State<f64, N>>
+where
+    S: Discrete<R, N, Scalar = f64>,
+{
+    let mut trajectory = composition.trajectory(scene, h, *start);
     for step in trajectory.by_ref().take(steps as usize) {
         step?;
     }

@@ -40,9 +40,7 @@ impl<'a, S: Scene<N>, const N: usize> Motion<'a, S, N> {
     /// (v, a) at y.
     #[inline]
     fn rate(&self, y: &[f64], rate: &mut [f64]) {
-        let (q, v) = y.split_at(N);
-        // Both halves have N entries, as the arrays they become.
-        let (Ok(q), Ok(v)) = (q.try_into(), v.try_into()) else { return };
+        let [q, v] = [y.first_chunk::<N>(), y.last_chunk::<N>()].map(|half| half.expect("2N numbers"));
         let (first, second) = rate.split_at_mut(N);
         first.copy_from_slice(v);
         second.copy_from_slice(&self.scene.acceleration(q, v));
@@ -50,6 +48,6 @@ impl<'a, S: Scene<N>, const N: usize> Motion<'a, S, N> {
 }
 
 /// The last of a solver's outputs.
-fn last<T>(outputs: &[T]) -> Result<&T> {
+pub fn last<T>(outputs: &[T]) -> Result<&T> {
     outputs.last().context("no output")
 }

@@ -19,7 +19,8 @@ pub struct Reference {
 /// # Errors
 /// The file does not hold it, or not as numbers.
 pub fn of(name: &str) -> Result<Reference> {
-    find(include_str!("../references.txt"), name)
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/references.txt");
+    find(&std::fs::read_to_string(path).with_context(|| path)?, name)
 }
 
 fn find(text: &str, name: &str) -> Result<Reference> {

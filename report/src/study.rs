@@ -65,12 +65,12 @@ pub fn scene<S: Scene<N>, const N: usize, const M: usize>(
             Candidate { method, setting, run: timed(run, |y| state(scene, &y)) }
         }));
     }
-    for python in python {
+    if let Some(python) = python {
         for &method in &python.methods {
-            let tolerances = (1..16).map(|k| 10_f64.powi(-k)).chain([f64::EPSILON]);
+            let tolerances = (1..8).map(|k| 10_f64.powi(-2 * k)).chain([f64::EPSILON]);
             candidates.extend(worth(tolerances, error, |setting| {
                 let run = move |repeats| {
-                    let (seconds, y) = python.run(method, name, setting, repeats, 1)?;
+                    let (seconds, y) = python.run::<M>(method, name, setting, repeats, 1)?;
                     Ok((seconds, state(scene, &y[0])?))
                 };
                 Candidate { method, setting, run: Box::new(run) }

@@ -64,6 +64,13 @@ pub struct Composition<R, const S: usize> {
     order: u32,
 }
 
+impl<R> Composition<R, 1> {
+    /// The rule itself.
+    pub(crate) const fn alone(rule: R) -> Self {
+        Self { rule, shares: [1.0], order: 2 }
+    }
+}
+
 impl<R> Composition<R, 9> {
     /// Order 6 in 9 substeps of a self-adjoint `rule` of order 2 (Kahan and Li 1997).
     #[must_use]

@@ -20,6 +20,7 @@ mod rules;
 mod scalar;
 mod state;
 mod system;
+mod tolerance;
 mod trajectory;
 
 #[cfg(feature = "std")]
@@ -155,4 +156,5 @@ pub use rules::{DisplacementRule, Midpoint, Node, Trapezoidal};
 pub use scalar::Scalar;
 pub use state::State;
 pub use system::{Force, Lagrangian, Rayleigh};
+pub use tolerance::{Breach, Choice, GuardedTrajectory, Method, ToleranceError, Trial};
 pub use trajectory::{Sample, Samples, Trajectory};

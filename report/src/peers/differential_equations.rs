@@ -26,6 +26,6 @@ pub fn dop853<S: Scene<N>, const N: usize, const M: usize>(
         .rtol(tolerance)
         .atol(tolerance)
         .solve()
-        .map_err(|error| anyhow!("{error}"))?;
+        .map_err(|error| anyhow!("{error:?}"))?;
     Ok(*last(&solution.y)?)
 }

@@ -3,7 +3,7 @@
 //! Its implicit methods are for stiff systems, and no scene is one.
 
 use anyhow::{Result, anyhow};
-use diffsol::{NalgebraMat, OdeBuilder, OdeSolverMethod, OdeSolverStopReason, VectorHost};
+use diffsol::{NalgebraMat, OdeBuilder, OdeSolverMethod, OdeSolverStopReason};
 
 use super::Motion;
 use crate::scenes::Scene;
@@ -19,12 +19,12 @@ pub fn tsit45<S: Scene<N>, const N: usize, const M: usize>(
     let problem = OdeBuilder::<NalgebraMat<f64>>::new()
         .rtol(tolerance)
         .atol([tolerance])
-        .rhs(move |y, _, _, rate| motion.rate(y.as_slice(), rate.as_mut_slice()))
-        .init(move |_, _, y| y.as_mut_slice().copy_from_slice(&start), M)
+        .rhs(move |y, _, _, rate| motion.rate(y, rate))
+        .init(move |_, _, y| y.copy_from_slice(&start), M)
         .build()
         .map_err(|error| anyhow!("{error}"))?;
     let mut solver = problem.tsit45().map_err(|error| anyhow!("{error}"))?;
     solver.set_stop_time(time).map_err(|error| anyhow!("{error}"))?;
     while !matches!(solver.step().map_err(|error| anyhow!("{error}"))?, OdeSolverStopReason::TstopReached) {}
-    Ok(solver.state().y.as_slice().try_into()?)
+    Ok(solver.state().y.batch_as_slice(0).try_into()?)
 }
