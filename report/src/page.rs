@@ -16,8 +16,11 @@ const SCENES: [&str; 6] =
 const LEVELS: [f64; 6] = [1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 const COORDINATES: [u32; 5] = [2, 4, 8, 16, 32];
 
+/// One of a run's errors.
+type Error = fn(&Record) -> f64;
+
 /// The errors that a table or figure can be about.
-const QUANTITIES: [(&str, fn(&Record) -> f64); 3] = [
+const QUANTITIES: [(&str, Error); 3] = [
     ("position", |record| record.position_error),
     ("momentum", |record| record.momentum_error),
     ("energy", |record| record.energy_error),
@@ -54,7 +57,7 @@ impl Measured<'_> {
         self.ours.contains(&method)
     }
 
-    fn time(&self, scene: &str, method: &str, error: f64, of: fn(&Record) -> f64) -> Option<f64> {
+    fn time(&self, scene: &str, method: &str, error: f64, of: Error) -> Option<f64> {
         time_to_reach(error, points(self.records, scene, method, of))
     }
 

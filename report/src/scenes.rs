@@ -252,14 +252,12 @@ impl Scene<7> for Pendulums {
         // In place, column by column: below the diagonal L, on it 1/D.
         for j in 0..N {
             let inverse = 1.0 / mass[j][j];
-            for i in j + 1..N {
-                let factor = mass[i][j] * inverse;
+            let column: [f64; N] = std::array::from_fn(|i| mass[i][j]);
+            for (i, row) in mass.iter_mut().enumerate().skip(j + 1) {
+                row[j] = column[i] * inverse;
                 for k in j + 1..=i {
-                    mass[i][k] -= factor * mass[k][j];
+                    row[k] -= row[j] * column[k];
                 }
-            }
-            for i in j + 1..N {
-                mass[i][j] *= inverse;
             }
             mass[j][j] = inverse;
         }

@@ -74,6 +74,7 @@ impl<R> Composition<R, 1> {
 impl<R> Composition<R, 9> {
     /// Order 6 in 9 substeps of a self-adjoint `rule` of order 2 (Kahan and Li 1997).
     #[must_use]
+    #[expect(clippy::excessive_precision, reason = "the digits published")]
     pub const fn kahan_li_6(rule: R) -> Self {
         let half = [
             0.392_161_444_007_314_139_279_250_56,
@@ -89,6 +90,7 @@ impl<R> Composition<R, 9> {
 impl<R> Composition<R, 17> {
     /// Order 8 in 17 substeps of a self-adjoint `rule` of order 2 (Kahan and Li 1997).
     #[must_use]
+    #[expect(clippy::excessive_precision, reason = "the digits published")]
     pub const fn kahan_li_8(rule: R) -> Self {
         let half = [
             0.130_202_483_088_890_080_878_817_63,

@@ -137,7 +137,7 @@ where
         let before = *self.state();
         let stepped = self.advance();
         self.failed = stepped.is_err();
-        if stepped.is_ok() && (self.is_rougher() || self.taken % LOOK_EVERY == 0) {
+        if stepped.is_ok() && (self.is_rougher() || self.taken.is_multiple_of(LOOK_EVERY)) {
             self.look(&before);
         }
         Some(stepped.map(|()| *self.state()))
