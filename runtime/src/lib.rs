@@ -7,6 +7,7 @@
 
 extern crate self as dalembert;
 
+mod composition;
 mod derivatives;
 mod discrete;
 mod elementary;
@@ -21,6 +22,7 @@ mod scalar;
 mod state;
 mod structure;
 mod system;
+mod tolerance;
 mod trajectory;
 
 #[cfg(feature = "std")]
@@ -160,6 +162,7 @@ pub use attributes::rayleigh_system;
 pub use attributes::differentiable;
 pub use nalgebra;
 
+pub use composition::{ComposedTrajectory, Composition};
 pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
 pub use discrete::{
     Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Report, Step, StepKernel,
@@ -175,4 +178,5 @@ pub use scalar::Scalar;
 pub use state::State;
 pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
 pub use system::{Force, Lagrangian, Rayleigh};
+pub use tolerance::{Breach, Choice, GuardedTrajectory, Method, ToleranceError, Trial};
 pub use trajectory::{Sample, Samples, Trajectory};

@@ -1,0 +1,110 @@
+//! Speed against error: what a trajectory costs to given errors, by this project's methods and by others, in one run.
+//!
+//! `cargo speed-against-error` measures and writes `docs/speed-against-error.md`; `… page` writes the page again from the figures
+//! measured last, `… scenes` and `… long-run` measure one part again. Peers with a Python interface are run where the
+//! interpreter that `PYTHON` names has them.
+
+mod frontier;
+mod long_run;
+mod measure;
+mod ours;
+mod page;
+mod peers;
+mod picture;
+mod reference;
+mod scenes;
+mod study;
+
+use std::path::Path;
+use std::{env, fs};
+
+use anyhow::{Context, Result, bail};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use peers::python::Python;
+use scenes::{
+    Chain2, Chain4, Chain8, Chain16, Chain32, DoublePendulum, HenonHeiles, Kepler, Pendulums, Ring,
+};
+use study::Record;
+
+fn main() -> Result<()> {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("docs");
+    let folder = docs.join("speed-against-error");
+    match env::args().nth(1).as_deref() {
+        None => measure(&folder, true, true)?,
+        Some("scenes") => measure(&folder, true, false)?,
+        Some("long-run") => measure(&folder, false, true)?,
+        Some("page") => {}
+        Some(other) => {
+            bail!("what is {other:?}? `scenes` or `long-run`, to measure these alone, `page`, or nothing")
+        }
+    }
+    let records: Vec<Record> = read(&folder.join("scenes.csv"))?;
+    let setting = fs::read_to_string(folder.join("setting.md"))?;
+    let ours: Vec<&str> = ours::methods::<Ring, 2>().iter().map(|(name, _)| *name).collect();
+    let measured = page::Measured {
+        records: &records,
+        long: &read(&folder.join("long-run.csv"))?,
+        samples: &read(&folder.join("long-run-samples.csv"))?,
+        ours: &ours,
+        setting: &setting,
+        reading: include_str!("../reading.md"),
+    };
+    page::write(&docs, &measured)
+}
+
+/// Runs what is asked for and writes what it measured.
+fn measure(folder: &Path, short: bool, long: bool) -> Result<()> {
+    fs::create_dir_all(folder)?;
+    let python = Python::start().inspect_err(|error| eprintln!("{error:#}")).ok();
+    fs::write(folder.join("setting.md"), page::setting(python.as_ref()))?;
+    if short {
+        write(&folder.join("scenes.csv"), &scenes(python.as_ref())?)?;
+    }
+    if long {
+        eprintln!("long run");
+        let (records, samples) = long_run::measure(python.as_ref())?;
+        write(&folder.join("long-run.csv"), &records)?;
+        write(&folder.join("long-run-samples.csv"), &samples)?;
+    }
+    Ok(())
+}
+
+fn read<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
+    let mut file = csv::Reader::from_path(path).with_context(|| path.display().to_string())?;
+    Ok(file.deserialize().collect::<Result<_, _>>()?)
+}
+
+fn write<T: Serialize>(path: &Path, records: &[T]) -> Result<()> {
+    let mut file = csv::Writer::from_path(path)?;
+    for record in records {
+        file.serialize(record)?;
+    }
+    Ok(file.flush()?)
+}
+
+/// Every scene, by the names that `references.txt` has.
+fn scenes(python: Option<&Python>) -> Result<Vec<Record>> {
+    let mut records = Vec::new();
+    macro_rules! measure {
+        ($($name:literal: $scene:expr, $n:literal;)*) => {$(
+            eprintln!("{}", $name);
+            records.extend(study::scene::<_, $n, { 2 * $n }>($name, &$scene, python)?);
+        )*};
+    }
+    measure! {
+        "ring": Ring { k: 1e-3 }, 2;
+        "double pendulum": DoublePendulum::EXAMPLE, 2;
+        "FPUT chain": Chain8::EXAMPLE, 8;
+        "Hénon–Heiles": HenonHeiles, 2;
+        "Kepler": Kepler { k: 1e-4 }, 2;
+        "seven pendulums": Pendulums::EXAMPLE, 7;
+        "FPUT chain, n = 2": Chain2::EXAMPLE, 2;
+        "FPUT chain, n = 4": Chain4::EXAMPLE, 4;
+        "FPUT chain, n = 8": Chain8::EXAMPLE, 8;
+        "FPUT chain, n = 16": Chain16::EXAMPLE, 16;
+        "FPUT chain, n = 32": Chain32::EXAMPLE, 32;
+    }
+    Ok(records)
+}

@@ -1,0 +1,392 @@
+//! The page: what to take for which error first, then figures and tables, then how they were measured.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use anyhow::Result;
+
+use crate::frontier::{Point, points, time_to_reach};
+use crate::long_run;
+use crate::picture::{self, Curve, Panel};
+use crate::study::Record;
+
+/// The scenes of the tables; the other chains are for the growth with n.
+const SCENES: [&str; 6] =
+    ["ring", "double pendulum", "FPUT chain", "Hénon–Heiles", "Kepler", "seven pendulums"];
+const LEVELS: [f64; 6] = [1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
+const COORDINATES: [u32; 5] = [2, 4, 8, 16, 32];
+
+/// One of a run's errors.
+type Error = fn(&Record) -> f64;
+
+/// The errors that a table or figure can be about.
+const QUANTITIES: [(&str, Error); 3] = [
+    ("position", |record| record.position_error),
+    ("momentum", |record| record.momentum_error),
+    ("energy", |record| record.energy_error),
+];
+
+/// All that the page is made from.
+pub struct Measured<'a> {
+    pub records: &'a [Record],
+    pub long: &'a [long_run::Record],
+    pub samples: &'a [long_run::Sample],
+    pub ours: &'a [&'a str],
+    /// What ran where, a line each.
+    pub setting: &'a str,
+    /// What a reader makes of the figures, written by hand.
+    pub reading: &'a str,
+}
+
+/// Methods written in Rust are compared one trajectory at a time; this one integrates eight.
+const BATCH: &str = "heyoka, batch of 8";
+
+impl Measured<'_> {
+    /// Methods in the order of the first scene they ran on.
+    fn methods(&self) -> Vec<&str> {
+        let mut methods: Vec<&str> = Vec::new();
+        for record in self.records {
+            if !methods.contains(&record.method.as_str()) {
+                methods.push(&record.method);
+            }
+        }
+        methods
+    }
+
+    fn is_ours(&self, method: &str) -> bool {
+        self.ours.contains(&method)
+    }
+
+    fn time(&self, scene: &str, method: &str, error: f64, of: Error) -> Option<f64> {
+        time_to_reach(error, points(self.records, scene, method, of))
+    }
+
+    /// The fastest of the methods that `which` lets through, at a position error.
+    fn fastest(&self, scene: &str, error: f64, which: impl Fn(&str) -> bool) -> Option<(&str, f64)> {
+        self.methods()
+            .into_iter()
+            .filter(|method| which(method))
+            .filter_map(|method| Some((method, self.time(scene, method, error, QUANTITIES[0].1)?)))
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// Fastest single-trajectory run whose energy stays within `error` up to the horizon of that index.
+    fn fastest_long(&self, error: f64, horizon: usize, which: impl Fn(&str) -> bool) -> Option<(&str, f64)> {
+        self.methods()
+            .into_iter()
+            .filter(|method| which(method))
+            .filter_map(|method| {
+                let runs = self.long.iter().filter(|record| record.method == method);
+                let runs = runs.map(|run| Point { seconds: run.seconds, error: run.errors()[horizon] });
+                Some((method, time_to_reach(error, runs)?))
+            })
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
+
+/// Writes the page and its figures into `docs`.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn write(docs: &Path, measured: &Measured<'_>) -> Result<()> {
+    let figures = docs.join("speed-against-error");
+    let methods = measured.methods();
+    for (quantity, error) in QUANTITIES {
+        let panels = SCENES.map(|scene| Panel {
+            title: scene.into(),
+            x: "time of one trajectory, µs",
+            y: "error at the end",
+            linear: false,
+            y_range: 1e-15..1.0,
+            curves: curves(&methods, |method| {
+                points(measured.records, scene, method, error)
+                    .map(|p| (p.seconds * 1e6, p.error.max(1e-15)))
+                    .collect()
+            }),
+        });
+        picture::write(&figures.join(format!("{quantity}.svg")), 2, &methods, &panels)?;
+    }
+    let along = Panel {
+        title: format!("energy error along runs that cost about {} ms each", long_run::SHOWN * 1e3),
+        x: "time t",
+        y: "|E − E reference|",
+        linear: true,
+        y_range: 1e-12..1.0,
+        curves: curves(&methods, |method| {
+            let samples = measured.samples.iter().filter(|sample| sample.method == method);
+            samples.map(|sample| (sample.time, sample.energy_error.max(1e-12))).collect()
+        }),
+    };
+    let cost = Panel {
+        title: "largest energy error up to t = 20 000".into(),
+        x: "time of the whole run, ms",
+        y: "largest |E − E reference|",
+        linear: false,
+        y_range: 1e-12..1.0,
+        curves: curves(&methods, |method| {
+            let runs = measured.long.iter().filter(|record| record.method == method);
+            runs.map(|run| (run.seconds * 1e3, run.error_to_20000.max(1e-12))).collect()
+        }),
+    };
+    picture::write(&figures.join("long-run.svg"), 2, &methods, &[along, cost])?;
+    std::fs::write(docs.join("speed-against-error.md"), text(measured)?)?;
+    Ok(())
+}
+
+fn curves<'a>(methods: &[&'a str], points: impl Fn(&str) -> Vec<(f64, f64)>) -> Vec<Curve<'a>> {
+    methods
+        .iter()
+        .map(|&method| {
+            let mut points = points(method);
+            points.retain(|point| point.0.is_finite() && point.1.is_finite());
+            Curve { method, points }
+        })
+        .collect()
+}
+
+fn text(measured: &Measured<'_>) -> Result<String> {
+    let mut page = String::new();
+    writeln!(page, "# Speed against error\n")?;
+    writeln!(
+        page,
+        "What one trajectory costs to a given error: this project's methods and others', in one run, in turns, on one core.\n\
+         Written by `cargo speed-against-error` (settings and machine: [below](#how-it-was-measured)); do not edit it.\n"
+    )?;
+    writeln!(page, "## Which method for which error\n")?;
+    writeln!(
+        page,
+        "The fastest method for one trajectory, with its time in µs; below it this project's best and its factor to the\n\
+         fastest. Ratios below 1.3 are ties. Error: of the position, at the end.\n"
+    )?;
+    choice(&mut page, measured)?;
+    writeln!(page, "{}", measured.reading.trim_end())?;
+    writeln!(page, "\n### Aimed at, and reached\n")?;
+    aims(&mut page, measured)?;
+    writeln!(page, "\n## Figures\n")?;
+    for (quantity, _) in QUANTITIES {
+        writeln!(
+            page,
+            "![Error of the {quantity} over time, for each scene](speed-against-error/{quantity}.svg)\n"
+        )?;
+    }
+    writeln!(page, "## Tables\n\nµs of one trajectory; – where no run reaches the error.\n")?;
+    for scene in SCENES {
+        table(&mut page, measured, scene)?;
+    }
+    writeln!(page, "## The long run: bounded energy error\n")?;
+    writeln!(
+        page,
+        "The ring with drag k = 1e-5 over 20 000 units of time, some 5 000 rounds.\n\n\
+         ![Energy error along the long run, and its largest value over cost](speed-against-error/long-run.svg)\n"
+    )?;
+    long(&mut page, measured)?;
+    writeln!(page, "\n## Growth with n\n")?;
+    growth(&mut page, measured)?;
+    writeln!(page, "\n## How it was measured\n")?;
+    page.push_str(include_str!("method.md"));
+    writeln!(page, "\n{}", measured.setting.trim_end())?;
+    Ok(page)
+}
+
+/// One row a scene, one column an error.
+fn choice(page: &mut String, measured: &Measured<'_>) -> Result<()> {
+    heading(page, "scene", LEVELS.map(level))?;
+    for scene in SCENES {
+        write!(page, "| {scene} |")?;
+        for error in LEVELS {
+            let all = measured.fastest(scene, error, |method| method != BATCH);
+            let ours = measured.fastest(scene, error, |method| measured.is_ours(method));
+            match (all, ours) {
+                (Some((best, time)), Some((own, own_time))) if best != own => {
+                    write!(page, " {best} {}<br>ours: {own} ×{:.1} |", microseconds(time), own_time / time)?
+                }
+                (Some((best, time)), Some(_)) => write!(page, " **{best}** {} |", microseconds(time))?,
+                (Some((best, time)), None) => {
+                    write!(page, " {best} {}<br>ours: not reached |", microseconds(time))?;
+                }
+                (None, _) => write!(page, " – |")?,
+            }
+        }
+        writeln!(page)?;
+    }
+    writeln!(page)?;
+    Ok(())
+}
+
+/// The aims of the project, with what this run says of them.
+fn aims(page: &mut String, measured: &Measured<'_>) -> Result<()> {
+    writeln!(page, "| aim | reached | |\n|---|---|---|")?;
+    let is_rust = |method: &str| {
+        !measured.is_ours(method) && !method.starts_with("heyoka") && !method.starts_with("scipy")
+    };
+    let mut row = |aim: &str, factors: Vec<(String, Option<f64>)>, limit: f64| -> Result<()> {
+        let met = factors.iter().all(|(_, factor)| factor.is_some_and(|factor| factor <= limit));
+        let said: Vec<String> = factors
+            .into_iter()
+            .map(|(what, factor)| match factor {
+                Some(factor) => format!("{what} {factor:.2}"),
+                None => format!("{what} not reached"),
+            })
+            .collect();
+        writeln!(page, "| {aim} | {} | {} |", said.join(", "), if met { "met" } else { "**missed**" })?;
+        Ok(())
+    };
+    let worst = |levels: &[f64], which: &dyn Fn(&str) -> bool| -> Vec<(String, Option<f64>)> {
+        SCENES
+            .iter()
+            .map(|scene| {
+                let factors = levels.iter().filter_map(|&error| {
+                    let (_, time) = measured.fastest(scene, error, which)?;
+                    let own = measured.fastest(scene, error, |method| measured.is_ours(method));
+                    Some(own.map(|(_, own)| own / time))
+                });
+                let worst = factors.reduce(|a, b| Some(f64::max(a?, b?)));
+                ((*scene).into(), worst.flatten())
+            })
+            .collect()
+    };
+    row(
+        "position errors 1e-8 to 1e-12: at most 1.15 × the fastest peer in Rust",
+        worst(&[1e-8, 1e-10, 1e-12], &is_rust),
+        1.15,
+    )?;
+    row(
+        "1e-3 and 1e-6: at most 2.5 × the fastest of all",
+        worst(&[1e-3, 1e-6], &|method| method != BATCH && !measured.is_ours(method)),
+        2.5,
+    )?;
+    let against_heyoka = LEVELS
+        .iter()
+        .map(|&error| {
+            let heyoka = measured.time("ring", "heyoka", error, QUANTITIES[0].1);
+            let own = measured.fastest("ring", error, |method| measured.is_ours(method));
+            (level(error), own.zip(heyoka).map(|((_, own), heyoka)| own / heyoka))
+        })
+        .collect();
+    row("the ring: at most 0.67 × heyoka, scalar", against_heyoka, 1.0 / 1.5)?;
+    let own = measured.fastest_long(4e-3, 2, |method| measured.is_ours(method));
+    let peer = measured.fastest_long(4e-3, 2, |method| !measured.is_ours(method) && method != BATCH);
+    let factor = own.zip(peer).map(|((_, own), (_, peer))| own / peer);
+    row(
+        "energy within 4e-3 over the long run: at most 0.2 × every non-variational method",
+        vec![("to the fastest".into(), factor)],
+        0.2,
+    )
+}
+
+/// All methods on one scene.
+fn table(page: &mut String, measured: &Measured<'_>, scene: &str) -> Result<()> {
+    writeln!(page, "### {}\n", capitalised(scene))?;
+    let columns = QUANTITIES.iter().flat_map(|(quantity, _)| {
+        LEVELS
+            .iter()
+            .filter(|error| **error != 1e-4)
+            .map(move |&error| format!("{} {}", &quantity[..3], level(error)))
+    });
+    heading(page, "method", columns)?;
+    for method in measured.methods() {
+        write!(page, "| {method} |")?;
+        for (_, of) in QUANTITIES {
+            for error in LEVELS.into_iter().filter(|error| *error != 1e-4) {
+                write!(
+                    page,
+                    " {} |",
+                    measured.time(scene, method, error, of).map_or("–".into(), microseconds)
+                )?;
+            }
+        }
+        writeln!(page)?;
+    }
+    writeln!(page)?;
+    Ok(())
+}
+
+/// ms of the whole long run for energy errors up to three horizons.
+fn long(page: &mut String, measured: &Measured<'_>) -> Result<()> {
+    const ERRORS: [f64; 3] = [4e-3, 1e-4, 1e-6];
+    writeln!(
+        page,
+        "Growth with T: µs per unit of time, at the largest step or tolerance that keeps the energy within the error up to T.\n"
+    )?;
+    let columns = ERRORS
+        .iter()
+        .flat_map(|error| long_run::HORIZONS.map(move |horizon| format!("{error:e}, T = {horizon}")));
+    heading(page, "method", columns)?;
+    for method in measured.methods() {
+        write!(page, "| {method} |")?;
+        for error in ERRORS {
+            for horizon in 0..3 {
+                let time = measured.fastest_long(error, horizon, |other| other == method);
+                let unit = |seconds: f64| format!("{:.3}", seconds * 1e6 / long_run::HORIZONS[2]);
+                write!(page, " {} |", time.map_or("–".into(), |(_, seconds)| unit(seconds)))?;
+            }
+        }
+        writeln!(page)?;
+    }
+    Ok(())
+}
+
+/// The chain with more and more masses.
+fn growth(page: &mut String, measured: &Measured<'_>) -> Result<()> {
+    writeln!(page, "The FPUT chain of n masses, T = 50: µs to a position error of 1e-6 and 1e-10.\n")?;
+    let columns = [1e-6, 1e-10]
+        .into_iter()
+        .flat_map(|error| COORDINATES.map(move |n| format!("{}, n = {n}", level(error))));
+    heading(page, "method", columns)?;
+    for method in measured.methods() {
+        write!(page, "| {method} |")?;
+        for error in [1e-6, 1e-10] {
+            for n in COORDINATES {
+                let time = measured.time(&format!("FPUT chain, n = {n}"), method, error, QUANTITIES[0].1);
+                write!(page, " {} |", time.map_or("–".into(), microseconds))?;
+            }
+        }
+        writeln!(page)?;
+    }
+    Ok(())
+}
+
+fn heading(page: &mut String, first: &str, columns: impl IntoIterator<Item = String>) -> Result<()> {
+    let columns: Vec<String> = columns.into_iter().collect();
+    writeln!(page, "| {first} | {} |", columns.join(" | "))?;
+    writeln!(page, "|---|{}", "---|".repeat(columns.len()))?;
+    Ok(())
+}
+
+fn level(error: f64) -> String {
+    format!("{error:e}")
+}
+
+/// Three figures.
+fn microseconds(seconds: f64) -> String {
+    let value = seconds * 1e6;
+    if value < 100.0 { format!("{value:.1}") } else { format!("{value:.0}") }
+}
+
+fn capitalised(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// Kept beside the figures: which machine, which versions, what is missing.
+pub fn setting(python: Option<&crate::peers::python::Python>) -> String {
+    let processor = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
+        let line = text.lines().find(|line| line.starts_with("model name"))?;
+        Some(line.split_once(": ")?.1.to_owned())
+    });
+    let mut text = format!(
+        "- Processor: {}; built with `-C target-cpu=native`.\n",
+        processor.unwrap_or_else(|| "unknown".into())
+    );
+    if let Some(python) = python {
+        for version in &python.versions {
+            let _ = writeln!(text, "- {version}");
+        }
+        for missing in &python.missing {
+            let _ = writeln!(text, "- Not installed, so not measured: {missing}");
+        }
+    } else {
+        let _ = writeln!(text, "- No Python interpreter: heyoka and SciPy were not measured.");
+    }
+    text
+}

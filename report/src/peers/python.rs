@@ -1,0 +1,88 @@
+//! Methods with a Python interface: `python/peers.py` runs them and times them itself, in this program's turns.
+
+use std::cell::RefCell;
+use std::env;
+use std::io::{BufRead, BufReader, Write};
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+
+use anyhow::{Context, Result, bail, ensure};
+
+/// What the script has, and what it said of what it has not.
+pub struct Python {
+    process: RefCell<Process>,
+    pub methods: Vec<&'static str>,
+    pub missing: Vec<String>,
+    pub versions: Vec<String>,
+}
+
+struct Process {
+    child: Child,
+    input: ChildStdin,
+    output: BufReader<ChildStdout>,
+}
+
+impl Python {
+    /// Starts the script with the interpreter that the variable `PYTHON` names, or else `python3`.
+    ///
+    /// # Errors
+    /// There is no such interpreter, or the script fails.
+    pub fn start() -> Result<Self> {
+        let interpreter = env::var("PYTHON").unwrap_or_else(|_| "python3".into());
+        let mut child = Command::new(&interpreter)
+            .arg(concat!(env!("CARGO_MANIFEST_DIR"), "/python/peers.py"))
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .with_context(|| format!("cannot run {interpreter}; name a Python interpreter in PYTHON"))?;
+        let input = child.stdin.take().context("no standard input")?;
+        let output = BufReader::new(child.stdout.take().context("no standard output")?);
+        let mut process = Process { child, input, output };
+        let (mut methods, mut missing, mut versions) = (Vec::new(), Vec::new(), Vec::new());
+        loop {
+            let line = process.line()?;
+            match line.split_once(' ').unwrap_or((&line, "")) {
+                ("method", name) => methods.push(&*name.to_owned().leak()),
+                ("missing", what) => missing.push(what.to_owned()),
+                ("version", what) => versions.push(what.to_owned()),
+                ("ready", "") => break,
+                _ => bail!("peers.py said {line:?}"),
+            }
+        }
+        Ok(Self { process: RefCell::new(process), methods, missing, versions })
+    }
+
+    /// Seconds of one trajectory of the scene of that name, and (q, v) at the ends of so many equal intervals.
+    ///
+    /// # Errors
+    /// What the script says.
+    pub fn run<const M: usize>(
+        &self,
+        method: &str,
+        scene: &str,
+        tolerance: f64,
+        repeats: u32,
+        samples: usize,
+    ) -> Result<(f64, Vec<[f64; M]>)> {
+        let mut process = self.process.borrow_mut();
+        writeln!(process.input, "{method}\t{scene}\t{tolerance:e}\t{repeats}\t{samples}")?;
+        process.input.flush()?;
+        let line = process.line()?;
+        let Some(numbers) = line.strip_prefix("end ") else { bail!("{line}") };
+        let mut numbers = numbers.split(' ').map(str::parse::<f64>);
+        let seconds = numbers.next().context("no time")??;
+        let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;
+        let (states, rest) = numbers.as_chunks();
+        ensure!(rest.is_empty() && states.len() == samples, "{} numbers for {samples} states", numbers.len());
+        Ok((seconds, states.to_vec()))
+    }
+}
+
+impl Process {
+    fn line(&mut self) -> Result<String> {
+        let mut line = String::new();
+        if self.output.read_line(&mut line)? == 0 {
+            bail!("peers.py ended: {}", self.child.wait()?);
+        }
+        Ok(line.trim_end().to_owned())
+    }
+}

@@ -1,0 +1,305 @@
+//! Order and step size from a requested error, and a guard along the run.
+
+mod display;
+mod guard;
+
+use nalgebra::ComplexField;
+
+use crate::{ComposedTrajectory, Composition, Discrete, Scalar, State, StepError};
+pub use guard::{Breach, GuardedTrajectory};
+
+/// A method of constant step: a self-adjoint rule of order 2, alone or composed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Method {
+    /// The rule alone, order 2.
+    Rule,
+    /// [`Composition::kahan_li_6`] of it.
+    KahanLi6,
+    /// [`Composition::kahan_li_8`] of it.
+    KahanLi8,
+}
+
+/// What the start says of one method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Trial {
+    /// The method.
+    pub method: Method,
+    /// The step size that the error asks for; `None` if no step tried on the way shows the method's order above round-off.
+    pub step_size: Option<f64>,
+    /// Substeps of the rule over the whole time: the cost.
+    pub substeps: f64,
+    /// Error expected at the end.
+    pub expected: f64,
+}
+
+/// A method and a step size, with the reasons.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Choice {
+    /// The method chosen: the one of least cost.
+    pub method: Method,
+    /// The step size, a whole fraction of the time.
+    pub step_size: f64,
+    /// Steps over the whole time.
+    pub steps: u64,
+    /// The error asked for.
+    pub tolerance: f64,
+    /// The error expected at the end.
+    pub expected: f64,
+    /// Largest difference between one step and two half ones at the start, to which a [`GuardedTrajectory`] compares.
+    pub local: f64,
+    /// What was found of every method.
+    pub trials: [Trial; 3],
+}
+
+/// Why no method was chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ToleranceError {
+    /// The time or the tolerance is not a finite number above 0.
+    Request {
+        /// The time given.
+        time: f64,
+        /// The tolerance given.
+        tolerance: f64,
+    },
+    /// No method reaches the error: none showed its order, or rounding over so many steps exceeds it.
+    OutOfReach {
+        /// What was found of every method.
+        trials: [Trial; 3],
+    },
+    /// A step at the chosen size failed at the start.
+    Step(StepError),
+}
+
+/// The share of the time that is tried out.
+const WINDOW: f64 = 1.0 / 16.0;
+
+/// Steps of the coarsest trial over the window, and how often they are halved.
+const COARSEST: u64 = 4;
+const HALVINGS: u32 = 14;
+
+/// The share of the tolerance that the estimate may fill: it looks at the start alone.
+const SAFETY: f64 = 0.25;
+
+/// How far the order observed may stay below the method's.
+const ORDER_SLACK: f64 = 0.7;
+
+impl Method {
+    /// All of them, by rising order.
+    pub const ALL: [Self; 3] = [Self::Rule, Self::KahanLi6, Self::KahanLi8];
+
+    /// The order p.
+    #[must_use]
+    pub const fn order(self) -> u32 {
+        match self {
+            Self::Rule => 2,
+            Self::KahanLi6 => 6,
+            Self::KahanLi8 => 8,
+        }
+    }
+
+    /// Substeps of the rule in one step.
+    #[must_use]
+    pub const fn substeps(self) -> u32 {
+        match self {
+            Self::Rule => 1,
+            Self::KahanLi6 => 9,
+            Self::KahanLi8 => 17,
+        }
+    }
+
+    /// The method and step size of least cost for an error of q of at most `tolerance` (largest coordinate, absolute) after
+    /// `time`.
+    ///
+    /// **Estimate.** Each method runs over the first sixteenth of the time with halved steps until the differences
+    /// d(h) = |q_h − q_{h/2}| fall as its order p says. Then the error over that window is d(h)·2ᵖ/(2ᵖ − 1); it is expected to
+    /// grow linearly with time and as hᵖ, and may fill a quarter of the tolerance. Rounding is expected to add ε|q|√substeps.
+    /// An error that grows faster, as on chaotic motions, or a fast passage after the first sixteenth, is not seen from the
+    /// start: run the choice by [`Choice::trajectory`], whose guard reports the latter.
+    ///
+    /// The step size stays constant along the run, so that the structure is kept.
+    ///
+    /// ```
+    /// use dalembert::{Method, State, Trapezoidal, rayleigh_system};
+    ///
+    /// #[rayleigh_system(rule = trapezoidal)]
+    /// fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    ///     (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
+    /// }
+    ///
+    /// let system = Pendulum { r: 0.01 };
+    /// let start = State::from_velocity(&system, [1.0], [0.0])?;
+    /// let choice = Method::for_tolerance(&system, Trapezoidal, &start, 100.0, 1e-9)?;
+    /// println!("{choice}"); // order 8 in 17 substeps, h = …
+    /// let mut run = choice.trajectory(&system, Trapezoidal, start);
+    /// for state in &mut run {
+    ///     state?;
+    /// }
+    /// assert!(run.breach().is_none());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A [`ToleranceError`].
+    pub fn for_tolerance<L, R, const N: usize>(
+        system: &L,
+        rule: R,
+        start: &State<L::Scalar, N>,
+        time: f64,
+        tolerance: f64,
+    ) -> Result<Choice, ToleranceError>
+    where
+        L: Discrete<R, N>,
+        R: Copy,
+    {
+        let valid = |x: f64| x.is_finite() && x > 0.0;
+        if !valid(time) || !valid(tolerance) {
+            return Err(ToleranceError::Request { time, tolerance });
+        }
+        let trials = Self::ALL.map(|method| method.trial(system, rule, start, time, tolerance));
+        let best = trials
+            .iter()
+            .filter(|trial| trial.step_size.is_some() && trial.expected <= tolerance)
+            .min_by(|a, b| a.substeps.total_cmp(&b.substeps));
+        let Some(&Trial { method, step_size: Some(h), expected, .. }) = best else {
+            return Err(ToleranceError::OutOfReach { trials });
+        };
+        let steps = ComplexField::round(time / h).max(1.0);
+        let mut choice =
+            Choice { method, step_size: h, steps: steps as u64, tolerance, expected, local: 0.0, trials };
+        // The largest local error over as many steps as the window has, a sample of them.
+        let mut run = choice.trajectory(system, rule, *start);
+        let window = ComplexField::ceil(steps * WINDOW).max(1.0) as u64;
+        let stride = window.div_ceil(64);
+        for step in 0..window {
+            if step % stride == 0 {
+                choice.local = choice.local.max(run.local_error(run.state()).map_err(ToleranceError::Step)?);
+            }
+            run.advance().map_err(ToleranceError::Step)?;
+        }
+        Ok(choice)
+    }
+
+    fn trial<L, R, const N: usize>(
+        self,
+        system: &L,
+        rule: R,
+        start: &State<L::Scalar, N>,
+        time: f64,
+        tolerance: f64,
+    ) -> Trial
+    where
+        L: Discrete<R, N>,
+        R: Copy,
+    {
+        let none = Trial { method: self, step_size: None, substeps: f64::INFINITY, expected: f64::INFINITY };
+        let p = f64::from(self.order());
+        let window = time * WINDOW;
+        let end = |steps: u64| {
+            let h = L::Scalar::constant(window / steps as f64);
+            let mut run = Run::new(self, rule, system, h, *start);
+            (0..steps).try_for_each(|_| run.advance()).ok().map(|()| run.state().q)
+        };
+        let size = start.q.amax().widen().max(f64::MIN_POSITIVE);
+        let (mut coarse, mut last) = (end(COARSEST), None::<f64>);
+        for k in 0..HALVINGS {
+            let steps = COARSEST << k;
+            let fine = end(2 * steps);
+            let difference = coarse.zip(fine).map(|(a, b)| (a - b).amax().widen());
+            coarse = fine;
+            let (Some(before), Some(here)) = (last, difference) else {
+                last = difference;
+                continue;
+            };
+            last = difference;
+            let observed = ComplexField::log2(before / here);
+            let rounding = L::Scalar::EPSILON.widen() * size * ComplexField::sqrt(steps as f64);
+            if here <= 16.0 * rounding {
+                // Nothing but rounding is left: the step before is fine enough, and no finer one shows more.
+                return self.extrapolated(
+                    time,
+                    tolerance,
+                    window / (steps / 2) as f64,
+                    before.max(rounding),
+                    size,
+                    none,
+                );
+            }
+            if observed >= p - ORDER_SLACK {
+                let error = here * 2_f64.powi(p as i32) / (2_f64.powi(p as i32) - 1.0);
+                return self.extrapolated(time, tolerance, window / steps as f64, error, size, none);
+            }
+        }
+        none
+    }
+
+    /// The step for the tolerance, from the error over the window at step `h`; never longer than twice a step tried.
+    fn extrapolated(self, time: f64, tolerance: f64, h: f64, error: f64, size: f64, none: Trial) -> Trial {
+        let p = f64::from(self.order());
+        let over_time = error / WINDOW;
+        let factor = ComplexField::powf(SAFETY * tolerance / over_time, 1.0 / p).min(2.0);
+        let steps = ComplexField::ceil(time / (h * factor));
+        let h_chosen = time / steps;
+        if !h_chosen.is_finite() || h_chosen <= 0.0 {
+            return none;
+        }
+        let substeps = steps * f64::from(self.substeps());
+        let rounding = f64::EPSILON * size * ComplexField::sqrt(substeps);
+        let expected = over_time * ComplexField::powf(h_chosen / h, p) + rounding;
+        Trial { method: self, step_size: Some(h_chosen), substeps, expected }
+    }
+}
+
+impl Choice {
+    /// The run of this choice, with its guard.
+    pub fn trajectory<'a, L, R, const N: usize>(
+        &self,
+        system: &'a L,
+        rule: R,
+        start: State<L::Scalar, N>,
+    ) -> GuardedTrajectory<'a, L, R, N>
+    where
+        L: Discrete<R, N>,
+        R: Copy,
+    {
+        GuardedTrajectory::new(*self, system, rule, start)
+    }
+}
+
+/// A run of any of the methods.
+enum Run<'a, L: Discrete<R, N>, R, const N: usize> {
+    Rule(ComposedTrajectory<'a, L, R, N, 1>),
+    KahanLi6(ComposedTrajectory<'a, L, R, N, 9>),
+    KahanLi8(ComposedTrajectory<'a, L, R, N, 17>),
+}
+
+impl<'a, L: Discrete<R, N>, R, const N: usize> Run<'a, L, R, N> {
+    fn new(method: Method, rule: R, system: &'a L, h: L::Scalar, state: State<L::Scalar, N>) -> Self {
+        match method {
+            Method::Rule => Self::Rule(Composition::alone(rule).trajectory(system, h, state)),
+            Method::KahanLi6 => Self::KahanLi6(Composition::kahan_li_6(rule).trajectory(system, h, state)),
+            Method::KahanLi8 => Self::KahanLi8(Composition::kahan_li_8(rule).trajectory(system, h, state)),
+        }
+    }
+
+    fn state(&self) -> &State<L::Scalar, N> {
+        match self {
+            Self::Rule(run) => run.state(),
+            Self::KahanLi6(run) => run.state(),
+            Self::KahanLi8(run) => run.state(),
+        }
+    }
+
+    #[inline]
+    fn advance(&mut self) -> Result<(), StepError> {
+        let step = match self {
+            Self::Rule(run) => run.next(),
+            Self::KahanLi6(run) => run.next(),
+            Self::KahanLi8(run) => run.next(),
+        };
+        step.map_or(Ok(()), |step| step.map(|_| ()))
+    }
+}

@@ -1,0 +1,56 @@
+//! What a choice and its refusal say.
+
+use core::fmt;
+
+use super::{Choice, Method, ToleranceError, Trial};
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Rule => f.write_str("order 2, the rule alone"),
+            Self::KahanLi6 => f.write_str("order 6 in 9 substeps"),
+            Self::KahanLi8 => f.write_str("order 8 in 17 substeps"),
+        }
+    }
+}
+
+impl fmt::Display for Trial {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.step_size {
+            Some(h) => write!(
+                f,
+                "{}: h = {h:.3e}, {:.3e} substeps, error {:.1e}",
+                self.method, self.substeps, self.expected
+            ),
+            None => write!(f, "{}: its order does not show at the start", self.method),
+        }
+    }
+}
+
+impl fmt::Display for Choice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { method, step_size, steps, tolerance, expected, trials, .. } = self;
+        write!(
+            f,
+            "{method}, h = {step_size:.4e}, {steps} steps: error {expected:.1e} expected, {tolerance:.1e} asked for"
+        )?;
+        trials.iter().try_for_each(|trial| write!(f, "\n  {trial}"))
+    }
+}
+
+impl fmt::Display for ToleranceError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Request { time, tolerance } => {
+                write!(f, "time {time} and tolerance {tolerance} have to be finite and above 0")
+            }
+            Self::OutOfReach { trials } => {
+                f.write_str("no method reaches the tolerance; ask for less, or for a shorter time")?;
+                trials.iter().try_for_each(|trial| write!(f, "\n  {trial}"))
+            }
+            Self::Step(error) => write!(f, "at the start: {error}"),
+        }
+    }
+}
+
+impl core::error::Error for ToleranceError {}
