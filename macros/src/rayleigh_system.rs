@@ -24,7 +24,7 @@ mod syntax;
 use proc_macro2::TokenStream;
 
 use diagnostics::{Mistake, Report};
-use model::{Engine, Source};
+use model::{Engine, Rules, Source};
 
 /// The expansion of `#[rayleigh_system(attribute)] item`.
 pub fn rayleigh_system(attribute: TokenStream, item: TokenStream) -> TokenStream {
@@ -47,13 +47,14 @@ pub fn rayleigh_system(attribute: TokenStream, item: TokenStream) -> TokenStream
         });
     }
     let lowered = if options.engine == Engine::Auto { lower::system(&system).ok() } else { None };
-    // What auto accepts does not depend on how far the lowering goes.
-    let system = rewrite::over_duals(system, &mut report);
+    // What auto accepts does not depend on how far the lowering goes: where it goes all the way, the twins serve for their
+    // diagnostics alone.
+    let twins = rewrite::over_duals(&system, &mut report);
     if !report.is_empty() {
         return fallback::with_stubs(&source, &options.rules, report);
     }
     let expansion = lowered.and_then(|lowered| expanded::system(&system, lowered));
-    expansion.unwrap_or_else(|| expand::system(&system))
+    expansion.unwrap_or_else(|| expand::system(&system, &twins))
 }
 
 /// The expansion of `#[differentiable] item`: the same stages, for a function of (q, parameters…).
@@ -66,11 +67,11 @@ pub fn differentiable(attribute: TokenStream, item: TokenStream) -> TokenStream 
         return fallback::item_alone(item, report);
     };
     let Some((system, field)) = check::field(&source, &mut report) else {
-        return fallback::with_stubs(&source, &[], report);
+        return fallback::with_stubs(&source, &Rules::default(), report);
     };
-    let system = rewrite::over_duals(system, &mut report);
+    let twins = rewrite::over_duals(&system, &mut report);
     match &source {
-        Source::Function(function) if report.is_empty() => expand::field(&system, function, field),
-        _ => fallback::with_stubs(&source, &[], report),
+        Source::Function(function) if report.is_empty() => expand::field(&system, &twins[0], function, field),
+        _ => fallback::with_stubs(&source, &Rules::default(), report),
     }
 }

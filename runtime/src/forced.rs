@@ -22,7 +22,8 @@ pub struct Stages<T, const N: usize, const S: usize> {
 
 /// A Lagrangian L with the force f_L = −∂R/∂v + f that acts: the terms that the system has, summed.
 ///
-/// `#[rayleigh_system(rule = gauss)]` writes it. By hand the force and its derivatives are enough.
+/// `#[rayleigh_system(rule = gauss)]` writes it. By hand, a system without force needs nothing but the `impl`; one with force
+/// sets [`IS_FORCED`](Self::IS_FORCED) and gives f_L and its derivatives.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not say which force acts at its stages",
     label = "no forced Lagrangian",
@@ -30,21 +31,25 @@ pub struct Stages<T, const N: usize, const S: usize> {
 )]
 pub trait ForcedLagrangian<const N: usize>: Lagrangian<N> {
     /// Whether there is a force. Without one, f_d and its derivatives are 0 and cost nothing.
-    const IS_FORCED: bool;
+    const IS_FORCED: bool = false;
 
     /// f_L(q, v), a covector at q.
     fn acting_force(
         &self,
-        q: &SVector<Self::Scalar, N>,
-        v: &SVector<Self::Scalar, N>,
-    ) -> SVector<Self::Scalar, N>;
+        _q: &SVector<Self::Scalar, N>,
+        _v: &SVector<Self::Scalar, N>,
+    ) -> SVector<Self::Scalar, N> {
+        nalgebra::zero()
+    }
 
     /// f_L with ∂f_L/∂q and ∂f_L/∂v.
     fn acting_force_derivatives(
         &self,
-        q: &SVector<Self::Scalar, N>,
-        v: &SVector<Self::Scalar, N>,
-    ) -> CovectorDerivatives<Self::Scalar, N>;
+        _q: &SVector<Self::Scalar, N>,
+        _v: &SVector<Self::Scalar, N>,
+    ) -> CovectorDerivatives<Self::Scalar, N> {
+        CovectorDerivatives::zero()
+    }
 
     /// The equations of motion at all stages. `momenta` gives the stages' momenta from their rates g.
     fn stages<const S: usize>(

@@ -56,6 +56,16 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
         self
     }
 
+    /// self × factor + term, rounded once where the target has an instruction for it.
+    #[inline(always)]
+    pub(crate) fn times_plus(self, factor: T, term: Self) -> Self {
+        if cfg!(all(feature = "std", target_feature = "fma")) {
+            self.zip(term, |a, b| nalgebra::ComplexField::mul_add(a, factor, b))
+        } else {
+            self.zip(term, |a, b| a * factor + b)
+        }
+    }
+
     /// The largest of the lanes' absolute values; NaN if one is NaN.
     #[inline(always)]
     pub(crate) fn amax(self) -> T {

@@ -6,6 +6,6 @@ mod midpoint;
 mod trapezoidal;
 
 pub use displacement::{DisplacementRule, Node};
-pub use gauss::Gauss;
+pub use gauss::{Gauss, StageHistory};
 pub use midpoint::Midpoint;
 pub use trapezoidal::Trapezoidal;

@@ -7,10 +7,10 @@ use syn::{
 };
 
 use super::diagnostics::{Mistake, Report};
-use super::model::{Body, Degrees, Function, RayleighArguments, Rule, Source, System, simple_name};
+use super::model::{Degrees, Function, RayleighArguments, Rules, Source, System, simple_name};
 
 /// The system as far as its signatures tell, or nothing if not even N is known; every wrong one is reported.
-pub fn system<'a>(source: &'a Source, rules: Vec<Rule>, report: &mut Report) -> Option<System<'a>> {
+pub fn system<'a>(source: &'a Source, rules: Rules, report: &mut Report) -> Option<System<'a>> {
     match source {
         Source::Block(_) => block(source, rules, report),
         Source::Function(function) => free_function(source, function, rules, report),
@@ -23,7 +23,7 @@ struct Shape {
     degrees: Degrees,
 }
 
-fn block<'a>(source: &'a Source, rules: Vec<Rule>, report: &mut Report) -> Option<System<'a>> {
+fn block<'a>(source: &'a Source, rules: Rules, report: &mut Report) -> Option<System<'a>> {
     let named = |name: &str| source.functions().find(|function| function.sig.ident == name);
     let rayleigh = named("rayleigh");
     let Some(lagrangian) = named("lagrangian") else {
@@ -39,7 +39,7 @@ fn block<'a>(source: &'a Source, rules: Vec<Rule>, report: &mut Report) -> Optio
     let mut bodies = Vec::new();
     let mut keep = |function, before, report: &Report| {
         if report.count() == before {
-            bodies.push(Body::of(function));
+            bodies.push(ImplItemFn::clone(function));
         }
     };
     keep(lagrangian, before, report);
@@ -70,7 +70,7 @@ fn block<'a>(source: &'a Source, rules: Vec<Rule>, report: &mut Report) -> Optio
 fn free_function<'a>(
     source: &'a Source,
     function: &Function,
-    rules: Vec<Rule>,
+    rules: Rules,
     report: &mut Report,
 ) -> Option<System<'a>> {
     let before = report.count();
@@ -138,7 +138,8 @@ pub fn field<'a>(source: &'a Source, report: &mut Report) -> Option<(System<'a>,
             return None;
         }
     };
-    (report.count() == before).then(|| (function_system(source, function, shape, Vec::new(), None), field))
+    (report.count() == before)
+        .then(|| (function_system(source, function, shape, Rules::default(), None), field))
 }
 
 /// Parameters that become fields cannot be references.
@@ -154,7 +155,7 @@ fn function_system<'a>(
     source: &'a Source,
     function: &Function,
     shape: Shape,
-    rules: Vec<Rule>,
+    rules: Rules,
     rayleigh: Option<RayleighArguments>,
 ) -> System<'a> {
     let body = ImplItemFn {
@@ -170,15 +171,9 @@ fn function_system<'a>(
         degrees: shape.degrees,
         scalar: shape.scalar,
         rules,
-        bodies: vec![Body::of(&body)],
+        bodies: vec![body],
         rayleigh,
         has_force: false,
-    }
-}
-
-impl Body {
-    pub fn of(function: &ImplItemFn) -> Self {
-        Self { plain: function.clone(), over: function.clone() }
     }
 }
 

@@ -1,6 +1,8 @@
-//! From the checked and rewritten system to its implementation.
+//! From the checked system and its rewritten bodies to the implementation by num-dual.
 //!
 //! The comment above each quotation shows what it expands to.
+
+mod derivatives;
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};
@@ -9,25 +11,31 @@ use syn::{
 };
 
 use super::check::Field;
-use super::implement::{discrete, discrete_rayleigh, force, lagrangian, rayleigh};
-use super::model::{Body, Function, Role, Source, System, simple_name};
-use super::rewrite::over;
+use super::implement::{self, discrete, discrete_rayleigh};
+use super::model::{Function, RayleighArguments, Role, Source, System, simple_name};
+use super::rewrite::{Twin, over};
 
 /// The whole expansion: the user's item, its functions over dual numbers, and the system that they make.
-pub fn system(system: &System<'_>) -> TokenStream {
+pub fn system(system: &System<'_>, twins: &[Twin]) -> TokenStream {
     let (item, twins) = match system.source {
-        Source::Block(block) => (plain_block(system, &block.item), twins_of_block(system, &block.item)),
+        Source::Block(block) => {
+            (plain_block(system, &block.item, twins), twins_of_block(system, &block.item, twins))
+        }
         Source::Function(function) => {
-            (function_and_struct(system, function), twins_of_function(system, function))
+            (function_and_struct(system, function), twins_of_function(system, function, &twins[0]))
         }
     };
     let imports = imports(system);
     let (scalar, n) = (&system.scalar, system.degrees.times(1));
     let conditions = conditions(system.source);
-    let lagrangian = lagrangian(system);
-    let rayleigh = system.rayleigh.map(|_| rayleigh(system));
-    let force = system.has_force.then(|| force(system));
-    let discrete = system.rules.iter().map(|&rule| {
+    let both = RayleighArguments::ConfigurationAndVelocity;
+    let lagrangian = implement::lagrangian(system, derivatives::of_function(system, "lagrangian", both));
+    let rayleigh = system.rayleigh.map(|arguments| {
+        implement::rayleigh(system, arguments, derivatives::of_function(system, "rayleigh", arguments))
+    });
+    let force = system.has_force.then(|| implement::force(system, derivatives::of_force(system)));
+    let forced = system.rules.gauss.then(|| implement::forced_lagrangian(system, None));
+    let discrete = system.rules.of_displacement.iter().map(|&rule| {
         let discrete = discrete(system, rule, None);
         let discrete_rayleigh = system.rayleigh.map(|_| discrete_rayleigh(system, rule));
         quote!(#discrete #discrete_rayleigh)
@@ -51,19 +59,20 @@ pub fn system(system: &System<'_>) -> TokenStream {
             #lagrangian
             #rayleigh
             #force
+            #forced
             #(#discrete)*
         };
     }
 }
 
 /// The whole expansion of a field: the user's function, the struct of its parameters, and the field that it is.
-pub fn field(system: &System<'_>, function: &Function, kind: Field) -> TokenStream {
+pub fn field(system: &System<'_>, twin: &Twin, function: &Function, kind: Field) -> TokenStream {
     let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
     let item = function_and_struct(system, function);
     let conditions = conditions(system.source);
-    let twin_name = &system.bodies[0].over.sig.ident;
-    let twin = twin(&system.bodies[0], true);
+    let twin_name = &twin.over.sig.ident;
+    let twin = written(twin, true);
     let lifted: Vec<_> = parameters(function).map(|(field, _)| quote!(D::lift(self.#field))).collect();
     let result = match kind {
         Field::Vector => quote!([Real<D>; #n]),
@@ -146,46 +155,49 @@ pub fn field(system: &System<'_>, function: &Function, kind: Field) -> TokenStre
 /// What the implementations use, and nothing else: an unused import would warn in the user's crate.
 fn imports(system: &System<'_>) -> TokenStream {
     let names = imported(system);
-    let linear = if system.has_force { quote!({SMatrix, SVector}) } else { quote!(SVector) };
     quote! {
-        use ::dalembert::nalgebra::#linear;
+        use ::dalembert::nalgebra::{SMatrix, SVector};
         use ::dalembert::{#(#names,)* dual};
     }
 }
 
 /// The names of the runtime's traits and results among them.
 pub fn imported(system: &System<'_>) -> Vec<Ident> {
-    let mut names = vec![
-        "Derivatives",
-        "Direction",
-        "Discrete",
-        "DisplacementRule",
-        "Gradient",
-        "Lagrangian",
-        "Momenta",
-        "StepKernel",
-        "Variations",
-    ];
+    let mut names = vec!["Derivatives", "Direction", "Gradient", "Lagrangian", "Variations"];
+    let rules = &system.rules;
+    let is_forced = system.rayleigh.is_some() || system.has_force;
     if system.rayleigh.is_some() {
-        names.extend(["DiscreteRayleigh", "Rayleigh"]);
+        names.push("Rayleigh");
     }
     if system.has_force {
-        names.extend(["CovectorDerivatives", "Force"]);
+        names.push("Force");
     }
-    if system.rayleigh.is_some() || system.has_force {
-        names.extend(["DiscreteForce", "DiscreteForceDerivatives"]);
+    if system.has_force || (rules.gauss && is_forced) {
+        names.push("CovectorDerivatives");
     }
-    names.extend(system.rules.iter().map(|rule| rule.name()));
+    if rules.gauss {
+        names.push("ForcedLagrangian");
+    }
+    if !rules.of_displacement.is_empty() {
+        names.extend(["Discrete", "DisplacementRule", "Momenta", "StepKernel", "VelocityHistory"]);
+        if system.rayleigh.is_some() {
+            names.push("DiscreteRayleigh");
+        }
+        if is_forced {
+            names.extend(["DiscreteForce", "DiscreteForceDerivatives"]);
+        }
+    }
+    names.extend(rules.of_displacement.iter().map(|rule| rule.name()));
     names.sort_unstable();
     names.into_iter().map(|name| format_ident!("{name}")).collect()
 }
 
 /// The user's block, each differentiated function handing its work to the twin.
-fn plain_block(system: &System<'_>, block: &ItemImpl) -> TokenStream {
+fn plain_block(system: &System<'_>, block: &ItemImpl, twins: &[Twin]) -> TokenStream {
     let mut block = block.clone();
     for item in &mut block.items {
         if let ImplItem::Fn(function) = item
-            && system.bodies.iter().any(|body| body.plain.sig.ident == function.sig.ident)
+            && twins.iter().any(|twin| twin.plain.sig.ident == function.sig.ident)
         {
             plain(system, function);
         }
@@ -194,12 +206,12 @@ fn plain_block(system: &System<'_>, block: &ItemImpl) -> TokenStream {
 }
 
 /// The differentiated functions over `Real<D>`, in the order of the block.
-fn twins_of_block(system: &System<'_>, block: &ItemImpl) -> TokenStream {
+fn twins_of_block(system: &System<'_>, block: &ItemImpl, twins: &[Twin]) -> TokenStream {
     let name = &system.name;
     let attributes = lints(&block.attrs);
     let twins = system.source.functions().filter_map(|function| {
-        let body = system.bodies.iter().find(|body| body.plain.sig.ident == function.sig.ident)?;
-        Some(twin(body, is_root(function)))
+        let twin = twins.iter().find(|twin| twin.plain.sig.ident == function.sig.ident)?;
+        Some(written(twin, is_root(function)))
     });
     // Where nobody makes a value of the type, rustc says so at the type; the twins add nothing to that.
     quote! {
@@ -271,10 +283,10 @@ fn is_root(function: &ImplItemFn) -> bool {
 }
 
 /// The function over `Real<D>`, with the lint levels that the user set for its body.
-fn twin(body: &Body, is_root: bool) -> TokenStream {
-    let text = format!(" `{}` over plain and dual numbers.", body.plain.sig.ident);
-    let attributes = lints(&body.plain.attrs);
-    let twin = &body.over;
+fn written(twin: &Twin, is_root: bool) -> TokenStream {
+    let Twin { plain, over } = twin;
+    let text = format!(" `{}` over plain and dual numbers.", plain.sig.ident);
+    let attributes = lints(&plain.attrs);
     // L, R and f are called from one closure for each kind of number: called, they would hide from the compiler which
     // derivatives are absent.
     let inline = if is_root { quote!(#[inline(always)]) } else { quote!(#[inline]) };
@@ -282,7 +294,7 @@ fn twin(body: &Body, is_root: bool) -> TokenStream {
         #[doc = #text]
         #inline
         #(#attributes)*
-        #twin
+        #over
     }
 }
 
@@ -355,11 +367,11 @@ pub fn structure(system: &System<'_>, function: &Function) -> TokenStream {
 }
 
 /// The function's twin, and L and R taken out of it.
-fn twins_of_function(system: &System<'_>, function: &Function) -> TokenStream {
+fn twins_of_function(system: &System<'_>, function: &Function, twin: &Twin) -> TokenStream {
     let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
-    let twin_name = &system.bodies[0].over.sig.ident;
-    let twin = twin(&system.bodies[0], true);
+    let twin_name = &twin.over.sig.ident;
+    let twin = written(twin, true);
     let lifted: Vec<_> = parameters(function).map(|(field, _)| quote!(D::lift(self.#field))).collect();
     let part = |name: &str, text: &str, index: Option<TokenStream>| {
         let name = format_ident!("{name}_over");

@@ -15,26 +15,30 @@ use super::expand;
 use super::graph::{Graph, Node, Operation};
 use super::implement::{self, Kernel};
 use super::lower::{Lowered, MAX_NODES};
-use super::model::{RayleighArguments, Rule, Source, System};
+use super::model::{Rule, Source, System};
 
 /// The whole expansion; nothing where the derivatives are too long to be written out.
 pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
     let Lowered { graph, n, lagrangian, rayleigh, force } = lowered;
     let mut code = Code { system, graph, n, derivation: Differentiation::default() };
-    let of_lagrangian = code.lagrangian(lagrangian);
-    let of_rayleigh = rayleigh.map(|root| code.rayleigh(root));
-    let of_force = force.as_ref().map(|components| code.force(components));
+    let of_lagrangian = implement::lagrangian(system, code.function("lagrangian", "l", lagrangian));
+    let of_rayleigh = system.rayleigh.zip(rayleigh).map(|(arguments, root)| {
+        implement::rayleigh(system, arguments, code.function("rayleigh", "r", root))
+    });
+    let of_force = force.as_ref().map(|components| implement::force(system, code.force(components)));
+    let forced = system.rules.gauss.then(|| implement::forced_lagrangian(system, None));
     let discrete: TokenStream = system
         .rules
+        .of_displacement
         .iter()
         .map(|&rule| {
             let kernel = code.kernel(rule, lagrangian, rayleigh, force.as_deref());
             implement::discrete(system, rule, kernel)
         })
         .collect();
-    let discrete_rayleigh: Option<TokenStream> = system
-        .rayleigh
-        .map(|_| system.rules.iter().map(|&rule| implement::discrete_rayleigh(system, rule)).collect());
+    let discrete_rayleigh: Option<TokenStream> = system.rayleigh.map(|_| {
+        system.rules.of_displacement.iter().map(|&rule| implement::discrete_rayleigh(system, rule)).collect()
+    });
     if code.graph.len() > MAX_NODES {
         return None;
     }
@@ -61,6 +65,7 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
             #of_lagrangian
             #of_rayleigh
             #of_force
+            #forced
             #discrete
             #discrete_rayleigh
         };
@@ -85,52 +90,12 @@ struct Code<'s> {
 }
 
 impl Code<'_> {
-    /// `impl Lagrangian<2> for Ring`
-    fn lagrangian(&mut self, root: Node) -> TokenStream {
-        let System { name, scalar, .. } = self.system;
-        let n = self.system.degrees.times(1);
-        let functions =
-            self.value_and_derivatives("lagrangian", "l", root, RayleighArguments::ConfigurationAndVelocity);
-        quote! {
-            #[automatically_derived]
-            impl Lagrangian<#n> for #name {
-                type Scalar = #scalar;
-                #functions
-            }
-        }
-    }
-
-    /// `impl Rayleigh<2> for Ring`
-    fn rayleigh(&mut self, root: Node) -> TokenStream {
-        let name = &self.system.name;
-        let n = self.system.degrees.times(1);
-        let arguments = self.system.rayleigh.unwrap_or(RayleighArguments::ConfigurationAndVelocity);
-        let functions = self.value_and_derivatives("rayleigh", "r", root, arguments);
-        quote! {
-            #[automatically_derived]
-            impl Rayleigh<#n> for #name {
-                #functions
-            }
-        }
-    }
-
-    /// Value, gradient, derivatives and variations of L or R.
-    fn value_and_derivatives(
-        &mut self,
-        function: &str,
-        symbol: &str,
-        root: Node,
-        arguments: RayleighArguments,
-    ) -> TokenStream {
+    /// Gradient, derivatives and variations of L or R.
+    fn function(&mut self, function: &str, symbol: &str, root: Node) -> TokenStream {
         let scalar = &self.system.scalar;
         let n = self.system.degrees.times(1);
-        let value = implement::value(self.system, function, arguments);
-        let [plain, gradient, derivatives, variations] = ["", "_gradient", "_derivatives", "_variations"]
-            .map(|suffix| format_ident!("{function}{suffix}"));
-        let unused = match arguments {
-            RayleighArguments::Velocity => quote!(_q),
-            RayleighArguments::ConfigurationAndVelocity => quote!(q),
-        };
+        let [gradient, derivatives, variations] =
+            ["_gradient", "_derivatives", "_variations"].map(|suffix| format_ident!("{function}{suffix}"));
         let first = self.derivation.gradient(&mut self.graph, root);
         let second = self.derivation.hessian(&mut self.graph, root, symbol);
 
@@ -172,11 +137,6 @@ impl Code<'_> {
 
         let variations = self.variations(&variations, &second);
         quote! {
-            #[inline]
-            fn #plain(&self, #unused: &Vector, v: &Vector) -> #scalar {
-                #value
-            }
-
             #gradient
 
             #derivatives
@@ -185,9 +145,9 @@ impl Code<'_> {
         }
     }
 
-    /// `impl Force<2> for Ring`
+    /// Derivatives and variation of f.
     fn force(&mut self, components: &[Node]) -> TokenStream {
-        let System { name, scalar, .. } = self.system;
+        let scalar = &self.system.scalar;
         let n = self.system.degrees.times(1);
         let rows = self.rows(components);
         let by = |code: &mut Self, velocity| {
@@ -203,25 +163,13 @@ impl Code<'_> {
             (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
         let variation = self.force_variation(components, &rows);
         quote! {
-            #[automatically_derived]
-            impl Force<#n> for #name {
-                #[inline]
-                fn force(&self, q: &Vector, v: &Vector) -> Vector {
-                    self.force((*q).into(), (*v).into()).into()
-                }
-
-                #[inline]
-                fn force_derivatives(
-                    &self,
-                    #q: &Vector,
-                    #v: &Vector,
-                ) -> CovectorDerivatives<#scalar, #n> {
-                    #statements
-                    CovectorDerivatives { value: #value, d1: #d1, d2: #d2 }
-                }
-
-                #variation
+            #[inline]
+            fn force_derivatives(&self, #q: &Vector, #v: &Vector) -> CovectorDerivatives<#scalar, #n> {
+                #statements
+                CovectorDerivatives { value: #value, d1: #d1, d2: #d2 }
             }
+
+            #variation
         }
     }
 

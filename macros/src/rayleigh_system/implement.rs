@@ -8,7 +8,7 @@ use super::expand::parameters;
 use super::model::{RayleighArguments, Rule, Source, System};
 
 /// The plain value of L (0) or R (1) at the vectors q and v.
-pub fn value(system: &System<'_>, function: &str, arguments: RayleighArguments) -> TokenStream {
+fn value(system: &System<'_>, function: &str, arguments: RayleighArguments) -> TokenStream {
     match system.source {
         Source::Block(_) => {
             let function = format_ident!("{function}");
@@ -32,101 +32,118 @@ pub fn value(system: &System<'_>, function: &str, arguments: RayleighArguments) 
     }
 }
 
-/// `impl Lagrangian<2> for Ring`
-pub fn lagrangian(system: &System<'_>) -> TokenStream {
+/// `impl Lagrangian<2> for Ring`, with the derivatives of either engine.
+pub fn lagrangian(system: &System<'_>, derivatives: TokenStream) -> TokenStream {
     let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
-    let functions = value_and_derivatives(system, "lagrangian", RayleighArguments::ConfigurationAndVelocity);
+    let value = value(system, "lagrangian", RayleighArguments::ConfigurationAndVelocity);
     quote! {
         #[automatically_derived]
         impl Lagrangian<#n> for #name {
             type Scalar = #scalar;
-            #functions
+
+            #[inline]
+            fn lagrangian(&self, q: &Vector, v: &Vector) -> #scalar {
+                #value
+            }
+
+            #derivatives
         }
     }
 }
 
-/// `impl Rayleigh<2> for Ring`
-pub fn rayleigh(system: &System<'_>) -> TokenStream {
-    let name = &system.name;
+/// `impl Rayleigh<2> for Ring`, with the derivatives of either engine.
+pub fn rayleigh(system: &System<'_>, arguments: RayleighArguments, derivatives: TokenStream) -> TokenStream {
+    let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
-    let arguments = system.rayleigh.unwrap_or(RayleighArguments::ConfigurationAndVelocity);
-    let functions = value_and_derivatives(system, "rayleigh", arguments);
+    let value = value(system, "rayleigh", arguments);
+    let q = match arguments {
+        RayleighArguments::Velocity => quote!(_q),
+        RayleighArguments::ConfigurationAndVelocity => quote!(q),
+    };
     quote! {
         #[automatically_derived]
         impl Rayleigh<#n> for #name {
-            #functions
+            #[inline]
+            fn rayleigh(&self, #q: &Vector, v: &Vector) -> #scalar {
+                #value
+            }
+
+            #derivatives
         }
     }
 }
 
-/// Value, gradient, derivatives and variations of L or R.
-fn value_and_derivatives(system: &System<'_>, function: &str, arguments: RayleighArguments) -> TokenStream {
-    let System { scalar, .. } = system;
-    let (n, twice) = (system.degrees.times(1), system.degrees.times(2));
-    let value = value(system, function, arguments);
-    let [plain, over, gradient, derivatives, variations] =
-        ["", "_over", "_gradient", "_derivatives", "_variations"]
-            .map(|suffix| format_ident!("{function}{suffix}"));
-    let (unused, closure) = match arguments {
-        RayleighArguments::Velocity => (quote!(_q), quote!(|_, v| self.#over(v))),
-        RayleighArguments::ConfigurationAndVelocity => (quote!(q), quote!(|q, v| self.#over(q, v))),
-    };
-    // fn lagrangian_gradient(&self, q: …, v: …) -> Gradient<f64, 2> {
-    //     dual::gradient(q, v, |q, v| self.lagrangian_over(q, v))
-    // }
-    quote! {
-        fn #plain(&self, #unused: &Vector, v: &Vector) -> #scalar {
-            #value
-        }
-
-        fn #gradient(&self, q: &Vector, v: &Vector) -> Gradient<#scalar, #n> {
-            dual::gradient(q, v, #closure)
-        }
-
-        fn #derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<#scalar, #n> {
-            dual::derivatives::<#scalar, #n, #twice>(q, v, #closure)
-        }
-
-        fn #variations(
-            &self,
-            q: &Vector,
-            v: &Vector,
-            minus: Direction<#scalar>,
-            plus: Direction<#scalar>,
-        ) -> Variations<#scalar, #n> {
-            dual::variations(q, v, minus, plus, #closure)
-        }
-    }
-}
-
-/// `impl Force<2> for Ring`
-pub fn force(system: &System<'_>) -> TokenStream {
-    let System { name, scalar, .. } = system;
-    let (n, twice) = (system.degrees.times(1), system.degrees.times(2));
+/// `impl Force<2> for Ring`, with the derivatives of either engine.
+pub fn force(system: &System<'_>, derivatives: TokenStream) -> TokenStream {
+    let name = &system.name;
+    let n = system.degrees.times(1);
     quote! {
         #[automatically_derived]
         impl Force<#n> for #name {
+            #[inline]
             fn force(&self, q: &Vector, v: &Vector) -> Vector {
                 self.force((*q).into(), (*v).into()).into()
             }
 
-            fn force_derivatives(
+            #derivatives
+        }
+    }
+}
+
+/// `impl ForcedLagrangian<2> for Ring`: one term for each of R and f that the system has. The equations of motion at the stages
+/// are those that the runtime makes of it, unless an engine gives them.
+pub fn forced_lagrangian(system: &System<'_>, stages: Option<TokenStream>) -> TokenStream {
+    let System { name, scalar, .. } = system;
+    let n = system.degrees.times(1);
+    let general = |derivatives: bool| {
+        system.has_force.then(|| match derivatives {
+            true => quote!(self.force_derivatives(q, v)),
+            false => quote!(Force::force(self, q, v)),
+        })
+    };
+    let of_rayleigh = |term: TokenStream| system.rayleigh.map(|_| term);
+    // −∂R/∂v + f
+    let values = [of_rayleigh(quote!(-self.rayleigh_gradient(q, v).d2)), general(false)];
+    let r = of_rayleigh(quote!(let r = self.rayleigh_derivatives(q, v);));
+    let derivatives = [
+        of_rayleigh(quote!(CovectorDerivatives { value: -r.d2, d1: -r.d12.transpose(), d2: -r.d22 })),
+        general(true),
+    ];
+    let (values, derivatives) = (values.iter().flatten(), derivatives.iter().flatten());
+    let is_forced = system.rayleigh.is_some() || system.has_force;
+    let formula = match (system.rayleigh.is_some(), system.has_force) {
+        (true, false) => " f_L = −∂R/∂v.",
+        (true, true) => " f_L = −∂R/∂v + f.",
+        (false, _) => " f_L = f.",
+    };
+    let force = is_forced.then(|| {
+        quote! {
+            const IS_FORCED: bool = true;
+
+            #[doc = #formula]
+            #[inline]
+            fn acting_force(&self, q: &Vector, v: &Vector) -> Vector {
+                #(#values)+*
+            }
+
+            /// f_L with its derivatives by q and v.
+            #[inline]
+            fn acting_force_derivatives(
                 &self,
                 q: &Vector,
                 v: &Vector,
             ) -> CovectorDerivatives<#scalar, #n> {
-                dual::covector_derivatives::<#scalar, #n, #twice>(q, v, |q, v| self.force_over(q, v))
+                #r
+                #(#derivatives)+*
             }
-
-            fn force_variation(
-                &self,
-                q: &Vector,
-                v: &Vector,
-                direction: Direction<#scalar>,
-            ) -> (Vector, SMatrix<#scalar, #n, #n>) {
-                dual::covector_variation(q, v, direction, |q, v| self.force_over(q, v))
-            }
+        }
+    });
+    quote! {
+        #[automatically_derived]
+        impl ForcedLagrangian<#n> for #name {
+            #force
+            #stages
         }
     }
 }
@@ -181,6 +198,9 @@ pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> Toke
     quote! {
         #[automatically_derived]
         impl Discrete<#rule, #n> for #name {
+            type Matrix = SMatrix<#scalar, #n, #n>;
+            type Memory = VelocityHistory<#scalar, #n>;
+
             #[doc = #lagrangian]
             fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
                 #rule::discrete_lagrangian(self, q0, q1, h)

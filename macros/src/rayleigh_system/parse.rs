@@ -31,7 +31,12 @@ const RESERVED: &[&str] = &[
     "SMatrix",
     "Vector",
     "VectorField",
+    "VelocityHistory",
     "ScalarField",
+    "ForcedLagrangian",
+    "Stages",
+    "Lanes",
+    "LaneVector",
     "D",
 ];
 

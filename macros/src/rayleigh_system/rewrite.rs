@@ -24,43 +24,50 @@ use syn::{
 
 use super::check::qualifiers;
 use super::diagnostics::{Mistake, Report, span_of};
-use super::model::{Body, Source, System, is_integer, simple_name};
+use super::model::{Source, System, is_integer, simple_name};
 use super::scope::bound_names;
 use super::syntax::{
     METHODS, ROUNDING, identifier, is_assignment, is_constant_name, is_float_literal, is_function_of_std,
     is_generic_of_std, is_place_of_self, is_plain, is_self, real_type, takes_function, without_parentheses,
 };
 
-/// Rewrites L, R, f and, transitively, the functions of the block that they call.
-pub fn over_duals<'a>(mut system: System<'a>, report: &mut Report) -> System<'a> {
-    let mut done = 0;
-    while done < system.bodies.len() {
+/// A function and what it becomes over `Real<D>`.
+pub struct Twin {
+    /// As the user wrote it.
+    pub plain: ImplItemFn,
+    pub over: ImplItemFn,
+}
+
+/// L, R, f and, transitively, the functions of the block that they call.
+pub fn over_duals(system: &System<'_>, report: &mut Report) -> Vec<Twin> {
+    let mut bodies = system.bodies.clone();
+    let mut twins: Vec<Twin> = Vec::new();
+    while let Some(plain) = bodies.get(twins.len()).cloned() {
         let before = report.count();
-        let called = rewrite(&system, done, report);
+        let Rewritten { over, functions } = rewrite(system, &plain, report);
         if report.count() > before {
-            report.mark_body(&system.bodies[done].plain.sig.ident);
+            report.mark_body(&plain.sig.ident);
         }
-        for name in called.functions {
-            let known = system.bodies.iter().any(|body| body.plain.sig.ident == name);
+        twins.push(Twin { plain, over });
+        for name in functions {
+            let known = bodies.iter().any(|body| body.sig.ident == name);
             if !known && let Some(helper) = system.source.functions().find(|f| f.sig.ident == name) {
                 let before = report.count();
                 helper_signature(helper, &system.scalar, report);
                 // What is wrong with a signature would be said again by the rewriting.
                 if report.count() == before {
-                    system.bodies.push(Body::of(helper));
+                    bodies.push(helper.clone());
                 }
             }
         }
-        system.bodies[done].over = called.over;
-        done += 1;
     }
-    for body in &system.bodies {
-        let twin = &body.over.sig.ident;
-        if let Some(taken) = system.source.functions().find(|function| function.sig.ident == *twin) {
-            report.at(&taken.sig.ident, Mistake::TwinName(twin.to_string()));
+    for twin in &twins {
+        let name = &twin.over.sig.ident;
+        if let Some(taken) = system.source.functions().find(|function| function.sig.ident == *name) {
+            report.at(&taken.sig.ident, Mistake::TwinName(name.to_string()));
         }
     }
-    system
+    twins
 }
 
 /// The name of the differentiated twin.
@@ -88,8 +95,8 @@ struct Rewritten {
     functions: Vec<Ident>,
 }
 
-fn rewrite(system: &System<'_>, index: usize, report: &mut Report) -> Rewritten {
-    let mut over_function = system.bodies[index].plain.clone();
+fn rewrite(system: &System<'_>, plain: &ImplItemFn, report: &mut Report) -> Rewritten {
+    let mut over_function = plain.clone();
     let mut rewriter = Rewriter {
         system,
         report,

@@ -87,20 +87,15 @@ impl<const S: usize> Coefficients<S> {
         assert!(0 < S && S <= super::MAX_STAGES, "Gauss<S> is there for 1 to 8 stages");
         let half = Double::new(0.5);
         let roots = roots::<S>();
-        let mut all = Self {
-            nodes: [0.0; S],
-            weights: [0.0; S],
-            shares: [[0.0; S]; S],
-            extrapolation: [[0.0; S]; S],
-        };
+        let mut all =
+            Self { nodes: [0.0; S], weights: [0.0; S], shares: [[0.0; S]; S], extrapolation: [[0.0; S]; S] };
         let mut j = 0;
         while j < S {
             let x = roots[j];
             let at_j = legendre(x);
             // b = 1/((1 − x²) P_s′(x)²): half of the weight on [−1, 1].
             let slope = slope(x, S, &at_j);
-            let weight = Double::new(1.0)
-                .over(Double::new(1.0).minus(x.times(x)).times(slope.times(slope)));
+            let weight = Double::new(1.0).over(Double::new(1.0).minus(x.times(x)).times(slope.times(slope)));
             all.nodes[j] = x.plus(Double::new(1.0)).times(half).high;
             all.weights[j] = weight.high;
             let mut i = 0;
@@ -112,8 +107,7 @@ impl<const S: usize> Coefficients<S> {
                 let mut k = 1;
                 while k < S {
                     share = share.plus(at_j[k].times(at_i[k + 1].minus(at_i[k - 1])));
-                    outside = outside
-                        .plus(at_j[k].times(beyond[k]).times(Double::new((2 * k + 1) as f64)));
+                    outside = outside.plus(at_j[k].times(beyond[k]).times(Double::new((2 * k + 1) as f64)));
                     k += 1;
                 }
                 all.shares[j][i] = share.times(half).high;
@@ -171,7 +165,9 @@ mod tests {
         let root = 3.0_f64.sqrt() / 6.0;
         let a = |c: &Coefficients<2>, i: usize, j: usize| c.weights[j] * c.shares[j][i];
         assert!((two.nodes[0] - (0.5 - root)).abs() < 1e-16 && (two.nodes[1] - (0.5 + root)).abs() < 2e-16);
-        assert!((a(&two, 0, 1) - (0.25 - root)).abs() < 1e-16 && (a(&two, 1, 0) - (0.25 + root)).abs() < 1e-16);
+        assert!(
+            (a(&two, 0, 1) - (0.25 - root)).abs() < 1e-16 && (a(&two, 1, 0) - (0.25 + root)).abs() < 1e-16
+        );
         let three = Coefficients::<3>::new();
         let root = 15.0_f64.sqrt();
         let printed = [
@@ -213,7 +209,10 @@ mod tests {
                 let beyond: f64 = (0..S).map(|j| c.extrapolation[j][i] * c.nodes[j].powi(degree)).sum();
                 let size: f64 = (0..S).map(|j| c.extrapolation[j][i].abs()).sum();
                 let exact = (1.0 + c.nodes[i]).powi(degree);
-                assert!((beyond - exact).abs() < 1e-15 * (size + exact), "{S} {i} {degree}: {beyond} {exact}");
+                assert!(
+                    (beyond - exact).abs() < 1e-15 * (size + exact),
+                    "{S} {i} {degree}: {beyond} {exact}"
+                );
             }
         }
     }
