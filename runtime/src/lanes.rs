@@ -27,15 +27,14 @@ pub struct Mask<const S: usize>(pub [bool; S]);
 /// A vector of N coordinates in S lanes.
 pub type LaneVector<T, const N: usize, const S: usize> = [Lanes<T, S>; N];
 
-impl<T: Scalar, const S: usize> From<T> for Lanes<T, S> {
+impl<T: Scalar, const S: usize> Lanes<T, S> {
     /// The same number in every lane.
     #[inline(always)]
-    fn from(value: T) -> Self {
+    #[must_use]
+    pub fn splat(value: T) -> Self {
         Self([value; S])
     }
-}
 
-impl<T: Scalar, const S: usize> Lanes<T, S> {
     /// The function of each lane.
     #[inline(always)]
     #[must_use]
@@ -210,5 +209,5 @@ pub(crate) fn write_lane<T: Scalar, const N: usize, const S: usize>(
 pub(crate) fn splat<T: Scalar, const N: usize, const S: usize>(
     vector: &SVector<T, N>,
 ) -> LaneVector<T, N, S> {
-    array::from_fn(|a| Lanes::from(vector[a]))
+    array::from_fn(|a| Lanes::splat(vector[a]))
 }

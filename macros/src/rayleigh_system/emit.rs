@@ -2,7 +2,10 @@
 //!
 //! What is used more than once, what the user named, and every selection becomes a `let`; the rest stands where it is used.
 //! Only what the outputs need is written, in the order in which it was found, so that equal systems give equal text.
+//!
+//! The same text serves numbers and lanes, but for selections: what differs is in `lanes.rs`.
 
+mod lanes;
 mod names;
 
 use proc_macro2::{Literal, TokenStream};
@@ -15,6 +18,8 @@ use names::Names;
 /// Straight-line code: statements, then one expression for each output.
 pub struct StraightLine {
     pub statements: TokenStream,
+    /// Those that need the values that come later, of code in lanes.
+    pub later: TokenStream,
     pub outputs: Vec<TokenStream>,
     /// Whether q occurs.
     pub uses_coordinates: bool,
@@ -33,6 +38,28 @@ impl StraightLine {
 
 /// The code for `outputs`. q and v are read as `q[0]`, `v[0]`; the names `taken` are not given to anything.
 pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&str]) -> StraightLine {
+    written(graph, scalar, outputs, taken, None)
+}
+
+/// The code for `outputs` where q and v are lanes. The parameters `late` are lanes as well, and known only after the statements
+/// that do not need them.
+pub fn in_lanes(
+    graph: &Graph,
+    scalar: &Ident,
+    outputs: &[Node],
+    taken: &[&str],
+    late: &[Node],
+) -> StraightLine {
+    written(graph, scalar, outputs, taken, Some(late))
+}
+
+fn written(
+    graph: &Graph,
+    scalar: &Ident,
+    outputs: &[Node],
+    taken: &[&str],
+    late: Option<&[Node]>,
+) -> StraightLine {
     let nodes = graph.reachable(outputs.iter().copied());
     let mut uses = vec![0_u32; graph.len()];
     for &node in &nodes {
@@ -49,8 +76,11 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
         locals: vec![None; graph.len()],
         names: Names::new(taken),
         typed: vec![false; graph.len()],
+        is_lanes: vec![false; graph.len()],
+        stages: number_of_stages(graph),
     };
-    let mut statements = TokenStream::new();
+    let mut is_late = vec![false; graph.len()];
+    let (mut statements, mut later) = (TokenStream::new(), TokenStream::new());
     let (mut uses_coordinates, mut uses_velocities, mut parameters) = (false, false, Vec::new());
     for &node in &nodes {
         let operation = graph.operation(node);
@@ -59,6 +89,11 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
             Operation::Coordinate(_) | Operation::Velocity(_) | Operation::Parameter(_) => true,
             operation => operation.arguments().any(|argument| writer.typed[argument.index()]),
         };
+        if let Some(late) = late {
+            is_late[node.index()] =
+                late.contains(&node) || operation.arguments().any(|argument| is_late[argument.index()]);
+            writer.is_lanes[node.index()] = is_late[node.index()] || graph.depends(node);
+        }
         match operation {
             Operation::Coordinate(_) => uses_coordinates = true,
             Operation::Velocity(_) => uses_velocities = true,
@@ -83,10 +118,23 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
         if is_leaf || is_single || writer.locals[node.index()].is_some() {
             continue;
         }
-        statements.extend(writer.statement(node, &nodes));
+        let statement = writer.statement(node, &nodes);
+        if is_late[node.index()] { later.extend(statement) } else { statements.extend(statement) }
     }
-    let outputs = outputs.iter().map(|&node| writer.expression(node).tokens).collect();
-    StraightLine { statements, outputs, uses_coordinates, uses_velocities, parameters }
+    let outputs = outputs
+        .iter()
+        .map(|&node| if late.is_some() { writer.lanes(node) } else { writer.expression(node).tokens })
+        .collect();
+    StraightLine { statements, later, outputs, uses_coordinates, uses_velocities, parameters }
+}
+
+/// The name of the number of lanes: not that of a constant of the user's.
+pub fn number_of_stages(graph: &Graph) -> Ident {
+    let mut name = "S".to_owned();
+    while graph.mentions(&name) {
+        name.push('_');
+    }
+    format_ident!("{name}")
 }
 
 /// The cosine of the angle that `node` is the sine of, or the other way about, if it comes later; and the angle.
@@ -133,6 +181,10 @@ struct Writer<'g> {
     names: Names,
     /// Whether the type shows: an expression of literals alone has none of its own.
     typed: Vec<bool>,
+    /// Whether the value is lanes; nothing is in code on numbers.
+    is_lanes: Vec<bool>,
+    /// The number of lanes.
+    stages: Ident,
 }
 
 impl Writer<'_> {
@@ -155,6 +207,7 @@ impl Writer<'_> {
         self.locals[node.index()] = Some(name.clone());
         let scalar = self.scalar;
         match self.graph.operation(node) {
+            Operation::Select(..) if self.is_lanes[node.index()] => quote!(let #name = #value;),
             Operation::Select(_, a, b) if !self.typed[a.index()] && !self.typed[b.index()] => {
                 quote!(let #name: #scalar = #value;)
             }
@@ -170,6 +223,11 @@ impl Writer<'_> {
             let (a, b) = (self.expression(a).within(left), self.expression(b).within(right));
             quote!(#a #symbol #b)
         };
+        if self.is_lanes[node.index()]
+            && let Some(written) = self.operation_on_lanes(node)
+        {
+            return written;
+        }
         let (tokens, binding) = match self.graph.operation(node) {
             Operation::Coordinate(index) => {
                 let index = Literal::usize_unsuffixed(index);

@@ -4,6 +4,7 @@
 
 mod directions;
 mod kernel;
+mod stages;
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
@@ -26,7 +27,10 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
         implement::rayleigh(system, arguments, code.function("rayleigh", "r", root))
     });
     let of_force = force.as_ref().map(|components| implement::force(system, code.force(components)));
-    let forced = system.rules.gauss.then(|| implement::forced_lagrangian(system, None));
+    let forced = system.rules.gauss.then(|| {
+        let stages = code.stages(lagrangian, rayleigh, force.as_deref());
+        implement::forced_lagrangian(system, stages)
+    });
     let discrete: TokenStream = system
         .rules
         .of_displacement
@@ -50,7 +54,7 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
             quote!(#item #structure)
         }
     };
-    let imports = imports(system);
+    let imports = imports(system, forced.as_ref());
     let conditions = expand::conditions(system.source);
     let (scalar, dimension) = (&system.scalar, system.degrees.times(1));
     Some(quote! {
@@ -73,8 +77,15 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
 }
 
 /// What the expansion uses.
-fn imports(system: &System<'_>) -> TokenStream {
-    let names = expand::imported(system);
+fn imports(system: &System<'_>, forced: Option<&TokenStream>) -> TokenStream {
+    let mut names = expand::imported(system);
+    if let Some(forced) = forced {
+        let text = forced.to_string();
+        let occurs = |name: &str| text.split(|c: char| !c.is_alphanumeric()).any(|word| word == name);
+        let of_lanes = ["LaneVector", "Lanes", "Mask", "Stages"].into_iter().filter(|name| occurs(name));
+        names.extend(of_lanes.map(|name| format_ident!("{name}")));
+        names.sort_unstable();
+    }
     quote! {
         use ::dalembert::nalgebra::{SMatrix, SVector};
         use ::dalembert::{#(#names),*};

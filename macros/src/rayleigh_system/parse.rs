@@ -37,6 +37,7 @@ const RESERVED: &[&str] = &[
     "Stages",
     "Lanes",
     "LaneVector",
+    "Mask",
     "D",
 ];
 

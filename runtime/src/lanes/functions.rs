@@ -246,7 +246,7 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
     #[inline(always)]
     #[must_use]
     pub fn signum(self) -> Self {
-        self.is_nan().select(self, Self::from(T::one()).copysign(self))
+        self.is_nan().select(self, Self::splat(T::one()).copysign(self))
     }
 
     /// xⁿ.
@@ -375,7 +375,7 @@ mod tests {
         same(x.exp2(), f64::exp2);
         same(x.ln_1p(), f64::ln_1p);
         same(x.powi(5), |x| x.powi(5));
-        same(x.mul_add(x, Lanes::from(1.0)), |x| x.mul_add(x, 1.0));
+        same(x.mul_add(x, Lanes::splat(1.0)), |x| x.mul_add(x, 1.0));
         assert_eq!(Lanes([3.0, -1.0]).hypot(Lanes([4.0, 0.0])).0, [5.0, 1.0]);
         assert_eq!(
             Lanes([3.0, -1.0]).atan2(Lanes([4.0, 0.0])).0,

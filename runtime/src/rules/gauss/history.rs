@@ -41,7 +41,7 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
     fn extrapolation(&self) -> LaneVector<T, N, S> {
         let columns = &Gauss::<S>::COEFFICIENTS.extrapolation;
         array::from_fn(|a| {
-            let mut sum = Lanes::from(T::zero());
+            let mut sum = Lanes::splat(T::zero());
             for (j, column) in columns.iter().enumerate() {
                 sum = Lanes(column.map(T::constant)).times_plus(self.v[a].0[j], sum);
             }

@@ -78,7 +78,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     #[inline(always)]
     fn at_stages(&self, start: &Compensated<T, N>, x: &LaneVector<T, N, S>) -> LaneVector<T, N, S> {
         array::from_fn(|a| {
-            let mut sum = Lanes::from(start.rest[a]);
+            let mut sum = Lanes::splat(start.rest[a]);
             for j in 0..S {
                 let column = Lanes(Self::COEFFICIENTS.shares[j].map(T::constant));
                 sum = column.times_plus(self.steps[j] * x[a].0[j], sum);
@@ -134,7 +134,7 @@ pub(super) fn in_units_of<T: Scalar, const N: usize, const S: usize>(
     residual: &LaneVector<T, N, S>,
     floor: &SVector<T, N>,
 ) -> T {
-    let mut largest = Lanes::<T, S>::from(T::zero());
+    let mut largest = Lanes::<T, S>::splat(T::zero());
     for a in 0..N {
         let units = residual[a].abs() * (T::one() / floor[a]);
         // A NaN stays.
