@@ -12,7 +12,6 @@ mod segment;
 use nalgebra::{SMatrix, SVector};
 
 use crate::error::Quantity;
-use crate::lanes::splat;
 use crate::{
     Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, ForcedLagrangian, Momenta, Scalar, State,
     Step, StepError, StepKernel,
@@ -181,7 +180,7 @@ where
             None => state.velocity(self)?,
         };
         let problem = Problem::new(self, Compensated::new(state.q), Compensated::new(state.p), h);
-        let solution = fixed_point::solve::<_, _, N, S>(&problem, &splat(&guess))?;
+        let solution = fixed_point::solve::<_, _, N, S>(&problem, &guess)?;
         Ok(completed(&problem, &solution)?.0)
     }
 }

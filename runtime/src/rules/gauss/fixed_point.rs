@@ -1,13 +1,14 @@
 //! The stages by fixed-point iteration in Nyström order: rates at (Q(V), V), momenta from them, velocities from those.
 //!
 //! One evaluation of all stages an iteration and no matrix but ∂²L/∂v². Without friction and with a constant mass an iteration
-//! takes the error down by O(h²), otherwise by O(h). Where it does not contract, Newton's method takes over.
+//! takes the error down by O(h²), otherwise by O(h). Where it does not contract, Newton's method takes over, from the velocity
+//! at the start of the step: from an extrapolation that is far off it may find another root than the motion's.
 
 use nalgebra::SVector;
 
 use super::newton;
 use super::problem::{Problem, Solution, in_units_of, rounding};
-use crate::lanes::LaneVector;
+use crate::lanes::{LaneVector, splat};
 use crate::{ForcedLagrangian, Report, Scalar, Stages, StepError};
 
 /// More iterations than Newton's method would be worth.
@@ -22,12 +23,25 @@ const AT_REST: f64 = 1.0 / 64.0;
 /// A residual of so many floors that no longer falls is rounding.
 const AT_FLOOR: f64 = 8.0;
 
-/// Solves for the stages, beginning from the velocities `guess`.
+/// Solves for the stages from the one velocity `guess`.
 #[inline]
 pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
     problem: &Problem<'_, L, N, S>,
-    guess: &LaneVector<T, N, S>,
+    guess: &SVector<T, N>,
 ) -> Result<Solution<T, N, S>, StepError> {
+    let guess = splat(guess);
+    match iterate(problem, &guess) {
+        Some(solution) => Ok(solution),
+        None => newton::solve(problem, &guess),
+    }
+}
+
+/// Solves for the stages from the velocities `guess`, if the iteration contracts.
+#[inline]
+pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    guess: &LaneVector<T, N, S>,
+) -> Option<Solution<T, N, S>> {
     let constant = T::constant;
     let mut v = *guess;
     let mut floor = problem.p0.value;
@@ -41,7 +55,7 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
         iterations += 1;
         let size = in_units_of(&stages.residual, &floor);
         if !size.is_finite() {
-            break;
+            return None;
         }
         let contraction = if iterations == 1 { T::one() } else { size / last };
         let is_at_rest = contraction * size <= constant(AT_REST);
@@ -50,21 +64,21 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
         if !is_done && iterations > 2 && size >= before * constant(SLOW) {
             match at_rounding(problem, &v, &stages.residual, &floor) {
                 Some(measured) => (floor, is_done) = (measured, true),
-                None => break,
+                None => return None,
             }
         }
         if is_done {
             let remaining = contraction.min(T::one());
             let report = report(&stages, &floor, remaining, iterations);
             let v = core::array::from_fn(|a| v[a] + stages.correction[a]);
-            return Ok(Solution { v, rate: stages.rate, report });
+            return Some(Solution { v, rate: stages.rate, report, contracted: true });
         }
         for a in 0..N {
             v[a] = v[a] + stages.correction[a];
         }
         (before, last) = (last, size);
     }
-    newton::solve(problem, guess, iterations)
+    None
 }
 
 /// How an iteration ended whose last correction leaves the share `remaining` of the residual.

@@ -20,6 +20,8 @@ pub struct StageHistory<T, const N: usize, const S: usize> {
     v: LaneVector<T, N, S>,
     /// Its step size; 0 before the first step.
     h: T,
+    /// Whether it was solved without Newton's method; then the next may be too.
+    contracted: bool,
     q: Compensated<T, N>,
     p: Compensated<T, N>,
 }
@@ -27,7 +29,13 @@ pub struct StageHistory<T, const N: usize, const S: usize> {
 impl<T: Scalar, const N: usize, const S: usize> Default for StageHistory<T, N, S> {
     fn default() -> Self {
         let zero = SVector::zeros();
-        Self { v: splat(&zero), h: T::zero(), q: Compensated::new(zero), p: Compensated::new(zero) }
+        Self {
+            v: splat(&zero),
+            h: T::zero(),
+            contracted: false,
+            q: Compensated::new(zero),
+            p: Compensated::new(zero),
+        }
     }
 }
 
@@ -67,15 +75,17 @@ where
             (Compensated::new(state.q), Compensated::new(state.p))
         };
         let problem = Problem::<'_, L, N, S>::new(system, q0, p0, h);
-        let extrapolated = goes_on && h == self.h;
-        let guess = if extrapolated { self.extrapolation() } else { splat(&state.velocity(system)?) };
-        let solution = match fixed_point::solve(&problem, &guess) {
-            // An extrapolation that leads nowhere is not the step's fault.
-            Err(_) if extrapolated => fixed_point::solve(&problem, &splat(&state.velocity(system)?))?,
-            solution => solution?,
+        let extrapolated = if goes_on && h == self.h && self.contracted {
+            fixed_point::iterate(&problem, &self.extrapolation())
+        } else {
+            None
+        };
+        let solution = match extrapolated {
+            Some(solution) => solution,
+            None => fixed_point::solve(&problem, &state.velocity(system)?)?,
         };
         let (step, [q, p]) = completed(&problem, &solution)?;
-        *self = Self { v: solution.v, h, q, p };
+        *self = Self { v: solution.v, h, contracted: solution.contracted, q, p };
         Ok(step)
     }
 }

@@ -19,7 +19,7 @@ const MAX_ITERATIONS: u32 = 100;
 const AT_FLOOR: f64 = 4.0;
 
 /// A residual that has stopped falling is accepted up to so many floors.
-const STAGNATION: f64 = 4096.0;
+pub(super) const STAGNATION: f64 = 4096.0;
 
 /// An iterate with what was evaluated there.
 pub(super) struct Iterate<T, const N: usize, const S: usize> {
@@ -28,7 +28,7 @@ pub(super) struct Iterate<T, const N: usize, const S: usize> {
     rate: LaneVector<T, N, S>,
     /// r_i = ∂L/∂v − P_i.
     pub(super) residual: LaneVector<T, N, S>,
-    floor: SVector<T, N>,
+    pub(super) floor: SVector<T, N>,
     /// max |r|/floor.
     pub(super) size: T,
 }
@@ -59,6 +59,11 @@ impl<T: Scalar, const N: usize, const S: usize> Iterate<T, N, S> {
         Self { v, locals, rate, residual, floor, size }
     }
 
+    /// The size of the residual in units of another iterate's floor: what two iterates are compared by.
+    pub(super) fn size_in(&self, floor: &SVector<T, N>) -> T {
+        in_units_of(&self.residual, floor)
+    }
+
     pub(super) fn residuals(&self) -> StageVector<T, N, S> {
         core::array::from_fn(|i| crate::lanes::lane(&self.residual, i))
     }
@@ -77,13 +82,12 @@ impl<T: Scalar, const N: usize, const S: usize> Iterate<T, N, S> {
     }
 }
 
-/// Solves for the stages from the velocities `guess`. `iterations` were spent before and are reported as well.
+/// Solves for the stages from the velocities `guess`.
 #[cold]
 #[inline(never)]
 pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
     problem: &Problem<'_, L, N, S>,
     guess: &LaneVector<T, N, S>,
-    spent: u32,
 ) -> Result<Solution<T, N, S>, StepError> {
     let one = T::one();
     let constant = T::constant;
@@ -104,7 +108,7 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
         let correction = factored.solve(&last.residuals());
         let last_correction = correction.iter().fold(T::zero(), |largest, c| largest.max(c.amax()));
         let report = |residual: T, floor, damped| Report {
-            iterations: spent + iteration + 1,
+            iterations: iteration + 1,
             damped,
             residual,
             floor,
@@ -120,10 +124,11 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
                 }
             }
             let next = Iterate::new(problem, v);
-            if next.size < last.size || next.size <= constant(1.0) {
-                break Some(next);
+            let size = next.size_in(&last.floor);
+            if size < last.size || next.size <= constant(1.0) {
+                break Some((next, size));
             }
-            if share == one && next.size.is_finite() {
+            if share == one && size.is_finite() {
                 // No lower than before: rounding, if the residual is small or its rounding large enough.
                 let measured = last.floor + rounding(problem, &last.v);
                 let is_explained = in_units_of(&last.residual, &measured) <= constant(AT_FLOOR);
@@ -134,15 +139,16 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
                         v: last.v,
                         rate: last.rate,
                         report: report(residual, floor, damped),
+                        contracted: false,
                     });
                 }
             }
-            share = crate::newton::shorter(share, last.size, next.size);
+            share = crate::newton::shorter(share, last.size, size);
             if share < T::EPSILON.sqrt() {
                 break None;
             }
         };
-        let Some(next) = next else {
+        let Some((next, size)) = next else {
             let (residual, floor) = worst(&last.residual, &last.floor);
             let (residual, floor) = (residual.widen(), floor.widen());
             let is_lost = correction.iter().enumerate().all(|(i, correction)| {
@@ -156,19 +162,24 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
             });
         };
         damped += u32::from(share < one);
-        let contraction = if share < one { one } else { next.size / last.size };
+        let contraction = if share < one { one } else { size / last.size };
         // At the floor, and no better for another correction.
         if next.size <= constant(AT_FLOOR)
             && (contraction > constant(0.01) || next.size <= constant(1.0 / 16.0))
         {
             let (residual, floor) = worst(&next.residual, &next.floor);
-            return Ok(Solution { v: next.v, rate: next.rate, report: report(residual, floor, damped) });
+            return Ok(Solution {
+                v: next.v,
+                rate: next.rate,
+                report: report(residual, floor, damped),
+                contracted: false,
+            });
         }
         last = next;
     }
     let (residual, floor) = worst(&last.residual, &last.floor);
     Err(StepError::NotConverged {
-        iterations: spent + MAX_ITERATIONS,
+        iterations: MAX_ITERATIONS,
         residual: residual.widen(),
         floor: floor.widen(),
     })

@@ -59,6 +59,8 @@ pub(super) struct Solution<T, const N: usize, const S: usize> {
     /// G_i.
     pub(super) rate: LaneVector<T, N, S>,
     pub(super) report: Report<T>,
+    /// Whether the fixed point contracted.
+    pub(super) contracted: bool,
 }
 
 impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize> Problem<'a, L, N, S> {
@@ -143,8 +145,8 @@ pub(super) fn in_units_of<T: Scalar, const N: usize, const S: usize>(
     largest.amax()
 }
 
-/// What rounding does to the residuals at the stages: their changes when each entry of Q and of V moves by its last place,
-/// added up. Near an equilibrium, where large forces cancel, this is more than [`Problem::floor`] knows of.
+/// What rounding does to the residuals at the stages: their changes when each coordinate of Q and of V moves by the last
+/// place of its terms, added up. Near an equilibrium, where large forces cancel, this is more than [`Problem::floor`] knows of.
 #[cold]
 #[inline(never)]
 pub(super) fn rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
@@ -163,13 +165,16 @@ pub(super) fn rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: u
             sum[a] += (moved[a] - value[a]).amax();
         }
     };
-    for factor in [T::one() + T::EPSILON, T::one() - T::EPSILON] {
+    for unit in [T::EPSILON, -T::EPSILON] {
         for a in 0..N {
+            let speed = v[a].amax();
+            // Q is a sum: its rounding is that of its terms, however small it is itself.
+            let size = problem.q0.value[a].abs() + (problem.h * speed).abs();
             let mut moved = q;
-            moved[a] = moved[a] * factor;
+            moved[a] = moved[a] + size * unit;
             add(&moved, v);
             let mut moved = *v;
-            moved[a] = moved[a] * factor;
+            moved[a] = moved[a] + speed * unit;
             add(&q, &moved);
         }
     }

@@ -16,7 +16,7 @@ use core::array;
 use nalgebra::{SMatrix, SVector};
 
 use super::linearised::{Factored, Local, StageMatrix};
-use super::newton::Iterate;
+use super::newton::{Iterate, STAGNATION};
 use super::problem::{Compensated, Problem};
 use crate::lanes::{LaneVector, lane, splat};
 use crate::{
@@ -77,18 +77,19 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
                 }
                 problem.p0.value = p0 - dp * share;
                 let next = Iterate::new(&problem, v);
-                let is_lower = next.size < last.size;
-                if is_lower || next.size <= one || (share == one && last.size <= T::constant(4096.0)) {
-                    break Some((next, is_lower));
+                let size = next.size_in(&last.floor);
+                let is_lower = size < last.size;
+                if is_lower || next.size <= one || (share == one && last.size <= T::constant(STAGNATION)) {
+                    break Some((next, is_lower, size / last.size));
                 }
-                share = crate::newton::shorter(share, last.size, next.size);
+                share = crate::newton::shorter(share, last.size, size);
                 if share < T::EPSILON.sqrt() {
                     break None;
                 }
             };
-            let (next, is_lower) = next?;
-            let has_stopped = !is_lower || next.size > last.size * T::constant(0.1);
-            let is_done = share == one && next.size <= T::constant(4096.0) && has_stopped;
+            let (next, is_lower, contraction) = next?;
+            let has_stopped = !is_lower || contraction > T::constant(0.1);
+            let is_done = share == one && next.size <= T::constant(STAGNATION) && has_stopped;
             if !is_lower {
                 problem.p0.value = p0;
             } else {
