@@ -31,7 +31,6 @@ const RESERVED: &[&str] = &[
     "SMatrix",
     "Vector",
     "VectorField",
-    "VelocityHistory",
     "ScalarField",
     "ForcedLagrangian",
     "Stages",
