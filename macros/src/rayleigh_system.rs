@@ -26,7 +26,7 @@ mod syntax;
 use proc_macro2::TokenStream;
 
 use diagnostics::{Mistake, Report};
-use model::{Engine, Source};
+use model::{Engine, Rules, Source};
 
 /// How the runtime beside the macro is built: the runtime exports the macro that fits.
 #[derive(Clone, Copy)]
@@ -95,7 +95,7 @@ pub fn differentiable(runtime: Runtime, attribute: TokenStream, item: TokenStrea
         return fallback::item_alone(item, report);
     };
     let Some((system, field)) = check::field(&source, &mut report) else {
-        return fallback::with_stubs(&source, &[], report);
+        return fallback::with_stubs(&source, &Rules::default(), report);
     };
     let twins = rewrite::over_duals(&system, &mut report);
     if !runtime.has_std {
@@ -103,6 +103,6 @@ pub fn differentiable(runtime: Runtime, attribute: TokenStream, item: TokenStrea
     }
     match &source {
         Source::Function(function) if report.is_empty() => expand::field(&system, &twins[0], function, field),
-        _ => fallback::with_stubs(&source, &[], report),
+        _ => fallback::with_stubs(&source, &Rules::default(), report),
     }
 }

@@ -382,6 +382,6 @@ fn in_arguments<S: Scalar, const N: usize>(
 }
 
 #[inline]
-fn require_step_size<S: Scalar>(h: S) -> Result<(), StepError> {
+pub(crate) fn require_step_size<S: Scalar>(h: S) -> Result<(), StepError> {
     if h.is_finite() && h != S::zero() { Ok(()) } else { Err(StepError::StepSize { h: h.widen() }) }
 }

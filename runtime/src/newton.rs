@@ -350,7 +350,7 @@ fn unsolvable<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
 /// A share of the Newton step to try after `share` gave `next_size` ≥ `size`: where (1 − s) + C s², the residual's first
 /// two terms along the step, is least; between a tenth and a half of the present share.
 #[cold]
-fn shorter<S: Scalar>(share: S, size: S, next_size: S) -> S {
+pub(crate) fn shorter<S: Scalar>(share: S, size: S, next_size: S) -> S {
     let curvature = (next_size / size - S::one() + share) / (share * share);
     let least = S::constant(0.5) / curvature;
     let (tenth, half) = (share * S::constant(0.1), share * S::constant(0.5));

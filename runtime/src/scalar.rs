@@ -2,6 +2,8 @@
 
 use nalgebra::RealField;
 
+use crate::lanes::Functions;
+
 mod sealed {
     pub trait Sealed {}
     impl Sealed for f64 {}
@@ -11,7 +13,7 @@ mod sealed {
 /// The scalar type that a system is written in: `f64` or `f32`.
 ///
 /// Sealed: tolerances are derived from [`EPSILON`](Scalar::EPSILON) and hold for IEEE formats only.
-pub trait Scalar: RealField + Copy + sealed::Sealed {
+pub trait Scalar: RealField + Copy + Functions + sealed::Sealed {
     /// Distance from 1 to the next larger number.
     const EPSILON: Self;
 

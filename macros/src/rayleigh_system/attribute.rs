@@ -7,7 +7,7 @@ use syn::{Ident, Token, bracketed, token};
 
 use super::Runtime;
 use super::diagnostics::{Mistake, Report};
-use super::model::{Engine, Rule};
+use super::model::{Engine, Rule, Rules};
 
 /// One option, `name = value` or `name = [value, …]`.
 struct Setting {
@@ -36,14 +36,14 @@ impl Parse for Setting {
 /// What the attribute asks for.
 pub struct Options {
     /// Midpoint unless said.
-    pub rules: Vec<Rule>,
+    pub rules: Rules,
     /// Whichever can, unless said.
     pub engine: Engine,
 }
 
 /// The options said, and defaults for the others.
 pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) -> Options {
-    let mut options = Options { rules: Vec::new(), engine: Engine::Auto };
+    let mut options = Options { rules: Rules::default(), engine: Engine::Auto };
     let settings = match Punctuated::<Setting, Token![,]>::parse_terminated.parse2(attribute) {
         Ok(settings) => settings,
         Err(error) => {
@@ -63,7 +63,7 @@ pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) ->
         }
     }
     if !says_rule {
-        options.rules.push(Rule::Midpoint);
+        options.rules.of_displacement.push(Rule::Midpoint);
     }
     options
 }
@@ -91,7 +91,7 @@ fn engine(setting: Setting, runtime: Runtime, engine: &mut Engine, report: &mut 
 }
 
 /// `rule = [midpoint, trapezoidal]`
-fn rules(setting: Setting, rules: &mut Vec<Rule>, report: &mut Report) {
+fn rules(setting: Setting, rules: &mut Rules, report: &mut Report) {
     if setting.values.is_empty() {
         report.at(&setting.name, Mistake::NoRule);
     }
@@ -99,15 +99,22 @@ fn rules(setting: Setting, rules: &mut Vec<Rule>, report: &mut Report) {
         let rule = match value.to_string().as_str() {
             "midpoint" => Rule::Midpoint,
             "trapezoidal" => Rule::Trapezoidal,
+            "gauss" => {
+                if rules.gauss {
+                    report.at(&value, Mistake::RepeatedRule(value.to_string()));
+                }
+                rules.gauss = true;
+                continue;
+            }
             other => {
                 report.at(&value, Mistake::UnknownRule(other.to_owned()));
                 continue;
             }
         };
-        if rules.contains(&rule) {
+        if rules.of_displacement.contains(&rule) {
             report.at(&value, Mistake::RepeatedRule(value.to_string()));
         } else {
-            rules.push(rule);
+            rules.of_displacement.push(rule);
         }
     }
 }

@@ -7,10 +7,10 @@ use syn::{
 };
 
 use super::diagnostics::{Mistake, Report};
-use super::model::{Body, Degrees, Function, RayleighArguments, Rule, Source, System, simple_name};
+use super::model::{Body, Degrees, Function, RayleighArguments, Rules, Source, System, simple_name};
 
 /// The system as far as its signatures tell, or nothing if not even N is known; every wrong one is reported.
-pub fn system<'a>(source: &'a Source, rules: Vec<Rule>, report: &mut Report) -> Option<System<'a>> {
+pub fn system<'a>(source: &'a Source, rules: Rules, report: &mut Report) -> Option<System<'a>> {
     match source {
         Source::Block(_) => block(source, rules, report),
         Source::Function(function) => free_function(source, function, rules, report),
@@ -23,7 +23,7 @@ struct Shape {
     degrees: Degrees,
 }
 
-fn block<'a>(source: &'a Source, rules: Vec<Rule>, report: &mut Report) -> Option<System<'a>> {
+fn block<'a>(source: &'a Source, rules: Rules, report: &mut Report) -> Option<System<'a>> {
     let named = |name: &str| source.functions().find(|function| function.sig.ident == name);
     let rayleigh = named("rayleigh");
     let Some(lagrangian) = named("lagrangian") else {
@@ -67,7 +67,7 @@ fn block<'a>(source: &'a Source, rules: Vec<Rule>, report: &mut Report) -> Optio
 fn free_function<'a>(
     source: &'a Source,
     function: &Function,
-    rules: Vec<Rule>,
+    rules: Rules,
     report: &mut Report,
 ) -> Option<System<'a>> {
     let before = report.count();
@@ -136,7 +136,7 @@ pub fn field<'a>(source: &'a Source, report: &mut Report) -> Option<(System<'a>,
         }
     };
     let has_right_signature = report.count() == before;
-    Some((function_system(source, function, shape, Vec::new(), None, has_right_signature), field))
+    Some((function_system(source, function, shape, Rules::default(), None, has_right_signature), field))
 }
 
 /// Parameters that become fields cannot be references.
@@ -152,7 +152,7 @@ fn function_system<'a>(
     source: &'a Source,
     function: &Function,
     shape: Shape,
-    rules: Vec<Rule>,
+    rules: Rules,
     rayleigh: Option<RayleighArguments>,
     has_right_signature: bool,
 ) -> System<'a> {

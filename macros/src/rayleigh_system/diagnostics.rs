@@ -131,8 +131,8 @@ pub enum Mistake {
 impl Display for Mistake {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::UnknownOption => f.write_str("unknown option; write `rule = midpoint`, `rule = trapezoidal`, a list `rule = [midpoint, trapezoidal]`, or `derivatives = auto`, `expanded`, `num_dual`"),
-            Self::UnknownRule(rule) => write!(f, "unknown rule `{rule}`; the rules are `midpoint` and `trapezoidal`"),
+            Self::UnknownOption => f.write_str("unknown option; write `rule = midpoint`, `trapezoidal` or `gauss`, a list `rule = [midpoint, trapezoidal]`, or `derivatives = auto`, `expanded`, `num_dual`"),
+            Self::UnknownRule(rule) => write!(f, "unknown rule `{rule}`; the rules are `midpoint`, `trapezoidal` and `gauss`"),
             Self::RepeatedRule(rule) => write!(f, "rule `{rule}` is listed twice; remove one"),
             Self::NoRule => f.write_str("no rule is listed; write at least one, or leave the option out for `midpoint`"),
             Self::UnknownEngine(engine) if engine.is_empty() => f.write_str("write one of `derivatives = auto`, `expanded`, `num_dual`"),

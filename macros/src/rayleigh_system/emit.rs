@@ -2,7 +2,10 @@
 //!
 //! What is used more than once, what the user named, and every selection becomes a `let`; the rest stands where it is used.
 //! Only what the outputs need is written, in the order in which it was found, so that equal systems give equal text.
+//!
+//! The same text serves numbers and lanes, but for selections: what differs is in `lanes.rs`.
 
+mod lanes;
 mod names;
 
 use std::cell::Cell;
@@ -18,6 +21,8 @@ use names::Names;
 /// Straight-line code: statements, then one expression for each output.
 pub struct StraightLine {
     pub statements: TokenStream,
+    /// Those that need the values that come later, of code in lanes.
+    pub later: TokenStream,
     pub outputs: Vec<TokenStream>,
     /// Whether q occurs.
     pub uses_coordinates: bool,
@@ -46,6 +51,30 @@ pub fn straight_line(
     taken: &[&str],
     is_portable: bool,
 ) -> StraightLine {
+    written(graph, scalar, outputs, taken, is_portable, None)
+}
+
+/// The code for `outputs` where q and v are lanes. The parameters `late` are lanes as well, and known only after the statements
+/// that do not need them.
+pub fn in_lanes(
+    graph: &Graph,
+    scalar: &Ident,
+    outputs: &[Node],
+    taken: &[&str],
+    is_portable: bool,
+    late: &[Node],
+) -> StraightLine {
+    written(graph, scalar, outputs, taken, is_portable, Some(late))
+}
+
+fn written(
+    graph: &Graph,
+    scalar: &Ident,
+    outputs: &[Node],
+    taken: &[&str],
+    is_portable: bool,
+    late: Option<&[Node]>,
+) -> StraightLine {
     let nodes = graph.reachable(outputs.iter().copied());
     let mut uses = vec![0_u32; graph.len()];
     for &node in &nodes {
@@ -64,12 +93,15 @@ pub fn straight_line(
         typed: vec![false; graph.len()],
         is_portable,
         calls_elementary: Cell::new(false),
+        is_lanes: vec![false; graph.len()],
+        stages: number_of_stages(graph),
     };
     let mut receives = vec![false; graph.len()];
     for receiver in nodes.iter().filter_map(|&node| graph.operation(node).receiver()) {
         receives[receiver.index()] = true;
     }
-    let mut statements = TokenStream::new();
+    let mut is_late = vec![false; graph.len()];
+    let (mut statements, mut later) = (TokenStream::new(), TokenStream::new());
     let (mut uses_coordinates, mut uses_velocities, mut parameters) = (false, false, Vec::new());
     for &node in &nodes {
         let operation = graph.operation(node);
@@ -80,6 +112,11 @@ pub fn straight_line(
             operation if operation.receiver().is_some() => true,
             operation => operation.arguments().any(|argument| writer.typed[argument.index()]),
         };
+        if let Some(late) = late {
+            is_late[node.index()] =
+                late.contains(&node) || operation.arguments().any(|argument| is_late[argument.index()]);
+            writer.is_lanes[node.index()] = is_late[node.index()] || graph.depends(node);
+        }
         match operation {
             Operation::Coordinate(_) => uses_coordinates = true,
             Operation::Velocity(_) => uses_velocities = true,
@@ -107,11 +144,32 @@ pub fn straight_line(
         if is_leaf || is_single || writer.locals[node.index()].is_some() {
             continue;
         }
-        statements.extend(writer.statement(node, &nodes));
+        let statement = writer.statement(node, &nodes);
+        if is_late[node.index()] { later.extend(statement) } else { statements.extend(statement) }
     }
-    let outputs = outputs.iter().map(|&node| writer.expression(node).tokens).collect();
+    let outputs = outputs
+        .iter()
+        .map(|&node| if late.is_some() { writer.lanes(node) } else { writer.expression(node).tokens })
+        .collect();
     let calls_elementary = writer.calls_elementary.get();
-    StraightLine { statements, outputs, uses_coordinates, uses_velocities, calls_elementary, parameters }
+    StraightLine {
+        statements,
+        later,
+        outputs,
+        uses_coordinates,
+        uses_velocities,
+        calls_elementary,
+        parameters,
+    }
+}
+
+/// The name of the number of lanes: not that of a constant of the user's.
+pub fn number_of_stages(graph: &Graph) -> Ident {
+    let mut name = "S".to_owned();
+    while graph.mentions(&name) {
+        name.push('_');
+    }
+    format_ident!("{name}")
 }
 
 /// The cosine of the angle that `node` is the sine of, or the other way about, if it comes later; and the angle.
@@ -160,6 +218,10 @@ struct Writer<'g> {
     typed: Vec<bool>,
     is_portable: bool,
     calls_elementary: Cell<bool>,
+    /// Whether the value is lanes; nothing is in code on numbers.
+    is_lanes: Vec<bool>,
+    /// The number of lanes.
+    stages: Ident,
 }
 
 impl Writer<'_> {
@@ -180,7 +242,8 @@ impl Writer<'_> {
         let value = self.expression(node).tokens;
         let name = self.names.of(self.graph, node);
         self.locals[node.index()] = Some(name.clone());
-        if self.typed[node.index()] || self.graph.operation(node).is_truth() {
+        let is_lanes = self.is_lanes[node.index()];
+        if is_lanes || self.typed[node.index()] || self.graph.operation(node).is_truth() {
             return quote!(let #name = #value;);
         }
         let scalar = self.scalar;
@@ -196,6 +259,11 @@ impl Writer<'_> {
             let (a, b) = (self.expression(a).within(left), self.expression(b).within(right));
             quote!(#a #symbol #b)
         };
+        if self.is_lanes[node.index()]
+            && let Some(written) = self.operation_on_lanes(node)
+        {
+            return written;
+        }
         let (tokens, binding) = match self.graph.operation(node) {
             Operation::Coordinate(index) => {
                 let index = Literal::usize_unsuffixed(index);

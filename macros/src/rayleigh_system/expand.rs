@@ -38,7 +38,8 @@ pub fn system(system: &System<'_>, twins: &[Twin], refusal: Option<Refusal>) -> 
         implement::rayleigh(system, arguments, derivatives::of_function(system, "rayleigh", arguments))
     });
     let force = system.has_force.then(|| implement::force(system, derivatives::of_force(system)));
-    let discrete = system.rules.iter().map(|&rule| {
+    let forced = system.rules.gauss.then(|| implement::forced_lagrangian(system, None));
+    let discrete = system.rules.of_displacement.iter().map(|&rule| {
         let discrete = discrete(system, rule, None);
         let discrete_rayleigh = system.rayleigh.map(|_| discrete_rayleigh(system, rule));
         quote!(#discrete #discrete_rayleigh)
@@ -62,6 +63,7 @@ pub fn system(system: &System<'_>, twins: &[Twin], refusal: Option<Refusal>) -> 
             #lagrangian
             #rayleigh
             #force
+            #forced
             #(#discrete)*
         };
     }
@@ -165,27 +167,31 @@ fn imports(system: &System<'_>) -> TokenStream {
 
 /// The names of the runtime's traits and results among them.
 pub fn imported(system: &System<'_>) -> Vec<Ident> {
-    let mut names = vec![
-        "Derivatives",
-        "Direction",
-        "Discrete",
-        "DisplacementRule",
-        "Gradient",
-        "Lagrangian",
-        "Momenta",
-        "StepKernel",
-        "Variations",
-    ];
+    let mut names = vec!["Derivatives", "Direction", "Gradient", "Lagrangian", "Variations"];
+    let rules = &system.rules;
+    let is_forced = system.rayleigh.is_some() || system.has_force;
     if system.rayleigh.is_some() {
-        names.extend(["DiscreteRayleigh", "Rayleigh"]);
+        names.push("Rayleigh");
     }
     if system.has_force {
-        names.extend(["CovectorDerivatives", "Force"]);
+        names.push("Force");
     }
-    if system.rayleigh.is_some() || system.has_force {
-        names.extend(["DiscreteForce", "DiscreteForceDerivatives"]);
+    if system.has_force || (rules.gauss && is_forced) {
+        names.push("CovectorDerivatives");
     }
-    names.extend(system.rules.iter().map(|rule| rule.name()));
+    if rules.gauss {
+        names.push("ForcedLagrangian");
+    }
+    if !rules.of_displacement.is_empty() {
+        names.extend(["Discrete", "DisplacementRule", "Momenta", "StepKernel"]);
+        if system.rayleigh.is_some() {
+            names.push("DiscreteRayleigh");
+        }
+        if is_forced {
+            names.extend(["DiscreteForce", "DiscreteForceDerivatives"]);
+        }
+    }
+    names.extend(rules.of_displacement.iter().map(|rule| rule.name()));
     names.sort_unstable();
     names.into_iter().map(|name| format_ident!("{name}")).collect()
 }

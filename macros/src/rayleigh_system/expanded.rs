@@ -6,6 +6,7 @@ mod directions;
 mod explicit;
 mod kernel;
 mod midpoint;
+mod stages;
 mod trapezoidal;
 
 use proc_macro2::{Literal, TokenStream};
@@ -34,6 +35,10 @@ pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Resul
     let of_rayleigh = rayleigh.map(|root| code.function("rayleigh", "r", root));
     let of_force = force.as_ref().map(|components| code.force(components));
     let findings = code.findings(lagrangian, rayleigh, force.as_deref());
+    let forced = system.rules.gauss.then(|| {
+        let stages = code.stages(lagrangian, rayleigh, force.as_deref());
+        implement::forced_lagrangian(system, stages)
+    });
     let discrete: TokenStream = findings
         .newton
         .iter()
@@ -49,9 +54,9 @@ pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Resul
         .zip(of_rayleigh)
         .map(|(arguments, functions)| implement::rayleigh(system, arguments, functions));
     let of_force = of_force.map(|functions| implement::force(system, functions));
-    let discrete_rayleigh: Option<TokenStream> = system
-        .rayleigh
-        .map(|_| system.rules.iter().map(|&rule| implement::discrete_rayleigh(system, rule)).collect());
+    let discrete_rayleigh: Option<TokenStream> = system.rayleigh.map(|_| {
+        system.rules.of_displacement.iter().map(|&rule| implement::discrete_rayleigh(system, rule)).collect()
+    });
     if code.graph.len() > MAX_NODES {
         let reason =
             format!("the derivatives take more than {MAX_NODES} operations, too many for straight-line code");
@@ -66,7 +71,7 @@ pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Resul
             quote!(#item #structure)
         }
     };
-    let imports = imports(system, code.calls_elementary);
+    let imports = imports(system, code.calls_elementary, forced.as_ref());
     let conditions = expand::conditions(system.source);
     let (scalar, dimension) = (&system.scalar, system.degrees.times(1));
     Ok(quote! {
@@ -81,6 +86,7 @@ pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Resul
             #of_lagrangian
             #of_rayleigh
             #of_force
+            #forced
             #discrete
             #discrete_rayleigh
         };
@@ -88,8 +94,15 @@ pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Resul
 }
 
 /// What the expansion uses.
-fn imports(system: &System<'_>, calls_elementary: bool) -> TokenStream {
-    let names = expand::imported(system);
+fn imports(system: &System<'_>, calls_elementary: bool, forced: Option<&TokenStream>) -> TokenStream {
+    let mut names = expand::imported(system);
+    if let Some(forced) = forced {
+        let text = forced.to_string();
+        let occurs = |name: &str| text.split(|c: char| !c.is_alphanumeric()).any(|word| word == name);
+        let of_lanes = ["LaneVector", "Lanes", "Mask", "Stages"].into_iter().filter(|name| occurs(name));
+        names.extend(of_lanes.map(|name| format_ident!("{name}")));
+        names.sort_unstable();
+    }
     let elementary = calls_elementary.then(|| {
         quote!(
             use ::dalembert::Elementary as _;
@@ -127,7 +140,7 @@ impl Code<'_> {
         let components = force.unwrap_or_default();
         let force: Vec<_> = components.iter().copied().zip(self.rows(components)).collect();
         let terms = Terms { lagrangian: &lagrangian, rayleigh: rayleigh.as_ref(), force: &force };
-        structure::findings(&self.graph, self.n, &terms, &self.system.rules)
+        structure::findings(&self.graph, self.n, &terms, &self.system.rules.of_displacement)
     }
 
     /// Gradient, derivatives and variations of L or R.

@@ -7,7 +7,7 @@ use quote::{format_ident, quote};
 use syn::{FnArg, ImplItem, ImplItemFn, Pat, ReturnType, Signature, Type, parse_quote};
 
 use super::diagnostics::Report;
-use super::model::{Degrees, Role, Rule, Source, simple_name};
+use super::model::{Degrees, Role, Rule, Rules, Source, simple_name};
 
 /// The item as it came, beside the diagnostics.
 pub fn item_alone(item: TokenStream, report: Report) -> TokenStream {
@@ -16,7 +16,7 @@ pub fn item_alone(item: TokenStream, report: Report) -> TokenStream {
 }
 
 /// The item, the diagnostics and stubs, as far as the signature of L tells the number of degrees of freedom.
-pub fn with_stubs(source: &Source, rules: &[Rule], report: Report) -> TokenStream {
+pub fn with_stubs(source: &Source, rules: &Rules, report: Report) -> TokenStream {
     let errors = report.to_tokens();
     let name = source.name();
     let (item, lagrangian) = match source {
@@ -83,7 +83,7 @@ fn field_stubs(source: &Source) -> Option<TokenStream> {
     })
 }
 
-fn stubs_of(lagrangian: Option<&Signature>, name: &syn::Ident, rules: &[Rule]) -> Option<TokenStream> {
+fn stubs_of(lagrangian: Option<&Signature>, name: &syn::Ident, rules: &Rules) -> Option<TokenStream> {
     lagrangian.and_then(|signature| shape(signature, name)).map(|(scalar, n)| stubs(name, &scalar, &n, rules))
 }
 
@@ -109,10 +109,13 @@ fn shape(signature: &Signature, system: &syn::Ident) -> Option<(TokenStream, Tok
 ///
 /// Only for the rules listed, since with others beside them `system.step(…)` would be ambiguous; for all where the list is what
 /// is wrong.
-fn stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream, rules: &[Rule]) -> TokenStream {
+fn stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream, rules: &Rules) -> TokenStream {
     let vector = quote!(&::dalembert::nalgebra::SVector<#scalar, #n>);
     let derivatives = quote!(::dalembert::Derivatives<#scalar, #n>);
-    let rules = if rules.is_empty() { &[Rule::Midpoint, Rule::Trapezoidal] } else { rules };
+    let is_empty = rules.of_displacement.is_empty() && !rules.gauss;
+    let forced =
+        (is_empty || rules.gauss).then(|| quote!(impl ::dalembert::ForcedLagrangian<#n> for #name {}));
+    let rules = if is_empty { &[Rule::Midpoint, Rule::Trapezoidal] } else { &rules.of_displacement[..] };
     let rules: Vec<_> = rules.iter().map(|rule| format_ident!("{}", rule.name())).collect();
     quote! {
         const _: () = {
@@ -129,6 +132,7 @@ fn stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream, rules: &[Rule
                 fn force(&self, _: #vector, _: #vector) -> ::dalembert::nalgebra::SVector<#scalar, #n> { ::core::unreachable!() }
                 fn force_derivatives(&self, _: #vector, _: #vector) -> ::dalembert::CovectorDerivatives<#scalar, #n> { ::core::unreachable!() }
             }
+            #forced
             #(
                 impl ::dalembert::Discrete<::dalembert::#rules, #n> for #name {
                     type Matrix = ::dalembert::nalgebra::SMatrix<#scalar, #n, #n>;

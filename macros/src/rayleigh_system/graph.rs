@@ -75,6 +75,12 @@ impl Graph {
         &self.parameters[index]
     }
 
+    /// Whether a parameter is written with this word.
+    pub fn mentions(&self, word: &str) -> bool {
+        let is_name = |c: char| c.is_alphanumeric() || c == '_';
+        self.parameters.iter().any(|known| known.text.split(|c| !is_name(c)).any(|other| other == word))
+    }
+
     /// Whether the value changes with q or v.
     pub fn depends(&self, node: Node) -> bool {
         self.depends[node.index()]

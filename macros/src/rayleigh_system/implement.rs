@@ -96,6 +96,63 @@ pub fn force(system: &System<'_>, derivatives: TokenStream) -> TokenStream {
     }
 }
 
+/// `impl ForcedLagrangian<2> for Ring`: one term for each of R and f that the system has. The equations of motion at the stages
+/// are those that the runtime makes of it, unless an engine gives them.
+pub fn forced_lagrangian(system: &System<'_>, stages: Option<TokenStream>) -> TokenStream {
+    let System { name, scalar, .. } = system;
+    let n = system.degrees.times(1);
+    let general = |derivatives: bool| {
+        system.has_force.then(|| match derivatives {
+            true => quote!(self.force_derivatives(q, v)),
+            false => quote!(Force::force(self, q, v)),
+        })
+    };
+    let of_rayleigh = |term: TokenStream| system.rayleigh.map(|_| term);
+    // −∂R/∂v + f
+    let values = [of_rayleigh(quote!(-self.rayleigh_gradient(q, v).d2)), general(false)];
+    let r = of_rayleigh(quote!(let r = self.rayleigh_derivatives(q, v);));
+    let derivatives = [
+        of_rayleigh(quote!(CovectorDerivatives { value: -r.d2, d1: -r.d12.transpose(), d2: -r.d22 })),
+        general(true),
+    ];
+    let (values, derivatives) = (values.iter().flatten(), derivatives.iter().flatten());
+    let is_forced = system.rayleigh.is_some() || system.has_force;
+    let formula = match (system.rayleigh.is_some(), system.has_force) {
+        (true, false) => " f_L = −∂R/∂v.",
+        (true, true) => " f_L = −∂R/∂v + f.",
+        (false, _) => " f_L = f.",
+    };
+    let force = is_forced.then(|| {
+        quote! {
+            const IS_FORCED: bool = true;
+
+            #[doc = #formula]
+            #[inline]
+            fn acting_force(&self, q: &Vector, v: &Vector) -> Vector {
+                #(#values)+*
+            }
+
+            /// f_L with its derivatives by q and v.
+            #[inline]
+            fn acting_force_derivatives(
+                &self,
+                q: &Vector,
+                v: &Vector,
+            ) -> CovectorDerivatives<#scalar, #n> {
+                #r
+                #(#derivatives)+*
+            }
+        }
+    });
+    quote! {
+        #[automatically_derived]
+        impl ForcedLagrangian<#n> for #name {
+            #force
+            #stages
+        }
+    }
+}
+
 /// What an engine makes of the step's equation: bodies of the functions that a step calls, L, R and f together, and what its
 /// structure allows.
 pub struct Kernel {

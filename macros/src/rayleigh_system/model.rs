@@ -4,7 +4,16 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
 use syn::{Expr, ExprLit, Ident, ImplItem, ImplItemFn, ItemFn, Lit, Type, Visibility};
 
-/// A rule of discretisation that the attribute lists.
+/// The rules of discretisation that the attribute lists.
+#[derive(Clone, Default)]
+pub struct Rules {
+    /// Those that the system implements, term by term.
+    pub of_displacement: Vec<Rule>,
+    /// Those of Gauss, which the runtime implements for every forced Lagrangian.
+    pub gauss: bool,
+}
+
+/// A rule that sees a segment through its displacement alone.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Rule {
     Midpoint,
@@ -141,7 +150,7 @@ pub struct System<'a> {
     pub degrees: Degrees,
     /// `f64` or `f32`.
     pub scalar: Ident,
-    pub rules: Vec<Rule>,
+    pub rules: Rules,
     /// L, R and f.
     pub bodies: Vec<Body>,
     pub rayleigh: Option<RayleighArguments>,

@@ -32,6 +32,11 @@ const RESERVED: &[&str] = &[
     "Vector",
     "VectorField",
     "ScalarField",
+    "ForcedLagrangian",
+    "Stages",
+    "Lanes",
+    "LaneVector",
+    "Mask",
     "D",
 ];
 

@@ -28,7 +28,7 @@ impl Bead {
     pub const EXAMPLE: Self = Self { m: 0.7, g: 1.3, k: 2.1, r: 0.3, c: 0.2 };
 }
 
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 impl Bead {
     fn slope(q: f64) -> f64 {
         q.cos()

@@ -31,7 +31,7 @@ impl Charge {
     pub const FREE: Self = Self { r: 0.0, kappa: 0.0, c: 0.0, ..Self::EXAMPLE };
 }
 
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 impl Charge {
     fn lagrangian(&self, q: [f64; 3], v: [f64; 3]) -> f64 {
         let [x, y, z] = q;

@@ -29,7 +29,7 @@ impl DoublePendulum {
     pub const FREE: Self = Self { r: [0.0, 0.0], ..Self::EXAMPLE };
 }
 
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 impl DoublePendulum {
     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
         let [m1, m2] = self.m;

@@ -25,7 +25,7 @@ impl Follower {
     pub const EXAMPLE: Self = Self { m: 1.6, kappa: 0.4, r: 0.3 };
 }
 
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 impl Follower {
     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
         let [x, y] = q;

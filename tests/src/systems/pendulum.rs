@@ -22,7 +22,7 @@ impl Pendulum {
     pub const EXAMPLE: Self = Self { m: 1.7, l: 0.8, g: 3.1, r: 0.6 };
 }
 
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 impl Pendulum {
     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
         0.5 * self.m * self.l.powi(2) * v[0].powi(2) + self.m * self.g * self.l * q[0].cos()
@@ -48,7 +48,7 @@ impl ByHand<1> for Pendulum {
 }
 
 /// The pendulum of mass m and length 1 without friction, as a free function.
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 pub fn free_pendulum(q: [f64; 1], v: [f64; 1], m: f64, g: f64) -> f64 {
     0.5 * m * v[0] * v[0] + m * g * q[0].cos()
 }

@@ -88,10 +88,12 @@ fn wrong_attributes_say_what_is_right() {
         "rule = trapezoidal,",
         "rule = [midpoint, trapezoidal]",
         "rule = [trapezoidal,]",
+        "rule = gauss",
+        "rule = [gauss, midpoint]",
     ] {
         assert_eq!(system(right, &item), Vec::<String>::new(), "{right}");
     }
-    let unknown = "unknown option; write `rule = midpoint`";
+    let unknown = "unknown option; write `rule = midpoint`, `trapezoidal` or `gauss`";
     for (attribute, expected) in [
         ("midpoint", unknown),
         ("rule", unknown),
@@ -104,9 +106,10 @@ fn wrong_attributes_say_what_is_right() {
         ("rule = [midpoint", unknown),
         ("rules = midpoint", unknown),
         ("rule = r#midpoint", "unknown rule"),
-        ("rule = gauss", "unknown rule `gauss`; the rules are `midpoint` and `trapezoidal`"),
+        ("rule = simpson", "unknown rule `simpson`; the rules are `midpoint`, `trapezoidal` and `gauss`"),
         ("rule = []", "no rule is listed"),
         ("rule = [midpoint, midpoint]", "rule `midpoint` is listed twice"),
+        ("rule = [gauss, gauss]", "rule `gauss` is listed twice"),
         ("rule = midpoint, rule = midpoint", "rule `midpoint` is listed twice"),
     ] {
         let Ok(tokens) = attribute.parse::<TokenStream>() else { continue };

@@ -73,6 +73,34 @@ fn double_pendulum() {
 }
 
 /// The same system with num-dual's derivatives.
+/// Gauss alone: lanes, a mass matrix that depends on q, a selection, a force.
+#[test]
+fn gauss() {
+    let item = quote! {
+        impl Cart {
+            fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+                let reach = self.l * q[1].cos();
+                let kinetic = 0.5 * self.m * v[0] * v[0] + reach * v[0] * v[1] + 0.5 * self.l.powi(2) * v[1] * v[1];
+                let stop = if q[0] > self.end { 0.5 * self.k * (q[0] - self.end).powi(2) } else { 0.0 };
+                kinetic + reach - stop
+            }
+            fn rayleigh(&self, v: [f64; 2]) -> f64 {
+                0.5 * self.c * v[1] * v[1]
+            }
+            fn force(&self, q: [f64; 2], _v: [f64; 2]) -> [f64; 2] {
+                [self.a.powf(q[0]), 0.0]
+            }
+        }
+    };
+    let expansion = rayleigh_system(quote!(rule = gauss), item.clone());
+    assert_snapshot("gauss.rs", &formatted(expansion));
+    // Nothing of it without the rule.
+    let other = formatted(rayleigh_system(quote!(rule = midpoint), item));
+    for word in ["Lanes", "Stages", "ForcedLagrangian", "acting_force"] {
+        assert!(!other.contains(word), "{word}");
+    }
+}
+
 #[test]
 fn oscillator_by_num_dual() {
     let expansion = rayleigh_system(

@@ -1,0 +1,163 @@
+//! The equations of motion at the stages of a Gauss rule, in lanes: L, R and f together, each shared expression once.
+//!
+//! ```text
+//! G = ∂L/∂q − ∂R/∂v + f,   residual = P − ∂L/∂v,   correction = (∂²L/∂v²)⁻¹ residual
+//! ```
+//!
+//! The matrix is factored here, M = L D Lᵀ without exchanges, so that its zeros and constants cost nothing. A pivot that is 0
+//! makes the correction infinite, and the runtime takes Newton's method.
+
+use std::collections::BTreeSet;
+
+use super::super::emit::{in_lanes, number_of_stages};
+use super::*;
+
+/// Longer factorisations are left to the runtime.
+const MAX_PRODUCTS: usize = 4000;
+
+impl Code<'_> {
+    /// `stages`; nothing where the mass matrix has a 0 by structure for a pivot, or too many entries.
+    pub(super) fn stages(
+        &mut self,
+        lagrangian: Node,
+        rayleigh: Option<Node>,
+        force: Option<&[Node]>,
+    ) -> Option<TokenStream> {
+        let of_lagrangian = self.derivation.hessian(&mut self.graph, lagrangian, "l");
+        let of_rayleigh =
+            rayleigh.map(|root| self.derivation.gradient(&mut self.graph, root)).unwrap_or_default();
+        let rates: Vec<Node> = (0..self.n)
+            .map(|index| {
+                let (q, v) = (self.variable(index, false), self.variable(index, true));
+                let mut rate = of_lagrangian.gradient.get(&q).copied();
+                if let Some(&friction) = of_rayleigh.get(&v) {
+                    let opposite = self.graph.negated(friction);
+                    rate = Some(self.added(rate, opposite));
+                }
+                let component = force.map(|components| components[index]);
+                if let Some(component) = component.filter(|&f| self.graph.constant_value(f) != Some(0.0)) {
+                    rate = Some(self.added(rate, component));
+                }
+                self.or_zero(rate)
+            })
+            .collect();
+        let momenta = self.covector(&of_lagrangian.gradient, true);
+        // What the closure returns is known after the rates.
+        let late: Vec<Node> = (0..self.n)
+            .map(|index| {
+                let index = Literal::usize_unsuffixed(index);
+                self.graph.written(quote!(p[#index]))
+            })
+            .collect();
+        let residuals: Vec<Node> = late
+            .iter()
+            .zip(momenta)
+            .enumerate()
+            .map(|(index, (&p, momentum))| {
+                let residual = self.graph.minus(p, momentum);
+                self.graph.give_name(residual, &format!("residual{index}"));
+                residual
+            })
+            .collect();
+        let corrections = self.solved(&of_lagrangian, &residuals)?;
+
+        let outputs = [rates, residuals, corrections].concat();
+        let taken = ["q", "v", "p", "rate", "momenta"];
+        let line = in_lanes(&self.graph, &self.system.scalar, &outputs, &taken, self.is_portable, &late);
+        self.calls_elementary |= line.calls_elementary;
+        let (rates, rest) = line.outputs.split_at(self.n);
+        let (residuals, corrections) = rest.split_at(self.n);
+        let (scalar, n) = (&self.system.scalar, self.system.degrees.times(1));
+        let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
+        let (statements, later, stages) = (&line.statements, &line.later, number_of_stages(&self.graph));
+        Some(quote! {
+            /// G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages.
+            #[inline]
+            fn stages<const #stages: usize>(
+                &self,
+                #q: &LaneVector<#scalar, #n, #stages>,
+                #v: &LaneVector<#scalar, #n, #stages>,
+                momenta: impl FnOnce(&LaneVector<#scalar, #n, #stages>) -> LaneVector<#scalar, #n, #stages>,
+            ) -> Stages<#scalar, #n, #stages> {
+                #statements
+                let rate = [#(#rates),*];
+                let p = momenta(&rate);
+                #later
+                Stages { rate, residual: [#(#residuals),*], correction: [#(#corrections),*] }
+            }
+        })
+    }
+
+    /// M⁻¹ `right`, M = ∂²L/∂v².
+    fn solved(&mut self, of: &Derivatives, right: &[Node]) -> Option<Vec<Node>> {
+        let n = self.n;
+        if self.products(of) > MAX_PRODUCTS {
+            return None;
+        }
+        // W = L D below the diagonal, and 1/D.
+        let mut lower: Vec<Vec<Option<Node>>> = vec![vec![None; n]; n];
+        let mut scaled = lower.clone();
+        let mut reciprocals = Vec::new();
+        for j in 0..n {
+            for i in j..n {
+                let mut entry = self.second(of, (i, true), (j, true));
+                for k in 0..j {
+                    if let (Some(a), Some(b)) = (lower[i][k], scaled[j][k]) {
+                        let product = self.graph.times(a, b);
+                        let opposite = self.graph.negated(product);
+                        entry = Some(self.added(entry, opposite));
+                    }
+                }
+                if i == j {
+                    reciprocals.push(self.graph.reciprocal(entry?));
+                } else {
+                    scaled[i][j] = entry;
+                    lower[i][j] = entry.map(|entry| self.graph.times(entry, reciprocals[j]));
+                }
+            }
+        }
+        let mut x = right.to_vec();
+        for i in 0..n {
+            for j in 0..i {
+                x[i] = self.reduced(x[i], lower[i][j], x[j]);
+            }
+        }
+        for (x, reciprocal) in x.iter_mut().zip(reciprocals) {
+            *x = self.graph.times(reciprocal, *x);
+        }
+        for i in (0..n).rev() {
+            for j in i + 1..n {
+                x[i] = self.reduced(x[i], lower[j][i], x[j]);
+            }
+        }
+        Some(x)
+    }
+
+    /// x − factor y.
+    fn reduced(&mut self, x: Node, factor: Option<Node>, y: Node) -> Node {
+        match factor {
+            Some(factor) => {
+                let product = self.graph.times(factor, y);
+                self.graph.minus(x, product)
+            }
+            None => x,
+        }
+    }
+
+    /// How many products the factorisation takes, with what fills in.
+    fn products(&mut self, of: &Derivatives) -> usize {
+        let mut below: Vec<BTreeSet<usize>> = (0..self.n)
+            .map(|j| (j + 1..self.n).filter(|&i| self.second(of, (i, true), (j, true)).is_some()).collect())
+            .collect();
+        let mut products = 0;
+        for k in 0..self.n {
+            let column = below[k].clone();
+            products += column.len() * column.len();
+            for &j in &column {
+                let filled = column.iter().copied().filter(|&i| i > j);
+                below[j].extend(filled);
+            }
+        }
+        products
+    }
+}

@@ -1,0 +1,94 @@
+//! A Lagrangian with the whole force that acts, as methods of several stages ask for it.
+//!
+//! ```text
+//! d/dt ∂L/∂v = g,   g = ∂L/∂q + f_L,   f_L = −∂R/∂v + f
+//! ```
+
+use nalgebra::SVector;
+
+use crate::lanes::{LaneVector, lane, splat, write_lane};
+use crate::{CovectorDerivatives, Lagrangian, Scalar, linear};
+
+/// The equations of motion at S stages at once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stages<T, const N: usize, const S: usize> {
+    /// g = ∂L/∂q + f_L.
+    pub rate: LaneVector<T, N, S>,
+    /// p − ∂L/∂v, with the momenta p that were asked for.
+    pub residual: LaneVector<T, N, S>,
+    /// (∂²L/∂v²)⁻¹ (p − ∂L/∂v), a Newton step of v towards these momenta; not finite where the matrix is singular.
+    pub correction: LaneVector<T, N, S>,
+}
+
+/// A Lagrangian L with the force f_L = −∂R/∂v + f that acts: the terms that the system has, summed.
+///
+/// `#[rayleigh_system(rule = gauss)]` writes it. By hand, a system without force needs nothing but the `impl`; one with force
+/// sets [`IS_FORCED`](Self::IS_FORCED) and gives f_L and its derivatives.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not say which force acts at its stages",
+    label = "no forced Lagrangian",
+    note = "list the rule in the attribute: `#[rayleigh_system(rule = gauss)]`"
+)]
+pub trait ForcedLagrangian<const N: usize>: Lagrangian<N> {
+    /// Whether there is a force. Without one, f_d and its derivatives are 0 and cost nothing.
+    const IS_FORCED: bool = false;
+
+    /// f_L(q, v), a covector at q.
+    fn acting_force(
+        &self,
+        _q: &SVector<Self::Scalar, N>,
+        _v: &SVector<Self::Scalar, N>,
+    ) -> SVector<Self::Scalar, N> {
+        nalgebra::zero()
+    }
+
+    /// f_L with ∂f_L/∂q and ∂f_L/∂v.
+    fn acting_force_derivatives(
+        &self,
+        _q: &SVector<Self::Scalar, N>,
+        _v: &SVector<Self::Scalar, N>,
+    ) -> CovectorDerivatives<Self::Scalar, N> {
+        CovectorDerivatives::zero()
+    }
+
+    /// The equations of motion at all stages. `momenta` gives the stages' momenta from their rates g.
+    fn stages<const S: usize>(
+        &self,
+        q: &LaneVector<Self::Scalar, N, S>,
+        v: &LaneVector<Self::Scalar, N, S>,
+        momenta: impl FnOnce(&LaneVector<Self::Scalar, N, S>) -> LaneVector<Self::Scalar, N, S>,
+    ) -> Stages<Self::Scalar, N, S> {
+        one_by_one(self, q, v, momenta)
+    }
+}
+
+/// The stages one after the other.
+fn one_by_one<L: ForcedLagrangian<N> + ?Sized, const N: usize, const S: usize>(
+    system: &L,
+    q: &LaneVector<L::Scalar, N, S>,
+    v: &LaneVector<L::Scalar, N, S>,
+    momenta: impl FnOnce(&LaneVector<L::Scalar, N, S>) -> LaneVector<L::Scalar, N, S>,
+) -> Stages<L::Scalar, N, S> {
+    let zero = splat(&SVector::zeros());
+    let mut stages = Stages { rate: zero, residual: zero, correction: zero };
+    let mut masses = [nalgebra::zero(); S];
+    let mut own = zero;
+    for (i, mass) in masses.iter_mut().enumerate() {
+        let (q, v) = (lane(q, i), lane(v, i));
+        let l = system.lagrangian_derivatives(&q, &v);
+        let force = if L::IS_FORCED { system.acting_force(&q, &v) } else { nalgebra::zero() };
+        write_lane(&mut stages.rate, i, &(l.d1 + force));
+        write_lane(&mut own, i, &l.d2);
+        *mass = l.d22;
+    }
+    let momenta = momenta(&stages.rate);
+    for a in 0..N {
+        stages.residual[a] = momenta[a] - own[a];
+    }
+    for (i, mass) in masses.iter().enumerate() {
+        let not_a_number = SVector::repeat(L::Scalar::constant(f64::NAN));
+        let correction = linear::solve(mass, &lane(&stages.residual, i)).unwrap_or(not_a_number);
+        write_lane(&mut stages.correction, i, &correction);
+    }
+    stages
+}

@@ -1,0 +1,213 @@
+//! Numbers side by side, one for each stage of a method: what is computed of one is computed of all at once.
+//!
+//! Own code because a method of s stages needs s lanes, in `f64` and in `f32`, with and without `std`: loops of fixed length
+//! over arrays, which the compiler turns into the vector instructions of the target that it is told of
+//! (`RUSTFLAGS="-C target-cpu=native"`).
+
+mod functions;
+mod operators;
+
+use core::array;
+use core::ops::{BitAnd, BitOr, Not};
+
+use nalgebra::SVector;
+
+use crate::Scalar;
+pub(crate) use functions::Functions;
+
+/// S numbers side by side. Operators and functions act on each of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(transparent)]
+pub struct Lanes<T, const S: usize>(pub [T; S]);
+
+/// A truth value for each lane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Mask<const S: usize>(pub [bool; S]);
+
+/// A vector of N coordinates in S lanes.
+pub type LaneVector<T, const N: usize, const S: usize> = [Lanes<T, S>; N];
+
+impl<T: Scalar, const S: usize> Lanes<T, S> {
+    /// The same number in every lane.
+    #[inline(always)]
+    #[must_use]
+    pub fn splat(value: T) -> Self {
+        Self([value; S])
+    }
+
+    /// The function of each lane.
+    #[inline(always)]
+    #[must_use]
+    pub fn map(mut self, function: impl Fn(T) -> T) -> Self {
+        for lane in &mut self.0 {
+            *lane = function(*lane);
+        }
+        self
+    }
+
+    /// The function of each lane of two.
+    #[inline(always)]
+    #[must_use]
+    pub fn zip(mut self, other: Self, function: impl Fn(T, T) -> T) -> Self {
+        for (lane, other) in self.0.iter_mut().zip(other.0) {
+            *lane = function(*lane, other);
+        }
+        self
+    }
+
+    /// self × factor + term, rounded once where the target has an instruction for it.
+    #[inline(always)]
+    pub(crate) fn times_plus(self, factor: T, term: Self) -> Self {
+        if cfg!(all(feature = "std", target_feature = "fma")) {
+            self.zip(term, |a, b| nalgebra::ComplexField::mul_add(a, factor, b))
+        } else {
+            self.zip(term, |a, b| a * factor + b)
+        }
+    }
+
+    /// The largest of the lanes' absolute values; NaN if one is NaN.
+    #[inline(always)]
+    pub(crate) fn amax(self) -> T {
+        let mut largest = T::zero();
+        for lane in self.0 {
+            let size = lane.abs();
+            // A NaN stays: it compares false with everything.
+            largest = if size <= largest { largest } else { size };
+        }
+        largest
+    }
+
+    /// Lane by lane, self < other.
+    #[inline(always)]
+    #[must_use]
+    pub fn less(self, other: Self) -> Mask<S> {
+        self.compared(other, |a, b| a < b)
+    }
+
+    /// Lane by lane, self ≤ other.
+    #[inline(always)]
+    #[must_use]
+    pub fn less_or_equal(self, other: Self) -> Mask<S> {
+        self.compared(other, |a, b| a <= b)
+    }
+
+    /// Lane by lane, self = other.
+    #[inline(always)]
+    #[must_use]
+    pub fn equal(self, other: Self) -> Mask<S> {
+        self.compared(other, |a, b| a == b)
+    }
+
+    #[inline(always)]
+    fn compared(self, other: Self, holds: impl Fn(T, T) -> bool) -> Mask<S> {
+        Mask(array::from_fn(|i| holds(self.0[i], other.0[i])))
+    }
+
+    /// Which lanes are NaN.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_nan(self) -> Mask<S> {
+        !self.equal(self)
+    }
+
+    /// Which lanes are finite.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_finite(self) -> Mask<S> {
+        Mask(self.0.map(|lane| lane.is_finite()))
+    }
+
+    /// Which lanes are infinite.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_infinite(self) -> Mask<S> {
+        !(self.is_finite() | self.is_nan())
+    }
+
+    /// Which lanes have the sign bit set.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_sign_negative(self) -> Mask<S> {
+        Mask(self.0.map(|lane| lane.is_sign_negative()))
+    }
+
+    /// Which lanes do not have the sign bit set.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_sign_positive(self) -> Mask<S> {
+        !self.is_sign_negative()
+    }
+}
+
+impl<const S: usize> Mask<S> {
+    /// The same truth value in every lane.
+    #[inline(always)]
+    #[must_use]
+    pub fn splat(value: bool) -> Self {
+        Self([value; S])
+    }
+
+    /// Lane by lane, `a` where it holds and `b` where it does not.
+    #[inline(always)]
+    #[must_use]
+    pub fn select<T: Scalar>(self, a: Lanes<T, S>, b: Lanes<T, S>) -> Lanes<T, S> {
+        let mut selected = b;
+        for i in 0..S {
+            selected.0[i] = if self.0[i] { a.0[i] } else { b.0[i] };
+        }
+        selected
+    }
+}
+
+impl<const S: usize> Not for Mask<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn not(self) -> Self {
+        Self(self.0.map(|lane| !lane))
+    }
+}
+
+impl<const S: usize> BitAnd for Mask<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn bitand(self, other: Self) -> Self {
+        Self(array::from_fn(|i| self.0[i] & other.0[i]))
+    }
+}
+
+impl<const S: usize> BitOr for Mask<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn bitor(self, other: Self) -> Self {
+        Self(array::from_fn(|i| self.0[i] | other.0[i]))
+    }
+}
+
+/// The vector of one lane.
+#[inline(always)]
+pub(crate) fn lane<T: Scalar, const N: usize, const S: usize>(
+    lanes: &LaneVector<T, N, S>,
+    index: usize,
+) -> SVector<T, N> {
+    SVector::from_fn(|a, _| lanes[a].0[index])
+}
+
+/// Writes the vector of one lane.
+#[inline(always)]
+pub(crate) fn write_lane<T: Scalar, const N: usize, const S: usize>(
+    lanes: &mut LaneVector<T, N, S>,
+    index: usize,
+    vector: &SVector<T, N>,
+) {
+    for (lanes, entry) in lanes.iter_mut().zip(vector.iter()) {
+        lanes.0[index] = *entry;
+    }
+}
+
+/// The same vector in every lane.
+#[inline(always)]
+pub(crate) fn splat<T: Scalar, const N: usize, const S: usize>(
+    vector: &SVector<T, N>,
+) -> LaneVector<T, N, S> {
+    array::from_fn(|a| Lanes::splat(vector[a]))
+}

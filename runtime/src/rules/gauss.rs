@@ -1,0 +1,190 @@
+//! Gauss–Galerkin variational integrators, one for each number of stages.
+
+mod coefficients;
+mod double_double;
+mod fixed_point;
+mod history;
+mod linearised;
+mod newton;
+mod problem;
+mod segment;
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::error::Quantity;
+use crate::{
+    Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, ForcedLagrangian, Momenta, Scalar, State,
+    Step, StepError, StepKernel,
+};
+use coefficients::Coefficients;
+pub use history::StageHistory;
+use problem::{Compensated, Problem, Solution};
+use segment::Segment;
+
+/// The most stages that there are coefficients for.
+const MAX_STAGES: usize = 8;
+
+/// The Gauss–Galerkin rule of S stages, 1 ≤ S ≤ 8: order 2S, self-adjoint, A-stable; S = 1 is [`Midpoint`](crate::Midpoint).
+///
+/// On polynomials q(t) of degree S from q0 to q1, quadrature with the Gauss–Legendre nodes c_i and weights b_i gives
+/// L_d = h Σ b_i L(Q_i, V_i). The interior points solve the **forced** equations
+///
+/// ```text
+/// h Σ b_i [(∂L/∂q + f_L) ℓ_ν(c_i) + ∂L/∂v ℓ_ν′(c_i)/h] = 0,   0 < ν < S,   f_L = −∂R/∂v + f
+/// f_d^∓ = h Σ b_i f_L·∂Q_i/∂q_{0,1}                            total derivatives, through the interior points
+/// p0 = −D1 L_d − f_d⁻,   p1 = D2 L_d + f_d⁺
+/// ```
+///
+/// **Collocation.** That is Gauss collocation on the forced Hamilton equations (Marsden and West 2001, section 2.6, for the
+/// unforced ones), and so the step is computed:
+///
+/// ```text
+/// Q_i = q0 + h Σ a_ij V_j,   P_i = p0 + h Σ a_ij G_j,   ∂L/∂v(Q_i, V_i) = P_i,   G = ∂L/∂q + f_L
+/// q1 = q0 + h Σ b_j V_j,     p1 = p0 + h Σ b_j G_j
+/// ```
+///
+/// L need not be quadratic in v. The stages come from a fixed-point iteration where it contracts, which is measured, and from
+/// Newton's method elsewhere (large steps, stiff forces). The rule is symplectic and keeps the momentum maps of symmetries
+/// without force; with force it is in general not Rayleigh for S ≥ 2: there is no R_d.
+///
+/// A [`Trajectory`](crate::Trajectory) keeps the stages of the last step ([`StageHistory`]), extrapolates them to those of the
+/// next, and adds up q and p with compensation, so that round-off grows no faster than a random walk.
+///
+/// The discrete objects solve for the stages between given end points. Where Newton's method finds none, they are NaN.
+///
+/// ```
+/// use dalembert::{Gauss, State, Trajectory, rayleigh_system};
+///
+/// #[rayleigh_system(rule = gauss)]
+/// fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+///     (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
+/// }
+///
+/// let system = Pendulum { r: 0.0 };
+/// let start = State::from_velocity(&system, [1.0], [0.0])?;
+/// let end = Trajectory::new(&system, Gauss::<4>, 0.5, start).take(1000).last().unwrap()?.state;
+/// assert!((end.energy(&system)? - start.energy(&system)?).abs() < 1e-8);
+/// # Ok::<(), dalembert::StepError>(())
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Gauss<const S: usize>;
+
+impl<const S: usize> Gauss<S> {
+    const COEFFICIENTS: Coefficients<S> = Coefficients::new();
+
+    /// The nodes c_i of the stages, ascending in (0, 1).
+    pub const NODES: [f64; S] = Self::COEFFICIENTS.nodes;
+
+    /// The weights b_i, which sum to 1.
+    pub const WEIGHTS: [f64; S] = Self::COEFFICIENTS.weights;
+}
+
+/// The step to the stages that were solved for.
+#[inline]
+fn completed<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    solution: &Solution<T, N, S>,
+) -> Result<(Step<T, N>, [Compensated<T, N>; 2]), StepError> {
+    let displacement = problem.sum(&solution.v);
+    let ends = [problem.q0.plus(&displacement), problem.p0.plus(&problem.sum(&solution.rate))];
+    let state = State { q: ends[0].value, p: ends[1].value };
+    StepError::require_finite(&state.q, Quantity::Configuration)?;
+    StepError::require_finite(&state.p, Quantity::Momentum)?;
+    Ok((Step { state, velocity: displacement / problem.h, report: solution.report }, ends))
+}
+
+impl<T, L, const N: usize, const S: usize> Discrete<Gauss<S>, N> for L
+where
+    T: Scalar,
+    L: ForcedLagrangian<N, Scalar = T>,
+{
+    type Matrix = SMatrix<T, N, N>;
+    type Memory = StageHistory<T, N, S>;
+
+    /// L_d = h Σ b_i L(Q_i, V_i).
+    fn discrete_lagrangian(&self, q0: &SVector<T, N>, q1: &SVector<T, N>, h: T) -> T {
+        Segment::<'_, L, N, S>::new(self, q0, &((q1 - q0) / h), h)
+            .map_or(nan(), |segment| segment.lagrangian())
+    }
+
+    fn discrete_lagrangian_derivatives(
+        &self,
+        q0: &SVector<T, N>,
+        q1: &SVector<T, N>,
+        h: T,
+    ) -> Derivatives<T, N> {
+        let force = segment::force_derivatives::<_, L, N, S>(self, q0, q1, h);
+        let solved = Segment::<'_, L, N, S>::new(self, q0, &((q1 - q0) / h), h);
+        solved
+            .and_then(|segment| Some(segment.lagrangian_derivatives(&segment.variations()?, &force)))
+            .unwrap_or(Derivatives {
+                value: nan(),
+                d1: SVector::repeat(nan()),
+                d2: SVector::repeat(nan()),
+                d11: SMatrix::repeat(nan()),
+                d12: SMatrix::repeat(nan()),
+                d22: SMatrix::repeat(nan()),
+            })
+    }
+
+    fn discrete_force(&self, q0: &SVector<T, N>, q1: &SVector<T, N>, h: T) -> DiscreteForce<T, N> {
+        segment::force::<_, L, N, S>(self, q0, q1, h)
+    }
+
+    fn discrete_force_derivatives(
+        &self,
+        q0: &SVector<T, N>,
+        q1: &SVector<T, N>,
+        h: T,
+    ) -> DiscreteForceDerivatives<T, N> {
+        segment::force_derivatives::<_, L, N, S>(self, q0, q1, h)
+    }
+
+    fn step_kernel(&self, q0: &SVector<T, N>, v: &SVector<T, N>, h: T) -> StepKernel<T, N> {
+        let solved = Segment::<'_, L, N, S>::new(self, q0, v, h);
+        solved
+            .and_then(|segment| {
+                let matrix = segment.variations()?.p0_by_q1 * h;
+                Some(StepKernel { p0: segment.momenta().p0, matrix })
+            })
+            .unwrap_or(StepKernel { p0: SVector::repeat(nan()), matrix: SMatrix::repeat(nan()) })
+    }
+
+    fn momenta(&self, q0: &SVector<T, N>, v: &SVector<T, N>, h: T) -> Momenta<T, N> {
+        Segment::<'_, L, N, S>::new(self, q0, v, h)
+            .map_or(Momenta { p0: SVector::repeat(nan()), p1: SVector::repeat(nan()) }, |segment| {
+                segment.momenta()
+            })
+    }
+
+    /// Σ b_i E_L(Q_i, V_i).
+    fn segment_energy(&self, q0: &SVector<T, N>, q1: &SVector<T, N>, h: T) -> T {
+        Segment::<'_, L, N, S>::new(self, q0, &((q1 - q0) / h), h).map_or(nan(), |segment| segment.energy())
+    }
+
+    /// By collocation; `guess` serves all stages.
+    fn step(
+        &self,
+        state: &State<T, N>,
+        h: T,
+        guess: Option<&SVector<T, N>>,
+    ) -> Result<Step<T, N>, StepError> {
+        crate::discrete::require_step_size(h)?;
+        StepError::require_finite(&state.q, Quantity::Configuration)?;
+        StepError::require_finite(&state.p, Quantity::Momentum)?;
+        let guess = match guess {
+            Some(v) => {
+                StepError::require_finite(v, Quantity::Velocity)?;
+                *v
+            }
+            None => state.velocity(self)?,
+        };
+        let problem = Problem::new(self, Compensated::new(state.q), Compensated::new(state.p), h);
+        let solution = fixed_point::solve::<_, _, N, S>(&problem, &guess)?;
+        Ok(completed(&problem, &solution)?.0)
+    }
+}
+
+fn nan<T: Scalar>() -> T {
+    T::constant(f64::NAN)
+}

@@ -1,0 +1,124 @@
+//! The stages by fixed-point iteration in Nyström order: rates at (Q(V), V), momenta from them, velocities from those.
+//!
+//! One evaluation of all stages an iteration and no matrix but ∂²L/∂v². Without friction and with a constant mass an iteration
+//! takes the error down by O(h²), otherwise by O(h). Where it does not contract, Newton's method takes over, from the velocity
+//! at the start of the step: from an extrapolation that is far off it may find another root than the motion's.
+
+use nalgebra::SVector;
+
+use super::newton;
+use super::problem::{Problem, Solution, in_units_of, rounding};
+use crate::lanes::{LaneVector, splat};
+use crate::{ForcedLagrangian, Report, Scalar, Stages, StepError};
+
+/// More iterations than Newton's method would be worth.
+const MAX_ITERATIONS: u32 = 60;
+
+/// Two iterations have to take this much off, or the matrix is worth its price.
+const SLOW: f64 = 0.5;
+
+/// The residual that the last correction may leave, in floors: with the contraction measured, what is left of it.
+const AT_REST: f64 = 1.0 / 64.0;
+
+/// A residual of so many floors that no longer falls is rounding.
+const AT_FLOOR: f64 = 8.0;
+
+/// Solves for the stages from the one velocity `guess`.
+#[inline]
+pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    guess: &SVector<T, N>,
+) -> Result<Solution<T, N, S>, StepError> {
+    let guess = splat(guess);
+    match iterate(problem, &guess) {
+        Some(solution) => Ok(solution),
+        None => newton::solve(problem, &guess),
+    }
+}
+
+/// Solves for the stages from the velocities `guess`, if the iteration contracts.
+#[inline]
+pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    guess: &LaneVector<T, N, S>,
+) -> Option<Solution<T, N, S>> {
+    let constant = T::constant;
+    let mut v = *guess;
+    let mut floor = problem.p0.value;
+    let (mut before, mut last) = (T::one(), T::one());
+    let mut iterations = 0;
+    while iterations < MAX_ITERATIONS {
+        let stages = problem.stages(&v);
+        if iterations == 0 {
+            floor = problem.floor(&stages.rate);
+        }
+        iterations += 1;
+        let size = in_units_of(&stages.residual, &floor);
+        if !size.is_finite() {
+            return None;
+        }
+        let contraction = if iterations == 1 { T::one() } else { size / last };
+        let is_at_rest = contraction * size <= constant(AT_REST);
+        let has_stopped = iterations > 1 && contraction >= constant(SLOW);
+        let mut is_done = is_at_rest || (has_stopped && size <= constant(AT_FLOOR));
+        if !is_done && iterations > 2 && size >= before * constant(SLOW) {
+            match at_rounding(problem, &v, &stages.residual, &floor) {
+                Some(measured) => (floor, is_done) = (measured, true),
+                None => return None,
+            }
+        }
+        if is_done {
+            let remaining = contraction.min(T::one());
+            let report = report(&stages, &floor, remaining, iterations);
+            let v = core::array::from_fn(|a| v[a] + stages.correction[a]);
+            return Some(Solution { v, rate: stages.rate, report, contracted: true });
+        }
+        for a in 0..N {
+            v[a] = v[a] + stages.correction[a];
+        }
+        (before, last) = (last, size);
+    }
+    None
+}
+
+/// How an iteration ended whose last correction leaves the share `remaining` of the residual.
+#[inline(always)]
+fn report<T: Scalar, const N: usize, const S: usize>(
+    stages: &Stages<T, N, S>,
+    floor: &SVector<T, N>,
+    remaining: T,
+    iterations: u32,
+) -> Report<T> {
+    let (residual, floor) = worst(&stages.residual, floor);
+    let last_correction = stages.correction.iter().fold(T::zero(), |largest, c| largest.max(c.amax()));
+    Report { iterations, damped: 0, residual: residual * remaining, floor, last_correction }
+}
+
+/// The residual that is largest in units of its floor, and this floor.
+#[inline(always)]
+pub(super) fn worst<T: Scalar, const N: usize, const S: usize>(
+    residual: &LaneVector<T, N, S>,
+    floor: &SVector<T, N>,
+) -> (T, T) {
+    let mut worst = (residual[0].amax(), floor[0]);
+    for a in 1..N {
+        let other = (residual[a].amax(), floor[a]);
+        if other.0 * worst.1 > worst.0 * other.1 {
+            worst = other;
+        }
+    }
+    worst
+}
+
+/// The floor with the rounding of cancelling forces, if that explains a residual that no longer falls.
+#[cold]
+#[inline(never)]
+pub(super) fn at_rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    v: &LaneVector<T, N, S>,
+    residual: &LaneVector<T, N, S>,
+    floor: &SVector<T, N>,
+) -> Option<SVector<T, N>> {
+    let measured = floor + rounding(problem, v);
+    (in_units_of(residual, &measured) <= T::constant(AT_FLOOR)).then_some(measured)
+}

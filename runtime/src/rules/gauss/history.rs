@@ -1,0 +1,91 @@
+//! What a run of steps by a Gauss rule keeps.
+
+use core::array;
+
+use nalgebra::SVector;
+
+use super::problem::{Compensated, Problem};
+use super::{Gauss, completed, fixed_point};
+use crate::error::Quantity;
+use crate::lanes::{LaneVector, Lanes, splat};
+use crate::{ForcedLagrangian, Memory, Scalar, State, Step, StepError};
+
+/// The stages of the last step, and what rounding has taken from q and p.
+///
+/// The polynomial through the stages' velocities, one step on, is the guess for the next. The rests of q and p are added
+/// before they are forgotten (W. Kahan 1965); they are used only where the run goes on from the very state that they belong to.
+#[derive(Clone, Copy, Debug)]
+pub struct StageHistory<T, const N: usize, const S: usize> {
+    /// The velocities V_i of the last step.
+    v: LaneVector<T, N, S>,
+    /// Its step size; 0 before the first step.
+    h: T,
+    /// Whether it was solved without Newton's method; then the next may be too.
+    contracted: bool,
+    q: Compensated<T, N>,
+    p: Compensated<T, N>,
+}
+
+impl<T: Scalar, const N: usize, const S: usize> Default for StageHistory<T, N, S> {
+    fn default() -> Self {
+        let zero = SVector::zeros();
+        Self {
+            v: splat(&zero),
+            h: T::zero(),
+            contracted: false,
+            q: Compensated::new(zero),
+            p: Compensated::new(zero),
+        }
+    }
+}
+
+impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
+    /// What `q` and `p` of the last state lack of the exact sums, in units of the state. The state with these added is known
+    /// to twice the digits.
+    pub fn rests(&self) -> (SVector<T, N>, SVector<T, N>) {
+        (self.q.rest, self.p.rest)
+    }
+
+    fn extrapolation(&self) -> LaneVector<T, N, S> {
+        let columns = &Gauss::<S>::COEFFICIENTS.extrapolation;
+        array::from_fn(|a| {
+            let mut sum = Lanes::splat(T::zero());
+            for (j, column) in columns.iter().enumerate() {
+                sum = Lanes(column.map(T::constant)).times_plus(self.v[a].0[j], sum);
+            }
+            sum
+        })
+    }
+}
+
+impl<T, L, const N: usize, const S: usize> Memory<L, Gauss<S>, N> for StageHistory<T, N, S>
+where
+    T: Scalar,
+    L: ForcedLagrangian<N, Scalar = T>,
+{
+    #[inline]
+    fn advance(&mut self, system: &L, state: &State<T, N>, h: T) -> Result<Step<T, N>, StepError> {
+        crate::discrete::require_step_size(h)?;
+        let goes_on = self.h != T::zero() && self.q.value == state.q && self.p.value == state.p;
+        let (q0, p0) = if goes_on {
+            (self.q, self.p)
+        } else {
+            StepError::require_finite(&state.q, Quantity::Configuration)?;
+            StepError::require_finite(&state.p, Quantity::Momentum)?;
+            (Compensated::new(state.q), Compensated::new(state.p))
+        };
+        let problem = Problem::<'_, L, N, S>::new(system, q0, p0, h);
+        let extrapolated = if goes_on && h == self.h && self.contracted {
+            fixed_point::iterate(&problem, &self.extrapolation())
+        } else {
+            None
+        };
+        let solution = match extrapolated {
+            Some(solution) => solution,
+            None => fixed_point::solve(&problem, &state.velocity(system)?)?,
+        };
+        let (step, [q, p]) = completed(&problem, &solution)?;
+        *self = Self { v: solution.v, h, contracted: solution.contracted, q, p };
+        Ok(step)
+    }
+}

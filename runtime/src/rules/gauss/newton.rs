@@ -1,0 +1,186 @@
+//! Newton's method for all stages together: for large steps and stiff forces, where the fixed point does not contract.
+//!
+//! The matrix has (S N)² entries, on the stack; it is assembled anew in each iteration, from the second derivatives at every
+//! stage. Steps that do not lower the residual are shortened.
+
+use nalgebra::SVector;
+
+use super::fixed_point::worst;
+use super::linearised::{Factored, Local, StageVector, locals};
+use super::problem::{Problem, Solution, in_units_of, rounding};
+use crate::error::Quantity;
+use crate::lanes::{LaneVector, splat, write_lane};
+use crate::{ForcedLagrangian, Report, Scalar, StepError};
+
+/// As in the solver of the rules of one stage: a few iterations near a root, some dozens from far out.
+const MAX_ITERATIONS: u32 = 100;
+
+/// A residual of so many floors is a root.
+const AT_FLOOR: f64 = 4.0;
+
+/// A residual that has stopped falling is accepted up to so many floors.
+pub(super) const STAGNATION: f64 = 4096.0;
+
+/// An iterate with what was evaluated there.
+pub(super) struct Iterate<T, const N: usize, const S: usize> {
+    pub(super) v: LaneVector<T, N, S>,
+    pub(super) locals: [Local<T, N>; S],
+    rate: LaneVector<T, N, S>,
+    /// r_i = ∂L/∂v − P_i.
+    pub(super) residual: LaneVector<T, N, S>,
+    pub(super) floor: SVector<T, N>,
+    /// max |r|/floor.
+    pub(super) size: T,
+}
+
+impl<T: Scalar, const N: usize, const S: usize> Iterate<T, N, S> {
+    pub(super) fn new<L: ForcedLagrangian<N, Scalar = T>>(
+        problem: &Problem<'_, L, N, S>,
+        v: LaneVector<T, N, S>,
+    ) -> Self {
+        let locals = locals(problem, &v);
+        let mut rate = splat(&SVector::zeros());
+        let mut own = rate;
+        let unit = T::EPSILON * T::constant(4.0);
+        let mut terms = SVector::<T, N>::zeros();
+        for (i, local) in locals.iter().enumerate() {
+            write_lane(&mut rate, i, &local.rate());
+            write_lane(&mut own, i, &local.momentum);
+            for a in 0..N {
+                let sum =
+                    (0..N).fold(T::zero(), |sum, b| sum + (local.mass[(a, b)] * v[b].0[i] * unit).abs());
+                terms[a] = terms[a].max(sum);
+            }
+        }
+        let momenta = problem.momenta(&rate);
+        let residual = core::array::from_fn(|a| own[a] - momenta[a]);
+        let floor = problem.floor(&rate) + terms;
+        let size = in_units_of(&residual, &floor);
+        Self { v, locals, rate, residual, floor, size }
+    }
+
+    /// The size of the residual in units of another iterate's floor: what two iterates are compared by.
+    pub(super) fn size_in(&self, floor: &SVector<T, N>) -> T {
+        in_units_of(&self.residual, floor)
+    }
+
+    pub(super) fn residuals(&self) -> StageVector<T, N, S> {
+        core::array::from_fn(|i| crate::lanes::lane(&self.residual, i))
+    }
+
+    /// The first coordinate with an entry that is not finite.
+    pub(super) fn non_finite(&self) -> Option<usize> {
+        let is_finite = |a: usize| {
+            self.residual[a].is_finite() == crate::Mask::splat(true)
+                && self.locals.iter().all(|local| {
+                    [&local.mass, &local.momentum_by_q, &local.rate_by_q, &local.rate_by_v]
+                        .iter()
+                        .all(|matrix| matrix.row(a).iter().all(|entry| entry.is_finite()))
+                })
+        };
+        (0..N).find(|&a| !is_finite(a))
+    }
+}
+
+/// Solves for the stages from the velocities `guess`.
+#[cold]
+#[inline(never)]
+pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    guess: &LaneVector<T, N, S>,
+) -> Result<Solution<T, N, S>, StepError> {
+    let one = T::one();
+    let constant = T::constant;
+    let mut last = Iterate::new(problem, *guess);
+    let mut damped = 0;
+    for iteration in 0..MAX_ITERATIONS {
+        if let Some(index) = last.non_finite() {
+            return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
+        }
+        let factored = Factored::new(problem, &last.locals).map_err(|singular| {
+            if damped > 0 {
+                let residual = worst(&last.residual, &last.floor).0.widen();
+                StepError::NoRealSolution { iteration, residual }
+            } else {
+                StepError::SingularNewtonMatrix { iteration, column: singular.column }
+            }
+        })?;
+        let correction = factored.solve(&last.residuals());
+        let last_correction = correction.iter().fold(T::zero(), |largest, c| largest.max(c.amax()));
+        let report = |residual: T, floor, damped| Report {
+            iterations: iteration + 1,
+            damped,
+            residual,
+            floor,
+            last_correction,
+        };
+
+        let mut share = one;
+        let next = loop {
+            let mut v = last.v;
+            for (i, correction) in correction.iter().enumerate() {
+                for a in 0..N {
+                    v[a].0[i] -= correction[a] * share;
+                }
+            }
+            let next = Iterate::new(problem, v);
+            let size = next.size_in(&last.floor);
+            if size < last.size || next.size <= constant(1.0) {
+                break Some((next, size));
+            }
+            if share == one && size.is_finite() {
+                // No lower than before: rounding, if the residual is small or its rounding large enough.
+                let measured = last.floor + rounding(problem, &last.v);
+                let is_explained = in_units_of(&last.residual, &measured) <= constant(AT_FLOOR);
+                if is_explained || last.size <= constant(STAGNATION) {
+                    let floor = if is_explained { &measured } else { &last.floor };
+                    let (residual, floor) = worst(&last.residual, floor);
+                    return Ok(Solution {
+                        v: last.v,
+                        rate: last.rate,
+                        report: report(residual, floor, damped),
+                        contracted: false,
+                    });
+                }
+            }
+            share = crate::newton::shorter(share, last.size, size);
+            if share < T::EPSILON.sqrt() {
+                break None;
+            }
+        };
+        let Some((next, size)) = next else {
+            let (residual, floor) = worst(&last.residual, &last.floor);
+            let (residual, floor) = (residual.widen(), floor.widen());
+            let is_lost = correction.iter().enumerate().all(|(i, correction)| {
+                let limit = T::EPSILON.cbrt();
+                (0..N).all(|a| correction[a].abs() <= limit * last.v[a].0[i].abs())
+            });
+            return Err(if is_lost {
+                StepError::LostPrecision { residual, floor }
+            } else {
+                StepError::NoRealSolution { iteration, residual }
+            });
+        };
+        damped += u32::from(share < one);
+        let contraction = if share < one { one } else { size / last.size };
+        // At the floor, and no better for another correction.
+        if next.size <= constant(AT_FLOOR)
+            && (contraction > constant(0.01) || next.size <= constant(1.0 / 16.0))
+        {
+            let (residual, floor) = worst(&next.residual, &next.floor);
+            return Ok(Solution {
+                v: next.v,
+                rate: next.rate,
+                report: report(residual, floor, damped),
+                contracted: false,
+            });
+        }
+        last = next;
+    }
+    let (residual, floor) = worst(&last.residual, &last.floor);
+    Err(StepError::NotConverged {
+        iterations: MAX_ITERATIONS,
+        residual: residual.widen(),
+        floor: floor.widen(),
+    })
+}

@@ -1,0 +1,182 @@
+//! One step's equations: what the stages' velocities have to satisfy.
+//!
+//! ```text
+//! Q_i = q0 + Σ_j μ_ij (h b_j V_j),   P_i = p0 + Σ_j μ_ij (h b_j G_j),   ∂L/∂v(Q_i, V_i) = P_i,   G = ∂L/∂q + f_L
+//! ```
+
+use core::array;
+
+use nalgebra::SVector;
+
+use super::Gauss;
+use super::coefficients::Coefficients;
+use crate::lanes::{LaneVector, Lanes};
+use crate::{ForcedLagrangian, Report, Scalar, Stages};
+
+/// A vector as an unevaluated sum, so that adding many small steps loses nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Compensated<T, const N: usize> {
+    pub(super) value: SVector<T, N>,
+    /// What `value` lacks.
+    pub(super) rest: SVector<T, N>,
+}
+
+impl<T: Scalar, const N: usize> Compensated<T, N> {
+    pub(super) fn new(value: SVector<T, N>) -> Self {
+        Self { value, rest: nalgebra::zero() }
+    }
+
+    /// The sum with `change`, by the two-sum of Knuth.
+    #[inline]
+    pub(super) fn plus(&self, change: &SVector<T, N>) -> Self {
+        let mut sum = *self;
+        for a in 0..N {
+            let (value, change) = (self.value[a], change[a] + self.rest[a]);
+            let total = value + change;
+            let share = total - value;
+            sum.value[a] = total;
+            sum.rest[a] = (value - (total - share)) + (change - share);
+        }
+        sum
+    }
+}
+
+/// One step from (q0, p0) with step size h.
+pub(super) struct Problem<'a, L: ForcedLagrangian<N>, const N: usize, const S: usize> {
+    pub(super) system: &'a L,
+    pub(super) q0: Compensated<L::Scalar, N>,
+    pub(super) p0: Compensated<L::Scalar, N>,
+    pub(super) h: L::Scalar,
+    /// h b_j, which sum to h.
+    pub(super) steps: [L::Scalar; S],
+}
+
+/// The stages of a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Solution<T, const N: usize, const S: usize> {
+    /// V_i.
+    pub(super) v: LaneVector<T, N, S>,
+    /// G_i.
+    pub(super) rate: LaneVector<T, N, S>,
+    pub(super) report: Report<T>,
+    /// Whether the fixed point contracted.
+    pub(super) contracted: bool,
+}
+
+impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize> Problem<'a, L, N, S> {
+    pub(super) const COEFFICIENTS: &'static Coefficients<S> = &Gauss::<S>::COEFFICIENTS;
+
+    pub(super) fn new(system: &'a L, q0: Compensated<T, N>, p0: Compensated<T, N>, h: T) -> Self {
+        let mut steps = array::from_fn(|j| T::constant(Self::COEFFICIENTS.weights[j]) * h);
+        if S > 2 {
+            let inner = steps[1..S - 1].iter().fold(T::zero(), |sum, &step| sum + step);
+            steps[0] = (h - inner) * T::constant(0.5);
+            steps[S - 1] = steps[0];
+        }
+        Self { system, q0, p0, h, steps }
+    }
+
+    /// start + Σ_j μ_ij (h b_j x_j) at every stage i.
+    #[inline(always)]
+    fn at_stages(&self, start: &Compensated<T, N>, x: &LaneVector<T, N, S>) -> LaneVector<T, N, S> {
+        array::from_fn(|a| {
+            let mut sum = Lanes::splat(start.rest[a]);
+            for j in 0..S {
+                let column = Lanes(Self::COEFFICIENTS.shares[j].map(T::constant));
+                sum = column.times_plus(self.steps[j] * x[a].0[j], sum);
+            }
+            sum + start.value[a]
+        })
+    }
+
+    /// Q_i.
+    #[inline(always)]
+    pub(super) fn configurations(&self, v: &LaneVector<T, N, S>) -> LaneVector<T, N, S> {
+        self.at_stages(&self.q0, v)
+    }
+
+    /// P_i.
+    #[inline(always)]
+    pub(super) fn momenta(&self, rate: &LaneVector<T, N, S>) -> LaneVector<T, N, S> {
+        self.at_stages(&self.p0, rate)
+    }
+
+    /// The equations of motion at the stages with velocities `v`.
+    #[inline(always)]
+    pub(super) fn stages(&self, v: &LaneVector<T, N, S>) -> Stages<T, N, S> {
+        self.system.stages(&self.configurations(v), v, |rate| self.momenta(rate))
+    }
+
+    /// Σ_j h b_j x_j.
+    #[inline(always)]
+    pub(super) fn sum(&self, x: &LaneVector<T, N, S>) -> SVector<T, N> {
+        SVector::from_fn(|a, _| {
+            let mut sum = T::zero();
+            for j in 0..S {
+                sum += self.steps[j] * x[a].0[j];
+            }
+            sum
+        })
+    }
+
+    /// What rounding leaves of the momentum equations: 4ε (|p0| + |h| max |G_i|), coordinate by coordinate.
+    #[inline(always)]
+    pub(super) fn floor(&self, rate: &LaneVector<T, N, S>) -> SVector<T, N> {
+        let unit = T::EPSILON * T::constant(4.0);
+        SVector::from_fn(|a, _| {
+            let size = self.p0.value[a].abs() * unit + (self.h * unit).abs() * rate[a].amax();
+            size + T::SMALLEST_NORMAL
+        })
+    }
+}
+
+/// The largest residual in units of its floor; not a number where one is not.
+#[inline(always)]
+pub(super) fn in_units_of<T: Scalar, const N: usize, const S: usize>(
+    residual: &LaneVector<T, N, S>,
+    floor: &SVector<T, N>,
+) -> T {
+    let mut largest = Lanes::<T, S>::splat(T::zero());
+    for a in 0..N {
+        let units = residual[a].abs() * (T::one() / floor[a]);
+        // A NaN stays.
+        largest = largest.zip(units, |largest, units| if units <= largest { largest } else { units });
+    }
+    largest.amax()
+}
+
+/// What rounding does to the residuals at the stages: their changes when each coordinate of Q and of V moves by the last
+/// place of its terms, added up. Near an equilibrium, where large forces cancel, this is more than [`Problem::floor`] knows of.
+#[cold]
+#[inline(never)]
+pub(super) fn rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    v: &LaneVector<T, N, S>,
+) -> SVector<T, N> {
+    let q = problem.configurations(v);
+    let residual = |q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>| {
+        problem.system.stages(q, v, |rate| problem.momenta(rate)).residual
+    };
+    let value = residual(&q, v);
+    let mut sum: SVector<T, N> = nalgebra::zero();
+    let mut add = |q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>| {
+        let moved = residual(q, v);
+        for a in 0..N {
+            sum[a] += (moved[a] - value[a]).amax();
+        }
+    };
+    for unit in [T::EPSILON, -T::EPSILON] {
+        for a in 0..N {
+            let speed = v[a].amax();
+            // Q is a sum: its rounding is that of its terms, however small it is itself.
+            let size = problem.q0.value[a].abs() + (problem.h * speed).abs();
+            let mut moved = q;
+            moved[a] = moved[a] + size * unit;
+            add(&moved, v);
+            let mut moved = *v;
+            moved[a] = moved[a] + speed * unit;
+            add(&q, &moved);
+        }
+    }
+    sum
+}

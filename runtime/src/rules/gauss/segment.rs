@@ -1,0 +1,283 @@
+//! The discrete objects on a segment (q0, q1), its interior points eliminated by the forced equations.
+//!
+//! The stages and p0 solve the equations of a step with Σ b_i V_i = v̄ for the configuration at the end. By the implicit
+//! function theorem, with J = ∂r/∂V, X = J⁻¹ 1 and Y = J⁻¹ ∂r/∂q0, the velocities follow dV = X dp0 − Y dq0; returning q1 to its
+//! place gives ∂p0/∂q0 = K00 and ∂p0/∂q1 = K01, and with them the total variations of all Q_i and V_i:
+//!
+//! ```text
+//! D L_d = h Σ b_i (∂L/∂q·DQ_i + ∂L/∂v·DV_i),   f_d = h Σ b_i f_L·DQ_i,   p0 = −D1 L_d − f_d⁻,   p1 = D2 L_d + f_d⁺
+//! ```
+//!
+//! Of D²L_d and Df_d alone their sums K are exact; Df_d itself holds second derivatives of the interior points, that is third
+//! ones of L, and is a central difference of order 8 of f_d. Without force it is 0 and D²L_d exact.
+
+use core::array;
+
+use nalgebra::{SMatrix, SVector};
+
+use super::linearised::{Factored, Local, StageMatrix};
+use super::newton::{Iterate, STAGNATION};
+use super::problem::{Compensated, Problem};
+use crate::lanes::{LaneVector, lane, splat};
+use crate::{
+    CovectorDerivatives, Derivatives, DiscreteForce, DiscreteForceDerivatives, ForcedLagrangian, Momenta,
+    Scalar,
+};
+
+/// Iterations of Newton's method for the interior points.
+const MAX_ITERATIONS: u32 = 100;
+
+/// A solved segment.
+pub(super) struct Segment<'a, L: ForcedLagrangian<N>, const N: usize, const S: usize> {
+    problem: Problem<'a, L, N, S>,
+    v: LaneVector<L::Scalar, N, S>,
+    locals: [Local<L::Scalar, N>; S],
+    factored: Factored<L::Scalar, N, S>,
+}
+
+/// The total derivatives of a segment by q0 and q1.
+pub(super) struct Variations<T, const N: usize, const S: usize> {
+    /// ∂Q_i/∂q0, ∂V_i/∂q0.
+    minus: [StageMatrix<T, N, S>; 2],
+    /// ∂Q_i/∂q1, ∂V_i/∂q1.
+    plus: [StageMatrix<T, N, S>; 2],
+    p0_by_q0: SMatrix<T, N, N>,
+    pub(super) p0_by_q1: SMatrix<T, N, N>,
+    p1_by_q1: SMatrix<T, N, N>,
+}
+
+impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize> Segment<'a, L, N, S> {
+    /// The segment from q0 with the mean velocity v̄; nothing where its equations have no solution that Newton's method finds.
+    pub(super) fn new(system: &'a L, q0: &SVector<T, N>, mean: &SVector<T, N>, h: T) -> Option<Self> {
+        let one = T::one();
+        let start = Compensated::new(*q0);
+        let mut problem = Problem::new(system, start, Compensated::new(nalgebra::zero()), h);
+        let guess = Iterate::new(&problem, splat(mean));
+        // p0 such that the residuals, here ∂L/∂v − h Σ a_ij G_j, have the mean 0.
+        problem.p0.value = problem.sum(&guess.residual) / h;
+        let mut last = Iterate::new(&problem, guess.v);
+        for _ in 0..MAX_ITERATIONS {
+            if last.non_finite().is_some() {
+                return None;
+            }
+            let factored = Factored::new(&problem, &last.locals).ok()?;
+            let y = factored.solve(&last.residuals());
+            let x = factored.solve_matrix(&[SMatrix::identity(); S]);
+            let of_y = y.iter().zip(&problem.steps).fold(SVector::zeros(), |sum, (y, &step)| sum + y * step);
+            let dp = -crate::linear::solve(&mean_of(&x, &problem.steps), &of_y).ok()?;
+            let p0 = problem.p0.value;
+            let mut share = one;
+            let next = loop {
+                let mut v = last.v;
+                for i in 0..S {
+                    let change = (y[i] + x[i] * dp) * share;
+                    for a in 0..N {
+                        v[a].0[i] -= change[a];
+                    }
+                }
+                problem.p0.value = p0 - dp * share;
+                let next = Iterate::new(&problem, v);
+                let size = next.size_in(&last.floor);
+                let is_lower = size < last.size;
+                if is_lower || next.size <= one || (share == one && last.size <= T::constant(STAGNATION)) {
+                    break Some((next, is_lower, size / last.size));
+                }
+                share = crate::newton::shorter(share, last.size, size);
+                if share < T::EPSILON.sqrt() {
+                    break None;
+                }
+            };
+            let (next, is_lower, contraction) = next?;
+            let has_stopped = !is_lower || contraction > T::constant(0.1);
+            let is_done = share == one && next.size <= T::constant(STAGNATION) && has_stopped;
+            if !is_lower {
+                problem.p0.value = p0;
+            } else {
+                last = next;
+            }
+            if is_done || last.size == T::zero() {
+                let factored = Factored::new(&problem, &last.locals).ok()?;
+                return Some(Self { problem, v: last.v, locals: last.locals, factored });
+            }
+        }
+        None
+    }
+
+    /// p0 and p1.
+    pub(super) fn momenta(&self) -> Momenta<T, N> {
+        let p0 = self.problem.p0.value;
+        let change = self.weighted(|local| local.rate());
+        Momenta { p0, p1: p0 + change }
+    }
+
+    /// h Σ b_i of a vector at each stage.
+    fn weighted(&self, of: impl Fn(&Local<T, N>) -> SVector<T, N>) -> SVector<T, N> {
+        let stages = self.locals.iter().zip(&self.problem.steps);
+        stages.fold(SVector::zeros(), |sum, (local, &step)| sum + of(local) * step)
+    }
+
+    /// L_d = h Σ b_i L.
+    pub(super) fn lagrangian(&self) -> T {
+        let stages = self.locals.iter().zip(&self.problem.steps);
+        stages.fold(nalgebra::zero(), |sum: T, (local, &step)| sum + local.lagrangian * step)
+    }
+
+    /// Σ b_i E_L.
+    pub(super) fn energy(&self) -> T {
+        let sum = (0..S).fold(nalgebra::zero(), |sum: T, i| {
+            let local = &self.locals[i];
+            sum + (lane(&self.v, i).dot(&local.momentum) - local.lagrangian) * self.problem.steps[i]
+        });
+        sum / self.problem.h
+    }
+
+    /// How all stages and momenta follow q0 and q1; nothing where the end points do not determine the motion.
+    pub(super) fn variations(&self) -> Option<Variations<T, N, S>> {
+        let steps = &self.problem.steps;
+        let share =
+            |i: usize, j: usize| T::constant(Problem::<'_, L, N, S>::COEFFICIENTS.shares[j][i]) * steps[j];
+        let at_stage = |i: usize, of: &StageMatrix<T, N, S>| {
+            (0..S).fold(SMatrix::zeros(), |sum, j| sum + of[j] * share(i, j))
+        };
+        let identity = SMatrix::<T, N, N>::identity();
+        let by_q: StageMatrix<T, N, S> = self.locals.map(|local| local.rate_by_q);
+        let x = self.factored.solve_matrix(&[identity; S]);
+        let y = self
+            .factored
+            .solve_matrix(&array::from_fn(|i| self.locals[i].momentum_by_q - at_stage(i, &by_q)));
+
+        let p0_by_q1 = crate::linearization::inverse(&mean_of(&x, steps)).ok()?;
+        let p0_by_q0 = p0_by_q1 * (mean_of(&y, steps) - identity);
+        let v_minus: StageMatrix<_, N, S> = array::from_fn(|i| x[i] * p0_by_q0 - y[i]);
+        let v_plus: StageMatrix<_, N, S> = array::from_fn(|i| x[i] * p0_by_q1);
+        let q_minus: StageMatrix<_, N, S> = array::from_fn(|i| identity + at_stage(i, &v_minus));
+        let q_plus: StageMatrix<_, N, S> = array::from_fn(|i| at_stage(i, &v_plus));
+        let p1_by_q1 = (0..S).fold(p0_by_q1, |sum, i| {
+            let local = &self.locals[i];
+            sum + (local.rate_by_q * q_plus[i] + local.rate_by_v * v_plus[i]) * steps[i]
+        });
+        Some(Variations { minus: [q_minus, v_minus], plus: [q_plus, v_plus], p0_by_q0, p0_by_q1, p1_by_q1 })
+    }
+
+    /// h Σ b_i (∂L/∂q·DQ_i + ∂L/∂v·DV_i).
+    fn slope(&self, [q, v]: &[StageMatrix<T, N, S>; 2]) -> SVector<T, N> {
+        (0..S).fold(SVector::zeros(), |sum, i| {
+            let local = &self.locals[i];
+            sum + (q[i].tr_mul(&local.slope) + v[i].tr_mul(&local.momentum)) * self.problem.steps[i]
+        })
+    }
+
+    /// f_d.
+    pub(super) fn force(&self, variations: &Variations<T, N, S>) -> DiscreteForce<T, N> {
+        let along = |q: &StageMatrix<T, N, S>| {
+            (0..S).fold(SVector::zeros(), |sum, i| {
+                sum + q[i].tr_mul(&self.locals[i].force) * self.problem.steps[i]
+            })
+        };
+        DiscreteForce { minus: along(&variations.minus[0]), plus: along(&variations.plus[0]) }
+    }
+
+    /// L_d with its derivatives, given those of f_d.
+    pub(super) fn lagrangian_derivatives(
+        &self,
+        variations: &Variations<T, N, S>,
+        force: &DiscreteForceDerivatives<T, N>,
+    ) -> Derivatives<T, N> {
+        Derivatives {
+            value: self.lagrangian(),
+            d1: self.slope(&variations.minus),
+            d2: self.slope(&variations.plus),
+            d11: -variations.p0_by_q0 - force.minus.d1,
+            d12: -variations.p0_by_q1 - force.minus.d2,
+            d22: variations.p1_by_q1 - force.plus.d2,
+        }
+    }
+}
+
+/// h Σ b_i of a matrix at each stage.
+fn mean_of<T: Scalar, const N: usize, const S: usize>(
+    matrices: &StageMatrix<T, N, S>,
+    steps: &[T; S],
+) -> SMatrix<T, N, N> {
+    matrices.iter().zip(steps).fold(SMatrix::zeros(), |sum, (matrix, &step)| sum + matrix * step)
+}
+
+/// f_d on the segment (q0, q1), NaN where it has no solution.
+pub(super) fn force<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    system: &L,
+    q0: &SVector<T, N>,
+    q1: &SVector<T, N>,
+    h: T,
+) -> DiscreteForce<T, N> {
+    if !L::IS_FORCED {
+        return DiscreteForce::zero();
+    }
+    let solved = Segment::<'_, L, N, S>::new(system, q0, &((q1 - q0) / h), h);
+    let force = solved.and_then(|segment| Some(segment.force(&segment.variations()?)));
+    let nan = SVector::repeat(T::constant(f64::NAN));
+    force.unwrap_or(DiscreteForce { minus: nan, plus: nan })
+}
+
+/// Weights of the central difference of order 8, for ±1, ±2, ±3, ±4 spacings.
+const WEIGHTS: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+
+/// Spacings tried, as powers of 2 of the coordinate's size.
+const SPACINGS: core::ops::RangeInclusive<i32> = 2..=11;
+
+/// f_d with its derivatives: along each coordinate by the spacing whose result changes least when it is halved.
+pub(super) fn force_derivatives<
+    T: Scalar,
+    L: ForcedLagrangian<N, Scalar = T>,
+    const N: usize,
+    const S: usize,
+>(
+    system: &L,
+    q0: &SVector<T, N>,
+    q1: &SVector<T, N>,
+    h: T,
+) -> DiscreteForceDerivatives<T, N> {
+    let value = force::<T, L, N, S>(system, q0, q1, h);
+    let mut derivatives = DiscreteForceDerivatives::zero();
+    (derivatives.minus.value, derivatives.plus.value) = (value.minus, value.plus);
+    if !L::IS_FORCED {
+        return derivatives;
+    }
+    for a in 0..N {
+        let size = q0[a].abs().max(q1[a].abs());
+        let size = if size > T::zero() { size } else { T::one() };
+        for moves_end in [false, true] {
+            let difference = |spacing: T| {
+                let at = |multiple: f64| {
+                    let (mut q0, mut q1) = (*q0, *q1);
+                    let moved = if moves_end { &mut q1 } else { &mut q0 };
+                    moved[a] += spacing * T::constant(multiple);
+                    force::<T, L, N, S>(system, &q0, &q1, h)
+                };
+                (1..).zip(WEIGHTS).fold(DiscreteForce::zero(), |sum, (multiple, weight)| {
+                    let multiple = f64::from(multiple);
+                    let odd = at(multiple) + at(-multiple) * -T::one();
+                    sum + odd * (T::constant(weight) / spacing)
+                })
+            };
+            let mut least: Option<(T, DiscreteForce<T, N>)> = None;
+            let mut wide = difference(size * T::constant(0.5).powi(*SPACINGS.start()));
+            for power in SPACINGS {
+                let narrow = difference(size * T::constant(0.5).powi(power + 1));
+                let spread = (narrow.minus - wide.minus).amax().max((narrow.plus - wide.plus).amax());
+                let is_less = least.as_ref().is_none_or(|(known, _)| spread < *known || !known.is_finite());
+                if is_less && spread.is_finite() {
+                    least = Some((spread, narrow));
+                }
+                wide = narrow;
+            }
+            let nan = SVector::repeat(T::constant(f64::NAN));
+            let column = least.map_or(DiscreteForce { minus: nan, plus: nan }, |(_, column)| column);
+            let write = |of: &mut CovectorDerivatives<T, N>, column: &SVector<T, N>| {
+                if moves_end { of.d2.set_column(a, column) } else { of.d1.set_column(a, column) }
+            };
+            write(&mut derivatives.minus, &column.minus);
+            write(&mut derivatives.plus, &column.plus);
+        }
+    }
+    derivatives
+}

@@ -1,0 +1,199 @@
+//! Large steps, stiff forces and what has no solution: where the fixed point of `Gauss<S>` gives way to Newton's method.
+
+use allocation_counter::measure;
+use dalembert::nalgebra::vector;
+use dalembert::{Discrete, Gauss, Quantity, State, StepError, Trajectory, rayleigh_system};
+use dalembert_tests::systems::DoublePendulum;
+
+/// m q̈ + c q̇ + k q = 0, and a weak cubic spring.
+#[rayleigh_system(rule = gauss)]
+fn oscillator(q: [f64; 1], v: [f64; 1], k: f64, c: f64, cubic: f64) -> (f64, f64) {
+    (0.5 * v[0] * v[0] - 0.5 * k * q[0] * q[0] - 0.25 * cubic * q[0].powi(4), 0.5 * c * v[0] * v[0])
+}
+
+/// The diagonal Padé approximant (s, s) of the exponential of z ∈ ℂ: what Gauss collocation does to y′ = λy, z = hλ.
+fn pade(s: u32, (x, y): (f64, f64)) -> (f64, f64) {
+    let times = |(a, b): (f64, f64), (c, d): (f64, f64)| (a * c - b * d, a * d + b * c);
+    let (mut above, mut below, mut power, mut coefficient) = ((0.0, 0.0), (0.0, 0.0), (1.0, 0.0), 1.0);
+    for j in 0..=s {
+        let sign = if j % 2 == 0 { 1.0 } else { -1.0 };
+        above = (above.0 + coefficient * power.0, above.1 + coefficient * power.1);
+        below = (below.0 + sign * coefficient * power.0, below.1 + sign * coefficient * power.1);
+        power = times(power, (x, y));
+        coefficient *= f64::from(s - j) / (f64::from(2 * s - j) * f64::from(j + 1));
+    }
+    let size = below.0 * below.0 + below.1 * below.1;
+    let (real, imaginary) = times(above, (below.0, -below.1));
+    (real / size, imaginary / size)
+}
+
+/// (q1, p1) of a step of the linear oscillator, by its two eigenvalues.
+fn exact_rational<const S: usize>(k: f64, c: f64, h: f64, q: f64, p: f64) -> (f64, f64) {
+    let discriminant = c * c / 4.0 - k;
+    assert!(discriminant != 0.0);
+    if discriminant < 0.0 {
+        // y = p − λ̄ q turns with R(hλ): p1 − λ̄ q1 = R (p − λ̄ q).
+        let (a, b) = (-c / 2.0, (-discriminant).sqrt());
+        let (r, s) = pade(S as u32, (h * a, h * b));
+        let (x, y) = (p - a * q, b * q);
+        let (x1, y1) = (r * x - s * y, r * y + s * x);
+        let q1 = y1 / b;
+        (q1, x1 + a * q1)
+    } else {
+        let root = discriminant.sqrt();
+        let (one, other) = (-c / 2.0 + root, -c / 2.0 - root);
+        let of = |own: f64, rest: f64| pade(S as u32, (h * own, 0.0)).0 * (p - rest * q);
+        let (x, y) = (of(one, other), of(other, one));
+        let q1 = (x - y) / (one - other);
+        (q1, x + other * q1)
+    }
+}
+
+fn stiff_steps<const S: usize>() {
+    for (k, c, h) in [
+        (1.0, 0.3, 0.2),
+        (400.0, 1.0, 0.5),
+        (1e4, 3.0, 1.0),
+        (2.0, 1e3, 0.7),
+        (1e6, 3e3, 0.1),
+        (1e8, 1.0, 1.0),
+    ] {
+        let system = Oscillator { k, c, cubic: 0.0 };
+        let start = State { q: vector![0.8], p: vector![-0.3] };
+        let step = Discrete::<Gauss<S>, 1>::step(&system, &start, h, None).unwrap();
+        let (q1, p1) = exact_rational::<S>(k, c, h, 0.8, -0.3);
+        // The momenta at the stages are of the size √k.
+        let size = 1.0 + k.sqrt() + c;
+        let rounding = 1e-15 * (200.0 + h * k.sqrt());
+        let (in_q, in_p) = ((step.state.q[0] - q1).abs(), (step.state.p[0] - p1).abs());
+        assert!(
+            in_q < rounding * (1.0 + size / k.sqrt()) && in_p < rounding * size,
+            "S = {S}, k = {k}, c = {c}: {in_q:e} {in_p:e}"
+        );
+    }
+}
+
+#[test]
+fn stiff_steps_are_those_of_the_pade_approximant() {
+    stiff_steps::<1>();
+    stiff_steps::<2>();
+    stiff_steps::<3>();
+    stiff_steps::<4>();
+    stiff_steps::<6>();
+    stiff_steps::<8>();
+}
+
+#[test]
+fn long_runs_at_large_steps_keep_the_energy_bounded() {
+    // hω = 3: some hundred steps of a fixed point that would not contract.
+    let system = Oscillator { k: 900.0, c: 0.0, cubic: 50.0 };
+    let start = State { q: vector![1.0], p: vector![0.0] };
+    let energy = start.energy(&system).unwrap();
+    let mut iterations = 0;
+    for step in Trajectory::new(&system, Gauss::<3>, 0.1, start).take(2000) {
+        let step = step.unwrap();
+        iterations += step.report.iterations;
+        assert!((step.state.energy(&system).unwrap() / energy - 1.0).abs() < 0.2);
+        assert!(step.report.residual <= step.report.floor * 8.0);
+    }
+    assert!(iterations < 2000 * 40, "{iterations}");
+    // The double pendulum, over the top.
+    let system = DoublePendulum::FREE;
+    let start = State::from_velocity(&system, [2.5, -2.0], [3.0, -2.0]).unwrap();
+    let energy = start.energy(&system).unwrap();
+    for step in Trajectory::new(&system, Gauss::<8>, 0.25, start).take(1000) {
+        assert!((step.unwrap().state.energy(&system).unwrap() - energy).abs() < 0.05 * energy.abs());
+    }
+}
+
+/// Cubic drag, R = r v³/3: accelerates for v < 0, without bound.
+#[rayleigh_system(rule = gauss)]
+fn cubic_drag(q: [f64; 1], v: [f64; 1], m: f64, r: f64) -> (f64, f64) {
+    (0.5 * m * v[0] * v[0] - 0.0 * q[0], r * v[0].powi(3) / 3.0)
+}
+
+#[test]
+fn what_has_no_solution_says_so() {
+    // v̇ = −v²: from v = −2 the velocity is infinite at t = ½. One stage: v = p − hv²/2 has a root iff p ≥ −1/(2h).
+    let system = CubicDrag { m: 1.0, r: 1.0 };
+    let state = State { q: vector![0.0], p: vector![-2.0] };
+    let mut trajectory = Trajectory::new(&system, Gauss::<1>, 1.0, state);
+    let error = trajectory.next().unwrap().unwrap_err();
+    assert!(
+        matches!(error, StepError::NoRealSolution { .. } | StepError::SingularNewtonMatrix { .. }),
+        "{error}"
+    );
+    assert_eq!(trajectory.state(), &state);
+    // Positive control: a step that the blow-up is beyond, v = v0/(1 + v0 t).
+    trajectory.change_step_size(0.05);
+    let mut state = state;
+    for _ in 0..5 {
+        state = trajectory.next().unwrap().unwrap().state;
+    }
+    assert!((state.p[0] + 2.0 / (1.0 - 2.0 * 0.25)).abs() < 0.1);
+    let mut fine = Trajectory::new(&system, Gauss::<6>, 0.05, State { q: vector![0.0], p: vector![-2.0] });
+    let state = fine.by_ref().take(5).last().unwrap().unwrap().state;
+    assert!((state.p[0] + 4.0).abs() < 1e-10, "{}", state.p[0]);
+}
+
+/// No kinetic energy in the second coordinate.
+#[rayleigh_system(rule = gauss)]
+fn degenerate(q: [f64; 2], v: [f64; 2]) -> f64 {
+    0.5 * v[0] * v[0] - 0.5 * (q[0] * q[0] + q[1] * q[1])
+}
+
+/// A root: no number beyond the wall at q = 0.
+#[rayleigh_system(rule = gauss)]
+fn wall(q: [f64; 1], v: [f64; 1]) -> f64 {
+    0.5 * v[0] * v[0] + q[0].sqrt()
+}
+
+#[test]
+fn every_failure_has_its_name() {
+    let state = State { q: vector![0.3, 0.1], p: vector![0.2, 0.0] };
+    let error = Discrete::<Gauss<2>, 2>::step(&Degenerate {}, &state, 0.1, None).unwrap_err();
+    assert!(matches!(error, StepError::DegenerateLagrangian { column: 1 }), "{error}");
+    let state = State { q: vector![-0.3], p: vector![0.2] };
+    let error = Discrete::<Gauss<2>, 1>::step(&Wall {}, &state, 0.1, None).unwrap_err();
+    assert!(matches!(error, StepError::NonFinite { quantity: Quantity::Derivatives, index: 0 }), "{error}");
+    // Positive control.
+    let state = State { q: vector![0.3], p: vector![0.2] };
+    assert!(Discrete::<Gauss<2>, 1>::step(&Wall {}, &state, 0.1, None).is_ok());
+}
+
+#[test]
+fn an_equilibrium_of_large_forces_is_a_step() {
+    // Forces cancel at q = 1000: rounding of the spring's force is what is left.
+    #[rayleigh_system(rule = gauss)]
+    fn hanging(q: [f64; 1], v: [f64; 1], k: f64, g: f64) -> f64 {
+        0.5 * v[0] * v[0] - 0.5 * k * q[0] * q[0] + g * q[0]
+    }
+    let system = Hanging { k: 0.7, g: 700.0 };
+    let start = State { q: vector![1000.0], p: vector![0.0] };
+    for step in Trajectory::new(&system, Gauss::<4>, 0.3, start).take(100) {
+        let step = step.unwrap();
+        assert!((step.state.q[0] - 1000.0).abs() < 1e-10 && step.report.iterations < 30, "{step:?}");
+    }
+}
+
+#[test]
+fn neither_a_step_nor_a_run_allocates() {
+    let start = State::from_velocity(&DoublePendulum::EXAMPLE, [1.1, -0.6], [0.3, 1.2]).unwrap();
+    let stiff = Oscillator { k: 900.0, c: 0.0, cubic: 50.0 };
+    let drag = CubicDrag { m: 1.0, r: 1.0 };
+    let count = measure(|| {
+        for step in Trajectory::new(&DoublePendulum::EXAMPLE, Gauss::<4>, 0.1, start).take(100) {
+            step.unwrap();
+        }
+        let oscillating = State { q: vector![1.0], p: vector![0.0] };
+        let by_newton = Trajectory::new(&stiff, Gauss::<6>, 0.5, oscillating).take(10);
+        for step in by_newton {
+            step.unwrap();
+        }
+        let failing = State { q: vector![0.0], p: vector![-2.0] };
+        Discrete::<Gauss<1>, 1>::step(&drag, &failing, 1.0, None).unwrap_err();
+        let step = Discrete::<Gauss<3>, 2>::step(&DoublePendulum::EXAMPLE, &start, 0.1, None).unwrap();
+        Discrete::<Gauss<3>, 2>::momenta(&DoublePendulum::EXAMPLE, &start.q, &step.velocity, 0.1);
+    });
+    assert_eq!((count.count_total, count.bytes_total), (0, 0));
+}
