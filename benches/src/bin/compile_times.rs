@@ -58,7 +58,7 @@ fn table() -> Result<(), String> {
     println!("|---|--:|--:|--:|");
     for (scene, structure, fields) in SCENES {
         for n in DEGREES {
-            crate_under_test.write(&program(scene, name, fields, n))?;
+            crate_under_test.write(&program(scene, structure, fields, n))?;
             let (name, check) = (scene.replace('_', " "), crate_under_test.median("check", repeats));
             match check {
                 Ok(check) => {
