@@ -277,7 +277,8 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
             guess,
         )?;
         // The change of momentum, added to the p0 given: the residual of the solver, always of one sign, would make it drift.
-        let state = State { q: q0 + solution.unknown * h, p: p0 + (solution.momenta.p1 - solution.momenta.p0) };
+        let state =
+            State { q: q0 + solution.unknown * h, p: p0 + (solution.momenta.p1 - solution.momenta.p0) };
         StepError::require_finite(&state.q, Quantity::Configuration)?;
         StepError::require_finite(&state.p, Quantity::Momentum)?;
         Ok(Step { state, velocity: solution.unknown, report: solution.report })

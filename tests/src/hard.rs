@@ -14,8 +14,8 @@ mod stiff;
 
 pub use chaotic::{HenonHeiles, TwoPendulums, henon_heiles, two_pendulums};
 pub use dissipative::{
-    Block, Cancelling, CubicDrag, DampedMass, Oscillator, Overflowing, VanDerPol, block, cancelling, cubic_drag,
-    damped_mass, oscillator, overflowing, van_der_pol,
+    Block, Cancelling, CubicDrag, DampedMass, Oscillator, Overflowing, VanDerPol, block, cancelling,
+    cubic_drag, damped_mass, oscillator, overflowing, van_der_pol,
 };
 pub use drive::{Effort, Progress, drive};
 pub use gyroscopic::{UniformField, uniform_field};

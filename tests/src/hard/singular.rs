@@ -28,19 +28,13 @@ impl MathewsLakshmanan {
 pub fn arm(q: [f64; 2], v: [f64; 2], m: f64, r: f64) -> (f64, f64) {
     let upper = 0.5 * m * v[0] * v[0];
     let lower = 0.5 * (v[0] * v[0] + v[1] * v[1]) + v[0] * v[1] * (q[0] - q[1]).cos();
-    (
-        upper + lower + (1.0 + m) * q[0].cos() + q[1].cos(),
-        0.5 * r * (v[0] * v[0] + (v[1] - v[0]).powi(2)),
-    )
+    (upper + lower + (1.0 + m) * q[0].cos() + q[1].cos(), 0.5 * r * (v[0] * v[0] + (v[1] - v[0]).powi(2)))
 }
 
 /// L = x v_y − y v_x − ½|q|²: linear in v, of first order.
 #[rayleigh_system(rule = [midpoint, trapezoidal])]
 pub fn first_order(q: [f64; 2], v: [f64; 2], r: f64) -> (f64, f64) {
-    (
-        q[0] * v[1] - q[1] * v[0] - 0.5 * (q[0] * q[0] + q[1] * q[1]),
-        0.5 * r * (v[0] * v[0] + v[1] * v[1]),
-    )
+    (q[0] * v[1] - q[1] * v[0] - 0.5 * (q[0] * q[0] + q[1] * q[1]), 0.5 * r * (v[0] * v[0] + v[1] * v[1]))
 }
 
 /// V = |q| + ⅔ a |q|^{3/2} + b √|q|: a kink at 0, then an infinite curvature, then an infinite slope.

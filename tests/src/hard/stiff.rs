@@ -41,14 +41,8 @@ pub const FERMI: usize = 3;
 /// ```
 #[rayleigh_system(rule = [midpoint, trapezoidal])]
 pub fn fermi(q: [f64; 6], v: [f64; 6], omega: f64, r: f64) -> (f64, f64) {
-    let mut speed = 0.0;
-    for i in 0..6 {
-        speed += v[i] * v[i];
-    }
-    let mut stiff = 0.0;
-    for i in 3..6 {
-        stiff += q[i] * q[i];
-    }
+    let speed: f64 = v.iter().map(|v| v * v).sum();
+    let stiff = q[3] * q[3] + q[4] * q[4] + q[5] * q[5];
     let mut soft = (q[0] - q[3]).powi(4) + (q[2] + q[5]).powi(4);
     for i in 0..2 {
         soft += (q[i + 1] - q[i + 4] - q[i] - q[i + 3]).powi(4);
@@ -59,7 +53,10 @@ pub fn fermi(q: [f64; 6], v: [f64; 6], omega: f64, r: f64) -> (f64, f64) {
 impl Fermi {
     /// The book's start: x₀₁ = 1, p₀₁ = 1, x₁₁ = 1/ω, p₁₁ = 1, all else 0.
     pub fn start(&self) -> State<f64, 6> {
-        State { q: [1.0, 0.0, 0.0, 1.0 / self.omega, 0.0, 0.0].into(), p: [1.0, 0.0, 0.0, 1.0, 0.0, 0.0].into() }
+        State {
+            q: [1.0, 0.0, 0.0, 1.0 / self.omega, 0.0, 0.0].into(),
+            p: [1.0, 0.0, 0.0, 1.0, 0.0, 0.0].into(),
+        }
     }
 
     /// Energies of the stiff springs, Iⱼ = ½(p₁ⱼ² + ω²x₁ⱼ²); their sum is an adiabatic invariant.

@@ -5,13 +5,7 @@ use dalembert_examples::baseline::{self, Method};
 use dalembert_tests::hard::{HenonHeiles, TwoPendulums, drive};
 
 /// Largest energy error in the first and the second half of a run.
-fn halves<S, R, const N: usize>(
-    system: &S,
-    rule: R,
-    h: f64,
-    start: State<f64, N>,
-    steps: u64,
-) -> [f64; 2]
+fn halves<S, R, const N: usize>(system: &S, rule: R, h: f64, start: State<f64, N>, steps: u64) -> [f64; 2]
 where
     S: Discrete<R, N, Scalar = f64>,
 {

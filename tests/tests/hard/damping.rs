@@ -43,7 +43,11 @@ fn equilibria_and_terminal_velocities_are_exact() {
             let start = State::from_velocity(&system, [q], [v]).unwrap();
             for step in Trajectory::new(&system, Midpoint, 0.25, start).take(200) {
                 let step = step.unwrap();
-                assert!((step.velocity[0] - v).abs() < 1e-13 * (1.0 + v.abs()), "r = {r:e}: {}", step.velocity[0]);
+                assert!(
+                    (step.velocity[0] - v).abs() < 1e-13 * (1.0 + v.abs()),
+                    "r = {r:e}: {}",
+                    step.velocity[0]
+                );
                 assert!((step.state.p[0] - start.p[0]).abs() < 1e-12 * (1.0 + start.p[0].abs()), "{step:?}");
             }
         }
@@ -84,15 +88,17 @@ fn sliding_to_rest() {
     let (mu, v, h) = (0.7, 1.3, 1e-3);
     for epsilon in [1e-2, 1e-4, 1e-6] {
         let system = Block { k: 0.0, mu, u: 0.0, epsilon };
-        let mut trajectory =
-            Trajectory::new(&system, Midpoint, h, State { q: vector![0.0], p: vector![v] });
+        let mut trajectory = Trajectory::new(&system, Midpoint, h, State { q: vector![0.0], p: vector![v] });
         for _ in 0..4_000 {
             trajectory.next().unwrap().unwrap();
         }
         let distance = v * v / (2.0 * mu);
         let rest = trajectory.state().q[0];
         // The last velocities below ε decay by e^{−μt/ε}, over a way of order ε²/μ · ln; the rule adds its h².
-        assert!((rest - distance).abs() < 10.0 * epsilon * epsilon.max(v) + h * h, "{epsilon:e}: {rest} {distance}");
+        assert!(
+            (rest - distance).abs() < 10.0 * epsilon * epsilon.max(v) + h * h,
+            "{epsilon:e}: {rest} {distance}"
+        );
         assert!(trajectory.state().p[0].abs() <= 0.5 * h * mu + 10.0 * epsilon, "{:?}", trajectory.state());
     }
 }
@@ -131,7 +137,10 @@ fn cubic_drag_past_its_fold() {
                 Discrete::<Trapezoidal, 1>::step(&system, &state, h, Some(&vector![guess])),
             ] {
                 let v = step.unwrap().velocity[0];
-                assert!((v - near).abs() < 1e-12 * near.abs() / (1.0 - share).abs().sqrt(), "{share} {guess}: {v} {near}");
+                assert!(
+                    (v - near).abs() < 1e-12 * near.abs() / (1.0 - share).abs().sqrt(),
+                    "{share} {guess}: {v} {near}"
+                );
             }
         }
     }
@@ -183,9 +192,10 @@ fn damping_that_changes_sign() {
     assert!((amplitude - known).abs() < 5e-4, "{amplitude}");
     // Strongly nonlinear: T → (3 − 2 ln 2) μ + 3·2.338107 μ^{−1/3}; the slow parts creep, the jumps do not fail.
     let stiff = VanDerPol { mu: 50.0 };
-    let effort = drive(&stiff, Midpoint, 0.005, State { q: vector![2.0], p: vector![0.0] }, [60_000, 1], |at| {
-        assert!(at.state.q[0].abs() < 2.1, "{at:?}");
-    });
+    let effort =
+        drive(&stiff, Midpoint, 0.005, State { q: vector![2.0], p: vector![0.0] }, [60_000, 1], |at| {
+            assert!(at.state.q[0].abs() < 2.1, "{at:?}");
+        });
     assert_eq!(effort.stopped, None);
 }
 
@@ -201,7 +211,10 @@ fn gyroscopic_terms() {
             let v = trajectory.next().unwrap().unwrap().velocity;
             // |v̄| = cos of half the angle turned.
             let speed = 1.0 / (1.0 + (0.5 * h * b).powi(2)).sqrt();
-            assert!((v.norm() / speed - 1.0).abs() < 1e-13 * f64::from(step).sqrt() * (1.0 + h * b), "b = {b:e}: {v}");
+            assert!(
+                (v.norm() / speed - 1.0).abs() < 1e-13 * f64::from(step).sqrt() * (1.0 + h * b),
+                "b = {b:e}: {v}"
+            );
             if let Some([x, y]) = last {
                 let angle = (x * v[1] - y * v[0]).atan2(x * v[0] + y * v[1]);
                 assert!((angle.abs() - 2.0 * (0.5 * h * b).atan()).abs() < 1e-10, "b = {b:e}: {angle}");

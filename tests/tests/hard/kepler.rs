@@ -91,7 +91,9 @@ fn a_step_over_the_collision_has_a_name_and_shorter_ones_pass() {
     assert!(trajectory.state().q[0] > 0.05, "{:?}", trajectory.state());
     let change = Kepler::energy_of(trajectory.state()) - Kepler::energy_of(&good);
     assert!(change.abs() < 1e-3, "{change:e}");
-    assert!((Kepler::angular_momentum(trajectory.state()) / Kepler::angular_momentum(&start) - 1.0).abs() < 1e-11);
+    assert!(
+        (Kepler::angular_momentum(trajectory.state()) / Kepler::angular_momentum(&start) - 1.0).abs() < 1e-11
+    );
 }
 
 /// Isotropic drag: J(t) = J(0) e^{−kt} on every orbit.

@@ -167,7 +167,9 @@ fn beyond_the_chord_the_energy_or_an_error_tells() {
     if let Some(error) = effort.stopped {
         assert!(matches!(
             error,
-            StepError::NoRealSolution { .. } | StepError::NotConverged { .. } | StepError::LostPrecision { .. }
+            StepError::NoRealSolution { .. }
+                | StepError::NotConverged { .. }
+                | StepError::LostPrecision { .. }
         ));
     }
 }
