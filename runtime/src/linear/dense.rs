@@ -60,8 +60,9 @@ fn closed_form<S: Scalar, const N: usize>(
             let reciprocal = S::one() / determinant;
             x[0] = (d * right[0] - b * right[1]) * reciprocal;
             x[1] = (a * right[1] - c * right[0]) * reciprocal;
-            let carries_digits = determinant.abs() > (ad.abs() + bc.abs()) * (S::EPSILON * S::constant(16.0));
-            (carries_digits && reciprocal.is_finite() && reciprocal != S::zero()).then_some(x)
+            // A determinant below the normal numbers has an infinite reciprocal.
+            let cancelled = (ad.abs() + bc.abs()) * (S::EPSILON * S::constant(16.0)) + S::SMALLEST_NORMAL;
+            (determinant.abs() > cancelled && reciprocal.abs() > S::zero()).then_some(x)
         }
         _ => None,
     }
