@@ -14,6 +14,7 @@ mod expanded;
 mod fallback;
 pub mod graph;
 mod implement;
+mod joint;
 pub mod lower;
 mod model;
 pub mod parse;
@@ -36,6 +37,17 @@ pub fn rayleigh_system(attribute: TokenStream, item: TokenStream) -> TokenStream
     let Some(system) = check::system(&source, options.rules.clone(), &mut report) else {
         return fallback::with_stubs(&source, &options.rules, report);
     };
+    if !options.joint.is_empty() && report.is_empty() {
+        let mut lowered = if options.engine == Engine::NumDual { None } else { lower::system(&system).ok() };
+        for (name, rule) in &options.joint {
+            if let Some(lacks) = joint::lacks(*rule, &system, options.engine, lowered.as_mut()) {
+                report.at(name, Mistake::JointRule { rule: name.to_string(), lacks });
+            }
+        }
+        if !report.is_empty() {
+            return fallback::with_stubs(&source, &options.rules, report);
+        }
+    }
     if options.engine == Engine::Expanded && report.is_empty() {
         let expansion = match lower::system(&system) {
             Ok(lowered) => expanded::system(&system, lowered).ok_or((source.name().span(), Mistake::TooLong)),

@@ -73,6 +73,16 @@ pub mod samples;
 ///
 /// `f32` in place of `f64` makes a system in single precision.
 ///
+/// # Rules
+///
+/// | `rule = ` | | asks for |
+/// |---|---|---|
+/// | `midpoint` | [`Midpoint`], order 2, self-adjoint | |
+/// | `trapezoidal` | [`Trapezoidal`], order 2, self-adjoint; explicit where L = ½vᵀMv − V(q) | |
+/// | `fitted` | [`Fitted`], order 2, self-adjoint; does not ring under stiff damping | L = ½vᵀMv − V(q) with constant M, linear damping, no force |
+/// | `fitted_trapezoidal` | [`FittedTrapezoidal`], the same made explicit; exact law of phase volume | as `fitted` |
+/// | `one_sided` | [`OneSided`], order 1; for stiff damping that is not linear, such as dry friction | R(v) convex, no force |
+///
 /// # One free function
 ///
 /// The parameters after q and v become the fields of a struct named after the function:
@@ -149,7 +159,10 @@ pub use fields::{ScalarField, VectorField};
 pub use linear::{Banded, NewtonMatrix, Singular};
 pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix};
 pub use memory::{Memory, VelocityHistory};
-pub use rules::{DisplacementRule, Midpoint, Node, Trapezoidal};
+pub use rules::{
+    DisplacementRule, Fitted, FittedTrapezoidal, JointRayleighRule, JointRule, Midpoint, Node, OneSided,
+    Trapezoidal,
+};
 pub use scalar::Scalar;
 pub use state::State;
 pub use system::{Force, Lagrangian, Rayleigh};

@@ -36,13 +36,15 @@ impl Parse for Setting {
 pub struct Options {
     /// Midpoint unless said.
     pub rules: Vec<Rule>,
+    /// Those of them that take L and R together, where they stand.
+    pub joint: Vec<(Ident, Rule)>,
     /// Whichever can, unless said.
     pub engine: Engine,
 }
 
 /// The options said, and defaults for the others.
 pub fn options(attribute: TokenStream, report: &mut Report) -> Options {
-    let mut options = Options { rules: Vec::new(), engine: Engine::Auto };
+    let mut options = Options { rules: Vec::new(), joint: Vec::new(), engine: Engine::Auto };
     let settings = match Punctuated::<Setting, Token![,]>::parse_terminated.parse2(attribute) {
         Ok(settings) => settings,
         Err(error) => {
@@ -54,7 +56,7 @@ pub fn options(attribute: TokenStream, report: &mut Report) -> Options {
     for setting in settings {
         if setting.name == "rule" {
             says_rule = true;
-            rules(setting, &mut options.rules, report);
+            rules(setting, &mut options, report);
         } else if setting.name == "derivatives" {
             engine(setting, &mut options.engine, report);
         } else {
@@ -85,7 +87,7 @@ fn engine(setting: Setting, engine: &mut Engine, report: &mut Report) {
 }
 
 /// `rule = [midpoint, trapezoidal]`
-fn rules(setting: Setting, rules: &mut Vec<Rule>, report: &mut Report) {
+fn rules(setting: Setting, options: &mut Options, report: &mut Report) {
     if setting.values.is_empty() {
         report.at(&setting.name, Mistake::NoRule);
     }
@@ -93,15 +95,21 @@ fn rules(setting: Setting, rules: &mut Vec<Rule>, report: &mut Report) {
         let rule = match value.to_string().as_str() {
             "midpoint" => Rule::Midpoint,
             "trapezoidal" => Rule::Trapezoidal,
+            "fitted" => Rule::Fitted,
+            "fitted_trapezoidal" => Rule::FittedTrapezoidal,
+            "one_sided" => Rule::OneSided,
             other => {
                 report.at(&value, Mistake::UnknownRule(other.to_owned()));
                 continue;
             }
         };
-        if rules.contains(&rule) {
+        if rule.is_joint() {
+            options.joint.push((value.clone(), rule));
+        }
+        if options.rules.contains(&rule) {
             report.at(&value, Mistake::RepeatedRule(value.to_string()));
         } else {
-            rules.push(rule);
+            options.rules.push(rule);
         }
     }
 }

@@ -12,7 +12,7 @@ use syn::{
 
 use super::check::Field;
 use super::implement::{self, discrete, discrete_rayleigh};
-use super::model::{Function, RayleighArguments, Role, Source, System, simple_name};
+use super::model::{Function, RayleighArguments, Role, Rule, Source, System, simple_name};
 use super::rewrite::{Twin, over};
 
 /// The whole expansion: the user's item, its functions over dual numbers, and the system that they make.
@@ -165,7 +165,6 @@ pub fn imported(system: &System<'_>) -> Vec<Ident> {
         "Derivatives",
         "Direction",
         "Discrete",
-        "DisplacementRule",
         "Gradient",
         "Lagrangian",
         "Momenta",
@@ -183,6 +182,19 @@ pub fn imported(system: &System<'_>) -> Vec<Ident> {
         names.extend(["DiscreteForce", "DiscreteForceDerivatives"]);
     }
     names.extend(system.rules.iter().map(|rule| rule.name()));
+    if system.rules.iter().any(|rule| rule.is_joint()) {
+        names.push("JointRule");
+    }
+    if system.rules.iter().any(|rule| !rule.is_joint()) {
+        names.push("DisplacementRule");
+    }
+    let with_rayleigh = |rule: &Rule| match rule {
+        Rule::Fitted => system.degrees.literal() == Some(1),
+        rule => rule.is_joint(),
+    };
+    if system.rules.iter().any(with_rayleigh) {
+        names.push("JointRayleighRule");
+    }
     names.sort_unstable();
     names.into_iter().map(|name| format_ident!("{name}")).collect()
 }
