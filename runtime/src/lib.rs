@@ -9,6 +9,7 @@ extern crate self as dalembert;
 
 mod derivatives;
 mod discrete;
+mod energy;
 mod error;
 mod fields;
 mod linear;
@@ -154,6 +155,7 @@ pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Var
 pub use discrete::{
     Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Report, Step, StepKernel,
 };
+pub use energy::EnergyLedger;
 pub use error::{Quantity, StepError};
 pub use fields::{ScalarField, VectorField};
 pub use linear::{Banded, NewtonMatrix, Singular};

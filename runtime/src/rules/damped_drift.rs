@@ -8,6 +8,7 @@
 //! neither panic nor allocate, for any N.
 
 use core::array;
+use core::cmp::Ordering;
 
 use nalgebra::{SMatrix, SVector};
 
@@ -141,9 +142,9 @@ fn jacobi<S: Scalar, const N: usize>(mut a: SMatrix<S, N, N>) -> (SMatrix<S, N, 
         for i in 0..N {
             for j in i + 1..N {
                 let off = a[(i, j)];
-                // Below the rounding of both diagonal entries nothing is left to rotate; a NaN ends it.
-                if !(off.abs() > S::EPSILON * S::constant(0.25) * (a[(i, i)].abs() * a[(j, j)].abs()).sqrt())
-                {
+                // Below the rounding of both diagonal entries nothing is left to rotate; a NaN is left alone.
+                let least = S::EPSILON * S::constant(0.25) * (a[(i, i)].abs() * a[(j, j)].abs()).sqrt();
+                if off.abs().partial_cmp(&least) != Some(Ordering::Greater) {
                     continue;
                 }
                 rotated = true;

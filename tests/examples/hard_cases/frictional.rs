@@ -2,48 +2,50 @@
 
 use anyhow::Result;
 use dalembert::nalgebra::vector;
-use dalembert::{Discrete, Midpoint, State, Trajectory};
+use dalembert::{Discrete, Fitted, Midpoint, OneSided, State, Trajectory};
 use dalembert_examples::picture::{Corner, Curve, Mark, Panel, colour};
 use dalembert_tests::hard::{Block, CubicDrag, DampedMass};
 
 use crate::page::Case;
 
+/// p of a damped free mass after each of `steps` steps, from 1.
+fn decay<R: Copy>(rule: R, ratio: f64, steps: usize) -> Result<Vec<f64>>
+where
+    DampedMass: Discrete<R, 1, Scalar = f64>,
+{
+    let system = DampedMass { m: 1.0, r: ratio };
+    let start = State { q: vector![0.0], p: vector![1.0] };
+    let mut momenta = vec![1.0];
+    for step in Trajectory::new(&system, rule, 1.0, start).take(steps) {
+        momenta.push(step?.state.p[0]);
+    }
+    Ok(momenta)
+}
+
 /// hr/m from 0.1 to 1e6.
 pub fn overdamped() -> Result<Case> {
-    let (m, h) = (1.0, 1.0);
     let mut rows = Vec::new();
     for ratio in [0.1, 1.0, 1.9, 2.1, 10.0, 1e2, 1e4, 1e6] {
-        let system = DampedMass { m, r: ratio };
-        let start = State { q: vector![0.0], p: vector![1.0] };
-        let mut trajectory = Trajectory::new(&system, Midpoint, h, start);
-        let mut after = |steps: usize| -> Result<f64> {
-            for _ in 0..steps {
-                trajectory.next().transpose()?;
-            }
-            Ok(trajectory.state().p[0])
-        };
-        let (one, hundred) = (after(1)?, after(99)?);
+        let midpoint = decay(Midpoint, ratio, 100)?;
         rows.push(vec![
             format!("{ratio:e}"),
-            format!("{one:.4}"),
-            format!("{:.4}", (-ratio).exp()),
-            format!("{hundred:.1e}"),
+            format!("{:.1e}", (-ratio).exp()),
+            format!("{:.4}", midpoint[1]),
+            format!("{:.1e}", midpoint[100]),
+            format!("{:.1e}", decay(Fitted, ratio, 1)?[1]),
+            format!("{:.1e}", decay(OneSided, ratio, 1)?[1]),
         ]);
     }
-    let decay = |ratio: f64| -> Result<Vec<(f64, f64)>> {
-        let system = DampedMass { m, r: ratio };
-        let mut points = vec![(0.0, 1.0)];
-        let start = State { q: vector![0.0], p: vector![1.0] };
-        for (k, step) in Trajectory::new(&system, Midpoint, h, start).take(20).enumerate() {
-            points.push((k as f64 + 1.0, step?.state.p[0]));
-        }
-        Ok(points)
-    };
     let panel = |title, ratio: f64| -> Result<Panel<'static>> {
         let exact = (0..=400).map(|k| f64::from(k) * 0.05).map(|t| (t, (-ratio * t).exp())).collect();
+        let points =
+            |momenta: Vec<f64>| momenta.into_iter().enumerate().map(|(k, p)| (k as f64, p)).collect();
+        let curve = |label, colour, mark, points| Curve { label, colour, mark, points };
         let curves = vec![
-            Curve { label: "exact", colour: colour::REFERENCE, mark: Mark::Line(3), points: exact },
-            Curve { label: "midpoint", colour: colour::VARIATIONAL, mark: Mark::Disc, points: decay(ratio)? },
+            curve("exact", colour::REFERENCE, Mark::Line(3), exact),
+            curve("midpoint", colour::VARIATIONAL, Mark::Disc, points(decay(Midpoint, ratio, 20)?)),
+            curve("fitted", colour::RUNGE_KUTTA, Mark::Circle, points(decay(Fitted, ratio, 20)?)),
+            curve("one-sided", colour::EULER, Mark::Triangle, points(decay(OneSided, ratio, 20)?)),
         ];
         Ok(Panel { title, x: "steps", y: "p/p₀", legend: Corner::UpperRight, curves })
     };
@@ -52,8 +54,16 @@ pub fn overdamped() -> Result<Case> {
         breaks: "Explicit methods are unstable for hr > 2m. The midpoint rule is stable at any hr, and multiplies the velocity by \
                  (2m − hr)/(2m + hr): past hr = 2m the sign alternates, and for hr ≫ m it hardly decays: **it rings**.",
         ours: "Midpoint and trapezoidal rule ring past hr = 2m, exactly as the formula says; equilibria and terminal velocities are exact at any \
-               hr. The configuration q ends where it should, momenta should not be read.",
-        head: &["hr/m", "p after one step", "exact", "p after 100 steps"],
+               hr, q ends where it should, and momenta should not be read. `rule = fitted` decays by e^{−hr/m}, to rounding, at any hr, with q of \
+               order 2; `rule = one_sided` by 1/(1 + hr/m), for damping that is not linear.",
+        head: &[
+            "hr/m",
+            "exact p after one step",
+            "midpoint",
+            "midpoint after 100 steps",
+            "fitted",
+            "one-sided",
+        ],
         rows,
         panels: vec![panel("hr/m = 0.5", 0.5)?, panel("hr/m = 20: the midpoint rule rings", 20.0)?],
         test: "damping.rs",
