@@ -97,11 +97,16 @@ fn draw(runs: &[Run]) -> Result<PathBuf> {
             mark: Mark::Line(2),
             points: run.course.iter().map(|entry| (entry.0, quantity(entry))).collect(),
         };
-        Panel { title, x: "time t", y, legend, curves: runs.iter().rev().map(curve).collect() }
+        let mut curves: Vec<_> = runs.iter().rev().map(curve).collect();
+        // Room for the legend.
+        let lowest = curves.iter().flat_map(|curve| &curve.points).map(|point| point.1).fold(0.0, f64::min);
+        let room = vec![(0.0, 1.4 * lowest)];
+        curves.push(Curve { label: "", colour: colour::REFERENCE, mark: Mark::Line(1), points: room });
+        Panel { title, x: "time t", y, legend, curves }
     };
     let panels = [
-        panel("Dissipated by friction", "Σ h v̄·∂R/∂v", Corner::LowerRight, |entry| entry.1),
-        panel("Brought by the method", "Σ (ΔE + h v̄·∂R/∂v)", Corner::LowerLeft, |entry| entry.2),
+        panel("Dissipated by friction", "Σ h v̄·∂R/∂v", Corner::UpperLeft, |entry| entry.1),
+        panel("Brought by the method", "Σ (ΔE + h v̄·∂R/∂v)", Corner::LowerRight, |entry| entry.2),
     ];
     picture::write("energy_ledger", [1600, 550], 2, &panels)
 }

@@ -7,6 +7,7 @@
 
 extern crate self as dalembert;
 
+mod certificate;
 mod derivatives;
 mod discrete;
 mod energy;
@@ -19,6 +20,7 @@ mod newton;
 mod rules;
 mod scalar;
 mod state;
+mod structure;
 mod system;
 mod trajectory;
 
@@ -151,21 +153,24 @@ pub use dalembert_macros::rayleigh_system;
 pub use dalembert_macros::differentiable;
 pub use nalgebra;
 
+pub use certificate::Certificate;
 pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
 pub use discrete::{
-    Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Report, Step, StepKernel,
+    BoundedStep, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Report, Step,
+    StepKernel,
 };
 pub use energy::EnergyLedger;
 pub use error::{Quantity, StepError};
 pub use fields::{ScalarField, VectorField};
-pub use linear::{Banded, NewtonMatrix, Singular};
+pub use linear::{Banded, Factored, FactoredBand, FactoredDense, NewtonMatrix, Singular};
 pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix};
-pub use memory::{Memory, VelocityHistory};
+pub use memory::{Explicit, ExplicitMemory, KeptMatrix, Memory, VelocityHistory};
 pub use rules::{
     DisplacementRule, Fitted, FittedTrapezoidal, JointRayleighRule, JointRule, Midpoint, Node, OneSided,
     Trapezoidal,
 };
 pub use scalar::Scalar;
 pub use state::State;
+pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
 pub use system::{Force, Lagrangian, Rayleigh};
-pub use trajectory::{Sample, Samples, Trajectory};
+pub use trajectory::{Parted, Sample, Samples, Trajectory};

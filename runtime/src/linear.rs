@@ -10,7 +10,8 @@ use crate::Scalar;
 mod banded;
 mod dense;
 
-pub use banded::Banded;
+pub use banded::{Banded, FactoredBand};
+pub use dense::FactoredDense;
 
 /// A matrix that has no solution to working precision: the column whose pivot is lost to rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +28,14 @@ mod sealed {
 
 /// The form in which a system keeps its Newton matrix: dense, [`SMatrix`], or [`Banded`] where coordinates couple to near
 /// ones only.
-pub trait NewtonMatrix<S: Scalar, const N: usize>: Copy + sealed::Sealed {
+pub trait NewtonMatrix<S: Scalar, const N: usize>: Copy + core::fmt::Debug + sealed::Sealed {
+    /// The matrix made ready to solve with, more than once.
+    type Factored: Factored<S, N>;
+
+    /// The matrix made ready; nothing if it is singular, or if its form has no room for the row exchanges that it needs:
+    /// [`solve`](Self::solve) tells which.
+    fn factored(&self) -> Option<Self::Factored>;
+
     /// The matrix without entries.
     fn zero() -> Self;
 
@@ -52,6 +60,12 @@ pub trait NewtonMatrix<S: Scalar, const N: usize>: Copy + sealed::Sealed {
     fn row_is_finite(&self, row: usize) -> bool {
         (0..N).all(|column| self.entry(row, column).is_finite())
     }
+}
+
+/// A matrix made ready to solve with.
+pub trait Factored<S: Scalar, const N: usize>: Copy + core::fmt::Debug {
+    /// The solution x of A x = `right`.
+    fn solve(&self, right: &SVector<S, N>) -> SVector<S, N>;
 }
 
 /// The solution x of `matrix` x = `right`.

@@ -73,7 +73,6 @@ pub enum Mistake {
     JointRule { rule: String, lacks: &'static str },
     UnknownEngine(String),
     NotLowered(String),
-    TooLong,
     // The item.
     WrongItem,
     WrongField,
@@ -138,7 +137,6 @@ impl Display for Mistake {
             Self::UnknownEngine(engine) if engine.is_empty() => f.write_str("write one of `derivatives = auto`, `expanded`, `num_dual`"),
             Self::UnknownEngine(engine) => write!(f, "unknown engine `{engine}`; write `derivatives = auto`, `expanded` or `num_dual`"),
             Self::NotLowered(reason) => write!(f, "derivatives cannot be written out: {reason}; or leave the derivatives to `derivatives = num_dual`"),
-            Self::TooLong => f.write_str("the derivatives are too long to be written out; use `derivatives = num_dual`"),
 
             Self::WrongItem => f.write_str("`#[rayleigh_system]` goes on an `impl` block with `fn lagrangian`, or on one free function of (q, v, parameters…)"),
             Self::WrongField => f.write_str("`#[differentiable]` goes on one free function of (q, parameters…)"),

@@ -72,7 +72,7 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
         let is_leaf = match operation {
             Operation::Coordinate(_) | Operation::Velocity(_) | Operation::Constant(_) => true,
             // A local already.
-            Operation::Parameter(index) => graph.parameter(index).is_word(),
+            Operation::Parameter(index) => graph.parameter(index).is_local(),
             _ => false,
         };
         let is_paired = partner(graph, node, &nodes).is_some();

@@ -3,7 +3,10 @@
 //! The user's item stands as it was written; nothing of it is evaluated over other numbers.
 
 mod directions;
+mod explicit;
 mod kernel;
+mod midpoint;
+mod trapezoidal;
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
@@ -14,31 +17,43 @@ use super::emit::{StraightLine, straight_line};
 use super::expand;
 use super::graph::{Graph, Node, Operation};
 use super::implement::{self, Kernel};
-use super::lower::{Lowered, MAX_NODES};
+use super::lower::{Lowered, MAX_NODES, Refusal};
 use super::model::{Rule, Source, System};
+use super::structure::{self, Differentiated, Findings, Structure, Terms};
 
-/// The whole expansion; nothing where the derivatives are too long to be written out.
-pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
+/// The whole expansion, unless the derivatives are too long to be written out.
+pub fn system(system: &System<'_>, lowered: Lowered) -> Result<TokenStream, Refusal> {
     let Lowered { graph, n, lagrangian, rayleigh, force } = lowered;
-    let mut code = Code { system, graph, n, derivation: Differentiation::default() };
-    let of_lagrangian = implement::lagrangian(system, code.function("lagrangian", "l", lagrangian));
-    let of_rayleigh = system.rayleigh.zip(rayleigh).map(|(arguments, root)| {
-        implement::rayleigh(system, arguments, code.function("rayleigh", "r", root))
-    });
-    let of_force = force.as_ref().map(|components| implement::force(system, code.force(components)));
-    let discrete: TokenStream = system
-        .rules
+    let written = graph.len();
+    let mut code = Code { system, graph, written, n, derivation: Differentiation::default() };
+    let of_lagrangian = code.function("lagrangian", "l", lagrangian);
+    let of_rayleigh = rayleigh.map(|root| code.function("rayleigh", "r", root));
+    let of_force = force.as_ref().map(|components| code.force(components));
+    let findings = code.findings(lagrangian, rayleigh, force.as_deref());
+    let discrete: TokenStream = findings
+        .newton
         .iter()
-        .map(|&rule| {
-            let kernel = code.kernel(rule, lagrangian, rayleigh, force.as_deref());
-            implement::discrete(system, rule, kernel)
+        .map(|newton| {
+            // Rules that take L and R together bring their own kernel.
+            let kernel = (!newton.rule.is_joint())
+                .then(|| code.kernel(newton, lagrangian, rayleigh, force.as_deref()));
+            implement::discrete(system, newton.rule, kernel)
         })
         .collect();
+    let structure = Structure { engine: structure::Engine::Expanded, findings: Some(findings) };
+    let of_lagrangian = implement::lagrangian(system, &structure, of_lagrangian);
+    let of_rayleigh = system
+        .rayleigh
+        .zip(of_rayleigh)
+        .map(|(arguments, functions)| implement::rayleigh(system, arguments, functions));
+    let of_force = of_force.map(|functions| implement::force(system, functions));
     let discrete_rayleigh: Option<TokenStream> = system
         .rayleigh
         .map(|_| system.rules.iter().map(|&rule| implement::discrete_rayleigh(system, rule)).collect());
     if code.graph.len() > MAX_NODES {
-        return None;
+        let reason =
+            format!("the derivatives take more than {MAX_NODES} operations, too many for straight-line code");
+        return Err(Refusal::at(system.source.name(), reason));
     }
     let item = match system.source {
         Source::Block(block) => block.item.to_token_stream(),
@@ -51,7 +66,7 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
     let imports = imports(system);
     let conditions = expand::conditions(system.source);
     let (scalar, dimension) = (&system.scalar, system.degrees.times(1));
-    Some(quote! {
+    Ok(quote! {
         #item
 
         #(#conditions)*
@@ -82,11 +97,27 @@ fn imports(system: &System<'_>) -> TokenStream {
 struct Code<'s> {
     system: &'s System<'s>,
     graph: Graph,
+    /// How many expressions the user wrote.
+    written: usize,
     n: usize,
     derivation: Differentiation,
 }
 
 impl Code<'_> {
+    /// What the expressions show of the system's structure.
+    fn findings(&mut self, lagrangian: Node, rayleigh: Option<Node>, force: Option<&[Node]>) -> Findings {
+        let mut differentiated = |root: Node, symbol: &str| Differentiated {
+            root,
+            derivatives: self.derivation.hessian(&mut self.graph, root, symbol),
+        };
+        let lagrangian = differentiated(lagrangian, "l");
+        let rayleigh = rayleigh.map(|root| differentiated(root, "r"));
+        let components = force.unwrap_or_default();
+        let force: Vec<_> = components.iter().copied().zip(self.rows(components)).collect();
+        let terms = Terms { lagrangian: &lagrangian, rayleigh: rayleigh.as_ref(), force: &force };
+        structure::findings(&self.graph, self.n, &terms, &self.system.rules)
+    }
+
     /// Gradient, derivatives and variations of L or R.
     fn function(&mut self, function: &str, symbol: &str, root: Node) -> TokenStream {
         let scalar = &self.system.scalar;
@@ -204,12 +235,13 @@ impl Code<'_> {
         self.matrix(|code, i, j| code.second(of, (i, row_velocity), (j, column_velocity)))
     }
 
-    fn code(&self, outputs: &[Node]) -> StraightLine {
+    fn code(&mut self, outputs: &[Node]) -> StraightLine {
+        let outputs = self.graph.factored(outputs, self.written);
         straight_line(
             &self.graph,
             &self.system.scalar,
-            outputs,
-            &["q", "v", "h", "half", "q0", "minus", "plus"],
+            &outputs,
+            &["q", "v", "h", "half", "q0", "q1", "minus", "plus"],
         )
     }
 
@@ -246,4 +278,11 @@ enum Shape {
 /// A parameter of a function, marked where the body does not use it.
 fn parameter(name: &str, is_used: bool) -> Ident {
     if is_used { format_ident!("{name}") } else { format_ident!("_{name}") }
+}
+
+/// `let _ = (q0, h);` for the parameters that a body does not read.
+fn unused<const K: usize>(parameters: [(bool, &str); K]) -> Option<TokenStream> {
+    let unused: Vec<Ident> =
+        parameters.iter().filter(|(is_used, _)| !is_used).map(|(_, name)| format_ident!("{name}")).collect();
+    (!unused.is_empty()).then(|| quote!(let _ = (#(#unused),*);))
 }

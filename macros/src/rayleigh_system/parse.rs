@@ -36,7 +36,6 @@ const RESERVED: &[&str] = &[
     "SMatrix",
     "Vector",
     "VectorField",
-    "VelocityHistory",
     "ScalarField",
     "D",
 ];

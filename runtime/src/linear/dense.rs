@@ -4,10 +4,17 @@ use core::array;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::{NewtonMatrix, Singular};
+use super::{Factored, NewtonMatrix, Singular};
 use crate::Scalar;
 
 impl<S: Scalar, const N: usize> NewtonMatrix<S, N> for SMatrix<S, N, N> {
+    type Factored = FactoredDense<S, N>;
+
+    #[inline]
+    fn factored(&self) -> Option<FactoredDense<S, N>> {
+        factored(self).ok()
+    }
+
     #[inline]
     fn zero() -> Self {
         nalgebra::zero()
@@ -72,17 +79,54 @@ fn closed_form<S: Scalar, const N: usize>(
 const SUSPICIOUS: f64 = 1e-6;
 
 /// Elimination with row exchanges; pivots are chosen relative to their rows.
-#[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a NaN pivot must fail the comparison")]
-#[expect(clippy::needless_range_loop, reason = "rows k and i of one array are used together")]
+#[inline]
 pub(super) fn eliminate<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,
     right: &SVector<S, N>,
 ) -> Result<SVector<S, N>, Singular> {
+    Ok(factored(matrix)?.solve(right))
+}
+
+/// A matrix as the product of a lower triangle with diagonal 1 and an upper one, with its rows exchanged.
+#[derive(Clone, Copy, Debug)]
+pub struct FactoredDense<S, const N: usize> {
+    rows: [[S; N]; N],
+    /// The row of the matrix that came to stand here.
+    order: [usize; N],
+    /// Those of the pivots.
+    reciprocals: [S; N],
+}
+
+impl<S: Scalar, const N: usize> Factored<S, N> for FactoredDense<S, N> {
+    #[inline]
+    fn solve(&self, right: &SVector<S, N>) -> SVector<S, N> {
+        // An index that nothing shows to be within bounds would bring a panic into the step.
+        let mut x: SVector<S, N> =
+            SVector::from_fn(|i, _| right.get(self.order[i]).copied().unwrap_or_else(S::zero));
+        for i in 1..N {
+            for k in 0..i {
+                let known = x[k];
+                x[i] -= self.rows[i][k] * known;
+            }
+        }
+        for i in (0..N).rev() {
+            for j in i + 1..N {
+                let known = x[j];
+                x[i] -= self.rows[i][j] * known;
+            }
+            x[i] *= self.reciprocals[i];
+        }
+        x
+    }
+}
+
+#[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a NaN pivot must fail the comparison")]
+#[expect(clippy::needless_range_loop, reason = "rows k and i of one array are used together")]
+fn factored<S: Scalar, const N: usize>(matrix: &SMatrix<S, N, N>) -> Result<FactoredDense<S, N>, Singular> {
     let mut rows: [[S; N]; N] = array::from_fn(|i| array::from_fn(|j| matrix[(i, j)]));
     let mut order: [usize; N] = array::from_fn(|i| i);
     let mut scale: [S; N] = array::from_fn(|i| inverse_magnitude(&rows[i]));
     let mut reciprocals = [S::zero(); N];
-    let mut x = *right;
     let mut suspicious = false;
 
     for k in 0..N {
@@ -104,7 +148,6 @@ pub(super) fn eliminate<S: Scalar, const N: usize>(
             rows.swap(k, pivot);
             order.swap(k, pivot);
             scale.swap(k, pivot);
-            x.swap_rows(k, pivot);
         }
         let reciprocal = S::one() / rows[k][k];
         reciprocals[k] = reciprocal;
@@ -115,21 +158,12 @@ pub(super) fn eliminate<S: Scalar, const N: usize>(
                 let upper = rows[k][j];
                 rows[i][j] -= factor * upper;
             }
-            let known = x[k];
-            x[i] -= factor * known;
         }
     }
     if suspicious {
         check_cancellation(matrix, &rows, &order)?;
     }
-    for i in (0..N).rev() {
-        for j in i + 1..N {
-            let known = x[j];
-            x[i] -= rows[i][j] * known;
-        }
-        x[i] *= reciprocals[i];
-    }
-    Ok(x)
+    Ok(FactoredDense { rows, order, reciprocals })
 }
 
 /// A pivot is lost if it is below the rounding error of the sum that formed it.
