@@ -152,7 +152,7 @@ pub fn fold() -> Result<Case> {
     }
     let branch = |sign: f64| {
         (0..=400)
-            .map(|k| f64::from(k) * 0.02)
+            .map(|k| f64::from(k) * 0.0072)
             .map(|x| (fold + x * x, (sign * (2.0 * h * r).sqrt() * x - m) / (h * r)))
             .collect()
     };
