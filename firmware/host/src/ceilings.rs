@@ -36,6 +36,14 @@ pub fn ceiling(machine: &str, level: &str, scene: &str) -> Option<Ceiling> {
         ("m33", "s", "cart_pole_f32") => (1_490, 1_600),
         ("m33", "s", "double_pendulum_f64") => (73_000, 124_000),
         ("m33", "s", "cart_pole_f64") => (48_000, 53_000),
+        ("rv", "3", "double_pendulum_f32") => (34_000, 45_000),
+        ("rv", "3", "cart_pole_f32") => (24_000, 26_000),
+        ("rv", "3", "double_pendulum_f64") => (81_000, 137_000),
+        ("rv", "3", "cart_pole_f64") => (52_000, 57_000),
+        ("rv", "s", "double_pendulum_f32") => (37_000, 47_000),
+        ("rv", "s", "cart_pole_f32") => (26_000, 28_000),
+        ("rv", "s", "double_pendulum_f64") => (85_000, 142_000),
+        ("rv", "s", "cart_pole_f64") => (55_000, 60_000),
         _ => return None,
     };
     Some(Ceiling { mean, worst })
