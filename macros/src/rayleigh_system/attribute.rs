@@ -5,6 +5,7 @@ use syn::parse::{Parse, ParseStream, Parser};
 use syn::punctuated::Punctuated;
 use syn::{Ident, Token, bracketed, token};
 
+use super::Runtime;
 use super::diagnostics::{Mistake, Report};
 use super::model::{Engine, Rule};
 
@@ -41,7 +42,7 @@ pub struct Options {
 }
 
 /// The options said, and defaults for the others.
-pub fn options(attribute: TokenStream, report: &mut Report) -> Options {
+pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) -> Options {
     let mut options = Options { rules: Vec::new(), engine: Engine::Auto };
     let settings = match Punctuated::<Setting, Token![,]>::parse_terminated.parse2(attribute) {
         Ok(settings) => settings,
@@ -56,7 +57,7 @@ pub fn options(attribute: TokenStream, report: &mut Report) -> Options {
             says_rule = true;
             rules(setting, &mut options.rules, report);
         } else if setting.name == "derivatives" {
-            engine(setting, &mut options.engine, report);
+            engine(setting, runtime, &mut options.engine, report);
         } else {
             report.at(&setting.name, Mistake::UnknownOption);
         }
@@ -68,7 +69,7 @@ pub fn options(attribute: TokenStream, report: &mut Report) -> Options {
 }
 
 /// `derivatives = expanded`
-fn engine(setting: Setting, engine: &mut Engine, report: &mut Report) {
+fn engine(setting: Setting, runtime: Runtime, engine: &mut Engine, report: &mut Report) {
     let [value] = &setting.values[..] else {
         report.at(&setting.name, Mistake::UnknownEngine(String::new()));
         return;
@@ -76,7 +77,12 @@ fn engine(setting: Setting, engine: &mut Engine, report: &mut Report) {
     *engine = match value.to_string().as_str() {
         "auto" => Engine::Auto,
         "expanded" => Engine::Expanded,
-        "num_dual" => Engine::NumDual,
+        "num_dual" => {
+            if !runtime.has_std {
+                report.at(value, Mistake::NumDualWithoutStd);
+            }
+            Engine::NumDual
+        }
         other => {
             report.at(value, Mistake::UnknownEngine(other.to_owned()));
             return;

@@ -72,6 +72,9 @@ pub enum Mistake {
     NoRule,
     UnknownEngine(String),
     NotLowered(String),
+    NumDualWithoutStd,
+    NotLoweredWithoutStd(String),
+    FieldWithoutStd,
     // The item.
     WrongItem,
     WrongField,
@@ -135,6 +138,10 @@ impl Display for Mistake {
             Self::UnknownEngine(engine) if engine.is_empty() => f.write_str("write one of `derivatives = auto`, `expanded`, `num_dual`"),
             Self::UnknownEngine(engine) => write!(f, "unknown engine `{engine}`; write `derivatives = auto`, `expanded` or `num_dual`"),
             Self::NotLowered(reason) => write!(f, "derivatives cannot be written out: {reason}; or leave the derivatives to `derivatives = num_dual`"),
+
+            Self::NumDualWithoutStd => f.write_str("num-dual needs the standard library; use `derivatives = expanded`, or the feature `std` of dalembert"),
+            Self::NotLoweredWithoutStd(reason) => write!(f, "derivatives cannot be written out: {reason}; num-dual would need the feature `std` of dalembert"),
+            Self::FieldWithoutStd => f.write_str("`#[differentiable]` takes its derivatives from num-dual, which needs the feature `std` of dalembert; put `#[cfg(feature = …)]` on the function where it is built without"),
 
             Self::WrongItem => f.write_str("`#[rayleigh_system]` goes on an `impl` block with `fn lagrangian`, or on one free function of (q, v, parameters…)"),
             Self::WrongField => f.write_str("`#[differentiable]` goes on one free function of (q, parameters…)"),

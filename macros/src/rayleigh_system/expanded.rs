@@ -19,13 +19,17 @@ use super::graph::{Graph, Node, Operation};
 use super::implement::{self, Kernel};
 use super::lower::{Lowered, MAX_NODES, Refusal};
 use super::model::{Rule, Source, System};
+use super::portable;
 use super::structure::{self, Differentiated, Findings, Structure, Terms};
 
 /// The whole expansion, unless the derivatives are too long to be written out.
-pub fn system(system: &System<'_>, lowered: Lowered) -> Result<TokenStream, Refusal> {
-    let Lowered { graph, n, lagrangian, rayleigh, force } = lowered;
+///
+/// `is_portable`: the elementary functions are the runtime's, in the user's bodies too.
+pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Result<TokenStream, Refusal> {
+    let Lowered { graph, n, lagrangian, rayleigh, force, functions } = lowered;
     let written = graph.len();
-    let mut code = Code { system, graph, written, n, derivation: Differentiation::default() };
+    let derivation = Differentiation::default();
+    let mut code = Code { system, graph, written, n, derivation, is_portable, calls_elementary: false };
     let of_lagrangian = code.function("lagrangian", "l", lagrangian);
     let of_rayleigh = rayleigh.map(|root| code.function("rayleigh", "r", root));
     let of_force = force.as_ref().map(|components| code.force(components));
@@ -54,14 +58,15 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Result<TokenStream, Refu
         return Err(Refusal::at(system.source.name(), reason));
     }
     let item = match system.source {
+        Source::Block(block) if is_portable => portable::block(&block.item, &functions).to_token_stream(),
         Source::Block(block) => block.item.to_token_stream(),
         Source::Function(function) => {
             let structure = expand::structure(system, function);
-            let item = &function.item;
+            let item = if is_portable { &portable::function(&function.item) } else { &function.item };
             quote!(#item #structure)
         }
     };
-    let imports = imports(system);
+    let imports = imports(system, code.calls_elementary);
     let conditions = expand::conditions(system.source);
     let (scalar, dimension) = (&system.scalar, system.degrees.times(1));
     Ok(quote! {
@@ -83,11 +88,17 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Result<TokenStream, Refu
 }
 
 /// What the expansion uses.
-fn imports(system: &System<'_>) -> TokenStream {
+fn imports(system: &System<'_>, calls_elementary: bool) -> TokenStream {
     let names = expand::imported(system);
+    let elementary = calls_elementary.then(|| {
+        quote!(
+            use ::dalembert::Elementary as _;
+        )
+    });
     quote! {
         use ::dalembert::nalgebra::{SMatrix, SVector};
         use ::dalembert::{#(#names),*};
+        #elementary
     }
 }
 
@@ -99,6 +110,9 @@ struct Code<'s> {
     written: usize,
     n: usize,
     derivation: Differentiation,
+    is_portable: bool,
+    /// Whether any function written calls one of the runtime's elementary functions.
+    calls_elementary: bool,
 }
 
 impl Code<'_> {
@@ -235,12 +249,15 @@ impl Code<'_> {
 
     fn code(&mut self, outputs: &[Node]) -> StraightLine {
         let outputs = self.graph.factored(outputs, self.written);
-        straight_line(
+        let line = straight_line(
             &self.graph,
             &self.system.scalar,
             &outputs,
             &["q", "v", "h", "half", "q0", "q1", "minus", "plus"],
-        )
+            self.is_portable,
+        );
+        self.calls_elementary |= line.calls_elementary;
+        line
     }
 
     /// Splits outputs into scalars, vectors and matrices.

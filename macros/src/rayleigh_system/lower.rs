@@ -37,6 +37,8 @@ pub struct Lowered {
     pub lagrangian: Node,
     pub rayleigh: Option<Node>,
     pub force: Option<Vec<Node>>,
+    /// The functions of the block that were run.
+    pub functions: Vec<Ident>,
 }
 
 /// A token that cannot be lowered, and why.
@@ -88,6 +90,7 @@ pub fn system(system: &System<'_>) -> Result<Lowered> {
         depth: 0,
         evaluations: 0,
         expected: None,
+        functions: Vec::new(),
     };
     let n = match system.degrees.literal() {
         Some(n) => n,
@@ -135,7 +138,7 @@ pub fn system(system: &System<'_>) -> Result<Lowered> {
         Some(_) => return refuse(at, "the force is not an array whose entries can be told apart"),
         None => None,
     };
-    Ok(Lowered { graph: lowering.graph, n, lagrangian, rayleigh, force })
+    Ok(Lowered { graph: lowering.graph, n, lagrangian, rayleigh, force, functions: lowering.functions })
 }
 
 /// Whether the function has returned.
@@ -168,6 +171,7 @@ struct Lowering<'s> {
     evaluations: usize,
     /// The length that the context gives to an array, for `array::from_fn`.
     expected: Option<usize>,
+    functions: Vec<Ident>,
 }
 
 impl Lowering<'_> {
@@ -214,6 +218,9 @@ impl Lowering<'_> {
             .collect();
         if parameters.len() != arguments.len() {
             return refuse(at, "called with another number of arguments than it has parameters");
+        }
+        if !self.functions.contains(&signature.ident) {
+            self.functions.push(signature.ident.clone());
         }
         let outside = self.enter(at, Vec::new())?;
         for ((pattern, ty), argument) in parameters.iter().zip(arguments) {

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use quote::quote;
 
-use crate::pipeline::rayleigh_system::{differentiable, rayleigh_system};
+use crate::pipeline::rayleigh_system::{Runtime, differentiable, rayleigh_system};
 
 fn formatted(tokens: proc_macro2::TokenStream) -> String {
     prettyplease::unparse(&syn::parse2(tokens).expect("the expansion is a sequence of items"))
@@ -30,6 +30,7 @@ fn assert_snapshot(name: &str, actual: &str) {
 #[test]
 fn ring() {
     let expansion = rayleigh_system(
+        Runtime::STD,
         quote!(),
         quote! {
             impl Ring {
@@ -65,16 +66,17 @@ fn double_pendulum() {
             }
         }
     };
-    let expansion = formatted(rayleigh_system(quote!(derivatives = expanded), item.clone()));
+    let expansion = formatted(rayleigh_system(Runtime::STD, quote!(derivatives = expanded), item.clone()));
     assert_snapshot("double_pendulum.rs", &expansion);
     // Equal systems give equal text.
-    assert_eq!(expansion, formatted(rayleigh_system(quote!(derivatives = expanded), item)));
+    assert_eq!(expansion, formatted(rayleigh_system(Runtime::STD, quote!(derivatives = expanded), item)));
 }
 
 /// The same system with num-dual's derivatives.
 #[test]
 fn oscillator_by_num_dual() {
     let expansion = rayleigh_system(
+        Runtime::STD,
         quote!(derivatives = num_dual),
         quote! {
             pub fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
@@ -88,6 +90,7 @@ fn oscillator_by_num_dual() {
 #[test]
 fn oscillator() {
     let expansion = rayleigh_system(
+        Runtime::STD,
         quote!(rule = [midpoint, trapezoidal]),
         quote! {
             /// L and R of a damped oscillator.
@@ -103,6 +106,7 @@ fn oscillator() {
 #[test]
 fn chain() {
     let expansion = rayleigh_system(
+        Runtime::STD,
         quote!(derivatives = expanded),
         quote! {
             impl Chain {
@@ -125,6 +129,7 @@ fn chain() {
 #[test]
 fn linear_oscillators() {
     let expansion = rayleigh_system(
+        Runtime::STD,
         quote!(),
         quote! {
             fn linear(q: [f64; 2], v: [f64; 2], k: f64, c: f64) -> (f64, f64) {
@@ -140,6 +145,7 @@ fn linear_oscillators() {
 #[test]
 fn explicit_ring() {
     let expansion = rayleigh_system(
+        Runtime::STD,
         quote!(rule = trapezoidal),
         quote! {
             impl Ring {
@@ -160,6 +166,7 @@ fn explicit_ring() {
 #[test]
 fn findings_are_documented() {
     let expansion = rayleigh_system(
+        Runtime::STD,
         quote!(),
         quote! {
             fn polar(q: [f64; 3], v: [f64; 3], r: f64) -> (f64, f64) {
@@ -183,6 +190,7 @@ fn findings_are_documented() {
 #[test]
 fn rotation() {
     let expansion = differentiable(
+        Runtime::STD,
         quote!(),
         quote! {
             fn rotation(q: [f64; 2], speed: f64) -> [f64; 2] {
@@ -191,4 +199,26 @@ fn rotation() {
         },
     );
     assert_snapshot("rotation.rs", &formatted(expansion));
+}
+
+#[test]
+fn pendulum_on_core() {
+    let expansion = rayleigh_system(
+        Runtime::CORE,
+        quote!(),
+        quote! {
+            impl Pendulum {
+                fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+                    0.5 * v[0].powi(2) - self.height(q[0])
+                }
+                fn height(&self, angle: f64) -> f64 {
+                    self.g * (1.0 - f64::cos(angle))
+                }
+                fn period(&self) -> f64 {
+                    6.0 / self.g
+                }
+            }
+        },
+    );
+    assert_snapshot("pendulum_on_core.rs", &formatted(expansion));
 }
