@@ -17,10 +17,7 @@ use ode_solvers::{Dop853, SVector};
 #[rayleigh_system(rule = gauss, derivatives = expanded)]
 fn ring(q: [f64; 2], v: [f64; 2], k: f64) -> (f64, f64) {
     let s = q[0] * q[0] + q[1] * q[1];
-    (
-        0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2),
-        0.5 * k * (v[0] * v[0] + v[1] * v[1]),
-    )
+    (0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2), 0.5 * k * (v[0] * v[0] + v[1] * v[1]))
 }
 
 /// Double pendulum of point masses, with friction in both joints.
@@ -67,7 +64,8 @@ struct Scene<'a, L, F, const N: usize> {
 /// q̇ = v, v̇ = a(q, v).
 struct Equations<'f, F>(&'f F);
 
-impl<F, const N: usize, const M: usize> ode_solvers::System<f64, SVector<f64, M>> for Equations<'_, (F, [(); N])>
+impl<F, const N: usize, const M: usize> ode_solvers::System<f64, SVector<f64, M>>
+    for Equations<'_, (F, [(); N])>
 where
     F: Fn([f64; N], [f64; N]) -> [f64; N],
 {
@@ -118,7 +116,8 @@ where
         let [seconds] = interleaved([&|| {
             black_box(run());
         }]);
-        let label = format!("S = {S}, h = {h:.3}, {:.1} iterations a step", f64::from(iterations) / f64::from(steps));
+        let label =
+            format!("S = {S}, h = {h:.3}, {:.1} iterations a step", f64::from(iterations) / f64::from(steps));
         Some(Point { microseconds: seconds * 1e6, error: (q - end).norm(), label })
     }
 
@@ -129,8 +128,22 @@ where
         }
         let run = || {
             let mut solver = Dop853::from_param(
-                Equations(&self.acceleration), 0.0, self.time, self.time, black_box(y), tolerance, tolerance, 0.9, 0.0,
-                0.333, 6.0, self.time, 0.0, 1_000_000, u32::MAX, OutputType::Sparse,
+                Equations(&self.acceleration),
+                0.0,
+                self.time,
+                self.time,
+                black_box(y),
+                tolerance,
+                tolerance,
+                0.9,
+                0.0,
+                0.333,
+                6.0,
+                self.time,
+                0.0,
+                1_000_000,
+                u32::MAX,
+                OutputType::Sparse,
             );
             solver.integrate().ok()?;
             solver.y_out().last().copied()
@@ -203,7 +216,7 @@ fn main() {
             ),
         },
         4,
-        [1 2 3 4 5 6 7 8]
+        [2 4 6 8]
     );
 
     let (m, l, g, c) = ([1.0, 0.7], [1.0, 0.8], 9.81, [0.05, 0.03]);
@@ -232,7 +245,7 @@ fn main() {
             ),
         },
         4,
-        [1 2 3 4 5 6 7 8]
+        [2 4 6 8]
     );
 
     let (beta, drag) = (1.0, 0.01);
@@ -262,6 +275,6 @@ fn main() {
             ),
         },
         16,
-        [1 2 3 4 5 6 7 8]
+        [2 4 6 8]
     );
 }

@@ -1,7 +1,6 @@
 //! How round-off grows over a long run of `Gauss<8>`: the energy error of the ring without friction, over orbits.
 //!
-//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p dalembert-benches --bench round_off` (some minutes); the results are in
-//! `docs/round_off.md`.
+//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p dalembert-benches --bench round_off` (some minutes).
 //!
 //! The truncation error of the method is below rounding at this step size. Without memory nothing is compensated: the positive
 //! control. A random walk grows with the square root of the number of steps, a drift with the number itself.
@@ -52,9 +51,8 @@ fn main() {
             State { q: [0.0, 1.15549918674982 - shift].into(), p: [0.5 + 0.7 * shift, 0.3 * shift].into() }
         })
         .collect();
-    let runs = [true, false].map(|is_compensated| {
-        starts.iter().map(|&start| errors(start, is_compensated)).collect::<Vec<_>>()
-    });
+    let runs = [true, false]
+        .map(|is_compensated| starts.iter().map(|&start| errors(start, is_compensated)).collect::<Vec<_>>());
     for (row, power) in (3..=LONGEST).enumerate() {
         let statistics = runs.each_ref().map(|runs| {
             let column: Vec<f64> = runs.iter().map(|errors| errors[row]).collect();

@@ -336,7 +336,12 @@ fn energy_error(steps: usize, is_compensated: bool) -> f64 {
             let start = State { q: vector![0.0, 1.15 - shift], p: vector![0.5 + 0.7 * shift, 0.3 * shift] };
             let mut state = start;
             if is_compensated {
-                state = Trajectory::new(&Ring {}, Gauss::<5>, h, start).take(steps).last().unwrap().unwrap().state;
+                state = Trajectory::new(&Ring {}, Gauss::<5>, h, start)
+                    .take(steps)
+                    .last()
+                    .unwrap()
+                    .unwrap()
+                    .state;
             } else {
                 for _ in 0..steps {
                     state = Discrete::<Gauss<5>, 2>::step(&Ring {}, &state, h, None).unwrap().state;
