@@ -1,7 +1,6 @@
 //! How round-off grows over a long run of `Gauss<8>`: the energy error of the ring without friction, over orbits.
 //!
-//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p dalembert-benches --bench round_off` (some minutes); the results are in
-//! `docs/round_off.md`.
+//! `RUSTFLAGS="-C target-cpu=native" cargo bench -p dalembert-benches --bench round_off` (some minutes).
 //!
 //! The truncation error of the method is below rounding at this step size. Without memory nothing is compensated: the positive
 //! control. A random walk grows with the square root of the number of steps, a drift with the number itself.

@@ -4,6 +4,8 @@
 //! over arrays, which the compiler turns into the vector instructions of the target that it is told of
 //! (`RUSTFLAGS="-C target-cpu=native"`).
 
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
+
 mod functions;
 mod operators;
 

@@ -69,6 +69,10 @@ pub fn tan(x: f32) -> f32 {
 
 /// tan(r + low) for |r| ≤ π/4 and a low part below the last place of r.
 #[inline]
+#[expect(
+    clippy::excessive_precision,
+    reason = "a coefficient with the zero that makes its digits those of the others"
+)]
 fn near_tan(r: f32, low: f32) -> f32 {
     let z = r * r;
     let excess = z
@@ -134,6 +138,11 @@ fn reduced(x: f32) -> (u32, f32, f32) {
 
 /// 2ˣ.
 #[inline]
+#[expect(
+    clippy::excessive_precision,
+    clippy::approx_constant,
+    reason = "coefficients of the fit, not ln 2 and its powers"
+)]
 pub fn exp2(x: f32) -> f32 {
     if x.is_nan() {
         return x;
@@ -292,7 +301,8 @@ mod tests {
             -300.0,
             300.0,
         ];
-        let pairs: [(fn(f32) -> f32, fn(f32) -> f32); 8] = [
+        type Function = fn(f32) -> f32;
+        let pairs: [(Function, Function); 8] = [
             (sin, f32::sin),
             (cos, f32::cos),
             (tan, f32::tan),

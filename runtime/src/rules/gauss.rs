@@ -1,5 +1,7 @@
 //! Gauss–Galerkin variational integrators, one for each number of stages.
 
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
+
 mod coefficients;
 mod double_double;
 mod fixed_point;
@@ -48,7 +50,7 @@ const MAX_STAGES: usize = 8;
 /// without force; with force it is in general not Rayleigh for S ≥ 2: there is no R_d.
 ///
 /// A [`Trajectory`](crate::Trajectory) keeps the stages of the last step ([`StageHistory`]), extrapolates them to those of the
-/// next, and adds up q and p with compensation, so that round-off grows no faster than a random walk.
+/// next, and adds up q and p with compensation.
 ///
 /// The discrete objects solve for the stages between given end points. Where Newton's method finds none, they are NaN.
 ///

@@ -7,6 +7,8 @@
 //! The matrix is factored here, M = L D Lᵀ without exchanges, so that its zeros and constants cost nothing. A pivot that is 0
 //! makes the correction infinite, and the runtime takes Newton's method.
 
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
+
 use std::collections::BTreeSet;
 
 use super::super::emit::{in_lanes, number_of_stages};

@@ -73,8 +73,8 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
             let v = core::array::from_fn(|a| v[a] + stages.correction[a]);
             return Some(Solution { v, rate: stages.rate, report, contracted: true });
         }
-        for a in 0..N {
-            v[a] = v[a] + stages.correction[a];
+        for (v, &correction) in v.iter_mut().zip(&stages.correction) {
+            *v = *v + correction;
         }
         (before, last) = (last, size);
     }
