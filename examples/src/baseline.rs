@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result, anyhow};
 use dalembert::{Rayleigh, State};
-use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
+use differential_equations::prelude::{ExplicitRungeKutta, IVP, ImplicitRungeKutta, ODE};
 use nalgebra::SMatrix;
 
 /// A standard method for first-order equations.
@@ -10,6 +10,8 @@ use nalgebra::SMatrix;
 pub enum Method {
     /// Explicit Euler, order 1, one step from state to state.
     Euler,
+    /// Implicit Euler, order 1, one step from state to state.
+    ImplicitEuler,
     /// The classical Runge–Kutta method, order 4, one step from state to state.
     RungeKutta4,
     /// Dormand–Prince 8(5,3) with as many steps from state to state as this relative and absolute tolerance asks for.
@@ -39,6 +41,10 @@ pub fn states<L: Rayleigh<N, Scalar = f64>, const N: usize>(
         let interval = IVP::ode(&motion, 0.0, h, y);
         let solution = match method {
             Method::Euler => interval.method(ExplicitRungeKutta::euler(h)).solve(),
+            // Newton's method to rounding, so that what remains is the method's.
+            Method::ImplicitEuler => interval
+                .method(ImplicitRungeKutta::backward_euler(h).newton_tol(1e-14).max_newton_iter(50))
+                .solve(),
             Method::RungeKutta4 => interval.method(ExplicitRungeKutta::rk4(h)).solve(),
             Method::DormandPrince853(tolerance) => {
                 interval.method(ExplicitRungeKutta::dop853()).rtol(tolerance).atol(tolerance).solve()

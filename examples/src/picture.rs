@@ -37,6 +37,8 @@ pub mod colour {
 pub enum Mark {
     /// A line of this many pixels.
     Line(u32),
+    /// A dot of one pixel at each point.
+    Dot,
     /// A disc at each point.
     Disc,
     /// An open circle at each point.
@@ -113,7 +115,10 @@ pub fn write(name: &str, size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -
 }
 
 /// The picture, `size` pixels wide and high, with its panels in rows of `columns`.
-fn svg(size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -> Result<String> {
+///
+/// # Errors
+/// A picture that cannot be drawn.
+pub fn svg(size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -> Result<String> {
     let mut svg = String::new();
     let units = size.map(|pixels| pixels * PIXEL as u32);
     {
@@ -170,6 +175,7 @@ fn draw<'a>(area: &DrawingArea<SVGBackend<'a>, Shift>, panel: &Panel<'_>) -> Res
                         .legend(move |(x, y)| PathElement::new([(x, y), (x + 24 * PIXEL, y)], sample));
                 }
             }
+            Mark::Dot => draw_points(&mut chart, curve, move |at| Circle::new(at, PIXEL, colour.filled()))?,
             Mark::Disc => {
                 draw_points(&mut chart, curve, move |at| Circle::new(at, 3 * PIXEL, colour.filled()))?
             }

@@ -14,6 +14,7 @@ mod expanded;
 mod fallback;
 pub mod graph;
 mod implement;
+mod joint;
 pub mod lower;
 mod model;
 pub mod parse;
@@ -56,6 +57,17 @@ pub fn rayleigh_system(runtime: Runtime, attribute: TokenStream, item: TokenStre
     let Some(system) = check::system(&source, options.rules.clone(), &mut report) else {
         return fallback::with_stubs(&source, &options.rules, report);
     };
+    if !options.joint.is_empty() && report.is_empty() {
+        let mut lowered = if options.engine == Engine::NumDual { None } else { lower::system(&system).ok() };
+        for (name, rule) in &options.joint {
+            if let Some(lacks) = joint::lacks(*rule, &system, options.engine, lowered.as_mut()) {
+                report.at(name, Mistake::JointRule { rule: name.to_string(), lacks });
+            }
+        }
+        if !report.is_empty() {
+            return fallback::with_stubs(&source, &options.rules, report);
+        }
+    }
     if options.engine == Engine::Expanded && report.is_empty() {
         let expansion = lower::system(&system)
             .and_then(|lowered| expanded::system(&system, lowered, runtime.is_portable));

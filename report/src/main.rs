@@ -1,7 +1,7 @@
 //! Speed against error: what a trajectory costs to given errors, by this project's methods and by others, in one run.
 //!
 //! `cargo speed-against-error` measures and writes `docs/speed-against-error.md`; `… page` writes the page again from the figures
-//! measured last, `… scenes` and `… long-run` measure one part again. Peers with a Python interface are run where the
+//! measured last, `… scenes` and `… long-run` measure one part again, `… scenes ring Kepler` these scenes. Peers with a Python interface are run where the
 //! interpreter that `PYTHON` names has them.
 
 mod frontier;
@@ -32,9 +32,9 @@ fn main() -> Result<()> {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("docs");
     let folder = docs.join("speed-against-error");
     match env::args().nth(1).as_deref() {
-        None => measure(&folder, true, true)?,
-        Some("scenes") => measure(&folder, true, false)?,
-        Some("long-run") => measure(&folder, false, true)?,
+        None => measure(&folder, Some(&[]), true)?,
+        Some("scenes") => measure(&folder, Some(&env::args().skip(2).collect::<Vec<_>>()), false)?,
+        Some("long-run") => measure(&folder, None, true)?,
         Some("page") => {}
         Some(other) => {
             bail!("what is {other:?}? `scenes` or `long-run`, to measure these alone, `page`, or nothing")
@@ -54,13 +54,20 @@ fn main() -> Result<()> {
     page::write(&docs, &measured)
 }
 
-/// Runs what is asked for and writes what it measured.
-fn measure(folder: &Path, short: bool, long: bool) -> Result<()> {
+/// Runs what is asked for, an empty list being all scenes, and writes what it measured.
+fn measure(folder: &Path, wanted: Option<&[String]>, long: bool) -> Result<()> {
     fs::create_dir_all(folder)?;
     let python = Python::start().inspect_err(|error| eprintln!("{error:#}")).ok();
     fs::write(folder.join("setting.md"), page::setting(python.as_ref()))?;
-    if short {
-        write(&folder.join("scenes.csv"), &scenes(python.as_ref())?)?;
+    if let Some(wanted) = wanted {
+        let path = folder.join("scenes.csv");
+        let mut records = scenes(wanted, python.as_ref())?;
+        if !wanted.is_empty() {
+            // Of the other scenes, what was measured last.
+            records
+                .extend(read::<Record>(&path)?.into_iter().filter(|record| !wanted.contains(&record.scene)));
+        }
+        write(&path, &records)?;
     }
     if long {
         eprintln!("long run");
@@ -84,13 +91,15 @@ fn write<T: Serialize>(path: &Path, records: &[T]) -> Result<()> {
     Ok(file.flush()?)
 }
 
-/// Every scene, by the names that `references.txt` has.
-fn scenes(python: Option<&Python>) -> Result<Vec<Record>> {
+/// The scenes wanted, or all, by the names that `references.txt` has.
+fn scenes(wanted: &[String], python: Option<&Python>) -> Result<Vec<Record>> {
     let mut records = Vec::new();
     macro_rules! measure {
         ($($name:literal: $scene:expr, $n:literal;)*) => {$(
-            eprintln!("{}", $name);
-            records.extend(study::scene::<_, $n, { 2 * $n }>($name, &$scene, python)?);
+            if wanted.is_empty() || wanted.iter().any(|name| name == $name) {
+                eprintln!("{}", $name);
+                records.extend(study::scene::<_, $n, { 2 * $n }>($name, &$scene, python)?);
+            }
         )*};
     }
     measure! {

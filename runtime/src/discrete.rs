@@ -99,6 +99,15 @@ pub struct Step<S, const N: usize> {
     pub report: Report<S>,
 }
 
+/// A step by a bounded number of iterations: the best iterate, and whether it is the root.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BoundedStep<S, const N: usize> {
+    /// The step of the best iterate; its report has the residual that is left and the last correction.
+    pub step: Step<S, N>,
+    /// Whether the residual is at its round-off floor, so that the step is that of [`Discrete::step`].
+    pub converged: bool,
+}
+
 /// A system discretised by rule `R`: L_d, f_d and what follows from them.
 ///
 /// The required functions are what `#[rayleigh_system]` writes; the provided ones hold for every system and rule.
@@ -279,6 +288,38 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         // An argument that is not finite shows here or has failed above: none is looked at before.
         next.require_finite().map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
         Ok(Step { state: next, velocity: solution.unknown, report: solution.report })
+    }
+
+    /// The step by at most `iterations` undamped Newton iterations, for a clock that does not wait: the work is bounded, and what is
+    /// returned is the best iterate, with the residual left and the last correction in its report.
+    ///
+    /// # Errors
+    /// [`StepError`] where not even one iteration can be made; the state given is untouched.
+    fn step_within(
+        &self,
+        state: &State<Self::Scalar, N>,
+        h: Self::Scalar,
+        guess: Option<&SVector<Self::Scalar, N>>,
+        iterations: u32,
+    ) -> Result<BoundedStep<Self::Scalar, N>, StepError> {
+        require_step_size(h)?;
+        let guess = guess.copied().unwrap_or_else(nalgebra::zero);
+        StepError::require_finite(&state.q, Quantity::Configuration)?;
+        StepError::require_finite(&state.p, Quantity::Momentum)?;
+        StepError::require_finite(&guess, Quantity::Velocity)?;
+        let (solution, converged) = newton::bounded(
+            iterations,
+            |q0, v| self.step_kernel(q0, v, h),
+            |q0, v| self.momenta(q0, v, h),
+            state,
+            guess,
+        )?;
+        let change = solution.momenta.p1 - solution.momenta.p0;
+        let next = State { q: state.q + solution.unknown * h, p: state.p + change };
+        StepError::require_finite(&next.q, Quantity::Configuration)?;
+        StepError::require_finite(&next.p, Quantity::Momentum)?;
+        let step = Step { state: next, velocity: solution.unknown, report: solution.report };
+        Ok(BoundedStep { step, converged })
     }
 
     /// The flow on Q×Q: (q0, q1) ↦ (q1, q2), with q2 = `state.q` of the step returned.

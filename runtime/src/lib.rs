@@ -7,10 +7,12 @@
 
 extern crate self as dalembert;
 
+mod certificate;
 mod composition;
 mod derivatives;
 mod discrete;
 mod elementary;
+mod energy;
 mod error;
 mod fields;
 mod forced;
@@ -93,6 +95,16 @@ mod attributes {
 ///
 /// `f32` in place of `f64` makes a system in single precision.
 ///
+/// # Rules
+///
+/// | `rule = ` | | asks for |
+/// |---|---|---|
+/// | `midpoint` | [`Midpoint`], order 2, self-adjoint | |
+/// | `trapezoidal` | [`Trapezoidal`], order 2, self-adjoint; explicit where L = ½vᵀMv − V(q) | |
+/// | `fitted` | [`Fitted`], order 2, self-adjoint; does not ring under stiff damping | L = ½vᵀMv − V(q) with constant M, linear damping, no force |
+/// | `fitted_trapezoidal` | [`FittedTrapezoidal`], the same made explicit; exact law of phase volume | as `fitted` |
+/// | `one_sided` | [`OneSided`], order 1; for stiff damping that is not linear, such as dry friction | R(v) convex, no force |
+///
 /// # One free function
 ///
 /// The parameters after q and v become the fields of a struct named after the function:
@@ -164,12 +176,15 @@ pub use attributes::rayleigh_system;
 pub use attributes::differentiable;
 pub use nalgebra;
 
+pub use certificate::Certificate;
 pub use composition::{ComposedTrajectory, Composition};
 pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
 pub use discrete::{
-    Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Report, Step, StepKernel,
+    BoundedStep, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Report, Step,
+    StepKernel,
 };
 pub use elementary::Elementary;
+pub use energy::EnergyLedger;
 pub use error::{Quantity, StepError};
 pub use fields::{ScalarField, VectorField};
 pub use forced::{ForcedLagrangian, Stages};
@@ -177,10 +192,13 @@ pub use lanes::{LaneVector, Lanes, Mask};
 pub use linear::{Banded, Factored, FactoredBand, FactoredDense, NewtonMatrix, Singular};
 pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix};
 pub use memory::{Explicit, ExplicitMemory, KeptMatrix, Memory, VelocityHistory};
-pub use rules::{DisplacementRule, Gauss, Midpoint, Node, StageHistory, Trapezoidal};
+pub use rules::{
+    DisplacementRule, Fitted, FittedTrapezoidal, Gauss, JointRayleighRule, JointRule, Midpoint, Node,
+    OneSided, StageHistory, Trapezoidal,
+};
 pub use scalar::Scalar;
 pub use state::State;
 pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
 pub use system::{Force, Lagrangian, Rayleigh};
 pub use tolerance::{Breach, Choice, GuardedTrajectory, Method, ToleranceError, Trial};
-pub use trajectory::{Sample, Samples, Trajectory};
+pub use trajectory::{Parted, Sample, Samples, Trajectory};

@@ -15,7 +15,9 @@ use crate::error::{Quantity, StepError};
 use crate::linear::{NewtonMatrix, Singular};
 use crate::{Report, Scalar, State};
 
+mod bounded;
 mod rounding;
+pub(crate) use bounded::bounded;
 pub(crate) use rounding::{AT_FLOOR, estimated_floor, held_against};
 use rounding::{STAGNATION, in_units_of, rounding, worst};
 

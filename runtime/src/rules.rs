@@ -1,11 +1,20 @@
 //! Rules of discretisation: how L, R and f become L_d, R_d and f_d. One file each.
 
+mod damped_drift;
 mod displacement;
+mod fitted;
+mod fitted_trapezoidal;
 mod gauss;
+mod joint;
 mod midpoint;
+mod one_sided;
 mod trapezoidal;
 
 pub use displacement::{DisplacementRule, Node};
+pub use fitted::Fitted;
+pub use fitted_trapezoidal::FittedTrapezoidal;
 pub use gauss::{Gauss, StageHistory};
+pub use joint::{JointRayleighRule, JointRule};
 pub use midpoint::Midpoint;
+pub use one_sided::OneSided;
 pub use trapezoidal::Trapezoidal;

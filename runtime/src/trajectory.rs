@@ -66,6 +66,65 @@ where
         self.failed = false;
     }
 
+    /// The next step, in 2, 4, … 2^`halvings` parts where it cannot be taken at once: at the end the time is that of a whole step.
+    ///
+    /// Nothing is hidden: what is returned says in how many parts. The error, where all fail, is that of the whole step; the state is then the
+    /// last good one, the trajectory has ended, and another step size lets it go on.
+    ///
+    /// ```
+    /// use dalembert::nalgebra::vector;
+    /// use dalembert::{Midpoint, State, Trajectory, rayleigh_system};
+    ///
+    /// /// Cubic drag, which accelerates for v < 0: no real step of length 1 from p = −1.3, one of length ½.
+    /// #[rayleigh_system]
+    /// fn cubic(q: [f64; 1], v: [f64; 1]) -> (f64, f64) {
+    ///     (0.5 * v[0] * v[0] - 0.0 * q[0], v[0].powi(3) / 3.0)
+    /// }
+    /// let start = State { q: vector![0.0], p: vector![-0.6] };
+    /// let mut trajectory = Trajectory::new(&Cubic {}, Midpoint, 1.0, start);
+    /// let parted = trajectory.next_in_parts(6)?;
+    /// assert!(parted.parts > 1 && trajectory.time() == 1.0);
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The [`StepError`] of the whole step.
+    pub fn next_in_parts(&mut self, halvings: u32) -> Result<Parted<L::Scalar, N>, StepError> {
+        let error = match self.memory.advance(self.system, &self.state, self.h) {
+            Ok(step) => {
+                self.state = step.state;
+                self.steps += 1;
+                return Ok(Parted { step, parts: 1 });
+            }
+            Err(error) => error,
+        };
+        let mut part = self.h;
+        for halving in 1..=halvings.min(31) {
+            part *= L::Scalar::constant(0.5);
+            let mut memory = L::Memory::default();
+            let (mut state, mut last) = (self.state, None);
+            for _ in 0..1_u32 << halving {
+                match memory.advance(self.system, &state, part) {
+                    Ok(step) => {
+                        state = step.state;
+                        last = Some(step);
+                    }
+                    Err(_) => {
+                        last = None;
+                        break;
+                    }
+                }
+            }
+            if let Some(step) = last {
+                self.state = state;
+                self.steps += 1;
+                return Ok(Parted { step, parts: 1 << halving });
+            }
+        }
+        self.failed = true;
+        Err(error)
+    }
+
     /// Every `stride`-th step only, with what the steps between reported: long runs in constant memory.
     ///
     /// A stride of 0 counts as 1. An error on any step is returned at once.
@@ -95,6 +154,15 @@ where
         }
         Some(step)
     }
+}
+
+/// A step taken at once or in parts; see [`Trajectory::next_in_parts`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parted<S, const N: usize> {
+    /// The last part: its state is that at the end of the whole step.
+    pub step: Step<S, N>,
+    /// In how many parts, 1 for a whole step.
+    pub parts: u32,
 }
 
 /// A state recorded on a trajectory.

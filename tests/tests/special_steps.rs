@@ -202,7 +202,7 @@ fn linear_systems_go_where_newton_goes() {
 fn explicit_steps_go_where_newton_goes() {
     agree!(Ring { k: 0.01 }, 0.05, [0.0, 1.1], [0.5, 0.1], 200, 1e-11);
     agree!(Coupled { m: 1.5, c: 0.2, wind: 0.3 }, 0.05, [0.3, -0.2, 0.4], [0.1, 0.5, -0.3], 200, 1e-11);
-    agree!(Charge { b: 1.5, c: 0.1 }, 0.05, [0.3, -0.8], [0.4, 0.2], 400, 1e-11);
+    agree!(Charge { b: 1.5, c: 0.1 }, 0.05, [0.3, -0.8], [0.4, 0.2], 200, 1e-11);
 }
 
 #[test]

@@ -11,11 +11,49 @@ pub struct Ceiling {
 
 /// The ceiling of a scene on a machine.
 pub fn ceiling(machine: &str, level: &str, scene: &str) -> Option<Ceiling> {
-    let _ = (machine, level, scene);
-    Some(Ceiling { mean: u32::MAX, worst: u32::MAX })
+    let (mean, worst) = match (machine, level, scene) {
+        ("m4f", "3", "double_pendulum_f32") => (1_710, 2_820),
+        ("m4f", "3", "cart_pole_f32") => (1_130, 1_240),
+        ("m4f", "3", "double_pendulum_f64") => (71_000, 121_000),
+        ("m4f", "3", "cart_pole_f64") => (46_000, 51_000),
+        ("m4f", "s", "double_pendulum_f32") => (2_070, 3_230),
+        ("m4f", "s", "cart_pole_f32") => (1_510, 1_610),
+        ("m4f", "s", "double_pendulum_f64") => (73_000, 124_000),
+        ("m4f", "s", "cart_pole_f64") => (48_000, 53_000),
+        ("m7", "3", "double_pendulum_f32") => (1_630, 2_710),
+        ("m7", "3", "cart_pole_f32") => (1_070, 1_180),
+        ("m7", "3", "double_pendulum_f64") => (1_910, 3_300),
+        ("m7", "3", "cart_pole_f64") => (1_370, 1_460),
+        ("m7", "s", "double_pendulum_f32") => (1_980, 3_120),
+        ("m7", "s", "cart_pole_f32") => (1_460, 1_560),
+        ("m7", "s", "double_pendulum_f64") => (2_500, 4_070),
+        ("m7", "s", "cart_pole_f64") => (1_930, 2_200),
+        ("m33", "3", "double_pendulum_f32") => (1_700, 2_790),
+        ("m33", "3", "cart_pole_f32") => (1_110, 1_220),
+        ("m33", "3", "double_pendulum_f64") => (71_000, 121_000),
+        ("m33", "3", "cart_pole_f64") => (46_000, 51_000),
+        ("m33", "s", "double_pendulum_f32") => (2_050, 3_200),
+        ("m33", "s", "cart_pole_f32") => (1_490, 1_600),
+        ("m33", "s", "double_pendulum_f64") => (73_000, 124_000),
+        ("m33", "s", "cart_pole_f64") => (48_000, 53_000),
+        ("rv", "3", "double_pendulum_f32") => (34_000, 45_000),
+        ("rv", "3", "cart_pole_f32") => (24_000, 26_000),
+        ("rv", "3", "double_pendulum_f64") => (81_000, 137_000),
+        ("rv", "3", "cart_pole_f64") => (52_000, 57_000),
+        ("rv", "s", "double_pendulum_f32") => (37_000, 47_000),
+        ("rv", "s", "cart_pole_f32") => (26_000, 28_000),
+        ("rv", "s", "double_pendulum_f64") => (85_000, 142_000),
+        ("rv", "s", "cart_pole_f64") => (55_000, 60_000),
+        _ => return None,
+    };
+    Some(Ceiling { mean, worst })
 }
 
-/// Bytes of stack for scenes of a scalar type.
-pub fn stack_ceiling(_scalar: &str) -> Option<u32> {
-    Some(u32::MAX)
+/// Bytes of stack for scenes of a scalar type, on any machine; `f64` after `f32`.
+pub fn stack_ceiling(scalar: &str) -> Option<u32> {
+    match scalar {
+        "f32" => Some(3_060),
+        "f64" => Some(5_520),
+        _ => None,
+    }
 }

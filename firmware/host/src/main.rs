@@ -42,12 +42,18 @@ fn mistake(words: &[&str], machine: &str, level: &str, expected: &HashMap<&str, 
     let number = |word: &str| word.parse::<u32>().ok();
     match words {
         ["scene", name, bits, mean, worst, _] => {
-            let own = format!("{:016x}", expected.get(name)?);
+            let Some(own) = expected.get(name).map(|bits| format!("{bits:016x}")) else {
+                return Some(format!("no scene is called {name}"));
+            };
             if own != *bits {
                 return Some(format!("{name}: bits {bits}, on the host {own}"));
             }
-            let Ceiling { mean: mean_ceiling, worst: worst_ceiling } = ceiling(machine, level, name)?;
-            let (mean, worst) = (number(mean)?, number(worst)?);
+            let (Some(ceiling), Some(mean), Some(worst)) =
+                (ceiling(machine, level, name), number(mean), number(worst))
+            else {
+                return Some(format!("{name}: no ceiling is known for it, or no count was reported"));
+            };
+            let Ceiling { mean: mean_ceiling, worst: worst_ceiling } = ceiling;
             if mean > mean_ceiling {
                 return Some(format!("{name}: {mean} instructions a step, the ceiling is {mean_ceiling}"));
             }
@@ -91,4 +97,24 @@ fn main() -> ExitCode {
         println!("{machine} {level} {}", words.join(" "));
     }
     if failed { ExitCode::FAILURE } else { ExitCode::SUCCESS }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn other_bits_and_higher_counts_are_mistakes() {
+        let expected = all_expected();
+        let bits = format!("{:016x}", expected["cart_pole_f64"]);
+        let said = |bits: &str, mean: &str, worst: &str| {
+            mistake(&["scene", "cart_pole_f64", bits, mean, worst, "400"], "m7", "3", &expected)
+        };
+        assert_eq!(said(&bits, "1000", "1000"), None);
+        assert!(said("0000000000000000", "1000", "1000").is_some_and(|text| text.contains("on the host")));
+        assert!(said(&bits, "9000", "9000").is_some_and(|text| text.contains("9000 instructions a step")));
+        assert!(said(&bits, "1000", "9000").is_some_and(|text| text.contains("in the worst step")));
+        assert!(mistake(&["stack", "f64", "99999"], "m7", "3", &expected).is_some());
+        assert!(mistake(&["fault"], "m7", "3", &expected).is_some());
+    }
 }

@@ -37,13 +37,15 @@ impl Parse for Setting {
 pub struct Options {
     /// Midpoint unless said.
     pub rules: Rules,
+    /// Those of them that take L and R together, where they stand.
+    pub joint: Vec<(Ident, Rule)>,
     /// Whichever can, unless said.
     pub engine: Engine,
 }
 
 /// The options said, and defaults for the others.
 pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) -> Options {
-    let mut options = Options { rules: Rules::default(), engine: Engine::Auto };
+    let mut options = Options { rules: Rules::default(), joint: Vec::new(), engine: Engine::Auto };
     let settings = match Punctuated::<Setting, Token![,]>::parse_terminated.parse2(attribute) {
         Ok(settings) => settings,
         Err(error) => {
@@ -55,7 +57,7 @@ pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) ->
     for setting in settings {
         if setting.name == "rule" {
             says_rule = true;
-            rules(setting, &mut options.rules, report);
+            rules(setting, &mut options, report);
         } else if setting.name == "derivatives" {
             engine(setting, runtime, &mut options.engine, report);
         } else {
@@ -91,7 +93,7 @@ fn engine(setting: Setting, runtime: Runtime, engine: &mut Engine, report: &mut 
 }
 
 /// `rule = [midpoint, trapezoidal]`
-fn rules(setting: Setting, rules: &mut Rules, report: &mut Report) {
+fn rules(setting: Setting, options: &mut Options, report: &mut Report) {
     if setting.values.is_empty() {
         report.at(&setting.name, Mistake::NoRule);
     }
@@ -100,21 +102,28 @@ fn rules(setting: Setting, rules: &mut Rules, report: &mut Report) {
             "midpoint" => Rule::Midpoint,
             "trapezoidal" => Rule::Trapezoidal,
             "gauss" => {
-                if rules.gauss {
+                if options.rules.gauss {
                     report.at(&value, Mistake::RepeatedRule(value.to_string()));
                 }
-                rules.gauss = true;
+                options.rules.gauss = true;
                 continue;
             }
+            "fitted" => Rule::Fitted,
+            "fitted_trapezoidal" => Rule::FittedTrapezoidal,
+            "one_sided" => Rule::OneSided,
             other => {
                 report.at(&value, Mistake::UnknownRule(other.to_owned()));
                 continue;
             }
         };
-        if rules.of_displacement.contains(&rule) {
+        if rule.is_joint() {
+            options.joint.push((value.clone(), rule));
+        }
+        let rules = &mut options.rules.of_displacement;
+        if rules.contains(&rule) {
             report.at(&value, Mistake::RepeatedRule(value.to_string()));
         } else {
-            rules.of_displacement.push(rule);
+            rules.push(rule);
         }
     }
 }

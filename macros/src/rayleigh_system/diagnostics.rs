@@ -70,6 +70,7 @@ pub enum Mistake {
     UnknownRule(String),
     RepeatedRule(String),
     NoRule,
+    JointRule { rule: String, lacks: &'static str },
     UnknownEngine(String),
     NotLowered(String),
     NumDualWithoutStd,
@@ -132,8 +133,9 @@ impl Display for Mistake {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::UnknownOption => f.write_str("unknown option; write `rule = midpoint`, `trapezoidal` or `gauss`, a list `rule = [midpoint, trapezoidal]`, or `derivatives = auto`, `expanded`, `num_dual`"),
-            Self::UnknownRule(rule) => write!(f, "unknown rule `{rule}`; the rules are `midpoint`, `trapezoidal` and `gauss`"),
+            Self::UnknownRule(rule) => write!(f, "unknown rule `{rule}`; the rules are `midpoint`, `trapezoidal`, `gauss`, `fitted`, `fitted_trapezoidal` and `one_sided`"),
             Self::RepeatedRule(rule) => write!(f, "rule `{rule}` is listed twice; remove one"),
+            Self::JointRule { rule, lacks } => write!(f, "`rule = {rule}` {lacks}; use `midpoint` or `trapezoidal`"),
             Self::NoRule => f.write_str("no rule is listed; write at least one, or leave the option out for `midpoint`"),
             Self::UnknownEngine(engine) if engine.is_empty() => f.write_str("write one of `derivatives = auto`, `expanded`, `num_dual`"),
             Self::UnknownEngine(engine) => write!(f, "unknown engine `{engine}`; write `derivatives = auto`, `expanded` or `num_dual`"),

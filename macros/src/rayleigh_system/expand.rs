@@ -13,7 +13,7 @@ use syn::{
 use super::check::Field;
 use super::implement::{self, discrete, discrete_rayleigh};
 use super::lower::Refusal;
-use super::model::{Function, RayleighArguments, Role, Source, System, simple_name};
+use super::model::{Function, RayleighArguments, Role, Rule, Source, System, simple_name};
 use super::rewrite::{Twin, over};
 use super::structure::{Engine, Structure};
 
@@ -183,7 +183,20 @@ pub fn imported(system: &System<'_>) -> Vec<Ident> {
         names.push("ForcedLagrangian");
     }
     if !rules.of_displacement.is_empty() {
-        names.extend(["Discrete", "DisplacementRule", "Momenta", "StepKernel"]);
+        names.extend(["Discrete", "Momenta", "StepKernel"]);
+        if rules.of_displacement.iter().any(|rule| !rule.is_joint()) {
+            names.push("DisplacementRule");
+        }
+        if rules.of_displacement.iter().any(|rule| rule.is_joint()) {
+            names.push("JointRule");
+        }
+        let with_rayleigh = |rule: &Rule| match rule {
+            Rule::Fitted => system.degrees.literal() == Some(1),
+            rule => rule.is_joint(),
+        };
+        if rules.of_displacement.iter().any(with_rayleigh) {
+            names.push("JointRayleighRule");
+        }
         if system.rayleigh.is_some() {
             names.push("DiscreteRayleigh");
         }

@@ -43,8 +43,10 @@ pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Resul
         .newton
         .iter()
         .map(|newton| {
-            let kernel = code.kernel(newton, lagrangian, rayleigh, force.as_deref());
-            implement::discrete(system, newton.rule, Some(kernel))
+            // Rules that take L and R together bring their own kernel.
+            let kernel = (!newton.rule.is_joint())
+                .then(|| code.kernel(newton, lagrangian, rayleigh, force.as_deref()));
+            implement::discrete(system, newton.rule, kernel)
         })
         .collect();
     let structure = Structure { engine: structure::Engine::Expanded, findings: Some(findings) };

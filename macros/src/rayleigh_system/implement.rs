@@ -178,6 +178,9 @@ pub enum Memory {
 /// `impl Discrete<Midpoint, 2> for Ring`: one term for each of L, R and f that the system has, unless an engine gives the
 /// kernel's bodies.
 pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> TokenStream {
+    if rule.is_joint() {
+        return joint(system, rule);
+    }
     let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
     let lagrangian = rule.lagrangian();
@@ -295,18 +298,92 @@ pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> Toke
     }
 }
 
-/// `impl DiscreteRayleigh<Midpoint, 2> for Ring`
+/// `impl Discrete<Fitted, 2> for Ring`: L and R together, one call each.
+fn joint(system: &System<'_>, rule: Rule) -> TokenStream {
+    let System { name, scalar, .. } = system;
+    let n = system.degrees.times(1);
+    let (lagrangian, force) = (rule.lagrangian(), rule.force(true, false));
+    // With a constant matrix and the potential at the ends, one correction solves the step.
+    let linear = (rule == Rule::FittedTrapezoidal).then(|| {
+        quote!(
+            const LINEAR: bool = true;
+        )
+    });
+    let rule = format_ident!("{}", rule.name());
+    quote! {
+        #[automatically_derived]
+        impl Discrete<#rule, #n> for #name {
+            type Matrix = SMatrix<#scalar, #n, #n>;
+            type Memory = ::dalembert::VelocityHistory<#scalar, #n>;
+            #linear
+
+            #[doc = #lagrangian]
+            fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
+                <#rule as JointRule>::discrete_lagrangian(self, q0, q1, h)
+            }
+
+            /// L_d with D1, D2, D11, D12, D22.
+            fn discrete_lagrangian_derivatives(
+                &self,
+                q0: &Vector,
+                q1: &Vector,
+                h: #scalar,
+            ) -> Derivatives<#scalar, #n> {
+                <#rule as JointRule>::discrete_lagrangian_derivatives(self, q0, q1, h)
+            }
+
+            #[doc = #force]
+            fn discrete_force(&self, q0: &Vector, q1: &Vector, h: #scalar) -> DiscreteForce<#scalar, #n> {
+                <#rule as JointRule>::discrete_force(self, q0, q1, h)
+            }
+
+            /// f_d with its derivatives by q0 and q1.
+            fn discrete_force_derivatives(
+                &self,
+                q0: &Vector,
+                q1: &Vector,
+                h: #scalar,
+            ) -> DiscreteForceDerivatives<#scalar, #n> {
+                <#rule as JointRule>::discrete_force_derivatives(self, q0, q1, h)
+            }
+
+            /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+            #[inline]
+            fn step_kernel(&self, q0: &Vector, v: &Vector, h: #scalar) -> StepKernel<#scalar, #n> {
+                <#rule as JointRule>::step_kernel(self, q0, v, h)
+            }
+
+            /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+            #[inline]
+            fn momenta(&self, q0: &Vector, v: &Vector, h: #scalar) -> Momenta<#scalar, #n> {
+                <#rule as JointRule>::momenta(self, q0, v, h)
+            }
+
+            /// E_L on the segment.
+            fn segment_energy(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
+                <#rule as JointRule>::segment_energy(self, q0, q1, h)
+            }
+        }
+    }
+}
+
+/// `impl DiscreteRayleigh<Midpoint, 2> for Ring`; nothing where the rule's force has no R_d.
 pub fn discrete_rayleigh(system: &System<'_>, rule: Rule) -> TokenStream {
+    if rule == Rule::Fitted && system.degrees.literal() != Some(1) {
+        return TokenStream::new();
+    }
+    let as_trait = rule.is_joint().then(|| quote!(JointRayleighRule));
     let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
     let rayleigh = rule.rayleigh();
     let rule = format_ident!("{}", rule.name());
+    let functions = as_trait.map_or_else(|| quote!(#rule), |joint| quote!(<#rule as #joint>));
     quote! {
         #[automatically_derived]
         impl DiscreteRayleigh<#rule, #n> for #name {
             #[doc = #rayleigh]
             fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
-                #rule::discrete_rayleigh(self, q0, q1, h)
+                #functions::discrete_rayleigh(self, q0, q1, h)
             }
 
             /// R_d with D1, D2, D11, D12, D22.
@@ -316,7 +393,7 @@ pub fn discrete_rayleigh(system: &System<'_>, rule: Rule) -> TokenStream {
                 q1: &Vector,
                 h: #scalar,
             ) -> Derivatives<#scalar, #n> {
-                #rule::discrete_rayleigh_derivatives(self, q0, q1, h)
+                #functions::discrete_rayleigh_derivatives(self, q0, q1, h)
             }
         }
     }

@@ -18,6 +18,9 @@ pub struct Rules {
 pub enum Rule {
     Midpoint,
     Trapezoidal,
+    Fitted,
+    FittedTrapezoidal,
+    OneSided,
 }
 
 impl Rule {
@@ -26,7 +29,15 @@ impl Rule {
         match self {
             Self::Midpoint => "Midpoint",
             Self::Trapezoidal => "Trapezoidal",
+            Self::Fitted => "Fitted",
+            Self::FittedTrapezoidal => "FittedTrapezoidal",
+            Self::OneSided => "OneSided",
         }
+    }
+
+    /// Whether it takes L and R together, by the functions of the runtime's `JointRule`, instead of one term for each.
+    pub fn is_joint(self) -> bool {
+        matches!(self, Self::Fitted | Self::FittedTrapezoidal | Self::OneSided)
     }
 
     /// The formula of L_d, as documentation.
@@ -34,6 +45,13 @@ impl Rule {
         match self {
             Self::Midpoint => " L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.",
             Self::Trapezoidal => " L_d = (h/2) [L(q0, v̄) + L(q1, v̄)], with v̄ = (q1 − q0)/h.",
+            Self::Fitted => {
+                " L_d = (1/2h) dᵀ M Z coth(Z) d − h V(q̄), with d = q1 − q0, q̄ = (q0 + q1)/2 and Z = ½h M⁻¹C."
+            }
+            Self::FittedTrapezoidal => {
+                " L_d = (1/2h) dᵀ M Z coth(Z) d − (h/2) [V(q0) + V(q1)], with d = q1 − q0 and Z = ½h M⁻¹C."
+            }
+            Self::OneSided => " L_d = h L(q̄, v̄) + (h²/2) R(v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.",
         }
     }
 
@@ -42,12 +60,17 @@ impl Rule {
         match self {
             Self::Midpoint => " R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.",
             Self::Trapezoidal => " R_d = (h²/4) [R(q0, v̄) + R(q1, v̄)], with v̄ = (q1 − q0)/h.",
+            Self::Fitted => " R_d = ¼ dᵀCd − h ℒ(z) V(q̄), with ℒ(z) = coth z − 1/z.",
+            Self::FittedTrapezoidal => " R_d = ¼ dᵀCd.",
+            Self::OneSided => " R_d = (h²/2) R(v̄).",
         }
     }
 
     /// The formula of f_d, by the parts that the system has.
     pub fn force(self, of_rayleigh: bool, general: bool) -> &'static str {
         match (of_rayleigh, general, self) {
+            (_, _, Self::Fitted) => " f_d⁻, f_d⁺ = −½ C d ∓ (h/2) ℒ(Z)ᵀ ∇V(q̄), with ℒ(z) = coth z − 1/z.",
+            (_, _, Self::FittedTrapezoidal | Self::OneSided) => " f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d.",
             (true, false, _) => " f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d.",
             (true, true, Self::Midpoint) => " f_d⁻ = D1 R_d + (h/2) f(q̄, v̄), f_d⁺ = −D2 R_d + (h/2) f(q̄, v̄).",
             (true, true, Self::Trapezoidal) => {

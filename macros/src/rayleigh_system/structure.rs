@@ -124,8 +124,9 @@ pub fn findings(graph: &Graph, n: usize, terms: &Terms<'_>, rules: &[Rule]) -> F
     let newton = rules.iter().map(|&rule| {
         // The pairs of variables whose second derivatives the rule's matrix holds.
         let is_meant: fn(bool, bool) -> bool = match rule {
-            Rule::Midpoint => |_, _| true,
+            Rule::Midpoint | Rule::Fitted | Rule::OneSided => |_, _| true,
             Rule::Trapezoidal => |a, b| a || b,
+            Rule::FittedTrapezoidal => |a, b| a && b,
         };
         let mut entries = of_pairs(&lagrangian.derivatives, is_meant);
         if let Some(r) = rayleigh {
@@ -139,7 +140,7 @@ pub fn findings(graph: &Graph, n: usize, terms: &Terms<'_>, rules: &[Rule]) -> F
         }
         // p0 holds ∂L/∂v at both ends, and ∂L/∂q and f where the trapezoidal rule sees q0 alone.
         let is_affine = |entry: Node, by_velocity: bool| match rule {
-            Rule::Trapezoidal if !by_velocity => degrees.in_velocity(entry) <= 1,
+            Rule::Trapezoidal | Rule::FittedTrapezoidal if !by_velocity => degrees.in_velocity(entry) <= 1,
             _ => degrees.joint(entry) <= 1,
         };
         let gradients = [Some(*lagrangian), *rayleigh].into_iter().flatten();
@@ -151,6 +152,9 @@ pub fn findings(graph: &Graph, n: usize, terms: &Terms<'_>, rules: &[Rule]) -> F
             && momenta.clone().all(|(entry, by_velocity)| is_affine(entry, by_velocity))
             && force.iter().all(|&(component, _)| is_affine(component, false));
         let bandwidth = entries.iter().map(|&(i, j, _)| i.abs_diff(j)).max().unwrap_or(0);
+        // A function of M⁻¹C is full, unless both are diagonal.
+        let is_fitted = matches!(rule, Rule::Fitted | Rule::FittedTrapezoidal);
+        let bandwidth = if is_fitted && bandwidth > 0 { n - 1 } else { bandwidth };
         // A force that is remembered from the last step has nothing but q and fields in it.
         let is_apart = |entry: Node, by_velocity: bool| {
             !contains(graph, entry, |operation| match operation {

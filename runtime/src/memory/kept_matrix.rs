@@ -129,6 +129,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> KeptMatrix<S, M, N> {
 impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
     /// The step from `guess`; nothing where the corrections do not shrink fast, or a number is none.
     #[inline]
+    #[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a size that is NaN must fail the comparison")]
     fn step<L, R>(&self, system: &L, state: &State<S, N>, guess: SVector<S, N>) -> Option<Step<S, N>>
     where
         L: Discrete<R, N, Scalar = S, Matrix = M>,

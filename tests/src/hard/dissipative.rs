@@ -3,14 +3,14 @@
 use dalembert::rayleigh_system;
 
 /// A free mass with linear drag: v(t) = v(0) e^{−rt/m}.
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, fitted, fitted_trapezoidal, one_sided])]
 pub fn damped_mass(q: [f64; 1], v: [f64; 1], m: f64, r: f64) -> (f64, f64) {
     let _ = q;
     (0.5 * m * v[0] * v[0], 0.5 * r * v[0] * v[0])
 }
 
 /// The damped oscillator under a constant force: m q̈ + r q̇ + k q = f.
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, fitted, fitted_trapezoidal, one_sided])]
 pub fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64, f: f64) -> (f64, f64) {
     (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0] + f * q[0], 0.5 * r * v[0] * v[0])
 }
@@ -19,7 +19,7 @@ pub fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64, f: f64) -> (
 ///
 /// In the frame of the moving end the floor moves at −u: R = με ln cosh((v + u)/ε), in two pieces, of which the first keeps its
 /// digits near rest and the second does not overflow.
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, one_sided])]
 pub fn block(q: [f64; 1], v: [f64; 1], k: f64, mu: f64, u: f64, epsilon: f64) -> (f64, f64) {
     let x = ((v[0] + u) / epsilon).abs();
     let ln_cosh = if x < 1.0 { x.cosh().ln() } else { x + (-2.0 * x).exp().ln_1p() - std::f64::consts::LN_2 };

@@ -41,14 +41,8 @@ pub const FERMI: usize = 3;
 /// ```
 #[rayleigh_system(rule = [midpoint, trapezoidal])]
 pub fn fermi(q: [f64; 6], v: [f64; 6], omega: f64, r: f64) -> (f64, f64) {
-    let mut speed = 0.0;
-    for i in 0..6 {
-        speed += v[i] * v[i];
-    }
-    let mut stiff = 0.0;
-    for i in 3..6 {
-        stiff += q[i] * q[i];
-    }
+    let speed: f64 = v.iter().map(|v| v * v).sum();
+    let stiff = q[3] * q[3] + q[4] * q[4] + q[5] * q[5];
     let mut soft = (q[0] - q[3]).powi(4) + (q[2] + q[5]).powi(4);
     for i in 0..2 {
         soft += (q[i + 1] - q[i + 4] - q[i] - q[i + 3]).powi(4);

@@ -48,7 +48,7 @@ fn the_double_pendulum_at_high_energy_keeps_it() {
 #[test]
 fn henon_heiles_at_the_energy_of_escape() {
     let system = HenonHeiles { r: 0.0 };
-    let start = HenonHeiles::start(1.0 / 6.0, 0.1, 0.0);
+    let start = HenonHeiles::start(1.0 / 6.0, -0.1, 0.1);
     assert!((HenonHeiles::energy_of(&start) - 1.0 / 6.0).abs() < 1e-15);
     for [first, second] in
         [halves(&system, Midpoint, 0.05, start, 200_000), halves(&system, Trapezoidal, 0.05, start, 200_000)]

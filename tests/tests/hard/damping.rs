@@ -1,7 +1,10 @@
 //! Friction that is stiff, not smooth, of the wrong sign, or without a real step.
 
 use dalembert::nalgebra::vector;
-use dalembert::{Discrete, Midpoint, Quantity, State, StepError, Trajectory, Trapezoidal};
+use dalembert::{
+    Discrete, Fitted, FittedTrapezoidal, Midpoint, OneSided, Quantity, State, StepError, Trajectory,
+    Trapezoidal,
+};
 use dalembert_tests::hard::{
     Block, Cancelling, CubicDrag, DampedMass, Oscillator, Overflowing, UniformField, VanDerPol, drive,
 };
@@ -30,6 +33,23 @@ fn midpoint_rings_past_twice_the_mass_over_h() {
             assert!((ratio - expected).abs() < 1e-14 * (1.0 + 0.1 * z), "{hr_over_m:e}: {ratio} {expected}");
             assert_eq!(ratio < 0.0, hr_over_m > 2.0);
         }
+    }
+}
+
+/// The fitted rules decay as the flow does, the one-sided one by 1/(1 + hr/m): none rings.
+#[test]
+fn the_rules_for_stiff_damping_do_not_ring() {
+    for hr_over_m in [0.1, 1.0, 2.01, 10.0, 30.0] {
+        let exact = f64::exp(-hr_over_m);
+        // v̄ of the second step is that of the first times the decay, to the rounding of the first momentum.
+        for ratio in [ratio(Fitted, hr_over_m), ratio(FittedTrapezoidal, hr_over_m)] {
+            assert!((ratio - exact).abs() < 1e-15 * (1.0 + hr_over_m), "{hr_over_m}: {ratio:e} {exact:e}");
+        }
+        let ratio = ratio(OneSided, hr_over_m);
+        assert!((ratio * (1.0 + hr_over_m) - 1.0).abs() < 1e-13 * (1.0 + hr_over_m), "{hr_over_m}: {ratio}");
+    }
+    for hr_over_m in [1e3, 1e6] {
+        assert!(ratio(Fitted, hr_over_m).abs() < 1e-15 && ratio(FittedTrapezoidal, hr_over_m).abs() < 1e-15);
     }
 }
 
@@ -101,6 +121,21 @@ fn sliding_to_rest() {
         );
         assert!(trajectory.state().p[0].abs() <= 0.5 * h * mu + 10.0 * epsilon, "{:?}", trajectory.state());
     }
+}
+
+/// The one-sided rule neither rings nor overshoots: p falls to 0 and stays there.
+#[test]
+fn sliding_to_rest_without_ringing() {
+    let (mu, v, h) = (0.7, 1.3, 1e-3);
+    let system = Block { k: 0.0, mu, u: 0.0, epsilon: 1e-6 };
+    let start = State { q: vector![0.0], p: vector![v] };
+    let mut before = v;
+    for step in Trajectory::new(&system, OneSided, h, start).take(4_000) {
+        let p = step.unwrap().state.p[0];
+        assert!((0.0..=before).contains(&p), "{before} {p}");
+        before = p;
+    }
+    assert!(before < 1e-15, "{before:e}");
 }
 
 /// What the obvious formulas of the same friction do: an overflow and a loss of digits, each by its name.

@@ -43,12 +43,12 @@ impl Code<'_> {
         let rows = self.rows(&force);
         let parts = Parts { lagrangian, rayleigh, force, rows };
         let Equation { p0, p1, matrix } = match newton.rule {
-            Rule::Midpoint => self.midpoint(&parts),
-            Rule::Trapezoidal => self.trapezoidal(&parts),
+            Rule::Midpoint | Rule::Fitted | Rule::OneSided => self.midpoint(&parts),
+            Rule::Trapezoidal | Rule::FittedTrapezoidal => self.trapezoidal(&parts),
         };
         let framed = |code: &Self, line: &StraightLine, result: TokenStream| match newton.rule {
-            Rule::Midpoint => code.at_midpoint(line, result),
-            Rule::Trapezoidal => code.at_both_ends(line, result),
+            Rule::Midpoint | Rule::Fitted | Rule::OneSided => code.at_midpoint(line, result),
+            Rule::Trapezoidal | Rule::FittedTrapezoidal => code.at_both_ends(line, result),
         };
 
         let diagonals = diagonals(self.n, newton.bandwidth);

@@ -1,0 +1,55 @@
+//! What the rules that take L and R together ask of a system, on the expressions of L and R as they are written.
+
+use super::differentiate::{Derivatives, Differentiation};
+use super::graph::{Graph, Node, Operation};
+use super::lower::Lowered;
+use super::model::{Engine, Rule, System};
+
+/// What the system lacks for `rule`, if anything. `lowered` is nothing where derivatives are not written out.
+pub fn lacks(
+    rule: Rule,
+    system: &System<'_>,
+    engine: Engine,
+    lowered: Option<&mut Lowered>,
+) -> Option<&'static str> {
+    if system.rayleigh.is_none() {
+        return Some("needs a Rayleigh function, and there is none");
+    }
+    if system.has_force {
+        return Some("takes no general force");
+    }
+    if engine == Engine::NumDual {
+        return Some("needs to see L and R, which `derivatives = num_dual` leaves to the run");
+    }
+    let Some(Lowered { graph, lagrangian, rayleigh: Some(rayleigh), .. }) = lowered else {
+        return Some(
+            "needs to see L and R, and these bodies cannot be written out (`derivatives = expanded` says why)",
+        );
+    };
+    let mut derivation = Differentiation::default();
+    let r = derivation.hessian(graph, *rayleigh, "r");
+    if r.gradient.keys().any(|&variable| is_coordinate(graph, variable)) {
+        return Some("needs a Rayleigh function of v alone");
+    }
+    if rule == Rule::OneSided {
+        return None;
+    }
+    if r.hessian.values().any(|&entry| graph.depends(entry)) {
+        return Some("needs linear damping, R = ½vᵀCv with constant C");
+    }
+    let l = derivation.hessian(graph, *lagrangian, "l");
+    (!is_natural(graph, &l)).then_some("needs L = ½vᵀMv − V(q) with constant M")
+}
+
+/// ∂²L/∂v² constant, ∂²L/∂q∂v absent.
+fn is_natural(graph: &Graph, l: &Derivatives) -> bool {
+    l.hessian.iter().all(|(&(a, b), &entry)| match (is_coordinate(graph, a), is_coordinate(graph, b)) {
+        (true, true) => true,
+        (false, false) => !graph.depends(entry),
+        _ => graph.constant_value(entry) == Some(0.0),
+    })
+}
+
+fn is_coordinate(graph: &Graph, variable: Node) -> bool {
+    matches!(graph.operation(variable), Operation::Coordinate(_))
+}

@@ -1,0 +1,215 @@
+//! Free motion under linear damping, exactly: functions of Z = ½h M⁻¹C.
+//!
+//! ```text
+//! M = W Wᵀ,  ½hC = W Λ Wᵀ,   M f(Z) = W f(Λ) Wᵀ,   f(Z)ᵀ = W f(Λ) W⁻¹
+//! ```
+//!
+//! W from the Cholesky factor of M and the eigenvectors of a symmetric matrix, by Jacobi's rotations: own code because a step must
+//! neither panic nor allocate, for any N.
+
+use core::array;
+use core::cmp::Ordering;
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::{Rayleigh, Scalar};
+
+/// The matrices of a damped free segment, and the terms of first degree.
+pub(super) struct DampedDrift<S, const N: usize> {
+    /// M(Z coth Z + Z): p0 per unit of v̄.
+    pub(super) before: SMatrix<S, N, N>,
+    /// M(Z coth Z − Z): p1 per unit of v̄.
+    pub(super) after: SMatrix<S, N, N>,
+    /// C.
+    pub(super) damping: SMatrix<S, N, N>,
+    /// I + ℒ(Z)ᵀ, with the Langevin function ℒ(z) = coth z − 1/z.
+    pub(super) lag_plus: SMatrix<S, N, N>,
+    /// I − ℒ(Z)ᵀ.
+    pub(super) lag_minus: SMatrix<S, N, N>,
+    /// ∂L/∂v at v = 0.
+    pub(super) shift: SVector<S, N>,
+    /// ∂R/∂v at v = 0.
+    pub(super) thrust: SVector<S, N>,
+}
+
+impl<S: Scalar, const N: usize> DampedDrift<S, N> {
+    /// Of a system with constant ∂²L/∂v², positive definite, and constant ∂²R/∂v². NaN where M is not positive definite.
+    #[inline]
+    pub(super) fn of<L: Rayleigh<N, Scalar = S>>(system: &L, q: &SVector<S, N>, h: S) -> Self {
+        let rest = nalgebra::zero();
+        let (l, r) = (system.lagrangian_derivatives(q, &rest), system.rayleigh_derivatives(q, &rest));
+        let (w, inverse, z) = modes(&l.d22, &(r.d22 * (h * S::constant(0.5))));
+        let symmetric = |f: fn(S) -> S| w * SMatrix::from_diagonal(&z.map(f)) * w.transpose();
+        let transposed = |f: fn(S) -> S| w * SMatrix::from_diagonal(&z.map(f)) * inverse;
+        Self {
+            before: symmetric(before),
+            after: symmetric(after),
+            damping: r.d22,
+            lag_plus: transposed(lag_plus),
+            lag_minus: transposed(lag_minus),
+            shift: l.d2,
+            thrust: r.d2,
+        }
+    }
+
+    /// M Z coth Z, the fitted mass.
+    #[inline]
+    pub(super) fn mass(&self) -> SMatrix<S, N, N> {
+        (self.before + self.after) * S::constant(0.5)
+    }
+}
+
+/// z coth z + z = 2z/(1 − e^{−2z}).
+fn before<S: Scalar>(z: S) -> S {
+    after(-z)
+}
+
+/// z coth z − z = 2z/(e^{2z} − 1).
+fn after<S: Scalar>(z: S) -> S {
+    let twice = z + z;
+    if z == S::zero() { S::one() } else { twice / twice.exp_m1() }
+}
+
+/// 1 + ℒ(z).
+fn lag_plus<S: Scalar>(z: S) -> S {
+    if z.abs() > S::one() { (before(z) - S::one()) / z } else { S::one() + langevin(z) }
+}
+
+/// 1 − ℒ(z).
+fn lag_minus<S: Scalar>(z: S) -> S {
+    lag_plus(-z)
+}
+
+/// ℒ(z) = coth z − 1/z = z/(3 + z²/(5 + z²/(7 + …))) for |z| ≤ 1.
+fn langevin<S: Scalar>(z: S) -> S {
+    let mut tail = S::constant(21.0);
+    for odd in [19.0, 17.0, 15.0, 13.0, 11.0, 9.0, 7.0, 5.0, 3.0] {
+        tail = S::constant(odd) + z * z / tail;
+    }
+    z / tail
+}
+
+/// W, W⁻¹ and λ with `mass` = W Wᵀ and `damping` = W diag(λ) Wᵀ.
+fn modes<S: Scalar, const N: usize>(
+    mass: &SMatrix<S, N, N>,
+    damping: &SMatrix<S, N, N>,
+) -> (SMatrix<S, N, N>, SMatrix<S, N, N>, SVector<S, N>) {
+    let l = cholesky(mass);
+    // L⁻¹ by forward substitution.
+    let mut inverse: SMatrix<S, N, N> = nalgebra::zero();
+    for j in 0..N {
+        for i in j..N {
+            let mut sum = if i == j { S::one() } else { S::zero() };
+            for k in j..i {
+                sum -= l[(i, k)] * inverse[(k, j)];
+            }
+            inverse[(i, j)] = sum / l[(i, i)];
+        }
+    }
+    let (rotation, eigenvalues) = jacobi(inverse * damping * inverse.transpose());
+    (l * rotation, rotation.transpose() * inverse, eigenvalues)
+}
+
+/// The lower triangular L with `matrix` = L Lᵀ.
+fn cholesky<S: Scalar, const N: usize>(matrix: &SMatrix<S, N, N>) -> SMatrix<S, N, N> {
+    let mut l: SMatrix<S, N, N> = nalgebra::zero();
+    for j in 0..N {
+        for i in j..N {
+            let mut sum = matrix[(i, j)];
+            for k in 0..j {
+                sum -= l[(i, k)] * l[(j, k)];
+            }
+            l[(i, j)] = if i > j {
+                sum / l[(j, j)]
+            } else if sum > S::zero() {
+                sum.sqrt()
+            } else {
+                S::zero() / S::zero()
+            };
+        }
+    }
+    l
+}
+
+/// More sweeps than any matrix needs: convergence is quadratic.
+const SWEEPS: usize = 30;
+
+/// Eigenvectors (columns) and eigenvalues of a symmetric matrix (C. G. J. Jacobi, 1846).
+fn jacobi<S: Scalar, const N: usize>(mut a: SMatrix<S, N, N>) -> (SMatrix<S, N, N>, SVector<S, N>) {
+    let mut vectors: SMatrix<S, N, N> = SMatrix::identity();
+    for _ in 0..SWEEPS {
+        let mut rotated = false;
+        for i in 0..N {
+            for j in i + 1..N {
+                let off = a[(i, j)];
+                // Below the rounding of both diagonal entries nothing is left to rotate; a NaN is left alone.
+                let least = S::EPSILON * S::constant(0.25) * (a[(i, i)].abs() * a[(j, j)].abs()).sqrt();
+                if off.abs().partial_cmp(&least) != Some(Ordering::Greater) {
+                    continue;
+                }
+                rotated = true;
+                let theta = (a[(j, j)] - a[(i, i)]) / (off + off);
+                let t = if theta == S::zero() {
+                    S::one()
+                } else {
+                    theta.signum() / (theta.abs() + (theta * theta + S::one()).sqrt())
+                };
+                let c = S::one() / (t * t + S::one()).sqrt();
+                let s = t * c;
+                for k in 0..N {
+                    (a[(k, i)], a[(k, j)]) = (c * a[(k, i)] - s * a[(k, j)], s * a[(k, i)] + c * a[(k, j)]);
+                }
+                for k in 0..N {
+                    (a[(i, k)], a[(j, k)]) = (c * a[(i, k)] - s * a[(j, k)], s * a[(i, k)] + c * a[(j, k)]);
+                    (vectors[(k, i)], vectors[(k, j)]) = (
+                        c * vectors[(k, i)] - s * vectors[(k, j)],
+                        s * vectors[(k, i)] + c * vectors[(k, j)],
+                    );
+                }
+            }
+        }
+        if !rotated {
+            break;
+        }
+    }
+    let eigenvalues: [S; N] = array::from_fn(|i| a[(i, i)]);
+    (vectors, eigenvalues.into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::matrix;
+
+    #[test]
+    fn functions_of_one_number() {
+        // By hand: coth 2 = 1.0373147207275481.
+        let coth = 1.037_314_720_727_548_1;
+        assert!((before(2.0_f64) - 2.0 * (coth + 1.0)).abs() < 4e-15);
+        assert!((after(2.0_f64) - 2.0 * (coth - 1.0)).abs() < 1e-15);
+        assert!(
+            (lag_plus(2.0_f64) - (0.5 + coth)).abs() < 1e-15
+                && (lag_minus(2.0_f64) - (1.5 - coth)).abs() < 1e-15
+        );
+        for z in [1e-200, 1e-9, 0.3, 0.999, 1.001, 3.0, 40.0, 1e3, 1e200_f64] {
+            assert!((lag_plus(z) + lag_minus(z) - 2.0).abs() < 1e-15, "{z:e}");
+            assert!(((before(z) - after(z)) / (2.0 * z) - 1.0).abs() < 1e-15 / z.min(1.0), "{z:e}");
+            assert_eq!((before(-z), lag_plus(-z)), (after(z), lag_minus(z)));
+        }
+        assert_eq!((before(0.0), lag_plus(0.0)), (1.0, 1.0));
+        // The branches meet.
+        assert!((lag_plus(1.0_f64) - lag_plus(1.0 + 1e-12)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn modes_of_a_pair_of_matrices() {
+        let mass = matrix![2.0, 0.5, 0.1; 0.5, 1.0, 0.2; 0.1, 0.2, 3.0];
+        let damping = matrix![1.0, -0.4, 0.0; -0.4, 1e3, 0.7; 0.0, 0.7, 1e-3];
+        let (w, inverse, z) = modes(&mass, &damping);
+        assert!((w * w.transpose() - mass).amax() < 1e-14);
+        assert!((w * SMatrix::from_diagonal(&z) * w.transpose() - damping).amax() < 1e-11);
+        assert!((w * inverse - SMatrix::identity()).amax() < 1e-13);
+        // No positive definite mass, no modes.
+        assert!(modes(&matrix![1.0, 2.0; 2.0, 1.0], &SMatrix::identity()).0.iter().any(|w: &f64| w.is_nan()));
+    }
+}

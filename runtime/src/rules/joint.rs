@@ -1,0 +1,86 @@
+//! Rules that take L and R together: the damping enters L_d as well as the force.
+
+use nalgebra::SVector;
+
+use crate::discrete::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
+use crate::{Derivatives, Rayleigh};
+
+/// A rule whose discrete objects need L and R at once.
+///
+/// The functions are those of [`Discrete`](crate::Discrete), of which `#[rayleigh_system]` writes one call each.
+pub trait JointRule: Copy {
+    /// L_d(q0, q1, h).
+    fn discrete_lagrangian<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> L::Scalar;
+
+    /// L_d with its derivatives by q0 and q1.
+    fn discrete_lagrangian_derivatives<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Derivatives<L::Scalar, N>;
+
+    /// f_d⁻ and f_d⁺.
+    fn discrete_force<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> DiscreteForce<L::Scalar, N>;
+
+    /// f_d with its derivatives by q0 and q1.
+    fn discrete_force_derivatives<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> DiscreteForceDerivatives<L::Scalar, N>;
+
+    /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+    fn step_kernel<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> StepKernel<L::Scalar, N>;
+
+    /// p0 and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+    fn momenta<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Momenta<L::Scalar, N>;
+
+    /// E_L on the segment.
+    fn segment_energy<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> L::Scalar;
+}
+
+/// A rule that takes L and R together, and whose force is that of one function R_d.
+pub trait JointRayleighRule: JointRule {
+    /// R_d(q0, q1, h), with f_d⁻ = D1 R_d and f_d⁺ = −D2 R_d.
+    fn discrete_rayleigh<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> L::Scalar;
+
+    /// R_d with its derivatives by q0 and q1.
+    fn discrete_rayleigh_derivatives<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Derivatives<L::Scalar, N>;
+}

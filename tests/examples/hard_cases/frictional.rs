@@ -1,0 +1,191 @@
+//! Cases with friction.
+
+use anyhow::Result;
+use dalembert::nalgebra::vector;
+use dalembert::{Discrete, Fitted, Midpoint, OneSided, State, Trajectory};
+use dalembert_examples::picture::{Corner, Curve, Mark, Panel, colour};
+use dalembert_tests::hard::{Block, CubicDrag, DampedMass};
+
+use crate::page::Case;
+
+/// p of a damped free mass after each of `steps` steps, from 1.
+fn decay<R: Copy>(rule: R, ratio: f64, steps: usize) -> Result<Vec<f64>>
+where
+    DampedMass: Discrete<R, 1, Scalar = f64>,
+{
+    let system = DampedMass { m: 1.0, r: ratio };
+    let start = State { q: vector![0.0], p: vector![1.0] };
+    let mut momenta = vec![1.0];
+    for step in Trajectory::new(&system, rule, 1.0, start).take(steps) {
+        momenta.push(step?.state.p[0]);
+    }
+    Ok(momenta)
+}
+
+/// hr/m from 0.1 to 1e6.
+pub fn overdamped() -> Result<Case> {
+    let mut rows = Vec::new();
+    for ratio in [0.1, 1.0, 1.9, 2.1, 10.0, 1e2, 1e4, 1e6] {
+        let midpoint = decay(Midpoint, ratio, 100)?;
+        rows.push(vec![
+            format!("{ratio:e}"),
+            format!("{:.1e}", (-ratio).exp()),
+            format!("{:.4}", midpoint[1]),
+            format!("{:.1e}", midpoint[100]),
+            format!("{:.1e}", decay(Fitted, ratio, 1)?[1]),
+            format!("{:.1e}", decay(OneSided, ratio, 1)?[1]),
+        ]);
+    }
+    let panel = |title, ratio: f64| -> Result<Panel<'static>> {
+        let exact = (0..=400).map(|k| f64::from(k) * 0.05).map(|t| (t, (-ratio * t).exp())).collect();
+        let points =
+            |momenta: Vec<f64>| momenta.into_iter().enumerate().map(|(k, p)| (k as f64, p)).collect();
+        let curve = |label, colour, mark, points| Curve { label, colour, mark, points };
+        let curves = vec![
+            curve("exact", colour::REFERENCE, Mark::Line(3), exact),
+            curve("midpoint", colour::VARIATIONAL, Mark::Disc, points(decay(Midpoint, ratio, 20)?)),
+            curve("fitted", colour::RUNGE_KUTTA, Mark::Circle, points(decay(Fitted, ratio, 20)?)),
+            curve("one-sided", colour::EULER, Mark::Triangle, points(decay(OneSided, ratio, 20)?)),
+        ];
+        Ok(Panel { title, x: "steps", y: "p/p₀", legend: Corner::UpperRight, curves })
+    };
+    Ok(Case {
+        title: "Overdamped and stiffly damped motion",
+        breaks: "Explicit methods are unstable for hr > 2m. The midpoint rule is stable at any hr, and multiplies the velocity by \
+                 (2m − hr)/(2m + hr): past hr = 2m the sign alternates, and for hr ≫ m it hardly decays: **it rings**.",
+        ours: "Midpoint and trapezoidal rule ring past hr = 2m, exactly as the formula says; equilibria and terminal velocities are exact at any \
+               hr, q ends where it should, and momenta should not be read. `rule = fitted` decays by e^{−hr/m}, to rounding, at any hr, with q of \
+               order 2; `rule = one_sided` by 1/(1 + hr/m), for damping that is not linear.",
+        head: &[
+            "hr/m",
+            "exact p after one step",
+            "midpoint",
+            "midpoint after 100 steps",
+            "fitted",
+            "one-sided",
+        ],
+        rows,
+        panels: vec![panel("hr/m = 0.5", 0.5)?, panel("hr/m = 20: the midpoint rule rings", 20.0)?],
+        test: "damping.rs",
+    })
+}
+
+/// Regularised Coulomb friction.
+pub fn stick_slip() -> Result<Case> {
+    let (k, mu, u, h) = (1.0, 1.0, 0.1, 1e-2);
+    let mut rows = Vec::new();
+    let mut curves = Vec::new();
+    for (label, epsilon, colour, width) in [
+        ("ε = 1e-1", 1e-1, colour::RUNGE_KUTTA, 2),
+        ("ε = 1e-2", 1e-2, colour::EULER, 2),
+        ("ε = 1e-6", 1e-6, colour::VARIATIONAL, 2),
+    ] {
+        let system = Block { k, mu, u, epsilon };
+        let start = State { q: vector![0.0], p: vector![-u] };
+        let (mut points, mut slip, mut iterations, mut most, mut damped) = (vec![(0.0, 0.0)], None, 0, 0, 0);
+        let mut trajectory = Trajectory::new(&system, Midpoint, h, start);
+        for _ in 0..4_000 {
+            let Some(step) = trajectory.next().transpose()? else { break };
+            points.push((trajectory.time(), step.state.q[0]));
+            iterations += step.report.iterations;
+            most = most.max(step.report.iterations);
+            damped += step.report.damped;
+            if slip.is_none() && step.velocity[0] + u > 0.5 * u {
+                slip = Some(trajectory.time());
+            }
+        }
+        let lowest = points.iter().map(|point| point.1).fold(0.0, f64::min);
+        rows.push(vec![
+            format!("{epsilon:.0e}"),
+            format!("{:.0e}", h * mu / epsilon),
+            slip.map_or("–".to_owned(), |t| format!("{t:.2}")),
+            format!("{lowest:.5}"),
+            format!("{:.2}, at most {most}", f64::from(iterations) / 4_000.0),
+            format!("{damped}"),
+        ]);
+        curves.push(Curve { label, colour, mark: Mark::Line(width), points });
+    }
+    Ok(Case {
+        title: "Dry friction, regularised: stick and slip",
+        breaks: "Friction −μ tanh(v/ε) has the slope μ/ε at rest, 1e6 and more, and none elsewhere: Newton's method jumps across, \
+                 explicit methods need h < 2ε/μ.",
+        ours: "One or two iterations a step at every ε; damping of the Newton step catches the jump when the block starts to slip. With ε → 0: \
+               slip at t = μ/(ku) = 10, half the speed u after another π/3, and the lowest point −μ/k − u = −1.1. Written as ln cosh the \
+               friction overflows, and written as x + ln(1 + e^{−2x}) it loses its digits at rest: both have a name.",
+        head: &["ε", "hμ/ε", "slips at", "lowest q", "Newton iterations a step", "shortened"],
+        rows,
+        panels: vec![Panel {
+            title: "A block on a spring, the floor moves",
+            x: "time t",
+            y: "q",
+            legend: Corner::UpperRight,
+            curves,
+        }],
+        test: "damping.rs",
+    })
+}
+
+/// Cubic drag and its fold.
+pub fn fold() -> Result<Case> {
+    let (m, r, h) = (1.3, 0.6, 0.4);
+    let system = CubicDrag { m, r };
+    let fold = -m * m / (2.0 * h * r);
+    let mut rows = Vec::new();
+    let mut found = Vec::new();
+    for k in -120..=400 {
+        let p = fold * f64::from(k) * 0.01;
+        let state = State { q: vector![0.0], p: vector![p] };
+        let step = Discrete::<Midpoint, 1>::step(&system, &state, h, None);
+        if let Ok(step) = &step {
+            found.push((p, step.velocity[0]));
+        }
+        if [-100, 50, 99, 101, 200].contains(&k) {
+            let answer = match step {
+                Ok(step) => format!("v̄ = {:.6}", step.velocity[0]),
+                Err(error) => error.to_string(),
+            };
+            let exact = m * m + 2.0 * h * r * p;
+            let exact =
+                if exact < 0.0 { "none".to_owned() } else { format!("{:.6}", (exact.sqrt() - m) / (h * r)) };
+            rows.push(vec![format!("{:.2}", p / fold), exact, answer]);
+        }
+    }
+    let branch = |sign: f64| {
+        (0..=400)
+            .map(|k| f64::from(k) * 0.0072)
+            .map(|x| (fold + x * x, (sign * (2.0 * h * r).sqrt() * x - m) / (h * r)))
+            .collect()
+    };
+    let curves = vec![
+        Curve {
+            label: "root of the flow",
+            colour: colour::REFERENCE,
+            mark: Mark::Line(3),
+            points: branch(1.0),
+        },
+        Curve { label: "other root", colour: colour::RUNGE_KUTTA, mark: Mark::Line(2), points: branch(-1.0) },
+        Curve {
+            label: "found",
+            colour: colour::VARIATIONAL,
+            mark: Mark::Disc,
+            points: found.into_iter().step_by(10).collect(),
+        },
+    ];
+    Ok(Case {
+        title: "Cubic drag past its fold",
+        breaks: "R = r v³/3 accelerates for v < 0, and p = m v̄ + (h/2) r v̄² has two roots, or none for p < −m²/(2hr). A solver that \
+                 returns its last iterate, or the other root, goes on with nonsense.",
+        ours: "The root found is the one that goes to 0 with the step; beyond the fold the error is `NoRealSolution`, the state is \
+               untouched, and a smaller step passes.",
+        head: &["p, in units of the fold's", "exact v̄", "found"],
+        rows,
+        panels: vec![Panel {
+            title: "Roots of the step",
+            x: "momentum p",
+            y: "v̄",
+            legend: Corner::LowerRight,
+            curves,
+        }],
+        test: "damping.rs",
+    })
+}

@@ -1,0 +1,145 @@
+//! A hundred million steps.
+
+use anyhow::Result;
+use dalembert::nalgebra::vector;
+use dalembert::{Discrete, Midpoint, State, Trajectory, Trapezoidal};
+use dalembert_examples::picture::{Corner, Curve, Mark, Panel, colour};
+use dalembert_tests::hard::Oscillator;
+use dalembert_tests::systems::FreePendulum;
+
+use crate::conservative::TRAPEZOIDAL;
+use crate::page::Case;
+
+const M: f64 = 1.3;
+const K: f64 = 0.7;
+const H: f64 = 0.1;
+
+/// Steps at which the error is looked at.
+const COUNTS: [u64; 7] = [100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000, 30_000_000];
+
+/// Starts on one circle of energy.
+const STARTS: usize = 8;
+
+/// Relative errors of the quadratic form that the rule keeps exactly, by start and count.
+fn walks<R: Copy>(rule: R, form: f64) -> Result<Vec<[f64; COUNTS.len()]>>
+where
+    Oscillator: Discrete<R, 1, Scalar = f64>,
+{
+    let system = Oscillator { m: M, k: K, r: 0.0, f: 0.0 };
+    let energy = |s: &State<f64, 1>| s.p[0] * s.p[0] / (2.0 * M) + 0.5 * K * form * s.q[0] * s.q[0];
+    let mut walks = Vec::new();
+    for start in 0..STARTS {
+        let angle = 0.1 + 0.77 * start as f64;
+        let start = State { q: vector![angle.cos()], p: vector![angle.sin()] };
+        let mut trajectory = Trajectory::new(&system, rule, H, start);
+        let (mut taken, mut errors) = (0, [0.0; COUNTS.len()]);
+        for (count, error) in COUNTS.iter().zip(&mut errors) {
+            while taken < *count {
+                trajectory.next().transpose()?;
+                taken += 1;
+            }
+            *error = energy(trajectory.state()) / energy(&start) - 1.0;
+        }
+        walks.push(errors);
+    }
+    Ok(walks)
+}
+
+/// Brouwer's law.
+pub fn rounding() -> Result<Case> {
+    let mut rows = Vec::new();
+    let mut curves = Vec::new();
+    let both = [
+        ("midpoint", colour::VARIATIONAL, walks(Midpoint, 1.0)?),
+        ("trapezoidal", TRAPEZOIDAL, walks(Trapezoidal, 1.0 - H * H * K / (4.0 * M))?),
+    ];
+    let share = STARTS as f64;
+    for (name, colour, walks) in &both {
+        let mut points = Vec::new();
+        for (index, count) in COUNTS.iter().enumerate() {
+            let mean = walks.iter().map(|walk| walk[index]).sum::<f64>() / share;
+            let rms = (walks.iter().map(|walk| walk[index].powi(2)).sum::<f64>() / share).sqrt();
+            points.push(((*count as f64).log10(), rms.log10()));
+            rows.push(vec![
+                (*name).to_owned(),
+                format!("{:.0e}", *count as f64),
+                format!("{rms:.1e}"),
+                format!("{mean:.1e}"),
+                format!("{:.2}", rms / f64::EPSILON / (*count as f64).sqrt()),
+            ]);
+        }
+        curves.push(Curve { label: name, colour: *colour, mark: Mark::Disc, points });
+    }
+    let law = |slope: f64| {
+        COUNTS
+            .iter()
+            .map(|count| (*count as f64).log10())
+            .map(|n| (n, slope * n + f64::EPSILON.log10()))
+            .collect()
+    };
+    curves.push(Curve { label: "ε √n", colour: colour::REFERENCE, mark: Mark::Line(2), points: law(0.5) });
+    Ok(Case {
+        title: "Round-off over tens of millions of steps",
+        breaks: "Errors of the last place add up: at best like a random walk, √n (D. Brouwer, 1937), at worst, with a bias, like n. The \
+                 residual that a solver leaves in the momentum is such a bias.",
+        ours: "The energy of a free oscillator, which the rule keeps exactly but for rounding, walks at random up to some 1e7 steps: rms ≈ ½ε√n over \
+               8 starts. The step adds the change of momentum to the momentum given, so that the solver's residual stays out; with \
+               it left in, the midpoint rule drifted by −3e-19 a step, which showed at 1e6. What bias is left, 2e-20 (midpoint) and 7e-20 \
+               (trapezoidal) a step, ε/3000 and less, shows in the mean at 1e7 and beyond. Compensated summation of q, of p and of both was \
+               measured over 1e7 steps: of q it brings the mean from −1.6e-12 to 4e-13 (trapezoidal) and from −1.5e-13 to 1.9e-12 (midpoint), of p \
+               it changes nothing; it is not used.",
+        head: &["rule", "steps n", "rms error", "mean error", "rms/(ε√n)"],
+        rows,
+        panels: vec![Panel {
+            title: "Relative energy error, harmonic oscillator, h = 0.1",
+            x: "log₁₀ of the number of steps",
+            y: "log₁₀ of the rms error",
+            legend: Corner::LowerRight,
+            curves,
+        }],
+        test: "rounding.rs",
+    })
+}
+
+/// A pendulum that turns for 1e8 steps.
+pub fn angles() -> Result<Case> {
+    let system = FreePendulum { m: 1.3, g: 0.9 };
+    let start = State { q: vector![0.0], p: vector![3.9] };
+    let energy = |s: &State<f64, 1>| s.p[0] * s.p[0] / 2.6 - 1.17 * s.q[0].cos();
+    let mut rows = Vec::new();
+    let mut trajectory = Trajectory::new(&system, Midpoint, 0.05, start);
+    let (mut taken, mut worst, mut iterations, mut residual) = (0_u64, 0.0_f64, 0_u64, 0.0_f64);
+    for count in [10_000_u64, 1_000_000, 10_000_000, 100_000_000] {
+        for sample in trajectory.sample_every(100).take(((count - taken) / 100) as usize) {
+            let sample = sample?;
+            worst = worst.max((energy(&sample.state) - energy(&start)).abs());
+            iterations += sample.iterations;
+            residual = residual.max(sample.worst_residual);
+        }
+        taken = count;
+        rows.push(vec![
+            format!("{:.0e}", count as f64),
+            format!("{:.3e}", trajectory.state().q[0] / std::f64::consts::TAU),
+            format!("{worst:.6e}"),
+            format!("{:.2}", iterations as f64 / count as f64),
+            format!("{residual:.1}"),
+        ]);
+    }
+    Ok(Case {
+        title: "Angles past 2π for 1e8 steps",
+        breaks: "The angle of a pendulum that turns grows without bound, and with it the rounding of its sine; a tolerance that does not grow \
+                 along refuses the step.",
+        ours: "The floor of the residual is measured where it does not fall, so that steps stay solvable; the energy error is that of the \
+               rule, the same after 1e8 steps as after 1e4.",
+        head: &[
+            "steps",
+            "turns",
+            "largest \\|E − E₀\\| so far",
+            "Newton iterations a step",
+            "largest residual, in floors",
+        ],
+        rows,
+        panels: Vec::new(),
+        test: "rounding.rs",
+    })
+}
