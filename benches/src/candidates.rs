@@ -41,6 +41,9 @@ impl Way {
 /// Runs a number of steps from the scene's start; the end as q, then p.
 type Run = Box<dyn Fn(usize) -> Vec<f64>>;
 
+/// Evaluates a number of times.
+type Evaluation = Box<dyn Fn(usize)>;
+
 /// A scene, and the ways in which it can be stepped.
 pub struct Scene {
     /// What it is called.
@@ -48,7 +51,7 @@ pub struct Scene {
     /// Degrees of freedom.
     pub degrees: usize,
     ways: Vec<(Way, Run)>,
-    evaluations: Vec<(Way, Box<dyn Fn(usize)>)>,
+    evaluations: Vec<(Way, Evaluation)>,
 }
 
 /// After how many steps the ways of one scene are compared.
