@@ -7,10 +7,10 @@ use firmware_scenes::language::{Double, Single};
 /// The same body by both engines: one sum of functions in which libm and the platform's library differ somewhere.
 macro_rules! both_engines {
     ($expanded:ident $by_num_dual:ident $float:ident) => {
-        both_engines!($expanded expanded $float);
-        both_engines!($by_num_dual num_dual $float);
+        both_engines!(@engine $expanded expanded $float);
+        both_engines!(@engine $by_num_dual num_dual $float);
     };
-    ($name:ident $engine:ident $float:ident) => {
+    (@engine $name:ident $engine:ident $float:ident) => {
         struct $name;
 
         #[rayleigh_system(derivatives = $engine)]

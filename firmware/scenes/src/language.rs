@@ -11,17 +11,20 @@ macro_rules! every_way {
 
         #[dalembert::rayleigh_system(rule = [midpoint, trapezoidal])]
         impl $name {
-            fn lagrangian(&self, q: [$float; 2], v: [$float; 2]) -> $float {
+            /// L.
+            pub fn lagrangian(&self, q: [$float; 2], v: [$float; 2]) -> $float {
                 let kinetic: $float = v.iter().map(|v| 0.5 * v.powi(2)).sum();
                 kinetic - Self::roots(self.k + q[0] * q[0]) - self.periodic(&q) - Self::growing(q[1] / (1.0 + q[1].abs()))
             }
 
-            fn rayleigh(&self, q: [$float; 2], v: [$float; 2]) -> $float {
+            /// R.
+            pub fn rayleigh(&self, q: [$float; 2], v: [$float; 2]) -> $float {
                 let weights = q.map($float::cosh);
                 0.5 * self.k.sqrt() * weights.into_iter().zip(v).map(|(weight, v)| weight * v * v).sum::<$float>()
             }
 
-            fn force(&self, q: [$float; 2], v: [$float; 2]) -> [$float; 2] {
+            /// f.
+            pub fn force(&self, q: [$float; 2], v: [$float; 2]) -> [$float; 2] {
                 [$float::tanh(v[1]), -$float::atan2(v[0], 2.0 + q[1].sin())]
             }
 
