@@ -9,6 +9,9 @@ use dalembert_tests::by_hand::{ByHand, Number};
 use dalembert_tests::convergence::Convergence;
 use dalembert_tests::reference;
 
+/// A covector as a function of both ends.
+type Covector<'f, const N: usize> = dyn Fn(&SVector<f64, N>, &SVector<f64, N>) -> SVector<f64, N> + 'f;
+
 /// A pendulum with linear damping and a constant force, in one coordinate.
 #[rayleigh_system(rule = [midpoint, fitted, fitted_trapezoidal, one_sided])]
 fn pendulum(q: [f64; 1], v: [f64; 1], m: f64, g: f64, f: f64, r: f64) -> (f64, f64) {
@@ -264,7 +267,7 @@ fn discrete_objects_and_transforms_agree() {
         for j in 0..N {
             let mut step = SVector::<f64, N>::zeros();
             step[j] = e;
-            let by = |g: &dyn Fn(&SVector<f64, N>, &SVector<f64, N>) -> SVector<f64, N>| {
+            let by = |g: &Covector<'_, N>| {
                 [
                     (g(&(q0 + step), &q1) - g(&(q0 - step), &q1)) / (2.0 * e),
                     (g(&q0, &(q1 + step)) - g(&q0, &(q1 - step))) / (2.0 * e),

@@ -1,5 +1,7 @@
 //! The stages that the macro writes in lanes are those that num-dual gives one by one, for every kind of operation.
 
+#![expect(clippy::neg_cmp_op_on_partial_ord, reason = "lanes must decide negated comparisons as numbers do")]
+
 use dalembert::nalgebra::vector;
 use dalembert::{Discrete, Force, ForcedLagrangian, Gauss, Lanes, State};
 

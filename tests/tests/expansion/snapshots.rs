@@ -92,10 +92,10 @@ fn gauss() {
             }
         }
     };
-    let expansion = rayleigh_system(quote!(rule = gauss), item.clone());
+    let expansion = rayleigh_system(Runtime::STD, quote!(rule = gauss), item.clone());
     assert_snapshot("gauss.rs", &formatted(expansion));
     // Nothing of it without the rule.
-    let other = formatted(rayleigh_system(quote!(rule = midpoint), item));
+    let other = formatted(rayleigh_system(Runtime::STD, quote!(rule = midpoint), item));
     for word in ["Lanes", "Stages", "ForcedLagrangian", "acting_force"] {
         assert!(!other.contains(word), "{word}");
     }
