@@ -173,4 +173,4 @@ pub use scalar::Scalar;
 pub use state::State;
 pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
 pub use system::{Force, Lagrangian, Rayleigh};
-pub use trajectory::{Parted, Sample, Samples, Trajectory};
+pub use trajectory::{Checkpoint, Parted, Sample, Samples, Trajectory};
