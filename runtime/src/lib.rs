@@ -201,4 +201,4 @@ pub use state::State;
 pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
 pub use system::{Force, Lagrangian, Rayleigh};
 pub use tolerance::{Breach, Choice, GuardedTrajectory, Method, ToleranceError, Trial};
-pub use trajectory::{Parted, Sample, Samples, Trajectory};
+pub use trajectory::{Checkpoint, Parted, Sample, Samples, Trajectory};

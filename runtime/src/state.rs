@@ -13,6 +13,14 @@ use crate::{Lagrangian, Momenta, Scalar, StepKernel};
 /// [`Discrete::legendre_plus`](crate::Discrete::legendre_plus) (the state at q1) and
 /// [`Discrete::legendre_minus`](crate::Discrete::legendre_minus) (the state at q0).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "S: Scalar + serde::Serialize",
+        deserialize = "S: Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub struct State<S, const N: usize> {
     /// Configuration.
     pub q: SVector<S, N>,

@@ -66,6 +66,38 @@ where
         self.failed = false;
     }
 
+    /// All that is needed to go on from here, in this process or another ([`Trajectory::resume`]).
+    ///
+    /// The run forgets what its rule remembers of earlier steps, as one that is resumed has to: both go on bit by bit alike.
+    pub fn checkpoint(&mut self) -> Checkpoint<L::Scalar, N> {
+        self.memory = L::Memory::default();
+        Checkpoint { state: self.state, step_size: self.h, origin: self.origin, steps: self.steps }
+    }
+
+    /// The run that `checkpoint` was taken of.
+    ///
+    /// ```
+    /// use dalembert::{Midpoint, State, Trajectory, rayleigh_system};
+    ///
+    /// #[rayleigh_system]
+    /// fn pendulum(q: [f64; 1], v: [f64; 1]) -> f64 {
+    ///     0.5 * v[0] * v[0] + q[0].cos()
+    /// }
+    /// let start = State::from_velocity(&Pendulum {}, [1.0], [0.0])?;
+    /// let mut run = Trajectory::new(&Pendulum {}, Midpoint, 0.1, start);
+    /// run.by_ref().take(100).for_each(|step| assert!(step.is_ok()));
+    /// let mut resumed = Trajectory::resume(&Pendulum {}, Midpoint, run.checkpoint());
+    /// for _ in 0..100 {
+    ///     assert_eq!(run.next(), resumed.next());
+    /// }
+    /// assert_eq!(run.time(), resumed.time());
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    pub fn resume(system: &'a L, rule: R, checkpoint: Checkpoint<L::Scalar, N>) -> Self {
+        let Checkpoint { state, step_size, origin, steps } = checkpoint;
+        Self { origin, steps, ..Self::new(system, rule, step_size, state) }
+    }
+
     /// The next step, in 2, 4, … 2^`halvings` parts where it cannot be taken at once: at the end the time is that of a whole step.
     ///
     /// Nothing is hidden: what is returned says in how many parts. The error, where all fail, is that of the whole step; the state is then the
@@ -154,6 +186,27 @@ where
         }
         Some(step)
     }
+}
+
+/// A run as it can be saved; see [`Trajectory::checkpoint`]. With the feature `serde` it can be written and read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Checkpoint<S, const N: usize> {
+    /// The state.
+    #[cfg_attr(
+        feature = "serde",
+        serde(bound(
+            serialize = "S: Scalar + serde::Serialize",
+            deserialize = "S: Scalar + serde::Deserialize<'de>"
+        ))
+    )]
+    pub state: State<S, N>,
+    /// The step size h.
+    pub step_size: S,
+    /// The time at which the present step size began.
+    pub origin: f64,
+    /// Steps taken with it.
+    pub steps: u64,
 }
 
 /// A step taken at once or in parts; see [`Trajectory::next_in_parts`].

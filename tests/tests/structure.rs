@@ -182,8 +182,8 @@ fn a_newton_matrix_is_constant_where_a_step_is_linear() {
 fn the_bandwidth_is_that_of_the_widest_entry() {
     let chain = structure!(5, |q, v| {
         let mut energy = 0.0;
-        for i in 0..5 {
-            energy += 0.5 * v[i] * v[i];
+        for v in v {
+            energy += 0.5 * v * v;
         }
         for i in 1..5 {
             energy -= (q[i] - q[i - 1]).powi(4);

@@ -94,3 +94,34 @@ fn a_user_function_that_panics() {
         assert_eq!((panics, &states), (1, &expected), "at call {at}");
     }
 }
+
+/// A run saved as text, in the middle, and read again goes on bit by bit as the one that was not interrupted; also one that had
+/// changed its step size, and one whose state is odd.
+#[test]
+fn a_saved_run_goes_on_bit_by_bit() {
+    let system = dalembert_tests::systems::DoublePendulum::EXAMPLE;
+    for start in [[1.1, -0.6], [1e-310, 1.0 / 3.0], [-0.0, 1e15 + 0.125]] {
+        let start = State { q: start.into(), p: vector![0.1, -1.0 / 7.0] };
+        let mut run = Trajectory::new(&system, Midpoint, 0.1, start);
+        run.by_ref().take(37).for_each(|step| assert!(step.is_ok()));
+        run.change_step_size(0.07);
+        run.by_ref().take(13).for_each(|step| assert!(step.is_ok()));
+        let text = serde_json::to_string(&run.checkpoint()).unwrap();
+        let mut resumed = Trajectory::resume(&system, Midpoint, serde_json::from_str(&text).unwrap());
+        assert_eq!(resumed.time().to_bits(), run.time().to_bits());
+        for _ in 0..200 {
+            let (a, b) = (run.next().unwrap().unwrap(), resumed.next().unwrap().unwrap());
+            assert_eq!(a.state.q.map(f64::to_bits), b.state.q.map(f64::to_bits));
+            assert_eq!(a.state.p.map(f64::to_bits), b.state.p.map(f64::to_bits));
+        }
+        assert_eq!(resumed.time().to_bits(), run.time().to_bits());
+    }
+    // The control: text that broke off is an error, not a state.
+    let checkpoint =
+        Trajectory::new(&system, Midpoint, 0.1, State { q: vector![0.1, 0.2], p: vector![0.3, 0.4] })
+            .checkpoint();
+    let text = serde_json::to_string(&checkpoint).unwrap();
+    for end in 0..text.len() {
+        assert!(serde_json::from_str::<dalembert::Checkpoint<f64, 2>>(&text[..end]).is_err(), "{end}");
+    }
+}
