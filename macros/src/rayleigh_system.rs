@@ -20,6 +20,7 @@ pub mod parse;
 mod rewrite;
 mod scope;
 mod syntax;
+mod view;
 
 use proc_macro2::TokenStream;
 

@@ -9,6 +9,7 @@ extern crate self as dalembert;
 
 mod derivatives;
 mod discrete;
+mod driven;
 mod error;
 mod fields;
 mod linear;
@@ -143,6 +144,7 @@ pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Var
 pub use discrete::{
     Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Report, Step, StepKernel,
 };
+pub use driven::{DiscreteDriven, Driven, MomentaBy};
 pub use error::{Quantity, StepError};
 pub use fields::{ScalarField, VectorField};
 pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix};

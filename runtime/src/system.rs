@@ -52,6 +52,18 @@ pub trait Lagrangian<const N: usize> {
         self.lagrangian_derivatives(q, v).variations(minus, plus)
     }
 
+    /// `evaluate` for the system as it is at the time `elapsed` from now.
+    ///
+    /// The same system, unless L, R or f take a time: rules call this so that every node of a segment sees its own.
+    #[inline]
+    fn later<T>(&self, elapsed: Self::Scalar, evaluate: impl FnOnce(&Self) -> T) -> T
+    where
+        Self: Sized,
+    {
+        let _ = elapsed;
+        evaluate(self)
+    }
+
     /// E_L(q, v) = v·∂L/∂v − L, the energy. Along the motion dE_L/dt = v·f_L.
     #[inline]
     fn energy(&self, q: &SVector<Self::Scalar, N>, v: &SVector<Self::Scalar, N>) -> Self::Scalar {

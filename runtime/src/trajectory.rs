@@ -11,6 +11,9 @@ use crate::{Discrete, Scalar, State, Step, StepError};
 /// An iterator over steps; it holds the present state and four mean velocities, from which it extrapolates the next
 /// (order 3) as the solver's guess. After an error it ends, its state being the last good one; another step size
 /// ([`Trajectory::change_step_size`]) lets it go on.
+///
+/// Where L, R or f take the time, each step sees its own: the time of the system given, `system.at_time(t)`, and what the
+/// trajectory has taken since.
 pub struct Trajectory<'a, L, R, const N: usize>
 where
     L: Discrete<R, N>,
@@ -63,7 +66,7 @@ impl<'a, L, R, const N: usize> Trajectory<'a, L, R, N>
 where
     L: Discrete<R, N>,
 {
-    /// The trajectory of `system` by `rule` with step size `h` from `state`, at time 0.
+    /// The trajectory of `system` by `rule` with step size `h` from `state`; its own time starts at 0.
     pub fn new(system: &'a L, _rule: R, h: L::Scalar, state: State<L::Scalar, N>) -> Self {
         Self {
             system,
@@ -123,11 +126,13 @@ where
             return None;
         }
         let guess = self.history.extrapolation();
-        let step = match (self.system.step(&self.state, self.h, guess.as_ref()), guess) {
-            // A guess that leads nowhere is not the step's fault: try again from rest.
-            (Err(_), Some(_)) => self.system.step(&self.state, self.h, None),
-            (step, _) => step,
-        };
+        let step = self.system.later(L::Scalar::constant(self.time()), |system| {
+            match (system.step(&self.state, self.h, guess.as_ref()), guess) {
+                // A guess that leads nowhere is not the step's fault: try again from rest.
+                (Err(_), Some(_)) => system.step(&self.state, self.h, None),
+                (step, _) => step,
+            }
+        });
         match &step {
             Ok(step) => {
                 self.state = step.state;

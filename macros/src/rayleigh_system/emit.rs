@@ -20,6 +20,8 @@ pub struct StraightLine {
     pub uses_coordinates: bool,
     /// Whether v occurs.
     pub uses_velocities: bool,
+    /// Whether u occurs.
+    pub uses_inputs: bool,
     /// The first word of each parameter that occurs.
     parameters: Vec<String>,
 }
@@ -31,7 +33,7 @@ impl StraightLine {
     }
 }
 
-/// The code for `outputs`. q and v are read as `q[0]`, `v[0]`; the names `taken` are not given to anything.
+/// The code for `outputs`. q, v and u are read as `q[0]`, `v[0]`, `u[0]`; the names `taken` are not given to anything.
 pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&str]) -> StraightLine {
     let nodes = graph.reachable(outputs.iter().copied());
     let mut uses = vec![0_u32; graph.len()];
@@ -51,17 +53,20 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
         typed: vec![false; graph.len()],
     };
     let mut statements = TokenStream::new();
-    let (mut uses_coordinates, mut uses_velocities, mut parameters) = (false, false, Vec::new());
+    let (mut uses_coordinates, mut uses_velocities, mut uses_inputs) = (false, false, false);
+    let mut parameters = Vec::new();
     for &node in &nodes {
         let operation = graph.operation(node);
         writer.typed[node.index()] = match operation {
             Operation::Constant(_) => false,
-            Operation::Coordinate(_) | Operation::Velocity(_) | Operation::Parameter(_) => true,
+            Operation::Parameter(_) => true,
+            operation if operation.is_variable() => true,
             operation => operation.arguments().any(|argument| writer.typed[argument.index()]),
         };
         match operation {
             Operation::Coordinate(_) => uses_coordinates = true,
             Operation::Velocity(_) => uses_velocities = true,
+            Operation::Input(_) => uses_inputs = true,
             Operation::Parameter(index) => {
                 parameters.extend(
                     graph.parameter(index).tokens.clone().into_iter().next().map(|word| word.to_string()),
@@ -70,10 +75,10 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
             _ => {}
         }
         let is_leaf = match operation {
-            Operation::Coordinate(_) | Operation::Velocity(_) | Operation::Constant(_) => true,
+            Operation::Constant(_) => true,
             // A local already.
             Operation::Parameter(index) => graph.parameter(index).is_word(),
-            _ => false,
+            operation => operation.is_variable(),
         };
         let is_paired = partner(graph, node, &nodes).is_some();
         let is_single = !is_paired
@@ -86,7 +91,7 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
         statements.extend(writer.statement(node, &nodes));
     }
     let outputs = outputs.iter().map(|&node| writer.expression(node).tokens).collect();
-    StraightLine { statements, outputs, uses_coordinates, uses_velocities, parameters }
+    StraightLine { statements, outputs, uses_coordinates, uses_velocities, uses_inputs, parameters }
 }
 
 /// The cosine of the angle that `node` is the sine of, or the other way about, if it comes later; and the angle.
@@ -178,6 +183,10 @@ impl Writer<'_> {
             Operation::Velocity(index) => {
                 let index = Literal::usize_unsuffixed(index);
                 (quote!(v[#index]), Binding::Atom)
+            }
+            Operation::Input(index) => {
+                let index = Literal::usize_unsuffixed(index);
+                (quote!(u[#index]), Binding::Atom)
             }
             Operation::Parameter(index) => (self.graph.parameter(index).tokens.clone(), Binding::Atom),
             Operation::Constant(bits) => self.constant(f64::from_bits(bits), false),

@@ -12,8 +12,9 @@ use syn::{
 
 use super::check::Field;
 use super::implement::{self, discrete, discrete_rayleigh};
-use super::model::{Function, RayleighArguments, Role, Source, System, simple_name};
+use super::model::{Function, Part, RayleighArguments, Role, Source, System, simple_name};
 use super::rewrite::{Twin, over};
+use super::view;
 
 /// The whole expansion: the user's item, its functions over dual numbers, and the system that they make.
 pub fn system(system: &System<'_>, twins: &[Twin]) -> TokenStream {
@@ -29,11 +30,13 @@ pub fn system(system: &System<'_>, twins: &[Twin]) -> TokenStream {
     let (scalar, n) = (&system.scalar, system.degrees.times(1));
     let conditions = conditions(system.source);
     let both = RayleighArguments::ConfigurationAndVelocity;
-    let lagrangian = implement::lagrangian(system, derivatives::of_function(system, "lagrangian", both));
+    let lagrangian = implement::lagrangian(system, derivatives::of_function(system, Part::Lagrangian, both));
     let rayleigh = system.rayleigh.map(|arguments| {
-        implement::rayleigh(system, arguments, derivatives::of_function(system, "rayleigh", arguments))
+        implement::rayleigh(system, arguments, derivatives::of_function(system, Part::Rayleigh, arguments))
     });
     let force = system.has_force.then(|| implement::force(system, derivatives::of_force(system)));
+    let driven = implement::driven(system, derivatives::by_input(system));
+    let view = view::definition(system);
     let discrete = system.rules.iter().map(|&rule| {
         let discrete = discrete(system, rule, None);
         let discrete_rayleigh = system.rayleigh.map(|_| discrete_rayleigh(system, rule));
@@ -42,6 +45,8 @@ pub fn system(system: &System<'_>, twins: &[Twin]) -> TokenStream {
     // Bodies stand apart from the implementations: the fewer names are imported beside a user's code, the fewer collide.
     quote! {
         #item
+
+        #view
 
         #(#conditions)*
         const _: () = {
@@ -58,6 +63,7 @@ pub fn system(system: &System<'_>, twins: &[Twin]) -> TokenStream {
             #lagrangian
             #rayleigh
             #force
+            #driven
             #(#discrete)*
         };
     }
@@ -181,6 +187,9 @@ pub fn imported(system: &System<'_>) -> Vec<Ident> {
     }
     if system.rayleigh.is_some() || system.has_force {
         names.extend(["DiscreteForce", "DiscreteForceDerivatives"]);
+    }
+    if system.input.is_some() {
+        names.extend(["DiscreteDriven", "Driven", "MomentaBy"]);
     }
     names.extend(system.rules.iter().map(|rule| rule.name()));
     names.sort_unstable();

@@ -15,17 +15,22 @@ use super::expand;
 use super::graph::{Graph, Node, Operation};
 use super::implement::{self, Kernel};
 use super::lower::{Lowered, MAX_NODES};
-use super::model::{Rule, Source, System};
+use super::model::{Home, Part, Rule, Source, System};
+use super::view;
 
 /// The whole expansion; nothing where the derivatives are too long to be written out.
 pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
-    let Lowered { graph, n, lagrangian, rayleigh, force } = lowered;
-    let mut code = Code { system, graph, n, derivation: Differentiation::default() };
+    let Lowered { graph, n, m, lagrangian, rayleigh, force } = lowered;
+    let mut code = Code { system, graph, n, m, derivation: Differentiation::default(), home: Home::System };
+    code.home = system.home_of(Part::Lagrangian);
     let of_lagrangian = implement::lagrangian(system, code.function("lagrangian", "l", lagrangian));
+    code.home = system.home_of(Part::Rayleigh);
     let of_rayleigh = system.rayleigh.zip(rayleigh).map(|(arguments, root)| {
         implement::rayleigh(system, arguments, code.function("rayleigh", "r", root))
     });
+    code.home = system.home();
     let of_force = force.as_ref().map(|components| implement::force(system, code.force(components)));
+    let by_input = force.as_ref().and_then(|components| implement::driven(system, code.by_input(components)));
     let discrete: TokenStream = system
         .rules
         .iter()
@@ -48,11 +53,14 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
             quote!(#item #structure)
         }
     };
+    let view = view::definition(system);
     let imports = imports(system);
     let conditions = expand::conditions(system.source);
     let (scalar, dimension) = (&system.scalar, system.degrees.times(1));
     Some(quote! {
         #item
+
+        #view
 
         #(#conditions)*
         const _: () = {
@@ -63,6 +71,7 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
             #of_lagrangian
             #of_rayleigh
             #of_force
+            #by_input
             #discrete
             #discrete_rayleigh
         };
@@ -83,7 +92,11 @@ struct Code<'s> {
     system: &'s System<'s>,
     graph: Graph,
     n: usize,
+    /// Entries of the input.
+    m: usize,
     derivation: Differentiation,
+    /// What the function being written stands on.
+    home: Home,
 }
 
 impl Code<'_> {
@@ -170,6 +183,34 @@ impl Code<'_> {
         }
     }
 
+    /// `force_by_input`; empty where there is no input.
+    fn by_input(&mut self, components: &[Node]) -> TokenStream {
+        let Some(m) = self.system.input.as_ref().map(|input| input.times(1)) else {
+            return TokenStream::new();
+        };
+        let scalar = &self.system.scalar;
+        let n = self.system.degrees.times(1);
+        let rows = self.rows(components);
+        let mut outputs = Vec::new();
+        for j in 0..self.m {
+            let variable = self.graph.node(Operation::Input(j));
+            for row in &rows {
+                outputs.push(self.or_zero(row.get(&variable).copied()));
+            }
+        }
+        let line = self.code(&outputs);
+        let columns = line.outputs.chunks(self.n).map(|column| quote!([#(#column),*]));
+        let (q, v, statements) =
+            (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
+        quote! {
+            #[inline]
+            fn force_by_input(&self, #q: &Vector, #v: &Vector) -> SMatrix<#scalar, #n, #m> {
+                #statements
+                SMatrix::from([#(#columns),*])
+            }
+        }
+    }
+
     /// The gradient of each component.
     fn rows(&mut self, components: &[Node]) -> Vec<Gradient> {
         components.iter().map(|&component| self.derivation.gradient(&mut self.graph, component)).collect()
@@ -204,13 +245,30 @@ impl Code<'_> {
         self.matrix(|code, i, j| code.second(of, (i, row_velocity), (j, column_velocity)))
     }
 
+    /// The code for `outputs` at (q, v), and at the view's own input and time.
     fn code(&self, outputs: &[Node]) -> StraightLine {
-        straight_line(
-            &self.graph,
-            &self.system.scalar,
-            outputs,
-            &["q", "v", "h", "half", "q0", "minus", "plus"],
-        )
+        let mut line = self.code_at_node(outputs);
+        if line.uses("t") {
+            let statements = &line.statements;
+            line.statements = quote!(let t = self.t; #statements);
+        }
+        line
+    }
+
+    /// The same, with the time left to the caller.
+    fn code_at_node(&self, outputs: &[Node]) -> StraightLine {
+        let taken = ["q", "v", "h", "half", "q0", "minus", "plus", "u", "t"];
+        // Without a view, u and t are free for the user's own names.
+        let taken = if self.home == Home::View { &taken[..] } else { &taken[..7] };
+        let mut line = straight_line(&self.graph, &self.system.scalar, outputs, taken);
+        if self.home == Home::View {
+            let seen = |tokens: TokenStream| view::seen_from_view(tokens, &self.system.name);
+            let statements = seen(line.statements);
+            let input = line.uses_inputs.then(|| quote!(let u = self.u;));
+            line.statements = quote!(#input #statements);
+            line.outputs = line.outputs.into_iter().map(seen).collect();
+        }
+        line
     }
 
     /// Splits outputs into scalars, vectors and matrices.

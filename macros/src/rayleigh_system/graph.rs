@@ -66,7 +66,7 @@ impl Graph {
         &self.parameters[index]
     }
 
-    /// Whether the value changes with q or v.
+    /// Whether the value changes with q, v or u.
     pub fn depends(&self, node: Node) -> bool {
         self.depends[node.index()]
     }
@@ -78,10 +78,8 @@ impl Graph {
 
     /// Names an expression, unless it has a name or needs none.
     pub fn give_name(&mut self, node: Node, name: &str) {
-        let needs_none = matches!(
-            self.operation(node),
-            Operation::Constant(_) | Operation::Coordinate(_) | Operation::Velocity(_)
-        );
+        let operation = self.operation(node);
+        let needs_none = operation.is_variable() || matches!(operation, Operation::Constant(_));
         if !needs_none {
             self.names.entry(node).or_insert_with(|| name.trim_start_matches('_').to_owned());
         }
@@ -94,10 +92,7 @@ impl Graph {
             return node;
         }
         let node = Node(u32::try_from(self.operations.len()).expect("graphs are limited to far fewer nodes"));
-        let depends = match operation {
-            Operation::Coordinate(_) | Operation::Velocity(_) => true,
-            _ => operation.arguments().any(|argument| self.depends(argument)),
-        };
+        let depends = operation.is_variable() || operation.arguments().any(|argument| self.depends(argument));
         self.operations.push(operation);
         self.depends.push(depends);
         self.nodes.insert(operation, node);

@@ -5,17 +5,20 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::expand::parameters;
-use super::model::{RayleighArguments, Rule, Source, System};
+use super::model::{Home, Part, RayleighArguments, Rule, Source, System};
+use super::view::{self, arguments, owner, subject};
 
 /// The plain value of L (0) or R (1) at the vectors q and v.
-fn value(system: &System<'_>, function: &str, arguments: RayleighArguments) -> TokenStream {
+fn value(system: &System<'_>, part: Part, point: RayleighArguments) -> TokenStream {
+    let function = if part == Part::Lagrangian { "lagrangian" } else { "rayleigh" };
     match system.source {
         Source::Block(_) => {
             let function = format_ident!("{function}");
-            match arguments {
-                RayleighArguments::Velocity => quote!(self.#function((*v).into())),
+            let (owner, after) = (owner(system.home_of(part)), arguments(system, part));
+            match point {
+                RayleighArguments::Velocity => quote!(#owner.#function((*v).into() #(, #after)*)),
                 RayleighArguments::ConfigurationAndVelocity => {
-                    quote!(self.#function((*q).into(), (*v).into()))
+                    quote!(#owner.#function((*q).into(), (*v).into() #(, #after)*))
                 }
             }
         }
@@ -34,12 +37,16 @@ fn value(system: &System<'_>, function: &str, arguments: RayleighArguments) -> T
 
 /// `impl Lagrangian<2> for Ring`, with the derivatives of either engine.
 pub fn lagrangian(system: &System<'_>, derivatives: TokenStream) -> TokenStream {
-    let System { name, scalar, .. } = system;
+    let scalar = &system.scalar;
     let n = system.degrees.times(1);
-    let value = value(system, "lagrangian", RayleighArguments::ConfigurationAndVelocity);
+    let home = system.home_of(Part::Lagrangian);
+    let subject = subject(system, home);
+    let later = if home == Home::View { view::later(system) } else { None };
+    let value = value(system, Part::Lagrangian, RayleighArguments::ConfigurationAndVelocity);
+    let delegation = view::delegation(system, Part::Lagrangian);
     quote! {
         #[automatically_derived]
-        impl Lagrangian<#n> for #name {
+        impl Lagrangian<#n> for #subject {
             type Scalar = #scalar;
 
             #[inline]
@@ -48,22 +55,28 @@ pub fn lagrangian(system: &System<'_>, derivatives: TokenStream) -> TokenStream 
             }
 
             #derivatives
+
+            #later
         }
+
+        #delegation
     }
 }
 
 /// `impl Rayleigh<2> for Ring`, with the derivatives of either engine.
-pub fn rayleigh(system: &System<'_>, arguments: RayleighArguments, derivatives: TokenStream) -> TokenStream {
-    let System { name, scalar, .. } = system;
+pub fn rayleigh(system: &System<'_>, point: RayleighArguments, derivatives: TokenStream) -> TokenStream {
+    let scalar = &system.scalar;
     let n = system.degrees.times(1);
-    let value = value(system, "rayleigh", arguments);
-    let q = match arguments {
+    let subject = subject(system, system.home_of(Part::Rayleigh));
+    let value = value(system, Part::Rayleigh, point);
+    let delegation = view::delegation(system, Part::Rayleigh);
+    let q = match point {
         RayleighArguments::Velocity => quote!(_q),
         RayleighArguments::ConfigurationAndVelocity => quote!(q),
     };
     quote! {
         #[automatically_derived]
-        impl Rayleigh<#n> for #name {
+        impl Rayleigh<#n> for #subject {
             #[inline]
             fn rayleigh(&self, #q: &Vector, v: &Vector) -> #scalar {
                 #value
@@ -71,24 +84,51 @@ pub fn rayleigh(system: &System<'_>, arguments: RayleighArguments, derivatives: 
 
             #derivatives
         }
+
+        #delegation
     }
 }
 
 /// `impl Force<2> for Ring`, with the derivatives of either engine.
 pub fn force(system: &System<'_>, derivatives: TokenStream) -> TokenStream {
-    let name = &system.name;
     let n = system.degrees.times(1);
+    let home = system.home_of(Part::Force);
+    let (subject, owner, after) = (subject(system, home), owner(home), arguments(system, Part::Force));
     quote! {
         #[automatically_derived]
-        impl Force<#n> for #name {
+        impl Force<#n> for #subject {
             #[inline]
             fn force(&self, q: &Vector, v: &Vector) -> Vector {
-                self.force((*q).into(), (*v).into()).into()
+                #owner.force((*q).into(), (*v).into() #(, #after)*).into()
             }
 
             #derivatives
         }
     }
+}
+
+/// `impl Driven<2, 1> for DrivenArm<'_>`, with the body of either engine.
+pub fn driven(system: &System<'_>, by_input: TokenStream) -> Option<TokenStream> {
+    let System { scalar, rules, .. } = system;
+    let (n, m) = (system.degrees.times(1), system.input.as_ref()?.times(1));
+    let subject = subject(system, Home::View);
+    let rules = rules.iter().map(|rule| format_ident!("{}", rule.name()));
+    Some(quote! {
+        #[automatically_derived]
+        impl Driven<#n, #m> for #subject {
+            #by_input
+        }
+
+        #(
+            #[automatically_derived]
+            impl DiscreteDriven<#rules, #n, #m> for #subject {
+                /// ∂p0/∂u = −∂f_d⁻/∂u and ∂p1/∂u = ∂f_d⁺/∂u.
+                fn momenta_by_input(&self, q0: &Vector, v: &Vector, h: #scalar) -> MomentaBy<#scalar, #n, #m> {
+                    #rules::force_by_input(self, q0, v, h)
+                }
+            }
+        )*
+    })
 }
 
 /// Bodies of the functions that a step calls, L, R and f together.
@@ -100,8 +140,9 @@ pub struct Kernel {
 /// `impl Discrete<Midpoint, 2> for Ring`: one term for each of L, R and f that the system has, unless an engine gives the
 /// kernel's bodies.
 pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> TokenStream {
-    let System { name, scalar, .. } = system;
+    let scalar = &system.scalar;
     let n = system.degrees.times(1);
+    let subject = subject(system, system.home());
     let lagrangian = rule.lagrangian();
     let force = rule.force(system.rayleigh.is_some(), system.has_force);
     let rule = format_ident!("{}", rule.name());
@@ -140,7 +181,7 @@ pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> Toke
     // p0 = −D1 L_d − f_d⁻: Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0, v, h)
     quote! {
         #[automatically_derived]
-        impl Discrete<#rule, #n> for #name {
+        impl Discrete<#rule, #n> for #subject {
             #[doc = #lagrangian]
             fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
                 #rule::discrete_lagrangian(self, q0, q1, h)
@@ -180,13 +221,14 @@ pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> Toke
 
 /// `impl DiscreteRayleigh<Midpoint, 2> for Ring`
 pub fn discrete_rayleigh(system: &System<'_>, rule: Rule) -> TokenStream {
-    let System { name, scalar, .. } = system;
+    let scalar = &system.scalar;
     let n = system.degrees.times(1);
+    let subject = subject(system, system.home());
     let rayleigh = rule.rayleigh();
     let rule = format_ident!("{}", rule.name());
     quote! {
         #[automatically_derived]
-        impl DiscreteRayleigh<#rule, #n> for #name {
+        impl DiscreteRayleigh<#rule, #n> for #subject {
             #[doc = #rayleigh]
             fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
                 #rule::discrete_rayleigh(self, q0, q1, h)

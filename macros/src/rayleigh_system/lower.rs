@@ -18,7 +18,7 @@ use syn::{Block, Expr, ExprLit, FnArg, Ident, ImplItem, ImplItemFn, Lit, Pat, Re
 
 use super::diagnostics::span_of;
 use super::graph::{Graph, Node, Operation};
-use super::model::{RayleighArguments, Source, System};
+use super::model::{Part, RayleighArguments, Source, System};
 use value::{Closure, Truth, Value, Written};
 
 /// Graphs beyond this are left to num-dual: their straight-line code would compile for minutes.
@@ -34,6 +34,8 @@ const MAX_DEPTH: usize = 64;
 pub struct Lowered {
     pub graph: Graph,
     pub n: usize,
+    /// Entries of the input.
+    pub m: usize,
     pub lagrangian: Node,
     pub rayleigh: Option<Node>,
     pub force: Option<Vec<Node>>,
@@ -72,18 +74,35 @@ pub fn system(system: &System<'_>) -> Result<Lowered> {
     let coordinates = (0..n).map(|i| Value::Real(lowering.graph.node(Operation::Coordinate(i)))).collect();
     let velocities = (0..n).map(|i| Value::Real(lowering.graph.node(Operation::Velocity(i)))).collect();
     let (q, v) = (Value::Sequence(coordinates), Value::Sequence(velocities));
+    let m = match &system.input {
+        None => 0,
+        Some(input) => lowering.length(&input.length)?,
+    };
+    let u = system.input.as_ref().map(|_| {
+        Value::Sequence((0..m).map(|i| Value::Real(lowering.graph.node(Operation::Input(i)))).collect())
+    });
+    // A local of the generated function.
+    let t = system.timed.any().then(|| Value::Real(lowering.graph.written(quote!(t))));
+    let timed = |part| t.clone().filter(|_| system.timed.of(part));
 
     let (lagrangian, rayleigh, force) = match system.source {
         Source::Block(_) => {
-            let lagrangian = lowering.root("lagrangian", vec![q.clone(), v.clone()])?;
+            let arguments = [q.clone(), v.clone()].into_iter().chain(timed(Part::Lagrangian)).collect();
+            let lagrangian = lowering.root("lagrangian", arguments)?;
             let rayleigh = match system.rayleigh {
                 None => None,
-                Some(RayleighArguments::Velocity) => Some(lowering.root("rayleigh", vec![v.clone()])?),
-                Some(RayleighArguments::ConfigurationAndVelocity) => {
-                    Some(lowering.root("rayleigh", vec![q.clone(), v.clone()])?)
+                Some(arguments) => {
+                    let q = (arguments == RayleighArguments::ConfigurationAndVelocity).then(|| q.clone());
+                    let arguments = q.into_iter().chain([v.clone()]).chain(timed(Part::Rayleigh)).collect();
+                    Some(lowering.root("rayleigh", arguments)?)
                 }
             };
-            let force = if system.has_force { Some(lowering.root("force", vec![q, v])?) } else { None };
+            let force = if system.has_force {
+                let arguments = [q, v].into_iter().chain(u).chain(timed(Part::Force)).collect();
+                Some(lowering.root("force", arguments)?)
+            } else {
+                None
+            };
             (lagrangian, rayleigh, force)
         }
         Source::Function(function) => {
@@ -111,7 +130,7 @@ pub fn system(system: &System<'_>) -> Result<Lowered> {
         Some(_) => return refuse(at, "the force is not an array whose entries can be told apart"),
         None => None,
     };
-    Ok(Lowered { graph: lowering.graph, n, lagrangian, rayleigh, force })
+    Ok(Lowered { graph: lowering.graph, n, m, lagrangian, rayleigh, force })
 }
 
 /// Whether the function has returned.

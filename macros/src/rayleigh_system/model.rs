@@ -146,6 +146,71 @@ pub struct System<'a> {
     pub bodies: Vec<ImplItemFn>,
     pub rayleigh: Option<RayleighArguments>,
     pub has_force: bool,
+    /// The number of entries of the force's input u, if it takes one.
+    pub input: Option<Degrees>,
+    /// Which functions take the time t.
+    pub timed: Timed,
+}
+
+/// L, R or f.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    Lagrangian,
+    Rayleigh,
+    Force,
+}
+
+/// Which functions take the time t.
+#[derive(Clone, Copy, Default)]
+pub struct Timed {
+    pub lagrangian: bool,
+    pub rayleigh: bool,
+    pub force: bool,
+}
+
+impl Timed {
+    pub fn any(self) -> bool {
+        self.lagrangian || self.rayleigh || self.force
+    }
+
+    pub fn of(self, part: Part) -> bool {
+        match part {
+            Part::Lagrangian => self.lagrangian,
+            Part::Rayleigh => self.rayleigh,
+            Part::Force => self.force,
+        }
+    }
+}
+
+/// What the runtime's traits are implemented for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Home {
+    /// The user's type.
+    System,
+    /// The generated view of it with the input held and the time set.
+    View,
+}
+
+impl System<'_> {
+    /// Whether u or t occurs: then a step is that of a view.
+    pub fn has_view(&self) -> bool {
+        self.input.is_some() || self.timed.any()
+    }
+
+    /// Where L_d, f_d and the step stand.
+    pub fn home(&self) -> Home {
+        if self.has_view() { Home::View } else { Home::System }
+    }
+
+    /// Where L, R or f stands: on the system wherever neither u nor t is needed.
+    pub fn home_of(&self, part: Part) -> Home {
+        let needs_view = match part {
+            Part::Lagrangian => self.timed.lagrangian,
+            Part::Rayleigh => self.timed.lagrangian || self.timed.rayleigh,
+            Part::Force => self.has_view(),
+        };
+        if needs_view { Home::View } else { Home::System }
+    }
 }
 
 /// What the Rayleigh function takes.

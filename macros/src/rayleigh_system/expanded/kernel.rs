@@ -42,11 +42,11 @@ impl Code<'_> {
         let p1 = self.with_force(&after.gradient, plus, force);
         let p0_by_v = self.by_velocity(&before, minus, plus, &by_v);
 
-        let line = self.code(&[&p0[..], &p0_by_v].concat());
+        let line = self.code_at_node(&[&p0[..], &p0_by_v].concat());
         let [value, matrix] = self.parts(&line.outputs, [Shape::Vector, Shape::Matrix]);
         let step_kernel = self.at_midpoint(&line, quote!(StepKernel { p0: #value, matrix: #matrix }));
 
-        let line = self.code(&[p0, p1].concat());
+        let line = self.code_at_node(&[p0, p1].concat());
         let [p0, p1] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
         let momenta = self.at_midpoint(&line, quote!(Momenta { p0: #p0, p1: #p1 }));
         Some(Kernel { step_kernel, momenta })
@@ -110,7 +110,10 @@ impl Code<'_> {
 
     /// The code with h/2 and q̄ in front, as far as it reads them.
     fn at_midpoint(&self, line: &StraightLine, result: TokenStream) -> TokenStream {
-        let half = (line.uses_coordinates || line.uses("half")).then(|| quote!(let half = 0.5 * h;));
+        let uses_time = line.uses("t");
+        let half =
+            (line.uses_coordinates || line.uses("half") || uses_time).then(|| quote!(let half = 0.5 * h;));
+        let t = uses_time.then(|| quote!(let t = self.t + half;));
         let q = line.uses_coordinates.then(|| {
             let index = (0..self.n).map(Literal::usize_unsuffixed);
             let entries = index.map(|index| quote!(q0[#index] + half * v[#index]));
@@ -132,6 +135,7 @@ impl Code<'_> {
             #unused
             #half
             #q
+            #t
             #statements
             #result
         }

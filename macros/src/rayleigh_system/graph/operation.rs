@@ -9,6 +9,8 @@ pub enum Operation {
     Coordinate(usize),
     /// vᵢ.
     Velocity(usize),
+    /// uᵢ, an entry of the input.
+    Input(usize),
     /// See [`Parameter`](super::Parameter).
     Parameter(usize),
     /// A number, by its bits in `f64`.
@@ -33,6 +35,11 @@ pub enum Operation {
 }
 
 impl Operation {
+    /// Whether it is what derivatives are taken by.
+    pub fn is_variable(self) -> bool {
+        matches!(self, Self::Coordinate(_) | Self::Velocity(_) | Self::Input(_))
+    }
+
     /// The same operation with the arguments of a commutative one in order: equal to the last bit.
     pub fn ordered(self) -> Self {
         match self {
@@ -44,7 +51,11 @@ impl Operation {
 
     pub fn arguments(self) -> impl Iterator<Item = Node> {
         let arguments = match self {
-            Self::Coordinate(_) | Self::Velocity(_) | Self::Parameter(_) | Self::Constant(_) => [None; 3],
+            Self::Coordinate(_)
+            | Self::Velocity(_)
+            | Self::Input(_)
+            | Self::Parameter(_)
+            | Self::Constant(_) => [None; 3],
             Self::Negate(a) | Self::Function(_, a) | Self::Power(a, _) | Self::Is(_, a) | Self::Not(a) => {
                 [Some(a), None, None]
             }
