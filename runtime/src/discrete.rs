@@ -105,7 +105,8 @@ pub struct Step<S, const N: usize> {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not discretised by `{R}`",
     label = "no discrete system by `{R}`",
-    note = "list the rule in the attribute: `#[rayleigh_system(rule = [midpoint, trapezoidal])]`"
+    note = "list the rule in the attribute: `#[rayleigh_system(rule = [midpoint, trapezoidal])]`",
+    note = "a system whose force takes an input is stepped as `system.driven(u)`, one that takes the time as `system.at_time(t)` or `system.driven(u, t)`"
 )]
 pub trait Discrete<R, const N: usize>: Lagrangian<N> {
     /// L_d(q0, q1, h).

@@ -16,12 +16,12 @@ pub(crate) struct Singular {
     pub(crate) column: usize,
 }
 
-/// The solution x of `matrix` x = `right`.
+/// The solution x of `matrix` x = `right`, column by column of the right side, with one elimination.
 #[inline]
-pub(crate) fn solve<S: Scalar, const N: usize>(
+pub(crate) fn solve<S: Scalar, const N: usize, const C: usize>(
     matrix: &SMatrix<S, N, N>,
-    right: &SVector<S, N>,
-) -> Result<SVector<S, N>, Singular> {
+    right: &SMatrix<S, N, C>,
+) -> Result<SMatrix<S, N, C>, Singular> {
     let x = closed_form(matrix, right);
     match x {
         Some(x) => Ok(x),
@@ -31,21 +31,23 @@ pub(crate) fn solve<S: Scalar, const N: usize>(
 
 /// Says whether `matrix` can be solved with.
 pub(crate) fn require_regular<S: Scalar, const N: usize>(matrix: &SMatrix<S, N, N>) -> Result<(), Singular> {
-    solve(matrix, &SVector::zeros()).map(|_| ())
+    solve(matrix, &SVector::<S, N>::zeros()).map(|_| ())
 }
 
 /// One or two coordinates; nothing if N > 2, or if the determinant cancels.
 ///
 /// |ad − bc| is held against |ad| + |bc|: scaling rows or columns changes neither verdict.
 #[inline]
-fn closed_form<S: Scalar, const N: usize>(
+fn closed_form<S: Scalar, const N: usize, const C: usize>(
     matrix: &SMatrix<S, N, N>,
-    right: &SVector<S, N>,
-) -> Option<SVector<S, N>> {
+    right: &SMatrix<S, N, C>,
+) -> Option<SMatrix<S, N, C>> {
     let mut x = *right;
     match N {
         1 => {
-            x[0] = right[0] / matrix[0];
+            for c in 0..C {
+                x[c] = right[c] / matrix[0];
+            }
             (matrix[0] != S::zero() && matrix[0].is_finite()).then_some(x)
         }
         2 => {
@@ -53,8 +55,10 @@ fn closed_form<S: Scalar, const N: usize>(
             let (ad, bc) = (a * d, b * c);
             let determinant = ad - bc;
             let reciprocal = S::one() / determinant;
-            x[0] = (d * right[0] - b * right[1]) * reciprocal;
-            x[1] = (a * right[1] - c * right[0]) * reciprocal;
+            for i in (0..2 * C).step_by(2) {
+                x[i] = (d * right[i] - b * right[i + 1]) * reciprocal;
+                x[i + 1] = (a * right[i + 1] - c * right[i]) * reciprocal;
+            }
             let carries_digits = determinant.abs() > (ad.abs() + bc.abs()) * (S::EPSILON * S::constant(16.0));
             (carries_digits && reciprocal.is_finite() && reciprocal != S::zero()).then_some(x)
         }
@@ -68,10 +72,10 @@ const SUSPICIOUS: f64 = 1e-6;
 /// Elimination with row exchanges; pivots are chosen relative to their rows.
 #[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a NaN pivot must fail the comparison")]
 #[expect(clippy::needless_range_loop, reason = "rows k and i of one array are used together")]
-fn eliminate<S: Scalar, const N: usize>(
+fn eliminate<S: Scalar, const N: usize, const C: usize>(
     matrix: &SMatrix<S, N, N>,
-    right: &SVector<S, N>,
-) -> Result<SVector<S, N>, Singular> {
+    right: &SMatrix<S, N, C>,
+) -> Result<SMatrix<S, N, C>, Singular> {
     let mut rows: [[S; N]; N] = array::from_fn(|i| array::from_fn(|j| matrix[(i, j)]));
     let mut order: [usize; N] = array::from_fn(|i| i);
     let mut scale: [S; N] = array::from_fn(|i| inverse_magnitude(&rows[i]));
@@ -109,19 +113,23 @@ fn eliminate<S: Scalar, const N: usize>(
                 let upper = rows[k][j];
                 rows[i][j] -= factor * upper;
             }
-            let known = x[k];
-            x[i] -= factor * known;
+            for c in 0..C {
+                let known = x[(k, c)];
+                x[(i, c)] -= factor * known;
+            }
         }
     }
     if suspicious {
         check_cancellation(matrix, &rows, &order)?;
     }
-    for i in (0..N).rev() {
-        for j in i + 1..N {
-            let known = x[j];
-            x[i] -= rows[i][j] * known;
+    for c in 0..C {
+        for i in (0..N).rev() {
+            for j in i + 1..N {
+                let known = x[(j, c)];
+                x[(i, c)] -= rows[i][j] * known;
+            }
+            x[(i, c)] *= reciprocals[i];
         }
-        x[i] *= reciprocals[i];
     }
     Ok(x)
 }

@@ -14,7 +14,8 @@ use crate::{CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, Varia
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a Lagrangian system with N = {N}",
     label = "no Lagrangian",
-    note = "put `#[rayleigh_system]` on an `impl` block of `{Self}` with `fn lagrangian(&self, q: [f64; {N}], v: [f64; {N}]) -> f64`"
+    note = "put `#[rayleigh_system]` on an `impl` block of `{Self}` with `fn lagrangian(&self, q: [f64; {N}], v: [f64; {N}]) -> f64`",
+    note = "a system whose L takes the time has its Lagrangian at a time: `system.at_time(t)`, or `system.driven(u, t)` with an input"
 )]
 pub trait Lagrangian<const N: usize> {
     /// `f64` or `f32`.

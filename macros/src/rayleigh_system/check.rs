@@ -314,6 +314,10 @@ fn force_signature(
                 [] => (None, false),
                 [(_, t)] if is(t, &shape.scalar) => (None, true),
                 [(_, u)] => (input(u, shape, report), false),
+                [(_, t), (_, Type::Array(_))] if is(t, &shape.scalar) => {
+                    report.at(t, Mistake::NotAnInput { scalar: shape.scalar.to_string() });
+                    (None, true)
+                }
                 [(_, u), rest @ ..] => {
                     (input(u, shape, report), rest.iter().all(|(_, t)| time(t, shape, report)))
                 }

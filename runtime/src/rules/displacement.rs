@@ -12,7 +12,8 @@ use nalgebra::SVector;
 
 use crate::discrete::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
 use crate::{
-    CovectorDerivatives, Derivatives, Direction, Driven, Force, Lagrangian, MomentaBy, Rayleigh, Scalar,
+    CovectorDerivatives, Derivatives, Direction, Driven, Force, Hessian, Lagrangian, MomentaBy, Parameters,
+    Rayleigh, Scalar, SecondOrder,
 };
 
 /// A node of the quadrature over one segment.
@@ -40,6 +41,14 @@ impl<S: Scalar, const N: usize> Sample<S, N> {
     #[inline]
     fn time(&self, h: S) -> S {
         self.position * h
+    }
+
+    /// Second derivatives by q0 and q1 from those by (q, v) at the node.
+    #[inline]
+    fn on_segment<const M: usize>(&self, by_node: &Hessian<S, N, M>, h: S) -> Hessian<S, N, M> {
+        let by_q0 = Direction { first: S::one() - self.position, second: -S::one() / h };
+        let by_q1 = Direction { first: self.position, second: S::one() / h };
+        by_node.pull_back(by_q0, by_q1)
     }
 }
 
@@ -291,6 +300,102 @@ pub trait DisplacementRule: Copy {
             let f =
                 system.later(node.time(h), |system| system.force_by_input(&node.q, v)) * (h * node.weight);
             sum + MomentaBy { p0: f * (node.position - L::Scalar::constant(1.0)), p1: f * node.position }
+        })
+    }
+
+    /// What parameters of L move in both momenta.
+    #[inline]
+    fn lagrangian_by_parameters<L: Parameters<N, P>, const N: usize, const P: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> MomentaBy<L::Scalar, N, P> {
+        on_velocity::<Self, _, N>(q0, v, h).fold(MomentaBy::zero(), |sum, node| {
+            let l = system.later(node.time(h), |system| system.lagrangian_by_parameters(&node.q, v));
+            let along = |direction: Direction<L::Scalar>| l.d1 * direction.first + l.d2 * direction.second;
+            sum + MomentaBy { p0: along(node.minus) * node.weight, p1: along(node.plus) * node.weight }
+        })
+    }
+
+    /// What parameters of R move in both momenta.
+    #[inline]
+    fn rayleigh_by_parameters<L: Parameters<N, P>, const N: usize, const P: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> MomentaBy<L::Scalar, N, P> {
+        let half = h * L::Scalar::constant(0.5);
+        on_velocity::<Self, _, N>(q0, v, h).fold(MomentaBy::zero(), |sum, node| {
+            let r = system.later(node.time(h), |system| system.rayleigh_by_parameters(&node.q, v));
+            let along = |direction: Direction<L::Scalar>| r.d1 * direction.first + r.d2 * direction.second;
+            let weight = half * node.weight;
+            sum + MomentaBy { p0: along(node.minus) * weight, p1: along(node.plus) * -weight }
+        })
+    }
+
+    /// What parameters of the general force move in both momenta.
+    #[inline]
+    fn force_by_parameters<L: Parameters<N, P>, const N: usize, const P: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> MomentaBy<L::Scalar, N, P> {
+        on_velocity::<Self, _, N>(q0, v, h).fold(MomentaBy::zero(), |sum, node| {
+            let f = system.later(node.time(h), |system| system.force_by_parameters(&node.q, v))
+                * (h * node.weight);
+            sum + MomentaBy { p0: f * (node.position - L::Scalar::constant(1.0)), p1: f * node.position }
+        })
+    }
+
+    /// Second derivatives by q0 and q1 of what L adds to `a`·p0 + `b`·p1.
+    #[inline]
+    fn lagrangian_along<L: SecondOrder<N, M>, const N: usize, const M: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+        [a, b]: [&SVector<L::Scalar, N>; 2],
+    ) -> Hessian<L::Scalar, N, M> {
+        on_velocity::<Self, _, N>(q0, v, h).fold(Hessian::zero(), |sum, node| {
+            let (by_q, by_v) = (a * node.minus.first + b * node.plus.first, a + b);
+            let l = system.later(node.time(h), |system| system.lagrangian_along(&node.q, v, &by_q, &by_v));
+            sum + node.on_segment(&l, h) * node.weight
+        })
+    }
+
+    /// Second derivatives by q0 and q1 of what R adds to `a`·p0 + `b`·p1.
+    #[inline]
+    fn rayleigh_along<L: SecondOrder<N, M>, const N: usize, const M: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+        [a, b]: [&SVector<L::Scalar, N>; 2],
+    ) -> Hessian<L::Scalar, N, M> {
+        let half = h * L::Scalar::constant(0.5);
+        on_velocity::<Self, _, N>(q0, v, h).fold(Hessian::zero(), |sum, node| {
+            let (by_q, by_v) = (a * node.minus.first - b * node.plus.first, a - b);
+            let r = system.later(node.time(h), |system| system.rayleigh_along(&node.q, v, &by_q, &by_v));
+            sum + node.on_segment(&r, h) * (half * node.weight)
+        })
+    }
+
+    /// Second derivatives by q0, q1 and u of what the general force adds to `a`·p0 + `b`·p1.
+    #[inline]
+    fn force_along<L: SecondOrder<N, M>, const N: usize, const M: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+        [a, b]: [&SVector<L::Scalar, N>; 2],
+    ) -> Hessian<L::Scalar, N, M> {
+        on_velocity::<Self, _, N>(q0, v, h).fold(Hessian::zero(), |sum, node| {
+            let vector = a * (node.position - L::Scalar::constant(1.0)) + b * node.position;
+            let f = system.later(node.time(h), |system| system.force_along(&node.q, v, &vector));
+            sum + node.on_segment(&f, h) * (h * node.weight)
         })
     }
 
