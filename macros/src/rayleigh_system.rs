@@ -34,12 +34,22 @@ pub fn rayleigh_system(attribute: TokenStream, item: TokenStream) -> TokenStream
     let Some(source) = parse::source(item.clone(), &mut report) else {
         return fallback::item_alone(item, report);
     };
-    let Some(system) = check::system(&source, options.rules.clone(), &mut report) else {
+    let Some(mut system) = check::system(&source, options.rules.clone(), &mut report) else {
         return fallback::with_stubs(&source, &options.rules, report);
     };
-    if options.engine == Engine::Expanded && report.is_empty() {
+    system.parameters = options.parameters;
+    system.second = options.second;
+    // Parameters are differentiated by nothing else.
+    let is_expanded = options.engine == Engine::Expanded || !system.parameters.is_empty();
+    if is_expanded && report.is_empty() {
         let expansion = match lower::system(&system) {
-            Ok(lowered) => expanded::system(&system, lowered).ok_or((source.name().span(), Mistake::TooLong)),
+            Ok(lowered) => {
+                lower::parameters(&system, &lowered, &mut report);
+                if !report.is_empty() {
+                    return fallback::with_stubs(&source, &options.rules, report);
+                }
+                expanded::system(&system, lowered).ok_or((source.name().span(), Mistake::TooLong))
+            }
             Err(refusal) => Err((refusal.span, Mistake::NotLowered(refusal.reason))),
         };
         return expansion.unwrap_or_else(|(span, mistake)| {

@@ -10,6 +10,7 @@ mod lift;
 mod operators;
 mod primitive;
 mod real;
+mod second_order;
 
 use core::array;
 
@@ -24,6 +25,7 @@ pub use lift::{
 };
 pub use primitive::Primitive;
 pub use real::Real;
+pub use second_order::{hessian_along, hessian_of_product};
 
 /// A number that carries derivatives, over the scalar `F`: `f64`, `f32` or a num-dual number on them.
 #[diagnostic::on_unimplemented(

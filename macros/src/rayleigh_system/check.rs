@@ -77,6 +77,8 @@ fn block<'a>(source: &'a Source, rules: Vec<Rule>, report: &mut Report) -> Optio
         has_force: force.is_some(),
         input: input.map(|length| Degrees { length, system: source.name().clone() }),
         timed,
+        parameters: Vec::new(),
+        second: false,
     })
 }
 
@@ -188,6 +190,8 @@ fn function_system<'a>(
         has_force: false,
         input: None,
         timed: Timed::default(),
+        parameters: Vec::new(),
+        second: false,
     }
 }
 

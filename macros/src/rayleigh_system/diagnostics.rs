@@ -71,6 +71,11 @@ pub enum Mistake {
     RepeatedRule(String),
     NoRule,
     UnknownEngine(String),
+    UnknownOrder,
+    NoParameters,
+    ParametersByNumDual,
+    NoSuchParameter(String),
+    HiddenParameter { parameter: String, within: String },
     NotLowered(String),
     TooLong,
     // The item.
@@ -134,12 +139,17 @@ pub enum Mistake {
 impl Display for Mistake {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::UnknownOption => f.write_str("unknown option; write `rule = midpoint`, `rule = trapezoidal`, a list `rule = [midpoint, trapezoidal]`, or `derivatives = auto`, `expanded`, `num_dual`"),
+            Self::UnknownOption => f.write_str("unknown option; write `rule = midpoint`, `rule = trapezoidal`, a list `rule = [midpoint, trapezoidal]`, `derivatives = auto`, `expanded`, `num_dual`, `parameters = [m, k]`, or `step_derivatives = second`"),
             Self::UnknownRule(rule) => write!(f, "unknown rule `{rule}`; the rules are `midpoint` and `trapezoidal`"),
             Self::RepeatedRule(rule) => write!(f, "rule `{rule}` is listed twice; remove one"),
             Self::NoRule => f.write_str("no rule is listed; write at least one, or leave the option out for `midpoint`"),
             Self::UnknownEngine(engine) if engine.is_empty() => f.write_str("write one of `derivatives = auto`, `expanded`, `num_dual`"),
             Self::UnknownEngine(engine) => write!(f, "unknown engine `{engine}`; write `derivatives = auto`, `expanded` or `num_dual`"),
+            Self::UnknownOrder => f.write_str("write `step_derivatives = first` or `step_derivatives = second`"),
+            Self::NoParameters => f.write_str("no parameter is listed; write fields of the system, such as `parameters = [m, k]`, or leave the option out"),
+            Self::ParametersByNumDual => f.write_str("derivatives by parameters are written out at compile time; use `derivatives = expanded` with them"),
+            Self::NoSuchParameter(parameter) => write!(f, "neither L, R nor f reads the number `self.{parameter}`; list fields that they read, entries of an array one by one, such as `c[0]`"),
+            Self::HiddenParameter { parameter, within } => write!(f, "`{within}` hides how it depends on `{parameter}`; read the number itself, such as `self.{parameter}`"),
             Self::NotLowered(reason) => write!(f, "derivatives cannot be written out: {reason}; or leave the derivatives to `derivatives = num_dual`"),
             Self::TooLong => f.write_str("the derivatives are too long to be written out; use `derivatives = num_dual`"),
 

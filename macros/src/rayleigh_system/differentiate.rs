@@ -88,7 +88,7 @@ impl Differentiation {
                 graph.give_name(adjoint, &format!("d{symbol}_d{name}"));
             }
             let local = match graph.operation(node) {
-                operation if operation.is_variable() => continue,
+                operation if graph.is_variable(operation) => continue,
                 Operation::Select(condition, a, b) => self.selected(graph, condition, a, b, order),
                 operation => partials(graph, node, operation, order),
             };
@@ -119,7 +119,10 @@ impl Differentiation {
             match graph.operation(node) {
                 // Derivatives by the variables themselves, whichever they are.
                 Operation::Select(_, a, b) => open.extend(
-                    graph.reachable([a, b]).into_iter().filter(|&node| graph.operation(node).is_variable()),
+                    graph
+                        .reachable([a, b])
+                        .into_iter()
+                        .filter(|&node| graph.is_variable(graph.operation(node))),
                 ),
                 operation => open.extend(operation.arguments()),
             }

@@ -59,8 +59,10 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
         let operation = graph.operation(node);
         writer.typed[node.index()] = match operation {
             Operation::Constant(_) => false,
-            Operation::Parameter(_) => true,
-            operation if operation.is_variable() => true,
+            Operation::Coordinate(_)
+            | Operation::Velocity(_)
+            | Operation::Input(_)
+            | Operation::Parameter(_) => true,
             operation => operation.arguments().any(|argument| writer.typed[argument.index()]),
         };
         match operation {
@@ -75,10 +77,9 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
             _ => {}
         }
         let is_leaf = match operation {
-            Operation::Constant(_) => true,
             // A local already.
             Operation::Parameter(index) => graph.parameter(index).is_word(),
-            operation => operation.is_variable(),
+            operation => operation.is_literal(),
         };
         let is_paired = partner(graph, node, &nodes).is_some();
         let is_single = !is_paired

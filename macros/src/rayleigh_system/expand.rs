@@ -36,6 +36,7 @@ pub fn system(system: &System<'_>, twins: &[Twin]) -> TokenStream {
     });
     let force = system.has_force.then(|| implement::force(system, derivatives::of_force(system)));
     let driven = implement::driven(system, derivatives::by_input(system));
+    let second = system.second.then(|| implement::second_order(system, derivatives::along_vectors(system)));
     let view = view::definition(system);
     let discrete = system.rules.iter().map(|&rule| {
         let discrete = discrete(system, rule, None);
@@ -64,6 +65,7 @@ pub fn system(system: &System<'_>, twins: &[Twin]) -> TokenStream {
             #rayleigh
             #force
             #driven
+            #second
             #(#discrete)*
         };
     }
@@ -189,7 +191,16 @@ pub fn imported(system: &System<'_>) -> Vec<Ident> {
         names.extend(["DiscreteForce", "DiscreteForceDerivatives"]);
     }
     if system.input.is_some() {
-        names.extend(["DiscreteDriven", "Driven", "MomentaBy"]);
+        names.extend(["DiscreteDriven", "Driven"]);
+    }
+    if !system.parameters.is_empty() {
+        names.extend(["DiscreteParameters", "GradientBy", "Parameters"]);
+    }
+    if system.input.is_some() || !system.parameters.is_empty() {
+        names.push("MomentaBy");
+    }
+    if system.second {
+        names.extend(["DiscreteSecondOrder", "Hessian", "SecondOrder"]);
     }
     names.extend(system.rules.iter().map(|rule| rule.name()));
     names.sort_unstable();

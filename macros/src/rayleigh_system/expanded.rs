@@ -4,6 +4,7 @@
 
 mod directions;
 mod kernel;
+mod sensitivity;
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
@@ -31,6 +32,7 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
     code.home = system.home();
     let of_force = force.as_ref().map(|components| implement::force(system, code.force(components)));
     let by_input = force.as_ref().and_then(|components| implement::driven(system, code.by_input(components)));
+    let on_request = code.on_request(lagrangian, rayleigh, force.as_deref());
     let discrete: TokenStream = system
         .rules
         .iter()
@@ -74,6 +76,7 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
             #by_input
             #discrete
             #discrete_rayleigh
+            #on_request
         };
     })
 }
@@ -183,6 +186,30 @@ impl Code<'_> {
         }
     }
 
+    /// Derivatives by parameters and second derivatives of the step, as far as the attribute asks for them.
+    fn on_request(
+        &mut self,
+        lagrangian: Node,
+        rayleigh: Option<Node>,
+        force: Option<&[Node]>,
+    ) -> TokenStream {
+        let parts = [(Part::Lagrangian, Some(lagrangian)), (Part::Rayleigh, rayleigh)];
+        let parts = parts.into_iter().filter_map(|(part, root)| root.map(|root| (part, root)));
+        let by_parameters = (!self.system.parameters.is_empty()).then(|| {
+            let mut functions: TokenStream =
+                parts.clone().map(|(part, root)| self.by_parameters(part, root)).collect();
+            functions.extend(force.map(|components| self.force_by_parameters(components)));
+            implement::by_parameters(self.system, functions)
+        });
+        let second = self.system.second.then(|| {
+            let mut functions: TokenStream =
+                parts.map(|(part, root)| self.along_vectors(part, root)).collect();
+            functions.extend(force.map(|components| self.force_along(components)));
+            implement::second_order(self.system, functions)
+        });
+        quote!(#by_parameters #second)
+    }
+
     /// `force_by_input`; empty where there is no input.
     fn by_input(&mut self, components: &[Node]) -> TokenStream {
         let Some(m) = self.system.input.as_ref().map(|input| input.times(1)) else {
@@ -247,7 +274,12 @@ impl Code<'_> {
 
     /// The code for `outputs` at (q, v), and at the view's own input and time.
     fn code(&self, outputs: &[Node]) -> StraightLine {
-        let mut line = self.code_at_node(outputs);
+        self.code_taking(outputs, &[])
+    }
+
+    /// The same in a function with further parameters.
+    fn code_taking(&self, outputs: &[Node], parameters: &[&str]) -> StraightLine {
+        let mut line = self.code_at_node(outputs, parameters);
         if line.uses("t") {
             let statements = &line.statements;
             line.statements = quote!(let t = self.t; #statements);
@@ -256,11 +288,14 @@ impl Code<'_> {
     }
 
     /// The same, with the time left to the caller.
-    fn code_at_node(&self, outputs: &[Node]) -> StraightLine {
-        let taken = ["q", "v", "h", "half", "q0", "minus", "plus", "u", "t"];
+    fn code_at_node(&self, outputs: &[Node], parameters: &[&str]) -> StraightLine {
+        let mut taken = vec!["q", "v", "h", "half", "q0", "minus", "plus"];
         // Without a view, u and t are free for the user's own names.
-        let taken = if self.home == Home::View { &taken[..] } else { &taken[..7] };
-        let mut line = straight_line(&self.graph, &self.system.scalar, outputs, taken);
+        if self.home == Home::View {
+            taken.extend(["u", "t"]);
+        }
+        taken.extend(parameters);
+        let mut line = straight_line(&self.graph, &self.system.scalar, outputs, &taken);
         if self.home == Home::View {
             let seen = |tokens: TokenStream| view::seen_from_view(tokens, &self.system.name);
             let statements = seen(line.statements);

@@ -14,6 +14,8 @@ pub mod interpret;
 use std::collections::{BTreeMap, HashMap};
 
 use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
+use quote::quote;
+use syn::Expr;
 
 pub use operation::{Comparison, Function, Operation, PairFunction, Predicate};
 
@@ -33,6 +35,8 @@ pub struct Parameter {
     pub tokens: TokenStream,
     /// The same as text: equal texts are one parameter.
     text: String,
+    /// Whether derivatives are taken by it.
+    is_listed: bool,
 }
 
 impl Parameter {
@@ -78,8 +82,7 @@ impl Graph {
 
     /// Names an expression, unless it has a name or needs none.
     pub fn give_name(&mut self, node: Node, name: &str) {
-        let operation = self.operation(node);
-        let needs_none = operation.is_variable() || matches!(operation, Operation::Constant(_));
+        let needs_none = self.operation(node).is_literal();
         if !needs_none {
             self.names.entry(node).or_insert_with(|| name.trim_start_matches('_').to_owned());
         }
@@ -92,7 +95,8 @@ impl Graph {
             return node;
         }
         let node = Node(u32::try_from(self.operations.len()).expect("graphs are limited to far fewer nodes"));
-        let depends = operation.is_variable() || operation.arguments().any(|argument| self.depends(argument));
+        let depends =
+            self.is_variable(operation) || operation.arguments().any(|argument| self.depends(argument));
         self.operations.push(operation);
         self.depends.push(depends);
         self.nodes.insert(operation, node);
@@ -121,10 +125,35 @@ impl Graph {
         let tokens = with_own_self(tokens);
         let text = tokens.to_string();
         let index = self.parameters.iter().position(|known| known.text == text).unwrap_or_else(|| {
-            self.parameters.push(Parameter { tokens, text });
+            self.parameters.push(Parameter { tokens, text, is_listed: false });
             self.parameters.len() - 1
         });
         self.node(Operation::Parameter(index))
+    }
+
+    /// The parameter `self.m` for the expression `m`, from now on one that derivatives are taken by.
+    pub fn listed(&mut self, expression: &Expr) -> Node {
+        let tokens = with_own_self(quote!(self.#expression));
+        let text = tokens.to_string();
+        let index = self.parameters.iter().position(|known| known.text == text).unwrap_or_else(|| {
+            self.parameters.push(Parameter { tokens, text, is_listed: true });
+            self.parameters.len() - 1
+        });
+        self.node(Operation::Parameter(index))
+    }
+
+    /// Whether the operation is what derivatives are taken by.
+    pub fn is_variable(&self, operation: Operation) -> bool {
+        match operation {
+            Operation::Coordinate(_) | Operation::Velocity(_) | Operation::Input(_) => true,
+            Operation::Parameter(index) => self.parameters[index].is_listed,
+            _ => false,
+        }
+    }
+
+    /// The tokens of all parameters that occur.
+    pub fn parameters(&self) -> impl Iterator<Item = &TokenStream> {
+        self.parameters.iter().map(|parameter| &parameter.tokens)
     }
 
     /// a + b as written, without an initial 0 that the sum of a loop starts from (which changes no more than the sign of

@@ -2,7 +2,7 @@
 //! quotation shows what it expands to.
 
 use proc_macro2::TokenStream;
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 
 use super::expand::parameters;
 use super::model::{Home, Part, RayleighArguments, Rule, Source, System};
@@ -10,7 +10,7 @@ use super::view::{self, arguments, owner, subject};
 
 /// The plain value of L (0) or R (1) at the vectors q and v.
 fn value(system: &System<'_>, part: Part, point: RayleighArguments) -> TokenStream {
-    let function = if part == Part::Lagrangian { "lagrangian" } else { "rayleigh" };
+    let function = part.name();
     match system.source {
         Source::Block(_) => {
             let function = format_ident!("{function}");
@@ -129,6 +129,85 @@ pub fn driven(system: &System<'_>, by_input: TokenStream) -> Option<TokenStream>
             }
         )*
     })
+}
+
+/// `impl Parameters<2, 3> for Ring`, with the functions given.
+pub fn by_parameters(system: &System<'_>, functions: TokenStream) -> TokenStream {
+    let scalar = &system.scalar;
+    let (n, p) = (system.degrees.times(1), system.parameter_count());
+    let subject = subject(system, system.home());
+    let names =
+        system.parameters.iter().map(|parameter| parameter.to_token_stream().to_string().replace(' ', ""));
+    let terms: Vec<_> = parts(system).map(|part| format_ident!("{}_by_parameters", part.name())).collect();
+    let rules = system.rules.iter().map(|rule| format_ident!("{}", rule.name()));
+    let discrete = rules.map(|rule| {
+        quote! {
+            #[automatically_derived]
+            impl DiscreteParameters<#rule, #n, #p> for #subject {
+                /// ∂p0/∂θ and ∂p1/∂θ at fixed configurations.
+                fn momenta_by_parameters(
+                    &self,
+                    q0: &Vector,
+                    v: &Vector,
+                    h: #scalar,
+                ) -> MomentaBy<#scalar, #n, #p> {
+                    #(#rule::#terms(self, q0, v, h))+*
+                }
+            }
+        }
+    });
+    quote! {
+        #[automatically_derived]
+        impl Parameters<#n, #p> for #subject {
+            const PARAMETERS: [&'static str; #p] = [#(#names),*];
+
+            #functions
+        }
+
+        #(#discrete)*
+    }
+}
+
+/// `impl SecondOrder<2, 1> for DrivenArm<'_>`, with the functions of either engine.
+pub fn second_order(system: &System<'_>, functions: TokenStream) -> TokenStream {
+    let scalar = &system.scalar;
+    let (n, m) = (system.degrees.times(1), system.inputs());
+    let subject = subject(system, system.home());
+    let terms: Vec<_> = parts(system).map(|part| format_ident!("{}_along", part.name())).collect();
+    let rules = system.rules.iter().map(|rule| format_ident!("{}", rule.name()));
+    let discrete = rules.map(|rule| {
+        quote! {
+            #[automatically_derived]
+            impl DiscreteSecondOrder<#rule, #n, #m> for #subject {
+                /// Second derivatives of `at_start`·p0 + `at_end`·p1 by q0, q1 and u.
+                fn momenta_along(
+                    &self,
+                    q0: &Vector,
+                    v: &Vector,
+                    h: #scalar,
+                    at_start: &Vector,
+                    at_end: &Vector,
+                ) -> Hessian<#scalar, #n, #m> {
+                    #(#rule::#terms(self, q0, v, h, [at_start, at_end]))+*
+                }
+            }
+        }
+    });
+    quote! {
+        #[automatically_derived]
+        impl SecondOrder<#n, #m> for #subject {
+            #functions
+        }
+
+        #(#discrete)*
+    }
+}
+
+/// Those of L, R and f that the system has.
+fn parts(system: &System<'_>) -> impl Iterator<Item = Part> {
+    let rayleigh = system.rayleigh.map(|_| Part::Rayleigh);
+    let force = system.has_force.then_some(Part::Force);
+    [Part::Lagrangian].into_iter().chain(rayleigh).chain(force)
 }
 
 /// Bodies of the functions that a step calls, L, R and f together.

@@ -12,11 +12,11 @@ mod value;
 
 use std::rc::Rc;
 
-use proc_macro2::{Span, TokenStream};
+use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 use quote::{ToTokens, format_ident, quote};
 use syn::{Block, Expr, ExprLit, FnArg, Ident, ImplItem, ImplItemFn, Lit, Pat, ReturnType, Type};
 
-use super::diagnostics::span_of;
+use super::diagnostics::{Mistake, Report, span_of};
 use super::graph::{Graph, Node, Operation};
 use super::model::{Part, RayleighArguments, Source, System};
 use value::{Closure, Truth, Value, Written};
@@ -67,6 +67,10 @@ pub fn system(system: &System<'_>) -> Result<Lowered> {
         evaluations: 0,
         expected: None,
     };
+    // Known before the bodies read them.
+    for parameter in &system.parameters {
+        lowering.graph.listed(parameter);
+    }
     let n = match system.degrees.literal() {
         Some(n) => n,
         None => lowering.length(&system.degrees.length)?,
@@ -131,6 +135,65 @@ pub fn system(system: &System<'_>) -> Result<Lowered> {
         None => None,
     };
     Ok(Lowered { graph: lowering.graph, n, m, lagrangian, rayleigh, force })
+}
+
+/// Reports parameters that nothing reads, and those that are read where no derivative reaches them.
+pub fn parameters(system: &System<'_>, lowered: &Lowered, report: &mut Report) {
+    let graph = &lowered.graph;
+    let force = lowered.force.iter().flatten().copied();
+    let roots = [lowered.lagrangian].into_iter().chain(lowered.rayleigh).chain(force);
+    let read: Vec<String> = graph
+        .reachable(roots)
+        .into_iter()
+        .filter_map(|node| match graph.operation(node) {
+            Operation::Parameter(index) => Some(graph.parameter(index).tokens.to_string()),
+            _ => None,
+        })
+        .collect();
+    for parameter in &system.parameters {
+        let root = first_word(parameter.to_token_stream());
+        let hides =
+            |tokens: &&TokenStream| !is_entry((*tokens).clone()) && reads_field((*tokens).clone(), &root);
+        if let Some(within) = graph.parameters().find(hides) {
+            let (parameter_text, within) =
+                (parameter.to_token_stream().to_string(), within.to_string().replace(" . ", "."));
+            report.at(parameter, Mistake::HiddenParameter { parameter: parameter_text, within });
+        } else if !read.contains(&quote!(self.#parameter).to_string()) {
+            report.at(parameter, Mistake::NoSuchParameter(parameter.to_token_stream().to_string()));
+        }
+    }
+}
+
+fn first_word(tokens: TokenStream) -> String {
+    tokens.into_iter().next().map(|word| word.to_string()).unwrap_or_default()
+}
+
+/// Whether the tokens are `self.c[0].1`: one entry, told by literals.
+fn is_entry(tokens: TokenStream) -> bool {
+    tokens.into_iter().all(|token| match token {
+        TokenTree::Ident(_) | TokenTree::Literal(_) => true,
+        TokenTree::Punct(punct) => punct.as_char() == '.',
+        TokenTree::Group(group) => {
+            let mut index = group.stream().into_iter();
+            group.delimiter() == Delimiter::Bracket
+                && matches!((index.next(), index.next()), (Some(TokenTree::Literal(_)), None))
+        }
+    })
+}
+
+/// Whether `self.field` stands anywhere among the tokens.
+fn reads_field(tokens: TokenStream, field: &str) -> bool {
+    let tokens: Vec<TokenTree> = tokens.into_iter().collect();
+    let here = tokens.windows(3).any(|three| match three {
+        [TokenTree::Ident(owner), TokenTree::Punct(_), TokenTree::Ident(name)] => {
+            owner == "self" && name == field
+        }
+        _ => false,
+    });
+    here || tokens.into_iter().any(|token| match token {
+        TokenTree::Group(group) => reads_field(group.stream(), field),
+        _ => false,
+    })
 }
 
 /// Whether the function has returned.

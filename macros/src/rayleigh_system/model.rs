@@ -150,6 +150,10 @@ pub struct System<'a> {
     pub input: Option<Degrees>,
     /// Which functions take the time t.
     pub timed: Timed,
+    /// Fields that the step is differentiated by, as listed: `m`, `c[0]`.
+    pub parameters: Vec<Expr>,
+    /// Whether the step is differentiated twice.
+    pub second: bool,
 }
 
 /// L, R or f.
@@ -158,6 +162,17 @@ pub enum Part {
     Lagrangian,
     Rayleigh,
     Force,
+}
+
+impl Part {
+    /// The name of the function.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Lagrangian => "lagrangian",
+            Self::Rayleigh => "rayleigh",
+            Self::Force => "force",
+        }
+    }
 }
 
 /// Which functions take the time t.
@@ -195,6 +210,16 @@ impl System<'_> {
     /// Whether u or t occurs: then a step is that of a view.
     pub fn has_view(&self) -> bool {
         self.input.is_some() || self.timed.any()
+    }
+
+    /// M as a const generic argument, 0 where there is no input.
+    pub fn inputs(&self) -> TokenStream {
+        self.input.as_ref().map_or_else(|| quote!(0), |input| input.times(1))
+    }
+
+    /// P as a const generic argument.
+    pub fn parameter_count(&self) -> Literal {
+        Literal::usize_unsuffixed(self.parameters.len())
     }
 
     /// Where L_d, f_d and the step stand.

@@ -42,11 +42,11 @@ impl Code<'_> {
         let p1 = self.with_force(&after.gradient, plus, force);
         let p0_by_v = self.by_velocity(&before, minus, plus, &by_v);
 
-        let line = self.code_at_node(&[&p0[..], &p0_by_v].concat());
+        let line = self.code_at_node(&[&p0[..], &p0_by_v].concat(), &[]);
         let [value, matrix] = self.parts(&line.outputs, [Shape::Vector, Shape::Matrix]);
         let step_kernel = self.at_midpoint(&line, quote!(StepKernel { p0: #value, matrix: #matrix }));
 
-        let line = self.code_at_node(&[p0, p1].concat());
+        let line = self.code_at_node(&[p0, p1].concat(), &[]);
         let [p0, p1] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
         let momenta = self.at_midpoint(&line, quote!(Momenta { p0: #p0, p1: #p1 }));
         Some(Kernel { step_kernel, momenta })

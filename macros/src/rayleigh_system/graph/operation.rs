@@ -35,9 +35,9 @@ pub enum Operation {
 }
 
 impl Operation {
-    /// Whether it is what derivatives are taken by.
-    pub fn is_variable(self) -> bool {
-        matches!(self, Self::Coordinate(_) | Self::Velocity(_) | Self::Input(_))
+    /// Whether it is written where it is used, as `q[0]` or a number.
+    pub fn is_literal(self) -> bool {
+        matches!(self, Self::Coordinate(_) | Self::Velocity(_) | Self::Input(_) | Self::Constant(_))
     }
 
     /// The same operation with the arguments of a commutative one in order: equal to the last bit.
