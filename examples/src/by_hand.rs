@@ -7,7 +7,7 @@
 
 use dalembert::{
     Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, DisplacementRule,
-    Lagrangian, Midpoint, Momenta, Rayleigh, StepKernel,
+    Lagrangian, Midpoint, Momenta, Rayleigh, StepKernel, VelocityHistory,
 };
 use nalgebra::{Matrix2, Vector2};
 
@@ -57,6 +57,9 @@ impl Rayleigh<2> for RingByHand {
 
 /// The rule supplies the formulas; a system sums one term for each of L and R.
 impl Discrete<Midpoint, 2> for RingByHand {
+    type Matrix = Matrix2<f64>;
+    type Memory = VelocityHistory<f64, 2>;
+
     fn discrete_lagrangian(&self, q0: &Vector2<f64>, q1: &Vector2<f64>, h: f64) -> f64 {
         Midpoint::discrete_lagrangian(self, q0, q1, h)
     }

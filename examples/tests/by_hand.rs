@@ -10,7 +10,7 @@ use dalembert::{
     CovectorDerivatives, Derivatives, Discrete, DiscreteRayleigh, Lagrangian, Midpoint, Rayleigh, State,
 };
 use dalembert_examples::by_hand::RingByHand;
-use nalgebra::{Vector2, vector};
+use nalgebra::{Matrix2, Vector2, vector};
 use ring::Ring;
 
 const K: f64 = 0.3;
@@ -88,8 +88,8 @@ fn of_functions(a: &impl Rayleigh<2, Scalar = f64>, b: &impl Rayleigh<2, Scalar 
 /// How far the discrete objects differ, in units of rounding.
 fn of_discrete_objects<A, B>(a: &A, b: &B) -> f64
 where
-    A: DiscreteRayleigh<Midpoint, 2, Scalar = f64>,
-    B: DiscreteRayleigh<Midpoint, 2, Scalar = f64>,
+    A: DiscreteRayleigh<Midpoint, 2, Scalar = f64, Matrix = Matrix2<f64>>,
+    B: DiscreteRayleigh<Midpoint, 2, Scalar = f64, Matrix = Matrix2<f64>>,
 {
     let h = ring::H;
     points().iter().fold(0.0, |worst: f64, (q0, v)| {
@@ -133,8 +133,8 @@ fn the_functions_and_their_derivatives_are_equal() {
 /// h²/4 ∂²V/∂q² > −0.05.
 fn of_steps<A, B>(a: &A, b: &B) -> f64
 where
-    A: Discrete<Midpoint, 2, Scalar = f64>,
-    B: Discrete<Midpoint, 2, Scalar = f64>,
+    A: Discrete<Midpoint, 2, Scalar = f64, Matrix = Matrix2<f64>>,
+    B: Discrete<Midpoint, 2, Scalar = f64, Matrix = Matrix2<f64>>,
 {
     points().iter().fold(0.0, |worst: f64, (q, v)| {
         let state = State { q: *q, p: *v };

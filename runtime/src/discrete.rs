@@ -11,9 +11,9 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::derivatives::linear;
 use crate::error::{Quantity, StepError};
-use crate::newton;
+use crate::newton::{self, Equation};
 use crate::state::require_regular;
-use crate::{CovectorDerivatives, Derivatives, Lagrangian, Rayleigh, Scalar, State};
+use crate::{CovectorDerivatives, Derivatives, Lagrangian, Memory, NewtonMatrix, Rayleigh, Scalar, State};
 
 /// The discrete force f_d = (f_d⁻, f_d⁺): covectors at q0 and at q1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,11 +35,11 @@ pub struct DiscreteForceDerivatives<S, const N: usize> {
 
 /// The step's equation at a trial v̄ = (q1 − q0)/h.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepKernel<S, const N: usize> {
+pub struct StepKernel<S, const N: usize, M = SMatrix<S, N, N>> {
     /// The momentum −D1 L_d − f_d⁻ at q0, to be matched with the state's.
     pub p0: SVector<S, N>,
     /// Newton matrix ∂p0/∂v̄ = −h (D2 D1 L_d + D2 f_d⁻).
-    pub matrix: SMatrix<S, N, N>,
+    pub matrix: M,
 }
 
 /// Both momenta of a segment.
@@ -109,6 +109,16 @@ pub struct Step<S, const N: usize> {
     note = "a system whose force takes an input is stepped as `system.driven(u)`, one that takes the time as `system.at_time(t)` or `system.driven(u, t)`"
 )]
 pub trait Discrete<R, const N: usize>: Lagrangian<N> {
+    /// The form of the Newton matrix: `SMatrix<Scalar, N, N>`, or [`Banded`](crate::Banded).
+    type Matrix: NewtonMatrix<Self::Scalar, N>;
+
+    /// What a run of steps keeps from one to the next: [`VelocityHistory`](crate::VelocityHistory), unless the rule has
+    /// something better.
+    type Memory: Memory<Self, R, N>;
+
+    /// Whether the step's equation is linear in v̄, so that one correction solves it.
+    const LINEAR: bool = false;
+
     /// L_d(q0, q1, h).
     fn discrete_lagrangian(
         &self,
@@ -131,7 +141,7 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         q0: &SVector<Self::Scalar, N>,
         v: &SVector<Self::Scalar, N>,
         h: Self::Scalar,
-    ) -> StepKernel<Self::Scalar, N>;
+    ) -> StepKernel<Self::Scalar, N, Self::Matrix>;
 
     /// Both momenta of the segment from q0 with mean velocity `v`.
     fn momenta(
@@ -258,8 +268,14 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
                 rest
             }
         };
-        let solution =
-            newton::solve(|q0, v| self.step_kernel(q0, v, h), |q0, v| self.momenta(q0, v, h), state, guess)?;
+        let kind = if Self::LINEAR { Equation::Linear } else { Equation::General };
+        let solution = newton::solve(
+            kind,
+            |q0, v| self.step_kernel(q0, v, h),
+            |q0, v| self.momenta(q0, v, h),
+            state,
+            guess,
+        )?;
         let state = State { q: q0 + solution.unknown * h, p: solution.momenta.p1 };
         StepError::require_finite(&state.q, Quantity::Configuration)?;
         StepError::require_finite(&state.p, Quantity::Momentum)?;

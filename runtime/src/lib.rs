@@ -14,6 +14,7 @@ mod error;
 mod fields;
 mod linear;
 mod linearization;
+mod memory;
 mod newton;
 mod parameters;
 mod rules;
@@ -149,7 +150,9 @@ pub use discrete::{
 pub use driven::{DiscreteDriven, Driven, MomentaBy};
 pub use error::{Quantity, StepError};
 pub use fields::{ScalarField, VectorField};
+pub use linear::{Banded, NewtonMatrix, Singular};
 pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix, StateBy};
+pub use memory::{Memory, VelocityHistory};
 pub use parameters::{DiscreteParameters, GradientBy, Parameters};
 pub use rules::{DisplacementRule, Midpoint, Node, Trapezoidal};
 pub use scalar::Scalar;

@@ -2,11 +2,11 @@
 //!
 //! Residuals are measured in units of their round-off floor, component by component; see [`rounding`].
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
 use crate::discrete::{Momenta, StepKernel};
 use crate::error::{Quantity, StepError};
-use crate::linear::{self, Singular};
+use crate::linear::{NewtonMatrix, Singular};
 use crate::{Report, Scalar, State};
 
 mod rounding;
@@ -40,13 +40,23 @@ struct Iterate<S, const N: usize> {
     size: S,
 }
 
+/// What is known of the equation p0(q, v) = p before it is solved.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Equation {
+    /// Linear in v: the first correction leads to the root.
+    Linear,
+    /// Nothing.
+    General,
+}
+
 /// Solves p0(q, v) = p for v at the `state` (q, p).
 ///
 /// `evaluate` gives p0 and the Newton matrix, `finish` both momenta. The residual that the report states is the one that
 /// `finish` measured at the root.
 #[inline]
-pub(crate) fn solve<S: Scalar, const N: usize>(
-    evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N>,
+pub(crate) fn solve<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+    kind: Equation,
+    evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
     finish: impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
     state: &State<S, N>,
     guess: SVector<S, N>,
@@ -89,7 +99,9 @@ pub(crate) fn solve<S: Scalar, const N: usize>(
             contraction = size / last.size;
         }
 
-        let correction = linear::solve(&kernel.matrix, &residual)
+        let correction = kernel
+            .matrix
+            .solve(&residual)
             .map_err(|singular| unsolvable(singular, &residual, &kernel.matrix, iterations, damped))?;
         let v = trial;
         trial = v - correction;
@@ -112,7 +124,7 @@ pub(crate) fn solve<S: Scalar, const N: usize>(
 
         // Newton's residuals fall as |r′| ≈ C|r|², so the last contraction c predicts the next one, c². Where that ends at
         // the floor, the matrix is not needed again.
-        if size <= S::one() || contraction * contraction * size <= S::one() {
+        if kind == Equation::Linear || size <= S::one() || contraction * contraction * size <= S::one() {
             let momenta = finish(q, &trial);
             let remaining = momenta.p0 - p;
             if in_units_of(&remaining, &floor) <= S::constant(AT_FLOOR) {
@@ -153,10 +165,10 @@ fn stagnated<S: Scalar, const N: usize>(
 
 /// What a Newton matrix that cannot be solved with means.
 #[cold]
-fn unsolvable<S: Scalar, const N: usize>(
+fn unsolvable<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     singular: Singular,
     residual: &SVector<S, N>,
-    matrix: &SMatrix<S, N, N>,
+    matrix: &M,
     iteration: u32,
     damped: u32,
 ) -> StepError {
@@ -201,11 +213,11 @@ fn give_up<S: Scalar, const N: usize>(iteration: u32, last: &Iterate<S, N>) -> S
 }
 
 #[cold]
-fn first_non_finite<S: Scalar, const N: usize>(
+fn first_non_finite<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     residual: &SVector<S, N>,
-    matrix: &SMatrix<S, N, N>,
+    matrix: &M,
 ) -> Option<usize> {
-    (0..N).find(|&i| !residual[i].is_finite() || matrix.row(i).iter().any(|entry| !entry.is_finite()))
+    (0..N).find(|&i| !residual[i].is_finite() || !matrix.row_is_finite(i))
 }
 
 #[cfg(test)]

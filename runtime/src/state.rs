@@ -52,6 +52,7 @@ impl<S: Scalar, const N: usize> State<S, N> {
             StepKernel { p0: l.d2, matrix: l.d22 }
         };
         let solution = newton::solve(
+            newton::Equation::General,
             transform,
             |q, v| {
                 let p = system.lagrangian_gradient(q, v).d2;

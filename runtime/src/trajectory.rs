@@ -4,13 +4,12 @@ use core::marker::PhantomData;
 
 use nalgebra::SVector;
 
-use crate::{Discrete, Scalar, State, Step, StepError};
+use crate::{Discrete, Memory, Scalar, State, Step, StepError};
 
 /// The trajectory of a system from a state, one step at a time.
 ///
-/// An iterator over steps; it holds the present state and four mean velocities, from which it extrapolates the next
-/// (order 3) as the solver's guess. After an error it ends, its state being the last good one; another step size
-/// ([`Trajectory::change_step_size`]) lets it go on.
+/// An iterator over steps; it holds the present state and what the rule remembers of the steps before ([`Memory`]). After an
+/// error it ends, its state being the last good one; another step size ([`Trajectory::change_step_size`]) lets it go on.
 ///
 /// Where L, R or f take the time, each step sees its own: the time of the system given, `system.at_time(t)`, and what the
 /// trajectory has taken since.
@@ -24,42 +23,8 @@ where
     origin: f64,
     steps: u64,
     state: State<L::Scalar, N>,
-    history: History<L::Scalar, N>,
+    memory: L::Memory,
     failed: bool,
-}
-
-/// The latest mean velocities, newest first.
-struct History<S, const N: usize> {
-    velocities: [SVector<S, N>; 4],
-    known: usize,
-}
-
-impl<S: Scalar, const N: usize> History<S, N> {
-    fn empty() -> Self {
-        Self { velocities: [nalgebra::zero(); 4], known: 0 }
-    }
-
-    #[inline]
-    fn push(&mut self, velocity: SVector<S, N>) {
-        let [a, b, c, _] = self.velocities;
-        self.velocities = [velocity, a, b, c];
-        self.known = (self.known + 1).min(4);
-    }
-
-    /// The polynomial through the known velocities, one step on.
-    #[inline]
-    fn extrapolation(&self) -> Option<SVector<S, N>> {
-        let [a, b, c, d] = &self.velocities;
-        let (two, three, four, six) =
-            (S::constant(2.0), S::constant(3.0), S::constant(4.0), S::constant(6.0));
-        match self.known {
-            0 => None,
-            1 => Some(*a),
-            2 => Some(a * two - b),
-            3 => Some((a - b) * three + c),
-            _ => Some((a + c) * four - b * six - d),
-        }
-    }
 }
 
 impl<'a, L, R, const N: usize> Trajectory<'a, L, R, N>
@@ -75,7 +40,7 @@ where
             origin: 0.0,
             steps: 0,
             state,
-            history: History::empty(),
+            memory: L::Memory::default(),
             failed: false,
         }
     }
@@ -101,8 +66,6 @@ where
         self.origin = self.time();
         self.steps = 0;
         self.h = h;
-        // The extrapolation needs equal steps; the latest velocity alone is a guess for any step size.
-        self.history.known = self.history.known.min(1);
         self.failed = false;
     }
 
@@ -125,18 +88,12 @@ where
         if self.failed {
             return None;
         }
-        let guess = self.history.extrapolation();
-        let step = self.system.later(L::Scalar::constant(self.time()), |system| {
-            match (system.step(&self.state, self.h, guess.as_ref()), guess) {
-                // A guess that leads nowhere is not the step's fault: try again from rest.
-                (Err(_), Some(_)) => system.step(&self.state, self.h, None),
-                (step, _) => step,
-            }
-        });
+        let elapsed = L::Scalar::constant(self.time());
+        let (memory, state, h) = (&mut self.memory, &self.state, self.h);
+        let step = self.system.later(elapsed, |system| memory.advance(system, state, h));
         match &step {
             Ok(step) => {
                 self.state = step.state;
-                self.history.push(step.velocity);
                 self.steps += 1;
             }
             Err(_) => self.failed = true,

@@ -2,7 +2,9 @@
 //! central differences. N = 1, 2, 3, and an N given by a constant.
 
 use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::{Derivatives, Direction, Discrete, DiscreteRayleigh, Force, Midpoint, Rayleigh, Trapezoidal};
+use dalembert::{
+    Derivatives, Direction, Discrete, DiscreteRayleigh, Force, Midpoint, NewtonMatrix, Rayleigh, Trapezoidal,
+};
 use dalembert_tests::by_hand::{ByHand, Continuous, Discretised, Part, Rule, TwoPoints, derivatives};
 use dalembert_tests::systems::{Bead, Chain, Charge, DoublePendulum, Follower, FreePendulum, Pendulum};
 
@@ -117,7 +119,7 @@ where
     assert_same_matrix("𝔽⁺", &system.legendre_plus(a, b, H).p, &p1);
     let kernel = system.step_kernel(a, &v, H);
     assert_same_matrix("p0 of the kernel", &kernel.p0, &p0);
-    assert_same_matrix("Newton matrix", &kernel.matrix, &(-(l.d12 + force.minus[1]) * H));
+    assert_same_matrix("Newton matrix", &kernel.matrix.dense(), &(-(l.d12 + force.minus[1]) * H));
 
     // The continuous system, which all of this is made from.
     let continuous = derivatives(&Continuous { system, part: Part::Lagrangian }, q0, q1);

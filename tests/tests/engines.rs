@@ -150,8 +150,8 @@ mod num_dual {
 
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::{
-    Derivatives, Direction, Discrete, DiscreteRayleigh, Force, Lagrangian, Midpoint, Scalar, State,
-    Trapezoidal,
+    Derivatives, Direction, Discrete, DiscreteRayleigh, Force, Lagrangian, Midpoint, NewtonMatrix, Scalar,
+    State, Trapezoidal,
 };
 
 /// The largest difference seen, in units of the tolerance of `at`.
@@ -231,7 +231,7 @@ where
         }
         let (ka, kb) = (a.step_kernel(&q, &v, h), b.step_kernel(&q, &v, h));
         difference.vectors(&ka.p0, &kb.p0);
-        difference.vectors(&ka.matrix, &kb.matrix);
+        difference.vectors(&ka.matrix.dense(), &kb.matrix.dense());
         let (ma, mb) = (a.momenta(&q, &v, h), b.momenta(&q, &v, h));
         difference.vectors(&ma.p0, &mb.p0);
         difference.vectors(&ma.p1, &mb.p1);

@@ -11,7 +11,7 @@
 use dalembert::nalgebra::{Matrix2, Vector2};
 use dalembert::{
     Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Lagrangian, Midpoint,
-    Momenta, State, StepKernel, Trajectory, Trapezoidal,
+    Momenta, State, StepKernel, Trajectory, Trapezoidal, VelocityHistory,
 };
 use dalembert_tests::systems::DoublePendulum;
 
@@ -107,6 +107,9 @@ impl<R> Discrete<R, 2> for Regauged<R>
 where
     DoublePendulum: DiscreteRayleigh<R, 2, Scalar = f64>,
 {
+    type Matrix = Matrix2<f64>;
+    type Memory = VelocityHistory<f64, 2>;
+
     fn discrete_lagrangian(&self, q0: &Vector2<f64>, q1: &Vector2<f64>, h: f64) -> f64 {
         self.system.discrete_lagrangian(q0, q1, h) + self.phi(q0, q1).value
     }

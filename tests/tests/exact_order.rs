@@ -4,10 +4,10 @@
 //! rectangle rule of order 1.
 
 use dalembert::exact::{Convergence, Exact};
-use dalembert::nalgebra::{SVector, vector};
+use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::{
     Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DisplacementRule, Midpoint, Momenta,
-    Node, StepKernel, Trapezoidal, rayleigh_system,
+    Node, StepKernel, Trapezoidal, VelocityHistory, rayleigh_system,
 };
 
 #[rayleigh_system(rule = [midpoint, trapezoidal])]
@@ -45,6 +45,9 @@ impl DisplacementRule for Rectangle {
 type Vector = SVector<f64, 1>;
 
 impl Discrete<Rectangle, 1> for Pushed {
+    type Matrix = SMatrix<f64, 1, 1>;
+    type Memory = VelocityHistory<f64, 1>;
+
     fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
         Rectangle::discrete_lagrangian(self, q0, q1, h)
     }

@@ -138,8 +138,8 @@ mod num_dual {
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::{
-    Direction, Discrete, DiscreteDriven, DiscreteRayleigh, Force, Lagrangian, Midpoint, Rayleigh, Scalar,
-    State, Trajectory, Trapezoidal,
+    Direction, Discrete, DiscreteDriven, DiscreteRayleigh, Force, Lagrangian, Midpoint, NewtonMatrix,
+    Rayleigh, Scalar, State, Trajectory, Trapezoidal,
 };
 
 /// The largest difference seen, in units of 64 roundings of the largest entry.
@@ -189,7 +189,7 @@ where
         difference.of(a.force_variation(&q, &v, direction).1, b.force_variation(&q, &v, direction).1);
         let (ka, kb) = (a.step_kernel(&q, &v, h), b.step_kernel(&q, &v, h));
         difference.of(ka.p0, kb.p0);
-        difference.of(ka.matrix, kb.matrix);
+        difference.of(ka.matrix.dense(), kb.matrix.dense());
         let (ma, mb) = (a.momenta(&q, &v, h), b.momenta(&q, &v, h));
         difference.of(ma.p0, mb.p0);
         difference.of(ma.p1, mb.p1);
@@ -205,7 +205,7 @@ where
         // Written out by hand from L_d and f_d, the momenta are the kernel's.
         difference.of(-da.d1 - fa.minus.value, ma.p0);
         difference.of(da.d2 + fa.plus.value, ma.p1);
-        difference.of(-(da.d12 + fa.minus.d2) * h, ka.matrix);
+        difference.of(-(da.d12 + fa.minus.d2) * h, ka.matrix.dense());
         difference.of(vector![a.segment_energy(&q, &q1, h)], vector![b.segment_energy(&q, &q1, h)]);
     }
 }

@@ -5,7 +5,7 @@ use dalembert::noether::{Generator, Noether};
 use dalembert::samples::{self, SampleError};
 use dalembert::{
     Derivatives, Discrete, DiscreteForce, Lagrangian, Midpoint, Momenta, StepKernel, Trapezoidal,
-    VectorField, rayleigh_system,
+    VectorField, VelocityHistory, rayleigh_system,
 };
 
 /// Mass and friction depend on q; the force has no potential.
@@ -85,6 +85,9 @@ impl Lagrangian<2> for Mistaken {
 }
 
 impl Discrete<Midpoint, 2> for Mistaken {
+    type Matrix = SMatrix<f64, 2, 2>;
+    type Memory = VelocityHistory<f64, 2>;
+
     fn discrete_lagrangian(&self, q0: &SVector<f64, 2>, q1: &SVector<f64, 2>, h: f64) -> f64 {
         Discrete::<Midpoint, 2>::discrete_lagrangian(&self.0, q0, q1, h)
     }

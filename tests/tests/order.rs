@@ -2,10 +2,10 @@
 //!
 //! Reference: another method (Dormand–Prince 8(5,3)) on accelerations derived on paper.
 
-use dalembert::nalgebra::SVector;
+use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::{
     Derivatives, Discrete, DisplacementRule, Lagrangian, Midpoint, Momenta, Rayleigh, State, StepKernel,
-    Trajectory, Trapezoidal,
+    Trajectory, Trapezoidal, VelocityHistory,
 };
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::convergence::Convergence;
@@ -134,6 +134,9 @@ mod wrong {
     where
         S: Rayleigh<N, Scalar = f64>,
     {
+        type Matrix = SMatrix<f64, N, N>;
+        type Memory = VelocityHistory<f64, N>;
+
         fn discrete_lagrangian(&self, q0: &SVector<f64, N>, q1: &SVector<f64, N>, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(&self.0, q0, q1, h)
         }

@@ -6,7 +6,7 @@ use dalembert::rayleigh::Comparison;
 use dalembert::samples::{self, Segment};
 use dalembert::{
     Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, Lagrangian, Midpoint, Momenta, State,
-    StepKernel, Trajectory, Trapezoidal, rayleigh_system,
+    StepKernel, Trajectory, Trapezoidal, VelocityHistory, rayleigh_system,
 };
 
 type Vector = SVector<f64, 2>;
@@ -59,6 +59,9 @@ impl Lagrangian<2> for Regauged {
 }
 
 impl Discrete<Midpoint, 2> for Regauged {
+    type Matrix = SMatrix<f64, 2, 2>;
+    type Memory = VelocityHistory<f64, 2>;
+
     fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
         Discrete::<Midpoint, 2>::discrete_lagrangian(&self.system, q0, q1, h)
             + (psi(q0).0 + phi1(q1).0 + phi0(q0).0 - psi(q1).0)

@@ -1,12 +1,12 @@
 //! For n > 1 a discrete force is Rayleigh iff three conditions hold; the one that the paper prints, D1 f⁺ = −D2 f⁻
 //! (section 3.4), is fulfilled by forces without any potential.
 
-use dalembert::nalgebra::{SVector, vector};
+use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::rayleigh::{Potential, structure};
 use dalembert::samples::{self, Segment};
 use dalembert::{
     CovectorDerivatives, Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, Lagrangian,
-    Midpoint, Momenta, StepKernel, Trapezoidal, rayleigh_system,
+    Midpoint, Momenta, StepKernel, Trapezoidal, VelocityHistory, rayleigh_system,
 };
 
 /// Linear drag with any matrix, f = −C v.
@@ -106,12 +106,15 @@ impl<G> Lagrangian<2> for AtStart<G> {
         0.5 * v.norm_squared()
     }
     fn lagrangian_derivatives(&self, _q: &SVector<f64, 2>, v: &SVector<f64, 2>) -> Derivatives<f64, 2> {
-        let identity = dalembert::nalgebra::SMatrix::identity();
+        let identity = SMatrix::identity();
         Derivatives { value: 0.5 * v.norm_squared(), d2: *v, d22: identity, ..Derivatives::zero() }
     }
 }
 
 impl<G: Covector> Discrete<Midpoint, 2> for AtStart<G> {
+    type Matrix = SMatrix<f64, 2, 2>;
+    type Memory = VelocityHistory<f64, 2>;
+
     fn discrete_lagrangian(&self, q0: &SVector<f64, 2>, q1: &SVector<f64, 2>, h: f64) -> f64 {
         (q1 - q0).norm_squared() / (2.0 * h)
     }
@@ -121,12 +124,12 @@ impl<G: Covector> Discrete<Midpoint, 2> for AtStart<G> {
         q1: &SVector<f64, 2>,
         h: f64,
     ) -> Derivatives<f64, 2> {
-        let (v, m) = ((q1 - q0) / h, dalembert::nalgebra::SMatrix::identity() / h);
+        let (v, m) = ((q1 - q0) / h, SMatrix::identity() / h);
         let value = self.discrete_lagrangian(q0, q1, h);
         Derivatives { value, d1: -v, d2: v, d11: m, d12: -m, d22: m }
     }
     fn step_kernel(&self, q0: &SVector<f64, 2>, v: &SVector<f64, 2>, _h: f64) -> StepKernel<f64, 2> {
-        StepKernel { p0: v - self.0.at(q0).value, matrix: dalembert::nalgebra::SMatrix::identity() }
+        StepKernel { p0: v - self.0.at(q0).value, matrix: SMatrix::identity() }
     }
     fn momenta(&self, q0: &SVector<f64, 2>, v: &SVector<f64, 2>, _h: f64) -> Momenta<f64, 2> {
         Momenta { p0: v - self.0.at(q0).value, p1: *v }

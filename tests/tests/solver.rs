@@ -3,7 +3,7 @@
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::{
     Derivatives, Discrete, Lagrangian, Midpoint, Momenta, Quantity, State, StepError, StepKernel, Trajectory,
-    Trapezoidal, rayleigh_system,
+    Trapezoidal, VelocityHistory, rayleigh_system,
 };
 use dalembert_tests::systems::{Bead, DoublePendulum, Pendulum};
 
@@ -273,6 +273,9 @@ impl Lagrangian<1> for Quantised {
 }
 
 impl Discrete<Midpoint, 1> for Quantised {
+    type Matrix = SMatrix<f64, 1, 1>;
+    type Memory = VelocityHistory<f64, 1>;
+
     fn discrete_lagrangian(&self, q0: &SVector<f64, 1>, q1: &SVector<f64, 1>, h: f64) -> f64 {
         h * self.lagrangian(q0, &((q1 - q0) / h))
     }

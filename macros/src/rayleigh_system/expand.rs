@@ -161,9 +161,8 @@ pub fn field(system: &System<'_>, twin: &Twin, function: &Function, kind: Field)
 /// What the implementations use, and nothing else: an unused import would warn in the user's crate.
 fn imports(system: &System<'_>) -> TokenStream {
     let names = imported(system);
-    let linear = if system.has_force { quote!({SMatrix, SVector}) } else { quote!(SVector) };
     quote! {
-        use ::dalembert::nalgebra::#linear;
+        use ::dalembert::nalgebra::{SMatrix, SVector};
         use ::dalembert::{#(#names,)* dual};
     }
 }
@@ -180,6 +179,7 @@ pub fn imported(system: &System<'_>) -> Vec<Ident> {
         "Momenta",
         "StepKernel",
         "Variations",
+        "VelocityHistory",
     ];
     if system.rayleigh.is_some() {
         names.extend(["DiscreteRayleigh", "Rayleigh"]);

@@ -163,6 +163,8 @@ fn stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream, rules: &[Rule
             }
             #(
                 impl ::dalembert::Discrete<::dalembert::#rules, #n> for #name {
+                    type Matrix = ::dalembert::nalgebra::SMatrix<#scalar, #n, #n>;
+                    type Memory = ::dalembert::VelocityHistory<#scalar, #n>;
                     fn discrete_lagrangian(&self, _: #vector, _: #vector, _: #scalar) -> #scalar { ::core::unreachable!() }
                     fn discrete_lagrangian_derivatives(&self, _: #vector, _: #vector, _: #scalar) -> #derivatives { ::core::unreachable!() }
                     fn step_kernel(&self, _: #vector, _: #vector, _: #scalar) -> ::dalembert::StepKernel<#scalar, #n> { ::core::unreachable!() }

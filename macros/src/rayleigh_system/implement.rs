@@ -261,6 +261,9 @@ pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> Toke
     quote! {
         #[automatically_derived]
         impl Discrete<#rule, #n> for #subject {
+            type Matrix = SMatrix<#scalar, #n, #n>;
+            type Memory = VelocityHistory<#scalar, #n>;
+
             #[doc = #lagrangian]
             fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
                 #rule::discrete_lagrangian(self, q0, q1, h)

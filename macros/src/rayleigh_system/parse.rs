@@ -40,6 +40,7 @@ const RESERVED: &[&str] = &[
     "SMatrix",
     "Vector",
     "VectorField",
+    "VelocityHistory",
     "ScalarField",
     "D",
 ];

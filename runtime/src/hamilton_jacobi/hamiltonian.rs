@@ -187,6 +187,7 @@ where
             }
         };
         let solution = newton::solve(
+            newton::Equation::General,
             |known, v| {
                 let (q0, q1) = ends(known, v);
                 let k = self.legendre(&q0, &q1);

@@ -83,6 +83,7 @@ where
             StepKernel { p0: l.d2 - s1.gradient(&x), matrix: (l.d22 - s1.hessian(&x)) * h }
         };
         let solution = newton::solve(
+            newton::Equation::General,
             difference,
             |q, v| {
                 let p = difference(q, v).p0;

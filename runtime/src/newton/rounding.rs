@@ -10,9 +10,10 @@
 //! contributes: near an equilibrium away from q = 0 large forces cancel, and v and p go to 0 while the rounding of those
 //! forces stays. Where the residual stops falling above the estimate, its rounding is therefore measured ([`rounding`]).
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
 use crate::Scalar;
+use crate::linear::NewtonMatrix;
 
 /// A residual that has stopped falling is accepted up to this many floors, also where no rounding of q or v explains it:
 /// the report then shows it far above its floor.
@@ -25,19 +26,17 @@ pub(super) const AT_FLOOR: f64 = 4.0;
 #[inline]
 pub(super) fn estimated_floor<S: Scalar, const N: usize>(
     p: &SVector<S, N>,
-    matrix: &SMatrix<S, N, N>,
+    matrix: &impl NewtonMatrix<S, N>,
     v: &SVector<S, N>,
 ) -> SVector<S, N> {
     // Scaled before they are added up, so that only what overflows itself does.
     let unit = S::EPSILON * S::constant(4.0);
-    SVector::from_fn(|i, _| {
+    let mut floor = matrix.magnitudes(&(v * unit));
+    for i in 0..N {
         // Below the normal numbers ε no longer bounds the rounding.
-        let mut sum = p[i].abs() * unit + S::SMALLEST_NORMAL;
-        for j in 0..N {
-            sum += (matrix[(i, j)] * (v[j] * unit)).abs();
-        }
-        sum
-    })
+        floor[i] += p[i].abs() * unit + S::SMALLEST_NORMAL;
+    }
+    floor
 }
 
 /// max |residualᵢ|/floorᵢ. An exact 0 counts 0, whatever its floor; a NaN or infinite ratio is returned as it is.

@@ -19,7 +19,7 @@ const _: () = {
     use ::dalembert::{
         Derivatives, Direction, Discrete, DiscreteForce, DiscreteForceDerivatives,
         DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
-        Rayleigh, StepKernel, Variations,
+        Rayleigh, StepKernel, Variations, VelocityHistory,
     };
     type Vector = SVector<f64, 2>;
     #[automatically_derived]
@@ -227,6 +227,8 @@ const _: () = {
     }
     #[automatically_derived]
     impl Discrete<Midpoint, 2> for DoublePendulum {
+        type Matrix = SMatrix<f64, 2, 2>;
+        type Memory = VelocityHistory<f64, 2>;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)

@@ -40,7 +40,7 @@ const _: () = {
         CovectorDerivatives, Derivatives, Direction, Discrete, DiscreteDriven,
         DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, DisplacementRule,
         Driven, Force, Gradient, Lagrangian, Midpoint, Momenta, MomentaBy, Rayleigh,
-        StepKernel, Variations,
+        StepKernel, Variations, VelocityHistory,
     };
     type Vector = SVector<f64, 1>;
     #[automatically_derived]
@@ -268,6 +268,8 @@ const _: () = {
     }
     #[automatically_derived]
     impl Discrete<Midpoint, 1> for DrivenArm<'_> {
+        type Matrix = SMatrix<f64, 1, 1>;
+        type Memory = VelocityHistory<f64, 1>;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)

@@ -18,7 +18,7 @@ const _: () = {
     use ::dalembert::{
         Derivatives, Direction, Discrete, DiscreteForce, DiscreteForceDerivatives,
         DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
-        Rayleigh, StepKernel, Trapezoidal, Variations,
+        Rayleigh, StepKernel, Trapezoidal, Variations, VelocityHistory,
     };
     type Vector = SVector<f64, 1>;
     #[automatically_derived]
@@ -127,6 +127,8 @@ const _: () = {
     }
     #[automatically_derived]
     impl Discrete<Midpoint, 1> for Oscillator {
+        type Matrix = SMatrix<f64, 1, 1>;
+        type Memory = VelocityHistory<f64, 1>;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)
@@ -194,6 +196,8 @@ const _: () = {
     }
     #[automatically_derived]
     impl Discrete<Trapezoidal, 1> for Oscillator {
+        type Matrix = SMatrix<f64, 1, 1>;
+        type Memory = VelocityHistory<f64, 1>;
         /// L_d = (h/2) [L(q0, v̄) + L(q1, v̄)], with v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Trapezoidal::discrete_lagrangian(self, q0, q1, h)

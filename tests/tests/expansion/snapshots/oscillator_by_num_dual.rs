@@ -67,11 +67,11 @@ const _: () = {
     }
 };
 const _: () = {
-    use ::dalembert::nalgebra::SVector;
+    use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{
         Derivatives, Direction, Discrete, DiscreteForce, DiscreteForceDerivatives,
         DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
-        Rayleigh, StepKernel, Variations, dual,
+        Rayleigh, StepKernel, Variations, VelocityHistory, dual,
     };
     type Vector = SVector<f64, 1>;
     #[automatically_derived]
@@ -121,6 +121,8 @@ const _: () = {
     }
     #[automatically_derived]
     impl Discrete<Midpoint, 1> for Oscillator {
+        type Matrix = SMatrix<f64, 1, 1>;
+        type Memory = VelocityHistory<f64, 1>;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)

@@ -1,0 +1,221 @@
+//! Dense systems: closed forms to N = 2, then elimination with scaled partial pivoting.
+
+use core::array;
+
+use nalgebra::{SMatrix, SVector};
+
+use super::{NewtonMatrix, Singular};
+use crate::Scalar;
+
+impl<S: Scalar, const N: usize> NewtonMatrix<S, N> for SMatrix<S, N, N> {
+    #[inline]
+    fn zero() -> Self {
+        nalgebra::zero()
+    }
+
+    #[inline]
+    fn entry(&self, row: usize, column: usize) -> S {
+        self[(row, column)]
+    }
+
+    #[inline]
+    fn solve(&self, right: &SVector<S, N>) -> Result<SVector<S, N>, Singular> {
+        solve(self, right)
+    }
+
+    #[inline]
+    fn magnitudes(&self, v: &SVector<S, N>) -> SVector<S, N> {
+        let mut sums: SVector<S, N> = nalgebra::zero();
+        // Column by column, as the entries lie.
+        for j in 0..N {
+            for i in 0..N {
+                sums[i] += (self[(i, j)] * v[j]).abs();
+            }
+        }
+        sums
+    }
+}
+
+/// The solution for every column of the right side, with one elimination.
+#[inline]
+pub(super) fn solve<S: Scalar, const N: usize, const C: usize>(
+    matrix: &SMatrix<S, N, N>,
+    right: &SMatrix<S, N, C>,
+) -> Result<SMatrix<S, N, C>, Singular> {
+    match closed_form(matrix, right) {
+        Some(x) => Ok(x),
+        None => eliminate(matrix, right),
+    }
+}
+
+/// One or two coordinates; nothing if N > 2, or if the determinant cancels.
+///
+/// |ad − bc| is held against |ad| + |bc|: scaling rows or columns changes neither verdict.
+#[inline]
+fn closed_form<S: Scalar, const N: usize, const C: usize>(
+    matrix: &SMatrix<S, N, N>,
+    right: &SMatrix<S, N, C>,
+) -> Option<SMatrix<S, N, C>> {
+    let mut x = *right;
+    match N {
+        1 => {
+            for c in 0..C {
+                x[c] = right[c] / matrix[0];
+            }
+            (matrix[0] != S::zero() && matrix[0].is_finite()).then_some(x)
+        }
+        2 => {
+            let (a, c, b, d) = (matrix[0], matrix[1], matrix[2], matrix[3]);
+            let (ad, bc) = (a * d, b * c);
+            let determinant = ad - bc;
+            let reciprocal = S::one() / determinant;
+            for i in (0..2 * C).step_by(2) {
+                x[i] = (d * right[i] - b * right[i + 1]) * reciprocal;
+                x[i + 1] = (a * right[i + 1] - c * right[i]) * reciprocal;
+            }
+            let carries_digits = determinant.abs() > (ad.abs() + bc.abs()) * (S::EPSILON * S::constant(16.0));
+            (carries_digits && reciprocal.is_finite() && reciprocal != S::zero()).then_some(x)
+        }
+        _ => None,
+    }
+}
+
+/// A pivot this much smaller than its row is looked at more closely.
+const SUSPICIOUS: f64 = 1e-6;
+
+/// Elimination with row exchanges; pivots are chosen relative to their rows.
+#[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a NaN pivot must fail the comparison")]
+#[expect(clippy::needless_range_loop, reason = "rows k and i of one array are used together")]
+pub(super) fn eliminate<S: Scalar, const N: usize, const C: usize>(
+    matrix: &SMatrix<S, N, N>,
+    right: &SMatrix<S, N, C>,
+) -> Result<SMatrix<S, N, C>, Singular> {
+    let mut rows: [[S; N]; N] = array::from_fn(|i| array::from_fn(|j| matrix[(i, j)]));
+    let mut order: [usize; N] = array::from_fn(|i| i);
+    let mut scale: [S; N] = array::from_fn(|i| inverse_magnitude(&rows[i]));
+    let mut reciprocals = [S::zero(); N];
+    let mut x = *right;
+    let mut suspicious = false;
+
+    for k in 0..N {
+        let mut pivot = k;
+        let mut best = rows[k][k].abs() * scale[k];
+        for i in k + 1..N {
+            let candidate = rows[i][k].abs() * scale[i];
+            if candidate > best {
+                (pivot, best) = (i, candidate);
+            }
+        }
+        if !(best > S::constant(SUSPICIOUS)) {
+            suspicious = true;
+            if !(best > S::zero()) {
+                return Err(Singular { column: k });
+            }
+        }
+        if pivot != k {
+            rows.swap(k, pivot);
+            order.swap(k, pivot);
+            scale.swap(k, pivot);
+            x.swap_rows(k, pivot);
+        }
+        let reciprocal = S::one() / rows[k][k];
+        reciprocals[k] = reciprocal;
+        for i in k + 1..N {
+            let factor = rows[i][k] * reciprocal;
+            rows[i][k] = factor;
+            for j in k + 1..N {
+                let upper = rows[k][j];
+                rows[i][j] -= factor * upper;
+            }
+            for c in 0..C {
+                let known = x[(k, c)];
+                x[(i, c)] -= factor * known;
+            }
+        }
+    }
+    if suspicious {
+        check_cancellation(matrix, &rows, &order)?;
+    }
+    for c in 0..C {
+        for i in (0..N).rev() {
+            for j in i + 1..N {
+                let known = x[(j, c)];
+                x[(i, c)] -= rows[i][j] * known;
+            }
+            x[(i, c)] *= reciprocals[i];
+        }
+    }
+    Ok(x)
+}
+
+/// A pivot is lost if it is below the rounding error of the sum that formed it.
+///
+/// The test compares each uᵢᵢ with |aᵢᵢ| + Σ|lᵢₖ||uₖᵢ|: scaling rows or columns changes neither verdict.
+#[cold]
+#[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a NaN pivot must fail the comparison")]
+#[expect(clippy::needless_range_loop, reason = "rows k and j of one array are used together")]
+fn check_cancellation<S: Scalar, const N: usize>(
+    matrix: &SMatrix<S, N, N>,
+    rows: &[[S; N]; N],
+    order: &[usize; N],
+) -> Result<(), Singular> {
+    let threshold = S::EPSILON * S::constant(8.0 * N as f64);
+    for k in 0..N {
+        let mut magnitude = matrix[(order[k], k)].abs();
+        for j in 0..k {
+            magnitude += (rows[k][j] * rows[j][k]).abs();
+        }
+        if !(rows[k][k].abs() > threshold * magnitude) {
+            return Err(Singular { column: k });
+        }
+    }
+    Ok(())
+}
+
+#[inline]
+fn inverse_magnitude<S: Scalar, const N: usize>(row: &[S; N]) -> S {
+    let largest = row.iter().fold(S::zero(), |largest, entry| largest.max(entry.abs()));
+    if largest > S::zero() { S::one() / largest } else { S::zero() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::solve;
+    use super::*;
+    use nalgebra::{matrix, vector};
+
+    #[test]
+    fn solves_a_system_that_needs_pivoting() {
+        let a = matrix![0.0, 2.0, 1.0; 1.0, 0.0, 3.0; 4.0, 1.0, 0.0];
+        let x = vector![1.0, -2.0, 3.0];
+        let solution = solve(&a, &(a * x)).unwrap();
+        assert!((solution - x).amax() < 1e-15);
+    }
+
+    #[test]
+    fn bad_scaling_is_not_singularity() {
+        // D A D with D = diag(1e-12, 1e12) and A = [[1, ½], [½, 1]]: regular, though its entries span 48 decades.
+        let a = matrix![1e-24, 0.5; 0.5, 1e24];
+        let solution = solve(&a, &vector![1e-12, 1e12]).unwrap();
+        let expected: SVector<f64, 2> = vector![1e12 * 2.0 / 3.0, 1e-12 * 2.0 / 3.0];
+        for i in 0..2 {
+            assert!(f64::abs(solution[i] / expected[i] - 1.0) < 1e-15, "{solution}");
+        }
+    }
+
+    #[test]
+    fn dependent_rows_are_singular() {
+        let a = matrix![1.0, 2.0, 3.0; 4.0, 5.0, 6.0; 7.0, 8.0, 9.0];
+        assert_eq!(solve(&a, &vector![1.0, 1.0, 1.0]).unwrap_err(), Singular { column: 2 });
+        assert_eq!(solve(&matrix![0.0], &vector![1.0]).unwrap_err(), Singular { column: 0 });
+        assert!(solve(&matrix![1.0, 1.0; f64::NAN, 1.0], &vector![1.0, 1.0]).is_err());
+        assert!(solve(&matrix![1.0, 2.0; 0.5, 1.0], &vector![1.0, 1.0]).is_err());
+    }
+
+    #[test]
+    fn a_small_determinant_alone_is_regular() {
+        // Positive control of the cancellation test: ill-conditioned, but its pivot carries digits.
+        let a = matrix![1.0, 1.0; 1.0, 1.0 + 1e-9];
+        assert!(solve(&a, &vector![1.0, 1.0]).is_ok());
+    }
+}

@@ -1,0 +1,92 @@
+//! What a run of steps keeps from one to the next.
+
+use nalgebra::SVector;
+
+use crate::{Discrete, Scalar, State, Step, StepError};
+
+/// What a run keeps from step to step, and how the next step uses it.
+///
+/// [`Default`] is the memory before the first step. What is remembered makes a step cheaper; it never decides where the step
+/// leads, beyond rounding: a memory of other states or another step size does no harm.
+pub trait Memory<L: ?Sized, R, const N: usize>: Default
+where
+    L: Discrete<R, N>,
+{
+    /// The step of [`Discrete::step`] from `state`.
+    ///
+    /// # Errors
+    /// Those of [`Discrete::step`]; what is remembered is then as before.
+    fn advance(
+        &mut self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<Step<L::Scalar, N>, StepError>;
+}
+
+/// The latest four mean velocities: the next, extrapolated to order 3, is the guess for Newton's method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VelocityHistory<S, const N: usize> {
+    /// Newest first.
+    velocities: [SVector<S, N>; 4],
+    known: usize,
+    /// The step size that they belong to.
+    h: S,
+}
+
+impl<S: Scalar, const N: usize> Default for VelocityHistory<S, N> {
+    fn default() -> Self {
+        Self { velocities: [nalgebra::zero(); 4], known: 0, h: S::zero() }
+    }
+}
+
+impl<S: Scalar, const N: usize> VelocityHistory<S, N> {
+    #[inline]
+    fn push(&mut self, velocity: SVector<S, N>, h: S) {
+        let [a, b, c, _] = self.velocities;
+        self.velocities = [velocity, a, b, c];
+        self.known = (self.known + 1).min(4);
+        self.h = h;
+    }
+
+    /// The polynomial through the known velocities, one step on.
+    #[inline]
+    fn extrapolation(&self, h: S) -> Option<SVector<S, N>> {
+        let [a, b, c, d] = &self.velocities;
+        let (two, three, four, six) =
+            (S::constant(2.0), S::constant(3.0), S::constant(4.0), S::constant(6.0));
+        // The polynomial needs equal steps; the latest velocity alone is a guess for any.
+        match if h == self.h { self.known } else { self.known.min(1) } {
+            0 => None,
+            1 => Some(*a),
+            2 => Some(a * two - b),
+            3 => Some((a - b) * three + c),
+            _ => Some((a + c) * four - b * six - d),
+        }
+    }
+}
+
+impl<L, R, const N: usize> Memory<L, R, N> for VelocityHistory<L::Scalar, N>
+where
+    L: Discrete<R, N>,
+{
+    #[inline]
+    fn advance(
+        &mut self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<Step<L::Scalar, N>, StepError> {
+        let guess = self.extrapolation(h);
+        let step = match (system.step(state, h, guess.as_ref()), guess) {
+            // A guess that leads nowhere is not the step's fault: try again from rest.
+            (Err(_), Some(_)) => system.step(state, h, None),
+            (step, _) => step,
+        }?;
+        if h != self.h {
+            self.known = self.known.min(1);
+        }
+        self.push(step.velocity, h);
+        Ok(step)
+    }
+}
