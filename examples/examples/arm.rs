@@ -272,11 +272,11 @@ fn draw(run: &Run) -> Result<std::path::PathBuf> {
     let time = "time t (s)";
     let panels = [
         panel(
-            "Path of the tip",
+            "Path of the tip (blue) on its reference (black)",
             "x (m)",
             "y (m)",
             Corner::UpperLeft,
-            vec![curve("reference", colour::REFERENCE, 4, path), curve("tip", colour::VARIATIONAL, 1, tips)],
+            vec![curve("", colour::REFERENCE, 5, path), curve("", colour::VARIATIONAL, 2, tips)],
         ),
         panel(
             "Distance of the tip from its reference",
@@ -299,11 +299,11 @@ fn draw(run: &Run) -> Result<std::path::PathBuf> {
             "Velocity of the second joint, 0.2 s of it",
             time,
             "velocity (rad/s)",
-            Corner::UpperRight,
+            Corner::LowerRight,
             vec![
                 curve("differences of the encoder", colour::EULER, 1, velocity(2)),
+                curve("true", colour::REFERENCE, 4, velocity(0)),
                 curve("filter", colour::RUNGE_KUTTA, 2, velocity(1)),
-                curve("true", colour::REFERENCE, 2, velocity(0)),
             ],
         ),
     ];

@@ -76,6 +76,9 @@ pub fn regulator<const X: usize, const M: usize>(
         let gain = factor.solve(&(b.transpose() * p * a));
         let next = q + a.transpose() * p * (a - b * gain);
         let next = (next + next.transpose()) * 0.5;
+        if !next.sum().is_finite() {
+            break;
+        }
         if (next - p).amax() <= 1e-12 * next.amax() {
             return Ok(gain);
         }
