@@ -253,18 +253,14 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         h: Self::Scalar,
         guess: Option<&SVector<Self::Scalar, N>>,
     ) -> Result<Step<Self::Scalar, N>, StepError> {
-        let State { q: q0, p: p0 } = state;
         require_step_size(h)?;
-        StepError::require_finite(q0, Quantity::Configuration)?;
-        StepError::require_finite(p0, Quantity::Momentum)?;
-        let guess = match guess {
-            Some(v) => {
-                StepError::require_finite(v, Quantity::Velocity)?;
-                *v
-            }
+        let q0 = &state.q;
+        let start = match guess {
+            Some(v) => *v,
             None => {
                 let rest = nalgebra::zero();
-                require_regular(&self.lagrangian_derivatives(q0, &rest).d22)?;
+                require_regular(&self.lagrangian_derivatives(q0, &rest).d22)
+                    .map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
                 rest
             }
         };
@@ -273,13 +269,17 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
             kind,
             |q0, v| self.step_kernel(q0, v, h),
             |q0, v| self.momenta(q0, v, h),
+            |q0, v| self.lagrangian_derivatives(q0, v).d22.diagonal(),
             state,
-            guess,
-        )?;
-        let state = State { q: q0 + solution.unknown * h, p: solution.momenta.p1 };
-        StepError::require_finite(&state.q, Quantity::Configuration)?;
-        StepError::require_finite(&state.p, Quantity::Momentum)?;
-        Ok(Step { state, velocity: solution.unknown, report: solution.report })
+            start,
+        )
+        .map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
+        let change = solution.momenta.p1 - solution.momenta.p0;
+        // Added to the p0 given: the residual of the solver, always of one sign, would make it drift.
+        let next = State { q: q0 + solution.unknown * h, p: state.p + change };
+        // An argument that is not finite shows here or has failed above: none is looked at before.
+        next.require_finite().map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
+        Ok(Step { state: next, velocity: solution.unknown, report: solution.report })
     }
 
     /// The flow on Q×Q: (q0, q1) ↦ (q1, q2), with q2 = `state.q` of the step returned.
@@ -370,6 +370,16 @@ pub trait DiscreteRayleigh<R, const N: usize>: Discrete<R, N> + Rayleigh<N> {
         self.discrete_lagrangian_derivatives(q0, q1, h)
             + self.discrete_rayleigh_derivatives(q0, q1, h) * -Self::Scalar::constant(1.0)
     }
+}
+
+/// The first argument that is not finite: the cause, where a step has failed.
+#[cold]
+fn in_arguments<S: Scalar, const N: usize>(
+    state: &State<S, N>,
+    guess: Option<&SVector<S, N>>,
+) -> Option<StepError> {
+    let of_guess = || guess.map_or(Ok(()), |v| StepError::require_finite(v, Quantity::Velocity));
+    state.require_finite().and_then(|()| of_guess()).err()
 }
 
 #[inline]

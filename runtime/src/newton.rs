@@ -1,6 +1,12 @@
-//! Newton's method with the analytic matrix, damped where a full step does not lower the residual.
+//! Newton's method with the analytic matrix.
 //!
-//! Residuals are measured in units of their round-off floor, component by component; see [`rounding`].
+//! Nearly every step is solved by the undamped method in two or three iterations ([`quick`]). Where that does not contract,
+//! the residual is held up by rounding, far from a root, or without one: [`careful`] damps it and tells these apart.
+//!
+//! Residuals are measured in units of their round-off floor, component by component; see [`rounding`]. That alone would refuse
+//! good steps: the residual of a coordinate at rest, without a force as yet, has a floor of next to nothing, and that of a
+//! stiff spring grows with the square of a long sideways step. A step is therefore taken as well where the one still to take
+//! after it is shorter ([`nearer`]; compare P. Deuflhard, Newton Methods for Nonlinear Problems, 2004, on tests in the unknowns).
 
 use nalgebra::SVector;
 
@@ -10,7 +16,7 @@ use crate::linear::{NewtonMatrix, Singular};
 use crate::{Report, Scalar, State};
 
 mod rounding;
-use rounding::{AT_FLOOR, STAGNATION, estimated_floor, in_units_of, rounding, worst};
+use rounding::{AT_FLOOR, STAGNATION, estimated_floor, held_against, in_units_of, rounding, worst};
 
 /// A root, with both momenta there.
 pub(crate) struct Solution<S, const N: usize> {
@@ -26,13 +32,26 @@ const MAX_ITERATIONS: u32 = 100;
 /// A contraction above this is not that of Newton's method: rounding slows it, or the root is far.
 const SLOW: f64 = 0.25;
 
-/// Both momenta as a function of (q, v); behind a pointer where it is called seldom.
+/// A share of the Newton step below which a singular matrix on the way is not passed by.
+const SHORTEST: f64 = 1e-3;
+
+/// The undamped method's iterations: from a guess this far off the careful one goes on.
+const QUICK_ITERATIONS: u32 = 8;
+
+/// The step's equation as a function of (q, v); behind a pointer where it is called seldom.
+type Evaluate<'f, S, M, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M> + 'f;
+
+/// Both momenta as a function of (q, v).
 type Finish<'f, S, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N> + 'f;
 
+/// The diagonal of the mass matrix as a function of (q, v).
+type Inertia<'f, S, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N> + 'f;
+
 /// An iterate, the Newton step from it, and the measure of its residual.
-struct Iterate<S, const N: usize> {
+struct Iterate<S, M, const N: usize> {
     v: SVector<S, N>,
     residual: SVector<S, N>,
+    matrix: M,
     /// The full Newton step leads to v − correction.
     correction: SVector<S, N>,
     floor: SVector<S, N>,
@@ -51,23 +70,117 @@ pub(crate) enum Equation {
 
 /// Solves p0(q, v) = p for v at the `state` (q, p).
 ///
-/// `evaluate` gives p0 and the Newton matrix, `finish` both momenta. The residual that the report states is the one that
-/// `finish` measured at the root.
+/// `evaluate` gives p0 and the Newton matrix, `finish` both momenta, `inertia` the metric that tells which of two velocities is
+/// longer. The residual that the report states is the one that `finish` measured at the root.
 #[inline]
 pub(crate) fn solve<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     kind: Equation,
     evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
     finish: impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
+    inertia: impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
     state: &State<S, N>,
     guess: SVector<S, N>,
 ) -> Result<Solution<S, N>, StepError> {
+    match quick(kind, &evaluate, &finish, state, guess) {
+        Ok(solution) => Ok(solution),
+        Err(reached) => careful(&evaluate, &finish, &inertia, state, reached),
+    }
+}
+
+/// Where the undamped method left off: the last iterate that lowered the residual, and the corrections that led there.
+struct Reached<S, const N: usize> {
+    v: SVector<S, N>,
+    iterations: u32,
+}
+
+/// The undamped method, as long as it contracts as Newton's does.
+///
+/// Newton's residuals fall as |r′| ≈ C|r|², so the last contraction c predicts the next one, c². Where that ends at the
+/// floor, the matrix is not needed again. On the way residuals are weighed by the floor at the guess; the root is held
+/// against its own.
+#[inline]
+#[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a contraction that is NaN must fail the comparison")]
+fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+    kind: Equation,
+    evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
+    finish: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
+    state: &State<S, N>,
+    guess: SVector<S, N>,
+) -> Result<Solution<S, N>, Reached<S, N>> {
     let State { q, p } = state;
-    let mut trial = guess;
+    let mut v = guess;
+    let mut weights: SVector<S, N> = nalgebra::zero();
+    let mut last_size = S::zero();
+    let mut reached = Reached { v, iterations: 0 };
+    for iterations in 0..QUICK_ITERATIONS {
+        let kernel = evaluate(q, &v);
+        let residual = kernel.p0 - p;
+        let Ok(correction) = kernel.matrix.solve(&residual) else { break };
+        let next = v - correction;
+        let close = if kind == Equation::Linear {
+            true
+        } else if iterations == 0 {
+            weights = estimated_floor(p, &kernel.matrix, &next).map(|floor| S::one() / floor);
+            last_size = weighted(&residual, &weights);
+            last_size <= S::one()
+        } else {
+            let size = weighted(&residual, &weights);
+            let contraction = size / last_size;
+            if !(contraction <= S::constant(SLOW)) {
+                break;
+            }
+            last_size = size;
+            size <= S::one() || contraction * contraction * size <= S::one()
+        };
+        reached = Reached { v, iterations };
+        v = next;
+        if close {
+            let momenta = finish(q, &v);
+            let residual = momenta.p0 - p;
+            let floor = estimated_floor(p, &kernel.matrix, &v);
+            let (residual, floor, is_root) = held_against(&residual, &floor);
+            if is_root {
+                let last_correction = correction.amax();
+                let iterations = iterations + 1;
+                let report = Report { iterations, damped: 0, residual, floor, last_correction };
+                return Ok(Solution { unknown: v, momenta, report });
+            }
+        }
+    }
+    Err(reached)
+}
+
+/// max |residualᵢ| weightᵢ; NaN if one of them is no finite number.
+#[inline]
+fn weighted<S: Scalar, const N: usize>(residual: &SVector<S, N>, weights: &SVector<S, N>) -> S {
+    let (mut largest, mut poison) = (S::zero(), S::zero());
+    for i in 0..N {
+        let units = residual[i].abs() * weights[i];
+        poison += units * S::zero();
+        if units > largest {
+            largest = units;
+        }
+    }
+    largest + poison
+}
+
+/// The damped method, and the verdicts.
+#[cold]
+#[inline(never)]
+fn careful<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+    evaluate: &Evaluate<'_, S, M, N>,
+    finish: &Finish<'_, S, N>,
+    inertia: &Inertia<'_, S, N>,
+    state: &State<S, N>,
+    reached: Reached<S, N>,
+) -> Result<Solution<S, N>, StepError> {
+    let State { q, p } = state;
+    let mut trial = reached.v;
     let mut share = S::one();
     let mut contraction = S::one();
-    let mut iterations = 0;
+    let mut iterations = reached.iterations;
     let mut damped = 0;
-    let mut iterate: Option<Iterate<S, N>> = None;
+    let mut iterate: Option<Iterate<S, M, N>> = None;
 
     loop {
         let kernel = evaluate(q, &trial);
@@ -75,15 +188,17 @@ pub(crate) fn solve<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         if let Some(last) = &iterate {
             let size = in_units_of(&residual, &last.floor);
             let lower = size < last.size;
-            // A contraction that is none, or that is no longer Newton's, may be rounding.
-            if share == S::one()
-                && !(lower && size <= last.size * S::constant(SLOW))
+            // A contraction that is none, or that is no longer Newton's, may be rounding, unless the next step is a shorter one.
+            let slow = share == S::one() && !(lower && size <= last.size * S::constant(SLOW));
+            let nearer = slow && nearer(&kernel, inertia, state, last);
+            if slow
+                && !nearer
                 && let Some(solution) =
-                    stagnated(&finish, state, last, lower.then_some(&trial), [iterations, damped])
+                    stagnated(finish, state, last, (&trial, &kernel.matrix, lower), [iterations, damped])
             {
                 return Ok(solution);
             }
-            if !lower {
+            if !lower && !nearer {
                 share = shorter(share, last.size, size);
                 let change = last.correction * share;
                 if is_negligible(&change, &last.v) || share < S::EPSILON * S::EPSILON {
@@ -96,13 +211,24 @@ pub(crate) fn solve<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
                 continue;
             }
             damped += u32::from(share < S::one());
-            contraction = size / last.size;
+            // Unknown where the residual says nothing.
+            contraction = if lower { size / last.size } else { S::one() };
         }
 
-        let correction = kernel
-            .matrix
-            .solve(&residual)
-            .map_err(|singular| unsolvable(singular, &residual, &kernel.matrix, iterations, damped))?;
+        let correction = match (kernel.matrix.solve(&residual), &iterate) {
+            (Ok(correction), _) => correction,
+            // The matrix is singular along the way only; a shorter step leads elsewhere.
+            (Err(_), Some(last))
+                if share > S::constant(SHORTEST) && first_non_finite(&residual, &kernel.matrix).is_none() =>
+            {
+                share *= S::constant(0.5);
+                trial = last.v - last.correction * share;
+                continue;
+            }
+            (Err(singular), _) => {
+                return Err(unsolvable(singular, &residual, &kernel.matrix, iterations, damped));
+            }
+        };
         let v = trial;
         trial = v - correction;
         let floor = estimated_floor(p, &kernel.matrix, &trial);
@@ -112,7 +238,7 @@ pub(crate) fn solve<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         {
             return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
         }
-        if iterations == MAX_ITERATIONS {
+        if iterations >= MAX_ITERATIONS {
             let (residual, floor) = worst(&residual, &floor);
             return Err(StepError::NotConverged {
                 iterations,
@@ -122,9 +248,7 @@ pub(crate) fn solve<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         }
         iterations += 1;
 
-        // Newton's residuals fall as |r′| ≈ C|r|², so the last contraction c predicts the next one, c². Where that ends at
-        // the floor, the matrix is not needed again.
-        if kind == Equation::Linear || size <= S::one() || contraction * contraction * size <= S::one() {
+        if size <= S::one() || contraction * contraction * size <= S::one() {
             let momenta = finish(q, &trial);
             let remaining = momenta.p0 - p;
             if in_units_of(&remaining, &floor) <= S::constant(AT_FLOOR) {
@@ -135,32 +259,59 @@ pub(crate) fn solve<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
             }
         }
         share = S::one();
-        iterate = Some(Iterate { v, residual, correction, floor, size });
+        iterate = Some(Iterate { v, residual, matrix: kernel.matrix, correction, floor, size });
     }
 }
 
-/// The root at an iterate whose residual has stopped falling, if rounding holds the residual up there. `lower` is where the
-/// Newton step led, if that still lowered it.
+/// The root at an iterate whose residual has stopped falling, if rounding holds the residual up there. `trial` is where the
+/// Newton step led, with the matrix there, and whether that still lowered it.
 #[cold]
-fn stagnated<S: Scalar, const N: usize>(
+fn stagnated<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     finish: &Finish<'_, S, N>,
-    state: &State<S, N>,
-    last: &Iterate<S, N>,
-    lower: Option<&SVector<S, N>>,
+    State { q, p }: &State<S, N>,
+    last: &Iterate<S, M, N>,
+    (trial, matrix, lower): (&SVector<S, N>, &M, bool),
     [iterations, damped]: [u32; 2],
 ) -> Option<Solution<S, N>> {
-    let unknown = *lower.unwrap_or(&last.v);
-    let momenta = finish(&state.q, &unknown);
-    let residual = momenta.p0 - state.p;
-    let measured = last.floor + rounding(|q, v| finish(q, v).p0, &state.q, &unknown);
-    let explained = in_units_of(&residual, &measured) <= S::constant(AT_FLOOR);
-    let close = last.size <= S::constant(STAGNATION);
-    if !explained && (lower.is_some() || !close) {
-        return None;
+    // Floors of the iterates themselves: a step from near a fold leads far out, where every floor is high.
+    let solution = |v: &SVector<S, N>, matrix: &M, explained_only: bool| {
+        let momenta = finish(q, v);
+        let residual = momenta.p0 - p;
+        let estimated = estimated_floor(p, matrix, v);
+        let measured = estimated + rounding(|q, v| finish(q, v).p0, q, v);
+        let explained = in_units_of(&residual, &measured) <= S::constant(AT_FLOOR);
+        let close = in_units_of(&residual, &estimated) <= S::constant(STAGNATION);
+        let (residual, floor) = worst(&residual, if explained { &measured } else { &estimated });
+        let report = Report { iterations, damped, residual, floor, last_correction: last.correction.amax() };
+        (explained || close && !explained_only).then_some(Solution { unknown: *v, momenta, report })
+    };
+    // One component that rounding holds up can hide that the step has brought the others down.
+    match solution(trial, matrix, true) {
+        None if !lower => solution(&last.v, &last.matrix, false),
+        found => found,
     }
-    let (residual, floor) = worst(&residual, if explained { &measured } else { &last.floor });
-    let report = Report { iterations, damped, residual, floor, last_correction: last.correction.amax() };
-    Some(Solution { unknown, momenta, report })
+}
+
+/// Whether a full step whose residual is no lower is nearer to the root all the same: the Newton step from there is at most
+/// half as long, with Σ |Mᵢᵢ| vᵢ² for the square of a length, by a matrix that has not grown.
+///
+/// Neither the units of a coordinate nor a stiff direction that turns, nor a component that was 0, change this verdict. With one
+/// coordinate it is that of the residual.
+#[cold]
+fn nearer<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+    trial: &StepKernel<S, N, M>,
+    inertia: &Inertia<'_, S, N>,
+    State { q, p }: &State<S, N>,
+    last: &Iterate<S, M, N>,
+) -> bool {
+    let Ok(next) = trial.matrix.solve(&(trial.p0 - p)) else { return false };
+    let before = &last.matrix;
+    if (0..N).any(|i| trial.matrix.entry(i, i).abs() > before.entry(i, i).abs() * S::constant(2.0)) {
+        return false;
+    }
+    let inertia = inertia(q, &last.v).abs();
+    let square = |v: &SVector<S, N>| v.component_mul(v).dot(&inertia);
+    square(&next) <= square(&last.correction) * S::constant(0.25)
 }
 
 /// What a Newton matrix that cannot be solved with means.
@@ -202,7 +353,7 @@ fn is_below<S: Scalar, const N: usize>(factor: S, change: &SVector<S, N>, v: &SV
 
 /// Tells a residual that rounding holds up from one that has no root.
 #[cold]
-fn give_up<S: Scalar, const N: usize>(iteration: u32, last: &Iterate<S, N>) -> StepError {
+fn give_up<S: Scalar, M, const N: usize>(iteration: u32, last: &Iterate<S, M, N>) -> StepError {
     // Near a fold the matrix is almost singular and the correction large; lost digits leave it small.
     if is_below(S::EPSILON.cbrt(), &last.correction, &last.v) {
         let (residual, floor) = worst(&last.residual, &last.floor);

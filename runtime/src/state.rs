@@ -44,8 +44,7 @@ impl<S: Scalar, const N: usize> State<S, N> {
     /// # Errors
     /// As [`Discrete::step`](crate::Discrete::step); [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is singular.
     pub fn velocity<L: Lagrangian<N, Scalar = S>>(&self, system: &L) -> Result<SVector<S, N>, StepError> {
-        StepError::require_finite(&self.q, Quantity::Configuration)?;
-        StepError::require_finite(&self.p, Quantity::Momentum)?;
+        self.require_finite()?;
         // 𝔽L is the limit h → 0 of the discrete transforms.
         let transform = |q: &SVector<S, N>, v: &SVector<S, N>| {
             let l = system.lagrangian_derivatives(q, v);
@@ -58,6 +57,7 @@ impl<S: Scalar, const N: usize> State<S, N> {
                 let p = system.lagrangian_gradient(q, v).d2;
                 Momenta { p0: p, p1: p }
             },
+            |q, v| system.lagrangian_derivatives(q, v).d22.diagonal(),
             self,
             nalgebra::zero(),
         )
@@ -66,6 +66,13 @@ impl<S: Scalar, const N: usize> State<S, N> {
             other => other,
         })?;
         Ok(solution.unknown)
+    }
+
+    /// Fails with the first entry of q or p that is not finite.
+    #[inline]
+    pub(crate) fn require_finite(&self) -> Result<(), StepError> {
+        StepError::require_finite(&self.q, Quantity::Configuration)?;
+        StepError::require_finite(&self.p, Quantity::Momentum)
     }
 
     /// E_L at this node, with the velocity that p stands for.

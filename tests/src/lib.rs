@@ -4,5 +4,6 @@ pub mod by_hand;
 pub mod convergence;
 pub mod damped_oscillator;
 pub mod documented;
+pub mod hard;
 pub mod reference;
 pub mod systems;

@@ -203,6 +203,7 @@ where
                 let p = momentum(known, v);
                 Momenta { p0: p, p1: p }
             },
+            |known, v| self.system.lagrangian_derivatives(known, v).d22.diagonal(),
             &State { q: *known, p: *p },
             guess.copied().unwrap_or_else(nalgebra::zero),
         )?;

@@ -73,8 +73,9 @@ fn closed_form<S: Scalar, const N: usize, const C: usize>(
                 x[i] = (d * right[i] - b * right[i + 1]) * reciprocal;
                 x[i + 1] = (a * right[i + 1] - c * right[i]) * reciprocal;
             }
-            let carries_digits = determinant.abs() > (ad.abs() + bc.abs()) * (S::EPSILON * S::constant(16.0));
-            (carries_digits && reciprocal.is_finite() && reciprocal != S::zero()).then_some(x)
+            // A determinant below the normal numbers has an infinite reciprocal.
+            let cancelled = (ad.abs() + bc.abs()) * (S::EPSILON * S::constant(16.0)) + S::SMALLEST_NORMAL;
+            (determinant.abs() > cancelled && reciprocal.abs() > S::zero()).then_some(x)
         }
         _ => None,
     }

@@ -55,6 +55,24 @@ pub(super) fn in_units_of<S: Scalar, const N: usize>(residual: &SVector<S, N>, f
     largest
 }
 
+/// The residual that is largest in units of its floor, this floor, and whether it is a root's: at most [`AT_FLOOR`] of them.
+#[inline]
+pub(super) fn held_against<S: Scalar, const N: usize>(
+    residual: &SVector<S, N>,
+    floor: &SVector<S, N>,
+) -> (S, S, bool) {
+    let (mut largest, mut its_floor) = (residual[0].abs(), floor[0]);
+    let mut is_root = largest <= its_floor * S::constant(AT_FLOOR);
+    for i in 1..N {
+        let size = residual[i].abs();
+        is_root &= size <= floor[i] * S::constant(AT_FLOOR);
+        if size * its_floor > largest * floor[i] {
+            (largest, its_floor) = (size, floor[i]);
+        }
+    }
+    (largest, its_floor, is_root)
+}
+
 /// The residual that is largest in units of its floor, and this floor.
 #[inline]
 pub(super) fn worst<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: &SVector<S, N>) -> (S, S) {

@@ -1,0 +1,134 @@
+//! Orbits that almost collide.
+
+use std::f64::consts::TAU;
+
+use dalembert::{Discrete, Midpoint, State, StepError, Trajectory, Trapezoidal};
+use dalembert_examples::baseline::{self, Method};
+use dalembert_tests::hard::{Kepler, drive, kepler};
+
+const FREE: Kepler = Kepler { k: 0.0 };
+
+/// Largest errors of E and of J, the latter in units of what rounding of q × p explains.
+fn errors<R: Copy>(rule: R, e: f64, steps: u64, orbits: u64) -> (f64, f64, Option<StepError>)
+where
+    Kepler: Discrete<R, 2, Scalar = f64>,
+{
+    let start = Kepler::aphelion(e);
+    let (mut energy, mut momentum, mut size) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let effort = drive(&FREE, rule, TAU / steps as f64, start, [orbits * steps, 1], |at| {
+        energy = energy.max((Kepler::energy_of(&at.state) + 0.5).abs());
+        size = size.max(at.state.q.norm() * at.state.p.norm());
+        let change = Kepler::angular_momentum(&at.state) - Kepler::angular_momentum(&start);
+        // A random walk of the roundings of the largest q × p so far.
+        momentum = momentum.max(change.abs() / (size * f64::EPSILON * (at.steps as f64).sqrt()));
+    });
+    (energy, momentum, effort.stopped)
+}
+
+/// J is kept whatever the step, also where the orbit is nonsense.
+#[test]
+fn angular_momentum_is_kept_to_rounding_at_any_step() {
+    for e in [0.9, 0.99, 0.999] {
+        for steps in [1_000, 10_000] {
+            for (_, momentum, _) in [errors(Midpoint, e, steps, 3), errors(Trapezoidal, e, steps, 3)] {
+                assert!(momentum < 4.0, "e = {e}, {steps} steps: {momentum}");
+            }
+        }
+    }
+}
+
+/// The same for explicit Euler and Runge–Kutta: the control.
+#[test]
+fn naive_codes_lose_it() {
+    let start = Kepler::aphelion(0.9);
+    for (method, least) in [(Method::Euler, 1e-2), (Method::RungeKutta4, 1e-6)] {
+        let states = baseline::states(&FREE, method, TAU / 1000.0, start).unwrap().take(3000);
+        let lost = states
+            .map(|state| {
+                let change = state.map(|s| Kepler::angular_momentum(&s) - Kepler::angular_momentum(&start));
+                change.map_or(f64::INFINITY, f64::abs)
+            })
+            .fold(0.0, f64::max);
+        assert!(lost > least, "{method:?} {lost:e}");
+    }
+}
+
+#[test]
+fn energy_is_of_order_two_once_the_near_side_is_resolved() {
+    let order = |coarse: f64, fine: f64| (coarse / fine).log2();
+    let midpoint = [5_000, 10_000].map(|steps| errors(Midpoint, 0.9, steps, 3).0);
+    let trapezoidal = [5_000, 10_000].map(|steps| errors(Trapezoidal, 0.9, steps, 3).0);
+    for [coarse, fine] in [midpoint, trapezoidal] {
+        assert!((order(coarse, fine) - 2.0).abs() < 0.05, "{coarse:e} {fine:e}");
+    }
+}
+
+/// At e = 0.999 a thousandth of the period jumps over the near side: the midpoint step there has no real solution, or leads to an
+/// orbit that is not bound; the former has a name, and a shorter step passes.
+#[test]
+fn a_step_over_the_collision_has_a_name_and_shorter_ones_pass() {
+    let h = TAU / 1000.0;
+    let start = Kepler::aphelion(0.999);
+    let mut trajectory = Trajectory::new(&FREE, Midpoint, h, start);
+    let mut good = start;
+    let error = loop {
+        match trajectory.next().unwrap() {
+            Ok(step) => good = step.state,
+            Err(error) => break error,
+        }
+        assert!(trajectory.time() < TAU, "it passed");
+    };
+    assert!(matches!(error, StepError::NoRealSolution { .. }), "{error:?}");
+    assert_eq!(trajectory.state(), &good, "the last good state");
+    // Less than a step from the near side, to which the time is half a period.
+    assert!((trajectory.time() - 0.5 * TAU).abs() < 2.0 * h);
+
+    trajectory.change_step_size(h / 4096.0);
+    for _ in 0..16 * 4096 {
+        trajectory.next().unwrap().unwrap();
+    }
+    // On the far side again, with the energy that the coarse steps had left.
+    assert!(trajectory.state().q[0] > 0.05, "{:?}", trajectory.state());
+    let change = Kepler::energy_of(trajectory.state()) - Kepler::energy_of(&good);
+    assert!(change.abs() < 1e-3, "{change:e}");
+    assert!(
+        (Kepler::angular_momentum(trajectory.state()) / Kepler::angular_momentum(&start) - 1.0).abs() < 1e-11
+    );
+}
+
+/// Isotropic drag: J(t) = J(0) e^{−kt} on every orbit.
+#[test]
+fn drag_takes_angular_momentum_as_it_should() {
+    let k = 0.05;
+    let error = |rule_is_midpoint: bool, steps: u64| {
+        let start = Kepler::aphelion(0.9);
+        let mut worst = 0.0_f64;
+        let h = TAU / steps as f64;
+        let look = |at: dalembert_tests::hard::Progress<2>| {
+            let exact = Kepler::angular_momentum(&start) * (-k * at.time).exp();
+            worst = worst.max((Kepler::angular_momentum(&at.state) / exact - 1.0).abs());
+        };
+        let effort = if rule_is_midpoint {
+            drive(&Kepler { k }, Midpoint, h, start, [3 * steps, 1], look)
+        } else {
+            drive(&Kepler { k }, Trapezoidal, h, start, [3 * steps, 1], look)
+        };
+        assert_eq!(effort.stopped, None);
+        worst
+    };
+    for midpoint in [true, false] {
+        let (coarse, fine) = (error(midpoint, 4_000), error(midpoint, 8_000));
+        assert!(fine < 1e-4, "{fine:e}");
+        assert!(((coarse / fine).log2() - 2.0).abs() < 0.1, "{coarse:e} {fine:e}");
+    }
+}
+
+/// The free function and the energy of the state agree: what the other tests measure with.
+#[test]
+fn energies_of_the_scene() {
+    let state = State { q: [0.6, -0.3].into(), p: [0.2, 0.5].into() };
+    let (l, _) = kepler(state.q.into(), state.p.into(), 0.0);
+    let energy = Kepler::energy_of(&state);
+    assert!((energy - (state.p.norm_squared() - l)).abs() < 1e-15);
+    assert!((energy - state.energy(&FREE).unwrap()).abs() < 1e-15);
+}
