@@ -438,3 +438,40 @@ fn velocities_and_momenta_have_their_jacobians() {
         Err(dalembert::StepError::DegenerateLagrangian { column: 0 })
     ));
 }
+
+/// The oscillator in single precision.
+struct Single {
+    m: f32,
+    k: f32,
+    r: f32,
+}
+
+#[rayleigh_system(rule = [midpoint, trapezoidal], parameters = [m, k, r], step_derivatives = second)]
+impl Single {
+    fn lagrangian(&self, q: [f32; 1], v: [f32; 1]) -> f32 {
+        0.5 * self.m * v[0] * v[0] - 0.5 * self.k * q[0] * q[0]
+    }
+
+    fn rayleigh(&self, v: [f32; 1]) -> f32 {
+        0.5 * self.r * v[0] * v[0]
+    }
+
+    fn force(&self, q: [f32; 1], _v: [f32; 1], u: [f32; 1]) -> [f32; 1] {
+        [u[0] * (1.0 + 0.0 * q[0])]
+    }
+}
+
+#[test]
+fn single_precision_has_them_too() {
+    let (m, k, r, h, u) = (1.3, 2.1, 0.4, 0.2, 0.7);
+    let (single, double) = (Single { m, k, r }, Oscillator { m: 1.3, k: 2.1, r: 0.4 });
+    let (single, double) = (single.driven([u]), double.driven([0.7]));
+    let a = Linearization::of_driven_segment(&single, Midpoint, &vector![0.6], &vector![0.5], h).unwrap();
+    let b = Linearization::of_driven_segment(&double, Midpoint, &vector![0.6], &vector![0.5], 0.2).unwrap();
+    let of_double = (b.a.assembled::<2>(), b.b.assembled::<2>());
+    assert!((a.a.assembled::<2>().cast::<f64>() - of_double.0).amax() < 1e-6);
+    assert!((a.b.assembled::<2>().cast::<f64>() - of_double.1).amax() < 1e-7);
+    let a = StateBy::of_parameters(&single, Midpoint, &vector![0.6], &vector![0.5], h).unwrap();
+    let b = StateBy::of_parameters(&double, Midpoint, &vector![0.6], &vector![0.5], 0.2).unwrap();
+    assert!((a.assembled::<2>().cast::<f64>() - b.assembled::<2>()).amax() < 1e-7);
+}

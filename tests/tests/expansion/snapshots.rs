@@ -93,6 +93,28 @@ fn driven() {
     assert_snapshot("driven_by_num_dual.rs", &formatted(expansion));
 }
 
+/// What a system has on request: derivatives by parameters, and what second derivatives of its step need.
+#[test]
+fn sensitivities() {
+    let expansion = rayleigh_system(
+        quote!(parameters = [l, c[0]], step_derivatives = second),
+        quote! {
+            impl Joint {
+                fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+                    0.5 * self.l * self.l * v[0] * v[0] + self.l * q[0].cos()
+                }
+                fn rayleigh(&self, v: [f64; 1]) -> f64 {
+                    0.25 * self.c[0] * v[0].powi(4)
+                }
+                fn force(&self, q: [f64; 1], _v: [f64; 1], u: [f64; 1]) -> [f64; 1] {
+                    [u[0] * q[0].cos()]
+                }
+            }
+        },
+    );
+    assert_snapshot("sensitivities.rs", &formatted(expansion));
+}
+
 /// The same system with num-dual's derivatives.
 #[test]
 fn oscillator_by_num_dual() {
