@@ -1,69 +1,136 @@
-//! One midpoint step: generated code against hand-derived code, interleaved in one run.
+//! One midpoint step of every scene: derivatives by hand, generated, and by dual numbers, on one solver; times of interleaved
+//! runs and counted instructions, as the tables of `docs/performance.md`.
 //!
 //! `cargo bench -p dalembert-benches --bench step`
 //!
-//! "by hand" is a step written out for one system: analytic residual and Newton matrix, 2×2 solve in closed form, the same
-//! unknown, guess and tolerance; after the last correction it extrapolates the force instead of evaluating it again.
+//! Instructions are counted where valgrind is installed.
 
-use std::hint::black_box;
+use std::env;
 
-use dalembert::{Discrete, Midpoint, State, Trajectory};
-use dalembert_benches::{by_hand, interleaved, scenes};
-
-const STEPS: u32 = 20_000;
+use dalembert_benches::candidates::{self, Scene, Way};
+use dalembert_benches::instructions::{self, Part};
+use dalembert_benches::interleaved;
 
 fn main() {
-    let ring = scenes::Ring { k: 1e-3 };
-    let start = [[0.0, 1.15549918674982], [0.5, 0.0]];
-    compare("ring", &ring, 0.2, start, |q, p, steps| by_hand::ring(1e-3, 0.2, q, p, steps));
-
-    let pendulum = scenes::DoublePendulum { m: [1.0, 0.7], l: [1.0, 0.8], g: 9.81, c: [0.05, 0.03] };
-    let start = [[0.8, -0.4], [0.0, 0.5]];
-    compare("double pendulum", &pendulum, 0.01, start, |q, p, steps| {
-        by_hand::double_pendulum([1.0, 0.7], [1.0, 0.8], 9.81, [0.05, 0.03], 0.01, q, p, steps)
-    });
+    let arguments: Vec<String> = env::args().collect();
+    if let Some(at) = arguments.iter().position(|argument| argument == instructions::COUNTED) {
+        return counted(&arguments[at + 1..]);
+    }
+    let scenes = candidates::scenes();
+    for scene in &scenes {
+        scene.assert_agreement();
+    }
+    times(&scenes);
+    println!();
+    counts(&scenes);
+    println!();
+    costs_per_degree();
 }
 
-/// Times both ways and prints the ratio, after checking that they compute the same trajectory.
-fn compare<L>(
-    name: &str,
-    system: &L,
-    h: f64,
-    [q, v]: [[f64; 2]; 2],
-    by_hand: impl Fn([f64; 2], [f64; 2], u32) -> ([f64; 2], [f64; 2]),
-) where
-    L: Discrete<Midpoint, 2, Scalar = f64>,
-{
-    let start = State::from_velocity(system, q, v).expect("the scene is regular");
-    let generated = || {
-        let mut trajectory = Trajectory::new(system, Midpoint, h, black_box(start));
-        for step in (&mut trajectory).take(STEPS as usize) {
-            black_box(step.expect("the scene can be stepped"));
-        }
-        *trajectory.state()
-    };
-    let hand = || by_hand(black_box(start.q.into()), black_box(start.p.into()), STEPS);
+/// The run that valgrind watches.
+fn counted(arguments: &[String]) {
+    let [scene, way, part, times] = arguments else { panic!("a scene, a way, a part and a number of times") };
+    let scene = [candidates::scenes(), candidates::spring_chains()]
+        .into_iter()
+        .flatten()
+        .find(|known| known.name == *scene)
+        .expect("a scene");
+    let way = Way::ALL.into_iter().find(|known| known.name() == *way).expect("a way");
+    let times = times.parse().expect("a number of times");
+    match Part::ALL.into_iter().find(|known| known.name() == *part).expect("a part") {
+        Part::Step => scene.way(way).expect("a way of this scene")(times),
+        Part::Evaluation => scene.evaluations(way).expect("a way of this scene")(times),
+    }
+}
 
-    let (end, (q_hand, _)) = (generated(), by_hand(start.q.into(), start.p.into(), 200));
-    let mut short = Trajectory::new(system, Midpoint, h, start);
-    let state = (&mut short).take(200).last().expect("200 steps").expect("the scene can be stepped").state;
-    let difference = (state.q - dalembert::nalgebra::SVector::from(q_hand)).amax();
-    assert!(difference < 1e-11, "{name}: the two ways differ by {difference:e} after 200 steps");
-    black_box(end);
-
-    let [hand, generated] = interleaved([
-        &|| {
-            black_box(hand());
-        },
-        &|| {
-            black_box(generated());
-        },
-    ]);
-    let per_step = |time: f64| time / f64::from(STEPS) * 1e9;
+/// Nanoseconds per step.
+fn times(scenes: &[Scene]) {
     println!(
-        "{name:16} by hand {:7.1} ns   generated {:7.1} ns   ratio {:.2}",
-        per_step(hand),
-        per_step(generated),
-        generated / hand
+        "| scene | n | by hand, ns | generated, ns | generated / by hand | num-dual, ns | num-dual / generated | stripped, ns |"
     );
+    println!("|---|--:|--:|--:|--:|--:|--:|--:|");
+    let mut ratios = Vec::new();
+    for scene in scenes {
+        let ways = Way::ALL.map(|way| scene.way(way));
+        let runs: Vec<&dyn Fn(usize)> = ways.iter().flatten().map(|run| run as &dyn Fn(usize)).collect();
+        let medians: Vec<f64> =
+            interleaved::medians(&runs).into_iter().map(|seconds| seconds * 1e9).collect();
+        let [by_hand, generated, dual] = [medians[0], medians[1], medians[2]];
+        let stripped = medians.get(3).map_or(String::new(), |time| digits(*time));
+        ratios.push(generated / by_hand);
+        println!(
+            "| {} | {} | {} | {} | {:.2} | {} | {:.1} | {stripped} |",
+            scene.name,
+            scene.degrees,
+            digits(by_hand),
+            digits(generated),
+            generated / by_hand,
+            digits(dual),
+            dual / generated
+        );
+    }
+    println!("\ngeometric mean of generated / by hand: {:.2}", geometric_mean(&ratios));
+}
+
+/// Instructions per step, and of one evaluation of what a step evaluates.
+fn counts(scenes: &[Scene]) {
+    println!("| scene | n | part | by hand | generated | generated / by hand | num-dual |");
+    println!("|---|--:|---|--:|--:|--:|--:|");
+    for part in Part::ALL {
+        let mut ratios = Vec::new();
+        for scene in scenes {
+            let count = |way: Way, times| instructions::each(scene.name, way.name(), part, times);
+            let (Some(by_hand), Some(generated), Some(dual)) =
+                (count(Way::ByHand, 1000), count(Way::Generated, 1000), count(Way::NumDual, 20))
+            else {
+                println!("\nno valgrind: instructions not counted");
+                return;
+            };
+            ratios.push(generated / by_hand);
+            println!(
+                "| {} | {} | {} | {by_hand:.0} | {generated:.0} | {:.2} | {dual:.0} |",
+                scene.name,
+                scene.degrees,
+                part.name(),
+                generated / by_hand
+            );
+        }
+        println!("| geometric mean | | {} | | | {:.2} | |", part.name(), geometric_mean(&ratios));
+    }
+}
+
+/// What one degree of freedom of the spring chain costs, at n = 8 and at n = 32.
+fn costs_per_degree() {
+    let chains = candidates::spring_chains();
+    let runs: Vec<_> = chains.iter().map(|chain| chain.way(Way::Generated).expect("generated")).collect();
+    let runs: Vec<&dyn Fn(usize)> = runs.iter().map(|run| run as &dyn Fn(usize)).collect();
+    let times = interleaved::medians(&runs);
+    println!(
+        "| spring chain | ns per step | ns per degree of freedom | instructions per degree of freedom |"
+    );
+    println!("|---|--:|--:|--:|");
+    let mut costs = Vec::new();
+    for (chain, seconds) in chains.iter().zip(times) {
+        let (nanoseconds, degrees) = (seconds * 1e9, chain.degrees as f64);
+        let count = instructions::each(chain.name, Way::Generated.name(), Part::Step, 1000)
+            .map_or(String::new(), |count| format!("{:.0}", count / degrees));
+        costs.push(nanoseconds / degrees);
+        println!(
+            "| n = {} | {} | {} | {count} |",
+            chain.degrees,
+            digits(nanoseconds),
+            digits(nanoseconds / degrees)
+        );
+    }
+    println!("\ncost per degree of freedom, n = 32 against n = 8: {:.2}", costs[1] / costs[0]);
+}
+
+fn geometric_mean(ratios: &[f64]) -> f64 {
+    (ratios.iter().map(|ratio| ratio.ln()).sum::<f64>() / ratios.len() as f64).exp()
+}
+
+/// Three digits.
+fn digits(value: f64) -> String {
+    let decimals = (2 - value.log10().floor() as i32).max(0) as usize;
+    format!("{value:.decimals$}")
 }

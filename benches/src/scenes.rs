@@ -1,51 +1,50 @@
-//! The systems measured.
+//! The systems measured, each as its user would write it, by either engine.
 
-use dalembert::rayleigh_system;
+#[macro_use]
+mod arm;
+#[macro_use]
+mod double_pendulum;
+#[macro_use]
+mod fput_chain;
+#[macro_use]
+mod pendulum_chain;
+#[macro_use]
+mod ring;
+#[macro_use]
+mod spring_chain;
 
-/// Ring potential V = s(s − 1)², s = |q|², with isotropic drag (Marsden & West 2001, example 3.2.3).
-pub struct Ring {
-    /// Drag coefficient.
-    pub k: f64,
+/// Every scene, with the engine named.
+macro_rules! scenes {
+    ($engine:ident) => {
+        use dalembert::rayleigh_system;
+
+        ring!($engine);
+        double_pendulum!($engine);
+        fput_chain!($engine);
+        arm!($engine);
+        pendulum_chain!($engine, 16);
+        spring_chain!($engine, 16);
+    };
 }
 
-#[rayleigh_system]
-impl Ring {
-    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
-        let s = q[0] * q[0] + q[1] * q[1];
-        0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2)
-    }
-
-    fn rayleigh(&self, v: [f64; 2]) -> f64 {
-        0.5 * self.k * (v[0] * v[0] + v[1] * v[1])
-    }
+/// Derivatives written out at compile time.
+pub mod expanded {
+    scenes!(expanded);
 }
 
-/// Double pendulum of point masses, absolute angles from the vertical, with friction in both joints.
-pub struct DoublePendulum {
-    /// Masses.
-    pub m: [f64; 2],
-    /// Lengths.
-    pub l: [f64; 2],
-    /// Gravity.
-    pub g: f64,
-    /// Friction coefficients of the joints.
-    pub c: [f64; 2],
+/// Derivatives by dual numbers when the program runs.
+pub mod num_dual {
+    scenes!(num_dual);
 }
 
-#[rayleigh_system]
-impl DoublePendulum {
-    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
-        let [m1, m2] = self.m;
-        let [l1, l2] = self.l;
-        let kinetic = 0.5 * (m1 + m2) * l1 * l1 * v[0] * v[0]
-            + 0.5 * m2 * l2 * l2 * v[1] * v[1]
-            + m2 * l1 * l2 * (q[0] - q[1]).cos() * v[0] * v[1];
-        let potential = -(m1 + m2) * self.g * l1 * q[0].cos() - m2 * self.g * l2 * q[1].cos();
-        kinetic - potential
-    }
+/// The spring chain of 8 masses.
+pub mod spring_chain_of_8 {
+    use dalembert::rayleigh_system;
+    spring_chain!(expanded, 8);
+}
 
-    fn rayleigh(&self, v: [f64; 2]) -> f64 {
-        let relative = v[1] - v[0];
-        0.5 * self.c[0] * v[0] * v[0] + 0.5 * self.c[1] * relative * relative
-    }
+/// The spring chain of 32 masses.
+pub mod spring_chain_of_32 {
+    use dalembert::rayleigh_system;
+    spring_chain!(expanded, 32);
 }

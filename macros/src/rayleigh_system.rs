@@ -19,6 +19,7 @@ mod model;
 pub mod parse;
 mod rewrite;
 mod scope;
+mod structure;
 mod syntax;
 mod view;
 
@@ -42,30 +43,32 @@ pub fn rayleigh_system(attribute: TokenStream, item: TokenStream) -> TokenStream
     // Parameters are differentiated by nothing else.
     let is_expanded = options.engine == Engine::Expanded || !system.parameters.is_empty();
     if is_expanded && report.is_empty() {
-        let expansion = match lower::system(&system) {
-            Ok(lowered) => {
-                lower::parameters(&system, &lowered, &mut report);
-                if !report.is_empty() {
-                    return fallback::with_stubs(&source, &options.rules, report);
-                }
-                expanded::system(&system, lowered).ok_or((source.name().span(), Mistake::TooLong))
+        let lowered = lower::system(&system);
+        if let Ok(lowered) = &lowered {
+            lower::parameters(&system, lowered, &mut report);
+            if !report.is_empty() {
+                return fallback::with_stubs(&source, &options.rules, report);
             }
-            Err(refusal) => Err((refusal.span, Mistake::NotLowered(refusal.reason))),
-        };
-        return expansion.unwrap_or_else(|(span, mistake)| {
-            report.at_span(span, mistake);
+        }
+        let expansion = lowered.and_then(|lowered| expanded::system(&system, lowered));
+        return expansion.unwrap_or_else(|refusal| {
+            report.at_span(refusal.span, Mistake::NotLowered(refusal.reason));
             fallback::with_stubs(&source, &options.rules, report)
         });
     }
-    let lowered = if options.engine == Engine::Auto { lower::system(&system).ok() } else { None };
+    let lowered = (options.engine == Engine::Auto).then(|| lower::system(&system));
     // What auto accepts does not depend on how far the lowering goes: where it goes all the way, the twins serve for their
     // diagnostics alone.
     let twins = rewrite::over_duals(&system, &mut report);
     if !report.is_empty() {
         return fallback::with_stubs(&source, &options.rules, report);
     }
-    let expansion = lowered.and_then(|lowered| expanded::system(&system, lowered));
-    expansion.unwrap_or_else(|| expand::system(&system, &twins))
+    let expansion = lowered.map(|lowered| lowered.and_then(|lowered| expanded::system(&system, lowered)));
+    match expansion {
+        Some(Ok(expansion)) => expansion,
+        Some(Err(refusal)) => expand::system(&system, &twins, Some(refusal)),
+        None => expand::system(&system, &twins, None),
+    }
 }
 
 /// The expansion of `#[differentiable] item`: the same stages, for a function of (q, parameters…).

@@ -21,6 +21,7 @@ mod rules;
 mod scalar;
 mod second_order;
 mod state;
+mod structure;
 mod system;
 mod trajectory;
 
@@ -212,13 +213,14 @@ pub use discrete::{
 pub use driven::{DiscreteDriven, Driven, MomentaBy};
 pub use error::{Quantity, StepError};
 pub use fields::{ScalarField, VectorField};
-pub use linear::{Banded, NewtonMatrix, Singular};
+pub use linear::{Banded, Factored, FactoredBand, FactoredDense, NewtonMatrix, Singular};
 pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix, StateBy};
-pub use memory::{Memory, VelocityHistory};
+pub use memory::{Explicit, ExplicitMemory, KeptMatrix, Memory, VelocityHistory};
 pub use parameters::{DiscreteParameters, GradientBy, Parameters};
 pub use rules::{DisplacementRule, Midpoint, Node, Trapezoidal};
 pub use scalar::Scalar;
 pub use second_order::{DiscreteSecondOrder, Hessian, SecondOrder, StepHessian};
 pub use state::State;
+pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
 pub use system::{Force, Lagrangian, Rayleigh};
 pub use trajectory::{Sample, Samples, Trajectory};

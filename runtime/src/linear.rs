@@ -10,7 +10,8 @@ use crate::Scalar;
 mod banded;
 mod dense;
 
-pub use banded::Banded;
+pub use banded::{Banded, FactoredBand};
+pub use dense::FactoredDense;
 
 /// A matrix that has no solution to working precision: the column whose pivot is lost to rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +28,14 @@ mod sealed {
 
 /// The form in which a system keeps its Newton matrix: dense, [`SMatrix`], or [`Banded`] where coordinates couple to near
 /// ones only.
-pub trait NewtonMatrix<S: Scalar, const N: usize>: Copy + sealed::Sealed {
+pub trait NewtonMatrix<S: Scalar, const N: usize>: Copy + core::fmt::Debug + sealed::Sealed {
+    /// The matrix made ready to solve with, more than once.
+    type Factored: Factored<S, N>;
+
+    /// The matrix made ready; nothing if it is singular, or if its form has no room for the row exchanges that it needs:
+    /// [`solve`](Self::solve) tells which.
+    fn factored(&self) -> Option<Self::Factored>;
+
     /// The matrix without entries.
     fn zero() -> Self;
 
@@ -54,13 +62,38 @@ pub trait NewtonMatrix<S: Scalar, const N: usize>: Copy + sealed::Sealed {
     }
 }
 
-/// The solution x of `matrix` x = `right`, column by column of the right side, with one elimination.
+/// A matrix made ready to solve with.
+pub trait Factored<S: Scalar, const N: usize>: Copy + core::fmt::Debug {
+    /// The solution x of A x = `right`.
+    fn solve(&self, right: &SVector<S, N>) -> SVector<S, N>;
+}
+
+/// The solution x of `matrix` x = `right`.
 #[inline]
-pub(crate) fn solve<S: Scalar, const N: usize, const C: usize>(
+pub(crate) fn solve<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,
-    right: &SMatrix<S, N, C>,
-) -> Result<SMatrix<S, N, C>, Singular> {
-    dense::solve(matrix, right)
+    right: &SVector<S, N>,
+) -> Result<SVector<S, N>, Singular> {
+    matrix.solve(right)
+}
+
+/// The inverse of `matrix`, with one elimination.
+pub(crate) fn inverse<S: Scalar, const N: usize>(
+    matrix: &SMatrix<S, N, N>,
+) -> Result<SMatrix<S, N, N>, Singular> {
+    // Up to two coordinates a closed form is less work than the factors.
+    let factored = if N > 2 { Some(dense::factored(matrix)?) } else { None };
+    let mut inverse = SMatrix::<S, N, N>::zeros();
+    for j in 0..N {
+        let mut unit = SVector::<S, N>::zeros();
+        unit[j] = S::one();
+        let column = match &factored {
+            Some(factored) => factored.solve(&unit),
+            None => matrix.solve(&unit)?,
+        };
+        inverse.set_column(j, &column);
+    }
+    Ok(inverse)
 }
 
 /// Says whether `matrix` can be solved with.

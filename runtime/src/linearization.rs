@@ -270,7 +270,7 @@ impl<S: Scalar, const N: usize> PhaseMatrix<S, N> {
         v: &SVector<S, N>,
     ) -> Result<Self, StepError> {
         let l = system.lagrangian_derivatives(q, v);
-        let v_by_p = linear::solve(&l.d22, &SMatrix::identity())
+        let v_by_p = linear::inverse(&l.d22)
             .map_err(|singular| StepError::DegenerateLagrangian { column: singular.column })?;
         Ok(Self {
             q_by_q: SMatrix::identity(),
@@ -300,6 +300,6 @@ impl<S: Scalar, const N: usize> PhaseMatrix<S, N> {
 pub(crate) fn inverse<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,
 ) -> Result<SMatrix<S, N, N>, StepError> {
-    linear::solve(matrix, &SMatrix::identity())
+    linear::inverse(matrix)
         .map_err(|singular| StepError::SingularNewtonMatrix { iteration: 0, column: singular.column })
 }

@@ -1,5 +1,11 @@
 //! What a run of steps keeps from one to the next.
 
+mod explicit;
+mod kept_matrix;
+
+pub use explicit::{Explicit, ExplicitMemory};
+pub use kept_matrix::KeptMatrix;
+
 use nalgebra::SVector;
 
 use crate::{Discrete, Scalar, State, Step, StepError};

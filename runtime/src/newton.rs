@@ -16,7 +16,8 @@ use crate::linear::{NewtonMatrix, Singular};
 use crate::{Report, Scalar, State};
 
 mod rounding;
-use rounding::{AT_FLOOR, STAGNATION, estimated_floor, held_against, in_units_of, rounding, worst};
+use rounding::{AT_FLOOR, STAGNATION, in_units_of, rounding, worst};
+pub(crate) use rounding::{estimated_floor, held_against};
 
 /// A root, with both momenta there.
 pub(crate) struct Solution<S, const N: usize> {
@@ -152,7 +153,7 @@ fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
 
 /// max |residualᵢ| weightᵢ; NaN if one of them is no finite number.
 #[inline]
-fn weighted<S: Scalar, const N: usize>(residual: &SVector<S, N>, weights: &SVector<S, N>) -> S {
+pub(crate) fn weighted<S: Scalar, const N: usize>(residual: &SVector<S, N>, weights: &SVector<S, N>) -> S {
     let (mut largest, mut poison) = (S::zero(), S::zero());
     for i in 0..N {
         let units = residual[i].abs() * weights[i];

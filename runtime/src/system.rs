@@ -8,7 +8,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::{CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, Variations};
+use crate::{CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, Structure, Variations};
 
 /// A Lagrangian L(q, v) on TQ, Q = ℝᴺ, with its derivatives.
 #[diagnostic::on_unimplemented(
@@ -20,6 +20,9 @@ use crate::{CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, Varia
 pub trait Lagrangian<const N: usize> {
     /// `f64` or `f32`.
     type Scalar: Scalar;
+
+    /// What is known of the system when it is compiled.
+    const STRUCTURE: Structure = Structure::UNKNOWN;
 
     /// L(q, v).
     fn lagrangian(&self, q: &SVector<Self::Scalar, N>, v: &SVector<Self::Scalar, N>) -> Self::Scalar;

@@ -77,7 +77,6 @@ pub enum Mistake {
     NoSuchParameter(String),
     HiddenParameter { parameter: String, within: String },
     NotLowered(String),
-    TooLong,
     // The item.
     WrongItem,
     WrongField,
@@ -151,7 +150,6 @@ impl Display for Mistake {
             Self::NoSuchParameter(parameter) => write!(f, "neither L, R nor f reads the number `self.{parameter}`; list fields that they read, entries of an array one by one, such as `c[0]`"),
             Self::HiddenParameter { parameter, within } => write!(f, "`{within}` hides how it depends on `{parameter}`; read the number itself, such as `self.{parameter}`"),
             Self::NotLowered(reason) => write!(f, "derivatives cannot be written out: {reason}; or leave the derivatives to `derivatives = num_dual`"),
-            Self::TooLong => f.write_str("the derivatives are too long to be written out; use `derivatives = num_dual`"),
 
             Self::WrongItem => f.write_str("`#[rayleigh_system]` goes on an `impl` block with `fn lagrangian`, or on one free function of (q, v, parameters…)"),
             Self::WrongField => f.write_str("`#[differentiable]` goes on one free function of (q, parameters…)"),

@@ -78,7 +78,7 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
         }
         let is_leaf = match operation {
             // A local already.
-            Operation::Parameter(index) => graph.parameter(index).is_word(),
+            Operation::Parameter(index) => graph.parameter(index).is_local(),
             operation => operation.is_literal(),
         };
         let is_paired = partner(graph, node, &nodes).is_some();

@@ -12,12 +12,14 @@ use syn::{
 
 use super::check::Field;
 use super::implement::{self, discrete, discrete_rayleigh};
+use super::lower::Refusal;
 use super::model::{Function, Part, RayleighArguments, Role, Source, System, simple_name};
 use super::rewrite::{Twin, over};
+use super::structure::{Engine, Structure};
 use super::view;
 
 /// The whole expansion: the user's item, its functions over dual numbers, and the system that they make.
-pub fn system(system: &System<'_>, twins: &[Twin]) -> TokenStream {
+pub fn system(system: &System<'_>, twins: &[Twin], refusal: Option<Refusal>) -> TokenStream {
     let (item, twins) = match system.source {
         Source::Block(block) => {
             (plain_block(system, &block.item, twins), twins_of_block(system, &block.item, twins))
@@ -30,7 +32,9 @@ pub fn system(system: &System<'_>, twins: &[Twin]) -> TokenStream {
     let (scalar, n) = (&system.scalar, system.degrees.times(1));
     let conditions = conditions(system.source);
     let both = RayleighArguments::ConfigurationAndVelocity;
-    let lagrangian = implement::lagrangian(system, derivatives::of_function(system, Part::Lagrangian, both));
+    let structure = Structure { engine: Engine::NumDual(refusal), findings: None };
+    let lagrangian =
+        implement::lagrangian(system, &structure, derivatives::of_function(system, Part::Lagrangian, both));
     let rayleigh = system.rayleigh.map(|arguments| {
         implement::rayleigh(system, arguments, derivatives::of_function(system, Part::Rayleigh, arguments))
     });
@@ -179,7 +183,6 @@ pub fn imported(system: &System<'_>) -> Vec<Ident> {
         "Momenta",
         "StepKernel",
         "Variations",
-        "VelocityHistory",
     ];
     if system.rayleigh.is_some() {
         names.extend(["DiscreteRayleigh", "Rayleigh"]);

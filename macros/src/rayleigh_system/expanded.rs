@@ -3,8 +3,11 @@
 //! The user's item stands as it was written; nothing of it is evaluated over other numbers.
 
 mod directions;
+mod explicit;
 mod kernel;
+mod midpoint;
 mod sensitivity;
+mod trapezoidal;
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
@@ -15,37 +18,47 @@ use super::emit::{StraightLine, straight_line};
 use super::expand;
 use super::graph::{Graph, Node, Operation};
 use super::implement::{self, Kernel};
-use super::lower::{Lowered, MAX_NODES};
+use super::lower::{Lowered, MAX_NODES, Refusal};
 use super::model::{Home, Part, Rule, Source, System};
+use super::structure::{self, Differentiated, Findings, Structure, Terms};
 use super::view;
 
-/// The whole expansion; nothing where the derivatives are too long to be written out.
-pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
+/// The whole expansion, unless the derivatives are too long to be written out.
+pub fn system(system: &System<'_>, lowered: Lowered) -> Result<TokenStream, Refusal> {
     let Lowered { graph, n, m, lagrangian, rayleigh, force } = lowered;
-    let mut code = Code { system, graph, n, m, derivation: Differentiation::default(), home: Home::System };
-    code.home = system.home_of(Part::Lagrangian);
-    let of_lagrangian = implement::lagrangian(system, code.function("lagrangian", "l", lagrangian));
+    let written = graph.len();
+    let home = system.home_of(Part::Lagrangian);
+    let mut code = Code { system, graph, written, n, m, derivation: Differentiation::default(), home };
+    let of_lagrangian = code.function("lagrangian", "l", lagrangian);
     code.home = system.home_of(Part::Rayleigh);
-    let of_rayleigh = system.rayleigh.zip(rayleigh).map(|(arguments, root)| {
-        implement::rayleigh(system, arguments, code.function("rayleigh", "r", root))
-    });
+    let of_rayleigh = rayleigh.map(|root| code.function("rayleigh", "r", root));
     code.home = system.home();
-    let of_force = force.as_ref().map(|components| implement::force(system, code.force(components)));
+    let of_force = force.as_ref().map(|components| code.force(components));
     let by_input = force.as_ref().and_then(|components| implement::driven(system, code.by_input(components)));
     let on_request = code.on_request(lagrangian, rayleigh, force.as_deref());
-    let discrete: TokenStream = system
-        .rules
+    let findings = code.findings(lagrangian, rayleigh, force.as_deref());
+    let discrete: TokenStream = findings
+        .newton
         .iter()
-        .map(|&rule| {
-            let kernel = code.kernel(rule, lagrangian, rayleigh, force.as_deref());
-            implement::discrete(system, rule, kernel)
+        .map(|newton| {
+            let kernel = code.kernel(newton, lagrangian, rayleigh, force.as_deref());
+            implement::discrete(system, newton.rule, Some(kernel))
         })
         .collect();
+    let structure = Structure { engine: structure::Engine::Expanded, findings: Some(findings) };
+    let of_lagrangian = implement::lagrangian(system, &structure, of_lagrangian);
+    let of_rayleigh = system
+        .rayleigh
+        .zip(of_rayleigh)
+        .map(|(arguments, functions)| implement::rayleigh(system, arguments, functions));
+    let of_force = of_force.map(|functions| implement::force(system, functions));
     let discrete_rayleigh: Option<TokenStream> = system
         .rayleigh
         .map(|_| system.rules.iter().map(|&rule| implement::discrete_rayleigh(system, rule)).collect());
     if code.graph.len() > MAX_NODES {
-        return None;
+        let reason =
+            format!("the derivatives take more than {MAX_NODES} operations, too many for straight-line code");
+        return Err(Refusal::at(system.source.name(), reason));
     }
     let item = match system.source {
         Source::Block(block) => block.item.to_token_stream(),
@@ -59,7 +72,7 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Option<TokenStream> {
     let imports = imports(system);
     let conditions = expand::conditions(system.source);
     let (scalar, dimension) = (&system.scalar, system.degrees.times(1));
-    Some(quote! {
+    Ok(quote! {
         #item
 
         #view
@@ -94,6 +107,8 @@ fn imports(system: &System<'_>) -> TokenStream {
 struct Code<'s> {
     system: &'s System<'s>,
     graph: Graph,
+    /// How many expressions the user wrote.
+    written: usize,
     n: usize,
     /// Entries of the input.
     m: usize,
@@ -103,6 +118,20 @@ struct Code<'s> {
 }
 
 impl Code<'_> {
+    /// What the expressions show of the system's structure.
+    fn findings(&mut self, lagrangian: Node, rayleigh: Option<Node>, force: Option<&[Node]>) -> Findings {
+        let mut differentiated = |root: Node, symbol: &str| Differentiated {
+            root,
+            derivatives: self.derivation.hessian(&mut self.graph, root, symbol),
+        };
+        let lagrangian = differentiated(lagrangian, "l");
+        let rayleigh = rayleigh.map(|root| differentiated(root, "r"));
+        let components = force.unwrap_or_default();
+        let force: Vec<_> = components.iter().copied().zip(self.rows(components)).collect();
+        let terms = Terms { lagrangian: &lagrangian, rayleigh: rayleigh.as_ref(), force: &force };
+        structure::findings(&self.graph, self.system, self.n, &terms)
+    }
+
     /// Gradient, derivatives and variations of L or R.
     fn function(&mut self, function: &str, symbol: &str, root: Node) -> TokenStream {
         let scalar = &self.system.scalar;
@@ -273,12 +302,12 @@ impl Code<'_> {
     }
 
     /// The code for `outputs` at (q, v), and at the view's own input and time.
-    fn code(&self, outputs: &[Node]) -> StraightLine {
+    fn code(&mut self, outputs: &[Node]) -> StraightLine {
         self.code_taking(outputs, &[])
     }
 
     /// The same in a function with further parameters.
-    fn code_taking(&self, outputs: &[Node], parameters: &[&str]) -> StraightLine {
+    fn code_taking(&mut self, outputs: &[Node], parameters: &[&str]) -> StraightLine {
         let mut line = self.code_at_node(outputs, parameters);
         if line.uses("t") {
             let statements = &line.statements;
@@ -288,14 +317,15 @@ impl Code<'_> {
     }
 
     /// The same, with the time left to the caller.
-    fn code_at_node(&self, outputs: &[Node], parameters: &[&str]) -> StraightLine {
-        let mut taken = vec!["q", "v", "h", "half", "q0", "minus", "plus"];
+    fn code_at_node(&mut self, outputs: &[Node], parameters: &[&str]) -> StraightLine {
+        let mut taken = vec!["q", "v", "h", "half", "q0", "q1", "minus", "plus"];
         // Without a view, u and t are free for the user's own names.
         if self.home == Home::View {
-            taken.extend(["u", "t"]);
+            taken.extend(["u", "t", "t1"]);
         }
         taken.extend(parameters);
-        let mut line = straight_line(&self.graph, &self.system.scalar, outputs, &taken);
+        let outputs = self.graph.factored(outputs, self.written);
+        let mut line = straight_line(&self.graph, &self.system.scalar, &outputs, &taken);
         if self.home == Home::View {
             let seen = |tokens: TokenStream| view::seen_from_view(tokens, &self.system.name);
             let statements = seen(line.statements);
@@ -339,4 +369,11 @@ enum Shape {
 /// A parameter of a function, marked where the body does not use it.
 fn parameter(name: &str, is_used: bool) -> Ident {
     if is_used { format_ident!("{name}") } else { format_ident!("_{name}") }
+}
+
+/// `let _ = (q0, h);` for the parameters that a body does not read.
+fn unused<const K: usize>(parameters: [(bool, &str); K]) -> Option<TokenStream> {
+    let unused: Vec<Ident> =
+        parameters.iter().filter(|(is_used, _)| !is_used).map(|(_, name)| format_ident!("{name}")).collect();
+    (!unused.is_empty()).then(|| quote!(let _ = (#(#unused),*);))
 }

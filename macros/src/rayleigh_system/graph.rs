@@ -6,6 +6,7 @@
 //! because nothing depends on the variable is absent, never a factor 0: no NaN or infinity is hidden by a product.
 
 mod algebra;
+mod factor;
 mod operation;
 
 #[cfg(test)]
@@ -13,8 +14,8 @@ pub mod interpret;
 
 use std::collections::{BTreeMap, HashMap};
 
-use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
-use quote::quote;
+use proc_macro2::{Group, Ident, Literal, Span, TokenStream, TokenTree};
+use quote::{format_ident, quote};
 use syn::Expr;
 
 pub use operation::{Comparison, Function, Operation, PairFunction, Predicate};
@@ -35,16 +36,21 @@ pub struct Parameter {
     pub tokens: TokenStream,
     /// The same as text: equal texts are one parameter.
     text: String,
+    /// An entry of a local array, such as `q1[0]`.
+    is_entry: bool,
     /// Whether derivatives are taken by it.
     is_listed: bool,
 }
 
 impl Parameter {
-    /// Whether it is one word, such as `half`.
-    pub fn is_word(&self) -> bool {
-        self.tokens.clone().into_iter().count() == 1
+    /// Whether it is a local already, such as `half` or `q1[0]`.
+    pub fn is_local(&self) -> bool {
+        self.is_entry || self.tokens.clone().into_iter().count() == 1
     }
 }
+
+/// The time, a local of functions whose bodies read it.
+const TIME: &str = "t";
 
 /// The expressions of one system.
 #[derive(Default)]
@@ -60,6 +66,11 @@ impl Graph {
     /// How many expressions there are.
     pub fn len(&self) -> usize {
         self.operations.len()
+    }
+
+    /// All expressions, arguments first.
+    pub fn nodes(&self) -> impl Iterator<Item = Node> + use<> {
+        (0..u32::try_from(self.operations.len()).unwrap_or(u32::MAX)).map(Node)
     }
 
     pub fn operation(&self, node: Node) -> Operation {
@@ -122,10 +133,20 @@ impl Graph {
 
     /// The parameter written as `tokens`.
     pub fn written(&mut self, tokens: TokenStream) -> Node {
+        self.parameter_of(tokens, false)
+    }
+
+    /// `array[index]`, an entry of a local array.
+    pub fn entry(&mut self, array: &str, index: usize) -> Node {
+        let (array, index) = (format_ident!("{array}"), Literal::usize_unsuffixed(index));
+        self.parameter_of(quote!(#array[#index]), true)
+    }
+
+    fn parameter_of(&mut self, tokens: TokenStream, is_entry: bool) -> Node {
         let tokens = with_own_self(tokens);
         let text = tokens.to_string();
         let index = self.parameters.iter().position(|known| known.text == text).unwrap_or_else(|| {
-            self.parameters.push(Parameter { tokens, text, is_listed: false });
+            self.parameters.push(Parameter { tokens, text, is_entry, is_listed: false });
             self.parameters.len() - 1
         });
         self.node(Operation::Parameter(index))
@@ -136,10 +157,21 @@ impl Graph {
         let tokens = with_own_self(quote!(self.#expression));
         let text = tokens.to_string();
         let index = self.parameters.iter().position(|known| known.text == text).unwrap_or_else(|| {
-            self.parameters.push(Parameter { tokens, text, is_listed: true });
+            self.parameters.push(Parameter { tokens, text, is_entry: false, is_listed: true });
             self.parameters.len() - 1
         });
         self.node(Operation::Parameter(index))
+    }
+
+    /// The time.
+    pub fn time(&mut self) -> Node {
+        let time = format_ident!("{TIME}");
+        self.written(quote!(#time))
+    }
+
+    /// Whether the operation is the time.
+    pub fn is_time(&self, operation: Operation) -> bool {
+        matches!(operation, Operation::Parameter(index) if self.parameters[index].text == TIME)
     }
 
     /// Whether the operation is what derivatives are taken by.
@@ -187,6 +219,27 @@ impl Graph {
     /// `if condition { a } else { b }`.
     pub fn select(&mut self, condition: Node, a: Node, b: Node) -> Node {
         if a == b { a } else { self.node(Operation::Select(condition, a, b)) }
+    }
+
+    /// The expressions with the coordinates replaced, and the time if it is given; names kept.
+    pub fn at(&mut self, roots: &[Node], configuration: &[Node], time: Option<Node>) -> Vec<Node> {
+        let mut moved: HashMap<Node, Node> = HashMap::new();
+        for node in self.reachable(roots.iter().copied()) {
+            let operation = self.operation(node);
+            let replacement = match operation {
+                Operation::Coordinate(index) => configuration[index],
+                Operation::Parameter(index) if self.parameters[index].text == TIME => time.unwrap_or(node),
+                _ => {
+                    let replacement = self.node(operation.with_arguments(|argument| moved[&argument]));
+                    if let Some(name) = self.names.get(&node).cloned() {
+                        self.give_name(replacement, &name);
+                    }
+                    replacement
+                }
+            };
+            moved.insert(node, replacement);
+        }
+        roots.iter().map(|root| moved[root]).collect()
     }
 
     /// Everything that `roots` need, arguments first.

@@ -1,11 +1,12 @@
 //! The traits of the runtime, implemented for a system: each function below writes one `impl`, and the comment above each
 //! quotation shows what it expands to.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
 use super::expand::parameters;
 use super::model::{Home, Part, RayleighArguments, Rule, Source, System};
+use super::structure::Structure;
 use super::view::{self, arguments, owner, subject};
 
 /// The plain value of L (0) or R (1) at the vectors q and v.
@@ -36,7 +37,7 @@ fn value(system: &System<'_>, part: Part, point: RayleighArguments) -> TokenStre
 }
 
 /// `impl Lagrangian<2> for Ring`, with the derivatives of either engine.
-pub fn lagrangian(system: &System<'_>, derivatives: TokenStream) -> TokenStream {
+pub fn lagrangian(system: &System<'_>, structure: &Structure, derivatives: TokenStream) -> TokenStream {
     let scalar = &system.scalar;
     let n = system.degrees.times(1);
     let home = system.home_of(Part::Lagrangian);
@@ -44,10 +45,14 @@ pub fn lagrangian(system: &System<'_>, derivatives: TokenStream) -> TokenStream 
     let later = if home == Home::View { view::later(system) } else { None };
     let value = value(system, Part::Lagrangian, RayleighArguments::ConfigurationAndVelocity);
     let delegation = view::delegation(system, Part::Lagrangian);
+    let (documentation, constant) = (structure.documentation(), structure.constant());
     quote! {
+        #documentation
         #[automatically_derived]
         impl Lagrangian<#n> for #subject {
             type Scalar = #scalar;
+
+            #constant
 
             #[inline]
             fn lagrangian(&self, q: &Vector, v: &Vector) -> #scalar {
@@ -210,10 +215,26 @@ fn parts(system: &System<'_>) -> impl Iterator<Item = Part> {
     [Part::Lagrangian].into_iter().chain(rayleigh).chain(force)
 }
 
-/// Bodies of the functions that a step calls, L, R and f together.
+/// What an engine makes of the step's equation: bodies of the functions that a step calls, L, R and f together, and what its
+/// structure allows.
 pub struct Kernel {
     pub step_kernel: TokenStream,
     pub momenta: TokenStream,
+    /// The diagonals of a banded Newton matrix.
+    pub diagonals: Option<usize>,
+    /// The step is one linear solve.
+    pub is_linear: bool,
+    pub memory: Memory,
+    /// The functions of an explicit step.
+    pub explicit: Option<TokenStream>,
+}
+
+/// What a run keeps from step to step.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Memory {
+    Velocities,
+    Matrix,
+    Explicit,
 }
 
 /// `impl Discrete<Midpoint, 2> for Ring`: one term for each of L, R and f that the system has, unless an engine gives the
@@ -253,16 +274,50 @@ pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> Toke
             }
         }
     });
-    let Kernel { step_kernel, momenta } = kernel.unwrap_or_else(|| Kernel {
+    let Kernel { step_kernel, momenta, diagonals, is_linear, memory, explicit } = kernel.unwrap_or_else(|| Kernel {
         step_kernel: quote!(#rule::lagrangian_kernel(self, q0, v, h) #(+ #rule::#kernels(self, q0, v, h))*),
         momenta: quote!(#rule::lagrangian_momenta(self, q0, v, h) #(+ #rule::#momenta(self, q0, v, h))*),
+        diagonals: None,
+        is_linear: false,
+        memory: Memory::Velocities,
+        explicit: None,
+    });
+    let (matrix, kernel) = match diagonals {
+        None => (quote!(SMatrix<#scalar, #n, #n>), quote!(StepKernel<#scalar, #n>)),
+        Some(diagonals) => {
+            let diagonals = Literal::usize_unsuffixed(diagonals);
+            (
+                quote!(::dalembert::Banded<#scalar, #n, #diagonals>),
+                quote!(StepKernel<#scalar, #n, Self::Matrix>),
+            )
+        }
+    };
+    let memory = match memory {
+        Memory::Velocities => quote!(::dalembert::VelocityHistory<#scalar, #n>),
+        Memory::Matrix => quote!(::dalembert::KeptMatrix<#scalar, Self::Matrix, #n>),
+        Memory::Explicit => quote!(::dalembert::ExplicitMemory<#scalar, Self::Matrix, #n>),
+    };
+    let linear = is_linear.then(|| {
+        quote!(
+            const LINEAR: bool = true;
+        )
+    });
+    // impl Explicit<2> for Ring
+    let explicit = explicit.map(|functions| {
+        quote! {
+            #[automatically_derived]
+            impl ::dalembert::Explicit<#n> for #subject {
+                #functions
+            }
+        }
     });
     // p0 = −D1 L_d − f_d⁻: Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0, v, h)
     quote! {
         #[automatically_derived]
         impl Discrete<#rule, #n> for #subject {
-            type Matrix = SMatrix<#scalar, #n, #n>;
-            type Memory = VelocityHistory<#scalar, #n>;
+            type Matrix = #matrix;
+            type Memory = #memory;
+            #linear
 
             #[doc = #lagrangian]
             fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
@@ -283,7 +338,7 @@ pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> Toke
 
             /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
             #[inline]
-            fn step_kernel(&self, q0: &Vector, v: &Vector, h: #scalar) -> StepKernel<#scalar, #n> {
+            fn step_kernel(&self, q0: &Vector, v: &Vector, h: #scalar) -> #kernel {
                 #step_kernel
             }
 
@@ -298,6 +353,8 @@ pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> Toke
                 #rule::segment_energy(self, q0, q1, h)
             }
         }
+
+        #explicit
     }
 }
 

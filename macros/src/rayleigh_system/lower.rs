@@ -45,13 +45,37 @@ pub struct Lowered {
 #[derive(Debug)]
 pub struct Refusal {
     pub span: Span,
+    /// What stands there, on one line.
+    pub token: String,
     pub reason: String,
+}
+
+impl Refusal {
+    pub fn at(tokens: &impl ToTokens, reason: impl Into<String>) -> Self {
+        Self { span: span_of(tokens), token: one_line(&tokens.to_token_stream()), reason: reason.into() }
+    }
+
+    /// The line of the source file, from 1; 0 where there is none.
+    pub fn line(&self) -> usize {
+        self.span.start().line
+    }
+}
+
+/// The tokens as text, cut where they are long.
+fn one_line(tokens: &TokenStream) -> String {
+    const LONGEST: usize = 60;
+    let text = tokens.to_string();
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    match line.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{} …", &line[..end]),
+        None => line,
+    }
 }
 
 type Result<T> = std::result::Result<T, Refusal>;
 
 fn refuse<T>(tokens: &impl ToTokens, reason: impl Into<String>) -> Result<T> {
-    Err(Refusal { span: span_of(tokens), reason: reason.into() })
+    Err(Refusal::at(tokens, reason))
 }
 
 /// L, R and f of the system, or the first token that cannot be lowered.
@@ -86,7 +110,7 @@ pub fn system(system: &System<'_>) -> Result<Lowered> {
         Value::Sequence((0..m).map(|i| Value::Real(lowering.graph.node(Operation::Input(i)))).collect())
     });
     // A local of the generated function.
-    let t = system.timed.any().then(|| Value::Real(lowering.graph.written(quote!(t))));
+    let t = system.timed.any().then(|| Value::Real(lowering.graph.time()));
     let timed = |part| t.clone().filter(|_| system.timed.of(part));
 
     let (lagrangian, rayleigh, force) = match system.source {
@@ -231,7 +255,7 @@ struct Lowering<'s> {
 impl Lowering<'_> {
     fn root(&mut self, name: &str, arguments: Vec<Value>) -> Result<Value> {
         let Some(function) = self.function(&format_ident!("{name}")).cloned() else {
-            return Err(Refusal { span: Span::call_site(), reason: format!("`{name}` is missing") });
+            return refuse(&self.source.name(), format!("`{name}` is missing"));
         };
         self.call(&function.sig.ident, &function.sig, &function.block, arguments)
     }

@@ -40,7 +40,6 @@ const RESERVED: &[&str] = &[
     "SMatrix",
     "Vector",
     "VectorField",
-    "VelocityHistory",
     "ScalarField",
     "D",
 ];

@@ -141,7 +141,15 @@ pub fn delegation(system: &System<'_>, part: Part) -> Option<TokenStream> {
     let n = system.degrees.times(1);
     let view = subject(system, Home::View);
     let (function, of, associated, later) = match part {
-        Part::Lagrangian => ("lagrangian", "Lagrangian", Some(quote!(type Scalar = #scalar;)), later(system)),
+        Part::Lagrangian => {
+            let name = &system.name;
+            let associated = quote! {
+                type Scalar = #scalar;
+
+                const STRUCTURE: ::dalembert::Structure = <#name as Lagrangian<#n>>::STRUCTURE;
+            };
+            ("lagrangian", "Lagrangian", Some(associated), later(system))
+        }
         Part::Rayleigh => ("rayleigh", "Rayleigh", None, None),
         Part::Force => return None,
     };

@@ -132,7 +132,13 @@ impl Expression {
             Negated(a) => -a.value(at),
             Function(function, a) => elementary(*function, a.value(at)),
             Power(a, n) => a.value(at).powi(*n),
-            RealPower(a, n) => a.value(at).powf(*n),
+            RealPower(a, n) => {
+                let base = a.value(at);
+                // num-dual's own value at 0 is NaN, and a comparison with it goes the other way.
+                let mut power = base.powf(*n);
+                power.re = base.re().powf(*n);
+                power
+            }
             PowerOfBoth(a, b) => {
                 let base = a.value(at);
                 let base = base * base + 1.0;
@@ -238,6 +244,7 @@ fn reference(expression: &Expression, point: [f64; 4]) -> Vec<f64> {
 /// The same by the graph.
 fn expressions(lowered: &mut Lowered) -> Vec<Node> {
     let graph = &mut lowered.graph;
+    let written = graph.len();
     let derivatives = Differentiation::default().hessian(graph, lowered.lagrangian, "l");
     let variables =
         [Operation::Coordinate(0), Operation::Coordinate(1), Operation::Velocity(0), Operation::Velocity(1)]
@@ -251,7 +258,7 @@ fn expressions(lowered: &mut Lowered) -> Vec<Node> {
             outputs.push(*derivatives.hessian.get(&(a, b)).unwrap_or(&zero));
         }
     }
-    outputs
+    graph.factored(&outputs, written)
 }
 
 /// How the comparison of one expression at one point went.

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use super::{NewtonMatrix, Singular, dense};
+use super::{Factored, NewtonMatrix, Singular, dense};
 use crate::Scalar;
 
 /// A matrix whose entries lie within B of the diagonal, W = 2B + 1: Newton matrices of chains, and diagonal ones (W = 1).
@@ -31,13 +31,58 @@ impl<S: Scalar, const N: usize, const W: usize> Banded<S, N, W> {
         W / 2
     };
 
-    /// Elimination without row exchanges; nothing if a pivot is small beside its row.
+    /// Elimination without row exchanges.
+    #[inline]
+    fn eliminate(&self, right: &SVector<S, N>) -> Option<SVector<S, N>> {
+        Some(self.factored()?.solve(right))
+    }
+}
+
+/// A band as the product of a lower triangle and an upper one with diagonal 1; the reciprocals of the pivots lie on the
+/// diagonal.
+#[derive(Clone, Copy, Debug)]
+pub struct FactoredBand<S, const N: usize, const W: usize> {
+    rows: [[S; W]; N],
+}
+
+impl<S: Scalar, const N: usize, const W: usize> Factored<S, N> for FactoredBand<S, N, W> {
+    #[inline]
+    fn solve(&self, right: &SVector<S, N>) -> SVector<S, N> {
+        let b = W / 2;
+        let mut x: [S; N] = (*right).into();
+        for i in 0..N {
+            let row = &self.rows[i];
+            let mut value = x[i];
+            for k in 0..b {
+                if i + k >= b {
+                    value -= row[k] * x[i + k - b];
+                }
+            }
+            x[i] = value * row[b];
+        }
+        for i in (0..N).rev() {
+            let row = &self.rows[i];
+            let mut value = x[i];
+            for l in 1..=b {
+                if i + l < N {
+                    value -= row[b + l] * x[i + l];
+                }
+            }
+            x[i] = value;
+        }
+        x.into()
+    }
+}
+
+impl<S: Scalar, const N: usize, const W: usize> NewtonMatrix<S, N> for Banded<S, N, W> {
+    type Factored = FactoredBand<S, N, W>;
+
+    /// Nothing if a pivot is small beside its row: that calls for row exchanges.
     #[inline]
     #[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a NaN pivot must fail the comparison")]
-    fn eliminate(&self, right: &SVector<S, N>) -> Option<SVector<S, N>> {
+    fn factored(&self) -> Option<FactoredBand<S, N, W>> {
         let b = Self::B;
         let mut rows = self.rows;
-        let mut x = *right;
         for i in 0..N {
             let mut largest = S::zero();
             for k in 0..W {
@@ -55,8 +100,6 @@ impl<S: Scalar, const N: usize, const W: usize> Banded<S, N, W> {
                             rows[i][k + l] -= factor * entry;
                         }
                     }
-                    let known = x[above];
-                    x[i] -= factor * known;
                 }
             }
             let pivot = rows[i][b];
@@ -67,21 +110,11 @@ impl<S: Scalar, const N: usize, const W: usize> Banded<S, N, W> {
             for l in 1..=b {
                 rows[i][b + l] *= reciprocal;
             }
-            x[i] *= reciprocal;
+            rows[i][b] = reciprocal;
         }
-        for i in (0..N).rev() {
-            for l in 1..=b {
-                if i + l < N {
-                    let known = x[i + l];
-                    x[i] -= rows[i][b + l] * known;
-                }
-            }
-        }
-        Some(x)
+        Some(FactoredBand { rows })
     }
-}
 
-impl<S: Scalar, const N: usize, const W: usize> NewtonMatrix<S, N> for Banded<S, N, W> {
     #[inline]
     fn zero() -> Self {
         Self { rows: [[S::zero(); W]; N] }

@@ -4,10 +4,17 @@ use core::array;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::{NewtonMatrix, Singular};
+use super::{Factored, NewtonMatrix, Singular};
 use crate::Scalar;
 
 impl<S: Scalar, const N: usize> NewtonMatrix<S, N> for SMatrix<S, N, N> {
+    type Factored = FactoredDense<S, N>;
+
+    #[inline]
+    fn factored(&self) -> Option<FactoredDense<S, N>> {
+        factored(self).ok()
+    }
+
     #[inline]
     fn zero() -> Self {
         nalgebra::zero()
@@ -20,7 +27,10 @@ impl<S: Scalar, const N: usize> NewtonMatrix<S, N> for SMatrix<S, N, N> {
 
     #[inline]
     fn solve(&self, right: &SVector<S, N>) -> Result<SVector<S, N>, Singular> {
-        solve(self, right)
+        match closed_form(self, right) {
+            Some(x) => Ok(x),
+            None => eliminate(self, right),
+        }
     }
 
     #[inline]
@@ -36,32 +46,18 @@ impl<S: Scalar, const N: usize> NewtonMatrix<S, N> for SMatrix<S, N, N> {
     }
 }
 
-/// The solution for every column of the right side, with one elimination.
-#[inline]
-pub(super) fn solve<S: Scalar, const N: usize, const C: usize>(
-    matrix: &SMatrix<S, N, N>,
-    right: &SMatrix<S, N, C>,
-) -> Result<SMatrix<S, N, C>, Singular> {
-    match closed_form(matrix, right) {
-        Some(x) => Ok(x),
-        None => eliminate(matrix, right),
-    }
-}
-
 /// One or two coordinates; nothing if N > 2, or if the determinant cancels.
 ///
 /// |ad − bc| is held against |ad| + |bc|: scaling rows or columns changes neither verdict.
 #[inline]
-fn closed_form<S: Scalar, const N: usize, const C: usize>(
+fn closed_form<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,
-    right: &SMatrix<S, N, C>,
-) -> Option<SMatrix<S, N, C>> {
+    right: &SVector<S, N>,
+) -> Option<SVector<S, N>> {
     let mut x = *right;
     match N {
         1 => {
-            for c in 0..C {
-                x[c] = right[c] / matrix[0];
-            }
+            x[0] = right[0] / matrix[0];
             (matrix[0] != S::zero() && matrix[0].is_finite()).then_some(x)
         }
         2 => {
@@ -69,10 +65,8 @@ fn closed_form<S: Scalar, const N: usize, const C: usize>(
             let (ad, bc) = (a * d, b * c);
             let determinant = ad - bc;
             let reciprocal = S::one() / determinant;
-            for i in (0..2 * C).step_by(2) {
-                x[i] = (d * right[i] - b * right[i + 1]) * reciprocal;
-                x[i + 1] = (a * right[i + 1] - c * right[i]) * reciprocal;
-            }
+            x[0] = (d * right[0] - b * right[1]) * reciprocal;
+            x[1] = (a * right[1] - c * right[0]) * reciprocal;
             // A determinant below the normal numbers has an infinite reciprocal.
             let cancelled = (ad.abs() + bc.abs()) * (S::EPSILON * S::constant(16.0)) + S::SMALLEST_NORMAL;
             (determinant.abs() > cancelled && reciprocal.abs() > S::zero()).then_some(x)
@@ -85,17 +79,56 @@ fn closed_form<S: Scalar, const N: usize, const C: usize>(
 const SUSPICIOUS: f64 = 1e-6;
 
 /// Elimination with row exchanges; pivots are chosen relative to their rows.
+#[inline]
+pub(super) fn eliminate<S: Scalar, const N: usize>(
+    matrix: &SMatrix<S, N, N>,
+    right: &SVector<S, N>,
+) -> Result<SVector<S, N>, Singular> {
+    Ok(factored(matrix)?.solve(right))
+}
+
+/// A matrix as the product of a lower triangle with diagonal 1 and an upper one, with its rows exchanged.
+#[derive(Clone, Copy, Debug)]
+pub struct FactoredDense<S, const N: usize> {
+    rows: [[S; N]; N],
+    /// The row of the matrix that came to stand here.
+    order: [usize; N],
+    /// Those of the pivots.
+    reciprocals: [S; N],
+}
+
+impl<S: Scalar, const N: usize> Factored<S, N> for FactoredDense<S, N> {
+    #[inline]
+    fn solve(&self, right: &SVector<S, N>) -> SVector<S, N> {
+        // An index that nothing shows to be within bounds would bring a panic into the step.
+        let mut x: SVector<S, N> =
+            SVector::from_fn(|i, _| right.get(self.order[i]).copied().unwrap_or_else(S::zero));
+        for i in 1..N {
+            for k in 0..i {
+                let known = x[k];
+                x[i] -= self.rows[i][k] * known;
+            }
+        }
+        for i in (0..N).rev() {
+            for j in i + 1..N {
+                let known = x[j];
+                x[i] -= self.rows[i][j] * known;
+            }
+            x[i] *= self.reciprocals[i];
+        }
+        x
+    }
+}
+
 #[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a NaN pivot must fail the comparison")]
 #[expect(clippy::needless_range_loop, reason = "rows k and i of one array are used together")]
-pub(super) fn eliminate<S: Scalar, const N: usize, const C: usize>(
+pub(super) fn factored<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,
-    right: &SMatrix<S, N, C>,
-) -> Result<SMatrix<S, N, C>, Singular> {
+) -> Result<FactoredDense<S, N>, Singular> {
     let mut rows: [[S; N]; N] = array::from_fn(|i| array::from_fn(|j| matrix[(i, j)]));
     let mut order: [usize; N] = array::from_fn(|i| i);
     let mut scale: [S; N] = array::from_fn(|i| inverse_magnitude(&rows[i]));
     let mut reciprocals = [S::zero(); N];
-    let mut x = *right;
     let mut suspicious = false;
 
     for k in 0..N {
@@ -117,7 +150,6 @@ pub(super) fn eliminate<S: Scalar, const N: usize, const C: usize>(
             rows.swap(k, pivot);
             order.swap(k, pivot);
             scale.swap(k, pivot);
-            x.swap_rows(k, pivot);
         }
         let reciprocal = S::one() / rows[k][k];
         reciprocals[k] = reciprocal;
@@ -128,25 +160,12 @@ pub(super) fn eliminate<S: Scalar, const N: usize, const C: usize>(
                 let upper = rows[k][j];
                 rows[i][j] -= factor * upper;
             }
-            for c in 0..C {
-                let known = x[(k, c)];
-                x[(i, c)] -= factor * known;
-            }
         }
     }
     if suspicious {
         check_cancellation(matrix, &rows, &order)?;
     }
-    for c in 0..C {
-        for i in (0..N).rev() {
-            for j in i + 1..N {
-                let known = x[(j, c)];
-                x[(i, c)] -= rows[i][j] * known;
-            }
-            x[(i, c)] *= reciprocals[i];
-        }
-    }
-    Ok(x)
+    Ok(FactoredDense { rows, order, reciprocals })
 }
 
 /// A pivot is lost if it is below the rounding error of the sum that formed it.

@@ -24,7 +24,7 @@ pub(super) const AT_FLOOR: f64 = 4.0;
 
 /// The floor that the terms of p0 give, 4ε (|pᵢ| + Σⱼ |Jᵢⱼ||vⱼ|).
 #[inline]
-pub(super) fn estimated_floor<S: Scalar, const N: usize>(
+pub(crate) fn estimated_floor<S: Scalar, const N: usize>(
     p: &SVector<S, N>,
     matrix: &impl NewtonMatrix<S, N>,
     v: &SVector<S, N>,
@@ -57,7 +57,7 @@ pub(super) fn in_units_of<S: Scalar, const N: usize>(residual: &SVector<S, N>, f
 
 /// The residual that is largest in units of its floor, this floor, and whether it is a root's: at most [`AT_FLOOR`] of them.
 #[inline]
-pub(super) fn held_against<S: Scalar, const N: usize>(
+pub(crate) fn held_against<S: Scalar, const N: usize>(
     residual: &SVector<S, N>,
     floor: &SVector<S, N>,
 ) -> (S, S, bool) {

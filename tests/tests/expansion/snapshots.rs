@@ -143,6 +143,87 @@ fn oscillator() {
     assert_snapshot("oscillator.rs", &formatted(expansion));
 }
 
+/// A Newton matrix of three diagonals, kept from step to step.
+#[test]
+fn chain() {
+    let expansion = rayleigh_system(
+        quote!(derivatives = expanded),
+        quote! {
+            impl Chain {
+                fn lagrangian(&self, q: [f64; 4], v: [f64; 4]) -> f64 {
+                    let kinetic = v.iter().map(|v| 0.5 * v * v).sum::<f64>();
+                    let springs: f64 = q.windows(2).map(|q| Self::spring(self.beta, q[1] - q[0])).sum();
+                    kinetic - springs
+                }
+                fn spring(beta: f64, d: f64) -> f64 {
+                    let square = d * d;
+                    0.5 * square + 0.25 * beta * square * square
+                }
+            }
+        },
+    );
+    assert_snapshot("chain.rs", &formatted(expansion));
+}
+
+/// A constant Newton matrix: each step is one solve.
+#[test]
+fn linear_oscillators() {
+    let expansion = rayleigh_system(
+        quote!(),
+        quote! {
+            fn linear(q: [f64; 2], v: [f64; 2], k: f64, c: f64) -> (f64, f64) {
+                let d = q[1] - q[0];
+                (0.5 * (v[0] * v[0] + v[1] * v[1]) - 0.5 * k * (q[0] * q[0] + d * d), 0.5 * c * v[1] * v[1])
+            }
+        },
+    );
+    assert_snapshot("linear.rs", &formatted(expansion));
+}
+
+/// Störmer–Verlet with linear drag.
+#[test]
+fn explicit_ring() {
+    let expansion = rayleigh_system(
+        quote!(rule = trapezoidal),
+        quote! {
+            impl Ring {
+                fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+                    let s = q[0] * q[0] + q[1] * q[1];
+                    0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2)
+                }
+                fn rayleigh(&self, v: [f64; 2]) -> f64 {
+                    0.5 * self.k * (v[0] * v[0] + v[1] * v[1])
+                }
+            }
+        },
+    );
+    assert_snapshot("explicit_ring.rs", &formatted(expansion));
+}
+
+/// What is known is said to whoever reads the documentation.
+#[test]
+fn findings_are_documented() {
+    let expansion = rayleigh_system(
+        quote!(),
+        quote! {
+            fn polar(q: [f64; 3], v: [f64; 3], r: f64) -> (f64, f64) {
+                (0.5 * (v[0] * v[0] + q[0] * q[0] * v[1] * v[1] + v[2] * v[2]), r * v[2] * v[2])
+            }
+        },
+    );
+    let expansion = formatted(expansion);
+    for sentence in [
+        "Derivatives are written out.",
+        "The damping force −∂R/∂v is linear in v with constant coefficients.",
+        "By the rule `Midpoint` the Newton matrix is tridiagonal and changes with the state.",
+        "q₁ is cyclic: the momentum p₁ = ∂L/∂v₁ is conserved, by every rule.",
+        "q₂ is cyclic, but R acts on it: the momentum p₂ = ∂L/∂v₂ is not conserved in general.",
+    ] {
+        assert!(expansion.contains(&format!("/// - {sentence}\n")), "{sentence}\n{expansion}");
+    }
+    assert!(!expansion.contains("mass matrix ∂²L/∂v² is constant") && !expansion.contains("q₀ is cyclic"));
+}
+
 #[test]
 fn rotation() {
     let expansion = differentiable(

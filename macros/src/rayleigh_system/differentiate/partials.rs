@@ -35,6 +35,12 @@ pub fn partials(graph: &mut Graph, node: Node, operation: Operation, order: Orde
             let (slope, two) = (graph.scaled(2.0, a), graph.constant(2.0));
             Partials { first: vec![(a, slope)], second: vec![(a, a, two)] }
         }
+        // A literal 0 in front leaves nothing that depends on anything.
+        Operation::Multiply(a, b)
+            if [a, b].iter().any(|&factor| graph.constant_value(factor) == Some(0.0)) =>
+        {
+            Partials::default()
+        }
         Operation::Multiply(a, b) => {
             let one = graph.one();
             Partials { first: vec![(a, b), (b, a)], second: vec![(a, b, one)] }

@@ -167,7 +167,6 @@ impl Code<'_> {
 
     /// `a[0]`
     fn vector_entry(&mut self, vector: &str, index: usize) -> Node {
-        let (vector, literal) = (format_ident!("{vector}"), Literal::usize_unsuffixed(index));
-        self.graph.written(quote!(#vector[#literal]))
+        self.graph.entry(vector, index)
     }
 }

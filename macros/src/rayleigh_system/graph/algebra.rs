@@ -164,7 +164,7 @@ impl Graph {
 }
 
 /// The result, if it and its operands are numbers of `f32` as well: then it is exact in both precisions.
-fn exact(result: f64, operands: &[f64]) -> Option<f64> {
+pub(super) fn exact(result: f64, operands: &[f64]) -> Option<f64> {
     let fits = |x: f64| x.is_finite() && f64::from(x as f32) == x;
     (fits(result) && operands.iter().all(|&x| fits(x))).then_some(result)
 }

@@ -49,6 +49,32 @@ impl Operation {
         }
     }
 
+    /// The same operation on other arguments.
+    pub fn with_arguments(self, mut of: impl FnMut(Node) -> Node) -> Self {
+        match self {
+            Self::Coordinate(_)
+            | Self::Velocity(_)
+            | Self::Input(_)
+            | Self::Parameter(_)
+            | Self::Constant(_) => self,
+            Self::Add(a, b) => Self::Add(of(a), of(b)),
+            Self::Subtract(a, b) => Self::Subtract(of(a), of(b)),
+            Self::Multiply(a, b) => Self::Multiply(of(a), of(b)),
+            Self::Divide(a, b) => Self::Divide(of(a), of(b)),
+            Self::Negate(a) => Self::Negate(of(a)),
+            Self::Function(function, a) => Self::Function(function, of(a)),
+            Self::Pair(function, a, b) => Self::Pair(function, of(a), of(b)),
+            Self::Power(a, n) => Self::Power(of(a), n),
+            Self::Select(condition, a, b) => Self::Select(of(condition), of(a), of(b)),
+            Self::MultiplyAdd(a, b, c) => Self::MultiplyAdd(of(a), of(b), of(c)),
+            Self::Compare(comparison, a, b) => Self::Compare(comparison, of(a), of(b)),
+            Self::Is(predicate, a) => Self::Is(predicate, of(a)),
+            Self::Not(a) => Self::Not(of(a)),
+            Self::And(a, b) => Self::And(of(a), of(b)),
+            Self::Or(a, b) => Self::Or(of(a), of(b)),
+        }
+    }
+
     pub fn arguments(self) -> impl Iterator<Item = Node> {
         let arguments = match self {
             Self::Coordinate(_)

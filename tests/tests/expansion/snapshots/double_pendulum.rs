@@ -19,12 +19,22 @@ const _: () = {
     use ::dalembert::{
         Derivatives, Direction, Discrete, DiscreteForce, DiscreteForceDerivatives,
         DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
-        Rayleigh, StepKernel, Variations, VelocityHistory,
+        Rayleigh, StepKernel, Variations,
     };
     type Vector = SVector<f64, 2>;
+    /// Known at compile time:
+    /// - Derivatives are written out.
+    /// - The damping force −∂R/∂v is linear in v with constant coefficients.
+    /// - By the rule `Midpoint` the Newton matrix changes with the state.
     #[automatically_derived]
     impl Lagrangian<2> for DoublePendulum {
         type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::Expanded)
+            .with_damping(::dalembert::Damping::Linear)
+            .with_newton_matrices(
+                &[::dalembert::NewtonStructure::new("Midpoint", false, 1)],
+            );
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             self.lagrangian((*q).into(), (*v).into())
@@ -34,26 +44,28 @@ const _: () = {
             let m2 = self.m[1];
             let t1 = self.m[0] + m2;
             let l1 = self.l[0];
-            let t2 = v[0] * (l1 * (0.5 * t1 * l1));
             let l2 = self.l[1];
-            let t3 = v[1] * (l2 * (0.5 * m2 * l2));
-            let t4 = q[0] - q[1];
-            let (t6, t5) = t4.sin_cos();
-            let t7 = l2 * (m2 * l1);
-            let t8 = t5 * t7;
-            let t9 = v[0] * t8;
-            let kinetic = v[0] * t2 + v[1] * t3 + v[1] * t9;
+            let t2 = q[0] - q[1];
+            let (t4, t3) = t2.sin_cos();
+            let t5 = l2 * (m2 * l1);
+            let t6 = t3 * t5;
+            let t7 = v[0] * t6;
+            let kinetic = v[0] * (v[0] * (l1 * (0.5 * t1 * l1)))
+                + v[1] * (v[1] * (l2 * (0.5 * m2 * l2))) + v[1] * t7;
             let (sin_q0, cos_q0) = q[0].sin_cos();
             let g = self.g;
-            let t10 = l1 * (-t1 * g);
+            let t8 = l1 * (-t1 * g);
             let (sin_q1, cos_q1) = q[1].sin_cos();
-            let t11 = l2 * (m2 * g);
-            let potential = cos_q0 * t10 - cos_q1 * t11;
-            let t12 = t7 * (v[0] * v[1]) * t6;
+            let t9 = l2 * (m2 * g);
+            let potential = cos_q0 * t8 - cos_q1 * t9;
+            let t10 = t4 * (v[1] * (v[0] * t5));
             Gradient {
                 value: kinetic - potential,
-                d1: SVector::from([t10 * sin_q0 - t12, t12 - t11 * sin_q1]),
-                d2: SVector::from([t2 + (t2 + v[1] * t8), t3 + (t3 + t9)]),
+                d1: SVector::from([t8 * sin_q0 - t10, t10 - t9 * sin_q1]),
+                d2: SVector::from([
+                    v[1] * t6 + v[0] * (l1 * (t1 * l1)),
+                    t7 + v[1] * (l2 * (m2 * l2)),
+                ]),
             }
         }
         #[inline]
@@ -61,37 +73,36 @@ const _: () = {
             let m2 = self.m[1];
             let t1 = self.m[0] + m2;
             let l1 = self.l[0];
-            let t2 = l1 * (0.5 * t1 * l1);
-            let t3 = v[0] * t2;
             let l2 = self.l[1];
-            let t4 = l2 * (0.5 * m2 * l2);
-            let t5 = v[1] * t4;
-            let t6 = q[0] - q[1];
-            let (t8, t7) = t6.sin_cos();
-            let t9 = l2 * (m2 * l1);
-            let t10 = t7 * t9;
-            let t11 = v[0] * t10;
-            let kinetic = v[0] * t3 + v[1] * t5 + v[1] * t11;
+            let t2 = q[0] - q[1];
+            let (t4, t3) = t2.sin_cos();
+            let t5 = l2 * (m2 * l1);
+            let t6 = t3 * t5;
+            let t7 = v[0] * t6;
+            let kinetic = v[0] * (v[0] * (l1 * (0.5 * t1 * l1)))
+                + v[1] * (v[1] * (l2 * (0.5 * m2 * l2))) + v[1] * t7;
             let (sin_q0, cos_q0) = q[0].sin_cos();
             let g = self.g;
-            let t12 = l1 * (-t1 * g);
-            let t13 = cos_q0 * t12;
+            let t8 = l1 * (-t1 * g);
+            let t9 = cos_q0 * t8;
             let (sin_q1, cos_q1) = q[1].sin_cos();
-            let t14 = l2 * (m2 * g);
-            let t15 = cos_q1 * t14;
-            let potential = t13 - t15;
-            let t16 = v[0] * v[1];
-            let t17 = t9 * t16 * t8;
-            let t18 = t8 * (v[1] * t9);
-            let t19 = t8 * (v[0] * t9);
-            let t20 = t10 * t16;
+            let t10 = l2 * (m2 * g);
+            let t11 = cos_q1 * t10;
+            let potential = t9 - t11;
+            let t12 = v[0] * v[1];
+            let t13 = t5 * t12 * t4;
+            let t14 = t4 * (v[1] * t5);
+            let t15 = t4 * (v[0] * t5);
+            let t16 = t6 * t12;
+            let t17 = l2 * (m2 * l2);
+            let t18 = l1 * (t1 * l1);
             Derivatives {
                 value: kinetic - potential,
-                d1: SVector::from([t12 * sin_q0 - t17, t17 - t14 * sin_q1]),
-                d2: SVector::from([t3 + (t3 + v[1] * t10), t5 + (t5 + t11)]),
-                d11: SMatrix::from([[t13 - t20, t20], [t20, -(t15 + t20)]]),
-                d12: SMatrix::from([[-t18, t18], [-t19, t19]]),
-                d22: SMatrix::from([[2.0 * t2, t10], [t10, 2.0 * t4]]),
+                d1: SVector::from([t8 * sin_q0 - t13, t13 - t10 * sin_q1]),
+                d2: SVector::from([v[1] * t6 + v[0] * t18, t7 + v[1] * t17]),
+                d11: SMatrix::from([[t9 - t16, t16], [t16, -(t11 + t16)]]),
+                d12: SMatrix::from([[-t14, t14], [-t15, t15]]),
+                d22: SMatrix::from([[t18, t6], [t6, t17]]),
             }
         }
         #[inline]
@@ -105,60 +116,58 @@ const _: () = {
             let m2 = self.m[1];
             let t1 = self.m[0] + m2;
             let l1 = self.l[0];
-            let t2 = l1 * (0.5 * t1 * l1);
-            let t3 = v[0] * t2;
             let l2 = self.l[1];
-            let t4 = l2 * (0.5 * m2 * l2);
-            let t5 = v[1] * t4;
-            let t6 = q[0] - q[1];
-            let (t8, t7) = t6.sin_cos();
-            let t9 = l2 * (m2 * l1);
-            let t10 = t7 * t9;
+            let t2 = q[0] - q[1];
+            let (t4, t3) = t2.sin_cos();
+            let t5 = l2 * (m2 * l1);
+            let t6 = t3 * t5;
             let (sin_q0, cos_q0) = q[0].sin_cos();
             let g = self.g;
-            let t11 = l1 * (-t1 * g);
+            let t7 = l1 * (-t1 * g);
             let (sin_q1, cos_q1) = q[1].sin_cos();
-            let t12 = l2 * (m2 * g);
-            let t13 = v[0] * v[1];
-            let t14 = t9 * t13 * t8;
-            let t15 = t11 * sin_q0 - t14;
-            let t16 = t14 - t12 * sin_q1;
-            let t17 = t5 + (t5 + v[0] * t10);
-            let t18 = t3 + (t3 + v[1] * t10);
-            let t19 = t8 * (v[1] * t9);
-            let t20 = t8 * (v[0] * t9);
-            let t21 = t10 * t13;
+            let t8 = l2 * (m2 * g);
+            let t9 = v[0] * v[1];
+            let t10 = t5 * t9 * t4;
+            let t11 = t7 * sin_q0 - t10;
+            let t12 = t10 - t8 * sin_q1;
+            let t13 = t4 * (v[1] * t5);
+            let t14 = t4 * (v[0] * t5);
+            let t15 = t6 * t9;
+            let t16 = l2 * (m2 * l2);
+            let t17 = v[0] * t6 + v[1] * t16;
+            let t18 = l1 * (t1 * l1);
+            let t19 = v[1] * t6 + v[0] * t18;
             let minus_first = minus.first;
             let minus_second = minus.second;
             let plus_first = plus.first;
             let plus_second = plus.second;
-            let t22 = minus_second * plus_second;
-            let t23 = minus_second * plus_first;
-            let t24 = minus_first * plus_second;
-            let t25 = minus_first * plus_first;
-            let t26 = t19 * t23;
-            let t27 = t19 * t24;
-            let t28 = t10 * t22;
-            let t29 = t20 * t23;
-            let t30 = t21 * t25;
-            let t31 = t20 * t24;
+            let t20 = minus_second * plus_second;
+            let t21 = minus_second * plus_first;
+            let t22 = minus_first * plus_second;
+            let t23 = minus_first * plus_first;
+            let t24 = t13 * t21;
+            let t25 = t13 * t22;
+            let t26 = t6 * t20;
+            let t27 = t14 * t21;
+            let t28 = t15 * t23;
+            let t29 = t14 * t22;
             Variations {
                 minus: SVector::from([
-                    t18 * minus_second + t15 * minus_first,
-                    t17 * minus_second + t16 * minus_first,
+                    t11 * minus_first + t19 * minus_second,
+                    t12 * minus_first + t17 * minus_second,
                 ]),
                 plus: SVector::from([
-                    t18 * plus_second + t15 * plus_first,
-                    t17 * plus_second + t16 * plus_first,
+                    t11 * plus_first + t19 * plus_second,
+                    t12 * plus_first + t17 * plus_second,
                 ]),
                 mixed: SMatrix::from([
                     [
-                        2.0 * t2 * t22 - t26 - t27 + (cos_q0 * t11 - t21) * t25,
-                        t27 + (t28 - t29) + t30,
+                        (cos_q0 * t7 - t15) * t23 + (t18 * t20 - t24 - t25),
+                        t28 + (t25 + t26 - t27),
                     ],
                     [
-                        t30 + (t26 + t28 - t31),
-                        t31 + (t29 + 2.0 * t4 * t22) - (cos_q1 * t12 + t21) * t25,
+                        t26 + (t24 + t28) - t29,
+                        t27 + t29 + t16 * t20 - (cos_q1 * t8 + t15) * t23,
                     ],
                 ]),
             }
@@ -173,31 +182,29 @@ const _: () = {
         #[inline]
         fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 2> {
             let relative = v[1] - v[0];
-            let t1 = v[0] * (0.5 * self.c[0]);
-            let t2 = relative * (0.5 * self.c[1]);
-            let dr_drelative = 2.0 * t2;
+            let c_0 = self.c[0];
+            let c_1 = self.c[1];
+            let dr_drelative = relative * c_1;
             Gradient {
-                value: v[0] * t1 + relative * t2,
+                value: v[0] * (v[0] * (0.5 * c_0)) + relative * (relative * (0.5 * c_1)),
                 d1: SVector::from([0.0, 0.0]),
-                d2: SVector::from([2.0 * t1 - dr_drelative, dr_drelative]),
+                d2: SVector::from([v[0] * c_0 - dr_drelative, dr_drelative]),
             }
         }
         #[inline]
         fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
             let relative = v[1] - v[0];
             let c_0 = self.c[0];
-            let t1 = v[0] * (0.5 * c_0);
             let c_1 = self.c[1];
-            let t2 = relative * (0.5 * c_1);
-            let dr_drelative = 2.0 * t2;
-            let t3 = -c_1;
+            let t1 = -c_1;
+            let dr_drelative = relative * c_1;
             Derivatives {
-                value: v[0] * t1 + relative * t2,
+                value: v[0] * (v[0] * (0.5 * c_0)) + relative * (relative * (0.5 * c_1)),
                 d1: SVector::from([0.0, 0.0]),
-                d2: SVector::from([2.0 * t1 - dr_drelative, dr_drelative]),
+                d2: SVector::from([v[0] * c_0 - dr_drelative, dr_drelative]),
                 d11: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
                 d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
-                d22: SMatrix::from([[c_0 + c_1, t3], [t3, c_1]]),
+                d22: SMatrix::from([[c_0 + c_1, t1], [t1, c_1]]),
             }
         }
         #[inline]
@@ -214,8 +221,8 @@ const _: () = {
             let minus_second = minus.second;
             let plus_second = plus.second;
             let t1 = minus_second * plus_second;
-            let dr_drelative = 2.0 * (relative * (0.5 * c_1));
-            let t2 = 2.0 * (v[0] * (0.5 * c_0)) - dr_drelative;
+            let dr_drelative = relative * c_1;
+            let t2 = v[0] * c_0 - dr_drelative;
             let t3 = c_1 * t1;
             let t4 = -t3;
             Variations {
@@ -228,7 +235,7 @@ const _: () = {
     #[automatically_derived]
     impl Discrete<Midpoint, 2> for DoublePendulum {
         type Matrix = SMatrix<f64, 2, 2>;
-        type Memory = VelocityHistory<f64, 2>;
+        type Memory = ::dalembert::VelocityHistory<f64, 2>;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)
@@ -268,50 +275,44 @@ const _: () = {
             let m2 = self.m[1];
             let t1 = self.m[0] + m2;
             let l1 = self.l[0];
-            let t2 = l1 * (0.5 * t1 * l1);
-            let t3 = v[0] * t2;
             let l2 = self.l[1];
-            let t4 = l2 * (0.5 * m2 * l2);
-            let t5 = v[1] * t4;
-            let t6 = q[0] - q[1];
-            let (t8, t7) = t6.sin_cos();
-            let t9 = l2 * (m2 * l1);
-            let t10 = t7 * t9;
+            let t2 = q[0] - q[1];
+            let (t4, t3) = t2.sin_cos();
+            let t5 = l2 * (m2 * l1);
+            let t6 = t3 * t5;
             let (sin_q0, cos_q0) = q[0].sin_cos();
             let g = self.g;
-            let t11 = l1 * (-t1 * g);
+            let t7 = l1 * (-t1 * g);
             let (sin_q1, cos_q1) = q[1].sin_cos();
-            let t12 = l2 * (m2 * g);
+            let t8 = l2 * (m2 * g);
             let relative = v[1] - v[0];
             let c_0 = self.c[0];
             let c_1 = self.c[1];
-            let t13 = v[0] * v[1];
-            let t14 = t9 * t13 * t8;
-            let t15 = t10 * t13;
-            let dr_drelative = 2.0 * (relative * (0.5 * c_1));
-            let t16 = c_1 * half;
-            let t17 = t10 - t16;
-            let t18 = half * half;
-            let t19 = t8 * (v[0] * t9) * half;
-            let t20 = t8 * (v[1] * t9) * half;
-            let t21 = t15 * t18;
+            let t9 = v[0] * v[1];
+            let t10 = t5 * t9 * t4;
+            let t11 = t6 * t9;
+            let t12 = l2 * (m2 * l2);
+            let t13 = l1 * (t1 * l1);
+            let dr_drelative = relative * c_1;
+            let t14 = c_1 * half;
+            let t15 = t6 - t14;
+            let t16 = half * half;
+            let t17 = t11 * t16;
+            let t18 = t5 * half;
+            let t19 = t4 * (v[0] * t18);
+            let t20 = t4 * (v[1] * t18);
             StepKernel {
                 p0: SVector::from([
-                    t3 + (t3 + v[1] * t10)
-                        + (2.0 * (v[0] * (0.5 * c_0)) - dr_drelative) * half
-                        - (t11 * sin_q0 - t14) * half,
-                    t5 + (t5 + v[0] * t10) + dr_drelative * half
-                        - (t14 - t12 * sin_q1) * half,
+                    v[1] * t6 + v[0] * t13
+                        - half * (dr_drelative + (t7 * sin_q0 - t10 - v[0] * c_0)),
+                    v[0] * t6 + v[1] * t12 - half * (t10 - t8 * sin_q1 - dr_drelative),
                 ]),
                 matrix: SMatrix::from([
                     [
-                        2.0 * t2 + (c_0 + c_1) * half - (cos_q0 * t11 - t15) * t18,
-                        t17 - t19 - t20 - t21,
+                        t13 + (c_0 + c_1) * half - (cos_q0 * t7 - t11) * t16,
+                        t15 - t19 - t20 - t17,
                     ],
-                    [
-                        t19 + (t17 + t20) - t21,
-                        2.0 * t4 + t16 + (cos_q1 * t12 + t15) * t18,
-                    ],
+                    [t20 + (t15 + t19) - t17, (cos_q1 * t8 + t11) * t16 + (t12 + t14)],
                 ]),
             }
         }
@@ -321,28 +322,26 @@ const _: () = {
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0], q0[1] + half * v[1]];
             let m2 = self.m[1];
-            let t1 = self.m[0] + m2;
             let l1 = self.l[0];
-            let t2 = v[0] * (l1 * (0.5 * t1 * l1));
             let l2 = self.l[1];
-            let t3 = v[1] * (l2 * (0.5 * m2 * l2));
-            let t4 = q[0] - q[1];
-            let (t6, t5) = t4.sin_cos();
-            let t7 = l2 * (m2 * l1);
-            let t8 = t5 * t7;
+            let t1 = q[0] - q[1];
+            let (t3, t2) = t1.sin_cos();
+            let t4 = l2 * (m2 * l1);
+            let t5 = t2 * t4;
             let g = self.g;
             let relative = v[1] - v[0];
-            let t9 = t7 * (v[0] * v[1]) * t6;
-            let t10 = t3 + (t3 + v[0] * t8);
-            let t11 = t2 + (t2 + v[1] * t8);
-            let dr_drelative = 2.0 * (relative * (0.5 * self.c[1]));
-            let t12 = (2.0 * (v[0] * (0.5 * self.c[0])) - dr_drelative) * half;
-            let t13 = dr_drelative * half;
-            let t14 = (l1 * (-t1 * g) * q[0].sin() - t9) * half;
-            let t15 = (t9 - l2 * (m2 * g) * q[1].sin()) * half;
+            let t6 = t3 * (v[1] * (v[0] * t4));
+            let t7 = m2 * l2;
+            let t8 = v[0] * t5 + v[1] * (l2 * t7);
+            let t9 = (self.m[0] + m2) * l1;
+            let t10 = v[1] * t5 + v[0] * (l1 * t9);
+            let dr_drelative = relative * self.c[1];
+            let t11 = half
+                * (dr_drelative - q[0].sin() * (g * t9) - t6 - v[0] * self.c[0]);
+            let t12 = half * (t6 - q[1].sin() * (g * t7) - dr_drelative);
             Momenta {
-                p0: SVector::from([t11 + t12 - t14, t10 + t13 - t15]),
-                p1: SVector::from([t11 - t12 + t14, t10 - t13 + t15]),
+                p0: SVector::from([t10 - t11, t8 - t12]),
+                p1: SVector::from([t10 + t11, t8 + t12]),
             }
         }
         /// E_L on the segment.

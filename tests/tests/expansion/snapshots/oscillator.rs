@@ -18,36 +18,53 @@ const _: () = {
     use ::dalembert::{
         Derivatives, Direction, Discrete, DiscreteForce, DiscreteForceDerivatives,
         DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
-        Rayleigh, StepKernel, Trapezoidal, Variations, VelocityHistory,
+        Rayleigh, StepKernel, Trapezoidal, Variations,
     };
     type Vector = SVector<f64, 1>;
+    /// Known at compile time:
+    /// - Derivatives are written out.
+    /// - L = T(v) − V(q), of degree at most 2.
+    /// - The mass matrix ∂²L/∂v² is constant.
+    /// - The damping force −∂R/∂v is linear in v with constant coefficients.
+    /// - By the rule `Midpoint` the Newton matrix is constant: a step is one linear solve.
+    /// - By the rule `Trapezoidal` the Newton matrix is constant: a step is one linear solve.
     #[automatically_derived]
     impl Lagrangian<1> for Oscillator {
         type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::Expanded)
+            .with_constant_mass_matrix()
+            .with_quadratic_lagrangian()
+            .with_separable_lagrangian()
+            .with_damping(::dalembert::Damping::Linear)
+            .with_newton_matrices(
+                &[
+                    ::dalembert::NewtonStructure::new("Midpoint", true, 0),
+                    ::dalembert::NewtonStructure::new("Trapezoidal", true, 0),
+                ],
+            );
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             oscillator((*q).into(), (*v).into(), self.m, self.k, self.r).0
         }
         #[inline]
         fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
-            let t1 = v[0] * (0.5 * self.m);
-            let t2 = q[0] * (0.5 * self.k);
+            let m = self.m;
+            let k = self.k;
             Gradient {
-                value: v[0] * t1 - q[0] * t2,
-                d1: SVector::from([-(2.0 * t2)]),
-                d2: SVector::from([2.0 * t1]),
+                value: v[0] * (v[0] * (0.5 * m)) - q[0] * (q[0] * (0.5 * k)),
+                d1: SVector::from([-(q[0] * k)]),
+                d2: SVector::from([v[0] * m]),
             }
         }
         #[inline]
         fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
             let m = self.m;
-            let t1 = v[0] * (0.5 * m);
             let k = self.k;
-            let t2 = q[0] * (0.5 * k);
             Derivatives {
-                value: v[0] * t1 - q[0] * t2,
-                d1: SVector::from([-(2.0 * t2)]),
-                d2: SVector::from([2.0 * t1]),
+                value: v[0] * (v[0] * (0.5 * m)) - q[0] * (q[0] * (0.5 * k)),
+                d1: SVector::from([-(q[0] * k)]),
+                d2: SVector::from([v[0] * m]),
                 d11: SMatrix::from([[-k]]),
                 d12: SMatrix::from([[0.0]]),
                 d22: SMatrix::from([[m]]),
@@ -63,8 +80,8 @@ const _: () = {
         ) -> Variations<f64, 1> {
             let m = self.m;
             let k = self.k;
-            let t1 = 2.0 * (q[0] * (0.5 * k));
-            let t2 = 2.0 * (v[0] * (0.5 * m));
+            let t1 = q[0] * k;
+            let t2 = v[0] * m;
             let minus_first = minus.first;
             let minus_second = minus.second;
             let plus_first = plus.first;
@@ -73,7 +90,7 @@ const _: () = {
                 minus: SVector::from([t2 * minus_second - t1 * minus_first]),
                 plus: SVector::from([t2 * plus_second - t1 * plus_first]),
                 mixed: SMatrix::from([
-                    [m * (minus_second * plus_second) - k * (minus_first * plus_first)],
+                    [plus_second * (m * minus_second) - plus_first * (k * minus_first)],
                 ]),
             }
         }
@@ -86,21 +103,20 @@ const _: () = {
         }
         #[inline]
         fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 1> {
-            let t1 = v[0] * (0.5 * self.r);
+            let r = self.r;
             Gradient {
-                value: v[0] * t1,
+                value: v[0] * (v[0] * (0.5 * r)),
                 d1: SVector::from([0.0]),
-                d2: SVector::from([2.0 * t1]),
+                d2: SVector::from([v[0] * r]),
             }
         }
         #[inline]
         fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
             let r = self.r;
-            let t1 = v[0] * (0.5 * r);
             Derivatives {
-                value: v[0] * t1,
+                value: v[0] * (v[0] * (0.5 * r)),
                 d1: SVector::from([0.0]),
-                d2: SVector::from([2.0 * t1]),
+                d2: SVector::from([v[0] * r]),
                 d11: SMatrix::from([[0.0]]),
                 d12: SMatrix::from([[0.0]]),
                 d22: SMatrix::from([[r]]),
@@ -117,18 +133,19 @@ const _: () = {
             let r = self.r;
             let minus_second = minus.second;
             let plus_second = plus.second;
-            let t1 = 2.0 * (v[0] * (0.5 * r));
+            let t1 = v[0] * r;
             Variations {
                 minus: SVector::from([minus_second * t1]),
                 plus: SVector::from([plus_second * t1]),
-                mixed: SMatrix::from([[r * (minus_second * plus_second)]]),
+                mixed: SMatrix::from([[plus_second * (r * minus_second)]]),
             }
         }
     }
     #[automatically_derived]
     impl Discrete<Midpoint, 1> for Oscillator {
         type Matrix = SMatrix<f64, 1, 1>;
-        type Memory = VelocityHistory<f64, 1>;
+        type Memory = ::dalembert::KeptMatrix<f64, Self::Matrix, 1>;
+        const LINEAR: bool = true;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)
@@ -169,11 +186,8 @@ const _: () = {
             let k = self.k;
             let r = self.r;
             StepKernel {
-                p0: SVector::from([
-                    2.0 * (v[0] * (0.5 * m)) + 2.0 * (v[0] * (0.5 * r)) * half
-                        + 2.0 * (q[0] * (0.5 * k)) * half,
-                ]),
-                matrix: SMatrix::from([[m + r * half + k * (half * half)]]),
+                p0: SVector::from([v[0] * m + half * (q[0] * k + v[0] * r)]),
+                matrix: SMatrix::from([[m + half * (r + k * half)]]),
             }
         }
         /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
@@ -181,12 +195,11 @@ const _: () = {
         fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0]];
-            let t1 = 2.0 * (v[0] * (0.5 * self.m));
-            let t2 = 2.0 * (v[0] * (0.5 * self.r)) * half;
-            let t3 = 2.0 * (q[0] * (0.5 * self.k)) * half;
+            let t1 = v[0] * self.m;
+            let t2 = half * (q[0] * self.k + v[0] * self.r);
             Momenta {
-                p0: SVector::from([t1 + t2 + t3]),
-                p1: SVector::from([t1 - t2 - t3]),
+                p0: SVector::from([t1 + t2]),
+                p1: SVector::from([t1 - t2]),
             }
         }
         /// E_L on the segment.
@@ -197,7 +210,8 @@ const _: () = {
     #[automatically_derived]
     impl Discrete<Trapezoidal, 1> for Oscillator {
         type Matrix = SMatrix<f64, 1, 1>;
-        type Memory = VelocityHistory<f64, 1>;
+        type Memory = ::dalembert::ExplicitMemory<f64, Self::Matrix, 1>;
+        const LINEAR: bool = true;
         /// L_d = (h/2) [L(q0, v̄) + L(q1, v̄)], with v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Trapezoidal::discrete_lagrangian(self, q0, q1, h)
@@ -232,18 +246,51 @@ const _: () = {
         /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
         #[inline]
         fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
-            Trapezoidal::lagrangian_kernel(self, q0, v, h)
-                + Trapezoidal::rayleigh_kernel(self, q0, v, h)
+            let half = 0.5 * h;
+            let t1 = self.m + self.r * half;
+            StepKernel {
+                p0: SVector::from([self.k * half * q0[0] + v[0] * t1]),
+                matrix: SMatrix::from([[t1]]),
+            }
         }
         /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
         #[inline]
         fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
-            Trapezoidal::lagrangian_momenta(self, q0, v, h)
-                + Trapezoidal::rayleigh_momenta(self, q0, v, h)
+            let half = 0.5 * h;
+            let q1 = [q0[0] + h * v[0]];
+            let t1 = v[0] * self.m;
+            let t2 = self.k * half;
+            let t3 = v[0] * (self.r * half);
+            Momenta {
+                p0: SVector::from([t3 + (t1 + t2 * q0[0])]),
+                p1: SVector::from([t1 - t3 - t2 * q1[0]]),
+            }
         }
         /// E_L on the segment.
         fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Trapezoidal::segment_energy(self, q0, q1, h)
+        }
+    }
+    #[automatically_derived]
+    impl ::dalembert::Explicit<1> for Oscillator {
+        #[inline]
+        fn step_matrix(&self, h: f64) -> <Self as Discrete<Trapezoidal, 1>>::Matrix {
+            let half = 0.5 * h;
+            SMatrix::from([[self.m + self.r * half]])
+        }
+        #[inline]
+        fn velocity_momenta(&self, v: &Vector, h: f64) -> Momenta<f64, 1> {
+            let half = 0.5 * h;
+            let t1 = v[0] * self.m;
+            let t2 = v[0] * (self.r * half);
+            Momenta {
+                p0: SVector::from([t1 + t2]),
+                p1: SVector::from([t1 - t2]),
+            }
+        }
+        #[inline]
+        fn configuration_force(&self, q: &Vector) -> Vector {
+            SVector::from([-(q[0] * self.k)])
         }
     }
     #[automatically_derived]

@@ -71,12 +71,18 @@ const _: () = {
     use ::dalembert::{
         Derivatives, Direction, Discrete, DiscreteForce, DiscreteForceDerivatives,
         DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
-        Rayleigh, StepKernel, Variations, VelocityHistory, dual,
+        Rayleigh, StepKernel, Variations, dual,
     };
     type Vector = SVector<f64, 1>;
+    /// Known at compile time:
+    /// - Derivatives are made by dual numbers, as asked.
     #[automatically_derived]
     impl Lagrangian<1> for Oscillator {
         type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::NumDual {
+                refusal: ::core::option::Option::None,
+            });
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             oscillator((*q).into(), (*v).into(), self.m, self.k, self.r).0
@@ -122,7 +128,7 @@ const _: () = {
     #[automatically_derived]
     impl Discrete<Midpoint, 1> for Oscillator {
         type Matrix = SMatrix<f64, 1, 1>;
-        type Memory = VelocityHistory<f64, 1>;
+        type Memory = ::dalembert::VelocityHistory<f64, 1>;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)

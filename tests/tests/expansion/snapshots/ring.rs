@@ -12,12 +12,26 @@ const _: () = {
     use ::dalembert::{
         Derivatives, Direction, Discrete, DiscreteForce, DiscreteForceDerivatives,
         DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
-        Rayleigh, StepKernel, Variations, VelocityHistory,
+        Rayleigh, StepKernel, Variations,
     };
     type Vector = SVector<f64, 2>;
+    /// Known at compile time:
+    /// - Derivatives are written out.
+    /// - L = T(v) − V(q).
+    /// - The mass matrix ∂²L/∂v² is constant.
+    /// - The damping force −∂R/∂v is linear in v with constant coefficients.
+    /// - By the rule `Midpoint` the Newton matrix changes with the state.
     #[automatically_derived]
     impl Lagrangian<2> for Ring {
         type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::Expanded)
+            .with_constant_mass_matrix()
+            .with_separable_lagrangian()
+            .with_damping(::dalembert::Damping::Linear)
+            .with_newton_matrices(
+                &[::dalembert::NewtonStructure::new("Midpoint", false, 1)],
+            );
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             self.lagrangian((*q).into(), (*v).into())
@@ -27,10 +41,10 @@ const _: () = {
             let s = q[0] * q[0] + q[1] * q[1];
             let t1 = s - 1.0;
             let t2 = t1 * t1;
-            let t3 = t2 + s * (2.0 * t1);
+            let t3 = t2 + t1 * (2.0 * s);
             Gradient {
                 value: 0.5 * (v[0] * v[0] + v[1] * v[1]) - s * t2,
-                d1: SVector::from([-(t3 * (2.0 * q[0])), -(t3 * (2.0 * q[1]))]),
+                d1: SVector::from([-(2.0 * q[0] * t3), -(2.0 * q[1] * t3)]),
                 d2: SVector::from([v[0], v[1]]),
             }
         }
@@ -39,20 +53,21 @@ const _: () = {
             let s = q[0] * q[0] + q[1] * q[1];
             let t1 = s - 1.0;
             let t2 = t1 * t1;
-            let t3 = t2 + s * (2.0 * t1);
-            let t4 = 2.0 * q[1];
-            let t5 = 2.0 * q[0];
-            let t6 = 2.0 * s + 4.0 * t1;
-            let t7 = t4 * t6;
-            let t8 = 2.0 * t3;
-            let t9 = -(t5 * t7);
+            let t3 = 2.0 * q[1];
+            let t4 = 2.0 * q[0];
+            let t5 = 2.0 * s;
+            let t6 = t5 + 4.0 * t1;
+            let t7 = t3 * t6;
+            let t8 = -(t4 * t7);
+            let t9 = t2 + t1 * t5;
+            let t10 = 2.0 * t9;
             Derivatives {
                 value: 0.5 * (v[0] * v[0] + v[1] * v[1]) - s * t2,
-                d1: SVector::from([-(t3 * t5), -(t3 * t4)]),
+                d1: SVector::from([-(t4 * t9), -(t3 * t9)]),
                 d2: SVector::from([v[0], v[1]]),
                 d11: SMatrix::from([
-                    [-(t8 + t5 * (t5 * t6)), t9],
-                    [t9, -(t4 * t7 + t8)],
+                    [-(t10 + t6 * (t4 * t4)), t8],
+                    [t8, -(t3 * t7 + t10)],
                 ]),
                 d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
                 d22: SMatrix::from([[1.0, 0.0], [0.0, 1.0]]),
@@ -68,33 +83,34 @@ const _: () = {
         ) -> Variations<f64, 2> {
             let s = q[0] * q[0] + q[1] * q[1];
             let t1 = s - 1.0;
-            let t2 = t1 * t1 + s * (2.0 * t1);
-            let t3 = 2.0 * q[1];
-            let t4 = t2 * t3;
-            let t5 = 2.0 * q[0];
+            let t2 = 2.0 * q[1];
+            let t3 = 2.0 * q[0];
+            let t4 = 2.0 * s;
+            let t5 = t4 + 4.0 * t1;
             let t6 = t2 * t5;
-            let t7 = 2.0 * s + 4.0 * t1;
-            let t8 = t3 * t7;
-            let t9 = 2.0 * t2;
             let minus_first = minus.first;
             let minus_second = minus.second;
             let plus_first = plus.first;
             let plus_second = plus.second;
-            let t10 = minus_second * plus_second;
-            let t11 = minus_first * plus_first;
-            let t12 = -(t5 * t8 * t11);
+            let t7 = minus_second * plus_second;
+            let t8 = minus_first * plus_first;
+            let t9 = t1 * (t1 + t4);
+            let t10 = t2 * t9;
+            let t11 = t3 * t9;
+            let t12 = 2.0 * t9;
+            let t13 = -(t6 * (t3 * t8));
             Variations {
                 minus: SVector::from([
-                    v[0] * minus_second - t6 * minus_first,
-                    v[1] * minus_second - t4 * minus_first,
+                    v[0] * minus_second - minus_first * t11,
+                    v[1] * minus_second - minus_first * t10,
                 ]),
                 plus: SVector::from([
-                    v[0] * plus_second - t6 * plus_first,
-                    v[1] * plus_second - t4 * plus_first,
+                    v[0] * plus_second - plus_first * t11,
+                    v[1] * plus_second - plus_first * t10,
                 ]),
                 mixed: SMatrix::from([
-                    [t10 - (t9 + t5 * (t5 * t7)) * t11, t12],
-                    [t12, t10 - (t3 * t8 + t9) * t11],
+                    [t7 - t8 * (t5 * (t3 * t3) + t12), t13],
+                    [t13, t7 - t8 * (t2 * t6 + t12)],
                 ]),
             }
         }
@@ -135,26 +151,21 @@ const _: () = {
             plus: Direction<f64>,
         ) -> Variations<f64, 2> {
             let k = self.k;
-            let minus_second = minus.second;
             let plus_second = plus.second;
-            let t1 = k * (minus_second * plus_second);
+            let t1 = k * minus.second;
+            let t2 = k * plus_second;
+            let t3 = plus_second * t1;
             Variations {
-                minus: SVector::from([
-                    k * (v[0] * minus_second),
-                    k * (v[1] * minus_second),
-                ]),
-                plus: SVector::from([
-                    k * (v[0] * plus_second),
-                    k * (v[1] * plus_second),
-                ]),
-                mixed: SMatrix::from([[t1, 0.0], [0.0, t1]]),
+                minus: SVector::from([v[0] * t1, v[1] * t1]),
+                plus: SVector::from([v[0] * t2, v[1] * t2]),
+                mixed: SMatrix::from([[t3, 0.0], [0.0, t3]]),
             }
         }
     }
     #[automatically_derived]
     impl Discrete<Midpoint, 2> for Ring {
         type Matrix = SMatrix<f64, 2, 2>;
-        type Memory = VelocityHistory<f64, 2>;
+        type Memory = ::dalembert::VelocityHistory<f64, 2>;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)
@@ -194,23 +205,24 @@ const _: () = {
             let s = q[0] * q[0] + q[1] * q[1];
             let t1 = s - 1.0;
             let k = self.k;
-            let t2 = t1 * t1 + s * (2.0 * t1);
-            let t3 = 2.0 * q[1];
-            let t4 = 2.0 * q[0];
-            let t5 = 2.0 * s + 4.0 * t1;
-            let t6 = t3 * t5;
-            let t7 = 2.0 * t2;
-            let t8 = 1.0 + k * half;
-            let t9 = half * half;
-            let t10 = t4 * t6 * t9;
+            let t2 = 2.0 * q[1];
+            let t3 = 2.0 * q[0];
+            let t4 = 2.0 * s;
+            let t5 = t4 + 4.0 * t1;
+            let t6 = t2 * t5;
+            let t7 = t1 * (t1 + t4);
+            let t8 = 2.0 * t7;
+            let t9 = 1.0 + k * half;
+            let t10 = half * half;
+            let t11 = t6 * (t3 * t10);
             StepKernel {
                 p0: SVector::from([
-                    v[0] + v[0] * k * half + t2 * t4 * half,
-                    v[1] + v[1] * k * half + t2 * t3 * half,
+                    v[0] + half * (t3 * t7 + v[0] * k),
+                    v[1] + half * (t2 * t7 + v[1] * k),
                 ]),
                 matrix: SMatrix::from([
-                    [t8 + (t7 + t4 * (t4 * t5)) * t9, t10],
-                    [t10, t8 + (t3 * t6 + t7) * t9],
+                    [t9 + (t5 * (t3 * t3) + t8) * t10, t11],
+                    [t11, t9 + (t2 * t6 + t8) * t10],
                 ]),
             }
         }
@@ -222,14 +234,12 @@ const _: () = {
             let s = q[0] * q[0] + q[1] * q[1];
             let t1 = s - 1.0;
             let k = self.k;
-            let t2 = t1 * t1 + s * (2.0 * t1);
-            let t3 = v[0] * k * half;
-            let t4 = v[1] * k * half;
-            let t5 = t2 * (2.0 * q[0]) * half;
-            let t6 = t2 * (2.0 * q[1]) * half;
+            let t2 = t1 * (t1 + 2.0 * s);
+            let t3 = half * (2.0 * q[0] * t2 + v[0] * k);
+            let t4 = half * (2.0 * q[1] * t2 + v[1] * k);
             Momenta {
-                p0: SVector::from([v[0] + t3 + t5, v[1] + t4 + t6]),
-                p1: SVector::from([v[0] - t3 - t5, v[1] - t4 - t6]),
+                p0: SVector::from([v[0] + t3, v[1] + t4]),
+                p1: SVector::from([v[0] - t3, v[1] - t4]),
             }
         }
         /// E_L on the segment.

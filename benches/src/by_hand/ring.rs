@@ -1,0 +1,59 @@
+//! The ring: V = s(s − 1)², dV/ds = (s − 1)(3s − 1), d²V/ds² = 6s − 4, G = −2 dV/ds q − k v.
+
+use dalembert::nalgebra::{SMatrix, SVector, matrix};
+use dalembert::{Momenta, StepKernel};
+
+use super::HandDerived;
+use crate::scenes::expanded;
+
+/// The ring, by hand.
+pub struct Ring {
+    generated: expanded::Ring,
+}
+
+impl From<expanded::Ring> for Ring {
+    fn from(generated: expanded::Ring) -> Self {
+        Self { generated }
+    }
+}
+
+type Vector = SVector<f64, 2>;
+
+impl HandDerived<2> for Ring {
+    type Generated = expanded::Ring;
+    type Matrix = SMatrix<f64, 2, 2>;
+
+    fn generated(&self) -> &expanded::Ring {
+        &self.generated
+    }
+
+    #[inline]
+    fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 2> {
+        let half = 0.5 * h;
+        let q = q0 + v * half;
+        let s = q[0] * q[0] + q[1] * q[1];
+        let slope = 2.0 * (s - 1.0) * (3.0 * s - 1.0);
+        let curvature = 24.0 * s - 16.0;
+        let drag = half * self.generated.k;
+        let along = half * slope;
+        let square = half * half;
+        let diagonal = 1.0 + drag + square * slope;
+        let scaled = square * curvature;
+        let (x, y) = (scaled * q[0], scaled * q[1]);
+        let mixed = x * q[1];
+        StepKernel {
+            p0: v + v * drag + q * along,
+            matrix: matrix![diagonal + x * q[0], mixed; mixed, diagonal + y * q[1]],
+        }
+    }
+
+    #[inline]
+    fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 2> {
+        let half = 0.5 * h;
+        let q = q0 + v * half;
+        let s = q[0] * q[0] + q[1] * q[1];
+        let slope = 2.0 * (s - 1.0) * (3.0 * s - 1.0);
+        let impulse = v * (half * self.generated.k) + q * (half * slope);
+        Momenta { p0: v + impulse, p1: v - impulse }
+    }
+}

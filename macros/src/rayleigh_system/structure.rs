@@ -1,0 +1,254 @@
+//! What the expressions of a system show of its structure, as data and as documentation.
+//!
+//! Two passes over the graph: polynomial degrees and separation, from the operations as written, and the patterns of the
+//! derivatives. Both are conservative: what is found holds for every q, v and field; what cancels only algebraically,
+//! such as q − q, is not found. A second derivative that is absent does not make a function quadratic: |v| has none.
+
+mod degree;
+mod sentences;
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+pub use degree::Degrees;
+
+use super::differentiate::{Derivatives, Gradient};
+use super::graph::{Graph, Node, Operation};
+use super::lower::Refusal;
+use super::model::{Part, Rule, System};
+
+/// Who makes the derivatives, and why.
+pub enum Engine {
+    Expanded,
+    /// `None` where the attribute asks for num-dual.
+    NumDual(Option<Refusal>),
+}
+
+/// What is stated about a system.
+pub struct Structure {
+    pub engine: Engine,
+    /// Nothing was looked for where the derivatives are not written out.
+    pub findings: Option<Findings>,
+}
+
+/// What the expressions show.
+pub struct Findings {
+    /// Degrees of freedom.
+    pub n: usize,
+    pub constant_mass_matrix: bool,
+    pub quadratic_lagrangian: bool,
+    pub separable_lagrangian: bool,
+    pub damping: Damping,
+    pub cyclic: Vec<Cyclic>,
+    pub newton: Vec<Newton>,
+}
+
+/// What kind of force R makes.
+#[derive(Clone, Copy, Debug)]
+pub enum Damping {
+    /// R takes the time.
+    Unknown,
+    Absent,
+    Linear,
+    LinearByConfiguration,
+    Nonlinear,
+}
+
+/// A coordinate that L does not contain.
+#[derive(Clone, Copy)]
+pub struct Cyclic {
+    pub index: usize,
+    /// R contains the coordinate or its velocity.
+    pub damped: bool,
+    /// The component of f is not 0.
+    pub forced: bool,
+}
+
+/// The Newton matrix of a rule.
+#[derive(Clone, Copy)]
+pub struct Newton {
+    pub rule: Rule,
+    /// p0 is affine in v̄, and the matrix has neither q nor v in it.
+    pub constant: bool,
+    /// Largest |i − j| of an entry.
+    pub bandwidth: usize,
+    /// Constant by the trapezoidal rule, and no derivative holds both q and v: a step needs the force at one point.
+    pub is_explicit: bool,
+}
+
+/// A function with its derivatives.
+pub struct Differentiated {
+    pub root: Node,
+    pub derivatives: Derivatives,
+}
+
+/// L, R and f with their derivatives.
+pub struct Terms<'t> {
+    pub lagrangian: &'t Differentiated,
+    pub rayleigh: Option<&'t Differentiated>,
+    /// The components and the gradient of each.
+    pub force: &'t [(Node, Gradient)],
+}
+
+/// What the terms show, for each of the rules.
+pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>) -> Findings {
+    let degrees = Degrees::of(graph);
+    let Terms { lagrangian, rayleigh, force } = terms;
+    let damping = match rayleigh {
+        None => Damping::Absent,
+        Some(_) if system.timed.of(Part::Rayleigh) => Damping::Unknown,
+        Some(r) if degrees.in_velocity(r.root) > 2 => Damping::Nonlinear,
+        Some(r) if contains(graph, r.root, |operation| matches!(operation, Operation::Coordinate(_))) => {
+            Damping::LinearByConfiguration
+        }
+        Some(_) => Damping::Linear,
+    };
+    let of_pairs = |of: &Derivatives, is_meant: fn(bool, bool) -> bool| -> Vec<(usize, usize, Node)> {
+        let pairs = of.hessian.iter().filter_map(|(&(a, b), &entry)| {
+            let ((i, a), (j, b)) = (variable(graph, a)?, variable(graph, b)?);
+            is_meant(a, b).then_some((i, j, entry))
+        });
+        pairs.collect()
+    };
+    // In time as well; an input counts as what changes.
+    let is_constant = |entries: &[(usize, usize, Node)]| {
+        entries.iter().all(|&(.., entry)| {
+            !graph.depends(entry) && !contains(graph, entry, |operation| graph.is_time(operation))
+        })
+    };
+    let mass = of_pairs(&lagrangian.derivatives, |a, b| a && b);
+
+    let cyclic = (0..n).filter_map(|index| {
+        let is_own = |operation: Operation| operation == Operation::Coordinate(index);
+        let acts = |operation: Operation| is_own(operation) || operation == Operation::Velocity(index);
+        (!contains(graph, lagrangian.root, is_own)).then(|| Cyclic {
+            index,
+            damped: rayleigh.is_some_and(|r| contains(graph, r.root, acts)),
+            forced: force.get(index).is_some_and(|&(f, _)| graph.constant_value(f) != Some(0.0)),
+        })
+    });
+
+    let newton = system.rules.iter().map(|&rule| {
+        // The pairs of variables whose second derivatives the rule's matrix holds.
+        let is_meant: fn(bool, bool) -> bool = match rule {
+            Rule::Midpoint => |_, _| true,
+            Rule::Trapezoidal => |a, b| a || b,
+        };
+        let mut entries = of_pairs(&lagrangian.derivatives, is_meant);
+        if let Some(r) = rayleigh {
+            entries.extend(of_pairs(&r.derivatives, is_meant));
+        }
+        for (i, (_, row)) in force.iter().enumerate() {
+            entries.extend(row.iter().filter_map(|(&by, &entry)| {
+                let (j, is_velocity) = variable(graph, by)?;
+                is_meant(is_velocity, false).then_some((i, j, entry))
+            }));
+        }
+        // p0 holds ∂L/∂v at both ends, and ∂L/∂q and f where the trapezoidal rule sees q0 alone.
+        let is_affine = |entry: Node, by_velocity: bool| match rule {
+            Rule::Trapezoidal if !by_velocity => degrees.in_velocity(entry) <= 1,
+            _ => degrees.joint(entry) <= 1,
+        };
+        let gradients = [Some(*lagrangian), *rayleigh].into_iter().flatten();
+        let momenta = gradients.flat_map(|of| &of.derivatives.gradient).filter_map(|(&by, &entry)| {
+            let (_, by_velocity) = variable(graph, by)?;
+            Some((entry, by_velocity))
+        });
+        let constant = is_constant(&entries)
+            && momenta.clone().all(|(entry, by_velocity)| is_affine(entry, by_velocity))
+            && force.iter().all(|&(component, _)| is_affine(component, false));
+        let bandwidth = entries.iter().map(|&(i, j, _)| i.abs_diff(j)).max().unwrap_or(0);
+        let is_apart = |entry: Node, by_velocity: bool| {
+            !contains(graph, entry, |operation| match operation {
+                Operation::Coordinate(_) => by_velocity,
+                Operation::Velocity(_) => !by_velocity,
+                _ => false,
+            })
+        };
+        // An explicit step hands the force at its end on to the next one, whose input and time are others.
+        let is_explicit = constant
+            && !system.has_view()
+            && rule == Rule::Trapezoidal
+            && momenta.clone().all(|(entry, by_velocity)| is_apart(entry, by_velocity))
+            && rayleigh.is_none_or(|r| !contains(graph, r.root, |o| matches!(o, Operation::Coordinate(_))))
+            && force.iter().all(|&(component, _)| is_apart(component, false));
+        Newton { rule, constant, bandwidth, is_explicit }
+    });
+
+    Findings {
+        n,
+        constant_mass_matrix: degrees.in_velocity(lagrangian.root) <= 2 && is_constant(&mass),
+        quadratic_lagrangian: degrees.joint(lagrangian.root) <= 2,
+        separable_lagrangian: degrees.is_separable(lagrangian.root),
+        damping,
+        cyclic: cyclic.collect(),
+        newton: newton.collect(),
+    }
+}
+
+/// The index of a variable, and whether it is a velocity.
+fn variable(graph: &Graph, node: Node) -> Option<(usize, bool)> {
+    match graph.operation(node) {
+        Operation::Coordinate(index) => Some((index, false)),
+        Operation::Velocity(index) => Some((index, true)),
+        _ => None,
+    }
+}
+
+/// Whether the expression is made of something of this kind.
+fn contains(graph: &Graph, root: Node, is_meant: impl Fn(Operation) -> bool) -> bool {
+    graph.reachable([root]).into_iter().any(|node| is_meant(graph.operation(node)))
+}
+
+impl Structure {
+    /// `/// …` for each finding.
+    pub fn documentation(&self) -> TokenStream {
+        let sentences = sentences::of(self);
+        let lines = sentences.iter().map(|sentence| format!(" {sentence}"));
+        quote!(#(#[doc = #lines])*)
+    }
+
+    /// `const STRUCTURE: Structure = …;`
+    pub fn constant(&self) -> TokenStream {
+        let engine = match &self.engine {
+            Engine::Expanded => quote!(Expanded),
+            Engine::NumDual(None) => quote!(NumDual { refusal: ::core::option::Option::None }),
+            Engine::NumDual(Some(refusal)) => {
+                let (token, reason) = (&refusal.token, &refusal.reason);
+                let line = Literal::usize_unsuffixed(refusal.line());
+                quote!(NumDual {
+                    refusal: ::core::option::Option::Some(::dalembert::Refusal::new(#token, #line, #reason)),
+                })
+            }
+        };
+        let findings = self.findings.as_ref().map(|findings| {
+            let found = [
+                (findings.constant_mass_matrix, "with_constant_mass_matrix"),
+                (findings.quadratic_lagrangian, "with_quadratic_lagrangian"),
+                (findings.separable_lagrangian, "with_separable_lagrangian"),
+            ];
+            let found =
+                found.iter().filter(|(is_found, _)| *is_found).map(|(_, name)| format_ident!("{name}"));
+            let damping = format_ident!("{}", format!("{:?}", findings.damping));
+            let cyclic = findings.cyclic.iter().map(|&Cyclic { index, damped, forced }| {
+                let index = Literal::usize_unsuffixed(index);
+                quote!(::dalembert::CyclicCoordinate::new(#index, #damped, #forced))
+            });
+            let cyclic = (!findings.cyclic.is_empty()).then(|| quote!(.with_cyclic(&[#(#cyclic),*])));
+            let newton = findings.newton.iter().map(|&Newton { rule, constant, bandwidth, .. }| {
+                let (rule, bandwidth) = (rule.name(), Literal::usize_unsuffixed(bandwidth));
+                quote!(::dalembert::NewtonStructure::new(#rule, #constant, #bandwidth))
+            });
+            quote! {
+                #(.#found())*
+                .with_damping(::dalembert::Damping::#damping)
+                #cyclic
+                .with_newton_matrices(&[#(#newton),*])
+            }
+        });
+        quote! {
+            const STRUCTURE: ::dalembert::Structure =
+                ::dalembert::Structure::UNKNOWN.with_engine(::dalembert::Engine::#engine) #findings;
+        }
+    }
+}

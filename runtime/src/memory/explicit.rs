@@ -1,0 +1,128 @@
+//! Explicit steps: Störmer–Verlet with linear damping.
+//!
+//! ```text
+//! P = ∂²L/∂v² + (h/2) ∂²R/∂v²,   G(q) = ∂L/∂q + f
+//! P v̄ = p0 + (h/2) G(q0),   q1 = q0 + h v̄,   p1 = ∂L/∂v(v̄) − (h/2) ∂R/∂v(v̄) + (h/2) G(q1)
+//! ```
+//!
+//! P depends on h alone and is factored once; G(q1) is the next step's G(q0). So a step costs one gradient.
+
+use nalgebra::SVector;
+
+use super::Memory;
+use crate::linear::{Factored, NewtonMatrix};
+use crate::newton::{estimated_floor, held_against};
+use crate::{Discrete, Momenta, Report, Scalar, State, Step, StepError, Trapezoidal};
+
+/// A system that the trapezoidal rule steps explicitly: L = T(v) − V(q) with T quadratic, R quadratic in v, both with constant
+/// coefficients, and a force f(q).
+pub trait Explicit<const N: usize>: Discrete<Trapezoidal, N> {
+    /// P = ∂²L/∂v² + (h/2) ∂²R/∂v², the Newton matrix.
+    fn step_matrix(&self, h: Self::Scalar) -> Self::Matrix;
+
+    /// What the velocity adds to the momenta: ∂L/∂v ± (h/2) ∂R/∂v.
+    fn velocity_momenta(&self, v: &SVector<Self::Scalar, N>, h: Self::Scalar) -> Momenta<Self::Scalar, N>;
+
+    /// G(q) = ∂L/∂q + f.
+    fn configuration_force(&self, q: &SVector<Self::Scalar, N>) -> SVector<Self::Scalar, N>;
+}
+
+/// The factors of P, and the force at the end of the last step. It belongs to one system.
+#[derive(Clone, Copy, Debug)]
+pub struct ExplicitMemory<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> {
+    prepared: Option<Prepared<S, M, N>>,
+    /// A configuration, and G there.
+    force: Option<(SVector<S, N>, SVector<S, N>)>,
+}
+
+/// What depends on the step size alone.
+#[derive(Clone, Copy, Debug)]
+struct Prepared<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> {
+    h: S,
+    matrix: M,
+    factored: M::Factored,
+    /// ∂L/∂v + (h/2) ∂R/∂v at v̄ = 0.
+    at_rest: SVector<S, N>,
+}
+
+impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Default for ExplicitMemory<S, M, N> {
+    fn default() -> Self {
+        Self { prepared: None, force: None }
+    }
+}
+
+impl<L, const N: usize> Memory<L, Trapezoidal, N> for ExplicitMemory<L::Scalar, L::Matrix, N>
+where
+    L: Explicit<N>,
+{
+    #[inline]
+    fn advance(
+        &mut self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<Step<L::Scalar, N>, StepError> {
+        if let Some(prepared) = &self.prepared
+            && prepared.h == h
+            && let Some((q, force)) = &self.force
+            && *q == state.q
+            && let Some((step, force)) = prepared.step(system, state, force)
+        {
+            self.force = Some((step.state.q, force));
+            return Ok(step);
+        }
+        self.start(system, state, h)
+    }
+}
+
+impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> ExplicitMemory<S, M, N> {
+    /// The first step with this step size or from this state, by the general path, which has the verdicts.
+    #[cold]
+    #[inline(never)]
+    fn start<L>(&mut self, system: &L, state: &State<S, N>, h: S) -> Result<Step<S, N>, StepError>
+    where
+        L: Explicit<N, Scalar = S, Matrix = M>,
+    {
+        let step = system.step(state, h, None)?;
+        if self.prepared.as_ref().is_none_or(|prepared| prepared.h != h) {
+            let matrix = system.step_matrix(h);
+            let at_rest = system.velocity_momenta(&nalgebra::zero(), h).p0;
+            self.prepared = matrix.factored().map(|factored| Prepared { h, matrix, factored, at_rest });
+        }
+        self.force = Some((step.state.q, system.configuration_force(&step.state.q)));
+        Ok(step)
+    }
+}
+
+impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Prepared<S, M, N> {
+    /// The step, and G at its end; nothing where a number is none or the residual is above its floor.
+    #[inline]
+    fn step<L>(
+        &self,
+        system: &L,
+        state: &State<S, N>,
+        force: &SVector<S, N>,
+    ) -> Option<(Step<S, N>, SVector<S, N>)>
+    where
+        L: Explicit<N, Scalar = S, Matrix = M>,
+    {
+        let half = self.h * S::constant(0.5);
+        let kick = force * half;
+        let right = state.p + kick;
+        let v = self.factored.solve(&(right - self.at_rest));
+        let q = state.q + v * self.h;
+        let force = system.configuration_force(&q);
+        let Momenta { p0, p1 } = system.velocity_momenta(&v, self.h);
+        let end = State { q, p: state.p + (kick + force * half + (p1 - p0)) };
+
+        let residual = p0 - right;
+        let floor = estimated_floor(&state.p, &self.matrix, &v);
+        let (residual, floor, is_root) = held_against(&residual, &floor);
+        if !is_root {
+            return None;
+        }
+        end.require_finite().ok()?;
+        let report = Report { iterations: 1, damped: 0, residual, floor, last_correction: v.amax() };
+        Some((Step { state: end, velocity: v, report }, force))
+    }
+}

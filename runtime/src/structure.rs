@@ -1,0 +1,199 @@
+//! What is known of a system when it is compiled.
+
+/// Findings about a system, as data: `Ring::STRUCTURE`, an associated constant of [`Lagrangian`](crate::Lagrangian).
+///
+/// `#[rayleigh_system]` finds them on the expressions of L, R and f as they are written. They are conservative: what is stated
+/// holds for every q, v and value of the fields; what cancels algebraically but not as written (q − q) is not found. A
+/// system written by hand has [`Structure::UNKNOWN`], unless it says more:
+///
+/// ```
+/// use dalembert::{Damping, Engine, Lagrangian, Structure, rayleigh_system};
+///
+/// #[rayleigh_system(rule = trapezoidal)]
+/// fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+///     (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+/// }
+///
+/// const FOUND: Structure = Oscillator::STRUCTURE;
+/// assert_eq!(FOUND.engine, Engine::Expanded);
+/// assert!(FOUND.constant_mass_matrix && FOUND.quadratic_lagrangian && FOUND.separable_lagrangian);
+/// assert_eq!(FOUND.damping, Damping::Linear);
+/// assert!(FOUND.newton_matrix("Trapezoidal").is_some_and(|matrix| matrix.constant && matrix.bandwidth == 0));
+/// assert!(FOUND.cyclic.is_empty());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Structure {
+    /// Who makes the derivatives.
+    pub engine: Engine,
+    /// ∂²L/∂v² depends neither on q nor on v.
+    pub constant_mass_matrix: bool,
+    /// L is a polynomial of degree at most 2 in (q, v).
+    pub quadratic_lagrangian: bool,
+    /// L(q, v) = T(v) − V(q).
+    pub separable_lagrangian: bool,
+    /// What kind of force −∂R/∂v is.
+    pub damping: Damping,
+    /// Coordinates on which L does not depend.
+    pub cyclic: &'static [CyclicCoordinate],
+    /// The Newton matrix ∂p0/∂v̄ by each rule that the attribute lists.
+    pub newton_matrices: &'static [NewtonStructure],
+}
+
+/// Who makes the derivatives of a system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Engine {
+    /// The author of the system.
+    ByHand,
+    /// The macro, as straight-line code.
+    Expanded,
+    /// Dual numbers, when the program runs.
+    NumDual {
+        /// What could not be written out; `None` where the attribute says `derivatives = num_dual`.
+        refusal: Option<Refusal>,
+    },
+}
+
+/// The first token that could not be written out as straight-line code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Refusal {
+    /// The token.
+    pub token: &'static str,
+    /// Its line in the source file, from 1.
+    pub line: Option<u32>,
+    /// Why.
+    pub reason: &'static str,
+}
+
+/// What kind of force the Rayleigh function makes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Damping {
+    /// Not looked for.
+    Unknown,
+    /// There is no R.
+    Absent,
+    /// R is a polynomial of degree at most 2 in v alone: the force is −C v + c, with C and c constant.
+    Linear,
+    /// R is a polynomial of degree at most 2 in v with coefficients that depend on q: the force is −C(q) v + c(q).
+    LinearByConfiguration,
+    /// Any other.
+    Nonlinear,
+}
+
+/// A coordinate on which L does not depend: p = ∂L/∂v of it is conserved where neither R nor f acts on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct CyclicCoordinate {
+    /// Its index in q.
+    pub index: usize,
+    /// R depends on this coordinate or on its velocity.
+    pub damped: bool,
+    /// This component of f is not 0 as written.
+    pub forced: bool,
+}
+
+/// The Newton matrix ∂p0/∂v̄ of a rule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct NewtonStructure {
+    /// The rule's type, such as `"Midpoint"`.
+    pub rule: &'static str,
+    /// p0 is affine in v̄ and the matrix depends on h and the fields alone: a step is one linear solve.
+    pub constant: bool,
+    /// Largest |i − j| of an entry that is not 0 as written: 0 is a diagonal matrix, 1 a tridiagonal one.
+    pub bandwidth: usize,
+}
+
+impl Structure {
+    /// Nothing is known: a system written by hand.
+    pub const UNKNOWN: Self = Self {
+        engine: Engine::ByHand,
+        constant_mass_matrix: false,
+        quadratic_lagrangian: false,
+        separable_lagrangian: false,
+        damping: Damping::Unknown,
+        cyclic: &[],
+        newton_matrices: &[],
+    };
+
+    /// What is known of the Newton matrix by the rule of this name.
+    #[must_use]
+    pub fn newton_matrix(&self, rule: &str) -> Option<&'static NewtonStructure> {
+        self.newton_matrices.iter().find(|matrix| matrix.rule == rule)
+    }
+
+    /// The same, with derivatives by `engine`.
+    #[must_use]
+    pub const fn with_engine(self, engine: Engine) -> Self {
+        Self { engine, ..self }
+    }
+
+    /// The same, ∂²L/∂v² being constant.
+    #[must_use]
+    pub const fn with_constant_mass_matrix(self) -> Self {
+        Self { constant_mass_matrix: true, ..self }
+    }
+
+    /// The same, L being of degree 2.
+    #[must_use]
+    pub const fn with_quadratic_lagrangian(self) -> Self {
+        Self { quadratic_lagrangian: true, ..self }
+    }
+
+    /// The same, L being T(v) − V(q).
+    #[must_use]
+    pub const fn with_separable_lagrangian(self) -> Self {
+        Self { separable_lagrangian: true, ..self }
+    }
+
+    /// The same, with the force of R of this kind.
+    #[must_use]
+    pub const fn with_damping(self, damping: Damping) -> Self {
+        Self { damping, ..self }
+    }
+
+    /// The same, with these coordinates absent from L.
+    #[must_use]
+    pub const fn with_cyclic(self, cyclic: &'static [CyclicCoordinate]) -> Self {
+        Self { cyclic, ..self }
+    }
+
+    /// The same, with these Newton matrices.
+    #[must_use]
+    pub const fn with_newton_matrices(self, newton_matrices: &'static [NewtonStructure]) -> Self {
+        Self { newton_matrices, ..self }
+    }
+}
+
+impl Refusal {
+    /// A token that cannot be written out; line 0 is none.
+    #[must_use]
+    pub const fn new(token: &'static str, line: u32, reason: &'static str) -> Self {
+        Self { token, line: if line == 0 { None } else { Some(line) }, reason }
+    }
+}
+
+impl CyclicCoordinate {
+    /// The coordinate `index`, on which R and f act as said.
+    #[must_use]
+    pub const fn new(index: usize, damped: bool, forced: bool) -> Self {
+        Self { index, damped, forced }
+    }
+
+    /// Whether the momentum is conserved, along the motion and by every rule: neither R nor f acts on it.
+    #[must_use]
+    pub const fn is_conserved(&self) -> bool {
+        !self.damped && !self.forced
+    }
+}
+
+impl NewtonStructure {
+    /// What is known of the Newton matrix by `rule`.
+    #[must_use]
+    pub const fn new(rule: &'static str, constant: bool, bandwidth: usize) -> Self {
+        Self { rule, constant, bandwidth }
+    }
+}
