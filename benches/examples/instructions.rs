@@ -11,7 +11,10 @@
 
 use std::hint::black_box;
 
-use dalembert::{Discrete, Midpoint, State, Trajectory, Trapezoidal, rayleigh_system};
+use dalembert::nalgebra::SVector;
+use dalembert::{
+    Banded, Discrete, Factored, Midpoint, NewtonMatrix, State, Trajectory, Trapezoidal, rayleigh_system,
+};
 
 #[rayleigh_system(rule = [midpoint, trapezoidal])]
 fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
@@ -81,6 +84,30 @@ where
     );
 }
 
+/// Factors and solves the same system of N unknowns, in the form M.
+fn solves<M: NewtonMatrix<f64, N>, const N: usize>(matrix: M, times: usize) {
+    let mut x = SVector::<f64, N>::from_element(1.0);
+    for _ in 0..times {
+        x = black_box(black_box(matrix).factored().expect("the diagonal dominates").solve(&x));
+    }
+    println!("0 iterations a step, x = {:?}", x[0]);
+}
+
+/// A band of W diagonals in N rows.
+fn band<const N: usize, const W: usize>() -> Banded<f64, N, W> {
+    let entry = |i: usize, k: usize| {
+        let inside = (i + k).checked_sub(W / 2).is_some_and(|column| column < N);
+        if k == W / 2 {
+            2.0 * W as f64
+        } else if inside {
+            ((3 * i + 7 * k) as f64).sin()
+        } else {
+            0.0
+        }
+    };
+    Banded { rows: std::array::from_fn(|i| std::array::from_fn(|k| entry(i, k))) }
+}
+
 fn wave<const N: usize>() -> [f64; N] {
     std::array::from_fn(|i| (i as f64 * 0.7).sin())
 }
@@ -105,6 +132,15 @@ fn main() {
         "fput32" => run(&Fput32 { beta, drag }, Midpoint, 0.05, wave(), [0.0; 32], steps),
         "fput8-trapezoidal" => run(&Fput8 { beta, drag }, Trapezoidal, 0.05, wave(), [0.0; 8], steps),
         "fput32-trapezoidal" => run(&Fput32 { beta, drag }, Trapezoidal, 0.05, wave(), [0.0; 32], steps),
+        "dense4" => solves(band::<4, 3>().dense(), steps),
+        "band4-3" => solves(band::<4, 3>(), steps),
+        "dense6" => solves(band::<6, 3>().dense(), steps),
+        "band6-3" => solves(band::<6, 3>(), steps),
+        "band6-5" => solves(band::<6, 5>(), steps),
+        "dense8" => solves(band::<8, 3>().dense(), steps),
+        "band8-3" => solves(band::<8, 3>(), steps),
+        "band8-5" => solves(band::<8, 5>(), steps),
+        "band8-7" => solves(band::<8, 7>(), steps),
         other => println!("no scene `{other}`"),
     }
 }

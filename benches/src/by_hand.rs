@@ -23,16 +23,19 @@ pub use spring_chain::SpringChain;
 
 use dalembert::nalgebra::SVector;
 use dalembert::{
-    Derivatives, Discrete, Gradient, Lagrangian, Midpoint, Momenta, NewtonMatrix, StepKernel, VelocityHistory,
+    Derivatives, Discrete, Gradient, Lagrangian, Memory, Midpoint, Momenta, NewtonMatrix, StepKernel,
 };
 
 /// What a step evaluates, by hand.
-pub trait HandDerived<const N: usize> {
+pub trait HandDerived<const N: usize>: Sized {
     /// The generated system, for what no step but the first evaluates.
     type Generated: Discrete<Midpoint, N, Scalar = f64>;
 
     /// The form of the Newton matrix: banded for the chains of springs.
     type Matrix: NewtonMatrix<f64, N>;
+
+    /// What a run keeps from step to step: what the attribute would choose.
+    type Memory: Memory<ByHand<Self>, Midpoint, N>;
 
     /// The generated system.
     fn generated(&self) -> &Self::Generated;
@@ -70,7 +73,7 @@ impl<K: HandDerived<N>, const N: usize> Lagrangian<N> for ByHand<K> {
 
 impl<K: HandDerived<N>, const N: usize> Discrete<Midpoint, N> for ByHand<K> {
     type Matrix = K::Matrix;
-    type Memory = VelocityHistory<f64, N>;
+    type Memory = K::Memory;
 
     fn discrete_lagrangian(&self, q0: &SVector<f64, N>, q1: &SVector<f64, N>, h: f64) -> f64 {
         self.0.generated().discrete_lagrangian(q0, q1, h)

@@ -17,6 +17,7 @@ mod implement;
 pub mod lower;
 mod model;
 pub mod parse;
+mod portable;
 mod rewrite;
 mod scope;
 mod structure;
@@ -28,10 +29,28 @@ use proc_macro2::TokenStream;
 use diagnostics::{Mistake, Report};
 use model::{Engine, Source};
 
+/// How the runtime beside the macro is built: the runtime exports the macro that fits.
+#[derive(Clone, Copy)]
+pub struct Runtime {
+    /// With the standard library, and num-dual.
+    pub has_std: bool,
+    /// With elementary functions of its own, not the standard library's.
+    pub is_portable: bool,
+}
+
+impl Runtime {
+    /// With the standard library and its functions.
+    pub const STD: Self = Self { has_std: true, is_portable: false };
+    /// With the standard library, but not its functions.
+    pub const PORTABLE: Self = Self { has_std: true, is_portable: true };
+    /// On `core` alone.
+    pub const CORE: Self = Self { has_std: false, is_portable: true };
+}
+
 /// The expansion of `#[rayleigh_system(attribute)] item`.
-pub fn rayleigh_system(attribute: TokenStream, item: TokenStream) -> TokenStream {
+pub fn rayleigh_system(runtime: Runtime, attribute: TokenStream, item: TokenStream) -> TokenStream {
     let mut report = Report::default();
-    let options = attribute::options(attribute, &mut report);
+    let options = attribute::options(attribute, runtime, &mut report);
     let Some(source) = parse::source(item.clone(), &mut report) else {
         return fallback::item_alone(item, report);
     };
@@ -50,29 +69,35 @@ pub fn rayleigh_system(attribute: TokenStream, item: TokenStream) -> TokenStream
                 return fallback::with_stubs(&source, &options.rules, report);
             }
         }
-        let expansion = lowered.and_then(|lowered| expanded::system(&system, lowered));
+        let expansion = lowered.and_then(|lowered| expanded::system(&system, lowered, runtime.is_portable));
         return expansion.unwrap_or_else(|refusal| {
             report.at_span(refusal.span, Mistake::NotLowered(refusal.reason));
             fallback::with_stubs(&source, &options.rules, report)
         });
     }
-    let lowered = (options.engine == Engine::Auto).then(|| lower::system(&system));
+    let may_lower = options.engine == Engine::Auto && report.is_empty();
+    let lowered = may_lower.then(|| lower::system(&system));
     // What auto accepts does not depend on how far the lowering goes: where it goes all the way, the twins serve for their
     // diagnostics alone.
     let twins = rewrite::over_duals(&system, &mut report);
     if !report.is_empty() {
         return fallback::with_stubs(&source, &options.rules, report);
     }
-    let expansion = lowered.map(|lowered| lowered.and_then(|lowered| expanded::system(&system, lowered)));
+    let expansion = lowered
+        .map(|lowered| lowered.and_then(|lowered| expanded::system(&system, lowered, runtime.is_portable)));
     match expansion {
         Some(Ok(expansion)) => expansion,
+        Some(Err(refusal)) if !runtime.has_std => {
+            report.at_span(refusal.span, Mistake::NotLoweredWithoutStd(refusal.reason));
+            fallback::with_stubs(&source, &options.rules, report)
+        }
         Some(Err(refusal)) => expand::system(&system, &twins, Some(refusal)),
         None => expand::system(&system, &twins, None),
     }
 }
 
 /// The expansion of `#[differentiable] item`: the same stages, for a function of (q, parameters…).
-pub fn differentiable(attribute: TokenStream, item: TokenStream) -> TokenStream {
+pub fn differentiable(runtime: Runtime, attribute: TokenStream, item: TokenStream) -> TokenStream {
     let mut report = Report::default();
     if !attribute.is_empty() {
         report.at(&attribute, Mistake::FieldOption);
@@ -84,6 +109,9 @@ pub fn differentiable(attribute: TokenStream, item: TokenStream) -> TokenStream 
         return fallback::with_stubs(&source, &[], report);
     };
     let twins = rewrite::over_duals(&system, &mut report);
+    if !runtime.has_std {
+        report.at_span(source.name().span(), Mistake::FieldWithoutStd);
+    }
     match &source {
         Source::Function(function) if report.is_empty() => expand::field(&system, &twins[0], function, field),
         _ => fallback::with_stubs(&source, &[], report),

@@ -5,20 +5,23 @@
 //! directions and its second part along another makes the cross block their mixed second derivative. With the directions
 //! of a rule that block is the Newton matrix, and nothing else is computed.
 
+mod derivatives;
 mod fields;
 mod lift;
 mod operators;
 mod primitive;
 mod real;
 mod second_order;
+mod singular;
 
-use core::array;
-
-use nalgebra::{Const, SMatrix, SVector};
+use nalgebra::{Const, SMatrix};
 use num_dual::{Derivative, DualNum, DualSVec, HyperDualVec};
 
-use crate::{CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, Variations};
+use crate::Scalar;
 
+pub use derivatives::{
+    by_input, covector_derivatives, covector_variation, derivatives, gradient, variations,
+};
 pub use fields::{differential, hessian, jacobian};
 pub use lift::{
     FromInteger, Integer, Lift, Lower, Number, Remainder, Roundable, integer, lift, lower, remainder,
@@ -331,149 +334,4 @@ where
             eps1eps2: map(self.eps1eps2, T::negated),
         }
     }
-}
-
-/// First derivatives by M seeds.
-type First<F, const M: usize> = DualSVec<F, M>;
-
-/// First derivatives by two families of M seeds, and the mixed second ones.
-type Second<F, const M: usize> = HyperDualSVec<F, M, M>;
-
-/// `factor` in entry `index`, zero elsewhere.
-#[inline(always)]
-fn seed<F: Primitive, const R: usize, const C: usize>(index: usize, factor: F) -> Part<F, R, C> {
-    let mut entries = SMatrix::zeros();
-    entries[index] = factor;
-    Derivative(Some(entries))
-}
-
-#[inline(always)]
-fn first<F: Primitive, const M: usize>(value: F, index: usize, factor: F) -> Real<First<F, M>> {
-    Real(DualSVec { re: value, eps: seed(index, factor) })
-}
-
-#[inline(always)]
-fn second<F: Primitive, const M: usize>(
-    value: F,
-    eps1: Part<F, M, 1>,
-    eps2: Part<F, 1, M>,
-) -> Real<Second<F, M>> {
-    Real(HyperDualSVec { re: value, eps1, eps2, eps1eps2: Derivative(None) })
-}
-
-/// The entries, zeros where absent.
-#[inline(always)]
-fn entries<F: Primitive, const R: usize, const C: usize>(part: Part<F, R, C>) -> SMatrix<F, R, C> {
-    part.0.unwrap_or_else(SMatrix::zeros)
-}
-
-/// Value, ∂f/∂q and ∂f/∂v of `f`.
-///
-/// q is seeded in the first part and v in the second, so that what depends on one alone carries N derivatives and not 2N;
-/// the mixed part is not read, and so not computed.
-#[inline]
-pub fn gradient<F: Primitive, const N: usize>(
-    q: &SVector<F, N>,
-    v: &SVector<F, N>,
-    f: impl Fn([Real<Second<F, N>>; N], [Real<Second<F, N>>; N]) -> Real<Second<F, N>>,
-) -> Gradient<F, N> {
-    let one = nalgebra::one();
-    let q = array::from_fn(|i| second(q[i], seed(i, one), Derivative(None)));
-    let v = array::from_fn(|i| second(v[i], Derivative(None), seed(i, one)));
-    let f = f(q, v).0;
-    Gradient { value: f.re, d1: entries(f.eps1), d2: entries(f.eps2).transpose() }
-}
-
-/// Value, first and second derivatives of `f`; M = 2N.
-#[inline]
-pub fn derivatives<F: Primitive, const N: usize, const M: usize>(
-    q: &SVector<F, N>,
-    v: &SVector<F, N>,
-    f: impl Fn([Real<Second<F, M>>; N], [Real<Second<F, M>>; N]) -> Real<Second<F, M>>,
-) -> Derivatives<F, N> {
-    const { assert!(M == 2 * N) };
-    let one = nalgebra::one();
-    let q = array::from_fn(|i| second(q[i], seed(i, one), seed(i, one)));
-    let v = array::from_fn(|i| second(v[i], seed(N + i, one), seed(N + i, one)));
-    let f = f(q, v).0;
-    let (first, second) = (entries(f.eps1), entries(f.eps1eps2));
-    Derivatives {
-        value: f.re,
-        d1: block(&first, 0, 0),
-        d2: block(&first, N, 0),
-        d11: block(&second, 0, 0),
-        d12: block(&second, 0, N),
-        d22: block(&second, N, N),
-    }
-}
-
-/// Derivatives of `f` along `minus` and `plus`, and the mixed one.
-#[inline]
-pub fn variations<F: Primitive, const N: usize>(
-    q: &SVector<F, N>,
-    v: &SVector<F, N>,
-    minus: Direction<F>,
-    plus: Direction<F>,
-    f: impl Fn([Real<Second<F, N>>; N], [Real<Second<F, N>>; N]) -> Real<Second<F, N>>,
-) -> Variations<F, N> {
-    let q = array::from_fn(|i| second(q[i], seed(i, minus.first), seed(i, plus.first)));
-    let v = array::from_fn(|i| second(v[i], seed(i, minus.second), seed(i, plus.second)));
-    let f = f(q, v).0;
-    Variations { minus: entries(f.eps1), plus: entries(f.eps2).transpose(), mixed: entries(f.eps1eps2) }
-}
-
-/// Value and Jacobians of the covector-valued `f`; M = 2N.
-#[inline]
-pub fn covector_derivatives<F: Primitive, const N: usize, const M: usize>(
-    q: &SVector<F, N>,
-    v: &SVector<F, N>,
-    f: impl Fn([Real<First<F, M>>; N], [Real<First<F, M>>; N]) -> [Real<First<F, M>>; N],
-) -> CovectorDerivatives<F, N> {
-    const { assert!(M == 2 * N) };
-    let one = nalgebra::one();
-    let f = f(array::from_fn(|i| first(q[i], i, one)), array::from_fn(|i| first(v[i], N + i, one)));
-    let rows = f.map(|component| entries(component.0.eps));
-    CovectorDerivatives {
-        value: SVector::from_fn(|i, _| f[i].0.re),
-        d1: SMatrix::from_fn(|i, j| rows[i][j]),
-        d2: SMatrix::from_fn(|i, j| rows[i][N + j]),
-    }
-}
-
-/// Value of the covector-valued `f` and its derivative along `direction`.
-#[inline]
-pub fn covector_variation<F: Primitive, const N: usize>(
-    q: &SVector<F, N>,
-    v: &SVector<F, N>,
-    direction: Direction<F>,
-    f: impl Fn([Real<First<F, N>>; N], [Real<First<F, N>>; N]) -> [Real<First<F, N>>; N],
-) -> (SVector<F, N>, SMatrix<F, N, N>) {
-    let q = array::from_fn(|i| first(q[i], i, direction.first));
-    let v = array::from_fn(|i| first(v[i], i, direction.second));
-    let f = f(q, v);
-    let rows = f.map(|component| entries(component.0.eps));
-    (SVector::from_fn(|i, _| f[i].0.re), SMatrix::from_fn(|i, j| rows[i][j]))
-}
-
-/// The derivative of the covector-valued `f` by the input u, q and v held.
-#[inline]
-pub fn by_input<F: Primitive, const N: usize, const M: usize>(
-    q: &SVector<F, N>,
-    v: &SVector<F, N>,
-    u: &[F; M],
-    f: impl Fn([Real<First<F, M>>; N], [Real<First<F, M>>; N], [Real<First<F, M>>; M]) -> [Real<First<F, M>>; N],
-) -> SMatrix<F, N, M> {
-    let [q, v] = [q, v].map(|vector| array::from_fn(|i| Real(DualSVec::from_re(vector[i]))));
-    let rows = f(q, v, array::from_fn(|j| first(u[j], j, nalgebra::one()))).map(|row| entries(row.0.eps));
-    SMatrix::from_fn(|i, j| rows[i][j])
-}
-
-/// The block of `matrix` that starts at (`row`, `column`).
-#[inline(always)]
-fn block<F: Primitive, const R: usize, const C: usize, const A: usize, const B: usize>(
-    matrix: &SMatrix<F, A, B>,
-    row: usize,
-    column: usize,
-) -> SMatrix<F, R, C> {
-    SMatrix::from_fn(|i, j| matrix[(row + i, column + j)])
 }

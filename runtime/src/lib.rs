@@ -1,7 +1,7 @@
 #![cfg_attr(feature = "std", doc = include_str!("../README.md"))]
 #![cfg_attr(
     not(feature = "std"),
-    doc = "Structure-preserving integrators for mechanical systems, without std: the step of hand-written systems."
+    doc = "Structure-preserving integrators for mechanical systems, without std: the step, and systems whose derivatives are written out."
 )]
 #![cfg_attr(not(feature = "std"), no_std)]
 
@@ -10,6 +10,7 @@ extern crate self as dalembert;
 mod derivatives;
 mod discrete;
 mod driven;
+mod elementary;
 mod error;
 mod fields;
 mod linear;
@@ -37,6 +38,20 @@ pub mod noether;
 pub mod rayleigh;
 #[cfg(feature = "std")]
 pub mod samples;
+
+/// The attributes that fit the features of this crate, which a macro cannot see.
+mod attributes {
+    #[cfg(feature = "std")]
+    pub use dalembert_macros::differentiable;
+    #[cfg(not(feature = "std"))]
+    pub use dalembert_macros::differentiable_core as differentiable;
+    #[cfg(all(feature = "std", not(feature = "libm")))]
+    pub use dalembert_macros::rayleigh_system;
+    #[cfg(not(feature = "std"))]
+    pub use dalembert_macros::rayleigh_system_core as rayleigh_system;
+    #[cfg(all(feature = "std", feature = "libm"))]
+    pub use dalembert_macros::rayleigh_system_portable as rayleigh_system;
+}
 
 /// Generates the discrete mechanical system of a Lagrangian and a Rayleigh function, written as plain Rust.
 ///
@@ -173,18 +188,22 @@ pub mod samples;
 /// | sums | `mul_add` `midpoint`, `sum()` and `product()` of iterators |
 /// | questions, on the value alone | `is_nan` `is_finite` `is_infinite` `is_normal` `is_subnormal` `is_sign_positive` `is_sign_negative` `total_cmp`, `==` `<` `partial_cmp` |
 ///
+/// Without the feature `std` the same source compiles: elementary functions are those of [`Elementary`]. With `std` and `libm`
+/// they are so too, and a host repeats a microcontroller bit by bit. Other functions of the block, and code of your own, import
+/// [`Elementary`] to call them. Bodies must then be such that their derivatives can be written out.
+///
 /// Where a derivative does not exist, it is what the table of [`Real`](dual::Real) says.
 ///
 /// Refused, with a message at the token: type aliases, items and macros inside a body, functions outside the block, generic
 /// helpers, assignment to a field, casts of coordinates to integers, `%` and rounding and bit methods on them, fields of other
 /// types.
-pub use dalembert_macros::rayleigh_system;
+pub use attributes::rayleigh_system;
 
 /// Makes a function of the configuration a field with derivatives: a [`VectorField`] if it returns `[f64; N]`, such as the
 /// generator of a symmetry, a [`ScalarField`] if it returns `f64`, such as a generating function.
 ///
 /// Parameters after q become the fields of a struct named after the function, which stays callable. Bodies may contain what
-/// those of [`rayleigh_system`](macro@rayleigh_system) may, with closures for helpers.
+/// those of [`rayleigh_system`](macro@rayleigh_system) may, with closures for helpers. Needs the feature `std`.
 ///
 /// ```
 /// use dalembert::nalgebra::{matrix, vector};
@@ -203,7 +222,7 @@ pub use dalembert_macros::rayleigh_system;
 /// assert_eq!(Rotation.jacobian(&vector![3.0, 4.0]), matrix![0.0, -1.0; 1.0, 0.0]);
 /// assert_eq!(Generating { s: 2.0 }.gradient(&vector![3.0]), vector![6.0]);
 /// ```
-pub use dalembert_macros::differentiable;
+pub use attributes::differentiable;
 pub use nalgebra;
 
 pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
@@ -211,6 +230,7 @@ pub use discrete::{
     Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Report, Step, StepKernel,
 };
 pub use driven::{DiscreteDriven, Driven, MomentaBy};
+pub use elementary::Elementary;
 pub use error::{Quantity, StepError};
 pub use fields::{ScalarField, VectorField};
 pub use linear::{Banded, Factored, FactoredBand, FactoredDense, NewtonMatrix, Singular};

@@ -39,7 +39,7 @@ pub trait NewtonMatrix<S: Scalar, const N: usize>: Copy + core::fmt::Debug + sea
     /// The matrix without entries.
     fn zero() -> Self;
 
-    /// The entry at `row` and `column`, 0 outside the band.
+    /// The entry at `row` and `column`, 0 outside the band and the matrix: nothing here panics.
     fn entry(&self, row: usize, column: usize) -> S;
 
     /// All entries, with the zeros outside the band.

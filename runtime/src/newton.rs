@@ -312,7 +312,7 @@ fn nearer<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     }
     let inertia = inertia(q, &last.v).abs();
     let square = |v: &SVector<S, N>| v.component_mul(v).dot(&inertia);
-    square(&next) <= square(&last.correction) * S::constant(0.25)
+    square(&next) < square(&last.correction) * S::constant(0.25)
 }
 
 /// What a Newton matrix that cannot be solved with means.

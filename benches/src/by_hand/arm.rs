@@ -6,7 +6,7 @@
 //! ```
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
-use dalembert::{Momenta, StepKernel};
+use dalembert::{KeptMatrix, Momenta, StepKernel};
 
 use super::HandDerived;
 use crate::scenes::expanded;
@@ -91,6 +91,7 @@ impl Arm {
 impl HandDerived<3> for Arm {
     type Generated = expanded::Arm;
     type Matrix = SMatrix<f64, 3, 3>;
+    type Memory = KeptMatrix<f64, Self::Matrix, 3>;
 
     fn generated(&self) -> &expanded::Arm {
         &self.generated

@@ -1,7 +1,7 @@
 //! The double pendulum, with C = cos(q0 − q1), S = sin(q0 − q1).
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
-use dalembert::{Momenta, StepKernel};
+use dalembert::{Momenta, StepKernel, VelocityHistory};
 
 use super::HandDerived;
 use crate::scenes::expanded;
@@ -31,6 +31,7 @@ type Vector = SVector<f64, 2>;
 impl HandDerived<2> for DoublePendulum {
     type Generated = expanded::DoublePendulum;
     type Matrix = SMatrix<f64, 2, 2>;
+    type Memory = VelocityHistory<f64, 2>;
 
     fn generated(&self) -> &expanded::DoublePendulum {
         &self.generated

@@ -1,7 +1,7 @@
 //! The FPUT chain: spring i between the masses i − 1 and i (walls at both ends), force d + β d³, stiffness 1 + 3β d².
 
 use dalembert::nalgebra::SVector;
-use dalembert::{Banded, Momenta, StepKernel};
+use dalembert::{Banded, KeptMatrix, Momenta, StepKernel};
 
 use super::HandDerived;
 use crate::scenes::expanded;
@@ -39,6 +39,7 @@ impl FputChain {
 impl HandDerived<N> for FputChain {
     type Generated = expanded::FputChain;
     type Matrix = Banded<f64, N, 3>;
+    type Memory = KeptMatrix<f64, Self::Matrix, N>;
 
     fn generated(&self) -> &expanded::FputChain {
         &self.generated

@@ -9,7 +9,7 @@
 //! the friction.
 
 use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::{Momenta, StepKernel};
+use dalembert::{KeptMatrix, Momenta, StepKernel};
 
 use super::HandDerived;
 use crate::scenes::expanded;
@@ -94,6 +94,7 @@ impl PendulumChain {
 impl HandDerived<N> for PendulumChain {
     type Generated = expanded::PendulumChain;
     type Matrix = SMatrix<f64, N, N>;
+    type Memory = KeptMatrix<f64, Self::Matrix, N>;
 
     fn generated(&self) -> &expanded::PendulumChain {
         &self.generated

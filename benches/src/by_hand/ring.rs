@@ -1,7 +1,7 @@
 //! The ring: V = s(s − 1)², dV/ds = (s − 1)(3s − 1), d²V/ds² = 6s − 4, G = −2 dV/ds q − k v.
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix};
-use dalembert::{Momenta, StepKernel};
+use dalembert::{Momenta, StepKernel, VelocityHistory};
 
 use super::HandDerived;
 use crate::scenes::expanded;
@@ -22,6 +22,7 @@ type Vector = SVector<f64, 2>;
 impl HandDerived<2> for Ring {
     type Generated = expanded::Ring;
     type Matrix = SMatrix<f64, 2, 2>;
+    type Memory = VelocityHistory<f64, 2>;
 
     fn generated(&self) -> &expanded::Ring {
         &self.generated

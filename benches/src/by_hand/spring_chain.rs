@@ -2,7 +2,7 @@
 //! stiffness k + 3κ d².
 
 use dalembert::nalgebra::SVector;
-use dalembert::{Banded, Discrete, Midpoint, Momenta, StepKernel};
+use dalembert::{Banded, Discrete, KeptMatrix, Midpoint, Momenta, StepKernel};
 
 use super::HandDerived;
 
@@ -41,6 +41,7 @@ where
 {
     type Generated = L;
     type Matrix = Banded<f64, N, 3>;
+    type Memory = KeptMatrix<f64, Self::Matrix, N>;
 
     fn generated(&self) -> &L {
         &self.generated

@@ -6,6 +6,7 @@ use syn::parse::{Parse, ParseStream, Parser};
 use syn::punctuated::Punctuated;
 use syn::{Expr, Ident, Token, bracketed, token};
 
+use super::Runtime;
 use super::diagnostics::{Mistake, Report};
 use super::model::{Engine, Rule};
 
@@ -57,7 +58,7 @@ pub struct Options {
 }
 
 /// The options said, and defaults for the others.
-pub fn options(attribute: TokenStream, report: &mut Report) -> Options {
+pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) -> Options {
     let mut options =
         Options { rules: Vec::new(), engine: Engine::Auto, parameters: Vec::new(), second: false };
     let settings = match Punctuated::<Setting, Token![,]>::parse_terminated.parse2(attribute) {
@@ -82,7 +83,7 @@ pub fn options(attribute: TokenStream, report: &mut Report) -> Options {
                 rules(&name, words, &mut options.rules, report);
             }
             Values::Words(words) if name == "derivatives" => {
-                engine(&name, &words, &mut options.engine, report);
+                engine(&name, &words, runtime, &mut options.engine, report);
             }
             Values::Words(words) if name == "step_derivatives" => {
                 order(&name, &words, &mut options.second, report);
@@ -112,7 +113,7 @@ fn order(name: &Ident, values: &[Ident], second: &mut bool, report: &mut Report)
 }
 
 /// `derivatives = expanded`
-fn engine(name: &Ident, values: &[Ident], engine: &mut Engine, report: &mut Report) {
+fn engine(name: &Ident, values: &[Ident], runtime: Runtime, engine: &mut Engine, report: &mut Report) {
     let [value] = values else {
         report.at(name, Mistake::UnknownEngine(String::new()));
         return;
@@ -120,7 +121,12 @@ fn engine(name: &Ident, values: &[Ident], engine: &mut Engine, report: &mut Repo
     *engine = match value.to_string().as_str() {
         "auto" => Engine::Auto,
         "expanded" => Engine::Expanded,
-        "num_dual" => Engine::NumDual,
+        "num_dual" => {
+            if !runtime.has_std {
+                report.at(value, Mistake::NumDualWithoutStd);
+            }
+            Engine::NumDual
+        }
         other => {
             report.at(value, Mistake::UnknownEngine(other.to_owned()));
             return;

@@ -7,7 +7,7 @@ use syn::{
 };
 
 use super::diagnostics::{Mistake, Report};
-use super::model::{Degrees, Function, RayleighArguments, Rule, Source, System, Timed, simple_name};
+use super::model::{Body, Degrees, Function, RayleighArguments, Rule, Source, System, Timed, simple_name};
 
 /// The system as far as its signatures tell, or nothing if not even N is known; every wrong one is reported.
 pub fn system<'a>(source: &'a Source, rules: Vec<Rule>, report: &mut Report) -> Option<System<'a>> {
@@ -35,12 +35,9 @@ fn block<'a>(source: &'a Source, rules: Vec<Rule>, report: &mut Report) -> Optio
     };
     let before = report.count();
     let (shape, of_lagrangian) = lagrangian_signature(&lagrangian.sig, source.name(), report)?;
-    // A function with a wrong signature is not rewritten: what is wrong there would be said again.
     let mut bodies = Vec::new();
-    let mut keep = |function, before, report: &Report| {
-        if report.count() == before {
-            bodies.push(ImplItemFn::clone(function));
-        }
+    let mut keep = |function: &ImplItemFn, before, report: &Report| {
+        bodies.push(Body { function: function.clone(), has_right_signature: report.count() == before });
     };
     keep(lagrangian, before, report);
     let (arguments, of_rayleigh) = rayleigh
@@ -113,7 +110,7 @@ fn free_function<'a>(
             None
         }
     };
-    (report.count() == before).then(|| function_system(source, function, shape, rules, rayleigh))
+    Some(function_system(source, function, shape, rules, rayleigh, report.count() == before))
 }
 
 /// What a field is: the number of its components.
@@ -153,7 +150,8 @@ pub fn field<'a>(source: &'a Source, report: &mut Report) -> Option<(System<'a>,
             return None;
         }
     };
-    (report.count() == before).then(|| (function_system(source, function, shape, Vec::new(), None), field))
+    let has_right_signature = report.count() == before;
+    Some((function_system(source, function, shape, Vec::new(), None, has_right_signature), field))
 }
 
 /// Parameters that become fields cannot be references.
@@ -171,6 +169,7 @@ fn function_system<'a>(
     shape: Shape,
     rules: Vec<Rule>,
     rayleigh: Option<RayleighArguments>,
+    has_right_signature: bool,
 ) -> System<'a> {
     let body = ImplItemFn {
         attrs: function.item.attrs.clone(),
@@ -185,7 +184,7 @@ fn function_system<'a>(
         degrees: shape.degrees,
         scalar: shape.scalar,
         rules,
-        bodies: vec![body],
+        bodies: vec![Body { function: body, has_right_signature }],
         rayleigh,
         has_force: false,
         input: None,

@@ -77,6 +77,9 @@ pub enum Mistake {
     NoSuchParameter(String),
     HiddenParameter { parameter: String, within: String },
     NotLowered(String),
+    NumDualWithoutStd,
+    NotLoweredWithoutStd(String),
+    FieldWithoutStd,
     // The item.
     WrongItem,
     WrongField,
@@ -150,6 +153,10 @@ impl Display for Mistake {
             Self::NoSuchParameter(parameter) => write!(f, "neither L, R nor f reads the number `self.{parameter}`; list fields that they read, entries of an array one by one, such as `c[0]`"),
             Self::HiddenParameter { parameter, within } => write!(f, "`{within}` hides how it depends on `{parameter}`; read the number itself, such as `self.{parameter}`"),
             Self::NotLowered(reason) => write!(f, "derivatives cannot be written out: {reason}; or leave the derivatives to `derivatives = num_dual`"),
+
+            Self::NumDualWithoutStd => f.write_str("num-dual needs the standard library; use `derivatives = expanded`, or the feature `std` of dalembert"),
+            Self::NotLoweredWithoutStd(reason) => write!(f, "derivatives cannot be written out: {reason}; num-dual would need the feature `std` of dalembert"),
+            Self::FieldWithoutStd => f.write_str("`#[differentiable]` takes its derivatives from num-dual, which needs the feature `std` of dalembert; put `#[cfg(feature = …)]` on the function where it is built without"),
 
             Self::WrongItem => f.write_str("`#[rayleigh_system]` goes on an `impl` block with `fn lagrangian`, or on one free function of (q, v, parameters…)"),
             Self::WrongField => f.write_str("`#[differentiable]` goes on one free function of (q, parameters…)"),

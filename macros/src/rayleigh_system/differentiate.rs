@@ -6,16 +6,19 @@
 //! entry, each once. A derivative that vanishes by structure is absent from the maps.
 //!
 //! A selection stands for the function of q and v that it selects: its branches are differentiated whole, and the
-//! selection chooses between the results, so that nothing of a rejected branch is multiplied by anything.
+//! selection chooses between the results, so that nothing of a rejected branch is multiplied by anything; and where a
+//! variable occurs in one branch alone, neither is the 0 of the other.
 
+mod factor;
 pub mod partials;
 
 use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 
 use super::graph::{Graph, Node, Operation};
+use factor::{Factor, Local};
 pub use partials::extremum;
-use partials::{Partials, partials};
+use partials::partials;
 
 /// First derivatives by the variables, where there are any.
 pub type Gradient = BTreeMap<Node, Node>;
@@ -90,18 +93,18 @@ impl Differentiation {
             let local = match graph.operation(node) {
                 operation if graph.is_variable(operation) => continue,
                 Operation::Select(condition, a, b) => self.selected(graph, condition, a, b, order),
-                operation => partials(graph, node, operation, order),
+                operation => Local::from(partials(graph, node, operation, order)),
             };
             sweep.adjoints.remove(&node);
             if order == Order::Second {
                 sweep.push_edges(graph, node, &local);
                 for &(a, b, second) in &local.second {
-                    let weight = graph.times(adjoint, second);
+                    let weight = second.times(graph, adjoint);
                     sweep.add_edge(graph, a, b, weight);
                 }
             }
             for &(argument, first) in &local.first {
-                let part = graph.times(adjoint, first);
+                let part = first.times(graph, adjoint);
                 sweep.add_adjoint(graph, argument, part);
             }
         }
@@ -131,16 +134,16 @@ impl Differentiation {
     }
 
     /// A selection as a function of the variables.
-    fn selected(&mut self, graph: &mut Graph, condition: Node, a: Node, b: Node, order: Order) -> Partials {
+    fn selected(&mut self, graph: &mut Graph, condition: Node, a: Node, b: Node, order: Order) -> Local {
         let (a, b) = (self.of_branch(graph, a, order), self.of_branch(graph, b, order));
-        let mut local = Partials::default();
+        let mut local = Local::default();
         for &variable in union(a.gradient.keys(), b.gradient.keys()) {
-            let (a, b) = (a.gradient.get(&variable), b.gradient.get(&variable));
-            local.first.push((variable, select(graph, condition, a, b)));
+            let branches = [&a, &b].map(|branch| branch.gradient.get(&variable).copied());
+            local.first.extend(Factor::selected(graph, condition, branches).map(|first| (variable, first)));
         }
         for &(i, j) in union(a.hessian.keys(), b.hessian.keys()) {
-            let (a, b) = (a.hessian.get(&(i, j)), b.hessian.get(&(i, j)));
-            local.second.push((i, j, select(graph, condition, a, b)));
+            let branches = [&a, &b].map(|branch| branch.hessian.get(&(i, j)).copied());
+            local.second.extend(Factor::selected(graph, condition, branches).map(|second| (i, j, second)));
         }
         local
     }
@@ -149,12 +152,6 @@ impl Differentiation {
 /// The keys of both maps, each once, in order.
 fn union<'k, K: Ord>(a: impl Iterator<Item = &'k K>, b: impl Iterator<Item = &'k K>) -> Vec<&'k K> {
     a.chain(b).collect::<std::collections::BTreeSet<_>>().into_iter().collect()
-}
-
-/// Selects between derivatives, 0 where one is absent.
-fn select(graph: &mut Graph, condition: Node, a: Option<&Node>, b: Option<&Node>) -> Node {
-    let zero = graph.constant(0.0);
-    graph.select(condition, *a.unwrap_or(&zero), *b.unwrap_or(&zero))
 }
 
 /// What a sweep carries: derivatives of the root by the nodes still open.
@@ -189,17 +186,17 @@ impl Sweep {
     }
 
     /// Replaces the edges of `node` by edges of its arguments.
-    fn push_edges(&mut self, graph: &mut Graph, node: Node, local: &Partials) {
+    fn push_edges(&mut self, graph: &mut Graph, node: Node, local: &Local) {
         for partner in self.partners.remove(&node).unwrap_or_default() {
             let pair = if partner <= node { (partner, node) } else { (node, partner) };
             let Some(weight) = self.edges.remove(&pair) else { continue };
             if partner == node {
                 for (index, &(a, first_a)) in local.first.iter().enumerate() {
-                    let by_a = graph.times(weight, first_a);
                     for &(b, first_b) in &local.first[index..] {
-                        let part = graph.times(by_a, first_b);
                         // The pair (a, b) and the pair (b, a) are one edge; if a and b are the same node, both count.
-                        self.add_edge(graph, a, b, part);
+                        if let Some(part) = first_a.times_both(graph, weight, first_b) {
+                            self.add_edge(graph, a, b, part);
+                        }
                     }
                 }
                 continue;
@@ -208,7 +205,7 @@ impl Sweep {
                 others.remove(&node);
             }
             for &(argument, first) in &local.first {
-                let mut part = graph.times(weight, first);
+                let mut part = first.times(graph, weight);
                 if argument == partner {
                     part = graph.scaled(2.0, part);
                 }

@@ -5,11 +5,14 @@
 
 mod names;
 
+use std::cell::Cell;
+
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use syn::Ident;
 
 use super::graph::{Comparison, Function, Graph, Node, Operation};
+use super::portable;
 use names::Names;
 
 /// Straight-line code: statements, then one expression for each output.
@@ -22,6 +25,8 @@ pub struct StraightLine {
     pub uses_velocities: bool,
     /// Whether u occurs.
     pub uses_inputs: bool,
+    /// Whether one of the runtime's elementary functions is called.
+    pub calls_elementary: bool,
     /// The first word of each parameter that occurs.
     parameters: Vec<String>,
 }
@@ -34,7 +39,15 @@ impl StraightLine {
 }
 
 /// The code for `outputs`. q, v and u are read as `q[0]`, `v[0]`, `u[0]`; the names `taken` are not given to anything.
-pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&str]) -> StraightLine {
+///
+/// `is_portable`: elementary functions are the runtime's.
+pub fn straight_line(
+    graph: &Graph,
+    scalar: &Ident,
+    outputs: &[Node],
+    taken: &[&str],
+    is_portable: bool,
+) -> StraightLine {
     let nodes = graph.reachable(outputs.iter().copied());
     let mut uses = vec![0_u32; graph.len()];
     for &node in &nodes {
@@ -51,7 +64,13 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
         locals: vec![None; graph.len()],
         names: Names::new(taken),
         typed: vec![false; graph.len()],
+        is_portable,
+        calls_elementary: Cell::new(false),
     };
+    let mut receives = vec![false; graph.len()];
+    for receiver in nodes.iter().filter_map(|&node| graph.operation(node).receiver()) {
+        receives[receiver.index()] = true;
+    }
     let mut statements = TokenStream::new();
     let (mut uses_coordinates, mut uses_velocities, mut uses_inputs) = (false, false, false);
     let mut parameters = Vec::new();
@@ -63,6 +82,8 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
             | Operation::Velocity(_)
             | Operation::Input(_)
             | Operation::Parameter(_) => true,
+            Operation::Select(_, a, b) => writer.typed[a.index()] || writer.typed[b.index()],
+            operation if operation.receiver().is_some() => true,
             operation => operation.arguments().any(|argument| writer.typed[argument.index()]),
         };
         match operation {
@@ -82,7 +103,10 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
             operation => operation.is_literal(),
         };
         let is_paired = partner(graph, node, &nodes).is_some();
+        // `(1.5 + 0.5).ln()` has no type: a local says it.
+        let needs_type = receives[node.index()] && !writer.typed[node.index()];
         let is_single = !is_paired
+            && !needs_type
             && uses[node.index()] <= 1
             && !matches!(operation, Operation::Select(..))
             && (graph.name(node).is_none() || matches!(operation, Operation::Parameter(_)));
@@ -92,7 +116,16 @@ pub fn straight_line(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&
         statements.extend(writer.statement(node, &nodes));
     }
     let outputs = outputs.iter().map(|&node| writer.expression(node).tokens).collect();
-    StraightLine { statements, outputs, uses_coordinates, uses_velocities, uses_inputs, parameters }
+    let calls_elementary = writer.calls_elementary.get();
+    StraightLine {
+        statements,
+        outputs,
+        uses_coordinates,
+        uses_velocities,
+        uses_inputs,
+        calls_elementary,
+        parameters,
+    }
 }
 
 /// The cosine of the angle that `node` is the sine of, or the other way about, if it comes later; and the angle.
@@ -139,6 +172,8 @@ struct Writer<'g> {
     names: Names,
     /// Whether the type shows: an expression of literals alone has none of its own.
     typed: Vec<bool>,
+    is_portable: bool,
+    calls_elementary: Cell<bool>,
 }
 
 impl Writer<'_> {
@@ -146,7 +181,7 @@ impl Writer<'_> {
     fn statement(&mut self, node: Node, nodes: &[Node]) -> TokenStream {
         // Sine and cosine of one angle are one call.
         if let Some((partner, angle)) = partner(self.graph, node, nodes) {
-            let argument = self.receiver(angle);
+            let argument = self.called_on(angle, "sin_cos");
             let [own, its] = [node, partner].map(|node| {
                 let name = self.names.of(self.graph, node);
                 self.locals[node.index()] = Some(name.clone());
@@ -159,13 +194,12 @@ impl Writer<'_> {
         let value = self.expression(node).tokens;
         let name = self.names.of(self.graph, node);
         self.locals[node.index()] = Some(name.clone());
-        let scalar = self.scalar;
-        match self.graph.operation(node) {
-            Operation::Select(_, a, b) if !self.typed[a.index()] && !self.typed[b.index()] => {
-                quote!(let #name: #scalar = #value;)
-            }
-            _ => quote!(let #name = #value;),
+        if self.typed[node.index()] || self.graph.operation(node).is_truth() {
+            return quote!(let #name = #value;);
         }
+        let scalar = self.scalar;
+        self.typed[node.index()] = true;
+        quote!(let #name: #scalar = #value;)
     }
 
     fn expression(&self, node: Node) -> Written {
@@ -208,20 +242,21 @@ impl Writer<'_> {
                 (quote!(-#a), Binding::Sign)
             }
             Operation::Function(function, x) => {
-                let (x, name) = (self.receiver(x), format_ident!("{}", function.name()));
+                let (x, name) = (self.called_on(x, function.name()), format_ident!("{}", function.name()));
                 (quote!(#x.#name()), Binding::Atom)
             }
             Operation::Pair(function, a, b) => {
-                let (a, name) = (self.receiver(a), format_ident!("{}", function.name()));
+                let (a, name) = (self.called_on(a, function.name()), format_ident!("{}", function.name()));
                 let b = self.expression(b).tokens;
                 (quote!(#a.#name(#b)), Binding::Atom)
             }
             Operation::Power(x, n) => {
-                let (x, n) = (self.receiver(x), Literal::i32_unsuffixed(n));
+                let (x, n) = (self.called_on(x, "powi"), Literal::i32_unsuffixed(n));
                 (quote!(#x.powi(#n)), Binding::Atom)
             }
             Operation::MultiplyAdd(a, b, c) => {
-                let (a, b, c) = (self.receiver(a), self.expression(b).tokens, self.expression(c).tokens);
+                let a = self.called_on(a, "mul_add");
+                let (b, c) = (self.expression(b).tokens, self.expression(c).tokens);
                 (quote!(#a.mul_add(#b, #c)), Binding::Atom)
             }
             Operation::Select(condition, a, b) => {
@@ -266,6 +301,17 @@ impl Writer<'_> {
             }
         };
         Written { tokens, binding }
+    }
+
+    /// What the method of that name is called on: the number, or its elementary functions in the runtime.
+    fn called_on(&self, node: Node, method: &str) -> TokenStream {
+        let receiver = self.receiver(node);
+        if self.is_portable && portable::is_elementary(method) {
+            self.calls_elementary.set(true);
+            quote!(#receiver.elementary())
+        } else {
+            receiver
+        }
     }
 
     /// What a method is called on.

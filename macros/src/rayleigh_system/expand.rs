@@ -107,7 +107,7 @@ pub fn field(system: &System<'_>, twin: &Twin, function: &Function, kind: Field)
                 }
 
                 fn jacobian(&self, q: &Vector) -> SMatrix<#scalar, #n, #n> {
-                    dual::jacobian(q, |q| self.field_over(q))
+                    dual::jacobian(q, |q| self.field_over(q), |q| self.field_over(q))
                 }
             }
         },
@@ -127,11 +127,11 @@ pub fn field(system: &System<'_>, twin: &Twin, function: &Function, kind: Field)
                 }
 
                 fn gradient(&self, q: &Vector) -> Vector {
-                    dual::differential(q, |q| self.field_over(q))
+                    dual::differential(q, |q| self.field_over(q), |q| self.field_over(q))
                 }
 
                 fn hessian(&self, q: &Vector) -> SMatrix<#scalar, #n, #n> {
-                    dual::hessian(q, |q| self.field_over(q))
+                    dual::hessian(q, |q| self.field_over(q), |q| self.field_over(q))
                 }
             }
         },

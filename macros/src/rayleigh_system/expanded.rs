@@ -20,15 +20,20 @@ use super::graph::{Graph, Node, Operation};
 use super::implement::{self, Kernel};
 use super::lower::{Lowered, MAX_NODES, Refusal};
 use super::model::{Home, Part, Rule, Source, System};
+use super::portable;
 use super::structure::{self, Differentiated, Findings, Structure, Terms};
 use super::view;
 
 /// The whole expansion, unless the derivatives are too long to be written out.
-pub fn system(system: &System<'_>, lowered: Lowered) -> Result<TokenStream, Refusal> {
-    let Lowered { graph, n, m, lagrangian, rayleigh, force } = lowered;
+///
+/// `is_portable`: the elementary functions are the runtime's, in the user's bodies too.
+pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Result<TokenStream, Refusal> {
+    let Lowered { graph, n, m, lagrangian, rayleigh, force, functions } = lowered;
     let written = graph.len();
+    let derivation = Differentiation::default();
     let home = system.home_of(Part::Lagrangian);
-    let mut code = Code { system, graph, written, n, m, derivation: Differentiation::default(), home };
+    let mut code =
+        Code { system, graph, written, n, m, derivation, home, is_portable, calls_elementary: false };
     let of_lagrangian = code.function("lagrangian", "l", lagrangian);
     code.home = system.home_of(Part::Rayleigh);
     let of_rayleigh = rayleigh.map(|root| code.function("rayleigh", "r", root));
@@ -61,15 +66,16 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Result<TokenStream, Refu
         return Err(Refusal::at(system.source.name(), reason));
     }
     let item = match system.source {
+        Source::Block(block) if is_portable => portable::block(&block.item, &functions).to_token_stream(),
         Source::Block(block) => block.item.to_token_stream(),
         Source::Function(function) => {
             let structure = expand::structure(system, function);
-            let item = &function.item;
+            let item = if is_portable { &portable::function(&function.item) } else { &function.item };
             quote!(#item #structure)
         }
     };
     let view = view::definition(system);
-    let imports = imports(system);
+    let imports = imports(system, code.calls_elementary);
     let conditions = expand::conditions(system.source);
     let (scalar, dimension) = (&system.scalar, system.degrees.times(1));
     Ok(quote! {
@@ -95,11 +101,17 @@ pub fn system(system: &System<'_>, lowered: Lowered) -> Result<TokenStream, Refu
 }
 
 /// What the expansion uses.
-fn imports(system: &System<'_>) -> TokenStream {
+fn imports(system: &System<'_>, calls_elementary: bool) -> TokenStream {
     let names = expand::imported(system);
+    let elementary = calls_elementary.then(|| {
+        quote!(
+            use ::dalembert::Elementary as _;
+        )
+    });
     quote! {
         use ::dalembert::nalgebra::{SMatrix, SVector};
         use ::dalembert::{#(#names),*};
+        #elementary
     }
 }
 
@@ -115,6 +127,9 @@ struct Code<'s> {
     derivation: Differentiation,
     /// What the function being written stands on.
     home: Home,
+    is_portable: bool,
+    /// Whether any function written calls one of the runtime's elementary functions.
+    calls_elementary: bool,
 }
 
 impl Code<'_> {
@@ -325,7 +340,7 @@ impl Code<'_> {
         }
         taken.extend(parameters);
         let outputs = self.graph.factored(outputs, self.written);
-        let mut line = straight_line(&self.graph, &self.system.scalar, &outputs, &taken);
+        let mut line = straight_line(&self.graph, &self.system.scalar, &outputs, &taken, self.is_portable);
         if self.home == Home::View {
             let seen = |tokens: TokenStream| view::seen_from_view(tokens, &self.system.name);
             let statements = seen(line.statements);
@@ -333,6 +348,7 @@ impl Code<'_> {
             line.statements = quote!(#input #statements);
             line.outputs = line.outputs.into_iter().map(seen).collect();
         }
+        self.calls_elementary |= line.calls_elementary;
         line
     }
 

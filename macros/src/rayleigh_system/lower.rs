@@ -39,6 +39,8 @@ pub struct Lowered {
     pub lagrangian: Node,
     pub rayleigh: Option<Node>,
     pub force: Option<Vec<Node>>,
+    /// The functions of the block that were run.
+    pub functions: Vec<Ident>,
 }
 
 /// A token that cannot be lowered, and why.
@@ -90,6 +92,7 @@ pub fn system(system: &System<'_>) -> Result<Lowered> {
         depth: 0,
         evaluations: 0,
         expected: None,
+        functions: Vec::new(),
     };
     // Known before the bodies read them.
     for parameter in &system.parameters {
@@ -158,7 +161,7 @@ pub fn system(system: &System<'_>) -> Result<Lowered> {
         Some(_) => return refuse(at, "the force is not an array whose entries can be told apart"),
         None => None,
     };
-    Ok(Lowered { graph: lowering.graph, n, m, lagrangian, rayleigh, force })
+    Ok(Lowered { graph: lowering.graph, n, m, lagrangian, rayleigh, force, functions: lowering.functions })
 }
 
 /// Reports parameters that nothing reads, and those that are read where no derivative reaches them.
@@ -250,6 +253,7 @@ struct Lowering<'s> {
     evaluations: usize,
     /// The length that the context gives to an array, for `array::from_fn`.
     expected: Option<usize>,
+    functions: Vec<Ident>,
 }
 
 impl Lowering<'_> {
@@ -296,6 +300,9 @@ impl Lowering<'_> {
             .collect();
         if parameters.len() != arguments.len() {
             return refuse(at, "called with another number of arguments than it has parameters");
+        }
+        if !self.functions.contains(&signature.ident) {
+            self.functions.push(signature.ident.clone());
         }
         let outside = self.enter(at, Vec::new())?;
         for ((pattern, ty), argument) in parameters.iter().zip(arguments) {

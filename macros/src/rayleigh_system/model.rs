@@ -142,8 +142,8 @@ pub struct System<'a> {
     /// `f64` or `f32`.
     pub scalar: Ident,
     pub rules: Vec<Rule>,
-    /// L, R and f, as far as their signatures are right.
-    pub bodies: Vec<ImplItemFn>,
+    /// L, R and f.
+    pub bodies: Vec<Body>,
     pub rayleigh: Option<RayleighArguments>,
     pub has_force: bool,
     /// The number of entries of the force's input u, if it takes one.
@@ -243,6 +243,14 @@ impl System<'_> {
 pub enum RayleighArguments {
     Velocity,
     ConfigurationAndVelocity,
+}
+
+/// A function to differentiate, as the user wrote it.
+#[derive(Clone)]
+pub struct Body {
+    pub function: ImplItemFn,
+    /// Otherwise its types have been complained of already, and only the statements are still looked at.
+    pub has_right_signature: bool,
 }
 
 impl Source {

@@ -24,7 +24,7 @@ use syn::{
 
 use super::check::qualifiers;
 use super::diagnostics::{Mistake, Report, span_of};
-use super::model::{Source, System, is_integer, simple_name};
+use super::model::{Body, Source, System, is_integer, simple_name};
 use super::scope::bound_names;
 use super::syntax::{
     METHODS, ROUNDING, identifier, is_assignment, is_constant_name, is_float_literal, is_function_of_std,
@@ -42,22 +42,21 @@ pub struct Twin {
 pub fn over_duals(system: &System<'_>, report: &mut Report) -> Vec<Twin> {
     let mut bodies = system.bodies.clone();
     let mut twins: Vec<Twin> = Vec::new();
-    while let Some(plain) = bodies.get(twins.len()).cloned() {
+    while let Some(body) = bodies.get(twins.len()).cloned() {
         let before = report.count();
-        let Rewritten { over, functions } = rewrite(system, &plain, report);
+        let Rewritten { over, functions } = rewrite(system, &body, report);
+        let plain = body.function;
         if report.count() > before {
             report.mark_body(&plain.sig.ident);
         }
         twins.push(Twin { plain, over });
         for name in functions {
-            let known = bodies.iter().any(|body| body.sig.ident == name);
+            let known = bodies.iter().any(|body| body.function.sig.ident == name);
             if !known && let Some(helper) = system.source.functions().find(|f| f.sig.ident == name) {
                 let before = report.count();
                 helper_signature(helper, &system.scalar, report);
-                // What is wrong with a signature would be said again by the rewriting.
-                if report.count() == before {
-                    bodies.push(helper.clone());
-                }
+                let has_right_signature = report.count() == before;
+                bodies.push(Body { function: helper.clone(), has_right_signature });
             }
         }
     }
@@ -95,8 +94,8 @@ struct Rewritten {
     functions: Vec<Ident>,
 }
 
-fn rewrite(system: &System<'_>, plain: &ImplItemFn, report: &mut Report) -> Rewritten {
-    let mut over_function = plain.clone();
+fn rewrite(system: &System<'_>, body: &Body, report: &mut Report) -> Rewritten {
+    let mut over_function = body.function.clone();
     let mut rewriter = Rewriter {
         system,
         report,
@@ -111,13 +110,16 @@ fn rewrite(system: &System<'_>, plain: &ImplItemFn, report: &mut Report) -> Rewr
     let signature = &mut over_function.sig;
     signature.ident = over(&signature.ident);
     signature.generics = parse_quote!(<D: Dual<#scalar>>);
-    for parameter in &mut signature.inputs {
-        if let FnArg::Typed(parameter) = parameter {
-            rewriter.visit_type_mut(&mut parameter.ty);
+    // What is wrong with a signature would be said again.
+    if body.has_right_signature {
+        for parameter in &mut signature.inputs {
+            if let FnArg::Typed(parameter) = parameter {
+                rewriter.visit_type_mut(&mut parameter.ty);
+            }
         }
-    }
-    if let ReturnType::Type(_, ty) = &mut signature.output {
-        rewriter.visit_type_mut(ty);
+        if let ReturnType::Type(_, ty) = &mut signature.output {
+            rewriter.visit_type_mut(ty);
+        }
     }
     rewriter.visit_block_mut(&mut over_function.block);
     let Rewriter { fields, functions, .. } = rewriter;

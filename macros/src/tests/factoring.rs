@@ -1,6 +1,6 @@
 //! Derivatives in fewer operations: how many are left, and that values stay.
 
-use crate::rayleigh_system::graph::{Graph, Node, Operation, interpret};
+use crate::rayleigh_system::graph::{Comparison, Graph, Node, Operation, interpret};
 
 /// A graph with q and v of three entries each.
 struct Expressions {
@@ -119,6 +119,18 @@ fn what_the_user_wrote_stays() {
     assert_eq!(e.factored(&[output], written).0, [output]);
     // The control: the same as a derivative.
     assert_ne!(e.factored(&[output], 0).0, [output]);
+}
+
+#[test]
+fn conditions_choose_as_they_were_written() {
+    let mut e = Expressions::new();
+    let (a, b) = (e.product(&[e.q[0], e.v[0]]), e.product(&[e.q[0], e.v[1]]));
+    let sum = e.sum(a, b);
+    let condition = e.graph.node(Operation::Compare(Comparison::Less, sum, e.q[1]));
+    let output = e.graph.node(Operation::Select(condition, e.q[0], e.q[1]));
+    assert_eq!(e.factored(&[output], 0).0, [output]);
+    // The control: the same sum outside a condition.
+    assert_ne!(e.factored(&[sum], 0).0, [sum]);
 }
 
 #[test]

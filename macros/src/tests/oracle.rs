@@ -11,7 +11,7 @@ use crate::rayleigh_system::differentiate::Differentiation;
 use crate::rayleigh_system::differentiate::partials::fault;
 use crate::rayleigh_system::graph::{Function, Node, Operation, interpret};
 use crate::rayleigh_system::lower::{self, Lowered};
-use crate::rayleigh_system::{attribute, check, diagnostics::Report, parse};
+use crate::rayleigh_system::{Runtime, attribute, check, diagnostics::Report, parse};
 
 type Number = Dual2SVec64<4>;
 
@@ -224,7 +224,7 @@ fn lowered(text: &str) -> Lowered {
     let item =
         format!("impl Random {{ fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {{ {text} }} }}");
     let mut report = Report::default();
-    let options = attribute::options(Default::default(), &mut report);
+    let options = attribute::options(Default::default(), Runtime::STD, &mut report);
     let source =
         parse::source(item.parse().expect("the text is made of tokens"), &mut report).expect("a block");
     let system = check::system(&source, options.rules, &mut report).expect("a system");

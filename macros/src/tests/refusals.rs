@@ -3,7 +3,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::rayleigh_system::rayleigh_system;
+use crate::rayleigh_system::{Runtime, rayleigh_system};
 
 /// A system of one line whose L is `body`.
 fn system(body: TokenStream) -> TokenStream {
@@ -19,7 +19,7 @@ fn system(body: TokenStream) -> TokenStream {
 
 fn expansion(engine: &str, body: &TokenStream) -> String {
     let engine: TokenStream = engine.parse().expect("one word");
-    rayleigh_system(quote!(derivatives = #engine), system(body.clone())).to_string()
+    rayleigh_system(Runtime::STD, quote!(derivatives = #engine), system(body.clone())).to_string()
 }
 
 #[test]

@@ -1,10 +1,15 @@
 //! Derivatives of fields on the configuration space: functions of q alone.
+//!
+//! As those of functions of (q, v), they take the function once for each kind of number.
 
 use core::array;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::{First, Primitive, Real, Second, entries, first, second, seed};
+use super::Real;
+use super::derivatives::{First, Second, entries, first, second, seed};
+use super::primitive::Primitive;
+use super::singular::{self, Alone, AloneFirst, has_nan};
 
 /// qᵢ with the derivative eᵢ.
 #[inline]
@@ -17,9 +22,11 @@ fn seeded<F: Primitive, const N: usize>(q: &SVector<F, N>) -> [Real<First<F, N>>
 pub fn jacobian<F: Primitive, const N: usize>(
     q: &SVector<F, N>,
     f: impl Fn([Real<First<F, N>>; N]) -> [Real<First<F, N>>; N],
+    alone: impl Fn([Real<AloneFirst<F>>; N]) -> [Real<AloneFirst<F>>; N],
 ) -> SMatrix<F, N, N> {
     let rows = f(seeded(q)).map(|component| entries(component.0.eps));
-    SMatrix::from_fn(|i, j| rows[i][j])
+    let jacobian = SMatrix::from_fn(|i, j| rows[i][j]);
+    if has_nan(&jacobian) { singular::covector_derivatives(q, q, |q, _| alone(q)).0 } else { jacobian }
 }
 
 /// dS(q) of the scalar field `f`.
@@ -27,8 +34,10 @@ pub fn jacobian<F: Primitive, const N: usize>(
 pub fn differential<F: Primitive, const N: usize>(
     q: &SVector<F, N>,
     f: impl Fn([Real<First<F, N>>; N]) -> Real<First<F, N>>,
+    alone: impl Fn([Real<Alone<F>>; N]) -> Real<Alone<F>>,
 ) -> SVector<F, N> {
-    entries(f(seeded(q)).0.eps)
+    let differential = entries(f(seeded(q)).0.eps);
+    if has_nan(&differential) { singular::gradient(q, q, |q, _| alone(q)).d1 } else { differential }
 }
 
 /// Second derivatives of the scalar field `f`.
@@ -36,7 +45,9 @@ pub fn differential<F: Primitive, const N: usize>(
 pub fn hessian<F: Primitive, const N: usize>(
     q: &SVector<F, N>,
     f: impl Fn([Real<Second<F, N>>; N]) -> Real<Second<F, N>>,
+    alone: impl Fn([Real<Alone<F>>; N]) -> Real<Alone<F>>,
 ) -> SMatrix<F, N, N> {
     let one = nalgebra::one();
-    entries(f(array::from_fn(|i| second(q[i], seed(i, one), seed(i, one)))).0.eps1eps2)
+    let hessian = entries(f(array::from_fn(|i| second(q[i], seed(i, one), seed(i, one)))).0.eps1eps2);
+    if has_nan(&hessian) { singular::derivatives(q, q, |q, _| alone(q)).1 } else { hessian }
 }

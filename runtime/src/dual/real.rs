@@ -7,20 +7,40 @@ use num_dual::DualNum;
 use super::Dual;
 use super::lift::Roundable;
 use super::primitive::Primitive;
+use crate::Elementary;
 
 /// What stands for `f64` (or `f32`) in a differentiated body: a number of type `D`, plain or dual.
 ///
 /// Operators take `Real<D>`, references to it and plain numbers, in any mixture, as `f64` does. Methods are those of `f64`
-/// that have a derivative; they give the value that `f64` gives, and where a derivative does not exist, its one-sided limit
-/// or infinity:
+/// that have a derivative; they give the value that `f64` gives.
 ///
-/// | at | value | derivative |
-/// |---|---|---|
-/// | `abs` at ±0 | 0 | sign of the zero |
-/// | `signum`, `copysign` by the sign | as `f64` | 0 |
-/// | `min`, `max` of equal numbers | the first | that of the first |
-/// | `sqrt`, `cbrt`, `powf` below 1 at 0 | 0 | ∞ (NaN where the argument's own derivative is 0) |
-/// | `hypot`, `atan2` at (0, 0) | 0 | NaN |
+/// # Where a derivative does not exist
+///
+/// Derivatives written out at compile time and those of this type are the same there: one-sided limits where there is a
+/// side, infinite where the slope is, NaN where the direction decides. Whatever does not depend on the argument of a singular
+/// function keeps its own derivative, 0 by that argument.
+///
+/// | at | value | derivative | second derivative |
+/// |---|---|---|---|
+/// | `abs` at ±0 | 0 | sign of the zero | 0 |
+/// | `signum`; `copysign`, by the sign | as `f64` | 0 | 0 |
+/// | `min`, `max` of equal numbers; with one NaN | the first; the number | that of the first; of the number | the same |
+/// | `clamp` at a bound | the bound | that of the number, as inside | the same |
+/// | `sqrt` at ±0 | ±0 | ±∞ | −∞ |
+/// | `cbrt` at ±0 | ±0 | ∞ | ∓∞ |
+/// | `powf` with constant n at 0 | as `f64` | n xⁿ⁻¹, 0 for n = 0 | n(n−1) xⁿ⁻², 0 for n = 0, 1 |
+/// | `powf` with n depending on q or v, base ≤ 0 | as `f64` | by the base as for constant n; by n NaN | the same; mixed NaN |
+/// | `powi` with n < 0 at 0, `recip`, a/b at b = 0 | ∞ (0/0: NaN) | as the formula: −∞ for 1/x (0/0: NaN) | ∞ |
+/// | `ln`, `log2`, `log10` at 0, `ln_1p` at −1 | −∞ | ∞ | −∞ |
+/// | the same below | NaN | 1/x, as of ln │x│ | −1/x² |
+/// | `asin`, `acos` at ±1 | ±π/2; 0, π | ∞; −∞ | ±∞; ∓∞ |
+/// | `acosh` at 1 | 0 | ∞ | −∞ |
+/// | `atanh` at ±1 | ±∞ | ∞ | ±∞ |
+/// | `sqrt`, `powf`, `asin`, `acos` outside their domain, `acosh` in (−1, 1) | NaN | NaN | NaN |
+/// | `hypot`, `atan2` at (0, 0) | 0 | NaN | NaN |
+///
+/// An infinite derivative times one that happens to be 0 is NaN, as for √(x²) at 0: it is 0 only where there is no
+/// dependence at all. What is summed up from infinite derivatives is not finite, ∞ or NaN by the order of the sum.
 #[derive(Clone, Copy)]
 pub struct Real<D>(pub D);
 
@@ -69,14 +89,14 @@ where
     #[inline]
     #[must_use]
     pub fn exp(self) -> Self {
-        self.chain([Primitive::exp(self.0.primal()); 4])
+        self.chain([Elementary::exp(self.0.primal()); 4])
     }
 
     /// 2ˣ.
     #[inline]
     #[must_use]
     pub fn exp2(self) -> Self {
-        let (power, ln2) = (Primitive::exp2(self.0.primal()), F::constant(core::f64::consts::LN_2));
+        let (power, ln2) = (Elementary::exp2(self.0.primal()), F::constant(core::f64::consts::LN_2));
         self.chain([power, ln2 * power, ln2 * ln2 * power, ln2 * ln2 * ln2 * power])
     }
 
@@ -84,8 +104,8 @@ where
     #[inline]
     #[must_use]
     pub fn exp_m1(self) -> Self {
-        let exp = Primitive::exp(self.0.primal());
-        self.chain([Primitive::exp_m1(self.0.primal()), exp, exp, exp])
+        let exp = Elementary::exp(self.0.primal());
+        self.chain([Elementary::exp_m1(self.0.primal()), exp, exp, exp])
     }
 
     /// Natural logarithm.
@@ -93,7 +113,7 @@ where
     #[must_use]
     pub fn ln(self) -> Self {
         let x = self.0.primal();
-        self.logarithm(Primitive::ln(x), Primitive::recip(x), F::constant(1.0))
+        self.logarithm(Elementary::ln(x), Primitive::recip(x), F::constant(1.0))
     }
 
     /// Logarithm to base 2.
@@ -101,7 +121,7 @@ where
     #[must_use]
     pub fn log2(self) -> Self {
         let x = self.0.primal();
-        self.logarithm(Primitive::log2(x), Primitive::recip(x), F::constant(core::f64::consts::LOG2_E))
+        self.logarithm(Elementary::log2(x), Primitive::recip(x), F::constant(core::f64::consts::LOG2_E))
     }
 
     /// Logarithm to base 10.
@@ -109,7 +129,7 @@ where
     #[must_use]
     pub fn log10(self) -> Self {
         let x = self.0.primal();
-        self.logarithm(Primitive::log10(x), Primitive::recip(x), F::constant(core::f64::consts::LOG10_E))
+        self.logarithm(Elementary::log10(x), Primitive::recip(x), F::constant(core::f64::consts::LOG10_E))
     }
 
     /// ln(1 + x), accurate near 0.
@@ -117,7 +137,7 @@ where
     #[must_use]
     pub fn ln_1p(self) -> Self {
         let x = self.0.primal();
-        self.logarithm(Primitive::ln_1p(x), Primitive::recip(F::constant(1.0) + x), F::constant(1.0))
+        self.logarithm(Elementary::ln_1p(x), Primitive::recip(F::constant(1.0) + x), F::constant(1.0))
     }
 
     /// A function with the derivative `scale`·r, r the reciprocal of its argument up to a shift.
@@ -144,7 +164,7 @@ where
     #[inline]
     #[must_use]
     pub fn sin_cos(self) -> (Self, Self) {
-        let (sine, cosine) = Primitive::sin_cos(self.0.primal());
+        let (sine, cosine) = Elementary::sin_cos(self.0.primal());
         (self.chain([sine, cosine, -sine, -cosine]), self.chain([cosine, -sine, -cosine, sine]))
     }
 
@@ -153,7 +173,7 @@ where
     #[must_use]
     pub fn asin(self) -> Self {
         let x = self.0.primal();
-        self.arc(Primitive::asin(x), F::constant(1.0))
+        self.arc(Elementary::asin(x), F::constant(1.0))
     }
 
     /// Arccosine.
@@ -161,7 +181,7 @@ where
     #[must_use]
     pub fn acos(self) -> Self {
         let x = self.0.primal();
-        self.arc(Primitive::acos(x), F::constant(-1.0))
+        self.arc(Elementary::acos(x), F::constant(-1.0))
     }
 
     /// A function with the derivative ±1/√(1 − x²).
@@ -170,7 +190,7 @@ where
         let [one, two] = [1.0, 2.0].map(F::constant);
         let x = self.0.primal();
         let square = one / ((one - x) * (one + x));
-        let first = sign * Primitive::sqrt(square);
+        let first = sign * Elementary::sqrt(square);
         self.chain([value, first, x * first * square, (one + two * x * x) * first * square * square])
     }
 
@@ -182,14 +202,14 @@ where
         let x = self.0.primal();
         let first = one / (one + x * x);
         let square = first * first;
-        self.chain([Primitive::atan(x), first, -two * x * square, (six * x * x - two) * square * first])
+        self.chain([Elementary::atan(x), first, -two * x * square, (six * x * x - two) * square * first])
     }
 
     /// Hyperbolic sine.
     #[inline]
     #[must_use]
     pub fn sinh(self) -> Self {
-        let (sinh, cosh) = (Primitive::sinh(self.0.primal()), Primitive::cosh(self.0.primal()));
+        let (sinh, cosh) = (Elementary::sinh(self.0.primal()), Elementary::cosh(self.0.primal()));
         self.chain([sinh, cosh, sinh, cosh])
     }
 
@@ -197,7 +217,7 @@ where
     #[inline]
     #[must_use]
     pub fn cosh(self) -> Self {
-        let (sinh, cosh) = (Primitive::sinh(self.0.primal()), Primitive::cosh(self.0.primal()));
+        let (sinh, cosh) = (Elementary::sinh(self.0.primal()), Elementary::cosh(self.0.primal()));
         self.chain([cosh, sinh, cosh, sinh])
     }
 
@@ -208,9 +228,9 @@ where
         let [one, two] = [1.0, 2.0].map(F::constant);
         let x = self.0.primal();
         let square = one / (one + x * x);
-        let first = Primitive::sqrt(square);
+        let first = Elementary::sqrt(square);
         self.chain([
-            Primitive::asinh(x),
+            Elementary::asinh(x),
             first,
             -x * first * square,
             (two * x * x - one) * first * square * square,
@@ -224,9 +244,9 @@ where
         let [one, two] = [1.0, 2.0].map(F::constant);
         let x = self.0.primal();
         let square = one / ((x - one) * (x + one));
-        let first = Primitive::sqrt(square);
+        let first = Elementary::sqrt(square);
         self.chain([
-            Primitive::acosh(x),
+            Elementary::acosh(x),
             first,
             -x * first * square,
             (two * x * x + one) * first * square * square,
@@ -241,7 +261,7 @@ where
         let x = self.0.primal();
         let first = one / ((one - x) * (one + x));
         let square = first * first;
-        self.chain([Primitive::atanh(x), first, two * x * square, (two + six * x * x) * square * first])
+        self.chain([Elementary::atanh(x), first, two * x * square, (two + six * x * x) * square * first])
     }
 
     /// Tangent. num-dual divides sine by cosine, which rounds differently from `f64::tan`.
@@ -249,7 +269,7 @@ where
     #[must_use]
     pub fn tan(self) -> Self {
         let [one, two, three] = [1.0, 2.0, 3.0].map(F::constant);
-        let t = Primitive::tan(self.0.primal());
+        let t = Elementary::tan(self.0.primal());
         let slope = one + t * t;
         self.chain([t, slope, two * t * slope, two * slope * (one + three * t * t)])
     }
@@ -260,8 +280,8 @@ where
     pub fn tanh(self) -> Self {
         let [one, two, four] = [1.0, 2.0, 4.0].map(F::constant);
         let x = self.0.primal();
-        let t = Primitive::tanh(x);
-        let decay = Primitive::exp(-two * Primitive::abs(x));
+        let t = Elementary::tanh(x);
+        let decay = Elementary::exp(-two * Primitive::abs(x));
         let slope = four * decay / ((one + decay) * (one + decay));
         self.chain([t, slope, -two * t * slope, slope * (four * t * t - two * slope)])
     }
@@ -271,7 +291,7 @@ where
     #[must_use]
     pub fn sqrt(self) -> Self {
         let x = self.0.primal();
-        let root = Primitive::sqrt(x);
+        let root = Elementary::sqrt(x);
         let first = F::constant(0.5) / root;
         let second = F::constant(-0.5) * first / x;
         self.chain([root, first, second, F::constant(-1.5) * second / x])
@@ -283,7 +303,7 @@ where
     pub fn cbrt(self) -> Self {
         let [one, two, three, five] = [1.0, 2.0, 3.0, 5.0].map(F::constant);
         let x = self.0.primal();
-        let root = Primitive::cbrt(x);
+        let root = Elementary::cbrt(x);
         let first = one / (three * root * root);
         let second = -two * first / (three * x);
         self.chain([root, first, second, -five * second / (three * x)])
@@ -303,7 +323,7 @@ where
                 let mut factor = F::constant(1.0);
                 self.chain([0, 1, 2, 3].map(|order: i32| {
                     let exponent = n.saturating_sub(order);
-                    let term = factor * Primitive::powi(x, exponent);
+                    let term = factor * Elementary::powi(x, exponent);
                     factor *= F::constant(f64::from(exponent));
                     term
                 }))
@@ -317,7 +337,7 @@ where
     pub fn powf(self, exponent: Self) -> Self {
         let (x, n) = (self.0.primal(), exponent.0.primal());
         if !exponent.0.is_constant() {
-            let value = Primitive::powf(x, n);
+            let value = Elementary::powf(x, n);
             return (exponent * self.ln()).chain([value; 4]);
         }
         let mut factor = F::constant(1.0);
@@ -325,7 +345,7 @@ where
             let exponent = n - F::constant(order);
             // n(n−1)…(n−k+1) x^(n−k) vanishes for a whole n < k, also where the power itself is infinite.
             let vanishes = factor == F::constant(0.0);
-            let term = if vanishes { factor } else { factor * Primitive::powf(x, exponent) };
+            let term = if vanishes { factor } else { factor * Elementary::powf(x, exponent) };
             factor *= exponent;
             term
         }))
@@ -343,7 +363,7 @@ where
     #[must_use]
     pub fn atan2(self, x: Self) -> Self {
         let y = self;
-        let angle = Primitive::atan2(y.0.primal(), x.0.primal());
+        let angle = Elementary::atan2(y.0.primal(), x.0.primal());
         // Both quotients have the derivative of the angle; the one with the larger divisor is finite.
         let quotient = if Primitive::abs(x.0.primal()) >= Primitive::abs(y.0.primal()) {
             (y / x).atan()
@@ -358,7 +378,7 @@ where
     #[must_use]
     pub fn hypot(self, other: Self) -> Self {
         let (x, y) = (self.0.primal(), other.0.primal());
-        let value = Primitive::hypot(x, y);
+        let value = Elementary::hypot(x, y);
         let (cosine, sine) = (D::real(x / value), D::real(y / value));
         // Along the vector and across it, where the value is 0: √(u² + w²) = u + w²/2u up to w⁴.
         let along = Self((self * cosine + other * sine).0.with_primal(value));
@@ -419,7 +439,7 @@ where
     #[inline]
     #[must_use]
     pub fn mul_add(self, a: Self, b: Self) -> Self {
-        let value = Primitive::mul_add(self.0.primal(), a.0.primal(), b.0.primal());
+        let value = Elementary::mul_add(self.0.primal(), a.0.primal(), b.0.primal());
         Self((self * a + b).0.with_primal(value))
     }
 

@@ -5,7 +5,9 @@ use core::array;
 use nalgebra::{SMatrix, SVector};
 use num_dual::{Derivative, DualSVec, HyperDualVec};
 
-use super::{Dual, Primitive, Real, Second, block, entries, second, seed};
+use super::derivatives::{Second, block, entries, second, seed};
+use super::primitive::Primitive;
+use super::{Dual, Real};
 use crate::Hessian;
 
 /// A number with one derivative.

@@ -12,7 +12,7 @@ pub enum HamiltonJacobiError {
     Implicit {
         /// The equation.
         equation: ImplicitEquation,
-        /// The step k at which it was asked for.
+        /// The step k at which it was asked for; 0 for an object of one segment alone.
         step: usize,
         /// What the solver met.
         cause: StepError,
@@ -53,6 +53,16 @@ pub enum ImplicitEquation {
     RightCharacteristic,
     /// A matrix of derivatives, ∂p/∂q or DF_k, that is to be inverted.
     Derivative,
+}
+
+impl HamiltonJacobiError {
+    /// The same at step k: objects of one segment do not know which one they are, reports along a trajectory do.
+    pub(super) fn at_step(self, k: usize) -> Self {
+        match self {
+            Self::Implicit { equation, cause, .. } => Self::Implicit { equation, step: k, cause },
+            other => other,
+        }
+    }
 }
 
 impl ImplicitEquation {

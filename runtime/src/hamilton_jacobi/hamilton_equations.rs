@@ -110,7 +110,7 @@ where
             let size = MomentumMagnitudes::of(&k, q0, q1);
             let (p0, p1) = (k.momenta.p0, k.momenta.p1);
 
-            match self.hamiltonian_plus_at(step, q0, &p1, Some(&v)) {
+            match self.discrete_hamiltonian_plus(q0, &p1, Some(&v)) {
                 Ok(right) => {
                     let a = k.p1_by_q1.tr_mul(&(q1 - right.d2)) + f.plus;
                     equations.take(0, step, q0, [a, a], &(size.p1 + f.plus.abs()));
@@ -119,9 +119,9 @@ where
                     let reach = right.eliminated_by_q.abs().tr_mul(&size.p1);
                     equations.take(1, step, q0, [b, b + moved], &(size.p0 + f.minus.abs() + reach));
                 }
-                Err(error) => equations.failure([0, 1], error),
+                Err(error) => equations.failure([0, 1], error.at_step(step)),
             }
-            match self.hamiltonian_minus_at(step, q1, &p0, Some(&v)) {
+            match self.discrete_hamiltonian_minus(q1, &p0, Some(&v)) {
                 Ok(left) => {
                     let a = k.p0_by_q0.tr_mul(&(q0 + left.d2)) - f.minus;
                     equations.take(2, step, q0, [a, a], &(size.p0 + f.minus.abs()));
@@ -130,7 +130,7 @@ where
                     let reach = left.eliminated_by_q.abs().tr_mul(&size.p0);
                     equations.take(3, step, q0, [b, b - moved], &(size.p1 + f.plus.abs() + reach));
                 }
-                Err(error) => equations.failure([2, 3], error),
+                Err(error) => equations.failure([2, 3], error.at_step(step)),
             }
         }
         equations.report(self.relative, false)
@@ -163,7 +163,7 @@ where
             let plus = self.system.modified_plus_derivatives(q0, q1, self.h);
             let minus = self.system.modified_minus_derivatives(q0, q1, self.h);
 
-            match self.hamiltonian_plus_at(step, q0, &p1, Some(&v)) {
+            match self.discrete_hamiltonian_plus(q0, &p1, Some(&v)) {
                 Ok(right) => {
                     let a = minus.d22.tr_mul(&(q1 - right.d2));
                     equations.take(0, step, q0, [a + r.d2, a - r.d2], &(size.p1 + r.d2.abs()));
@@ -173,9 +173,9 @@ where
                     let corrected = b + r.d1 - moved;
                     equations.take(1, step, q0, [b - r.d1, corrected], &(size.p0 + r.d1.abs() + reach));
                 }
-                Err(error) => equations.failure([0, 1], error),
+                Err(error) => equations.failure([0, 1], error.at_step(step)),
             }
-            match self.hamiltonian_minus_at(step, q1, &p0, Some(&v)) {
+            match self.discrete_hamiltonian_minus(q1, &p0, Some(&v)) {
                 Ok(left) => {
                     let a = plus.d11.tr_mul(&(q0 + left.d2));
                     equations.take(2, step, q0, [a - r.d1, a + r.d1], &(size.p0 + r.d1.abs()));
@@ -185,7 +185,7 @@ where
                     let corrected = b + r.d2 - moved;
                     equations.take(3, step, q0, [b - r.d2, corrected], &(size.p1 + r.d2.abs() + reach));
                 }
-                Err(error) => equations.failure([2, 3], error),
+                Err(error) => equations.failure([2, 3], error.at_step(step)),
             }
         }
         equations.report(self.relative, true)

@@ -67,7 +67,21 @@ where
         p1: &SVector<S, N>,
         guess: Option<&SVector<S, N>>,
     ) -> Result<DiscreteHamiltonian<S, N>, HamiltonJacobiError> {
-        self.hamiltonian_plus_at(0, q0, p1, guess)
+        let at = ImplicitEquation::RightHamiltonian.at(0);
+        let q1 = self.solve(Unknown::Q1, Given::P1, q0, p1, guess).map_err(&at)?;
+        let l = self.system.discrete_lagrangian_derivatives(q0, &q1, self.h);
+        let k = self.legendre(q0, &q1);
+        let eliminated_by_p = inverse(&k.p1_by_q1).map_err(&at)?;
+        let eliminated_by_q = -(eliminated_by_p * k.p1_by_q0);
+        let beyond = p1 - l.d2;
+        Ok(DiscreteHamiltonian {
+            value: p1.dot(&q1) - l.value,
+            d1: eliminated_by_q.tr_mul(&beyond) - l.d1,
+            d2: q1 + eliminated_by_p.tr_mul(&beyond),
+            eliminated: q1,
+            eliminated_by_q,
+            eliminated_by_p,
+        })
     }
 
     /// The left discrete Hamiltonian H_d⁻(q1, p0) = −p0·q0 − L_d(q0, q1), q0 by p0 = −D1 L_d − f_d⁻.
@@ -85,41 +99,7 @@ where
         p0: &SVector<S, N>,
         guess: Option<&SVector<S, N>>,
     ) -> Result<DiscreteHamiltonian<S, N>, HamiltonJacobiError> {
-        self.hamiltonian_minus_at(0, q1, p0, guess)
-    }
-
-    pub(super) fn hamiltonian_plus_at(
-        &self,
-        step: usize,
-        q0: &SVector<S, N>,
-        p1: &SVector<S, N>,
-        guess: Option<&SVector<S, N>>,
-    ) -> Result<DiscreteHamiltonian<S, N>, HamiltonJacobiError> {
-        let at = ImplicitEquation::RightHamiltonian.at(step);
-        let q1 = self.solve(Unknown::Q1, Given::P1, q0, p1, guess).map_err(&at)?;
-        let l = self.system.discrete_lagrangian_derivatives(q0, &q1, self.h);
-        let k = self.legendre(q0, &q1);
-        let eliminated_by_p = inverse(&k.p1_by_q1).map_err(&at)?;
-        let eliminated_by_q = -(eliminated_by_p * k.p1_by_q0);
-        let beyond = p1 - l.d2;
-        Ok(DiscreteHamiltonian {
-            value: p1.dot(&q1) - l.value,
-            d1: eliminated_by_q.tr_mul(&beyond) - l.d1,
-            d2: q1 + eliminated_by_p.tr_mul(&beyond),
-            eliminated: q1,
-            eliminated_by_q,
-            eliminated_by_p,
-        })
-    }
-
-    pub(super) fn hamiltonian_minus_at(
-        &self,
-        step: usize,
-        q1: &SVector<S, N>,
-        p0: &SVector<S, N>,
-        guess: Option<&SVector<S, N>>,
-    ) -> Result<DiscreteHamiltonian<S, N>, HamiltonJacobiError> {
-        let at = ImplicitEquation::LeftHamiltonian.at(step);
+        let at = ImplicitEquation::LeftHamiltonian.at(0);
         let q0 = self.solve(Unknown::Q0, Given::P0, q1, p0, guess).map_err(&at)?;
         let l = self.system.discrete_lagrangian_derivatives(&q0, q1, self.h);
         let k = self.legendre(&q0, q1);
@@ -137,27 +117,25 @@ where
     }
 
     /// q1 with 𝔽⁻(q0, q1) = (q0, p0), and the state that the step leads to.
-    pub(super) fn step_at(
+    pub(super) fn step(
         &self,
-        step: usize,
         q0: &SVector<S, N>,
         p0: &SVector<S, N>,
         guess: Option<&SVector<S, N>>,
     ) -> Result<State<S, N>, HamiltonJacobiError> {
         let state = State { q: *q0, p: *p0 };
-        let taken = self.system.step(&state, self.h, guess).map_err(ImplicitEquation::Step.at(step))?;
+        let taken = self.system.step(&state, self.h, guess).map_err(ImplicitEquation::Step.at(0))?;
         Ok(taken.state)
     }
 
     /// q0 with 𝔽⁺(q0, q1) = (q1, p1): the step backwards.
-    pub(super) fn backward_step_at(
+    pub(super) fn backward_step(
         &self,
-        step: usize,
         q1: &SVector<S, N>,
         p1: &SVector<S, N>,
         guess: Option<&SVector<S, N>>,
     ) -> Result<SVector<S, N>, HamiltonJacobiError> {
-        self.solve(Unknown::Q0, Given::P1, q1, p1, guess).map_err(ImplicitEquation::BackwardStep.at(step))
+        self.solve(Unknown::Q0, Given::P1, q1, p1, guess).map_err(ImplicitEquation::BackwardStep.at(0))
     }
 
     pub(super) fn legendre(&self, q0: &SVector<S, N>, q1: &SVector<S, N>) -> LegendreDerivatives<S, N> {

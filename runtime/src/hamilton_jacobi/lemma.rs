@@ -38,7 +38,8 @@ where
     where
         F: ScalarField<N, Scalar = S>,
     {
-        self.lemma_flow_plus_at(0, s1, q, guess)
+        let start = guess.map_or(*q, |v| q + v * self.h);
+        root(|x| self.lemma_definition_plus(s1, q, x), start, ImplicitEquation::LemmaFlowPlus)
     }
 
     /// The lemma's 𝓕⁻(q_{k−1}, q_k), the solution x of its printed definition:
@@ -60,7 +61,8 @@ where
     where
         F: ScalarField<N, Scalar = S>,
     {
-        self.lemma_flow_minus_at(0, s0, q, guess)
+        let start = guess.map_or(*q, |v| q + v * self.h);
+        root(|x| self.lemma_definition_minus(s0, q, x), start, ImplicitEquation::LemmaFlowMinus)
     }
 
     /// The point x with γ⁺(q, x) = 𝔽⁺(q, x), that is DS_{k+1}(x) = D2 L_d(q, x): the force drops out.
@@ -97,38 +99,9 @@ where
         Ok(q + solution.unknown * h)
     }
 
-    pub(super) fn lemma_flow_plus_at<F>(
-        &self,
-        step: usize,
-        s1: &F,
-        q: &SVector<S, N>,
-        guess: Option<&SVector<S, N>>,
-    ) -> Result<SVector<S, N>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
-        let start = guess.map_or(*q, |v| q + v * self.h);
-        root(|x| self.lemma_definition_plus(step, s1, q, x), start, ImplicitEquation::LemmaFlowPlus, step)
-    }
-
-    pub(super) fn lemma_flow_minus_at<F>(
-        &self,
-        step: usize,
-        s0: &F,
-        q: &SVector<S, N>,
-        guess: Option<&SVector<S, N>>,
-    ) -> Result<SVector<S, N>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
-        let start = guess.map_or(*q, |v| q + v * self.h);
-        root(|x| self.lemma_definition_minus(step, s0, q, x), start, ImplicitEquation::LemmaFlowMinus, step)
-    }
-
     /// x − (right side of the definition of 𝓕⁺).
     pub(super) fn lemma_definition_plus<F>(
         &self,
-        step: usize,
         s1: &F,
         q: &SVector<S, N>,
         x: &SVector<S, N>,
@@ -138,8 +111,8 @@ where
     {
         let f = self.system.discrete_force_derivatives(q, x, self.h);
         let p1 = s1.gradient(x) + f.plus.value;
-        let h_plus = self.hamiltonian_plus_at(step, q, &p1, Some(&((x - q) / self.h)))?;
-        let by_x = inverse(&(s1.hessian(x) + f.plus.d2)).map_err(ImplicitEquation::Derivative.at(step))?;
+        let h_plus = self.discrete_hamiltonian_plus(q, &p1, Some(&((x - q) / self.h)))?;
+        let by_x = inverse(&(s1.hessian(x) + f.plus.d2)).map_err(ImplicitEquation::Derivative.at(0))?;
         let shift = by_x.tr_mul(&f.plus.value);
         let rounding = section::magnitude(s1, x) + f.plus.value.abs() + f.plus.d1.abs() * q.abs();
         Ok(Definition {
@@ -154,7 +127,6 @@ where
     /// q − (right side of the definition of 𝓕⁻).
     pub(super) fn lemma_definition_minus<F>(
         &self,
-        step: usize,
         s0: &F,
         q: &SVector<S, N>,
         x: &SVector<S, N>,
@@ -164,8 +136,8 @@ where
     {
         let f = self.system.discrete_force_derivatives(q, x, self.h);
         let p0 = s0.gradient(q) - f.minus.value;
-        let h_minus = self.hamiltonian_minus_at(step, x, &p0, Some(&((x - q) / self.h)))?;
-        let by_q = inverse(&(s0.hessian(q) - f.minus.d1)).map_err(ImplicitEquation::Derivative.at(step))?;
+        let h_minus = self.discrete_hamiltonian_minus(x, &p0, Some(&((x - q) / self.h)))?;
+        let by_q = inverse(&(s0.hessian(q) - f.minus.d1)).map_err(ImplicitEquation::Derivative.at(0))?;
         let shift = by_q.tr_mul(&f.minus.value);
         let rounding = section::magnitude(s0, q) + f.minus.value.abs() + f.minus.d2.abs() * x.abs();
         Ok(Definition {
@@ -192,9 +164,8 @@ fn root<S: Scalar, const N: usize>(
     definition: impl Fn(&SVector<S, N>) -> Result<Definition<S, N>, HamiltonJacobiError>,
     start: SVector<S, N>,
     equation: ImplicitEquation,
-    step: usize,
 ) -> Result<SVector<S, N>, HamiltonJacobiError> {
-    let at = equation.at(step);
+    let at = equation.at(0);
     let mut x = start;
     let mut here = definition(&x)?;
     for iteration in 0..MAX_ITERATIONS {

@@ -54,25 +54,11 @@ where
     where
         F: ScalarField<N, Scalar = S>,
     {
-        self.paired_flow_at(0, s0, s1, q0, q1)
-    }
-
-    pub(super) fn paired_flow_at<F>(
-        &self,
-        step: usize,
-        s0: &F,
-        s1: &F,
-        q0: &SVector<S, N>,
-        q1: &SVector<S, N>,
-    ) -> Result<PairedFlow<S, N>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
         let gamma = self.gamma(s0, s1, q0, q1);
         let guess = (q1 - q0) / self.h;
         Ok(PairedFlow {
-            minus: self.step_at(step, q0, &gamma.p0, Some(&guess))?,
-            plus: self.step_at(step, q1, &gamma.p1, Some(&guess))?,
+            minus: self.step(q0, &gamma.p0, Some(&guess))?,
+            plus: self.step(q1, &gamma.p1, Some(&guess))?,
         })
     }
 
@@ -93,22 +79,8 @@ where
     where
         F: ScalarField<N, Scalar = S>,
     {
-        self.right_equation_at(0, s0, s1, q0, q1)
-    }
-
-    pub(super) fn right_equation_at<F>(
-        &self,
-        step: usize,
-        s0: &F,
-        s1: &F,
-        q0: &SVector<S, N>,
-        q1: &SVector<S, N>,
-    ) -> Result<EquationValue<S>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
         let p1 = self.gamma(s0, s1, q0, q1).p1;
-        let h_plus = self.hamiltonian_plus_at(step, q0, &p1, Some(&((q1 - q0) / self.h)))?;
+        let h_plus = self.discrete_hamiltonian_plus(q0, &p1, Some(&((q1 - q0) / self.h)))?;
         let (before, after) = (s0.value(q0), s1.value(q1));
         let reach = p1.abs().dot(&(q1.abs() + h_plus.eliminated.abs())) + h_plus.d1.abs().dot(&q0.abs());
         Ok(EquationValue {
@@ -135,22 +107,8 @@ where
     where
         F: ScalarField<N, Scalar = S>,
     {
-        self.left_equation_at(0, s0, s1, q0, q1)
-    }
-
-    pub(super) fn left_equation_at<F>(
-        &self,
-        step: usize,
-        s0: &F,
-        s1: &F,
-        q0: &SVector<S, N>,
-        q1: &SVector<S, N>,
-    ) -> Result<EquationValue<S>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
         let p0 = self.gamma(s0, s1, q0, q1).p0;
-        let h_minus = self.hamiltonian_minus_at(step, q1, &p0, Some(&((q1 - q0) / self.h)))?;
+        let h_minus = self.discrete_hamiltonian_minus(q1, &p0, Some(&((q1 - q0) / self.h)))?;
         let (before, after) = (s0.value(q0), s1.value(q1));
         let reach = p0.abs().dot(&(q0.abs() + h_minus.eliminated.abs())) + h_minus.d1.abs().dot(&q1.abs());
         Ok(EquationValue {
@@ -198,22 +156,8 @@ where
     where
         F: ScalarField<N, Scalar = S>,
     {
-        self.backward_flow_at(0, s0, s1, q0, q1)
-    }
-
-    pub(super) fn backward_flow_at<F>(
-        &self,
-        step: usize,
-        s0: &F,
-        s1: &F,
-        q0: &SVector<S, N>,
-        q1: &SVector<S, N>,
-    ) -> Result<SVector<S, N>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
         let gamma = self.gamma(s0, s1, q0, q1);
-        self.backward_step_at(step, q0, &gamma.p0, Some(&((q1 - q0) / self.h)))
+        self.backward_step(q0, &gamma.p0, Some(&((q1 - q0) / self.h)))
     }
 
     /// G_d(q_j, q_{j+1}) = S_j(q_j) + S_{j+1}(q_{j+1}) − R_d(q_j, q_{j+1}) of a Rayleigh system, so that γ = DG_d.

@@ -100,13 +100,13 @@ where
         report.gamma_minus.vector(j, q0, &(gamma.p0 - k.momenta.p0), &magnitude);
         let magnitude = size.p1 + section::magnitude(s1, q1);
         report.gamma_plus.vector(j, q0, &(gamma.p1 - k.momenta.p1), &magnitude);
-        match self.right_equation_at(j, s0, s1, q0, q1) {
+        match self.right_equation(s0, s1, q0, q1) {
             Ok(equation) => report.right_equation.number(j, q0, equation.value, equation.magnitude),
-            Err(error) => report.right_equation.failure(error),
+            Err(error) => report.right_equation.failure(error.at_step(j)),
         }
-        match self.left_equation_at(j, s0, s1, q0, q1) {
+        match self.left_equation(s0, s1, q0, q1) {
             Ok(equation) => report.left_equation.number(j, q0, equation.value, equation.magnitude),
-            Err(error) => report.left_equation.failure(error),
+            Err(error) => report.left_equation.failure(error.at_step(j)),
         }
         let increment = self.action_increment(s0, s1, q0, q1);
         report.action_increment.number(j, q0, increment.value, increment.magnitude);
@@ -132,7 +132,7 @@ where
 
         let of_s1 = section::magnitude(s1, q1);
         match (inverse(&before.p0_by_q1), inverse(&after.p0_by_q1)) {
-            (Ok(by_p_before), Ok(by_p)) => match self.paired_flow_at(j, s0, s1, q0, q1) {
+            (Ok(by_p_before), Ok(by_p)) => match self.paired_flow(s0, s1, q0, q1) {
                 Ok(flow) => {
                     let reach = by_p_before.abs() * (size_before.p0 + section::magnitude(s0, q0));
                     report.flow_gamma_minus.vector(j, q1, &(flow.minus.q - q1), &(q1.abs() + reach));
@@ -149,45 +149,45 @@ where
                         size.p1 + section::magnitude(s2, &flow.plus.q) + after.p1_by_q1.abs() * reach;
                     report.gamma_related_plus.vector(j, q1, &(flow.plus.p - there.p1), &magnitude);
                 }
-                Err(error) => report.flows_failed(error),
+                Err(error) => report.flows_failed(error.at_step(j)),
             },
             (Err(cause), _) | (_, Err(cause)) => {
                 report.flows_failed(super::ImplicitEquation::Derivative.at(j)(cause));
             }
         }
 
-        match self.lemma_definition_plus(j, s2, q1, q2) {
+        match self.lemma_definition_plus(s2, q1, q2) {
             Ok(definition) => report.lemma_plus.vector(j, q1, &definition.residual, &definition.magnitude),
-            Err(error) => report.lemma_plus.failure(error),
+            Err(error) => report.lemma_plus.failure(error.at_step(j)),
         }
-        match self.lemma_definition_minus(j, s1, q1, q2) {
+        match self.lemma_definition_minus(s1, q1, q2) {
             Ok(definition) => report.lemma_minus.vector(j, q1, &definition.residual, &definition.magnitude),
-            Err(error) => report.lemma_minus.failure(error),
+            Err(error) => report.lemma_minus.failure(error.at_step(j)),
         }
         let guess = (q2 - q1) / self.h;
-        match self.lemma_flow_plus_at(j, s2, q1, Some(&guess)) {
+        match self.lemma_flow_plus(s2, q1, Some(&guess)) {
             Ok(x) => {
                 report.lemma_plus_forced.vector(j, q1, &self.system.del_residual(q0, q1, &x, self.h), &node);
                 let unforced = self.unforced_residual(q0, q1, &x);
                 report.lemma_plus_unforced.vector(j, q1, &unforced, &node);
             }
             Err(error) => {
-                report.lemma_plus_forced.failure(error);
-                report.lemma_plus_unforced.failure(error);
+                report.lemma_plus_forced.failure(error.at_step(j));
+                report.lemma_plus_unforced.failure(error.at_step(j));
             }
         }
-        match self.lemma_flow_minus_at(j, s1, q1, Some(&guess)) {
+        match self.lemma_flow_minus(s1, q1, Some(&guess)) {
             Ok(x) => {
                 report.lemma_minus_forced.vector(j, q1, &self.system.del_residual(q0, q1, &x, self.h), &node);
             }
-            Err(error) => report.lemma_minus_forced.failure(error),
+            Err(error) => report.lemma_minus_forced.failure(error.at_step(j)),
         }
-        match (self.backward_flow_at(j, s1, s2, q1, q2), inverse(&before.p1_by_q0)) {
+        match (self.backward_flow(s1, s2, q1, q2), inverse(&before.p1_by_q0)) {
             (Ok(x), Ok(by_p)) => {
                 let magnitude = q0.abs() + by_p.abs() * (size_before.p1 + of_s1 + size.p0);
                 report.backward_flow.vector(j, q1, &(x - q0), &magnitude);
             }
-            (Err(error), _) => report.backward_flow.failure(error),
+            (Err(error), _) => report.backward_flow.failure(error.at_step(j)),
             (_, Err(cause)) => {
                 report.backward_flow.failure(super::ImplicitEquation::Derivative.at(j)(cause));
             }

@@ -215,7 +215,7 @@ where
     where
         G: Section<N, Scalar = S>,
     {
-        let q1 = self.step_at(step, q, &section.covector(q), None)?.q;
+        let q1 = self.step(q, &section.covector(q), None).map_err(|error| error.at_step(step))?.q;
         let k = self.legendre(q, &q1);
         let by_p = inverse(&k.p0_by_q1).map_err(super::ImplicitEquation::Derivative.at(step))?;
         let size = MomentumMagnitudes::of(&k, q, &q1);
@@ -280,7 +280,7 @@ where
         let q1 = &image.q1;
         let gamma1 = after.gradient(q1);
         let work = after.value(q1) - before.value(q) - self.system.discrete_lagrangian(q, q1, self.h);
-        match self.hamiltonian_plus_at(step, q, &gamma1, Some(&((q1 - q) / self.h))) {
+        match self.discrete_hamiltonian_plus(q, &gamma1, Some(&((q1 - q) / self.h))) {
             Ok(h_plus) => {
                 let value = after.value(q1) - before.value(q) - gamma1.dot(q1) + h_plus.value - work;
                 let rounding = after.hessian(q1).abs() * image.spread;
@@ -293,7 +293,7 @@ where
                     + work.abs();
                 hamiltonian.number(step, q, value, magnitude);
             }
-            Err(error) => hamiltonian.failure(error),
+            Err(error) => hamiltonian.failure(error.at_step(step)),
         }
     }
 }

@@ -48,7 +48,7 @@ where
     where
         F: ScalarField<N, Scalar = S>,
     {
-        let q1 = self.step_at(0, q, &s0.gradient(q), None)?.q;
+        let q1 = self.step(q, &s0.gradient(q), None)?.q;
         let value = s1.value(&q1) - s0.value(q) - self.system.discrete_lagrangian(q, &q1, self.h);
         Ok(VirtualWork { q1, value })
     }

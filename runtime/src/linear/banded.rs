@@ -123,7 +123,9 @@ impl<S: Scalar, const N: usize, const W: usize> NewtonMatrix<S, N> for Banded<S,
     #[inline]
     fn entry(&self, row: usize, column: usize) -> S {
         match (column + Self::B).checked_sub(row) {
-            Some(k) if k < W && column < N => self.rows[row][k],
+            Some(k) if column < N => {
+                self.rows.get(row).and_then(|row| row.get(k)).copied().unwrap_or_else(S::zero)
+            }
             _ => S::zero(),
         }
     }
@@ -151,7 +153,7 @@ impl<S: Scalar, const N: usize, const W: usize> NewtonMatrix<S, N> for Banded<S,
     }
 
     fn row_is_finite(&self, row: usize) -> bool {
-        self.rows[row].iter().all(|entry| entry.is_finite())
+        self.rows.get(row).is_none_or(|row| row.iter().all(|entry| entry.is_finite()))
     }
 }
 

@@ -22,7 +22,7 @@ impl<S: Scalar, const N: usize> NewtonMatrix<S, N> for SMatrix<S, N, N> {
 
     #[inline]
     fn entry(&self, row: usize, column: usize) -> S {
-        self[(row, column)]
+        self.get((row, column)).copied().unwrap_or_else(S::zero)
     }
 
     #[inline]
@@ -147,6 +147,8 @@ pub(super) fn factored<S: Scalar, const N: usize>(
             }
         }
         if pivot != k {
+            // Known to the compiler to be a row, for the swaps to have no panicking branch.
+            let pivot = pivot.min(N - 1);
             rows.swap(k, pivot);
             order.swap(k, pivot);
             scale.swap(k, pivot);
@@ -181,7 +183,7 @@ fn check_cancellation<S: Scalar, const N: usize>(
 ) -> Result<(), Singular> {
     let threshold = S::EPSILON * S::constant(8.0 * N as f64);
     for k in 0..N {
-        let mut magnitude = matrix[(order[k], k)].abs();
+        let mut magnitude = matrix[(order[k].min(N - 1), k)].abs();
         for j in 0..k {
             magnitude += (rows[k][j] * rows[j][k]).abs();
         }

@@ -24,11 +24,25 @@ const MOST: u32 = 5;
 /// Where a step takes more corrections than this, the matrix is renewed.
 const STALE: u32 = 3;
 
+/// A matrix that serves fewer steps than this costs more than it saves: Newton's method then takes a number of steps, twice
+/// as many each time in a row, before another is kept.
+const WORTHWHILE: u32 = 4;
+
+/// The least and the largest of these numbers of steps.
+const PAUSES: [u32; 2] = [8, 1024];
+
 /// The Newton matrix of an earlier step, factored, and the latest mean velocities.
+///
+/// Where the matrix changes so fast that one kept is soon of no use, most steps are those of [`VelocityHistory`].
 #[derive(Clone, Copy, Debug)]
 pub struct KeptMatrix<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> {
     history: VelocityHistory<S, N>,
     kept: Option<Kept<S, M, N>>,
+    /// Steps that the matrix has served.
+    served: u32,
+    /// Steps to take without one.
+    pause: u32,
+    next_pause: u32,
 }
 
 /// A matrix and the step size that it belongs to.
@@ -41,7 +55,8 @@ struct Kept<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> {
 
 impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Default for KeptMatrix<S, M, N> {
     fn default() -> Self {
-        Self { history: VelocityHistory::default(), kept: None }
+        let [next_pause, _] = PAUSES;
+        Self { history: VelocityHistory::default(), kept: None, served: 0, pause: 0, next_pause }
     }
 }
 
@@ -56,12 +71,18 @@ where
         state: &State<L::Scalar, N>,
         h: L::Scalar,
     ) -> Result<Step<L::Scalar, N>, StepError> {
+        if self.pause > 0 {
+            let step = self.history.advance(system, state, h)?;
+            self.pause -= 1;
+            return Ok(step);
+        }
         if let Some(kept) = &self.kept
             && kept.h == h
-            && let Some(guess) = self.history.extrapolation(h)
+            && let Some(guess) = if L::LINEAR { self.history.latest() } else { self.history.extrapolation(h) }
             && let Some(step) = kept.step(system, state, guess)
         {
             self.history.push(step.velocity, h);
+            self.served = self.served.saturating_add(1);
             if step.report.iterations > STALE {
                 self.renew(system, state, &step, h);
             }
@@ -74,16 +95,26 @@ where
 }
 
 impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> KeptMatrix<S, M, N> {
-    /// Keeps the matrix at the end of the step; none if it cannot be factored.
+    /// Keeps the matrix at the end of the step; none if it cannot be factored, or if the last one was not worth it.
     #[cold]
     #[inline(never)]
     fn renew<L, R>(&mut self, system: &L, state: &State<S, N>, step: &Step<S, N>, h: S)
     where
         L: Discrete<R, N, Scalar = S, Matrix = M>,
     {
-        if L::LINEAR && self.kept.as_ref().is_some_and(|kept| kept.h == h) {
-            return;
+        if self.kept.as_ref().is_some_and(|kept| kept.h == h) {
+            if L::LINEAR {
+                return;
+            }
+            let [shortest, longest] = PAUSES;
+            if self.served < WORTHWHILE {
+                (self.kept, self.pause) = (None, self.next_pause);
+                self.next_pause = (2 * self.next_pause).min(longest);
+                return;
+            }
+            self.next_pause = shortest;
         }
+        self.served = 0;
         let matrix = system.step_kernel(&state.q, &step.velocity, h).matrix;
         self.kept = matrix.factored().map(|factored| Kept { h, matrix, factored });
     }
@@ -115,13 +146,20 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
                 state.require_finite().ok()?;
                 return Some(Step { state, velocity: v, report });
             }
-            let size = weighted(&residual, &weights);
-            if let Some(last) = last_size
-                && !(size <= last * S::constant(CONTRACTION))
-            {
-                return None;
+            if L::LINEAR {
+                // Rounding holds the residual up: the general path has the verdict.
+                if iterations > 0 {
+                    return None;
+                }
+            } else {
+                let size = weighted(&residual, &weights);
+                if let Some(last) = last_size
+                    && !(size <= last * S::constant(CONTRACTION))
+                {
+                    return None;
+                }
+                last_size = Some(size);
             }
-            last_size = Some(size);
             correction = self.factored.solve(&residual);
             v -= correction;
         }

@@ -2,7 +2,7 @@
 
 use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
 
-use crate::pipeline::rayleigh_system::{differentiable, rayleigh_system};
+use crate::pipeline::rayleigh_system::{Runtime, differentiable, rayleigh_system};
 
 /// The messages of the `compile_error!` in the answer, which must be a sequence of items.
 fn messages(answer: &TokenStream) -> Vec<String> {
@@ -21,7 +21,7 @@ fn messages(answer: &TokenStream) -> Vec<String> {
 }
 
 fn system(attribute: &str, item: &str) -> Vec<String> {
-    messages(&rayleigh_system(attribute.parse().unwrap(), item.parse().unwrap()))
+    messages(&rayleigh_system(Runtime::STD, attribute.parse().unwrap(), item.parse().unwrap()))
 }
 
 const SIGNATURE: &str = "(&self, q: [f64; 1], v: [f64; 1]) -> f64";
@@ -71,7 +71,7 @@ fn the_struct_is_named_after_the_function() {
         ("x2y", "struct X2y"),
     ] {
         let item = format!("fn {function}(q: [f64; 1], v: [f64; 1]) -> f64 {{ q[0] * v[0] }}");
-        let answer = rayleigh_system(TokenStream::new(), item.parse().unwrap()).to_string();
+        let answer = rayleigh_system(Runtime::STD, TokenStream::new(), item.parse().unwrap()).to_string();
         assert!(answer.contains(&format!("{name} ;")), "{function}: {answer}");
     }
     let answer = system("", "fn midpoint(q: [f64; 1], v: [f64; 1]) -> f64 { q[0] * v[0] }");
@@ -110,7 +110,7 @@ fn wrong_attributes_say_what_is_right() {
         ("rule = midpoint, rule = midpoint", "rule `midpoint` is listed twice"),
     ] {
         let Ok(tokens) = attribute.parse::<TokenStream>() else { continue };
-        let answer = messages(&rayleigh_system(tokens, item.parse().unwrap()));
+        let answer = messages(&rayleigh_system(Runtime::STD, tokens, item.parse().unwrap()));
         assert_eq!(answer.len(), 1, "{attribute}: {answer:?}");
         assert!(answer[0].starts_with(expected), "{attribute}: {answer:?}");
     }
@@ -146,8 +146,8 @@ fn odd_items_are_answered() {
         // What is no item for syn comes back as it is, beside the message.
         let tokens: TokenStream = item.parse().unwrap();
         for attribute in [TokenStream::new(), quote::quote!(rule = midpoint)] {
-            rayleigh_system(attribute.clone(), tokens.clone());
-            let answer = differentiable(attribute, tokens.clone()).to_string();
+            rayleigh_system(Runtime::STD, attribute.clone(), tokens.clone());
+            let answer = differentiable(Runtime::STD, attribute, tokens.clone()).to_string();
             assert!(answer.contains("compile_error"), "{item}: {answer}");
         }
     }
@@ -271,14 +271,14 @@ fn random_tokens_are_answered() {
     let mut parsed = 0;
     for _ in 0..20_000 {
         let noise = tokens(&mut next, &words, 3);
-        rayleigh_system(noise.clone(), noise.clone());
-        differentiable(TokenStream::new(), noise.clone());
+        rayleigh_system(Runtime::STD, noise.clone(), noise.clone());
+        differentiable(Runtime::STD, TokenStream::new(), noise.clone());
         // As a body, some of it is a program.
         let item =
             quote::quote!(impl System { fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 { #noise } });
         if syn::parse2::<syn::ItemImpl>(item.clone()).is_ok() {
             parsed += 1;
-            messages(&rayleigh_system(TokenStream::new(), item));
+            messages(&rayleigh_system(Runtime::STD, TokenStream::new(), item));
         }
     }
     assert!(parsed > 1_000, "only {parsed} bodies parse: the noise tests nothing");

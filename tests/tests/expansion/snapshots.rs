@@ -7,7 +7,7 @@ use std::path::Path;
 
 use quote::quote;
 
-use crate::pipeline::rayleigh_system::{differentiable, rayleigh_system};
+use crate::pipeline::rayleigh_system::{Runtime, differentiable, rayleigh_system};
 
 fn formatted(tokens: proc_macro2::TokenStream) -> String {
     prettyplease::unparse(&syn::parse2(tokens).expect("the expansion is a sequence of items"))
@@ -30,6 +30,7 @@ fn assert_snapshot(name: &str, actual: &str) {
 #[test]
 fn ring() {
     let expansion = rayleigh_system(
+        Runtime::STD,
         quote!(),
         quote! {
             impl Ring {
@@ -65,10 +66,10 @@ fn double_pendulum() {
             }
         }
     };
-    let expansion = formatted(rayleigh_system(quote!(derivatives = expanded), item.clone()));
+    let expansion = formatted(rayleigh_system(Runtime::STD, quote!(derivatives = expanded), item.clone()));
     assert_snapshot("double_pendulum.rs", &expansion);
     // Equal systems give equal text.
-    assert_eq!(expansion, formatted(rayleigh_system(quote!(derivatives = expanded), item)));
+    assert_eq!(expansion, formatted(rayleigh_system(Runtime::STD, quote!(derivatives = expanded), item)));
 }
 
 /// A system with an input and a time: R needs neither and stands on the system, and so does L; the rest on the view.
@@ -87,9 +88,9 @@ fn driven() {
             }
         }
     };
-    let expansion = rayleigh_system(quote!(), item.clone());
+    let expansion = rayleigh_system(Runtime::STD, quote!(), item.clone());
     assert_snapshot("driven.rs", &formatted(expansion));
-    let expansion = rayleigh_system(quote!(derivatives = num_dual), item);
+    let expansion = rayleigh_system(Runtime::STD, quote!(derivatives = num_dual), item);
     assert_snapshot("driven_by_num_dual.rs", &formatted(expansion));
 }
 
@@ -97,6 +98,7 @@ fn driven() {
 #[test]
 fn sensitivities() {
     let expansion = rayleigh_system(
+        Runtime::STD,
         quote!(parameters = [l, c[0]], step_derivatives = second),
         quote! {
             impl Joint {
@@ -119,6 +121,7 @@ fn sensitivities() {
 #[test]
 fn oscillator_by_num_dual() {
     let expansion = rayleigh_system(
+        Runtime::STD,
         quote!(derivatives = num_dual),
         quote! {
             pub fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
@@ -132,6 +135,7 @@ fn oscillator_by_num_dual() {
 #[test]
 fn oscillator() {
     let expansion = rayleigh_system(
+        Runtime::STD,
         quote!(rule = [midpoint, trapezoidal]),
         quote! {
             /// L and R of a damped oscillator.
@@ -147,6 +151,7 @@ fn oscillator() {
 #[test]
 fn chain() {
     let expansion = rayleigh_system(
+        Runtime::STD,
         quote!(derivatives = expanded),
         quote! {
             impl Chain {
@@ -169,6 +174,7 @@ fn chain() {
 #[test]
 fn linear_oscillators() {
     let expansion = rayleigh_system(
+        Runtime::STD,
         quote!(),
         quote! {
             fn linear(q: [f64; 2], v: [f64; 2], k: f64, c: f64) -> (f64, f64) {
@@ -184,6 +190,7 @@ fn linear_oscillators() {
 #[test]
 fn explicit_ring() {
     let expansion = rayleigh_system(
+        Runtime::STD,
         quote!(rule = trapezoidal),
         quote! {
             impl Ring {
@@ -204,6 +211,7 @@ fn explicit_ring() {
 #[test]
 fn findings_are_documented() {
     let expansion = rayleigh_system(
+        Runtime::STD,
         quote!(),
         quote! {
             fn polar(q: [f64; 3], v: [f64; 3], r: f64) -> (f64, f64) {
@@ -227,6 +235,7 @@ fn findings_are_documented() {
 #[test]
 fn rotation() {
     let expansion = differentiable(
+        Runtime::STD,
         quote!(),
         quote! {
             fn rotation(q: [f64; 2], speed: f64) -> [f64; 2] {
@@ -235,4 +244,26 @@ fn rotation() {
         },
     );
     assert_snapshot("rotation.rs", &formatted(expansion));
+}
+
+#[test]
+fn pendulum_on_core() {
+    let expansion = rayleigh_system(
+        Runtime::CORE,
+        quote!(),
+        quote! {
+            impl Pendulum {
+                fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+                    0.5 * v[0].powi(2) - self.height(q[0])
+                }
+                fn height(&self, angle: f64) -> f64 {
+                    self.g * (1.0 - f64::cos(angle))
+                }
+                fn period(&self) -> f64 {
+                    6.0 / self.g
+                }
+            }
+        },
+    );
+    assert_snapshot("pendulum_on_core.rs", &formatted(expansion));
 }

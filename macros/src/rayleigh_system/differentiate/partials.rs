@@ -295,18 +295,21 @@ fn real_power(graph: &mut Graph, x: Node, n: Node) -> (Option<Node>, Option<Node
     (terms[0], terms[1])
 }
 
-/// y = xⁿ with n depending on q or v, as e^(n ln x).
+/// y = xⁿ with n depending on q or v: by x as if n were constant, by n as e^(n ln x).
 fn power_of_both(graph: &mut Graph, x: Node, n: Node, y: Node) -> Partials {
+    let one = graph.one();
+    let two = graph.constant(2.0);
+    let (less, twice_less) = (graph.minus(n, one), graph.minus(n, two));
+    let [power, next] =
+        [less, twice_less].map(|exponent| graph.node(Operation::Pair(PairFunction::Powf, x, exponent)));
     let log = graph.function(Function::Ln, x);
-    let r = graph.reciprocal(x);
-    let rate = graph.times(n, r);
-    let (by_x, by_n) = (graph.times(y, rate), graph.times(y, log));
-    let (rate_square, bend) = (graph.times(rate, rate), graph.times(rate, r));
-    let xx = graph.minus(rate_square, bend);
-    let product = graph.times(rate, log);
-    let xn = graph.plus(product, r);
-    let nn = graph.times(log, log);
-    let [xx, xn, nn] = [xx, xn, nn].map(|factor| graph.times(y, factor));
+    let (by_x, by_n) = (graph.times(n, power), graph.times(y, log));
+    let falling = graph.times(n, less);
+    let xx = graph.times(falling, next);
+    let product = graph.times(n, by_n);
+    let sum = graph.plus(product, y);
+    let xn = graph.over(sum, x);
+    let nn = graph.times(by_n, log);
     if x == n {
         // xˣ: the sums over both places.
         let first = graph.plus(by_x, by_n);

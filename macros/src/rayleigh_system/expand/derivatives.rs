@@ -1,4 +1,5 @@
-//! Derivatives by num-dual: each function evaluates a twin over dual numbers.
+//! Derivatives by num-dual: each function evaluates a twin over dual numbers, twice named because of two kinds: those that
+//! carry all derivatives, and those that carry the ones of a single pair of variables, for singular points.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -19,15 +20,15 @@ pub fn of_function(system: &System<'_>, part: Part, point: RayleighArguments) ->
         RayleighArguments::ConfigurationAndVelocity => quote!(|q, v| #owner.#over(q, v #(, #after)*)),
     };
     // fn lagrangian_gradient(&self, q: …, v: …) -> Gradient<f64, 2> {
-    //     dual::gradient(q, v, |q, v| self.lagrangian_over(q, v))
+    //     dual::gradient(q, v, |q, v| self.lagrangian_over(q, v), |q, v| self.lagrangian_over(q, v))
     // }
     quote! {
         fn #gradient(&self, q: &Vector, v: &Vector) -> Gradient<#scalar, #n> {
-            dual::gradient(q, v, #closure)
+            dual::gradient(q, v, #closure, #closure)
         }
 
         fn #derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<#scalar, #n> {
-            dual::derivatives::<#scalar, #n, #twice>(q, v, #closure)
+            dual::derivatives::<#scalar, #n, #twice>(q, v, #closure, #closure)
         }
 
         fn #variations(
@@ -37,7 +38,7 @@ pub fn of_function(system: &System<'_>, part: Part, point: RayleighArguments) ->
             minus: Direction<#scalar>,
             plus: Direction<#scalar>,
         ) -> Variations<#scalar, #n> {
-            dual::variations(q, v, minus, plus, #closure)
+            dual::variations(q, v, minus, plus, #closure, #closure)
         }
     }
 }
@@ -49,7 +50,12 @@ pub fn of_force(system: &System<'_>) -> TokenStream {
     let (owner, after) = (owner(system.home_of(Part::Force)), lifted(system, Part::Force));
     quote! {
         fn force_derivatives(&self, q: &Vector, v: &Vector) -> CovectorDerivatives<#scalar, #n> {
-            dual::covector_derivatives::<#scalar, #n, #twice>(q, v, |q, v| #owner.force_over(q, v #(, #after)*))
+            dual::covector_derivatives::<#scalar, #n, #twice>(
+                q,
+                v,
+                |q, v| #owner.force_over(q, v #(, #after)*),
+                |q, v| #owner.force_over(q, v #(, #after)*),
+            )
         }
 
         fn force_variation(
@@ -58,7 +64,13 @@ pub fn of_force(system: &System<'_>) -> TokenStream {
             v: &Vector,
             direction: Direction<#scalar>,
         ) -> (Vector, SMatrix<#scalar, #n, #n>) {
-            dual::covector_variation(q, v, direction, |q, v| #owner.force_over(q, v #(, #after)*))
+            dual::covector_variation(
+                q,
+                v,
+                direction,
+                |q, v| #owner.force_over(q, v #(, #after)*),
+                |q, v| #owner.force_over(q, v #(, #after)*),
+            )
         }
     }
 }

@@ -47,8 +47,8 @@ impl Term {
 /// The rewriting of one function's expressions.
 struct Factoring<'g> {
     graph: &'g mut Graph,
-    /// How many nodes the user wrote.
-    written: usize,
+    /// What stays as it is: the first nodes, and what conditions are made of.
+    kept: HashSet<Node>,
     /// Sums and products used once, by another sum or product: part of it.
     open: HashSet<Node>,
     /// What stands for each node that is not open.
@@ -58,7 +58,8 @@ struct Factoring<'g> {
 }
 
 impl Graph {
-    /// What `outputs` compute, in fewer operations; the first `written` nodes of the graph stay as they are.
+    /// What `outputs` compute, in fewer operations. The first `written` nodes of the graph stay as they are, and so does what
+    /// conditions are made of: they have to choose as the user's function does.
     pub fn factored(&mut self, outputs: &[Node], written: usize) -> Vec<Node> {
         let nodes = self.reachable(outputs.iter().copied());
         let mut uses: HashMap<Node, u32> = HashMap::new();
@@ -66,16 +67,22 @@ impl Graph {
             self.operation(node).arguments().for_each(|argument| *uses.entry(argument).or_default() += 1);
         }
         outputs.iter().for_each(|&output| *uses.entry(output).or_default() += 1);
+        let conditions = nodes
+            .iter()
+            .copied()
+            .filter(|&node| matches!(self.operation(node), Operation::Compare(..) | Operation::Is(..)));
+        let mut kept: HashSet<Node> = self.reachable(conditions).into_iter().collect();
+        kept.extend(nodes.iter().filter(|node| node.index() < written));
         let mut open = HashSet::new();
         for &node in nodes.iter().rev() {
-            if self.is_sum_or_product(node) && (node.index() >= written || open.contains(&node)) {
+            if self.is_sum_or_product(node) && (!kept.contains(&node) || open.contains(&node)) {
                 open.extend(self.operation(node).arguments().filter(|&part| {
                     uses[&part] == 1 && self.is_sum_or_product(part) && self.name(part).is_none()
                 }));
             }
         }
         let mut factoring =
-            Factoring { graph: self, written, open, rewritten: HashMap::new(), products: HashSet::new() };
+            Factoring { graph: self, kept, open, rewritten: HashMap::new(), products: HashSet::new() };
         for node in nodes {
             if !factoring.open.contains(&node) {
                 factoring.rewrite(node);
@@ -95,7 +102,7 @@ impl Graph {
 impl Factoring<'_> {
     /// Rewrites a node whose arguments are rewritten or open.
     fn rewrite(&mut self, node: Node) {
-        let new = if node.index() < self.written {
+        let new = if self.kept.contains(&node) {
             node
         } else if self.graph.is_sum_or_product(node) {
             let terms = self.terms(node);

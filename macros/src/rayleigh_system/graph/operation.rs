@@ -49,6 +49,23 @@ impl Operation {
         }
     }
 
+    /// The argument that a method is called on.
+    pub fn receiver(self) -> Option<Node> {
+        match self {
+            Self::Function(_, x)
+            | Self::Pair(_, x, _)
+            | Self::Power(x, _)
+            | Self::MultiplyAdd(x, ..)
+            | Self::Is(_, x) => Some(x),
+            _ => None,
+        }
+    }
+
+    /// Whether the result is a truth value.
+    pub fn is_truth(self) -> bool {
+        matches!(self, Self::Compare(..) | Self::Is(..) | Self::Not(_) | Self::And(..) | Self::Or(..))
+    }
+
     /// The same operation on other arguments.
     pub fn with_arguments(self, mut of: impl FnMut(Node) -> Node) -> Self {
         match self {

@@ -88,10 +88,19 @@ const _: () = {
             oscillator((*q).into(), (*v).into(), self.m, self.k, self.r).0
         }
         fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
-            dual::gradient(q, v, |q, v| self.lagrangian_over(q, v))
+            dual::gradient(
+                q,
+                v,
+                |q, v| self.lagrangian_over(q, v),
+                |q, v| self.lagrangian_over(q, v),
+            )
         }
         fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
-            dual::derivatives::<f64, 1, 2>(q, v, |q, v| self.lagrangian_over(q, v))
+            dual::derivatives::<
+                f64,
+                1,
+                2,
+            >(q, v, |q, v| self.lagrangian_over(q, v), |q, v| self.lagrangian_over(q, v))
         }
         fn lagrangian_variations(
             &self,
@@ -100,7 +109,14 @@ const _: () = {
             minus: Direction<f64>,
             plus: Direction<f64>,
         ) -> Variations<f64, 1> {
-            dual::variations(q, v, minus, plus, |q, v| self.lagrangian_over(q, v))
+            dual::variations(
+                q,
+                v,
+                minus,
+                plus,
+                |q, v| self.lagrangian_over(q, v),
+                |q, v| self.lagrangian_over(q, v),
+            )
         }
     }
     #[automatically_derived]
@@ -110,10 +126,19 @@ const _: () = {
             oscillator((*q).into(), (*v).into(), self.m, self.k, self.r).1
         }
         fn rayleigh_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
-            dual::gradient(q, v, |q, v| self.rayleigh_over(q, v))
+            dual::gradient(
+                q,
+                v,
+                |q, v| self.rayleigh_over(q, v),
+                |q, v| self.rayleigh_over(q, v),
+            )
         }
         fn rayleigh_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
-            dual::derivatives::<f64, 1, 2>(q, v, |q, v| self.rayleigh_over(q, v))
+            dual::derivatives::<
+                f64,
+                1,
+                2,
+            >(q, v, |q, v| self.rayleigh_over(q, v), |q, v| self.rayleigh_over(q, v))
         }
         fn rayleigh_variations(
             &self,
@@ -122,7 +147,14 @@ const _: () = {
             minus: Direction<f64>,
             plus: Direction<f64>,
         ) -> Variations<f64, 1> {
-            dual::variations(q, v, minus, plus, |q, v| self.rayleigh_over(q, v))
+            dual::variations(
+                q,
+                v,
+                minus,
+                plus,
+                |q, v| self.rayleigh_over(q, v),
+                |q, v| self.rayleigh_over(q, v),
+            )
         }
     }
     #[automatically_derived]

@@ -36,7 +36,7 @@ const _: () = {
             rotation((*q).into(), self.speed).into()
         }
         fn jacobian(&self, q: &Vector) -> SMatrix<f64, 2, 2> {
-            dual::jacobian(q, |q| self.field_over(q))
+            dual::jacobian(q, |q| self.field_over(q), |q| self.field_over(q))
         }
     }
 };

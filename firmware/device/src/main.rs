@@ -1,0 +1,114 @@
+//! Steps each scene 200 times, and reports the bits it ends with, the instructions of a step and the stack used.
+
+#![no_std]
+#![no_main]
+
+#[cfg_attr(target_arch = "arm", path = "arm.rs")]
+#[cfg_attr(target_arch = "riscv32", path = "riscv.rs")]
+mod machine;
+mod report;
+
+use core::hint::black_box;
+use core::panic::PanicInfo;
+use core::ptr;
+
+use dalembert::{Discrete, Elementary, Midpoint, State, Trajectory};
+use firmware_scenes::{STEPS, digest, double, single};
+use report::Line;
+
+/// What an unused word of the stack holds.
+const PAINT: u32 = 0xa5c3_96e1;
+
+unsafe extern "C" {
+    /// Defined nowhere: a program with a panic in it does not link.
+    fn a_panic_is_left_in_the_program() -> !;
+    static stack_limit: u32;
+    static stack_top: u32;
+}
+
+#[panic_handler]
+fn panic(_: &PanicInfo) -> ! {
+    // SAFETY: never linked, hence never called.
+    unsafe { a_panic_is_left_in_the_program() }
+}
+
+/// Bytes of the stack below `stack_top` that were ever written.
+fn stack_used() -> u32 {
+    let (limit, top) = (&raw const stack_limit, &raw const stack_top);
+    let mut word = limit;
+    // SAFETY: words of the stack's memory, between the two symbols of the linker script.
+    while word < top && unsafe { ptr::read_volatile(word) } == PAINT {
+        // SAFETY: as above.
+        word = unsafe { word.add(1) };
+    }
+    (top as usize - word as usize) as u32
+}
+
+/// Steps `system` from `start` and reports; false where a step failed.
+fn run<L, S>(name: &str, counter: &machine::Counter, system: &L, start: State<S, 2>, h: S) -> bool
+where
+    L: Discrete<Midpoint, 2, Scalar = S>,
+    S: Elementary,
+{
+    let mut trajectory = Trajectory::new(system, Midpoint, h, start);
+    let (mut sum, mut worst, mut iterations, mut hash) = (0, 0, 0, 0);
+    let mut succeeded = true;
+    for _ in 0..STEPS {
+        let mut step = None;
+        let instructions = counter.instructions(|| step = black_box(&mut trajectory).next());
+        sum += instructions;
+        worst = worst.max(instructions);
+        match step {
+            Some(Ok(step)) => {
+                iterations += step.report.iterations;
+                hash = digest(hash, &step.state);
+            }
+            _ => succeeded = false,
+        }
+    }
+    let line = Line::new("scene").word(name).bits(hash);
+    line.number(sum / STEPS).number(worst).number(iterations).write();
+    // What a step is made of.
+    let (q, v) = (black_box(start.q), black_box(trajectory.state().p));
+    let part = |part: &str, work: &dyn Fn()| {
+        Line::new("part").word(name).word(part).number(counter.instructions(work)).write();
+    };
+    part("sin_cos", &|| _ = black_box(Elementary::sin_cos(q[0])));
+    part("step_kernel", &|| _ = black_box(system.step_kernel(&q, &v, h)));
+    part("momenta", &|| _ = black_box(system.momenta(&q, &v, h)));
+    // What a failing step costs, and its stack: no state is near, and none is a number.
+    for q in [S::constant(1e30), S::constant(f64::NAN)] {
+        let mut start = start;
+        start.q[0] = q;
+        start.p[0] = S::constant(1e25);
+        let instructions =
+            counter.instructions(|| _ = black_box(system.step(&start, S::constant(1e20), None)));
+        Line::new("failing").word(name).number(instructions).write();
+    }
+    succeeded
+}
+
+/// Called by the start-up code.
+#[unsafe(no_mangle)]
+pub extern "C" fn start() -> ! {
+    let counter = machine::Counter::new();
+    let mut succeeded = true;
+    macro_rules! scene {
+        ($name:literal $module:ident $system:ident) => {
+            let system = black_box($module::$system::SCENE);
+            succeeded &= match system.start() {
+                Ok(start) => run($name, &counter, &system, start, $module::$system::STEP),
+                Err(_) => false,
+            };
+        };
+    }
+    scene!("double_pendulum_f32" single DoublePendulum);
+    scene!("cart_pole_f32" single CartPole);
+    Line::new("stack").word("f32").number(stack_used()).write();
+    scene!("double_pendulum_f64" double DoublePendulum);
+    scene!("cart_pole_f64" double CartPole);
+    Line::new("stack").word("f64").number(stack_used()).write();
+    #[cfg(feature = "may-panic")]
+    Line::new("control").number([1, 2, 3][stack_used() as usize]).write();
+    machine::exit(if succeeded { 0 } else { 2 })
+}

@@ -1,0 +1,35 @@
+//! Links only if no step can panic: its panic handler calls a function that does not exist.
+//!
+//! A handler that nothing reaches is left out of the program, and its call with it. Steps of n = 1…8 coordinates in `f64` and
+//! `f32`, by both rules, with and without a guess, alone and in a trajectory, with dense mass matrices, friction and a general
+//! force. `firmware/no_panic/run` builds it at opt-level 3 and s, and with the feature `may-panic`, which must fail.
+
+#![no_std]
+#![no_main]
+
+mod systems;
+
+use core::hint::black_box;
+use core::panic::PanicInfo;
+
+// Start-up code and `memcpy` are the C library's.
+#[link(name = "c")]
+unsafe extern "C" {
+    /// Defined nowhere.
+    fn a_panic_is_left_in_the_program() -> !;
+}
+
+#[panic_handler]
+fn panic(_: &PanicInfo) -> ! {
+    // SAFETY: never linked, hence never called.
+    unsafe { a_panic_is_left_in_the_program() }
+}
+
+/// What the C runtime calls.
+#[unsafe(no_mangle)]
+pub extern "C" fn main() -> i32 {
+    let failed = systems::step_all();
+    #[cfg(feature = "may-panic")]
+    let failed = failed + [1, 2, 3][black_box(failed) as usize];
+    black_box(failed)
+}

@@ -1,0 +1,180 @@
+//! Derivatives of functions of (q, v): seeds in, parts out.
+//!
+//! Each takes the function twice, once for each kind of number: with all derivatives at once, and with those of one pair of
+//! variables, for points where some of the former are not numbers (see [`singular`]).
+
+use core::array;
+
+use nalgebra::{SMatrix, SVector};
+use num_dual::{Derivative, DualSVec};
+
+use super::primitive::Primitive;
+use super::singular::{self, Alone, AloneFirst, has_nan};
+use super::{HyperDualSVec, Part, Real};
+use crate::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
+
+/// First derivatives by M seeds.
+pub(super) type First<F, const M: usize> = DualSVec<F, M>;
+
+/// First derivatives by two families of M seeds, and the mixed second ones.
+pub(super) type Second<F, const M: usize> = HyperDualSVec<F, M, M>;
+
+/// `factor` in entry `index`, zero elsewhere.
+#[inline(always)]
+pub(super) fn seed<F: Primitive, const R: usize, const C: usize>(index: usize, factor: F) -> Part<F, R, C> {
+    let mut entries = SMatrix::zeros();
+    entries[index] = factor;
+    Derivative(Some(entries))
+}
+
+#[inline(always)]
+pub(super) fn first<F: Primitive, const M: usize>(value: F, index: usize, factor: F) -> Real<First<F, M>> {
+    Real(DualSVec { re: value, eps: seed(index, factor) })
+}
+
+#[inline(always)]
+pub(super) fn second<F: Primitive, const M: usize>(
+    value: F,
+    eps1: Part<F, M, 1>,
+    eps2: Part<F, 1, M>,
+) -> Real<Second<F, M>> {
+    Real(HyperDualSVec { re: value, eps1, eps2, eps1eps2: Derivative(None) })
+}
+
+/// The entries, zeros where absent.
+#[inline(always)]
+pub(super) fn entries<F: Primitive, const R: usize, const C: usize>(part: Part<F, R, C>) -> SMatrix<F, R, C> {
+    part.0.unwrap_or_else(SMatrix::zeros)
+}
+
+/// Value, ∂f/∂q and ∂f/∂v of `f`.
+///
+/// q is seeded in the first part and v in the second, so that what depends on one alone carries N derivatives and not 2N;
+/// the mixed part is not read, and so not computed.
+#[inline]
+pub fn gradient<F: Primitive, const N: usize>(
+    q: &SVector<F, N>,
+    v: &SVector<F, N>,
+    f: impl Fn([Real<Second<F, N>>; N], [Real<Second<F, N>>; N]) -> Real<Second<F, N>>,
+    alone: impl Fn([Real<Alone<F>>; N], [Real<Alone<F>>; N]) -> Real<Alone<F>>,
+) -> Gradient<F, N> {
+    let one = nalgebra::one();
+    let qs = array::from_fn(|i| second(q[i], seed(i, one), Derivative(None)));
+    let vs = array::from_fn(|i| second(v[i], Derivative(None), seed(i, one)));
+    let f = f(qs, vs).0;
+    let (d1, d2) = (entries(f.eps1), entries(f.eps2).transpose());
+    if has_nan(&d1) || has_nan(&d2) {
+        return singular::gradient(q, v, alone);
+    }
+    Gradient { value: f.re, d1, d2 }
+}
+
+/// Value, first and second derivatives of `f`; M = 2N.
+#[inline]
+pub fn derivatives<F: Primitive, const N: usize, const M: usize>(
+    q: &SVector<F, N>,
+    v: &SVector<F, N>,
+    f: impl Fn([Real<Second<F, M>>; N], [Real<Second<F, M>>; N]) -> Real<Second<F, M>>,
+    alone: impl Fn([Real<Alone<F>>; N], [Real<Alone<F>>; N]) -> Real<Alone<F>>,
+) -> Derivatives<F, N> {
+    const { assert!(M == 2 * N) };
+    let one = nalgebra::one();
+    let qs = array::from_fn(|i| second(q[i], seed(i, one), seed(i, one)));
+    let vs = array::from_fn(|i| second(v[i], seed(N + i, one), seed(N + i, one)));
+    let f = f(qs, vs).0;
+    let (mut first, mut second) = (entries(f.eps1), entries(f.eps1eps2));
+    if has_nan(&first) || has_nan(&second) {
+        (first, second) = singular::derivatives(q, v, alone);
+    }
+    Derivatives {
+        value: f.re,
+        d1: block(&first, 0, 0),
+        d2: block(&first, N, 0),
+        d11: block(&second, 0, 0),
+        d12: block(&second, 0, N),
+        d22: block(&second, N, N),
+    }
+}
+
+/// Derivatives of `f` along `minus` and `plus`, and the mixed one.
+#[inline]
+pub fn variations<F: Primitive, const N: usize>(
+    q: &SVector<F, N>,
+    v: &SVector<F, N>,
+    minus: Direction<F>,
+    plus: Direction<F>,
+    f: impl Fn([Real<Second<F, N>>; N], [Real<Second<F, N>>; N]) -> Real<Second<F, N>>,
+    alone: impl Fn([Real<Alone<F>>; N], [Real<Alone<F>>; N]) -> Real<Alone<F>>,
+) -> Variations<F, N> {
+    let qs = array::from_fn(|i| second(q[i], seed(i, minus.first), seed(i, plus.first)));
+    let vs = array::from_fn(|i| second(v[i], seed(i, minus.second), seed(i, plus.second)));
+    let f = f(qs, vs).0;
+    let (by_minus, by_plus, mixed) = (entries(f.eps1), entries(f.eps2).transpose(), entries(f.eps1eps2));
+    if has_nan(&by_minus) || has_nan(&by_plus) || has_nan(&mixed) {
+        return singular::variations(q, v, minus, plus, alone);
+    }
+    Variations { minus: by_minus, plus: by_plus, mixed }
+}
+
+/// Value and Jacobians of the covector-valued `f`; M = 2N.
+#[inline]
+pub fn covector_derivatives<F: Primitive, const N: usize, const M: usize>(
+    q: &SVector<F, N>,
+    v: &SVector<F, N>,
+    f: impl Fn([Real<First<F, M>>; N], [Real<First<F, M>>; N]) -> [Real<First<F, M>>; N],
+    alone: impl Fn([Real<AloneFirst<F>>; N], [Real<AloneFirst<F>>; N]) -> [Real<AloneFirst<F>>; N],
+) -> CovectorDerivatives<F, N> {
+    const { assert!(M == 2 * N) };
+    let one = nalgebra::one();
+    let f = f(array::from_fn(|i| first(q[i], i, one)), array::from_fn(|i| first(v[i], N + i, one)));
+    let rows = f.map(|component| entries(component.0.eps));
+    let mut d1 = SMatrix::from_fn(|i, j| rows[i][j]);
+    let mut d2 = SMatrix::from_fn(|i, j| rows[i][N + j]);
+    if has_nan(&d1) || has_nan(&d2) {
+        (d1, d2) = singular::covector_derivatives(q, v, alone);
+    }
+    CovectorDerivatives { value: SVector::from_fn(|i, _| f[i].0.re), d1, d2 }
+}
+
+/// Value of the covector-valued `f` and its derivative along `direction`.
+#[inline]
+pub fn covector_variation<F: Primitive, const N: usize>(
+    q: &SVector<F, N>,
+    v: &SVector<F, N>,
+    direction: Direction<F>,
+    f: impl Fn([Real<First<F, N>>; N], [Real<First<F, N>>; N]) -> [Real<First<F, N>>; N],
+    alone: impl Fn([Real<AloneFirst<F>>; N], [Real<AloneFirst<F>>; N]) -> [Real<AloneFirst<F>>; N],
+) -> (SVector<F, N>, SMatrix<F, N, N>) {
+    let qs = array::from_fn(|i| first(q[i], i, direction.first));
+    let vs = array::from_fn(|i| first(v[i], i, direction.second));
+    let f = f(qs, vs);
+    let rows = f.map(|component| entries(component.0.eps));
+    let mut along = SMatrix::from_fn(|i, j| rows[i][j]);
+    if has_nan(&along) {
+        along = singular::covector_variation(q, v, direction, alone);
+    }
+    (SVector::from_fn(|i, _| f[i].0.re), along)
+}
+
+/// The block of `matrix` that starts at (`row`, `column`).
+#[inline(always)]
+pub(super) fn block<F: Primitive, const R: usize, const C: usize, const A: usize, const B: usize>(
+    matrix: &SMatrix<F, A, B>,
+    row: usize,
+    column: usize,
+) -> SMatrix<F, R, C> {
+    SMatrix::from_fn(|i, j| matrix[(row + i, column + j)])
+}
+
+/// The derivative of the covector-valued `f` by the input u, q and v held.
+#[inline]
+pub fn by_input<F: Primitive, const N: usize, const M: usize>(
+    q: &SVector<F, N>,
+    v: &SVector<F, N>,
+    u: &[F; M],
+    f: impl Fn([Real<First<F, M>>; N], [Real<First<F, M>>; N], [Real<First<F, M>>; M]) -> [Real<First<F, M>>; N],
+) -> SMatrix<F, N, M> {
+    let [q, v] = [q, v].map(|vector| array::from_fn(|i| Real(DualSVec::from_re(vector[i]))));
+    let rows = f(q, v, array::from_fn(|j| first(u[j], j, nalgebra::one()))).map(|row| entries(row.0.eps));
+    SMatrix::from_fn(|i, j| rows[i][j])
+}

@@ -1,0 +1,145 @@
+//! Elementary functions of `f64` and `f32`: the platform's, or the same on every machine.
+//!
+//! | features | functions |
+//! |---|---|
+//! | `std` | those of the standard library |
+//! | `std` and `libm` | those of the next row, so that a host repeats a microcontroller bit by bit |
+//! | without `std` | those of the crate libm; for `f32`, where libm computes in `f64`, those of `elementary/single.rs` |
+//!
+//! Everything that this crate evaluates (generated systems, dual numbers) takes its elementary functions from here.
+
+use crate::Scalar;
+
+#[cfg(all(feature = "std", not(feature = "libm")))]
+mod platform;
+#[cfg(any(not(feature = "std"), feature = "libm"))]
+mod portable;
+#[cfg(any(test, not(feature = "std"), feature = "libm"))]
+mod single;
+
+/// Calls `$continue!` with every elementary function that the standard library has and `core` has not.
+macro_rules! functions {
+    ($continue:ident!($($first:tt)*)) => {
+        $continue! { $($first)*
+            /// √x, rounded correctly.
+            sqrt()
+            /// ∛x.
+            cbrt()
+            /// eˣ.
+            exp()
+            /// 2ˣ.
+            exp2()
+            /// eˣ − 1.
+            exp_m1()
+            /// Natural logarithm.
+            ln()
+            /// Logarithm to base 2.
+            log2()
+            /// Logarithm to base 10.
+            log10()
+            /// ln(1 + x).
+            ln_1p()
+            /// Logarithm to any base.
+            log(base: Self)
+            /// Sine.
+            sin()
+            /// Cosine.
+            cos()
+            /// Tangent.
+            tan()
+            /// Arcsine.
+            asin()
+            /// Arccosine.
+            acos()
+            /// Arctangent.
+            atan()
+            /// Hyperbolic sine.
+            sinh()
+            /// Hyperbolic cosine.
+            cosh()
+            /// Hyperbolic tangent.
+            tanh()
+            /// Inverse hyperbolic sine.
+            asinh()
+            /// Inverse hyperbolic cosine.
+            acosh()
+            /// Inverse hyperbolic tangent.
+            atanh()
+            /// xⁿ, n an integer.
+            powi(n: i32)
+            /// xⁿ, n a real number.
+            powf(n: Self)
+            /// Angle of the point (other, self).
+            atan2(other: Self)
+            /// √(self² + other²), without overflow on the way.
+            hypot(other: Self)
+            /// self·a + b, rounded once.
+            mul_add(a: Self, b: Self)
+        }
+    };
+}
+
+macro_rules! elementary {
+    ($($(#[$doc:meta])* $name:ident($($argument:ident: $type:tt),*))*) => {
+        /// The elementary functions of the scalar types, under the names of the standard library.
+        ///
+        /// With `std`, methods of `f64` and `f32` come before those of a trait, and `x.sin()` is the standard library's. Without,
+        /// import this trait and `x.sin()` is here. `Elementary::sin(x)` is the one that generated systems evaluate, in any case.
+        pub trait Elementary: Scalar {
+            $(
+                $(#[$doc])*
+                #[must_use]
+                fn $name(self $(, $argument: $type)*) -> Self;
+            )*
+
+            /// Sine and cosine, the same numbers as [`sin`](Self::sin) and [`cos`](Self::cos) give.
+            #[must_use]
+            fn sin_cos(self) -> (Self, Self);
+
+            /// The number with the methods of this trait, and none of its own that go by the same names.
+            #[doc(hidden)]
+            #[inline(always)]
+            fn elementary(self) -> Chosen<Self> {
+                Chosen(self)
+            }
+        }
+
+        impl<S: Elementary> Chosen<S> {
+            $(
+                $(#[$doc])*
+                #[inline(always)]
+                #[must_use]
+                pub fn $name(self $(, $argument: arguments!(S $type))*) -> S {
+                    Elementary::$name(self.0 $(, $argument)*)
+                }
+            )*
+
+            /// Sine and cosine.
+            #[inline(always)]
+            #[must_use]
+            pub fn sin_cos(self) -> (S, S) {
+                Elementary::sin_cos(self.0)
+            }
+        }
+    };
+}
+
+/// `Self` of the trait is the scalar.
+macro_rules! arguments {
+    ($scalar:ident Self) => {
+        $scalar
+    };
+    ($scalar:ident $type:tt) => {
+        $type
+    };
+}
+
+/// What `x.sin()` of a body becomes where it must not be the standard library's: `x.elementary().sin()`.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub struct Chosen<S>(S);
+
+functions!(elementary!());
+
+#[cfg(all(feature = "std", not(feature = "libm")))]
+use functions;

@@ -1,0 +1,24 @@
+//! The functions of the standard library.
+
+use super::Elementary;
+
+macro_rules! platform {
+    ($float:ident: $($(#[$doc:meta])* $name:ident($($argument:ident: $type:tt),*))*) => {
+        impl Elementary for $float {
+            $(
+                #[inline(always)]
+                fn $name(self $(, $argument: $type)*) -> Self {
+                    $float::$name(self $(, $argument)*)
+                }
+            )*
+
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                $float::sin_cos(self)
+            }
+        }
+    };
+}
+
+super::functions!(platform!(f64:));
+super::functions!(platform!(f32:));
