@@ -398,3 +398,47 @@ impl<L: Discrete<Midpoint, 1, Scalar = f64>> MomentaOfMidpoint for L {
         [momenta.p0[0], momenta.p1[0]]
     }
 }
+
+/// Linear in v̄ and, but for the time, explicit by the trapezoidal rule: what a run keeps must not keep an old force.
+struct Rocking;
+
+#[dalembert::rayleigh_system(rule = [midpoint, trapezoidal])]
+impl Rocking {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - 2.0 * q[0] * q[0] - q[0] * q[1] - q[1] * q[1]
+    }
+
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        0.1 * v[0] * v[0]
+    }
+
+    fn force(&self, _q: [f64; 2], _v: [f64; 2], u: [f64; 1], t: f64) -> [f64; 2] {
+        [u[0] + (3.0 * t).sin(), t]
+    }
+}
+
+#[test]
+fn a_run_of_a_linear_system_keeps_no_old_force() {
+    fn check<R: Copy>(rule: R)
+    where
+        for<'a> DrivenRocking<'a>: Discrete<R, 2, Scalar = f64>,
+    {
+        let h = 0.1;
+        let mut state = State { q: vector![0.3, -0.2], p: vector![0.1, 0.4] };
+        let view = Rocking.driven([0.5], 0.2);
+        let mut trajectory = Trajectory::new(&view, rule, h, state);
+        for k in 0..30 {
+            let end = trajectory.next().unwrap().unwrap().state;
+            state = Rocking.driven([0.5], 0.2 + h * f64::from(k)).step(&state, h, None).unwrap().state;
+            assert!((end.q - state.q).amax() < 1e-13 && (end.p - state.p).amax() < 1e-13, "step {k}");
+        }
+        // Positive control: the force of the first step, kept, leads elsewhere.
+        let mut held = State { q: vector![0.3, -0.2], p: vector![0.1, 0.4] };
+        for _ in 0..30 {
+            held = view.step(&held, h, None).unwrap().state;
+        }
+        assert!((held.q - state.q).amax() > 0.1);
+    }
+    check(Midpoint);
+    check(Trapezoidal);
+}

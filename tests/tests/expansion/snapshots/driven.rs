@@ -40,35 +40,48 @@ const _: () = {
         CovectorDerivatives, Derivatives, Direction, Discrete, DiscreteDriven,
         DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, DisplacementRule,
         Driven, Force, Gradient, Lagrangian, Midpoint, Momenta, MomentaBy, Rayleigh,
-        StepKernel, Variations, VelocityHistory,
+        StepKernel, Variations,
     };
     type Vector = SVector<f64, 1>;
+    /// Known at compile time:
+    /// - Derivatives are written out.
+    /// - L = T(v) − V(q).
+    /// - The mass matrix ∂²L/∂v² is constant.
+    /// - The damping force −∂R/∂v is linear in v with constant coefficients.
+    /// - By the rule `Midpoint` the Newton matrix changes with the state.
     #[automatically_derived]
     impl Lagrangian<1> for Arm {
         type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::Expanded)
+            .with_constant_mass_matrix()
+            .with_separable_lagrangian()
+            .with_damping(::dalembert::Damping::Linear)
+            .with_newton_matrices(
+                &[::dalembert::NewtonStructure::new("Midpoint", false, 0)],
+            );
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             self.lagrangian((*q).into(), (*v).into())
         }
         #[inline]
         fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
-            let t1 = v[0] * (0.5 * self.m);
+            let m = self.m;
             let (sin_q0, cos_q0) = q[0].sin_cos();
             Gradient {
-                value: v[0] * t1 + cos_q0,
+                value: v[0] * (v[0] * (0.5 * m)) + cos_q0,
                 d1: SVector::from([-sin_q0]),
-                d2: SVector::from([2.0 * t1]),
+                d2: SVector::from([v[0] * m]),
             }
         }
         #[inline]
         fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
             let m = self.m;
-            let t1 = v[0] * (0.5 * m);
             let (sin_q0, cos_q0) = q[0].sin_cos();
             Derivatives {
-                value: v[0] * t1 + cos_q0,
+                value: v[0] * (v[0] * (0.5 * m)) + cos_q0,
                 d1: SVector::from([-sin_q0]),
-                d2: SVector::from([2.0 * t1]),
+                d2: SVector::from([v[0] * m]),
                 d11: SMatrix::from([[-cos_q0]]),
                 d12: SMatrix::from([[0.0]]),
                 d22: SMatrix::from([[m]]),
@@ -84,7 +97,7 @@ const _: () = {
         ) -> Variations<f64, 1> {
             let m = self.m;
             let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1 = 2.0 * (v[0] * (0.5 * m));
+            let t1 = v[0] * m;
             let minus_first = minus.first;
             let minus_second = minus.second;
             let plus_first = plus.first;
@@ -94,7 +107,7 @@ const _: () = {
                 plus: SVector::from([t1 * plus_second - sin_q0 * plus_first]),
                 mixed: SMatrix::from([
                     [
-                        m * (minus_second * plus_second)
+                        plus_second * (m * minus_second)
                             - cos_q0 * (minus_first * plus_first),
                     ],
                 ]),
@@ -104,6 +117,7 @@ const _: () = {
     #[automatically_derived]
     impl Lagrangian<1> for DrivenArm<'_> {
         type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = <Arm as Lagrangian<1>>::STRUCTURE;
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             Lagrangian::lagrangian(self.system, q, v)
@@ -144,21 +158,20 @@ const _: () = {
         }
         #[inline]
         fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 1> {
-            let t1 = v[0] * (0.5 * self.c);
+            let c = self.c;
             Gradient {
-                value: v[0] * t1,
+                value: v[0] * (v[0] * (0.5 * c)),
                 d1: SVector::from([0.0]),
-                d2: SVector::from([2.0 * t1]),
+                d2: SVector::from([v[0] * c]),
             }
         }
         #[inline]
         fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
             let c = self.c;
-            let t1 = v[0] * (0.5 * c);
             Derivatives {
-                value: v[0] * t1,
+                value: v[0] * (v[0] * (0.5 * c)),
                 d1: SVector::from([0.0]),
-                d2: SVector::from([2.0 * t1]),
+                d2: SVector::from([v[0] * c]),
                 d11: SMatrix::from([[0.0]]),
                 d12: SMatrix::from([[0.0]]),
                 d22: SMatrix::from([[c]]),
@@ -175,11 +188,11 @@ const _: () = {
             let c = self.c;
             let minus_second = minus.second;
             let plus_second = plus.second;
-            let t1 = 2.0 * (v[0] * (0.5 * c));
+            let t1 = v[0] * c;
             Variations {
                 minus: SVector::from([minus_second * t1]),
                 plus: SVector::from([plus_second * t1]),
-                mixed: SMatrix::from([[c * (minus_second * plus_second)]]),
+                mixed: SMatrix::from([[plus_second * (c * minus_second)]]),
             }
         }
     }
@@ -223,10 +236,10 @@ const _: () = {
             let t = self.t;
             let u = self.u;
             let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1 = u[0] * self.system.gain;
+            let t1_2 = u[0] * self.system.gain;
             CovectorDerivatives {
-                value: SVector::from([cos_q0 * t1 + (t * Arm::RATE).sin()]),
-                d1: SMatrix::from([[-(t1 * sin_q0)]]),
+                value: SVector::from([cos_q0 * t1_2 + (t * Arm::RATE).sin()]),
+                d1: SMatrix::from([[-(t1_2 * sin_q0)]]),
                 d2: SMatrix::from([[0.0]]),
             }
         }
@@ -240,10 +253,10 @@ const _: () = {
             let t = self.t;
             let u = self.u;
             let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1 = u[0] * self.system.gain;
+            let t1_2 = u[0] * self.system.gain;
             (
-                SVector::from([cos_q0 * t1 + (t * Arm::RATE).sin()]),
-                SMatrix::from([[-(t1 * sin_q0 * direction.first)]]),
+                SVector::from([cos_q0 * t1_2 + (t * Arm::RATE).sin()]),
+                SMatrix::from([[-(sin_q0 * (t1_2 * direction.first))]]),
             )
         }
     }
@@ -269,7 +282,7 @@ const _: () = {
     #[automatically_derived]
     impl Discrete<Midpoint, 1> for DrivenArm<'_> {
         type Matrix = SMatrix<f64, 1, 1>;
-        type Memory = VelocityHistory<f64, 1>;
+        type Memory = ::dalembert::VelocityHistory<f64, 1>;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)
@@ -313,14 +326,15 @@ const _: () = {
             let m = self.system.m;
             let (sin_q0, cos_q0) = q[0].sin_cos();
             let c = self.system.c;
-            let t1 = u[0] * self.system.gain;
+            let t1_2 = u[0] * self.system.gain;
             StepKernel {
                 p0: SVector::from([
-                    2.0 * (v[0] * (0.5 * m)) + 2.0 * (v[0] * (0.5 * c)) * half
-                        - half * (cos_q0 * t1 + (t * Arm::RATE).sin() - sin_q0),
+                    v[0] * m
+                        - half
+                            * (cos_q0 * t1_2 + (t * Arm::RATE).sin() - sin_q0 - v[0] * c),
                 ]),
                 matrix: SMatrix::from([
-                    [m + c * half + cos_q0 * (half * half) + half * (t1 * sin_q0 * half)],
+                    [m + half * (c + half * (cos_q0 + t1_2 * sin_q0))],
                 ]),
             }
         }
@@ -332,13 +346,13 @@ const _: () = {
             let t = self.t + half;
             let u = self.u;
             let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1 = 2.0 * (v[0] * (0.5 * self.system.m));
-            let t2 = 2.0 * (v[0] * (0.5 * self.system.c)) * half;
-            let t3 = half
-                * (cos_q0 * (u[0] * self.system.gain) + (t * Arm::RATE).sin() - sin_q0);
+            let t1_2 = v[0] * self.system.m;
+            let t2 = half
+                * (cos_q0 * (u[0] * self.system.gain) + (t * Arm::RATE).sin() - sin_q0
+                    - v[0] * self.system.c);
             Momenta {
-                p0: SVector::from([t1 + t2 - t3]),
-                p1: SVector::from([t1 - t2 + t3]),
+                p0: SVector::from([t1_2 - t2]),
+                p1: SVector::from([t1_2 + t2]),
             }
         }
         /// E_L on the segment.

@@ -82,21 +82,36 @@ const _: () = {
         CovectorDerivatives, Derivatives, Direction, Discrete, DiscreteDriven,
         DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, DisplacementRule,
         Driven, Force, Gradient, Lagrangian, Midpoint, Momenta, MomentaBy, Rayleigh,
-        StepKernel, Variations, VelocityHistory, dual,
+        StepKernel, Variations, dual,
     };
     type Vector = SVector<f64, 1>;
+    /// Known at compile time:
+    /// - Derivatives are made by dual numbers, as asked.
     #[automatically_derived]
     impl Lagrangian<1> for Arm {
         type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::NumDual {
+                refusal: ::core::option::Option::None,
+            });
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             self.lagrangian((*q).into(), (*v).into())
         }
         fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
-            dual::gradient(q, v, |q, v| self.lagrangian_over(q, v))
+            dual::gradient(
+                q,
+                v,
+                |q, v| self.lagrangian_over(q, v),
+                |q, v| self.lagrangian_over(q, v),
+            )
         }
         fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
-            dual::derivatives::<f64, 1, 2>(q, v, |q, v| self.lagrangian_over(q, v))
+            dual::derivatives::<
+                f64,
+                1,
+                2,
+            >(q, v, |q, v| self.lagrangian_over(q, v), |q, v| self.lagrangian_over(q, v))
         }
         fn lagrangian_variations(
             &self,
@@ -105,12 +120,20 @@ const _: () = {
             minus: Direction<f64>,
             plus: Direction<f64>,
         ) -> Variations<f64, 1> {
-            dual::variations(q, v, minus, plus, |q, v| self.lagrangian_over(q, v))
+            dual::variations(
+                q,
+                v,
+                minus,
+                plus,
+                |q, v| self.lagrangian_over(q, v),
+                |q, v| self.lagrangian_over(q, v),
+            )
         }
     }
     #[automatically_derived]
     impl Lagrangian<1> for DrivenArm<'_> {
         type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = <Arm as Lagrangian<1>>::STRUCTURE;
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             Lagrangian::lagrangian(self.system, q, v)
@@ -150,10 +173,19 @@ const _: () = {
             self.rayleigh((*v).into())
         }
         fn rayleigh_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
-            dual::gradient(q, v, |_, v| self.rayleigh_over(v))
+            dual::gradient(
+                q,
+                v,
+                |_, v| self.rayleigh_over(v),
+                |_, v| self.rayleigh_over(v),
+            )
         }
         fn rayleigh_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
-            dual::derivatives::<f64, 1, 2>(q, v, |_, v| self.rayleigh_over(v))
+            dual::derivatives::<
+                f64,
+                1,
+                2,
+            >(q, v, |_, v| self.rayleigh_over(v), |_, v| self.rayleigh_over(v))
         }
         fn rayleigh_variations(
             &self,
@@ -162,7 +194,14 @@ const _: () = {
             minus: Direction<f64>,
             plus: Direction<f64>,
         ) -> Variations<f64, 1> {
-            dual::variations(q, v, minus, plus, |_, v| self.rayleigh_over(v))
+            dual::variations(
+                q,
+                v,
+                minus,
+                plus,
+                |_, v| self.rayleigh_over(v),
+                |_, v| self.rayleigh_over(v),
+            )
         }
     }
     #[automatically_derived]
@@ -211,6 +250,9 @@ const _: () = {
                 |q, v| {
                     self.system.force_over(q, v, dual::lift(self.u), dual::lift(self.t))
                 },
+                |q, v| {
+                    self.system.force_over(q, v, dual::lift(self.u), dual::lift(self.t))
+                },
             )
         }
         fn force_variation(
@@ -223,6 +265,9 @@ const _: () = {
                 q,
                 v,
                 direction,
+                |q, v| {
+                    self.system.force_over(q, v, dual::lift(self.u), dual::lift(self.t))
+                },
                 |q, v| {
                     self.system.force_over(q, v, dual::lift(self.u), dual::lift(self.t))
                 },
@@ -255,7 +300,7 @@ const _: () = {
     #[automatically_derived]
     impl Discrete<Midpoint, 1> for DrivenArm<'_> {
         type Matrix = SMatrix<f64, 1, 1>;
-        type Memory = VelocityHistory<f64, 1>;
+        type Memory = ::dalembert::VelocityHistory<f64, 1>;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)

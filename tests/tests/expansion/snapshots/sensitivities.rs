@@ -35,12 +35,24 @@ const _: () = {
         DiscreteForce, DiscreteForceDerivatives, DiscreteParameters, DiscreteRayleigh,
         DiscreteSecondOrder, DisplacementRule, Driven, Force, Gradient, GradientBy,
         Hessian, Lagrangian, Midpoint, Momenta, MomentaBy, Parameters, Rayleigh,
-        SecondOrder, StepKernel, Variations, VelocityHistory,
+        SecondOrder, StepKernel, Variations,
     };
     type Vector = SVector<f64, 1>;
+    /// Known at compile time:
+    /// - Derivatives are written out.
+    /// - L = T(v) − V(q).
+    /// - The damping force −∂R/∂v is not linear in v.
+    /// - By the rule `Midpoint` the Newton matrix changes with the state.
     #[automatically_derived]
     impl Lagrangian<1> for Joint {
         type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::Expanded)
+            .with_separable_lagrangian()
+            .with_damping(::dalembert::Damping::Nonlinear)
+            .with_newton_matrices(
+                &[::dalembert::NewtonStructure::new("Midpoint", false, 0)],
+            );
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             self.lagrangian((*q).into(), (*v).into())
@@ -48,28 +60,26 @@ const _: () = {
         #[inline]
         fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
             let l = self.l;
-            let t1 = v[0] * (l * (0.5 * l));
             let (sin_q0, cos_q0) = q[0].sin_cos();
             Gradient {
-                value: v[0] * t1 + l * cos_q0,
+                value: v[0] * (v[0] * (l * (0.5 * l))) + l * cos_q0,
                 d1: SVector::from([-(l * sin_q0)]),
-                d2: SVector::from([2.0 * t1]),
+                d2: SVector::from([v[0] * (l * l)]),
             }
         }
         #[inline]
         fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
             let l = self.l;
-            let t1 = l * (0.5 * l);
-            let t2 = v[0] * t1;
             let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t3 = l * cos_q0;
+            let t1 = l * cos_q0;
+            let l_squared = l * l;
             Derivatives {
-                value: v[0] * t2 + t3,
+                value: v[0] * (v[0] * (l * (0.5 * l))) + t1,
                 d1: SVector::from([-(l * sin_q0)]),
-                d2: SVector::from([2.0 * t2]),
-                d11: SMatrix::from([[-t3]]),
+                d2: SVector::from([v[0] * l_squared]),
+                d11: SMatrix::from([[-t1]]),
                 d12: SMatrix::from([[0.0]]),
-                d22: SMatrix::from([[2.0 * t1]]),
+                d22: SMatrix::from([[l_squared]]),
             }
         }
         #[inline]
@@ -81,21 +91,21 @@ const _: () = {
             plus: Direction<f64>,
         ) -> Variations<f64, 1> {
             let l = self.l;
-            let t1 = l * (0.5 * l);
             let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t2 = l * sin_q0;
-            let t3 = 2.0 * (v[0] * t1);
+            let t1 = l * sin_q0;
+            let t2 = v[0] * (l * l);
             let minus_first = minus.first;
             let minus_second = minus.second;
             let plus_first = plus.first;
             let plus_second = plus.second;
             Variations {
-                minus: SVector::from([t3 * minus_second - t2 * minus_first]),
-                plus: SVector::from([t3 * plus_second - t2 * plus_first]),
+                minus: SVector::from([t2 * minus_second - t1 * minus_first]),
+                plus: SVector::from([t2 * plus_second - t1 * plus_first]),
                 mixed: SMatrix::from([
                     [
-                        2.0 * t1 * (minus_second * plus_second)
-                            - l * cos_q0 * (minus_first * plus_first),
+                        l
+                            * (l * (minus_second * plus_second)
+                                - cos_q0 * (minus_first * plus_first)),
                     ],
                 ]),
             }
@@ -104,6 +114,7 @@ const _: () = {
     #[automatically_derived]
     impl Lagrangian<1> for DrivenJoint<'_> {
         type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = <Joint as Lagrangian<1>>::STRUCTURE;
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             Lagrangian::lagrangian(self.system, q, v)
@@ -139,7 +150,7 @@ const _: () = {
             Gradient {
                 value: 0.25 * c_0 * v[0].powi(4),
                 d1: SVector::from([0.0]),
-                d2: SVector::from([c_0 * (v[0] * (v[0] * v[0]))]),
+                d2: SVector::from([v[0] * (v[0] * (c_0 * v[0]))]),
             }
         }
         #[inline]
@@ -149,10 +160,10 @@ const _: () = {
             Derivatives {
                 value: 0.25 * c_0 * v[0].powi(4),
                 d1: SVector::from([0.0]),
-                d2: SVector::from([c_0 * (v[0] * v0_squared)]),
+                d2: SVector::from([v0_squared * (c_0 * v[0])]),
                 d11: SMatrix::from([[0.0]]),
                 d12: SMatrix::from([[0.0]]),
-                d22: SMatrix::from([[3.0 * (c_0 * v0_squared)]]),
+                d22: SMatrix::from([[v0_squared * (3.0 * c_0)]]),
             }
         }
         #[inline]
@@ -167,12 +178,12 @@ const _: () = {
             let v0_squared = v[0] * v[0];
             let minus_second = minus.second;
             let plus_second = plus.second;
-            let t1 = c_0 * (v[0] * v0_squared);
+            let t1 = v0_squared * (c_0 * v[0]);
             Variations {
                 minus: SVector::from([minus_second * t1]),
                 plus: SVector::from([plus_second * t1]),
                 mixed: SMatrix::from([
-                    [minus_second * plus_second * (3.0 * (c_0 * v0_squared))],
+                    [v0_squared * (c_0 * (plus_second * (3.0 * minus_second)))],
                 ]),
             }
         }
@@ -233,7 +244,7 @@ const _: () = {
             let (sin_q0, cos_q0) = q[0].sin_cos();
             (
                 SVector::from([u[0] * cos_q0]),
-                SMatrix::from([[-(u[0] * sin_q0 * direction.first)]]),
+                SMatrix::from([[-(sin_q0 * (u[0] * direction.first))]]),
             )
         }
     }
@@ -259,7 +270,7 @@ const _: () = {
     #[automatically_derived]
     impl Discrete<Midpoint, 1> for DrivenJoint<'_> {
         type Matrix = SMatrix<f64, 1, 1>;
-        type Memory = VelocityHistory<f64, 1>;
+        type Memory = ::dalembert::VelocityHistory<f64, 1>;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)
@@ -301,18 +312,20 @@ const _: () = {
             let u = self.u;
             let l = self.system.l;
             let c_0 = self.system.c[0];
-            let t1 = l * (0.5 * l);
             let (sin_q0, cos_q0) = q[0].sin_cos();
             let v0_squared = v[0] * v[0];
+            let l_squared = l * l;
             StepKernel {
                 p0: SVector::from([
-                    2.0 * (v[0] * t1) + c_0 * (v[0] * v0_squared) * half
-                        - half * (u[0] * cos_q0 - l * sin_q0),
+                    v[0] * l_squared
+                        - half * (u[0] * cos_q0 - l * sin_q0 - v0_squared * (c_0 * v[0])),
                 ]),
                 matrix: SMatrix::from([
                     [
-                        2.0 * t1 + 3.0 * (c_0 * v0_squared) * half
-                            + l * cos_q0 * (half * half) + half * (u[0] * sin_q0 * half),
+                        l_squared
+                            + half
+                                * (v0_squared * (3.0 * c_0)
+                                    + half * (l * cos_q0 + u[0] * sin_q0)),
                     ],
                 ]),
             }
@@ -325,12 +338,13 @@ const _: () = {
             let u = self.u;
             let l = self.system.l;
             let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1 = 2.0 * (v[0] * (l * (0.5 * l)));
-            let t2 = self.system.c[0] * (v[0] * (v[0] * v[0])) * half;
-            let t3 = half * (u[0] * cos_q0 - l * sin_q0);
+            let t1_2 = v[0] * (l * l);
+            let t2 = half
+                * (u[0] * cos_q0 - l * sin_q0
+                    - v[0] * (v[0] * (self.system.c[0] * v[0])));
             Momenta {
-                p0: SVector::from([t1 + t2 - t3]),
-                p1: SVector::from([t1 - t2 + t3]),
+                p0: SVector::from([t1_2 - t2]),
+                p1: SVector::from([t1_2 + t2]),
             }
         }
         /// E_L on the segment.
@@ -365,7 +379,7 @@ const _: () = {
         ) -> GradientBy<f64, 1, 2> {
             GradientBy {
                 d1: SMatrix::from([[-q[0].sin()], [0.0]]),
-                d2: SMatrix::from([[2.0 * (self.system.l * v[0])], [0.0]]),
+                d2: SMatrix::from([[v[0] * (2.0 * self.system.l)], [0.0]]),
             }
         }
         #[inline]
@@ -409,7 +423,7 @@ const _: () = {
             _b: &Vector,
         ) -> Hessian<f64, 1, 1> {
             Hessian {
-                d11: SMatrix::from([[self.system.l * q[0].sin() * a[0]]]),
+                d11: SMatrix::from([[q[0].sin() * (self.system.l * a[0])]]),
                 d12: SMatrix::from([[0.0]]),
                 d22: SMatrix::from([[0.0]]),
                 ..Hessian::zero()
@@ -423,14 +437,10 @@ const _: () = {
             _a: &Vector,
             b: &Vector,
         ) -> Hessian<f64, 1, 1> {
-            let c_0 = self.system.c[0];
-            let t1 = b[0];
             Hessian {
                 d11: SMatrix::from([[0.0]]),
                 d12: SMatrix::from([[0.0]]),
-                d22: SMatrix::from([
-                    [2.0 * (c_0 * (2.0 * v[0] * t1)) + 2.0 * (c_0 * (v[0] * t1))],
-                ]),
+                d22: SMatrix::from([[v[0] * (self.system.c[0] * (6.0 * b[0]))]]),
                 ..Hessian::zero()
             }
         }
@@ -443,12 +453,11 @@ const _: () = {
         ) -> Hessian<f64, 1, 1> {
             let u = self.u;
             let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1 = vector[0];
             Hessian {
-                d11: SMatrix::from([[-(u[0] * cos_q0 * t1)]]),
+                d11: SMatrix::from([[-(cos_q0 * (u[0] * vector[0]))]]),
                 d12: SMatrix::from([[0.0]]),
                 d22: SMatrix::from([[0.0]]),
-                d1u: SMatrix::from([[-(sin_q0 * t1)]]),
+                d1u: SMatrix::from([[-(sin_q0 * vector[0])]]),
                 d2u: SMatrix::from([[0.0]]),
                 duu: SMatrix::from([[0.0]]),
             }
