@@ -336,7 +336,7 @@ impl Code<'_> {
         let mut taken = vec!["q", "v", "h", "half", "q0", "q1", "minus", "plus"];
         // Without a view, u and t are free for the user's own names.
         if self.home == Home::View {
-            taken.extend(["u", "t", "t1"]);
+            taken.extend(["u", "t", "t_end"]);
         }
         taken.extend(parameters);
         let outputs = self.graph.factored(outputs, self.written);

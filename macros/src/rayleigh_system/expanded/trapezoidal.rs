@@ -21,7 +21,7 @@ impl Code<'_> {
         let half = self.graph.written(quote!(half));
         let [q0, q1] = ["q0", "q1"]
             .map(|end| (0..self.n).map(|index| self.graph.entry(end, index)).collect::<Vec<Node>>());
-        let end_time = self.system.timed.any().then(|| self.graph.written(quote!(t1)));
+        let end_time = self.system.timed.any().then(|| self.graph.written(quote!(t_end)));
         let (start, end) = (End { q: q0, t: None }, End { q: q1, t: end_time });
         let (mut p0, mut p1) = (Vec::new(), Vec::new());
         for index in 0..self.n {
@@ -108,11 +108,11 @@ impl Code<'_> {
             quote!(let q1 = [#(#entries),*];)
         });
         let t = line.uses("t").then(|| quote!(let t = self.t;));
-        let t1 = line.uses("t1").then(|| quote!(let t1 = self.t + h;));
+        let t_end = line.uses("t_end").then(|| quote!(let t_end = self.t + h;));
         let unused = unused([
             (q1.is_some() || line.uses("q0"), "q0"),
             (q1.is_some() || line.uses_velocities, "v"),
-            (q1.is_some() || half.is_some() || t1.is_some(), "h"),
+            (q1.is_some() || half.is_some() || t_end.is_some(), "h"),
         ]);
         let statements = &line.statements;
         quote! {
@@ -120,7 +120,7 @@ impl Code<'_> {
             #half
             #q1
             #t
-            #t1
+            #t_end
             #statements
             #result
         }

@@ -236,10 +236,10 @@ const _: () = {
             let t = self.t;
             let u = self.u;
             let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1_2 = u[0] * self.system.gain;
+            let t1 = u[0] * self.system.gain;
             CovectorDerivatives {
-                value: SVector::from([cos_q0 * t1_2 + (t * Arm::RATE).sin()]),
-                d1: SMatrix::from([[-(t1_2 * sin_q0)]]),
+                value: SVector::from([cos_q0 * t1 + (t * Arm::RATE).sin()]),
+                d1: SMatrix::from([[-(t1 * sin_q0)]]),
                 d2: SMatrix::from([[0.0]]),
             }
         }
@@ -253,10 +253,10 @@ const _: () = {
             let t = self.t;
             let u = self.u;
             let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1_2 = u[0] * self.system.gain;
+            let t1 = u[0] * self.system.gain;
             (
-                SVector::from([cos_q0 * t1_2 + (t * Arm::RATE).sin()]),
-                SMatrix::from([[-(sin_q0 * (t1_2 * direction.first))]]),
+                SVector::from([cos_q0 * t1 + (t * Arm::RATE).sin()]),
+                SMatrix::from([[-(sin_q0 * (t1 * direction.first))]]),
             )
         }
     }
@@ -326,16 +326,14 @@ const _: () = {
             let m = self.system.m;
             let (sin_q0, cos_q0) = q[0].sin_cos();
             let c = self.system.c;
-            let t1_2 = u[0] * self.system.gain;
+            let t1 = u[0] * self.system.gain;
             StepKernel {
                 p0: SVector::from([
                     v[0] * m
                         - half
-                            * (cos_q0 * t1_2 + (t * Arm::RATE).sin() - sin_q0 - v[0] * c),
+                            * (cos_q0 * t1 + (t * Arm::RATE).sin() - sin_q0 - v[0] * c),
                 ]),
-                matrix: SMatrix::from([
-                    [m + half * (c + half * (cos_q0 + t1_2 * sin_q0))],
-                ]),
+                matrix: SMatrix::from([[m + half * (c + half * (cos_q0 + t1 * sin_q0))]]),
             }
         }
         /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
@@ -346,13 +344,13 @@ const _: () = {
             let t = self.t + half;
             let u = self.u;
             let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1_2 = v[0] * self.system.m;
+            let t1 = v[0] * self.system.m;
             let t2 = half
                 * (cos_q0 * (u[0] * self.system.gain) + (t * Arm::RATE).sin() - sin_q0
                     - v[0] * self.system.c);
             Momenta {
-                p0: SVector::from([t1_2 - t2]),
-                p1: SVector::from([t1_2 + t2]),
+                p0: SVector::from([t1 - t2]),
+                p1: SVector::from([t1 + t2]),
             }
         }
         /// E_L on the segment.

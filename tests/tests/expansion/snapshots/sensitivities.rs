@@ -338,13 +338,13 @@ const _: () = {
             let u = self.u;
             let l = self.system.l;
             let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1_2 = v[0] * (l * l);
+            let t1 = v[0] * (l * l);
             let t2 = half
                 * (u[0] * cos_q0 - l * sin_q0
                     - v[0] * (v[0] * (self.system.c[0] * v[0])));
             Momenta {
-                p0: SVector::from([t1_2 - t2]),
-                p1: SVector::from([t1_2 + t2]),
+                p0: SVector::from([t1 - t2]),
+                p1: SVector::from([t1 + t2]),
             }
         }
         /// E_L on the segment.
