@@ -1,7 +1,9 @@
-//! What the scenes share: the comparison methods, the style of the pictures, and the ring system written by hand.
+//! What the scenes share: the comparison methods, the controllers, the style of the pictures, and the ring system written
+//! by hand.
 //!
 //! Each scene is one file of `examples/`.
 
 pub mod baseline;
 pub mod by_hand;
+pub mod control;
 pub mod picture;

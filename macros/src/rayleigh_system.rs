@@ -23,6 +23,7 @@ mod rewrite;
 mod scope;
 mod structure;
 mod syntax;
+mod view;
 
 use proc_macro2::TokenStream;
 
@@ -54,9 +55,17 @@ pub fn rayleigh_system(runtime: Runtime, attribute: TokenStream, item: TokenStre
     let Some(source) = parse::source(item.clone(), &mut report) else {
         return fallback::item_alone(item, report);
     };
-    let Some(system) = check::system(&source, options.rules.clone(), &mut report) else {
+    let Some(mut system) = check::system(&source, options.rules.clone(), &mut report) else {
         return fallback::with_stubs(&source, &options.rules, report);
     };
+    system.parameters = options.parameters;
+    system.second = options.second;
+    if let Some(name) = &options.gauss
+        && let Some(lacks) = joint::asked_too_much(&system)
+    {
+        report.at(name, Mistake::JointRule { rule: name.to_string(), lacks });
+        return fallback::with_stubs(&source, &options.rules, report);
+    }
     if !options.joint.is_empty() && report.is_empty() {
         let mut lowered = if options.engine == Engine::NumDual { None } else { lower::system(&system).ok() };
         for (name, rule) in &options.joint {
@@ -68,9 +77,17 @@ pub fn rayleigh_system(runtime: Runtime, attribute: TokenStream, item: TokenStre
             return fallback::with_stubs(&source, &options.rules, report);
         }
     }
-    if options.engine == Engine::Expanded && report.is_empty() {
-        let expansion = lower::system(&system)
-            .and_then(|lowered| expanded::system(&system, lowered, runtime.is_portable));
+    // Parameters are differentiated by nothing else.
+    let is_expanded = options.engine == Engine::Expanded || !system.parameters.is_empty();
+    if is_expanded && report.is_empty() {
+        let lowered = lower::system(&system);
+        if let Ok(lowered) = &lowered {
+            lower::parameters(&system, lowered, &mut report);
+            if !report.is_empty() {
+                return fallback::with_stubs(&source, &options.rules, report);
+            }
+        }
+        let expansion = lowered.and_then(|lowered| expanded::system(&system, lowered, runtime.is_portable));
         return expansion.unwrap_or_else(|refusal| {
             report.at_span(refusal.span, Mistake::NotLowered(refusal.reason));
             fallback::with_stubs(&source, &options.rules, report)

@@ -129,8 +129,8 @@ impl<S: Scalar, const N: usize> CovectorDerivatives<S, N> {
 
 /// Makes a type a vector space: zero, sum and scaling act on every field.
 macro_rules! linear {
-    ($type:ident { $($field:ident),+ }) => {
-        impl<S: $crate::Scalar, const N: usize> $type<S, N> {
+    ($type:ident $(<$($size:ident),+>)? { $($field:ident),+ }) => {
+        impl<S: $crate::Scalar, const N: usize $($(, const $size: usize)+)?> $type<S, N $($(, $size)+)?> {
             /// Zero in every field.
             #[inline]
             #[must_use]
@@ -139,7 +139,9 @@ macro_rules! linear {
             }
         }
 
-        impl<S: $crate::Scalar, const N: usize> core::ops::Add for $type<S, N> {
+        impl<S: $crate::Scalar, const N: usize $($(, const $size: usize)+)?> core::ops::Add
+            for $type<S, N $($(, $size)+)?>
+        {
             type Output = Self;
             #[inline]
             fn add(self, other: Self) -> Self {
@@ -147,7 +149,9 @@ macro_rules! linear {
             }
         }
 
-        impl<S: $crate::Scalar, const N: usize> core::ops::Mul<S> for $type<S, N> {
+        impl<S: $crate::Scalar, const N: usize $($(, const $size: usize)+)?> core::ops::Mul<S>
+            for $type<S, N $($(, $size)+)?>
+        {
             type Output = Self;
             #[inline]
             fn mul(self, factor: S) -> Self {

@@ -114,7 +114,8 @@ pub struct BoundedStep<S, const N: usize> {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not discretised by `{R}`",
     label = "no discrete system by `{R}`",
-    note = "list the rule in the attribute: `#[rayleigh_system(rule = [midpoint, trapezoidal])]`"
+    note = "list the rule in the attribute: `#[rayleigh_system(rule = [midpoint, trapezoidal])]`",
+    note = "a system whose force takes an input is stepped as `system.driven(u)`, one that takes the time as `system.at_time(t)` or `system.driven(u, t)`"
 )]
 pub trait Discrete<R, const N: usize>: Lagrangian<N> {
     /// The form of the Newton matrix: `SMatrix<Scalar, N, N>`, or [`Banded`](crate::Banded).

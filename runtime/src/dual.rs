@@ -11,6 +11,7 @@ mod lift;
 mod operators;
 mod primitive;
 mod real;
+mod second_order;
 mod singular;
 
 use nalgebra::{Const, SMatrix};
@@ -18,13 +19,16 @@ use num_dual::{Derivative, DualNum, DualSVec, HyperDualVec};
 
 use crate::Scalar;
 
-pub use derivatives::{covector_derivatives, covector_variation, derivatives, gradient, variations};
+pub use derivatives::{
+    by_input, covector_derivatives, covector_variation, derivatives, gradient, variations,
+};
 pub use fields::{differential, hessian, jacobian};
 pub use lift::{
     FromInteger, Integer, Lift, Lower, Number, Remainder, Roundable, integer, lift, lower, remainder,
 };
 pub use primitive::Primitive;
 pub use real::Real;
+pub use second_order::{hessian_along, hessian_of_product};
 
 /// A number that carries derivatives, over the scalar `F`: `f64`, `f32` or a num-dual number on them.
 #[diagnostic::on_unimplemented(

@@ -11,6 +11,7 @@ mod certificate;
 mod composition;
 mod derivatives;
 mod discrete;
+mod driven;
 mod elementary;
 mod energy;
 mod error;
@@ -21,8 +22,10 @@ mod linear;
 mod linearization;
 mod memory;
 mod newton;
+mod parameters;
 mod rules;
 mod scalar;
+mod second_order;
 mod state;
 mod structure;
 mod system;
@@ -90,10 +93,62 @@ mod attributes {
 /// |---|---|
 /// | `fn lagrangian(&self, q: [f64; N], v: [f64; N]) -> f64` | L; its array type says N, a number or a constant |
 /// | `fn rayleigh(&self, v: [f64; N]) -> f64`, or `(&self, q, v)` | R, if there is dissipation: the force is −∂R/∂v |
-/// | `fn force(&self, q: [f64; N], v: [f64; N]) -> [f64; N]` | a general force, if there is one |
+/// | `fn force(&self, q: [f64; N], v: [f64; N]) -> [f64; N]` | a general force, if there is one; `(&self, q, v, u: [f64; M])` with an input |
 /// | any other | a helper: differentiated if L, R or the force call it, untouched otherwise |
 ///
 /// `f32` in place of `f64` makes a system in single precision.
+///
+/// Each may take a time `t: f64` after its other parameters.
+///
+/// # Inputs and time
+///
+/// A system whose force takes an input u, or one of whose functions takes the time t, is stepped through a view of it: with
+/// the input held over the step, and with the time at which the step starts. The rule evaluates each of its nodes at that
+/// node's own time, and a [`Trajectory`] of a view carries its time on. Whatever needs neither u nor t, such as L and its
+/// energy here, the system itself has as well.
+///
+/// | the system takes | its view | |
+/// |---|---|---|
+/// | u | `system.driven(u)` | `u` an array or an `SVector` |
+/// | t | `system.at_time(t)` | |
+/// | u and t | `system.driven(u, t)` | |
+///
+/// ```
+/// use dalembert::nalgebra::vector;
+/// use dalembert::{Discrete, Linearization, Midpoint, State, StepError, rayleigh_system};
+///
+/// struct Arm {
+///     c: f64,
+/// }
+///
+/// #[rayleigh_system]
+/// impl Arm {
+///     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+///         0.5 * v[0] * v[0] + q[0].cos()
+///     }
+///     fn rayleigh(&self, v: [f64; 1]) -> f64 {
+///         0.5 * self.c * v[0] * v[0]
+///     }
+///     fn force(&self, _q: [f64; 1], _v: [f64; 1], u: [f64; 1]) -> [f64; 1] {
+///         u
+///     }
+/// }
+///
+/// let (arm, h) = (Arm { c: 0.1 }, 0.01);
+/// let mut state = State::from_velocity(&arm, [0.0], [0.0])?;
+/// for _ in 0..2000 {
+///     let u = 0.5_f64.sin() - 2.0 * (state.q[0] - 0.5) - state.velocity(&arm)?[0];
+///     state = arm.driven([u]).step(&state, h, None)?.state;
+/// }
+/// assert!((state.q[0] - 0.5).abs() < 1e-3);
+///
+/// // A = ∂(q1, p1)/∂(q0, p0) and B = ∂(q1, p1)/∂u of the next step.
+/// let driven = arm.driven([0.5_f64.sin()]);
+/// let next = driven.step(&state, h, None)?.state;
+/// let Linearization { a, b, .. } = Linearization::of_driven_segment(&driven, Midpoint, &state.q, &next.q, h)?;
+/// assert!((a.q_by_p[0] / h - 1.0).abs() < 1e-3 && (b.p[0] / h - 1.0).abs() < 1e-3);
+/// # Ok::<(), StepError>(())
+/// ```
 ///
 /// # Rules
 ///
@@ -101,9 +156,19 @@ mod attributes {
 /// |---|---|---|
 /// | `midpoint` | [`Midpoint`], order 2, self-adjoint | |
 /// | `trapezoidal` | [`Trapezoidal`], order 2, self-adjoint; explicit where L = ½vᵀMv − V(q) | |
+/// | `gauss` | [`Gauss<S>`](Gauss), order 2S for S = 1…8, self-adjoint; for small errors | no dependence on time |
 /// | `fitted` | [`Fitted`], order 2, self-adjoint; does not ring under stiff damping | L = ½vᵀMv − V(q) with constant M, linear damping, no force |
 /// | `fitted_trapezoidal` | [`FittedTrapezoidal`], the same made explicit; exact law of phase volume | as `fitted` |
 /// | `one_sided` | [`OneSided`], order 1; for stiff damping that is not linear, such as dry friction | R(v) convex, no force |
+///
+/// # Options
+///
+/// | option | |
+/// |---|---|
+/// | `rule = midpoint`, `rule = [midpoint, trapezoidal]` | the rules of discretisation; midpoint unless said |
+/// | `derivatives = auto`, `expanded`, `num_dual` | who makes the derivatives; written out where that can be, unless said |
+/// | `parameters = [m, c[0]]` | fields by which the step is differentiated: [`StateBy::of_parameters`]; written out only |
+/// | `step_derivatives = second` | second derivatives of the step: [`StepHessian`] |
 ///
 /// # One free function
 ///
@@ -121,7 +186,8 @@ mod attributes {
 /// assert_eq!(system.energy(&vector![1.0], &vector![0.0]), 4.0);
 /// ```
 ///
-/// `-> (f64, f64)` is (L, R), `-> f64` is L alone.
+/// `-> (f64, f64)` is (L, R), `-> f64` is L alone. Every parameter after v is a field, also one called `t`: systems with an
+/// input or a time are blocks.
 ///
 /// # What bodies may contain
 ///
@@ -183,6 +249,7 @@ pub use discrete::{
     BoundedStep, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Report, Step,
     StepKernel,
 };
+pub use driven::{DiscreteDriven, Driven, MomentaBy};
 pub use elementary::Elementary;
 pub use energy::EnergyLedger;
 pub use error::{Quantity, StepError};
@@ -190,13 +257,15 @@ pub use fields::{ScalarField, VectorField};
 pub use forced::{ForcedLagrangian, Stages};
 pub use lanes::{LaneVector, Lanes, Mask};
 pub use linear::{Banded, Factored, FactoredBand, FactoredDense, NewtonMatrix, Singular};
-pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix};
+pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix, StateBy};
 pub use memory::{Explicit, ExplicitMemory, KeptMatrix, Memory, VelocityHistory};
+pub use parameters::{DiscreteParameters, GradientBy, Parameters};
 pub use rules::{
     DisplacementRule, Fitted, FittedTrapezoidal, Gauss, JointRayleighRule, JointRule, Midpoint, Node,
     OneSided, StageHistory, Trapezoidal,
 };
 pub use scalar::Scalar;
+pub use second_order::{DiscreteSecondOrder, Hessian, SecondOrder, StepHessian};
 pub use state::State;
 pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
 pub use system::{Force, Lagrangian, Rayleigh};

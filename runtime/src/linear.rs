@@ -77,6 +77,25 @@ pub(crate) fn solve<S: Scalar, const N: usize>(
     matrix.solve(right)
 }
 
+/// The inverse of `matrix`, with one elimination.
+pub(crate) fn inverse<S: Scalar, const N: usize>(
+    matrix: &SMatrix<S, N, N>,
+) -> Result<SMatrix<S, N, N>, Singular> {
+    // Up to two coordinates a closed form is less work than the factors.
+    let factored = if N > 2 { Some(dense::factored(matrix)?) } else { None };
+    let mut inverse = SMatrix::<S, N, N>::zeros();
+    for j in 0..N {
+        let mut unit = SVector::<S, N>::zeros();
+        unit[j] = S::one();
+        let column = match &factored {
+            Some(factored) => factored.solve(&unit),
+            None => matrix.solve(&unit)?,
+        };
+        inverse.set_column(j, &column);
+    }
+    Ok(inverse)
+}
+
 /// Says whether `matrix` can be solved with.
 pub(crate) fn require_regular<S: Scalar, const N: usize>(matrix: &SMatrix<S, N, N>) -> Result<(), Singular> {
     matrix.solve(&SVector::zeros()).map(|_| ())

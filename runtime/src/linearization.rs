@@ -16,10 +16,13 @@
 //!
 //! det A = det K10 / det(−K01) = det(D1D2 L_d⁻) / det(D1D2 L_d⁺)      the second form for a Rayleigh force
 //! ```
+//!
+//! The derivative B = ∂(q1, p1)/∂u by an input that is held, and those by parameters, come in the same way: what moves the
+//! momenta by P0 and P1 at fixed configurations moves q1 by −K01⁻¹ P0 and p1 by P1 − K11 K01⁻¹ P0.
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::{Discrete, Momenta, Scalar, StepError, linear};
+use crate::{Discrete, DiscreteDriven, Lagrangian, Momenta, MomentaBy, Scalar, StepError, linear};
 
 /// Both momenta of a segment with their derivatives by its two configurations; see the formulas above.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,12 +52,23 @@ pub struct PhaseMatrix<S, const N: usize> {
     pub p_by_p: SMatrix<S, N, N>,
 }
 
-/// The derivatives of one step.
+/// Derivatives of a state (q1, p1) by M quantities, such as inputs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StateBy<S, const N: usize, const M: usize> {
+    /// ∂q1/∂θ, shape N×M.
+    pub q: SMatrix<S, N, M>,
+    /// ∂p1/∂θ, shape N×M.
+    pub p: SMatrix<S, N, M>,
+}
+
+/// The derivatives of one step; M is the number of inputs, 0 where there are none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Linearization<S, const N: usize> {
+pub struct Linearization<S, const N: usize, const M: usize = 0> {
     /// The step matrix A = ∂(q1, p1)/∂(q0, p0).
     pub a: PhaseMatrix<S, N>,
+    /// B = ∂(q1, p1)/∂u, the input being held over the step.
+    pub b: StateBy<S, N, M>,
 }
 
 impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
@@ -74,12 +88,34 @@ impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
         let l = system.discrete_lagrangian_derivatives(q0, q1, h);
         let f = system.discrete_force_derivatives(q0, q1, h);
         Self {
-            momenta: system.momenta(q0, &((q1 - q0) / h), h),
+            momenta: Momenta { p0: -l.d1 - f.minus.value, p1: l.d2 + f.plus.value },
             p0_by_q0: -l.d11 - f.minus.d1,
             p0_by_q1: -l.d12 - f.minus.d2,
             p1_by_q0: l.d12.transpose() + f.plus.d1,
             p1_by_q1: l.d22 + f.plus.d2,
         }
+    }
+}
+
+impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
+    /// What (q1, p1) makes of quantities that move the momenta by `momenta` at fixed configurations, (q0, p0) being held.
+    ///
+    /// # Errors
+    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular.
+    pub fn answer<const M: usize>(
+        &self,
+        momenta: &MomentaBy<S, N, M>,
+    ) -> Result<StateBy<S, N, M>, StepError> {
+        Ok(self.answer_with(&inverse(&self.p0_by_q1)?, momenta))
+    }
+
+    fn answer_with<const M: usize>(
+        &self,
+        q_by_p: &SMatrix<S, N, N>,
+        momenta: &MomentaBy<S, N, M>,
+    ) -> StateBy<S, N, M> {
+        let q = -(q_by_p * momenta.p0);
+        StateBy { q, p: momenta.p1 + self.p1_by_q1 * q }
     }
 }
 
@@ -122,6 +158,66 @@ impl<S: Scalar, const N: usize> Linearization<S, N> {
     /// # Errors
     /// Those of [`of_segment`](Self::of_segment).
     pub fn from_legendre(k: &LegendreDerivatives<S, N>) -> Result<Self, StepError> {
+        Self::with_input(k, &MomentaBy::zero())
+    }
+}
+
+impl<S: Scalar, const N: usize, const M: usize> Linearization<S, N, M> {
+    /// The step matrix and the derivative by the input of `system`, which holds it: A and B of
+    /// (q1, p1) ≈ … + A (q0, p0) + B u on the segment (`q0`, `q1`).
+    ///
+    /// ```
+    /// use dalembert::nalgebra::vector;
+    /// use dalembert::{Discrete, Linearization, Midpoint, State, rayleigh_system};
+    ///
+    /// struct Cart {
+    ///     m: f64,
+    /// }
+    ///
+    /// #[rayleigh_system]
+    /// impl Cart {
+    ///     fn lagrangian(&self, _q: [f64; 1], v: [f64; 1]) -> f64 {
+    ///         0.5 * self.m * v[0] * v[0]
+    ///     }
+    ///     fn force(&self, _q: [f64; 1], _v: [f64; 1], u: [f64; 1]) -> [f64; 1] {
+    ///         u
+    ///     }
+    /// }
+    /// let (m, h) = (2.0, 0.1);
+    /// let cart = Cart { m };
+    /// let driven = cart.driven([0.3]);
+    /// let state = State { q: vector![0.0], p: vector![1.0] };
+    /// let step = driven.step(&state, h, None)?;
+    /// let Linearization { a, b, .. } = Linearization::of_driven_segment(&driven, Midpoint, &state.q, &step.state.q, h)?;
+    /// assert!((a.q_by_p[0] - h / m).abs() < 1e-16);
+    /// assert!((b.q[0] - h * h / (2.0 * m)).abs() < 1e-16 && (b.p[0] - h).abs() < 1e-16);
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular on the segment.
+    pub fn of_driven_segment<L, R>(
+        system: &L,
+        _rule: R,
+        q0: &SVector<S, N>,
+        q1: &SVector<S, N>,
+        h: S,
+    ) -> Result<Self, StepError>
+    where
+        L: DiscreteDriven<R, N, M, Scalar = S>,
+    {
+        let by_input = system.momenta_by_input(q0, &((q1 - q0) / h), h);
+        Self::with_input(&LegendreDerivatives::new::<L, R>(system, q0, q1, h), &by_input)
+    }
+
+    /// The derivatives of the step from those of both Legendre transforms, and of the momenta by the input.
+    ///
+    /// # Errors
+    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular.
+    pub fn with_input(
+        k: &LegendreDerivatives<S, N>,
+        by_input: &MomentaBy<S, N, M>,
+    ) -> Result<Self, StepError> {
         let q_by_p = inverse(&k.p0_by_q1)?;
         let q_by_q = -(q_by_p * k.p0_by_q0);
         Ok(Self {
@@ -131,11 +227,59 @@ impl<S: Scalar, const N: usize> Linearization<S, N> {
                 p_by_q: k.p1_by_q0 + k.p1_by_q1 * q_by_q,
                 p_by_p: k.p1_by_q1 * q_by_p,
             },
+            b: k.answer_with(&q_by_p, by_input),
         })
     }
 }
 
+impl<S: Scalar, const N: usize, const M: usize> StateBy<S, N, M> {
+    /// Both parts as one matrix, q above p; K = 2N.
+    #[must_use]
+    pub fn assembled<const K: usize>(&self) -> SMatrix<S, K, M> {
+        const { assert!(K == 2 * N) };
+        SMatrix::from_fn(|i, j| if i < N { self.q[(i, j)] } else { self.p[(i - N, j)] })
+    }
+}
+
 impl<S: Scalar, const N: usize> PhaseMatrix<S, N> {
+    /// ∂(q, p)/∂(q, v), the derivative of [`State::from_velocity`](crate::State::from_velocity) at (`q`, `v`): the column
+    /// blocks by p stand for those by v.
+    #[must_use]
+    pub fn from_velocity<L: Lagrangian<N, Scalar = S>>(
+        system: &L,
+        q: &SVector<S, N>,
+        v: &SVector<S, N>,
+    ) -> Self {
+        let l = system.lagrangian_derivatives(q, v);
+        Self {
+            q_by_q: SMatrix::identity(),
+            q_by_p: SMatrix::zeros(),
+            p_by_q: l.d12.transpose(),
+            p_by_p: l.d22,
+        }
+    }
+
+    /// ∂(q, v)/∂(q, p), the derivative of [`State::velocity`](crate::State::velocity) at (`q`, `v`): the row blocks of p
+    /// stand for those of v. What a sensor of velocities makes of a state.
+    ///
+    /// # Errors
+    /// [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is singular.
+    pub fn to_velocity<L: Lagrangian<N, Scalar = S>>(
+        system: &L,
+        q: &SVector<S, N>,
+        v: &SVector<S, N>,
+    ) -> Result<Self, StepError> {
+        let l = system.lagrangian_derivatives(q, v);
+        let v_by_p = linear::inverse(&l.d22)
+            .map_err(|singular| StepError::DegenerateLagrangian { column: singular.column })?;
+        Ok(Self {
+            q_by_q: SMatrix::identity(),
+            q_by_p: SMatrix::zeros(),
+            p_by_q: -(v_by_p * l.d12.transpose()),
+            p_by_p: v_by_p,
+        })
+    }
+
     /// The blocks as one matrix in the order (q, p); M = 2N.
     #[must_use]
     pub fn assembled<const M: usize>(&self) -> SMatrix<S, M, M> {
@@ -156,13 +300,6 @@ impl<S: Scalar, const N: usize> PhaseMatrix<S, N> {
 pub(crate) fn inverse<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,
 ) -> Result<SMatrix<S, N, N>, StepError> {
-    let mut inverse = SMatrix::<S, N, N>::zeros();
-    for j in 0..N {
-        let mut unit: SVector<S, N> = nalgebra::zero();
-        unit[j] = S::one();
-        let column = linear::solve(matrix, &unit)
-            .map_err(|singular| StepError::SingularNewtonMatrix { iteration: 0, column: singular.column })?;
-        inverse.set_column(j, &column);
-    }
-    Ok(inverse)
+    linear::inverse(matrix)
+        .map_err(|singular| StepError::SingularNewtonMatrix { iteration: 0, column: singular.column })
 }

@@ -14,7 +14,8 @@ use crate::{CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, Struc
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not a Lagrangian system with N = {N}",
     label = "no Lagrangian",
-    note = "put `#[rayleigh_system]` on an `impl` block of `{Self}` with `fn lagrangian(&self, q: [f64; {N}], v: [f64; {N}]) -> f64`"
+    note = "put `#[rayleigh_system]` on an `impl` block of `{Self}` with `fn lagrangian(&self, q: [f64; {N}], v: [f64; {N}]) -> f64`",
+    note = "a system whose L takes the time has its Lagrangian at a time: `system.at_time(t)`, or `system.driven(u, t)` with an input"
 )]
 pub trait Lagrangian<const N: usize> {
     /// `f64` or `f32`.
@@ -53,6 +54,18 @@ pub trait Lagrangian<const N: usize> {
         plus: Direction<Self::Scalar>,
     ) -> Variations<Self::Scalar, N> {
         self.lagrangian_derivatives(q, v).variations(minus, plus)
+    }
+
+    /// `evaluate` for the system as it is at the time `elapsed` from now.
+    ///
+    /// The same system, unless L, R or f take a time: rules call this so that every node of a segment sees its own.
+    #[inline]
+    fn later<T>(&self, elapsed: Self::Scalar, evaluate: impl FnOnce(&Self) -> T) -> T
+    where
+        Self: Sized,
+    {
+        let _ = elapsed;
+        evaluate(self)
     }
 
     /// E_L(q, v) = v·∂L/∂v − L, the energy. Along the motion dE_L/dt = v·f_L.

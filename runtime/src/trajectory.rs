@@ -10,6 +10,9 @@ use crate::{Discrete, Memory, Scalar, State, Step, StepError};
 ///
 /// An iterator over steps; it holds the present state and what the rule remembers of the steps before ([`Memory`]). After an
 /// error it ends, its state being the last good one; another step size ([`Trajectory::change_step_size`]) lets it go on.
+///
+/// Where L, R or f take the time, each step sees its own: the time of the system given, `system.at_time(t)`, and what the
+/// trajectory has taken since.
 pub struct Trajectory<'a, L, R, const N: usize>
 where
     L: Discrete<R, N>,
@@ -28,7 +31,7 @@ impl<'a, L, R, const N: usize> Trajectory<'a, L, R, N>
 where
     L: Discrete<R, N>,
 {
-    /// The trajectory of `system` by `rule` with step size `h` from `state`, at time 0.
+    /// The trajectory of `system` by `rule` with step size `h` from `state`; its own time starts at 0.
     pub fn new(system: &'a L, _rule: R, h: L::Scalar, state: State<L::Scalar, N>) -> Self {
         Self {
             system,
@@ -176,7 +179,9 @@ where
         if self.failed {
             return None;
         }
-        let step = self.memory.advance(self.system, &self.state, self.h);
+        let elapsed = L::Scalar::constant(self.time());
+        let (memory, state, h) = (&mut self.memory, &self.state, self.h);
+        let step = self.system.later(elapsed, |system| memory.advance(system, state, h));
         match &step {
             Ok(step) => {
                 self.state = step.state;

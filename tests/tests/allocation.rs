@@ -2,7 +2,10 @@
 
 use allocation_counter::measure;
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::{Discrete, Midpoint, State, StepError, Trajectory, Trapezoidal, rayleigh_system};
+use dalembert::{
+    Discrete, Linearization, Midpoint, State, StateBy, StepError, StepHessian, Trajectory, Trapezoidal,
+    rayleigh_system,
+};
 use dalembert_tests::systems::{Chain, Charge, DoublePendulum};
 
 fn assert_no_allocation(run: impl FnOnce()) {
@@ -50,6 +53,35 @@ fn none_in_a_trajectory() {
             charge.next().unwrap().unwrap();
         }
         charge.sample_every(10).take(10).for_each(|sample| assert!(sample.is_ok()));
+    });
+}
+
+/// A pendulum with a motor in its joint and a moving pivot.
+struct Motor {
+    c: f64,
+}
+
+#[rayleigh_system(parameters = c, step_derivatives = second)]
+impl Motor {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * v[0] * v[0] + q[0].cos()
+    }
+
+    fn force(&self, q: [f64; 1], v: [f64; 1], u: [f64; 1], t: f64) -> [f64; 1] {
+        [u[0] - self.c * v[0] + t.sin() * q[0].cos()]
+    }
+}
+
+#[test]
+fn none_in_the_derivatives_of_a_step() {
+    let motor = Motor { c: 0.1 };
+    let state = State::from_velocity(&motor, [1.1], [0.3]).unwrap();
+    assert_no_allocation(|| {
+        let driven = motor.driven([0.4], 0.2);
+        let end = driven.step(&state, 0.1, None).unwrap().state;
+        Linearization::of_driven_segment(&driven, Midpoint, &state.q, &end.q, 0.1).unwrap();
+        StateBy::of_parameters(&driven, Midpoint, &state.q, &end.q, 0.1).unwrap();
+        StepHessian::of_driven_segment(&driven, Midpoint, &state.q, &end.q, 0.1, &state).unwrap();
     });
 }
 

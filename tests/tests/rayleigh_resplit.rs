@@ -7,12 +7,12 @@ use dalembert::{Discrete, Midpoint, Trapezoidal, rayleigh_system, samples};
 
 /// Friction that depends on q and a force that drives: not Rayleigh.
 #[derive(Clone, Copy)]
-struct Driven {
+struct DrivenOscillator {
     m: f64,
 }
 
 #[rayleigh_system(rule = [midpoint, trapezoidal])]
-impl Driven {
+impl DrivenOscillator {
     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
         0.5 * self.m * (1.0 + q[0] * q[0]) * v[0] * v[0] + q[0].cos()
     }
@@ -65,9 +65,9 @@ fn momenta<L: Discrete<R, N, Scalar = f64>, R, const N: usize>(
 
 fn driven_has_one<R: Copy>(rule: R)
 where
-    Driven: Discrete<R, 1, Scalar = f64>,
+    DrivenOscillator: Discrete<R, 1, Scalar = f64>,
 {
-    let (system, h) = (Driven { m: 1.4 }, 0.2);
+    let (system, h) = (DrivenOscillator { m: 1.4 }, 0.2);
     let resplit = Resplit::new(&system, rule, h, [0.1]);
     let segments = samples::segments([-1.5], [1.5], [0.4], 40);
     let report = resplit.check(&segments).unwrap();

@@ -16,8 +16,8 @@ impl Many {
     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
         v[0] * v[0] - q[0]
     }
-    fn rayleigh(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
-        v[0] * v[0] * q[0] * t
+    fn rayleigh(&self) -> f64 {
+        1.0
     }
     fn force(&self, q: [f64; 1]) -> [f64; 1] {
         q

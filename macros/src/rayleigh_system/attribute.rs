@@ -1,9 +1,10 @@
-//! The options of the attribute: `rule = midpoint`, `rule = [midpoint, trapezoidal]`, `derivatives = expanded`.
+//! The options of the attribute: `rule = midpoint`, `rule = [midpoint, trapezoidal]`, `derivatives = expanded`,
+//! `parameters = [m, c[0]]`, `step_derivatives = second`.
 
 use proc_macro2::TokenStream;
 use syn::parse::{Parse, ParseStream, Parser};
 use syn::punctuated::Punctuated;
-use syn::{Ident, Token, bracketed, token};
+use syn::{Expr, Ident, Token, bracketed, token};
 
 use super::Runtime;
 use super::diagnostics::{Mistake, Report};
@@ -12,7 +13,13 @@ use super::model::{Engine, Rule, Rules};
 /// One option, `name = value` or `name = [value, …]`.
 struct Setting {
     name: Ident,
-    values: Vec<Ident>,
+    values: Values,
+}
+
+/// Words, or fields of the system.
+enum Values {
+    Words(Vec<Ident>),
+    Fields(Vec<Expr>),
 }
 
 impl Parse for Setting {
@@ -22,15 +29,20 @@ impl Parse for Setting {
             return Err(syn::Error::new(name.span(), Mistake::UnknownOption));
         }
         input.parse::<Token![=]>()?;
-        let values = if input.peek(token::Bracket) {
-            let list;
-            bracketed!(list in input);
-            Punctuated::<Ident, Token![,]>::parse_terminated(&list)?.into_iter().collect()
-        } else {
-            vec![input.parse()?]
-        };
+        let values =
+            if name == "parameters" { Values::Fields(list(input)?) } else { Values::Words(list(input)?) };
         Ok(Self { name, values })
     }
+}
+
+/// One value, or several in brackets.
+fn list<T: Parse>(input: ParseStream) -> syn::Result<Vec<T>> {
+    if !input.peek(token::Bracket) {
+        return Ok(vec![input.parse()?]);
+    }
+    let list;
+    bracketed!(list in input);
+    Ok(Punctuated::<T, Token![,]>::parse_terminated(&list)?.into_iter().collect())
 }
 
 /// What the attribute asks for.
@@ -39,13 +51,26 @@ pub struct Options {
     pub rules: Rules,
     /// Those of them that take L and R together, where they stand.
     pub joint: Vec<(Ident, Rule)>,
+    /// Where `gauss` stands.
+    pub gauss: Option<Ident>,
     /// Whichever can, unless said.
     pub engine: Engine,
+    /// Fields that the step is differentiated by.
+    pub parameters: Vec<Expr>,
+    /// Whether the step is differentiated twice.
+    pub second: bool,
 }
 
 /// The options said, and defaults for the others.
 pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) -> Options {
-    let mut options = Options { rules: Rules::default(), joint: Vec::new(), engine: Engine::Auto };
+    let mut options = Options {
+        rules: Rules::default(),
+        joint: Vec::new(),
+        gauss: None,
+        engine: Engine::Auto,
+        parameters: Vec::new(),
+        second: false,
+    };
     let settings = match Punctuated::<Setting, Token![,]>::parse_terminated.parse2(attribute) {
         Ok(settings) => settings,
         Err(error) => {
@@ -55,14 +80,31 @@ pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) ->
     };
     let mut says_rule = false;
     for setting in settings {
-        if setting.name == "rule" {
-            says_rule = true;
-            rules(setting, &mut options, report);
-        } else if setting.name == "derivatives" {
-            engine(setting, runtime, &mut options.engine, report);
-        } else {
-            report.at(&setting.name, Mistake::UnknownOption);
+        let Setting { name, values } = setting;
+        match values {
+            Values::Fields(fields) => {
+                if fields.is_empty() {
+                    report.at(&name, Mistake::NoParameters);
+                }
+                options.parameters.extend(fields);
+            }
+            Values::Words(words) if name == "rule" => {
+                says_rule = true;
+                rules(&name, words, &mut options, report);
+            }
+            Values::Words(words) if name == "derivatives" => {
+                engine(&name, &words, runtime, &mut options.engine, report);
+            }
+            Values::Words(words) if name == "step_derivatives" => {
+                order(&name, &words, &mut options.second, report);
+            }
+            Values::Words(_) => report.at(&name, Mistake::UnknownOption),
         }
+    }
+    if options.engine == Engine::NumDual
+        && let Some(parameter) = options.parameters.first()
+    {
+        report.at(parameter, Mistake::ParametersByNumDual);
     }
     if !says_rule {
         options.rules.of_displacement.push(Rule::Midpoint);
@@ -70,10 +112,20 @@ pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) ->
     options
 }
 
+/// `step_derivatives = second`
+fn order(name: &Ident, values: &[Ident], second: &mut bool, report: &mut Report) {
+    match values {
+        [value] if value == "first" => *second = false,
+        [value] if value == "second" => *second = true,
+        [value] => report.at(value, Mistake::UnknownOrder),
+        _ => report.at(name, Mistake::UnknownOrder),
+    }
+}
+
 /// `derivatives = expanded`
-fn engine(setting: Setting, runtime: Runtime, engine: &mut Engine, report: &mut Report) {
-    let [value] = &setting.values[..] else {
-        report.at(&setting.name, Mistake::UnknownEngine(String::new()));
+fn engine(name: &Ident, values: &[Ident], runtime: Runtime, engine: &mut Engine, report: &mut Report) {
+    let [value] = values else {
+        report.at(name, Mistake::UnknownEngine(String::new()));
         return;
     };
     *engine = match value.to_string().as_str() {
@@ -93,11 +145,11 @@ fn engine(setting: Setting, runtime: Runtime, engine: &mut Engine, report: &mut 
 }
 
 /// `rule = [midpoint, trapezoidal]`
-fn rules(setting: Setting, options: &mut Options, report: &mut Report) {
-    if setting.values.is_empty() {
-        report.at(&setting.name, Mistake::NoRule);
+fn rules(name: &Ident, values: Vec<Ident>, options: &mut Options, report: &mut Report) {
+    if values.is_empty() {
+        report.at(name, Mistake::NoRule);
     }
-    for value in setting.values {
+    for value in values {
         let rule = match value.to_string().as_str() {
             "midpoint" => Rule::Midpoint,
             "trapezoidal" => Rule::Trapezoidal,
@@ -106,6 +158,7 @@ fn rules(setting: Setting, options: &mut Options, report: &mut Report) {
                     report.at(&value, Mistake::RepeatedRule(value.to_string()));
                 }
                 options.rules.gauss = true;
+                options.gauss = Some(value);
                 continue;
             }
             "fitted" => Rule::Fitted,

@@ -7,7 +7,7 @@ use syn::{
 };
 
 use super::diagnostics::{Mistake, Report};
-use super::model::{Body, Degrees, Function, RayleighArguments, Rules, Source, System, simple_name};
+use super::model::{Body, Degrees, Function, RayleighArguments, Rules, Source, System, Timed, simple_name};
 
 /// The system as far as its signatures tell, or nothing if not even N is known; every wrong one is reported.
 pub fn system<'a>(source: &'a Source, rules: Rules, report: &mut Report) -> Option<System<'a>> {
@@ -34,23 +34,34 @@ fn block<'a>(source: &'a Source, rules: Rules, report: &mut Report) -> Option<Sy
         return None;
     };
     let before = report.count();
-    let shape = lagrangian_signature(&lagrangian.sig, source.name(), report)?;
+    let (shape, of_lagrangian) = lagrangian_signature(&lagrangian.sig, source.name(), report)?;
     let mut bodies = Vec::new();
     let mut keep = |function: &ImplItemFn, before, report: &Report| {
         bodies.push(Body { function: function.clone(), has_right_signature: report.count() == before });
     };
     keep(lagrangian, before, report);
-    let arguments = rayleigh.and_then(|rayleigh| {
-        let before = report.count();
-        let arguments = rayleigh_signature(&rayleigh.sig, &shape, report);
-        keep(rayleigh, before, report);
-        arguments
-    });
+    let (arguments, of_rayleigh) = rayleigh
+        .and_then(|rayleigh| {
+            let before = report.count();
+            let arguments = rayleigh_signature(&rayleigh.sig, &shape, report);
+            keep(rayleigh, before, report);
+            arguments
+        })
+        .unzip();
     let force = named("force");
-    if let Some(force) = force {
-        let before = report.count();
-        force_signature(&force.sig, &shape, report);
-        keep(force, before, report);
+    let (input, of_force) = force
+        .and_then(|force| {
+            let before = report.count();
+            let arguments = force_signature(&force.sig, &shape, report);
+            keep(force, before, report);
+            arguments
+        })
+        .unwrap_or_default();
+    let timed =
+        Timed { lagrangian: of_lagrangian, rayleigh: of_rayleigh.unwrap_or_default(), force: of_force };
+    let generated = if input.is_some() { Some("driven") } else { timed.any().then_some("at_time") };
+    if let Some(taken) = generated.and_then(named) {
+        report.at(&taken.sig.ident, Mistake::GeneratedFunction(taken.sig.ident.to_string()));
     }
     Some(System {
         source,
@@ -61,6 +72,10 @@ fn block<'a>(source: &'a Source, rules: Rules, report: &mut Report) -> Option<Sy
         bodies,
         rayleigh: arguments,
         has_force: force.is_some(),
+        input: input.map(|length| Degrees { length, system: source.name().clone() }),
+        timed,
+        parameters: Vec::new(),
+        second: false,
     })
 }
 
@@ -172,19 +187,21 @@ fn function_system<'a>(
         bodies: vec![Body { function: body, has_right_signature }],
         rayleigh,
         has_force: false,
+        input: None,
+        timed: Timed::default(),
+        parameters: Vec::new(),
+        second: false,
     }
 }
 
-fn lagrangian_signature(signature: &Signature, system: &Ident, report: &mut Report) -> Option<Shape> {
+/// The shape of the system, and whether L takes the time.
+fn lagrangian_signature(signature: &Signature, system: &Ident, report: &mut Report) -> Option<(Shape, bool)> {
     const FUNCTION: &str = "lagrangian";
     qualifiers(signature, report);
     receiver(signature, FUNCTION, report);
     let parameters = typed_parameters(signature, report);
-    let [(_, q), (_, v)] = parameters[..] else {
-        report.at(
-            &signature.ident,
-            Mistake::Parameters { function: FUNCTION, expected: "`(&self, q: [f64; N], v: [f64; N])`" },
-        );
+    let [(_, q), (_, v), ref after @ ..] = parameters[..] else {
+        report.at(&signature.ident, Mistake::Parameters { function: FUNCTION, expected: LAGRANGIAN });
         return None;
     };
     let shape = shape_of(q, "q", system, report);
@@ -193,51 +210,127 @@ fn lagrangian_signature(signature: &Signature, system: &Ident, report: &mut Repo
         return None;
     };
     same_shape(v, "v", &shape, report);
+    let is_timed = match after {
+        [] => false,
+        [(_, t)] => time_without_input(t, &shape, report),
+        _ => {
+            report.at(&signature.ident, Mistake::Parameters { function: FUNCTION, expected: LAGRANGIAN });
+            false
+        }
+    };
     scalar_result(signature, FUNCTION, &shape, report);
-    Some(shape)
+    Some((shape, is_timed))
 }
 
+const LAGRANGIAN: &str = "`(&self, q: [f64; N], v: [f64; N])`, and `t: f64` after them if it depends on time";
+const RAYLEIGH: &str = "`(&self, v: [f64; N])` or `(&self, q: [f64; N], v: [f64; N])`, and `t: f64` after them if it depends on time";
+const FORCE: &str =
+    "`(&self, q: [f64; N], v: [f64; N])`, and after them an input `u: [f64; M]`, a time `t: f64` or both";
+
+/// Whether the parameter after the others is a time; if not, says so.
+fn time(ty: &Type, shape: &Shape, report: &mut Report) -> bool {
+    let is_time = is(ty, &shape.scalar);
+    if !is_time {
+        report.at(ty, Mistake::NotATime { scalar: shape.scalar.to_string() });
+    }
+    is_time
+}
+
+/// The same for L and R, which may be mistaken for what takes an input.
+fn time_without_input(ty: &Type, shape: &Shape, report: &mut Report) -> bool {
+    match ty {
+        Type::Array(_) => {
+            report.at(ty, Mistake::InputOfFunction);
+            false
+        }
+        ty => time(ty, shape, report),
+    }
+}
+
+/// The length of an input's array.
+fn input(ty: &Type, shape: &Shape, report: &mut Report) -> Option<Expr> {
+    let Type::Array(array) = ty else {
+        report.at(ty, Mistake::NotAnInput { scalar: shape.scalar.to_string() });
+        return None;
+    };
+    if !is(&array.elem, &shape.scalar) {
+        report.at(&array.elem, Mistake::OtherScalar { expected: shape.scalar.to_string() });
+    }
+    if is_zero(&array.len) {
+        report.at(&array.len, Mistake::NoInputs);
+    }
+    Some(array.len.clone())
+}
+
+/// What R takes, and whether the time is part of it.
 fn rayleigh_signature(
     signature: &Signature,
     shape: &Shape,
     report: &mut Report,
-) -> Option<RayleighArguments> {
+) -> Option<(RayleighArguments, bool)> {
     const FUNCTION: &str = "rayleigh";
     qualifiers(signature, report);
     receiver(signature, FUNCTION, report);
     scalar_result(signature, FUNCTION, shape, report);
-    match typed_parameters(signature, report)[..] {
+    let parameters = typed_parameters(signature, report);
+    let of_both = |q, v, report: &mut Report| {
+        same_shape(q, "q", shape, report);
+        same_shape(v, "v", shape, report);
+        RayleighArguments::ConfigurationAndVelocity
+    };
+    match parameters[..] {
         [(_, v)] => {
             same_shape(v, "v", shape, report);
-            Some(RayleighArguments::Velocity)
+            Some((RayleighArguments::Velocity, false))
         }
-        [(_, q), (_, v)] => {
-            same_shape(q, "q", shape, report);
+        [(_, v), (_, t)] if is(t, &shape.scalar) => {
             same_shape(v, "v", shape, report);
-            Some(RayleighArguments::ConfigurationAndVelocity)
+            Some((RayleighArguments::Velocity, true))
+        }
+        [(_, q), (_, v)] => Some((of_both(q, v, report), false)),
+        [(_, q), (_, v), (_, t)] => {
+            let arguments = of_both(q, v, report);
+            Some((arguments, time_without_input(t, shape, report)))
         }
         _ => {
-            let expected = "`(&self, v: [f64; N])` or `(&self, q: [f64; N], v: [f64; N])`";
-            report.at(&signature.ident, Mistake::Parameters { function: FUNCTION, expected });
+            report.at(&signature.ident, Mistake::Parameters { function: FUNCTION, expected: RAYLEIGH });
             None
         }
     }
 }
 
-fn force_signature(signature: &Signature, shape: &Shape, report: &mut Report) {
+/// The length of the input, if f takes one, and whether it takes the time.
+fn force_signature(
+    signature: &Signature,
+    shape: &Shape,
+    report: &mut Report,
+) -> Option<(Option<Expr>, bool)> {
     const FUNCTION: &str = "force";
     qualifiers(signature, report);
     receiver(signature, FUNCTION, report);
-    match typed_parameters(signature, report)[..] {
-        [(_, q), (_, v)] => {
+    let parameters = typed_parameters(signature, report);
+    let arguments = match parameters[..] {
+        [(_, q), (_, v), ref after @ ..] if after.len() <= 2 => {
             same_shape(q, "q", shape, report);
             same_shape(v, "v", shape, report);
+            Some(match after {
+                [] => (None, false),
+                [(_, t)] if is(t, &shape.scalar) => (None, true),
+                [(_, u)] => (input(u, shape, report), false),
+                [(_, t), (_, Type::Array(_))] if is(t, &shape.scalar) => {
+                    report.at(t, Mistake::NotAnInput { scalar: shape.scalar.to_string() });
+                    (None, true)
+                }
+                [(_, u), rest @ ..] => {
+                    (input(u, shape, report), rest.iter().all(|(_, t)| time(t, shape, report)))
+                }
+            })
         }
         _ => {
-            let expected = "`(&self, q: [f64; N], v: [f64; N])`";
-            report.at(&signature.ident, Mistake::Parameters { function: FUNCTION, expected });
+            report.at(&signature.ident, Mistake::Parameters { function: FUNCTION, expected: FORCE });
+            None
         }
-    }
+    };
     match result(signature) {
         Some(ty @ Type::Array(_)) => same_shape(ty, "force", shape, report),
         _ => {
@@ -245,6 +338,12 @@ fn force_signature(signature: &Signature, shape: &Shape, report: &mut Report) {
             report.at(&result_tokens(signature), Mistake::Returns { function: FUNCTION, expected });
         }
     }
+    arguments
+}
+
+/// Whether a length is the literal 0.
+fn is_zero(length: &Expr) -> bool {
+    matches!(length, Expr::Lit(ExprLit { lit: Lit::Int(n), .. }) if n.base10_digits() == "0")
 }
 
 /// What no differentiated function can be.
@@ -306,7 +405,7 @@ fn shape_of(ty: &Type, name: &'static str, system: &Ident, report: &mut Report) 
             return None;
         }
     };
-    if matches!(&array.len, Expr::Lit(ExprLit { lit: Lit::Int(n), .. }) if n.base10_digits() == "0") {
+    if is_zero(&array.len) {
         report.at(&array.len, Mistake::ZeroDegrees);
         return None;
     }

@@ -47,7 +47,7 @@ pub struct Differentiation {
 }
 
 impl Differentiation {
-    /// ∂root/∂q and ∂root/∂v.
+    /// ∂root/∂q, ∂root/∂v and ∂root/∂u.
     pub fn gradient(&mut self, graph: &mut Graph, root: Node) -> Gradient {
         self.derivatives(graph, root, Order::First, None).gradient
     }
@@ -91,7 +91,7 @@ impl Differentiation {
                 graph.give_name(adjoint, &format!("d{symbol}_d{name}"));
             }
             let local = match graph.operation(node) {
-                Operation::Coordinate(_) | Operation::Velocity(_) => continue,
+                operation if graph.is_variable(operation) => continue,
                 Operation::Select(condition, a, b) => self.selected(graph, condition, a, b, order),
                 operation => Local::from(partials(graph, node, operation, order)),
             };
@@ -122,7 +122,10 @@ impl Differentiation {
             match graph.operation(node) {
                 // Derivatives by the variables themselves, whichever they are.
                 Operation::Select(_, a, b) => open.extend(
-                    graph.reachable([a, b]).into_iter().filter(|&node| is_variable(graph.operation(node))),
+                    graph
+                        .reachable([a, b])
+                        .into_iter()
+                        .filter(|&node| graph.is_variable(graph.operation(node))),
                 ),
                 operation => open.extend(operation.arguments()),
             }
@@ -144,10 +147,6 @@ impl Differentiation {
         }
         local
     }
-}
-
-fn is_variable(operation: Operation) -> bool {
-    matches!(operation, Operation::Coordinate(_) | Operation::Velocity(_))
 }
 
 /// The keys of both maps, each once, in order.

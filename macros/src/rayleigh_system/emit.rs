@@ -28,6 +28,8 @@ pub struct StraightLine {
     pub uses_coordinates: bool,
     /// Whether v occurs.
     pub uses_velocities: bool,
+    /// Whether u occurs.
+    pub uses_inputs: bool,
     /// Whether one of the runtime's elementary functions is called.
     pub calls_elementary: bool,
     /// The first word of each parameter that occurs.
@@ -41,7 +43,7 @@ impl StraightLine {
     }
 }
 
-/// The code for `outputs`. q and v are read as `q[0]`, `v[0]`; the names `taken` are not given to anything.
+/// The code for `outputs`. q, v and u are read as `q[0]`, `v[0]`, `u[0]`; the names `taken` are not given to anything.
 ///
 /// `is_portable`: elementary functions are the runtime's.
 pub fn straight_line(
@@ -102,12 +104,16 @@ fn written(
     }
     let mut is_late = vec![false; graph.len()];
     let (mut statements, mut later) = (TokenStream::new(), TokenStream::new());
-    let (mut uses_coordinates, mut uses_velocities, mut parameters) = (false, false, Vec::new());
+    let (mut uses_coordinates, mut uses_velocities, mut uses_inputs) = (false, false, false);
+    let mut parameters = Vec::new();
     for &node in &nodes {
         let operation = graph.operation(node);
         writer.typed[node.index()] = match operation {
             Operation::Constant(_) => false,
-            Operation::Coordinate(_) | Operation::Velocity(_) | Operation::Parameter(_) => true,
+            Operation::Coordinate(_)
+            | Operation::Velocity(_)
+            | Operation::Input(_)
+            | Operation::Parameter(_) => true,
             Operation::Select(_, a, b) => writer.typed[a.index()] || writer.typed[b.index()],
             operation if operation.receiver().is_some() => true,
             operation => operation.arguments().any(|argument| writer.typed[argument.index()]),
@@ -120,6 +126,7 @@ fn written(
         match operation {
             Operation::Coordinate(_) => uses_coordinates = true,
             Operation::Velocity(_) => uses_velocities = true,
+            Operation::Input(_) => uses_inputs = true,
             Operation::Parameter(index) => {
                 parameters.extend(
                     graph.parameter(index).tokens.clone().into_iter().next().map(|word| word.to_string()),
@@ -128,10 +135,9 @@ fn written(
             _ => {}
         }
         let is_leaf = match operation {
-            Operation::Coordinate(_) | Operation::Velocity(_) | Operation::Constant(_) => true,
             // A local already.
             Operation::Parameter(index) => graph.parameter(index).is_local(),
-            _ => false,
+            operation => operation.is_literal(),
         };
         let is_paired = partner(graph, node, &nodes).is_some();
         // `(1.5 + 0.5).ln()` has no type: a local says it.
@@ -158,6 +164,7 @@ fn written(
         outputs,
         uses_coordinates,
         uses_velocities,
+        uses_inputs,
         calls_elementary,
         parameters,
     }
@@ -272,6 +279,10 @@ impl Writer<'_> {
             Operation::Velocity(index) => {
                 let index = Literal::usize_unsuffixed(index);
                 (quote!(v[#index]), Binding::Atom)
+            }
+            Operation::Input(index) => {
+                let index = Literal::usize_unsuffixed(index);
+                (quote!(u[#index]), Binding::Atom)
             }
             Operation::Parameter(index) => (self.graph.parameter(index).tokens.clone(), Binding::Atom),
             Operation::Constant(bits) => self.constant(f64::from_bits(bits), false),

@@ -13,9 +13,10 @@ use syn::{
 use super::check::Field;
 use super::implement::{self, discrete, discrete_rayleigh};
 use super::lower::Refusal;
-use super::model::{Function, RayleighArguments, Role, Rule, Source, System, simple_name};
+use super::model::{Function, Part, RayleighArguments, Role, Rule, Source, System, simple_name};
 use super::rewrite::{Twin, over};
 use super::structure::{Engine, Structure};
+use super::view;
 
 /// The whole expansion: the user's item, its functions over dual numbers, and the system that they make.
 pub fn system(system: &System<'_>, twins: &[Twin], refusal: Option<Refusal>) -> TokenStream {
@@ -33,12 +34,15 @@ pub fn system(system: &System<'_>, twins: &[Twin], refusal: Option<Refusal>) -> 
     let both = RayleighArguments::ConfigurationAndVelocity;
     let structure = Structure { engine: Engine::NumDual(refusal), findings: None };
     let lagrangian =
-        implement::lagrangian(system, &structure, derivatives::of_function(system, "lagrangian", both));
+        implement::lagrangian(system, &structure, derivatives::of_function(system, Part::Lagrangian, both));
     let rayleigh = system.rayleigh.map(|arguments| {
-        implement::rayleigh(system, arguments, derivatives::of_function(system, "rayleigh", arguments))
+        implement::rayleigh(system, arguments, derivatives::of_function(system, Part::Rayleigh, arguments))
     });
     let force = system.has_force.then(|| implement::force(system, derivatives::of_force(system)));
     let forced = system.rules.gauss.then(|| implement::forced_lagrangian(system, None));
+    let driven = implement::driven(system, derivatives::by_input(system));
+    let second = system.second.then(|| implement::second_order(system, derivatives::along_vectors(system)));
+    let view = view::definition(system);
     let discrete = system.rules.of_displacement.iter().map(|&rule| {
         let discrete = discrete(system, rule, None);
         let discrete_rayleigh = system.rayleigh.map(|_| discrete_rayleigh(system, rule));
@@ -47,6 +51,8 @@ pub fn system(system: &System<'_>, twins: &[Twin], refusal: Option<Refusal>) -> 
     // Bodies stand apart from the implementations: the fewer names are imported beside a user's code, the fewer collide.
     quote! {
         #item
+
+        #view
 
         #(#conditions)*
         const _: () = {
@@ -64,6 +70,8 @@ pub fn system(system: &System<'_>, twins: &[Twin], refusal: Option<Refusal>) -> 
             #rayleigh
             #force
             #forced
+            #driven
+            #second
             #(#discrete)*
         };
     }
@@ -203,6 +211,18 @@ pub fn imported(system: &System<'_>) -> Vec<Ident> {
         if is_forced {
             names.extend(["DiscreteForce", "DiscreteForceDerivatives"]);
         }
+    }
+    if system.input.is_some() {
+        names.extend(["DiscreteDriven", "Driven"]);
+    }
+    if !system.parameters.is_empty() {
+        names.extend(["DiscreteParameters", "GradientBy", "Parameters"]);
+    }
+    if system.input.is_some() || !system.parameters.is_empty() {
+        names.push("MomentaBy");
+    }
+    if system.second {
+        names.extend(["DiscreteSecondOrder", "Hessian", "SecondOrder"]);
     }
     names.extend(rules.of_displacement.iter().map(|rule| rule.name()));
     names.sort_unstable();

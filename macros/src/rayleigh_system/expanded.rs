@@ -6,6 +6,7 @@ mod directions;
 mod explicit;
 mod kernel;
 mod midpoint;
+mod sensitivity;
 mod stages;
 mod trapezoidal;
 
@@ -19,21 +20,28 @@ use super::expand;
 use super::graph::{Graph, Node, Operation};
 use super::implement::{self, Kernel};
 use super::lower::{Lowered, MAX_NODES, Refusal};
-use super::model::{Rule, Source, System};
+use super::model::{Home, Part, Rule, Source, System};
 use super::portable;
 use super::structure::{self, Differentiated, Findings, Structure, Terms};
+use super::view;
 
 /// The whole expansion, unless the derivatives are too long to be written out.
 ///
 /// `is_portable`: the elementary functions are the runtime's, in the user's bodies too.
 pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Result<TokenStream, Refusal> {
-    let Lowered { graph, n, lagrangian, rayleigh, force, functions } = lowered;
+    let Lowered { graph, n, m, lagrangian, rayleigh, force, functions } = lowered;
     let written = graph.len();
     let derivation = Differentiation::default();
-    let mut code = Code { system, graph, written, n, derivation, is_portable, calls_elementary: false };
+    let home = system.home_of(Part::Lagrangian);
+    let mut code =
+        Code { system, graph, written, n, m, derivation, home, is_portable, calls_elementary: false };
     let of_lagrangian = code.function("lagrangian", "l", lagrangian);
+    code.home = system.home_of(Part::Rayleigh);
     let of_rayleigh = rayleigh.map(|root| code.function("rayleigh", "r", root));
+    code.home = system.home();
     let of_force = force.as_ref().map(|components| code.force(components));
+    let by_input = force.as_ref().and_then(|components| implement::driven(system, code.by_input(components)));
+    let on_request = code.on_request(lagrangian, rayleigh, force.as_deref());
     let findings = code.findings(lagrangian, rayleigh, force.as_deref());
     let forced = system.rules.gauss.then(|| {
         let stages = code.stages(lagrangian, rayleigh, force.as_deref());
@@ -73,11 +81,14 @@ pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Resul
             quote!(#item #structure)
         }
     };
+    let view = view::definition(system);
     let imports = imports(system, code.calls_elementary, forced.as_ref());
     let conditions = expand::conditions(system.source);
     let (scalar, dimension) = (&system.scalar, system.degrees.times(1));
     Ok(quote! {
         #item
+
+        #view
 
         #(#conditions)*
         const _: () = {
@@ -89,8 +100,10 @@ pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Resul
             #of_rayleigh
             #of_force
             #forced
+            #by_input
             #discrete
             #discrete_rayleigh
+            #on_request
         };
     })
 }
@@ -124,7 +137,11 @@ struct Code<'s> {
     /// How many expressions the user wrote.
     written: usize,
     n: usize,
+    /// Entries of the input.
+    m: usize,
     derivation: Differentiation,
+    /// What the function being written stands on.
+    home: Home,
     is_portable: bool,
     /// Whether any function written calls one of the runtime's elementary functions.
     calls_elementary: bool,
@@ -142,7 +159,7 @@ impl Code<'_> {
         let components = force.unwrap_or_default();
         let force: Vec<_> = components.iter().copied().zip(self.rows(components)).collect();
         let terms = Terms { lagrangian: &lagrangian, rayleigh: rayleigh.as_ref(), force: &force };
-        structure::findings(&self.graph, self.n, &terms, &self.system.rules.of_displacement)
+        structure::findings(&self.graph, self.system, self.n, &terms)
     }
 
     /// Gradient, derivatives and variations of L or R.
@@ -228,6 +245,58 @@ impl Code<'_> {
         }
     }
 
+    /// Derivatives by parameters and second derivatives of the step, as far as the attribute asks for them.
+    fn on_request(
+        &mut self,
+        lagrangian: Node,
+        rayleigh: Option<Node>,
+        force: Option<&[Node]>,
+    ) -> TokenStream {
+        let parts = [(Part::Lagrangian, Some(lagrangian)), (Part::Rayleigh, rayleigh)];
+        let parts = parts.into_iter().filter_map(|(part, root)| root.map(|root| (part, root)));
+        let by_parameters = (!self.system.parameters.is_empty()).then(|| {
+            let mut functions: TokenStream =
+                parts.clone().map(|(part, root)| self.by_parameters(part, root)).collect();
+            functions.extend(force.map(|components| self.force_by_parameters(components)));
+            implement::by_parameters(self.system, functions)
+        });
+        let second = self.system.second.then(|| {
+            let mut functions: TokenStream =
+                parts.map(|(part, root)| self.along_vectors(part, root)).collect();
+            functions.extend(force.map(|components| self.force_along(components)));
+            implement::second_order(self.system, functions)
+        });
+        quote!(#by_parameters #second)
+    }
+
+    /// `force_by_input`; empty where there is no input.
+    fn by_input(&mut self, components: &[Node]) -> TokenStream {
+        let Some(m) = self.system.input.as_ref().map(|input| input.times(1)) else {
+            return TokenStream::new();
+        };
+        let scalar = &self.system.scalar;
+        let n = self.system.degrees.times(1);
+        let rows = self.rows(components);
+        let mut outputs = Vec::new();
+        for j in 0..self.m {
+            let variable = self.graph.node(Operation::Input(j));
+            for row in &rows {
+                outputs.push(self.or_zero(row.get(&variable).copied()));
+            }
+        }
+        let line = self.code(&outputs);
+        let columns = line.outputs.chunks(self.n).map(|column| quote!([#(#column),*]));
+        let (q, v, statements) =
+            (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
+        quote! {
+            #[inline]
+            fn force_by_input(&self, #q: &Vector, #v: &Vector) -> SMatrix<#scalar, #n, #m> {
+                #statements
+                SMatrix::from([#(#columns),*])
+            }
+        }
+    }
+
     /// The gradient of each component.
     fn rows(&mut self, components: &[Node]) -> Vec<Gradient> {
         components.iter().map(|&component| self.derivation.gradient(&mut self.graph, component)).collect()
@@ -262,15 +331,38 @@ impl Code<'_> {
         self.matrix(|code, i, j| code.second(of, (i, row_velocity), (j, column_velocity)))
     }
 
+    /// The code for `outputs` at (q, v), and at the view's own input and time.
     fn code(&mut self, outputs: &[Node]) -> StraightLine {
+        self.code_taking(outputs, &[])
+    }
+
+    /// The same in a function with further parameters.
+    fn code_taking(&mut self, outputs: &[Node], parameters: &[&str]) -> StraightLine {
+        let mut line = self.code_at_node(outputs, parameters);
+        if line.uses("t") {
+            let statements = &line.statements;
+            line.statements = quote!(let t = self.t; #statements);
+        }
+        line
+    }
+
+    /// The same, with the time left to the caller.
+    fn code_at_node(&mut self, outputs: &[Node], parameters: &[&str]) -> StraightLine {
+        let mut taken = vec!["q", "v", "h", "half", "q0", "q1", "minus", "plus"];
+        // Without a view, u and t are free for the user's own names.
+        if self.home == Home::View {
+            taken.extend(["u", "t", "t_end"]);
+        }
+        taken.extend(parameters);
         let outputs = self.graph.factored(outputs, self.written);
-        let line = straight_line(
-            &self.graph,
-            &self.system.scalar,
-            &outputs,
-            &["q", "v", "h", "half", "q0", "q1", "minus", "plus"],
-            self.is_portable,
-        );
+        let mut line = straight_line(&self.graph, &self.system.scalar, &outputs, &taken, self.is_portable);
+        if self.home == Home::View {
+            let seen = |tokens: TokenStream| view::seen_from_view(tokens, &self.system.name);
+            let statements = seen(line.statements);
+            let input = line.uses_inputs.then(|| quote!(let u = self.u;));
+            line.statements = quote!(#input #statements);
+            line.outputs = line.outputs.into_iter().map(seen).collect();
+        }
         self.calls_elementary |= line.calls_elementary;
         line
     }

@@ -48,9 +48,41 @@ pub fn with_stubs(source: &Source, rules: &Rules, report: Report) -> TokenStream
             (quote!(#item #[allow(dead_code)] #visibility struct #name #fields), Some(&function.item.sig))
         }
     };
+    let view = view_stub(source);
     let is_field = matches!(source, Source::Function(function) if function.role == Role::Field);
     let stubs = if is_field { field_stubs(source) } else { stubs_of(lagrangian, name, rules) };
-    quote!(#item #errors #stubs)
+    quote!(#item #errors #stubs #view)
+}
+
+/// `driven` or `at_time`, as far as the signatures tell: it gives the system itself, which has all stubs.
+fn view_stub(source: &Source) -> Option<TokenStream> {
+    let after = |name: &str, count: usize| {
+        let function = source.functions().find(|function| function.sig.ident == name)?;
+        let parameters = function.sig.inputs.iter().filter(|parameter| matches!(parameter, FnArg::Typed(_)));
+        Some(parameters.skip(count).cloned().collect::<Vec<_>>())
+    };
+    let is_array =
+        |parameter: &FnArg| matches!(parameter, FnArg::Typed(typed) if matches!(&*typed.ty, Type::Array(_)));
+    let of_force = after("force", 2).unwrap_or_default();
+    let is_driven = of_force.iter().any(is_array);
+    let is_timed = [after("lagrangian", 2), after("rayleigh", 1), Some(of_force)]
+        .iter()
+        .flatten()
+        .flatten()
+        .any(|parameter| !is_array(parameter));
+    let name = source.name();
+    let function = format_ident!("{}", if is_driven { "driven" } else { "at_time" });
+    let is_taken = source.functions().any(|own| own.sig.ident == function);
+    let arguments = [is_driven, is_timed].into_iter().filter(|&asked| asked);
+    let arguments: Vec<_> = arguments.map(|_| quote!(_: impl ::core::marker::Sized)).collect();
+    (!arguments.is_empty() && !is_taken).then(|| {
+        quote! {
+            #[allow(dead_code)]
+            impl #name {
+                pub fn #function(&self, #(#arguments),*) -> &Self { self }
+            }
+        }
+    })
 }
 
 /// Stubs of the one trait that the function's result names.

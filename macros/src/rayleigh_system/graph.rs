@@ -16,6 +16,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use proc_macro2::{Group, Ident, Literal, Span, TokenStream, TokenTree};
 use quote::{format_ident, quote};
+use syn::Expr;
 
 pub use operation::{Comparison, Function, Operation, PairFunction, Predicate};
 
@@ -37,6 +38,8 @@ pub struct Parameter {
     text: String,
     /// An entry of a local array, such as `q1[0]`.
     is_entry: bool,
+    /// Whether derivatives are taken by it.
+    is_listed: bool,
 }
 
 impl Parameter {
@@ -45,6 +48,9 @@ impl Parameter {
         self.is_entry || self.tokens.clone().into_iter().count() == 1
     }
 }
+
+/// The time, a local of functions whose bodies read it.
+const TIME: &str = "t";
 
 /// The expressions of one system.
 #[derive(Default)]
@@ -81,7 +87,7 @@ impl Graph {
         self.parameters.iter().any(|known| known.text.split(|c| !is_name(c)).any(|other| other == word))
     }
 
-    /// Whether the value changes with q or v.
+    /// Whether the value changes with q, v or u.
     pub fn depends(&self, node: Node) -> bool {
         self.depends[node.index()]
     }
@@ -93,10 +99,7 @@ impl Graph {
 
     /// Names an expression, unless it has a name or needs none.
     pub fn give_name(&mut self, node: Node, name: &str) {
-        let needs_none = matches!(
-            self.operation(node),
-            Operation::Constant(_) | Operation::Coordinate(_) | Operation::Velocity(_)
-        );
+        let needs_none = self.operation(node).is_literal();
         if !needs_none {
             self.names.entry(node).or_insert_with(|| name.trim_start_matches('_').to_owned());
         }
@@ -109,10 +112,8 @@ impl Graph {
             return node;
         }
         let node = Node(u32::try_from(self.operations.len()).expect("graphs are limited to far fewer nodes"));
-        let depends = match operation {
-            Operation::Coordinate(_) | Operation::Velocity(_) => true,
-            _ => operation.arguments().any(|argument| self.depends(argument)),
-        };
+        let depends =
+            self.is_variable(operation) || operation.arguments().any(|argument| self.depends(argument));
         self.operations.push(operation);
         self.depends.push(depends);
         self.nodes.insert(operation, node);
@@ -151,10 +152,46 @@ impl Graph {
         let tokens = with_own_self(tokens);
         let text = tokens.to_string();
         let index = self.parameters.iter().position(|known| known.text == text).unwrap_or_else(|| {
-            self.parameters.push(Parameter { tokens, text, is_entry });
+            self.parameters.push(Parameter { tokens, text, is_entry, is_listed: false });
             self.parameters.len() - 1
         });
         self.node(Operation::Parameter(index))
+    }
+
+    /// The parameter `self.m` for the expression `m`, from now on one that derivatives are taken by.
+    pub fn listed(&mut self, expression: &Expr) -> Node {
+        let tokens = with_own_self(quote!(self.#expression));
+        let text = tokens.to_string();
+        let index = self.parameters.iter().position(|known| known.text == text).unwrap_or_else(|| {
+            self.parameters.push(Parameter { tokens, text, is_entry: false, is_listed: true });
+            self.parameters.len() - 1
+        });
+        self.node(Operation::Parameter(index))
+    }
+
+    /// The time.
+    pub fn time(&mut self) -> Node {
+        let time = format_ident!("{TIME}");
+        self.written(quote!(#time))
+    }
+
+    /// Whether the operation is the time.
+    pub fn is_time(&self, operation: Operation) -> bool {
+        matches!(operation, Operation::Parameter(index) if self.parameters[index].text == TIME)
+    }
+
+    /// Whether the operation is what derivatives are taken by.
+    pub fn is_variable(&self, operation: Operation) -> bool {
+        match operation {
+            Operation::Coordinate(_) | Operation::Velocity(_) | Operation::Input(_) => true,
+            Operation::Parameter(index) => self.parameters[index].is_listed,
+            _ => false,
+        }
+    }
+
+    /// The tokens of all parameters that occur.
+    pub fn parameters(&self) -> impl Iterator<Item = &TokenStream> {
+        self.parameters.iter().map(|parameter| &parameter.tokens)
     }
 
     /// a + b as written, without an initial 0 that the sum of a loop starts from (which changes no more than the sign of
@@ -190,13 +227,14 @@ impl Graph {
         if a == b { a } else { self.node(Operation::Select(condition, a, b)) }
     }
 
-    /// The expressions with the coordinates replaced, names kept.
-    pub fn at(&mut self, roots: &[Node], configuration: &[Node]) -> Vec<Node> {
+    /// The expressions with the coordinates replaced, and the time if it is given; names kept.
+    pub fn at(&mut self, roots: &[Node], configuration: &[Node], time: Option<Node>) -> Vec<Node> {
         let mut moved: HashMap<Node, Node> = HashMap::new();
         for node in self.reachable(roots.iter().copied()) {
             let operation = self.operation(node);
             let replacement = match operation {
                 Operation::Coordinate(index) => configuration[index],
+                Operation::Parameter(index) if self.parameters[index].text == TIME => time.unwrap_or(node),
                 _ => {
                     let replacement = self.node(operation.with_arguments(|argument| moved[&argument]));
                     if let Some(name) = self.names.get(&node).cloned() {

@@ -2,21 +2,24 @@
 //! quotation shows what it expands to.
 
 use proc_macro2::{Literal, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 
 use super::expand::parameters;
-use super::model::{RayleighArguments, Rule, Source, System};
+use super::model::{Home, Part, RayleighArguments, Rule, Source, System};
 use super::structure::Structure;
+use super::view::{self, arguments, owner, subject};
 
 /// The plain value of L (0) or R (1) at the vectors q and v.
-fn value(system: &System<'_>, function: &str, arguments: RayleighArguments) -> TokenStream {
+fn value(system: &System<'_>, part: Part, point: RayleighArguments) -> TokenStream {
+    let function = part.name();
     match system.source {
         Source::Block(_) => {
             let function = format_ident!("{function}");
-            match arguments {
-                RayleighArguments::Velocity => quote!(self.#function((*v).into())),
+            let (owner, after) = (owner(system.home_of(part)), arguments(system, part));
+            match point {
+                RayleighArguments::Velocity => quote!(#owner.#function((*v).into() #(, #after)*)),
                 RayleighArguments::ConfigurationAndVelocity => {
-                    quote!(self.#function((*q).into(), (*v).into()))
+                    quote!(#owner.#function((*q).into(), (*v).into() #(, #after)*))
                 }
             }
         }
@@ -35,14 +38,18 @@ fn value(system: &System<'_>, function: &str, arguments: RayleighArguments) -> T
 
 /// `impl Lagrangian<2> for Ring`, with the derivatives of either engine.
 pub fn lagrangian(system: &System<'_>, structure: &Structure, derivatives: TokenStream) -> TokenStream {
-    let System { name, scalar, .. } = system;
+    let scalar = &system.scalar;
     let n = system.degrees.times(1);
-    let value = value(system, "lagrangian", RayleighArguments::ConfigurationAndVelocity);
+    let home = system.home_of(Part::Lagrangian);
+    let subject = subject(system, home);
+    let later = if home == Home::View { view::later(system) } else { None };
+    let value = value(system, Part::Lagrangian, RayleighArguments::ConfigurationAndVelocity);
+    let delegation = view::delegation(system, Part::Lagrangian);
     let (documentation, constant) = (structure.documentation(), structure.constant());
     quote! {
         #documentation
         #[automatically_derived]
-        impl Lagrangian<#n> for #name {
+        impl Lagrangian<#n> for #subject {
             type Scalar = #scalar;
 
             #constant
@@ -53,22 +60,28 @@ pub fn lagrangian(system: &System<'_>, structure: &Structure, derivatives: Token
             }
 
             #derivatives
+
+            #later
         }
+
+        #delegation
     }
 }
 
 /// `impl Rayleigh<2> for Ring`, with the derivatives of either engine.
-pub fn rayleigh(system: &System<'_>, arguments: RayleighArguments, derivatives: TokenStream) -> TokenStream {
-    let System { name, scalar, .. } = system;
+pub fn rayleigh(system: &System<'_>, point: RayleighArguments, derivatives: TokenStream) -> TokenStream {
+    let scalar = &system.scalar;
     let n = system.degrees.times(1);
-    let value = value(system, "rayleigh", arguments);
-    let q = match arguments {
+    let subject = subject(system, system.home_of(Part::Rayleigh));
+    let value = value(system, Part::Rayleigh, point);
+    let delegation = view::delegation(system, Part::Rayleigh);
+    let q = match point {
         RayleighArguments::Velocity => quote!(_q),
         RayleighArguments::ConfigurationAndVelocity => quote!(q),
     };
     quote! {
         #[automatically_derived]
-        impl Rayleigh<#n> for #name {
+        impl Rayleigh<#n> for #subject {
             #[inline]
             fn rayleigh(&self, #q: &Vector, v: &Vector) -> #scalar {
                 #value
@@ -76,19 +89,22 @@ pub fn rayleigh(system: &System<'_>, arguments: RayleighArguments, derivatives: 
 
             #derivatives
         }
+
+        #delegation
     }
 }
 
 /// `impl Force<2> for Ring`, with the derivatives of either engine.
 pub fn force(system: &System<'_>, derivatives: TokenStream) -> TokenStream {
-    let name = &system.name;
     let n = system.degrees.times(1);
+    let home = system.home_of(Part::Force);
+    let (subject, owner, after) = (subject(system, home), owner(home), arguments(system, Part::Force));
     quote! {
         #[automatically_derived]
-        impl Force<#n> for #name {
+        impl Force<#n> for #subject {
             #[inline]
             fn force(&self, q: &Vector, v: &Vector) -> Vector {
-                self.force((*q).into(), (*v).into()).into()
+                #owner.force((*q).into(), (*v).into() #(, #after)*).into()
             }
 
             #derivatives
@@ -99,8 +115,9 @@ pub fn force(system: &System<'_>, derivatives: TokenStream) -> TokenStream {
 /// `impl ForcedLagrangian<2> for Ring`: one term for each of R and f that the system has. The equations of motion at the stages
 /// are those that the runtime makes of it, unless an engine gives them.
 pub fn forced_lagrangian(system: &System<'_>, stages: Option<TokenStream>) -> TokenStream {
-    let System { name, scalar, .. } = system;
+    let scalar = &system.scalar;
     let n = system.degrees.times(1);
+    let subject = subject(system, system.home());
     let general = |derivatives: bool| {
         system.has_force.then(|| match derivatives {
             true => quote!(self.force_derivatives(q, v)),
@@ -146,11 +163,114 @@ pub fn forced_lagrangian(system: &System<'_>, stages: Option<TokenStream>) -> To
     });
     quote! {
         #[automatically_derived]
-        impl ForcedLagrangian<#n> for #name {
+        impl ForcedLagrangian<#n> for #subject {
             #force
             #stages
         }
     }
+}
+
+/// `impl Driven<2, 1> for DrivenArm<'_>`, with the body of either engine.
+pub fn driven(system: &System<'_>, by_input: TokenStream) -> Option<TokenStream> {
+    let scalar = &system.scalar;
+    let (n, m) = (system.degrees.times(1), system.input.as_ref()?.times(1));
+    let subject = subject(system, Home::View);
+    let rules = system.rules.of_displacement.iter().map(|rule| format_ident!("{}", rule.name()));
+    Some(quote! {
+        #[automatically_derived]
+        impl Driven<#n, #m> for #subject {
+            #by_input
+        }
+
+        #(
+            #[automatically_derived]
+            impl DiscreteDriven<#rules, #n, #m> for #subject {
+                /// ∂p0/∂u = −∂f_d⁻/∂u and ∂p1/∂u = ∂f_d⁺/∂u.
+                fn momenta_by_input(&self, q0: &Vector, v: &Vector, h: #scalar) -> MomentaBy<#scalar, #n, #m> {
+                    #rules::force_by_input(self, q0, v, h)
+                }
+            }
+        )*
+    })
+}
+
+/// `impl Parameters<2, 3> for Ring`, with the functions given.
+pub fn by_parameters(system: &System<'_>, functions: TokenStream) -> TokenStream {
+    let scalar = &system.scalar;
+    let (n, p) = (system.degrees.times(1), system.parameter_count());
+    let subject = subject(system, system.home());
+    let names =
+        system.parameters.iter().map(|parameter| parameter.to_token_stream().to_string().replace(' ', ""));
+    let terms: Vec<_> = parts(system).map(|part| format_ident!("{}_by_parameters", part.name())).collect();
+    let rules = system.rules.of_displacement.iter().map(|rule| format_ident!("{}", rule.name()));
+    let discrete = rules.map(|rule| {
+        quote! {
+            #[automatically_derived]
+            impl DiscreteParameters<#rule, #n, #p> for #subject {
+                /// ∂p0/∂θ and ∂p1/∂θ at fixed configurations.
+                fn momenta_by_parameters(
+                    &self,
+                    q0: &Vector,
+                    v: &Vector,
+                    h: #scalar,
+                ) -> MomentaBy<#scalar, #n, #p> {
+                    #(#rule::#terms(self, q0, v, h))+*
+                }
+            }
+        }
+    });
+    quote! {
+        #[automatically_derived]
+        impl Parameters<#n, #p> for #subject {
+            const PARAMETERS: [&'static str; #p] = [#(#names),*];
+
+            #functions
+        }
+
+        #(#discrete)*
+    }
+}
+
+/// `impl SecondOrder<2, 1> for DrivenArm<'_>`, with the functions of either engine.
+pub fn second_order(system: &System<'_>, functions: TokenStream) -> TokenStream {
+    let scalar = &system.scalar;
+    let (n, m) = (system.degrees.times(1), system.inputs());
+    let subject = subject(system, system.home());
+    let terms: Vec<_> = parts(system).map(|part| format_ident!("{}_along", part.name())).collect();
+    let rules = system.rules.of_displacement.iter().map(|rule| format_ident!("{}", rule.name()));
+    let discrete = rules.map(|rule| {
+        quote! {
+            #[automatically_derived]
+            impl DiscreteSecondOrder<#rule, #n, #m> for #subject {
+                /// Second derivatives of `at_start`·p0 + `at_end`·p1 by q0, q1 and u.
+                fn momenta_along(
+                    &self,
+                    q0: &Vector,
+                    v: &Vector,
+                    h: #scalar,
+                    at_start: &Vector,
+                    at_end: &Vector,
+                ) -> Hessian<#scalar, #n, #m> {
+                    #(#rule::#terms(self, q0, v, h, [at_start, at_end]))+*
+                }
+            }
+        }
+    });
+    quote! {
+        #[automatically_derived]
+        impl SecondOrder<#n, #m> for #subject {
+            #functions
+        }
+
+        #(#discrete)*
+    }
+}
+
+/// Those of L, R and f that the system has.
+fn parts(system: &System<'_>) -> impl Iterator<Item = Part> {
+    let rayleigh = system.rayleigh.map(|_| Part::Rayleigh);
+    let force = system.has_force.then_some(Part::Force);
+    [Part::Lagrangian].into_iter().chain(rayleigh).chain(force)
 }
 
 /// What an engine makes of the step's equation: bodies of the functions that a step calls, L, R and f together, and what its
@@ -181,8 +301,9 @@ pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> Toke
     if rule.is_joint() {
         return joint(system, rule);
     }
-    let System { name, scalar, .. } = system;
+    let scalar = &system.scalar;
     let n = system.degrees.times(1);
+    let subject = subject(system, system.home());
     let lagrangian = rule.lagrangian();
     let force = rule.force(system.rayleigh.is_some(), system.has_force);
     let rule = format_ident!("{}", rule.name());
@@ -246,7 +367,7 @@ pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> Toke
     let explicit = explicit.map(|functions| {
         quote! {
             #[automatically_derived]
-            impl ::dalembert::Explicit<#n> for #name {
+            impl ::dalembert::Explicit<#n> for #subject {
                 #functions
             }
         }
@@ -254,7 +375,7 @@ pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> Toke
     // p0 = −D1 L_d − f_d⁻: Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0, v, h)
     quote! {
         #[automatically_derived]
-        impl Discrete<#rule, #n> for #name {
+        impl Discrete<#rule, #n> for #subject {
             type Matrix = #matrix;
             type Memory = #memory;
             #linear
@@ -373,14 +494,15 @@ pub fn discrete_rayleigh(system: &System<'_>, rule: Rule) -> TokenStream {
         return TokenStream::new();
     }
     let as_trait = rule.is_joint().then(|| quote!(JointRayleighRule));
-    let System { name, scalar, .. } = system;
+    let scalar = &system.scalar;
     let n = system.degrees.times(1);
+    let subject = subject(system, system.home());
     let rayleigh = rule.rayleigh();
     let rule = format_ident!("{}", rule.name());
     let functions = as_trait.map_or_else(|| quote!(#rule), |joint| quote!(<#rule as #joint>));
     quote! {
         #[automatically_derived]
-        impl DiscreteRayleigh<#rule, #n> for #name {
+        impl DiscreteRayleigh<#rule, #n> for #subject {
             #[doc = #rayleigh]
             fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
                 #functions::discrete_rayleigh(self, q0, q1, h)

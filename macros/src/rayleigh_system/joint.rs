@@ -12,6 +12,9 @@ pub fn lacks(
     engine: Engine,
     lowered: Option<&mut Lowered>,
 ) -> Option<&'static str> {
+    if let Some(lacks) = asked_too_much(system) {
+        return Some(lacks);
+    }
     if system.rayleigh.is_none() {
         return Some("needs a Rayleigh function, and there is none");
     }
@@ -39,6 +42,15 @@ pub fn lacks(
     }
     let l = derivation.hessian(graph, *lagrangian, "l");
     (!is_natural(graph, &l)).then_some("needs L = ½vᵀMv − V(q) with constant M")
+}
+
+/// What no rule but those by quadrature along a straight line has: views of a system, and derivatives on request.
+pub fn asked_too_much(system: &System<'_>) -> Option<&'static str> {
+    if system.has_view() {
+        return Some("takes neither input nor time");
+    }
+    let on_request = system.second || !system.parameters.is_empty();
+    on_request.then_some("does not have the derivatives that `parameters` and `step_derivatives` ask for")
 }
 
 /// ∂²L/∂v² constant, ∂²L/∂q∂v absent.

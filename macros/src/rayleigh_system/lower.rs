@@ -12,13 +12,13 @@ mod value;
 
 use std::rc::Rc;
 
-use proc_macro2::{Span, TokenStream};
+use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 use quote::{ToTokens, format_ident, quote};
 use syn::{Block, Expr, ExprLit, FnArg, Ident, ImplItem, ImplItemFn, Lit, Pat, ReturnType, Type};
 
-use super::diagnostics::span_of;
+use super::diagnostics::{Mistake, Report, span_of};
 use super::graph::{Graph, Node, Operation};
-use super::model::{RayleighArguments, Source, System};
+use super::model::{Part, RayleighArguments, Source, System};
 use value::{Closure, Truth, Value, Written};
 
 /// Graphs beyond this are left to num-dual: their straight-line code would compile for minutes.
@@ -34,6 +34,8 @@ const MAX_DEPTH: usize = 64;
 pub struct Lowered {
     pub graph: Graph,
     pub n: usize,
+    /// Entries of the input.
+    pub m: usize,
     pub lagrangian: Node,
     pub rayleigh: Option<Node>,
     pub force: Option<Vec<Node>>,
@@ -92,6 +94,10 @@ pub fn system(system: &System<'_>) -> Result<Lowered> {
         expected: None,
         functions: Vec::new(),
     };
+    // Known before the bodies read them.
+    for parameter in &system.parameters {
+        lowering.graph.listed(parameter);
+    }
     let n = match system.degrees.literal() {
         Some(n) => n,
         None => lowering.length(&system.degrees.length)?,
@@ -99,18 +105,35 @@ pub fn system(system: &System<'_>) -> Result<Lowered> {
     let coordinates = (0..n).map(|i| Value::Real(lowering.graph.node(Operation::Coordinate(i)))).collect();
     let velocities = (0..n).map(|i| Value::Real(lowering.graph.node(Operation::Velocity(i)))).collect();
     let (q, v) = (Value::Sequence(coordinates), Value::Sequence(velocities));
+    let m = match &system.input {
+        None => 0,
+        Some(input) => lowering.length(&input.length)?,
+    };
+    let u = system.input.as_ref().map(|_| {
+        Value::Sequence((0..m).map(|i| Value::Real(lowering.graph.node(Operation::Input(i)))).collect())
+    });
+    // A local of the generated function.
+    let t = system.timed.any().then(|| Value::Real(lowering.graph.time()));
+    let timed = |part| t.clone().filter(|_| system.timed.of(part));
 
     let (lagrangian, rayleigh, force) = match system.source {
         Source::Block(_) => {
-            let lagrangian = lowering.root("lagrangian", vec![q.clone(), v.clone()])?;
+            let arguments = [q.clone(), v.clone()].into_iter().chain(timed(Part::Lagrangian)).collect();
+            let lagrangian = lowering.root("lagrangian", arguments)?;
             let rayleigh = match system.rayleigh {
                 None => None,
-                Some(RayleighArguments::Velocity) => Some(lowering.root("rayleigh", vec![v.clone()])?),
-                Some(RayleighArguments::ConfigurationAndVelocity) => {
-                    Some(lowering.root("rayleigh", vec![q.clone(), v.clone()])?)
+                Some(arguments) => {
+                    let q = (arguments == RayleighArguments::ConfigurationAndVelocity).then(|| q.clone());
+                    let arguments = q.into_iter().chain([v.clone()]).chain(timed(Part::Rayleigh)).collect();
+                    Some(lowering.root("rayleigh", arguments)?)
                 }
             };
-            let force = if system.has_force { Some(lowering.root("force", vec![q, v])?) } else { None };
+            let force = if system.has_force {
+                let arguments = [q, v].into_iter().chain(u).chain(timed(Part::Force)).collect();
+                Some(lowering.root("force", arguments)?)
+            } else {
+                None
+            };
             (lagrangian, rayleigh, force)
         }
         Source::Function(function) => {
@@ -138,7 +161,66 @@ pub fn system(system: &System<'_>) -> Result<Lowered> {
         Some(_) => return refuse(at, "the force is not an array whose entries can be told apart"),
         None => None,
     };
-    Ok(Lowered { graph: lowering.graph, n, lagrangian, rayleigh, force, functions: lowering.functions })
+    Ok(Lowered { graph: lowering.graph, n, m, lagrangian, rayleigh, force, functions: lowering.functions })
+}
+
+/// Reports parameters that nothing reads, and those that are read where no derivative reaches them.
+pub fn parameters(system: &System<'_>, lowered: &Lowered, report: &mut Report) {
+    let graph = &lowered.graph;
+    let force = lowered.force.iter().flatten().copied();
+    let roots = [lowered.lagrangian].into_iter().chain(lowered.rayleigh).chain(force);
+    let read: Vec<String> = graph
+        .reachable(roots)
+        .into_iter()
+        .filter_map(|node| match graph.operation(node) {
+            Operation::Parameter(index) => Some(graph.parameter(index).tokens.to_string()),
+            _ => None,
+        })
+        .collect();
+    for parameter in &system.parameters {
+        let root = first_word(parameter.to_token_stream());
+        let hides =
+            |tokens: &&TokenStream| !is_entry((*tokens).clone()) && reads_field((*tokens).clone(), &root);
+        if let Some(within) = graph.parameters().find(hides) {
+            let (parameter_text, within) =
+                (parameter.to_token_stream().to_string(), within.to_string().replace(" . ", "."));
+            report.at(parameter, Mistake::HiddenParameter { parameter: parameter_text, within });
+        } else if !read.contains(&quote!(self.#parameter).to_string()) {
+            report.at(parameter, Mistake::NoSuchParameter(parameter.to_token_stream().to_string()));
+        }
+    }
+}
+
+fn first_word(tokens: TokenStream) -> String {
+    tokens.into_iter().next().map(|word| word.to_string()).unwrap_or_default()
+}
+
+/// Whether the tokens are `self.c[0].1`: one entry, told by literals.
+fn is_entry(tokens: TokenStream) -> bool {
+    tokens.into_iter().all(|token| match token {
+        TokenTree::Ident(_) | TokenTree::Literal(_) => true,
+        TokenTree::Punct(punct) => punct.as_char() == '.',
+        TokenTree::Group(group) => {
+            let mut index = group.stream().into_iter();
+            group.delimiter() == Delimiter::Bracket
+                && matches!((index.next(), index.next()), (Some(TokenTree::Literal(_)), None))
+        }
+    })
+}
+
+/// Whether `self.field` stands anywhere among the tokens.
+fn reads_field(tokens: TokenStream, field: &str) -> bool {
+    let tokens: Vec<TokenTree> = tokens.into_iter().collect();
+    let here = tokens.windows(3).any(|three| match three {
+        [TokenTree::Ident(owner), TokenTree::Punct(_), TokenTree::Ident(name)] => {
+            owner == "self" && name == field
+        }
+        _ => false,
+    });
+    here || tokens.into_iter().any(|token| match token {
+        TokenTree::Group(group) => reads_field(group.stream(), field),
+        _ => false,
+    })
 }
 
 /// Whether the function has returned.

@@ -178,6 +178,96 @@ pub struct System<'a> {
     pub bodies: Vec<Body>,
     pub rayleigh: Option<RayleighArguments>,
     pub has_force: bool,
+    /// The number of entries of the force's input u, if it takes one.
+    pub input: Option<Degrees>,
+    /// Which functions take the time t.
+    pub timed: Timed,
+    /// Fields that the step is differentiated by, as listed: `m`, `c[0]`.
+    pub parameters: Vec<Expr>,
+    /// Whether the step is differentiated twice.
+    pub second: bool,
+}
+
+/// L, R or f.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    Lagrangian,
+    Rayleigh,
+    Force,
+}
+
+impl Part {
+    /// The name of the function.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Lagrangian => "lagrangian",
+            Self::Rayleigh => "rayleigh",
+            Self::Force => "force",
+        }
+    }
+}
+
+/// Which functions take the time t.
+#[derive(Clone, Copy, Default)]
+pub struct Timed {
+    pub lagrangian: bool,
+    pub rayleigh: bool,
+    pub force: bool,
+}
+
+impl Timed {
+    pub fn any(self) -> bool {
+        self.lagrangian || self.rayleigh || self.force
+    }
+
+    pub fn of(self, part: Part) -> bool {
+        match part {
+            Part::Lagrangian => self.lagrangian,
+            Part::Rayleigh => self.rayleigh,
+            Part::Force => self.force,
+        }
+    }
+}
+
+/// What the runtime's traits are implemented for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Home {
+    /// The user's type.
+    System,
+    /// The generated view of it with the input held and the time set.
+    View,
+}
+
+impl System<'_> {
+    /// Whether u or t occurs: then a step is that of a view.
+    pub fn has_view(&self) -> bool {
+        self.input.is_some() || self.timed.any()
+    }
+
+    /// M as a const generic argument, 0 where there is no input.
+    pub fn inputs(&self) -> TokenStream {
+        self.input.as_ref().map_or_else(|| quote!(0), |input| input.times(1))
+    }
+
+    /// P as a const generic argument.
+    pub fn parameter_count(&self) -> Literal {
+        Literal::usize_unsuffixed(self.parameters.len())
+    }
+
+    /// Where L_d, f_d and the step stand.
+    pub fn home(&self) -> Home {
+        if self.has_view() { Home::View } else { Home::System }
+    }
+
+    /// Where L, R or f stands: on the system wherever neither u nor t is needed.
+    pub fn home_of(&self, part: Part) -> Home {
+        let needs_view = match part {
+            Part::Lagrangian => self.timed.lagrangian,
+            Part::Rayleigh => self.timed.lagrangian || self.timed.rayleigh,
+            Part::Force => self.has_view(),
+        };
+        if needs_view { Home::View } else { Home::System }
+    }
 }
 
 /// What the Rayleigh function takes.

@@ -15,7 +15,7 @@ pub use degree::Degrees;
 use super::differentiate::{Derivatives, Gradient};
 use super::graph::{Graph, Node, Operation};
 use super::lower::Refusal;
-use super::model::Rule;
+use super::model::{Part, Rule, System};
 
 /// Who makes the derivatives, and why.
 pub enum Engine {
@@ -46,6 +46,8 @@ pub struct Findings {
 /// What kind of force R makes.
 #[derive(Clone, Copy, Debug)]
 pub enum Damping {
+    /// R takes the time.
+    Unknown,
     Absent,
     Linear,
     LinearByConfiguration,
@@ -89,11 +91,12 @@ pub struct Terms<'t> {
 }
 
 /// What the terms show, for each of the rules.
-pub fn findings(graph: &Graph, n: usize, terms: &Terms<'_>, rules: &[Rule]) -> Findings {
+pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>) -> Findings {
     let degrees = Degrees::of(graph);
     let Terms { lagrangian, rayleigh, force } = terms;
     let damping = match rayleigh {
         None => Damping::Absent,
+        Some(_) if system.timed.of(Part::Rayleigh) => Damping::Unknown,
         Some(r) if degrees.in_velocity(r.root) > 2 => Damping::Nonlinear,
         Some(r) if contains(graph, r.root, |operation| matches!(operation, Operation::Coordinate(_))) => {
             Damping::LinearByConfiguration
@@ -107,8 +110,12 @@ pub fn findings(graph: &Graph, n: usize, terms: &Terms<'_>, rules: &[Rule]) -> F
         });
         pairs.collect()
     };
-    let is_constant =
-        |entries: &[(usize, usize, Node)]| entries.iter().all(|&(.., entry)| !graph.depends(entry));
+    // In time as well; an input counts as what changes.
+    let is_constant = |entries: &[(usize, usize, Node)]| {
+        entries.iter().all(|&(.., entry)| {
+            !graph.depends(entry) && !contains(graph, entry, |operation| graph.is_time(operation))
+        })
+    };
     let mass = of_pairs(&lagrangian.derivatives, |a, b| a && b);
 
     let cyclic = (0..n).filter_map(|index| {
@@ -121,7 +128,7 @@ pub fn findings(graph: &Graph, n: usize, terms: &Terms<'_>, rules: &[Rule]) -> F
         })
     });
 
-    let newton = rules.iter().map(|&rule| {
+    let newton = system.rules.of_displacement.iter().map(|&rule| {
         // The pairs of variables whose second derivatives the rule's matrix holds.
         let is_meant: fn(bool, bool) -> bool = match rule {
             Rule::Midpoint | Rule::Fitted | Rule::OneSided => |_, _| true,
@@ -164,7 +171,9 @@ pub fn findings(graph: &Graph, n: usize, terms: &Terms<'_>, rules: &[Rule]) -> F
                 other => other.arguments().next().is_none(),
             })
         };
+        // An explicit step hands the force at its end on to the next one, whose input and time are others.
         let is_explicit = constant
+            && !system.has_view()
             && rule == Rule::Trapezoidal
             && momenta.clone().all(|(entry, by_velocity)| is_apart(entry, by_velocity))
             && rayleigh.is_none_or(|r| !contains(graph, r.root, |o| matches!(o, Operation::Coordinate(_))))

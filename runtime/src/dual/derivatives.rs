@@ -158,10 +158,23 @@ pub fn covector_variation<F: Primitive, const N: usize>(
 
 /// The block of `matrix` that starts at (`row`, `column`).
 #[inline(always)]
-fn block<F: Primitive, const R: usize, const C: usize, const A: usize, const B: usize>(
+pub(super) fn block<F: Primitive, const R: usize, const C: usize, const A: usize, const B: usize>(
     matrix: &SMatrix<F, A, B>,
     row: usize,
     column: usize,
 ) -> SMatrix<F, R, C> {
     SMatrix::from_fn(|i, j| matrix[(row + i, column + j)])
+}
+
+/// The derivative of the covector-valued `f` by the input u, q and v held.
+#[inline]
+pub fn by_input<F: Primitive, const N: usize, const M: usize>(
+    q: &SVector<F, N>,
+    v: &SVector<F, N>,
+    u: &[F; M],
+    f: impl Fn([Real<First<F, M>>; N], [Real<First<F, M>>; N], [Real<First<F, M>>; M]) -> [Real<First<F, M>>; N],
+) -> SMatrix<F, N, M> {
+    let [q, v] = [q, v].map(|vector| array::from_fn(|i| Real(DualSVec::from_re(vector[i]))));
+    let rows = f(q, v, array::from_fn(|j| first(u[j], j, nalgebra::one()))).map(|row| entries(row.0.eps));
+    SMatrix::from_fn(|i, j| rows[i][j])
 }

@@ -122,7 +122,9 @@ impl<S: Scalar, const N: usize> Factored<S, N> for FactoredDense<S, N> {
 
 #[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a NaN pivot must fail the comparison")]
 #[expect(clippy::needless_range_loop, reason = "rows k and i of one array are used together")]
-fn factored<S: Scalar, const N: usize>(matrix: &SMatrix<S, N, N>) -> Result<FactoredDense<S, N>, Singular> {
+pub(super) fn factored<S: Scalar, const N: usize>(
+    matrix: &SMatrix<S, N, N>,
+) -> Result<FactoredDense<S, N>, Singular> {
     let mut rows: [[S; N]; N] = array::from_fn(|i| array::from_fn(|j| matrix[(i, j)]));
     let mut order: [usize; N] = array::from_fn(|i| i);
     let mut scale: [S; N] = array::from_fn(|i| inverse_magnitude(&rows[i]));

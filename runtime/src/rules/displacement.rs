@@ -11,7 +11,10 @@
 use nalgebra::SVector;
 
 use crate::discrete::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
-use crate::{CovectorDerivatives, Derivatives, Direction, Force, Lagrangian, Rayleigh, Scalar};
+use crate::{
+    CovectorDerivatives, Derivatives, Direction, Driven, Force, Hessian, Lagrangian, MomentaBy, Parameters,
+    Rayleigh, Scalar, SecondOrder,
+};
 
 /// A node of the quadrature over one segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +36,22 @@ struct Sample<S, const N: usize> {
     plus: Direction<S>,
 }
 
+impl<S: Scalar, const N: usize> Sample<S, N> {
+    /// The time of the node from the start of a step of size `h`.
+    #[inline]
+    fn time(&self, h: S) -> S {
+        self.position * h
+    }
+
+    /// Second derivatives by q0 and q1 from those by (q, v) at the node.
+    #[inline]
+    fn on_segment<const M: usize>(&self, by_node: &Hessian<S, N, M>, h: S) -> Hessian<S, N, M> {
+        let by_q0 = Direction { first: S::one() - self.position, second: -S::one() / h };
+        let by_q1 = Direction { first: self.position, second: S::one() / h };
+        by_node.pull_back(by_q0, by_q1)
+    }
+}
+
 /// A rule given by its [`NODES`](Self::NODES); the discrete objects follow by formula.
 ///
 /// Each function gives one term, so that a system sums those that it has: no R, no dissipation.
@@ -49,9 +68,9 @@ pub trait DisplacementRule: Copy {
         h: L::Scalar,
     ) -> L::Scalar {
         let v = (q1 - q0) / h;
-        on_configurations::<Self, _, N>(q0, q1, h)
-            .fold(nalgebra::zero(), |sum: L::Scalar, node| sum + system.lagrangian(&node.q, &v) * node.weight)
-            * h
+        on_configurations::<Self, _, N>(q0, q1, h).fold(nalgebra::zero(), |sum: L::Scalar, node| {
+            sum + system.later(node.time(h), |system| system.lagrangian(&node.q, &v)) * node.weight
+        }) * h
     }
 
     /// L_d with its derivatives by q0 and q1.
@@ -64,7 +83,9 @@ pub trait DisplacementRule: Copy {
     ) -> Derivatives<L::Scalar, N> {
         let v = (q1 - q0) / h;
         on_configurations::<Self, _, N>(q0, q1, h).fold(Derivatives::zero(), |sum, node| {
-            sum + system.lagrangian_derivatives(&node.q, &v).pull_back(node.minus, node.plus)
+            sum + system
+                .later(node.time(h), |system| system.lagrangian_derivatives(&node.q, &v))
+                .pull_back(node.minus, node.plus)
                 * (h * node.weight)
         })
     }
@@ -78,9 +99,9 @@ pub trait DisplacementRule: Copy {
         h: L::Scalar,
     ) -> L::Scalar {
         let v = (q1 - q0) / h;
-        on_configurations::<Self, _, N>(q0, q1, h)
-            .fold(nalgebra::zero(), |sum: L::Scalar, node| sum + system.rayleigh(&node.q, &v) * node.weight)
-            * (h * h * L::Scalar::constant(0.5))
+        on_configurations::<Self, _, N>(q0, q1, h).fold(nalgebra::zero(), |sum: L::Scalar, node| {
+            sum + system.later(node.time(h), |system| system.rayleigh(&node.q, &v)) * node.weight
+        }) * (h * h * L::Scalar::constant(0.5))
     }
 
     /// R_d with its derivatives by q0 and q1.
@@ -94,7 +115,9 @@ pub trait DisplacementRule: Copy {
         let v = (q1 - q0) / h;
         let half_square = h * h * L::Scalar::constant(0.5);
         on_configurations::<Self, _, N>(q0, q1, h).fold(Derivatives::zero(), |sum, node| {
-            sum + system.rayleigh_derivatives(&node.q, &v).pull_back(node.minus, node.plus)
+            sum + system
+                .later(node.time(h), |system| system.rayleigh_derivatives(&node.q, &v))
+                .pull_back(node.minus, node.plus)
                 * (half_square * node.weight)
         })
     }
@@ -110,7 +133,7 @@ pub trait DisplacementRule: Copy {
         let v = (q1 - q0) / h;
         let half_square = h * h * L::Scalar::constant(0.5);
         on_configurations::<Self, _, N>(q0, q1, h).fold(DiscreteForce::zero(), |sum, node| {
-            let r = system.rayleigh_gradient(&node.q, &v);
+            let r = system.later(node.time(h), |system| system.rayleigh_gradient(&node.q, &v));
             let weight = half_square * node.weight;
             sum + DiscreteForce { minus: r.along(node.minus) * weight, plus: r.along(node.plus) * -weight }
         })
@@ -141,7 +164,7 @@ pub trait DisplacementRule: Copy {
     ) -> DiscreteForce<L::Scalar, N> {
         let v = (q1 - q0) / h;
         on_configurations::<Self, _, N>(q0, q1, h).fold(DiscreteForce::zero(), |sum, node| {
-            let f = system.force(&node.q, &v) * (h * node.weight);
+            let f = system.later(node.time(h), |system| system.force(&node.q, &v)) * (h * node.weight);
             sum + DiscreteForce {
                 minus: f * (L::Scalar::constant(1.0) - node.position),
                 plus: f * node.position,
@@ -159,7 +182,7 @@ pub trait DisplacementRule: Copy {
     ) -> DiscreteForceDerivatives<L::Scalar, N> {
         let v = (q1 - q0) / h;
         on_configurations::<Self, _, N>(q0, q1, h).fold(DiscreteForceDerivatives::zero(), |sum, node| {
-            let f = system.force_derivatives(&node.q, &v);
+            let f = system.later(node.time(h), |system| system.force_derivatives(&node.q, &v));
             let pulled =
                 CovectorDerivatives { value: f.value, d1: f.along(node.minus), d2: f.along(node.plus) }
                     * (h * node.weight);
@@ -179,7 +202,9 @@ pub trait DisplacementRule: Copy {
         h: L::Scalar,
     ) -> StepKernel<L::Scalar, N> {
         on_velocity::<Self, _, N>(q0, v, h).fold(StepKernel::zero(), |sum, node| {
-            let l = system.lagrangian_variations(&node.q, v, node.minus, node.plus) * node.weight;
+            let l = system.later(node.time(h), |system| {
+                system.lagrangian_variations(&node.q, v, node.minus, node.plus)
+            }) * node.weight;
             sum + StepKernel { p0: l.minus, matrix: l.mixed }
         })
     }
@@ -194,7 +219,9 @@ pub trait DisplacementRule: Copy {
     ) -> StepKernel<L::Scalar, N> {
         let half = h * L::Scalar::constant(0.5);
         on_velocity::<Self, _, N>(q0, v, h).fold(StepKernel::zero(), |sum, node| {
-            let r = system.rayleigh_variations(&node.q, v, node.minus, node.plus) * (half * node.weight);
+            let r = system
+                .later(node.time(h), |system| system.rayleigh_variations(&node.q, v, node.minus, node.plus))
+                * (half * node.weight);
             sum + StepKernel { p0: r.minus, matrix: r.mixed }
         })
     }
@@ -208,7 +235,8 @@ pub trait DisplacementRule: Copy {
         h: L::Scalar,
     ) -> StepKernel<L::Scalar, N> {
         on_velocity::<Self, _, N>(q0, v, h).fold(StepKernel::zero(), |sum, node| {
-            let (f, by_v) = system.force_variation(&node.q, v, node.plus);
+            let (f, by_v) =
+                system.later(node.time(h), |system| system.force_variation(&node.q, v, node.plus));
             let weight = h * node.weight * (node.position - L::Scalar::constant(1.0));
             sum + StepKernel { p0: f * weight, matrix: by_v * weight }
         })
@@ -223,7 +251,7 @@ pub trait DisplacementRule: Copy {
         h: L::Scalar,
     ) -> Momenta<L::Scalar, N> {
         on_velocity::<Self, _, N>(q0, v, h).fold(Momenta::zero(), |sum, node| {
-            let l = system.lagrangian_gradient(&node.q, v);
+            let l = system.later(node.time(h), |system| system.lagrangian_gradient(&node.q, v));
             sum + Momenta { p0: l.along(node.minus) * node.weight, p1: l.along(node.plus) * node.weight }
         })
     }
@@ -238,7 +266,7 @@ pub trait DisplacementRule: Copy {
     ) -> Momenta<L::Scalar, N> {
         let half = h * L::Scalar::constant(0.5);
         on_velocity::<Self, _, N>(q0, v, h).fold(Momenta::zero(), |sum, node| {
-            let r = system.rayleigh_gradient(&node.q, v);
+            let r = system.later(node.time(h), |system| system.rayleigh_gradient(&node.q, v));
             sum + Momenta {
                 p0: r.along(node.minus) * (half * node.weight),
                 p1: r.along(node.plus) * (-half * node.weight),
@@ -255,8 +283,119 @@ pub trait DisplacementRule: Copy {
         h: L::Scalar,
     ) -> Momenta<L::Scalar, N> {
         on_velocity::<Self, _, N>(q0, v, h).fold(Momenta::zero(), |sum, node| {
-            let f = system.force(&node.q, v) * (h * node.weight);
+            let f = system.later(node.time(h), |system| system.force(&node.q, v)) * (h * node.weight);
             sum + Momenta { p0: f * (node.position - L::Scalar::constant(1.0)), p1: f * node.position }
+        })
+    }
+
+    /// What the input of the general force moves in both momenta: −∂f_d⁻/∂u and ∂f_d⁺/∂u.
+    #[inline]
+    fn force_by_input<L: Driven<N, M>, const N: usize, const M: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> MomentaBy<L::Scalar, N, M> {
+        on_velocity::<Self, _, N>(q0, v, h).fold(MomentaBy::zero(), |sum, node| {
+            let f =
+                system.later(node.time(h), |system| system.force_by_input(&node.q, v)) * (h * node.weight);
+            sum + MomentaBy { p0: f * (node.position - L::Scalar::constant(1.0)), p1: f * node.position }
+        })
+    }
+
+    /// What parameters of L move in both momenta.
+    #[inline]
+    fn lagrangian_by_parameters<L: Parameters<N, P>, const N: usize, const P: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> MomentaBy<L::Scalar, N, P> {
+        on_velocity::<Self, _, N>(q0, v, h).fold(MomentaBy::zero(), |sum, node| {
+            let l = system.later(node.time(h), |system| system.lagrangian_by_parameters(&node.q, v));
+            let along = |direction: Direction<L::Scalar>| l.d1 * direction.first + l.d2 * direction.second;
+            sum + MomentaBy { p0: along(node.minus) * node.weight, p1: along(node.plus) * node.weight }
+        })
+    }
+
+    /// What parameters of R move in both momenta.
+    #[inline]
+    fn rayleigh_by_parameters<L: Parameters<N, P>, const N: usize, const P: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> MomentaBy<L::Scalar, N, P> {
+        let half = h * L::Scalar::constant(0.5);
+        on_velocity::<Self, _, N>(q0, v, h).fold(MomentaBy::zero(), |sum, node| {
+            let r = system.later(node.time(h), |system| system.rayleigh_by_parameters(&node.q, v));
+            let along = |direction: Direction<L::Scalar>| r.d1 * direction.first + r.d2 * direction.second;
+            let weight = half * node.weight;
+            sum + MomentaBy { p0: along(node.minus) * weight, p1: along(node.plus) * -weight }
+        })
+    }
+
+    /// What parameters of the general force move in both momenta.
+    #[inline]
+    fn force_by_parameters<L: Parameters<N, P>, const N: usize, const P: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> MomentaBy<L::Scalar, N, P> {
+        on_velocity::<Self, _, N>(q0, v, h).fold(MomentaBy::zero(), |sum, node| {
+            let f = system.later(node.time(h), |system| system.force_by_parameters(&node.q, v))
+                * (h * node.weight);
+            sum + MomentaBy { p0: f * (node.position - L::Scalar::constant(1.0)), p1: f * node.position }
+        })
+    }
+
+    /// Second derivatives by q0 and q1 of what L adds to `a`·p0 + `b`·p1.
+    #[inline]
+    fn lagrangian_along<L: SecondOrder<N, M>, const N: usize, const M: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+        [a, b]: [&SVector<L::Scalar, N>; 2],
+    ) -> Hessian<L::Scalar, N, M> {
+        on_velocity::<Self, _, N>(q0, v, h).fold(Hessian::zero(), |sum, node| {
+            let (by_q, by_v) = (a * node.minus.first + b * node.plus.first, a + b);
+            let l = system.later(node.time(h), |system| system.lagrangian_along(&node.q, v, &by_q, &by_v));
+            sum + node.on_segment(&l, h) * node.weight
+        })
+    }
+
+    /// Second derivatives by q0 and q1 of what R adds to `a`·p0 + `b`·p1.
+    #[inline]
+    fn rayleigh_along<L: SecondOrder<N, M>, const N: usize, const M: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+        [a, b]: [&SVector<L::Scalar, N>; 2],
+    ) -> Hessian<L::Scalar, N, M> {
+        let half = h * L::Scalar::constant(0.5);
+        on_velocity::<Self, _, N>(q0, v, h).fold(Hessian::zero(), |sum, node| {
+            let (by_q, by_v) = (a * node.minus.first - b * node.plus.first, a - b);
+            let r = system.later(node.time(h), |system| system.rayleigh_along(&node.q, v, &by_q, &by_v));
+            sum + node.on_segment(&r, h) * (half * node.weight)
+        })
+    }
+
+    /// Second derivatives by q0, q1 and u of what the general force adds to `a`·p0 + `b`·p1.
+    #[inline]
+    fn force_along<L: SecondOrder<N, M>, const N: usize, const M: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+        [a, b]: [&SVector<L::Scalar, N>; 2],
+    ) -> Hessian<L::Scalar, N, M> {
+        on_velocity::<Self, _, N>(q0, v, h).fold(Hessian::zero(), |sum, node| {
+            let vector = a * (node.position - L::Scalar::constant(1.0)) + b * node.position;
+            let f = system.later(node.time(h), |system| system.force_along(&node.q, v, &vector));
+            sum + node.on_segment(&f, h) * (h * node.weight)
         })
     }
 
@@ -269,8 +408,9 @@ pub trait DisplacementRule: Copy {
         h: L::Scalar,
     ) -> L::Scalar {
         let v = (q1 - q0) / h;
-        on_configurations::<Self, _, N>(q0, q1, h)
-            .fold(nalgebra::zero(), |sum: L::Scalar, node| sum + system.energy(&node.q, &v) * node.weight)
+        on_configurations::<Self, _, N>(q0, q1, h).fold(nalgebra::zero(), |sum: L::Scalar, node| {
+            sum + system.later(node.time(h), |system| system.energy(&node.q, &v)) * node.weight
+        })
     }
 }
 

@@ -106,7 +106,10 @@ fn wrong_attributes_say_what_is_right() {
         ("rule = [midpoint", unknown),
         ("rules = midpoint", unknown),
         ("rule = r#midpoint", "unknown rule"),
-        ("rule = simpson", "unknown rule `simpson`; the rules are `midpoint`, `trapezoidal` and `gauss`"),
+        (
+            "rule = simpson",
+            "unknown rule `simpson`; the rules are `midpoint`, `trapezoidal`, `gauss`, `fitted`",
+        ),
         ("rule = []", "no rule is listed"),
         ("rule = [midpoint, midpoint]", "rule `midpoint` is listed twice"),
         ("rule = [gauss, gauss]", "rule `gauss` is listed twice"),

@@ -72,6 +72,51 @@ fn double_pendulum() {
     assert_eq!(expansion, formatted(rayleigh_system(Runtime::STD, quote!(derivatives = expanded), item)));
 }
 
+/// A system with an input and a time: R needs neither and stands on the system, and so does L; the rest on the view.
+#[test]
+fn driven() {
+    let item = quote! {
+        impl Arm {
+            fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+                0.5 * self.m * v[0] * v[0] + q[0].cos()
+            }
+            fn rayleigh(&self, v: [f64; 1]) -> f64 {
+                0.5 * self.c * v[0] * v[0]
+            }
+            fn force(&self, q: [f64; 1], _v: [f64; 1], u: [f64; 1], t: f64) -> [f64; 1] {
+                [self.gain * u[0] * q[0].cos() + (Self::RATE * t).sin()]
+            }
+        }
+    };
+    let expansion = rayleigh_system(Runtime::STD, quote!(), item.clone());
+    assert_snapshot("driven.rs", &formatted(expansion));
+    let expansion = rayleigh_system(Runtime::STD, quote!(derivatives = num_dual), item);
+    assert_snapshot("driven_by_num_dual.rs", &formatted(expansion));
+}
+
+/// What a system has on request: derivatives by parameters, and what second derivatives of its step need.
+#[test]
+fn sensitivities() {
+    let expansion = rayleigh_system(
+        Runtime::STD,
+        quote!(parameters = [l, c[0]], step_derivatives = second),
+        quote! {
+            impl Joint {
+                fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+                    0.5 * self.l * self.l * v[0] * v[0] + self.l * q[0].cos()
+                }
+                fn rayleigh(&self, v: [f64; 1]) -> f64 {
+                    0.25 * self.c[0] * v[0].powi(4)
+                }
+                fn force(&self, q: [f64; 1], _v: [f64; 1], u: [f64; 1]) -> [f64; 1] {
+                    [u[0] * q[0].cos()]
+                }
+            }
+        },
+    );
+    assert_snapshot("sensitivities.rs", &formatted(expansion));
+}
+
 /// The same system with num-dual's derivatives.
 /// Gauss alone: lanes, a mass matrix that depends on q, a selection, a force.
 #[test]

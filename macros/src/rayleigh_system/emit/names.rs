@@ -57,6 +57,7 @@ fn short(graph: &Graph, node: Node) -> Option<String> {
     match graph.operation(node) {
         Operation::Coordinate(index) => Some(format!("q{index}")),
         Operation::Velocity(index) => Some(format!("v{index}")),
+        Operation::Input(index) => Some(format!("u{index}")),
         _ => graph.name(node).map(str::to_owned),
     }
 }

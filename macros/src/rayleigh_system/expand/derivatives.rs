@@ -1,20 +1,23 @@
 //! Derivatives by num-dual: each function evaluates a twin over dual numbers, twice named because of two kinds: those that
 //! carry all derivatives, and those that carry the ones of a single pair of variables, for singular points.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::super::model::{RayleighArguments, System};
+use super::super::model::{Part, RayleighArguments, System};
+use super::super::view::{arguments, owner};
 
 /// Gradient, derivatives and variations of L or R.
-pub fn of_function(system: &System<'_>, function: &str, arguments: RayleighArguments) -> TokenStream {
+pub fn of_function(system: &System<'_>, part: Part, point: RayleighArguments) -> TokenStream {
     let System { scalar, .. } = system;
     let (n, twice) = (system.degrees.times(1), system.degrees.times(2));
+    let function = part.name();
+    let (owner, after) = (owner(system.home_of(part)), lifted(system, part));
     let [over, gradient, derivatives, variations] = ["_over", "_gradient", "_derivatives", "_variations"]
         .map(|suffix| format_ident!("{function}{suffix}"));
-    let closure = match arguments {
-        RayleighArguments::Velocity => quote!(|_, v| self.#over(v)),
-        RayleighArguments::ConfigurationAndVelocity => quote!(|q, v| self.#over(q, v)),
+    let closure = match point {
+        RayleighArguments::Velocity => quote!(|_, v| #owner.#over(v #(, #after)*)),
+        RayleighArguments::ConfigurationAndVelocity => quote!(|q, v| #owner.#over(q, v #(, #after)*)),
     };
     // fn lagrangian_gradient(&self, q: …, v: …) -> Gradient<f64, 2> {
     //     dual::gradient(q, v, |q, v| self.lagrangian_over(q, v), |q, v| self.lagrangian_over(q, v))
@@ -44,13 +47,14 @@ pub fn of_function(system: &System<'_>, function: &str, arguments: RayleighArgum
 pub fn of_force(system: &System<'_>) -> TokenStream {
     let System { scalar, .. } = system;
     let (n, twice) = (system.degrees.times(1), system.degrees.times(2));
+    let (owner, after) = (owner(system.home_of(Part::Force)), lifted(system, Part::Force));
     quote! {
         fn force_derivatives(&self, q: &Vector, v: &Vector) -> CovectorDerivatives<#scalar, #n> {
             dual::covector_derivatives::<#scalar, #n, #twice>(
                 q,
                 v,
-                |q, v| self.force_over(q, v),
-                |q, v| self.force_over(q, v),
+                |q, v| #owner.force_over(q, v #(, #after)*),
+                |q, v| #owner.force_over(q, v #(, #after)*),
             )
         }
 
@@ -64,9 +68,87 @@ pub fn of_force(system: &System<'_>) -> TokenStream {
                 q,
                 v,
                 direction,
-                |q, v| self.force_over(q, v),
-                |q, v| self.force_over(q, v),
+                |q, v| #owner.force_over(q, v #(, #after)*),
+                |q, v| #owner.force_over(q, v #(, #after)*),
             )
         }
     }
+}
+
+/// The derivative of f by the input; empty where there is none.
+pub fn by_input(system: &System<'_>) -> TokenStream {
+    let Some(m) = system.input.as_ref().map(|input| input.times(1)) else { return TokenStream::new() };
+    let scalar = &system.scalar;
+    let n = system.degrees.times(1);
+    let time = system.timed.force.then(|| quote!(, dual::lift(self.t)));
+    quote! {
+        fn force_by_input(&self, q: &Vector, v: &Vector) -> SMatrix<#scalar, #n, #m> {
+            dual::by_input(q, v, &self.u, |q, v, u| self.system.force_over(q, v, u #time))
+        }
+    }
+}
+
+/// What L, R or f takes after q and v, as constants of the dual numbers.
+fn lifted(system: &System<'_>, part: Part) -> Vec<TokenStream> {
+    arguments(system, part).into_iter().map(|argument| quote!(dual::lift(#argument))).collect()
+}
+
+/// The Hessians that second derivatives of the step need.
+pub fn along_vectors(system: &System<'_>) -> TokenStream {
+    let scalar = &system.scalar;
+    let (n, m, twice) = (system.degrees.times(1), system.inputs(), system.degrees.times(2));
+    let parts = [Some((Part::Lagrangian, RayleighArguments::ConfigurationAndVelocity))]
+        .into_iter()
+        .chain([system.rayleigh.map(|point| (Part::Rayleigh, point))])
+        .flatten();
+    // The trait stands on the view, wherever L and R do.
+    let owner = owner(system.home());
+    let functions = parts.map(|(part, point)| {
+        let [function, over] = ["along", "over"].map(|suffix| format_ident!("{}_{suffix}", part.name()));
+        let after = lifted(system, part);
+        let closure = match point {
+            RayleighArguments::Velocity => quote!(|_, v| #owner.#over(v #(, #after)*)),
+            RayleighArguments::ConfigurationAndVelocity => quote!(|q, v| #owner.#over(q, v #(, #after)*)),
+        };
+        quote! {
+            fn #function(
+                &self,
+                q: &Vector,
+                v: &Vector,
+                a: &Vector,
+                b: &Vector,
+            ) -> Hessian<#scalar, #n, #m> {
+                dual::hessian_along::<#scalar, #n, #m, #twice>(q, v, [a, b], #closure)
+            }
+        }
+    });
+    let force = system.has_force.then(|| {
+        let time = system.timed.force.then(|| quote!(, dual::lift(self.t)));
+        let (given, input) = match system.input {
+            Some(_) => (quote!(&self.u), quote!(, u)),
+            None => (quote!(&[]), quote!()),
+        };
+        let u = if system.input.is_some() { quote!(u) } else { quote!(_) };
+        let total = match &system.input {
+            Some(input) => {
+                let total = |literals: (usize, usize)| Literal::usize_unsuffixed(2 * literals.0 + literals.1);
+                match system.degrees.literal().zip(input.literal()).map(total) {
+                    Some(total) => quote!(#total),
+                    None => {
+                        let m = input.times(1);
+                        quote!({ (#twice) + (#m) })
+                    }
+                }
+            }
+            None => quote!(#twice),
+        };
+        quote! {
+            fn force_along(&self, q: &Vector, v: &Vector, vector: &Vector) -> Hessian<#scalar, #n, #m> {
+                dual::hessian_of_product::<#scalar, #n, #m, #total>(q, v, #given, vector, |q, v, #u| {
+                    #owner.force_over(q, v #input #time)
+                })
+            }
+        }
+    });
+    quote!(#(#functions)* #force)
 }

@@ -56,7 +56,7 @@ impl Code<'_> {
         let [value] = self.parts(&line.outputs[..self.n], [Shape::Vector]);
         let step_kernel = framed(self, &line, quote!(StepKernel { p0: #value, matrix: #matrix }));
 
-        let line = self.code(&[p0, p1].concat());
+        let line = self.code_at_node(&[p0, p1].concat(), &[]);
         let [p0, p1] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
         let momenta = framed(self, &line, quote!(Momenta { p0: #p0, p1: #p1 }));
 
@@ -78,7 +78,7 @@ impl Code<'_> {
     ) -> (StraightLine, TokenStream) {
         let n = self.n;
         let Some(diagonals) = diagonals else {
-            let line = self.code(&[before, matrix].concat());
+            let line = self.code_at_node(&[before, matrix].concat(), &[]);
             let [matrix] = self.parts(&line.outputs[before.len()..], [Shape::Matrix]);
             return (line, matrix);
         };
@@ -90,7 +90,7 @@ impl Code<'_> {
             })
             .map(|(row, column)| column.map_or(zero, |column| matrix[column * n + row]))
             .collect();
-        let line = self.code(&[before, &band].concat());
+        let line = self.code_at_node(&[before, &band].concat(), &[]);
         let rows = line.outputs[before.len()..].chunks(diagonals).map(|row| quote!([#(#row),*]));
         let matrix = quote!(::dalembert::Banded { rows: [#(#rows),*] });
         (line, matrix)

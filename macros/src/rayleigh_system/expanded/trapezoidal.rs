@@ -9,17 +9,26 @@
 use super::kernel::{Equation, Parts};
 use super::*;
 
+/// An end of the segment.
+struct End {
+    q: Vec<Node>,
+    /// The time there; that of the start has the name that the bodies know.
+    t: Option<Node>,
+}
+
 impl Code<'_> {
     pub(super) fn trapezoidal(&mut self, parts: &Parts) -> Equation {
         let half = self.graph.written(quote!(half));
         let [q0, q1] = ["q0", "q1"]
             .map(|end| (0..self.n).map(|index| self.graph.entry(end, index)).collect::<Vec<Node>>());
+        let end_time = self.system.timed.any().then(|| self.graph.written(quote!(t_end)));
+        let (start, end) = (End { q: q0, t: None }, End { q: q1, t: end_time });
         let (mut p0, mut p1) = (Vec::new(), Vec::new());
         for index in 0..self.n {
             let (v, q) = (self.variable(index, true), self.variable(index, false));
             let by_v = [&parts.lagrangian, &parts.rayleigh].map(|of| of.gradient.get(&v).copied());
             let by_q = [&parts.lagrangian, &parts.rayleigh].map(|of| of.gradient.get(&q).copied());
-            let [l_v, r_v] = by_v.map(|entry| entry.map(|entry| self.mean(entry, &q0, &q1)));
+            let [l_v, r_v] = by_v.map(|entry| entry.map(|entry| self.mean(entry, &start, &end)));
             let r_v = r_v.map(|r_v| self.graph.times(half, r_v));
             let force = [by_q[0], parts.force.get(index).copied()];
             let force = force.into_iter().flatten().reduce(|a, b| self.graph.plus(a, b));
@@ -27,15 +36,15 @@ impl Code<'_> {
             let share = by_q[1].map(|r_q| self.graph.times(half, r_q));
 
             // (h/2) (L_q + f ± (h/2) R_q) at one end.
-            let impulse = |code: &mut Self, end: &[Node], share: Option<Node>| {
+            let impulse = |code: &mut Self, end: &End, share: Option<Node>| {
                 let terms = [force, share].into_iter().flatten();
                 let sum = terms.reduce(|a, b| code.graph.plus(a, b))?;
-                let sum = code.graph.at(&[sum], end)[0];
+                let sum = code.at(sum, end);
                 Some(code.graph.times(half, sum))
             };
-            let before = impulse(self, &q0, share).map(|impulse| self.graph.negated(impulse));
+            let before = impulse(self, &start, share).map(|impulse| self.graph.negated(impulse));
             let negative = share.map(|share| self.graph.negated(share));
-            let after = impulse(self, &q1, negative);
+            let after = impulse(self, &end, negative);
             let drag = r_v.map(|r_v| self.graph.negated(r_v));
             for (momenta, terms) in [(&mut p0, [l_v, r_v, before]), (&mut p1, [l_v, drag, after])] {
                 let sum = terms.into_iter().flatten().reduce(|a, b| self.graph.plus(a, b));
@@ -45,11 +54,10 @@ impl Code<'_> {
         let matrix = self.matrix(|code, i, j| {
             let mut sum = None;
             for (of, is_rayleigh) in [(&parts.lagrangian, false), (&parts.rayleigh, true)] {
-                let second = code.second(of, (i, true), (j, true)).map(|entry| code.mean(entry, &q0, &q1));
-                let ahead =
-                    code.second(of, (i, true), (j, false)).map(|entry| code.graph.at(&[entry], &q1)[0]);
-                let behind =
-                    code.second(of, (i, false), (j, true)).map(|entry| code.graph.at(&[entry], &q0)[0]);
+                let second =
+                    code.second(of, (i, true), (j, true)).map(|entry| code.mean(entry, &start, &end));
+                let ahead = code.second(of, (i, true), (j, false)).map(|entry| code.at(entry, &end));
+                let behind = code.second(of, (i, false), (j, true)).map(|entry| code.at(entry, &start));
                 let skew = match (ahead, behind) {
                     (Some(ahead), Some(behind)) if ahead == behind => None,
                     (Some(ahead), Some(behind)) => Some(code.graph.minus(ahead, behind)),
@@ -66,7 +74,7 @@ impl Code<'_> {
             }
             let variable = code.variable(j, true);
             if let Some(&by_v) = parts.rows.get(i).and_then(|row| row.get(&variable)) {
-                let by_v = code.graph.at(&[by_v], &q0)[0];
+                let by_v = code.at(by_v, &start);
                 let share = code.graph.times(half, by_v);
                 let share = code.graph.negated(share);
                 sum = Some(code.added(sum, share));
@@ -76,9 +84,14 @@ impl Code<'_> {
         Equation { p0, p1, matrix }
     }
 
+    /// The expression at one end.
+    fn at(&mut self, node: Node, end: &End) -> Node {
+        self.graph.at(&[node], &end.q, end.t)[0]
+    }
+
     /// The mean over both ends.
-    fn mean(&mut self, node: Node, q0: &[Node], q1: &[Node]) -> Node {
-        let (a, b) = (self.graph.at(&[node], q0)[0], self.graph.at(&[node], q1)[0]);
+    fn mean(&mut self, node: Node, start: &End, end: &End) -> Node {
+        let (a, b) = (self.at(node, start), self.at(node, end));
         if a == b {
             return a;
         }
@@ -94,16 +107,20 @@ impl Code<'_> {
             let entries = index.map(|index| quote!(q0[#index] + h * v[#index]));
             quote!(let q1 = [#(#entries),*];)
         });
+        let t = line.uses("t").then(|| quote!(let t = self.t;));
+        let t_end = line.uses("t_end").then(|| quote!(let t_end = self.t + h;));
         let unused = unused([
             (q1.is_some() || line.uses("q0"), "q0"),
             (q1.is_some() || line.uses_velocities, "v"),
-            (q1.is_some() || half.is_some(), "h"),
+            (q1.is_some() || half.is_some() || t_end.is_some(), "h"),
         ]);
         let statements = &line.statements;
         quote! {
             #unused
             #half
             #q1
+            #t
+            #t_end
             #statements
             #result
         }

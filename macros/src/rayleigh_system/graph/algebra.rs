@@ -104,6 +104,16 @@ impl Graph {
             let product = self.scaled(-factor, a);
             return self.negated(product);
         }
+        // A sign is exact, whatever the factor.
+        match self.constant_value(a) {
+            Some(1.0) => return self.constant(factor),
+            Some(x) if x < 0.0 => {
+                let opposite = self.constant(-x);
+                let product = self.scaled(factor, opposite);
+                return self.negated(product);
+            }
+            _ => {}
+        }
         if let Operation::Negate(a) = self.operation(a) {
             let product = self.scaled(factor, a);
             return self.negated(product);

@@ -16,6 +16,7 @@ pub fn values(
         values[node.index()] = match graph.operation(node) {
             Operation::Coordinate(i) => q[i],
             Operation::Velocity(i) => v[i],
+            Operation::Input(i) => panic!("input {i} has no value here"),
             Operation::Parameter(i) => panic!("parameter {i} has no value here"),
             Operation::Constant(bits) => f64::from_bits(bits),
             Operation::Add(a, b) => at(a) + at(b),

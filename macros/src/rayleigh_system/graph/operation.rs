@@ -9,6 +9,8 @@ pub enum Operation {
     Coordinate(usize),
     /// vᵢ.
     Velocity(usize),
+    /// uᵢ, an entry of the input.
+    Input(usize),
     /// See [`Parameter`](super::Parameter).
     Parameter(usize),
     /// A number, by its bits in `f64`.
@@ -33,6 +35,11 @@ pub enum Operation {
 }
 
 impl Operation {
+    /// Whether it is written where it is used, as `q[0]` or a number.
+    pub fn is_literal(self) -> bool {
+        matches!(self, Self::Coordinate(_) | Self::Velocity(_) | Self::Input(_) | Self::Constant(_))
+    }
+
     /// The same operation with the arguments of a commutative one in order: equal to the last bit.
     pub fn ordered(self) -> Self {
         match self {
@@ -62,7 +69,11 @@ impl Operation {
     /// The same operation on other arguments.
     pub fn with_arguments(self, mut of: impl FnMut(Node) -> Node) -> Self {
         match self {
-            Self::Coordinate(_) | Self::Velocity(_) | Self::Parameter(_) | Self::Constant(_) => self,
+            Self::Coordinate(_)
+            | Self::Velocity(_)
+            | Self::Input(_)
+            | Self::Parameter(_)
+            | Self::Constant(_) => self,
             Self::Add(a, b) => Self::Add(of(a), of(b)),
             Self::Subtract(a, b) => Self::Subtract(of(a), of(b)),
             Self::Multiply(a, b) => Self::Multiply(of(a), of(b)),
@@ -83,7 +94,11 @@ impl Operation {
 
     pub fn arguments(self) -> impl Iterator<Item = Node> {
         let arguments = match self {
-            Self::Coordinate(_) | Self::Velocity(_) | Self::Parameter(_) | Self::Constant(_) => [None; 3],
+            Self::Coordinate(_)
+            | Self::Velocity(_)
+            | Self::Input(_)
+            | Self::Parameter(_)
+            | Self::Constant(_) => [None; 3],
             Self::Negate(a) | Self::Function(_, a) | Self::Power(a, _) | Self::Is(_, a) | Self::Not(a) => {
                 [Some(a), None, None]
             }

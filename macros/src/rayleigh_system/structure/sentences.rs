@@ -32,7 +32,7 @@ fn sentences(findings: &Findings) -> Vec<String> {
         sentences.push("The mass matrix ∂²L/∂v² is constant.".to_owned());
     }
     match findings.damping {
-        Damping::Absent => {}
+        Damping::Unknown | Damping::Absent => {}
         Damping::Linear => {
             sentences.push("The damping force −∂R/∂v is linear in v with constant coefficients.".to_owned());
         }

@@ -24,9 +24,16 @@ const _: () = {
         Lagrangian, LaneVector, Lanes, Rayleigh, Stages, Variations,
     };
     type Vector = SVector<f64, 2>;
+    /// Known at compile time:
+    /// - Derivatives are written out.
+    /// - The damping force −∂R/∂v is linear in v with constant coefficients.
     #[automatically_derived]
     impl Lagrangian<2> for Cart {
         type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::Expanded)
+            .with_damping(::dalembert::Damping::Linear)
+            .with_newton_matrices(&[]);
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             self.lagrangian((*q).into(), (*v).into())
@@ -36,21 +43,22 @@ const _: () = {
             let (sin_q1, cos_q1) = q[1].sin_cos();
             let l = self.l;
             let reach = cos_q1 * l;
-            let t1 = v[0] * (0.5 * self.m);
-            let t2 = v[0] * reach;
-            let t3 = v[1] * (0.5 * (l * l));
-            let kinetic = v[0] * t1 + v[1] * t2 + v[1] * t3;
+            let m = self.m;
+            let t1 = v[0] * reach;
+            let l_squared = l * l;
+            let kinetic = v[0] * (v[0] * (0.5 * m)) + v[1] * t1
+                + v[1] * (v[1] * (0.5 * l_squared));
             let end = self.end;
-            let t4 = q[0] > end;
+            let t2 = q[0] > end;
             let k = self.k;
-            let t5 = q[0] - end;
-            let stop = if t4 { 0.5 * k * (t5 * t5) } else { 0.0 };
-            let t6 = if t4 { k * t5 } else { 0.0 };
+            let t3 = q[0] - end;
+            let stop = if t2 { 0.5 * k * (t3 * t3) } else { 0.0 };
+            let t4 = if t2 { -(k * t3) } else { 0.0 };
             let dl_dreach = 1.0 + v[0] * v[1];
             Gradient {
                 value: reach + kinetic - stop,
-                d1: SVector::from([-t6, -(l * dl_dreach * sin_q1)]),
-                d2: SVector::from([t1 + (t1 + v[1] * reach), t2 + 2.0 * t3]),
+                d1: SVector::from([t4, -(l * dl_dreach * sin_q1)]),
+                d2: SVector::from([v[1] * reach + v[0] * m, t1 + v[1] * l_squared]),
             }
         }
         #[inline]
@@ -59,24 +67,23 @@ const _: () = {
             let l = self.l;
             let reach = cos_q1 * l;
             let m = self.m;
-            let t1 = v[0] * (0.5 * m);
-            let t2 = v[0] * reach;
+            let t1 = v[0] * reach;
             let l_squared = l * l;
-            let t3 = v[1] * (0.5 * l_squared);
-            let kinetic = v[0] * t1 + v[1] * t2 + v[1] * t3;
+            let kinetic = v[0] * (v[0] * (0.5 * m)) + v[1] * t1
+                + v[1] * (v[1] * (0.5 * l_squared));
             let end = self.end;
-            let t4 = q[0] > end;
+            let t2 = q[0] > end;
             let k = self.k;
-            let t5 = q[0] - end;
-            let stop = if t4 { 0.5 * k * (t5 * t5) } else { 0.0 };
-            let t6 = if t4 { k * t5 } else { 0.0 };
+            let t3 = q[0] - end;
+            let stop = if t2 { 0.5 * k * (t3 * t3) } else { 0.0 };
+            let t4 = if t2 { -(k * t3) } else { 0.0 };
             let dl_dreach = 1.0 + v[0] * v[1];
-            let t7 = if t4 { k } else { 0.0 };
+            let t5 = if t2 { -k } else { 0.0 };
             Derivatives {
                 value: reach + kinetic - stop,
-                d1: SVector::from([-t6, -(l * dl_dreach * sin_q1)]),
-                d2: SVector::from([t1 + (t1 + v[1] * reach), t2 + 2.0 * t3]),
-                d11: SMatrix::from([[-t7, 0.0], [0.0, -(reach * dl_dreach)]]),
+                d1: SVector::from([t4, -(l * dl_dreach * sin_q1)]),
+                d2: SVector::from([v[1] * reach + v[0] * m, t1 + v[1] * l_squared]),
+                d11: SMatrix::from([[t5, 0.0], [0.0, -(reach * dl_dreach)]]),
                 d12: SMatrix::from([
                     [0.0, -(sin_q1 * (v[1] * l))],
                     [0.0, -(sin_q1 * (v[0] * l))],
@@ -96,42 +103,41 @@ const _: () = {
             let l = self.l;
             let reach = cos_q1 * l;
             let m = self.m;
-            let t1 = v[0] * (0.5 * m);
             let l_squared = l * l;
             let end = self.end;
-            let t2 = q[0] > end;
+            let t1 = q[0] > end;
             let k = self.k;
-            let t3 = if t2 { k * (q[0] - end) } else { 0.0 };
-            let t4 = v[0] * reach + 2.0 * (v[1] * (0.5 * l_squared));
+            let t2 = if t1 { -(k * (q[0] - end)) } else { 0.0 };
             let dl_dreach = 1.0 + v[0] * v[1];
-            let t5 = t1 + (t1 + v[1] * reach);
-            let t6 = l * dl_dreach * sin_q1;
-            let t7 = if t2 { k } else { 0.0 };
-            let t8 = sin_q1 * (v[1] * l);
-            let t9 = sin_q1 * (v[0] * l);
+            let t3 = l * dl_dreach * sin_q1;
+            let t4 = if t1 { -k } else { 0.0 };
+            let t5 = sin_q1 * (v[1] * l);
+            let t6 = v[0] * reach + v[1] * l_squared;
+            let t7 = v[1] * reach + v[0] * m;
             let minus_first = minus.first;
             let minus_second = minus.second;
             let plus_first = plus.first;
             let plus_second = plus.second;
-            let t10 = minus_second * plus_second;
-            let t11 = minus_second * plus_first;
-            let t12 = minus_first * plus_second;
-            let t13 = minus_first * plus_first;
-            let t14 = reach * t10;
+            let t8 = minus_second * plus_second;
+            let t9 = minus_second * plus_first;
+            let t10 = minus_first * plus_second;
+            let t11 = minus_first * plus_first;
+            let t12 = reach * t8;
             Variations {
                 minus: SVector::from([
-                    t5 * minus_second - t3 * minus_first,
-                    t4 * minus_second - t6 * minus_first,
+                    t2 * minus_first + t7 * minus_second,
+                    t6 * minus_second - t3 * minus_first,
                 ]),
                 plus: SVector::from([
-                    t5 * plus_second - t3 * plus_first,
-                    t4 * plus_second - t6 * plus_first,
+                    t2 * plus_first + t7 * plus_second,
+                    t6 * plus_second - t3 * plus_first,
                 ]),
                 mixed: SMatrix::from([
-                    [m * t10 - t7 * t13, t14 - t8 * t12],
+                    [m * t8 + t4 * t11, t12 - t5 * t10],
                     [
-                        t14 - t8 * t11,
-                        l_squared * t10 - t9 * t11 - t9 * t12 - reach * dl_dreach * t13,
+                        t12 - t5 * t9,
+                        l_squared * t8 - sin_q1 * (v[0] * l) * (t9 + t10)
+                            - dl_dreach * (reach * t11),
                     ],
                 ]),
             }
@@ -145,21 +151,20 @@ const _: () = {
         }
         #[inline]
         fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 2> {
-            let t1 = v[1] * (0.5 * self.c);
+            let c = self.c;
             Gradient {
-                value: v[1] * t1,
+                value: v[1] * (v[1] * (0.5 * c)),
                 d1: SVector::from([0.0, 0.0]),
-                d2: SVector::from([0.0, 2.0 * t1]),
+                d2: SVector::from([0.0, v[1] * c]),
             }
         }
         #[inline]
         fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
             let c = self.c;
-            let t1 = v[1] * (0.5 * c);
             Derivatives {
-                value: v[1] * t1,
+                value: v[1] * (v[1] * (0.5 * c)),
                 d1: SVector::from([0.0, 0.0]),
-                d2: SVector::from([0.0, 2.0 * t1]),
+                d2: SVector::from([0.0, v[1] * c]),
                 d11: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
                 d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
                 d22: SMatrix::from([[0.0, 0.0], [0.0, c]]),
@@ -176,13 +181,13 @@ const _: () = {
             let c = self.c;
             let minus_second = minus.second;
             let plus_second = plus.second;
-            let t1 = 2.0 * (v[1] * (0.5 * c));
+            let t1 = v[1] * c;
             Variations {
                 minus: SVector::from([0.0, minus_second * t1]),
                 plus: SVector::from([0.0, plus_second * t1]),
                 mixed: SMatrix::from([
                     [0.0, 0.0],
-                    [0.0, c * (minus_second * plus_second)],
+                    [0.0, plus_second * (c * minus_second)],
                 ]),
             }
         }
@@ -218,7 +223,7 @@ const _: () = {
             let t1 = a.powf(q[0]);
             (
                 SVector::from([t1, 0.0]),
-                SMatrix::from([[t1 * a.ln() * direction.first, 0.0], [0.0, 0.0]]),
+                SMatrix::from([[t1 * (a.ln() * direction.first), 0.0], [0.0, 0.0]]),
             )
         }
     }
@@ -261,12 +266,12 @@ const _: () = {
             let end = self.end;
             let t2 = Lanes::<f64, S>::splat(end)
                 .less(q[0])
-                .select(self.k * (q[0] - end), Lanes::<f64, S>::splat(0.0));
+                .select(-(self.k * (q[0] - end)), Lanes::<f64, S>::splat(0.0));
             let dl_dreach = 1.0 + v[0] * v[1];
             let t3 = 1.0 / m;
             let t4 = reach * t3;
             let rate = [
-                Lanes::<f64, S>::splat(self.a).powf(q[0]) - t2,
+                Lanes::<f64, S>::splat(self.a).powf(q[0]) + t2,
                 -(l * dl_dreach * sin_q1 + 2.0 * (v[1] * (0.5 * self.c))),
             ];
             let p = momenta(&rate);

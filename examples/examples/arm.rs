@@ -1,0 +1,311 @@
+//! A two-link arm whose tip follows a figure eight under a moving-horizon controller at 1 kHz: every millisecond one
+//! iteration of iterative LQR over the next 0.2 s, with the generated step as its model, from the state that an extended
+//! Kalman filter believes. The encoders give angles alone.
+//!
+//! SI units. The motion itself is computed by another rule (trapezoidal) with steps of a quarter of a millisecond.
+//!
+//! ```text
+//! cargo run --release --example arm [picture.svg]
+//! ```
+
+use std::f64::consts::TAU;
+use std::time::Instant;
+
+use anyhow::{Result, ensure};
+use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
+use dalembert::{Discrete, State, StepError, Trapezoidal, rayleigh_system};
+use dalembert_examples::control::{self, Estimate, Linearised, Plan, Problem, Quadratic};
+use dalembert_examples::picture::{self, Corner, Curve, Mark, Panel, colour};
+use rand::SeedableRng;
+use rand::rngs::StdRng;
+use rand_distr::{Distribution, Normal};
+
+/// Two uniform rods in a vertical plane with a motor in each joint; q is (angle of the first from the horizontal, angle of
+/// the second from the first).
+pub struct Arm {
+    /// Masses, kg.
+    pub m: [f64; 2],
+    /// Lengths, m.
+    pub l: [f64; 2],
+    /// Friction of each joint, N m s.
+    pub c: f64,
+}
+
+#[rayleigh_system(rule = [midpoint, trapezoidal])]
+impl Arm {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let [m1, m2] = self.m;
+        let [l1, l2] = self.l;
+        let spin = v[0] + v[1];
+        let kinetic = m1 * l1 * l1 / 6.0 * v[0] * v[0]
+            + m2 * (0.5 * l1 * l1 * v[0] * v[0]
+                + l2 * l2 / 6.0 * spin * spin
+                + 0.5 * l1 * l2 * q[1].cos() * v[0] * spin);
+        let height = (0.5 * m1 + m2) * l1 * q[0].sin() + 0.5 * m2 * l2 * (q[0] + q[1]).sin();
+        kinetic - 9.81 * height
+    }
+
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        0.5 * self.c * (v[0] * v[0] + v[1] * v[1])
+    }
+
+    fn force(&self, _q: [f64; 2], _v: [f64; 2], u: [f64; 2]) -> [f64; 2] {
+        u
+    }
+}
+
+impl Arm {
+    /// Where the tip is, m.
+    fn tip(&self, q: &SVector<f64, 2>) -> SVector<f64, 2> {
+        let (first, second) = (q[0], q[0] + q[1]);
+        vector![
+            self.l[0] * first.cos() + self.l[1] * second.cos(),
+            self.l[0] * first.sin() + self.l[1] * second.sin()
+        ]
+    }
+
+    /// ∂tip/∂q.
+    fn jacobian(&self, q: &SVector<f64, 2>) -> SMatrix<f64, 2, 2> {
+        let (first, second) = (q[0], q[0] + q[1]);
+        let (dx, dy) = (-self.l[1] * second.sin(), self.l[1] * second.cos());
+        matrix![dx - self.l[0] * first.sin(), dx; dy + self.l[0] * first.cos(), dy]
+    }
+
+    /// The angles that bring the tip to a point in reach, elbow below.
+    fn angles(&self, tip: &SVector<f64, 2>) -> SVector<f64, 2> {
+        let [l1, l2] = self.l;
+        let elbow = ((tip.norm_squared() - l1 * l1 - l2 * l2) / (2.0 * l1 * l2)).acos();
+        vector![tip[1].atan2(tip[0]) - (l2 * elbow.sin()).atan2(l1 + l2 * elbow.cos()), elbow]
+    }
+}
+
+/// The arm of the scene.
+pub const ARM: Arm = Arm { m: [1.0, 0.8], l: [0.5, 0.4], c: 0.05 };
+/// The period of controller and filter, s.
+pub const H: f64 = 1e-3;
+/// Periods of the run.
+pub const PERIODS: usize = 4000;
+/// Periods before the errors count: the arm starts at rest.
+pub const SETTLED: usize = 500;
+/// Steps of the horizon and the length of one, s.
+const HORIZON: usize = 20;
+const STRIDE: f64 = 0.01;
+/// Standard deviations of an encoder, rad, and of the torque that no model knows, N m.
+const ENCODER: f64 = 5e-4;
+const UNKNOWN: f64 = 0.1;
+
+type Vector = SVector<f64, 4>;
+
+/// Position and velocity of the tip on the figure eight, once around in 2 s.
+pub fn reference(t: f64) -> [SVector<f64, 2>; 2] {
+    let (phase, rate) = (TAU * t / 2.0, TAU / 2.0);
+    [
+        vector![0.55 + 0.12 * (2.0 * phase).sin(), 0.1 + 0.2 * phase.sin()],
+        vector![0.24 * (2.0 * phase).cos(), 0.2 * phase.cos()] * rate,
+    ]
+}
+
+/// The state (q, p) on the reference.
+fn wanted(t: f64) -> Result<Vector, StepError> {
+    let [tip, speed] = reference(t);
+    let q = ARM.angles(&tip);
+    let v = ARM.jacobian(&q).try_inverse().unwrap_or_default() * speed;
+    Ok(control::vector(&State::from_velocity(&ARM, q, v)?))
+}
+
+/// To follow the reference from time `t` on.
+struct Following {
+    wanted: Vec<Vector>,
+}
+
+impl Following {
+    fn from(t: f64) -> Result<Self, StepError> {
+        let wanted = (0..=HORIZON).map(|k| wanted(t + k as f64 * STRIDE)).collect::<Result<_, _>>()?;
+        Ok(Self { wanted })
+    }
+}
+
+impl Problem<4, 2> for Following {
+    fn advance(&self, x: &Vector, u: &SVector<f64, 2>) -> Result<Vector, StepError> {
+        control::advance(&ARM.driven(*u), x, STRIDE)
+    }
+
+    fn linearised(&self, x: &Vector, u: &SVector<f64, 2>) -> Result<Linearised<4, 2>, StepError> {
+        control::linearised(&ARM.driven(*u), x, STRIDE)
+    }
+
+    fn cost(&self, k: usize, x: &Vector, u: &SVector<f64, 2>) -> Result<Quadratic<4, 2>, StepError> {
+        let weights = SMatrix::from_diagonal(&vector![1e4, 1e4, 10.0, 10.0]);
+        let effort = 1e-3;
+        let miss = x - self.wanted[k];
+        let value = 0.5 * miss.dot(&(weights * miss)) + 0.5 * effort * u.norm_squared();
+        Ok(Quadratic {
+            value,
+            x: weights * miss,
+            xx: weights,
+            u: u * effort,
+            uu: SMatrix::identity() * effort,
+        })
+    }
+}
+
+fn main() -> Result<()> {
+    let run = Run::new()?;
+    let micro = |seconds: &[f64]| {
+        let mut sorted = seconds.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        [sorted.len() / 2, sorted.len() * 99 / 100].map(|index| sorted[index] * 1e6)
+    };
+    let [median, high] = micro(&run.seconds);
+    println!(
+        "Figure eight, {:.0} times around in {:.0} s, under torques of {UNKNOWN} N m that the model does not know",
+        PERIODS as f64 * H / 2.0,
+        PERIODS as f64 * H
+    );
+    println!(
+        "  tip off its reference: {:.2} mm rms, {:.2} mm at most; largest torque {:.1} N m",
+        1e3 * rms(&run.misses[SETTLED..]),
+        1e3 * run.misses[SETTLED..].iter().copied().fold(0.0, f64::max),
+        run.torques.iter().fold(0.0_f64, |largest, u| largest.max(u.amax()))
+    );
+    println!(
+        "  velocities, rms error: filter {:.3} rad/s, differences of the encoders {:.3} rad/s",
+        rms(&run.filter_errors[SETTLED..]),
+        rms(&run.difference_errors[SETTLED..])
+    );
+    println!(
+        "One period of 1000 µs, filter and {HORIZON} steps ahead: {median:.0} µs in the median, {high:.0} µs at the 99th percentile"
+    );
+    ensure!(rms(&run.misses[SETTLED..]) < 3e-3, "the arm lost its reference");
+    println!("\nPicture: {}", draw(&run)?.display());
+    Ok(())
+}
+
+/// Root mean square.
+pub fn rms(values: &[f64]) -> f64 {
+    (values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64).sqrt()
+}
+
+/// What happened, period by period.
+#[derive(Default)]
+pub struct Run {
+    /// Where the tip was, m.
+    pub tips: Vec<SVector<f64, 2>>,
+    /// Its distance from the reference, m.
+    pub misses: Vec<f64>,
+    /// Torques of the controller, N m.
+    pub torques: Vec<SVector<f64, 2>>,
+    /// Velocity of the second joint: true, believed by the filter, and from differences of the encoder, rad/s.
+    pub velocities: Vec<[f64; 3]>,
+    /// Error of the filter's velocities, rad/s.
+    pub filter_errors: Vec<f64>,
+    /// Error of velocities by differences of the encoders, rad/s.
+    pub difference_errors: Vec<f64>,
+    /// Time spent in filter and controller, s.
+    pub seconds: Vec<f64>,
+}
+
+impl Run {
+    /// The run, from rest at the start of the reference.
+    pub fn new() -> Result<Self> {
+        let mut random = StdRng::seed_from_u64(2);
+        let (encoder, unknown) = (Normal::new(0.0, ENCODER)?, Normal::new(0.0, UNKNOWN)?);
+        let mut state = State::from_velocity(&ARM, ARM.angles(&reference(0.0)[0]), [0.0, 0.0])?;
+        let mut estimate = Estimate {
+            x: control::vector(&state),
+            covariance: SMatrix::from_diagonal(&vector![1e-4, 1e-4, 1e-2, 1e-2]),
+        };
+        let angles_of_state = SMatrix::<f64, 2, 4>::identity();
+        let noise_of_encoders = SMatrix::<f64, 2, 2>::identity() * ENCODER.powi(2);
+        let mut inputs = vec![SVector::zeros(); HORIZON];
+        let mut last_measured = state.q;
+        let mut run = Self::default();
+        for k in 0..PERIODS {
+            let measured = state.q + SVector::from_fn(|_, _| encoder.sample(&mut random));
+            let clock = Instant::now();
+            estimate = estimate.corrected(&measured, &angles_of_state, &noise_of_encoders)?;
+            let problem = Following::from(k as f64 * H)?;
+            let plan = Plan::new(&problem, estimate.x, inputs)?;
+            let plan = plan.improved(&problem, estimate.x, 0.0)?.unwrap_or(plan);
+            let u = plan.inputs[0];
+            let model = control::linearised::<_, 2, 2, 4>(&ARM.driven(u), &estimate.x, H)?;
+            let noise = model.b * model.b.transpose() * UNKNOWN.powi(2);
+            // The horizon's steps are ten periods long: its inputs slide by a tenth of a step.
+            inputs = plan.inputs;
+            for index in 0..HORIZON - 1 {
+                inputs[index] = inputs[index].lerp(&inputs[index + 1], H / STRIDE);
+            }
+            run.seconds.push(clock.elapsed().as_secs_f64());
+
+            let v = state.velocity(&ARM)?;
+            let believed = control::state::<2, 4>(&estimate.x).velocity(&ARM)?;
+            let by_differences = if k == 0 { v } else { (measured - last_measured) / H };
+            run.velocities.push([v[1], believed[1], by_differences[1]]);
+            run.filter_errors.push((believed - v).norm());
+            run.difference_errors.push((by_differences - v).norm());
+            run.tips.push(ARM.tip(&state.q));
+            run.misses.push((ARM.tip(&state.q) - reference(k as f64 * H)[0]).norm());
+            run.torques.push(u);
+
+            estimate = estimate.predicted(&model, &noise);
+            last_measured = measured;
+            let driven = ARM.driven(u + SVector::from_fn(|_, _| unknown.sample(&mut random)));
+            for _ in 0..4 {
+                state = Discrete::<Trapezoidal, 2>::step(&driven, &state, H / 4.0, None)?.state;
+            }
+        }
+        Ok(run)
+    }
+}
+
+fn draw(run: &Run) -> Result<std::path::PathBuf> {
+    let curve = |label, colour, width, points| Curve { label, colour, mark: Mark::Line(width), points };
+    let panel = |title, x, y, legend, curves| Panel { title, x, y, legend, curves };
+    let over_time = |values: &dyn Fn(usize) -> f64, range: std::ops::Range<usize>| -> Vec<_> {
+        range.map(|k| (k as f64 * H, values(k))).collect()
+    };
+    let all = 0..PERIODS;
+    let path = (0..=2000).map(|k| reference(k as f64 * H)[0]).map(|tip| (tip[0], tip[1])).collect();
+    let tips = run.tips.iter().map(|tip| (tip[0], tip[1])).collect();
+    let window = 1000..1200;
+    let velocity = |index: usize| over_time(&|k| run.velocities[k][index], window.clone());
+    let time = "time t (s)";
+    let panels = [
+        panel(
+            "Path of the tip (blue) on its reference (black)",
+            "x (m)",
+            "y (m)",
+            Corner::UpperLeft,
+            vec![curve("", colour::REFERENCE, 5, path), curve("", colour::VARIATIONAL, 2, tips)],
+        ),
+        panel(
+            "Distance of the tip from its reference",
+            time,
+            "distance (mm)",
+            Corner::UpperRight,
+            vec![curve("tip", colour::VARIATIONAL, 1, over_time(&|k| 1e3 * run.misses[k], all.clone()))],
+        ),
+        panel(
+            "Torques",
+            time,
+            "torque (N m)",
+            Corner::UpperRight,
+            vec![
+                curve("first joint", colour::VARIATIONAL, 1, over_time(&|k| run.torques[k][0], all.clone())),
+                curve("second joint", colour::RUNGE_KUTTA, 1, over_time(&|k| run.torques[k][1], all)),
+            ],
+        ),
+        panel(
+            "Velocity of the second joint, 0.2 s of it",
+            time,
+            "velocity (rad/s)",
+            Corner::LowerRight,
+            vec![
+                curve("differences of the encoder", colour::EULER, 1, velocity(2)),
+                curve("true", colour::REFERENCE, 4, velocity(0)),
+                curve("filter", colour::RUNGE_KUTTA, 2, velocity(1)),
+            ],
+        ),
+    ];
+    picture::write("arm", [1600, 1100], 2, &panels)
+}

@@ -1,0 +1,310 @@
+//! A cart with a pole, friction in rail and joint: swung up by iterative LQR, held upright by a discrete LQR, both from
+//! the exact derivatives A and B of the generated step, under noise, a fluctuating force and two pushes.
+//!
+//! SI units. The motion itself is computed by another rule (trapezoidal) with steps ten times finer than the controller's.
+//!
+//! ```text
+//! cargo run --release --example cart_pole [picture.svg]
+//! ```
+
+use std::f64::consts::PI;
+use std::time::Instant;
+
+use anyhow::{Context, Result, ensure};
+use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
+use dalembert::{Discrete, PhaseMatrix, State, StepError, Trapezoidal, rayleigh_system};
+use dalembert_examples::control::{self, Linearised, Plan, Problem, Quadratic};
+use dalembert_examples::picture::{self, Corner, Curve, Mark, Panel, colour};
+use rand::SeedableRng;
+use rand::rngs::StdRng;
+use rand_distr::{Distribution, Normal};
+
+/// A pole of mass `pole` at the end of a rod of length `l`, hinged to a cart; q is (position, angle from below).
+pub struct CartPole {
+    /// Mass of the cart, kg.
+    pub cart: f64,
+    /// Mass at the pole's end, kg.
+    pub pole: f64,
+    /// Length of the pole, m.
+    pub l: f64,
+    /// Friction of the rail, N s/m, and of the joint, N m s.
+    pub c: [f64; 2],
+}
+
+#[rayleigh_system(rule = [midpoint, trapezoidal])]
+impl CartPole {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let kinetic = 0.5 * (self.cart + self.pole) * v[0] * v[0]
+            + self.pole * self.l * q[1].cos() * v[0] * v[1]
+            + 0.5 * self.pole * self.l * self.l * v[1] * v[1];
+        kinetic + self.pole * 9.81 * self.l * q[1].cos()
+    }
+
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        0.5 * (self.c[0] * v[0] * v[0] + self.c[1] * v[1] * v[1])
+    }
+
+    fn force(&self, _q: [f64; 2], _v: [f64; 2], u: [f64; 1]) -> [f64; 2] {
+        [u[0], 0.0]
+    }
+}
+
+/// The system of the scene.
+pub const PLANT: CartPole = CartPole { cart: 1.0, pole: 0.3, l: 0.5, c: [0.2, 0.002] };
+/// The period of the controller, s.
+pub const H: f64 = 0.01;
+/// Periods of the swing-up, and of the whole run.
+pub const SWING: usize = 200;
+/// 14 s.
+pub const PERIODS: usize = 1400;
+/// When the pole is pushed, in periods, and the angular momentum that each push adds, N m s.
+pub const PUSHES: [(usize, f64); 2] = [(500, 0.05), (900, -0.08)];
+
+type Vector = SVector<f64, 4>;
+
+/// Weights of (q, v) in the costs: of the regulator, and at the end of the swing-up.
+const HELD: [f64; 4] = [4.0, 20.0, 1.0, 1.0];
+const AT_END: [f64; 4] = [200.0, 2000.0, 50.0, 50.0];
+
+fn main() -> Result<()> {
+    let clock = Instant::now();
+    let (plan, iterations) = swing_up()?;
+    let planning = clock.elapsed();
+    let force = plan.inputs.iter().fold(0.0_f64, |force, u| force.max(u[0].abs()));
+    let end = control::state::<2, 4>(&plan.states[SWING]);
+    println!("Swing-up by iterative LQR: {iterations} iterations in {:.1} ms", planning.as_secs_f64() * 1e3);
+    println!(
+        "  at t = {:.1} s {:.2}° from upright, {:.1} mm from the middle, largest force {force:.1} N",
+        SWING as f64 * H,
+        (end.q[1] - PI).to_degrees(),
+        1e3 * end.q[0]
+    );
+
+    let gain = upright_gain()?;
+    let upright = control::linearised(&PLANT.driven([0.0]), &target(), H)?;
+    let radius = |closed: SMatrix<f64, 4, 4>| {
+        closed.complex_eigenvalues().iter().fold(0.0_f64, |radius, value| radius.max(value.norm()))
+    };
+    println!(
+        "LQR upright: largest |eigenvalue| of A {:.4}, of A − BK {:.4}",
+        radius(upright.a),
+        radius(upright.a - upright.b * gain)
+    );
+
+    let run = Run::new(&plan, &gain, true)?;
+    let held = run.largest_angle(SWING..PERIODS);
+    println!(
+        "Held upright for {:.1} s under noise and two pushes: largest angle {:.1}°, largest offset {:.0} mm; largest force of the run {:.1} N",
+        (PERIODS - SWING) as f64 * H,
+        held.to_degrees(),
+        1e3 * run.largest_offset(SWING..PERIODS),
+        run.forces.iter().fold(0.0_f64, |force, u| force.max(u.abs())),
+    );
+    println!(
+        "One period of the controller: {:.2} µs; one step with A and B {:.2} µs",
+        run.seconds / PERIODS as f64 * 1e6,
+        seconds_of_linearisation()? * 1e6
+    );
+    ensure!(held < 0.5, "the pole fell: {:.1}°", held.to_degrees());
+    println!("\nPicture: {}", draw(&plan, &run)?.display());
+    Ok(())
+}
+
+/// Upright at rest in the middle.
+pub fn target() -> Vector {
+    vector![0.0, PI, 0.0, 0.0]
+}
+
+/// ½ Σ w (·)² of the distance of (q, v) from the target, as a function of (q, p).
+fn distance(x: &Vector, weights: [f64; 4]) -> Result<(f64, Vector, SMatrix<f64, 4, 4>), StepError> {
+    let state = control::state(x);
+    let v = state.velocity(&PLANT)?;
+    let by_state = PhaseMatrix::to_velocity(&PLANT, &state.q, &v)?.assembled::<4>();
+    let weights = SMatrix::from_diagonal(&Vector::from(weights));
+    let miss = vector![state.q[0], state.q[1], v[0], v[1]] - target();
+    let slope = by_state.transpose() * weights * miss;
+    Ok((0.5 * miss.dot(&(weights * miss)), slope, by_state.transpose() * weights * by_state))
+}
+
+/// To the target at the end, with little force on the way.
+struct SwingUp;
+
+impl Problem<4, 1> for SwingUp {
+    fn advance(&self, x: &Vector, u: &SVector<f64, 1>) -> Result<Vector, StepError> {
+        control::advance(&PLANT.driven(*u), x, H)
+    }
+
+    fn linearised(&self, x: &Vector, u: &SVector<f64, 1>) -> Result<Linearised<4, 1>, StepError> {
+        control::linearised(&PLANT.driven(*u), x, H)
+    }
+
+    fn cost(&self, k: usize, x: &Vector, u: &SVector<f64, 1>) -> Result<Quadratic<4, 1>, StepError> {
+        let weights = if k == SWING { AT_END } else { HELD.map(|weight| 0.1 * weight * H) };
+        let (value, by_x, xx) = distance(x, weights)?;
+        let effort = 0.05 * H;
+        Ok(Quadratic {
+            value: value + 0.5 * effort * u[0] * u[0],
+            x: by_x,
+            xx,
+            u: u * effort,
+            uu: matrix![effort],
+        })
+    }
+}
+
+/// The plan from hanging at rest, and the iterations that it took.
+pub fn swing_up() -> Result<(Plan<4, 1>, usize)> {
+    let inputs = (0..SWING).map(|k| vector![2.0 * (2.0 * PI * k as f64 * H).sin()]).collect();
+    let mut plan = Plan::new(&SwingUp, Vector::zeros(), inputs)?;
+    let mut damping = 1.0;
+    let mut iterations = 0;
+    while iterations < 500 && damping < 1e6 {
+        iterations += 1;
+        match plan.improved(&SwingUp, plan.states[0], damping)? {
+            Some(next) => {
+                let gained = plan.cost - next.cost;
+                plan = next;
+                damping = f64::max(damping / 3.0, 1e-9);
+                if gained < 1e-7 * plan.cost {
+                    break;
+                }
+            }
+            None => damping *= 10.0,
+        }
+    }
+    Ok((plan, iterations))
+}
+
+/// K of u = −K (x − target).
+pub fn upright_gain() -> Result<SMatrix<f64, 1, 4>> {
+    let model = control::linearised(&PLANT.driven([0.0]), &target(), H)?;
+    let (_, _, weights) = distance(&target(), HELD)?;
+    control::regulator(&model, &weights, &matrix![0.05])
+}
+
+/// What happened, period by period.
+pub struct Run {
+    /// The true states.
+    pub states: Vec<State<f64, 2>>,
+    /// The forces of the controller.
+    pub forces: Vec<f64>,
+    /// Time spent in the controller, s.
+    pub seconds: f64,
+}
+
+impl Run {
+    /// The motion from hanging under noise and pushes: the plan with its gains first, then the regulator. Without
+    /// `feedback` the plan's forces alone, then none.
+    pub fn new(plan: &Plan<4, 1>, gain: &SMatrix<f64, 1, 4>, feedback: bool) -> Result<Self> {
+        let mut random = StdRng::seed_from_u64(1);
+        let sensor = [1e-3, 2e-3, 2e-2, 2e-2].map(|deviation| Normal::new(0.0, deviation));
+        let gust = Normal::new(0.0, 0.5)?;
+        let mut state = State { q: vector![0.0, 0.0], p: vector![0.0, 0.0] };
+        let mut run = Self { states: vec![state], forces: Vec::new(), seconds: 0.0 };
+        for k in 0..PERIODS {
+            // Sensors give positions and velocities, each with its error.
+            let v = state.velocity(&PLANT)?;
+            let mut measured = [state.q[0], state.q[1], v[0], v[1]];
+            for (value, error) in measured.iter_mut().zip(sensor) {
+                *value += error?.sample(&mut random);
+            }
+            let clock = Instant::now();
+            let [x, angle, speed, rate] = measured;
+            let believed = control::vector::<2, 4>(&State::from_velocity(&PLANT, [x, angle], [speed, rate])?);
+            let u = match (k < SWING, feedback) {
+                (true, true) => plan.inputs[k] + plan.gains[k] * (believed - plan.states[k]),
+                (true, false) => plan.inputs[k],
+                (false, true) => -gain * (believed - target()),
+                (false, false) => vector![0.0],
+            };
+            run.seconds += clock.elapsed().as_secs_f64();
+            if let Some((_, push)) = PUSHES.iter().find(|(when, _)| *when == k) {
+                state.p[1] += push;
+            }
+            let driven = PLANT.driven([u[0] + gust.sample(&mut random)]);
+            for _ in 0..10 {
+                state = Discrete::<Trapezoidal, 2>::step(&driven, &state, H / 10.0, None)?.state;
+            }
+            run.states.push(state);
+            run.forces.push(u[0]);
+        }
+        Ok(run)
+    }
+
+    /// The largest angle from upright within some periods.
+    pub fn largest_angle(&self, periods: std::ops::Range<usize>) -> f64 {
+        self.states[periods].iter().fold(0.0, |largest, state| f64::max(largest, (state.q[1] - PI).abs()))
+    }
+
+    /// The largest distance of the cart from the middle within some periods.
+    pub fn largest_offset(&self, periods: std::ops::Range<usize>) -> f64 {
+        self.states[periods].iter().fold(0.0, |largest, state| f64::max(largest, state.q[0].abs()))
+    }
+}
+
+/// Seconds of one step with its derivatives.
+fn seconds_of_linearisation() -> Result<f64> {
+    let driven = PLANT.driven([1.0]);
+    let mut x = vector![0.1, 2.8, 0.3, -0.1];
+    let clock = Instant::now();
+    for _ in 0..1000 {
+        x = control::linearised::<_, 2, 1, 4>(&driven, &x, 1e-4).context("the scene can be stepped")?.next;
+    }
+    std::hint::black_box(x);
+    Ok(clock.elapsed().as_secs_f64() / 1000.0)
+}
+
+fn draw(plan: &Plan<4, 1>, run: &Run) -> Result<std::path::PathBuf> {
+    let planned = |index: usize| -> Vec<_> {
+        plan.states.iter().enumerate().map(|(k, x)| (k as f64 * H, x[index])).collect()
+    };
+    let moved = |index: usize| -> Vec<_> {
+        run.states.iter().enumerate().map(|(k, state)| (k as f64 * H, state.q[index])).collect()
+    };
+    let curve = |label, colour, width, points| Curve { label, colour, mark: Mark::Line(width), points };
+    let pushes = |level: f64| Curve {
+        label: "push",
+        colour: colour::RUNGE_KUTTA,
+        mark: Mark::Triangle,
+        points: PUSHES.iter().map(|(k, _)| (*k as f64 * H, level)).collect(),
+    };
+    let panel = |title, y, legend, curves| Panel { title, x: "time t (s)", y, legend, curves };
+    let forces = run.forces.iter().enumerate().map(|(k, u)| (k as f64 * H, *u)).collect();
+    let close =
+        moved(1).into_iter().skip(SWING + 50).map(|(t, angle)| (t, (angle - PI).to_degrees())).collect();
+    let panels = [
+        panel(
+            "Angle of the pole",
+            "angle from below (rad)",
+            Corner::LowerRight,
+            vec![
+                curve("motion", colour::VARIATIONAL, 3, moved(1)),
+                curve("plan of the swing-up", colour::REFERENCE, 1, planned(1)),
+                pushes(PI),
+            ],
+        ),
+        panel(
+            "Position of the cart",
+            "position (m)",
+            Corner::LowerRight,
+            vec![
+                curve("motion", colour::VARIATIONAL, 3, moved(0)),
+                curve("plan of the swing-up", colour::REFERENCE, 1, planned(0)),
+                pushes(0.0),
+            ],
+        ),
+        panel(
+            "Angle from upright, once held",
+            "angle from upright (degrees)",
+            Corner::UpperRight,
+            vec![curve("motion", colour::VARIATIONAL, 2, close), pushes(0.0)],
+        ),
+        panel(
+            "Force of the controller",
+            "force on the cart (N)",
+            Corner::UpperRight,
+            vec![curve("force", colour::VARIATIONAL, 1, forces)],
+        ),
+    ];
+    picture::write("cart_pole", [1600, 1100], 2, &panels)
+}

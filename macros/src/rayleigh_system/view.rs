@@ -1,0 +1,193 @@
+//! The view of a system with its input held and its time set: what a step of such a system is taken of.
+//!
+//! The comment above each quotation shows what it expands to.
+
+use proc_macro2::{Group, Ident, TokenStream, TokenTree};
+use quote::{format_ident, quote};
+
+use super::expand::conditions;
+use super::model::{Home, Part, System};
+
+/// `DrivenArm` if the force takes an input, else `ArmAtTime`.
+pub fn name(system: &System<'_>) -> Ident {
+    let name = &system.name;
+    if system.input.is_some() { format_ident!("Driven{name}") } else { format_ident!("{name}AtTime") }
+}
+
+/// What the traits are implemented for: `Arm`, `DrivenArm<'_>`.
+pub fn subject(system: &System<'_>, home: Home) -> TokenStream {
+    match home {
+        Home::System => {
+            let name = &system.name;
+            quote!(#name)
+        }
+        Home::View => {
+            let view = name(system);
+            quote!(#view<'_>)
+        }
+    }
+}
+
+/// The user's value from there: `self`, `self.system`.
+pub fn owner(home: Home) -> TokenStream {
+    match home {
+        Home::System => quote!(self),
+        Home::View => quote!(self.system),
+    }
+}
+
+/// What L, R or f takes after q and v: `self.u`, `self.t`.
+pub fn arguments(system: &System<'_>, part: Part) -> Vec<TokenStream> {
+    let input = (part == Part::Force && system.input.is_some()).then(|| quote!(self.u));
+    let time = system.timed.of(part).then(|| quote!(self.t));
+    input.into_iter().chain(time).collect()
+}
+
+/// Tokens of the user's functions, `self.k` and `Self::K`, as seen from the view.
+pub fn seen_from_view(tokens: TokenStream, system: &Ident) -> TokenStream {
+    tokens
+        .into_iter()
+        .flat_map(|token| match token {
+            TokenTree::Ident(word) if word == "self" => quote!(#word.system),
+            TokenTree::Ident(word) if word == "Self" => {
+                let mut name = system.clone();
+                name.set_span(word.span());
+                quote!(#name)
+            }
+            TokenTree::Group(group) => {
+                let mut seen = Group::new(group.delimiter(), seen_from_view(group.stream(), system));
+                seen.set_span(group.span());
+                TokenStream::from(TokenTree::Group(seen))
+            }
+            other => TokenStream::from(other),
+        })
+        .collect()
+}
+
+/// The view's type and the function that makes it.
+pub fn definition(system: &System<'_>) -> Option<TokenStream> {
+    if !system.has_view() {
+        return None;
+    }
+    let System { name: system_name, scalar, .. } = system;
+    let view = name(system);
+    let conditions = conditions(system.source);
+    let m = system.input.as_ref().map(|input| input.times(1));
+    let input = m.iter();
+    let time = system.timed.any().then_some(scalar).into_iter();
+    let (time_field, time_parameter, t) = (time.clone(), time.clone(), time.clone().map(|_| quote!(t)));
+    let fields = quote!(#(u: [#scalar; #input],)* #(t: #time_field),*);
+    let (function, text, about) = match (&m, system.timed.any()) {
+        (Some(_), false) => {
+            ("driven", " The system with the input `u` held over the step.", "its input held over a step")
+        }
+        (Some(_), true) => (
+            "driven",
+            " The system with the input `u` held over the step that starts at time `t`.",
+            "its input held over a step that starts at a given time",
+        ),
+        (None, _) => ("at_time", " The system at time `t`, where its next step starts.", "its time set"),
+    };
+    let function = format_ident!("{function}");
+    let about = format!(" [`{system_name}`] with {about}; see [`{system_name}::{function}`].");
+    let input_parameter = m.iter().map(|m| quote!(u: impl ::core::convert::Into<[#scalar; #m]>));
+    let parameters = input_parameter.chain(time_parameter.map(|scalar| quote!(t: #scalar)));
+    let u = m.iter().map(|_| quote!(u: u.into()));
+    let values = u.chain(t);
+    // pub struct DrivenArm<'a> { system: &'a Arm, u: [f64; 2] }
+    // pub fn driven(&self, u: impl Into<[f64; 2]>) -> DrivenArm<'_>
+    Some(quote! {
+        #(#conditions)*
+        #[doc = #about]
+        #[derive(Clone, Copy)]
+        #[allow(dead_code)]
+        pub struct #view<'a> {
+            system: &'a #system_name,
+            #fields
+        }
+
+        #(#conditions)*
+        #[allow(dead_code)]
+        impl #system_name {
+            #[doc = #text]
+            #[inline]
+            #[must_use]
+            pub fn #function(&self, #(#parameters),*) -> #view<'_> {
+                #view { system: self, #(#values),* }
+            }
+        }
+    })
+}
+
+/// `fn later`, where there is a time.
+pub fn later(system: &System<'_>) -> Option<TokenStream> {
+    let scalar = &system.scalar;
+    system.timed.any().then(|| {
+        quote! {
+            #[inline]
+            fn later<T>(&self, elapsed: #scalar, evaluate: impl FnOnce(&Self) -> T) -> T {
+                evaluate(&Self { t: self.t + elapsed, ..*self })
+            }
+        }
+    })
+}
+
+/// `impl Lagrangian<2> for DrivenArm<'_>`, or Rayleigh: that of the system itself, where it stands there.
+pub fn delegation(system: &System<'_>, part: Part) -> Option<TokenStream> {
+    if !system.has_view() || system.home_of(part) == Home::View {
+        return None;
+    }
+    let scalar = &system.scalar;
+    let n = system.degrees.times(1);
+    let view = subject(system, Home::View);
+    let (function, of, associated, later) = match part {
+        Part::Lagrangian => {
+            let name = &system.name;
+            let associated = quote! {
+                type Scalar = #scalar;
+
+                const STRUCTURE: ::dalembert::Structure = <#name as Lagrangian<#n>>::STRUCTURE;
+            };
+            ("lagrangian", "Lagrangian", Some(associated), later(system))
+        }
+        Part::Rayleigh => ("rayleigh", "Rayleigh", None, None),
+        Part::Force => return None,
+    };
+    let [value, gradient, derivatives, variations] =
+        ["", "_gradient", "_derivatives", "_variations"].map(|suffix| format_ident!("{function}{suffix}"));
+    let of = format_ident!("{of}");
+    Some(quote! {
+        #[automatically_derived]
+        impl #of<#n> for #view {
+            #associated
+
+            #[inline]
+            fn #value(&self, q: &Vector, v: &Vector) -> #scalar {
+                #of::#value(self.system, q, v)
+            }
+
+            #[inline]
+            fn #gradient(&self, q: &Vector, v: &Vector) -> Gradient<#scalar, #n> {
+                #of::#gradient(self.system, q, v)
+            }
+
+            #[inline]
+            fn #derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<#scalar, #n> {
+                #of::#derivatives(self.system, q, v)
+            }
+
+            #[inline]
+            fn #variations(
+                &self,
+                q: &Vector,
+                v: &Vector,
+                minus: Direction<#scalar>,
+                plus: Direction<#scalar>,
+            ) -> Variations<#scalar, #n> {
+                #of::#variations(self.system, q, v, minus, plus)
+            }
+
+            #later
+        }
+    })
+}

@@ -1,0 +1,55 @@
+//! Systems with an input: the force's derivative by u, and that of the momenta.
+//!
+//! The input u ∈ ℝᴹ is held over a step, so that it enters a segment through f_d alone:
+//!
+//! ```text
+//! p0 = −D1 L_d − f_d⁻(q0, q1, u),   p1 = D2 L_d + f_d⁺(q0, q1, u)
+//! ```
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::derivatives::linear;
+use crate::{Discrete, Force};
+
+/// A system with its input u ∈ ℝᴹ held: the views that `#[rayleigh_system]` makes of systems with
+/// `fn force(&self, q: [f64; N], v: [f64; N], u: [f64; M]) -> [f64; N]`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no input with M = {M}",
+    label = "no input",
+    note = "write `fn force(&self, q: [f64; {N}], v: [f64; {N}], u: [f64; {M}]) -> [f64; {N}]` in the `#[rayleigh_system]` block, and hold the input with `system.driven(u)`"
+)]
+pub trait Driven<const N: usize, const M: usize>: Force<N> {
+    /// ∂f/∂u at (q, v) and the input held, shape N×M: entry (i, j) is ∂fᵢ/∂uⱼ.
+    fn force_by_input(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> SMatrix<Self::Scalar, N, M>;
+}
+
+/// A system with its input held, discretised by rule `R`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no input with M = {M}, or is not discretised by `{R}`",
+    label = "no input by `{R}`",
+    note = "write `fn force(&self, q: [f64; {N}], v: [f64; {N}], u: [f64; {M}]) -> [f64; {N}]` in the `#[rayleigh_system]` block, list the rule in its attribute, and hold the input with `system.driven(u)`"
+)]
+pub trait DiscreteDriven<R, const N: usize, const M: usize>: Discrete<R, N> + Driven<N, M> {
+    /// Both momenta by the input, on the segment from q0 with mean velocity `v`: −∂f_d⁻/∂u and ∂f_d⁺/∂u.
+    fn momenta_by_input(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> MomentaBy<Self::Scalar, N, M>;
+}
+
+/// Derivatives of both momenta of a segment by M quantities other than its configurations, which are held fixed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MomentaBy<S, const N: usize, const M: usize> {
+    /// ∂p0/∂θ, shape N×M.
+    pub p0: SMatrix<S, N, M>,
+    /// ∂p1/∂θ, shape N×M.
+    pub p1: SMatrix<S, N, M>,
+}
+
+linear!(MomentaBy<M> { p0, p1 });

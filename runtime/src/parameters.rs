@@ -1,0 +1,109 @@
+//! Derivatives by parameters of a system: masses, lengths, friction coefficients.
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::derivatives::linear;
+use crate::{Discrete, Lagrangian, LegendreDerivatives, MomentaBy, Scalar, StateBy, StepError};
+
+/// Derivatives of ∂F/∂q and ∂F/∂v by P parameters, F being L or R.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GradientBy<S, const N: usize, const P: usize> {
+    /// ∂²F/∂q∂θ, shape N×P.
+    pub d1: SMatrix<S, N, P>,
+    /// ∂²F/∂v∂θ, shape N×P.
+    pub d2: SMatrix<S, N, P>,
+}
+
+linear!(GradientBy<P> { d1, d2 });
+
+/// L, R and f by the P parameters that `#[rayleigh_system(parameters = [m, c[0]])]` lists, in that order.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no derivatives by parameters",
+    label = "no parameters",
+    note = "list the fields in the attribute: `#[rayleigh_system(parameters = [m, k])]`"
+)]
+pub trait Parameters<const N: usize, const P: usize>: Lagrangian<N> {
+    /// The parameters, as listed.
+    const PARAMETERS: [&'static str; P];
+
+    /// ∂²L/∂q∂θ and ∂²L/∂v∂θ at (q, v).
+    fn lagrangian_by_parameters(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> GradientBy<Self::Scalar, N, P>;
+
+    /// ∂²R/∂q∂θ and ∂²R/∂v∂θ at (q, v); 0 where there is no R.
+    #[inline]
+    fn rayleigh_by_parameters(
+        &self,
+        _q: &SVector<Self::Scalar, N>,
+        _v: &SVector<Self::Scalar, N>,
+    ) -> GradientBy<Self::Scalar, N, P> {
+        GradientBy::zero()
+    }
+
+    /// ∂f/∂θ at (q, v), shape N×P; 0 where there is no f.
+    #[inline]
+    fn force_by_parameters(
+        &self,
+        _q: &SVector<Self::Scalar, N>,
+        _v: &SVector<Self::Scalar, N>,
+    ) -> SMatrix<Self::Scalar, N, P> {
+        SMatrix::zeros()
+    }
+}
+
+/// Both momenta of a segment by the parameters, by rule `R`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no derivatives by parameters by `{R}`",
+    label = "no parameters",
+    note = "list the fields in the attribute: `#[rayleigh_system(parameters = [m, k])]`"
+)]
+pub trait DiscreteParameters<R, const N: usize, const P: usize>: Discrete<R, N> + Parameters<N, P> {
+    /// ∂p0/∂θ and ∂p1/∂θ on the segment from q0 with mean velocity `v`.
+    fn momenta_by_parameters(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> MomentaBy<Self::Scalar, N, P>;
+}
+
+impl<S: Scalar, const N: usize, const P: usize> StateBy<S, N, P> {
+    /// ∂(q1, p1)/∂θ for the step along the segment (`q0`, `q1`), (q0, p0) held.
+    ///
+    /// ```
+    /// use dalembert::nalgebra::vector;
+    /// use dalembert::{Midpoint, StateBy, rayleigh_system};
+    ///
+    /// #[rayleigh_system(parameters = [r])]
+    /// fn drag(q: [f64; 1], v: [f64; 1], m: f64, r: f64) -> (f64, f64) {
+    ///     let _ = q;
+    ///     (0.5 * m * v[0] * v[0], 0.5 * r * v[0] * v[0])
+    /// }
+    /// let (m, r, h) = (2.0, 0.5, 0.1);
+    /// // From p0 the step goes to q1 = q0 + h p0/(m + hr/2).
+    /// let p0 = 1.0;
+    /// let q1 = h * p0 / (m + h * r / 2.0);
+    /// let step = StateBy::of_parameters(&Drag { m, r }, Midpoint, &vector![0.0], &vector![q1], h)?;
+    /// assert!((step.q[0] + h * h / 2.0 * p0 / (m + h * r / 2.0).powi(2)).abs() < 1e-15);
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular on the segment.
+    pub fn of_parameters<L, R>(
+        system: &L,
+        _rule: R,
+        q0: &SVector<S, N>,
+        q1: &SVector<S, N>,
+        h: S,
+    ) -> Result<Self, StepError>
+    where
+        L: DiscreteParameters<R, N, P, Scalar = S>,
+    {
+        let by_parameters = system.momenta_by_parameters(q0, &((q1 - q0) / h), h);
+        LegendreDerivatives::new::<L, R>(system, q0, q1, h).answer(&by_parameters)
+    }
+}

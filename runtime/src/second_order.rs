@@ -1,0 +1,225 @@
+//! Second derivatives of the step, contracted with a covector: what second-order optimal control and estimation ask for.
+//!
+//! With λ = (λ_q, λ_p) a covector at (q1, p1), the function λ·(q1, p1) of z = (q0, p0, u) has the second derivatives
+//!
+//! ```text
+//! ∂²(λ·(q1, p1))/∂z² = Dᵀ ∂²Φ D,   Φ(q0, q1, u) = μ·p0(q0, q1, u) + λ_p·p1(q0, q1, u),   D = ∂(q0, q1, u)/∂z
+//! μ = −K01⁻ᵀ (λ_q + K11ᵀ λ_p)
+//! ```
+//!
+//! by the implicit function theorem: μ is what makes Φ + λ_q·q1 stationary in q1, so that the second derivatives of q1
+//! itself drop out. On a segment Φ is a sum over L, R and f of their derivatives along one direction, whose Hessians the
+//! engines give: third derivatives of L and R appear contracted alone.
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::derivatives::linear;
+use crate::{Direction, Discrete, Lagrangian, LegendreDerivatives, Scalar, State, StepError, linearization};
+
+/// Second derivatives of a function of (x, y, u), x and y ∈ ℝᴺ, u ∈ ℝᴹ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hessian<S, const N: usize, const M: usize = 0> {
+    /// By x twice, symmetric.
+    pub d11: SMatrix<S, N, N>,
+    /// By x (rows) and y.
+    pub d12: SMatrix<S, N, N>,
+    /// By y twice, symmetric.
+    pub d22: SMatrix<S, N, N>,
+    /// By x (rows) and u.
+    pub d1u: SMatrix<S, N, M>,
+    /// By y (rows) and u.
+    pub d2u: SMatrix<S, N, M>,
+    /// By u twice, symmetric.
+    pub duu: SMatrix<S, M, M>,
+}
+
+linear!(Hessian<M> { d11, d12, d22, d1u, d2u, duu });
+
+impl<S: Scalar, const N: usize, const M: usize> Hessian<S, N, M> {
+    /// Second derivatives by (a, b, u) where x = `a.first` a + `b.first` b and y = `a.second` a + `b.second` b.
+    #[inline]
+    #[must_use]
+    pub fn pull_back(&self, a: Direction<S>, b: Direction<S>) -> Self {
+        let second = |s: Direction<S>, t: Direction<S>| {
+            self.d11 * (s.first * t.first)
+                + self.d12 * (s.first * t.second)
+                + self.d12.transpose() * (s.second * t.first)
+                + self.d22 * (s.second * t.second)
+        };
+        let with_input = |s: Direction<S>| self.d1u * s.first + self.d2u * s.second;
+        Self {
+            d11: second(a, a),
+            d12: second(a, b),
+            d22: second(b, b),
+            d1u: with_input(a),
+            d2u: with_input(b),
+            duu: self.duu,
+        }
+    }
+}
+
+/// L, R and f differentiated once more than a step asks for: `#[rayleigh_system(step_derivatives = second)]` writes it.
+///
+/// M is the number of inputs, 0 where there are none.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no second derivatives of its step",
+    label = "no second derivatives",
+    note = "ask for them in the attribute: `#[rayleigh_system(step_derivatives = second)]`"
+)]
+pub trait SecondOrder<const N: usize, const M: usize>: Lagrangian<N> {
+    /// Second derivatives by (q, v) of `a`·∂L/∂q + `b`·∂L/∂v.
+    fn lagrangian_along(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+        a: &SVector<Self::Scalar, N>,
+        b: &SVector<Self::Scalar, N>,
+    ) -> Hessian<Self::Scalar, N, M>;
+
+    /// Second derivatives by (q, v) of `a`·∂R/∂q + `b`·∂R/∂v; 0 where there is no R.
+    #[inline]
+    fn rayleigh_along(
+        &self,
+        _q: &SVector<Self::Scalar, N>,
+        _v: &SVector<Self::Scalar, N>,
+        _a: &SVector<Self::Scalar, N>,
+        _b: &SVector<Self::Scalar, N>,
+    ) -> Hessian<Self::Scalar, N, M> {
+        Hessian::zero()
+    }
+
+    /// Second derivatives by (q, v, u) of `vector`·f; 0 where there is no f.
+    #[inline]
+    fn force_along(
+        &self,
+        _q: &SVector<Self::Scalar, N>,
+        _v: &SVector<Self::Scalar, N>,
+        _vector: &SVector<Self::Scalar, N>,
+    ) -> Hessian<Self::Scalar, N, M> {
+        Hessian::zero()
+    }
+}
+
+/// Second derivatives of both momenta of a segment by rule `R`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no second derivatives of its step by `{R}`",
+    label = "no second derivatives",
+    note = "ask for them in the attribute: `#[rayleigh_system(step_derivatives = second)]`"
+)]
+pub trait DiscreteSecondOrder<R, const N: usize, const M: usize>: Discrete<R, N> + SecondOrder<N, M> {
+    /// Second derivatives by (q0, q1, u) of `at_start`·p0 + `at_end`·p1, on the segment from q0 with mean velocity `v`.
+    fn momenta_along(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+        at_start: &SVector<Self::Scalar, N>,
+        at_end: &SVector<Self::Scalar, N>,
+    ) -> Hessian<Self::Scalar, N, M>;
+}
+
+/// Second derivatives of λ·(q1, p1) by (q0, p0, u); the formula stands above.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct StepHessian<S, const N: usize, const M: usize = 0> {
+    /// By q0 twice, symmetric.
+    pub qq: SMatrix<S, N, N>,
+    /// By q0 (rows) and p0.
+    pub qp: SMatrix<S, N, N>,
+    /// By p0 twice, symmetric.
+    pub pp: SMatrix<S, N, N>,
+    /// By q0 (rows) and u.
+    pub qu: SMatrix<S, N, M>,
+    /// By p0 (rows) and u.
+    pub pu: SMatrix<S, N, M>,
+    /// By u twice, symmetric.
+    pub uu: SMatrix<S, M, M>,
+}
+
+impl<S: Scalar, const N: usize> StepHessian<S, N, 0> {
+    /// Second derivatives of `covector`.q·q1 + `covector`.p·p1 for the step along the segment (`q0`, `q1`).
+    ///
+    /// ```
+    /// use dalembert::nalgebra::vector;
+    /// use dalembert::{Midpoint, State, StepHessian, rayleigh_system};
+    ///
+    /// #[rayleigh_system(step_derivatives = second)]
+    /// fn quartic(q: [f64; 1], v: [f64; 1]) -> f64 {
+    ///     0.5 * v[0] * v[0] - 0.25 * q[0].powi(4)
+    /// }
+    /// let covector = State { q: vector![0.0], p: vector![1.0] };
+    /// let h = StepHessian::of_segment(&Quartic, Midpoint, &vector![1.0], &vector![1.0], 0.1, &covector)?;
+    /// assert!(h.qq[0] < 0.0); // the restoring force grows faster than linearly
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular on the segment.
+    pub fn of_segment<L, R>(
+        system: &L,
+        _rule: R,
+        q0: &SVector<S, N>,
+        q1: &SVector<S, N>,
+        h: S,
+        covector: &State<S, N>,
+    ) -> Result<Self, StepError>
+    where
+        L: DiscreteSecondOrder<R, N, 0, Scalar = S>,
+    {
+        Self::new::<L, R>(system, q0, q1, h, covector, &SMatrix::zeros())
+    }
+}
+
+impl<S: Scalar, const N: usize, const M: usize> StepHessian<S, N, M> {
+    /// The same for a system with its input held, by the input as well.
+    ///
+    /// # Errors
+    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular on the segment.
+    pub fn of_driven_segment<L, R>(
+        system: &L,
+        _rule: R,
+        q0: &SVector<S, N>,
+        q1: &SVector<S, N>,
+        h: S,
+        covector: &State<S, N>,
+    ) -> Result<Self, StepError>
+    where
+        L: DiscreteSecondOrder<R, N, M, Scalar = S> + crate::DiscreteDriven<R, N, M>,
+    {
+        let by_input = system.momenta_by_input(q0, &((q1 - q0) / h), h).p0;
+        Self::new::<L, R>(system, q0, q1, h, covector, &by_input)
+    }
+
+    /// With ∂p0/∂u at hand.
+    fn new<L, R>(
+        system: &L,
+        q0: &SVector<S, N>,
+        q1: &SVector<S, N>,
+        h: S,
+        covector: &State<S, N>,
+        p0_by_input: &SMatrix<S, N, M>,
+    ) -> Result<Self, StepError>
+    where
+        L: DiscreteSecondOrder<R, N, M, Scalar = S>,
+    {
+        let k = LegendreDerivatives::new::<L, R>(system, q0, q1, h);
+        // ∂q1/∂p0, ∂q1/∂q0, ∂q1/∂u.
+        let by_p = linearization::inverse(&k.p0_by_q1)?;
+        let by_q = -(by_p * k.p0_by_q0);
+        let by_u = -(by_p * p0_by_input);
+        let at_start = -(by_p.transpose() * (covector.q + k.p1_by_q1.transpose() * covector.p));
+        let phi = system.momenta_along(q0, &((q1 - q0) / h), h, &at_start, &covector.p);
+        let Hessian { d11, d12, d22, d1u, d2u, duu } = phi;
+        // ∂²Φ/∂q1∂z with q1 carried along.
+        let carried_u = d2u + d22 * by_u;
+        let carried_q = d12.transpose() + d22 * by_q;
+        Ok(Self {
+            qq: d11 + d12 * by_q + by_q.transpose() * carried_q,
+            qp: carried_q.transpose() * by_p,
+            pp: by_p.transpose() * d22 * by_p,
+            qu: d1u + d12 * by_u + by_q.transpose() * carried_u,
+            pu: by_p.transpose() * carried_u,
+            uu: duu + d2u.transpose() * by_u + by_u.transpose() * carried_u,
+        })
+    }
+}
