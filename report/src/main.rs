@@ -78,7 +78,11 @@ fn measure(folder: &Path, wanted: Option<&[String]>, long: bool) -> Result<()> {
     Ok(())
 }
 
+/// The records of a file; none if there is no file, for a part not measured yet.
 fn read<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
+    if !path.exists() {
+        return Ok(Vec::new());
+    }
     let mut file = csv::Reader::from_path(path).with_context(|| path.display().to_string())?;
     Ok(file.deserialize().collect::<Result<_, _>>()?)
 }
