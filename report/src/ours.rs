@@ -1,7 +1,7 @@
 //! This project's methods. One line adds one.
 
 use anyhow::Result;
-use dalembert::{Composition, Discrete, Midpoint, State, Trajectory, Trapezoidal};
+use dalembert::{Composition, Discrete, Gauss, Midpoint, State, Trajectory, Trapezoidal};
 
 use crate::scenes::Scene;
 
@@ -19,6 +19,10 @@ pub fn methods<S: Scene<N>, const N: usize>() -> Vec<(&'static str, Steps<S, N>)
         ("trapezoidal, Kahan–Li 8", |s, start, h, n| {
             composed(s, Composition::kahan_li_8(Trapezoidal), start, h, n)
         }),
+        ("Gauss, 2 stages", |s, start, h, n| run(s, Gauss::<2>, start, h, n)),
+        ("Gauss, 4 stages", |s, start, h, n| run(s, Gauss::<4>, start, h, n)),
+        ("Gauss, 6 stages", |s, start, h, n| run(s, Gauss::<6>, start, h, n)),
+        ("Gauss, 8 stages", |s, start, h, n| run(s, Gauss::<8>, start, h, n)),
     ]
 }
 

@@ -1,11 +1,11 @@
 //! The systems measured: for this project a Lagrangian and a Rayleigh function, for its peers the accelerations that follow,
 //! derived by hand with common subexpressions shared.
 
-use dalembert::{Discrete, Midpoint, Trapezoidal, rayleigh_system};
+use dalembert::{Discrete, ForcedLagrangian, Midpoint, Trapezoidal, rayleigh_system};
 
 /// A system in both forms.
 pub trait Scene<const N: usize>:
-    Discrete<Midpoint, N, Scalar = f64> + Discrete<Trapezoidal, N> + Copy + 'static
+    Discrete<Midpoint, N, Scalar = f64> + Discrete<Trapezoidal, N> + ForcedLagrangian<N> + Copy + 'static
 {
     /// q̈ as a function of (q, q̇).
     fn acceleration(&self, q: &[f64; N], v: &[f64; N]) -> [f64; N];
@@ -17,7 +17,7 @@ pub struct Ring {
     pub k: f64,
 }
 
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 impl Ring {
     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
         let s = q[0] * q[0] + q[1] * q[1];
@@ -51,7 +51,7 @@ impl DoublePendulum {
     pub const EXAMPLE: Self = Self { m: [1.0, 0.7], l: [1.0, 0.8], g: 9.81, c: [0.05, 0.03] };
 }
 
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 impl DoublePendulum {
     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
         let [m1, m2] = self.m;
@@ -94,7 +94,7 @@ macro_rules! chains {
             pub drag: f64,
         }
 
-        #[rayleigh_system(rule = [midpoint, trapezoidal])]
+        #[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
         impl $name {
             fn lagrangian(&self, q: [f64; $n], v: [f64; $n]) -> f64 {
                 let mut l = 0.0;
@@ -149,7 +149,7 @@ chains! {
 #[derive(Clone, Copy)]
 pub struct HenonHeiles;
 
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 impl HenonHeiles {
     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
         let [x, y] = q;
@@ -171,7 +171,7 @@ pub struct Kepler {
     pub k: f64,
 }
 
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 impl Kepler {
     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
         0.5 * (v[0] * v[0] + v[1] * v[1]) + 1.0 / (q[0] * q[0] + q[1] * q[1]).sqrt()
@@ -202,7 +202,7 @@ impl Pendulums {
     pub const EXAMPLE: Self = Self { g: 9.81, c: 0.05 };
 }
 
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 impl Pendulums {
     fn lagrangian(&self, q: [f64; 7], v: [f64; 7]) -> f64 {
         let (mut x, mut y, mut height, mut l) = (0.0, 0.0, 0.0, 0.0);
