@@ -27,12 +27,12 @@ impl<S: Scalar> Certificate<S> {
     /// use dalembert::{Certificate, Discrete, Midpoint, State, rayleigh_system};
     ///
     /// #[rayleigh_system]
-    /// fn driven(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    /// fn accelerated(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
     ///     (0.5 * v[0] * v[0] - 0.0 * q[0], 0.5 * r * v[0] * v[0])
     /// }
     /// let state = State { q: vector![0.0], p: vector![1.0] };
     /// let past_the_fold = |r: f64| {
-    ///     let system = Driven { r };
+    ///     let system = Accelerated { r };
     ///     let step = system.step(&state, 1.0, None).unwrap();
     ///     !Certificate::of_step(&system, Midpoint, &state, &step, 1.0).unwrap().on_the_branch_of_the_flow
     /// };

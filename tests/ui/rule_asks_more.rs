@@ -27,10 +27,10 @@ fn by_duals(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
     (0.5 * v[0] * v[0] - q[0] * q[0], r * v[0] * v[0])
 }
 
-struct Driven;
+struct Pushed;
 
 #[rayleigh_system(rule = one_sided)]
-impl Driven {
+impl Pushed {
     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
         0.5 * v[0] * v[0] - q[0]
     }

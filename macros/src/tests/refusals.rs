@@ -76,7 +76,7 @@ fn auto_leaves_the_rest_to_num_dual() {
         |expansion: &str| expansion.split_once("fn lagrangian_gradient").map(|(_, code)| code.to_owned());
     assert!(code(&expanded).is_some());
     assert_eq!(code(&expanded), code(&expansion("num_dual", &body)));
-    assert!(expanded.contains(r#"Refusal :: new ("sum" , 1 , "the length"#), "{expanded}");
+    assert!(expanded.contains(r#"Refusal :: new ("iter" , 1 , "the method `iter`"#), "{expanded}");
     // The control: num-dual on what could be written out.
     assert!(expansion("num_dual", &quote!(q[0] * v[0])).contains("lagrangian_over"));
 }

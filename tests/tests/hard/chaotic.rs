@@ -44,12 +44,14 @@ fn the_double_pendulum_at_high_energy_keeps_it() {
     assert!(drift[1] > 1.5 * drift[0], "{drift:?}");
 }
 
-/// E = 1/6, where the motion is almost everywhere chaotic and reaches the rim of the well: it must not leave.
+/// E next to 1/6, by twice what the rules' energies err: the motion is almost everywhere chaotic and comes near the rim of the
+/// well, which it must not leave. At 1/6 itself the saddles are open to it.
 #[test]
 fn henon_heiles_at_the_energy_of_escape() {
     let system = HenonHeiles { r: 0.0 };
-    let start = HenonHeiles::start(1.0 / 6.0, -0.1, 0.1);
-    assert!((HenonHeiles::energy_of(&start) - 1.0 / 6.0).abs() < 1e-15);
+    let energy = 1.0 / 6.0 - 4e-4;
+    let start = HenonHeiles::start(energy, -0.1, 0.1);
+    assert!((HenonHeiles::energy_of(&start) - energy).abs() < 1e-15);
     for [first, second] in
         [halves(&system, Midpoint, 0.05, start, 200_000), halves(&system, Trapezoidal, 0.05, start, 200_000)]
     {

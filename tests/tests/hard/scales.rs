@@ -71,7 +71,8 @@ fn time_reverses_to_rounding_without_friction() {
     let start = State { q: vector![0.4], p: vector![-0.2] };
     for h in [1e-3, 0.1, 10.0] {
         let back = there_and_back(&oscillator, Midpoint, h, start, 10_000);
-        assert!(back < 1e-13, "{h}: {back:e}");
+        // One rounding a step, all of one sign, at worst.
+        assert!(back < 20_000.0 * f64::EPSILON, "{h}: {back:e}");
     }
 }
 
