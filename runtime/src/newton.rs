@@ -239,6 +239,8 @@ fn careful<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
             (Err(_), Some(last))
                 if share > S::constant(SHORTEST) && first_non_finite(&residual, &kernel.matrix).is_none() =>
             {
+                // It was no iterate: nothing is corrected from it.
+                damped -= u32::from(share < S::one());
                 share *= S::constant(0.5);
                 trial = last.v - last.correction * share;
                 continue;
@@ -300,7 +302,10 @@ fn stagnated<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         let explained = in_units_of(&residual, &measured) <= S::constant(AT_FLOOR);
         let close = in_units_of(&residual, &estimated) <= S::constant(STAGNATION);
         let (residual, floor) = worst(&residual, if explained { &measured } else { &estimated });
-        let report = Report { iterations, damped, residual, floor, last_correction: last.correction.amax() };
+        let last_correction = last.correction.amax();
+        let report = Report { iterations, damped, residual, floor, last_correction };
+        // A correction that overflows says that the root is not near.
+        let close = close && last_correction.is_finite();
         (explained || close && !explained_only).then_some(Solution { unknown: *v, momenta, report })
     };
     // One component that rounding holds up can hide that the step has brought the others down.
