@@ -24,7 +24,9 @@ pub fn finite<S: Scalar, const N: usize>(state: &State<S, N>, h: S, step: &Step<
     let report = &step.report;
     assert!(report.residual.is_finite() && report.residual >= S::zero(), "{step:?}");
     assert!(report.iterations <= 101 && report.damped <= report.iterations, "{step:?}");
-    assert!(report.last_correction.is_finite(), "{step:?}");
+    // Where rounding alone is left, the correction says nothing, and may overflow.
+    let is_rounding = report.residual.widen() <= ROOT * report.floor.widen();
+    assert!(report.last_correction.is_finite() || is_rounding, "{step:?}");
     let limit = report.floor.widen() * STAGNATION;
     assert!(report.residual == S::zero() || report.residual.widen() <= limit, "{step:?}");
 }
