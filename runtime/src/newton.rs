@@ -424,4 +424,27 @@ mod tests {
         assert_eq!(shorter(0.5, 1.0, f64::INFINITY), 0.05);
         assert_eq!(shorter(0.5, 1.0, f64::NAN), 0.05);
     }
+
+    /// Found by fuzzing: a chain of springs with energies of 1e210 took a step that way.
+    #[test]
+    fn a_residual_whose_correction_overflows_has_not_stagnated() {
+        let one = SVector::from([1.0]);
+        let matrix = nalgebra::SMatrix::<f64, 1, 1>::from([[1.0]]);
+        let state = State { q: one, p: one };
+        // A hundred floors off, and no rounding explains it.
+        let off = |_: &SVector<f64, 1>, v: &SVector<f64, 1>| Momenta {
+            p0: v.add_scalar(800.0 * f64::EPSILON),
+            p1: SVector::zeros(),
+        };
+        let found = |correction: f64| {
+            let floor = estimated_floor(&one, &matrix, &one);
+            let residual = off(&one, &one).p0 - one;
+            let correction = SVector::from([correction]);
+            let last = Iterate { v: one, residual, matrix, correction, floor, size: 100.0 };
+            stagnated(&off, &state, &last, (&(one - correction), &matrix, false), [1, 0]).is_some()
+        };
+        assert!(!found(f64::INFINITY));
+        // The control.
+        assert!(found(1e-14));
+    }
 }

@@ -26,7 +26,8 @@ pub fn check(text: &str) -> bool {
         return false;
     }
     let (attribute, options, item) = parts(tokens);
-    let is_item = syn::parse2::<syn::Item>(item.clone()).is_ok_and(|item| !matches!(item, syn::Item::Verbatim(_)));
+    let is_item =
+        syn::parse2::<syn::Item>(item.clone()).is_ok_and(|item| !matches!(item, syn::Item::Verbatim(_)));
     for runtime in [Runtime::STD, Runtime::PORTABLE, Runtime::CORE] {
         let expansion = || match attribute {
             Attribute::RayleighSystem => rayleigh_system(runtime, options.clone(), item.clone()),
