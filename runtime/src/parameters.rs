@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::derivatives::linear;
-use crate::{Discrete, Lagrangian, LegendreDerivatives, MomentaBy, Scalar, StateBy, StepError};
+use crate::{Discrete, Lagrangian, MomentaBy, Scalar, StateBy, StepError};
 
 /// Derivatives of ∂F/∂q and ∂F/∂v by P parameters, F being L or R.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,6 +68,20 @@ pub trait DiscreteParameters<R, const N: usize, const P: usize>: Discrete<R, N> 
         v: &SVector<Self::Scalar, N>,
         h: Self::Scalar,
     ) -> MomentaBy<Self::Scalar, N, P>;
+
+    /// ∂(q1, p1)/∂θ on the segment (`q0`, `q1`), (q0, p0) held: [`StateBy::of_parameters`].
+    ///
+    /// # Errors
+    /// Those of [`Discrete::linearization`].
+    fn state_by_parameters(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> Result<StateBy<Self::Scalar, N, P>, StepError> {
+        let by_parameters = self.momenta_by_parameters(q0, &((q1 - q0) / h), h);
+        self.legendre_derivatives(q0, q1, h).answer(&by_parameters)
+    }
 }
 
 impl<S: Scalar, const N: usize, const P: usize> StateBy<S, N, P> {
@@ -103,7 +117,6 @@ impl<S: Scalar, const N: usize, const P: usize> StateBy<S, N, P> {
     where
         L: DiscreteParameters<R, N, P, Scalar = S>,
     {
-        let by_parameters = system.momenta_by_parameters(q0, &((q1 - q0) / h), h);
-        LegendreDerivatives::new::<L, R>(system, q0, q1, h).answer(&by_parameters)
+        system.state_by_parameters(q0, q1, h)
     }
 }

@@ -14,7 +14,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::derivatives::linear;
-use crate::{Direction, Discrete, Lagrangian, LegendreDerivatives, Scalar, State, StepError, linearization};
+use crate::{Direction, Discrete, Lagrangian, Scalar, State, StepError, linearization};
 
 /// Second derivatives of a function of (x, y, u), x and y ∈ ℝᴺ, u ∈ ℝᴹ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,6 +98,18 @@ pub trait SecondOrder<const N: usize, const M: usize>: Lagrangian<N> {
     ) -> Hessian<Self::Scalar, N, M> {
         Hessian::zero()
     }
+
+    /// ∂f/∂u at (q, v), shape N×M, for rules with interior points: [`Driven::force_by_input`](crate::Driven::force_by_input)
+    /// where there is an input.
+    #[inline]
+    fn force_slope_by_input(
+        &self,
+        _q: &SVector<Self::Scalar, N>,
+        _v: &SVector<Self::Scalar, N>,
+    ) -> SMatrix<Self::Scalar, N, M> {
+        const { assert!(M == 0, "a system with an input has `Driven::force_by_input(self, q, v)` here") };
+        SMatrix::zeros()
+    }
 }
 
 /// Second derivatives of both momenta of a segment by rule `R`.
@@ -116,6 +128,40 @@ pub trait DiscreteSecondOrder<R, const N: usize, const M: usize>: Discrete<R, N>
         at_start: &SVector<Self::Scalar, N>,
         at_end: &SVector<Self::Scalar, N>,
     ) -> Hessian<Self::Scalar, N, M>;
+
+    /// Second derivatives of the step on the segment (`q0`, `q1`): [`StepHessian::of_segment`]. `p0_by_input` is ∂p0/∂u at
+    /// fixed ends, for rules that ask for it.
+    ///
+    /// # Errors
+    /// Those of [`Discrete::linearization`].
+    fn step_hessian(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+        covector: &State<Self::Scalar, N>,
+        p0_by_input: impl FnOnce() -> SMatrix<Self::Scalar, N, M>,
+    ) -> Result<StepHessian<Self::Scalar, N, M>, StepError> {
+        let k = self.legendre_derivatives(q0, q1, h);
+        // ∂q1/∂p0, ∂q1/∂q0, ∂q1/∂u.
+        let by_p = linearization::inverse(&k.p0_by_q1)?;
+        let by_q = -(by_p * k.p0_by_q0);
+        let by_u = -(by_p * p0_by_input());
+        let at_start = -(by_p.transpose() * (covector.q + k.p1_by_q1.transpose() * covector.p));
+        let phi = self.momenta_along(q0, &((q1 - q0) / h), h, &at_start, &covector.p);
+        let Hessian { d11, d12, d22, d1u, d2u, duu } = phi;
+        // ∂²Φ/∂q1∂z with q1 carried along.
+        let carried_u = d2u + d22 * by_u;
+        let carried_q = d12.transpose() + d22 * by_q;
+        Ok(StepHessian {
+            qq: d11 + d12 * by_q + by_q.transpose() * carried_q,
+            qp: carried_q.transpose() * by_p,
+            pp: by_p.transpose() * d22 * by_p,
+            qu: d1u + d12 * by_u + by_q.transpose() * carried_u,
+            pu: by_p.transpose() * carried_u,
+            uu: duu + d2u.transpose() * by_u + by_u.transpose() * carried_u,
+        })
+    }
 }
 
 /// Second derivatives of λ·(q1, p1) by (q0, p0, u); the formula stands above.
@@ -166,7 +212,7 @@ impl<S: Scalar, const N: usize> StepHessian<S, N, 0> {
     where
         L: DiscreteSecondOrder<R, N, 0, Scalar = S>,
     {
-        Self::new::<L, R>(system, q0, q1, h, covector, &SMatrix::zeros())
+        system.step_hessian(q0, q1, h, covector, SMatrix::zeros)
     }
 }
 
@@ -186,40 +232,6 @@ impl<S: Scalar, const N: usize, const M: usize> StepHessian<S, N, M> {
     where
         L: DiscreteSecondOrder<R, N, M, Scalar = S> + crate::DiscreteDriven<R, N, M>,
     {
-        let by_input = system.momenta_by_input(q0, &((q1 - q0) / h), h).p0;
-        Self::new::<L, R>(system, q0, q1, h, covector, &by_input)
-    }
-
-    /// With ∂p0/∂u at hand.
-    fn new<L, R>(
-        system: &L,
-        q0: &SVector<S, N>,
-        q1: &SVector<S, N>,
-        h: S,
-        covector: &State<S, N>,
-        p0_by_input: &SMatrix<S, N, M>,
-    ) -> Result<Self, StepError>
-    where
-        L: DiscreteSecondOrder<R, N, M, Scalar = S>,
-    {
-        let k = LegendreDerivatives::new::<L, R>(system, q0, q1, h);
-        // ∂q1/∂p0, ∂q1/∂q0, ∂q1/∂u.
-        let by_p = linearization::inverse(&k.p0_by_q1)?;
-        let by_q = -(by_p * k.p0_by_q0);
-        let by_u = -(by_p * p0_by_input);
-        let at_start = -(by_p.transpose() * (covector.q + k.p1_by_q1.transpose() * covector.p));
-        let phi = system.momenta_along(q0, &((q1 - q0) / h), h, &at_start, &covector.p);
-        let Hessian { d11, d12, d22, d1u, d2u, duu } = phi;
-        // ∂²Φ/∂q1∂z with q1 carried along.
-        let carried_u = d2u + d22 * by_u;
-        let carried_q = d12.transpose() + d22 * by_q;
-        Ok(Self {
-            qq: d11 + d12 * by_q + by_q.transpose() * carried_q,
-            qp: carried_q.transpose() * by_p,
-            pp: by_p.transpose() * d22 * by_p,
-            qu: d1u + d12 * by_u + by_q.transpose() * carried_u,
-            pu: by_p.transpose() * carried_u,
-            uu: duu + d2u.transpose() * by_u + by_u.transpose() * carried_u,
-        })
+        system.step_hessian(q0, q1, h, covector, || system.momenta_by_input(q0, &((q1 - q0) / h), h).p0)
     }
 }
