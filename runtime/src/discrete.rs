@@ -102,6 +102,9 @@ pub struct Step<S, const N: usize> {
     pub report: Report<S>,
 }
 
+/// A step, and derivatives of it.
+pub type StepWith<S, const N: usize, D> = (Step<S, N>, D);
+
 /// A step by a bounded number of iterations: the best iterate, and whether it is the root.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoundedStep<S, const N: usize> {
@@ -359,7 +362,7 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         state: &State<Self::Scalar, N>,
         h: Self::Scalar,
         guess: Option<&SVector<Self::Scalar, N>>,
-    ) -> Result<(Step<Self::Scalar, N>, Linearization<Self::Scalar, N>), StepError> {
+    ) -> Result<StepWith<Self::Scalar, N, Linearization<Self::Scalar, N>>, StepError> {
         let step = self.step(state, h, guess)?;
         Ok((step, self.linearization(&state.q, &step.state.q, h)?))
     }

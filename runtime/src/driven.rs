@@ -9,7 +9,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::derivatives::linear;
-use crate::{Discrete, Force, Linearization, State, Step, StepError};
+use crate::{Discrete, Force, Linearization, State, StepError, StepWith};
 
 /// A system with its input u ∈ ℝᴹ held: the views that `#[rayleigh_system]` makes of systems with
 /// `fn force(&self, q: [f64; N], v: [f64; N], u: [f64; M]) -> [f64; N]`.
@@ -65,7 +65,7 @@ pub trait DiscreteDriven<R, const N: usize, const M: usize>: Discrete<R, N> + Dr
         state: &State<Self::Scalar, N>,
         h: Self::Scalar,
         guess: Option<&SVector<Self::Scalar, N>>,
-    ) -> Result<(Step<Self::Scalar, N>, Linearization<Self::Scalar, N, M>), StepError> {
+    ) -> Result<StepWith<Self::Scalar, N, Linearization<Self::Scalar, N, M>>, StepError> {
         let step = self.step(state, h, guess)?;
         Ok((step, self.linearization_with_input(&state.q, &step.state.q, h)?))
     }

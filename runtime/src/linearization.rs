@@ -25,7 +25,7 @@ use nalgebra::{SMatrix, SVector};
 use crate::derivatives::linear;
 use crate::{
     Derivatives, Discrete, DiscreteDriven, DiscreteForceDerivatives, Lagrangian, Momenta, MomentaBy, Scalar,
-    State, Step, StepError, linear,
+    State, StepError, StepWith, linear,
 };
 
 /// Both momenta of a segment with their derivatives by its two configurations; see the formulas above.
@@ -186,7 +186,7 @@ impl<S: Scalar, const N: usize> Linearization<S, N> {
         state: &State<S, N>,
         h: S,
         guess: Option<&SVector<S, N>>,
-    ) -> Result<(Step<S, N>, Self), StepError>
+    ) -> Result<StepWith<S, N, Self>, StepError>
     where
         L: Discrete<R, N, Scalar = S>,
     {
@@ -259,7 +259,7 @@ impl<S: Scalar, const N: usize, const M: usize> Linearization<S, N, M> {
         state: &State<S, N>,
         h: S,
         guess: Option<&SVector<S, N>>,
-    ) -> Result<(Step<S, N>, Self), StepError>
+    ) -> Result<StepWith<S, N, Self>, StepError>
     where
         L: DiscreteDriven<R, N, M, Scalar = S>,
     {

@@ -14,7 +14,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::derivatives::linear;
-use crate::{Direction, Discrete, Lagrangian, Scalar, State, StepError, linearization};
+use crate::{Direction, Discrete, Lagrangian, Scalar, State, StepError, StepWith, linearization};
 
 /// Second derivatives of a function of (x, y, u), x and y ∈ ℝᴺ, u ∈ ℝᴹ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -162,6 +162,24 @@ pub trait DiscreteSecondOrder<R, const N: usize, const M: usize>: Discrete<R, N>
             uu: duu + d2u.transpose() * by_u + by_u.transpose() * carried_u,
         })
     }
+
+    /// The step with its second derivatives: [`StepHessian::of_step`]. `p0_by_input` is ∂p0/∂u at fixed ends, given q1, for
+    /// rules that ask for it.
+    ///
+    /// # Errors
+    /// Those of [`Discrete::linearized_step`].
+    fn step_with_hessian(
+        &self,
+        state: &State<Self::Scalar, N>,
+        h: Self::Scalar,
+        guess: Option<&SVector<Self::Scalar, N>>,
+        covector: &State<Self::Scalar, N>,
+        p0_by_input: impl FnOnce(&SVector<Self::Scalar, N>) -> SMatrix<Self::Scalar, N, M>,
+    ) -> Result<StepWith<Self::Scalar, N, StepHessian<Self::Scalar, N, M>>, StepError> {
+        let step = self.step(state, h, guess)?;
+        let q1 = &step.state.q;
+        Ok((step, self.step_hessian(&state.q, q1, h, covector, || p0_by_input(q1))?))
+    }
 }
 
 /// Second derivatives of λ·(q1, p1) by (q0, p0, u); the formula stands above.
@@ -214,6 +232,24 @@ impl<S: Scalar, const N: usize> StepHessian<S, N, 0> {
     {
         system.step_hessian(q0, q1, h, covector, SMatrix::zeros)
     }
+
+    /// The step from `state` with its second derivatives; see [`Linearization::of_step`](crate::Linearization::of_step).
+    ///
+    /// # Errors
+    /// A [`StepError`] of the step, or that its derivative does not exist or is not finite.
+    pub fn of_step<L, R>(
+        system: &L,
+        _rule: R,
+        state: &State<S, N>,
+        h: S,
+        guess: Option<&SVector<S, N>>,
+        covector: &State<S, N>,
+    ) -> Result<StepWith<S, N, Self>, StepError>
+    where
+        L: DiscreteSecondOrder<R, N, 0, Scalar = S>,
+    {
+        system.step_with_hessian(state, h, guess, covector, |_| SMatrix::zeros())
+    }
 }
 
 impl<S: Scalar, const N: usize, const M: usize> StepHessian<S, N, M> {
@@ -233,5 +269,24 @@ impl<S: Scalar, const N: usize, const M: usize> StepHessian<S, N, M> {
         L: DiscreteSecondOrder<R, N, M, Scalar = S> + crate::DiscreteDriven<R, N, M>,
     {
         system.step_hessian(q0, q1, h, covector, || system.momenta_by_input(q0, &((q1 - q0) / h), h).p0)
+    }
+
+    /// [`of_step`](StepHessian::of_step) for a system with its input held, by the input as well.
+    ///
+    /// # Errors
+    /// Those of [`of_step`](StepHessian::of_step).
+    pub fn of_driven_step<L, R>(
+        system: &L,
+        _rule: R,
+        state: &State<S, N>,
+        h: S,
+        guess: Option<&SVector<S, N>>,
+        covector: &State<S, N>,
+    ) -> Result<StepWith<S, N, Self>, StepError>
+    where
+        L: DiscreteSecondOrder<R, N, M, Scalar = S> + crate::DiscreteDriven<R, N, M>,
+    {
+        let by_input = |q1: &SVector<S, N>| system.momenta_by_input(&state.q, &((q1 - state.q) / h), h).p0;
+        system.step_with_hessian(state, h, guess, covector, by_input)
     }
 }

@@ -174,6 +174,8 @@ fn parameters<const S: usize>(h: f64) {
     let q1 = Discrete::<Gauss<S>, 2>::step(&view, &START, h, None).unwrap().state.q;
     let found = StateBy::<_, 2, 3>::of_parameters(&view, Gauss::<S>, &START.q, &q1, h).unwrap();
     let found = found.assembled::<4>();
+    let (step, of_step) = StateBy::<_, 2, 3>::of_step(&view, Gauss::<S>, &START, h, None).unwrap();
+    assert!((of_step.assembled::<4>() - found).amax() < 1e-13 * (1.0 + found.amax()) && step.state.q == q1);
     for (j, by) in by.iter().enumerate() {
         // An analytic function of [Z, Z'; 0, Z] has its derivative along Z' in the corner.
         let mut pair = DMatrix::zeros(16, 16);
@@ -218,8 +220,14 @@ fn second_derivatives_of_exact_integrators() {
     where
         D: DiscreteDriven<Gauss<4>, 2, 1, Scalar = f64> + DiscreteSecondOrder<Gauss<4>, 2, 1>,
     {
-        let q1 = view.step(state, h, None).unwrap().state.q;
-        let found = StepHessian::of_driven_segment(view, Gauss::<4>, &state.q, &q1, h, covector).unwrap();
+        let (step, of_step) =
+            StepHessian::of_driven_step(view, Gauss::<4>, state, h, None, covector).unwrap();
+        let found =
+            StepHessian::of_driven_segment(view, Gauss::<4>, &state.q, &step.state.q, h, covector).unwrap();
+        for (a, b) in [(of_step.qq, found.qq), (of_step.qp, found.qp), (of_step.pp, found.pp)] {
+            assert!((a - b).amax() < 1e-14);
+        }
+        assert!((of_step.qu - found.qu).amax() < 1e-14 && (of_step.uu - found.uu).amax() < 1e-14);
         for (found, expected) in [
             (found.qq[(0, 0)], 2.0 * m(0)),
             (found.qp[(0, 0)], 2.0 * m(1)),
@@ -310,6 +318,40 @@ fn one_stage_has_the_second_derivatives_of_the_midpoint_rule() {
     }
     assert!((gauss.d1u - midpoint.d1u).amax() < 1e-13 && (gauss.d2u - midpoint.d2u).amax() < 1e-13);
     assert!((gauss.duu - midpoint.duu).amax() < 1e-14 && midpoint.duu.amax() > 1e-2);
+}
+
+/// By every rule `of_step` is the step with what `of_segment` says of it.
+#[test]
+fn of_step_is_of_the_segment_that_the_step_takes() {
+    fn close<const R: usize, const C: usize>(a: SMatrix<f64, R, C>, b: SMatrix<f64, R, C>) {
+        assert!((a - b).amax() < 1e-13 * (1.0 + a.amax()) && a.amax() > 1e-3, "{a}{b}");
+    }
+    fn check<R: Copy>(rule: R)
+    where
+        for<'a> DrivenSwing<'a>: DiscreteDriven<R, 2, 1, Scalar = f64> + DiscreteSecondOrder<R, 2, 1>,
+    {
+        let (view, h) = (Swing.driven([0.7], 0.4), 0.3);
+        let state = State { q: vector![0.5, -0.8], p: vector![0.9, 0.4] };
+        let (step, a) = Linearization::of_driven_step(&view, rule, &state, h, None).unwrap();
+        assert_eq!(step, view.step(&state, h, None).unwrap());
+        let q1 = step.state.q;
+        let b = Linearization::of_driven_segment(&view, rule, &state.q, &q1, h).unwrap();
+        close(a.a.assembled::<4>(), b.a.assembled::<4>());
+        close(a.b.assembled::<4>(), b.b.assembled::<4>());
+        close(
+            Linearization::of_step(&view, rule, &state, h, None).unwrap().1.a.assembled::<4>(),
+            b.a.assembled(),
+        );
+        let a = StepHessian::of_driven_step(&view, rule, &state, h, None, &state).unwrap().1;
+        let b = StepHessian::of_driven_segment(&view, rule, &state.q, &q1, h, &state).unwrap();
+        close(a.qq, b.qq);
+        close(a.qp, b.qp);
+        close(a.pu, b.pu);
+        close(a.uu, b.uu);
+    }
+    check(Midpoint);
+    check(Gauss::<1>);
+    check(Gauss::<3>);
 }
 
 /// With interior points: by the ends, against central differences of the first derivatives.

@@ -18,9 +18,9 @@ use nalgebra::{SMatrix, SVector};
 use super::linearised::StageVector;
 use super::segment::Segment;
 use super::tangent::{ByState, Source, Tangent};
-use super::{Gauss, nan};
+use super::{Gauss, nan, solved_segment};
 use crate::{
-    DiscreteSecondOrder, ForcedLagrangian, Hessian, Scalar, SecondOrder, State, StepError, StepHessian,
+    DiscreteSecondOrder, ForcedLagrangian, Hessian, Scalar, SecondOrder, State, Step, StepError, StepHessian,
 };
 
 /// ∂²[μ_i·∂L/∂v + γ_i·G] at each stage.
@@ -64,6 +64,17 @@ impl<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usi
     {
         let rate = self.at_stages(|system, q, v| system.force_slope_by_input(q, v));
         self.tangent(&Source { rate, ..Source::none() })
+    }
+
+    /// Of `covector`·(q1, p1) by (q0, p0, u).
+    fn hessian<const M: usize>(&self, covector: &State<T, N>) -> Result<StepHessian<T, N, M>, StepError>
+    where
+        L: SecondOrder<N, M>,
+    {
+        let ByState { q, p } = self.by_state()?;
+        let curvatures = self.curvatures(covector);
+        let all = pulled_back(&curvatures, &q, &p, &self.by_held_input()?);
+        Ok(StepHessian { qq: all.d11, qp: all.d12, pp: all.d22, qu: all.d1u, pu: all.d2u, uu: all.duu })
     }
 }
 
@@ -148,11 +159,18 @@ where
         covector: &State<T, N>,
         _p0_by_input: impl FnOnce() -> SMatrix<T, N, M>,
     ) -> Result<StepHessian<T, N, M>, StepError> {
-        let segment = Segment::<'_, L, N, S>::between(self, q0, q1, h)?;
-        let ByState { q, p } = segment.by_state()?;
-        let curvatures = segment.curvatures(covector);
-        let Hessian { d11, d12, d22, d1u, d2u, duu } =
-            pulled_back(&curvatures, &q, &p, &segment.by_held_input()?);
-        Ok(StepHessian { qq: d11, qp: d12, pp: d22, qu: d1u, pu: d2u, uu: duu })
+        Segment::<'_, L, N, S>::between(self, q0, q1, h)?.hessian(covector)
+    }
+
+    fn step_with_hessian(
+        &self,
+        state: &State<T, N>,
+        h: T,
+        guess: Option<&SVector<T, N>>,
+        covector: &State<T, N>,
+        _p0_by_input: impl FnOnce(&SVector<T, N>) -> SMatrix<T, N, M>,
+    ) -> Result<(Step<T, N>, StepHessian<T, N, M>), StepError> {
+        let (step, segment) = solved_segment::<_, _, N, S>(self, state, h, guess)?;
+        Ok((step, segment.hessian(covector)?))
     }
 }

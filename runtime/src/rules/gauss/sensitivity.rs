@@ -125,4 +125,15 @@ where
     ) -> Result<StateBy<T, N, P>, StepError> {
         Ok(Segment::<'_, L, N, S>::between(self, q0, q1, h)?.by_parameters()?.end)
     }
+
+    /// By the stages of the step itself.
+    fn step_by_parameters(
+        &self,
+        state: &State<T, N>,
+        h: T,
+        guess: Option<&SVector<T, N>>,
+    ) -> Result<(Step<T, N>, StateBy<T, N, P>), StepError> {
+        let (step, segment) = solved_segment::<_, _, N, S>(self, state, h, guess)?;
+        Ok((step, segment.by_parameters()?.end))
+    }
 }
