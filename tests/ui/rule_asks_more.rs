@@ -44,12 +44,12 @@ impl Pushed {
     }
 }
 
-struct Driven {
+struct Worn {
     r: f64,
 }
 
 #[rayleigh_system(rule = [gauss, one_sided])]
-impl Driven {
+impl Worn {
     fn lagrangian(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
         0.5 * v[0] * v[0] - q[0] * t
     }
