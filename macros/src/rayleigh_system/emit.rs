@@ -371,7 +371,9 @@ impl Writer<'_> {
     /// What the method of that name is called on: the number, or its elementary functions in the runtime.
     fn called_on(&self, node: Node, method: &str) -> TokenStream {
         let receiver = self.receiver(node);
-        if self.is_portable && portable::is_elementary(method) {
+        // Lanes bring their own.
+        let is_number = !self.is_lanes[node.index()];
+        if is_number && self.is_portable && portable::is_elementary(method) {
             self.calls_elementary.set(true);
             quote!(#receiver.elementary())
         } else {
