@@ -13,7 +13,10 @@ use crate::derivatives::linear;
 use crate::error::{Quantity, StepError};
 use crate::newton::{self, Equation};
 use crate::state::require_regular;
-use crate::{CovectorDerivatives, Derivatives, Lagrangian, Memory, NewtonMatrix, Rayleigh, Scalar, State};
+use crate::{
+    CovectorDerivatives, Derivatives, Lagrangian, LegendreDerivatives, Linearization, Memory, NewtonMatrix,
+    Rayleigh, Scalar, State,
+};
 
 /// The discrete force f_d = (f_d⁻, f_d⁺): covectors at q0 and at q1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -131,6 +134,8 @@ impl<S: Scalar, const N: usize> Step<S, N> {
         Ok(Self { state: next, velocity, report })
     }
 }
+/// A step, and derivatives of it.
+pub type StepWith<S, const N: usize, D> = (Step<S, N>, D);
 
 /// A step by a bounded number of iterations: the best iterate, and whether it is the root.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -346,6 +351,44 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         )?;
         let step = Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)?;
         Ok(BoundedStep { step, converged })
+    }
+
+    /// Both momenta of the segment (`q0`, `q1`) with their derivatives by the two.
+    fn legendre_derivatives(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> LegendreDerivatives<Self::Scalar, N> {
+        let l = self.discrete_lagrangian_derivatives(q0, q1, h);
+        LegendreDerivatives::from_terms(&l, &self.discrete_force_derivatives(q0, q1, h))
+    }
+
+    /// The step's derivative by its state on the segment (`q0`, `q1`): [`Linearization::of_segment`].
+    ///
+    /// # Errors
+    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular.
+    fn linearization(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> Result<Linearization<Self::Scalar, N>, StepError> {
+        Linearization::from_legendre(&self.legendre_derivatives(q0, q1, h))
+    }
+
+    /// The step with its derivative by the state: [`Linearization::of_step`].
+    ///
+    /// # Errors
+    /// Those of [`step`](Self::step) and of [`linearization`](Self::linearization).
+    fn linearized_step(
+        &self,
+        state: &State<Self::Scalar, N>,
+        h: Self::Scalar,
+        guess: Option<&SVector<Self::Scalar, N>>,
+    ) -> Result<StepWith<Self::Scalar, N, Linearization<Self::Scalar, N>>, StepError> {
+        let step = self.step(state, h, guess)?;
+        Ok((step, self.linearization(&state.q, &step.state.q, h)?))
     }
 
     /// The flow on Q×Q: (q0, q1) ↦ (q1, q2), with q2 = `state.q` of the step returned.

@@ -161,9 +161,15 @@ pub fn forced_lagrangian(system: &System<'_>, stages: Option<TokenStream>) -> To
             }
         }
     });
+    let timed = system.timed.any().then(|| {
+        quote!(
+            const IS_TIMED: bool = true;
+        )
+    });
     quote! {
         #[automatically_derived]
         impl ForcedLagrangian<#n> for #subject {
+            #timed
             #force
             #stages
         }
@@ -256,10 +262,20 @@ pub fn second_order(system: &System<'_>, functions: TokenStream) -> TokenStream 
             }
         }
     });
+    // What rules with interior points ask for besides.
+    let by_input = (system.rules.gauss && system.input.is_some()).then(|| {
+        quote! {
+            #[inline]
+            fn force_slope_by_input(&self, q: &Vector, v: &Vector) -> SMatrix<#scalar, #n, #m> {
+                self.force_by_input(q, v)
+            }
+        }
+    });
     quote! {
         #[automatically_derived]
         impl SecondOrder<#n, #m> for #subject {
             #functions
+            #by_input
         }
 
         #(#discrete)*

@@ -6,7 +6,7 @@
 use nalgebra::SVector;
 
 use super::fixed_point::worst;
-use super::linearised::{Factored, Local, StageVector, locals};
+use super::linearised::{Factored, Local, StageVector, locals, non_finite};
 use super::problem::{Problem, Solution, in_units_of, rounding};
 use crate::error::Quantity;
 use crate::lanes::{LaneVector, splat, write_lane};
@@ -70,15 +70,8 @@ impl<T: Scalar, const N: usize, const S: usize> Iterate<T, N, S> {
 
     /// The first coordinate with an entry that is not finite.
     pub(super) fn non_finite(&self) -> Option<usize> {
-        let is_finite = |a: usize| {
-            self.residual[a].is_finite() == crate::Mask::splat(true)
-                && self.locals.iter().all(|local| {
-                    [&local.mass, &local.momentum_by_q, &local.rate_by_q, &local.rate_by_v]
-                        .iter()
-                        .all(|matrix| matrix.row(a).iter().all(|entry| entry.is_finite()))
-                })
-        };
-        (0..N).find(|&a| !is_finite(a))
+        let of_residual = (0..N).find(|&a| self.residual[a].is_finite() != crate::Mask::splat(true));
+        of_residual.or_else(|| non_finite(&self.locals))
     }
 }
 

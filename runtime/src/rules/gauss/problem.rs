@@ -104,7 +104,26 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     /// The equations of motion at the stages with velocities `v`.
     #[inline(always)]
     pub(super) fn stages(&self, v: &LaneVector<T, N, S>) -> Stages<T, N, S> {
-        self.system.stages(&self.configurations(v), v, |rate| self.momenta(rate))
+        self.stages_at(&self.configurations(v), v)
+    }
+
+    /// The same with configurations of their own.
+    #[inline(always)]
+    fn stages_at(&self, q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>) -> Stages<T, N, S> {
+        let elapsed = Lanes(array::from_fn(|i| self.elapsed(i)));
+        self.system.stages_in_time(&elapsed, q, v, |rate| self.momenta(rate))
+    }
+
+    /// c_i h, the time of a stage from the start of the step.
+    #[inline(always)]
+    pub(super) fn elapsed(&self, i: usize) -> T {
+        T::constant(Self::COEFFICIENTS.nodes[i]) * self.h
+    }
+
+    /// h a_ij.
+    #[inline(always)]
+    pub(super) fn share(&self, i: usize, j: usize) -> T {
+        T::constant(Self::COEFFICIENTS.shares[j][i]) * self.steps[j]
     }
 
     /// Σ_j h b_j x_j.
@@ -154,9 +173,7 @@ pub(super) fn rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: u
     v: &LaneVector<T, N, S>,
 ) -> SVector<T, N> {
     let q = problem.configurations(v);
-    let residual = |q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>| {
-        problem.system.stages(q, v, |rate| problem.momenta(rate)).residual
-    };
+    let residual = |q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>| problem.stages_at(q, v).residual;
     let value = residual(&q, v);
     let mut sum: SVector<T, N> = nalgebra::zero();
     let mut add = |q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>| {
