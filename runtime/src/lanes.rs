@@ -67,16 +67,42 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
         }
     }
 
-    /// The largest of the lanes' absolute values; NaN if one is NaN.
+    /// Constants of each lane.
+    #[inline(always)]
+    pub(crate) fn constants(values: &[f64; S]) -> Self {
+        let mut constants = Self::splat(T::zero());
+        for (constant, &value) in constants.0.iter_mut().zip(values) {
+            *constant = T::constant(value);
+        }
+        constants
+    }
+
+    /// Lane by lane, the larger. A NaN is lost: the comparison is that of a vector instruction.
+    #[inline(always)]
+    pub(crate) fn larger(self, other: Self) -> Self {
+        self.zip(other, |a, b| if a > b { a } else { b })
+    }
+
+    /// Of all lanes what `combine` makes of two, halves with halves: the logarithm of S such steps wait for each other.
+    #[inline(always)]
+    pub(crate) fn folded(mut self, combine: impl Fn(T, T) -> T) -> T {
+        let mut width = S;
+        while width > 1 {
+            let half = width.div_ceil(2);
+            for i in 0..width - half {
+                self.0[i] = combine(self.0[i], self.0[i + half]);
+            }
+            width = half;
+        }
+        self.0[0]
+    }
+
+    /// The largest of the lanes' absolute values; not finite if one is not.
     #[inline(always)]
     pub(crate) fn amax(self) -> T {
-        let mut largest = T::zero();
-        for lane in self.0 {
-            let size = lane.abs();
-            // A NaN stays: it compares false with everything.
-            largest = if size <= largest { largest } else { size };
-        }
-        largest
+        let sizes = self.abs();
+        let sum = sizes.folded(|a, b| a + b);
+        if sum.is_finite() { sizes.folded(|a, b| if a > b { a } else { b }) } else { sum }
     }
 
     /// Lane by lane, self < other.

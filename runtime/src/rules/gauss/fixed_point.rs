@@ -7,7 +7,7 @@
 use nalgebra::SVector;
 
 use super::newton;
-use super::problem::{Problem, Solution, in_units_of, rounding};
+use super::problem::{Problem, Solution, in_units, in_units_of, rounding};
 use crate::lanes::{LaneVector, splat};
 use crate::{ForcedLagrangian, Report, Scalar, Stages, StepError};
 
@@ -44,22 +44,27 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
 ) -> Option<Solution<T, N, S>> {
     let constant = T::constant;
     let mut v = *guess;
-    let mut floor = problem.p0.value;
+    let (mut floor, mut per_floor) = (problem.p0.value, problem.p0.value);
     let (mut before, mut last) = (T::one(), T::one());
     let mut iterations = 0;
     while iterations < MAX_ITERATIONS {
         let stages = problem.stages(&v);
         if iterations == 0 {
             floor = problem.floor(&stages.rate);
+            per_floor = floor.map(|floor| T::one() / floor);
         }
         iterations += 1;
-        let size = in_units_of(&stages.residual, &floor);
+        let size = in_units(&stages.residual, &per_floor);
         if !size.is_finite() {
             return None;
         }
-        let contraction = if iterations == 1 { T::one() } else { size / last };
-        let is_at_rest = contraction * size <= constant(AT_REST);
-        let has_stopped = iterations > 1 && contraction >= constant(SLOW);
+        if iterations == 1 {
+            // Nothing is known of the contraction yet.
+            last = size;
+        }
+        // The contraction is size/last.
+        let is_at_rest = size * size <= constant(AT_REST) * last;
+        let has_stopped = iterations > 1 && size >= constant(SLOW) * last;
         let mut is_done = is_at_rest || (has_stopped && size <= constant(AT_FLOOR));
         if !is_done && iterations > 2 && size >= before * constant(SLOW) {
             match at_rounding(problem, &v, &stages.residual, &floor) {
@@ -68,7 +73,7 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
             }
         }
         if is_done {
-            let remaining = contraction.min(T::one());
+            let remaining = if last > size { size / last } else { T::one() };
             let report = report(&stages, &floor, remaining, iterations);
             let v = core::array::from_fn(|a| v[a] + stages.correction[a]);
             return Some(Solution { v, rate: stages.rate, report, contracted: true });
