@@ -1,13 +1,14 @@
 //! Numbers side by side, one for each stage of a method: what is computed of one is computed of all at once.
 //!
-//! Own code because a method of s stages needs s lanes, in `f64` and in `f32`, with and without `std`: loops of fixed length
-//! over arrays, which the compiler turns into the vector instructions of the target that it is told of
-//! (`RUSTFLAGS="-C target-cpu=native"`).
+//! A method of s stages needs s lanes, in `f64` and in `f32`, with and without `std`: arrays, whose arithmetic is that of the
+//! crate `wide`, and functions as loops of fixed length. Both become vector instructions of the target that the compiler is told
+//! of (`RUSTFLAGS="-C target-cpu=native"`).
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
 
 mod functions;
 mod operators;
+mod vectors;
 
 use core::array;
 use core::ops::{BitAnd, BitOr, Not};
@@ -16,6 +17,7 @@ use nalgebra::SVector;
 
 use crate::Scalar;
 pub(crate) use functions::Functions;
+pub(crate) use vectors::Vectors;
 
 /// S numbers side by side. Operators and functions act on each of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,11 +62,7 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
     /// self × factor + term, rounded once where the target has an instruction for it.
     #[inline(always)]
     pub(crate) fn times_plus(self, factor: T, term: Self) -> Self {
-        if cfg!(all(feature = "std", target_feature = "fma")) {
-            self.zip(term, |a, b| nalgebra::ComplexField::mul_add(a, factor, b))
-        } else {
-            self.zip(term, |a, b| a * factor + b)
-        }
+        Self(T::products_plus(self.0, [factor; S], term.0))
     }
 
     /// Constants of each lane.
@@ -77,10 +75,10 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
         constants
     }
 
-    /// Lane by lane, the larger. A NaN is lost: the comparison is that of a vector instruction.
+    /// Lane by lane, the larger; where one is NaN, either.
     #[inline(always)]
     pub(crate) fn larger(self, other: Self) -> Self {
-        self.zip(other, |a, b| if a > b { a } else { b })
+        Self(T::larger(self.0, other.0))
     }
 
     /// Of all lanes what `combine` makes of two, halves with halves: the logarithm of S such steps wait for each other.

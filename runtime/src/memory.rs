@@ -28,6 +28,10 @@ where
         state: &State<L::Scalar, N>,
         h: L::Scalar,
     ) -> Result<Step<L::Scalar, N>, StepError>;
+
+    /// Takes over what is known of the state from which the next step starts, from the memory of the step that ended there. In a
+    /// composition that is the one of the substep before.
+    fn follow(&mut self, _previous: &Self) {}
 }
 
 /// The latest four mean velocities: the next, extrapolated to order 3, is the guess for Newton's method.

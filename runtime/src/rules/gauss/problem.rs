@@ -125,12 +125,13 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         })
     }
 
-    /// What rounding leaves of the momentum equations: 4ε (|p0| + |h| max |G_i|), coordinate by coordinate.
+    /// What rounding leaves of the momentum equations: 4ε (|p0| + |h| max |G_i| + max |P_i − ∂L/∂v|), coordinate by coordinate.
     #[inline(always)]
-    pub(super) fn floor(&self, rate: &LaneVector<T, N, S>) -> SVector<T, N> {
+    pub(super) fn floor(&self, rate: &LaneVector<T, N, S>, residual: &LaneVector<T, N, S>) -> SVector<T, N> {
         let unit = T::EPSILON * T::constant(4.0);
         SVector::from_fn(|a, _| {
-            let size = self.p0.value[a].abs() * unit + (self.h * unit).abs() * rate[a].amax();
+            let terms = self.p0.value[a].abs() + residual[a].amax();
+            let size = terms * unit + (self.h * unit).abs() * rate[a].amax();
             size + T::SMALLEST_NORMAL
         })
     }
