@@ -62,6 +62,22 @@ impl<S: Scalar, const N: usize> DiscreteForceDerivatives<S, N> {
     pub fn zero() -> Self {
         Self { minus: CovectorDerivatives::zero(), plus: CovectorDerivatives::zero() }
     }
+
+    /// f_d⁻ = D1 R_d and f_d⁺ = −D2 R_d.
+    #[inline]
+    pub(crate) fn of_rayleigh(r: &Derivatives<S, N>) -> Self {
+        Self {
+            minus: CovectorDerivatives { value: r.d1, d1: r.d11, d2: r.d12 },
+            plus: CovectorDerivatives { value: -r.d2, d1: -r.d12.transpose(), d2: -r.d22 },
+        }
+    }
+
+    /// The derivatives of the R_d with this force, and its `value`.
+    #[inline]
+    pub(crate) fn as_of_rayleigh(&self, value: S) -> Derivatives<S, N> {
+        let Self { minus, plus } = self;
+        Derivatives { value, d1: minus.value, d2: -plus.value, d11: minus.d1, d12: minus.d2, d22: -plus.d2 }
+    }
 }
 
 impl<S: Scalar, const N: usize> core::ops::Add for DiscreteForceDerivatives<S, N> {
@@ -97,6 +113,23 @@ pub struct Step<S, const N: usize> {
     pub velocity: SVector<S, N>,
     /// How the solver fared.
     pub report: Report<S>,
+}
+
+impl<S: Scalar, const N: usize> Step<S, N> {
+    /// The step from `state` with mean velocity `velocity`, if it leads to finite numbers.
+    #[inline]
+    pub(crate) fn completed(
+        state: &State<S, N>,
+        h: S,
+        velocity: SVector<S, N>,
+        momenta: &Momenta<S, N>,
+        report: Report<S>,
+    ) -> Result<Self, StepError> {
+        // Added to the p0 given: the residual of the solver, always of one sign, would make it drift.
+        let next = State { q: state.q + velocity * h, p: state.p + (momenta.p1 - momenta.p0) };
+        next.require_finite()?;
+        Ok(Self { state: next, velocity, report })
+    }
 }
 
 /// A step by a bounded number of iterations: the best iterate, and whether it is the root.
@@ -283,12 +316,9 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
             start,
         )
         .map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
-        let change = solution.momenta.p1 - solution.momenta.p0;
-        // Added to the p0 given: the residual of the solver, always of one sign, would make it drift.
-        let next = State { q: q0 + solution.unknown * h, p: state.p + change };
         // An argument that is not finite shows here or has failed above: none is looked at before.
-        next.require_finite().map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
-        Ok(Step { state: next, velocity: solution.unknown, report: solution.report })
+        Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)
+            .map_err(|error| in_arguments(state, guess).unwrap_or(error))
     }
 
     /// The step by at most `iterations` undamped Newton iterations, for a clock that does not wait: the work is bounded, and what is
@@ -305,8 +335,7 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
     ) -> Result<BoundedStep<Self::Scalar, N>, StepError> {
         require_step_size(h)?;
         let guess = guess.copied().unwrap_or_else(nalgebra::zero);
-        StepError::require_finite(&state.q, Quantity::Configuration)?;
-        StepError::require_finite(&state.p, Quantity::Momentum)?;
+        state.require_finite()?;
         StepError::require_finite(&guess, Quantity::Velocity)?;
         let (solution, converged) = newton::bounded(
             iterations,
@@ -315,11 +344,7 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
             state,
             guess,
         )?;
-        let change = solution.momenta.p1 - solution.momenta.p0;
-        let next = State { q: state.q + solution.unknown * h, p: state.p + change };
-        StepError::require_finite(&next.q, Quantity::Configuration)?;
-        StepError::require_finite(&next.p, Quantity::Momentum)?;
-        let step = Step { state: next, velocity: solution.unknown, report: solution.report };
+        let step = Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)?;
         Ok(BoundedStep { step, converged })
     }
 

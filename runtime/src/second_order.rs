@@ -13,8 +13,11 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::derivatives::linear;
-use crate::{Direction, Discrete, Lagrangian, LegendreDerivatives, Scalar, State, StepError, linearization};
+use crate::derivatives::{linear, second_along};
+use crate::{
+    Direction, Discrete, Lagrangian, LegendreDerivatives, Linearization, MomentaBy, PhaseMatrix, Scalar,
+    State, StepError,
+};
 
 /// Second derivatives of a function of (x, y, u), x and y ∈ ℝᴺ, u ∈ ℝᴹ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,12 +43,7 @@ impl<S: Scalar, const N: usize, const M: usize> Hessian<S, N, M> {
     #[inline]
     #[must_use]
     pub fn pull_back(&self, a: Direction<S>, b: Direction<S>) -> Self {
-        let second = |s: Direction<S>, t: Direction<S>| {
-            self.d11 * (s.first * t.first)
-                + self.d12 * (s.first * t.second)
-                + self.d12.transpose() * (s.second * t.first)
-                + self.d22 * (s.second * t.second)
-        };
+        let second = |a, b| second_along(&self.d11, &self.d12, &self.d22, a, b);
         let with_input = |s: Direction<S>| self.d1u * s.first + self.d2u * s.second;
         Self {
             d11: second(a, a),
@@ -166,7 +164,7 @@ impl<S: Scalar, const N: usize> StepHessian<S, N, 0> {
     where
         L: DiscreteSecondOrder<R, N, 0, Scalar = S>,
     {
-        Self::new::<L, R>(system, q0, q1, h, covector, &SMatrix::zeros())
+        Self::new::<L, R>(system, q0, q1, h, covector, &MomentaBy::zero())
     }
 }
 
@@ -186,27 +184,26 @@ impl<S: Scalar, const N: usize, const M: usize> StepHessian<S, N, M> {
     where
         L: DiscreteSecondOrder<R, N, M, Scalar = S> + crate::DiscreteDriven<R, N, M>,
     {
-        let by_input = system.momenta_by_input(q0, &((q1 - q0) / h), h).p0;
+        let by_input = system.momenta_by_input(q0, &((q1 - q0) / h), h);
         Self::new::<L, R>(system, q0, q1, h, covector, &by_input)
     }
 
-    /// With ∂p0/∂u at hand.
+    /// With the momenta by u at hand.
     fn new<L, R>(
         system: &L,
         q0: &SVector<S, N>,
         q1: &SVector<S, N>,
         h: S,
         covector: &State<S, N>,
-        p0_by_input: &SMatrix<S, N, M>,
+        by_input: &MomentaBy<S, N, M>,
     ) -> Result<Self, StepError>
     where
         L: DiscreteSecondOrder<R, N, M, Scalar = S>,
     {
         let k = LegendreDerivatives::new::<L, R>(system, q0, q1, h);
-        // ∂q1/∂p0, ∂q1/∂q0, ∂q1/∂u.
-        let by_p = linearization::inverse(&k.p0_by_q1)?;
-        let by_q = -(by_p * k.p0_by_q0);
-        let by_u = -(by_p * p0_by_input);
+        let Linearization { a: PhaseMatrix { q_by_p: by_p, q_by_q: by_q, .. }, b } =
+            Linearization::with_input(&k, by_input)?;
+        let by_u = b.q;
         let at_start = -(by_p.transpose() * (covector.q + k.p1_by_q1.transpose() * covector.p));
         let phi = system.momenta_along(q0, &((q1 - q0) / h), h, &at_start, &covector.p);
         let Hessian { d11, d12, d22, d1u, d2u, duu } = phi;

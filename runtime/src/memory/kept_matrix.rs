@@ -148,21 +148,60 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
             if iterations > 0 && size <= S::constant(AT_FLOOR) {
                 let worst = (0..N).find(|&i| residual[i].abs() * weights[i] == size)?;
                 let (residual, floor) = (residual[worst].abs(), floor[worst]);
-                return self.taken(
-                    state,
-                    v,
-                    momenta,
-                    Report { iterations, damped: 0, residual, floor, last_correction: correction.amax() },
-                );
+                let last_correction = correction.amax();
+                let report = Report { iterations, damped: 0, residual, floor, last_correction };
+                return Step::completed(state, self.h, v, &momenta, report).ok();
             }
             if !(size <= last_size * S::constant(CONTRACTION)) {
-                return None;
+                return if iterations > 0 {
+                    self.held_up(system, state, v, momenta, (iterations, correction))
+                } else {
+                    None
+                };
             }
             last_size = size;
             correction = self.factored.solve(&residual);
             v -= correction;
         }
         None
+    }
+
+    /// The step to `v`, whose residual has stopped falling, if the rounding of q explains it; nothing if not.
+    ///
+    /// Forces that cancel, as those of neighbouring springs do on a long wave, are rounded as each is. What q does to p0 is,
+    /// by the midpoint and the trapezoidal rule, 2/h times what of the matrix J(h) is even in h, less the mass matrix:
+    ///
+    /// ```text
+    /// E = (J(h) + J(−h))/2 − J(0) = −(h²/4) ∂²L/∂q² + …      floorᵢ += 4ε (2/|h|) Σⱼ |Eᵢⱼ||qⱼ|
+    /// ```
+    ///
+    /// What damping brings is odd in h: it acts on v, with which it vanishes.
+    #[cold]
+    #[inline(never)]
+    fn held_up<L, R>(
+        &self,
+        system: &L,
+        state: &State<S, N>,
+        v: SVector<S, N>,
+        momenta: Momenta<S, N>,
+        (iterations, correction): (u32, SVector<S, N>),
+    ) -> Option<Step<S, N>>
+    where
+        L: Discrete<R, N, Scalar = S, Matrix = M>,
+    {
+        let State { q, p } = state;
+        let matrix = |h| system.step_kernel(q, &v, h).matrix;
+        // 2E.
+        let even =
+            matrix(self.h).plus(&matrix(-self.h), S::one()).plus(&matrix(S::zero()), -S::constant(2.0));
+        let unit = S::constant(4.0) * S::EPSILON / self.h.abs();
+        let floor = estimated_floor(p, &self.matrix, &v) + even.magnitudes(&(q * unit));
+        let (residual, floor, is_root) = held_against(&(momenta.p0 - p), &floor);
+        let report = Report { iterations, damped: 0, residual, floor, last_correction: correction.amax() };
+        if !is_root {
+            return None;
+        }
+        Step::completed(state, self.h, v, &momenta, report).ok()
     }
 
     /// The step where the equation is linear, from any `guess`; nothing where rounding holds the residual up or a number is
@@ -181,22 +220,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         if !is_root {
             return None;
         }
-        let last_correction = correction.amax();
-        self.taken(state, v, momenta, Report { iterations: 1, damped: 0, residual, floor, last_correction })
-    }
-
-    /// The step that `v` leads to, if it is one of finite numbers.
-    #[inline]
-    fn taken(
-        &self,
-        State { q, p }: &State<S, N>,
-        v: SVector<S, N>,
-        momenta: Momenta<S, N>,
-        report: Report<S>,
-    ) -> Option<Step<S, N>> {
-        // Added to the p0 given: the residual of the solver would make it drift.
-        let state = State { q: q + v * self.h, p: p + (momenta.p1 - momenta.p0) };
-        state.require_finite().ok()?;
-        Some(Step { state, velocity: v, report })
+        let report = Report { iterations: 1, damped: 0, residual, floor, last_correction: correction.amax() };
+        Step::completed(state, self.h, v, &momenta, report).ok()
     }
 }

@@ -193,13 +193,7 @@ impl JointRayleighRule for Fitted {
         let force = Self::discrete_force_derivatives(system, q0, q1, h);
         let d = q1 - q0;
         let thrust = (d - (q0 + q1) * lag).dot(&drift.thrust) * half(h);
-        Derivatives {
-            value: d.dot(&(drift.damping * d)) * L::Scalar::constant(0.25) + l.value * (lag * h) + thrust,
-            d1: force.minus.value,
-            d2: -force.plus.value,
-            d11: force.minus.d1,
-            d12: force.minus.d2,
-            d22: -force.plus.d2,
-        }
+        let value = d.dot(&(drift.damping * d)) * L::Scalar::constant(0.25) + l.value * (lag * h) + thrust;
+        force.as_of_rayleigh(value)
     }
 }

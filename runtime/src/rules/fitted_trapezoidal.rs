@@ -147,14 +147,7 @@ impl JointRayleighRule for FittedTrapezoidal {
         q1: &SVector<L::Scalar, N>,
         h: L::Scalar,
     ) -> Derivatives<L::Scalar, N> {
-        let force = Self::discrete_force_derivatives(system, q0, q1, h);
-        Derivatives {
-            value: Self::discrete_rayleigh(system, q0, q1, h),
-            d1: force.minus.value,
-            d2: -force.plus.value,
-            d11: force.minus.d1,
-            d12: force.minus.d2,
-            d22: -force.plus.d2,
-        }
+        let value = Self::discrete_rayleigh(system, q0, q1, h);
+        Self::discrete_force_derivatives(system, q0, q1, h).as_of_rayleigh(value)
     }
 }
