@@ -29,6 +29,10 @@ where
         h: L::Scalar,
     ) -> Result<Step<L::Scalar, N>, StepError>;
 
+    /// Takes over what is known of the state from which the next step starts, from the memory of the step that ended there. In a
+    /// composition that is the one of the substep before.
+    fn follow(&mut self, _previous: &Self) {}
+
     /// The step from `state`, `elapsed` after the time of `system`: of the system as it is then ([`Lagrangian::later`](crate::Lagrangian::later)).
     ///
     /// # Errors

@@ -73,6 +73,12 @@ where
         }
         self.start(system, state, h)
     }
+
+    /// The force.
+    #[inline]
+    fn follow(&mut self, previous: &Self) {
+        self.force = previous.force;
+    }
 }
 
 impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> ExplicitMemory<S, M, N> {

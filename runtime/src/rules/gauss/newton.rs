@@ -54,12 +54,12 @@ impl<T: Scalar, const N: usize, const S: usize> Iterate<T, N, S> {
         }
         let momenta = problem.momenta(&rate);
         let residual = core::array::from_fn(|a| own[a] - momenta[a]);
-        let floor = problem.floor(&rate) + terms;
+        let floor = problem.floor(&rate, &residual) + terms;
         let size = in_units_of(&residual, &floor);
         Self { v, locals, rate, residual, floor, size }
     }
 
-    /// The size of the residual in units of another iterate's floor: what two iterates are compared by.
+    /// The size of the residual in units of a floor that two iterates have in common: what they are compared by.
     pub(super) fn size_in(&self, floor: &SVector<T, N>) -> T {
         in_units_of(&self.residual, floor)
     }
@@ -117,9 +117,11 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
                 }
             }
             let next = Iterate::new(problem, v);
-            let size = next.size_in(&last.floor);
-            if size < last.size || next.size <= constant(1.0) {
-                break Some((next, size));
+            // A coordinate that starts to move only now has no floor to speak of before.
+            let floor = last.floor.sup(&next.floor);
+            let (size, before) = (next.size_in(&floor), last.size_in(&floor));
+            if size < before || next.size <= constant(1.0) {
+                break Some((next, size / before));
             }
             if share == one && size.is_finite() {
                 // No lower than before: rounding, if the residual is small or its rounding large enough.
@@ -136,12 +138,12 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
                     });
                 }
             }
-            share = crate::newton::shorter(share, last.size, size);
+            share = crate::newton::shorter(share, before, size);
             if share < T::EPSILON.sqrt() {
                 break None;
             }
         };
-        let Some((next, size)) = next else {
+        let Some((next, contraction)) = next else {
             let (residual, floor) = worst(&last.residual, &last.floor);
             let (residual, floor) = (residual.widen(), floor.widen());
             let is_lost = correction.iter().enumerate().all(|(i, correction)| {
@@ -155,7 +157,7 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
             });
         };
         damped += u32::from(share < one);
-        let contraction = if share < one { one } else { size / last.size };
+        let contraction = if share < one { one } else { contraction };
         // At the floor, and no better for another correction.
         if next.size <= constant(AT_FLOOR)
             && (contraction > constant(0.01) || next.size <= constant(1.0 / 16.0))
