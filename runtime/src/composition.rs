@@ -3,7 +3,7 @@
 use core::array;
 use core::marker::PhantomData;
 
-use crate::{Discrete, Memory, Scalar, State, Step, StepError};
+use crate::{Discrete, Memory, Scalar, State, StepError};
 
 /// A composition of S substeps γ₁h, …, γ_S h of rule `R`, symmetric (γᵢ = γ_{S+1−i}) and of high order.
 ///
@@ -157,6 +157,7 @@ impl<R, const S: usize> Composition<R, S> {
 /// The trajectory of a system by a [`Composition`], one step of S substeps at a time.
 ///
 /// An iterator over states. Each substep remembers the same substep of the steps before ([`Memory`]): those are a step apart.
+/// Where L, R or f take the time, each substep sees its own.
 /// After an error it ends, its state being the last good one.
 pub struct ComposedTrajectory<'a, L, R, const N: usize, const S: usize>
 where
@@ -193,10 +194,10 @@ where
 
     #[inline]
     fn composed(&mut self) -> Result<State<L::Scalar, N>, StepError> {
-        let mut state = self.state;
+        let (mut state, mut elapsed) = (self.state, self.time());
         for (memory, &h) in self.memories.iter_mut().zip(&self.substeps) {
-            let step: Step<L::Scalar, N> = memory.advance(self.system, &state, h)?;
-            state = step.state;
+            state = memory.advance_later(self.system, elapsed, &state, h)?.state;
+            elapsed += h.widen();
         }
         Ok(state)
     }

@@ -2,6 +2,8 @@
 
 use core::ops::{Add, AddAssign};
 
+use nalgebra::SVector;
+
 use crate::{Force, Lagrangian, Rayleigh, Scalar, State, StepError};
 
 /// Where energy went over one step, or, added up, over many.
@@ -17,6 +19,9 @@ use crate::{Force, Lagrangian, Rayleigh, Scalar, State, StepError};
 ///
 /// The remainder is numerical: what the method, not the mechanics, did to the energy. Where nothing is stiff it is h³ times a
 /// constant a step for a method of order 2 and above; one that keeps its sign from step to step is a method that drifts.
+///
+/// A system that takes the time is given as it is at the start of the step, `system.at_time(t)`. Where L itself takes it, the
+/// remainder also holds −∫ ∂L/∂t dt, what moving constraints and changing parameters bring.
 ///
 /// ```
 /// use dalembert::{EnergyLedger, Midpoint, State, Trajectory, rayleigh_system};
@@ -58,9 +63,8 @@ impl<S: Scalar> EnergyLedger<S> {
         to: &State<S, N>,
         h: S,
     ) -> Result<Self, StepError> {
-        let (q, v) = middle(from, to, h);
-        let dissipated = v.dot(&system.rayleigh_gradient(&q, &v).d2) * h;
-        Ok(Self { change: change(system, from, to)?, dissipated, work: S::zero() })
+        let (change, dissipated) = (change(system, from, to, h)?, dissipated(system, from, to, h));
+        Ok(Self { change, dissipated, work: S::zero() })
     }
 
     /// Of a step without friction.
@@ -73,9 +77,8 @@ impl<S: Scalar> EnergyLedger<S> {
         to: &State<S, N>,
         h: S,
     ) -> Result<Self, StepError> {
-        let (q, v) = middle(from, to, h);
-        let work = v.dot(&system.force(&q, &v)) * h;
-        Ok(Self { change: change(system, from, to)?, dissipated: S::zero(), work })
+        let (change, work) = (change(system, from, to, h)?, work(system, from, to, h));
+        Ok(Self { change, dissipated: S::zero(), work })
     }
 
     /// Of a step with both.
@@ -91,9 +94,8 @@ impl<S: Scalar> EnergyLedger<S> {
     where
         L: Rayleigh<N, Scalar = S> + Force<N>,
     {
-        let with_friction = Self::of_rayleigh(system, from, to, h)?;
-        let (q, v) = middle(from, to, h);
-        Ok(Self { work: v.dot(&system.force(&q, &v)) * h, ..with_friction })
+        let (change, dissipated) = (change(system, from, to, h)?, dissipated(system, from, to, h));
+        Ok(Self { change, dissipated, work: work(system, from, to, h) })
     }
 
     /// What the method did: change + dissipated − work.
@@ -103,20 +105,47 @@ impl<S: Scalar> EnergyLedger<S> {
     }
 }
 
-fn middle<S: Scalar, const N: usize>(
+/// `evaluate` of the system as it is in the middle of the step, of q̄ and v̄; times h.
+fn in_the_middle<S: Scalar, L: Lagrangian<N, Scalar = S>, const N: usize>(
+    system: &L,
     from: &State<S, N>,
     to: &State<S, N>,
     h: S,
-) -> (nalgebra::SVector<S, N>, nalgebra::SVector<S, N>) {
-    ((from.q + to.q) * S::constant(0.5), (to.q - from.q) / h)
+    evaluate: impl FnOnce(&L, &SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
+) -> S {
+    let half = S::constant(0.5);
+    let (q, v) = ((from.q + to.q) * half, (to.q - from.q) / h);
+    v.dot(&system.later(h * half, |system| evaluate(system, &q, &v))) * h
 }
 
+/// h v̄·∂R/∂v.
+fn dissipated<S: Scalar, L: Rayleigh<N, Scalar = S>, const N: usize>(
+    system: &L,
+    from: &State<S, N>,
+    to: &State<S, N>,
+    h: S,
+) -> S {
+    in_the_middle(system, from, to, h, |system, q, v| system.rayleigh_gradient(q, v).d2)
+}
+
+/// h v̄·f.
+fn work<S: Scalar, L: Force<N, Scalar = S>, const N: usize>(
+    system: &L,
+    from: &State<S, N>,
+    to: &State<S, N>,
+    h: S,
+) -> S {
+    in_the_middle(system, from, to, h, |system, q, v| system.force(q, v))
+}
+
+/// E(q1, p1) − E(q0, p0).
 fn change<S: Scalar, L: Lagrangian<N, Scalar = S>, const N: usize>(
     system: &L,
     from: &State<S, N>,
     to: &State<S, N>,
+    h: S,
 ) -> Result<S, StepError> {
-    Ok(to.energy(system)? - from.energy(system)?)
+    Ok(system.later(h, |system| to.energy(system))? - from.energy(system)?)
 }
 
 impl<S: Scalar> Add for EnergyLedger<S> {

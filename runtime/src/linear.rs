@@ -56,6 +56,10 @@ pub trait NewtonMatrix<S: Scalar, const N: usize>: Copy + core::fmt::Debug + sea
     /// Σⱼ |Aᵢⱼ||vⱼ| for each i: how large the terms of A v are.
     fn magnitudes(&self, v: &SVector<S, N>) -> SVector<S, N>;
 
+    /// A + `factor` `other`.
+    #[must_use]
+    fn plus(&self, other: &Self, factor: S) -> Self;
+
     /// Whether every entry of the row is a finite number.
     fn row_is_finite(&self, row: usize) -> bool {
         (0..N).all(|column| self.entry(row, column).is_finite())

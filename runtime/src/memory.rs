@@ -30,6 +30,24 @@ where
         state: &State<L::Scalar, N>,
         h: L::Scalar,
     ) -> Result<Step<L::Scalar, N>, StepError>;
+
+    /// The step from `state`, `elapsed` after the time of `system`: of the system as it is then ([`Lagrangian::later`](crate::Lagrangian::later)).
+    ///
+    /// # Errors
+    /// Those of [`advance`](Self::advance).
+    #[inline]
+    fn advance_later(
+        &mut self,
+        system: &L,
+        elapsed: f64,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<Step<L::Scalar, N>, StepError>
+    where
+        L: Sized,
+    {
+        system.later(L::Scalar::constant(elapsed), |system| self.advance(system, state, h))
+    }
 }
 
 /// The latest four mean velocities: the next, extrapolated to order 3, is the guess for Newton's method.

@@ -176,7 +176,8 @@ impl Method {
         let stride = window.div_ceil(64);
         for step in 0..window {
             if step % stride == 0 {
-                choice.local = choice.local.max(run.local_error(run.state()).map_err(ToleranceError::Step)?);
+                choice.local =
+                    choice.local.max(run.local_error(run.state(), step).map_err(ToleranceError::Step)?);
             }
             run.advance().map_err(ToleranceError::Step)?;
         }

@@ -125,7 +125,8 @@ where
     /// # Errors
     /// The [`StepError`] of the whole step.
     pub fn next_in_parts(&mut self, halvings: u32) -> Result<Parted<L::Scalar, N>, StepError> {
-        let error = match self.memory.advance(self.system, &self.state, self.h) {
+        let start = self.time();
+        let error = match self.memory.advance_later(self.system, start, &self.state, self.h) {
             Ok(step) => {
                 self.state = step.state;
                 self.steps += 1;
@@ -138,8 +139,9 @@ where
             part *= L::Scalar::constant(0.5);
             let mut memory = L::Memory::default();
             let (mut state, mut last) = (self.state, None);
-            for _ in 0..1_u32 << halving {
-                match memory.advance(self.system, &state, part) {
+            for taken in 0..1_u32 << halving {
+                let elapsed = start + f64::from(taken) * part.widen();
+                match memory.advance_later(self.system, elapsed, &state, part) {
                     Ok(step) => {
                         state = step.state;
                         last = Some(step);
@@ -179,9 +181,7 @@ where
         if self.failed {
             return None;
         }
-        let elapsed = L::Scalar::constant(self.time());
-        let (memory, state, h) = (&mut self.memory, &self.state, self.h);
-        let step = self.system.later(elapsed, |system| memory.advance(system, state, h));
+        let step = self.memory.advance_later(self.system, self.time(), &self.state, self.h);
         match &step {
             Ok(step) => {
                 self.state = step.state;

@@ -138,8 +138,8 @@ mod num_dual {
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::{
-    Direction, Discrete, DiscreteDriven, DiscreteRayleigh, Force, Lagrangian, Midpoint, NewtonMatrix,
-    Rayleigh, Scalar, State, Trajectory, Trapezoidal,
+    Composition, Direction, Discrete, DiscreteDriven, DiscreteRayleigh, EnergyLedger, Force, Lagrangian,
+    Midpoint, NewtonMatrix, Rayleigh, Scalar, State, Trajectory, Trapezoidal,
 };
 
 /// The largest difference seen, in units of 64 roundings of the largest entry.
@@ -355,6 +355,59 @@ fn a_trajectory_carries_the_time_on() {
         assert!((order - 2.0).abs() < 0.05, "{order}: {coarse} {fine}");
         assert!(fine < 1e-4);
     }
+}
+
+/// Order 6 by a composition, each substep of which has its own time; one that forgot it would have order 0.
+#[test]
+fn a_composition_carries_the_time_on() {
+    let system = expanded::Storm { k: 0.4 };
+    let (u, t0, end) = ([0.5, -1.2, 0.8], 0.3, 1.8);
+    let (q, v) = (vector![0.4, -0.3], vector![0.2, 0.5]);
+    let exact = reference(&system, u, t0, q, v, end);
+    let view = system.driven(u, t0);
+    let start = State::from_velocity(&view, q, v).unwrap();
+    let error = |steps: u32| {
+        let h = (end - t0) / f64::from(steps);
+        let run = Composition::kahan_li_6(Midpoint).trajectory(&view, h, start);
+        (run.take(steps as usize).last().unwrap().unwrap().q - exact).amax()
+    };
+    let (coarse, fine) = (error(6), error(12));
+    let order = (coarse / fine).log2();
+    assert!((order - 6.0).abs() < 0.5 && fine < 1e-6, "{order}: {coarse} {fine}");
+}
+
+/// A step of a run, whole or in parts, sees its own time.
+#[test]
+fn steps_in_parts_see_their_time() {
+    let worn = expanded::Worn { r: 0.8 };
+    let view = worn.at_time(0.4);
+    let start = State::from_velocity(&view, [0.3], [0.9]).unwrap();
+    let run = || Trajectory::new(&view, Midpoint, 0.1, start);
+    let (mut whole, mut parted) = (run(), run());
+    for _ in 0..20 {
+        assert_eq!(whole.next().unwrap().unwrap(), parted.next_in_parts(0).unwrap().step);
+    }
+}
+
+/// The ledger takes each step's friction in its middle: what it leaves unexplained falls as h². Taken at the start of the step,
+/// friction that grows with time would leave what falls as h.
+#[test]
+fn the_ledger_sees_the_time_within_a_step() {
+    let worn = expanded::Worn { r: 0.8 };
+    let remainder = |steps: u32| {
+        let h = 2.0 / f64::from(steps);
+        let start = State::from_velocity(&worn.at_time(0.4), [0.3], [0.9]).unwrap();
+        let (mut ledger, mut state) = (EnergyLedger::default(), start);
+        for k in 0..steps {
+            let view = worn.at_time(0.4 + h * f64::from(k));
+            let next = Discrete::<Midpoint, 1>::step(&view, &state, h, None).unwrap().state;
+            ledger += EnergyLedger::of_rayleigh(&view, &state, &next, h).unwrap();
+            state = next;
+        }
+        ledger.remainder()
+    };
+    let order = (remainder(40) / remainder(80)).log2();
+    assert!((order - 2.0).abs() < 0.1, "{order}");
 }
 
 /// L and R of a cart that is not driven are its own; they are the view's too.

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use dalembert::{
-    Derivatives, Discrete, KeptMatrix, Lagrangian, Midpoint, Momenta, State, StepKernel, Trajectory,
+    Banded, Derivatives, Discrete, KeptMatrix, Lagrangian, Midpoint, Momenta, State, StepKernel, Trajectory,
     VelocityHistory, rayleigh_system,
 };
 use nalgebra::{SMatrix, SVector};
@@ -23,66 +23,90 @@ impl Rotor {
     }
 }
 
-type Vector = SVector<f64, 3>;
+/// Springs that harden between 32 masses.
+struct Chain;
 
-/// The rotor with a memory of its own, and how often its step's equation and its momenta are evaluated.
+#[rayleigh_system]
+impl Chain {
+    fn lagrangian(&self, q: [f64; 32], v: [f64; 32]) -> f64 {
+        let (mut kinetic, mut potential, mut before) = (0.0, 0.0, 0.0);
+        for i in 0..32 {
+            let d = q[i] - before;
+            kinetic += 0.5 * v[i] * v[i];
+            potential += 20.0 * d * d + 2.0 * d.powi(4);
+            before = q[i];
+        }
+        kinetic - potential
+    }
+}
+
+/// A system with a memory of its own, and how often its step's equation and its momenta are evaluated.
 macro_rules! counted {
-    ($name:ident, $memory:ty) => {
+    ($name:ident, $system:ident, $n:literal, $matrix:ty, $memory:ty) => {
         #[derive(Default)]
         struct $name {
             equations: Cell<u32>,
             momenta: Cell<u32>,
         }
 
-        impl Lagrangian<3> for $name {
+        impl Lagrangian<$n> for $name {
             type Scalar = f64;
 
-            fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
-                Lagrangian::lagrangian(&Rotor, q, v)
+            fn lagrangian(&self, q: &SVector<f64, $n>, v: &SVector<f64, $n>) -> f64 {
+                Lagrangian::lagrangian(&$system, q, v)
             }
 
-            fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 3> {
-                Rotor.lagrangian_derivatives(q, v)
+            fn lagrangian_derivatives(
+                &self,
+                q: &SVector<f64, $n>,
+                v: &SVector<f64, $n>,
+            ) -> Derivatives<f64, $n> {
+                $system.lagrangian_derivatives(q, v)
             }
         }
 
-        impl Discrete<Midpoint, 3> for $name {
-            type Matrix = SMatrix<f64, 3, 3>;
+        impl Discrete<Midpoint, $n> for $name {
+            type Matrix = $matrix;
             type Memory = $memory;
 
-            fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-                Rotor.discrete_lagrangian(q0, q1, h)
+            fn discrete_lagrangian(&self, q0: &SVector<f64, $n>, q1: &SVector<f64, $n>, h: f64) -> f64 {
+                $system.discrete_lagrangian(q0, q1, h)
             }
 
             fn discrete_lagrangian_derivatives(
                 &self,
-                q0: &Vector,
-                q1: &Vector,
+                q0: &SVector<f64, $n>,
+                q1: &SVector<f64, $n>,
                 h: f64,
-            ) -> Derivatives<f64, 3> {
-                Rotor.discrete_lagrangian_derivatives(q0, q1, h)
+            ) -> Derivatives<f64, $n> {
+                $system.discrete_lagrangian_derivatives(q0, q1, h)
             }
 
-            fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 3> {
+            fn step_kernel(
+                &self,
+                q0: &SVector<f64, $n>,
+                v: &SVector<f64, $n>,
+                h: f64,
+            ) -> StepKernel<f64, $n, $matrix> {
                 self.equations.set(self.equations.get() + 1);
-                Rotor.step_kernel(q0, v, h)
+                $system.step_kernel(q0, v, h)
             }
 
-            fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 3> {
+            fn momenta(&self, q0: &SVector<f64, $n>, v: &SVector<f64, $n>, h: f64) -> Momenta<f64, $n> {
                 self.momenta.set(self.momenta.get() + 1);
-                Rotor.momenta(q0, v, h)
+                $system.momenta(q0, v, h)
             }
 
-            fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-                Rotor.segment_energy(q0, q1, h)
+            fn segment_energy(&self, q0: &SVector<f64, $n>, q1: &SVector<f64, $n>, h: f64) -> f64 {
+                $system.segment_energy(q0, q1, h)
             }
         }
 
         impl $name {
             /// Evaluations of both kinds over 2000 steps.
-            fn run(v: [f64; 3], h: f64) -> [u32; 2] {
+            fn run(q: [f64; $n], v: [f64; $n], h: f64) -> [u32; 2] {
                 let system = Self::default();
-                let start = State::from_velocity(&system, [0.1, 0.2, -0.3], v).unwrap();
+                let start = State::from_velocity(&system, q, v).unwrap();
                 for step in Trajectory::new(&system, Midpoint, h, start).take(2000) {
                     step.unwrap();
                 }
@@ -92,13 +116,16 @@ macro_rules! counted {
     };
 }
 
-counted!(Keeping, KeptMatrix<f64, SMatrix<f64, 3, 3>, 3>);
-counted!(Renewing, VelocityHistory<f64, 3>);
+counted!(Keeping, Rotor, 3, SMatrix<f64, 3, 3>, KeptMatrix<f64, SMatrix<f64, 3, 3>, 3>);
+counted!(Renewing, Rotor, 3, SMatrix<f64, 3, 3>, VelocityHistory<f64, 3>);
+counted!(KeepingChain, Chain, 32, Banded<f64, 32, 3>, KeptMatrix<f64, Banded<f64, 32, 3>, 32>);
+
+const TURNED: [f64; 3] = [0.1, 0.2, -0.3];
 
 #[test]
 fn a_matrix_that_changes_fast_is_not_kept() {
     let (v, h) = ([3.0, 5.0, -4.0], 0.05);
-    let (keeping, renewing) = (Keeping::run(v, h), Renewing::run(v, h));
+    let (keeping, renewing) = (Keeping::run(TURNED, v, h), Renewing::run(TURNED, v, h));
     let total = |[equations, momenta]: [u32; 2]| f64::from(equations + momenta);
     assert!(total(keeping) <= 1.05 * total(renewing), "{keeping:?} against {renewing:?}");
 }
@@ -106,6 +133,15 @@ fn a_matrix_that_changes_fast_is_not_kept() {
 #[test]
 fn a_matrix_that_hardly_changes_is_kept() {
     let (v, h) = ([3e-3, 5e-3, -4e-3], 0.05);
-    let (keeping, renewing) = (Keeping::run(v, h), Renewing::run(v, h));
+    let (keeping, renewing) = (Keeping::run(TURNED, v, h), Renewing::run(TURNED, v, h));
     assert!(keeping[0] < renewing[0] / 20, "{keeping:?} against {renewing:?}");
+}
+
+/// On a long wave the forces of neighbouring springs cancel, and their rounding holds up the residuals of masses that turn. To
+/// measure that rounding, coordinate by coordinate, takes 129 evaluations; a step in twenty that did so would show.
+#[test]
+fn cancelling_forces_do_not_hold_up_a_run() {
+    let wave = core::array::from_fn(|i| (core::f64::consts::PI * (i + 1) as f64 / 65.0).sin());
+    let [equations, momenta] = KeepingChain::run(wave, [0.0; 32], 0.05);
+    assert!(equations < 2000 && momenta < 2000 * 5, "{equations} equations, {momenta} momenta in 2000 steps");
 }

@@ -152,6 +152,17 @@ impl<S: Scalar, const N: usize, const W: usize> NewtonMatrix<S, N> for Banded<S,
         })
     }
 
+    #[inline]
+    fn plus(&self, other: &Self, factor: S) -> Self {
+        let mut sum = *self;
+        for (row, added) in sum.rows.iter_mut().zip(&other.rows) {
+            for (entry, added) in row.iter_mut().zip(added) {
+                *entry += *added * factor;
+            }
+        }
+        sum
+    }
+
     fn row_is_finite(&self, row: usize) -> bool {
         self.rows.get(row).is_none_or(|row| row.iter().all(|entry| entry.is_finite()))
     }

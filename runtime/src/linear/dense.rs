@@ -44,6 +44,11 @@ impl<S: Scalar, const N: usize> NewtonMatrix<S, N> for SMatrix<S, N, N> {
         }
         sums
     }
+
+    #[inline]
+    fn plus(&self, other: &Self, factor: S) -> Self {
+        self + other * factor
+    }
 }
 
 /// One or two coordinates; nothing if N > 2, or if the determinant cancels.

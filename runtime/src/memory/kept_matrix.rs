@@ -156,13 +156,52 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
                 );
             }
             if !(size <= last_size * S::constant(CONTRACTION)) {
-                return None;
+                return if iterations > 0 {
+                    self.held_up(system, state, v, momenta, (iterations, correction))
+                } else {
+                    None
+                };
             }
             last_size = size;
             correction = self.factored.solve(&residual);
             v -= correction;
         }
         None
+    }
+
+    /// The step to `v`, whose residual has stopped falling, if the rounding of q explains it; nothing if not.
+    ///
+    /// Forces that cancel, as those of neighbouring springs do on a long wave, are rounded as each is. What q does to p0 is,
+    /// by the midpoint and the trapezoidal rule, 2/h times what of the matrix J(h) is even in h, less the mass matrix:
+    ///
+    /// ```text
+    /// E = (J(h) + J(−h))/2 − J(0) = −(h²/4) ∂²L/∂q² + …      floorᵢ += 4ε (2/|h|) Σⱼ |Eᵢⱼ||qⱼ|
+    /// ```
+    ///
+    /// What damping brings is odd in h: it acts on v, with which it vanishes.
+    #[cold]
+    #[inline(never)]
+    fn held_up<L, R>(
+        &self,
+        system: &L,
+        state: &State<S, N>,
+        v: SVector<S, N>,
+        momenta: Momenta<S, N>,
+        (iterations, correction): (u32, SVector<S, N>),
+    ) -> Option<Step<S, N>>
+    where
+        L: Discrete<R, N, Scalar = S, Matrix = M>,
+    {
+        let State { q, p } = state;
+        let matrix = |h| system.step_kernel(q, &v, h).matrix;
+        // 2E.
+        let even =
+            matrix(self.h).plus(&matrix(-self.h), S::one()).plus(&matrix(S::zero()), -S::constant(2.0));
+        let unit = S::constant(4.0) * S::EPSILON / self.h.abs();
+        let floor = estimated_floor(p, &self.matrix, &v) + even.magnitudes(&(q * unit));
+        let (residual, floor, is_root) = held_against(&(momenta.p0 - p), &floor);
+        let report = Report { iterations, damped: 0, residual, floor, last_correction: correction.amax() };
+        if is_root { self.taken(state, v, momenta, report) } else { None }
     }
 
     /// The step where the equation is linear, from any `guess`; nothing where rounding holds the residual up or a number is

@@ -79,15 +79,18 @@ where
         self.breach.as_ref()
     }
 
-    /// |q after one step − q after two half ones| from `state`.
-    pub(super) fn local_error(&self, state: &State<L::Scalar, N>) -> Result<f64, StepError> {
+    /// |q after one step − q after two half ones| from `state`, which the run has after `steps` steps.
+    pub(super) fn local_error(&self, state: &State<L::Scalar, N>, steps: u64) -> Result<f64, StepError> {
         let (method, h) = (self.choice.method, L::Scalar::constant(self.choice.step_size));
-        let mut whole = Run::new(method, self.rule, self.system, h, *state);
-        let mut halves = Run::new(method, self.rule, self.system, h * L::Scalar::constant(0.5), *state);
-        whole.advance()?;
-        halves.advance()?;
-        halves.advance()?;
-        Ok((whole.state().q - halves.state().q).amax().widen())
+        let elapsed = L::Scalar::constant(self.choice.step_size * steps as f64);
+        self.system.later(elapsed, |system| {
+            let mut whole = Run::new(method, self.rule, system, h, *state);
+            let mut halves = Run::new(method, self.rule, system, h * L::Scalar::constant(0.5), *state);
+            whole.advance()?;
+            halves.advance()?;
+            halves.advance()?;
+            Ok((whole.state().q - halves.state().q).amax().widen())
+        })
     }
 
     pub(super) fn advance(&mut self) -> Result<(), StepError> {
@@ -110,11 +113,15 @@ where
         rougher
     }
 
-    /// Holds the step from `state` against its halves; halves that cannot be taken are a breach too.
+    /// Holds the last step, from `state`, against its halves; halves that cannot be taken are a breach too.
     fn look(&mut self, state: &State<L::Scalar, N>) {
         // Differences below rounding compare with nothing.
         let rounding = 16.0 * L::Scalar::EPSILON.widen() * state.q.amax().widen();
-        let local = self.local_error(state).ok().filter(|local| !local.is_nan()).unwrap_or(f64::INFINITY);
+        let local = self
+            .local_error(state, self.taken - 1)
+            .ok()
+            .filter(|local| !local.is_nan())
+            .unwrap_or(f64::INFINITY);
         let expected = self.choice.expected * (local / self.choice.local.max(rounding));
         let worst = self.breach.map_or(self.choice.tolerance, |breach| breach.expected);
         if expected > worst {
