@@ -73,6 +73,12 @@ impl<S: Scalar, const N: usize> core::ops::Add for DiscreteForceDerivatives<S, N
 }
 
 /// How a step went.
+///
+/// | question | answer |
+/// |---|---|
+/// | how much work | `iterations`, `damped` |
+/// | how well the equation is solved | `residual` against `floor`: up to some 4 floors rounding is all that is left |
+/// | how well it was posed: condition of the Newton matrix, branch of the root | on request, [`Step::certificate`], so that steps do not pay for it |
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Report<S> {
