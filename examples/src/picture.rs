@@ -129,6 +129,10 @@ pub fn svg(size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -> Result<Strin
         }
         root.present()?;
     }
+    // Attributes that say what holds anyway are half of a picture of many points.
+    for default in [" opacity=\"1\"", " stroke=\"none\" stroke-width=\"1\""] {
+        svg = svg.replace(default, "");
+    }
     // The size becomes one in pixels; the view box stays in units.
     let header = |[width, height]: [u32; 2]| format!("<svg width=\"{width}\" height=\"{height}\"");
     Ok(svg.replacen(&header(units), &header(size), 1))
@@ -185,6 +189,9 @@ fn draw<'a>(area: &DrawingArea<SVGBackend<'a>, Shift>, panel: &Panel<'_>) -> Res
                 })?;
             }
         }
+    }
+    if panel.curves.iter().all(|curve| curve.label.is_empty()) {
+        return Ok(());
     }
     let position = match panel.legend {
         Corner::UpperLeft => SeriesLabelPosition::UpperLeft,

@@ -170,8 +170,8 @@ impl<R, const S: usize> Composition<R, S> {
 
 /// The trajectory of a system by a [`Composition`], one step of S substeps at a time.
 ///
-/// An iterator over states. Each substep remembers the same substep of the steps before ([`Memory`]): those are a step apart.
-/// Where L, R or f take the time, each substep sees its own.
+/// An iterator over states. Each substep remembers the same substep of the steps before ([`Memory`]): those are a step apart; what
+/// is known of the state between two substeps is handed on. Where L, R or f take the time, each substep sees its own.
 /// After an error it ends, its state being the last good one.
 pub struct ComposedTrajectory<'a, L, R, const N: usize, const S: usize>
 where
@@ -234,7 +234,13 @@ where
     #[inline]
     fn composed(&mut self) -> Result<State<L::Scalar, N>, StepError> {
         let (mut state, mut elapsed) = (self.state, self.time());
-        for (memory, &h) in self.memories.iter_mut().zip(&self.substeps) {
+        for (i, &h) in self.substeps.iter().enumerate() {
+            let (before, rest) = self.memories.split_at_mut(i);
+            let Some((memory, after)) = rest.split_first_mut() else { break };
+            // The substep before; of the first, the last of the step before.
+            if let Some(previous) = before.last().or(after.last()) {
+                memory.follow(previous);
+            }
             state = memory.advance_later(self.system, elapsed, &state, h)?.state;
             elapsed += h.widen();
         }

@@ -18,7 +18,7 @@ use crate::{Report, Scalar, State};
 mod bounded;
 mod rounding;
 pub(crate) use bounded::bounded;
-pub(crate) use rounding::{AT_FLOOR, estimated_floor, held_against};
+pub(crate) use rounding::{AT_FLOOR, PLACES, estimated_floor, held_against};
 use rounding::{STAGNATION, in_units_of, rounding, worst};
 
 /// A root, with both momenta there.
