@@ -156,7 +156,8 @@ fn change_expression(item: &mut Item, random: &mut StdRng) -> Option<()> {
 
 fn change_statement(item: &mut Item, random: &mut StdRng) -> Option<()> {
     let new: Block = syn::parse_str(&format!("{{ {} }}", one(STATEMENTS, random))).ok()?;
-    let (choice, at, to) = (random.random_range(0..6), random.random::<u32>() as usize, random.random::<u32>() as usize);
+    let (choice, at, to) =
+        (random.random_range(0..6), random.random::<u32>() as usize, random.random::<u32>() as usize);
     Block::change_one(item, random, |block| {
         let count = block.stmts.len();
         match choice {
@@ -242,7 +243,10 @@ fn changed_at(tokens: TokenStream, at: &mut usize, random: &mut StdRng) -> Token
                 }
             }
         } else if let TokenTree::Group(group) = &tree {
-            changed.extend([TokenTree::from(Group::new(group.delimiter(), changed_at(group.stream(), at, random)))]);
+            changed.extend([TokenTree::from(Group::new(
+                group.delimiter(),
+                changed_at(group.stream(), at, random),
+            ))]);
         } else {
             changed.extend([tree.clone()]);
         }

@@ -23,7 +23,9 @@ fuzz_target!(|text: &[u8]| {
         let mut run = Trajectory::resume(&SpringPendulum { k: 9.0 }, Midpoint, checkpoint);
         let _ = run.time();
         for step in run.by_ref().take(3) {
-            assert!(step.is_err() || step.is_ok_and(|step| step.state.q.iter().all(|entry| entry.is_finite())));
+            assert!(
+                step.is_err() || step.is_ok_and(|step| step.state.q.iter().all(|entry| entry.is_finite()))
+            );
         }
         let _ = run.next_in_parts(2);
     }

@@ -2,7 +2,8 @@
 
 use dalembert::nalgebra::{ComplexField, SVector};
 use dalembert::{
-    Certificate, Composition, Discrete, Lagrangian, Linearization, Midpoint, PhaseMatrix, Scalar, State, StepError, Trajectory,
+    Certificate, Composition, Discrete, Lagrangian, Linearization, Midpoint, PhaseMatrix, Scalar, State,
+    StepError, Trajectory,
 };
 
 use crate::numbers::Bytes;

@@ -16,7 +16,8 @@ use libfuzzer_sys::fuzz_target;
 use exercise::Exercise;
 use numbers::Bytes;
 use systems::{
-    Cart, Chain, Counted, Coupled, Degenerate, DoublePendulum, ByDualNumbers, Kepler, Oscillator, Relativistic, Ring, Rubbing, Single,
+    ByDualNumbers, Cart, Chain, Counted, Coupled, Degenerate, DoublePendulum, Kepler, Oscillator,
+    Relativistic, Ring, Rubbing, Single,
 };
 
 /// Stepped by each of the rules; the promise on the residual is that of [`promise`] or, for several stages, of the report.

@@ -19,7 +19,10 @@ const SLACK: f64 = 16.0;
 /// Checks the step itself.
 pub fn finite<S: Scalar, const N: usize>(state: &State<S, N>, h: S, step: &Step<S, N>) {
     let all = [&state.q, &state.p, &step.state.q, &step.state.p, &step.velocity];
-    assert!(all.iter().all(|vector| vector.iter().all(|entry| entry.is_finite())), "{state:?} {h:?} {step:?}");
+    assert!(
+        all.iter().all(|vector| vector.iter().all(|entry| entry.is_finite())),
+        "{state:?} {h:?} {step:?}"
+    );
     assert!(h.is_finite() && h != S::zero(), "{state:?} {h:?} {step:?}");
     let report = &step.report;
     assert!(report.residual.is_finite() && report.residual >= S::zero(), "{step:?}");
@@ -32,14 +35,21 @@ pub fn finite<S: Scalar, const N: usize>(state: &State<S, N>, h: S, step: &Step<
 }
 
 /// Checks that the velocity of the step solves its equation, and that the report says how well.
-pub fn solved<L, R, const N: usize>(system: &L, state: &State<L::Scalar, N>, h: L::Scalar, step: &Step<L::Scalar, N>)
-where
+pub fn solved<L, R, const N: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    h: L::Scalar,
+    step: &Step<L::Scalar, N>,
+) where
     L: Discrete<R, N>,
 {
     let (q, v) = (&state.q, &step.velocity);
     let p0 = |q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>| system.momenta(q, v, h).p0;
     let residual = (p0(q, v) - state.p).abs();
-    assert!(residual.iter().any(|entry| *entry == step.report.residual), "{residual} is not that of {step:?}");
+    assert!(
+        residual.iter().any(|entry| *entry == step.report.residual),
+        "{residual} is not that of {step:?}"
+    );
     let epsilon = L::Scalar::EPSILON.widen();
     let matrix = system.step_kernel(q, v, h).matrix;
     let value = p0(q, v);
@@ -55,7 +65,8 @@ where
     }
     let largest = |of: &dyn Fn(usize) -> f64| (0..N).map(of).fold(0.0, f64::max);
     let floor = largest(&|i| {
-        let terms: f64 = (0..N).map(|j| (matrix.entry(i, j).widen() * v[j].widen() * 4.0 * epsilon).abs()).sum();
+        let terms: f64 =
+            (0..N).map(|j| (matrix.entry(i, j).widen() * v[j].widen() * 4.0 * epsilon).abs()).sum();
         terms + 4.0 * epsilon * state.p[i].widen().abs() + L::Scalar::SMALLEST_NORMAL.widen()
     });
     let limit = SLACK * (STAGNATION * floor).max(ROOT * (floor + largest(&|i| rounding[i].widen())));

@@ -4,7 +4,8 @@ use std::cell::Cell;
 
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::{
-    Derivatives, Discrete, DisplacementRule, Lagrangian, Midpoint, Momenta, StepKernel, VelocityHistory, rayleigh_system,
+    Derivatives, Discrete, DisplacementRule, Lagrangian, Midpoint, Momenta, StepKernel, VelocityHistory,
+    rayleigh_system,
 };
 
 /// Everything linear: one solve, or explicit.
@@ -22,7 +23,9 @@ pub fn rubbing(q: [f64; 1], v: [f64; 1], m: f64, r: f64, e: f64, c: f64) -> (f64
 /// A mass matrix that depends on q.
 #[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 pub fn double_pendulum(q: [f64; 2], v: [f64; 2], m: f64, l: f64, g: f64, r: f64) -> (f64, f64) {
-    let kinetic = 0.5 * (1.0 + m) * v[0] * v[0] + 0.5 * m * (l * v[1]).powi(2) + m * l * v[0] * v[1] * (q[0] - q[1]).cos();
+    let kinetic = 0.5 * (1.0 + m) * v[0] * v[0]
+        + 0.5 * m * (l * v[1]).powi(2)
+        + m * l * v[0] * v[1] * (q[0] - q[1]).cos();
     let lagrangian = kinetic + g * ((1.0 + m) * q[0].cos() + m * l * q[1].cos());
     (lagrangian, 0.5 * r * (v[0] * v[0] + (v[1] - v[0]).powi(2)))
 }
@@ -155,7 +158,12 @@ impl Discrete<Midpoint, 1> for Counted {
         Midpoint::discrete_lagrangian(self, q0, q1, h)
     }
 
-    fn discrete_lagrangian_derivatives(&self, q0: &SVector<f64, 1>, q1: &SVector<f64, 1>, h: f64) -> Derivatives<f64, 1> {
+    fn discrete_lagrangian_derivatives(
+        &self,
+        q0: &SVector<f64, 1>,
+        q1: &SVector<f64, 1>,
+        h: f64,
+    ) -> Derivatives<f64, 1> {
         Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
     }
 
