@@ -2,11 +2,12 @@
 //!
 //! A handler that nothing reaches is left out of the program, and its call with it. Steps of n = 1…8 coordinates in `f64` and
 //! `f32`, by both rules, with and without a guess, alone and in a trajectory, with dense mass matrices, friction and a general
-//! force. `firmware/no_panic/run` builds it at opt-level 3 and s, and with the feature `may-panic`, which must fail.
+//! force. Steps of n = 1…3 coordinates by Gauss rules, with an input and time, and every derivative of them. `firmware/no_panic/run` builds it at opt-level 3 and s, and with the feature `may-panic`, which must fail.
 
 #![no_std]
 #![no_main]
 
+mod gauss;
 mod systems;
 
 use core::hint::black_box;
@@ -28,7 +29,7 @@ fn panic(_: &PanicInfo) -> ! {
 /// What the C runtime calls.
 #[unsafe(no_mangle)]
 pub extern "C" fn main() -> i32 {
-    let failed = systems::step_all();
+    let failed = systems::step_all() + gauss::step_all();
     #[cfg(feature = "may-panic")]
     let failed = failed + [1, 2, 3][black_box(failed) as usize];
     black_box(failed)
