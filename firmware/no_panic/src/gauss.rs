@@ -1,11 +1,11 @@
-//! A driven chain by Gauss rules, in time: steps, trajectories, and all derivatives of a step, of two and of three stages.
+//! A driven chain by Gauss rules, in time: steps, trajectories, and all derivatives of a step, of two or three stages.
 
 use core::hint::black_box;
 
 use dalembert::{Discrete, Gauss, Linearization, State, StateBy, StepHessian, Trajectory, rayleigh_system};
 
 macro_rules! chains {
-    ($($name:ident $driven:ident $n:literal $float:ident)*) => {
+    ($($name:ident $driven:ident $n:literal $float:ident $stages:literal)*) => {
         $(
             /// A chain of pendulums on a common support, pushed at its ends.
             struct $name {
@@ -73,12 +73,13 @@ macro_rules! chains {
 
         /// How many ways fail, of all chains.
         pub fn step_all() -> i32 {
-            0 $(+ $name::failures::<2>() + $name::failures::<3>())*
+            0 $(+ $name::failures::<$stages>())*
         }
     };
 }
 
 chains! {
-    Double1 DrivenDouble1 1 f64 Double2 DrivenDouble2 2 f64 Double3 DrivenDouble3 3 f64
-    Single1 DrivenSingle1 1 f32 Single2 DrivenSingle2 2 f32 Single3 DrivenSingle3 3 f32
+    Double1 DrivenDouble1 1 f64 3
+    Double3 DrivenDouble3 3 f64 2
+    Single2 DrivenSingle2 2 f32 3
 }
