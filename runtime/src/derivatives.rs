@@ -92,12 +92,7 @@ impl<S: Scalar, const N: usize> Derivatives<S, N> {
     #[inline]
     #[must_use]
     pub fn pull_back(&self, a: Direction<S>, b: Direction<S>) -> Self {
-        let second = |u: Direction<S>, w: Direction<S>| {
-            self.d11 * (u.first * w.first)
-                + self.d12 * (u.first * w.second)
-                + self.d12.transpose() * (u.second * w.first)
-                + self.d22 * (u.second * w.second)
-        };
+        let second = |a, b| second_along(&self.d11, &self.d12, &self.d22, a, b);
         let gradient = self.gradient();
         Self {
             value: self.value,
@@ -116,6 +111,21 @@ impl<S: Scalar, const N: usize> Derivatives<S, N> {
         let pulled = self.pull_back(minus, plus);
         Variations { minus: pulled.d1, plus: pulled.d2, mixed: pulled.d12 }
     }
+}
+
+/// The derivative along `a` and then `b`, of second derivatives by (x, y).
+#[inline]
+pub(crate) fn second_along<S: Scalar, const N: usize>(
+    d11: &SMatrix<S, N, N>,
+    d12: &SMatrix<S, N, N>,
+    d22: &SMatrix<S, N, N>,
+    a: Direction<S>,
+    b: Direction<S>,
+) -> SMatrix<S, N, N> {
+    d11 * (a.first * b.first)
+        + d12 * (a.first * b.second)
+        + d12.transpose() * (a.second * b.first)
+        + d22 * (a.second * b.second)
 }
 
 impl<S: Scalar, const N: usize> CovectorDerivatives<S, N> {

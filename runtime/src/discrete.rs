@@ -65,6 +65,22 @@ impl<S: Scalar, const N: usize> DiscreteForceDerivatives<S, N> {
     pub fn zero() -> Self {
         Self { minus: CovectorDerivatives::zero(), plus: CovectorDerivatives::zero() }
     }
+
+    /// f_d⁻ = D1 R_d and f_d⁺ = −D2 R_d.
+    #[inline]
+    pub(crate) fn of_rayleigh(r: &Derivatives<S, N>) -> Self {
+        Self {
+            minus: CovectorDerivatives { value: r.d1, d1: r.d11, d2: r.d12 },
+            plus: CovectorDerivatives { value: -r.d2, d1: -r.d12.transpose(), d2: -r.d22 },
+        }
+    }
+
+    /// The derivatives of the R_d with this force, and its `value`.
+    #[inline]
+    pub(crate) fn as_of_rayleigh(&self, value: S) -> Derivatives<S, N> {
+        let Self { minus, plus } = self;
+        Derivatives { value, d1: minus.value, d2: -plus.value, d11: minus.d1, d12: minus.d2, d22: -plus.d2 }
+    }
 }
 
 impl<S: Scalar, const N: usize> core::ops::Add for DiscreteForceDerivatives<S, N> {
@@ -76,6 +92,12 @@ impl<S: Scalar, const N: usize> core::ops::Add for DiscreteForceDerivatives<S, N
 }
 
 /// How a step went.
+///
+/// | question | answer |
+/// |---|---|
+/// | how much work | `iterations`, `damped` |
+/// | how well the equation is solved | `residual` against `floor`: up to some 4 floors rounding is all that is left |
+/// | how well it was posed: condition of the Newton matrix, branch of the root | on request, [`Step::certificate`], so that steps do not pay for it |
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Report<S> {
@@ -102,6 +124,22 @@ pub struct Step<S, const N: usize> {
     pub report: Report<S>,
 }
 
+impl<S: Scalar, const N: usize> Step<S, N> {
+    /// The step from `state` with mean velocity `velocity`, if it leads to finite numbers.
+    #[inline]
+    pub(crate) fn completed(
+        state: &State<S, N>,
+        h: S,
+        velocity: SVector<S, N>,
+        momenta: &Momenta<S, N>,
+        report: Report<S>,
+    ) -> Result<Self, StepError> {
+        // Added to the p0 given: the residual of the solver, always of one sign, would make it drift.
+        let next = State { q: state.q + velocity * h, p: state.p + (momenta.p1 - momenta.p0) };
+        next.require_finite()?;
+        Ok(Self { state: next, velocity, report })
+    }
+}
 /// A step, and derivatives of it.
 pub type StepWith<S, const N: usize, D> = (Step<S, N>, D);
 
@@ -268,33 +306,16 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         h: Self::Scalar,
         guess: Option<&SVector<Self::Scalar, N>>,
     ) -> Result<Step<Self::Scalar, N>, StepError> {
-        require_step_size(h)?;
-        let q0 = &state.q;
-        let start = match guess {
-            Some(v) => *v,
-            None => {
-                let rest = nalgebra::zero();
-                require_regular(&self.lagrangian_derivatives(q0, &rest).d22)
-                    .map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
-                rest
-            }
-        };
         let kind = if Self::LINEAR { Equation::Linear } else { Equation::General };
-        let solution = newton::solve(
+        step_by(
+            self,
             kind,
             |q0, v| self.step_kernel(q0, v, h),
             |q0, v| self.momenta(q0, v, h),
-            |q0, v| self.lagrangian_derivatives(q0, v).d22.diagonal(),
             state,
-            start,
+            h,
+            guess,
         )
-        .map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
-        let change = solution.momenta.p1 - solution.momenta.p0;
-        // Added to the p0 given: the residual of the solver, always of one sign, would make it drift.
-        let next = State { q: q0 + solution.unknown * h, p: state.p + change };
-        // An argument that is not finite shows here or has failed above: none is looked at before.
-        next.require_finite().map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
-        Ok(Step { state: next, velocity: solution.unknown, report: solution.report })
     }
 
     /// The step by at most `iterations` undamped Newton iterations, for a clock that does not wait: the work is bounded, and what is
@@ -309,24 +330,14 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         guess: Option<&SVector<Self::Scalar, N>>,
         iterations: u32,
     ) -> Result<BoundedStep<Self::Scalar, N>, StepError> {
-        require_step_size(h)?;
-        let guess = guess.copied().unwrap_or_else(nalgebra::zero);
-        StepError::require_finite(&state.q, Quantity::Configuration)?;
-        StepError::require_finite(&state.p, Quantity::Momentum)?;
-        StepError::require_finite(&guess, Quantity::Velocity)?;
-        let (solution, converged) = newton::bounded(
-            iterations,
+        step_within_by(
             |q0, v| self.step_kernel(q0, v, h),
             |q0, v| self.momenta(q0, v, h),
             state,
+            h,
             guess,
-        )?;
-        let change = solution.momenta.p1 - solution.momenta.p0;
-        let next = State { q: state.q + solution.unknown * h, p: state.p + change };
-        StepError::require_finite(&next.q, Quantity::Configuration)?;
-        StepError::require_finite(&next.p, Quantity::Momentum)?;
-        let step = Step { state: next, velocity: solution.unknown, report: solution.report };
-        Ok(BoundedStep { step, converged })
+            iterations,
+        )
     }
 
     /// Both momenta of the segment (`q0`, `q1`) with their derivatives by the two.
@@ -455,6 +466,60 @@ pub trait DiscreteRayleigh<R, const N: usize>: Discrete<R, N> + Rayleigh<N> {
         self.discrete_lagrangian_derivatives(q0, q1, h)
             + self.discrete_rayleigh_derivatives(q0, q1, h) * -Self::Scalar::constant(1.0)
     }
+}
+
+/// [`Discrete::step`] with the step's equation and both momenta as functions of (q0, v̄).
+#[inline]
+pub(crate) fn step_by<L, M, const N: usize>(
+    system: &L,
+    kind: Equation,
+    kernel: impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> StepKernel<L::Scalar, N, M>,
+    momenta: impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> Momenta<L::Scalar, N>,
+    state: &State<L::Scalar, N>,
+    h: L::Scalar,
+    guess: Option<&SVector<L::Scalar, N>>,
+) -> Result<Step<L::Scalar, N>, StepError>
+where
+    L: Lagrangian<N> + ?Sized,
+    M: NewtonMatrix<L::Scalar, N>,
+{
+    require_step_size(h)?;
+    let q0 = &state.q;
+    let start = match guess {
+        Some(v) => *v,
+        None => {
+            let rest = nalgebra::zero();
+            require_regular(&system.lagrangian_derivatives(q0, &rest).d22)
+                .map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
+            rest
+        }
+    };
+    let inertia = |q0: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>| {
+        system.lagrangian_derivatives(q0, v).d22.diagonal()
+    };
+    let solution = newton::solve(kind, kernel, momenta, inertia, state, start)
+        .map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
+    // An argument that is not finite shows here or has failed above: none is looked at before.
+    Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)
+        .map_err(|error| in_arguments(state, guess).unwrap_or(error))
+}
+
+/// [`Discrete::step_within`], likewise.
+pub(crate) fn step_within_by<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+    kernel: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
+    momenta: impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
+    state: &State<S, N>,
+    h: S,
+    guess: Option<&SVector<S, N>>,
+    iterations: u32,
+) -> Result<BoundedStep<S, N>, StepError> {
+    require_step_size(h)?;
+    let guess = guess.copied().unwrap_or_else(nalgebra::zero);
+    state.require_finite()?;
+    StepError::require_finite(&guess, Quantity::Velocity)?;
+    let (solution, converged) = newton::bounded(iterations, kernel, momenta, state, guess)?;
+    let step = Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)?;
+    Ok(BoundedStep { step, converged })
 }
 
 /// The first argument that is not finite: the cause, where a step has failed.

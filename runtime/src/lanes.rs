@@ -1,13 +1,14 @@
 //! Numbers side by side, one for each stage of a method: what is computed of one is computed of all at once.
 //!
-//! Own code because a method of s stages needs s lanes, in `f64` and in `f32`, with and without `std`: loops of fixed length
-//! over arrays, which the compiler turns into the vector instructions of the target that it is told of
-//! (`RUSTFLAGS="-C target-cpu=native"`).
+//! A method of s stages needs s lanes, in `f64` and in `f32`, with and without `std`: arrays, whose arithmetic is that of the
+//! crate `wide`, and functions as loops of fixed length. Both become vector instructions of the target that the compiler is told
+//! of (`RUSTFLAGS="-C target-cpu=native"`).
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
 
 mod functions;
 mod operators;
+mod vectors;
 
 use core::array;
 use core::ops::{BitAnd, BitOr, Not};
@@ -16,6 +17,7 @@ use nalgebra::SVector;
 
 use crate::Scalar;
 pub(crate) use functions::Functions;
+pub(crate) use vectors::Vectors;
 
 /// S numbers side by side. Operators and functions act on each of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,23 +62,45 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
     /// self × factor + term, rounded once where the target has an instruction for it.
     #[inline(always)]
     pub(crate) fn times_plus(self, factor: T, term: Self) -> Self {
-        if cfg!(all(feature = "std", target_feature = "fma")) {
-            self.zip(term, |a, b| nalgebra::ComplexField::mul_add(a, factor, b))
-        } else {
-            self.zip(term, |a, b| a * factor + b)
-        }
+        Self(T::products_plus(self.0, [factor; S], term.0))
     }
 
-    /// The largest of the lanes' absolute values; NaN if one is NaN.
+    /// Constants of each lane.
+    #[inline(always)]
+    pub(crate) fn constants(values: &[f64; S]) -> Self {
+        let mut constants = Self::splat(T::zero());
+        for (constant, &value) in constants.0.iter_mut().zip(values) {
+            *constant = T::constant(value);
+        }
+        constants
+    }
+
+    /// Lane by lane, the larger; where one is NaN, either.
+    #[inline(always)]
+    pub(crate) fn larger(self, other: Self) -> Self {
+        Self(T::larger(self.0, other.0))
+    }
+
+    /// Of all lanes what `combine` makes of two, halves with halves: the logarithm of S such steps wait for each other.
+    #[inline(always)]
+    pub(crate) fn folded(mut self, combine: impl Fn(T, T) -> T) -> T {
+        let mut width = S;
+        while width > 1 {
+            let half = width.div_ceil(2);
+            for i in 0..width - half {
+                self.0[i] = combine(self.0[i], self.0[i + half]);
+            }
+            width = half;
+        }
+        self.0[0]
+    }
+
+    /// The largest of the lanes' absolute values; not finite if one is not.
     #[inline(always)]
     pub(crate) fn amax(self) -> T {
-        let mut largest = T::zero();
-        for lane in self.0 {
-            let size = lane.abs();
-            // A NaN stays: it compares false with everything.
-            largest = if size <= largest { largest } else { size };
-        }
-        largest
+        let sizes = self.abs();
+        let sum = sizes.folded(|a, b| a + b);
+        if sum.is_finite() { sizes.folded(|a, b| if a > b { a } else { b }) } else { sum }
     }
 
     /// Lane by lane, self < other.

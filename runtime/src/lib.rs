@@ -258,7 +258,9 @@ pub use forced::{ForcedLagrangian, Stages};
 pub use lanes::{LaneVector, Lanes, Mask};
 pub use linear::{Banded, Factored, FactoredBand, FactoredDense, NewtonMatrix, Singular};
 pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix, StateBy};
-pub use memory::{Explicit, ExplicitMemory, KeptMatrix, Memory, VelocityHistory};
+pub use memory::{
+    DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, KeptMatrix, Memory, VelocityHistory,
+};
 pub use parameters::{DiscreteParameters, GradientBy, Parameters};
 pub use rules::{
     DisplacementRule, Fitted, FittedTrapezoidal, Gauss, JointRayleighRule, JointRule, Midpoint, Node,

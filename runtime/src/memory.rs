@@ -1,8 +1,10 @@
 //! What a run of steps keeps from one to the next.
 
+mod drift;
 mod explicit;
 mod kept_matrix;
 
+pub use drift::{DriftMemory, ExplicitDriftMemory};
 pub use explicit::{Explicit, ExplicitMemory};
 pub use kept_matrix::KeptMatrix;
 
@@ -28,6 +30,10 @@ where
         state: &State<L::Scalar, N>,
         h: L::Scalar,
     ) -> Result<Step<L::Scalar, N>, StepError>;
+
+    /// Takes over what is known of the state from which the next step starts, from the memory of the step that ended there. In a
+    /// composition that is the one of the substep before.
+    fn follow(&mut self, _previous: &Self) {}
 
     /// The step from `state`, `elapsed` after the time of `system`: of the system as it is then ([`Lagrangian::later`](crate::Lagrangian::later)).
     ///
@@ -69,7 +75,9 @@ impl<S: Scalar, const N: usize> VelocityHistory<S, N> {
     fn push(&mut self, velocity: SVector<S, N>, h: S) {
         let [a, b, c, _] = self.velocities;
         self.velocities = [velocity, a, b, c];
-        self.known = (self.known + 1).min(4);
+        // Velocities a step apart are known for one step size alone.
+        let known = if h == self.h { self.known } else { self.known.min(1) };
+        self.known = (known + 1).min(4);
         self.h = h;
     }
 
@@ -113,9 +121,6 @@ where
             (Err(_), Some(_)) => system.step(state, h, None),
             (step, _) => step,
         }?;
-        if h != self.h {
-            self.known = self.known.min(1);
-        }
         self.push(step.velocity, h);
         Ok(step)
     }

@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::derivatives::linear;
-use crate::{Discrete, Lagrangian, MomentaBy, Scalar, State, StateBy, StepError, StepWith};
+use crate::{Direction, Discrete, Lagrangian, MomentaBy, Scalar, State, StateBy, StepError, StepWith};
 
 /// Derivatives of ∂F/∂q and ∂F/∂v by P parameters, F being L or R.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +15,15 @@ pub struct GradientBy<S, const N: usize, const P: usize> {
 }
 
 linear!(GradientBy<P> { d1, d2 });
+
+impl<S: Scalar, const N: usize, const P: usize> GradientBy<S, N, P> {
+    /// Derivative along `direction`: entry (i, j) is first·∂²F/∂qᵢ∂θⱼ + second·∂²F/∂vᵢ∂θⱼ.
+    #[inline]
+    #[must_use]
+    pub fn along(&self, direction: Direction<S>) -> SMatrix<S, N, P> {
+        self.d1 * direction.first + self.d2 * direction.second
+    }
+}
 
 /// L, R and f by the P parameters that `#[rayleigh_system(parameters = [m, c[0]])]` lists, in that order.
 #[diagnostic::on_unimplemented(

@@ -2,7 +2,7 @@
 
 use nalgebra::RealField;
 
-use crate::lanes::Functions;
+use crate::lanes::{Functions, Vectors};
 
 mod sealed {
     pub trait Sealed {}
@@ -13,7 +13,7 @@ mod sealed {
 /// The scalar type that a system is written in: `f64` or `f32`.
 ///
 /// Sealed: tolerances are derived from [`EPSILON`](Scalar::EPSILON) and hold for IEEE formats only.
-pub trait Scalar: RealField + Copy + Functions + sealed::Sealed {
+pub trait Scalar: RealField + Copy + Functions + Vectors + sealed::Sealed {
     /// Distance from 1 to the next larger number.
     const EPSILON: Self;
 

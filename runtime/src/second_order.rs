@@ -13,7 +13,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::derivatives::linear;
+use crate::derivatives::{linear, second_along};
 use crate::{Direction, Discrete, Lagrangian, Scalar, State, StepError, StepWith, linearization};
 
 /// Second derivatives of a function of (x, y, u), x and y ∈ ℝᴺ, u ∈ ℝᴹ.
@@ -40,12 +40,7 @@ impl<S: Scalar, const N: usize, const M: usize> Hessian<S, N, M> {
     #[inline]
     #[must_use]
     pub fn pull_back(&self, a: Direction<S>, b: Direction<S>) -> Self {
-        let second = |s: Direction<S>, t: Direction<S>| {
-            self.d11 * (s.first * t.first)
-                + self.d12 * (s.first * t.second)
-                + self.d12.transpose() * (s.second * t.first)
-                + self.d22 * (s.second * t.second)
-        };
+        let second = |a, b| second_along(&self.d11, &self.d12, &self.d22, a, b);
         let with_input = |s: Direction<S>| self.d1u * s.first + self.d2u * s.second;
         Self {
             d11: second(a, a),

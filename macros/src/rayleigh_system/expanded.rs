@@ -108,9 +108,23 @@ pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Resul
     })
 }
 
+/// Whether a rule listed asks for derivatives of L along its directions: the kernels of the others have them folded in.
+fn has_variations(system: &System<'_>) -> bool {
+    system.rules.of_displacement.contains(&Rule::OneSided)
+}
+
+/// Whether L or R of the view is that of the system.
+fn delegates(system: &System<'_>) -> bool {
+    let parts = [(Part::Lagrangian, true), (Part::Rayleigh, system.rayleigh.is_some())];
+    system.has_view() && parts.iter().any(|&(part, exists)| exists && system.home_of(part) == Home::System)
+}
+
 /// What the expansion uses.
 fn imports(system: &System<'_>, calls_elementary: bool, forced: Option<&TokenStream>) -> TokenStream {
     let mut names = expand::imported(system);
+    if !has_variations(system) && !delegates(system) {
+        names.retain(|name| name != "Direction" && name != "Variations");
+    }
     if let Some(forced) = forced {
         let text = forced.to_string();
         let occurs = |name: &str| text.split(|c: char| !c.is_alphanumeric()).any(|word| word == name);
@@ -162,12 +176,12 @@ impl Code<'_> {
         structure::findings(&self.graph, self.system, self.n, &terms)
     }
 
-    /// Gradient, derivatives and variations of L or R.
+    /// Gradient and derivatives of L or R, and variations where they are asked for.
     fn function(&mut self, function: &str, symbol: &str, root: Node) -> TokenStream {
         let scalar = &self.system.scalar;
         let n = self.system.degrees.times(1);
-        let [gradient, derivatives, variations] =
-            ["_gradient", "_derivatives", "_variations"].map(|suffix| format_ident!("{function}{suffix}"));
+        let [gradient, derivatives] =
+            ["_gradient", "_derivatives"].map(|suffix| format_ident!("{function}{suffix}"));
         let first = self.derivation.gradient(&mut self.graph, root);
         let second = self.derivation.hessian(&mut self.graph, root, symbol);
 
@@ -207,7 +221,8 @@ impl Code<'_> {
             }
         };
 
-        let variations = self.variations(&variations, &second);
+        let variations =
+            (function == "lagrangian" && has_variations(self.system)).then(|| self.variations(&second));
         quote! {
             #gradient
 
@@ -217,7 +232,7 @@ impl Code<'_> {
         }
     }
 
-    /// Derivatives and variation of f.
+    /// Derivatives of f.
     fn force(&mut self, components: &[Node]) -> TokenStream {
         let scalar = &self.system.scalar;
         let n = self.system.degrees.times(1);
@@ -233,15 +248,12 @@ impl Code<'_> {
         let [value, d1, d2] = self.parts(&line.outputs, [Shape::Vector, Shape::Matrix, Shape::Matrix]);
         let (q, v, statements) =
             (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
-        let variation = self.force_variation(components, &rows);
         quote! {
             #[inline]
             fn force_derivatives(&self, #q: &Vector, #v: &Vector) -> CovectorDerivatives<#scalar, #n> {
                 #statements
                 CovectorDerivatives { value: #value, d1: #d1, d2: #d2 }
             }
-
-            #variation
         }
     }
 

@@ -446,12 +446,45 @@ fn joint(system: &System<'_>, rule: Rule) -> TokenStream {
             const LINEAR: bool = true;
         )
     });
+    let memory = match rule {
+        Rule::Fitted => quote!(DriftMemory),
+        Rule::FittedTrapezoidal => quote!(ExplicitDriftMemory),
+        _ => quote!(VelocityHistory),
+    };
+    let memory = quote!(::dalembert::#memory<#scalar, #n>);
+    let is_fitted = rule != Rule::OneSided;
     let rule = format_ident!("{}", rule.name());
+    // What depends on h alone is worked out once for all evaluations of a step.
+    let steps = is_fitted.then(|| {
+        quote! {
+            /// The flow on T*Q, (q0, p0) ↦ (q1, p1).
+            #[inline]
+            fn step(
+                &self,
+                state: &::dalembert::State<#scalar, #n>,
+                h: #scalar,
+                guess: Option<&Vector>,
+            ) -> Result<::dalembert::Step<#scalar, #n>, ::dalembert::StepError> {
+                #rule::step(self, state, h, guess)
+            }
+
+            /// The same by at most `iterations` of Newton's.
+            fn step_within(
+                &self,
+                state: &::dalembert::State<#scalar, #n>,
+                h: #scalar,
+                guess: Option<&Vector>,
+                iterations: u32,
+            ) -> Result<::dalembert::BoundedStep<#scalar, #n>, ::dalembert::StepError> {
+                #rule::step_within(self, state, h, guess, iterations)
+            }
+        }
+    });
     quote! {
         #[automatically_derived]
         impl Discrete<#rule, #n> for #name {
             type Matrix = SMatrix<#scalar, #n, #n>;
-            type Memory = ::dalembert::VelocityHistory<#scalar, #n>;
+            type Memory = #memory;
             #linear
 
             #[doc = #lagrangian]
@@ -500,6 +533,8 @@ fn joint(system: &System<'_>, rule: Rule) -> TokenStream {
             fn segment_energy(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
                 <#rule as JointRule>::segment_energy(self, q0, q1, h)
             }
+
+            #steps
         }
     }
 }

@@ -6,10 +6,11 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::motion::{Dynamics, Family, Local, Point, Writer, inverse};
+use super::motion::{Dynamics, Family, Local, Point, Writer};
 use super::resolve::{Breakdown, Problem, ROUNDING, Resolved};
 use super::{ActingForce, ExactError};
 use crate::Lagrangian;
+use crate::linear::inverse;
 
 /// Points count as conjugate when the end determines the motion inside to less than half the digits, 1/√ε.
 pub(super) const CONJUGATE: f64 = 6.7e7;

@@ -14,7 +14,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::ActingForce;
 use super::resolve::Breakdown;
-use crate::linear::{self, Singular};
+use crate::linear::inverse;
 use crate::{CovectorDerivatives, Derivatives, Lagrangian};
 
 /// A system with the force that acts on it.
@@ -84,16 +84,6 @@ impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Dynam
             && [&l.d11, &l.d12, &l.d22, &f.d1, &f.d2].into_iter().all(finite);
         if all { Ok((l, f)) } else { Err(Breakdown::NotFinite) }
     }
-}
-
-/// The inverse of `matrix`, for right sides by the dozen.
-pub(super) fn inverse<const N: usize>(matrix: &SMatrix<f64, N, N>) -> Result<SMatrix<f64, N, N>, Singular> {
-    let mut inverse = SMatrix::<f64, N, N>::zeros();
-    for j in 0..N {
-        let unit = SVector::from_fn(|i, _| if i == j { 1.0 } else { 0.0 });
-        inverse.set_column(j, &linear::solve(matrix, &unit)?);
-    }
-    Ok(inverse)
 }
 
 impl<const N: usize> Local<N> {

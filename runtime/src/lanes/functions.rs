@@ -201,8 +201,6 @@ one_by_one! {
     atanh
     /// The cube root.
     cbrt
-    /// The absolute value.
-    abs
 }
 
 impl<T: Scalar, const S: usize> Lanes<T, S> {
@@ -235,11 +233,18 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
         Self(T::exponentials(self.0))
     }
 
+    /// The absolute value.
+    #[inline(always)]
+    #[must_use]
+    pub fn abs(self) -> Self {
+        Self(T::sizes(self.0))
+    }
+
     /// The square root; NaN of a negative number.
     #[inline(always)]
     #[must_use]
     pub fn sqrt(self) -> Self {
-        self.map(nalgebra::ComplexField::sqrt)
+        Self(T::roots(self.0))
     }
 
     /// 1 with the sign of x; NaN of NaN.

@@ -2,7 +2,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::Lanes;
+use super::{Lanes, Vectors};
 use crate::Scalar;
 
 impl<T: Scalar, const S: usize> Neg for Lanes<T, S> {
@@ -14,12 +14,12 @@ impl<T: Scalar, const S: usize> Neg for Lanes<T, S> {
 }
 
 macro_rules! operators {
-    ($($trait:ident $method:ident $symbol:tt)*) => {$(
+    ($($trait:ident $method:ident $operation:ident)*) => {$(
         impl<T: Scalar, const S: usize> $trait for Lanes<T, S> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                self.zip(other, |a, b| a $symbol b)
+                Self(T::$operation(self.0, other.0))
             }
         }
 
@@ -27,7 +27,7 @@ macro_rules! operators {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: T) -> Self {
-                self.map(|lane| lane $symbol other)
+                Self(T::$operation(self.0, [other; S]))
             }
         }
 
@@ -35,7 +35,7 @@ macro_rules! operators {
             type Output = Lanes<f64, S>;
             #[inline(always)]
             fn $method(self, other: Lanes<f64, S>) -> Lanes<f64, S> {
-                other.map(|lane| self $symbol lane)
+                Lanes(f64::$operation([self; S], other.0))
             }
         }
 
@@ -43,15 +43,15 @@ macro_rules! operators {
             type Output = Lanes<f32, S>;
             #[inline(always)]
             fn $method(self, other: Lanes<f32, S>) -> Lanes<f32, S> {
-                other.map(|lane| self $symbol lane)
+                Lanes(f32::$operation([self; S], other.0))
             }
         }
     )*};
 }
 
 operators! {
-    Add add +
-    Sub sub -
-    Mul mul *
-    Div div /
+    Add add sums
+    Sub sub differences
+    Mul mul products
+    Div div quotients
 }

@@ -148,12 +148,9 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
             if iterations > 0 && size <= S::constant(AT_FLOOR) {
                 let worst = (0..N).find(|&i| residual[i].abs() * weights[i] == size)?;
                 let (residual, floor) = (residual[worst].abs(), floor[worst]);
-                return self.taken(
-                    state,
-                    v,
-                    momenta,
-                    Report { iterations, damped: 0, residual, floor, last_correction: correction.amax() },
-                );
+                let last_correction = correction.amax();
+                let report = Report { iterations, damped: 0, residual, floor, last_correction };
+                return Step::completed(state, self.h, v, &momenta, report).ok();
             }
             if !(size <= last_size * S::constant(CONTRACTION)) {
                 return if iterations > 0 {
@@ -201,7 +198,10 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         let floor = estimated_floor(p, &self.matrix, &v) + even.magnitudes(&(q * unit));
         let (residual, floor, is_root) = held_against(&(momenta.p0 - p), &floor);
         let report = Report { iterations, damped: 0, residual, floor, last_correction: correction.amax() };
-        if is_root { self.taken(state, v, momenta, report) } else { None }
+        if !is_root {
+            return None;
+        }
+        Step::completed(state, self.h, v, &momenta, report).ok()
     }
 
     /// The step where the equation is linear, from any `guess`; nothing where rounding holds the residual up or a number is
@@ -220,22 +220,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         if !is_root {
             return None;
         }
-        let last_correction = correction.amax();
-        self.taken(state, v, momenta, Report { iterations: 1, damped: 0, residual, floor, last_correction })
-    }
-
-    /// The step that `v` leads to, if it is one of finite numbers.
-    #[inline]
-    fn taken(
-        &self,
-        State { q, p }: &State<S, N>,
-        v: SVector<S, N>,
-        momenta: Momenta<S, N>,
-        report: Report<S>,
-    ) -> Option<Step<S, N>> {
-        // Added to the p0 given: the residual of the solver would make it drift.
-        let state = State { q: q + v * self.h, p: p + (momenta.p1 - momenta.p0) };
-        state.require_finite().ok()?;
-        Some(Step { state, velocity: v, report })
+        let report = Report { iterations: 1, damped: 0, residual, floor, last_correction: correction.amax() };
+        Step::completed(state, self.h, v, &momenta, report).ok()
     }
 }

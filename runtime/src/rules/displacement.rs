@@ -147,11 +147,7 @@ pub trait DisplacementRule: Copy {
         q1: &SVector<L::Scalar, N>,
         h: L::Scalar,
     ) -> DiscreteForceDerivatives<L::Scalar, N> {
-        let r = Self::discrete_rayleigh_derivatives(system, q0, q1, h);
-        DiscreteForceDerivatives {
-            minus: CovectorDerivatives { value: r.d1, d1: r.d11, d2: r.d12 },
-            plus: CovectorDerivatives { value: -r.d2, d1: -r.d12.transpose(), d2: -r.d22 },
-        }
+        DiscreteForceDerivatives::of_rayleigh(&Self::discrete_rayleigh_derivatives(system, q0, q1, h))
     }
 
     /// f_d of the general force: f_d⁻ = h Σ bᵢ (1 − cᵢ) f(qᵢ, v̄), f_d⁺ = h Σ bᵢ cᵢ f(qᵢ, v̄).
@@ -313,8 +309,7 @@ pub trait DisplacementRule: Copy {
     ) -> MomentaBy<L::Scalar, N, P> {
         on_velocity::<Self, _, N>(q0, v, h).fold(MomentaBy::zero(), |sum, node| {
             let l = system.later(node.time(h), |system| system.lagrangian_by_parameters(&node.q, v));
-            let along = |direction: Direction<L::Scalar>| l.d1 * direction.first + l.d2 * direction.second;
-            sum + MomentaBy { p0: along(node.minus) * node.weight, p1: along(node.plus) * node.weight }
+            sum + MomentaBy { p0: l.along(node.minus) * node.weight, p1: l.along(node.plus) * node.weight }
         })
     }
 
@@ -329,9 +324,8 @@ pub trait DisplacementRule: Copy {
         let half = h * L::Scalar::constant(0.5);
         on_velocity::<Self, _, N>(q0, v, h).fold(MomentaBy::zero(), |sum, node| {
             let r = system.later(node.time(h), |system| system.rayleigh_by_parameters(&node.q, v));
-            let along = |direction: Direction<L::Scalar>| r.d1 * direction.first + r.d2 * direction.second;
             let weight = half * node.weight;
-            sum + MomentaBy { p0: along(node.minus) * weight, p1: along(node.plus) * -weight }
+            sum + MomentaBy { p0: r.along(node.minus) * weight, p1: r.along(node.plus) * -weight }
         })
     }
 

@@ -3,8 +3,8 @@
 use super::*;
 
 impl Code<'_> {
-    /// `lagrangian_variations`, `rayleigh_variations`
-    pub(super) fn variations(&mut self, function: &Ident, of: &Derivatives) -> TokenStream {
+    /// `lagrangian_variations`
+    pub(super) fn variations(&mut self, of: &Derivatives) -> TokenStream {
         let scalar = &self.system.scalar;
         let n = self.system.degrees.times(1);
         let [minus, plus] = ["minus", "plus"].map(|name| Along::parameters(&mut self.graph, name));
@@ -19,7 +19,7 @@ impl Code<'_> {
         let statements = &line.statements;
         quote! {
             #[inline]
-            fn #function(
+            fn lagrangian_variations(
                 &self,
                 #q: &Vector,
                 #v: &Vector,
@@ -28,32 +28,6 @@ impl Code<'_> {
             ) -> Variations<#scalar, #n> {
                 #statements
                 Variations { minus: #by_minus, plus: #by_plus, mixed: #mixed }
-            }
-        }
-    }
-
-    /// `force_variation`
-    pub(super) fn force_variation(&mut self, components: &[Node], rows: &[Gradient]) -> TokenStream {
-        let scalar = &self.system.scalar;
-        let n = self.system.degrees.times(1);
-        let direction = Along::parameters(&mut self.graph, "direction");
-        let along: Vec<Vec<Node>> = rows.iter().map(|row| self.along(row, direction)).collect();
-        let outputs = [components.to_vec(), self.matrix(|_, i, j| Some(along[i][j]))].concat();
-        let line = self.code(&outputs);
-        let [value, matrix] = self.parts(&line.outputs, [Shape::Vector, Shape::Matrix]);
-        let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
-        let direction = parameter("direction", line.uses("direction"));
-        let statements = &line.statements;
-        quote! {
-            #[inline]
-            fn force_variation(
-                &self,
-                #q: &Vector,
-                #v: &Vector,
-                #direction: Direction<#scalar>,
-            ) -> (Vector, SMatrix<#scalar, #n, #n>) {
-                #statements
-                (#value, #matrix)
             }
         }
     }

@@ -4,10 +4,12 @@
 //! takes the error down by O(h²), otherwise by O(h). Where it does not contract, Newton's method takes over, from the velocity
 //! at the start of the step: from an extrapolation that is far off it may find another root than the motion's.
 
+use core::cmp::Ordering;
+
 use nalgebra::SVector;
 
 use super::newton;
-use super::problem::{Problem, Solution, in_units_of, rounding};
+use super::problem::{Problem, Solution, in_units, in_units_of, rounding};
 use crate::lanes::{LaneVector, splat};
 use crate::{ForcedLagrangian, Report, Scalar, Stages, StepError};
 
@@ -19,6 +21,9 @@ const SLOW: f64 = 0.5;
 
 /// The residual that the last correction may leave, in floors: with the contraction measured, what is left of it.
 const AT_REST: f64 = 1.0 / 64.0;
+
+/// Floors that rise so much make sizes before and after incomparable.
+const RISEN: f64 = 8.0;
 
 /// A residual of so many floors that no longer falls is rounding.
 const AT_FLOOR: f64 = 8.0;
@@ -44,31 +49,46 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
 ) -> Option<Solution<T, N, S>> {
     let constant = T::constant;
     let mut v = *guess;
-    let mut floor = problem.p0.value;
+    let (mut floor, mut per_floor) = (SVector::<T, N>::zeros(), SVector::<T, N>::zeros());
     let (mut before, mut last) = (T::one(), T::one());
     let mut iterations = 0;
     while iterations < MAX_ITERATIONS {
         let stages = problem.stages(&v);
         if iterations == 0 {
-            floor = problem.floor(&stages.rate);
+            floor = problem.floor(&stages.rate, &stages.residual);
+            per_floor = floor.map(|floor| T::one() / floor);
+        }
+        let mut size = in_units(&stages.residual, &per_floor);
+        if iterations == 0 {
+            // Nothing is known of the contraction yet.
+            last = size;
+        } else if size.partial_cmp(&last) != Some(Ordering::Less) {
+            // Copies, here and below: what a call is given the address of would be kept in memory through all iterations.
+            let (rate, residual) = (stages.rate, stages.residual);
+            if let Some(risen) = risen(problem, &rate, &residual, floor) {
+                floor = risen;
+                per_floor = floor.map(|floor| T::one() / floor);
+                size = in_units(&stages.residual, &per_floor);
+                (before, last) = (size + size, size);
+            }
         }
         iterations += 1;
-        let size = in_units_of(&stages.residual, &floor);
         if !size.is_finite() {
             return None;
         }
-        let contraction = if iterations == 1 { T::one() } else { size / last };
-        let is_at_rest = contraction * size <= constant(AT_REST);
-        let has_stopped = iterations > 1 && contraction >= constant(SLOW);
+        // The contraction is size/last.
+        let is_at_rest = size * size <= constant(AT_REST) * last;
+        let has_stopped = iterations > 1 && size >= constant(SLOW) * last;
         let mut is_done = is_at_rest || (has_stopped && size <= constant(AT_FLOOR));
         if !is_done && iterations > 2 && size >= before * constant(SLOW) {
-            match at_rounding(problem, &v, &stages.residual, &floor) {
+            let (v, residual) = (v, stages.residual);
+            match at_rounding(problem, &v, &residual, floor) {
                 Some(measured) => (floor, is_done) = (measured, true),
                 None => return None,
             }
         }
         if is_done {
-            let remaining = contraction.min(T::one());
+            let remaining = if last > size { size / last } else { T::one() };
             let report = report(&stages, &floor, remaining, iterations);
             let v = core::array::from_fn(|a| v[a] + stages.correction[a]);
             return Some(Solution { v, rate: stages.rate, report, contracted: true });
@@ -79,6 +99,21 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
         (before, last) = (last, size);
     }
     None
+}
+
+/// The floor now, if that at the start of the iteration was much lower in a coordinate, one that did not move then: sizes before
+/// say nothing of the contraction.
+#[cold]
+#[inline(never)]
+fn risen<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    rate: &LaneVector<T, N, S>,
+    residual: &LaneVector<T, N, S>,
+    floor: SVector<T, N>,
+) -> Option<SVector<T, N>> {
+    let now = floor.sup(&problem.floor(rate, residual));
+    let has_risen = (0..N).any(|a| now[a] > floor[a] * T::constant(RISEN));
+    has_risen.then_some(now)
 }
 
 /// How an iteration ended whose last correction leaves the share `remaining` of the residual.
@@ -117,7 +152,7 @@ pub(super) fn at_rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N
     problem: &Problem<'_, L, N, S>,
     v: &LaneVector<T, N, S>,
     residual: &LaneVector<T, N, S>,
-    floor: &SVector<T, N>,
+    floor: SVector<T, N>,
 ) -> Option<SVector<T, N>> {
     let measured = floor + rounding(problem, v);
     (in_units_of(residual, &measured) <= T::constant(AT_FLOOR)).then_some(measured)

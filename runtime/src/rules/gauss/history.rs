@@ -1,7 +1,5 @@
 //! What a run of steps by a Gauss rule keeps.
 
-use core::array;
-
 use nalgebra::SVector;
 
 use super::problem::{Compensated, Problem};
@@ -48,13 +46,15 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
 
     fn extrapolation(&self) -> LaneVector<T, N, S> {
         let columns = &Gauss::<S>::COEFFICIENTS.extrapolation;
-        array::from_fn(|a| {
-            let mut sum = Lanes::splat(T::zero());
-            for (j, column) in columns.iter().enumerate() {
-                sum = Lanes(column.map(T::constant)).times_plus(self.v[a].0[j], sum);
+        let mut extrapolated = self.v;
+        for a in 0..N {
+            let mut sums = [Lanes::splat(T::zero()); 2];
+            for j in 0..S {
+                sums[j % 2] = Lanes::constants(&columns[j]).times_plus(self.v[a].0[j], sums[j % 2]);
             }
-            sum
-        })
+            extrapolated[a] = sums[0] + sums[1];
+        }
+        extrapolated
     }
 }
 

@@ -11,6 +11,7 @@ use nalgebra::SVector;
 use super::Gauss;
 use super::coefficients::Coefficients;
 use crate::lanes::{LaneVector, Lanes};
+use crate::newton::PLACES;
 use crate::{ForcedLagrangian, Report, Scalar, Stages};
 
 /// A vector as an unevaluated sum, so that adding many small steps loses nothing.
@@ -77,16 +78,22 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     }
 
     /// start + Σ_j μ_ij (h b_j x_j) at every stage i.
+    ///
+    /// Loops, not `array::from_fn`, whose closures are calls; two sums, for each of which the other's products need not wait.
     #[inline(always)]
     fn at_stages(&self, start: &Compensated<T, N>, x: &LaneVector<T, N, S>) -> LaneVector<T, N, S> {
-        array::from_fn(|a| {
-            let mut sum = Lanes::splat(start.rest[a]);
+        let steps = Lanes(self.steps);
+        let columns = &Self::COEFFICIENTS.shares;
+        let mut at = *x;
+        for a in 0..N {
+            let terms = x[a] * steps;
+            let mut sums = [Lanes::splat(start.rest[a]), Lanes::splat(T::zero())];
             for j in 0..S {
-                let column = Lanes(Self::COEFFICIENTS.shares[j].map(T::constant));
-                sum = column.times_plus(self.steps[j] * x[a].0[j], sum);
+                sums[j % 2] = Lanes::constants(&columns[j]).times_plus(terms.0[j], sums[j % 2]);
             }
-            sum + start.value[a]
-        })
+            at[a] = (sums[0] + sums[1]) + start.value[a];
+        }
+        at
     }
 
     /// Q_i.
@@ -138,34 +145,47 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         })
     }
 
-    /// What rounding leaves of the momentum equations: 4ε (|p0| + |h| max |G_i|), coordinate by coordinate.
+    /// What rounding leaves of the momentum equations: 4ε (|p0| + |h| max |G_i| + max |P_i − ∂L/∂v|), coordinate by coordinate.
     #[inline(always)]
-    pub(super) fn floor(&self, rate: &LaneVector<T, N, S>) -> SVector<T, N> {
+    pub(super) fn floor(&self, rate: &LaneVector<T, N, S>, residual: &LaneVector<T, N, S>) -> SVector<T, N> {
         let unit = T::EPSILON * T::constant(4.0);
         SVector::from_fn(|a, _| {
-            let size = self.p0.value[a].abs() * unit + (self.h * unit).abs() * rate[a].amax();
+            let terms = self.p0.value[a].abs() + residual[a].amax();
+            let size = terms * unit + (self.h * unit).abs() * rate[a].amax();
             size + T::SMALLEST_NORMAL
         })
     }
 }
 
-/// The largest residual in units of its floor; not a number where one is not.
+/// The largest residual in units of its floor; not finite where one is not.
 #[inline(always)]
 pub(super) fn in_units_of<T: Scalar, const N: usize, const S: usize>(
     residual: &LaneVector<T, N, S>,
     floor: &SVector<T, N>,
 ) -> T {
+    in_units(residual, &floor.map(|floor| T::one() / floor))
+}
+
+/// The same, with the reciprocals of the floors.
+#[inline(always)]
+pub(super) fn in_units<T: Scalar, const N: usize, const S: usize>(
+    residual: &LaneVector<T, N, S>,
+    per_floor: &SVector<T, N>,
+) -> T {
     let mut largest = Lanes::<T, S>::splat(T::zero());
+    let mut sum = largest;
     for a in 0..N {
-        let units = residual[a].abs() * (T::one() / floor[a]);
-        // A NaN stays.
-        largest = largest.zip(units, |largest, units| if units <= largest { largest } else { units });
+        let units = residual[a].abs() * per_floor[a];
+        largest = largest.larger(units);
+        // In the sum NaN and infinity stay.
+        sum = sum + units;
     }
-    largest.amax()
+    let sum = sum.folded(|a, b| a + b);
+    if sum.is_finite() { largest.folded(|a, b| if a > b { a } else { b }) } else { sum }
 }
 
 /// What rounding does to the residuals at the stages: their changes when each coordinate of Q and of V moves by the last
-/// place of its terms, added up. Near an equilibrium, where large forces cancel, this is more than [`Problem::floor`] knows of.
+/// place of its terms, added up; measured over [`PLACES`] of them, since functions on the way may swallow one. Near an equilibrium, where large forces cancel, this is more than [`Problem::floor`] knows of.
 #[cold]
 #[inline(never)]
 pub(super) fn rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
@@ -182,18 +202,22 @@ pub(super) fn rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: u
             sum[a] += (moved[a] - value[a]).amax();
         }
     };
-    for unit in [T::EPSILON, -T::EPSILON] {
+    let places = T::constant(PLACES);
+    let unit = T::EPSILON * places;
+    // All stages alike, then the halves of the step apart: a force that changes sign within it must not cancel.
+    for opposed in [unit, -unit] {
+        let unit = Lanes::<T, S>(array::from_fn(|i| if 2 * i < S { unit } else { opposed }));
         for a in 0..N {
             let speed = v[a].amax();
             // Q is a sum: its rounding is that of its terms, however small it is itself.
             let size = problem.q0.value[a].abs() + (problem.h * speed).abs();
             let mut moved = q;
-            moved[a] = moved[a] + size * unit;
+            moved[a] = moved[a] + unit * size;
             add(&moved, v);
             let mut moved = *v;
-            moved[a] = moved[a] + speed * unit;
+            moved[a] = moved[a] + unit * speed;
             add(&q, &moved);
         }
     }
-    sum
+    sum / places
 }

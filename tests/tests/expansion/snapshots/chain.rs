@@ -15,8 +15,8 @@ impl Chain {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{
-        Derivatives, Direction, Discrete, DisplacementRule, Gradient, Lagrangian,
-        Midpoint, Momenta, StepKernel, Variations,
+        Derivatives, Discrete, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
+        StepKernel,
     };
     type Vector = SVector<f64, 4>;
     /// Known at compile time:
@@ -119,68 +119,6 @@ const _: () = {
                     [0.0, 1.0, 0.0, 0.0],
                     [0.0, 0.0, 1.0, 0.0],
                     [0.0, 0.0, 0.0, 1.0],
-                ]),
-            }
-        }
-        #[inline]
-        fn lagrangian_variations(
-            &self,
-            q: &Vector,
-            v: &Vector,
-            minus: Direction<f64>,
-            plus: Direction<f64>,
-        ) -> Variations<f64, 4> {
-            let d = q[1] - q[0];
-            let square = d * d;
-            let beta = self.beta;
-            let d_2 = q[2] - q[1];
-            let square_2 = d_2 * d_2;
-            let d_3 = q[3] - q[2];
-            let square_3 = d_3 * d_3;
-            let t1 = 2.0 * d_3;
-            let t2 = 2.0 * d_2;
-            let t3 = 2.0 * d;
-            let t4 = 0.5 * beta;
-            let dl_dsquare = -(0.5 + square_3 * t4);
-            let dl_dd = t1 * dl_dsquare;
-            let dl_dsquare_2 = -(0.5 + square_2 * t4);
-            let dl_dd_2 = t2 * dl_dsquare_2;
-            let t5 = dl_dd_2 - dl_dd;
-            let dl_dsquare_3 = -(0.5 + square * t4);
-            let dl_dd_3 = t3 * dl_dsquare_3;
-            let t6 = dl_dd_3 - dl_dd_2;
-            let t7 = 2.0 * dl_dsquare - t1 * (beta * d_3);
-            let t8 = 2.0 * dl_dsquare_2 - t2 * (beta * d_2);
-            let t9 = 2.0 * dl_dsquare_3 - t3 * (d * beta);
-            let minus_first = minus.first;
-            let minus_second = minus.second;
-            let plus_first = plus.first;
-            let plus_second = plus.second;
-            let t10 = minus_second * plus_second;
-            let t11 = minus_first * plus_first;
-            let t12 = t9 * t11;
-            let t13 = -t12;
-            let t14 = -(t8 * t11);
-            let t15 = t7 * t11;
-            let t16 = -t15;
-            Variations {
-                minus: SVector::from([
-                    v[0] * minus_second - dl_dd_3 * minus_first,
-                    v[1] * minus_second + t6 * minus_first,
-                    v[2] * minus_second + t5 * minus_first,
-                    v[3] * minus_second + dl_dd * minus_first,
-                ]),
-                plus: SVector::from([
-                    v[0] * plus_second - dl_dd_3 * plus_first,
-                    v[1] * plus_second + t6 * plus_first,
-                    v[2] * plus_second + t5 * plus_first,
-                    v[3] * plus_second + dl_dd * plus_first,
-                ]),
-                mixed: SMatrix::from([
-                    [t10 + t12, t13, 0.0, 0.0],
-                    [t13, t10 + (t8 + t9) * t11, t14, 0.0],
-                    [0.0, t14, t10 + (t7 + t8) * t11, t16],
-                    [0.0, 0.0, t16, t10 + t15],
                 ]),
             }
         }

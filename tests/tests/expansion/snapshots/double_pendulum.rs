@@ -17,9 +17,8 @@ impl DoublePendulum {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{
-        Derivatives, Direction, Discrete, DiscreteForce, DiscreteForceDerivatives,
-        DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
-        Rayleigh, StepKernel, Variations,
+        Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh,
+        DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta, Rayleigh, StepKernel,
     };
     type Vector = SVector<f64, 2>;
     /// Known at compile time:
@@ -105,73 +104,6 @@ const _: () = {
                 d22: SMatrix::from([[t18, t6], [t6, t17]]),
             }
         }
-        #[inline]
-        fn lagrangian_variations(
-            &self,
-            q: &Vector,
-            v: &Vector,
-            minus: Direction<f64>,
-            plus: Direction<f64>,
-        ) -> Variations<f64, 2> {
-            let m2 = self.m[1];
-            let t1 = self.m[0] + m2;
-            let l1 = self.l[0];
-            let l2 = self.l[1];
-            let t2 = q[0] - q[1];
-            let (t4, t3) = t2.sin_cos();
-            let t5 = l2 * (m2 * l1);
-            let t6 = t3 * t5;
-            let (sin_q0, cos_q0) = q[0].sin_cos();
-            let g = self.g;
-            let t7 = l1 * (-t1 * g);
-            let (sin_q1, cos_q1) = q[1].sin_cos();
-            let t8 = l2 * (m2 * g);
-            let t9 = v[0] * v[1];
-            let t10 = t5 * t9 * t4;
-            let t11 = t7 * sin_q0 - t10;
-            let t12 = t10 - t8 * sin_q1;
-            let t13 = t4 * (v[1] * t5);
-            let t14 = t4 * (v[0] * t5);
-            let t15 = t6 * t9;
-            let t16 = l2 * (m2 * l2);
-            let t17 = v[0] * t6 + v[1] * t16;
-            let t18 = l1 * (t1 * l1);
-            let t19 = v[1] * t6 + v[0] * t18;
-            let minus_first = minus.first;
-            let minus_second = minus.second;
-            let plus_first = plus.first;
-            let plus_second = plus.second;
-            let t20 = minus_second * plus_second;
-            let t21 = minus_second * plus_first;
-            let t22 = minus_first * plus_second;
-            let t23 = minus_first * plus_first;
-            let t24 = t13 * t21;
-            let t25 = t13 * t22;
-            let t26 = t6 * t20;
-            let t27 = t14 * t21;
-            let t28 = t15 * t23;
-            let t29 = t14 * t22;
-            Variations {
-                minus: SVector::from([
-                    t11 * minus_first + t19 * minus_second,
-                    t12 * minus_first + t17 * minus_second,
-                ]),
-                plus: SVector::from([
-                    t11 * plus_first + t19 * plus_second,
-                    t12 * plus_first + t17 * plus_second,
-                ]),
-                mixed: SMatrix::from([
-                    [
-                        (cos_q0 * t7 - t15) * t23 + (t18 * t20 - t24 - t25),
-                        t28 + (t25 + t26 - t27),
-                    ],
-                    [
-                        t26 + (t24 + t28) - t29,
-                        t27 + t29 + t16 * t20 - (cos_q1 * t8 + t15) * t23,
-                    ],
-                ]),
-            }
-        }
     }
     #[automatically_derived]
     impl Rayleigh<2> for DoublePendulum {
@@ -205,30 +137,6 @@ const _: () = {
                 d11: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
                 d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
                 d22: SMatrix::from([[c_0 + c_1, t1], [t1, c_1]]),
-            }
-        }
-        #[inline]
-        fn rayleigh_variations(
-            &self,
-            _q: &Vector,
-            v: &Vector,
-            minus: Direction<f64>,
-            plus: Direction<f64>,
-        ) -> Variations<f64, 2> {
-            let relative = v[1] - v[0];
-            let c_0 = self.c[0];
-            let c_1 = self.c[1];
-            let minus_second = minus.second;
-            let plus_second = plus.second;
-            let t1 = minus_second * plus_second;
-            let dr_drelative = relative * c_1;
-            let t2 = v[0] * c_0 - dr_drelative;
-            let t3 = c_1 * t1;
-            let t4 = -t3;
-            Variations {
-                minus: SVector::from([minus_second * t2, minus_second * dr_drelative]),
-                plus: SVector::from([plus_second * t2, plus_second * dr_drelative]),
-                mixed: SMatrix::from([[t1 * (c_0 + c_1), t4], [t4, t3]]),
             }
         }
     }

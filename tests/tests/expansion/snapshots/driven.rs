@@ -87,32 +87,6 @@ const _: () = {
                 d22: SMatrix::from([[m]]),
             }
         }
-        #[inline]
-        fn lagrangian_variations(
-            &self,
-            q: &Vector,
-            v: &Vector,
-            minus: Direction<f64>,
-            plus: Direction<f64>,
-        ) -> Variations<f64, 1> {
-            let m = self.m;
-            let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1 = v[0] * m;
-            let minus_first = minus.first;
-            let minus_second = minus.second;
-            let plus_first = plus.first;
-            let plus_second = plus.second;
-            Variations {
-                minus: SVector::from([t1 * minus_second - sin_q0 * minus_first]),
-                plus: SVector::from([t1 * plus_second - sin_q0 * plus_first]),
-                mixed: SMatrix::from([
-                    [
-                        plus_second * (m * minus_second)
-                            - cos_q0 * (minus_first * plus_first),
-                    ],
-                ]),
-            }
-        }
     }
     #[automatically_derived]
     impl Lagrangian<1> for DrivenArm<'_> {
@@ -177,24 +151,6 @@ const _: () = {
                 d22: SMatrix::from([[c]]),
             }
         }
-        #[inline]
-        fn rayleigh_variations(
-            &self,
-            _q: &Vector,
-            v: &Vector,
-            minus: Direction<f64>,
-            plus: Direction<f64>,
-        ) -> Variations<f64, 1> {
-            let c = self.c;
-            let minus_second = minus.second;
-            let plus_second = plus.second;
-            let t1 = v[0] * c;
-            Variations {
-                minus: SVector::from([minus_second * t1]),
-                plus: SVector::from([plus_second * t1]),
-                mixed: SMatrix::from([[plus_second * (c * minus_second)]]),
-            }
-        }
     }
     #[automatically_derived]
     impl Rayleigh<1> for DrivenArm<'_> {
@@ -242,22 +198,6 @@ const _: () = {
                 d1: SMatrix::from([[-(t1 * sin_q0)]]),
                 d2: SMatrix::from([[0.0]]),
             }
-        }
-        #[inline]
-        fn force_variation(
-            &self,
-            q: &Vector,
-            _v: &Vector,
-            direction: Direction<f64>,
-        ) -> (Vector, SMatrix<f64, 1, 1>) {
-            let t = self.t;
-            let u = self.u;
-            let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1 = u[0] * self.system.gain;
-            (
-                SVector::from([cos_q0 * t1 + (t * Arm::RATE).sin()]),
-                SMatrix::from([[-(sin_q0 * (t1 * direction.first))]]),
-            )
         }
     }
     #[automatically_derived]

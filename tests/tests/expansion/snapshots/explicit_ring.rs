@@ -10,9 +10,9 @@ impl Ring {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{
-        Derivatives, Direction, Discrete, DiscreteForce, DiscreteForceDerivatives,
-        DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Momenta, Rayleigh,
-        StepKernel, Trapezoidal, Variations,
+        Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh,
+        DisplacementRule, Gradient, Lagrangian, Momenta, Rayleigh, StepKernel,
+        Trapezoidal,
     };
     type Vector = SVector<f64, 2>;
     /// Known at compile time:
@@ -73,47 +73,6 @@ const _: () = {
                 d22: SMatrix::from([[1.0, 0.0], [0.0, 1.0]]),
             }
         }
-        #[inline]
-        fn lagrangian_variations(
-            &self,
-            q: &Vector,
-            v: &Vector,
-            minus: Direction<f64>,
-            plus: Direction<f64>,
-        ) -> Variations<f64, 2> {
-            let s = q[0] * q[0] + q[1] * q[1];
-            let t1 = s - 1.0;
-            let t2 = 2.0 * q[1];
-            let t3 = 2.0 * q[0];
-            let t4 = 2.0 * s;
-            let t5 = t4 + 4.0 * t1;
-            let t6 = t2 * t5;
-            let minus_first = minus.first;
-            let minus_second = minus.second;
-            let plus_first = plus.first;
-            let plus_second = plus.second;
-            let t7 = minus_second * plus_second;
-            let t8 = minus_first * plus_first;
-            let t9 = t1 * (t1 + t4);
-            let t10 = t2 * t9;
-            let t11 = t3 * t9;
-            let t12 = 2.0 * t9;
-            let t13 = -(t6 * (t3 * t8));
-            Variations {
-                minus: SVector::from([
-                    v[0] * minus_second - minus_first * t11,
-                    v[1] * minus_second - minus_first * t10,
-                ]),
-                plus: SVector::from([
-                    v[0] * plus_second - plus_first * t11,
-                    v[1] * plus_second - plus_first * t10,
-                ]),
-                mixed: SMatrix::from([
-                    [t7 - t8 * (t5 * (t3 * t3) + t12), t13],
-                    [t13, t7 - t8 * (t2 * t6 + t12)],
-                ]),
-            }
-        }
     }
     #[automatically_derived]
     impl Rayleigh<2> for Ring {
@@ -140,25 +99,6 @@ const _: () = {
                 d11: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
                 d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
                 d22: SMatrix::from([[k, 0.0], [0.0, k]]),
-            }
-        }
-        #[inline]
-        fn rayleigh_variations(
-            &self,
-            _q: &Vector,
-            v: &Vector,
-            minus: Direction<f64>,
-            plus: Direction<f64>,
-        ) -> Variations<f64, 2> {
-            let k = self.k;
-            let plus_second = plus.second;
-            let t1 = k * minus.second;
-            let t2 = k * plus_second;
-            let t3 = plus_second * t1;
-            Variations {
-                minus: SVector::from([v[0] * t1, v[1] * t1]),
-                plus: SVector::from([v[0] * t2, v[1] * t2]),
-                mixed: SMatrix::from([[t3, 0.0], [0.0, t3]]),
             }
         }
     }

@@ -20,8 +20,8 @@ impl Cart {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{
-        CovectorDerivatives, Derivatives, Direction, Force, ForcedLagrangian, Gradient,
-        Lagrangian, LaneVector, Lanes, Rayleigh, Stages, Variations,
+        CovectorDerivatives, Derivatives, Force, ForcedLagrangian, Gradient, Lagrangian,
+        LaneVector, Lanes, Rayleigh, Stages,
     };
     type Vector = SVector<f64, 2>;
     /// Known at compile time:
@@ -91,57 +91,6 @@ const _: () = {
                 d22: SMatrix::from([[m, reach], [reach, l_squared]]),
             }
         }
-        #[inline]
-        fn lagrangian_variations(
-            &self,
-            q: &Vector,
-            v: &Vector,
-            minus: Direction<f64>,
-            plus: Direction<f64>,
-        ) -> Variations<f64, 2> {
-            let (sin_q1, cos_q1) = q[1].sin_cos();
-            let l = self.l;
-            let reach = cos_q1 * l;
-            let m = self.m;
-            let l_squared = l * l;
-            let end = self.end;
-            let t1 = q[0] > end;
-            let k = self.k;
-            let t2 = if t1 { -(k * (q[0] - end)) } else { 0.0 };
-            let dl_dreach = 1.0 + v[0] * v[1];
-            let t3 = l * dl_dreach * sin_q1;
-            let t4 = if t1 { -k } else { 0.0 };
-            let t5 = sin_q1 * (v[1] * l);
-            let t6 = v[0] * reach + v[1] * l_squared;
-            let t7 = v[1] * reach + v[0] * m;
-            let minus_first = minus.first;
-            let minus_second = minus.second;
-            let plus_first = plus.first;
-            let plus_second = plus.second;
-            let t8 = minus_second * plus_second;
-            let t9 = minus_second * plus_first;
-            let t10 = minus_first * plus_second;
-            let t11 = minus_first * plus_first;
-            let t12 = reach * t8;
-            Variations {
-                minus: SVector::from([
-                    t2 * minus_first + t7 * minus_second,
-                    t6 * minus_second - t3 * minus_first,
-                ]),
-                plus: SVector::from([
-                    t2 * plus_first + t7 * plus_second,
-                    t6 * plus_second - t3 * plus_first,
-                ]),
-                mixed: SMatrix::from([
-                    [m * t8 + t4 * t11, t12 - t5 * t10],
-                    [
-                        t12 - t5 * t9,
-                        l_squared * t8 - sin_q1 * (v[0] * l) * (t9 + t10)
-                            - dl_dreach * (reach * t11),
-                    ],
-                ]),
-            }
-        }
     }
     #[automatically_derived]
     impl Rayleigh<2> for Cart {
@@ -170,27 +119,6 @@ const _: () = {
                 d22: SMatrix::from([[0.0, 0.0], [0.0, c]]),
             }
         }
-        #[inline]
-        fn rayleigh_variations(
-            &self,
-            _q: &Vector,
-            v: &Vector,
-            minus: Direction<f64>,
-            plus: Direction<f64>,
-        ) -> Variations<f64, 2> {
-            let c = self.c;
-            let minus_second = minus.second;
-            let plus_second = plus.second;
-            let t1 = v[1] * c;
-            Variations {
-                minus: SVector::from([0.0, minus_second * t1]),
-                plus: SVector::from([0.0, plus_second * t1]),
-                mixed: SMatrix::from([
-                    [0.0, 0.0],
-                    [0.0, plus_second * (c * minus_second)],
-                ]),
-            }
-        }
     }
     #[automatically_derived]
     impl Force<2> for Cart {
@@ -211,20 +139,6 @@ const _: () = {
                 d1: SMatrix::from([[t1 * a.ln(), 0.0], [0.0, 0.0]]),
                 d2: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
             }
-        }
-        #[inline]
-        fn force_variation(
-            &self,
-            q: &Vector,
-            _v: &Vector,
-            direction: Direction<f64>,
-        ) -> (Vector, SMatrix<f64, 2, 2>) {
-            let a = self.a;
-            let t1 = a.powf(q[0]);
-            (
-                SVector::from([t1, 0.0]),
-                SMatrix::from([[t1 * (a.ln() * direction.first), 0.0], [0.0, 0.0]]),
-            )
         }
     }
     #[automatically_derived]

@@ -17,9 +17,8 @@ struct Linear {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{
-        Derivatives, Direction, Discrete, DiscreteForce, DiscreteForceDerivatives,
-        DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
-        Rayleigh, StepKernel, Variations,
+        Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh,
+        DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta, Rayleigh, StepKernel,
     };
     type Vector = SVector<f64, 2>;
     /// Known at compile time:
@@ -73,37 +72,6 @@ const _: () = {
                 d22: SMatrix::from([[1.0, 0.0], [0.0, 1.0]]),
             }
         }
-        #[inline]
-        fn lagrangian_variations(
-            &self,
-            q: &Vector,
-            v: &Vector,
-            minus: Direction<f64>,
-            plus: Direction<f64>,
-        ) -> Variations<f64, 2> {
-            let d = q[1] - q[0];
-            let k = self.k;
-            let t1 = d * k;
-            let t2 = t1 - q[0] * k;
-            let minus_first = minus.first;
-            let minus_second = minus.second;
-            let plus_first = plus.first;
-            let plus_second = plus.second;
-            let t3 = minus_second * plus_second;
-            let t4 = minus_first * plus_first;
-            let t5 = k * t4;
-            Variations {
-                minus: SVector::from([
-                    v[0] * minus_second + t2 * minus_first,
-                    v[1] * minus_second - t1 * minus_first,
-                ]),
-                plus: SVector::from([
-                    v[0] * plus_second + t2 * plus_first,
-                    v[1] * plus_second - t1 * plus_first,
-                ]),
-                mixed: SMatrix::from([[t3 - 2.0 * k * t4, t5], [t5, t3 - t5]]),
-            }
-        }
     }
     #[automatically_derived]
     impl Rayleigh<2> for Linear {
@@ -130,27 +98,6 @@ const _: () = {
                 d11: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
                 d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
                 d22: SMatrix::from([[0.0, 0.0], [0.0, c]]),
-            }
-        }
-        #[inline]
-        fn rayleigh_variations(
-            &self,
-            _q: &Vector,
-            v: &Vector,
-            minus: Direction<f64>,
-            plus: Direction<f64>,
-        ) -> Variations<f64, 2> {
-            let c = self.c;
-            let minus_second = minus.second;
-            let plus_second = plus.second;
-            let t1 = v[1] * c;
-            Variations {
-                minus: SVector::from([0.0, minus_second * t1]),
-                plus: SVector::from([0.0, plus_second * t1]),
-                mixed: SMatrix::from([
-                    [0.0, 0.0],
-                    [0.0, plus_second * (c * minus_second)],
-                ]),
             }
         }
     }

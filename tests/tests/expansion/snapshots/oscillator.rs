@@ -16,9 +16,9 @@ pub struct Oscillator {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{
-        Derivatives, Direction, Discrete, DiscreteForce, DiscreteForceDerivatives,
-        DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
-        Rayleigh, StepKernel, Trapezoidal, Variations,
+        Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh,
+        DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta, Rayleigh, StepKernel,
+        Trapezoidal,
     };
     type Vector = SVector<f64, 1>;
     /// Known at compile time:
@@ -70,30 +70,6 @@ const _: () = {
                 d22: SMatrix::from([[m]]),
             }
         }
-        #[inline]
-        fn lagrangian_variations(
-            &self,
-            q: &Vector,
-            v: &Vector,
-            minus: Direction<f64>,
-            plus: Direction<f64>,
-        ) -> Variations<f64, 1> {
-            let m = self.m;
-            let k = self.k;
-            let t1 = q[0] * k;
-            let t2 = v[0] * m;
-            let minus_first = minus.first;
-            let minus_second = minus.second;
-            let plus_first = plus.first;
-            let plus_second = plus.second;
-            Variations {
-                minus: SVector::from([t2 * minus_second - t1 * minus_first]),
-                plus: SVector::from([t2 * plus_second - t1 * plus_first]),
-                mixed: SMatrix::from([
-                    [plus_second * (m * minus_second) - plus_first * (k * minus_first)],
-                ]),
-            }
-        }
     }
     #[automatically_derived]
     impl Rayleigh<1> for Oscillator {
@@ -120,24 +96,6 @@ const _: () = {
                 d11: SMatrix::from([[0.0]]),
                 d12: SMatrix::from([[0.0]]),
                 d22: SMatrix::from([[r]]),
-            }
-        }
-        #[inline]
-        fn rayleigh_variations(
-            &self,
-            _q: &Vector,
-            v: &Vector,
-            minus: Direction<f64>,
-            plus: Direction<f64>,
-        ) -> Variations<f64, 1> {
-            let r = self.r;
-            let minus_second = minus.second;
-            let plus_second = plus.second;
-            let t1 = v[0] * r;
-            Variations {
-                minus: SVector::from([minus_second * t1]),
-                plus: SVector::from([plus_second * t1]),
-                mixed: SMatrix::from([[plus_second * (r * minus_second)]]),
             }
         }
     }

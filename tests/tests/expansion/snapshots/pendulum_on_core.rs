@@ -13,8 +13,8 @@ impl Pendulum {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{
-        Derivatives, Direction, Discrete, DisplacementRule, Gradient, Lagrangian,
-        Midpoint, Momenta, StepKernel, Variations,
+        Derivatives, Discrete, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
+        StepKernel,
     };
     use ::dalembert::Elementary as _;
     type Vector = SVector<f64, 1>;
@@ -59,32 +59,6 @@ const _: () = {
                 d11: SMatrix::from([[-(cos_q0 * g)]]),
                 d12: SMatrix::from([[0.0]]),
                 d22: SMatrix::from([[1.0]]),
-            }
-        }
-        #[inline]
-        fn lagrangian_variations(
-            &self,
-            q: &Vector,
-            v: &Vector,
-            minus: Direction<f64>,
-            plus: Direction<f64>,
-        ) -> Variations<f64, 1> {
-            let (sin_q0, cos_q0) = q[0].elementary().sin_cos();
-            let g = self.g;
-            let t1 = g * sin_q0;
-            let minus_first = minus.first;
-            let minus_second = minus.second;
-            let plus_first = plus.first;
-            let plus_second = plus.second;
-            Variations {
-                minus: SVector::from([v[0] * minus_second - t1 * minus_first]),
-                plus: SVector::from([v[0] * plus_second - t1 * plus_first]),
-                mixed: SMatrix::from([
-                    [
-                        minus_second * plus_second
-                            - cos_q0 * (plus_first * (g * minus_first)),
-                    ],
-                ]),
             }
         }
     }

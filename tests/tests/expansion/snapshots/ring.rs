@@ -10,9 +10,8 @@ impl Ring {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{
-        Derivatives, Direction, Discrete, DiscreteForce, DiscreteForceDerivatives,
-        DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
-        Rayleigh, StepKernel, Variations,
+        Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh,
+        DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta, Rayleigh, StepKernel,
     };
     type Vector = SVector<f64, 2>;
     /// Known at compile time:
@@ -73,47 +72,6 @@ const _: () = {
                 d22: SMatrix::from([[1.0, 0.0], [0.0, 1.0]]),
             }
         }
-        #[inline]
-        fn lagrangian_variations(
-            &self,
-            q: &Vector,
-            v: &Vector,
-            minus: Direction<f64>,
-            plus: Direction<f64>,
-        ) -> Variations<f64, 2> {
-            let s = q[0] * q[0] + q[1] * q[1];
-            let t1 = s - 1.0;
-            let t2 = 2.0 * q[1];
-            let t3 = 2.0 * q[0];
-            let t4 = 2.0 * s;
-            let t5 = t4 + 4.0 * t1;
-            let t6 = t2 * t5;
-            let minus_first = minus.first;
-            let minus_second = minus.second;
-            let plus_first = plus.first;
-            let plus_second = plus.second;
-            let t7 = minus_second * plus_second;
-            let t8 = minus_first * plus_first;
-            let t9 = t1 * (t1 + t4);
-            let t10 = t2 * t9;
-            let t11 = t3 * t9;
-            let t12 = 2.0 * t9;
-            let t13 = -(t6 * (t3 * t8));
-            Variations {
-                minus: SVector::from([
-                    v[0] * minus_second - minus_first * t11,
-                    v[1] * minus_second - minus_first * t10,
-                ]),
-                plus: SVector::from([
-                    v[0] * plus_second - plus_first * t11,
-                    v[1] * plus_second - plus_first * t10,
-                ]),
-                mixed: SMatrix::from([
-                    [t7 - t8 * (t5 * (t3 * t3) + t12), t13],
-                    [t13, t7 - t8 * (t2 * t6 + t12)],
-                ]),
-            }
-        }
     }
     #[automatically_derived]
     impl Rayleigh<2> for Ring {
@@ -140,25 +98,6 @@ const _: () = {
                 d11: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
                 d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
                 d22: SMatrix::from([[k, 0.0], [0.0, k]]),
-            }
-        }
-        #[inline]
-        fn rayleigh_variations(
-            &self,
-            _q: &Vector,
-            v: &Vector,
-            minus: Direction<f64>,
-            plus: Direction<f64>,
-        ) -> Variations<f64, 2> {
-            let k = self.k;
-            let plus_second = plus.second;
-            let t1 = k * minus.second;
-            let t2 = k * plus_second;
-            let t3 = plus_second * t1;
-            Variations {
-                minus: SVector::from([v[0] * t1, v[1] * t1]),
-                plus: SVector::from([v[0] * t2, v[1] * t2]),
-                mixed: SMatrix::from([[t3, 0.0], [0.0, t3]]),
             }
         }
     }
@@ -210,19 +149,19 @@ const _: () = {
             let t4 = 2.0 * s;
             let t5 = t4 + 4.0 * t1;
             let t6 = t2 * t5;
-            let t7 = t1 * (t1 + t4);
-            let t8 = 2.0 * t7;
-            let t9 = 1.0 + k * half;
-            let t10 = half * half;
-            let t11 = t6 * (t3 * t10);
+            let t7 = 1.0 + k * half;
+            let t8 = half * half;
+            let t9 = t1 * (t1 + t4);
+            let t10 = 2.0 * t9;
+            let t11 = t6 * (t3 * t8);
             StepKernel {
                 p0: SVector::from([
-                    v[0] + half * (t3 * t7 + v[0] * k),
-                    v[1] + half * (t2 * t7 + v[1] * k),
+                    v[0] + half * (v[0] * k + t3 * t9),
+                    v[1] + half * (v[1] * k + t2 * t9),
                 ]),
                 matrix: SMatrix::from([
-                    [t9 + (t5 * (t3 * t3) + t8) * t10, t11],
-                    [t11, t9 + (t2 * t6 + t8) * t10],
+                    [t7 + t8 * (t5 * (t3 * t3) + t10), t11],
+                    [t11, t7 + t8 * (t2 * t6 + t10)],
                 ]),
             }
         }
@@ -235,8 +174,8 @@ const _: () = {
             let t1 = s - 1.0;
             let k = self.k;
             let t2 = t1 * (t1 + 2.0 * s);
-            let t3 = half * (2.0 * q[0] * t2 + v[0] * k);
-            let t4 = half * (2.0 * q[1] * t2 + v[1] * k);
+            let t3 = half * (v[0] * k + 2.0 * q[0] * t2);
+            let t4 = half * (v[1] * k + 2.0 * q[1] * t2);
             Momenta {
                 p0: SVector::from([v[0] + t3, v[1] + t4]),
                 p1: SVector::from([v[0] - t3, v[1] - t4]),

@@ -82,34 +82,6 @@ const _: () = {
                 d22: SMatrix::from([[l_squared]]),
             }
         }
-        #[inline]
-        fn lagrangian_variations(
-            &self,
-            q: &Vector,
-            v: &Vector,
-            minus: Direction<f64>,
-            plus: Direction<f64>,
-        ) -> Variations<f64, 1> {
-            let l = self.l;
-            let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1 = l * sin_q0;
-            let t2 = v[0] * (l * l);
-            let minus_first = minus.first;
-            let minus_second = minus.second;
-            let plus_first = plus.first;
-            let plus_second = plus.second;
-            Variations {
-                minus: SVector::from([t2 * minus_second - t1 * minus_first]),
-                plus: SVector::from([t2 * plus_second - t1 * plus_first]),
-                mixed: SMatrix::from([
-                    [
-                        l
-                            * (l * (minus_second * plus_second)
-                                - cos_q0 * (minus_first * plus_first)),
-                    ],
-                ]),
-            }
-        }
     }
     #[automatically_derived]
     impl Lagrangian<1> for DrivenJoint<'_> {
@@ -166,27 +138,6 @@ const _: () = {
                 d22: SMatrix::from([[v0_squared * (3.0 * c_0)]]),
             }
         }
-        #[inline]
-        fn rayleigh_variations(
-            &self,
-            _q: &Vector,
-            v: &Vector,
-            minus: Direction<f64>,
-            plus: Direction<f64>,
-        ) -> Variations<f64, 1> {
-            let c_0 = self.c[0];
-            let v0_squared = v[0] * v[0];
-            let minus_second = minus.second;
-            let plus_second = plus.second;
-            let t1 = v0_squared * (c_0 * v[0]);
-            Variations {
-                minus: SVector::from([minus_second * t1]),
-                plus: SVector::from([plus_second * t1]),
-                mixed: SMatrix::from([
-                    [v0_squared * (c_0 * (plus_second * (3.0 * minus_second)))],
-                ]),
-            }
-        }
     }
     #[automatically_derived]
     impl Rayleigh<1> for DrivenJoint<'_> {
@@ -232,20 +183,6 @@ const _: () = {
                 d1: SMatrix::from([[-(u[0] * sin_q0)]]),
                 d2: SMatrix::from([[0.0]]),
             }
-        }
-        #[inline]
-        fn force_variation(
-            &self,
-            q: &Vector,
-            _v: &Vector,
-            direction: Direction<f64>,
-        ) -> (Vector, SMatrix<f64, 1, 1>) {
-            let u = self.u;
-            let (sin_q0, cos_q0) = q[0].sin_cos();
-            (
-                SVector::from([u[0] * cos_q0]),
-                SMatrix::from([[-(sin_q0 * (u[0] * direction.first))]]),
-            )
         }
     }
     #[automatically_derived]
