@@ -74,8 +74,8 @@ pub enum ToleranceError {
     },
     /// No method reaches the error: none showed its order, or rounding over so many steps exceeds it.
     OutOfReach {
-        /// What was found of every method, in the order of [`Method::ALL`]; `None` where the system was not asked for it.
-        trials: [Option<Trial>; 5],
+        /// The method that comes closest; `None` where none showed its order.
+        closest: Option<Trial>,
     },
     /// A step at the chosen size failed at the start.
     Step(StepError),
@@ -178,7 +178,9 @@ impl Method {
             .filter(|trial| trial.step_size.is_some() && trial.expected <= tolerance)
             .min_by(|a, b| a.substeps.total_cmp(&b.substeps));
         let Some(&Trial { method, step_size: Some(h), expected, .. }) = best else {
-            return Err(ToleranceError::OutOfReach { trials });
+            let shown = trials.iter().flatten().filter(|trial| trial.step_size.is_some());
+            let closest = shown.min_by(|a, b| a.expected.total_cmp(&b.expected)).copied();
+            return Err(ToleranceError::OutOfReach { closest });
         };
         let steps = ComplexField::round(time / h).max(1.0);
         let mut choice =

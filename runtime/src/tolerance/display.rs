@@ -46,9 +46,12 @@ impl fmt::Display for ToleranceError {
             Self::Request { time, tolerance } => {
                 write!(f, "time {time} and tolerance {tolerance} have to be finite and above 0")
             }
-            Self::OutOfReach { trials } => {
+            Self::OutOfReach { closest } => {
                 f.write_str("no method reaches the tolerance; ask for less, or for a shorter time")?;
-                trials.iter().flatten().try_for_each(|trial| write!(f, "\n  {trial}"))
+                match closest {
+                    Some(trial) => write!(f, "; the closest: {trial}"),
+                    None => f.write_str("; none shows its order at the start"),
+                }
             }
             Self::Step(error) => write!(f, "at the start: {error}"),
         }
