@@ -30,9 +30,8 @@ fn main() {
 /// The run that valgrind watches.
 fn counted(arguments: &[String]) {
     let [scene, way, part, times] = arguments else { panic!("a scene, a way, a part and a number of times") };
-    let scene = [candidates::scenes(), candidates::spring_chains()]
-        .into_iter()
-        .flatten()
+    let scene = (candidates::scenes().into_iter())
+        .chain(candidates::chains().into_iter().flatten())
         .find(|known| known.name == *scene)
         .expect("a scene");
     let way = Way::ALL.into_iter().find(|known| known.name() == *way).expect("a way");
@@ -99,30 +98,32 @@ fn counts(scenes: &[Scene]) {
     }
 }
 
-/// What one degree of freedom of the spring chain costs, at n = 8 and at n = 32.
+/// Steps of a chain in one turn: of 8 masses and of 32 the same stretch of the motion.
+const STEPS: usize = 1000;
+
+/// What one degree of freedom of a chain costs, at n = 8 and at n = 32.
 fn costs_per_degree() {
-    let chains = candidates::spring_chains();
-    let runs: Vec<_> = chains.iter().map(|chain| chain.way(Way::Generated).expect("generated")).collect();
-    let runs: Vec<&dyn Fn(usize)> = runs.iter().map(|run| run as &dyn Fn(usize)).collect();
-    let times = interleaved::medians(&runs);
+    let costs = |nanoseconds: f64, instructions: Option<f64>| {
+        let instructions = instructions.map_or(String::new(), |count| format!("{count:.0}"));
+        format!("{} | {instructions}", digits(nanoseconds))
+    };
     println!(
-        "| spring chain | ns per step | ns per degree of freedom | instructions per degree of freedom |"
+        "| chain | ns per degree of freedom, n = 8 | instructions | ns per degree of freedom, n = 32 | instructions | ns, n = 32 / n = 8 |"
     );
-    println!("|---|--:|--:|--:|");
-    let mut costs = Vec::new();
-    for (chain, seconds) in chains.iter().zip(times) {
-        let (nanoseconds, degrees) = (seconds * 1e9, chain.degrees as f64);
-        let count = instructions::each(chain.name, Way::Generated.name(), Part::Step, 1000)
-            .map_or(String::new(), |count| format!("{:.0}", count / degrees));
-        costs.push(nanoseconds / degrees);
-        println!(
-            "| n = {} | {} | {} | {count} |",
-            chain.degrees,
-            digits(nanoseconds),
-            digits(nanoseconds / degrees)
-        );
+    println!("|---|--:|--:|--:|--:|--:|");
+    for chains in candidates::chains() {
+        let runs = chains.each_ref().map(|chain| chain.way(Way::Generated).expect("generated"));
+        let runs = runs.each_ref().map(|run| run as &dyn Fn(usize));
+        let times = interleaved::medians_over(&runs, &[STEPS; 2]);
+        let [short, long] = [0, 1].map(|k| {
+            let (chain, degrees) = (&chains[k], chains[k].degrees as f64);
+            let count = instructions::each(chain.name, Way::Generated.name(), Part::Step, STEPS);
+            (times[k] * 1e9 / degrees, count.map(|count| count / degrees))
+        });
+        let name = chains[0].name.trim_end_matches(" of 8");
+        let ratio = long.0 / short.0;
+        println!("| {name} | {} | {} | {ratio:.2} |", costs(short.0, short.1), costs(long.0, long.1));
     }
-    println!("\ncost per degree of freedom, n = 32 against n = 8: {:.2}", costs[1] / costs[0]);
 }
 
 fn geometric_mean(ratios: &[f64]) -> f64 {

@@ -7,7 +7,7 @@ use dalembert::nalgebra::SVector;
 use dalembert::{Discrete, Midpoint, State, Trajectory};
 
 use crate::by_hand::{self, ByHand};
-use crate::scenes::{expanded, num_dual, spring_chain_of_8, spring_chain_of_32};
+use crate::scenes::{expanded, num_dual, of_8, of_32};
 use crate::stripped;
 
 /// How a step's derivatives are made.
@@ -180,21 +180,33 @@ pub fn scenes() -> Vec<Scene> {
     vec![ring(), double_pendulum(), fput_chain(), spring_chain(), pendulum_chain(), arm()]
 }
 
-/// The spring chain of 8 and of 32 masses, for what a degree of freedom costs.
-pub fn spring_chains() -> Vec<Scene> {
-    let [m, q] = [masses(), displacements()];
-    let generated = spring_chain_of_8::SpringChain { m, stiffness: 40.0, hardening: 8.0, friction: 0.3 };
-    let of_8 =
-        Scene::new("spring chain of 8", 8).with(Way::Generated, generated, Start { q, v: [0.0; 8], h: 0.05 });
-    let [m, q] = [masses(), displacements()];
-    let generated = spring_chain_of_32::SpringChain { m, stiffness: 40.0, hardening: 8.0, friction: 0.3 };
-    let of_32 = Scene::new("spring chain of 32", 32).with(
-        Way::Generated,
-        generated,
-        Start { q, v: [0.0; 32], h: 0.05 },
-    );
-    vec![of_8, of_32]
+/// Both chains, of 8 and of 32 masses, for what a degree of freedom costs.
+pub fn chains() -> [[Scene; 2]; 2] {
+    fn scene<L, const N: usize>(name: &'static str, system: L) -> Scene
+    where
+        L: Discrete<Midpoint, N, Scalar = f64> + 'static,
+    {
+        let start = Start { q: displacements(), v: [0.0; N], h: 0.05 };
+        Scene::new(name, N).with(Way::Generated, system, start)
+    }
+    let [beta, drag] = FPUT;
+    let [stiffness, hardening, friction] = SPRINGS;
+    let spring_chain_of_8 = of_8::SpringChain { m: masses(), stiffness, hardening, friction };
+    let spring_chain_of_32 = of_32::SpringChain { m: masses(), stiffness, hardening, friction };
+    [
+        [
+            scene("FPUT chain of 8", of_8::FputChain { beta, drag }),
+            scene("FPUT chain of 32", of_32::FputChain { beta, drag }),
+        ],
+        [scene("spring chain of 8", spring_chain_of_8), scene("spring chain of 32", spring_chain_of_32)],
+    ]
 }
+
+/// Strength of the quartic term and drag of the FPUT chain.
+const FPUT: [f64; 2] = [0.7, 1e-3];
+
+/// Stiffness, hardening and friction of the spring chain.
+const SPRINGS: [f64; 3] = [40.0, 8.0, 0.3];
 
 fn ring() -> Scene {
     let start = Start { q: [0.0, 1.15549918674982], v: [0.5, 0.0], h: 0.2 };
@@ -223,7 +235,7 @@ fn double_pendulum() -> Scene {
 
 fn fput_chain() -> Scene {
     let start = Start { q: displacements(), v: [0.0; 8], h: 0.05 };
-    let (beta, drag) = (0.7, 1e-3);
+    let [beta, drag] = FPUT;
     Scene::new("FPUT chain", 8)
         .with(Way::ByHand, ByHand(by_hand::FputChain::from(expanded::FputChain { beta, drag })), start)
         .with(Way::Generated, expanded::FputChain { beta, drag }, start)
@@ -232,7 +244,7 @@ fn fput_chain() -> Scene {
 
 fn spring_chain() -> Scene {
     let start = Start { q: displacements(), v: [0.0; 16], h: 0.05 };
-    let (m, stiffness, hardening, friction) = (masses(), 40.0, 8.0, 0.3);
+    let (m, [stiffness, hardening, friction]) = (masses(), SPRINGS);
     let generated = || expanded::SpringChain { m, stiffness, hardening, friction };
     let by_hand = by_hand::SpringChain { generated: generated(), m, stiffness, hardening, friction };
     Scene::new("spring chain", 16)

@@ -20,7 +20,7 @@ macro_rules! scenes {
 
         ring!($engine);
         double_pendulum!($engine);
-        fput_chain!($engine);
+        fput_chain!($engine, 8);
         arm!($engine);
         pendulum_chain!($engine, 16);
         spring_chain!($engine, 16);
@@ -37,14 +37,16 @@ pub mod num_dual {
     scenes!(num_dual);
 }
 
-/// The spring chain of 8 masses.
-pub mod spring_chain_of_8 {
+/// The chains of 8 masses.
+pub mod of_8 {
     use dalembert::rayleigh_system;
+    fput_chain!(expanded, 8);
     spring_chain!(expanded, 8);
 }
 
-/// The spring chain of 32 masses.
-pub mod spring_chain_of_32 {
+/// The chains of 32 masses.
+pub mod of_32 {
     use dalembert::rayleigh_system;
+    fput_chain!(expanded, 32);
     spring_chain!(expanded, 32);
 }

@@ -13,14 +13,15 @@
 //! cargo run --release --example conjecture [picture.svg]
 //! ```
 
+use std::env;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::{env, fs};
 
 use anyhow::{Context, Result};
 use dalembert::exact::{Exact, Existence};
 use dalembert::nalgebra::SVector;
 use dalembert::{Rayleigh, rayleigh_system};
+use dalembert_examples::results;
 use plotters::backend::SVGBackend;
 use plotters::chart::{ChartBuilder, SeriesLabelPosition};
 use plotters::coord::combinators::IntoLogRange;
@@ -144,10 +145,7 @@ fn draw(potentials: &[Potential]) -> Result<PathBuf> {
         Some(path) => PathBuf::from(path),
         None => Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("target").join("conjecture.svg"),
     };
-    let folder = path.parent().unwrap_or(Path::new(""));
-    fs::create_dir_all(folder).and_then(|()| fs::write(&path, svg)).with_context(|| {
-        format!("cannot write the picture to {}; give another path as argument", path.display())
-    })?;
+    results::save(&path, &svg)?;
     Ok(path)
 }
 

@@ -14,6 +14,7 @@ use std::path::{Path, PathBuf};
 use dalembert::noether::{Generator, Noether};
 use dalembert::samples::{Segment, segments, tangent_points};
 use dalembert::{Discrete, Midpoint, State, Trajectory, rayleigh, rayleigh_system};
+use dalembert_examples::results;
 use plotters::prelude::*;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
@@ -183,10 +184,8 @@ fn draw(curves: &[Curve]) -> Result<PathBuf> {
         Some(path) => PathBuf::from(path),
         None => Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("target").join("symmetries.svg"),
     };
-    if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder)?;
-    }
-    let root = SVGBackend::new(&path, (1000, 640)).into_drawing_area();
+    let mut svg = String::new();
+    let root = SVGBackend::with_string(&mut svg, (1000, 640)).into_drawing_area();
     root.fill(&WHITE)?;
     let mut chart = ChartBuilder::on(&root)
         .caption("Angular momentum lost under friction, k = 0.1, midpoint rule, h = 0.1", ("sans-serif", 24))
@@ -223,5 +222,6 @@ fn draw(curves: &[Curve]) -> Result<PathBuf> {
     root.present()?;
     drop(chart);
     drop(root);
+    results::save(&path, &svg)?;
     Ok(path)
 }

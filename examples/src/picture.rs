@@ -2,11 +2,11 @@
 //!
 //! Text stays text in the file, in whatever sans-serif font the viewer has: no font is needed to draw it.
 
+use std::env;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::{env, fs};
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use plotters::backend::SVGBackend;
 use plotters::chart::{ChartBuilder, ChartContext, SeriesLabelPosition};
 use plotters::coord::Shift;
@@ -17,6 +17,8 @@ use plotters::element::{Circle, Drawable, EmptyElement, PathElement, PointCollec
 use plotters::series::LineSeries;
 pub use plotters::style::RGBColor;
 use plotters::style::{BLACK, Color, TRANSPARENT, WHITE};
+
+use crate::results;
 
 /// Colours that readers with any colour vision tell apart (Okabe and Ito, 2008).
 pub mod colour {
@@ -98,7 +100,7 @@ const PIXEL: i32 = 8;
 /// Writes the picture to the path that the command line gives, or else to `target/<name>.svg`, and returns the path.
 ///
 /// # Errors
-/// The file cannot be written.
+/// The file cannot be written; then the picture is where the error says ([`results::save`]).
 pub fn write(name: &str, size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -> Result<PathBuf> {
     let svg = svg(size, columns, panels)?;
     let path = match env::args_os().nth(1) {
@@ -107,10 +109,7 @@ pub fn write(name: &str, size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -
             Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("target").join(name).with_extension("svg")
         }
     };
-    let folder = path.parent().unwrap_or(Path::new(""));
-    fs::create_dir_all(folder).and_then(|()| fs::write(&path, svg)).with_context(|| {
-        format!("cannot write the picture to {}; give another path as argument", path.display())
-    })?;
+    results::save(&path, &svg)?;
     Ok(path)
 }
 
@@ -129,6 +128,10 @@ pub fn svg(size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -> Result<Strin
             draw(area, panel)?;
         }
         root.present()?;
+    }
+    // Attributes that say what holds anyway are half of a picture of many points.
+    for default in [" opacity=\"1\"", " stroke=\"none\" stroke-width=\"1\""] {
+        svg = svg.replace(default, "");
     }
     // The size becomes one in pixels; the view box stays in units.
     let header = |[width, height]: [u32; 2]| format!("<svg width=\"{width}\" height=\"{height}\"");
@@ -186,6 +189,9 @@ fn draw<'a>(area: &DrawingArea<SVGBackend<'a>, Shift>, panel: &Panel<'_>) -> Res
                 })?;
             }
         }
+    }
+    if panel.curves.iter().all(|curve| curve.label.is_empty()) {
+        return Ok(());
     }
     let position = match panel.legend {
         Corner::UpperLeft => SeriesLabelPosition::UpperLeft,

@@ -60,12 +60,6 @@ pub fn rayleigh_system(runtime: Runtime, attribute: TokenStream, item: TokenStre
     };
     system.parameters = options.parameters;
     system.second = options.second;
-    if let Some(name) = &options.gauss
-        && let Some(lacks) = joint::asked_too_much(&system)
-    {
-        report.at(name, Mistake::JointRule { rule: name.to_string(), lacks });
-        return fallback::with_stubs(&source, &options.rules, report);
-    }
     if !options.joint.is_empty() && report.is_empty() {
         let mut lowered = if options.engine == Engine::NumDual { None } else { lower::system(&system).ok() };
         for (name, rule) in &options.joint {

@@ -19,6 +19,7 @@ use std::path::Path;
 use std::{env, fs};
 
 use anyhow::{Context, Result, bail};
+use dalembert_examples::results;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -56,18 +57,24 @@ fn main() -> Result<()> {
 
 /// Runs what is asked for, an empty list being all scenes, and writes what it measured.
 fn measure(folder: &Path, wanted: Option<&[String]>, long: bool) -> Result<()> {
-    fs::create_dir_all(folder)?;
     let python = Python::start().inspect_err(|error| eprintln!("{error:#}")).ok();
-    fs::write(folder.join("setting.md"), page::setting(python.as_ref()))?;
+    results::save(&folder.join("setting.md"), &page::setting(python.as_ref()))?;
     if let Some(wanted) = wanted {
         let path = folder.join("scenes.csv");
-        let mut records = scenes(wanted, python.as_ref())?;
-        if !wanted.is_empty() {
-            // Of the other scenes, what was measured last.
-            records
-                .extend(read::<Record>(&path)?.into_iter().filter(|record| !wanted.contains(&record.scene)));
+        // Of scenes not measured yet, or not again, what was measured last.
+        let mut earlier: Vec<Record> = read(&path)?;
+        let mut records = Vec::new();
+        scenes(wanted, python.as_ref(), |name, measured| {
+            records.extend(measured);
+            earlier.retain(|record| record.scene != name);
+            // Scene by scene: an interruption loses the one that it falls in.
+            let all: Vec<&Record> = records.iter().chain(&earlier).collect();
+            write(&path, &all)
+        })?;
+        if wanted.is_empty() {
+            // None of scenes that are no more.
+            write(&path, &records)?;
         }
-        write(&path, &records)?;
     }
     if long {
         eprintln!("long run");
@@ -88,21 +95,25 @@ fn read<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>> {
 }
 
 fn write<T: Serialize>(path: &Path, records: &[T]) -> Result<()> {
-    let mut file = csv::Writer::from_path(path)?;
+    let mut rows = csv::Writer::from_writer(Vec::new());
     for record in records {
-        file.serialize(record)?;
+        rows.serialize(record)?;
     }
-    Ok(file.flush()?)
+    let rows = rows.into_inner().map_err(csv::IntoInnerError::into_error)?;
+    results::save(path, std::str::from_utf8(&rows)?)
 }
 
-/// The scenes wanted, or all, by the names that `references.txt` has.
-fn scenes(wanted: &[String], python: Option<&Python>) -> Result<Vec<Record>> {
-    let mut records = Vec::new();
+/// Measures the scenes wanted, or all, by the names that `references.txt` has, and hands the records of each to `keep`.
+fn scenes(
+    wanted: &[String],
+    python: Option<&Python>,
+    mut keep: impl FnMut(&str, Vec<Record>) -> Result<()>,
+) -> Result<()> {
     macro_rules! measure {
         ($($name:literal: $scene:expr, $n:literal;)*) => {$(
             if wanted.is_empty() || wanted.iter().any(|name| name == $name) {
                 eprintln!("{}", $name);
-                records.extend(study::scene::<_, $n, { 2 * $n }>($name, &$scene, python)?);
+                keep($name, study::scene::<_, $n, { 2 * $n }>($name, &$scene, python)?)?;
             }
         )*};
     }
@@ -119,5 +130,5 @@ fn scenes(wanted: &[String], python: Option<&Python>) -> Result<Vec<Record>> {
         "FPUT chain, n = 16": Chain16::EXAMPLE, 16;
         "FPUT chain, n = 32": Chain32::EXAMPLE, 32;
     }
-    Ok(records)
+    Ok(())
 }

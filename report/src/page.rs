@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use anyhow::Result;
+use dalembert_examples::results;
 
 use crate::frontier::{Point, points, time_to_reach};
 use crate::long_run;
@@ -131,8 +132,7 @@ pub fn write(docs: &Path, measured: &Measured<'_>) -> Result<()> {
     if !measured.long.is_empty() {
         picture::write(&figures.join("long-run.svg"), 2, &methods, &[along, cost])?;
     }
-    std::fs::write(docs.join("speed-against-error.md"), text(measured)?)?;
-    Ok(())
+    results::save(&docs.join("speed-against-error.md"), &text(measured)?)
 }
 
 fn curves<'a>(methods: &[&'a str], points: impl Fn(&str) -> Vec<(f64, f64)>) -> Vec<Curve<'a>> {

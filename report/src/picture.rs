@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use anyhow::Result;
+use dalembert_examples::results;
 use plotters::prelude::*;
 
 /// One method's points, in the colour and with the mark that it has in every figure.
@@ -45,7 +46,9 @@ pub fn write(path: &Path, columns: usize, methods: &[&str], panels: &[Panel<'_>]
     let rows = panels.len().div_ceil(columns);
     let legend_rows = methods.len().div_ceil(3) as u32;
     let (width, height) = (PANEL[0] * columns as u32, PANEL[1] * rows as u32);
-    let root = SVGBackend::new(path, (width, height + LEGEND * legend_rows + 10)).into_drawing_area();
+    let mut svg = String::new();
+    let size = (width, height + LEGEND * legend_rows + 10);
+    let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
     root.fill(&WHITE)?;
     let (above, below) = root.split_vertically(height);
     for (area, panel) in above.split_evenly((rows, columns)).iter().zip(panels) {
@@ -105,7 +108,8 @@ pub fn write(path: &Path, columns: usize, methods: &[&str], panels: &[Panel<'_>]
         below.draw(&Text::new((*method).to_owned(), (x + 46, y - 9), (FONT, 17)))?;
     }
     root.present()?;
-    Ok(())
+    drop((root, above, below));
+    results::save(path, &svg)
 }
 
 fn builder<'a, 'b>(

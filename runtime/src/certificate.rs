@@ -2,15 +2,25 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::linear::NewtonMatrix;
-use crate::{Discrete, Scalar, State, Step, StepError};
+use crate::linear::{self, NewtonMatrix};
+use crate::{Discrete, Quantity, Scalar, State, Step, StepError};
 
-/// What a step's Newton matrix says of it.
+/// What a step's Newton matrix ∂p0/∂v̄ says of it; see [`Step::certificate`].
+///
+/// **When to worry.** The step finds v̄ from p0, and rounding of p0 reaches v̄ enlarged by up to the condition number: with
+/// `condition` = 10^d some d of the digits of v̄ may be lost, out of 16 in `f64` and 7 in `f32`. Up to 1/√ε (7e7 in `f64`, 3e3 in `f32`) at
+/// least half of them are left: nothing to do. Above, look for a fold close by (step size, negative damping), for a mass that is nearly
+/// singular, or for stiffness far beyond the step, where only some directions lose digits; a shorter step tells them apart: it brings
+/// the condition down to that of the mass matrix. From 1/ε on (5e15, 8e6) no digit is sure, and a step is liable to end with
+/// [`StepError::SingularNewtonMatrix`]. With one coordinate there is nothing to compare: the number is 1, also near a fold.
+///
+/// For [`Gauss`](crate::Gauss) it is the matrix with the stages eliminated, not that of all stages which its solver factors: the same question
+/// of p0 and v̄.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Certificate<S> {
-    /// Condition number of the Newton matrix in the 1-norm, with velocities in units of 1/√|Mᵢᵢ|, M = ∂²L/∂v²: so many digits, log₁₀,
-    /// may be lost in v̄. Infinite where the matrix is singular.
+    /// Condition number of the Newton matrix, ‖DAD‖₁ ‖(DAD)⁻¹‖₁ with D = diag(1/√|Mᵢᵢ|), M = ∂²L/∂v² (1 for an entry that is 0): momenta and
+    /// velocities in units in which every coordinate has mass 1, so that no unit of q, t or m changes it. Infinite where the matrix is singular.
     pub condition: S,
     /// The Newton correction still to be made, in the same units, as a share of v̄: the relative error of v̄, but for rounding.
     pub correction: S,
@@ -19,8 +29,44 @@ pub struct Certificate<S> {
     pub on_the_branch_of_the_flow: bool,
 }
 
+impl<S: Scalar, const N: usize> Step<S, N> {
+    /// The certificate of this step, taken from `state` with step size `h`: [`Certificate::of_step`].
+    ///
+    /// ```
+    /// use dalembert::{Discrete, Midpoint, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system]
+    /// fn spring(q: [f64; 2], v: [f64; 2], k: f64) -> f64 {
+    ///     0.5 * (v[0] * v[0] + v[1] * v[1]) - 0.5 * k * (q[1] - q[0]).powi(2)
+    /// }
+    /// let system = Spring { k: 4e6 };
+    /// let state = State::from_velocity(&system, [0.0, 1.0], [0.2, -0.3])?;
+    /// let step = system.step(&state, 1.0, None)?;
+    /// // I + (h²k/4) [1 −1; −1 1]: the stretch is a million times as stiff as the mass.
+    /// let condition = step.certificate(&system, Midpoint, &state, 1.0)?.condition;
+    /// assert!((condition / 2e6 - 1.0).abs() < 1e-6);
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StepError::NonFinite`] if derivatives at the step are not finite.
+    pub fn certificate<L, R>(
+        &self,
+        system: &L,
+        rule: R,
+        state: &State<S, N>,
+        h: S,
+    ) -> Result<Certificate<S>, StepError>
+    where
+        L: Discrete<R, N, Scalar = S>,
+    {
+        Certificate::of_step(system, rule, state, self, h)
+    }
+}
+
 impl<S: Scalar> Certificate<S> {
-    /// Of a step taken from `state` with step size `h`. Costs N + 2 solves; a step itself never asks for it.
+    /// Of a step taken from `state` with step size `h`. Costs one evaluation and the inverse of an N×N matrix, twice a Newton
+    /// iteration or less; a step itself never asks for it.
     ///
     /// ```
     /// use dalembert::nalgebra::vector;
@@ -53,34 +99,38 @@ impl<S: Scalar> Certificate<S> {
     {
         let kernel = system.step_kernel(&state.q, &step.velocity, h);
         let mass = system.lagrangian_derivatives(&state.q, &step.velocity).d22;
-        StepError::require_finite(&kernel.p0, crate::Quantity::Derivatives)?;
-        let matrix = kernel.matrix.dense();
-        let unit = SVector::<S, N>::from_fn(|i, _| S::one() / mass[(i, i)].abs().sqrt());
-        let scaled = SMatrix::<S, N, N>::from_fn(|i, j| matrix[(i, j)] * unit[i] * unit[j]);
-        let norm = |column: &SVector<S, N>| column.iter().fold(S::zero(), |sum, entry| sum + entry.abs());
-        let (mut largest, mut inverse) = (S::zero(), S::zero());
-        let mut singular = false;
-        for j in 0..N {
-            let column = SVector::from_fn(|i, _| scaled[(i, j)]);
-            largest = largest.max(norm(&column));
-            let mut basis: SVector<S, N> = nalgebra::zero();
-            basis[j] = S::one() / unit[j];
-            match kernel.matrix.solve(&basis) {
-                // D⁻¹A⁻¹D⁻¹e, D = diag(unit).
-                Ok(x) => inverse = inverse.max(norm(&x.component_div(&unit))),
-                Err(_) => singular = true,
-            }
+        StepError::require_finite(&kernel.p0, Quantity::Derivatives)?;
+        if let Some(index) = (0..N).find(|&i| !kernel.matrix.row_is_finite(i)) {
+            return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
         }
-        let length = |v: &SVector<S, N>| v.component_div(&unit).norm();
-        let correction =
-            kernel.matrix.solve(&(kernel.p0 - state.p)).map_or(S::one() / S::zero(), |c| length(&c));
-        let size = length(&step.velocity);
+        let matrix = kernel.matrix.dense();
+        let unit = SVector::<S, N>::from_fn(|i, _| {
+            let inertia = mass[(i, i)].abs();
+            if inertia > S::zero() { S::one() / inertia.sqrt() } else { S::one() }
+        });
+        let scaled = SMatrix::<S, N, N>::from_fn(|i, j| matrix[(i, j)] * unit[i] * unit[j]);
+        let infinite = S::one() / S::zero();
+        let (condition, correction) = match linear::inverse(&scaled) {
+            Ok(inverse) => {
+                let residual = (kernel.p0 - state.p).component_mul(&unit);
+                (norm(&scaled) * norm(&inverse), (inverse * residual).norm())
+            }
+            Err(_) => (infinite, infinite),
+        };
+        let size = step.velocity.component_div(&unit).norm();
         Ok(Self {
-            condition: if singular { S::one() / S::zero() } else { largest * inverse },
+            condition,
             correction: if correction == S::zero() { correction } else { correction / size },
             on_the_branch_of_the_flow: has_positive_determinant(matrix) == has_positive_determinant(mass),
         })
     }
+}
+
+/// The 1-norm: the largest column sum.
+fn norm<S: Scalar, const N: usize>(matrix: &SMatrix<S, N, N>) -> S {
+    (0..N).fold(S::zero(), |largest, j| {
+        largest.max((0..N).fold(S::zero(), |sum, i| sum + matrix[(i, j)].abs()))
+    })
 }
 
 /// The sign of the determinant, by elimination with row exchanges.

@@ -3,7 +3,7 @@
 use core::array;
 use core::marker::PhantomData;
 
-use crate::{Discrete, Memory, Scalar, State, StepError};
+use crate::{Checkpoint, Discrete, Memory, Scalar, State, StepError};
 
 /// A composition of S substeps γ₁h, …, γ_S h of rule `R`, symmetric (γᵢ = γ_{S+1−i}) and of high order.
 ///
@@ -146,11 +146,25 @@ impl<R, const S: usize> Composition<R, S> {
             rule: PhantomData,
             substeps: self.shares.map(|share| L::Scalar::constant(share) * h),
             h,
+            origin: 0.0,
             steps: 0,
             state,
             memories: array::from_fn(|_| L::Memory::default()),
             failed: false,
         }
+    }
+
+    /// The run that `checkpoint` was taken of, by this same composition ([`ComposedTrajectory::checkpoint`]).
+    pub fn resume<L, const N: usize>(
+        self,
+        system: &L,
+        checkpoint: Checkpoint<L::Scalar, N>,
+    ) -> ComposedTrajectory<'_, L, R, N, S>
+    where
+        L: Discrete<R, N>,
+    {
+        let Checkpoint { state, step_size, origin, steps } = checkpoint;
+        ComposedTrajectory { origin, steps, ..self.trajectory(system, step_size, state) }
     }
 }
 
@@ -167,6 +181,7 @@ where
     rule: PhantomData<R>,
     substeps: [L::Scalar; S],
     h: L::Scalar,
+    origin: f64,
     steps: u64,
     state: State<L::Scalar, N>,
     memories: [L::Memory; S],
@@ -187,9 +202,33 @@ where
         self.h
     }
 
-    /// The time, h × the number of steps taken.
+    /// The time, h × the number of steps taken (and where a run that was resumed began).
     pub fn time(&self) -> f64 {
-        if self.steps == 0 { 0.0 } else { self.h.widen() * self.steps as f64 }
+        if self.steps == 0 { self.origin } else { self.origin + self.h.widen() * self.steps as f64 }
+    }
+
+    /// All that is needed to go on from here, in this process or another ([`Composition::resume`]).
+    ///
+    /// The run forgets what its substeps remember, as one that is resumed has to: both go on bit by bit alike.
+    ///
+    /// ```
+    /// use dalembert::{Composition, Midpoint, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system]
+    /// fn pendulum(q: [f64; 1], v: [f64; 1]) -> f64 {
+    ///     0.5 * v[0] * v[0] + q[0].cos()
+    /// }
+    /// let start = State::from_velocity(&Pendulum {}, [1.0], [0.0])?;
+    /// let method = Composition::kahan_li_6(Midpoint);
+    /// let mut run = method.trajectory(&Pendulum {}, 0.2, start);
+    /// run.by_ref().take(100).for_each(|state| assert!(state.is_ok()));
+    /// let resumed = method.resume(&Pendulum {}, run.checkpoint());
+    /// assert!(resumed.time() == run.time() && resumed.take(100).eq(run.take(100)));
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    pub fn checkpoint(&mut self) -> Checkpoint<L::Scalar, N> {
+        self.memories = array::from_fn(|_| L::Memory::default());
+        Checkpoint { state: self.state, step_size: self.h, origin: self.origin, steps: self.steps }
     }
 
     #[inline]

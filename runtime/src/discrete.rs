@@ -13,7 +13,10 @@ use crate::derivatives::linear;
 use crate::error::{Quantity, StepError};
 use crate::newton::{self, Equation};
 use crate::state::require_regular;
-use crate::{CovectorDerivatives, Derivatives, Lagrangian, Memory, NewtonMatrix, Rayleigh, Scalar, State};
+use crate::{
+    CovectorDerivatives, Derivatives, Lagrangian, LegendreDerivatives, Linearization, Memory, NewtonMatrix,
+    Rayleigh, Scalar, State,
+};
 
 /// The discrete force f_d = (f_d⁻, f_d⁺): covectors at q0 and at q1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,6 +92,12 @@ impl<S: Scalar, const N: usize> core::ops::Add for DiscreteForceDerivatives<S, N
 }
 
 /// How a step went.
+///
+/// | question | answer |
+/// |---|---|
+/// | how much work | `iterations`, `damped` |
+/// | how well the equation is solved | `residual` against `floor`: up to some 4 floors rounding is all that is left |
+/// | how well it was posed: condition of the Newton matrix, branch of the root | on request, [`Step::certificate`], so that steps do not pay for it |
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Report<S> {
@@ -131,6 +140,8 @@ impl<S: Scalar, const N: usize> Step<S, N> {
         Ok(Self { state: next, velocity, report })
     }
 }
+/// A step, and derivatives of it.
+pub type StepWith<S, const N: usize, D> = (Step<S, N>, D);
 
 /// A step by a bounded number of iterations: the best iterate, and whether it is the root.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -295,30 +306,16 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         h: Self::Scalar,
         guess: Option<&SVector<Self::Scalar, N>>,
     ) -> Result<Step<Self::Scalar, N>, StepError> {
-        require_step_size(h)?;
-        let q0 = &state.q;
-        let start = match guess {
-            Some(v) => *v,
-            None => {
-                let rest = nalgebra::zero();
-                require_regular(&self.lagrangian_derivatives(q0, &rest).d22)
-                    .map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
-                rest
-            }
-        };
         let kind = if Self::LINEAR { Equation::Linear } else { Equation::General };
-        let solution = newton::solve(
+        step_by(
+            self,
             kind,
             |q0, v| self.step_kernel(q0, v, h),
             |q0, v| self.momenta(q0, v, h),
-            |q0, v| self.lagrangian_derivatives(q0, v).d22.diagonal(),
             state,
-            start,
+            h,
+            guess,
         )
-        .map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
-        // An argument that is not finite shows here or has failed above: none is looked at before.
-        Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)
-            .map_err(|error| in_arguments(state, guess).unwrap_or(error))
     }
 
     /// The step by at most `iterations` undamped Newton iterations, for a clock that does not wait: the work is bounded, and what is
@@ -333,19 +330,52 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         guess: Option<&SVector<Self::Scalar, N>>,
         iterations: u32,
     ) -> Result<BoundedStep<Self::Scalar, N>, StepError> {
-        require_step_size(h)?;
-        let guess = guess.copied().unwrap_or_else(nalgebra::zero);
-        state.require_finite()?;
-        StepError::require_finite(&guess, Quantity::Velocity)?;
-        let (solution, converged) = newton::bounded(
-            iterations,
+        step_within_by(
             |q0, v| self.step_kernel(q0, v, h),
             |q0, v| self.momenta(q0, v, h),
             state,
+            h,
             guess,
-        )?;
-        let step = Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)?;
-        Ok(BoundedStep { step, converged })
+            iterations,
+        )
+    }
+
+    /// Both momenta of the segment (`q0`, `q1`) with their derivatives by the two.
+    fn legendre_derivatives(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> LegendreDerivatives<Self::Scalar, N> {
+        let l = self.discrete_lagrangian_derivatives(q0, q1, h);
+        LegendreDerivatives::from_terms(&l, &self.discrete_force_derivatives(q0, q1, h))
+    }
+
+    /// The step's derivative by its state on the segment (`q0`, `q1`): [`Linearization::of_segment`].
+    ///
+    /// # Errors
+    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular.
+    fn linearization(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> Result<Linearization<Self::Scalar, N>, StepError> {
+        Linearization::from_legendre(&self.legendre_derivatives(q0, q1, h))
+    }
+
+    /// The step with its derivative by the state: [`Linearization::of_step`].
+    ///
+    /// # Errors
+    /// Those of [`step`](Self::step) and of [`linearization`](Self::linearization).
+    fn linearized_step(
+        &self,
+        state: &State<Self::Scalar, N>,
+        h: Self::Scalar,
+        guess: Option<&SVector<Self::Scalar, N>>,
+    ) -> Result<StepWith<Self::Scalar, N, Linearization<Self::Scalar, N>>, StepError> {
+        let step = self.step(state, h, guess)?;
+        Ok((step, self.linearization(&state.q, &step.state.q, h)?))
     }
 
     /// The flow on Q×Q: (q0, q1) ↦ (q1, q2), with q2 = `state.q` of the step returned.
@@ -436,6 +466,60 @@ pub trait DiscreteRayleigh<R, const N: usize>: Discrete<R, N> + Rayleigh<N> {
         self.discrete_lagrangian_derivatives(q0, q1, h)
             + self.discrete_rayleigh_derivatives(q0, q1, h) * -Self::Scalar::constant(1.0)
     }
+}
+
+/// [`Discrete::step`] with the step's equation and both momenta as functions of (q0, v̄).
+#[inline]
+pub(crate) fn step_by<L, M, const N: usize>(
+    system: &L,
+    kind: Equation,
+    kernel: impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> StepKernel<L::Scalar, N, M>,
+    momenta: impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> Momenta<L::Scalar, N>,
+    state: &State<L::Scalar, N>,
+    h: L::Scalar,
+    guess: Option<&SVector<L::Scalar, N>>,
+) -> Result<Step<L::Scalar, N>, StepError>
+where
+    L: Lagrangian<N> + ?Sized,
+    M: NewtonMatrix<L::Scalar, N>,
+{
+    require_step_size(h)?;
+    let q0 = &state.q;
+    let start = match guess {
+        Some(v) => *v,
+        None => {
+            let rest = nalgebra::zero();
+            require_regular(&system.lagrangian_derivatives(q0, &rest).d22)
+                .map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
+            rest
+        }
+    };
+    let inertia = |q0: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>| {
+        system.lagrangian_derivatives(q0, v).d22.diagonal()
+    };
+    let solution = newton::solve(kind, kernel, momenta, inertia, state, start)
+        .map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
+    // An argument that is not finite shows here or has failed above: none is looked at before.
+    Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)
+        .map_err(|error| in_arguments(state, guess).unwrap_or(error))
+}
+
+/// [`Discrete::step_within`], likewise.
+pub(crate) fn step_within_by<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+    kernel: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
+    momenta: impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
+    state: &State<S, N>,
+    h: S,
+    guess: Option<&SVector<S, N>>,
+    iterations: u32,
+) -> Result<BoundedStep<S, N>, StepError> {
+    require_step_size(h)?;
+    let guess = guess.copied().unwrap_or_else(nalgebra::zero);
+    state.require_finite()?;
+    StepError::require_finite(&guess, Quantity::Velocity)?;
+    let (solution, converged) = newton::bounded(iterations, kernel, momenta, state, guess)?;
+    let step = Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)?;
+    Ok(BoundedStep { step, converged })
 }
 
 /// The first argument that is not finite: the cause, where a step has failed.

@@ -9,7 +9,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::derivatives::linear;
-use crate::{Discrete, Force};
+use crate::{Discrete, Force, Linearization, State, StepError, StepWith};
 
 /// A system with its input u ∈ ℝᴹ held: the views that `#[rayleigh_system]` makes of systems with
 /// `fn force(&self, q: [f64; N], v: [f64; N], u: [f64; M]) -> [f64; N]`.
@@ -41,6 +41,34 @@ pub trait DiscreteDriven<R, const N: usize, const M: usize>: Discrete<R, N> + Dr
         v: &SVector<Self::Scalar, N>,
         h: Self::Scalar,
     ) -> MomentaBy<Self::Scalar, N, M>;
+
+    /// The step's derivatives by state and input on the segment (`q0`, `q1`): [`Linearization::of_driven_segment`].
+    ///
+    /// # Errors
+    /// Those of [`Discrete::linearization`].
+    fn linearization_with_input(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> Result<Linearization<Self::Scalar, N, M>, StepError> {
+        let by_input = self.momenta_by_input(q0, &((q1 - q0) / h), h);
+        Linearization::with_input(&self.legendre_derivatives(q0, q1, h), &by_input)
+    }
+
+    /// The step with its derivatives by state and input: [`Linearization::of_driven_step`].
+    ///
+    /// # Errors
+    /// Those of [`Discrete::linearized_step`].
+    fn linearized_step_with_input(
+        &self,
+        state: &State<Self::Scalar, N>,
+        h: Self::Scalar,
+        guess: Option<&SVector<Self::Scalar, N>>,
+    ) -> Result<StepWith<Self::Scalar, N, Linearization<Self::Scalar, N, M>>, StepError> {
+        let step = self.step(state, h, guess)?;
+        Ok((step, self.linearization_with_input(&state.q, &step.state.q, h)?))
+    }
 }
 
 /// Derivatives of both momenta of a segment by M quantities other than its configurations, which are held fixed.

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use nalgebra::SVector;
+use nalgebra::SMatrix;
 
 use crate::Scalar;
 
@@ -74,10 +74,10 @@ pub enum StepError {
 }
 
 impl StepError {
-    /// Fails with the first coordinate of `vector` that is not finite.
+    /// Fails with the first coordinate of `vector`, or of a column of several, that is not finite.
     #[inline]
-    pub(crate) fn require_finite<S: Scalar, const N: usize>(
-        vector: &SVector<S, N>,
+    pub(crate) fn require_finite<S: Scalar, const N: usize, const K: usize>(
+        vector: &SMatrix<S, N, K>,
         quantity: Quantity,
     ) -> Result<(), Self> {
         // 0·x is 0 for every finite x and NaN for the others: one pass without a branch.
@@ -89,9 +89,12 @@ impl StepError {
     }
 
     #[cold]
-    fn non_finite<S: Scalar, const N: usize>(vector: &SVector<S, N>, quantity: Quantity) -> Self {
+    fn non_finite<S: Scalar, const N: usize, const K: usize>(
+        vector: &SMatrix<S, N, K>,
+        quantity: Quantity,
+    ) -> Self {
         let index = vector.iter().position(|entry| !entry.is_finite()).unwrap_or(0);
-        Self::NonFinite { quantity, index }
+        Self::NonFinite { quantity, index: index % N }
     }
 }
 

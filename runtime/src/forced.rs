@@ -6,7 +6,7 @@
 
 use nalgebra::SVector;
 
-use crate::lanes::{LaneVector, lane, splat, write_lane};
+use crate::lanes::{LaneVector, Lanes, lane, splat, write_lane};
 use crate::{CovectorDerivatives, Lagrangian, Scalar, linear};
 
 /// The equations of motion at S stages at once.
@@ -23,7 +23,7 @@ pub struct Stages<T, const N: usize, const S: usize> {
 /// A Lagrangian L with the force f_L = −∂R/∂v + f that acts: the terms that the system has, summed.
 ///
 /// `#[rayleigh_system(rule = gauss)]` writes it. By hand, a system without force needs nothing but the `impl`; one with force
-/// sets [`IS_FORCED`](Self::IS_FORCED) and gives f_L and its derivatives.
+/// sets [`IS_FORCED`](Self::IS_FORCED) and gives f_L and its derivatives; one that changes with time, [`IS_TIMED`](Self::IS_TIMED).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` does not say which force acts at its stages",
     label = "no forced Lagrangian",
@@ -32,6 +32,9 @@ pub struct Stages<T, const N: usize, const S: usize> {
 pub trait ForcedLagrangian<const N: usize>: Lagrangian<N> {
     /// Whether there is a force. Without one, f_d and its derivatives are 0 and cost nothing.
     const IS_FORCED: bool = false;
+
+    /// Whether L or the force changes with time, so that [`Lagrangian::later`] is another system. Without it no stage asks.
+    const IS_TIMED: bool = false;
 
     /// f_L(q, v), a covector at q.
     fn acting_force(
@@ -51,20 +54,39 @@ pub trait ForcedLagrangian<const N: usize>: Lagrangian<N> {
         CovectorDerivatives::zero()
     }
 
-    /// The equations of motion at all stages. `momenta` gives the stages' momenta from their rates g.
+    /// The equations of motion at all stages, now. `momenta` gives the stages' momenta from their rates g.
     fn stages<const S: usize>(
         &self,
         q: &LaneVector<Self::Scalar, N, S>,
         v: &LaneVector<Self::Scalar, N, S>,
         momenta: impl FnOnce(&LaneVector<Self::Scalar, N, S>) -> LaneVector<Self::Scalar, N, S>,
-    ) -> Stages<Self::Scalar, N, S> {
-        one_by_one(self, q, v, momenta)
+    ) -> Stages<Self::Scalar, N, S>
+    where
+        Self: Sized,
+    {
+        one_by_one(self, &Lanes::splat(nalgebra::zero()), q, v, momenta)
+    }
+
+    /// The same with every stage at its own time, `elapsed` from now.
+    #[inline(always)]
+    fn stages_in_time<const S: usize>(
+        &self,
+        elapsed: &Lanes<Self::Scalar, S>,
+        q: &LaneVector<Self::Scalar, N, S>,
+        v: &LaneVector<Self::Scalar, N, S>,
+        momenta: impl FnOnce(&LaneVector<Self::Scalar, N, S>) -> LaneVector<Self::Scalar, N, S>,
+    ) -> Stages<Self::Scalar, N, S>
+    where
+        Self: Sized,
+    {
+        if Self::IS_TIMED { one_by_one(self, elapsed, q, v, momenta) } else { self.stages(q, v, momenta) }
     }
 }
 
 /// The stages one after the other.
-fn one_by_one<L: ForcedLagrangian<N> + ?Sized, const N: usize, const S: usize>(
+fn one_by_one<L: ForcedLagrangian<N>, const N: usize, const S: usize>(
     system: &L,
+    elapsed: &Lanes<L::Scalar, S>,
     q: &LaneVector<L::Scalar, N, S>,
     v: &LaneVector<L::Scalar, N, S>,
     momenta: impl FnOnce(&LaneVector<L::Scalar, N, S>) -> LaneVector<L::Scalar, N, S>,
@@ -75,8 +97,10 @@ fn one_by_one<L: ForcedLagrangian<N> + ?Sized, const N: usize, const S: usize>(
     let mut own = zero;
     for (i, mass) in masses.iter_mut().enumerate() {
         let (q, v) = (lane(q, i), lane(v, i));
-        let l = system.lagrangian_derivatives(&q, &v);
-        let force = if L::IS_FORCED { system.acting_force(&q, &v) } else { nalgebra::zero() };
+        let (l, force) = system.later(elapsed.0[i], |system| {
+            let force = if L::IS_FORCED { system.acting_force(&q, &v) } else { nalgebra::zero() };
+            (system.lagrangian_derivatives(&q, &v), force)
+        });
         write_lane(&mut stages.rate, i, &(l.d1 + force));
         write_lane(&mut own, i, &l.d2);
         *mass = l.d22;

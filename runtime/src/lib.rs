@@ -156,7 +156,7 @@ mod attributes {
 /// |---|---|---|
 /// | `midpoint` | [`Midpoint`], order 2, self-adjoint | |
 /// | `trapezoidal` | [`Trapezoidal`], order 2, self-adjoint; explicit where L = ½vᵀMv − V(q) | |
-/// | `gauss` | [`Gauss<S>`](Gauss), order 2S for S = 1…8, self-adjoint; for small errors | no dependence on time |
+/// | `gauss` | [`Gauss<S>`](Gauss), order 2S for S = 1…8, self-adjoint; for small errors | |
 /// | `fitted` | [`Fitted`], order 2, self-adjoint; does not ring under stiff damping | L = ½vᵀMv − V(q) with constant M, linear damping, no force |
 /// | `fitted_trapezoidal` | [`FittedTrapezoidal`], the same made explicit; exact law of phase volume | as `fitted` |
 /// | `one_sided` | [`OneSided`], order 1; for stiff damping that is not linear, such as dry friction | R(v) convex, no force |
@@ -247,7 +247,7 @@ pub use composition::{ComposedTrajectory, Composition};
 pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
 pub use discrete::{
     BoundedStep, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Report, Step,
-    StepKernel,
+    StepKernel, StepWith,
 };
 pub use driven::{DiscreteDriven, Driven, MomentaBy};
 pub use elementary::Elementary;
@@ -258,7 +258,9 @@ pub use forced::{ForcedLagrangian, Stages};
 pub use lanes::{LaneVector, Lanes, Mask};
 pub use linear::{Banded, Factored, FactoredBand, FactoredDense, NewtonMatrix, Singular};
 pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix, StateBy};
-pub use memory::{Explicit, ExplicitMemory, KeptMatrix, Memory, VelocityHistory};
+pub use memory::{
+    DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, KeptMatrix, Memory, VelocityHistory,
+};
 pub use parameters::{DiscreteParameters, GradientBy, Parameters};
 pub use rules::{
     DisplacementRule, Fitted, FittedTrapezoidal, Gauss, JointRayleighRule, JointRule, Midpoint, Node,

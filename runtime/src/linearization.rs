@@ -22,7 +22,11 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::{Discrete, DiscreteDriven, Lagrangian, Momenta, MomentaBy, Scalar, StepError, linear};
+use crate::derivatives::linear;
+use crate::{
+    Derivatives, Discrete, DiscreteDriven, DiscreteForceDerivatives, Lagrangian, Momenta, MomentaBy, Scalar,
+    State, StepError, StepWith, linear,
+};
 
 /// Both momenta of a segment with their derivatives by its two configurations; see the formulas above.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,6 +65,8 @@ pub struct StateBy<S, const N: usize, const M: usize> {
     pub p: SMatrix<S, N, M>,
 }
 
+linear!(StateBy<M> { q, p });
+
 /// The derivatives of one step; M is the number of inputs, 0 where there are none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -78,15 +84,12 @@ impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
     where
         L: Discrete<R, N, Scalar = S>,
     {
-        Self::new::<L, R>(system, q0, q1, h)
+        system.legendre_derivatives(q0, q1, h)
     }
 
-    pub(crate) fn new<L, R>(system: &L, q0: &SVector<S, N>, q1: &SVector<S, N>, h: S) -> Self
-    where
-        L: Discrete<R, N, Scalar = S>,
-    {
-        let l = system.discrete_lagrangian_derivatives(q0, q1, h);
-        let f = system.discrete_force_derivatives(q0, q1, h);
+    /// From the derivatives of L_d and of f_d.
+    #[must_use]
+    pub fn from_terms(l: &Derivatives<S, N>, f: &DiscreteForceDerivatives<S, N>) -> Self {
         Self {
             momenta: Momenta { p0: -l.d1 - f.minus.value, p1: l.d2 + f.plus.value },
             p0_by_q0: -l.d11 - f.minus.d1,
@@ -150,7 +153,44 @@ impl<S: Scalar, const N: usize> Linearization<S, N> {
     where
         L: Discrete<R, N, Scalar = S>,
     {
-        Self::from_legendre(&LegendreDerivatives::new::<L, R>(system, q0, q1, h))
+        system.linearization(q0, q1, h)
+    }
+
+    /// The step from `state` with its step matrix. `guess` is that of [`Discrete::step`].
+    ///
+    /// By [`Gauss`](crate::Gauss) it costs less than [`of_segment`](Self::of_segment), which solves for the stages anew, and
+    /// exists where two ends do not determine a segment.
+    ///
+    /// ```
+    /// use dalembert::nalgebra::vector;
+    /// use dalembert::{Gauss, Linearization, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system(rule = gauss)]
+    /// fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64) -> f64 {
+    ///     0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0]
+    /// }
+    /// let state = State { q: vector![0.3], p: vector![-0.2] };
+    /// let (step, Linearization { a, .. }) =
+    ///     Linearization::of_step(&Oscillator { m: 1.0, k: 1.0 }, Gauss::<4>, &state, 0.5, None)?;
+    /// // The rotation by the angle h, to order 8.
+    /// assert!((a.q_by_q[0] - 0.5_f64.cos()).abs() < 1e-9 && (a.q_by_p[0] - 0.5_f64.sin()).abs() < 1e-9);
+    /// assert!((step.state.q[0] - (a.q_by_q[0] * 0.3 - a.q_by_p[0] * 0.2)).abs() < 1e-15);
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A [`StepError`] of the step, or that its derivative does not exist or is not finite.
+    pub fn of_step<L, R>(
+        system: &L,
+        _rule: R,
+        state: &State<S, N>,
+        h: S,
+        guess: Option<&SVector<S, N>>,
+    ) -> Result<StepWith<S, N, Self>, StepError>
+    where
+        L: Discrete<R, N, Scalar = S>,
+    {
+        system.linearized_step(state, h, guess)
     }
 
     /// The step matrix from the derivatives of both Legendre transforms.
@@ -206,8 +246,24 @@ impl<S: Scalar, const N: usize, const M: usize> Linearization<S, N, M> {
     where
         L: DiscreteDriven<R, N, M, Scalar = S>,
     {
-        let by_input = system.momenta_by_input(q0, &((q1 - q0) / h), h);
-        Self::with_input(&LegendreDerivatives::new::<L, R>(system, q0, q1, h), &by_input)
+        system.linearization_with_input(q0, q1, h)
+    }
+
+    /// The step of the driven system from `state` with A and B; see [`of_step`](Linearization::of_step).
+    ///
+    /// # Errors
+    /// Those of [`of_step`](Linearization::of_step).
+    pub fn of_driven_step<L, R>(
+        system: &L,
+        _rule: R,
+        state: &State<S, N>,
+        h: S,
+        guess: Option<&SVector<S, N>>,
+    ) -> Result<StepWith<S, N, Self>, StepError>
+    where
+        L: DiscreteDriven<R, N, M, Scalar = S>,
+    {
+        system.linearized_step_with_input(state, h, guess)
     }
 
     /// The derivatives of the step from those of both Legendre transforms, and of the momenta by the input.

@@ -1,8 +1,10 @@
 //! What a run of steps keeps from one to the next.
 
+mod drift;
 mod explicit;
 mod kept_matrix;
 
+pub use drift::{DriftMemory, ExplicitDriftMemory};
 pub use explicit::{Explicit, ExplicitMemory};
 pub use kept_matrix::KeptMatrix;
 
@@ -73,7 +75,9 @@ impl<S: Scalar, const N: usize> VelocityHistory<S, N> {
     fn push(&mut self, velocity: SVector<S, N>, h: S) {
         let [a, b, c, _] = self.velocities;
         self.velocities = [velocity, a, b, c];
-        self.known = (self.known + 1).min(4);
+        // Velocities a step apart are known for one step size alone.
+        let known = if h == self.h { self.known } else { self.known.min(1) };
+        self.known = (known + 1).min(4);
         self.h = h;
     }
 
@@ -117,9 +121,6 @@ where
             (Err(_), Some(_)) => system.step(state, h, None),
             (step, _) => step,
         }?;
-        if h != self.h {
-            self.known = self.known.min(1);
-        }
         self.push(step.velocity, h);
         Ok(step)
     }

@@ -18,7 +18,7 @@ use crate::{Report, Scalar, State};
 mod bounded;
 mod rounding;
 pub(crate) use bounded::bounded;
-pub(crate) use rounding::{AT_FLOOR, estimated_floor, held_against};
+pub(crate) use rounding::{AT_FLOOR, PLACES, estimated_floor, held_against};
 use rounding::{STAGNATION, in_units_of, rounding, worst};
 
 /// A root, with both momenta there.
@@ -239,6 +239,8 @@ fn careful<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
             (Err(_), Some(last))
                 if share > S::constant(SHORTEST) && first_non_finite(&residual, &kernel.matrix).is_none() =>
             {
+                // It was no iterate: nothing is corrected from it.
+                damped -= u32::from(share < S::one());
                 share *= S::constant(0.5);
                 trial = last.v - last.correction * share;
                 continue;
@@ -300,7 +302,10 @@ fn stagnated<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         let explained = in_units_of(&residual, &measured) <= S::constant(AT_FLOOR);
         let close = in_units_of(&residual, &estimated) <= S::constant(STAGNATION);
         let (residual, floor) = worst(&residual, if explained { &measured } else { &estimated });
-        let report = Report { iterations, damped, residual, floor, last_correction: last.correction.amax() };
+        let last_correction = last.correction.amax();
+        let report = Report { iterations, damped, residual, floor, last_correction };
+        // A correction that overflows says that the root is not near.
+        let close = close && last_correction.is_finite();
         (explained || close && !explained_only).then_some(Solution { unknown: *v, momenta, report })
     };
     // One component that rounding holds up can hide that the step has brought the others down.
@@ -418,5 +423,28 @@ mod tests {
         assert_eq!(shorter(1.0, 1.0, 1e9), 0.1);
         assert_eq!(shorter(0.5, 1.0, f64::INFINITY), 0.05);
         assert_eq!(shorter(0.5, 1.0, f64::NAN), 0.05);
+    }
+
+    /// Found by fuzzing: a chain of springs with energies of 1e210 took a step that way.
+    #[test]
+    fn a_residual_whose_correction_overflows_has_not_stagnated() {
+        let one = SVector::from([1.0]);
+        let matrix = nalgebra::SMatrix::<f64, 1, 1>::from([[1.0]]);
+        let state = State { q: one, p: one };
+        // A hundred floors off, and no rounding explains it.
+        let off = |_: &SVector<f64, 1>, v: &SVector<f64, 1>| Momenta {
+            p0: v.add_scalar(800.0 * f64::EPSILON),
+            p1: SVector::zeros(),
+        };
+        let found = |correction: f64| {
+            let floor = estimated_floor(&one, &matrix, &one);
+            let residual = off(&one, &one).p0 - one;
+            let correction = SVector::from([correction]);
+            let last = Iterate { v: one, residual, matrix, correction, floor, size: 100.0 };
+            stagnated(&off, &state, &last, (&(one - correction), &matrix, false), [1, 0]).is_some()
+        };
+        assert!(!found(f64::INFINITY));
+        // The control.
+        assert!(found(1e-14));
     }
 }

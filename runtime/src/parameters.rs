@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::derivatives::linear;
-use crate::{Direction, Discrete, Lagrangian, LegendreDerivatives, MomentaBy, Scalar, StateBy, StepError};
+use crate::{Direction, Discrete, Lagrangian, MomentaBy, Scalar, State, StateBy, StepError, StepWith};
 
 /// Derivatives of ∂F/∂q and ∂F/∂v by P parameters, F being L or R.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,6 +77,34 @@ pub trait DiscreteParameters<R, const N: usize, const P: usize>: Discrete<R, N> 
         v: &SVector<Self::Scalar, N>,
         h: Self::Scalar,
     ) -> MomentaBy<Self::Scalar, N, P>;
+
+    /// ∂(q1, p1)/∂θ on the segment (`q0`, `q1`), (q0, p0) held: [`StateBy::of_parameters`].
+    ///
+    /// # Errors
+    /// Those of [`Discrete::linearization`].
+    fn state_by_parameters(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> Result<StateBy<Self::Scalar, N, P>, StepError> {
+        let by_parameters = self.momenta_by_parameters(q0, &((q1 - q0) / h), h);
+        self.legendre_derivatives(q0, q1, h).answer(&by_parameters)
+    }
+
+    /// The step with ∂(q1, p1)/∂θ: [`StateBy::of_step`].
+    ///
+    /// # Errors
+    /// Those of [`Discrete::linearized_step`].
+    fn step_by_parameters(
+        &self,
+        state: &State<Self::Scalar, N>,
+        h: Self::Scalar,
+        guess: Option<&SVector<Self::Scalar, N>>,
+    ) -> Result<StepWith<Self::Scalar, N, StateBy<Self::Scalar, N, P>>, StepError> {
+        let step = self.step(state, h, guess)?;
+        Ok((step, self.state_by_parameters(&state.q, &step.state.q, h)?))
+    }
 }
 
 impl<S: Scalar, const N: usize, const P: usize> StateBy<S, N, P> {
@@ -112,7 +140,23 @@ impl<S: Scalar, const N: usize, const P: usize> StateBy<S, N, P> {
     where
         L: DiscreteParameters<R, N, P, Scalar = S>,
     {
-        let by_parameters = system.momenta_by_parameters(q0, &((q1 - q0) / h), h);
-        LegendreDerivatives::new::<L, R>(system, q0, q1, h).answer(&by_parameters)
+        system.state_by_parameters(q0, q1, h)
+    }
+
+    /// The step from `state` with ∂(q1, p1)/∂θ; see [`Linearization::of_step`](crate::Linearization::of_step).
+    ///
+    /// # Errors
+    /// A [`StepError`] of the step, or that its derivative does not exist or is not finite.
+    pub fn of_step<L, R>(
+        system: &L,
+        _rule: R,
+        state: &State<S, N>,
+        h: S,
+        guess: Option<&SVector<S, N>>,
+    ) -> Result<StepWith<S, N, Self>, StepError>
+    where
+        L: DiscreteParameters<R, N, P, Scalar = S>,
+    {
+        system.step_by_parameters(state, h, guess)
     }
 }

@@ -14,10 +14,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::derivatives::{linear, second_along};
-use crate::{
-    Direction, Discrete, Lagrangian, LegendreDerivatives, Linearization, MomentaBy, PhaseMatrix, Scalar,
-    State, StepError,
-};
+use crate::{Direction, Discrete, Lagrangian, Scalar, State, StepError, StepWith, linearization};
 
 /// Second derivatives of a function of (x, y, u), x and y ∈ ℝᴺ, u ∈ ℝᴹ.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,6 +93,18 @@ pub trait SecondOrder<const N: usize, const M: usize>: Lagrangian<N> {
     ) -> Hessian<Self::Scalar, N, M> {
         Hessian::zero()
     }
+
+    /// ∂f/∂u at (q, v), shape N×M, for rules with interior points: [`Driven::force_by_input`](crate::Driven::force_by_input)
+    /// where there is an input.
+    #[inline]
+    fn force_slope_by_input(
+        &self,
+        _q: &SVector<Self::Scalar, N>,
+        _v: &SVector<Self::Scalar, N>,
+    ) -> SMatrix<Self::Scalar, N, M> {
+        const { assert!(M == 0, "a system with an input has `Driven::force_by_input(self, q, v)` here") };
+        SMatrix::zeros()
+    }
 }
 
 /// Second derivatives of both momenta of a segment by rule `R`.
@@ -114,6 +123,58 @@ pub trait DiscreteSecondOrder<R, const N: usize, const M: usize>: Discrete<R, N>
         at_start: &SVector<Self::Scalar, N>,
         at_end: &SVector<Self::Scalar, N>,
     ) -> Hessian<Self::Scalar, N, M>;
+
+    /// Second derivatives of the step on the segment (`q0`, `q1`): [`StepHessian::of_segment`]. `p0_by_input` is ∂p0/∂u at
+    /// fixed ends, for rules that ask for it.
+    ///
+    /// # Errors
+    /// Those of [`Discrete::linearization`].
+    fn step_hessian(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+        covector: &State<Self::Scalar, N>,
+        p0_by_input: impl FnOnce() -> SMatrix<Self::Scalar, N, M>,
+    ) -> Result<StepHessian<Self::Scalar, N, M>, StepError> {
+        let k = self.legendre_derivatives(q0, q1, h);
+        // ∂q1/∂p0, ∂q1/∂q0, ∂q1/∂u.
+        let by_p = linearization::inverse(&k.p0_by_q1)?;
+        let by_q = -(by_p * k.p0_by_q0);
+        let by_u = -(by_p * p0_by_input());
+        let at_start = -(by_p.transpose() * (covector.q + k.p1_by_q1.transpose() * covector.p));
+        let phi = self.momenta_along(q0, &((q1 - q0) / h), h, &at_start, &covector.p);
+        let Hessian { d11, d12, d22, d1u, d2u, duu } = phi;
+        // ∂²Φ/∂q1∂z with q1 carried along.
+        let carried_u = d2u + d22 * by_u;
+        let carried_q = d12.transpose() + d22 * by_q;
+        Ok(StepHessian {
+            qq: d11 + d12 * by_q + by_q.transpose() * carried_q,
+            qp: carried_q.transpose() * by_p,
+            pp: by_p.transpose() * d22 * by_p,
+            qu: d1u + d12 * by_u + by_q.transpose() * carried_u,
+            pu: by_p.transpose() * carried_u,
+            uu: duu + d2u.transpose() * by_u + by_u.transpose() * carried_u,
+        })
+    }
+
+    /// The step with its second derivatives: [`StepHessian::of_step`]. `p0_by_input` is ∂p0/∂u at fixed ends, given q1, for
+    /// rules that ask for it.
+    ///
+    /// # Errors
+    /// Those of [`Discrete::linearized_step`].
+    fn step_with_hessian(
+        &self,
+        state: &State<Self::Scalar, N>,
+        h: Self::Scalar,
+        guess: Option<&SVector<Self::Scalar, N>>,
+        covector: &State<Self::Scalar, N>,
+        p0_by_input: impl FnOnce(&SVector<Self::Scalar, N>) -> SMatrix<Self::Scalar, N, M>,
+    ) -> Result<StepWith<Self::Scalar, N, StepHessian<Self::Scalar, N, M>>, StepError> {
+        let step = self.step(state, h, guess)?;
+        let q1 = &step.state.q;
+        Ok((step, self.step_hessian(&state.q, q1, h, covector, || p0_by_input(q1))?))
+    }
 }
 
 /// Second derivatives of λ·(q1, p1) by (q0, p0, u); the formula stands above.
@@ -164,7 +225,25 @@ impl<S: Scalar, const N: usize> StepHessian<S, N, 0> {
     where
         L: DiscreteSecondOrder<R, N, 0, Scalar = S>,
     {
-        Self::new::<L, R>(system, q0, q1, h, covector, &MomentaBy::zero())
+        system.step_hessian(q0, q1, h, covector, SMatrix::zeros)
+    }
+
+    /// The step from `state` with its second derivatives; see [`Linearization::of_step`](crate::Linearization::of_step).
+    ///
+    /// # Errors
+    /// A [`StepError`] of the step, or that its derivative does not exist or is not finite.
+    pub fn of_step<L, R>(
+        system: &L,
+        _rule: R,
+        state: &State<S, N>,
+        h: S,
+        guess: Option<&SVector<S, N>>,
+        covector: &State<S, N>,
+    ) -> Result<StepWith<S, N, Self>, StepError>
+    where
+        L: DiscreteSecondOrder<R, N, 0, Scalar = S>,
+    {
+        system.step_with_hessian(state, h, guess, covector, |_| SMatrix::zeros())
     }
 }
 
@@ -184,39 +263,25 @@ impl<S: Scalar, const N: usize, const M: usize> StepHessian<S, N, M> {
     where
         L: DiscreteSecondOrder<R, N, M, Scalar = S> + crate::DiscreteDriven<R, N, M>,
     {
-        let by_input = system.momenta_by_input(q0, &((q1 - q0) / h), h);
-        Self::new::<L, R>(system, q0, q1, h, covector, &by_input)
+        system.step_hessian(q0, q1, h, covector, || system.momenta_by_input(q0, &((q1 - q0) / h), h).p0)
     }
 
-    /// With the momenta by u at hand.
-    fn new<L, R>(
+    /// [`of_step`](StepHessian::of_step) for a system with its input held, by the input as well.
+    ///
+    /// # Errors
+    /// Those of [`of_step`](StepHessian::of_step).
+    pub fn of_driven_step<L, R>(
         system: &L,
-        q0: &SVector<S, N>,
-        q1: &SVector<S, N>,
+        _rule: R,
+        state: &State<S, N>,
         h: S,
+        guess: Option<&SVector<S, N>>,
         covector: &State<S, N>,
-        by_input: &MomentaBy<S, N, M>,
-    ) -> Result<Self, StepError>
+    ) -> Result<StepWith<S, N, Self>, StepError>
     where
-        L: DiscreteSecondOrder<R, N, M, Scalar = S>,
+        L: DiscreteSecondOrder<R, N, M, Scalar = S> + crate::DiscreteDriven<R, N, M>,
     {
-        let k = LegendreDerivatives::new::<L, R>(system, q0, q1, h);
-        let Linearization { a: PhaseMatrix { q_by_p: by_p, q_by_q: by_q, .. }, b } =
-            Linearization::with_input(&k, by_input)?;
-        let by_u = b.q;
-        let at_start = -(by_p.transpose() * (covector.q + k.p1_by_q1.transpose() * covector.p));
-        let phi = system.momenta_along(q0, &((q1 - q0) / h), h, &at_start, &covector.p);
-        let Hessian { d11, d12, d22, d1u, d2u, duu } = phi;
-        // ∂²Φ/∂q1∂z with q1 carried along.
-        let carried_u = d2u + d22 * by_u;
-        let carried_q = d12.transpose() + d22 * by_q;
-        Ok(Self {
-            qq: d11 + d12 * by_q + by_q.transpose() * carried_q,
-            qp: carried_q.transpose() * by_p,
-            pp: by_p.transpose() * d22 * by_p,
-            qu: d1u + d12 * by_u + by_q.transpose() * carried_u,
-            pu: by_p.transpose() * carried_u,
-            uu: duu + d2u.transpose() * by_u + by_u.transpose() * carried_u,
-        })
+        let by_input = |q1: &SVector<S, N>| system.momenta_by_input(&state.q, &((q1 - state.q) / h), h).p0;
+        system.step_with_hessian(state, h, guess, covector, by_input)
     }
 }

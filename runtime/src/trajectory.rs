@@ -71,7 +71,8 @@ where
 
     /// All that is needed to go on from here, in this process or another ([`Trajectory::resume`]).
     ///
-    /// The run forgets what its rule remembers of earlier steps, as one that is resumed has to: both go on bit by bit alike.
+    /// The run forgets what its rule remembers of earlier steps, as one that is resumed has to: both go on bit by bit alike. A rule
+    /// that adds up with compensation ([`Gauss`](crate::Gauss)) loses the rest at this one place, less than the last digit.
     pub fn checkpoint(&mut self) -> Checkpoint<L::Scalar, N> {
         self.memory = L::Memory::default();
         Checkpoint { state: self.state, step_size: self.h, origin: self.origin, steps: self.steps }

@@ -17,7 +17,7 @@ pub use dissipative::{
     Block, Cancelling, CubicDrag, DampedMass, Oscillator, Overflowing, VanDerPol, block, cancelling,
     cubic_drag, damped_mass, oscillator, overflowing, van_der_pol,
 };
-pub use drive::{Effort, Progress, drive};
+pub use drive::{Effort, Progress, drive, drive_composed};
 pub use gyroscopic::{UniformField, uniform_field};
 pub use kepler::{Kepler, kepler};
 pub use scales::{Scaled, UNITS};

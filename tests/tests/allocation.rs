@@ -3,8 +3,8 @@
 use allocation_counter::measure;
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::{
-    Discrete, Linearization, Midpoint, State, StateBy, StepError, StepHessian, Trajectory, Trapezoidal,
-    rayleigh_system,
+    Discrete, Gauss, Linearization, Midpoint, State, StateBy, StepError, StepHessian, Trajectory,
+    Trapezoidal, rayleigh_system,
 };
 use dalembert_tests::systems::{Chain, Charge, DoublePendulum};
 
@@ -61,7 +61,7 @@ struct Motor {
     c: f64,
 }
 
-#[rayleigh_system(parameters = c, step_derivatives = second)]
+#[rayleigh_system(rule = [midpoint, gauss], parameters = c, step_derivatives = second)]
 impl Motor {
     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
         0.5 * v[0] * v[0] + q[0].cos()
@@ -78,10 +78,18 @@ fn none_in_the_derivatives_of_a_step() {
     let state = State::from_velocity(&motor, [1.1], [0.3]).unwrap();
     assert_no_allocation(|| {
         let driven = motor.driven([0.4], 0.2);
-        let end = driven.step(&state, 0.1, None).unwrap().state;
+        let end = Discrete::<Midpoint, 1>::step(&driven, &state, 0.1, None).unwrap().state;
         Linearization::of_driven_segment(&driven, Midpoint, &state.q, &end.q, 0.1).unwrap();
         StateBy::of_parameters(&driven, Midpoint, &state.q, &end.q, 0.1).unwrap();
         StepHessian::of_driven_segment(&driven, Midpoint, &state.q, &end.q, 0.1, &state).unwrap();
+        let (step, _) = Linearization::of_driven_step(&driven, Gauss::<3>, &state, 0.1, None).unwrap();
+        let end = step.state;
+        Linearization::of_driven_segment(&driven, Gauss::<3>, &state.q, &end.q, 0.1).unwrap();
+        StateBy::of_parameters(&driven, Gauss::<3>, &state.q, &end.q, 0.1).unwrap();
+        StepHessian::of_driven_segment(&driven, Gauss::<3>, &state.q, &end.q, 0.1, &state).unwrap();
+        // Nor where there is none to be found.
+        let nowhere = vector![f64::INFINITY];
+        Linearization::of_driven_segment(&driven, Gauss::<3>, &state.q, &nowhere, 0.1).unwrap_err();
     });
 }
 

@@ -13,7 +13,7 @@ macro_rules! systems {
             pub c: [f64; 2],
         }
 
-        #[rayleigh_system(rule = [midpoint, trapezoidal], derivatives = $engine)]
+        #[rayleigh_system(rule = [midpoint, trapezoidal, gauss], derivatives = $engine)]
         impl CartPole {
             fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
                 let [cart, pole] = self.m;
@@ -37,7 +37,7 @@ macro_rules! systems {
             pub k: f64,
         }
 
-        #[rayleigh_system(rule = [midpoint, trapezoidal], derivatives = $engine)]
+        #[rayleigh_system(rule = [midpoint, trapezoidal, gauss], derivatives = $engine)]
         impl Storm {
             const M: usize = 3;
             const GUST: f64 = 0.3;
@@ -67,7 +67,7 @@ macro_rules! systems {
             pub r: f64,
         }
 
-        #[rayleigh_system(rule = [midpoint, trapezoidal], derivatives = $engine)]
+        #[rayleigh_system(rule = [midpoint, trapezoidal, gauss], derivatives = $engine)]
         impl Worn {
             fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
                 0.5 * v[0] * v[0] + q[0].cos()
@@ -83,7 +83,7 @@ macro_rules! systems {
             pub omega: f32,
         }
 
-        #[rayleigh_system(rule = [midpoint, trapezoidal], derivatives = $engine)]
+        #[rayleigh_system(rule = [midpoint, trapezoidal, gauss], derivatives = $engine)]
         impl Shaken {
             fn lagrangian(&self, q: [f32; 1], v: [f32; 1]) -> f32 {
                 0.5 * v[0] * v[0] + q[0].cos()
@@ -99,7 +99,7 @@ macro_rules! systems {
             pub m: f32,
         }
 
-        #[rayleigh_system(rule = [midpoint, trapezoidal], derivatives = $engine)]
+        #[rayleigh_system(rule = [midpoint, trapezoidal, gauss], derivatives = $engine)]
         impl Pushed {
             fn lagrangian(&self, q: [f32; 1], v: [f32; 1]) -> f32 {
                 0.5 * self.m * v[0] * v[0] + q[0].cos()
@@ -113,7 +113,7 @@ macro_rules! systems {
         /// A free particle under a force that is a function of time: its momentum is a quadrature.
         pub struct Falling;
 
-        #[rayleigh_system(rule = [midpoint, trapezoidal], derivatives = $engine)]
+        #[rayleigh_system(rule = [midpoint, trapezoidal, gauss], derivatives = $engine)]
         impl Falling {
             fn lagrangian(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
                 0.5 * v[0] * v[0] + q[0] * t.exp()
@@ -138,8 +138,9 @@ mod num_dual {
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::{
-    Composition, Direction, Discrete, DiscreteDriven, DiscreteRayleigh, EnergyLedger, Force, Lagrangian,
-    Midpoint, NewtonMatrix, Rayleigh, Scalar, State, Trajectory, Trapezoidal,
+    Composition, Direction, Discrete, DiscreteDriven, DiscreteRayleigh, EnergyLedger, Force,
+    ForcedLagrangian, Gauss, Lagrangian, Lanes, Midpoint, NewtonMatrix, Rayleigh, Scalar, State, Trajectory,
+    Trapezoidal,
 };
 
 /// The largest difference seen, in units of 64 roundings of the largest entry.
@@ -277,6 +278,25 @@ fn every_node_sees_its_own_time() {
     ] {
         assert!((found - expected).abs() < 4e-16, "{found} {expected}");
     }
+    // Nodes and weights of Gauss and Legendre on [0, 1], from tables: ½ ∓ √3/6, ½ ∓ √15/10.
+    let (two, three) = (3.0_f64.sqrt() / 6.0, 15.0_f64.sqrt() / 10.0);
+    let two = h / 2.0 * (acceleration(t + h * (0.5 - two)) + acceleration(t + h * (0.5 + two)));
+    let outer = acceleration(t + h * (0.5 - three)) + acceleration(t + h * (0.5 + three));
+    let three = h / 18.0 * (5.0 * outer + 8.0 * acceleration(t + h / 2.0));
+    for (found, expected) in [
+        (impulse::<Gauss<1>, _>(&a, &state, h), midpoint),
+        (impulse::<Gauss<1>, _>(&b, &state, h), midpoint),
+        (impulse::<Gauss<2>, _>(&a, &state, h), two),
+        (impulse::<Gauss<2>, _>(&b, &state, h), two),
+        (impulse::<Gauss<3>, _>(&a, &state, h), three),
+        (impulse::<Gauss<3>, _>(&b, &state, h), three),
+    ] {
+        assert!((found - expected).abs() < 4e-16, "{found} {expected}");
+    }
+    // By the eighth, the integral itself.
+    let integral = (t + h).exp() - t.exp() + (t + h).sin() - t.sin() + u * h;
+    assert!((impulse::<Gauss<8>, _>(&a, &state, h) - integral).abs() < 4e-16);
+    assert!((two - midpoint).abs() > 1e-4 && (two - three).abs() > 1e-8, "positive control");
     // Positive control: the start's time for all nodes, or that of the other rule, is another number.
     assert!((h * acceleration(t) - midpoint).abs() > 1e-2 && (midpoint - trapezoidal).abs() > 1e-3);
 }
@@ -355,6 +375,77 @@ fn a_trajectory_carries_the_time_on() {
         assert!((order - 2.0).abs() < 0.05, "{order}: {coarse} {fine}");
         assert!(fine < 1e-4);
     }
+}
+
+/// Order 2S along a trajectory in time.
+#[test]
+fn gauss_rules_keep_their_order_in_time() {
+    let system = expanded::Storm { k: 0.4 };
+    let (u, t0, end) = ([0.5, -1.2, 0.8], 0.3, 1.8);
+    let (q, v) = (vector![0.4, -0.3], vector![0.2, 0.5]);
+    let exact = reference(&system, u, t0, q, v, end);
+    let view = system.driven(u, t0);
+    let start = State::from_velocity(&view, q, v).unwrap();
+    fn error<const S: usize>(
+        view: &impl Discrete<Gauss<S>, 2, Scalar = f64>,
+        steps: u32,
+        start: State<f64, 2>,
+        exact: SVector<f64, 2>,
+    ) -> f64 {
+        (end_of_trajectory(view, Gauss::<S>, steps, start, 1.5) - exact).amax()
+    }
+    for (order, coarse, fine) in [
+        (2.0, error::<1>(&view, 60, start, exact), error::<1>(&view, 120, start, exact)),
+        (4.0, error::<2>(&view, 24, start, exact), error::<2>(&view, 48, start, exact)),
+        (6.0, error::<3>(&view, 12, start, exact), error::<3>(&view, 24, start, exact)),
+    ] {
+        let found = (coarse / fine).log2();
+        assert!((found - order).abs() < 0.15, "{order}: {found}, {coarse:e} {fine:e}");
+        assert!(fine < 1e-4 && fine > 1e-11);
+    }
+    // By num-dual the same steps.
+    let oracle = num_dual::Storm { k: 0.4 };
+    let other = end_of_trajectory(&oracle.driven(u, t0), Gauss::<3>, 24, start, end - t0);
+    let one = end_of_trajectory(&view, Gauss::<3>, 24, start, end - t0);
+    assert!((one - other).amax() < 1e-14, "{one}{other}");
+    // Positive control: with its time held, the system moves elsewhere.
+    let (mut held, h) = (start, (end - t0) / 24.0);
+    for _ in 0..24 {
+        held = Discrete::<Gauss<3>, 2>::step(&view, &held, h, None).unwrap().state;
+    }
+    assert!((held.q - one).amax() > 1e-3);
+}
+
+/// Stages in lanes, each at its own time, are those that num-dual gives one by one; in both precisions, with inputs.
+#[test]
+fn stages_see_their_own_time_in_both_engines() {
+    let elapsed = Lanes([0.0, 0.05, 0.2]);
+    let (q, v) = (
+        [Lanes([0.3, -0.4, 0.1]), Lanes([-0.8, 0.2, 0.6])],
+        [Lanes([0.5, 0.9, -0.7]), Lanes([1.1, -0.3, 0.4])],
+    );
+    let momenta = |rate: &[Lanes<f64, 3>; 2]| [rate[0] * 0.1 + 0.3, rate[1] * 0.2 - 0.4];
+    for valve in [0.8, -0.8] {
+        let u = [0.5, -1.2, valve];
+        let (a, b) = (expanded::Storm { k: 0.4 }, num_dual::Storm { k: 0.4 });
+        let of = |t: f64| a.driven(u, t).stages_in_time(&elapsed, &q, &v, momenta);
+        let (a, b) = (of(0.6), b.driven(u, 0.6).stages_in_time(&elapsed, &q, &v, momenta));
+        for (a, b) in [(a.rate, b.rate), (a.residual, b.residual), (a.correction, b.correction)] {
+            for (a, b) in a.iter().flat_map(|a| a.0).zip(b.iter().flat_map(|b| b.0)) {
+                assert!((a - b).abs() < 4e-15 * (1.0 + b.abs()), "{a} {b}");
+            }
+        }
+        assert!((of(0.6 + 1e-9).rate[0].0[1] - a.rate[0].0[1]).abs() > 1e-12, "positive control");
+    }
+    let state = State { q: vector![0.4_f32], p: vector![-0.3] };
+    let (a, b) = (expanded::Pushed { m: 1.5 }, num_dual::Pushed { m: 1.5 });
+    let a = Discrete::<Gauss<3>, 1>::step(&a.driven([0.3, 0.2]), &state, 0.1, None).unwrap().state;
+    let b = Discrete::<Gauss<3>, 1>::step(&b.driven([0.3, 0.2]), &state, 0.1, None).unwrap().state;
+    assert!((a.q - b.q).amax() < 1e-6 && (a.p - b.p).amax() < 1e-6);
+    let (a, b) = (expanded::Shaken { omega: 3.0 }, num_dual::Shaken { omega: 3.0 });
+    let a = Discrete::<Gauss<3>, 1>::step(&a.at_time(0.6), &state, 0.1, None).unwrap().state;
+    let b = Discrete::<Gauss<3>, 1>::step(&b.at_time(0.6), &state, 0.1, None).unwrap().state;
+    assert!((a.q - b.q).amax() < 1e-6 && (a.p - b.p).amax() < 1e-6);
 }
 
 /// Order 6 by a composition, each substep of which has its own time; one that forgot it would have order 0.

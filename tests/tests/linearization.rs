@@ -1,8 +1,10 @@
 //! The step matrix is exact: against central differences of the step, by its determinant, and by what the force makes of
-//! the symplectic form, for both rules, a general force and a mass and a Rayleigh function that depend on q.
+//! the symplectic form, for all rules, a general force and a mass and a Rayleigh function that depend on q.
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
-use dalembert::{Discrete, DiscreteRayleigh, Linearization, Midpoint, State, Trapezoidal, rayleigh_system};
+use dalembert::{
+    Discrete, DiscreteRayleigh, Gauss, Linearization, Midpoint, State, Trapezoidal, rayleigh_system,
+};
 
 /// Nonlinear in everything; `curl` is the strength of a force that is not Rayleigh.
 struct Tangle {
@@ -10,7 +12,7 @@ struct Tangle {
     curl: f64,
 }
 
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 impl Tangle {
     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
         let mass = 1.3 + 0.4 * q[0].sin();
@@ -86,6 +88,10 @@ fn it_is_the_derivative_of_the_step() {
     for system in [Tangle { friction: 0.6, curl: 0.8 }, Tangle { friction: 0.0, curl: 0.0 }] {
         check_against_differences(&system, Midpoint);
         check_against_differences(&system, Trapezoidal);
+        check_against_differences(&system, Gauss::<1>);
+        check_against_differences(&system, Gauss::<2>);
+        check_against_differences(&system, Gauss::<3>);
+        check_against_differences(&system, Gauss::<8>);
     }
 }
 

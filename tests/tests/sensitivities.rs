@@ -1,5 +1,5 @@
 //! Derivatives of the step by its input, by parameters and twice: against central differences, closed forms, the other
-//! engine and the identities of the step matrix, for both rules, with friction, time and inputs that act nonlinearly.
+//! engine and the identities of the step matrix, for all rules, with friction, time and inputs that act nonlinearly.
 
 /// The systems, with the options named.
 macro_rules! systems {
@@ -15,7 +15,7 @@ macro_rules! systems {
             pub c: [f64; 2],
         }
 
-        #[rayleigh_system(rule = [midpoint, trapezoidal], step_derivatives = second, $($options)*)]
+        #[rayleigh_system(rule = [midpoint, trapezoidal, gauss], step_derivatives = second, $($options)*)]
         impl CartPole {
             fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
                 let [cart, pole] = self.m;
@@ -48,7 +48,7 @@ mod num_dual {
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::{
-    Discrete, DiscreteDriven, DiscreteParameters, DiscreteRayleigh, DiscreteSecondOrder, Lagrangian,
+    Discrete, DiscreteDriven, DiscreteParameters, DiscreteRayleigh, DiscreteSecondOrder, Gauss, Lagrangian,
     Linearization, Midpoint, Parameters, PhaseMatrix, Rayleigh, SecondOrder, State, StateBy, StepHessian,
     Trapezoidal, rayleigh_system,
 };
@@ -123,6 +123,9 @@ where
 fn a_and_b_are_the_derivatives_of_the_step() {
     check_first(Midpoint);
     check_first(Trapezoidal);
+    check_first(Gauss::<1>);
+    check_first(Gauss::<2>);
+    check_first(Gauss::<4>);
 }
 
 fn check_second<R: Copy>(rule: R)
@@ -169,6 +172,9 @@ fn assembled(h: &StepHessian<f64, 2, 2>) -> SMatrix<f64, 6, 6> {
 fn second_derivatives_are_those_of_a_and_b() {
     check_second(Midpoint);
     check_second(Trapezoidal);
+    check_second(Gauss::<1>);
+    check_second(Gauss::<2>);
+    check_second(Gauss::<4>);
 }
 
 fn check_engines<R: Copy>(rule: R)
@@ -202,6 +208,9 @@ where
 fn the_engines_agree() {
     check_engines(Midpoint);
     check_engines(Trapezoidal);
+    check_engines(Gauss::<1>);
+    check_engines(Gauss::<2>);
+    check_engines(Gauss::<4>);
     // The contracted Hessians themselves.
     let CartPole { m, l, g, c } = CART;
     let oracle = num_dual::CartPole { m, l, g, c };
@@ -252,6 +261,9 @@ where
 fn parameters_move_the_step_as_differences_say() {
     check_parameters(Midpoint);
     check_parameters(Trapezoidal);
+    check_parameters(Gauss::<1>);
+    check_parameters(Gauss::<2>);
+    check_parameters(Gauss::<4>);
     assert_eq!(<expanded::DrivenCartPole as Parameters<2, 4>>::PARAMETERS, ["m[1]", "l", "c[0]", "c[1]"]);
 }
 

@@ -44,4 +44,24 @@ impl Pushed {
     }
 }
 
+struct Worn {
+    r: f64,
+}
+
+#[rayleigh_system(rule = [gauss, one_sided])]
+impl Worn {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
+        0.5 * v[0] * v[0] - q[0] * t
+    }
+
+    fn rayleigh(&self, v: [f64; 1]) -> f64 {
+        self.r * v[0] * v[0]
+    }
+}
+
+#[rayleigh_system(rule = [gauss, fitted], parameters = r)]
+fn tuned(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    (0.5 * v[0] * v[0] - q[0] * q[0], r * v[0] * v[0])
+}
+
 fn main() {}

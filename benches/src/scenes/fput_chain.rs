@@ -1,6 +1,6 @@
-/// The Fermi–Pasta–Ulam–Tsingou β-chain of 8 unit masses between walls, with drag.
+/// The Fermi–Pasta–Ulam–Tsingou β-chain of unit masses between walls, with drag.
 macro_rules! fput_chain {
-    ($engine:ident) => {
+    ($engine:ident, $n:tt) => {
         /// Springs of potential d²/2 + β d⁴/4.
         pub struct FputChain {
             /// Strength of the quartic term.
@@ -11,19 +11,19 @@ macro_rules! fput_chain {
 
         #[rayleigh_system(derivatives = $engine)]
         impl FputChain {
-            fn lagrangian(&self, q: [f64; 8], v: [f64; 8]) -> f64 {
+            fn lagrangian(&self, q: [f64; $n], v: [f64; $n]) -> f64 {
                 let mut energy = 0.0;
                 for v in &v {
                     energy += 0.5 * v * v;
                 }
-                energy -= Self::spring(self.beta, q[0]) + Self::spring(self.beta, q[7]);
-                for i in 1..8 {
+                energy -= Self::spring(self.beta, q[0]) + Self::spring(self.beta, q[$n - 1]);
+                for i in 1..$n {
                     energy -= Self::spring(self.beta, q[i] - q[i - 1]);
                 }
                 energy
             }
 
-            fn rayleigh(&self, v: [f64; 8]) -> f64 {
+            fn rayleigh(&self, v: [f64; $n]) -> f64 {
                 0.5 * self.drag * v.iter().map(|v| v * v).sum::<f64>()
             }
 

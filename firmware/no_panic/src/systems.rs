@@ -1,9 +1,11 @@
-//! Chains of n coordinates: with full mass matrices that depend on q, and with coupling of neighbours alone, whose Newton
-//! matrices are banded.
+//! Chains of n coordinates: with full mass matrices that depend on q; with coupling of neighbours alone, whose Newton
+//! matrices are banded; and with linear damping, for the rules fitted to it.
 
 use core::hint::black_box;
 
-use dalembert::{Discrete, Midpoint, State, Trajectory, Trapezoidal, rayleigh_system};
+use dalembert::{
+    Discrete, Fitted, FittedTrapezoidal, Midpoint, OneSided, State, Trajectory, Trapezoidal, rayleigh_system,
+};
 
 macro_rules! chains {
     ($($name:ident $n:literal $float:ident)*) => {
@@ -56,12 +58,17 @@ macro_rules! chains {
                         let guess = Some(&step.velocity);
                         Discrete::<Midpoint, $n>::step_configurations(&system, &start.q, &step.state.q, h, guess)
                     });
+                    let bounded = Discrete::<Midpoint, $n>::step_within(&system, &start, h, None, 3);
+                    let condition = midpoint.map(|step| step.certificate(&system, Midpoint, &start, h).is_err());
                     let mut trajectory = Trajectory::new(&system, Midpoint, h, start);
                     let steps = trajectory.by_ref().take(3).filter(Result::is_err).count();
+                    black_box(&bounded);
                     black_box((&midpoint, &trapezoidal, &by_configurations, trajectory.state()));
                     i32::from(midpoint.is_err())
                         + i32::from(trapezoidal.is_err())
                         + i32::from(by_configurations.is_err())
+                        + i32::from(bounded.is_err())
+                        + i32::from(condition != Ok(false))
                         + steps as i32
                 }
             }
@@ -133,7 +140,73 @@ bands! {
     SingleBand4 4 f32 SingleBand5 5 f32 SingleBand6 6 f32 SingleBand7 7 f32 SingleBand8 8 f32
 }
 
+macro_rules! damped {
+    ($($name:ident $n:literal $float:ident)*) => {
+        $(
+            /// Masses that are coupled, on hardening springs, with damping that is no multiple of the mass.
+            struct $name {
+                mass: $float,
+                friction: $float,
+            }
+
+            #[rayleigh_system(derivatives = expanded, rule = [fitted, fitted_trapezoidal, one_sided])]
+            impl $name {
+                fn lagrangian(&self, q: [$float; $n], v: [$float; $n]) -> $float {
+                    let total: $float = v.iter().sum();
+                    let mut energy = 0.05 * self.mass * total * total;
+                    for i in 0..$n {
+                        energy += 0.5 * self.mass * v[i] * v[i] - 0.5 * q[i] * q[i] - 0.25 * q[i].powi(4);
+                    }
+                    energy
+                }
+
+                fn rayleigh(&self, v: [$float; $n]) -> $float {
+                    let ends = v[0] - v[$n - 1];
+                    0.5 * self.friction * (v[0] * v[0] + ends * ends)
+                }
+            }
+
+            impl $name {
+                /// How many ways of stepping fail.
+                fn failures() -> i32 {
+                    let system = black_box(Self { mass: 1.3, friction: 0.7 });
+                    let h = black_box(0.01);
+                    let Ok(start) = State::from_velocity(&system, black_box([0.1; $n]), black_box([0.2; $n])) else {
+                        return 1;
+                    };
+                    let guess = Some(start.p);
+                    let single = [
+                        Discrete::<Fitted, $n>::step(&system, &start, h, guess.as_ref()),
+                        Discrete::<FittedTrapezoidal, $n>::step(&system, &start, h, None),
+                        Discrete::<OneSided, $n>::step(&system, &start, h, None),
+                    ];
+                    let bounded = Discrete::<Fitted, $n>::step_within(&system, &start, h, None, 3);
+                    let mut fitted = Trajectory::new(&system, Fitted, h, start);
+                    let mut explicit = Trajectory::new(&system, FittedTrapezoidal, h, start);
+                    let steps = fitted.by_ref().take(3).chain(explicit.by_ref().take(3)).filter(Result::is_err).count();
+                    black_box((&single, &bounded, fitted.state(), explicit.state()));
+                    single.iter().filter(|step| step.is_err()).count() as i32
+                        + i32::from(bounded.is_err())
+                        + steps as i32
+                }
+            }
+        )*
+
+        /// How many ways of stepping fail, of these systems.
+        fn step_damped() -> i32 {
+            0 $(+ $name::failures())*
+        }
+    };
+}
+
+damped! {
+    DoubleDamped1 1 f64 DoubleDamped2 2 f64 DoubleDamped3 3 f64 DoubleDamped4 4 f64
+    DoubleDamped5 5 f64 DoubleDamped6 6 f64 DoubleDamped7 7 f64 DoubleDamped8 8 f64
+    SingleDamped1 1 f32 SingleDamped2 2 f32 SingleDamped3 3 f32 SingleDamped4 4 f32
+    SingleDamped5 5 f32 SingleDamped6 6 f32 SingleDamped7 7 f32 SingleDamped8 8 f32
+}
+
 /// How many ways of stepping fail, of all systems.
 pub fn step_all() -> i32 {
-    step_full() + step_bands()
+    step_full() + step_bands() + step_damped()
 }

@@ -51,8 +51,6 @@ pub struct Options {
     pub rules: Rules,
     /// Those of them that take L and R together, where they stand.
     pub joint: Vec<(Ident, Rule)>,
-    /// Where `gauss` stands.
-    pub gauss: Option<Ident>,
     /// Whichever can, unless said.
     pub engine: Engine,
     /// Fields that the step is differentiated by.
@@ -66,7 +64,6 @@ pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) ->
     let mut options = Options {
         rules: Rules::default(),
         joint: Vec::new(),
-        gauss: None,
         engine: Engine::Auto,
         parameters: Vec::new(),
         second: false,
@@ -158,7 +155,6 @@ fn rules(name: &Ident, values: Vec<Ident>, options: &mut Options, report: &mut R
                     report.at(&value, Mistake::RepeatedRule(value.to_string()));
                 }
                 options.rules.gauss = true;
-                options.gauss = Some(value);
                 continue;
             }
             "fitted" => Rule::Fitted,

@@ -56,7 +56,7 @@ pub fn straight_line(
     written(graph, scalar, outputs, taken, is_portable, None)
 }
 
-/// The code for `outputs` where q and v are lanes. The parameters `late` are lanes as well, and known only after the statements
+/// The code for `outputs` where q, v and the time are lanes. The parameters `late` are lanes as well, and known only after the statements
 /// that do not need them.
 pub fn in_lanes(
     graph: &Graph,
@@ -121,7 +121,11 @@ fn written(
         if let Some(late) = late {
             is_late[node.index()] =
                 late.contains(&node) || operation.arguments().any(|argument| is_late[argument.index()]);
-            writer.is_lanes[node.index()] = is_late[node.index()] || graph.depends(node);
+            // Inputs and what derivatives are taken by on request are numbers.
+            writer.is_lanes[node.index()] = is_late[node.index()]
+                || matches!(operation, Operation::Coordinate(_) | Operation::Velocity(_))
+                || graph.is_time(operation)
+                || operation.arguments().any(|argument| writer.is_lanes[argument.index()]);
         }
         match operation {
             Operation::Coordinate(_) => uses_coordinates = true,
@@ -367,7 +371,9 @@ impl Writer<'_> {
     /// What the method of that name is called on: the number, or its elementary functions in the runtime.
     fn called_on(&self, node: Node, method: &str) -> TokenStream {
         let receiver = self.receiver(node);
-        if self.is_portable && portable::is_elementary(method) {
+        // Lanes bring their own.
+        let is_number = !self.is_lanes[node.index()];
+        if is_number && self.is_portable && portable::is_elementary(method) {
             self.calls_elementary.set(true);
             quote!(#receiver.elementary())
         } else {

@@ -212,17 +212,22 @@ pub fn imported(system: &System<'_>) -> Vec<Ident> {
             names.extend(["DiscreteForce", "DiscreteForceDerivatives"]);
         }
     }
+    // What the runtime gives of every forced Lagrangian, Gauss rules need no name for.
+    let of_displacement = |name| (!rules.of_displacement.is_empty()).then_some(name);
     if system.input.is_some() {
-        names.extend(["DiscreteDriven", "Driven"]);
+        names.push("Driven");
+        names.extend(of_displacement("DiscreteDriven"));
     }
     if !system.parameters.is_empty() {
-        names.extend(["DiscreteParameters", "GradientBy", "Parameters"]);
+        names.extend(["GradientBy", "Parameters"]);
+        names.extend(of_displacement("DiscreteParameters"));
     }
     if system.input.is_some() || !system.parameters.is_empty() {
-        names.push("MomentaBy");
+        names.extend(of_displacement("MomentaBy"));
     }
     if system.second {
-        names.extend(["DiscreteSecondOrder", "Hessian", "SecondOrder"]);
+        names.extend(["Hessian", "SecondOrder"]);
+        names.extend(of_displacement("DiscreteSecondOrder"));
     }
     names.extend(rules.of_displacement.iter().map(|rule| rule.name()));
     names.sort_unstable();

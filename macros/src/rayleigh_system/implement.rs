@@ -161,9 +161,15 @@ pub fn forced_lagrangian(system: &System<'_>, stages: Option<TokenStream>) -> To
             }
         }
     });
+    let timed = system.timed.any().then(|| {
+        quote!(
+            const IS_TIMED: bool = true;
+        )
+    });
     quote! {
         #[automatically_derived]
         impl ForcedLagrangian<#n> for #subject {
+            #timed
             #force
             #stages
         }
@@ -256,10 +262,20 @@ pub fn second_order(system: &System<'_>, functions: TokenStream) -> TokenStream 
             }
         }
     });
+    // What rules with interior points ask for besides.
+    let by_input = (system.rules.gauss && system.input.is_some()).then(|| {
+        quote! {
+            #[inline]
+            fn force_slope_by_input(&self, q: &Vector, v: &Vector) -> SMatrix<#scalar, #n, #m> {
+                self.force_by_input(q, v)
+            }
+        }
+    });
     quote! {
         #[automatically_derived]
         impl SecondOrder<#n, #m> for #subject {
             #functions
+            #by_input
         }
 
         #(#discrete)*
@@ -430,12 +446,45 @@ fn joint(system: &System<'_>, rule: Rule) -> TokenStream {
             const LINEAR: bool = true;
         )
     });
+    let memory = match rule {
+        Rule::Fitted => quote!(DriftMemory),
+        Rule::FittedTrapezoidal => quote!(ExplicitDriftMemory),
+        _ => quote!(VelocityHistory),
+    };
+    let memory = quote!(::dalembert::#memory<#scalar, #n>);
+    let is_fitted = rule != Rule::OneSided;
     let rule = format_ident!("{}", rule.name());
+    // What depends on h alone is worked out once for all evaluations of a step.
+    let steps = is_fitted.then(|| {
+        quote! {
+            /// The flow on T*Q, (q0, p0) ↦ (q1, p1).
+            #[inline]
+            fn step(
+                &self,
+                state: &::dalembert::State<#scalar, #n>,
+                h: #scalar,
+                guess: Option<&Vector>,
+            ) -> Result<::dalembert::Step<#scalar, #n>, ::dalembert::StepError> {
+                #rule::step(self, state, h, guess)
+            }
+
+            /// The same by at most `iterations` of Newton's.
+            fn step_within(
+                &self,
+                state: &::dalembert::State<#scalar, #n>,
+                h: #scalar,
+                guess: Option<&Vector>,
+                iterations: u32,
+            ) -> Result<::dalembert::BoundedStep<#scalar, #n>, ::dalembert::StepError> {
+                #rule::step_within(self, state, h, guess, iterations)
+            }
+        }
+    });
     quote! {
         #[automatically_derived]
         impl Discrete<#rule, #n> for #name {
             type Matrix = SMatrix<#scalar, #n, #n>;
-            type Memory = ::dalembert::VelocityHistory<#scalar, #n>;
+            type Memory = #memory;
             #linear
 
             #[doc = #lagrangian]
@@ -484,6 +533,8 @@ fn joint(system: &System<'_>, rule: Rule) -> TokenStream {
             fn segment_energy(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
                 <#rule as JointRule>::segment_energy(self, q0, q1, h)
             }
+
+            #steps
         }
     }
 }

@@ -44,8 +44,8 @@ pub fn lacks(
     (!is_natural(graph, &l)).then_some("needs L = ½vᵀMv − V(q) with constant M")
 }
 
-/// What no rule but those by quadrature along a straight line has: views of a system, and derivatives on request.
-pub fn asked_too_much(system: &System<'_>) -> Option<&'static str> {
+/// What rules that take L and R together do not have: views of a system, and derivatives on request.
+fn asked_too_much(system: &System<'_>) -> Option<&'static str> {
     if system.has_view() {
         return Some("takes neither input nor time");
     }

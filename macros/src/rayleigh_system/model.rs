@@ -152,15 +152,18 @@ impl Degrees {
 
     /// `factor` × N as a const generic argument.
     pub fn times(&self, factor: usize) -> TokenStream {
-        if let Some(n) = self.literal() {
-            return Literal::usize_unsuffixed(factor * n).into_token_stream();
+        if let Some(product) = self.literal().and_then(|n| n.checked_mul(factor)) {
+            return Literal::usize_unsuffixed(product).into_token_stream();
         }
         let length = super::rewrite::with_self_named(&self.length, &self.system);
-        if factor == 1 {
-            quote!({ #length })
-        } else {
-            let factor = Literal::usize_unsuffixed(factor);
-            quote!({ #factor * (#length) })
+        match (factor, &self.length) {
+            (1, Expr::Path(_) | Expr::Block(_) | Expr::Lit(_)) => quote!({ #length }),
+            // At the start of a block, `if a { b } else { c } + d` would end at its brace.
+            (1, _) => quote!({ (#length) }),
+            _ => {
+                let factor = Literal::usize_unsuffixed(factor);
+                quote!({ #factor * (#length) })
+            }
         }
     }
 }

@@ -139,7 +139,7 @@ where
     }
 
     pub(super) fn legendre(&self, q0: &SVector<S, N>, q1: &SVector<S, N>) -> LegendreDerivatives<S, N> {
-        LegendreDerivatives::new::<L, R>(self.system, q0, q1, self.h)
+        self.system.legendre_derivatives(q0, q1, self.h)
     }
 
     /// Solves one transform for one end of the segment, in v̄ as the step does.

@@ -38,8 +38,8 @@ impl<S: Scalar, const N: usize, const W: usize> Banded<S, N, W> {
     }
 }
 
-/// A band as the product of a lower triangle and an upper one with diagonal 1; the reciprocals of the pivots lie on the
-/// diagonal.
+/// A band as the product L D U of triangles with diagonal 1 and the pivots, whose reciprocals lie on the diagonal: in solving,
+/// nothing waits for a product with one.
 #[derive(Clone, Copy, Debug)]
 pub struct FactoredBand<S, const N: usize, const W: usize> {
     rows: [[S; W]; N],
@@ -58,11 +58,11 @@ impl<S: Scalar, const N: usize, const W: usize> Factored<S, N> for FactoredBand<
                     value -= row[k] * x[i + k - b];
                 }
             }
-            x[i] = value * row[b];
+            x[i] = value;
         }
         for i in (0..N).rev() {
             let row = &self.rows[i];
-            let mut value = x[i];
+            let mut value = x[i] * row[b];
             for l in 1..=b {
                 if i + l < N {
                     value -= row[b + l] * x[i + l];
@@ -100,6 +100,7 @@ impl<S: Scalar, const N: usize, const W: usize> NewtonMatrix<S, N> for Banded<S,
                             rows[i][k + l] -= factor * entry;
                         }
                     }
+                    rows[i][k] = factor * rows[above][b];
                 }
             }
             let pivot = rows[i][b];

@@ -37,8 +37,8 @@ pub struct ExplicitMemory<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> {
 
 /// What depends on the step size alone.
 #[derive(Clone, Copy, Debug)]
-struct Prepared<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> {
-    h: S,
+pub(super) struct Prepared<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> {
+    pub(super) h: S,
     matrix: M,
     factored: M::Factored,
     /// ∂L/∂v + (h/2) ∂R/∂v at v̄ = 0.
@@ -66,7 +66,12 @@ where
             && prepared.h == h
             && let Some((q, force)) = &self.force
             && *q == state.q
-            && let Some((step, force)) = prepared.step(system, state, force)
+            && let Some((step, force)) = prepared.step(
+                |q| system.configuration_force(q),
+                |v| system.velocity_momenta(v, h),
+                state,
+                force,
+            )
         {
             self.force = Some((step.state.q, force));
             return Ok(step);
@@ -91,9 +96,8 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> ExplicitMemory<S, M, N> {
     {
         let step = system.step(state, h, None)?;
         if self.prepared.as_ref().is_none_or(|prepared| prepared.h != h) {
-            let matrix = system.step_matrix(h);
             let at_rest = system.velocity_momenta(&nalgebra::zero(), h).p0;
-            self.prepared = matrix.factored().map(|factored| Prepared { h, matrix, factored, at_rest });
+            self.prepared = Prepared::new(h, system.step_matrix(h), at_rest);
         }
         self.force = Some((step.state.q, system.configuration_force(&step.state.q)));
         Ok(step)
@@ -101,24 +105,28 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> ExplicitMemory<S, M, N> {
 }
 
 impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Prepared<S, M, N> {
-    /// The step, and G at its end; nothing where a number is none or the residual is above its floor.
+    /// Nothing where the matrix cannot be factored.
+    pub(super) fn new(h: S, matrix: M, at_rest: SVector<S, N>) -> Option<Self> {
+        matrix.factored().map(|factored| Self { h, matrix, factored, at_rest })
+    }
+
+    /// The step, and G at its end; nothing where a number is none or the residual is above its floor. `configuration_force` is G, `force` its value
+    /// at the start; `velocity_momenta` is what the velocity adds to the momenta.
     #[inline]
-    fn step<L>(
+    pub(super) fn step(
         &self,
-        system: &L,
+        configuration_force: impl Fn(&SVector<S, N>) -> SVector<S, N>,
+        velocity_momenta: impl Fn(&SVector<S, N>) -> Momenta<S, N>,
         state: &State<S, N>,
         force: &SVector<S, N>,
-    ) -> Option<(Step<S, N>, SVector<S, N>)>
-    where
-        L: Explicit<N, Scalar = S, Matrix = M>,
-    {
+    ) -> Option<(Step<S, N>, SVector<S, N>)> {
         let half = self.h * S::constant(0.5);
         let kick = force * half;
         let right = state.p + kick;
         let v = self.factored.solve(&(right - self.at_rest));
         let q = state.q + v * self.h;
-        let force = system.configuration_force(&q);
-        let Momenta { p0, p1 } = system.velocity_momenta(&v, self.h);
+        let force = configuration_force(&q);
+        let Momenta { p0, p1 } = velocity_momenta(&v);
         let end = State { q, p: state.p + (kick + force * half + (p1 - p0)) };
 
         let residual = p0 - right;

@@ -95,6 +95,9 @@ pub(super) fn worst<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: 
     worst
 }
 
+/// Last places that rounding is measured over: functions on the way, such as the root in a length, may swallow a single one.
+pub(crate) const PLACES: f64 = 8.0;
+
 /// What rounding does to p0: its changes when each entry of q and of v moves by its last place, added up.
 #[cold]
 pub(super) fn rounding<S: Scalar, const N: usize>(
@@ -105,7 +108,8 @@ pub(super) fn rounding<S: Scalar, const N: usize>(
     let value = p0(q, v);
     let mut sum: SVector<S, N> = nalgebra::zero();
     let mut add = |q: &SVector<S, N>, v: &SVector<S, N>| sum += (p0(q, v) - value).abs();
-    for factor in [S::one() + S::EPSILON, S::one() - S::EPSILON] {
+    let places = S::constant(PLACES);
+    for factor in [S::one() + S::EPSILON * places, S::one() - S::EPSILON * places] {
         for i in 0..N {
             let mut moved = *q;
             moved[i] *= factor;
@@ -115,7 +119,7 @@ pub(super) fn rounding<S: Scalar, const N: usize>(
             add(q, &moved);
         }
     }
-    sum
+    sum / places
 }
 
 #[cfg(test)]

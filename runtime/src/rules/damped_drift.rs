@@ -12,30 +12,32 @@ use core::cmp::Ordering;
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::{Rayleigh, Scalar};
+use crate::discrete::{self, BoundedStep, Momenta, StepKernel};
+use crate::newton::Equation;
+use crate::{Rayleigh, Scalar, State, Step, StepError};
 
-/// The matrices of a damped free segment, and the terms of first degree.
-pub(super) struct DampedDrift<S, const N: usize> {
+/// The matrices of a damped free segment, and the terms of first degree: what a step by a fitted rule needs of the system, but for the
+/// potential. They depend on h alone.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DampedDrift<S, const N: usize> {
     /// M(Z coth Z + Z): p0 per unit of v̄.
-    pub(super) before: SMatrix<S, N, N>,
+    pub(crate) before: SMatrix<S, N, N>,
     /// M(Z coth Z − Z): p1 per unit of v̄.
-    pub(super) after: SMatrix<S, N, N>,
-    /// C.
-    pub(super) damping: SMatrix<S, N, N>,
+    pub(crate) after: SMatrix<S, N, N>,
     /// I + ℒ(Z)ᵀ, with the Langevin function ℒ(z) = coth z − 1/z.
     pub(super) lag_plus: SMatrix<S, N, N>,
     /// I − ℒ(Z)ᵀ.
     pub(super) lag_minus: SMatrix<S, N, N>,
     /// ∂L/∂v at v = 0.
-    pub(super) shift: SVector<S, N>,
+    pub(crate) shift: SVector<S, N>,
     /// ∂R/∂v at v = 0.
-    pub(super) thrust: SVector<S, N>,
+    pub(crate) thrust: SVector<S, N>,
 }
 
 impl<S: Scalar, const N: usize> DampedDrift<S, N> {
     /// Of a system with constant ∂²L/∂v², positive definite, and constant ∂²R/∂v². NaN where M is not positive definite.
     #[inline]
-    pub(super) fn of<L: Rayleigh<N, Scalar = S>>(system: &L, q: &SVector<S, N>, h: S) -> Self {
+    pub(crate) fn of<L: Rayleigh<N, Scalar = S> + ?Sized>(system: &L, q: &SVector<S, N>, h: S) -> Self {
         let rest = nalgebra::zero();
         let (l, r) = (system.lagrangian_derivatives(q, &rest), system.rayleigh_derivatives(q, &rest));
         let (w, inverse, z) = modes(&l.d22, &(r.d22 * (h * S::constant(0.5))));
@@ -44,7 +46,6 @@ impl<S: Scalar, const N: usize> DampedDrift<S, N> {
         Self {
             before: symmetric(before),
             after: symmetric(after),
-            damping: r.d22,
             lag_plus: transposed(lag_plus),
             lag_minus: transposed(lag_minus),
             shift: l.d2,
@@ -52,10 +53,72 @@ impl<S: Scalar, const N: usize> DampedDrift<S, N> {
         }
     }
 
+    /// −∇V − ∂R/∂v(0): the force that depends on q, and what friction adds at rest.
+    #[inline]
+    pub(crate) fn configuration_force<L: Rayleigh<N, Scalar = S> + ?Sized>(
+        &self,
+        system: &L,
+        q: &SVector<S, N>,
+    ) -> SVector<S, N> {
+        system.lagrangian_gradient(q, &nalgebra::zero()).d1 - self.thrust
+    }
+
     /// M Z coth Z, the fitted mass.
     #[inline]
     pub(super) fn mass(&self) -> SMatrix<S, N, N> {
         (self.before + self.after) * S::constant(0.5)
+    }
+}
+
+/// A rule fitted to linear damping: its equation, given the free motion.
+pub(crate) trait ByDrift {
+    /// What is known of the equation.
+    const EQUATION: Equation;
+
+    /// p0 and ∂p0/∂v̄.
+    fn kernel<L: Rayleigh<N> + ?Sized, const N: usize>(
+        drift: &DampedDrift<L::Scalar, N>,
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> StepKernel<L::Scalar, N>;
+
+    /// p0 and p1.
+    fn momenta<L: Rayleigh<N> + ?Sized, const N: usize>(
+        drift: &DampedDrift<L::Scalar, N>,
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Momenta<L::Scalar, N>;
+
+    /// The step from `state`.
+    #[inline]
+    fn step_by<L: Rayleigh<N> + ?Sized, const N: usize>(
+        drift: &DampedDrift<L::Scalar, N>,
+        system: &L,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+        guess: Option<&SVector<L::Scalar, N>>,
+    ) -> Result<Step<L::Scalar, N>, StepError> {
+        let kernel = |q0: &_, v: &_| Self::kernel(drift, system, q0, v, h);
+        let momenta = |q0: &_, v: &_| Self::momenta(drift, system, q0, v, h);
+        discrete::step_by(system, Self::EQUATION, kernel, momenta, state, h, guess)
+    }
+
+    /// The step by a bounded number of iterations.
+    fn step_within_by<L: Rayleigh<N> + ?Sized, const N: usize>(
+        system: &L,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+        guess: Option<&SVector<L::Scalar, N>>,
+        iterations: u32,
+    ) -> Result<BoundedStep<L::Scalar, N>, StepError> {
+        let drift = DampedDrift::of(system, &state.q, h);
+        let kernel = |q0: &_, v: &_| Self::kernel(&drift, system, q0, v, h);
+        let momenta = |q0: &_, v: &_| Self::momenta(&drift, system, q0, v, h);
+        discrete::step_within_by(kernel, momenta, state, h, guess, iterations)
     }
 }
 

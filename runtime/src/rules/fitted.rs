@@ -1,9 +1,10 @@
 use nalgebra::SVector;
 
-use super::damped_drift::DampedDrift;
+use super::damped_drift::{ByDrift, DampedDrift};
 use super::{JointRayleighRule, JointRule};
-use crate::discrete::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
-use crate::{CovectorDerivatives, Derivatives, Lagrangian, Rayleigh, Scalar};
+use crate::discrete::{BoundedStep, DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
+use crate::newton::Equation;
+use crate::{CovectorDerivatives, Derivatives, Lagrangian, Rayleigh, Scalar, State, Step, StepError};
 
 /// The midpoint rule, exponentially fitted to linear damping: it does not ring, however stiff the damping.
 ///
@@ -26,6 +27,9 @@ use crate::{CovectorDerivatives, Derivatives, Lagrangian, Rayleigh, Scalar};
 /// midpoint rule where C = 0. q is of order 2, uniformly in the stiffness of the damping; p is of order 2, falling to 1 in the stiff limit,
 /// where it lags behind by half a step.
 ///
+/// The functions of Z depend on h alone, and cost several times what is left of a step: a [`Trajectory`](crate::Trajectory) works them out once
+/// for each step size, a single [`Discrete::step`](crate::Discrete::step) once.
+///
 /// For one coordinate, and where C is a multiple of M, it is a Rayleigh system with R_d = ¼ dᵀCd − h ℒ(z) V(q̄); otherwise its
 /// force has no R_d.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -40,11 +44,79 @@ fn middle<S: Scalar, const N: usize>(q0: &SVector<S, N>, q1: &SVector<S, N>) -> 
 }
 
 /// L(q, 0) = −V(q) with its derivatives.
-fn at_rest<L: Lagrangian<N>, const N: usize>(
+fn at_rest<L: Lagrangian<N> + ?Sized, const N: usize>(
     system: &L,
     q: &SVector<L::Scalar, N>,
 ) -> Derivatives<L::Scalar, N> {
     system.lagrangian_derivatives(q, &nalgebra::zero())
+}
+
+/// The step, with what depends on h alone worked out once.
+impl Fitted {
+    /// [`Discrete::step`](crate::Discrete::step).
+    ///
+    /// # Errors
+    /// A [`StepError`]; the state given is untouched.
+    #[inline]
+    pub fn step<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+        guess: Option<&SVector<L::Scalar, N>>,
+    ) -> Result<Step<L::Scalar, N>, StepError> {
+        Self::step_by(&DampedDrift::of(system, &state.q, h), system, state, h, guess)
+    }
+
+    /// [`Discrete::step_within`](crate::Discrete::step_within).
+    ///
+    /// # Errors
+    /// [`StepError`] where not even one iteration can be made; the state given is untouched.
+    #[inline]
+    pub fn step_within<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+        guess: Option<&SVector<L::Scalar, N>>,
+        iterations: u32,
+    ) -> Result<BoundedStep<L::Scalar, N>, StepError> {
+        Self::step_within_by(system, state, h, guess, iterations)
+    }
+}
+
+impl ByDrift for Fitted {
+    const EQUATION: Equation = Equation::General;
+
+    #[inline]
+    fn kernel<L: Rayleigh<N> + ?Sized, const N: usize>(
+        drift: &DampedDrift<L::Scalar, N>,
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> StepKernel<L::Scalar, N> {
+        let share = half(h);
+        let l = at_rest(system, &(q0 + v * share));
+        StepKernel {
+            p0: drift.before * v + drift.shift - drift.lag_plus * (l.d1 - drift.thrust) * share,
+            matrix: drift.before - drift.lag_plus * l.d11 * (share * share),
+        }
+    }
+
+    #[inline]
+    fn momenta<L: Rayleigh<N> + ?Sized, const N: usize>(
+        drift: &DampedDrift<L::Scalar, N>,
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Momenta<L::Scalar, N> {
+        let share = half(h);
+        let impulse = drift.configuration_force(system, &(q0 + v * share)) * share;
+        Momenta {
+            p0: drift.before * v + drift.shift - drift.lag_plus * impulse,
+            p1: drift.after * v + drift.shift + drift.lag_minus * impulse,
+        }
+    }
 }
 
 impl JointRule for Fitted {
@@ -107,7 +179,7 @@ impl JointRule for Fitted {
         let share = half(h);
         // ℒᵀ, half the difference of the two shares.
         let lag = (drift.lag_plus - drift.lag_minus) * L::Scalar::constant(0.5);
-        let drag = drift.damping * L::Scalar::constant(0.5);
+        let drag = system.rayleigh_derivatives(q0, &nalgebra::zero()).d22 * L::Scalar::constant(0.5);
         let (impulse, bend) = (lag * l.d1 * share, lag * l.d11 * half(share));
         let d = q1 - q0;
         DiscreteForceDerivatives {
@@ -131,13 +203,7 @@ impl JointRule for Fitted {
         v: &SVector<L::Scalar, N>,
         h: L::Scalar,
     ) -> StepKernel<L::Scalar, N> {
-        let drift = DampedDrift::of(system, q0, h);
-        let share = half(h);
-        let l = at_rest(system, &(q0 + v * share));
-        StepKernel {
-            p0: drift.before * v + drift.shift - drift.lag_plus * (l.d1 - drift.thrust) * share,
-            matrix: drift.before - drift.lag_plus * l.d11 * (share * share),
-        }
+        Self::kernel(&DampedDrift::of(system, q0, h), system, q0, v, h)
     }
 
     #[inline]
@@ -147,14 +213,7 @@ impl JointRule for Fitted {
         v: &SVector<L::Scalar, N>,
         h: L::Scalar,
     ) -> Momenta<L::Scalar, N> {
-        let drift = DampedDrift::of(system, q0, h);
-        let share = half(h);
-        let rest = nalgebra::zero();
-        let impulse = (system.lagrangian_gradient(&(q0 + v * share), &rest).d1 - drift.thrust) * share;
-        Momenta {
-            p0: drift.before * v + drift.shift - drift.lag_plus * impulse,
-            p1: drift.after * v + drift.shift + drift.lag_minus * impulse,
-        }
+        <Self as ByDrift>::momenta(&DampedDrift::of(system, q0, h), system, q0, v, h)
     }
 
     #[inline]
@@ -193,7 +252,8 @@ impl JointRayleighRule for Fitted {
         let force = Self::discrete_force_derivatives(system, q0, q1, h);
         let d = q1 - q0;
         let thrust = (d - (q0 + q1) * lag).dot(&drift.thrust) * half(h);
-        let value = d.dot(&(drift.damping * d)) * L::Scalar::constant(0.25) + l.value * (lag * h) + thrust;
+        let damping = system.rayleigh_derivatives(q0, &nalgebra::zero()).d22;
+        let value = d.dot(&(damping * d)) * L::Scalar::constant(0.25) + l.value * (lag * h) + thrust;
         force.as_of_rayleigh(value)
     }
 }

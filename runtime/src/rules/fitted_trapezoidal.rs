@@ -1,9 +1,10 @@
 use nalgebra::SVector;
 
-use super::damped_drift::DampedDrift;
+use super::damped_drift::{ByDrift, DampedDrift};
 use super::{JointRayleighRule, JointRule};
-use crate::discrete::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
-use crate::{CovectorDerivatives, Derivatives, Rayleigh, Scalar};
+use crate::discrete::{BoundedStep, DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
+use crate::newton::Equation;
+use crate::{CovectorDerivatives, Derivatives, Rayleigh, Scalar, State, Step, StepError};
 
 /// The trapezoidal rule, exponentially fitted to linear damping: explicit, and exact where there is no potential.
 ///
@@ -19,8 +20,73 @@ use crate::{CovectorDerivatives, Derivatives, Rayleigh, Scalar};
 /// **Properties.** Self-adjoint, of order 2, falling to 1 where the damping is stiff. One linear solve with a constant matrix. The determinant of the
 /// step is e^{−h tr M⁻¹C}, that of the flow, for every V; where C = 2aM, AᵀΩA = e^{−2ah}Ω (conformally symplectic), and an angular momentum of a
 /// radial V falls by e^{−2ah} a step, exactly. Stable for the oscillator iff h²k/m < 4 z coth z.
+///
+/// In a [`Trajectory`](crate::Trajectory) the functions of Z are worked out once for each step size, and a step costs one gradient and one solve
+/// with factors that are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FittedTrapezoidal;
+
+/// The step, with what depends on h alone worked out once.
+impl FittedTrapezoidal {
+    /// [`Discrete::step`](crate::Discrete::step).
+    ///
+    /// # Errors
+    /// A [`StepError`]; the state given is untouched.
+    #[inline]
+    pub fn step<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+        guess: Option<&SVector<L::Scalar, N>>,
+    ) -> Result<Step<L::Scalar, N>, StepError> {
+        Self::step_by(&DampedDrift::of(system, &state.q, h), system, state, h, guess)
+    }
+
+    /// [`Discrete::step_within`](crate::Discrete::step_within).
+    ///
+    /// # Errors
+    /// [`StepError`] where not even one iteration can be made; the state given is untouched.
+    #[inline]
+    pub fn step_within<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+        guess: Option<&SVector<L::Scalar, N>>,
+        iterations: u32,
+    ) -> Result<BoundedStep<L::Scalar, N>, StepError> {
+        Self::step_within_by(system, state, h, guess, iterations)
+    }
+}
+
+impl ByDrift for FittedTrapezoidal {
+    const EQUATION: Equation = Equation::Linear;
+
+    #[inline]
+    fn kernel<L: Rayleigh<N> + ?Sized, const N: usize>(
+        drift: &DampedDrift<L::Scalar, N>,
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> StepKernel<L::Scalar, N> {
+        let impulse = drift.configuration_force(system, q0) * (h * L::Scalar::constant(0.5));
+        let p0 = drift.before * v + drift.shift - impulse;
+        StepKernel { p0, matrix: drift.before }
+    }
+
+    #[inline]
+    fn momenta<L: Rayleigh<N> + ?Sized, const N: usize>(
+        drift: &DampedDrift<L::Scalar, N>,
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Momenta<L::Scalar, N> {
+        let half = h * L::Scalar::constant(0.5);
+        let [start, end] = [*q0, q0 + v * h].map(|q| drift.configuration_force(system, &q) * half);
+        Momenta { p0: drift.before * v + drift.shift - start, p1: drift.after * v + drift.shift + end }
+    }
+}
 
 impl JointRule for FittedTrapezoidal {
     #[inline]
@@ -94,10 +160,7 @@ impl JointRule for FittedTrapezoidal {
         v: &SVector<L::Scalar, N>,
         h: L::Scalar,
     ) -> StepKernel<L::Scalar, N> {
-        let drift = DampedDrift::of(system, q0, h);
-        let impulse = system.lagrangian_gradient(q0, &nalgebra::zero()).d1 - drift.thrust;
-        let p0 = drift.before * v + drift.shift - impulse * (h * L::Scalar::constant(0.5));
-        StepKernel { p0, matrix: drift.before }
+        Self::kernel(&DampedDrift::of(system, q0, h), system, q0, v, h)
     }
 
     #[inline]
@@ -107,12 +170,7 @@ impl JointRule for FittedTrapezoidal {
         v: &SVector<L::Scalar, N>,
         h: L::Scalar,
     ) -> Momenta<L::Scalar, N> {
-        let drift = DampedDrift::of(system, q0, h);
-        let rest = nalgebra::zero();
-        let half = h * L::Scalar::constant(0.5);
-        let [start, end] =
-            [*q0, q0 + v * h].map(|q| (system.lagrangian_gradient(&q, &rest).d1 - drift.thrust) * half);
-        Momenta { p0: drift.before * v + drift.shift - start, p1: drift.after * v + drift.shift + end }
+        <Self as ByDrift>::momenta(&DampedDrift::of(system, q0, h), system, q0, v, h)
     }
 
     #[inline]

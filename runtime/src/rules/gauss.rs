@@ -3,6 +3,7 @@
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
 
 mod coefficients;
+mod curvature;
 mod double_double;
 mod fixed_point;
 mod history;
@@ -10,13 +11,15 @@ mod linearised;
 mod newton;
 mod problem;
 mod segment;
+mod sensitivity;
+mod tangent;
 
 use nalgebra::{SMatrix, SVector};
 
 use crate::error::Quantity;
 use crate::{
-    Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, ForcedLagrangian, Momenta, Scalar, State,
-    Step, StepError, StepKernel,
+    Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, ForcedLagrangian, LegendreDerivatives,
+    Linearization, Momenta, Scalar, State, StateBy, Step, StepError, StepKernel,
 };
 use coefficients::Coefficients;
 pub use history::StageHistory;
@@ -53,6 +56,11 @@ const MAX_STAGES: usize = 8;
 /// next, and adds up q and p with compensation.
 ///
 /// The discrete objects solve for the stages between given end points. Where Newton's method finds none, they are NaN.
+///
+/// Every stage sees its own time t0 + c_i h, and the input that is held. Derivatives of the step ([`Linearization`], [`StateBy`],
+/// [`StepHessian`](crate::StepHessian)) are exact, by the matrix of all stages, factored once. From the state that it starts from,
+/// `of_step` takes them at the stages of the step; between two ends, `of_segment` solves for the stages first. They neither
+/// allocate nor panic.
 ///
 /// ```
 /// use dalembert::{Gauss, State, Trajectory, rayleigh_system};
@@ -118,7 +126,7 @@ where
         let force = segment::force_derivatives::<_, L, N, S>(self, q0, q1, h);
         let solved = Segment::<'_, L, N, S>::new(self, q0, &((q1 - q0) / h), h);
         solved
-            .and_then(|segment| Some(segment.lagrangian_derivatives(&segment.variations()?, &force)))
+            .and_then(|segment| Ok(segment.lagrangian_derivatives(&segment.variations()?, &force)))
             .unwrap_or(Derivatives {
                 value: nan(),
                 d1: SVector::repeat(nan()),
@@ -147,7 +155,7 @@ where
         solved
             .and_then(|segment| {
                 let matrix = segment.variations()?.p0_by_q1 * h;
-                Some(StepKernel { p0: segment.momenta().p0, matrix })
+                Ok(StepKernel { p0: segment.momenta().p0, matrix })
             })
             .unwrap_or(StepKernel { p0: SVector::repeat(nan()), matrix: SMatrix::repeat(nan()) })
     }
@@ -171,20 +179,86 @@ where
         h: T,
         guess: Option<&SVector<T, N>>,
     ) -> Result<Step<T, N>, StepError> {
-        crate::discrete::require_step_size(h)?;
-        StepError::require_finite(&state.q, Quantity::Configuration)?;
-        StepError::require_finite(&state.p, Quantity::Momentum)?;
-        let guess = match guess {
-            Some(v) => {
-                StepError::require_finite(v, Quantity::Velocity)?;
-                *v
-            }
-            None => state.velocity(self)?,
-        };
-        let problem = Problem::new(self, Compensated::new(state.q), Compensated::new(state.p), h);
-        let solution = fixed_point::solve::<_, _, N, S>(&problem, &guess)?;
+        let (problem, solution) = solved::<_, _, N, S>(self, state, h, guess)?;
         Ok(completed(&problem, &solution)?.0)
     }
+
+    /// Where the segment has no solution that Newton's method finds, all is NaN.
+    fn legendre_derivatives(
+        &self,
+        q0: &SVector<T, N>,
+        q1: &SVector<T, N>,
+        h: T,
+    ) -> LegendreDerivatives<T, N> {
+        let solved = Segment::<'_, L, N, S>::between(self, q0, q1, h);
+        solved.and_then(|segment| segment.legendre()).unwrap_or_else(|_| {
+            let (vector, matrix) = (SVector::repeat(nan()), SMatrix::repeat(nan()));
+            let momenta = Momenta { p0: vector, p1: vector };
+            LegendreDerivatives {
+                momenta,
+                p0_by_q0: matrix,
+                p0_by_q1: matrix,
+                p1_by_q0: matrix,
+                p1_by_q1: matrix,
+            }
+        })
+    }
+
+    fn linearization(
+        &self,
+        q0: &SVector<T, N>,
+        q1: &SVector<T, N>,
+        h: T,
+    ) -> Result<Linearization<T, N>, StepError> {
+        let segment = Segment::<'_, L, N, S>::between(self, q0, q1, h)?;
+        Ok(Linearization { a: segment.by_state()?.matrix(), b: StateBy::zero() })
+    }
+
+    /// By the stages of the step itself.
+    fn linearized_step(
+        &self,
+        state: &State<T, N>,
+        h: T,
+        guess: Option<&SVector<T, N>>,
+    ) -> Result<(Step<T, N>, Linearization<T, N>), StepError> {
+        let (step, segment) = solved_segment::<_, _, N, S>(self, state, h, guess)?;
+        Ok((step, Linearization { a: segment.by_state()?.matrix(), b: StateBy::zero() }))
+    }
+}
+
+/// The stages of the step from `state`; `guess` serves all of them.
+#[inline]
+fn solved<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    system: &'a L,
+    state: &State<T, N>,
+    h: T,
+    guess: Option<&SVector<T, N>>,
+) -> Result<(Problem<'a, L, N, S>, Solution<T, N, S>), StepError> {
+    crate::discrete::require_step_size(h)?;
+    StepError::require_finite(&state.q, Quantity::Configuration)?;
+    StepError::require_finite(&state.p, Quantity::Momentum)?;
+    let guess = match guess {
+        Some(v) => {
+            StepError::require_finite(v, Quantity::Velocity)?;
+            *v
+        }
+        None => state.velocity(system)?,
+    };
+    let problem = Problem::new(system, Compensated::new(state.q), Compensated::new(state.p), h);
+    let solution = fixed_point::solve(&problem, &guess)?;
+    Ok((problem, solution))
+}
+
+/// The step from `state`, with its equations linearised at the stages.
+fn solved_segment<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    system: &'a L,
+    state: &State<T, N>,
+    h: T,
+    guess: Option<&SVector<T, N>>,
+) -> Result<(Step<T, N>, Segment<'a, L, N, S>), StepError> {
+    let (problem, solution) = solved(system, state, h, guess)?;
+    let step = completed(&problem, &solution)?.0;
+    Ok((step, Segment::of_stages(problem, solution.v)?))
 }
 
 fn nan<T: Scalar>() -> T {

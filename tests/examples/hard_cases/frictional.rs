@@ -1,11 +1,16 @@
 //! Cases with friction.
 
+use std::f64::consts::TAU;
+
 use anyhow::Result;
 use dalembert::nalgebra::vector;
-use dalembert::{Discrete, Fitted, Midpoint, OneSided, State, Trajectory};
+use dalembert::{
+    Discrete, Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, State, Trajectory, Trapezoidal,
+};
 use dalembert_examples::picture::{Corner, Curve, Mark, Panel, colour};
-use dalembert_tests::hard::{Block, CubicDrag, DampedMass};
+use dalembert_tests::hard::{Block, CubicDrag, DampedMass, Effort, Kepler, Progress, drive, drive_composed};
 
+use crate::conservative::{ORDER_6, outcome};
 use crate::page::Case;
 
 /// p of a damped free mass after each of `steps` steps, from 1.
@@ -27,11 +32,13 @@ pub fn overdamped() -> Result<Case> {
     let mut rows = Vec::new();
     for ratio in [0.1, 1.0, 1.9, 2.1, 10.0, 1e2, 1e4, 1e6] {
         let midpoint = decay(Midpoint, ratio, 100)?;
+        let gauss = decay(Gauss::<3>, ratio, 1)?;
         rows.push(vec![
             format!("{ratio:e}"),
             format!("{:.1e}", (-ratio).exp()),
             format!("{:.4}", midpoint[1]),
             format!("{:.1e}", midpoint[100]),
+            format!("{:.4}", gauss[1]),
             format!("{:.1e}", decay(Fitted, ratio, 1)?[1]),
             format!("{:.1e}", decay(OneSided, ratio, 1)?[1]),
         ]);
@@ -53,7 +60,8 @@ pub fn overdamped() -> Result<Case> {
         title: "Overdamped and stiffly damped motion",
         breaks: "Explicit methods are unstable for hr > 2m. The midpoint rule is stable at any hr, and multiplies the velocity by \
                  (2m − hr)/(2m + hr): past hr = 2m the sign alternates, and for hr ≫ m it hardly decays: **it rings**.",
-        ours: "Midpoint and trapezoidal rule ring past hr = 2m, exactly as the formula says; equilibria and terminal velocities are exact at any \
+        ours: "Midpoint and trapezoidal rule ring past hr = 2m, exactly as the formula says, and so do, further out, the Gauss rules, whose factor goes to ±1 as \
+               well, and compositions; equilibria and terminal velocities are exact at any \
                hr, q ends where it should, and momenta should not be read. `rule = fitted` decays by e^{−hr/m}, to rounding, at any hr, with q of \
                order 2; `rule = one_sided` by 1/(1 + hr/m), for damping that is not linear.",
         head: &[
@@ -61,12 +69,58 @@ pub fn overdamped() -> Result<Case> {
             "exact p after one step",
             "midpoint",
             "midpoint after 100 steps",
+            "Gauss, 3 stages",
             "fitted",
             "one-sided",
         ],
         rows,
         panels: vec![panel("hr/m = 0.5", 0.5)?, panel("hr/m = 20: the midpoint rule rings", 20.0)?],
         test: "damping.rs",
+    })
+}
+
+/// Angular momentum under drag on orbits that almost collide.
+pub fn kepler_drag() -> Result<Case> {
+    let k = 0.05;
+    let system = Kepler { k };
+    let mut rows = Vec::new();
+    for e in [0.9, 0.99, 0.999] {
+        let start = Kepler::aphelion(e);
+        for steps in [1_000_u64, 10_000, 100_000] {
+            let h = TAU / steps as f64;
+            let mut row = |name: &str, run: &dyn Fn(&mut dyn FnMut(Progress<2>)) -> Effort| {
+                let mut worst = 0.0_f64;
+                let effort = run(&mut |at| {
+                    let exact = Kepler::angular_momentum(&start) * (-k * at.time).exp();
+                    worst = worst.max((Kepler::angular_momentum(&at.state) / exact - 1.0).abs());
+                });
+                rows.push(vec![
+                    format!("{e}"),
+                    format!("{steps}"),
+                    name.to_owned(),
+                    format!("{worst:.1e}"),
+                    outcome(&effort),
+                ]);
+            };
+            let count = [10 * steps, 1];
+            row("midpoint", &|look| drive(&system, Midpoint, h, start, count, look));
+            row("trapezoidal", &|look| drive(&system, Trapezoidal, h, start, count, look));
+            row("fitted", &|look| drive(&system, Fitted, h, start, count, look));
+            row("fitted, trapezoidal", &|look| drive(&system, FittedTrapezoidal, h, start, count, look));
+            row("Gauss, 3 stages", &|look| drive(&system, Gauss::<3>, h, start, count, look));
+            row("composition, order 6", &|look| drive_composed(&system, ORDER_6, h, start, 10 * steps, look));
+        }
+    }
+    Ok(Case {
+        title: "Kepler orbits that almost collide, with drag",
+        breaks: "R = ½k|v|², k = 0.05, takes angular momentum, J(t) = J(0) e^{−kt} on every orbit, and the near side comes closer each time.",
+        ours: "The explicit fitted rule has the law exactly, at every step size and on orbits that are nonsense, to the rounding of q × p where a \
+               body is thrown far out; the trapezoidal rule has its own, ((2 − hk)/(2 + hk))ⁿ, exactly. The others are right to their order until the \
+               near side is no longer resolved, where implicit steps have no real solution and say so.",
+        head: &["e", "steps an orbit", "rule", "largest \\|J e^{kt}/J₀ − 1\\|, 10 periods", "stopped"],
+        rows,
+        panels: Vec::new(),
+        test: "methods.rs",
     })
 }
 
@@ -180,10 +234,10 @@ pub fn fold() -> Result<Case> {
         head: &["p, in units of the fold's", "exact v̄", "found"],
         rows,
         panels: vec![Panel {
-            title: "Roots of the step",
+            title: "Roots v̄ of p = m v̄ + (h/2) r v̄²",
             x: "momentum p",
-            y: "v̄",
-            legend: Corner::LowerRight,
+            y: "mean velocity v̄",
+            legend: Corner::UpperLeft,
             curves,
         }],
         test: "damping.rs",

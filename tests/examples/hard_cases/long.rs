@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use dalembert::nalgebra::vector;
-use dalembert::{Discrete, Midpoint, State, Trajectory, Trapezoidal};
+use dalembert::{Discrete, Gauss, Midpoint, State, Trajectory, Trapezoidal};
 use dalembert_examples::picture::{Corner, Curve, Mark, Panel, colour};
 use dalembert_tests::hard::Oscillator;
 use dalembert_tests::systems::FreePendulum;
@@ -20,8 +20,9 @@ const COUNTS: [u64; 7] = [100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000, 30
 /// Starts on one circle of energy.
 const STARTS: usize = 8;
 
-/// Relative errors of the quadratic form that the rule keeps exactly, by start and count.
-fn walks<R: Copy>(rule: R, form: f64) -> Result<Vec<[f64; COUNTS.len()]>>
+/// Relative errors of the quadratic form that the rule keeps exactly, by start and count. Single steps, as opposed to a run, keep nothing from one
+/// to the next: no compensation.
+fn walks<R: Copy>(rule: R, form: f64, single: bool) -> Result<Vec<[f64; COUNTS.len()]>>
 where
     Oscillator: Discrete<R, 1, Scalar = f64>,
 {
@@ -32,13 +33,17 @@ where
         let angle = 0.1 + 0.77 * start as f64;
         let start = State { q: vector![angle.cos()], p: vector![angle.sin()] };
         let mut trajectory = Trajectory::new(&system, rule, H, start);
-        let (mut taken, mut errors) = (0, [0.0; COUNTS.len()]);
+        let (mut taken, mut errors, mut state) = (0, [0.0; COUNTS.len()], start);
         for (count, error) in COUNTS.iter().zip(&mut errors) {
             while taken < *count {
-                trajectory.next().transpose()?;
+                if single {
+                    state = Discrete::<R, 1>::step(&system, &state, H, None)?.state;
+                } else {
+                    state = trajectory.next().transpose()?.map_or(state, |step| step.state);
+                }
                 taken += 1;
             }
-            *error = energy(trajectory.state()) / energy(&start) - 1.0;
+            *error = energy(&state) / energy(&start) - 1.0;
         }
         walks.push(errors);
     }
@@ -49,12 +54,14 @@ where
 pub fn rounding() -> Result<Case> {
     let mut rows = Vec::new();
     let mut curves = Vec::new();
-    let both = [
-        ("midpoint", colour::VARIATIONAL, walks(Midpoint, 1.0)?),
-        ("trapezoidal", TRAPEZOIDAL, walks(Trapezoidal, 1.0 - H * H * K / (4.0 * M))?),
+    let all = [
+        ("midpoint", colour::VARIATIONAL, walks(Midpoint, 1.0, false)?),
+        ("trapezoidal", TRAPEZOIDAL, walks(Trapezoidal, 1.0 - H * H * K / (4.0 * M), false)?),
+        ("Gauss, 2 stages", colour::EULER, walks(Gauss::<2>, 1.0, false)?),
+        ("Gauss, 2 stages, single steps", colour::RUNGE_KUTTA, walks(Gauss::<2>, 1.0, true)?),
     ];
     let share = STARTS as f64;
-    for (name, colour, walks) in &both {
+    for (name, colour, walks) in &all {
         let mut points = Vec::new();
         for (index, count) in COUNTS.iter().enumerate() {
             let mean = walks.iter().map(|walk| walk[index]).sum::<f64>() / share;

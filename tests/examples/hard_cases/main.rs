@@ -17,8 +17,9 @@ use page::Case;
 /// Name on the command line, and what makes the case.
 type Entry = (&'static str, fn() -> Result<Case>);
 
-const CASES: [Entry; 12] = [
+const CASES: [Entry; 13] = [
     ("kepler", conservative::kepler),
+    ("kepler-drag", frictional::kepler_drag),
     ("double-pendulum", conservative::double_pendulum),
     ("spring-pendulum", conservative::spring_pendulum),
     ("henon-heiles", conservative::henon_heiles),

@@ -1,11 +1,11 @@
 //! The page: one section a case, its pictures beside it.
 
 use std::fmt::Write as _;
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use dalembert_examples::picture::{self, Panel};
+use dalembert_examples::results;
 
 /// One hard case, as it went.
 pub struct Case {
@@ -28,15 +28,6 @@ pub struct Case {
 /// Folder of the repository's documents.
 fn documents() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("docs")
-}
-
-/// A file that is there whole or not at all.
-fn write_whole(path: &Path, text: &str) -> Result<()> {
-    let draft = path.with_extension("draft");
-    fs::create_dir_all(path.parent().unwrap_or(Path::new("")))
-        .and_then(|()| fs::write(&draft, text))
-        .and_then(|()| fs::rename(&draft, path))
-        .with_context(|| format!("cannot write {}", path.display()))
 }
 
 impl Case {
@@ -65,7 +56,7 @@ impl Case {
         let columns = self.panels.len().min(2);
         let rows = self.panels.len().div_ceil(columns);
         let svg = picture::svg([800 * columns as u32, 550 * rows as u32], columns, &self.panels)?;
-        write_whole(&documents().join("hard-cases").join(name).with_extension("svg"), &svg)
+        results::save(&documents().join("hard-cases").join(name).with_extension("svg"), &svg)
     }
 }
 
@@ -84,7 +75,7 @@ pub fn write(cases: &[(&str, Case)]) -> Result<PathBuf> {
     }
     text += OTHERS;
     let path = documents().join("hard-cases.md");
-    write_whole(&path, &text)?;
+    results::save(&path, &text)?;
     Ok(path)
 }
 

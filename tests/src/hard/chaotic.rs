@@ -3,7 +3,7 @@
 use dalembert::{State, rayleigh_system};
 
 /// Two equal pendulums, one hung from the other, mass and length 1, g = 1.
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 pub fn two_pendulums(q: [f64; 2], v: [f64; 2], r: f64) -> (f64, f64) {
     let kinetic = v[0] * v[0] + 0.5 * v[1] * v[1] + v[0] * v[1] * (q[0] - q[1]).cos();
     (kinetic + 2.0 * q[0].cos() + q[1].cos(), 0.5 * r * (v[0] * v[0] + (v[1] - v[0]).powi(2)))
@@ -17,7 +17,7 @@ impl TwoPendulums {
 }
 
 /// L = ½|v|² − ½|q|² − x²y + ⅓y³. At E = 1/6 the motion reaches the saddles of V; almost all of it is chaotic.
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 pub fn henon_heiles(q: [f64; 2], v: [f64; 2], r: f64) -> (f64, f64) {
     let [x, y] = q;
     let speed = v[0] * v[0] + v[1] * v[1];

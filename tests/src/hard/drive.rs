@@ -1,6 +1,6 @@
 //! Long runs that keep figures instead of states.
 
-use dalembert::{Discrete, State, StepError, Trajectory};
+use dalembert::{Composition, Discrete, State, StepError, Trajectory};
 
 /// What a run took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -52,6 +52,33 @@ where
                 look(Progress { steps: effort.steps, time: sample.time, state: sample.state });
             }
             Err(error) => effort.stopped = Some(error),
+        }
+    }
+    effort
+}
+
+/// The same by a composition, which keeps no count of iterations.
+pub fn drive_composed<L, R, const N: usize, const S: usize>(
+    system: &L,
+    composition: Composition<R, S>,
+    h: f64,
+    start: State<f64, N>,
+    steps: u64,
+    mut look: impl FnMut(Progress<N>),
+) -> Effort
+where
+    L: Discrete<R, N, Scalar = f64>,
+{
+    let mut effort = Effort::default();
+    let mut trajectory = composition.trajectory(system, h, start);
+    for _ in 0..steps {
+        match trajectory.next() {
+            Some(Ok(state)) => {
+                effort.steps += 1;
+                look(Progress { steps: effort.steps, time: trajectory.time(), state });
+            }
+            Some(Err(error)) => effort.stopped = Some(error),
+            None => break,
         }
     }
     effort

@@ -3,7 +3,7 @@
 use dalembert::{State, rayleigh_system};
 
 /// L = ½|v|² + 1/|q|, R = ½k|v|²: at `e` → 1 the distance falls to 1 − e, where the force is (1 − e)⁻².
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss, fitted, fitted_trapezoidal])]
 pub fn kepler(q: [f64; 2], v: [f64; 2], k: f64) -> (f64, f64) {
     let speed = v[0] * v[0] + v[1] * v[1];
     (0.5 * speed + 1.0 / (q[0] * q[0] + q[1] * q[1]).sqrt(), 0.5 * k * speed)

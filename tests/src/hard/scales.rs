@@ -14,7 +14,7 @@ pub struct Scaled {
     pub r: f64,
 }
 
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 impl Scaled {
     fn lagrangian(&self, q: [f64; 3], v: [f64; 3]) -> f64 {
         let u = self.units;

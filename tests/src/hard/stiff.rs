@@ -3,7 +3,7 @@
 use dalembert::{State, rayleigh_system};
 
 /// A unit mass on a spring of unit length and stiffness k under g = 1, in the plane: √k is the ratio of the frequencies.
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 pub fn spring_pendulum(q: [f64; 2], v: [f64; 2], k: f64, r: f64) -> (f64, f64) {
     let speed = v[0] * v[0] + v[1] * v[1];
     let stretch = (q[0] * q[0] + q[1] * q[1]).sqrt() - 1.0;
@@ -39,7 +39,7 @@ pub const FERMI: usize = 3;
 /// ```text
 /// V = ½ω² Σ x₁ᵢ² + ¼[(x₀₁ − x₁₁)⁴ + Σ (x₀ᵢ₊₁ − x₁ᵢ₊₁ − x₀ᵢ − x₁ᵢ)⁴ + (x₀ₘ + x₁ₘ)⁴]
 /// ```
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 pub fn fermi(q: [f64; 6], v: [f64; 6], omega: f64, r: f64) -> (f64, f64) {
     let speed: f64 = v.iter().map(|v| v * v).sum();
     let stiff = q[3] * q[3] + q[4] * q[4] + q[5] * q[5];

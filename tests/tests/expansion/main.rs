@@ -1,5 +1,6 @@
 //! The macros' pipeline called as plain code: what it writes, and that nothing makes it panic.
 
+mod corpus;
 mod odd_input;
 mod snapshots;
 

@@ -46,6 +46,9 @@ fn odd_but_right_systems_expand() {
         "fn ALL_CAPITALS(q: [f64; 0x1_usize], v: [f64; 0x1_usize]) -> f64 { q[0] * v[0] }",
         "fn braces(q: [f64; { 1 + 1 }], v: [f64; { 1 + 1 }]) -> f64 { q[0] * v[1] }",
         "fn group(q: [(f64); 1], v: [f64; 1]) -> (f64) { q[0] * v[0] }",
+        // At the start of a block these would be statements.
+        "fn f(q: [f64; if true { 1 } else { 2 } + 1], v: [f64; if true { 1 } else { 2 } + 1]) -> f64 { q[0] * v[1] }",
+        "fn f(q: [f64; { 1 } << 1], v: [f64; { 1 } << 1]) -> f64 { q[0] * v[1] }",
         // Lengths that rustc refuses.
         "fn f(q: [f64; 1u8], v: [f64; 1u8]) -> f64 { 0.0 }",
         "fn f(q: [f64; 99999999999999999999999999], v: [f64; 99999999999999999999999999]) -> f64 { 0.0 }",
@@ -58,6 +61,11 @@ fn odd_but_right_systems_expand() {
     ];
     for item in right {
         assert_eq!(system("", item), Vec::<String>::new(), "{item}");
+    }
+    // Twice the largest length is beyond all lengths.
+    let longest = format!("fn f(q: [f64; {0}], v: [f64; {0}]) -> f64 {{ 0.0 }}", usize::MAX);
+    for attribute in ["", "step_derivatives = second", "rule = gauss", "derivatives = num_dual"] {
+        assert_eq!(system(attribute, &longest), Vec::<String>::new(), "{attribute}");
     }
 }
 

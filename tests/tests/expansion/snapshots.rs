@@ -117,7 +117,27 @@ fn sensitivities() {
     assert_snapshot("sensitivities.rs", &formatted(expansion));
 }
 
-/// The same system with num-dual's derivatives.
+/// Gauss alone, with an input that is one number for all lanes, a time that is each lane's own, and a parameter.
+#[test]
+fn gauss_driven() {
+    let expansion = rayleigh_system(
+        Runtime::STD,
+        quote!(rule = gauss, parameters = gain, step_derivatives = second),
+        quote! {
+            impl Arm {
+                fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+                    0.5 * self.m * v[0] * v[0] + q[0].cos()
+                }
+                fn force(&self, q: [f64; 1], v: [f64; 1], u: [f64; 1], t: f64) -> [f64; 1] {
+                    let push = if u[0] > 0.0 { self.gain * u[0] } else { 0.0 };
+                    [push * q[0].cos() - v[0] + (Self::RATE * t).sin()]
+                }
+            }
+        },
+    );
+    assert_snapshot("gauss_driven.rs", &formatted(expansion));
+}
+
 /// Gauss alone: lanes, a mass matrix that depends on q, a selection, a force.
 #[test]
 fn gauss() {
@@ -146,6 +166,7 @@ fn gauss() {
     }
 }
 
+/// The same system with num-dual's derivatives.
 #[test]
 fn oscillator_by_num_dual() {
     let expansion = rayleigh_system(

@@ -7,6 +7,7 @@ mod chaotic;
 mod damping;
 mod faults;
 mod kepler;
+mod methods;
 mod rounding;
 mod scales;
 mod singular;

@@ -64,19 +64,39 @@ impl Code<'_> {
         let corrections = self.solved(&of_lagrangian, &residuals)?;
 
         let outputs = [rates, residuals, corrections].concat();
-        let taken = ["q", "v", "p", "rate", "momenta"];
-        let line = in_lanes(&self.graph, &self.system.scalar, &outputs, &taken, self.is_portable, &late);
+        let mut taken = vec!["q", "v", "p", "rate", "momenta"];
+        if self.home == Home::View {
+            taken.extend(["u", "t", "elapsed"]);
+        }
+        let mut line = in_lanes(&self.graph, &self.system.scalar, &outputs, &taken, self.is_portable, &late);
+        if self.home == Home::View {
+            let seen = |tokens: TokenStream| view::seen_from_view(tokens, &self.system.name);
+            let input = line.uses_inputs.then(|| quote!(let u = self.u;));
+            let time = line.uses("t").then(|| quote!(let t = *elapsed + self.t;));
+            let statements = seen(line.statements);
+            line.statements = quote!(#input #time #statements);
+            line.later = seen(line.later);
+            line.outputs = line.outputs.into_iter().map(seen).collect();
+        }
         self.calls_elementary |= line.calls_elementary;
         let (rates, rest) = line.outputs.split_at(self.n);
         let (residuals, corrections) = rest.split_at(self.n);
         let (scalar, n) = (&self.system.scalar, self.system.degrees.times(1));
         let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
         let (statements, later, stages) = (&line.statements, &line.later, number_of_stages(&self.graph));
+        let (function, text, elapsed) = if self.system.timed.any() {
+            let elapsed = parameter("elapsed", line.uses("t"));
+            let text = " G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages, each at its own time.";
+            (format_ident!("stages_in_time"), text, Some(quote!(#elapsed: &Lanes<#scalar, #stages>,)))
+        } else {
+            (format_ident!("stages"), " G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages.", None)
+        };
         Some(quote! {
-            /// G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages.
+            #[doc = #text]
             #[inline]
-            fn stages<const #stages: usize>(
+            fn #function<const #stages: usize>(
                 &self,
+                #elapsed
                 #q: &LaneVector<#scalar, #n, #stages>,
                 #v: &LaneVector<#scalar, #n, #stages>,
                 momenta: impl FnOnce(&LaneVector<#scalar, #n, #stages>) -> LaneVector<#scalar, #n, #stages>,

@@ -18,8 +18,8 @@ use crate::{ForcedLagrangian, Scalar, Singular};
 /// A vector for each stage.
 pub(super) type StageVector<T, const N: usize, const S: usize> = [SVector<T, N>; S];
 
-/// A matrix for each stage.
-pub(super) type StageMatrix<T, const N: usize, const S: usize> = [SMatrix<T, N, N>; S];
+/// K vectors for each stage, as columns.
+pub(super) type StageColumns<T, const N: usize, const S: usize, const K: usize> = [SMatrix<T, N, K>; S];
 
 /// L and the force at one stage.
 #[derive(Clone, Copy)]
@@ -68,6 +68,13 @@ impl<T: Scalar, const N: usize> Local<T, N> {
         local
     }
 
+    /// Whether the second derivatives of the coordinate are finite.
+    fn row_is_finite(&self, a: usize) -> bool {
+        [&self.mass, &self.momentum_by_q, &self.rate_by_q, &self.rate_by_v]
+            .iter()
+            .all(|matrix| matrix.row(a).iter().all(|entry| entry.is_finite()))
+    }
+
     /// G.
     pub(super) fn rate(&self) -> SVector<T, N> {
         self.slope + self.force
@@ -80,7 +87,16 @@ pub(super) fn locals<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usi
     v: &LaneVector<T, N, S>,
 ) -> [Local<T, N>; S] {
     let q = problem.configurations(v);
-    array::from_fn(|i| Local::new(problem.system, &lane(&q, i), &lane(v, i)))
+    array::from_fn(|i| {
+        problem.system.later(problem.elapsed(i), |system| Local::new(system, &lane(&q, i), &lane(v, i)))
+    })
+}
+
+/// The first coordinate with a second derivative that is not finite at some stage.
+pub(super) fn non_finite<T: Scalar, const N: usize, const S: usize>(
+    locals: &[Local<T, N>; S],
+) -> Option<usize> {
+    (0..N).find(|&a| !locals.iter().all(|local| local.row_is_finite(a)))
 }
 
 /// ∂r/∂V of all stages, factored: P A = L U, rows by stage and coordinate.
@@ -100,10 +116,7 @@ impl<T: Scalar, const N: usize, const S: usize> Factored<T, N, S> {
         problem: &Problem<'_, L, N, S>,
         locals: &[Local<T, N>; S],
     ) -> Result<Self, Singular> {
-        // h a_ij.
-        let a = |i: usize, j: usize| {
-            T::constant(Problem::<'_, L, N, S>::COEFFICIENTS.shares[j][i]) * problem.steps[j]
-        };
+        let a = |i: usize, j: usize| problem.share(i, j);
         let blocks = array::from_fn(|i| {
             array::from_fn(|j| {
                 let mut block = (locals[i].momentum_by_q - locals[j].rate_by_v) * a(i, j);
@@ -209,15 +222,44 @@ impl<T: Scalar, const N: usize, const S: usize> Factored<T, N, S> {
     }
 
     /// X with A X = `right`, column by column.
-    pub(super) fn solve_matrix(&self, right: &StageMatrix<T, N, S>) -> StageMatrix<T, N, S> {
+    pub(super) fn solve_columns<const K: usize>(
+        &self,
+        right: &StageColumns<T, N, S, K>,
+    ) -> StageColumns<T, N, S, K> {
         let mut solution = [nalgebra::zero(); S];
-        for column in 0..N {
+        for column in 0..K {
             let x = self.solve(&array::from_fn(|i| right[i].column(column).into_owned()));
             for i in 0..S {
-                let block: &mut SMatrix<T, N, N> = &mut solution[i];
+                let block: &mut SMatrix<T, N, K> = &mut solution[i];
                 block.set_column(column, &x[i]);
             }
         }
         solution
+    }
+
+    /// x with Aᵀ x = `right`.
+    pub(super) fn solve_transposed(&self, right: &StageVector<T, N, S>) -> StageVector<T, N, S> {
+        let size = S * N;
+        let mut y = *right;
+        for row in 0..size {
+            let mut entry = y[row / N][row % N];
+            for column in 0..row {
+                entry -= self.entry(column, row) * y[column / N][column % N];
+            }
+            y[row / N][row % N] = entry / self.entry(row, row);
+        }
+        for row in (0..size).rev() {
+            let mut entry = y[row / N][row % N];
+            for column in row + 1..size {
+                entry -= self.entry(column, row) * y[column / N][column % N];
+            }
+            y[row / N][row % N] = entry;
+        }
+        let mut x = y;
+        for row in 0..size {
+            let place = self.order[row / N][row % N];
+            x[place / N][place % N] = y[row / N][row % N];
+        }
+        x
     }
 }

@@ -1,12 +1,13 @@
 //! Newton's method for all stages together: for large steps and stiff forces, where the fixed point does not contract.
 //!
 //! The matrix has (S N)² entries, on the stack; it is assembled anew in each iteration, from the second derivatives at every
-//! stage. Steps that do not lower the residual are shortened.
+//! stage. Steps that do not lower the residual are shortened, unless the one after them is shorter ([`nearer`]), as in the solver of
+//! the rules of one stage: residuals of coordinates at rest, without a force as yet, have a floor of next to nothing.
 
 use nalgebra::SVector;
 
 use super::fixed_point::worst;
-use super::linearised::{Factored, Local, StageVector, locals};
+use super::linearised::{Factored, Local, StageVector, locals, non_finite};
 use super::problem::{Problem, Solution, in_units_of, rounding};
 use crate::error::Quantity;
 use crate::lanes::{LaneVector, splat, write_lane};
@@ -20,6 +21,9 @@ const AT_FLOOR: f64 = 4.0;
 
 /// A residual that has stopped falling is accepted up to so many floors.
 pub(super) const STAGNATION: f64 = 4096.0;
+
+/// A contraction above this is not that of Newton's method.
+const SLOW: f64 = 0.25;
 
 /// An iterate with what was evaluated there.
 pub(super) struct Iterate<T, const N: usize, const S: usize> {
@@ -70,15 +74,8 @@ impl<T: Scalar, const N: usize, const S: usize> Iterate<T, N, S> {
 
     /// The first coordinate with an entry that is not finite.
     pub(super) fn non_finite(&self) -> Option<usize> {
-        let is_finite = |a: usize| {
-            self.residual[a].is_finite() == crate::Mask::splat(true)
-                && self.locals.iter().all(|local| {
-                    [&local.mass, &local.momentum_by_q, &local.rate_by_q, &local.rate_by_v]
-                        .iter()
-                        .all(|matrix| matrix.row(a).iter().all(|entry| entry.is_finite()))
-                })
-        };
-        (0..N).find(|&a| !is_finite(a))
+        let of_residual = (0..N).find(|&a| self.residual[a].is_finite() != crate::Mask::splat(true));
+        of_residual.or_else(|| non_finite(&self.locals))
     }
 }
 
@@ -127,23 +124,34 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
             // A coordinate that starts to move only now has no floor to speak of before.
             let floor = last.floor.sup(&next.floor);
             let (size, before) = (next.size_in(&floor), last.size_in(&floor));
-            if size < before || next.size <= constant(1.0) {
+            if next.size <= constant(1.0) {
                 break Some((next, size / before));
             }
-            if share == one && size.is_finite() {
-                // No lower than before: rounding, if the residual is small or its rounding large enough.
-                let measured = last.floor + rounding(problem, &last.v);
-                let is_explained = in_units_of(&last.residual, &measured) <= constant(AT_FLOOR);
-                if is_explained || last.size <= constant(STAGNATION) {
-                    let floor = if is_explained { &measured } else { &last.floor };
-                    let (residual, floor) = worst(&last.residual, floor);
-                    return Ok(Solution {
-                        v: last.v,
-                        rate: last.rate,
-                        report: report(residual, floor, damped),
-                        contracted: false,
-                    });
+            let lower = size < before;
+            if share == one && size.is_finite() && !(lower && size <= before * constant(SLOW)) {
+                if nearer(problem, &next, &last, &correction) {
+                    break Some((next, size.min(before) / before));
                 }
+                // No lower than before, or hardly: rounding, if what there is of it explains the residual, or if that is small. One component that
+                // rounding holds up can hide that the step has brought the others down.
+                let candidates = [(&next, true), (&last, false)];
+                for (at, is_next) in candidates.into_iter().take(if lower { 1 } else { 2 }) {
+                    let measured = at.floor + rounding(problem, &at.v);
+                    let is_explained = in_units_of(&at.residual, &measured) <= constant(AT_FLOOR);
+                    if is_explained || !is_next && at.size <= constant(STAGNATION) {
+                        let floor = if is_explained { &measured } else { &at.floor };
+                        let (residual, floor) = worst(&at.residual, floor);
+                        return Ok(Solution {
+                            v: at.v,
+                            rate: at.rate,
+                            report: report(residual, floor, damped),
+                            contracted: false,
+                        });
+                    }
+                }
+            }
+            if lower {
+                break Some((next, size / before));
             }
             share = crate::newton::shorter(share, before, size);
             if share < T::EPSILON.sqrt() {
@@ -185,4 +193,36 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
         residual: residual.widen(),
         floor: floor.widen(),
     })
+}
+
+/// Whether a full step whose residual is hardly lower is nearer to the root all the same: the Newton step from there is at most half as long,
+/// with Σ |Mₐₐ| vₐ² over all stages for the square of a length, by a matrix that has not grown.
+#[cold]
+#[inline(never)]
+fn nearer<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    next: &Iterate<T, N, S>,
+    last: &Iterate<T, N, S>,
+    correction: &StageVector<T, N, S>,
+) -> bool {
+    let h = problem.h.abs();
+    let diagonal = |local: &Local<T, N>, a: usize| {
+        let terms = [local.mass[(a, a)], local.rate_by_v[(a, a)] * h, local.rate_by_q[(a, a)] * (h * h)];
+        terms.iter().fold(T::zero(), |sum, term| sum + term.abs())
+    };
+    let has_grown = next
+        .locals
+        .iter()
+        .zip(&last.locals)
+        .any(|(next, last)| (0..N).any(|a| diagonal(next, a) > diagonal(last, a) * T::constant(2.0)));
+    if has_grown || next.non_finite().is_some() {
+        return false;
+    }
+    let Ok(factored) = Factored::new(problem, &next.locals) else { return false };
+    let square = |step: &StageVector<T, N, S>| {
+        step.iter().zip(&last.locals).fold(T::zero(), |sum, (step, local)| {
+            (0..N).fold(sum, |sum, a| sum + local.mass[(a, a)].abs() * step[a] * step[a])
+        })
+    };
+    square(&factored.solve(&next.residuals())) < square(correction) * T::constant(0.25)
 }

@@ -11,6 +11,7 @@ use nalgebra::SVector;
 use super::Gauss;
 use super::coefficients::Coefficients;
 use crate::lanes::{LaneVector, Lanes};
+use crate::newton::PLACES;
 use crate::{ForcedLagrangian, Report, Scalar, Stages};
 
 /// A vector as an unevaluated sum, so that adding many small steps loses nothing.
@@ -110,7 +111,26 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     /// The equations of motion at the stages with velocities `v`.
     #[inline(always)]
     pub(super) fn stages(&self, v: &LaneVector<T, N, S>) -> Stages<T, N, S> {
-        self.system.stages(&self.configurations(v), v, |rate| self.momenta(rate))
+        self.stages_at(&self.configurations(v), v)
+    }
+
+    /// The same with configurations of their own.
+    #[inline(always)]
+    fn stages_at(&self, q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>) -> Stages<T, N, S> {
+        let elapsed = Lanes(array::from_fn(|i| self.elapsed(i)));
+        self.system.stages_in_time(&elapsed, q, v, |rate| self.momenta(rate))
+    }
+
+    /// c_i h, the time of a stage from the start of the step.
+    #[inline(always)]
+    pub(super) fn elapsed(&self, i: usize) -> T {
+        T::constant(Self::COEFFICIENTS.nodes[i]) * self.h
+    }
+
+    /// h a_ij.
+    #[inline(always)]
+    pub(super) fn share(&self, i: usize, j: usize) -> T {
+        T::constant(Self::COEFFICIENTS.shares[j][i]) * self.steps[j]
     }
 
     /// Σ_j h b_j x_j.
@@ -165,7 +185,7 @@ pub(super) fn in_units<T: Scalar, const N: usize, const S: usize>(
 }
 
 /// What rounding does to the residuals at the stages: their changes when each coordinate of Q and of V moves by the last
-/// place of its terms, added up. Near an equilibrium, where large forces cancel, this is more than [`Problem::floor`] knows of.
+/// place of its terms, added up; measured over [`PLACES`] of them, since functions on the way may swallow one. Near an equilibrium, where large forces cancel, this is more than [`Problem::floor`] knows of.
 #[cold]
 #[inline(never)]
 pub(super) fn rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
@@ -173,9 +193,7 @@ pub(super) fn rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: u
     v: &LaneVector<T, N, S>,
 ) -> SVector<T, N> {
     let q = problem.configurations(v);
-    let residual = |q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>| {
-        problem.system.stages(q, v, |rate| problem.momenta(rate)).residual
-    };
+    let residual = |q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>| problem.stages_at(q, v).residual;
     let value = residual(&q, v);
     let mut sum: SVector<T, N> = nalgebra::zero();
     let mut add = |q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>| {
@@ -184,18 +202,22 @@ pub(super) fn rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: u
             sum[a] += (moved[a] - value[a]).amax();
         }
     };
-    for unit in [T::EPSILON, -T::EPSILON] {
+    let places = T::constant(PLACES);
+    let unit = T::EPSILON * places;
+    // All stages alike, then the halves of the step apart: a force that changes sign within it must not cancel.
+    for opposed in [unit, -unit] {
+        let unit = Lanes::<T, S>(array::from_fn(|i| if 2 * i < S { unit } else { opposed }));
         for a in 0..N {
             let speed = v[a].amax();
             // Q is a sum: its rounding is that of its terms, however small it is itself.
             let size = problem.q0.value[a].abs() + (problem.h * speed).abs();
             let mut moved = q;
-            moved[a] = moved[a] + size * unit;
+            moved[a] = moved[a] + unit * size;
             add(&moved, v);
             let mut moved = *v;
-            moved[a] = moved[a] + speed * unit;
+            moved[a] = moved[a] + unit * speed;
             add(&q, &moved);
         }
     }
-    sum
+    sum / places
 }

@@ -1,27 +1,28 @@
 //! The discrete objects on a segment (q0, q1), its interior points eliminated by the forced equations.
 //!
-//! The stages and p0 solve the equations of a step with Σ b_i V_i = v̄ for the configuration at the end. By the implicit
-//! function theorem, with J = ∂r/∂V, X = J⁻¹ 1 and Y = J⁻¹ ∂r/∂q0, the velocities follow dV = X dp0 − Y dq0; returning q1 to its
-//! place gives ∂p0/∂q0 = K00 and ∂p0/∂q1 = K01, and with them the total variations of all Q_i and V_i:
+//! The stages and p0 solve the equations of a step with Σ b_i V_i = v̄ for the configuration at the end. The derivatives of a step
+//! (`tangent.rs`), with q1 returned to its place by p0, are those of a segment: the total variations of all Q_i and V_i.
 //!
 //! ```text
+//! K01 = ∂p0/∂q1 = (∂q1/∂p0)⁻¹,   K00 = ∂p0/∂q0 = −K01 ∂q1/∂q0
 //! D L_d = h Σ b_i (∂L/∂q·DQ_i + ∂L/∂v·DV_i),   f_d = h Σ b_i f_L·DQ_i,   p0 = −D1 L_d − f_d⁻,   p1 = D2 L_d + f_d⁺
 //! ```
 //!
 //! Of D²L_d and Df_d alone their sums K are exact; Df_d itself holds second derivatives of the interior points, that is third
 //! ones of L, and is a central difference of order 8 of f_d. Without force it is 0 and D²L_d exact.
 
-use core::array;
-
 use nalgebra::{SMatrix, SVector};
 
-use super::linearised::{Factored, Local, StageMatrix};
+use super::fixed_point::worst;
+use super::linearised::{Factored, Local};
 use super::newton::{Iterate, STAGNATION};
 use super::problem::{Compensated, Problem};
+use super::tangent::Tangent;
+use crate::error::Quantity;
 use crate::lanes::{LaneVector, lane, splat};
 use crate::{
-    CovectorDerivatives, Derivatives, DiscreteForce, DiscreteForceDerivatives, ForcedLagrangian, Momenta,
-    Scalar,
+    CovectorDerivatives, Derivatives, DiscreteForce, DiscreteForceDerivatives, ForcedLagrangian,
+    LegendreDerivatives, Momenta, Scalar, Singular, StepError,
 };
 
 /// Iterations of Newton's method for the interior points.
@@ -29,26 +30,43 @@ const MAX_ITERATIONS: u32 = 100;
 
 /// A solved segment.
 pub(super) struct Segment<'a, L: ForcedLagrangian<N>, const N: usize, const S: usize> {
-    problem: Problem<'a, L, N, S>,
-    v: LaneVector<L::Scalar, N, S>,
-    locals: [Local<L::Scalar, N>; S],
-    factored: Factored<L::Scalar, N, S>,
+    pub(super) problem: Problem<'a, L, N, S>,
+    pub(super) v: LaneVector<L::Scalar, N, S>,
+    pub(super) locals: [Local<L::Scalar, N>; S],
+    pub(super) factored: Factored<L::Scalar, N, S>,
 }
 
 /// The total derivatives of a segment by q0 and q1.
 pub(super) struct Variations<T, const N: usize, const S: usize> {
-    /// ∂Q_i/∂q0, ∂V_i/∂q0.
-    minus: [StageMatrix<T, N, S>; 2],
-    /// ∂Q_i/∂q1, ∂V_i/∂q1.
-    plus: [StageMatrix<T, N, S>; 2],
-    p0_by_q0: SMatrix<T, N, N>,
+    /// By q0, at fixed q1.
+    pub(super) minus: Tangent<T, N, S, N>,
+    /// By q1, at fixed q0.
+    pub(super) plus: Tangent<T, N, S, N>,
+    pub(super) p0_by_q0: SMatrix<T, N, N>,
     pub(super) p0_by_q1: SMatrix<T, N, N>,
-    p1_by_q1: SMatrix<T, N, N>,
 }
 
 impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize> Segment<'a, L, N, S> {
-    /// The segment from q0 with the mean velocity v̄; nothing where its equations have no solution that Newton's method finds.
-    pub(super) fn new(system: &'a L, q0: &SVector<T, N>, mean: &SVector<T, N>, h: T) -> Option<Self> {
+    /// The segment from q0 to q1, with its arguments looked at.
+    pub(super) fn between(
+        system: &'a L,
+        q0: &SVector<T, N>,
+        q1: &SVector<T, N>,
+        h: T,
+    ) -> Result<Self, StepError> {
+        crate::discrete::require_step_size(h)?;
+        StepError::require_finite(q0, Quantity::Configuration)?;
+        StepError::require_finite(q1, Quantity::Configuration)?;
+        Self::new(system, q0, &((q1 - q0) / h), h)
+    }
+
+    /// The segment from q0 with the mean velocity v̄, by Newton's method.
+    pub(super) fn new(
+        system: &'a L,
+        q0: &SVector<T, N>,
+        mean: &SVector<T, N>,
+        h: T,
+    ) -> Result<Self, StepError> {
         let one = T::one();
         let start = Compensated::new(*q0);
         let mut problem = Problem::new(system, start, Compensated::new(nalgebra::zero()), h);
@@ -56,15 +74,18 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         // p0 such that the residuals, here ∂L/∂v − h Σ a_ij G_j, have the mean 0.
         problem.p0.value = problem.sum(&guess.residual) / h;
         let mut last = Iterate::new(&problem, guess.v);
-        for _ in 0..MAX_ITERATIONS {
-            if last.non_finite().is_some() {
-                return None;
+        for iteration in 0..MAX_ITERATIONS {
+            if let Some(index) = last.non_finite() {
+                return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
             }
-            let factored = Factored::new(&problem, &last.locals).ok()?;
+            let singular =
+                |singular: Singular| StepError::SingularNewtonMatrix { iteration, column: singular.column };
+            let factored = Factored::new(&problem, &last.locals).map_err(singular)?;
             let y = factored.solve(&last.residuals());
-            let x = factored.solve_matrix(&[SMatrix::identity(); S]);
+            let x = factored.solve_columns(&[SMatrix::<T, N, N>::identity(); S]);
             let of_y = y.iter().zip(&problem.steps).fold(SVector::zeros(), |sum, (y, &step)| sum + y * step);
-            let dp = -crate::linear::solve(&mean_of(&x, &problem.steps), &of_y).ok()?;
+            let of_x = x.iter().zip(&problem.steps).fold(SMatrix::zeros(), |sum, (x, &step)| sum + x * step);
+            let dp = -crate::linear::solve(&of_x, &of_y).map_err(singular)?;
             let p0 = problem.p0.value;
             let mut share = one;
             let next = loop {
@@ -87,7 +108,10 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
                     break None;
                 }
             };
-            let (next, is_lower, contraction) = next?;
+            let Some((next, is_lower, contraction)) = next else {
+                let residual = worst(&last.residual, &last.floor).0.widen();
+                return Err(StepError::NoRealSolution { iteration, residual });
+            };
             let has_stopped = !is_lower || contraction > T::constant(0.1);
             let is_done = share == one && next.size <= T::constant(STAGNATION) && has_stopped;
             if !is_lower {
@@ -96,11 +120,16 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
                 last = next;
             }
             if is_done || last.size == T::zero() {
-                let factored = Factored::new(&problem, &last.locals).ok()?;
-                return Some(Self { problem, v: last.v, locals: last.locals, factored });
+                let factored = Factored::new(&problem, &last.locals).map_err(singular)?;
+                return Ok(Self { problem, v: last.v, locals: last.locals, factored });
             }
         }
-        None
+        let (residual, floor) = worst(&last.residual, &last.floor);
+        Err(StepError::NotConverged {
+            iterations: MAX_ITERATIONS,
+            residual: residual.widen(),
+            floor: floor.widen(),
+        })
     }
 
     /// p0 and p1.
@@ -131,50 +160,38 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         sum / self.problem.h
     }
 
-    /// How all stages and momenta follow q0 and q1; nothing where the end points do not determine the motion.
-    pub(super) fn variations(&self) -> Option<Variations<T, N, S>> {
-        let steps = &self.problem.steps;
-        let share =
-            |i: usize, j: usize| T::constant(Problem::<'_, L, N, S>::COEFFICIENTS.shares[j][i]) * steps[j];
-        let at_stage = |i: usize, of: &StageMatrix<T, N, S>| {
-            (0..S).fold(SMatrix::zeros(), |sum, j| sum + of[j] * share(i, j))
-        };
-        let identity = SMatrix::<T, N, N>::identity();
-        let by_q: StageMatrix<T, N, S> = self.locals.map(|local| local.rate_by_q);
-        let x = self.factored.solve_matrix(&[identity; S]);
-        let y = self
-            .factored
-            .solve_matrix(&array::from_fn(|i| self.locals[i].momentum_by_q - at_stage(i, &by_q)));
+    /// How all stages and momenta follow q0 and q1.
+    pub(super) fn variations(&self) -> Result<Variations<T, N, S>, StepError> {
+        let by = self.by_state()?;
+        let p0_by_q1 = crate::linearization::inverse(&by.p.end.q)?;
+        let p0_by_q0 = -(p0_by_q1 * by.q.end.q);
+        let (minus, plus) = (by.p.carried(&p0_by_q0, Some(&by.q)), by.p.carried(&p0_by_q1, None));
+        Ok(Variations { minus, plus, p0_by_q0, p0_by_q1 })
+    }
 
-        let p0_by_q1 = crate::linearization::inverse(&mean_of(&x, steps)).ok()?;
-        let p0_by_q0 = p0_by_q1 * (mean_of(&y, steps) - identity);
-        let v_minus: StageMatrix<_, N, S> = array::from_fn(|i| x[i] * p0_by_q0 - y[i]);
-        let v_plus: StageMatrix<_, N, S> = array::from_fn(|i| x[i] * p0_by_q1);
-        let q_minus: StageMatrix<_, N, S> = array::from_fn(|i| identity + at_stage(i, &v_minus));
-        let q_plus: StageMatrix<_, N, S> = array::from_fn(|i| at_stage(i, &v_plus));
-        let p1_by_q1 = (0..S).fold(p0_by_q1, |sum, i| {
-            let local = &self.locals[i];
-            sum + (local.rate_by_q * q_plus[i] + local.rate_by_v * v_plus[i]) * steps[i]
-        });
-        Some(Variations { minus: [q_minus, v_minus], plus: [q_plus, v_plus], p0_by_q0, p0_by_q1, p1_by_q1 })
+    /// Both momenta with their derivatives by q0 and q1.
+    pub(super) fn legendre(&self) -> Result<LegendreDerivatives<T, N>, StepError> {
+        let Variations { minus, plus, p0_by_q0, p0_by_q1 } = self.variations()?;
+        let (p1_by_q0, p1_by_q1) = (minus.end.p, plus.end.p);
+        Ok(LegendreDerivatives { momenta: self.momenta(), p0_by_q0, p0_by_q1, p1_by_q0, p1_by_q1 })
     }
 
     /// h Σ b_i (∂L/∂q·DQ_i + ∂L/∂v·DV_i).
-    fn slope(&self, [q, v]: &[StageMatrix<T, N, S>; 2]) -> SVector<T, N> {
+    fn slope(&self, by: &Tangent<T, N, S, N>) -> SVector<T, N> {
         (0..S).fold(SVector::zeros(), |sum, i| {
             let local = &self.locals[i];
-            sum + (q[i].tr_mul(&local.slope) + v[i].tr_mul(&local.momentum)) * self.problem.steps[i]
+            sum + (by.q[i].tr_mul(&local.slope) + by.v[i].tr_mul(&local.momentum)) * self.problem.steps[i]
         })
     }
 
     /// f_d.
     pub(super) fn force(&self, variations: &Variations<T, N, S>) -> DiscreteForce<T, N> {
-        let along = |q: &StageMatrix<T, N, S>| {
+        let along = |by: &Tangent<T, N, S, N>| {
             (0..S).fold(SVector::zeros(), |sum, i| {
-                sum + q[i].tr_mul(&self.locals[i].force) * self.problem.steps[i]
+                sum + by.q[i].tr_mul(&self.locals[i].force) * self.problem.steps[i]
             })
         };
-        DiscreteForce { minus: along(&variations.minus[0]), plus: along(&variations.plus[0]) }
+        DiscreteForce { minus: along(&variations.minus), plus: along(&variations.plus) }
     }
 
     /// L_d with its derivatives, given those of f_d.
@@ -189,17 +206,9 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
             d2: self.slope(&variations.plus),
             d11: -variations.p0_by_q0 - force.minus.d1,
             d12: -variations.p0_by_q1 - force.minus.d2,
-            d22: variations.p1_by_q1 - force.plus.d2,
+            d22: variations.plus.end.p - force.plus.d2,
         }
     }
-}
-
-/// h Σ b_i of a matrix at each stage.
-fn mean_of<T: Scalar, const N: usize, const S: usize>(
-    matrices: &StageMatrix<T, N, S>,
-    steps: &[T; S],
-) -> SMatrix<T, N, N> {
-    matrices.iter().zip(steps).fold(SMatrix::zeros(), |sum, (matrix, &step)| sum + matrix * step)
 }
 
 /// f_d on the segment (q0, q1), NaN where it has no solution.
@@ -213,7 +222,7 @@ pub(super) fn force<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
         return DiscreteForce::zero();
     }
     let solved = Segment::<'_, L, N, S>::new(system, q0, &((q1 - q0) / h), h);
-    let force = solved.and_then(|segment| Some(segment.force(&segment.variations()?)));
+    let force = solved.and_then(|segment| Ok(segment.force(&segment.variations()?)));
     let nan = SVector::repeat(T::constant(f64::NAN));
     force.unwrap_or(DiscreteForce { minus: nan, plus: nan })
 }
