@@ -271,5 +271,8 @@ pub use second_order::{DiscreteSecondOrder, Hessian, SecondOrder, StepHessian};
 pub use state::State;
 pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
 pub use system::{Force, Lagrangian, Rayleigh};
-pub use tolerance::{Breach, Choice, GuardedTrajectory, Method, ToleranceError, Trial};
+pub use tolerance::{
+    Breach, Choice, Composed, ComposedOrGauss, GuardedTrajectory, Method, MethodRun, Methods, ToleranceError,
+    Trial, WithGauss,
+};
 pub use trajectory::{Checkpoint, Parted, Sample, Samples, Trajectory};
