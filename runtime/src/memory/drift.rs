@@ -58,13 +58,16 @@ where
     }
 }
 
+/// The matrix of a step size, factored, and the functions of Z.
+type Kept<S, const N: usize> = (Prepared<S, SMatrix<S, N, N>, N>, DampedDrift<S, N>);
+
 /// What [`FittedTrapezoidal`] asks for: the functions of Z, one of them factored, and the force at the end of the last step. It belongs to
 /// one system.
 ///
 /// As for [`Explicit`](super::Explicit) systems, a step costs one gradient.
 #[derive(Clone, Copy, Debug)]
 pub struct ExplicitDriftMemory<S: Scalar, const N: usize> {
-    kept: Option<(Prepared<S, SMatrix<S, N, N>, N>, DampedDrift<S, N>)>,
+    kept: Option<Kept<S, N>>,
     /// A configuration, and the force there.
     force: Option<(SVector<S, N>, SVector<S, N>)>,
 }
