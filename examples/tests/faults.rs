@@ -183,11 +183,11 @@ fn long_text() -> String {
 
 #[test]
 fn child_that_saves() {
-    if let Some(folder) = env::var_os(CHILD) {
-        if let Err(error) = results::save(&Path::new(&folder).join("result.csv"), &long_text()) {
-            eprintln!("{error:#}");
-            process::exit(3);
-        }
+    if let Some(folder) = env::var_os(CHILD)
+        && let Err(error) = results::save(&Path::new(&folder).join("result.csv"), &long_text())
+    {
+        eprintln!("{error:#}");
+        process::exit(3);
     }
 }
 

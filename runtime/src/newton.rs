@@ -142,7 +142,7 @@ fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
             let residual = momenta.p0 - p;
             let floor = estimated_floor(p, &kernel.matrix, &v);
             let (residual, floor, is_root) = held_against(&residual, &floor);
-            if is_root {
+            if is_root && (kind == Equation::Linear || is_known_at(&v, &correction)) {
                 let last_correction = correction.amax();
                 let iterations = iterations + 1;
                 let report = Report { iterations, damped: 0, residual, floor, last_correction };
@@ -151,6 +151,13 @@ fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         }
     }
     Err(reached)
+}
+
+/// Whether the floor at `v` may be taken from the matrix of the iterate before, from which `correction` led here: from a guess
+/// that is far out by many orders of magnitude that matrix can be larger by as many, and with it the floor.
+#[inline]
+fn is_known_at<S: Scalar, const N: usize>(v: &SVector<S, N>, correction: &SVector<S, N>) -> bool {
+    correction.amax() <= v.amax() * S::constant(4.0)
 }
 
 /// max |residualᵢ| weightᵢ; NaN if one of them is no finite number.
@@ -271,7 +278,7 @@ fn careful<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         if size <= S::one() || contraction * contraction * size <= S::one() {
             let momenta = finish(q, &trial);
             let remaining = momenta.p0 - p;
-            if in_units_of(&remaining, &floor) <= S::constant(AT_FLOOR) {
+            if in_units_of(&remaining, &floor) <= S::constant(AT_FLOOR) && is_known_at(&trial, &correction) {
                 let (residual, floor) = worst(&remaining, &floor);
                 let last_correction = correction.amax();
                 let report = Report { iterations, damped, residual, floor, last_correction };

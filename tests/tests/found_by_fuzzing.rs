@@ -1,6 +1,6 @@
 //! What fuzzing the step has found, kept: `fuzz/` has the fuzzer.
 
-use dalembert::{Midpoint, State, Step, Trajectory, rayleigh_system};
+use dalembert::{Discrete, Gauss, Midpoint, State, Step, Trajectory, rayleigh_system};
 
 /// Masses on springs of degree 2 and 4, with dampers.
 #[rayleigh_system]
@@ -57,4 +57,47 @@ fn no_more_iterations_are_shortened_than_made() {
     for step in taken {
         assert!(step.report.damped <= step.report.iterations, "{:?}", step.report);
     }
+}
+
+/// Three masses whose inertia grows with q₀.
+#[rayleigh_system]
+fn coupled(q: [f64; 3], v: [f64; 3], m: f64, a: f64) -> f64 {
+    let sum = v[0] + v[1] + v[2];
+    let kinetic = 0.5 * m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + 0.5 * (1.0 + q[0] * q[0]) * sum * sum;
+    kinetic - a * (q[0] * q[1] * q[2]).cos()
+}
+
+/// From a guess that is out by 76 orders of magnitude the matrix, and with it the floor, was that of far out: a step was taken whose
+/// residual was a third of the momentum.
+#[test]
+fn a_wild_guess_does_not_lower_the_demands() {
+    let system = Coupled { m: 3.89013671875, a: 0.25 };
+    let state = State {
+        q: [8.4930666804e-314, 0.0, -0.000244140625].into(),
+        p: [3.860595703125, -7.235107421875, 0.0].into(),
+    };
+    let guess = [2.3583984375, -6.866455078125, 1e77].into();
+    for guess in [Some(&guess), None] {
+        let step = system.step(&state, 1.0387856152602565e-13, guess);
+        match step {
+            Ok(step) => assert!(step.report.residual < 1e-12, "{:?}", step.report),
+            Err(_) => assert!(guess.is_some()),
+        }
+    }
+}
+
+#[rayleigh_system(rule = gauss)]
+fn free(q: [f64; 1], v: [f64; 1]) -> f64 {
+    0.5 * v[0] * v[0] + 0.0 * q[0]
+}
+
+/// At the end of all numbers the mean velocity can overflow while the state does not.
+#[test]
+fn a_gauss_step_has_a_finite_velocity() {
+    let taken = |p: f64| {
+        let state = State { q: [-0.88916015625].into(), p: [p].into() };
+        Discrete::<Gauss<3>, 1>::step(&Free {}, &state, -1.6274861991405487e-5, None)
+    };
+    assert!(taken(1e300).unwrap().velocity[0].is_finite());
+    assert!(taken(f64::MAX).is_ok_and(|step| step.velocity[0].is_finite()) || taken(f64::MAX).is_err());
 }

@@ -5,7 +5,7 @@
 //! of the iterate before the last correction; the one at the root can be smaller by any factor where a component of the force
 //! happens to vanish. All coordinates of a system here have the same unit, and it is held to the largest residual and floor.
 
-use dalembert::nalgebra::{ComplexField, SVector, zero};
+use dalembert::nalgebra::{SVector, zero};
 use dalembert::{Discrete, NewtonMatrix, Scalar, State, Step};
 
 /// Floors within which a residual that has stopped falling is accepted.

@@ -98,10 +98,7 @@ pub fn system(system: &System<'_>) -> Result<Lowered> {
     for parameter in &system.parameters {
         lowering.graph.listed(parameter);
     }
-    let n = match system.degrees.literal() {
-        Some(n) => n,
-        None => lowering.length(&system.degrees.length)?,
-    };
+    let n = lowering.length(&system.degrees.length)?;
     let coordinates = (0..n).map(|i| Value::Real(lowering.graph.node(Operation::Coordinate(i)))).collect();
     let velocities = (0..n).map(|i| Value::Real(lowering.graph.node(Operation::Velocity(i)))).collect();
     let (q, v) = (Value::Sequence(coordinates), Value::Sequence(velocities));
@@ -398,6 +395,9 @@ impl Lowering<'_> {
         if let Expr::Lit(ExprLit { lit: Lit::Int(literal), .. }) = length
             && let Ok(length) = literal.base10_parse()
         {
+            if length > MAX_NODES {
+                return refuse(literal, "so long an array is too much for straight-line code");
+            }
             return Ok(length);
         }
         match self.expression(length)? {

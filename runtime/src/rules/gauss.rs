@@ -100,7 +100,9 @@ fn completed<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, cons
     let state = State { q: ends[0].value, p: ends[1].value };
     StepError::require_finite(&state.q, Quantity::Configuration)?;
     StepError::require_finite(&state.p, Quantity::Momentum)?;
-    Ok((Step { state, velocity: displacement / problem.h, report: solution.report }, ends))
+    let velocity = displacement / problem.h;
+    StepError::require_finite(&velocity, Quantity::Velocity)?;
+    Ok((Step { state, velocity, report: solution.report }, ends))
 }
 
 impl<T, L, const N: usize, const S: usize> Discrete<Gauss<S>, N> for L

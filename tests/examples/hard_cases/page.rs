@@ -74,10 +74,14 @@ pub fn write(cases: &[(&str, Case)]) -> Result<PathBuf> {
         text.push('\n');
     }
     text += OTHERS;
+    text += ADVERSARIAL;
     let path = documents().join("hard-cases.md");
     results::save(&path, &text)?;
     Ok(path)
 }
+
+/// What random and broken input does, and what faults do: from runs of their own.
+const ADVERSARIAL: &str = include_str!("adversarial.md");
 
 /// What has tests alone, with nothing to plot.
 const OTHERS: &str = "## Also tested\n\n\

@@ -80,32 +80,6 @@ const _: () = {
                 d22: SMatrix::from([[m]]),
             }
         }
-        #[inline]
-        fn lagrangian_variations(
-            &self,
-            q: &Vector,
-            v: &Vector,
-            minus: Direction<f64>,
-            plus: Direction<f64>,
-        ) -> Variations<f64, 1> {
-            let m = self.m;
-            let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1 = v[0] * m;
-            let minus_first = minus.first;
-            let minus_second = minus.second;
-            let plus_first = plus.first;
-            let plus_second = plus.second;
-            Variations {
-                minus: SVector::from([t1 * minus_second - sin_q0 * minus_first]),
-                plus: SVector::from([t1 * plus_second - sin_q0 * plus_first]),
-                mixed: SMatrix::from([
-                    [
-                        plus_second * (m * minus_second)
-                            - cos_q0 * (minus_first * plus_first),
-                    ],
-                ]),
-            }
-        }
     }
     #[automatically_derived]
     impl Lagrangian<1> for DrivenArm<'_> {
@@ -164,24 +138,6 @@ const _: () = {
                 d1: SMatrix::from([[-(push * sin_q0)]]),
                 d2: SMatrix::from([[-1.0]]),
             }
-        }
-        #[inline]
-        fn force_variation(
-            &self,
-            q: &Vector,
-            v: &Vector,
-            direction: Direction<f64>,
-        ) -> (Vector, SMatrix<f64, 1, 1>) {
-            let t = self.t;
-            let u = self.u;
-            let (sin_q0, cos_q0) = q[0].sin_cos();
-            let push = if u[0] > 0.0 { self.system.gain * u[0] } else { 0.0 };
-            (
-                SVector::from([cos_q0 * push - v[0] + (t * Arm::RATE).sin()]),
-                SMatrix::from([
-                    [-(direction.second + sin_q0 * (push * direction.first))],
-                ]),
-            )
         }
     }
     #[automatically_derived]
