@@ -53,8 +53,9 @@ pub fn scene<S: Scene<N>, const N: usize, const M: usize>(
     let error = |state: &State<f64, N>| (state.q - end.q).amax();
     let mut candidates: Vec<Candidate<'_, State<f64, N>>> = Vec::new();
     for (method, steps) in ours::methods::<S, N>() {
-        let count = |k: u32| (time * 0.5_f64.sqrt().powi(-(k as i32))).ceil();
-        candidates.extend(worth((0..60).map(count), error, |setting| {
+        // From steps of length 4 on.
+        let count = |k: i32| (time * 2_f64.sqrt().powi(k)).ceil();
+        candidates.extend(worth((-4..56).map(count), error, |setting| {
             let run = move || steps(scene, &start, time / setting, setting as u32);
             Candidate { method, setting, run: timed(run, Ok) }
         }));

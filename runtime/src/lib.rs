@@ -157,9 +157,9 @@ mod attributes {
 /// | `midpoint` | [`Midpoint`], order 2, self-adjoint | |
 /// | `trapezoidal` | [`Trapezoidal`], order 2, self-adjoint; explicit where L = ½vᵀMv − V(q) | |
 /// | `gauss` | [`Gauss<S>`](Gauss), order 2S for S = 1…8, self-adjoint; for small errors | |
-/// | `fitted` | [`Fitted`], order 2, self-adjoint; does not ring under stiff damping | L = ½vᵀMv − V(q) with constant M, linear damping, no force |
+/// | `fitted` | [`Fitted`], order 2, self-adjoint; does not ring under stiff damping | L = ½vᵀMv − V(q) with constant M, linear damping, no force, input, time, `parameters` or `step_derivatives` |
 /// | `fitted_trapezoidal` | [`FittedTrapezoidal`], the same made explicit; exact law of phase volume | as `fitted` |
-/// | `one_sided` | [`OneSided`], order 1; for stiff damping that is not linear, such as dry friction | R(v) convex, no force |
+/// | `one_sided` | [`OneSided`], order 1; for stiff damping that is not linear, such as dry friction | R(v) convex; no force, input, time, `parameters` or `step_derivatives` |
 ///
 /// # Options
 ///
@@ -271,5 +271,8 @@ pub use second_order::{DiscreteSecondOrder, Hessian, SecondOrder, StepHessian};
 pub use state::State;
 pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
 pub use system::{Force, Lagrangian, Rayleigh};
-pub use tolerance::{Breach, Choice, GuardedTrajectory, Method, ToleranceError, Trial};
+pub use tolerance::{
+    Breach, Choice, Composed, ComposedOrGauss, GuardedTrajectory, Method, MethodRun, Methods, ToleranceError,
+    Trial, WithGauss,
+};
 pub use trajectory::{Checkpoint, Parted, Sample, Samples, Trajectory};

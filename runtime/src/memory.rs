@@ -81,12 +81,6 @@ impl<S: Scalar, const N: usize> VelocityHistory<S, N> {
         self.h = h;
     }
 
-    /// The newest velocity: guess enough where one correction leads to the root from anywhere.
-    #[inline]
-    fn latest(&self) -> Option<SVector<S, N>> {
-        (self.known > 0).then_some(self.velocities[0])
-    }
-
     /// The polynomial through the known velocities, one step on.
     #[inline]
     fn extrapolation(&self, h: S) -> Option<SVector<S, N>> {

@@ -58,7 +58,7 @@ where
     }
 }
 
-/// What depends on the step size alone.
+/// The matrix of a step size, factored, and the functions of Z.
 type Kept<S, const N: usize> = (Prepared<S, SMatrix<S, N, N>, N>, DampedDrift<S, N>);
 
 /// What [`FittedTrapezoidal`] asks for: the functions of Z, one of them factored, and the force at the end of the last step. It belongs to

@@ -25,6 +25,9 @@ const CLOSE: f64 = 0.025;
 /// Corrections before Newton's method takes over.
 const MOST: u32 = 5;
 
+/// Where the equation is linear, a correction above this share of v̄ is followed by another.
+const SMALL: f64 = 1.0 / 64.0;
+
 /// Where a step takes more corrections than this, the matrix is renewed.
 const STALE: u32 = 3;
 
@@ -83,11 +86,13 @@ where
         if let Some(kept) = &self.kept
             && kept.h == h
         {
-            let step = if L::LINEAR {
-                self.history.latest().and_then(|guess| kept.linear_step(system, state, guess))
-            } else {
-                self.history.extrapolation(h).and_then(|guess| kept.step(system, state, guess))
-            };
+            let step = self.history.extrapolation(h).and_then(|guess| {
+                if L::LINEAR {
+                    kept.linear_step(system, state, guess)
+                } else {
+                    kept.step(system, state, guess)
+                }
+            });
             if let Some(step) = step {
                 self.history.push(step.velocity, h);
                 self.served = self.served.saturating_add(1);
@@ -212,15 +217,22 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         L: Discrete<R, N, Scalar = S, Matrix = M>,
     {
         let State { q, p } = state;
-        let correction = self.factored.solve(&(system.momenta(q, &guess, self.h).p0 - p));
-        let v = guess - correction;
+        let mut v = guess;
+        let mut correction: SVector<S, N> = nalgebra::zero();
+        let mut iterations = 0;
+        // The factors' rounding is the same at every step, and so is its share of a correction: a drift, unless corrections are small.
+        while iterations == 0 || iterations == 1 && correction.amax() > v.amax() * S::constant(SMALL) {
+            correction = self.factored.solve(&(system.momenta(q, &v, self.h).p0 - p));
+            v -= correction;
+            iterations += 1;
+        }
         let momenta = system.momenta(q, &v, self.h);
         let floor = estimated_floor(p, &self.matrix, &v);
         let (residual, floor, is_root) = held_against(&(momenta.p0 - p), &floor);
         if !is_root {
             return None;
         }
-        let report = Report { iterations: 1, damped: 0, residual, floor, last_correction: correction.amax() };
+        let report = Report { iterations, damped: 0, residual, floor, last_correction: correction.amax() };
         Step::completed(state, self.h, v, &momenta, report).ok()
     }
 }

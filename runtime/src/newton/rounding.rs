@@ -61,16 +61,25 @@ pub(crate) fn held_against<S: Scalar, const N: usize>(
     residual: &SVector<S, N>,
     floor: &SVector<S, N>,
 ) -> (S, S, bool) {
-    let (mut largest, mut its_floor) = (residual[0].abs(), floor[0]);
-    let mut is_root = largest <= its_floor * S::constant(AT_FLOOR);
-    for i in 1..N {
-        let size = residual[i].abs();
-        is_root &= size <= floor[i] * S::constant(AT_FLOOR);
-        if size * its_floor > largest * floor[i] {
-            (largest, its_floor) = (size, floor[i]);
-        }
+    let mut is_root = true;
+    let (mut sizes, mut floors) = (*residual, *floor);
+    for i in 0..N {
+        sizes[i] = residual[i].abs();
+        is_root &= sizes[i] <= floor[i] * S::constant(AT_FLOOR);
     }
-    (largest, its_floor, is_root)
+    // A half against the other: only the logarithm of N comparisons wait for one another.
+    let mut width = N;
+    while width > 1 {
+        let half = width.div_ceil(2);
+        for i in 0..width - half {
+            let (size, its_floor) = (sizes[i + half], floors[i + half]);
+            if size * floors[i] > sizes[i] * its_floor {
+                (sizes[i], floors[i]) = (size, its_floor);
+            }
+        }
+        width = half;
+    }
+    (sizes[0], floors[0], is_root)
 }
 
 /// The residual that is largest in units of its floor, and this floor.

@@ -10,6 +10,8 @@ impl fmt::Display for Method {
             Self::Rule => f.write_str("order 2, the rule alone"),
             Self::KahanLi6 => f.write_str("order 6 in 9 substeps"),
             Self::KahanLi8 => f.write_str("order 8 in 17 substeps"),
+            Self::Gauss4 => f.write_str("order 8, Gauss with 4 stages"),
+            Self::Gauss8 => f.write_str("order 16, Gauss with 8 stages"),
         }
     }
 }
@@ -34,7 +36,7 @@ impl fmt::Display for Choice {
             f,
             "{method}, h = {step_size:.4e}, {steps} steps: error {expected:.1e} expected, {tolerance:.1e} asked for"
         )?;
-        trials.iter().try_for_each(|trial| write!(f, "\n  {trial}"))
+        trials.iter().flatten().try_for_each(|trial| write!(f, "\n  {trial}"))
     }
 }
 
@@ -44,9 +46,12 @@ impl fmt::Display for ToleranceError {
             Self::Request { time, tolerance } => {
                 write!(f, "time {time} and tolerance {tolerance} have to be finite and above 0")
             }
-            Self::OutOfReach { trials } => {
+            Self::OutOfReach { closest } => {
                 f.write_str("no method reaches the tolerance; ask for less, or for a shorter time")?;
-                trials.iter().try_for_each(|trial| write!(f, "\n  {trial}"))
+                match closest {
+                    Some(trial) => write!(f, "; the closest: {trial}"),
+                    None => f.write_str("; none shows its order at the start"),
+                }
             }
             Self::Step(error) => write!(f, "at the start: {error}"),
         }

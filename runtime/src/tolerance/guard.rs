@@ -4,8 +4,8 @@ use core::fmt;
 
 use nalgebra::SVector;
 
-use super::{Choice, Run};
-use crate::{Discrete, Scalar, State, StepError};
+use super::{Choice, MethodRun, Methods};
+use crate::{Lagrangian, Scalar, State, StepError};
 
 /// Where the estimate no longer held.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,14 +27,15 @@ const LOOK_EVERY: u64 = 32;
 /// The guard compares one step with two half ones: every 32 steps, and where the fourth differences of q rise to twice what
 /// they were so far, which costs nothing to see. Where the step and its halves differ so much more than at the start that the
 /// error expected would exceed the tolerance, it notes a [`Breach`]; the run goes on, with the same step size.
-pub struct GuardedTrajectory<'a, L, R, const N: usize>
+pub struct GuardedTrajectory<'a, L, M, const N: usize>
 where
-    L: Discrete<R, N>,
+    L: Lagrangian<N> + 'a,
+    M: Methods<L, N>,
 {
     choice: Choice,
     system: &'a L,
-    rule: R,
-    run: Run<'a, L, R, N>,
+    methods: M,
+    run: M::Run<'a>,
     taken: u64,
     /// The configurations before the present one, the latest first.
     recent: [SVector<L::Scalar, N>; 4],
@@ -44,17 +45,17 @@ where
     failed: bool,
 }
 
-impl<'a, L, R, const N: usize> GuardedTrajectory<'a, L, R, N>
+impl<'a, L, M, const N: usize> GuardedTrajectory<'a, L, M, N>
 where
-    L: Discrete<R, N>,
-    R: Copy,
+    L: Lagrangian<N>,
+    M: Methods<L, N>,
 {
-    pub(super) fn new(choice: Choice, system: &'a L, rule: R, start: State<L::Scalar, N>) -> Self {
-        let run = Run::new(choice.method, rule, system, L::Scalar::constant(choice.step_size), start);
+    pub(super) fn new(choice: Choice, system: &'a L, methods: M, start: State<L::Scalar, N>) -> Self {
+        let run = methods.run(choice.method, system, L::Scalar::constant(choice.step_size), start);
         Self {
             choice,
             system,
-            rule,
+            methods,
             run,
             taken: 0,
             recent: [start.q; 4],
@@ -84,8 +85,8 @@ where
         let (method, h) = (self.choice.method, L::Scalar::constant(self.choice.step_size));
         let elapsed = L::Scalar::constant(self.choice.step_size * steps as f64);
         self.system.later(elapsed, |system| {
-            let mut whole = Run::new(method, self.rule, system, h, *state);
-            let mut halves = Run::new(method, self.rule, system, h * L::Scalar::constant(0.5), *state);
+            let mut whole = self.methods.run(method, system, h, *state);
+            let mut halves = self.methods.run(method, system, h * L::Scalar::constant(0.5), *state);
             whole.advance()?;
             halves.advance()?;
             halves.advance()?;
@@ -130,10 +131,10 @@ where
     }
 }
 
-impl<L, R, const N: usize> Iterator for GuardedTrajectory<'_, L, R, N>
+impl<L, M, const N: usize> Iterator for GuardedTrajectory<'_, L, M, N>
 where
-    L: Discrete<R, N>,
-    R: Copy,
+    L: Lagrangian<N>,
+    M: Methods<L, N>,
 {
     type Item = Result<State<L::Scalar, N>, StepError>;
 

@@ -79,6 +79,9 @@ pub fn overdamped() -> Result<Case> {
     })
 }
 
+/// A run that shows each state to who watches.
+type Run<'a> = dyn Fn(&mut dyn FnMut(Progress<2>)) -> Effort + 'a;
+
 /// Angular momentum under drag on orbits that almost collide.
 pub fn kepler_drag() -> Result<Case> {
     let k = 0.05;
@@ -88,7 +91,7 @@ pub fn kepler_drag() -> Result<Case> {
         let start = Kepler::aphelion(e);
         for steps in [1_000_u64, 10_000, 100_000] {
             let h = TAU / steps as f64;
-            let mut row = |name: &str, run: &dyn Fn(&mut dyn FnMut(Progress<2>)) -> Effort| {
+            let mut row = |name: &str, run: &Run<'_>| {
                 let mut worst = 0.0_f64;
                 let effort = run(&mut |at| {
                     let exact = Kepler::angular_momentum(&start) * (-k * at.time).exp();

@@ -68,13 +68,6 @@ impl<T: Scalar, const N: usize> Local<T, N> {
         local
     }
 
-    /// Whether the second derivatives of the coordinate are finite.
-    fn row_is_finite(&self, a: usize) -> bool {
-        [&self.mass, &self.momentum_by_q, &self.rate_by_q, &self.rate_by_v]
-            .iter()
-            .all(|matrix| matrix.row(a).iter().all(|entry| entry.is_finite()))
-    }
-
     /// G.
     pub(super) fn rate(&self) -> SVector<T, N> {
         self.slope + self.force
@@ -96,15 +89,29 @@ pub(super) fn locals<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usi
 pub(super) fn non_finite<T: Scalar, const N: usize, const S: usize>(
     locals: &[Local<T, N>; S],
 ) -> Option<usize> {
-    (0..N).find(|&a| !locals.iter().all(|local| local.row_is_finite(a)))
+    for a in 0..N {
+        for local in locals {
+            for matrix in [&local.mass, &local.momentum_by_q, &local.rate_by_q, &local.rate_by_v] {
+                for b in 0..N {
+                    if !matrix[(a, b)].is_finite() {
+                        return Some(a);
+                    }
+                }
+            }
+        }
+    }
+    None
 }
 
-/// ∂r/∂V of all stages, factored: P A = L U, rows by stage and coordinate.
+/// Stage and coordinate.
+type Place = (usize, usize);
+
+/// ∂r/∂V of all stages, factored: P A = L U, rows and columns by stage and coordinate.
 pub(super) struct Factored<T, const N: usize, const S: usize> {
-    /// `blocks[i][j]`: row block i, column block j.
-    blocks: [[SMatrix<T, N, N>; S]; S],
+    /// `rows[i][a][j][b]`: the row of stage i and coordinate a, the column of stage j and coordinate b.
+    rows: [[[[T; N]; S]; N]; S],
     /// Which row stands in each place.
-    order: [[usize; N]; S],
+    order: [[Place; N]; S],
 }
 
 impl<T: Scalar, const N: usize, const S: usize> Factored<T, N, S> {
@@ -116,68 +123,77 @@ impl<T: Scalar, const N: usize, const S: usize> Factored<T, N, S> {
         problem: &Problem<'_, L, N, S>,
         locals: &[Local<T, N>; S],
     ) -> Result<Self, Singular> {
-        let a = |i: usize, j: usize| problem.share(i, j);
-        let blocks = array::from_fn(|i| {
-            array::from_fn(|j| {
-                let mut block = (locals[i].momentum_by_q - locals[j].rate_by_v) * a(i, j);
+        let h_a = |i: usize, j: usize| problem.share(i, j);
+        let mut rows = [[[[T::zero(); N]; S]; N]; S];
+        for i in 0..S {
+            for j in 0..S {
+                let mut block = (locals[i].momentum_by_q - locals[j].rate_by_v) * h_a(i, j);
                 for (k, local) in locals.iter().enumerate() {
-                    block -= local.rate_by_q * (a(i, k) * a(k, j));
+                    block -= local.rate_by_q * (h_a(i, k) * h_a(k, j));
                 }
-                if i == j { block + locals[i].mass } else { block }
-            })
-        });
-        let mut factored = Self { blocks, order: array::from_fn(|i| array::from_fn(|a| i * N + a)) };
+                if i == j {
+                    block += locals[i].mass;
+                }
+                for a in 0..N {
+                    for b in 0..N {
+                        rows[i][a][j][b] = block[(a, b)];
+                    }
+                }
+            }
+        }
+        let mut factored = Self { rows, order: array::from_fn(|i| array::from_fn(|a| (i, a))) };
         factored.eliminate()?;
         Ok(factored)
     }
 
-    #[inline(always)]
-    fn entry(&self, row: usize, column: usize) -> T {
-        self.blocks[row / N][column / N][(row % N, column % N)]
-    }
-
-    #[inline(always)]
-    fn entry_mut(&mut self, row: usize, column: usize) -> &mut T {
-        &mut self.blocks[row / N][column / N][(row % N, column % N)]
-    }
-
     /// Elimination with row exchanges, pivots chosen relative to their rows as they were.
     fn eliminate(&mut self) -> Result<(), Singular> {
-        let size = S * N;
+        let lost = T::EPSILON * T::constant(8.0 * (S * N) as f64);
         let mut scale = [[T::zero(); N]; S];
-        for row in 0..size {
-            let largest =
-                (0..size).fold(T::zero(), |largest, column| largest.max(self.entry(row, column).abs()));
-            if largest > T::zero() {
-                scale[row / N][row % N] = T::one() / largest;
-            }
-        }
-        for k in 0..size {
-            let (mut pivot, mut best) = (k, T::zero());
-            for row in k..size {
-                let candidate = self.entry(row, k).abs() * scale[row / N][row % N];
-                if candidate > best {
-                    (pivot, best) = (row, candidate);
+        for i in 0..S {
+            for a in 0..N {
+                let entries = self.rows[i][a].iter().flatten();
+                let largest = entries.fold(T::zero(), |largest, entry| largest.max(entry.abs()));
+                if largest > T::zero() {
+                    scale[i][a] = T::one() / largest;
                 }
             }
-            // Rounding has left nothing of the pivot; a NaN fails the comparison.
-            let lost = T::EPSILON * T::constant(8.0 * size as f64);
-            if best.partial_cmp(&lost) != Some(core::cmp::Ordering::Greater) {
-                return Err(Singular { column: k % N });
-            }
-            if pivot != k {
-                self.exchange(k, pivot);
-                let (one, other) = (scale[k / N][k % N], scale[pivot / N][pivot % N]);
-                (scale[k / N][k % N], scale[pivot / N][pivot % N]) = (other, one);
-            }
-            let reciprocal = T::one() / self.entry(k, k);
-            for row in k + 1..size {
-                let factor = self.entry(row, k) * reciprocal;
-                *self.entry_mut(row, k) = factor;
-                if factor != T::zero() {
-                    for column in k + 1..size {
-                        let upper = self.entry(k, column);
-                        *self.entry_mut(row, column) -= factor * upper;
+        }
+        for i in 0..S {
+            for a in 0..N {
+                let (mut pivot, mut best) = ((i, a), T::zero());
+                for k in i..S {
+                    for c in if k == i { a } else { 0 }..N {
+                        let candidate = self.rows[k][c][i][a].abs() * scale[k][c];
+                        if candidate > best {
+                            (pivot, best) = ((k, c), candidate);
+                        }
+                    }
+                }
+                // Rounding has left nothing of the pivot; a NaN fails the comparison.
+                if best.partial_cmp(&lost) != Some(core::cmp::Ordering::Greater) {
+                    return Err(Singular { column: a });
+                }
+                let (k, c) = within::<N, S>(pivot);
+                if (k, c) != (i, a) {
+                    (self.rows[i][a], self.rows[k][c]) = (self.rows[k][c], self.rows[i][a]);
+                    (self.order[i][a], self.order[k][c]) = (self.order[k][c], self.order[i][a]);
+                    (scale[i][a], scale[k][c]) = (scale[k][c], scale[i][a]);
+                }
+                let upper = self.rows[i][a];
+                let reciprocal = T::one() / upper[i][a];
+                for k in i..S {
+                    for c in if k == i { a + 1 } else { 0 }..N {
+                        let row = &mut self.rows[k][c];
+                        let factor = row[i][a] * reciprocal;
+                        row[i][a] = factor;
+                        if factor != T::zero() {
+                            for j in i..S {
+                                for b in if j == i { a + 1 } else { 0 }..N {
+                                    row[j][b] -= factor * upper[j][b];
+                                }
+                            }
+                        }
                     }
                 }
             }
@@ -185,81 +201,81 @@ impl<T: Scalar, const N: usize, const S: usize> Factored<T, N, S> {
         Ok(())
     }
 
-    fn exchange(&mut self, one: usize, other: usize) {
-        for column in 0..S * N {
-            let (a, b) = (self.entry(one, column), self.entry(other, column));
-            *self.entry_mut(one, column) = b;
-            *self.entry_mut(other, column) = a;
-        }
-        let (a, b) = (self.order[one / N][one % N], self.order[other / N][other % N]);
-        (self.order[one / N][one % N], self.order[other / N][other % N]) = (b, a);
-    }
-
-    /// x with A x = `right`.
-    pub(super) fn solve(&self, right: &StageVector<T, N, S>) -> StageVector<T, N, S> {
-        let size = S * N;
-        let mut x: StageVector<T, N, S> = array::from_fn(|i| {
-            SVector::from_fn(|a, _| {
-                let row = self.order[i][a];
-                right[row / N][row % N]
-            })
-        });
-        for row in 0..size {
-            let mut entry = x[row / N][row % N];
-            for column in 0..row {
-                entry -= self.entry(row, column) * x[column / N][column % N];
+    /// X with A X = `right`.
+    pub(super) fn solve<const K: usize>(&self, right: &StageColumns<T, N, S, K>) -> StageColumns<T, N, S, K> {
+        let mut x = [SMatrix::<T, N, K>::zeros(); S];
+        for i in 0..S {
+            for a in 0..N {
+                let (stage, coordinate) = within::<N, S>(self.order[i][a]);
+                for k in 0..K {
+                    x[i][(a, k)] = right[stage][(coordinate, k)];
+                }
+                for j in (0..S).take(i + 1) {
+                    for b in (0..N).take(if j == i { a } else { N }) {
+                        let lower = self.rows[i][a][j][b];
+                        for k in 0..K {
+                            let known = x[j][(b, k)];
+                            x[i][(a, k)] -= lower * known;
+                        }
+                    }
+                }
             }
-            x[row / N][row % N] = entry;
         }
-        for row in (0..size).rev() {
-            let mut entry = x[row / N][row % N];
-            for column in row + 1..size {
-                entry -= self.entry(row, column) * x[column / N][column % N];
+        for i in (0..S).rev() {
+            for a in (0..N).rev() {
+                let (i, a) = within::<N, S>((i, a));
+                for j in i..S {
+                    for b in if j == i { a + 1 } else { 0 }..N {
+                        let upper = self.rows[i][a][j][b];
+                        for k in 0..K {
+                            let known = x[j][(b, k)];
+                            x[i][(a, k)] -= upper * known;
+                        }
+                    }
+                }
+                let pivot = self.rows[i][a][i][a];
+                for k in 0..K {
+                    x[i][(a, k)] /= pivot;
+                }
             }
-            x[row / N][row % N] = entry / self.entry(row, row);
         }
         x
-    }
-
-    /// X with A X = `right`, column by column.
-    pub(super) fn solve_columns<const K: usize>(
-        &self,
-        right: &StageColumns<T, N, S, K>,
-    ) -> StageColumns<T, N, S, K> {
-        let mut solution = [nalgebra::zero(); S];
-        for column in 0..K {
-            let x = self.solve(&array::from_fn(|i| right[i].column(column).into_owned()));
-            for i in 0..S {
-                let block: &mut SMatrix<T, N, K> = &mut solution[i];
-                block.set_column(column, &x[i]);
-            }
-        }
-        solution
     }
 
     /// x with Aᵀ x = `right`.
     pub(super) fn solve_transposed(&self, right: &StageVector<T, N, S>) -> StageVector<T, N, S> {
-        let size = S * N;
         let mut y = *right;
-        for row in 0..size {
-            let mut entry = y[row / N][row % N];
-            for column in 0..row {
-                entry -= self.entry(column, row) * y[column / N][column % N];
+        for i in 0..S {
+            for a in 0..N {
+                for j in (0..S).take(i + 1) {
+                    for b in (0..N).take(if j == i { a } else { N }) {
+                        let known = y[j][b];
+                        y[i][a] -= self.rows[j][b][i][a] * known;
+                    }
+                }
+                y[i][a] /= self.rows[i][a][i][a];
             }
-            y[row / N][row % N] = entry / self.entry(row, row);
-        }
-        for row in (0..size).rev() {
-            let mut entry = y[row / N][row % N];
-            for column in row + 1..size {
-                entry -= self.entry(column, row) * y[column / N][column % N];
-            }
-            y[row / N][row % N] = entry;
         }
         let mut x = y;
-        for row in 0..size {
-            let place = self.order[row / N][row % N];
-            x[place / N][place % N] = y[row / N][row % N];
+        for i in (0..S).rev() {
+            for a in (0..N).rev() {
+                let (i, a) = within::<N, S>((i, a));
+                for j in i..S {
+                    for b in if j == i { a + 1 } else { 0 }..N {
+                        let known = y[j][b];
+                        y[i][a] -= self.rows[j][b][i][a] * known;
+                    }
+                }
+                let (stage, coordinate) = within::<N, S>(self.order[i][a]);
+                x[stage][coordinate] = y[i][a];
+            }
         }
         x
     }
+}
+
+/// The place itself; says to the compiler that it is one, so that no index has to be checked.
+#[inline(always)]
+fn within<const N: usize, const S: usize>((stage, coordinate): Place) -> Place {
+    (stage.min(S - 1), coordinate.min(N - 1))
 }

@@ -161,10 +161,12 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
         let Some((next, contraction)) = next else {
             let (residual, floor) = worst(&last.residual, &last.floor);
             let (residual, floor) = (residual.widen(), floor.widen());
-            let is_lost = correction.iter().enumerate().all(|(i, correction)| {
-                let limit = T::EPSILON.cbrt();
-                (0..N).all(|a| correction[a].abs() <= limit * last.v[a].0[i].abs())
-            });
+            let (limit, mut is_lost) = (T::EPSILON.cbrt(), true);
+            for i in 0..S {
+                for a in 0..N {
+                    is_lost &= correction[i][a].abs() <= limit * last.v[a].0[i].abs();
+                }
+            }
             return Err(if is_lost {
                 StepError::LostPrecision { residual, floor }
             } else {

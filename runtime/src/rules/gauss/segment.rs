@@ -82,7 +82,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
                 |singular: Singular| StepError::SingularNewtonMatrix { iteration, column: singular.column };
             let factored = Factored::new(&problem, &last.locals).map_err(singular)?;
             let y = factored.solve(&last.residuals());
-            let x = factored.solve_columns(&[SMatrix::<T, N, N>::identity(); S]);
+            let x = factored.solve(&[SMatrix::<T, N, N>::identity(); S]);
             let of_y = y.iter().zip(&problem.steps).fold(SVector::zeros(), |sum, (y, &step)| sum + y * step);
             let of_x = x.iter().zip(&problem.steps).fold(SMatrix::zeros(), |sum, (x, &step)| sum + x * step);
             let dp = -crate::linear::solve(&of_x, &of_y).map_err(singular)?;

@@ -105,7 +105,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         let Self { problem, locals, .. } = self;
         let rate: StageColumns<T, N, S, K> =
             array::from_fn(|j| source.rate[j] + locals[j].rate_by_q * source.q0);
-        let v = self.factored.solve_columns(&array::from_fn(|i| {
+        let v = self.factored.solve(&array::from_fn(|i| {
             let own = source.p0 - source.momentum[i] - locals[i].momentum_by_q * source.q0;
             (0..S).fold(own, |sum, j| sum + rate[j] * problem.share(i, j))
         }));

@@ -1,0 +1,85 @@
+//! A driven chain by Gauss rules, in time: steps, trajectories, and all derivatives of a step, of two or three stages.
+
+use core::hint::black_box;
+
+use dalembert::{Discrete, Gauss, Linearization, State, StateBy, StepHessian, Trajectory, rayleigh_system};
+
+macro_rules! chains {
+    ($($name:ident $driven:ident $n:literal $float:ident $stages:literal)*) => {
+        $(
+            /// A chain of pendulums on a common support, pushed at its ends.
+            struct $name {
+                stiffness: $float,
+                friction: $float,
+            }
+
+            #[rayleigh_system(
+                rule = gauss,
+                derivatives = expanded,
+                parameters = [stiffness, friction],
+                step_derivatives = second
+            )]
+            impl $name {
+                fn lagrangian(&self, q: [$float; $n], v: [$float; $n], t: $float) -> $float {
+                    let total: $float = v.iter().zip(q).map(|(v, q)| v * q.cos()).sum();
+                    let mut energy = 0.5 * total * total;
+                    for i in 0..$n {
+                        energy += 0.5 * v[i] * v[i] + self.stiffness * (1.0 + 0.1 * t) * q[i].sin();
+                    }
+                    energy
+                }
+
+                fn rayleigh(&self, v: [$float; $n]) -> $float {
+                    v.iter().map(|v| 0.5 * self.friction * v * v).sum()
+                }
+
+                fn force(&self, q: [$float; $n], v: [$float; $n], u: [$float; 1], t: $float) -> [$float; $n] {
+                    let mut force = q;
+                    for i in 0..$n {
+                        force[i] = -0.01 * q[i];
+                    }
+                    force[0] = u[0] * t - (0.1 * v[0]).tanh();
+                    force[$n - 1] += u[0] * u[0];
+                    force
+                }
+            }
+
+            impl $name {
+                /// How many ways fail, with S stages.
+                fn failures<const S: usize>() -> i32 {
+                    let system = black_box(Self { stiffness: 0.3, friction: 0.1 });
+                    let view: $driven<'_> = system.driven([black_box(0.2)], black_box(0.4));
+                    let (h, rule) = (black_box(0.01), Gauss::<S>);
+                    let Ok(start) = State::from_velocity(&view, black_box([0.1; $n]), black_box([0.2; $n])) else {
+                        return 1;
+                    };
+                    let Ok(step) = Discrete::<Gauss<S>, $n>::step(&view, &start, h, None) else { return 1 };
+                    let ends = (&start.q, &step.state.q);
+                    let mut trajectory = Trajectory::new(&view, rule, h, start);
+                    let steps = trajectory.by_ref().take(3).filter(Result::is_err).count();
+                    let of_step = Linearization::of_driven_step(&view, rule, &start, h, None);
+                    let of_ends = Linearization::of_driven_segment(&view, rule, ends.0, ends.1, h);
+                    let by_parameters = StateBy::<_, $n, 2>::of_parameters(&view, rule, ends.0, ends.1, h);
+                    let second = StepHessian::of_driven_step(&view, rule, &start, h, None, &start);
+                    black_box((trajectory.state(), &of_step, &of_ends, &by_parameters, &second));
+                    i32::from(of_step.is_err())
+                        + i32::from(of_ends.is_err())
+                        + i32::from(by_parameters.is_err())
+                        + i32::from(second.is_err())
+                        + steps as i32
+                }
+            }
+        )*
+
+        /// How many ways fail, of all chains.
+        pub fn step_all() -> i32 {
+            0 $(+ $name::failures::<$stages>())*
+        }
+    };
+}
+
+chains! {
+    Double1 DrivenDouble1 1 f64 3
+    Double3 DrivenDouble3 3 f64 2
+    Single2 DrivenSingle2 2 f32 3
+}
