@@ -65,7 +65,8 @@ pub(crate) fn held_against<S: Scalar, const N: usize>(
     let (mut sizes, mut floors) = (*residual, *floor);
     for i in 0..N {
         sizes[i] = residual[i].abs();
-        is_root &= sizes[i] <= floor[i] * S::constant(AT_FLOOR);
+        // Where both overflow there is no telling.
+        is_root &= sizes[i].is_finite() & (sizes[i] <= floor[i] * S::constant(AT_FLOOR));
     }
     // A half against the other: only the logarithm of N comparisons wait for one another.
     let mut width = N;
@@ -146,6 +147,14 @@ mod tests {
         let floor = |p: f64| estimated_floor(&vector![p], &matrix![1.0], &vector![p])[0];
         assert_eq!(floor(1.0), 8.0 * f64::EPSILON + f64::MIN_POSITIVE);
         assert!(floor(1e308) < 1e294 && floor(1e-320) == f64::MIN_POSITIVE);
+    }
+
+    #[test]
+    fn a_residual_that_overflows_is_no_root() {
+        let overflowed = vector![0.0, f64::INFINITY];
+        assert!(!held_against(&overflowed, &vector![1.0, f64::INFINITY]).2);
+        // Positive control: finite, it is one beside any floor that is larger.
+        assert!(held_against(&vector![0.0, 1e300], &vector![1.0, f64::INFINITY]).2);
     }
 
     #[test]
