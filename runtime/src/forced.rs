@@ -7,7 +7,7 @@
 use nalgebra::SVector;
 
 use crate::lanes::{LaneVector, Lanes, lane, splat, write_lane};
-use crate::{CovectorDerivatives, Lagrangian, Scalar, linear};
+use crate::{CovectorDerivatives, Lagrangian, NewtonMatrix, Scalar};
 
 /// The equations of motion at S stages at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,7 +111,7 @@ fn one_by_one<L: ForcedLagrangian<N>, const N: usize, const S: usize>(
     }
     for (i, mass) in masses.iter().enumerate() {
         let not_a_number = SVector::repeat(L::Scalar::constant(f64::NAN));
-        let correction = linear::solve(mass, &lane(&stages.residual, i)).unwrap_or(not_a_number);
+        let correction = mass.solve(&lane(&stages.residual, i)).unwrap_or(not_a_number);
         write_lane(&mut stages.correction, i, &correction);
     }
     stages

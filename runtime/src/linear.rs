@@ -72,15 +72,6 @@ pub trait Factored<S: Scalar, const N: usize>: Copy + core::fmt::Debug {
     fn solve(&self, right: &SVector<S, N>) -> SVector<S, N>;
 }
 
-/// The solution x of `matrix` x = `right`.
-#[inline]
-pub(crate) fn solve<S: Scalar, const N: usize>(
-    matrix: &SMatrix<S, N, N>,
-    right: &SVector<S, N>,
-) -> Result<SVector<S, N>, Singular> {
-    matrix.solve(right)
-}
-
 /// The inverse of `matrix`, with one elimination.
 pub(crate) fn inverse<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,

@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::{HamiltonJacobi, HamiltonJacobiError, ImplicitEquation, section};
 use crate::linearization::inverse;
-use crate::{Discrete, Momenta, Scalar, ScalarField, State, StepError, StepKernel, linear, newton};
+use crate::{Discrete, Momenta, NewtonMatrix, Scalar, ScalarField, State, StepError, StepKernel, newton};
 
 /// Both sides' difference in a definition of 𝓕^±, with the size of its terms.
 #[derive(Clone, Copy)]
@@ -170,7 +170,8 @@ fn root<S: Scalar, const N: usize>(
     let mut here = definition(&x)?;
     for iteration in 0..MAX_ITERATIONS {
         let matrix = differences(&definition, &x)?;
-        let correction = linear::solve(&matrix, &here.residual)
+        let correction = matrix
+            .solve(&here.residual)
             .map_err(|singular| at(StepError::SingularNewtonMatrix { iteration, column: singular.column }))?;
         let mut share = S::one();
         let mut moved = false;

@@ -69,7 +69,8 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
                 floor = risen;
                 per_floor = floor.map(|floor| T::one() / floor);
                 size = in_units(&stages.residual, &per_floor);
-                (before, last) = (size + size, size);
+                // Far from a verdict: the coordinates next to those that have begun to move begin only now.
+                (before, last) = (size * constant(4.0), size);
             }
         }
         iterations += 1;

@@ -22,7 +22,7 @@ use crate::error::Quantity;
 use crate::lanes::{LaneVector, lane, splat};
 use crate::{
     CovectorDerivatives, Derivatives, DiscreteForce, DiscreteForceDerivatives, ForcedLagrangian,
-    LegendreDerivatives, Momenta, Scalar, Singular, StepError,
+    LegendreDerivatives, Momenta, NewtonMatrix, Scalar, Singular, StepError,
 };
 
 /// Iterations of Newton's method for the interior points.
@@ -85,7 +85,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
             let x = factored.solve(&[SMatrix::<T, N, N>::identity(); S]);
             let of_y = y.iter().zip(&problem.steps).fold(SVector::zeros(), |sum, (y, &step)| sum + y * step);
             let of_x = x.iter().zip(&problem.steps).fold(SMatrix::zeros(), |sum, (x, &step)| sum + x * step);
-            let dp = -crate::linear::solve(&of_x, &of_y).map_err(singular)?;
+            let dp = -of_x.solve(&of_y).map_err(singular)?;
             let p0 = problem.p0.value;
             let mut share = one;
             let next = loop {
