@@ -68,10 +68,13 @@ pub fn write(path: &Path, columns: usize, methods: &[&str], panels: &[Panel<'_>]
                 .bold_line_style(RGBColor(225, 225, 225))
                 .draw()?;
             for curve in &panel.curves {
-                chart.draw_series(LineSeries::new(
-                    curve.points.clone(),
-                    colour(methods, curve.method).stroke_width(2),
-                ))?;
+                let (stroke, place) = (colour(methods, curve.method), index(methods, curve.method));
+                chart.draw_series(LineSeries::new(curve.points.clone(), stroke.stroke_width(2)))?;
+                // Marks now and then, of each curve at other times.
+                let marked = curve.points.iter().skip(2 * place).step_by(40);
+                chart.draw_series(
+                    marked.map(|&at| EmptyElement::at(at) + marker((0, 0), stroke, place / COLOURS.len())),
+                )?;
             }
         } else {
             let (low, high) = decades(panel.curves.iter().flat_map(|c| &c.points).map(|p| p.0));
