@@ -207,7 +207,6 @@ fn inverse_magnitude<S: Scalar, const N: usize>(row: &[S; N]) -> S {
 
 #[cfg(test)]
 mod tests {
-    use super::super::solve;
     use super::*;
     use nalgebra::{matrix, vector};
 
@@ -215,7 +214,7 @@ mod tests {
     fn solves_a_system_that_needs_pivoting() {
         let a = matrix![0.0, 2.0, 1.0; 1.0, 0.0, 3.0; 4.0, 1.0, 0.0];
         let x = vector![1.0, -2.0, 3.0];
-        let solution = solve(&a, &(a * x)).unwrap();
+        let solution = a.solve(&(a * x)).unwrap();
         assert!((solution - x).amax() < 1e-15);
     }
 
@@ -223,7 +222,7 @@ mod tests {
     fn bad_scaling_is_not_singularity() {
         // D A D with D = diag(1e-12, 1e12) and A = [[1, ½], [½, 1]]: regular, though its entries span 48 decades.
         let a = matrix![1e-24, 0.5; 0.5, 1e24];
-        let solution = solve(&a, &vector![1e-12, 1e12]).unwrap();
+        let solution = a.solve(&vector![1e-12, 1e12]).unwrap();
         let expected: SVector<f64, 2> = vector![1e12 * 2.0 / 3.0, 1e-12 * 2.0 / 3.0];
         for i in 0..2 {
             assert!(f64::abs(solution[i] / expected[i] - 1.0) < 1e-15, "{solution}");
@@ -233,16 +232,16 @@ mod tests {
     #[test]
     fn dependent_rows_are_singular() {
         let a = matrix![1.0, 2.0, 3.0; 4.0, 5.0, 6.0; 7.0, 8.0, 9.0];
-        assert_eq!(solve(&a, &vector![1.0, 1.0, 1.0]).unwrap_err(), Singular { column: 2 });
-        assert_eq!(solve(&matrix![0.0], &vector![1.0]).unwrap_err(), Singular { column: 0 });
-        assert!(solve(&matrix![1.0, 1.0; f64::NAN, 1.0], &vector![1.0, 1.0]).is_err());
-        assert!(solve(&matrix![1.0, 2.0; 0.5, 1.0], &vector![1.0, 1.0]).is_err());
+        assert_eq!(a.solve(&vector![1.0, 1.0, 1.0]).unwrap_err(), Singular { column: 2 });
+        assert_eq!(matrix![0.0].solve(&vector![1.0]).unwrap_err(), Singular { column: 0 });
+        assert!(matrix![1.0, 1.0; f64::NAN, 1.0].solve(&vector![1.0, 1.0]).is_err());
+        assert!(matrix![1.0, 2.0; 0.5, 1.0].solve(&vector![1.0, 1.0]).is_err());
     }
 
     #[test]
     fn a_small_determinant_alone_is_regular() {
         // Positive control of the cancellation test: ill-conditioned, but its pivot carries digits.
         let a = matrix![1.0, 1.0; 1.0, 1.0 + 1e-9];
-        assert!(solve(&a, &vector![1.0, 1.0]).is_ok());
+        assert!(a.solve(&vector![1.0, 1.0]).is_ok());
     }
 }
