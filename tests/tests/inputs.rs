@@ -352,20 +352,28 @@ where
     trajectory.state().q
 }
 
+/// Input of the storm, and the time from which it is driven.
+const WIND: [f64; 3] = [0.5, -1.2, 0.8];
+const START: f64 = 0.3;
+
+/// The storm from then on, its state there, and where it is 1.5 later.
+fn storm() -> (expanded::DrivenStorm<'static>, State<f64, 2>, SVector<f64, 2>) {
+    static STORM: expanded::Storm = expanded::Storm { k: 0.4 };
+    let (q, v) = (vector![0.4, -0.3], vector![0.2, 0.5]);
+    let view = STORM.driven(WIND, START);
+    let exact = reference(&STORM, WIND, START, q, v, START + 1.5);
+    (view, State::from_velocity(&view, q, v).unwrap(), exact)
+}
+
 /// Order 2 along a trajectory whose time advances; a step that forgot its time would leave an error of order 0.
 #[test]
 fn a_trajectory_carries_the_time_on() {
-    let system = expanded::Storm { k: 0.4 };
-    let (u, t0, end) = ([0.5, -1.2, 0.8], 0.3, 1.8);
-    let (q, v) = (vector![0.4, -0.3], vector![0.2, 0.5]);
-    let exact = reference(&system, u, t0, q, v, end);
-    let view = system.driven(u, t0);
-    let start = State::from_velocity(&view, q, v).unwrap();
+    let (view, start, exact) = storm();
     let error = |by_midpoint: bool, steps: u32| {
         let found = if by_midpoint {
-            end_of_trajectory(&view, Midpoint, steps, start, end - t0)
+            end_of_trajectory(&view, Midpoint, steps, start, 1.5)
         } else {
-            end_of_trajectory(&view, Trapezoidal, steps, start, end - t0)
+            end_of_trajectory(&view, Trapezoidal, steps, start, 1.5)
         };
         (found - exact).amax()
     };
@@ -380,12 +388,7 @@ fn a_trajectory_carries_the_time_on() {
 /// Order 2S along a trajectory in time.
 #[test]
 fn gauss_rules_keep_their_order_in_time() {
-    let system = expanded::Storm { k: 0.4 };
-    let (u, t0, end) = ([0.5, -1.2, 0.8], 0.3, 1.8);
-    let (q, v) = (vector![0.4, -0.3], vector![0.2, 0.5]);
-    let exact = reference(&system, u, t0, q, v, end);
-    let view = system.driven(u, t0);
-    let start = State::from_velocity(&view, q, v).unwrap();
+    let (view, start, exact) = storm();
     fn error<const S: usize>(
         view: &impl Discrete<Gauss<S>, 2, Scalar = f64>,
         steps: u32,
@@ -405,11 +408,11 @@ fn gauss_rules_keep_their_order_in_time() {
     }
     // By num-dual the same steps.
     let oracle = num_dual::Storm { k: 0.4 };
-    let other = end_of_trajectory(&oracle.driven(u, t0), Gauss::<3>, 24, start, end - t0);
-    let one = end_of_trajectory(&view, Gauss::<3>, 24, start, end - t0);
+    let other = end_of_trajectory(&oracle.driven(WIND, START), Gauss::<3>, 24, start, 1.5);
+    let one = end_of_trajectory(&view, Gauss::<3>, 24, start, 1.5);
     assert!((one - other).amax() < 1e-14, "{one}{other}");
     // Positive control: with its time held, the system moves elsewhere.
-    let (mut held, h) = (start, (end - t0) / 24.0);
+    let (mut held, h) = (start, 1.5 / 24.0);
     for _ in 0..24 {
         held = Discrete::<Gauss<3>, 2>::step(&view, &held, h, None).unwrap().state;
     }
@@ -451,14 +454,9 @@ fn stages_see_their_own_time_in_both_engines() {
 /// Order 6 by a composition, each substep of which has its own time; one that forgot it would have order 0.
 #[test]
 fn a_composition_carries_the_time_on() {
-    let system = expanded::Storm { k: 0.4 };
-    let (u, t0, end) = ([0.5, -1.2, 0.8], 0.3, 1.8);
-    let (q, v) = (vector![0.4, -0.3], vector![0.2, 0.5]);
-    let exact = reference(&system, u, t0, q, v, end);
-    let view = system.driven(u, t0);
-    let start = State::from_velocity(&view, q, v).unwrap();
+    let (view, start, exact) = storm();
     let error = |steps: u32| {
-        let h = (end - t0) / f64::from(steps);
+        let h = 1.5 / f64::from(steps);
         let run = Composition::kahan_li_6(Midpoint).trajectory(&view, h, start);
         (run.take(steps as usize).last().unwrap().unwrap().q - exact).amax()
     };
