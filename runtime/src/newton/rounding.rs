@@ -61,26 +61,32 @@ pub(crate) fn held_against<S: Scalar, const N: usize>(
     residual: &SVector<S, N>,
     floor: &SVector<S, N>,
 ) -> (S, S, bool) {
+    const LANES: usize = 4;
     let mut is_root = true;
-    let (mut sizes, mut floors) = (*residual, *floor);
-    for i in 0..N {
-        sizes[i] = residual[i].abs();
+    let mut worst = [(S::zero(), floor[0]); LANES];
+    let mut hold = |residual: S, its_floor: S, worst: &mut (S, S)| {
+        let size = residual.abs();
         // Where both overflow there is no telling.
-        is_root &= sizes[i].is_finite() & (sizes[i] <= floor[i] * S::constant(AT_FLOOR));
-    }
-    // A half against the other: only the logarithm of N comparisons wait for one another.
-    let mut width = N;
-    while width > 1 {
-        let half = width.div_ceil(2);
-        for i in 0..width - half {
-            let (size, its_floor) = (sizes[i + half], floors[i + half]);
-            if size * floors[i] > sizes[i] * its_floor {
-                (sizes[i], floors[i]) = (size, its_floor);
-            }
+        is_root &= size.is_finite() & (size <= its_floor * S::constant(AT_FLOOR));
+        if size * worst.1 > worst.0 * its_floor {
+            *worst = (size, its_floor);
         }
-        width = half;
+    };
+    // Lane by lane, so that few comparisons wait for one another.
+    let (residuals, other_residuals) = residual.as_slice().as_chunks::<LANES>();
+    let (floors, other_floors) = floor.as_slice().as_chunks::<LANES>();
+    for (residuals, floors) in residuals.iter().zip(floors) {
+        for lane in 0..LANES {
+            hold(residuals[lane], floors[lane], &mut worst[lane]);
+        }
     }
-    (sizes[0], floors[0], is_root)
+    for ((&residual, &floor), worst) in other_residuals.iter().zip(other_floors).zip(&mut worst) {
+        hold(residual, floor, worst);
+    }
+    let [a, b, c, d] = worst;
+    let larger = |a: (S, S), b: (S, S)| if b.0 * a.1 > a.0 * b.1 { b } else { a };
+    let (size, floor) = larger(larger(a, b), larger(c, d));
+    (size, floor, is_root)
 }
 
 /// The residual that is largest in units of its floor, and this floor.
