@@ -99,7 +99,7 @@ portable! {
     cosh() = libm::coshf;
     tanh() = single::tanh;
     asinh() = libm::asinhf;
-    acosh() = acoshf;
+    acosh() = single::acosh;
     atanh() = libm::atanhf;
     powf(n: Self) = libm::powf;
     atan2(other: Self) = libm::atan2f;
@@ -111,10 +111,4 @@ portable! {
 #[inline]
 fn acosh(x: f64) -> f64 {
     if x < 1.0 { f64::NAN } else { libm::acosh(x) }
-}
-
-/// The same in `f32`.
-#[inline]
-fn acoshf(x: f32) -> f32 {
-    if x < 1.0 { f32::NAN } else { libm::acoshf(x) }
 }

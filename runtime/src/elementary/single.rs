@@ -1,7 +1,7 @@
 //! Elementary functions of `f32` in `f32`, for processors whose `f64` is software.
 //!
 //! libm's sine, cosine, tangent, 2ˣ, arcsine, cube root and hypotenuse of an `f32` compute in `f64`. These stay in `f32` and
-//! integers. Errors are below 2 units in the last place; `firmware/host/src/bin/single_precision.rs` measures them over as many
+//! integers; arcosh is here for its error. Errors are below 2 units in the last place; `firmware/host/src/bin/single_precision.rs` measures them over as many
 //! `f32` as one has time for, all if need be, and a test below over samples. Coefficients are minimax fits of our own, rounded to `f32`.
 
 use core::f32::consts::FRAC_PI_4;
@@ -250,6 +250,23 @@ pub fn hypot(x: f32, y: f32) -> f32 {
     };
     let (x, y) = (x * down, y * down);
     libm::sqrtf(x * x + y * y) * up
+}
+
+/// arcosh x. Near 1 by √(2t) (1 − t/12 + 3t²/160 − …), t = x − 1, the series of arsinh √(t/2): libm's logarithm of a sum is off by
+/// more than 2 units there.
+#[inline]
+pub fn acosh(x: f32) -> f32 {
+    let t = x - 1.0;
+    if t < 0.0 {
+        // libm's value at x ≤ −1 is a number; there is none.
+        return f32::NAN;
+    }
+    if t < 0.25 {
+        let tail = -5.0 / 896.0 + t * (35.0 / 18432.0 + t * (-63.0 / 90112.0 + t * (231.0 / 851_968.0)));
+        let root = libm::sqrtf(2.0 * t);
+        return root + root * (t * (-1.0 / 12.0 + t * (3.0 / 160.0 + t * tail)));
+    }
+    libm::acoshf(x)
 }
 
 #[cfg(test)]
