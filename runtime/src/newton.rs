@@ -142,8 +142,8 @@ fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
             let residual = momenta.p0 - p;
             let floor = estimated_floor(p, &kernel.matrix, &v);
             let (residual, floor, is_root) = held_against(&residual, &floor);
-            if is_root && (kind == Equation::Linear || is_known_at(&v, &correction)) {
-                let last_correction = correction.amax();
+            let last_correction = largest(&correction);
+            if is_root && (kind == Equation::Linear || is_known_at(&v, last_correction)) {
                 let iterations = iterations + 1;
                 let report = Report { iterations, damped: 0, residual, floor, last_correction };
                 return Ok(Solution { unknown: v, momenta, report });
@@ -153,11 +153,22 @@ fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     Err(reached)
 }
 
-/// Whether the floor at `v` may be taken from the matrix of the iterate before, from which `correction` led here: from a guess
-/// that is far out by many orders of magnitude that matrix can be larger by as many, and with it the floor.
-#[inline]
-fn is_known_at<S: Scalar, const N: usize>(v: &SVector<S, N>, correction: &SVector<S, N>) -> bool {
-    correction.amax() <= v.amax() * S::constant(4.0)
+/// Whether the floor at `v` may be taken from the matrix of the iterate before, from which the `last_correction` led here: from a
+/// guess that is far out by many orders of magnitude that matrix can be larger by as many, and with it the floor.
+#[inline(always)]
+fn is_known_at<S: Scalar, const N: usize>(v: &SVector<S, N>, last_correction: S) -> bool {
+    last_correction <= largest(v) * S::constant(4.0)
+}
+
+/// max |vᵢ|; a loop of its own, which optimisation for size leaves one.
+#[inline(always)]
+fn largest<S: Scalar, const N: usize>(v: &SVector<S, N>) -> S {
+    let mut largest = S::zero();
+    for entry in v.as_slice() {
+        let size = entry.abs();
+        largest = if size > largest { size } else { largest };
+    }
+    largest
 }
 
 /// max |residualᵢ| weightᵢ; NaN if one of them is no finite number.
@@ -278,9 +289,11 @@ fn careful<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         if size <= S::one() || contraction * contraction * size <= S::one() {
             let momenta = finish(q, &trial);
             let remaining = momenta.p0 - p;
-            if in_units_of(&remaining, &floor) <= S::constant(AT_FLOOR) && is_known_at(&trial, &correction) {
+            let last_correction = largest(&correction);
+            if in_units_of(&remaining, &floor) <= S::constant(AT_FLOOR)
+                && is_known_at(&trial, last_correction)
+            {
                 let (residual, floor) = worst(&remaining, &floor);
-                let last_correction = correction.amax();
                 let report = Report { iterations, damped, residual, floor, last_correction };
                 return Ok(Solution { unknown: trial, momenta, report });
             }

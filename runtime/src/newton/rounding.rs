@@ -62,31 +62,43 @@ pub(crate) fn held_against<S: Scalar, const N: usize>(
     floor: &SVector<S, N>,
 ) -> (S, S, bool) {
     const LANES: usize = 4;
-    let mut is_root = true;
-    let mut worst = [(S::zero(), floor[0]); LANES];
-    let mut hold = |residual: S, its_floor: S, worst: &mut (S, S)| {
-        let size = residual.abs();
-        // Where both overflow there is no telling.
-        is_root &= size.is_finite() & (size <= its_floor * S::constant(AT_FLOOR));
-        if size * worst.1 > worst.0 * its_floor {
-            *worst = (size, its_floor);
-        }
-    };
+    if N < 2 * LANES {
+        return of_slices(residual.as_slice(), floor.as_slice(), (S::zero(), floor[0], true));
+    }
     // Lane by lane, so that few comparisons wait for one another.
+    let mut worst = [(S::zero(), floor[0], true); LANES];
     let (residuals, other_residuals) = residual.as_slice().as_chunks::<LANES>();
     let (floors, other_floors) = floor.as_slice().as_chunks::<LANES>();
     for (residuals, floors) in residuals.iter().zip(floors) {
         for lane in 0..LANES {
-            hold(residuals[lane], floors[lane], &mut worst[lane]);
+            worst[lane] = held(residuals[lane], floors[lane], worst[lane]);
         }
     }
-    for ((&residual, &floor), worst) in other_residuals.iter().zip(other_floors).zip(&mut worst) {
-        hold(residual, floor, worst);
-    }
     let [a, b, c, d] = worst;
-    let larger = |a: (S, S), b: (S, S)| if b.0 * a.1 > a.0 * b.1 { b } else { a };
-    let (size, floor) = larger(larger(a, b), larger(c, d));
-    (size, floor, is_root)
+    let rest = of_slices(other_residuals, other_floors, a);
+    let larger = |a: (S, S, bool), b: (S, S, bool)| {
+        let (size, floor) = if b.0 * a.1 > a.0 * b.1 { (b.0, b.1) } else { (a.0, a.1) };
+        (size, floor, a.2 & b.2)
+    };
+    larger(larger(rest, b), larger(c, d))
+}
+
+/// The larger of the `worst` so far and of the residual, whose floor this is; and whether it is still that of a root.
+#[inline(always)]
+fn held<S: Scalar>(residual: S, floor: S, worst: (S, S, bool)) -> (S, S, bool) {
+    let size = residual.abs();
+    // Where both overflow there is no telling.
+    let is_root = worst.2 & size.is_finite() & (size <= floor * S::constant(AT_FLOOR));
+    if size * worst.1 > worst.0 * floor { (size, floor, is_root) } else { (worst.0, worst.1, is_root) }
+}
+
+/// One after the other.
+#[inline(always)]
+fn of_slices<S: Scalar>(residuals: &[S], floors: &[S], mut worst: (S, S, bool)) -> (S, S, bool) {
+    for (&residual, &floor) in residuals.iter().zip(floors) {
+        worst = held(residual, floor, worst);
+    }
+    worst
 }
 
 /// The residual that is largest in units of its floor, and this floor.
