@@ -297,6 +297,7 @@ mod tests {
         assert!(worst(asin, f64::asin) < 2.0);
         assert!(worst(tanh, f64::tanh) < 2.0);
         assert!(worst(cbrt, f64::cbrt) < 2.0);
+        assert!(worst(acosh, f64::acosh) < 2.0);
         assert!(worst(|x| hypot(x, 1.7), |x| x.hypot(f64::from(1.7_f32))) < 2.0);
         // Positive control: the next number is off by one more.
         assert!(worst(|x| sin(x).next_up(), f64::sin) > 1.0);
@@ -319,7 +320,7 @@ mod tests {
             300.0,
         ];
         type Function = fn(f32) -> f32;
-        let pairs: [(Function, Function); 8] = [
+        let pairs: [(Function, Function); 9] = [
             (sin, f32::sin),
             (cos, f32::cos),
             (tan, f32::tan),
@@ -327,6 +328,7 @@ mod tests {
             (asin, f32::asin),
             (tanh, f32::tanh),
             (cbrt, f32::cbrt),
+            (acosh, f32::acosh),
             (|x| hypot(x, f32::INFINITY), |x| x.hypot(f32::INFINITY)),
         ];
         for (index, (own, standard)) in pairs.into_iter().enumerate() {
