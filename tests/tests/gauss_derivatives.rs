@@ -185,7 +185,8 @@ fn parameters<const S: usize>(h: f64) {
         let derivative = pade(S, &pair).view((0, 8), (8, 8)).into_owned();
         let moved = derivative * DVector::from_column_slice(&[0.6, -0.4, -0.9, 0.7, U[0], U[1], T, 1.0]);
         let miss = (found.column(j) - moved.fixed_rows::<4>(0)).amax() / (1.0 + pair.amax());
-        assert!(miss < 1e-14 && moved.amax() > 1e-3, "S = {S}, h = {h}, {j}: {miss:e}");
+        // The approximant itself is solved for with a matrix of 16 rows, to some tens of roundings.
+        assert!(miss < 4e-14 && moved.amax() > 1e-3, "S = {S}, h = {h}, {j}: {miss:e}");
     }
 }
 
