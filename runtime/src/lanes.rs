@@ -84,13 +84,14 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
     /// Of all lanes what `combine` makes of two, halves with halves: the logarithm of S such steps wait for each other.
     #[inline(always)]
     pub(crate) fn folded(mut self, combine: impl Fn(T, T) -> T) -> T {
-        let mut width = S;
-        while width > 1 {
-            let half = width.div_ceil(2);
-            for i in 0..width - half {
-                self.0[i] = combine(self.0[i], self.0[i + half]);
+        let mut lanes = &mut self.0[..];
+        while let Some((low, high)) = lanes.split_at_mut_checked(lanes.len().div_ceil(2))
+            && !high.is_empty()
+        {
+            for (one, &mut other) in low.iter_mut().zip(high) {
+                *one = combine(*one, other);
             }
-            width = half;
+            lanes = low;
         }
         self.0[0]
     }

@@ -2,15 +2,14 @@
 //!
 //! A handler that nothing reaches is left out of the program, and its call with it. Steps of n = 1…8 coordinates in `f64` and
 //! `f32`, with and without a guess, of bounded work, alone and in a trajectory: by midpoint and trapezoidal rule with dense mass
-//! matrices, friction and a general force; by the midpoint rule with banded Newton matrices, n = 4…8; with the feature
-//! `unrolled`, at opt-level 3 alone, by the fitted rules and the one-sided one, and steps of n = 1…3 coordinates by Gauss rules, with
-//! an input and time, and every derivative of them. Compositions and certificates are not among them. `firmware/no_panic/run` builds it at opt-level 3 and s, and with the
+//! matrices, friction and a general force; by the midpoint rule with banded Newton matrices, n = 4…8; by the fitted rules and
+//! the one-sided one; and steps of n = 1…3 coordinates by Gauss rules, with an input and time, and every derivative of them.
+//! Compositions and certificates are not among them. `firmware/no_panic/run` builds it at opt-level 3 and s, and with the
 //! feature `may-panic`, which must fail.
 
 #![no_std]
 #![no_main]
 
-#[cfg(feature = "unrolled")]
 mod gauss;
 mod systems;
 
@@ -33,9 +32,7 @@ fn panic(_: &PanicInfo) -> ! {
 /// What the C runtime calls.
 #[unsafe(no_mangle)]
 pub extern "C" fn main() -> i32 {
-    let failed = systems::step_all();
-    #[cfg(feature = "unrolled")]
-    let failed = failed + gauss::step_all();
+    let failed = systems::step_all() + gauss::step_all();
     #[cfg(feature = "may-panic")]
     let failed = failed + [1, 2, 3][black_box(failed) as usize];
     black_box(failed)

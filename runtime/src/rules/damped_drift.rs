@@ -5,7 +5,7 @@
 //! ```
 //!
 //! W from the Cholesky factor of M and the eigenvectors of a symmetric matrix, by Jacobi's rotations: own code because a step must
-//! neither panic nor allocate, for any N.
+//! neither panic nor allocate, for any N; on arrays, where the compiler sees at every opt-level that no index is out of bounds.
 
 use core::array;
 use core::cmp::Ordering;
@@ -158,60 +158,60 @@ fn modes<S: Scalar, const N: usize>(
     damping: &SMatrix<S, N, N>,
 ) -> (SMatrix<S, N, N>, SMatrix<S, N, N>, SVector<S, N>) {
     let l = cholesky(mass);
-    // L⁻¹ by forward substitution.
-    let mut inverse: SMatrix<S, N, N> = nalgebra::zero();
-    for j in 0..N {
-        for i in j..N {
-            let mut sum = if i == j { S::one() } else { S::zero() };
-            for k in j..i {
-                sum -= l[(i, k)] * inverse[(k, j)];
+    // The rows of L⁻¹ by forward substitution.
+    let mut inverse = [[S::zero(); N]; N];
+    for (i, factors) in l.iter().enumerate() {
+        let mut row = [S::zero(); N];
+        row[i] = S::one();
+        for (known, &factor) in inverse.iter().zip(factors).take(i) {
+            for (entry, &other) in row.iter_mut().zip(known) {
+                *entry -= factor * other;
             }
-            inverse[(i, j)] = sum / l[(i, i)];
         }
+        inverse[i] = row.map(|entry| entry / factors[i]);
     }
+    // Arrays of rows are matrices of columns.
+    let (l, inverse) =
+        (SMatrix::<S, N, N>::from(l).transpose(), SMatrix::<S, N, N>::from(inverse).transpose());
     let (rotation, eigenvalues) = jacobi(inverse * damping * inverse.transpose());
     (l * rotation, rotation.transpose() * inverse, eigenvalues)
 }
 
-/// The lower triangular L with `matrix` = L Lᵀ.
-fn cholesky<S: Scalar, const N: usize>(matrix: &SMatrix<S, N, N>) -> SMatrix<S, N, N> {
-    let mut l: SMatrix<S, N, N> = nalgebra::zero();
-    for j in 0..N {
-        for i in j..N {
-            let mut sum = matrix[(i, j)];
-            for k in 0..j {
-                sum -= l[(i, k)] * l[(j, k)];
-            }
-            l[(i, j)] = if i > j {
-                sum / l[(j, j)]
-            } else if sum > S::zero() {
-                sum.sqrt()
-            } else {
-                S::zero() / S::zero()
-            };
+/// The rows of the lower triangular L with `matrix` = L Lᵀ.
+fn cholesky<S: Scalar, const N: usize>(matrix: &SMatrix<S, N, N>) -> [[S; N]; N] {
+    let mut rows = [[S::zero(); N]; N];
+    for (i, entries) in matrix.data.0.iter().enumerate() {
+        let mut row = [S::zero(); N];
+        let mut left = entries[i];
+        for (j, known) in rows.iter().enumerate().take(i) {
+            let sum = row.iter().zip(known).take(j).fold(entries[j], |sum, (&a, &b)| sum - a * b);
+            row[j] = sum / known[j];
+            left -= row[j] * row[j];
         }
+        row[i] = if left > S::zero() { left.sqrt() } else { S::zero() / S::zero() };
+        rows[i] = row;
     }
-    l
+    rows
 }
 
 /// More sweeps than any matrix needs: convergence is quadratic.
 const SWEEPS: usize = 30;
 
 /// Eigenvectors (columns) and eigenvalues of a symmetric matrix (C. G. J. Jacobi, 1846).
-fn jacobi<S: Scalar, const N: usize>(mut a: SMatrix<S, N, N>) -> (SMatrix<S, N, N>, SVector<S, N>) {
-    let mut vectors: SMatrix<S, N, N> = SMatrix::identity();
+fn jacobi<S: Scalar, const N: usize>(matrix: SMatrix<S, N, N>) -> (SMatrix<S, N, N>, SVector<S, N>) {
+    let (mut a, mut vectors) = (matrix.data.0, SMatrix::<S, N, N>::identity().data.0);
     for _ in 0..SWEEPS {
         let mut rotated = false;
-        for i in 0..N {
-            for j in i + 1..N {
-                let off = a[(i, j)];
+        for j in 0..N {
+            for i in (0..N).take(j) {
+                let (off, ii, jj) = (a[j][i], a[i][i], a[j][j]);
                 // Below the rounding of both diagonal entries nothing is left to rotate; a NaN is left alone.
-                let least = S::EPSILON * S::constant(0.25) * (a[(i, i)].abs() * a[(j, j)].abs()).sqrt();
+                let least = S::EPSILON * S::constant(0.25) * (ii.abs() * jj.abs()).sqrt();
                 if off.abs().partial_cmp(&least) != Some(Ordering::Greater) {
                     continue;
                 }
                 rotated = true;
-                let theta = (a[(j, j)] - a[(i, i)]) / (off + off);
+                let theta = (jj - ii) / (off + off);
                 let t = if theta == S::zero() {
                     S::one()
                 } else {
@@ -219,15 +219,16 @@ fn jacobi<S: Scalar, const N: usize>(mut a: SMatrix<S, N, N>) -> (SMatrix<S, N, 
                 };
                 let c = S::one() / (t * t + S::one()).sqrt();
                 let s = t * c;
-                for k in 0..N {
-                    (a[(k, i)], a[(k, j)]) = (c * a[(k, i)] - s * a[(k, j)], s * a[(k, i)] + c * a[(k, j)]);
+                let turn = |x: &mut S, y: &mut S| (*x, *y) = (c * *x - s * *y, s * *x + c * *y);
+                for columns in [&mut a, &mut vectors] {
+                    if let Ok([x, y]) = columns.get_disjoint_mut([i, j]) {
+                        x.iter_mut().zip(y).for_each(|(x, y)| turn(x, y));
+                    }
                 }
-                for k in 0..N {
-                    (a[(i, k)], a[(j, k)]) = (c * a[(i, k)] - s * a[(j, k)], s * a[(i, k)] + c * a[(j, k)]);
-                    (vectors[(k, i)], vectors[(k, j)]) = (
-                        c * vectors[(k, i)] - s * vectors[(k, j)],
-                        s * vectors[(k, i)] + c * vectors[(k, j)],
-                    );
+                for column in &mut a {
+                    if let Ok([x, y]) = column.get_disjoint_mut([i, j]) {
+                        turn(x, y);
+                    }
                 }
             }
         }
@@ -235,8 +236,8 @@ fn jacobi<S: Scalar, const N: usize>(mut a: SMatrix<S, N, N>) -> (SMatrix<S, N, 
             break;
         }
     }
-    let eigenvalues: [S; N] = array::from_fn(|i| a[(i, i)]);
-    (vectors, eigenvalues.into())
+    let eigenvalues: [S; N] = array::from_fn(|i| a[i][i]);
+    (vectors.into(), eigenvalues.into())
 }
 
 #[cfg(test)]
