@@ -1,7 +1,12 @@
 //! This project's methods. One line adds one.
 
+use std::marker::PhantomData;
+
 use anyhow::Result;
-use dalembert::{Composition, Discrete, Gauss, Midpoint, State, Trajectory, Trapezoidal};
+use dalembert::{
+    ComposedStep, ComposedTrajectory, Composition, Discrete, Explicit, Gauss, Lagrangian, Midpoint,
+    Splitting, State, Trajectory, Trapezoidal,
+};
 
 use crate::scenes::Scene;
 
@@ -10,20 +15,33 @@ pub type Steps<S, const N: usize> = fn(&S, &State<f64, N>, f64, u32) -> Result<S
 
 /// All of them, for a scene.
 pub fn methods<S: Scene<N>, const N: usize>() -> Vec<(&'static str, Steps<S, N>)> {
-    vec![
+    let mut methods: Vec<(&'static str, Steps<S, N>)> = vec![
         ("midpoint", |s, start, h, n| run(s, Midpoint, start, h, n)),
         ("trapezoidal", |s, start, h, n| run(s, Trapezoidal, start, h, n)),
         ("trapezoidal, Kahan–Li 6", |s, start, h, n| {
-            composed(s, Composition::kahan_li_6(Trapezoidal), start, h, n)
+            to_end(Composition::kahan_li_6(Trapezoidal).trajectory(s, h, *start), n)
         }),
         ("trapezoidal, Kahan–Li 8", |s, start, h, n| {
-            composed(s, Composition::kahan_li_8(Trapezoidal), start, h, n)
+            to_end(Composition::kahan_li_8(Trapezoidal).trajectory(s, h, *start), n)
         }),
         ("Gauss, 2 stages", |s, start, h, n| run(s, Gauss::<2>, start, h, n)),
         ("Gauss, 4 stages", |s, start, h, n| run(s, Gauss::<4>, start, h, n)),
         ("Gauss, 6 stages", |s, start, h, n| run(s, Gauss::<6>, start, h, n)),
         ("Gauss, 8 stages", |s, start, h, n| run(s, Gauss::<8>, start, h, n)),
-    ]
+    ];
+    methods.extend(S::SPLITTINGS);
+    methods
+}
+
+/// What scenes add whose trapezoidal rule is explicit.
+pub struct Splittings<S, const N: usize>(PhantomData<S>);
+
+impl<S: Explicit<N, Scalar = f64> + 'static, const N: usize> Splittings<S, N> {
+    /// The splittings.
+    pub const ALL: &'static [(&'static str, Steps<S, N>)] = &[
+        ("Blanes–Moan 4", |s, start, h, n| to_end(Splitting::blanes_moan_4().trajectory(s, h, *start), n)),
+        ("Blanes–Moan 6", |s, start, h, n| to_end(Splitting::blanes_moan_6().trajectory(s, h, *start), n)),
+    ];
 }
 
 fn run<S, R, const N: usize>(
@@ -43,17 +61,14 @@ where
     Ok(*trajectory.state())
 }
 
-fn composed<S, R, const N: usize, const STAGES: usize>(
-    scene: &S,
-    composition: Composition<R, STAGES>,
-    start: &State<f64, N>,
-    h: f64,
+fn to_end<L, C, const N: usize>(
+    mut trajectory: ComposedTrajectory<'_, L, C, N>,
     steps: u32,
 ) -> Result<State<f64, N>>
 where
-    S: Discrete<R, N, Scalar = f64>,
+    L: Lagrangian<N, Scalar = f64>,
+    C: ComposedStep<L, N>,
 {
-    let mut trajectory = composition.trajectory(scene, h, *start);
     for step in trajectory.by_ref().take(steps as usize) {
         step?;
     }

@@ -3,10 +3,15 @@
 
 use dalembert::{Discrete, ForcedLagrangian, Midpoint, Trapezoidal, rayleigh_system};
 
+use crate::ours::{Splittings, Steps};
+
 /// A system in both forms.
 pub trait Scene<const N: usize>:
     Discrete<Midpoint, N, Scalar = f64> + Discrete<Trapezoidal, N> + ForcedLagrangian<N> + Copy + 'static
 {
+    /// The methods for explicit systems, where it is one.
+    const SPLITTINGS: &'static [(&'static str, Steps<Self, N>)] = &[];
+
     /// q̈ as a function of (q, q̇).
     fn acceleration(&self, q: &[f64; N], v: &[f64; N]) -> [f64; N];
 }
@@ -30,6 +35,8 @@ impl Ring {
 }
 
 impl Scene<2> for Ring {
+    const SPLITTINGS: &'static [(&'static str, Steps<Self, 2>)] = Splittings::ALL;
+
     #[inline]
     fn acceleration(&self, q: &[f64; 2], v: &[f64; 2]) -> [f64; 2] {
         let s = q[0] * q[0] + q[1] * q[1];
@@ -123,6 +130,8 @@ macro_rules! chains {
         }
 
         impl Scene<$n> for $name {
+            const SPLITTINGS: &'static [(&'static str, Steps<Self, $n>)] = Splittings::ALL;
+
             #[inline]
             fn acceleration(&self, q: &[f64; $n], v: &[f64; $n]) -> [f64; $n] {
                 let force = |d: f64| d + self.beta * (d * d * d);
@@ -159,6 +168,8 @@ impl HenonHeiles {
 }
 
 impl Scene<2> for HenonHeiles {
+    const SPLITTINGS: &'static [(&'static str, Steps<Self, 2>)] = Splittings::ALL;
+
     #[inline]
     fn acceleration(&self, &[x, y]: &[f64; 2], _: &[f64; 2]) -> [f64; 2] {
         [-x - 2.0 * (x * y), -y - x * x + y * y]
@@ -183,6 +194,8 @@ impl Kepler {
 }
 
 impl Scene<2> for Kepler {
+    const SPLITTINGS: &'static [(&'static str, Steps<Self, 2>)] = Splittings::ALL;
+
     #[inline]
     fn acceleration(&self, q: &[f64; 2], v: &[f64; 2]) -> [f64; 2] {
         let square = q[0] * q[0] + q[1] * q[1];

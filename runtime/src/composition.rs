@@ -1,9 +1,8 @@
 //! High order from a self-adjoint rule of order 2: symmetric compositions.
 
 use core::array;
-use core::marker::PhantomData;
 
-use crate::{Checkpoint, Discrete, Memory, Scalar, State, StepError};
+use crate::{Checkpoint, ComposedStep, ComposedTrajectory, Discrete, Memory, Scalar, State, StepError};
 
 /// A composition of S substeps γ₁h, …, γ_S h of rule `R`, symmetric (γᵢ = γ_{S+1−i}) and of high order.
 ///
@@ -137,21 +136,11 @@ impl<R, const S: usize> Composition<R, S> {
         system: &L,
         h: L::Scalar,
         state: State<L::Scalar, N>,
-    ) -> ComposedTrajectory<'_, L, R, N, S>
+    ) -> ComposedTrajectory<'_, L, Substeps<L, R, N, S>, N>
     where
         L: Discrete<R, N>,
     {
-        ComposedTrajectory {
-            system,
-            rule: PhantomData,
-            substeps: self.shares.map(|share| L::Scalar::constant(share) * h),
-            h,
-            origin: 0.0,
-            steps: 0,
-            state,
-            memories: array::from_fn(|_| L::Memory::default()),
-            failed: false,
-        }
+        ComposedTrajectory::new(system, Substeps::new(&self, h), h, state)
     }
 
     /// The run that `checkpoint` was taken of, by this same composition ([`ComposedTrajectory::checkpoint`]).
@@ -159,114 +148,64 @@ impl<R, const S: usize> Composition<R, S> {
         self,
         system: &L,
         checkpoint: Checkpoint<L::Scalar, N>,
-    ) -> ComposedTrajectory<'_, L, R, N, S>
+    ) -> ComposedTrajectory<'_, L, Substeps<L, R, N, S>, N>
     where
         L: Discrete<R, N>,
     {
-        let Checkpoint { state, step_size, origin, steps } = checkpoint;
-        ComposedTrajectory { origin, steps, ..self.trajectory(system, step_size, state) }
+        ComposedTrajectory::resumed(system, Substeps::new(&self, checkpoint.step_size), checkpoint)
     }
 }
 
-/// The trajectory of a system by a [`Composition`], one step of S substeps at a time.
+/// The S substeps of a [`Composition`].
 ///
-/// An iterator over states. Each substep remembers the same substep of the steps before ([`Memory`]): those are a step apart; what
-/// is known of the state between two substeps is handed on. Where L, R or f take the time, each substep sees its own.
-/// After an error it ends, its state being the last good one.
-pub struct ComposedTrajectory<'a, L, R, const N: usize, const S: usize>
+/// Each remembers the same substep of the steps before ([`Memory`]): those are a step apart; what is known of the state between
+/// two substeps is handed on. Where L, R or f take the time, each substep sees its own.
+pub struct Substeps<L, R, const N: usize, const S: usize>
 where
     L: Discrete<R, N>,
 {
-    system: &'a L,
-    rule: PhantomData<R>,
-    substeps: [L::Scalar; S],
-    h: L::Scalar,
-    origin: f64,
-    steps: u64,
-    state: State<L::Scalar, N>,
+    sizes: [L::Scalar; S],
     memories: [L::Memory; S],
-    failed: bool,
 }
 
-impl<L, R, const N: usize, const S: usize> ComposedTrajectory<'_, L, R, N, S>
+impl<L, R, const N: usize, const S: usize> Substeps<L, R, N, S>
 where
     L: Discrete<R, N>,
 {
-    /// The present state: that of the last step that succeeded.
-    pub fn state(&self) -> &State<L::Scalar, N> {
-        &self.state
+    fn new(composition: &Composition<R, S>, h: L::Scalar) -> Self {
+        Self {
+            sizes: composition.shares.map(|share| L::Scalar::constant(share) * h),
+            memories: array::from_fn(|_| L::Memory::default()),
+        }
     }
+}
 
-    /// The step size h, of all substeps together.
-    pub fn step_size(&self) -> L::Scalar {
-        self.h
-    }
-
-    /// The time, h × the number of steps taken (and where a run that was resumed began).
-    pub fn time(&self) -> f64 {
-        if self.steps == 0 { self.origin } else { self.origin + self.h.widen() * self.steps as f64 }
-    }
-
-    /// All that is needed to go on from here, in this process or another ([`Composition::resume`]).
-    ///
-    /// The run forgets what its substeps remember, as one that is resumed has to: both go on bit by bit alike.
-    ///
-    /// ```
-    /// use dalembert::{Composition, Midpoint, State, rayleigh_system};
-    ///
-    /// #[rayleigh_system]
-    /// fn pendulum(q: [f64; 1], v: [f64; 1]) -> f64 {
-    ///     0.5 * v[0] * v[0] + q[0].cos()
-    /// }
-    /// let start = State::from_velocity(&Pendulum {}, [1.0], [0.0])?;
-    /// let method = Composition::kahan_li_6(Midpoint);
-    /// let mut run = method.trajectory(&Pendulum {}, 0.2, start);
-    /// run.by_ref().take(100).for_each(|state| assert!(state.is_ok()));
-    /// let resumed = method.resume(&Pendulum {}, run.checkpoint());
-    /// assert!(resumed.time() == run.time() && resumed.take(100).eq(run.take(100)));
-    /// # Ok::<(), dalembert::StepError>(())
-    /// ```
-    pub fn checkpoint(&mut self) -> Checkpoint<L::Scalar, N> {
-        self.memories = array::from_fn(|_| L::Memory::default());
-        Checkpoint { state: self.state, step_size: self.h, origin: self.origin, steps: self.steps }
-    }
-
+impl<L, R, const N: usize, const S: usize> ComposedStep<L, N> for Substeps<L, R, N, S>
+where
+    L: Discrete<R, N>,
+{
     #[inline]
-    fn composed(&mut self) -> Result<State<L::Scalar, N>, StepError> {
-        let (mut state, mut elapsed) = (self.state, self.time());
-        for (i, &h) in self.substeps.iter().enumerate() {
+    fn advance(
+        &mut self,
+        system: &L,
+        mut elapsed: f64,
+        state: &State<L::Scalar, N>,
+    ) -> Result<State<L::Scalar, N>, StepError> {
+        let mut state = *state;
+        for (i, &h) in self.sizes.iter().enumerate() {
             let (before, rest) = self.memories.split_at_mut(i);
             let Some((memory, after)) = rest.split_first_mut() else { break };
             // The substep before; of the first, the last of the step before.
             if let Some(previous) = before.last().or(after.last()) {
                 memory.follow(previous);
             }
-            state = memory.advance_later(self.system, elapsed, &state, h)?.state;
+            state = memory.advance_later(system, elapsed, &state, h)?.state;
             elapsed += h.widen();
         }
         Ok(state)
     }
-}
 
-impl<L, R, const N: usize, const S: usize> Iterator for ComposedTrajectory<'_, L, R, N, S>
-where
-    L: Discrete<R, N>,
-{
-    type Item = Result<State<L::Scalar, N>, StepError>;
-
-    #[inline]
-    fn next(&mut self) -> Option<Self::Item> {
-        if self.failed {
-            return None;
-        }
-        let state = self.composed();
-        match &state {
-            Ok(state) => {
-                self.state = *state;
-                self.steps += 1;
-            }
-            Err(_) => self.failed = true,
-        }
-        Some(state)
+    fn forget(&mut self) {
+        self.memories = array::from_fn(|_| L::Memory::default());
     }
 }

@@ -8,6 +8,7 @@
 extern crate self as dalembert;
 
 mod certificate;
+mod composed_trajectory;
 mod composition;
 mod derivatives;
 mod discrete;
@@ -26,6 +27,7 @@ mod parameters;
 mod rules;
 mod scalar;
 mod second_order;
+mod splitting;
 mod state;
 mod structure;
 mod system;
@@ -243,7 +245,8 @@ pub use attributes::differentiable;
 pub use nalgebra;
 
 pub use certificate::Certificate;
-pub use composition::{ComposedTrajectory, Composition};
+pub use composed_trajectory::{ComposedStep, ComposedTrajectory};
+pub use composition::{Composition, Substeps};
 pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
 pub use discrete::{
     BoundedStep, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Report, Step,
@@ -268,11 +271,12 @@ pub use rules::{
 };
 pub use scalar::Scalar;
 pub use second_order::{DiscreteSecondOrder, Hessian, SecondOrder, StepHessian};
+pub use splitting::{Kicks, Splitting};
 pub use state::State;
 pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
 pub use system::{Force, Lagrangian, Rayleigh};
 pub use tolerance::{
-    Breach, Choice, Composed, ComposedOrGauss, GuardedTrajectory, Method, MethodRun, Methods, ToleranceError,
-    Trial, WithGauss,
+    Breach, Choice, Composed, GaussOr, GuardedTrajectory, Method, MethodRun, Methods, SplitOr,
+    ToleranceError, Trial, WithGauss, WithSplittings,
 };
 pub use trajectory::{Checkpoint, Parted, Sample, Samples, Trajectory};

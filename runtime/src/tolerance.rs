@@ -8,9 +8,9 @@ use nalgebra::ComplexField;
 
 use crate::{Lagrangian, Scalar, State, StepError};
 pub use guard::{Breach, GuardedTrajectory};
-pub use methods::{Composed, ComposedOrGauss, MethodRun, Methods, WithGauss};
+pub use methods::{Composed, GaussOr, MethodRun, Methods, SplitOr, WithGauss, WithSplittings};
 
-/// A method of constant step: a self-adjoint rule of order 2, alone or composed, or a Gauss method.
+/// A method of constant step: a self-adjoint rule of order 2, alone or composed, a splitting, or a Gauss method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Method {
@@ -20,6 +20,10 @@ pub enum Method {
     KahanLi6,
     /// [`Composition::kahan_li_8`](crate::Composition::kahan_li_8) of it.
     KahanLi8,
+    /// [`Splitting::blanes_moan_4`](crate::Splitting::blanes_moan_4).
+    BlanesMoan4,
+    /// [`Splitting::blanes_moan_6`](crate::Splitting::blanes_moan_6).
+    BlanesMoan6,
     /// [`Gauss<4>`](crate::Gauss), order 8.
     Gauss4,
     /// [`Gauss<8>`](crate::Gauss), order 16.
@@ -34,8 +38,8 @@ pub struct Trial {
     pub method: Method,
     /// The step size that the error asks for; `None` if no step tried on the way shows the method's order above round-off.
     pub step_size: Option<f64>,
-    /// The cost over the whole time, in substeps of the rule. Of a Gauss method an iteration for S stages counts as S/2: two
-    /// stages at once, as in the narrowest vector registers.
+    /// The cost over the whole time, in substeps of the rule. A kick and a drift of a splitting count as half a one; of a Gauss
+    /// method an iteration for S stages counts as S/2: two stages at once, as in the narrowest vector registers.
     pub substeps: f64,
     /// Error expected at the end.
     pub expected: f64,
@@ -58,7 +62,7 @@ pub struct Choice {
     /// Largest difference between one step and two half ones at the start, to which a [`GuardedTrajectory`] compares.
     pub local: f64,
     /// What was found of every method, in the order of [`Method::ALL`]; `None` where the system was not asked for it.
-    pub trials: [Option<Trial>; 5],
+    pub trials: [Option<Trial>; 7],
 }
 
 /// Why no method was chosen.
@@ -98,14 +102,23 @@ const ORDER_SHARE: f64 = 0.75;
 
 impl Method {
     /// All of them.
-    pub const ALL: [Self; 5] = [Self::Rule, Self::KahanLi6, Self::KahanLi8, Self::Gauss4, Self::Gauss8];
+    pub const ALL: [Self; 7] = [
+        Self::Rule,
+        Self::KahanLi6,
+        Self::KahanLi8,
+        Self::BlanesMoan4,
+        Self::BlanesMoan6,
+        Self::Gauss4,
+        Self::Gauss8,
+    ];
 
     /// The order p.
     #[must_use]
     pub const fn order(self) -> u32 {
         match self {
             Self::Rule => 2,
-            Self::KahanLi6 => 6,
+            Self::BlanesMoan4 => 4,
+            Self::KahanLi6 | Self::BlanesMoan6 => 6,
             Self::KahanLi8 | Self::Gauss4 => 8,
             Self::Gauss8 => 16,
         }
@@ -118,8 +131,8 @@ impl Method {
     /// The method and step size of least cost for an error of q of at most `tolerance` (largest coordinate, absolute) after
     /// `time`.
     ///
-    /// `methods` is the rule of order 2, which stands for itself and its compositions; [`WithGauss`] of it adds Gauss methods,
-    /// where the system has `rule = [trapezoidal, gauss]`.
+    /// `methods` is the rule of order 2, which stands for itself and its compositions; [`WithSplittings`] of it adds splittings,
+    /// where the trapezoidal rule is explicit, and [`WithGauss`] Gauss methods, where the system has `rule = [trapezoidal, gauss]`.
     ///
     /// **Estimate.** Each method runs over the first sixteenth of the time with halved steps until the differences
     /// d(h) = |q_h − q_{h/2}| fall as its order p says. Then the error over that window is d(h)·2ᵖ/(2ᵖ − 1); it is expected to
@@ -131,7 +144,7 @@ impl Method {
     /// The step size stays constant along the run, so that the structure is kept.
     ///
     /// ```
-    /// use dalembert::{Method, State, Trapezoidal, WithGauss, rayleigh_system};
+    /// use dalembert::{Method, State, Trapezoidal, WithGauss, WithSplittings, rayleigh_system};
     ///
     /// #[rayleigh_system(rule = [trapezoidal, gauss])]
     /// fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
@@ -140,7 +153,7 @@ impl Method {
     ///
     /// let system = Pendulum { r: 0.01 };
     /// let start = State::from_velocity(&system, [1.0], [0.0])?;
-    /// let methods = WithGauss(Trapezoidal);
+    /// let methods = WithGauss(WithSplittings(Trapezoidal));
     /// let choice = Method::for_tolerance(&system, methods, &start, 100.0, 1e-9)?;
     /// println!("{choice}"); // order 16, Gauss with 8 stages, h = …
     /// let mut run = choice.trajectory(&system, methods, start);
@@ -168,10 +181,8 @@ impl Method {
         if !valid(time) || !valid(tolerance) {
             return Err(ToleranceError::Request { time, tolerance });
         }
-        let trials = Self::ALL.map(|method| {
-            let is_offered = M::HAS_GAUSS || !method.is_gauss();
-            is_offered.then(|| method.trial(system, methods, start, time, tolerance))
-        });
+        let trials = Self::ALL
+            .map(|method| M::offers(method).then(|| method.trial(system, methods, start, time, tolerance)));
         let best = trials
             .iter()
             .flatten()

@@ -1,5 +1,11 @@
 //! The order of a method, from errors over step sizes.
 
+use dalembert::State;
+use nalgebra::SVector;
+
+use crate::by_hand::ByHand;
+use crate::reference;
+
 /// Errors against step sizes, the largest step first.
 #[derive(Clone, Debug, Default)]
 pub struct Convergence {
@@ -32,6 +38,29 @@ impl Convergence {
         let variance: f64 = points.iter().map(|point| (point.0 - x).powi(2)).sum();
         covariance / variance
     }
+}
+
+/// The orders observed in q and in p, of what `run` makes of a step size, a start and a number of steps, over steps of
+/// `time`/`steps`.
+pub fn orders<L: ByHand<N>, const N: usize>(
+    system: &L,
+    time: f64,
+    steps: [usize; 6],
+    [q, v]: [[f64; N]; 2],
+    plateau: f64,
+    run: impl Fn(f64, State<f64, N>, usize) -> State<f64, N>,
+) -> [f64; 2] {
+    let (q_end, v_end) = reference::motion(system, q, v, time);
+    let p_end = system.momentum(q_end, v_end);
+    let start = State { q: q.into(), p: system.momentum(q, v) };
+    let (mut in_q, mut in_p) = (Convergence::default(), Convergence::default());
+    for steps in steps {
+        let h = time / steps as f64;
+        let end = run(h, start, steps);
+        in_q.push(h, (end.q - SVector::from(q_end)).norm());
+        in_p.push(h, (end.p - p_end).norm());
+    }
+    [in_q.order(plateau), in_p.order(plateau)]
 }
 
 #[cfg(test)]

@@ -1,10 +1,8 @@
 //! Kahan and Li's compositions: the order conditions, the order measured, what negative substeps do to damping.
 
-use dalembert::nalgebra::SVector;
 use dalembert::{Composition, Discrete, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
 use dalembert_tests::by_hand::ByHand;
-use dalembert_tests::convergence::Convergence;
-use dalembert_tests::reference;
+use dalembert_tests::convergence::orders;
 use dalembert_tests::systems::{Bead, Chain, DoublePendulum, Pendulum};
 
 /// The order conditions, for vector fields that do not commute: the product ∏ exp(γᵢX₁ + γᵢ³X₃ + γᵢ⁵X₅ + …) has to agree with
@@ -100,23 +98,14 @@ fn assert_order<L, R, const N: usize, const S: usize>(
     system: &L,
     composition: Composition<R, S>,
     time: f64,
-    steps: [u32; 6],
+    steps: [usize; 6],
     [q, v]: [[f64; N]; 2],
 ) where
     L: ByHand<N> + Discrete<R, N, Scalar = f64>,
     R: Copy,
 {
-    let (q_end, v_end) = reference::motion(system, q, v, time);
-    let p_end = system.momentum(q_end, v_end);
-    let start = State { q: q.into(), p: system.momentum(q, v) };
-    let (mut in_q, mut in_p) = (Convergence::default(), Convergence::default());
-    for steps in steps {
-        let h = time / f64::from(steps);
-        let end = composition.trajectory(system, h, start).take(steps as usize).last().unwrap().unwrap();
-        in_q.push(h, (end.q - SVector::from(q_end)).norm());
-        in_p.push(h, (end.p - p_end).norm());
-    }
-    for (order, of) in [(in_q.order(PLATEAU), "q"), (in_p.order(PLATEAU), "p")] {
+    let run = |h, start, steps| composition.trajectory(system, h, start).take(steps).last().unwrap().unwrap();
+    for (order, of) in orders(system, time, steps, [q, v], PLATEAU, run).into_iter().zip(["q", "p"]) {
         let expected = f64::from(composition.order());
         assert!((order - expected).abs() < 0.35, "order {order:.3} in {of}, not {expected}");
     }

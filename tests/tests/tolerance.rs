@@ -2,7 +2,8 @@
 
 use dalembert::nalgebra::SVector;
 use dalembert::{
-    Lagrangian, Method, Methods, State, ToleranceError, Trapezoidal, WithGauss, rayleigh_system,
+    Lagrangian, Method, Methods, State, ToleranceError, Trapezoidal, WithGauss, WithSplittings,
+    rayleigh_system,
 };
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::reference;
@@ -80,10 +81,26 @@ fn gauss_methods_are_considered_where_they_are_offered() {
 }
 
 #[test]
+fn splittings_are_considered_where_they_are_offered() {
+    let pendulum = [[1.9], [-0.7]];
+    let among = WithGauss(WithSplittings(Trapezoidal));
+    for (tolerance, is_split) in [(1e-3, true), (1e-5, true), (1e-6, true), (1e-11, false)] {
+        let (error, method) = reached_among(&Pendulum::EXAMPLE, among, pendulum, 16.0, tolerance);
+        assert!(error <= tolerance, "{method}: {error:e} for {tolerance:e}");
+        let found = matches!(method, Method::BlanesMoan4 | Method::BlanesMoan6);
+        assert_eq!(found, is_split, "{method} for {tolerance:e}");
+        // Positive control: where they are not asked for, they are not chosen.
+        let (_, method) =
+            reached_among(&Pendulum::EXAMPLE, WithGauss(Trapezoidal), pendulum, 16.0, tolerance);
+        assert!(!matches!(method, Method::BlanesMoan4 | Method::BlanesMoan6));
+    }
+}
+
+#[test]
 fn a_choice_with_gauss_methods_says_why_and_keeps_the_step() {
     let system = Pendulum::EXAMPLE;
     let start = State::from_velocity(&system, [1.9], [-0.7]).unwrap();
-    let among = WithGauss(Trapezoidal);
+    let among = WithGauss(WithSplittings(Trapezoidal));
     let choice = Method::for_tolerance(&system, among, &start, 16.0, 1e-9).unwrap();
     assert_eq!(choice.trials.map(|trial| trial.unwrap().method), Method::ALL);
     let text = choice.to_string();

@@ -16,6 +16,11 @@ use crate::{Discrete, Momenta, Report, Scalar, State, Step, StepError, Trapezoid
 
 /// A system that the trapezoidal rule steps explicitly: L = T(v) − V(q) with T quadratic, R quadratic in v, both with constant
 /// coefficients, and a force f(q).
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no explicit steps",
+    label = "the equations of `{Self}` are not known to be explicit",
+    note = "list the rule, `#[rayleigh_system(rule = trapezoidal)]`; L has to be ½vᵀMv − V(q) with constant M, R quadratic in v with constant coefficients, a force a function of q alone, without input or time, and their derivatives written out: `derivatives = expanded` says what is in the way"
+)]
 pub trait Explicit<const N: usize>: Discrete<Trapezoidal, N> {
     /// P = ∂²L/∂v² + (h/2) ∂²R/∂v², the Newton matrix.
     fn step_matrix(&self, h: Self::Scalar) -> Self::Matrix;

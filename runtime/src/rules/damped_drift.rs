@@ -70,6 +70,51 @@ impl<S: Scalar, const N: usize> DampedDrift<S, N> {
     }
 }
 
+/// A damped free motion: q += `displacement` p and p += `loss` p, with matrices, or their diagonals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Drift<M> {
+    /// τ M⁻¹ϕ(τCM⁻¹), with ϕ(z) = (1 − e⁻ᶻ)/z.
+    pub(crate) displacement: M,
+    /// exp(−τCM⁻¹) − I: exactly 0 without damping.
+    pub(crate) loss: M,
+}
+
+impl<S: Scalar> Drift<S> {
+    /// Of mass 1 under damping `rate`.
+    fn of_unit_mass(rate: S, time: S) -> Self {
+        let loss = (-rate * time).exp_m1();
+        Self { displacement: if loss == S::zero() { time } else { -loss / rate }, loss }
+    }
+}
+
+impl<S: Scalar, const N: usize> Drift<SVector<S, N>> {
+    /// Of the diagonals of matrices that have nothing else.
+    pub(crate) fn of_diagonal(mass: &SVector<S, N>, damping: &SVector<S, N>, time: S) -> Self {
+        let drifts = mass.zip_map(damping, |mass, damping| Drift::of_unit_mass(damping / mass, time));
+        Self {
+            displacement: drifts.zip_map(mass, |drift, mass| drift.displacement / mass),
+            loss: drifts.map(|drift| drift.loss),
+        }
+    }
+}
+
+impl<S: Scalar, const N: usize> Drift<SMatrix<S, N, N>> {
+    /// Of symmetric matrices, given W, W⁻¹ and Λ with M = W Wᵀ and C = W Λ Wᵀ.
+    pub(crate) fn of_modes(
+        (w, inverse, rates): &(SMatrix<S, N, N>, SMatrix<S, N, N>, SVector<S, N>),
+        time: S,
+    ) -> Self {
+        let drifts = rates.map(|rate| Drift::of_unit_mass(rate, time));
+        let displacement =
+            inverse.transpose() * SMatrix::from_diagonal(&drifts.map(|drift| drift.displacement)) * inverse;
+        Self {
+            // Rounding must not take the symmetry, and with it that without damping the motion is symplectic.
+            displacement: (displacement + displacement.transpose()) * S::constant(0.5),
+            loss: w * SMatrix::from_diagonal(&drifts.map(|drift| drift.loss)) * inverse,
+        }
+    }
+}
+
 /// A rule fitted to linear damping: its equation, given the free motion.
 pub(crate) trait ByDrift {
     /// What is known of the equation.
@@ -153,7 +198,7 @@ fn langevin<S: Scalar>(z: S) -> S {
 }
 
 /// W, W⁻¹ and λ with `mass` = W Wᵀ and `damping` = W diag(λ) Wᵀ.
-fn modes<S: Scalar, const N: usize>(
+pub(crate) fn modes<S: Scalar, const N: usize>(
     mass: &SMatrix<S, N, N>,
     damping: &SMatrix<S, N, N>,
 ) -> (SMatrix<S, N, N>, SMatrix<S, N, N>, SVector<S, N>) {

@@ -2,20 +2,20 @@
 
 use super::Method;
 use crate::{
-    ComposedTrajectory, Composition, Discrete, Fitted, FittedTrapezoidal, ForcedLagrangian, Gauss,
-    Lagrangian, Midpoint, State, StepError, Trajectory, Trapezoidal,
+    ComposedTrajectory, Composition, Discrete, Explicit, Fitted, FittedTrapezoidal, ForcedLagrangian, Gauss,
+    Kicks, Lagrangian, Midpoint, Splitting, State, StepError, Substeps, Trajectory, Trapezoidal,
 };
 
-/// The methods that a system offers to [`Method::for_tolerance`]: a rule of order 2 stands for itself and its compositions,
-/// [`WithGauss`] adds Gauss methods.
+/// The methods that a system offers to [`Method::for_tolerance`]: a rule of order 2 stands for itself and its compositions;
+/// [`WithSplittings`] and [`WithGauss`] add to those of another.
 pub trait Methods<L: Lagrangian<N>, const N: usize>: Copy {
     /// A run by any of the methods.
     type Run<'a>: MethodRun<L, N>
     where
         L: 'a;
 
-    /// Whether there are [`Method::Gauss4`] and [`Method::Gauss8`].
-    const HAS_GAUSS: bool;
+    /// Whether there is the method.
+    fn offers(method: Method) -> bool;
 
     /// The run of `system` by `method`; by the rule alone where the method is none of these.
     fn run<'a>(
@@ -39,19 +39,22 @@ pub trait MethodRun<L: Lagrangian<N>, const N: usize> {
     fn advance(&mut self) -> Result<f64, StepError>;
 }
 
-/// The rule of order 2, its compositions, and Gauss methods of 4 and 8 stages: for systems of
-/// `#[rayleigh_system(rule = [trapezoidal, gauss])]`.
+/// The methods of `M`, and splittings into kicks and drifts: for systems whose trapezoidal rule is [`Explicit`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct WithGauss<R>(pub R);
+pub struct WithSplittings<M>(pub M);
+
+/// The methods of `M`, and Gauss methods of 4 and 8 stages: for systems of `#[rayleigh_system(rule = [trapezoidal, gauss])]`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct WithGauss<M>(pub M);
 
 /// A run by a rule, or composed.
 pub enum Composed<'a, L: Discrete<R, N>, R, const N: usize> {
     /// The rule alone.
-    Rule(ComposedTrajectory<'a, L, R, N, 1>),
+    Rule(ComposedTrajectory<'a, L, Substeps<L, R, N, 1>, N>),
     /// Order 6.
-    KahanLi6(ComposedTrajectory<'a, L, R, N, 9>),
+    KahanLi6(ComposedTrajectory<'a, L, Substeps<L, R, N, 9>, N>),
     /// Order 8.
-    KahanLi8(ComposedTrajectory<'a, L, R, N, 17>),
+    KahanLi8(ComposedTrajectory<'a, L, Substeps<L, R, N, 17>, N>),
 }
 
 impl<'a, L: Discrete<R, N>, R, const N: usize> Composed<'a, L, R, N> {
@@ -88,7 +91,10 @@ macro_rules! rules {
     ($($rule:ident)*) => {$(
         impl<L: Discrete<$rule, N>, const N: usize> Methods<L, N> for $rule {
             type Run<'a> = Composed<'a, L, Self, N> where L: 'a;
-            const HAS_GAUSS: bool = false;
+
+            fn offers(method: Method) -> bool {
+                matches!(method, Method::Rule | Method::KahanLi6 | Method::KahanLi8)
+            }
 
             fn run<'a>(
                 self,
@@ -105,49 +111,46 @@ macro_rules! rules {
 
 rules! { Midpoint Trapezoidal Fitted FittedTrapezoidal }
 
-/// A run by a rule, composed, or by a Gauss method.
-pub enum ComposedOrGauss<'a, L: Discrete<R, N> + ForcedLagrangian<N>, R, const N: usize> {
-    /// The rule and its compositions.
-    Composed(Composed<'a, L, R, N>),
-    /// Order 8.
-    Gauss4(Trajectory<'a, L, Gauss<4>, N>),
-    /// Order 16.
-    Gauss8(Trajectory<'a, L, Gauss<8>, N>),
+/// A run by a splitting, or by a method of others.
+pub enum SplitOr<'a, L: Explicit<N>, R, const N: usize> {
+    /// Order 4.
+    BlanesMoan4(ComposedTrajectory<'a, L, Kicks<L::Scalar, N, 6>, N>),
+    /// Order 6.
+    BlanesMoan6(ComposedTrajectory<'a, L, Kicks<L::Scalar, N, 11>, N>),
+    /// Of the others.
+    Other(R),
 }
 
-impl<L: Discrete<R, N> + ForcedLagrangian<N>, R, const N: usize> MethodRun<L, N>
-    for ComposedOrGauss<'_, L, R, N>
-{
+impl<L: Explicit<N>, R: MethodRun<L, N>, const N: usize> MethodRun<L, N> for SplitOr<'_, L, R, N> {
     fn state(&self) -> &State<L::Scalar, N> {
         match self {
-            Self::Composed(run) => run.state(),
-            Self::Gauss4(run) => run.state(),
-            Self::Gauss8(run) => run.state(),
+            Self::BlanesMoan4(run) => run.state(),
+            Self::BlanesMoan6(run) => run.state(),
+            Self::Other(run) => run.state(),
         }
     }
 
-    /// An iteration evaluates all stages, two at once in the narrowest vector registers: it counts as half as many substeps.
+    /// A kick and a drift, without an equation and its verdict, count as half a substep.
     #[inline]
     fn advance(&mut self) -> Result<f64, StepError> {
-        let (step, stages) = match self {
-            Self::Composed(run) => return run.advance(),
-            Self::Gauss4(run) => (run.next(), 4.0),
-            Self::Gauss8(run) => (run.next(), 8.0),
+        let (step, substeps) = match self {
+            Self::BlanesMoan4(run) => (run.next(), 3.0),
+            Self::BlanesMoan6(run) => (run.next(), 5.5),
+            Self::Other(run) => return run.advance(),
         };
-        step.map_or(Ok(0.0), |step| step.map(|step| 0.5 * stages * f64::from(step.report.iterations)))
+        step.map_or(Ok(substeps), |step| step.map(|_| substeps))
     }
 }
 
-impl<L, R, const N: usize> Methods<L, N> for WithGauss<R>
-where
-    L: Discrete<R, N> + ForcedLagrangian<N>,
-    R: Copy,
-{
+impl<L: Explicit<N>, M: Methods<L, N>, const N: usize> Methods<L, N> for WithSplittings<M> {
     type Run<'a>
-        = ComposedOrGauss<'a, L, R, N>
+        = SplitOr<'a, L, M::Run<'a>, N>
     where
         L: 'a;
-    const HAS_GAUSS: bool = true;
+
+    fn offers(method: Method) -> bool {
+        matches!(method, Method::BlanesMoan4 | Method::BlanesMoan6) || M::offers(method)
+    }
 
     fn run<'a>(
         self,
@@ -157,13 +160,69 @@ where
         state: State<L::Scalar, N>,
     ) -> Self::Run<'a> {
         match method {
-            Method::Gauss4 => {
-                ComposedOrGauss::Gauss4(Trajectory::<_, Gauss<4>, N>::new(system, Gauss, h, state))
+            Method::BlanesMoan4 => {
+                SplitOr::BlanesMoan4(Splitting::blanes_moan_4().trajectory(system, h, state))
             }
-            Method::Gauss8 => {
-                ComposedOrGauss::Gauss8(Trajectory::<_, Gauss<8>, N>::new(system, Gauss, h, state))
+            Method::BlanesMoan6 => {
+                SplitOr::BlanesMoan6(Splitting::blanes_moan_6().trajectory(system, h, state))
             }
-            _ => ComposedOrGauss::Composed(Composed::new(self.0, method, system, h, state)),
+            _ => SplitOr::Other(self.0.run(method, system, h, state)),
+        }
+    }
+}
+
+/// A run by a Gauss method, or by a method of others.
+pub enum GaussOr<'a, L: ForcedLagrangian<N>, R, const N: usize> {
+    /// Order 8.
+    Gauss4(Trajectory<'a, L, Gauss<4>, N>),
+    /// Order 16.
+    Gauss8(Trajectory<'a, L, Gauss<8>, N>),
+    /// Of the others.
+    Other(R),
+}
+
+impl<L: ForcedLagrangian<N>, R: MethodRun<L, N>, const N: usize> MethodRun<L, N> for GaussOr<'_, L, R, N> {
+    fn state(&self) -> &State<L::Scalar, N> {
+        match self {
+            Self::Gauss4(run) => run.state(),
+            Self::Gauss8(run) => run.state(),
+            Self::Other(run) => run.state(),
+        }
+    }
+
+    /// An iteration evaluates all stages, two at once in the narrowest vector registers: it counts as half as many substeps.
+    #[inline]
+    fn advance(&mut self) -> Result<f64, StepError> {
+        let (step, stages) = match self {
+            Self::Gauss4(run) => (run.next(), 4.0),
+            Self::Gauss8(run) => (run.next(), 8.0),
+            Self::Other(run) => return run.advance(),
+        };
+        step.map_or(Ok(0.0), |step| step.map(|step| 0.5 * stages * f64::from(step.report.iterations)))
+    }
+}
+
+impl<L: ForcedLagrangian<N>, M: Methods<L, N>, const N: usize> Methods<L, N> for WithGauss<M> {
+    type Run<'a>
+        = GaussOr<'a, L, M::Run<'a>, N>
+    where
+        L: 'a;
+
+    fn offers(method: Method) -> bool {
+        matches!(method, Method::Gauss4 | Method::Gauss8) || M::offers(method)
+    }
+
+    fn run<'a>(
+        self,
+        method: Method,
+        system: &'a L,
+        h: L::Scalar,
+        state: State<L::Scalar, N>,
+    ) -> Self::Run<'a> {
+        match method {
+            Method::Gauss4 => GaussOr::Gauss4(Trajectory::<_, Gauss<4>, N>::new(system, Gauss, h, state)),
+            Method::Gauss8 => GaussOr::Gauss8(Trajectory::<_, Gauss<8>, N>::new(system, Gauss, h, state)),
+            _ => GaussOr::Other(self.0.run(method, system, h, state)),
         }
     }
 }

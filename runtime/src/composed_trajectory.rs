@@ -1,0 +1,119 @@
+//! Runs by steps of several parts, of one size.
+
+use crate::{Checkpoint, Lagrangian, Scalar, State, StepError};
+
+/// A step that is made of several, with what it keeps for the next: [`Substeps`](crate::Substeps) of a
+/// [`Composition`](crate::Composition), [`Kicks`](crate::Kicks) and drifts of a [`Splitting`](crate::Splitting).
+pub trait ComposedStep<L: Lagrangian<N>, const N: usize> {
+    /// The step from `state`, `elapsed` after the time of `system`.
+    ///
+    /// # Errors
+    /// Those of its parts.
+    fn advance(
+        &mut self,
+        system: &L,
+        elapsed: f64,
+        state: &State<L::Scalar, N>,
+    ) -> Result<State<L::Scalar, N>, StepError>;
+
+    /// Lets go of what it has kept of the steps before.
+    fn forget(&mut self);
+}
+
+/// The trajectory of a system by a [`Composition`](crate::Composition) or a [`Splitting`](crate::Splitting), one whole step at a
+/// time.
+///
+/// An iterator over states. After an error it ends, its state being the last good one.
+pub struct ComposedTrajectory<'a, L, C, const N: usize>
+where
+    L: Lagrangian<N>,
+{
+    system: &'a L,
+    step: C,
+    h: L::Scalar,
+    origin: f64,
+    steps: u64,
+    state: State<L::Scalar, N>,
+    failed: bool,
+}
+
+impl<'a, L, C, const N: usize> ComposedTrajectory<'a, L, C, N>
+where
+    L: Lagrangian<N>,
+    C: ComposedStep<L, N>,
+{
+    /// From `state`, at time 0.
+    pub(crate) fn new(system: &'a L, step: C, h: L::Scalar, state: State<L::Scalar, N>) -> Self {
+        Self { system, step, h, origin: 0.0, steps: 0, state, failed: false }
+    }
+
+    /// From where `checkpoint` was taken.
+    pub(crate) fn resumed(system: &'a L, step: C, checkpoint: Checkpoint<L::Scalar, N>) -> Self {
+        let Checkpoint { state, step_size, origin, steps } = checkpoint;
+        Self { origin, steps, ..Self::new(system, step, step_size, state) }
+    }
+
+    /// The present state: that of the last step that succeeded.
+    pub fn state(&self) -> &State<L::Scalar, N> {
+        &self.state
+    }
+
+    /// The step size h, of all parts together.
+    pub fn step_size(&self) -> L::Scalar {
+        self.h
+    }
+
+    /// The time, h × the number of steps taken (and where a run that was resumed began).
+    pub fn time(&self) -> f64 {
+        if self.steps == 0 { self.origin } else { self.origin + self.h.widen() * self.steps as f64 }
+    }
+
+    /// All that is needed to go on from here, in this process or another ([`Composition::resume`](crate::Composition::resume),
+    /// [`Splitting::resume`](crate::Splitting::resume)).
+    ///
+    /// The run forgets what its parts remember, as one that is resumed has to: both go on bit by bit alike.
+    ///
+    /// ```
+    /// use dalembert::{Composition, Midpoint, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system]
+    /// fn pendulum(q: [f64; 1], v: [f64; 1]) -> f64 {
+    ///     0.5 * v[0] * v[0] + q[0].cos()
+    /// }
+    /// let start = State::from_velocity(&Pendulum {}, [1.0], [0.0])?;
+    /// let method = Composition::kahan_li_6(Midpoint);
+    /// let mut run = method.trajectory(&Pendulum {}, 0.2, start);
+    /// run.by_ref().take(100).for_each(|state| assert!(state.is_ok()));
+    /// let resumed = method.resume(&Pendulum {}, run.checkpoint());
+    /// assert!(resumed.time() == run.time() && resumed.take(100).eq(run.take(100)));
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    pub fn checkpoint(&mut self) -> Checkpoint<L::Scalar, N> {
+        self.step.forget();
+        Checkpoint { state: self.state, step_size: self.h, origin: self.origin, steps: self.steps }
+    }
+}
+
+impl<L, C, const N: usize> Iterator for ComposedTrajectory<'_, L, C, N>
+where
+    L: Lagrangian<N>,
+    C: ComposedStep<L, N>,
+{
+    type Item = Result<State<L::Scalar, N>, StepError>;
+
+    #[inline]
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.failed {
+            return None;
+        }
+        let state = self.step.advance(self.system, self.time(), &self.state);
+        match &state {
+            Ok(state) => {
+                self.state = *state;
+                self.steps += 1;
+            }
+            Err(_) => self.failed = true,
+        }
+        Some(state)
+    }
+}

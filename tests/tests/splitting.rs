@@ -1,0 +1,399 @@
+//! Blanes and Moan's splittings: the order, what free motion and damping keep, and where they are stable.
+
+use std::f64::consts::PI;
+
+use dalembert::nalgebra::{Matrix2, Matrix4, SMatrix, SVector, matrix, vector};
+use dalembert::{Explicit, Quantity, Splitting, State, StepError, rayleigh_system};
+use dalembert_tests::by_hand::ByHand;
+use dalembert_tests::convergence::orders;
+use dalembert_tests::systems::Pendulum;
+
+/// The end of so many steps.
+fn end<L, const N: usize, const S: usize>(
+    splitting: Splitting<S>,
+    system: &L,
+    h: f64,
+    start: State<f64, N>,
+    steps: usize,
+) -> State<f64, N>
+where
+    L: Explicit<N, Scalar = f64>,
+{
+    splitting.trajectory(system, h, start).take(steps).last().unwrap().unwrap()
+}
+
+fn assert_order<L, const N: usize, const S: usize>(
+    system: &L,
+    splitting: Splitting<S>,
+    time: f64,
+    steps: [usize; 6],
+    start: [[f64; N]; 2],
+) where
+    L: ByHand<N> + Explicit<N, Scalar = f64>,
+{
+    let run = |h, start, steps| end(splitting, system, h, start, steps);
+    for (order, of) in orders(system, time, steps, start, 1e-12, run).into_iter().zip(["q", "p"]) {
+        let expected = f64::from(splitting.order());
+        assert!((order - expected).abs() < 0.35, "order {order:.3} in {of}, not {expected}");
+    }
+}
+
+#[test]
+fn the_order_is_four_and_six() {
+    let system = Pendulum { r: 0.05, ..Pendulum::EXAMPLE };
+    let swing = [[1.9], [-0.7]];
+    assert_order(&system, Splitting::blanes_moan_4(), 6.0, [96, 128, 160, 192, 256, 320], swing);
+    assert_order(&system, Splitting::blanes_moan_6(), 6.0, [24, 28, 32, 36, 40, 44], swing);
+}
+
+/// The step written by hand for a pendulum with friction, from the coefficients.
+fn by_hand<const S: usize>(
+    [drifts, kicks]: [&[f64; S]; 2],
+    r: f64,
+    h: f64,
+    [mut q, mut p]: [f64; 2],
+) -> [f64; 2] {
+    for i in 0..S {
+        p -= kicks[i] * h * q.sin();
+        let loss = (-r * drifts[i] * h).exp_m1();
+        (q, p) = (q - loss / r * p, p + loss * p);
+    }
+    [q, p - kicks[0] * h * q.sin()]
+}
+
+#[rayleigh_system(rule = trapezoidal)]
+fn swing(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
+}
+
+/// A last digit of a coefficient shows: the order by hand, with the coefficients and with one changed.
+#[test]
+fn the_step_is_the_product_of_its_kicks_and_drifts_and_needs_every_coefficient() {
+    fn check<const S: usize>(splitting: Splitting<S>) {
+        let (system, h) = (Swing { r: 0.01 }, 0.7);
+        let start = State { q: vector![1.1], p: vector![-0.8] };
+        let step = end(splitting, &system, h, start, 1);
+        let coefficients = [splitting.drifts(), splitting.kicks()];
+        let expected = by_hand(coefficients, system.r, h, [1.1, -0.8]);
+        assert!((step.q[0] - expected[0]).abs() < 1e-15 && (step.p[0] - expected[1]).abs() < 1e-15);
+
+        // Against steps of a quarter: the error falls as the order says.
+        let order = |coefficients| {
+            let run = |steps: usize| {
+                let h = 8.0 / steps as f64;
+                SVector::from((0..steps).fold([1.1, -0.8], |x, _| by_hand(coefficients, system.r, h, x)))
+            };
+            let coarse = if S > 6 { 16 } else { 64 };
+            let [a, b, c] = [run(coarse), run(2 * coarse), run(4096)];
+            ((a - c).norm() / (b - c).norm()).log2()
+        };
+        let found = order(coefficients);
+        assert!((found - f64::from(splitting.order())).abs() < 0.5, "{found}");
+        // Still symmetric and of sum 1, but of order 2.
+        let mut drifts = *splitting.drifts();
+        let middle = S / 2;
+        for (i, change) in [(0, 1e-3), (1, -1e-3), (S - 1, 1e-3), (S - 2, -1e-3)] {
+            drifts[i] += change;
+        }
+        assert!(middle > 2 && (order([&drifts, splitting.kicks()]) - 2.0).abs() < 0.3);
+    }
+    check(Splitting::blanes_moan_4());
+    check(Splitting::blanes_moan_6());
+}
+
+/// Two coordinates with coupled masses and dampers, terms of first degree, and an anharmonic potential of strength k.
+struct Two {
+    damping: [f64; 3],
+    k: f64,
+}
+
+#[rayleigh_system(rule = trapezoidal)]
+impl Two {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let stretch = q[1] - q[0];
+        0.65 * v[0] * v[0] + 0.4 * v[1] * v[1] + 0.3 * v[0] * v[1] + 0.2 * v[0]
+            - self.k * (q[0].cosh() + stretch * stretch + 0.25 * stretch.powi(4))
+    }
+
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        let [a, b, c] = self.damping;
+        0.5 * (a * v[0] * v[0] + c * v[1] * v[1]) + b * v[0] * v[1] - 0.1 * self.k * v[1]
+    }
+
+    fn force(&self, q: [f64; 2], _v: [f64; 2]) -> [f64; 2] {
+        // Circulatory: no potential has it.
+        [self.k * 0.3 * q[1], -self.k * 0.2 * q[0]]
+    }
+}
+
+const M: Matrix2<f64> = matrix![1.3, 0.3; 0.3, 0.8];
+const START: State<f64, 2> = State { q: vector![0.7, -0.3], p: vector![0.2, 0.9] };
+
+/// Without a force the motion of M v̇ = −C v, p = M v + s, of any size and any damping, negative too: by nalgebra's
+/// exponential of the affine field, which knows nothing of modes.
+#[test]
+fn free_motion_is_exact() {
+    fn check<const S: usize>(splitting: Splitting<S>) {
+        for ([a, b, c], h) in
+            [([0.5, -0.2, 0.7], 0.6), ([5.0, 1.0, 9.0], 2.0), ([0.3, 0.5, 0.2], 1.0), ([0.0; 3], 3.0)]
+        {
+            let inverse = M.try_inverse().unwrap();
+            let drag = -matrix![a, b; b, c] * inverse;
+            // d/dt (q, p, 1)
+            let mut field = SMatrix::<f64, 5, 5>::zeros();
+            let shift = vector![0.2, 0.0];
+            field.fixed_view_mut::<2, 2>(0, 2).copy_from(&inverse);
+            field.fixed_view_mut::<2, 1>(0, 4).copy_from(&(-inverse * shift));
+            field.fixed_view_mut::<2, 2>(2, 2).copy_from(&drag);
+            field.fixed_view_mut::<2, 1>(2, 4).copy_from(&(-drag * shift));
+            let flow = (field * h).exp();
+            let exact = flow * vector![START.q[0], START.q[1], START.p[0], START.p[1], 1.0];
+            let found = end(splitting, &Two { damping: [a, b, c], k: 0.0 }, h, START, 1);
+            let scale = 1.0 + flow.amax();
+            assert!((found.q - exact.fixed_rows::<2>(0)).amax() < 1e-14 * scale, "{a} {b} {c}");
+            assert!((found.p - exact.fixed_rows::<2>(2)).amax() < 1e-14 * scale, "{a} {b} {c}");
+        }
+    }
+    check(Splitting::blanes_moan_4());
+    check(Splitting::blanes_moan_6());
+}
+
+/// Terms of first degree in L and R, coupled masses, and a force that has no potential, to the order.
+#[test]
+fn forces_of_every_kind_keep_the_order() {
+    let system = Two { damping: [0.5, -0.2, 0.7], k: 1.0 };
+    fn order<const S: usize>(splitting: Splitting<S>, system: &Two, steps: usize) -> f64 {
+        let run = |steps: usize| end(splitting, system, 4.0 / steps as f64, START, steps).q;
+        let fine = run(16 * steps);
+        ((run(steps) - fine).amax() / (run(2 * steps) - fine).amax()).log2()
+    }
+    let [four, six] =
+        [order(Splitting::blanes_moan_4(), &system, 40), order(Splitting::blanes_moan_6(), &system, 20)];
+    assert!((four - 4.0).abs() < 0.3 && (six - 6.0).abs() < 0.4, "{four} {six}");
+    // And to the motion: M v̇ = G − r − C v by hand, with steps of another method.
+    let rate = |y: SVector<f64, 4>| {
+        let (q, v) = ([y[0], y[1]], [y[2], y[3]]);
+        let stretch = q[1] - q[0];
+        let pull = 2.0 * stretch + stretch.powi(3);
+        let force = vector![
+            -q[0].sinh() + pull + 0.3 * q[1] - 0.5 * v[0] + 0.2 * v[1],
+            -pull - 0.2 * q[0] + 0.2 * v[0] - 0.7 * v[1] + 0.1
+        ];
+        let a = M.try_inverse().unwrap() * force;
+        vector![v[0], v[1], a[0], a[1]]
+    };
+    let v = M.try_inverse().unwrap() * (START.p - vector![0.2, 0.0]);
+    let (mut y, h) = (vector![START.q[0], START.q[1], v[0], v[1]], 4.0 / 4000.0);
+    for _ in 0..4000 {
+        let a = rate(y);
+        let b = rate(y + a * (h / 2.0));
+        let c = rate(y + b * (h / 2.0));
+        let d = rate(y + c * h);
+        y += (a + (b + c) * 2.0 + d) * (h / 6.0);
+    }
+    let found = end(Splitting::blanes_moan_6(), &system, 0.02, START, 200);
+    assert!((found.q - y.fixed_rows::<2>(0)).amax() < 1e-10, "{} {y}", found.q);
+}
+
+/// ∂(q1, p1)/∂(q0, p0) by differences of order 4.
+fn jacobian<L, const S: usize>(
+    splitting: Splitting<S>,
+    system: &L,
+    h: f64,
+    start: &State<f64, 2>,
+) -> Matrix4<f64>
+where
+    L: Explicit<2, Scalar = f64>,
+{
+    let moved = |column: usize, by: f64| {
+        let mut start = *start;
+        if column < 2 {
+            start.q[column] += by;
+        } else {
+            start.p[column - 2] += by;
+        }
+        let end = end(splitting, system, h, start, 1);
+        vector![end.q[0], end.q[1], end.p[0], end.p[1]]
+    };
+    let d = 1e-3;
+    let column = |j| {
+        (moved(j, d) - moved(j, -d)) * (2.0 / (3.0 * d))
+            - (moved(j, 2.0 * d) - moved(j, -2.0 * d)) / (12.0 * d)
+    };
+    Matrix4::from_columns(&[0, 1, 2, 3].map(column))
+}
+
+#[rayleigh_system(rule = trapezoidal)]
+fn ring(q: [f64; 2], v: [f64; 2], k: f64) -> (f64, f64) {
+    let s = q[0] * q[0] + q[1] * q[1];
+    (0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2), 0.5 * k * (v[0] * v[0] + v[1] * v[1]))
+}
+
+#[test]
+fn phase_space_contracts_as_by_the_motion() {
+    let omega = matrix![0.0, 0.0, 1.0, 0.0; 0.0, 0.0, 0.0, 1.0; -1.0, 0.0, 0.0, 0.0; 0.0, -1.0, 0.0, 0.0];
+    let h = 0.3;
+    // Any damping matrix, and a circulatory force: det = e^{−h tr M⁻¹C}.
+    let system = Two { damping: [0.5, -0.2, 0.7], k: 1.0 };
+    let trace = (M.try_inverse().unwrap() * matrix![0.5, -0.2; -0.2, 0.7]).trace();
+    let a = jacobian(Splitting::blanes_moan_6(), &system, h, &START);
+    assert!((a.determinant() - (-h * trace).exp()).abs() < 1e-10, "{:e}", a.determinant());
+    assert!(
+        (a.transpose() * omega * a - omega * (-h * trace / 2.0).exp()).amax() > 1e-2,
+        "but it is not conformal"
+    );
+    // C = k M: conformally symplectic; k = 0: symplectic.
+    for k in [0.8, 0.0] {
+        let start = State { q: vector![0.9, 0.3], p: vector![-0.4, 0.7] };
+        for a in [
+            jacobian(Splitting::blanes_moan_4(), &Ring { k }, h, &start),
+            jacobian(Splitting::blanes_moan_6(), &Ring { k }, h, &start),
+        ] {
+            let miss = (a.transpose() * omega * a - omega * (-k * h).exp()).amax();
+            assert!(miss < 1e-8 && (a - Matrix4::identity()).amax() > 0.1, "{k}: {miss:e}");
+        }
+    }
+}
+
+#[test]
+fn an_angular_momentum_falls_as_it_does_along_the_motion() {
+    let (system, h) = (Ring { k: 0.01 }, 0.3);
+    let start = State { q: vector![1.1, 0.0], p: vector![0.2, 0.9] };
+    let j = |state: &State<f64, 2>| state.q[0] * state.p[1] - state.q[1] * state.p[0];
+    for (end, steps) in [
+        (end(Splitting::blanes_moan_4(), &system, h, start, 500), 500.0),
+        (end(Splitting::blanes_moan_6(), &system, h, start, 500), 500.0),
+    ] {
+        let expected = j(&start) * (-0.01 * h * steps).exp();
+        assert!((j(&end) / expected - 1.0).abs() < 1e-13, "{:e}", j(&end) / expected - 1.0);
+    }
+}
+
+#[test]
+fn a_step_back_undoes_a_step_with_damping_too() {
+    let system = Two { damping: [0.5, -0.2, 0.7], k: 1.0 };
+    let there = end(Splitting::blanes_moan_6(), &system, 0.3, START, 20);
+    let back = end(Splitting::blanes_moan_6(), &system, -0.3, there, 20);
+    assert!((there.q - START.q).amax() > 0.1);
+    assert!((back.q - START.q).amax() < 1e-12 && (back.p - START.p).amax() < 1e-12);
+}
+
+/// Without damping the energy of 1e6 steps does not drift, also with a mass matrix that has to be decomposed.
+#[test]
+fn rounding_does_not_drift() {
+    let system = Two { damping: [0.0; 3], k: 0.0 };
+    // Free: the momenta are kept bit by bit.
+    let free = end(Splitting::blanes_moan_6(), &system, 0.3, START, 1000);
+    assert!((free.p - START.p).amax() < 1e-16);
+    let ring = Ring { k: 0.0 };
+    let start = State { q: vector![1.1, 0.0], p: vector![0.2, 0.9] };
+    let j = |state: &State<f64, 2>| state.q[0] * state.p[1] - state.q[1] * state.p[0];
+    // 2.2e7 products, each with half a rounding: a random walk of 5e-13, a drift of 2.4e-9.
+    let turned = end(Splitting::blanes_moan_6(), &ring, 0.1, start, 1_000_000);
+    assert!((j(&turned) / j(&start) - 1.0).abs() < 2e-12, "{:e}", j(&turned) / j(&start) - 1.0);
+}
+
+#[rayleigh_system(rule = trapezoidal)]
+fn oscillator(q: [f64; 1], v: [f64; 1], k: f64, r: f64) -> (f64, f64) {
+    (0.5 * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+}
+
+#[test]
+fn oscillators_are_stable_up_to_the_bound_and_not_beyond() {
+    fn left<const S: usize>(splitting: Splitting<S>, omega: f64, r: f64) -> f64 {
+        let system = Oscillator { k: omega * omega, r };
+        let start = State { q: vector![0.0], p: vector![1.0] };
+        // Infinite where it has grown beyond all numbers.
+        let end = splitting.trajectory(&system, 1.0, start).take(5000).last().unwrap();
+        end.map_or(f64::INFINITY, |end| end.p[0].abs().max(end.q[0].abs() * omega))
+    }
+    let four = |omega| left(Splitting::blanes_moan_4(), omega, 0.0);
+    assert!(four(3.163) < 30.0 && four(3.169) < 100.0 && four(5.02) < 100.0 && four(5.03) > 1e3);
+    let six = |omega| left(Splitting::blanes_moan_6(), omega, 0.0);
+    assert!(
+        six(3.141) < 30.0 && six(3.143) < 100.0 && six(6.35) < 100.0 && six(9.07) < 100.0 && six(9.08) > 1e3
+    );
+    // The resonances, whose growth is slow: e^(5000 × 0.0023), e^(5000 × 0.0004).
+    assert!((1e4..1e6).contains(&four(3.166)), "{:e}", four(3.166));
+    assert!((2.0..20.0).contains(&six(3.1419)), "{:e}", six(3.1419));
+    for r in [0.01, 0.1, 1.0, 3.0, 10.0] {
+        for omega in [0.1, 0.5, 1.0, 2.0, 3.0, PI, 3.166, 4.0, 5.0] {
+            let four = left(Splitting::blanes_moan_4(), omega, r);
+            let six = left(Splitting::blanes_moan_6(), 1.8 * omega, r);
+            assert!(four < 1.0 && six < 1.0, "{omega} {r}: {four:e} {six:e}");
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_stepped_has_a_name_and_leaves_the_state() {
+    let start = State { q: vector![0.3], p: vector![1.0] };
+    let error = |h, start| {
+        let system = Oscillator { k: 1.0, r: 0.1 };
+        let mut run = Splitting::blanes_moan_4().trajectory(&system, h, start);
+        let error = run.next().unwrap().unwrap_err();
+        assert!(run.next().is_none() && run.time() == 0.0);
+        error
+    };
+    assert_eq!(error(0.0, start), StepError::StepSize { h: 0.0 });
+    assert!(matches!(error(f64::NAN, start), StepError::StepSize { .. }));
+    let of = |quantity, index| StepError::NonFinite { quantity, index };
+    assert_eq!(error(0.1, State { p: vector![f64::NAN], ..start }), of(Quantity::Momentum, 0));
+    assert_eq!(error(0.1, State { q: vector![f64::INFINITY], ..start }), of(Quantity::Configuration, 0));
+
+    // A mass matrix that is not positive definite: alone, and among coordinates.
+    #[rayleigh_system(rule = trapezoidal)]
+    fn hyperbolic(q: [f64; 2], v: [f64; 2], coupling: f64) -> f64 {
+        0.5 * (v[0] * v[0] - 0.5 * v[1] * v[1]) + coupling * v[0] * v[1] - q[0] * q[0]
+    }
+    for (coupling, index) in [(0.0, 1), (0.3, 0)] {
+        let system = Hyperbolic { coupling };
+        let start = State { q: vector![0.1, 0.2], p: vector![0.3, 0.4] };
+        let found = Splitting::blanes_moan_6().trajectory(&system, 0.1, start).next().unwrap();
+        assert_eq!(found, Err(of(Quantity::Derivatives, index)), "{coupling}");
+    }
+
+    // The square root of what has become negative.
+    #[rayleigh_system(rule = trapezoidal)]
+    fn wall(q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * v[0] * v[0] - q[0].sqrt()
+    }
+    let start = State::from_velocity(&Wall {}, [10.0], [-5.0]).unwrap();
+    let mut run = Splitting::blanes_moan_6().trajectory(&Wall {}, 0.5, start);
+    let error = run.by_ref().take(10).find_map(Result::err).expect("the mass meets the wall");
+    assert!(matches!(error, StepError::NonFinite { .. }), "{error}");
+    assert!(run.time() > 1.0 && run.state().q[0] > 0.0 && run.state().p[0].is_finite());
+    assert!(run.next().is_none());
+}
+
+#[test]
+fn a_run_that_is_resumed_goes_on_bit_by_bit() {
+    let system = Ring { k: 0.01 };
+    let start = State { q: vector![1.1, 0.0], p: vector![0.2, 0.9] };
+    let method = Splitting::blanes_moan_4();
+    let mut run = method.trajectory(&system, 0.1, start);
+    run.by_ref().take(50).for_each(|state| assert!(state.is_ok()));
+    let resumed = method.resume(&system, run.checkpoint());
+    assert!(resumed.time() == run.time() && resumed.take(50).eq(run.take(50)));
+}
+
+#[test]
+fn in_single_precision_too() {
+    #[rayleigh_system(rule = trapezoidal)]
+    fn single(q: [f32; 1], v: [f32; 1], r: f32) -> (f32, f32) {
+        (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
+    }
+    let start = State { q: vector![1.1_f32], p: vector![-0.8] };
+    let found = Splitting::blanes_moan_6()
+        .trajectory(&Single { r: 0.4 }, 0.1, start)
+        .take(50)
+        .last()
+        .unwrap()
+        .unwrap();
+    let start = State { q: vector![1.1], p: vector![-0.8] };
+    let exact = end(Splitting::blanes_moan_6(), &Swing { r: 0.4 }, 0.1, start, 50);
+    assert!(
+        (f64::from(found.q[0]) - exact.q[0]).abs() < 2e-6
+            && (f64::from(found.p[0]) - exact.p[0]).abs() < 2e-6
+    );
+}
