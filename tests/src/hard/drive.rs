@@ -1,6 +1,6 @@
 //! Long runs that keep figures instead of states.
 
-use dalembert::{Composition, Discrete, State, StepError, Trajectory};
+use dalembert::{ComposedStep, ComposedTrajectory, Discrete, Lagrangian, State, StepError, Trajectory};
 
 /// What a run took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -57,20 +57,17 @@ where
     effort
 }
 
-/// The same by a composition, which keeps no count of iterations.
-pub fn drive_composed<L, R, const N: usize, const S: usize>(
-    system: &L,
-    composition: Composition<R, S>,
-    h: f64,
-    start: State<f64, N>,
+/// The same by a composition or a splitting, which keep no count of iterations.
+pub fn drive_composed<L, C, const N: usize>(
+    mut trajectory: ComposedTrajectory<'_, L, C, N>,
     steps: u64,
     mut look: impl FnMut(Progress<N>),
 ) -> Effort
 where
-    L: Discrete<R, N, Scalar = f64>,
+    L: Lagrangian<N, Scalar = f64>,
+    C: ComposedStep<L, N>,
 {
     let mut effort = Effort::default();
-    let mut trajectory = composition.trajectory(system, h, start);
     for _ in 0..steps {
         match trajectory.next() {
             Some(Ok(state)) => {
