@@ -9,21 +9,27 @@ pub struct Point {
     pub error: f64,
 }
 
-/// The seconds at which a method's error passes below `error`, between its runs as log time over log error.
+/// The seconds at which a method's error passes below `error`, given its runs from the coarsest to the finest; between two, as log
+/// time over log error.
 ///
-/// A run counts only if the next dearer one is below as well: one that is right by accident, where an error changes its sign,
-/// reaches nothing. `None` if no run counts.
+/// A run counts only if the next finer one is below as well: one that is right by accident, where an error changes its sign,
+/// reaches nothing. The coarsest runs of a method that iterates may cost more than finer ones. `None` if no run counts.
 pub fn time_to_reach(error: f64, points: impl IntoIterator<Item = Point>) -> Option<f64> {
-    let mut points: Vec<Point> = points.into_iter().collect();
-    points.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
-    let first = (0..points.len())
-        .find(|&i| points[i].error <= error && points.get(i + 1).is_none_or(|next| next.error <= error))?;
-    let within = points[first];
-    let Some(without) = points[..first].last().filter(|before| before.error > error) else {
-        return Some(within.seconds);
-    };
-    let share = (error / without.error).ln() / (within.error / without.error).ln();
-    Some(without.seconds * (within.seconds / without.seconds).powf(share))
+    let points: Vec<Point> = points.into_iter().collect();
+    let is_below = |point: &Point| point.error <= error;
+    let times = points.iter().enumerate().filter_map(|(i, within)| {
+        if !is_below(within) || points.get(i + 1).is_some_and(|next| !is_below(next)) {
+            return None;
+        }
+        let before = i.checked_sub(1).map(|i| points[i]);
+        let Some(without) = before.filter(|before| before.error > error && before.seconds < within.seconds)
+        else {
+            return Some(within.seconds);
+        };
+        let share = (error / without.error).ln() / (within.error / without.error).ln();
+        Some(without.seconds * (within.seconds / without.seconds).powf(share))
+    });
+    times.min_by(f64::total_cmp)
 }
 
 /// Errors and times of the runs of one method on one scene.
@@ -63,6 +69,14 @@ mod tests {
         assert!(time_to_reach(1e-6, points(&runs)).unwrap() > 8.0);
         // Positive control: without the run that shows it to be an accident, it counts.
         assert!(time_to_reach(1e-6, points(&runs[..2])).unwrap() < 2.0);
+    }
+
+    #[test]
+    fn a_coarse_run_that_costs_more_than_finer_ones_hides_none_of_them() {
+        let runs = [(9.0, 1e-1), (2.0, 1e-2), (4.0, 1e-6), (8.0, 1e-9), (16.0, 1e-12)];
+        assert_eq!(time_to_reach(1e-6, points(&runs)), Some(4.0));
+        assert_eq!(time_to_reach(0.2, points(&runs)), Some(2.0));
+        assert_eq!(time_to_reach(1e-12, points(&runs)), Some(16.0));
     }
 
     #[test]

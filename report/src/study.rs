@@ -90,7 +90,7 @@ pub fn scene<S: Scene<N>, const N: usize, const M: usize>(
     Ok(records.collect())
 }
 
-/// Of the settings, in the order of rising cost, those that tell something: not far off, not long after the error has
+/// Of the settings, from the coarsest to the finest, those that tell something: not far off, not long after the error has
 /// reached what rounding leaves.
 fn worth<'a, E>(
     settings: impl Iterator<Item = f64>,
@@ -98,7 +98,7 @@ fn worth<'a, E>(
     candidate: impl Fn(f64) -> Candidate<'a, E>,
 ) -> Vec<Candidate<'a, E>> {
     let mut kept = Vec::new();
-    let (mut least, mut since) = (f64::INFINITY, 0);
+    let (mut least, mut since, mut last) = (f64::INFINITY, 0, 0.0);
     for setting in settings {
         let mut candidate = candidate(setting);
         // What fails at a coarse setting may succeed at a finer one.
@@ -108,9 +108,11 @@ fn worth<'a, E>(
             kept.push(candidate);
             (least, since) = if error < 0.5 * least { (error, 0) } else { (least, since + 1) };
         }
-        if seconds > LONGEST || error < WORTH.start || (since > 4 && least < 1e-9) {
+        // The coarsest runs of a method that iterates may be the dearest.
+        if (seconds > LONGEST && seconds > last) || error < WORTH.start || (since > 4 && least < 1e-9) {
             break;
         }
+        last = seconds;
     }
     kept
 }

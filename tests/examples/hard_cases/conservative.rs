@@ -43,7 +43,10 @@ where
         ("midpoint", watched(&|look| drive(system, Midpoint, h, start, count, look))),
         ("trapezoidal", watched(&|look| drive(system, Trapezoidal, h, start, count, look))),
         ("Gauss, 3 stages", watched(&|look| drive(system, Gauss::<3>, h, start, count, look))),
-        ("composition, order 6", watched(&|look| drive_composed(ORDER_6.trajectory(system, h, start), steps, look))),
+        (
+            "composition, order 6",
+            watched(&|look| drive_composed(ORDER_6.trajectory(system, h, start), steps, look)),
+        ),
     ]
     .map(|(name, (largest, effort))| (name, largest, effort))
 }
@@ -391,7 +394,9 @@ pub fn fermi() -> Result<Case> {
         // The others cost several times as much; two step sizes show their order.
         if h > 0.005 {
             row("Gauss, 3 stages", &|look| drive(&system, Gauss::<3>, h, start, [steps, 1], look));
-            row("composition, order 6", &|look| drive_composed(ORDER_6.trajectory(&system, h, start), steps, look));
+            row("composition, order 6", &|look| {
+                drive_composed(ORDER_6.trajectory(&system, h, start), steps, look)
+            });
         }
     }
     let exchange =

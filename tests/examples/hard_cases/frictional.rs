@@ -111,7 +111,9 @@ pub fn kepler_drag() -> Result<Case> {
             row("fitted", &|look| drive(&system, Fitted, h, start, count, look));
             row("fitted, trapezoidal", &|look| drive(&system, FittedTrapezoidal, h, start, count, look));
             row("Gauss, 3 stages", &|look| drive(&system, Gauss::<3>, h, start, count, look));
-            row("composition, order 6", &|look| drive_composed(ORDER_6.trajectory(&system, h, start), 10 * steps, look));
+            row("composition, order 6", &|look| {
+                drive_composed(ORDER_6.trajectory(&system, h, start), 10 * steps, look)
+            });
         }
     }
     Ok(Case {
