@@ -197,9 +197,8 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
         let Momenta { p0, p1 } = system.velocity_momenta(&nalgebra::zero(), T::one() + T::one());
         let half = T::constant(0.5);
         let (mass, damping) = mass_and_damping(system);
-        let is_diagonal = [mass, damping]
-            .iter()
-            .all(|matrix| (0..N).all(|i| (0..N).all(|j| i == j || matrix[(i, j)] == T::zero())));
+        let is_diagonal =
+            [mass, damping].iter().all(|matrix| *matrix == SMatrix::from_diagonal(&matrix.diagonal()));
         let times = splitting.drifts.map(|share| T::constant(share) * h);
         let drifts = if is_diagonal {
             let (mass, damping) = (mass.diagonal(), damping.diagonal());
@@ -246,10 +245,15 @@ fn symmetric<T: Scalar, const N: usize, const C: usize, const S: usize>(
     drift: impl Fn(T) -> Drift<SMatrix<T, N, C>>,
 ) -> Result<[Drift<SMatrix<T, N, C>>; S], StepError> {
     let mut drifts = [Drift { displacement: nalgebra::zero(), loss: nalgebra::zero() }; S];
-    for i in 0..S {
-        drifts[i] = if 2 * i < S { drift(times[i]) } else { drifts[S - 1 - i] };
-        StepError::require_finite(&drifts[i].displacement, Quantity::Derivatives)?;
-        StepError::require_finite(&drifts[i].loss, Quantity::Derivatives)?;
+    if let Some((first, second)) = drifts.split_at_mut_checked(S.div_ceil(2)) {
+        for (of, &time) in first.iter_mut().zip(times) {
+            *of = drift(time);
+            StepError::require_finite(&of.displacement, Quantity::Derivatives)?;
+            StepError::require_finite(&of.loss, Quantity::Derivatives)?;
+        }
+        for (of, same) in second.iter_mut().rev().zip(first) {
+            *of = *same;
+        }
     }
     Ok(drifts)
 }
@@ -260,7 +264,7 @@ fn mass_and_damping<L: Explicit<N>, const N: usize>(
 ) -> (SMatrix<L::Scalar, N, N>, SMatrix<L::Scalar, N, N>) {
     let mass = system.step_matrix(nalgebra::zero()).dense();
     // At a step so long nothing of C is lost beside M, and powers of two round nothing.
-    let long = L::Scalar::constant(2_f64.powi(81));
+    let long = L::Scalar::constant((1_u128 << 81) as f64);
     let damping = (system.step_matrix(long).dense() - mass) * (L::Scalar::constant(2.0) / long);
     (mass, damping)
 }

@@ -3,10 +3,10 @@
 use allocation_counter::measure;
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::{
-    Discrete, Gauss, Linearization, Midpoint, State, StateBy, StepError, StepHessian, Trajectory,
-    Trapezoidal, rayleigh_system,
+    Composition, Discrete, Gauss, Linearization, Midpoint, Splitting, State, StateBy, StepError, StepHessian,
+    Trajectory, Trapezoidal, rayleigh_system,
 };
-use dalembert_tests::systems::{Chain, Charge, DoublePendulum};
+use dalembert_tests::systems::{Chain, Charge, DoublePendulum, Pendulum};
 
 fn assert_no_allocation(run: impl FnOnce()) {
     let count = measure(run);
@@ -53,6 +53,19 @@ fn none_in_a_trajectory() {
             charge.next().unwrap().unwrap();
         }
         charge.sample_every(10).take(10).for_each(|sample| assert!(sample.is_ok()));
+    });
+}
+
+#[test]
+fn none_in_a_composition_or_a_splitting() {
+    let system = Pendulum::EXAMPLE;
+    let start = State::from_velocity(&system, [1.1], [0.4]).unwrap();
+    assert_no_allocation(|| {
+        Composition::kahan_li_8(Midpoint)
+            .trajectory(&system, 0.1, start)
+            .take(50)
+            .for_each(|s| assert!(s.is_ok()));
+        Splitting::blanes_moan_6().trajectory(&system, 0.1, start).take(50).for_each(|s| assert!(s.is_ok()));
     });
 }
 

@@ -4,7 +4,8 @@
 use core::hint::black_box;
 
 use dalembert::{
-    Discrete, Fitted, FittedTrapezoidal, Midpoint, OneSided, State, Trajectory, Trapezoidal, rayleigh_system,
+    Composition, Discrete, Fitted, FittedTrapezoidal, Midpoint, OneSided, Splitting, State, Trajectory,
+    Trapezoidal, rayleigh_system,
 };
 
 macro_rules! chains {
@@ -147,7 +148,7 @@ macro_rules! damped {
                 friction: $float,
             }
 
-            #[rayleigh_system(derivatives = expanded, rule = [fitted, fitted_trapezoidal, one_sided])]
+            #[rayleigh_system(derivatives = expanded, rule = [trapezoidal, fitted, fitted_trapezoidal, one_sided])]
             impl $name {
                 fn lagrangian(&self, q: [$float; $n], v: [$float; $n]) -> $float {
                     let total: $float = v.iter().sum();
@@ -183,6 +184,13 @@ macro_rules! damped {
                     let mut explicit = Trajectory::new(&system, FittedTrapezoidal, h, start);
                     let steps = fitted.by_ref().take(3).chain(explicit.by_ref().take(3)).filter(Result::is_err).count();
                     black_box((&single, &bounded, fitted.state(), explicit.state()));
+                    let mut verlet = Trajectory::new(&system, Trapezoidal, h, start);
+                    let steps = steps + verlet.by_ref().take(3).filter(Result::is_err).count();
+                    let mut split = Splitting::blanes_moan_6().trajectory(&system, h, start);
+                    let steps = steps + split.by_ref().take(3).filter(Result::is_err).count();
+                    let mut composed = Composition::kahan_li_6(Trapezoidal).trajectory(&system, h, start);
+                    let steps = steps + composed.by_ref().take(3).filter(Result::is_err).count();
+                    black_box((verlet.state(), split.state(), composed.state()));
                     single.iter().filter(|step| step.is_err()).count() as i32
                         + i32::from(bounded.is_err())
                         + steps as i32
