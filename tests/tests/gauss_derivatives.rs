@@ -175,7 +175,11 @@ fn parameters<const S: usize>(h: f64) {
     let found = StateBy::<_, 2, 3>::of_parameters(&view, Gauss::<S>, &START.q, &q1, h).unwrap();
     let found = found.assembled::<4>();
     let (step, of_step) = StateBy::<_, 2, 3>::of_step(&view, Gauss::<S>, &START, h, None).unwrap();
-    assert!((of_step.assembled::<4>() - found).amax() < 1e-13 * (1.0 + found.amax()) && step.state.q == q1);
+    let of_step = of_step.assembled::<4>();
+    assert!(step.state.q == q1);
+    // Between two ends the momentum is what leads to q1: rounding of q1 comes in enlarged, the more the closer to a conjugate point.
+    let exact = pade(S, &(&flow * h));
+    let enlarged = exact.fixed_view::<2, 2>(0, 2).into_owned().try_inverse().unwrap().amax();
     for (j, by) in by.iter().enumerate() {
         // An analytic function of [Z, Z'; 0, Z] has its derivative along Z' in the corner.
         let mut pair = DMatrix::zeros(16, 16);
@@ -183,10 +187,11 @@ fn parameters<const S: usize>(h: f64) {
             pair.view_mut((row, column), (8, 8)).copy_from(&(block * h));
         }
         let derivative = pade(S, &pair).view((0, 8), (8, 8)).into_owned();
-        let moved = derivative * DVector::from_column_slice(&[0.6, -0.4, -0.9, 0.7, U[0], U[1], T, 1.0]);
-        let miss = (found.column(j) - moved.fixed_rows::<4>(0)).amax() / (1.0 + pair.amax());
-        // The approximant itself is solved for with a matrix of 16 rows, to some tens of roundings.
-        assert!(miss < 4e-14 && moved.amax() > 1e-3, "S = {S}, h = {h}, {j}: {miss:e}");
+        let moved = &derivative * DVector::from_column_slice(&[0.6, -0.4, -0.9, 0.7, U[0], U[1], T, 1.0]);
+        let miss = |of: &SMatrix<f64, 4, 3>| (of.column(j) - moved.fixed_rows::<4>(0)).amax();
+        let of_ends = 2.0 * f64::EPSILON * (1.0 + derivative.amax()) * (1.0 + enlarged);
+        assert!(miss(&of_step) < 4e-15 && moved.amax() > 1e-3, "S = {S}, h = {h}, {j}: {:e}", miss(&of_step));
+        assert!(miss(&found) < of_ends, "S = {S}, h = {h}, {j}: {:e}, {of_ends:e}", miss(&found));
     }
 }
 
