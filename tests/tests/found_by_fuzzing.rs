@@ -1,6 +1,6 @@
 //! What fuzzing the step has found, kept: `fuzz/` has the fuzzer.
 
-use dalembert::{Discrete, Gauss, Midpoint, State, Step, Trajectory, rayleigh_system};
+use dalembert::{Discrete, Gauss, Lagrangian, Midpoint, State, Step, Trajectory, rayleigh_system};
 
 /// Masses on springs of degree 2 and 4, with dampers.
 #[rayleigh_system]
@@ -100,4 +100,47 @@ fn a_gauss_step_has_a_finite_velocity() {
     };
     assert!(taken(1e300).unwrap().velocity[0].is_finite());
     assert!(taken(f64::MAX).is_ok_and(|step| step.velocity[0].is_finite()) || taken(f64::MAX).is_err());
+}
+
+/// 0.5mv² − 0.5kq², with a damper.
+#[rayleigh_system(rule = gauss)]
+fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+    (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+}
+
+/// Where the force overflows, so did the floor, and no residual was large beside it.
+#[test]
+fn an_infinite_floor_hides_no_residual() {
+    let system = Oscillator { m: 4.976960679201e274, k: f64::MAX, r: 2.580078125 };
+    let start = State { q: [0.4612579345703125].into(), p: [1.0].into() };
+    let mut run = Trajectory::new(&system, Gauss::<3>, 7.2041015625, start);
+    let mut taken = 0;
+    for _ in 0..64 {
+        match run.next().unwrap() {
+            Ok(step) => {
+                taken += 1;
+                assert!(step.report.residual.is_finite() && step.report.floor.is_finite(), "{step:?}");
+            }
+            Err(_) => run.change_step_size(0.5 * run.step_size()),
+        }
+    }
+    assert!(taken > 0, "no step is taken: this tests nothing");
+}
+
+/// A constant that overflows where it is folded stays the infinity that it is.
+#[rayleigh_system(derivatives = expanded)]
+fn overflowing(q: [f64; 1], v: [f64; 1], m: f64) -> f64 {
+    let large = 1e200 * 1e200;
+    let none = large - large;
+    let depth = if q[0] > 1.0 { large } else { m };
+    0.5 * m * v[0] * v[0] - depth * q[0] + if q[0] < -1.0 { none * q[0] } else { 0.0 }
+}
+
+#[test]
+fn constants_may_overflow() {
+    let system = Overflowing { m: 2.0 };
+    let slope = |q: f64| system.lagrangian_gradient(&[q].into(), &[0.0].into()).d1[0];
+    assert_eq!(slope(0.5), -2.0);
+    assert_eq!(slope(2.0), f64::NEG_INFINITY);
+    assert!(slope(-2.0).is_nan());
 }

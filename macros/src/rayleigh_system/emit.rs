@@ -400,6 +400,11 @@ impl Writer<'_> {
         let literal = if let Some((_, name)) = named.iter().find(|(constant, _)| *constant == size) {
             let (scalar, name) = (self.scalar, format_ident!("{name}"));
             quote!(::core::#scalar::consts::#name)
+        } else if !size.is_finite() {
+            // What constants overflow to, or leave undefined.
+            let (scalar, name) = (self.scalar, if size.is_nan() { "NAN" } else { "INFINITY" });
+            let name = format_ident!("{name}");
+            quote!(::core::primitive::#scalar::#name)
         } else if suffixed {
             let text = format!("{size:?}_{}", self.scalar);
             text.parse().unwrap_or_else(|_| quote!(#size))

@@ -4,9 +4,10 @@
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
-use syn::{FnArg, ImplItem, ImplItemFn, Pat, ReturnType, Signature, Type, parse_quote};
+use syn::{FnArg, ImplItem, ImplItemFn, ReturnType, Signature, Type, parse_quote};
 
 use super::diagnostics::Report;
+use super::expand::parameters;
 use super::model::{Degrees, Role, Rule, Rules, Source, simple_name};
 
 /// The item as it came, beside the diagnostics.
@@ -40,11 +41,9 @@ pub fn with_stubs(source: &Source, rules: &Rules, report: Report) -> TokenStream
                 item.block = parse_quote!({ ::core::unreachable!() });
             }
             let visibility = function.visibility();
-            let fields =
-                item.sig.inputs.iter().skip(function.role.arguments()).filter(
-                    |field| matches!(field, FnArg::Typed(field) if matches!(&*field.pat, Pat::Ident(_)) && !matches!(&*field.ty, Type::Reference(_))),
-                );
-            let fields = quote!({ #(#visibility #fields),* });
+            let fields = parameters(function).filter(|(_, ty)| !matches!(ty, Type::Reference(_)));
+            let fields = fields.map(|(field, ty)| quote!(#visibility #field: #ty));
+            let fields = quote!({ #(#fields),* });
             (quote!(#item #[allow(dead_code)] #visibility struct #name #fields), Some(&function.item.sig))
         }
     };

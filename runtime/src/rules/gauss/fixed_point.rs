@@ -9,7 +9,7 @@ use core::cmp::Ordering;
 use nalgebra::SVector;
 
 use super::newton;
-use super::problem::{Problem, Solution, in_units, in_units_of, rounding};
+use super::problem::{Problem, Solution, in_units, in_units_of, reciprocals, rounding};
 use crate::lanes::{LaneVector, splat};
 use crate::{ForcedLagrangian, Report, Scalar, Stages, StepError};
 
@@ -56,7 +56,7 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
         let stages = problem.stages(&v);
         if iterations == 0 {
             floor = problem.floor(&stages.rate, &stages.residual);
-            per_floor = floor.map(|floor| T::one() / floor);
+            per_floor = reciprocals(&floor);
         }
         let mut size = in_units(&stages.residual, &per_floor);
         if iterations == 0 {
@@ -67,7 +67,7 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
             let (rate, residual) = (stages.rate, stages.residual);
             if let Some(risen) = risen(problem, &rate, &residual, floor) {
                 floor = risen;
-                per_floor = floor.map(|floor| T::one() / floor);
+                per_floor = reciprocals(&floor);
                 size = in_units(&stages.residual, &per_floor);
                 // Far from a verdict: the coordinates next to those that have begun to move begin only now.
                 (before, last) = (size * constant(4.0), size);

@@ -163,10 +163,16 @@ pub(super) fn in_units_of<T: Scalar, const N: usize, const S: usize>(
     residual: &LaneVector<T, N, S>,
     floor: &SVector<T, N>,
 ) -> T {
-    in_units(residual, &floor.map(|floor| T::one() / floor))
+    in_units(residual, &reciprocals(floor))
 }
 
-/// The same, with the reciprocals of the floors.
+/// 1/floor; not a number where the floor is none, so that no residual is small beside it.
+#[inline(always)]
+pub(super) fn reciprocals<T: Scalar, const N: usize>(floor: &SVector<T, N>) -> SVector<T, N> {
+    floor.map(|floor| T::one() / floor + (floor - floor))
+}
+
+/// As [`in_units_of`], with the reciprocals of the floors.
 #[inline(always)]
 pub(super) fn in_units<T: Scalar, const N: usize, const S: usize>(
     residual: &LaneVector<T, N, S>,
