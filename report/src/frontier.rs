@@ -32,6 +32,17 @@ pub fn time_to_reach(error: f64, points: impl IntoIterator<Item = Point>) -> Opt
     times.min_by(f64::total_cmp)
 }
 
+/// Runs from the coarsest to the finest, without those that a finer one beats in cost and in error.
+pub fn unbeaten_by_finer(points: impl IntoIterator<Item = Point>) -> Vec<Point> {
+    let points: Vec<Point> = points.into_iter().collect();
+    let beats = |finer: &Point, point: &Point| finer.seconds <= point.seconds && finer.error <= point.error;
+    let unbeaten = points
+        .iter()
+        .enumerate()
+        .filter(|(i, point)| !points[i + 1..].iter().any(|finer| beats(finer, point)));
+    unbeaten.map(|(_, point)| *point).collect()
+}
+
 /// Errors and times of the runs of one method on one scene.
 pub fn points<'a>(
     records: &'a [Record],
@@ -77,6 +88,13 @@ mod tests {
         assert_eq!(time_to_reach(1e-6, points(&runs)), Some(4.0));
         assert_eq!(time_to_reach(0.2, points(&runs)), Some(2.0));
         assert_eq!(time_to_reach(1e-12, points(&runs)), Some(16.0));
+    }
+
+    #[test]
+    fn runs_that_a_finer_one_beats_are_left_out_and_no_others() {
+        let runs = [(9.0, 1e-1), (2.0, 1e-2), (4.0, 1e-6), (8.0, 1e-5), (16.0, f64::NAN)];
+        let kept: Vec<f64> = unbeaten_by_finer(points(&runs)).iter().map(|point| point.seconds).collect();
+        assert_eq!(kept, [2.0, 4.0, 8.0, 16.0]);
     }
 
     #[test]

@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::Result;
 use dalembert_examples::results;
 
-use crate::frontier::{Point, points, time_to_reach};
+use crate::frontier::{Point, points, time_to_reach, unbeaten_by_finer};
 use crate::long_run;
 use crate::picture::{self, Curve, Panel};
 use crate::study::Record;
@@ -100,7 +100,8 @@ pub fn write(docs: &Path, measured: &Measured<'_>) -> Result<()> {
             linear: false,
             y_range: 1e-15..1.0,
             curves: curves(&methods, |method| {
-                points(measured.records, scene, method, error)
+                unbeaten_by_finer(points(measured.records, scene, method, error))
+                    .into_iter()
                     .map(|p| (p.seconds * 1e6, p.error.max(1e-15)))
                     .collect()
             }),
@@ -126,7 +127,9 @@ pub fn write(docs: &Path, measured: &Measured<'_>) -> Result<()> {
         y_range: 1e-12..1.0,
         curves: curves(&methods, |method| {
             let runs = measured.long.iter().filter(|record| record.method == method);
-            runs.map(|run| (run.seconds * 1e3, run.error_to_20000.max(1e-12))).collect()
+            let runs = runs.map(|run| Point { seconds: run.seconds, error: run.error_to_20000 });
+            let runs = unbeaten_by_finer(runs).into_iter();
+            runs.map(|run| (run.seconds * 1e3, run.error.max(1e-12))).collect()
         }),
     };
     if !measured.long.is_empty() {

@@ -129,9 +129,13 @@ fn builder<'a, 'b>(
     builder
 }
 
-/// A disc, or for the methods after the seventh a circle: colours repeat, marks tell them apart.
+/// A disc, a circle for the methods after the seventh, a dot for those after the fourteenth: colours repeat, marks tell them apart.
 fn marker(at: (i32, i32), stroke: RGBColor, kind: usize) -> Circle<(i32, i32), i32> {
-    Circle::new(at, 4, if kind == 0 { stroke.filled() } else { stroke.stroke_width(2) })
+    match kind {
+        0 => Circle::new(at, 4, stroke.filled()),
+        1 => Circle::new(at, 4, stroke.stroke_width(2)),
+        _ => Circle::new(at, 2, stroke.filled()),
+    }
 }
 
 fn index(methods: &[&str], method: &str) -> usize {

@@ -62,11 +62,13 @@ pub(crate) fn held_against<S: Scalar, const N: usize>(
     floor: &SVector<S, N>,
 ) -> (S, S, bool) {
     const LANES: usize = 4;
+    // One of the residuals from the start: products with one that is tiny, or with a floor that overflows, decide nothing.
+    let first = (residual[0].abs(), floor[0], true);
     if N < 2 * LANES {
-        return of_slices(residual.as_slice(), floor.as_slice(), (S::zero(), floor[0], true));
+        return of_slices(residual.as_slice(), floor.as_slice(), first);
     }
     // Lane by lane, so that few comparisons wait for one another.
-    let mut worst = [(S::zero(), floor[0], true); LANES];
+    let mut worst = [first; LANES];
     let (residuals, other_residuals) = residual.as_slice().as_chunks::<LANES>();
     let (floors, other_floors) = floor.as_slice().as_chunks::<LANES>();
     for (residuals, floors) in residuals.iter().zip(floors) {
@@ -173,6 +175,18 @@ mod tests {
         assert!(!held_against(&overflowed, &vector![1.0, f64::INFINITY]).2);
         // Positive control: finite, it is one beside any floor that is larger.
         assert!(held_against(&vector![0.0, 1e300], &vector![1.0, f64::INFINITY]).2);
+    }
+
+    #[test]
+    fn the_residual_told_is_one_of_them() {
+        // Products underflow, or are no numbers.
+        assert_eq!(
+            held_against(&vector![-1e-309], &vector![f64::MIN_POSITIVE]),
+            (1e-309, f64::MIN_POSITIVE, true)
+        );
+        assert_eq!(held_against(&vector![1e284], &vector![f64::INFINITY]), (1e284, f64::INFINITY, true));
+        let nine = SVector::<f64, 9>::from_fn(|i, _| if i == 6 { 3.0 } else { 1e-320 });
+        assert_eq!(held_against(&nine, &SVector::repeat(1.0)), (3.0, 1.0, true));
     }
 
     #[test]
