@@ -311,11 +311,11 @@ fn oscillators_are_stable_up_to_the_bound_and_not_beyond() {
     assert!(four(3.163) < 30.0 && four(3.169) < 100.0 && four(5.02) < 100.0 && four(5.03) > 1e3);
     let six = |omega| left(Splitting::blanes_moan_6(), omega, 0.0);
     assert!(
-        six(3.141) < 30.0 && six(3.143) < 100.0 && six(6.35) < 100.0 && six(9.07) < 100.0 && six(9.08) > 1e3
+        six(3.139) < 30.0 && six(3.143) < 100.0 && six(6.35) < 100.0 && six(9.07) < 100.0 && six(9.08) > 1e3
     );
     // The resonances, whose growth is slow: e^(5000 × 0.0023), e^(5000 × 0.0004).
     assert!((1e4..1e6).contains(&four(3.166)), "{:e}", four(3.166));
-    assert!((2.0..20.0).contains(&six(3.1419)), "{:e}", six(3.1419));
+    assert!((2.0..20.0).contains(&six(3.142)), "{:e}", six(3.142));
     for r in [0.01, 0.1, 1.0, 3.0, 10.0] {
         for omega in [0.1, 0.5, 1.0, 2.0, 3.0, PI, 3.166, 4.0, 5.0] {
             let four = left(Splitting::blanes_moan_4(), omega, r);

@@ -169,7 +169,7 @@ pub(super) fn in_units_of<T: Scalar, const N: usize, const S: usize>(
 /// 1/floor; not a number where the floor is none, so that no residual is small beside it.
 #[inline(always)]
 pub(super) fn reciprocals<T: Scalar, const N: usize>(floor: &SVector<T, N>) -> SVector<T, N> {
-    floor.map(|floor| T::one() / floor + (floor - floor))
+    floor.map(|floor| T::one() / floor + floor * T::zero())
 }
 
 /// As [`in_units_of`], with the reciprocals of the floors.
