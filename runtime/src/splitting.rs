@@ -39,6 +39,9 @@ use crate::{
 /// and decay up to hω = 5 and 9 with damping of 0.01 ≤ hr/m ≤ 10. Where damping is stiff the error falls more slowly than
 /// the order says, as by all splittings; there [`Fitted`](crate::Fitted) and [`Gauss`](crate::Gauss) rules serve.
 ///
+/// **Errors.** [`StepError::NonFinite`], of derivatives where M is not positive definite or damping overflows over a drift
+/// backwards, of the state where it overflows; [`StepError::StepSize`].
+///
 /// ```
 /// use dalembert::{Splitting, State, rayleigh_system};
 ///
@@ -165,6 +168,8 @@ struct Prepared<T, const N: usize, const S: usize> {
     /// bᵢh.
     kicks: [T; S],
     drifts: Drifts<T, N, S>,
+    /// Without damping no drift changes p.
+    is_damped: bool,
     /// ∂L/∂v at v = 0.
     shift: SVector<T, N>,
     /// ∂R/∂v at v = 0.
@@ -213,6 +218,7 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
         Ok(Self {
             kicks: splitting.kicks.map(|share| T::constant(share) * h),
             drifts,
+            is_damped: damping != nalgebra::zero(),
             shift: (p0 + p1) * half,
             thrust: (p0 - p1) * half,
         })
@@ -291,14 +297,22 @@ where
                 system.configuration_force(&state.q) - prepared.thrust
             }
         };
-        let (end, force) = match &prepared.drifts {
-            Drifts::Diagonal(drifts) => prepared.step(system, state, force, drifts, |drift, q, p| {
+        let (end, force) = match (&prepared.drifts, prepared.is_damped) {
+            (Drifts::Diagonal(drifts), true) => prepared.step(system, state, force, drifts, |drift, q, p| {
                 *q += drift.displacement.component_mul(p);
                 *p += drift.loss.component_mul(p);
             }),
-            Drifts::Full(drifts) => prepared.step(system, state, force, drifts, |drift, q, p| {
+            (Drifts::Diagonal(drifts), false) => {
+                prepared.step(system, state, force, drifts, |drift, q, p| {
+                    *q += drift.displacement.component_mul(p);
+                })
+            }
+            (Drifts::Full(drifts), true) => prepared.step(system, state, force, drifts, |drift, q, p| {
                 *q += drift.displacement * *p;
                 *p += drift.loss * *p;
+            }),
+            (Drifts::Full(drifts), false) => prepared.step(system, state, force, drifts, |drift, q, p| {
+                *q += drift.displacement * *p;
             }),
         };
         end.require_finite()?;
