@@ -218,7 +218,7 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
         Ok(Self {
             kicks: splitting.kicks.map(|share| T::constant(share) * h),
             drifts,
-            is_damped: damping != nalgebra::zero(),
+            is_damped: damping.iter().any(|entry| *entry != T::zero()),
             shift: (p0 + p1) * half,
             thrust: (p0 - p1) * half,
         })

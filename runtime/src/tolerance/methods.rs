@@ -111,118 +111,82 @@ macro_rules! rules {
 
 rules! { Midpoint Trapezoidal Fitted FittedTrapezoidal }
 
-/// A run by a splitting, or by a method of others.
-pub enum SplitOr<'a, L: Explicit<N>, R, const N: usize> {
-    /// Order 4.
-    BlanesMoan4(ComposedTrajectory<'a, L, Kicks<L::Scalar, N, 6>, N>),
-    /// Order 6.
-    BlanesMoan6(ComposedTrajectory<'a, L, Kicks<L::Scalar, N, 11>, N>),
-    /// Of the others.
-    Other(R),
-}
-
-impl<L: Explicit<N>, R: MethodRun<L, N>, const N: usize> MethodRun<L, N> for SplitOr<'_, L, R, N> {
-    fn state(&self) -> &State<L::Scalar, N> {
-        match self {
-            Self::BlanesMoan4(run) => run.state(),
-            Self::BlanesMoan6(run) => run.state(),
-            Self::Other(run) => run.state(),
+/// What a wrapper adds to the methods of another: its runs, and which of them a method asks for.
+macro_rules! added {
+    ($with:ident: $system:ident, $(#[$doc:meta])* $or:ident {
+        $($(#[$what:meta])* $method:ident($run:ty): $start:expr, $cost:expr;)*
+    }) => {
+        $(#[$doc])*
+        pub enum $or<'a, L: $system<N>, R, const N: usize> {
+            $($(#[$what])* $method($run),)*
+            /// Of the others.
+            Other(R),
         }
-    }
 
-    /// A kick and a drift, without an equation and its verdict, count as half a substep.
-    #[inline]
-    fn advance(&mut self) -> Result<f64, StepError> {
-        let (step, substeps) = match self {
-            Self::BlanesMoan4(run) => (run.next(), 3.0),
-            Self::BlanesMoan6(run) => (run.next(), 5.5),
-            Self::Other(run) => return run.advance(),
-        };
-        step.map_or(Ok(substeps), |step| step.map(|_| substeps))
-    }
-}
-
-impl<L: Explicit<N>, M: Methods<L, N>, const N: usize> Methods<L, N> for WithSplittings<M> {
-    type Run<'a>
-        = SplitOr<'a, L, M::Run<'a>, N>
-    where
-        L: 'a;
-
-    fn offers(method: Method) -> bool {
-        matches!(method, Method::BlanesMoan4 | Method::BlanesMoan6) || M::offers(method)
-    }
-
-    fn run<'a>(
-        self,
-        method: Method,
-        system: &'a L,
-        h: L::Scalar,
-        state: State<L::Scalar, N>,
-    ) -> Self::Run<'a> {
-        match method {
-            Method::BlanesMoan4 => {
-                SplitOr::BlanesMoan4(Splitting::blanes_moan_4().trajectory(system, h, state))
+        impl<L: $system<N>, R: MethodRun<L, N>, const N: usize> MethodRun<L, N> for $or<'_, L, R, N> {
+            fn state(&self) -> &State<L::Scalar, N> {
+                match self {
+                    $(Self::$method(run) => run.state(),)*
+                    Self::Other(run) => run.state(),
+                }
             }
-            Method::BlanesMoan6 => {
-                SplitOr::BlanesMoan6(Splitting::blanes_moan_6().trajectory(system, h, state))
+
+            #[inline]
+            fn advance(&mut self) -> Result<f64, StepError> {
+                match self {
+                    $(Self::$method(run) => run.next().map_or(Ok(0.0), |step| step.map($cost)),)*
+                    Self::Other(run) => run.advance(),
+                }
             }
-            _ => SplitOr::Other(self.0.run(method, system, h, state)),
         }
+
+        impl<L: $system<N>, M: Methods<L, N>, const N: usize> Methods<L, N> for $with<M> {
+            type Run<'a> = $or<'a, L, M::Run<'a>, N> where L: 'a;
+
+            fn offers(method: Method) -> bool {
+                matches!(method, $(Method::$method)|*) || M::offers(method)
+            }
+
+            fn run<'a>(
+                self,
+                method: Method,
+                system: &'a L,
+                h: L::Scalar,
+                state: State<L::Scalar, N>,
+            ) -> Self::Run<'a> {
+                match method {
+                    $(Method::$method => $or::$method($start(system, h, state)),)*
+                    _ => $or::Other(self.0.run(method, system, h, state)),
+                }
+            }
+        }
+    };
+}
+
+// A kick and a drift, without an equation and its verdict, count as half a substep.
+added! { WithSplittings: Explicit,
+    /// A run by a splitting, or by a method of others.
+    SplitOr {
+        /// Order 4.
+        BlanesMoan4(ComposedTrajectory<'a, L, Kicks<L::Scalar, N, 6>, N>):
+            |system, h, state| Splitting::blanes_moan_4().trajectory(system, h, state), |_| 3.0;
+        /// Order 6.
+        BlanesMoan6(ComposedTrajectory<'a, L, Kicks<L::Scalar, N, 11>, N>):
+            |system, h, state| Splitting::blanes_moan_6().trajectory(system, h, state), |_| 5.5;
     }
 }
 
-/// A run by a Gauss method, or by a method of others.
-pub enum GaussOr<'a, L: ForcedLagrangian<N>, R, const N: usize> {
-    /// Order 8.
-    Gauss4(Trajectory<'a, L, Gauss<4>, N>),
-    /// Order 16.
-    Gauss8(Trajectory<'a, L, Gauss<8>, N>),
-    /// Of the others.
-    Other(R),
-}
-
-impl<L: ForcedLagrangian<N>, R: MethodRun<L, N>, const N: usize> MethodRun<L, N> for GaussOr<'_, L, R, N> {
-    fn state(&self) -> &State<L::Scalar, N> {
-        match self {
-            Self::Gauss4(run) => run.state(),
-            Self::Gauss8(run) => run.state(),
-            Self::Other(run) => run.state(),
-        }
-    }
-
-    /// An iteration evaluates all stages, two at once in the narrowest vector registers: it counts as half as many substeps.
-    #[inline]
-    fn advance(&mut self) -> Result<f64, StepError> {
-        let (step, stages) = match self {
-            Self::Gauss4(run) => (run.next(), 4.0),
-            Self::Gauss8(run) => (run.next(), 8.0),
-            Self::Other(run) => return run.advance(),
-        };
-        step.map_or(Ok(0.0), |step| step.map(|step| 0.5 * stages * f64::from(step.report.iterations)))
-    }
-}
-
-impl<L: ForcedLagrangian<N>, M: Methods<L, N>, const N: usize> Methods<L, N> for WithGauss<M> {
-    type Run<'a>
-        = GaussOr<'a, L, M::Run<'a>, N>
-    where
-        L: 'a;
-
-    fn offers(method: Method) -> bool {
-        matches!(method, Method::Gauss4 | Method::Gauss8) || M::offers(method)
-    }
-
-    fn run<'a>(
-        self,
-        method: Method,
-        system: &'a L,
-        h: L::Scalar,
-        state: State<L::Scalar, N>,
-    ) -> Self::Run<'a> {
-        match method {
-            Method::Gauss4 => GaussOr::Gauss4(Trajectory::<_, Gauss<4>, N>::new(system, Gauss, h, state)),
-            Method::Gauss8 => GaussOr::Gauss8(Trajectory::<_, Gauss<8>, N>::new(system, Gauss, h, state)),
-            _ => GaussOr::Other(self.0.run(method, system, h, state)),
-        }
+// An iteration evaluates all stages, two at once in the narrowest vector registers: it counts as half as many substeps.
+added! { WithGauss: ForcedLagrangian,
+    /// A run by a Gauss method, or by a method of others.
+    GaussOr {
+        /// Order 8.
+        Gauss4(Trajectory<'a, L, Gauss<4>, N>):
+            |system, h, state| Trajectory::<_, Gauss<4>, N>::new(system, Gauss, h, state),
+            |step| 2.0 * f64::from(step.report.iterations);
+        /// Order 16.
+        Gauss8(Trajectory<'a, L, Gauss<8>, N>):
+            |system, h, state| Trajectory::<_, Gauss<8>, N>::new(system, Gauss, h, state),
+            |step| 4.0 * f64::from(step.report.iterations);
     }
 }
