@@ -98,7 +98,7 @@ fn worth<'a, E>(
     candidate: impl Fn(f64) -> Candidate<'a, E>,
 ) -> Vec<Candidate<'a, E>> {
     let mut kept = Vec::new();
-    let (mut least, mut since, mut last) = (f64::INFINITY, 0, 0.0);
+    let (mut least, mut since, mut cheapest) = (f64::INFINITY, 0, f64::INFINITY);
     for setting in settings {
         let mut candidate = candidate(setting);
         // What fails at a coarse setting may succeed at a finer one.
@@ -109,10 +109,13 @@ fn worth<'a, E>(
             (least, since) = if error < 0.5 * least { (error, 0) } else { (least, since + 1) };
         }
         // The coarsest runs of a method that iterates may be the dearest.
-        if (seconds > LONGEST && seconds > last) || error < WORTH.start || (since > 4 && least < 1e-9) {
+        cheapest = cheapest.min(seconds);
+        if (seconds > LONGEST && seconds > 2.0 * cheapest)
+            || error < WORTH.start
+            || (since > 4 && least < 1e-9)
+        {
             break;
         }
-        last = seconds;
     }
     kept
 }
@@ -141,5 +144,18 @@ mod tests {
         let kept: Vec<f64> = kept.iter().map(|candidate| candidate.setting).collect();
         // 1 and 2 fail; 1e3/4⁸ is 0.015; from 128 on the floor, of which five more runs are kept.
         assert_eq!(kept, [4.0, 8.0, 16.0, 32.0, 64.0, 128.0, 256.0, 512.0, 1024.0, 2048.0, 4096.0]);
+    }
+
+    #[test]
+    fn the_dearest_runs_may_come_first() {
+        let steps = |setting: f64| {
+            let seconds = if setting < 8.0 { 0.3 / setting } else { 1e-3 * setting };
+            let run = move |_| Ok((seconds, setting.powi(-4)));
+            Candidate { method: "iterates on coarse steps", setting, run: Box::new(run) as _ }
+        };
+        let kept = worth((1..40).map(|k| 2_f64.powi(k)), |error: &f64| *error, steps);
+        let kept: Vec<f64> = kept.iter().map(|candidate| candidate.setting).collect();
+        // To the first that is longer than the longest, and than twice the cheapest.
+        assert_eq!(kept, [2.0, 4.0, 8.0, 16.0, 32.0, 64.0]);
     }
 }

@@ -157,7 +157,7 @@ mod attributes {
 /// | `rule = ` | | asks for |
 /// |---|---|---|
 /// | `midpoint` | [`Midpoint`], order 2, self-adjoint | |
-/// | `trapezoidal` | [`Trapezoidal`], order 2, self-adjoint; explicit where L = ½vᵀMv − V(q) | |
+/// | `trapezoidal` | [`Trapezoidal`], order 2, self-adjoint; explicit where L = ½vᵀMv − V(q), with [`Splitting`]s of order 4 and 6 then | |
 /// | `gauss` | [`Gauss<S>`](Gauss), order 2S for S = 1…8, self-adjoint; for small errors | |
 /// | `fitted` | [`Fitted`], order 2, self-adjoint; does not ring under stiff damping | L = ½vᵀMv − V(q) with constant M, linear damping, no force, input, time, `parameters` or `step_derivatives` |
 /// | `fitted_trapezoidal` | [`FittedTrapezoidal`], the same made explicit; exact law of phase volume | as `fitted` |
