@@ -69,7 +69,7 @@ impl SavedRun {
     where
         L: Discrete<R, N, Scalar = f64>,
     {
-        let new = Checkpoint { state: start, step_size: h, origin: 0.0, steps: 0 };
+        let new = Checkpoint::new(h, start);
         let Saved { run, rows: length } = self.saved()?.unwrap_or(Saved { run: new, rows: 0 });
         ensure!(run.step_size == h, "{} belongs to another run; remove it", self.checkpoint().display());
         let mut taken = run.steps;

@@ -1,6 +1,6 @@
 //! Runs by steps of several parts, of one size.
 
-use crate::{Checkpoint, Lagrangian, Scalar, State, StepError};
+use crate::{Checkpoint, Lagrangian, State, StepError};
 
 /// A step that is made of several, with what it keeps for the next: [`Substeps`](crate::Substeps) of a
 /// [`Composition`](crate::Composition), [`Kicks`](crate::Kicks) and drifts of a [`Splitting`](crate::Splitting).
@@ -30,10 +30,7 @@ where
 {
     system: &'a L,
     step: C,
-    h: L::Scalar,
-    origin: f64,
-    steps: u64,
-    state: State<L::Scalar, N>,
+    at: Checkpoint<L::Scalar, N>,
     failed: bool,
 }
 
@@ -42,30 +39,24 @@ where
     L: Lagrangian<N>,
     C: ComposedStep<L, N>,
 {
-    /// From `state`, at time 0.
-    pub(crate) fn new(system: &'a L, step: C, h: L::Scalar, state: State<L::Scalar, N>) -> Self {
-        Self { system, step, h, origin: 0.0, steps: 0, state, failed: false }
-    }
-
     /// From where `checkpoint` was taken.
-    pub(crate) fn resumed(system: &'a L, step: C, checkpoint: Checkpoint<L::Scalar, N>) -> Self {
-        let Checkpoint { state, step_size, origin, steps } = checkpoint;
-        Self { origin, steps, ..Self::new(system, step, step_size, state) }
+    pub(crate) fn new(system: &'a L, step: C, checkpoint: Checkpoint<L::Scalar, N>) -> Self {
+        Self { system, step, at: checkpoint, failed: false }
     }
 
     /// The present state: that of the last step that succeeded.
     pub fn state(&self) -> &State<L::Scalar, N> {
-        &self.state
+        &self.at.state
     }
 
     /// The step size h, of all parts together.
     pub fn step_size(&self) -> L::Scalar {
-        self.h
+        self.at.step_size
     }
 
     /// The time, h × the number of steps taken (and where a run that was resumed began).
     pub fn time(&self) -> f64 {
-        if self.steps == 0 { self.origin } else { self.origin + self.h.widen() * self.steps as f64 }
+        self.at.time()
     }
 
     /// All that is needed to go on from here, in this process or another ([`Composition::resume`](crate::Composition::resume),
@@ -90,7 +81,7 @@ where
     /// ```
     pub fn checkpoint(&mut self) -> Checkpoint<L::Scalar, N> {
         self.step.forget();
-        Checkpoint { state: self.state, step_size: self.h, origin: self.origin, steps: self.steps }
+        self.at
     }
 }
 
@@ -106,12 +97,9 @@ where
         if self.failed {
             return None;
         }
-        let state = self.step.advance(self.system, self.time(), &self.state);
+        let state = self.step.advance(self.system, self.time(), &self.at.state);
         match &state {
-            Ok(state) => {
-                self.state = *state;
-                self.steps += 1;
-            }
+            Ok(state) => self.at.follow(state),
             Err(_) => self.failed = true,
         }
         Some(state)

@@ -107,7 +107,7 @@ impl<R> Composition<R, 17> {
 }
 
 /// γ₁ … γ_S from its first half and the middle.
-const fn symmetric<const S: usize>(half: &[f64]) -> [f64; S] {
+pub(crate) const fn symmetric<const S: usize>(half: &[f64]) -> [f64; S] {
     let mut shares = [0.0; S];
     let mut i = 0;
     while i < S {
@@ -140,7 +140,7 @@ impl<R, const S: usize> Composition<R, S> {
     where
         L: Discrete<R, N>,
     {
-        ComposedTrajectory::new(system, Substeps::new(&self, h), h, state)
+        self.resume(system, Checkpoint::new(h, state))
     }
 
     /// The run that `checkpoint` was taken of, by this same composition ([`ComposedTrajectory::checkpoint`]).
@@ -152,7 +152,7 @@ impl<R, const S: usize> Composition<R, S> {
     where
         L: Discrete<R, N>,
     {
-        ComposedTrajectory::resumed(system, Substeps::new(&self, checkpoint.step_size), checkpoint)
+        ComposedTrajectory::new(system, Substeps::new(&self, checkpoint.step_size), checkpoint)
     }
 }
 

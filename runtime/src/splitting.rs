@@ -2,6 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::composition::symmetric;
 use crate::error::Quantity;
 use crate::rules::{Drift, modes};
 use crate::{
@@ -73,7 +74,7 @@ impl Splitting<6> {
         let a3 = 0.5 - (a1 + a2);
         let [b1, b2, b3] = [0.082_984_406_417_405_2, 0.396_309_801_498_368, -0.039_056_304_922_348_6];
         let b4 = 1.0 - 2.0 * (b1 + b2 + b3);
-        Self { drifts: [a1, a2, a3, a3, a2, a1], kicks: [b1, b2, b3, b4, b3, b2], order: 4 }
+        Self { drifts: symmetric(&[a1, a2, a3]), kicks: [b1, b2, b3, b4, b3, b2], order: 4 }
     }
 }
 
@@ -98,7 +99,7 @@ impl Splitting<11> {
         ];
         let b6 = 0.5 - (b1 + b2 + b3 + b4 + b5);
         Self {
-            drifts: [a1, a2, a3, a4, a5, a6, a5, a4, a3, a2, a1],
+            drifts: symmetric(&[a1, a2, a3, a4, a5, a6]),
             kicks: [b1, b2, b3, b4, b5, b6, b6, b5, b4, b3, b2],
             order: 6,
         }
@@ -134,7 +135,7 @@ impl<const S: usize> Splitting<S> {
     where
         L: Explicit<N>,
     {
-        ComposedTrajectory::new(system, Kicks::new(self, h), h, state)
+        self.resume(system, Checkpoint::new(h, state))
     }
 
     /// The run that `checkpoint` was taken of, by this same splitting ([`ComposedTrajectory::checkpoint`]).
@@ -146,7 +147,7 @@ impl<const S: usize> Splitting<S> {
     where
         L: Explicit<N>,
     {
-        ComposedTrajectory::resumed(system, Kicks::new(self, checkpoint.step_size), checkpoint)
+        ComposedTrajectory::new(system, Kicks::new(self, checkpoint.step_size), checkpoint)
     }
 }
 
@@ -210,10 +211,10 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
             if let Some(index) = mass.iter().position(|&mass| mass <= T::zero()) {
                 return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
             }
-            Drifts::Diagonal(symmetric(&times, |time| Drift::of_diagonal(&mass, &damping, time))?)
+            Drifts::Diagonal(once_each(&times, |time| Drift::of_diagonal(&mass, &damping, time))?)
         } else {
             let modes = modes(&mass, &damping);
-            Drifts::Full(symmetric(&times, |time| Drift::of_modes(&modes, time))?)
+            Drifts::Full(once_each(&times, |time| Drift::of_modes(&modes, time))?)
         };
         Ok(Self {
             kicks: splitting.kicks.map(|share| T::constant(share) * h),
@@ -246,7 +247,7 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
 }
 
 /// The drifts over times that read the same from either end, each of them once.
-fn symmetric<T: Scalar, const N: usize, const C: usize, const S: usize>(
+fn once_each<T: Scalar, const N: usize, const C: usize, const S: usize>(
     times: &[T; S],
     drift: impl Fn(T) -> Drift<SMatrix<T, N, C>>,
 ) -> Result<[Drift<SMatrix<T, N, C>>; S], StepError> {

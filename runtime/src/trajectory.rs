@@ -19,10 +19,7 @@ where
 {
     system: &'a L,
     rule: PhantomData<R>,
-    h: L::Scalar,
-    origin: f64,
-    steps: u64,
-    state: State<L::Scalar, N>,
+    at: Checkpoint<L::Scalar, N>,
     memory: L::Memory,
     failed: bool,
 }
@@ -32,40 +29,28 @@ where
     L: Discrete<R, N>,
 {
     /// The trajectory of `system` by `rule` with step size `h` from `state`; its own time starts at 0.
-    pub fn new(system: &'a L, _rule: R, h: L::Scalar, state: State<L::Scalar, N>) -> Self {
-        Self {
-            system,
-            rule: PhantomData,
-            h,
-            origin: 0.0,
-            steps: 0,
-            state,
-            memory: L::Memory::default(),
-            failed: false,
-        }
+    pub fn new(system: &'a L, rule: R, h: L::Scalar, state: State<L::Scalar, N>) -> Self {
+        Self::resume(system, rule, Checkpoint::new(h, state))
     }
 
     /// The present state: that of the last step that succeeded.
     pub fn state(&self) -> &State<L::Scalar, N> {
-        &self.state
+        &self.at.state
     }
 
     /// The step size h.
     pub fn step_size(&self) -> L::Scalar {
-        self.h
+        self.at.step_size
     }
 
     /// The time, h × the number of steps taken (and what earlier step sizes took): no sum of roundings.
     pub fn time(&self) -> f64 {
-        // Without a step the product would be NaN for a step size that is not finite.
-        if self.steps == 0 { self.origin } else { self.origin + self.h.widen() * self.steps as f64 }
+        self.at.time()
     }
 
     /// Goes on with another step size from the present state, also after an error.
     pub fn change_step_size(&mut self, h: L::Scalar) {
-        self.origin = self.time();
-        self.steps = 0;
-        self.h = h;
+        self.at = Checkpoint { step_size: h, origin: self.time(), steps: 0, state: self.at.state };
         self.failed = false;
     }
 
@@ -75,7 +60,7 @@ where
     /// that adds up with compensation ([`Gauss`](crate::Gauss)) loses the rest at this one place, less than the last digit.
     pub fn checkpoint(&mut self) -> Checkpoint<L::Scalar, N> {
         self.memory = L::Memory::default();
-        Checkpoint { state: self.state, step_size: self.h, origin: self.origin, steps: self.steps }
+        self.at
     }
 
     /// The run that `checkpoint` was taken of.
@@ -97,9 +82,8 @@ where
     /// assert_eq!(run.time(), resumed.time());
     /// # Ok::<(), dalembert::StepError>(())
     /// ```
-    pub fn resume(system: &'a L, rule: R, checkpoint: Checkpoint<L::Scalar, N>) -> Self {
-        let Checkpoint { state, step_size, origin, steps } = checkpoint;
-        Self { origin, steps, ..Self::new(system, rule, step_size, state) }
+    pub fn resume(system: &'a L, _rule: R, checkpoint: Checkpoint<L::Scalar, N>) -> Self {
+        Self { system, rule: PhantomData, at: checkpoint, memory: L::Memory::default(), failed: false }
     }
 
     /// The next step, in 2, 4, … 2^`halvings` parts where it cannot be taken at once: at the end the time is that of a whole step.
@@ -127,19 +111,18 @@ where
     /// The [`StepError`] of the whole step.
     pub fn next_in_parts(&mut self, halvings: u32) -> Result<Parted<L::Scalar, N>, StepError> {
         let start = self.time();
-        let error = match self.memory.advance_later(self.system, start, &self.state, self.h) {
+        let error = match self.memory.advance_later(self.system, start, &self.at.state, self.at.step_size) {
             Ok(step) => {
-                self.state = step.state;
-                self.steps += 1;
+                self.at.follow(&step.state);
                 return Ok(Parted { step, parts: 1 });
             }
             Err(error) => error,
         };
-        let mut part = self.h;
+        let mut part = self.at.step_size;
         for halving in 1..=halvings.min(31) {
             part *= L::Scalar::constant(0.5);
             let mut memory = L::Memory::default();
-            let (mut state, mut last) = (self.state, None);
+            let (mut state, mut last) = (self.at.state, None);
             for taken in 0..1_u32 << halving {
                 let elapsed = start + f64::from(taken) * part.widen();
                 match memory.advance_later(self.system, elapsed, &state, part) {
@@ -154,8 +137,7 @@ where
                 }
             }
             if let Some(step) = last {
-                self.state = state;
-                self.steps += 1;
+                self.at.follow(&state);
                 return Ok(Parted { step, parts: 1 << halving });
             }
         }
@@ -182,11 +164,10 @@ where
         if self.failed {
             return None;
         }
-        let step = self.memory.advance_later(self.system, self.time(), &self.state, self.h);
+        let step = self.memory.advance_later(self.system, self.time(), &self.at.state, self.at.step_size);
         match &step {
             Ok(step) => {
-                self.state = step.state;
-                self.steps += 1;
+                self.at.follow(&step.state);
             }
             Err(_) => self.failed = true,
         }
@@ -213,6 +194,25 @@ pub struct Checkpoint<S, const N: usize> {
     pub origin: f64,
     /// Steps taken with it.
     pub steps: u64,
+}
+
+impl<S: Scalar, const N: usize> Checkpoint<S, N> {
+    /// The start of a run with step size `step_size` from `state`, at time 0.
+    pub fn new(step_size: S, state: State<S, N>) -> Self {
+        Self { state, step_size, origin: 0.0, steps: 0 }
+    }
+
+    /// The time, h × the number of steps taken (and what earlier step sizes took): no sum of roundings.
+    pub fn time(&self) -> f64 {
+        // Without a step the product would be NaN for a step size that is not finite.
+        if self.steps == 0 { self.origin } else { self.origin + self.step_size.widen() * self.steps as f64 }
+    }
+
+    /// One step further.
+    pub(crate) fn follow(&mut self, state: &State<S, N>) {
+        self.state = *state;
+        self.steps += 1;
+    }
 }
 
 /// A step taken at once or in parts; see [`Trajectory::next_in_parts`].
@@ -259,9 +259,9 @@ where
 
     fn next(&mut self) -> Option<Self::Item> {
         let (mut iterations, mut damped, mut worst_residual) = (0, 0, 0.0_f64);
-        let mut previous = self.trajectory.state.q;
+        let mut previous = self.trajectory.at.state.q;
         for _ in 0..self.stride {
-            previous = self.trajectory.state.q;
+            previous = self.trajectory.at.state.q;
             let report = match self.trajectory.next()? {
                 Ok(step) => step.report,
                 Err(error) => return Some(Err(error)),
@@ -275,7 +275,7 @@ where
         let trajectory = &*self.trajectory;
         Some(Ok(Sample {
             time: trajectory.time(),
-            state: trajectory.state,
+            state: trajectory.at.state,
             previous,
             iterations,
             damped,

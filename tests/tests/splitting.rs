@@ -66,9 +66,9 @@ fn swing(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
     (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
 }
 
-/// A last digit of a coefficient shows: the order by hand, with the coefficients and with one changed.
+/// By hand, with the coefficients, and as a control with two of them changed in the third digit.
 #[test]
-fn the_step_is_the_product_of_its_kicks_and_drifts_and_needs_every_coefficient() {
+fn the_step_is_the_product_of_its_kicks_and_drifts() {
     fn check<const S: usize>(splitting: Splitting<S>) {
         let (system, h) = (Swing { r: 0.01 }, 0.7);
         let start = State { q: vector![1.1], p: vector![-0.8] };
@@ -77,7 +77,7 @@ fn the_step_is_the_product_of_its_kicks_and_drifts_and_needs_every_coefficient()
         let expected = by_hand(coefficients, system.r, h, [1.1, -0.8]);
         assert!((step.q[0] - expected[0]).abs() < 1e-15 && (step.p[0] - expected[1]).abs() < 1e-15);
 
-        // Against steps of a quarter: the error falls as the order says.
+        // Against fine steps: the error falls as the order says.
         let order = |coefficients| {
             let run = |steps: usize| {
                 let h = 8.0 / steps as f64;
@@ -91,11 +91,10 @@ fn the_step_is_the_product_of_its_kicks_and_drifts_and_needs_every_coefficient()
         assert!((found - f64::from(splitting.order())).abs() < 0.5, "{found}");
         // Still symmetric and of sum 1, but of order 2.
         let mut drifts = *splitting.drifts();
-        let middle = S / 2;
         for (i, change) in [(0, 1e-3), (1, -1e-3), (S - 1, 1e-3), (S - 2, -1e-3)] {
             drifts[i] += change;
         }
-        assert!(middle > 2 && (order([&drifts, splitting.kicks()]) - 2.0).abs() < 0.3);
+        assert!((order([&drifts, splitting.kicks()]) - 2.0).abs() < 0.3);
     }
     check(Splitting::blanes_moan_4());
     check(Splitting::blanes_moan_6());
@@ -278,7 +277,7 @@ fn a_step_back_undoes_a_step_with_damping_too() {
     assert!((back.q - START.q).amax() < 1e-12 && (back.p - START.p).amax() < 1e-12);
 }
 
-/// Without damping the energy of 1e6 steps does not drift, also with a mass matrix that has to be decomposed.
+/// Without damping momenta do not drift: free ones, with a mass matrix that has to be decomposed, and an angular one over 1e6 steps.
 #[test]
 fn rounding_does_not_drift() {
     let system = Two { damping: [0.0; 3], k: 0.0 };

@@ -1,8 +1,9 @@
 //! Elementary functions of `f32` in `f32`, for processors whose `f64` is software.
 //!
 //! libm's sine, cosine, tangent, 2ˣ, arcsine, cube root and hypotenuse of an `f32` compute in `f64`. These stay in `f32` and
-//! integers; arcosh is here for its error. Errors are below 2 units in the last place; `firmware/host/src/bin/single_precision.rs` measures them over as many
-//! `f32` as one has time for, all if need be, and a test below over samples. Coefficients are minimax fits of our own, rounded to `f32`.
+//! integers; arcosh is here for its error. Errors are below 2 units in the last place: `firmware/host/src/bin/single_precision.rs`
+//! measures them over as many `f32` as one has time for, all if need be, and a test below over samples. Coefficients are minimax
+//! fits of our own, rounded to `f32`, or those of a series.
 
 use core::f32::consts::FRAC_PI_4;
 

@@ -316,18 +316,16 @@ pub fn henon_heiles() -> Result<Case> {
     for h in [0.1, 0.05, 0.02] {
         let start = HenonHeiles::start(1.0 / 6.0, -0.1, 0.1);
         let error = |at: &Progress<2>| (HenonHeiles::energy_of(&at.state) - 1.0 / 6.0).abs();
+        let mut row = |name: &str, worst: f64, effort: &Effort| {
+            rows.push(vec![format!("{h}"), name.to_owned(), format!("{worst:.1e}"), outcome(effort)]);
+        };
         for (name, worst, effort) in by_each(&system, h, start, 1_000_000, error) {
-            rows.push(vec![format!("{h}"), name.to_owned(), format!("{worst:.1e}"), outcome(&effort)]);
+            row(name, worst, &effort);
         }
         let mut worst = 0.0_f64;
         let run = SPLITTING_6.trajectory(&system, h, start);
         let effort = drive_composed(run, 1_000_000, |at| worst = worst.max(error(&at)));
-        rows.push(vec![
-            format!("{h}"),
-            "splitting, order 6".to_owned(),
-            format!("{worst:.1e}"),
-            outcome(&effort),
-        ]);
+        row("splitting, order 6", worst, &effort);
     }
     let section = |energy: f64, starts: &[(f64, f64)], most: usize| {
         let mut points = Vec::new();
