@@ -6,8 +6,10 @@
 
 pub mod attribute;
 pub mod check;
+mod conditions;
 pub mod diagnostics;
 pub mod differentiate;
+mod dual_numbers;
 mod emit;
 mod expand;
 mod expanded;
@@ -19,6 +21,7 @@ pub mod lower;
 mod model;
 pub mod parse;
 mod portable;
+mod renamed;
 mod rewrite;
 mod scope;
 mod structure;
@@ -28,6 +31,7 @@ mod view;
 use proc_macro2::TokenStream;
 
 use diagnostics::{Mistake, Report};
+use expand::Twins;
 use model::{Engine, Rules, Source};
 
 /// How the runtime beside the macro is built: the runtime exports the macro that fits.
@@ -52,9 +56,25 @@ impl Runtime {
 pub fn rayleigh_system(runtime: Runtime, attribute: TokenStream, item: TokenStream) -> TokenStream {
     let mut report = Report::default();
     let options = attribute::options(attribute, runtime, &mut report);
+    let path = options.runtime.clone();
+    let expansion = system(runtime, options, item, report);
+    match path {
+        Some(path) => renamed::runtime(expansion, &path),
+        None => expansion,
+    }
+}
+
+/// The same with the options read.
+fn system(
+    runtime: Runtime,
+    options: attribute::Options,
+    item: TokenStream,
+    mut report: Report,
+) -> TokenStream {
     let Some(source) = parse::source(item.clone(), &mut report) else {
         return fallback::item_alone(item, report);
     };
+    conditions::refuse(&source, &mut report);
     let Some(mut system) = check::system(&source, options.rules.clone(), &mut report) else {
         return fallback::with_stubs(&source, &options.rules, report);
     };
@@ -83,40 +103,78 @@ pub fn rayleigh_system(runtime: Runtime, attribute: TokenStream, item: TokenStre
         }
         let expansion = lowered.and_then(|lowered| expanded::system(&system, lowered, runtime.is_portable));
         return expansion.unwrap_or_else(|refusal| {
-            report.at_span(refusal.span, Mistake::NotLowered(refusal.reason));
+            // Advice that the system could not follow is none.
+            let by_duals = !refusal.is_final && system.parameters.is_empty() && runtime.has_std && {
+                let mut mistakes = Report::default();
+                rewrite::over_duals(&system, &mut mistakes);
+                mistakes.is_empty()
+            };
+            report.at_span(refusal.span, Mistake::NotLowered { reason: refusal.reason, by_duals });
             fallback::with_stubs(&source, &options.rules, report)
         });
     }
-    let may_lower = options.engine == Engine::Auto && report.is_empty();
-    let lowered = may_lower.then(|| lower::system(&system));
-    // What auto accepts does not depend on how far the lowering goes: where it goes all the way, the twins serve for their
-    // diagnostics alone.
+    let is_portable = runtime.is_portable;
+    if options.engine == Engine::NumDual && report.is_empty() {
+        let mut mistakes = Report::default();
+        let twins = rewrite::over_duals(&system, &mut mistakes);
+        if mistakes.is_empty() {
+            return expand::system(&system, &Twins::Rewritten(&twins), None, is_portable);
+        }
+    }
+    let refusal = match (report.is_empty().then(|| lower::system(&system)), options.engine) {
+        // Derivatives may still be too long to be written out.
+        (Some(Ok(lowered)), Engine::Auto) => match expanded::system(&system, lowered, is_portable) {
+            Ok(expansion) => return expansion,
+            Err(refusal) => Some(refusal),
+        },
+        (Some(Ok(lowered)), _) if !expand::lowered::names_are_taken(&system, &lowered) => {
+            return expand::system(&system, &Twins::Lowered(&lowered), None, is_portable);
+        }
+        (Some(Ok(_)), _) => None,
+        (Some(Err(refusal)), _) if refusal.is_final => {
+            report.at_span(refusal.span, Mistake::NotLowered { reason: refusal.reason, by_duals: false });
+            return fallback::with_stubs(&source, &options.rules, report);
+        }
+        (Some(Err(refusal)), _) => Some(refusal),
+        (None, _) => None,
+    };
     let twins = rewrite::over_duals(&system, &mut report);
     if !report.is_empty() {
+        // What stands elsewhere as it is, dual numbers cannot follow.
+        if let Some(refusal) = refusal.filter(|_| report.is_limit_of_duals()) {
+            report.at_span(refusal.span, Mistake::NeedsDuals(refusal.reason));
+        }
         return fallback::with_stubs(&source, &options.rules, report);
     }
-    let expansion = lowered
-        .map(|lowered| lowered.and_then(|lowered| expanded::system(&system, lowered, runtime.is_portable)));
-    match expansion {
-        Some(Ok(expansion)) => expansion,
-        Some(Err(refusal)) if !runtime.has_std => {
+    match refusal {
+        Some(refusal) if !runtime.has_std => {
             report.at_span(refusal.span, Mistake::NotLoweredWithoutStd(refusal.reason));
             fallback::with_stubs(&source, &options.rules, report)
         }
-        Some(Err(refusal)) => expand::system(&system, &twins, Some(refusal)),
-        None => expand::system(&system, &twins, None),
+        refusal => {
+            let refusal = refusal.filter(|_| options.engine == Engine::Auto);
+            expand::system(&system, &Twins::Rewritten(&twins), refusal, is_portable)
+        }
     }
 }
 
 /// The expansion of `#[differentiable] item`: the same stages, for a function of (q, parameters…).
 pub fn differentiable(runtime: Runtime, attribute: TokenStream, item: TokenStream) -> TokenStream {
     let mut report = Report::default();
-    if !attribute.is_empty() {
-        report.at(&attribute, Mistake::FieldOption);
+    let path = attribute::of_field(attribute, &mut report);
+    let expansion = field(runtime, item, report);
+    match path {
+        Some(path) => renamed::runtime(expansion, &path),
+        None => expansion,
     }
+}
+
+/// The same with the attribute read.
+fn field(runtime: Runtime, item: TokenStream, mut report: Report) -> TokenStream {
     let Some(source) = parse::field(item.clone(), &mut report) else {
         return fallback::item_alone(item, report);
     };
+    conditions::refuse(&source, &mut report);
     let Some((system, field)) = check::field(&source, &mut report) else {
         return fallback::with_stubs(&source, &Rules::default(), report);
     };

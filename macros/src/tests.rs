@@ -3,3 +3,4 @@
 mod factoring;
 mod oracle;
 mod refusals;
+mod sizes;

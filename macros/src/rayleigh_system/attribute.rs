@@ -1,10 +1,11 @@
 //! The options of the attribute: `rule = midpoint`, `rule = [midpoint, trapezoidal]`, `derivatives = expanded`,
-//! `parameters = [m, c[0]]`, `step_derivatives = second`.
+//! `parameters = [m, c[0]]`, `step_derivatives = second`, `crate = mechanics`.
 
 use proc_macro2::TokenStream;
+use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream, Parser};
 use syn::punctuated::Punctuated;
-use syn::{Expr, Ident, Token, bracketed, token};
+use syn::{Expr, Ident, Path, Token, bracketed, token};
 
 use super::Runtime;
 use super::diagnostics::{Mistake, Report};
@@ -16,21 +17,25 @@ struct Setting {
     values: Values,
 }
 
-/// Words, or fields of the system.
+/// Words, fields of the system, or a path.
 enum Values {
     Words(Vec<Ident>),
     Fields(Vec<Expr>),
+    Path(Path),
 }
 
 impl Parse for Setting {
     fn parse(input: ParseStream) -> syn::Result<Self> {
-        let name: Ident = input.parse()?;
+        let name = input.call(Ident::parse_any)?;
         if !input.peek(Token![=]) {
             return Err(syn::Error::new(name.span(), Mistake::UnknownOption));
         }
         input.parse::<Token![=]>()?;
-        let values =
-            if name == "parameters" { Values::Fields(list(input)?) } else { Values::Words(list(input)?) };
+        let values = match name.to_string().as_str() {
+            "parameters" => Values::Fields(list(input)?),
+            "crate" => Values::Path(input.parse()?),
+            _ => Values::Words(list(input)?),
+        };
         Ok(Self { name, values })
     }
 }
@@ -57,6 +62,8 @@ pub struct Options {
     pub parameters: Vec<Expr>,
     /// Whether the step is differentiated twice.
     pub second: bool,
+    /// The runtime, where the user's crate has another name for it.
+    pub runtime: Option<Path>,
 }
 
 /// The options said, and defaults for the others.
@@ -67,6 +74,7 @@ pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) ->
         engine: Engine::Auto,
         parameters: Vec::new(),
         second: false,
+        runtime: None,
     };
     let settings = match Punctuated::<Setting, Token![,]>::parse_terminated.parse2(attribute) {
         Ok(settings) => settings,
@@ -85,6 +93,7 @@ pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) ->
                 }
                 options.parameters.extend(fields);
             }
+            Values::Path(path) => options.runtime = Some(path),
             Values::Words(words) if name == "rule" => {
                 says_rule = true;
                 rules(&name, words, &mut options, report);
@@ -107,6 +116,20 @@ pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) ->
         options.rules.of_displacement.push(Rule::Midpoint);
     }
     options
+}
+
+/// The one option of a field, `crate = mechanics`.
+pub fn of_field(attribute: TokenStream, report: &mut Report) -> Option<Path> {
+    if attribute.is_empty() {
+        return None;
+    }
+    match syn::parse2(attribute.clone()) {
+        Ok(Setting { values: Values::Path(path), .. }) => Some(path),
+        _ => {
+            report.at(&attribute, Mistake::FieldOption);
+            None
+        }
+    }
 }
 
 /// `step_derivatives = second`

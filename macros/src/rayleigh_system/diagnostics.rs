@@ -14,6 +14,8 @@ use syn::{Error, Ident};
 pub struct Report {
     errors: Option<Error>,
     count: usize,
+    /// How many of them are none where derivatives are written out.
+    of_duals: usize,
     /// Functions whose bodies hold mistakes.
     bodies: Vec<String>,
 }
@@ -38,8 +40,14 @@ impl Report {
         self.bodies.iter().any(|body| function == body)
     }
 
+    /// Whether all mistakes are none where derivatives are written out.
+    pub fn is_limit_of_duals(&self) -> bool {
+        self.count > 0 && self.of_duals == self.count
+    }
+
     /// Records `mistake` at `tokens`.
     pub fn at(&mut self, tokens: &impl ToTokens, mistake: Mistake) {
+        self.of_duals += usize::from(mistake.is_of_duals());
         self.error(Error::new_spanned(tokens, mistake));
     }
 
@@ -77,7 +85,8 @@ pub enum Mistake {
     ParametersByNumDual,
     NoSuchParameter(String),
     HiddenParameter { parameter: String, within: String },
-    NotLowered(String),
+    NotLowered { reason: String, by_duals: bool },
+    NeedsDuals(String),
     NumDualWithoutStd,
     NotLoweredWithoutStd(String),
     FieldWithoutStd,
@@ -89,6 +98,7 @@ pub enum Mistake {
     GenericBlock,
     UnnamedType,
     ReservedName(String),
+    Condition(String),
     NoLagrangian,
     RayleighWithoutLagrangian,
     // Signatures.
@@ -122,6 +132,7 @@ pub enum Mistake {
     NestedItem,
     LocalConst,
     Macro,
+    VariantByDuals,
     OutsideFunction { path: String, name: String },
     OutsideMethod(String),
     OutsideOfFunction { path: String, name: String, scalar: String },
@@ -139,10 +150,24 @@ pub enum Mistake {
     Async,
 }
 
+impl Mistake {
+    /// Whether it is one for dual numbers alone.
+    fn is_of_duals(&self) -> bool {
+        matches!(
+            self,
+            Self::ParameterPattern
+                | Self::ParameterType
+                | Self::ParameterSlice { .. }
+                | Self::HelperReturnsReference
+                | Self::VariantByDuals
+        )
+    }
+}
+
 impl Display for Mistake {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::UnknownOption => f.write_str("unknown option; write `rule = midpoint`, `trapezoidal` or `gauss`, a list `rule = [midpoint, trapezoidal]`, `derivatives = auto`, `expanded`, `num_dual`, `parameters = [m, k]`, or `step_derivatives = second`"),
+            Self::UnknownOption => f.write_str("unknown option; write `rule = midpoint`, `trapezoidal` or `gauss`, a list `rule = [midpoint, trapezoidal]`, `derivatives = auto`, `expanded`, `num_dual`, `parameters = [m, k]`, `step_derivatives = second`, or `crate = path`"),
             Self::UnknownRule(rule) => write!(f, "unknown rule `{rule}`; the rules are `midpoint`, `trapezoidal`, `gauss`, `fitted`, `fitted_trapezoidal` and `one_sided`"),
             Self::RepeatedRule(rule) => write!(f, "rule `{rule}` is listed twice; remove one"),
             Self::JointRule { rule, lacks } => write!(f, "`rule = {rule}` {lacks}; use `midpoint`, `trapezoidal` or `gauss`"),
@@ -154,7 +179,9 @@ impl Display for Mistake {
             Self::ParametersByNumDual => f.write_str("derivatives by parameters are written out at compile time; use `derivatives = expanded` with them"),
             Self::NoSuchParameter(parameter) => write!(f, "neither L, R nor f reads the number `self.{parameter}`; list fields that they read, entries of an array one by one, such as `c[0]`"),
             Self::HiddenParameter { parameter, within } => write!(f, "`{within}` hides how it depends on `{parameter}`; read the number itself, such as `self.{parameter}`"),
-            Self::NotLowered(reason) => write!(f, "derivatives cannot be written out: {reason}; or leave the derivatives to `derivatives = num_dual`"),
+            Self::NotLowered { reason, by_duals: true } => write!(f, "derivatives cannot be written out: {reason}; or leave the derivatives to `derivatives = num_dual`"),
+            Self::NotLowered { reason, by_duals: false } => write!(f, "derivatives cannot be written out: {reason}"),
+            Self::NeedsDuals(reason) => write!(f, "dual numbers would have to stand in, since derivatives cannot be written out: {reason}"),
 
             Self::NumDualWithoutStd => f.write_str("num-dual needs the standard library; use `derivatives = expanded`, or the feature `std` of dalembert"),
             Self::NotLoweredWithoutStd(reason) => write!(f, "derivatives cannot be written out: {reason}; num-dual would need the feature `std` of dalembert"),
@@ -162,11 +189,12 @@ impl Display for Mistake {
 
             Self::WrongItem => f.write_str("`#[rayleigh_system]` goes on an `impl` block with `fn lagrangian`, or on one free function of (q, v, parameters…)"),
             Self::WrongField => f.write_str("`#[differentiable]` goes on one free function of (q, parameters…)"),
-            Self::FieldOption => f.write_str("`#[differentiable]` has no options; remove this"),
+            Self::FieldOption => f.write_str("`#[differentiable]` has no options but `crate = path`; remove this"),
             Self::TraitImpl => f.write_str("`#[rayleigh_system]` goes on an inherent `impl` block; remove the trait"),
             Self::GenericBlock => f.write_str("a system cannot be generic; write a struct of concrete numbers, such as `struct System { m: f64 }`"),
             Self::UnnamedType => f.write_str("the system must be a plain named type, without type arguments and lifetimes; write a struct that owns its numbers"),
             Self::ReservedName(name) => write!(f, "`{name}` is a name that the generated code uses; give the system another one"),
+            Self::Condition(word) => write!(f, "`#[{word}]` is not decided yet where `#[rayleigh_system]` reads this: configured-out code would be differentiated; put the condition on the whole item and write one item for each case, or choose with `if` by a constant"),
             Self::NoLagrangian => f.write_str("no Lagrangian; add `fn lagrangian(&self, q: [f64; N], v: [f64; N]) -> f64`"),
             Self::RayleighWithoutLagrangian => f.write_str("a Rayleigh function alone is no system; put `fn lagrangian(&self, q: [f64; N], v: [f64; N]) -> f64` into the same block"),
 
@@ -200,6 +228,7 @@ impl Display for Mistake {
             Self::NestedItem => f.write_str("no items inside a differentiated body; make it a function or constant of the annotated block"),
             Self::LocalConst => f.write_str("no `const` or `static` inside a differentiated body; use `let`, or a constant of the annotated block"),
             Self::Macro => f.write_str("macros hide what they compute from the differentiation; write the expression out"),
+            Self::VariantByDuals => f.write_str("dual numbers cannot follow values that are no numbers, such as an enum; choose by an integer or an `Option` here"),
             Self::OutsideFunction { path, name } => write!(f, "`{path}` is outside the annotated block and cannot be differentiated; move it into the block and call `Self::{name}`"),
             Self::OutsideOfFunction { path, name, scalar } => write!(f, "`{path}` is another function and cannot be differentiated; write it as a closure in this body, such as `let {name} = |x: {scalar}| …;`"),
             Self::OutsideMethod(name) => write!(f, "`{name}` is not a function of the annotated block and cannot be differentiated; move it into the block"),
@@ -223,6 +252,29 @@ impl Display for Mistake {
             Self::FloatPattern => f.write_str("a floating-point number cannot be matched by a pattern here; compare it with `if`"),
             Self::Unsafe => f.write_str("no `unsafe` inside a differentiated body"),
             Self::Async => f.write_str("no `async` inside a differentiated body"),
+        }
+    }
+}
+
+/// What is said beside mistakes.
+pub enum Note {
+    /// Dual numbers make the derivatives, and nobody asked for them.
+    DualNumbers { system: String, reason: String },
+    /// A step by dual numbers would overflow the stack.
+    TooManyForDualNumbers { most: usize },
+}
+
+impl Display for Note {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::DualNumbers { system, reason } => write!(
+                f,
+                "the derivatives of `{system}` are made by dual numbers when the program runs, because {reason}. A step then takes twice as long for two coordinates, and hundreds of times as long for nine. Either rewrite what is marked, so that the derivatives can be written out; or say that dual numbers are meant, with `derivatives = num_dual`; or make this an error, with `derivatives = expanded`"
+            ),
+            Self::TooManyForDualNumbers { most } => write!(
+                f,
+                "with more than {most} coordinates dual numbers can overflow the stack of a thread; have the derivatives written out: `derivatives = expanded` says what stands in the way"
+            ),
         }
     }
 }

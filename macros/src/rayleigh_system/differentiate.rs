@@ -40,30 +40,66 @@ pub enum Order {
     Second,
 }
 
+/// How many selections deep branches are differentiated on the way: beyond that they are first, from the inside.
+const DEEPEST: u32 = 32;
+
 /// Differentiates nodes of a graph; selections that occur in several are differentiated once.
 #[derive(Default)]
 pub struct Differentiation {
-    known: HashMap<(Node, Order), Rc<Derivatives>>,
+    /// By root, order and the symbol of what gets names.
+    known: HashMap<(Node, Order, Option<String>), Rc<Derivatives>>,
 }
 
 impl Differentiation {
     /// ∂root/∂q, ∂root/∂v and ∂root/∂u.
     pub fn gradient(&mut self, graph: &mut Graph, root: Node) -> Gradient {
-        self.derivatives(graph, root, Order::First, None).gradient
+        self.select_from_inside(graph, root, Order::First);
+        self.differentiated(graph, root, Order::First, None).gradient.clone()
     }
 
     /// First and second derivatives of `root`. Those by the user's named expressions get names: dL/ds is `dl_ds` where
     /// `symbol` is `l`.
     pub fn hessian(&mut self, graph: &mut Graph, root: Node, symbol: &str) -> Derivatives {
-        self.derivatives(graph, root, Order::Second, Some(symbol))
+        self.select_from_inside(graph, root, Order::Second);
+        Derivatives::clone(&self.differentiated(graph, root, Order::Second, Some(symbol)))
     }
 
-    fn of_branch(&mut self, graph: &mut Graph, branch: Node, order: Order) -> Rc<Derivatives> {
-        if let Some(known) = self.known.get(&(branch, order)) {
+    /// Differentiates selections that are nested deeply, so that a chain of thousands needs no deep recursion.
+    fn select_from_inside(&mut self, graph: &mut Graph, root: Node, order: Order) {
+        let mut depths: HashMap<Node, u32> = HashMap::new();
+        for node in graph.reachable([root]) {
+            let operation = graph.operation(node);
+            let depth = operation.arguments().map(|argument| depths[&argument]).max().unwrap_or(0);
+            depths.insert(
+                node,
+                match operation {
+                    Operation::Select(_, a, b) if depth >= DEEPEST => {
+                        for branch in [a, b] {
+                            self.differentiated(graph, branch, order, None);
+                        }
+                        0
+                    }
+                    Operation::Select(..) => depth + 1,
+                    _ => depth,
+                },
+            );
+        }
+    }
+
+    /// The derivatives, made once.
+    fn differentiated(
+        &mut self,
+        graph: &mut Graph,
+        root: Node,
+        order: Order,
+        symbol: Option<&str>,
+    ) -> Rc<Derivatives> {
+        let key = (root, order, symbol.map(str::to_owned));
+        if let Some(known) = self.known.get(&key) {
             return Rc::clone(known);
         }
-        let derivatives = Rc::new(self.derivatives(graph, branch, order, None));
-        self.known.insert((branch, order), Rc::clone(&derivatives));
+        let derivatives = Rc::new(self.derivatives(graph, root, order, symbol));
+        self.known.insert(key, Rc::clone(&derivatives));
         derivatives
     }
 
@@ -82,6 +118,10 @@ impl Differentiation {
         // Derivatives are made of nodes later than the root, and so never met by the sweep.
         let nodes = self.open_nodes(graph, root);
         for node in nodes.into_iter().rev() {
+            // Nothing is made of derivatives that are too long: they need not be right, but soon done.
+            if graph.is_full() {
+                break;
+            }
             let Some(&adjoint) = sweep.adjoints.get(&node) else { continue };
             if let Some(symbol) = symbol
                 && node != root
@@ -135,7 +175,7 @@ impl Differentiation {
 
     /// A selection as a function of the variables.
     fn selected(&mut self, graph: &mut Graph, condition: Node, a: Node, b: Node, order: Order) -> Local {
-        let (a, b) = (self.of_branch(graph, a, order), self.of_branch(graph, b, order));
+        let [a, b] = [a, b].map(|branch| self.differentiated(graph, branch, order, None));
         let mut local = Local::default();
         for &variable in union(a.gradient.keys(), b.gradient.keys()) {
             let branches = [&a, &b].map(|branch| branch.gradient.get(&variable).copied());

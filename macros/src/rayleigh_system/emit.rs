@@ -18,6 +18,9 @@ use super::graph::{Comparison, Function, Graph, Node, Operation};
 use super::portable;
 use names::Names;
 
+/// How deep an expression is nested before a part of it becomes a `let`: a sum of thousands of terms is as many additions deep.
+const DEEPEST: u32 = 64;
+
 /// Straight-line code: statements, then one expression for each output.
 pub struct StraightLine {
     pub statements: TokenStream,
@@ -53,7 +56,21 @@ pub fn straight_line(
     taken: &[&str],
     is_portable: bool,
 ) -> StraightLine {
-    written(graph, scalar, outputs, taken, is_portable, None)
+    written(graph, scalar, outputs, taken, is_portable, Kind::Numbers)
+}
+
+/// The code for `outputs` over `Real<D>`, q, v, u and the time being such numbers; fields and constants are lifted.
+pub fn over_duals(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&str]) -> StraightLine {
+    written(graph, scalar, outputs, taken, false, Kind::Duals)
+}
+
+/// What the code computes with.
+#[derive(Clone, Copy)]
+enum Kind<'l> {
+    Numbers,
+    /// Lanes, some of them late.
+    Lanes(&'l [Node]),
+    Duals,
 }
 
 /// The code for `outputs` where q, v and the time are lanes. The parameters `late` are lanes as well, and known only after the statements
@@ -66,7 +83,7 @@ pub fn in_lanes(
     is_portable: bool,
     late: &[Node],
 ) -> StraightLine {
-    written(graph, scalar, outputs, taken, is_portable, Some(late))
+    written(graph, scalar, outputs, taken, is_portable, Kind::Lanes(late))
 }
 
 fn written(
@@ -75,8 +92,10 @@ fn written(
     outputs: &[Node],
     taken: &[&str],
     is_portable: bool,
-    late: Option<&[Node]>,
+    kind: Kind<'_>,
 ) -> StraightLine {
+    let late = if let Kind::Lanes(late) = kind { Some(late) } else { None };
+    let is_dual = matches!(kind, Kind::Duals);
     let nodes = graph.reachable(outputs.iter().copied());
     let mut uses = vec![0_u32; graph.len()];
     for &node in &nodes {
@@ -97,19 +116,22 @@ fn written(
         calls_elementary: Cell::new(false),
         is_lanes: vec![false; graph.len()],
         stages: number_of_stages(graph),
+        is_dual,
+        is_condition: conditions(graph, &nodes),
     };
     let mut receives = vec![false; graph.len()];
     for receiver in nodes.iter().filter_map(|&node| graph.operation(node).receiver()) {
         receives[receiver.index()] = true;
     }
     let mut is_late = vec![false; graph.len()];
+    let mut depths = vec![0_u32; graph.len()];
     let (mut statements, mut later) = (TokenStream::new(), TokenStream::new());
     let (mut uses_coordinates, mut uses_velocities, mut uses_inputs) = (false, false, false);
     let mut parameters = Vec::new();
     for &node in &nodes {
         let operation = graph.operation(node);
         writer.typed[node.index()] = match operation {
-            Operation::Constant(_) => false,
+            Operation::Constant(_) => is_dual,
             Operation::Coordinate(_)
             | Operation::Velocity(_)
             | Operation::Input(_)
@@ -140,7 +162,7 @@ fn written(
         }
         let is_leaf = match operation {
             // A local already.
-            Operation::Parameter(index) => graph.parameter(index).is_local(),
+            Operation::Parameter(index) => graph.parameter(index).is_in_place(),
             operation => operation.is_literal(),
         };
         let is_paired = partner(graph, node, &nodes).is_some();
@@ -150,8 +172,11 @@ fn written(
             && !needs_type
             && uses[node.index()] <= 1
             && !matches!(operation, Operation::Select(..))
+            && !matches!(operation, Operation::Parameter(index) if graph.parameter(index).is_apart())
             && (graph.name(node).is_none() || matches!(operation, Operation::Parameter(_)));
-        if is_leaf || is_single || writer.locals[node.index()].is_some() {
+        let depth = operation.arguments().map(|argument| depths[argument.index()] + 1).max().unwrap_or(0);
+        if is_leaf || (is_single && depth < DEEPEST) || writer.locals[node.index()].is_some() {
+            depths[node.index()] = if is_leaf || is_single { depth } else { 0 };
             continue;
         }
         let statement = writer.statement(node, &nodes);
@@ -174,10 +199,28 @@ fn written(
     }
 }
 
-/// The name of the number of lanes: not that of a constant of the user's.
+/// Which expressions stand as conditions.
+fn conditions(graph: &Graph, nodes: &[Node]) -> Vec<bool> {
+    let mut is_condition = vec![false; graph.len()];
+    for &node in nodes {
+        match graph.operation(node) {
+            Operation::Select(condition, ..) | Operation::Not(condition) => {
+                is_condition[condition.index()] = true;
+            }
+            Operation::And(a, b) | Operation::Or(a, b) => {
+                is_condition[a.index()] = true;
+                is_condition[b.index()] = true;
+            }
+            _ => {}
+        }
+    }
+    is_condition
+}
+
+/// The name of the number of lanes: not that of a constant of the user's, nor the system's.
 pub fn number_of_stages(graph: &Graph) -> Ident {
     let mut name = "S".to_owned();
-    while graph.mentions(&name) {
+    while graph.mentions(&name) || graph.is_reserved(&name) {
         name.push('_');
     }
     format_ident!("{name}")
@@ -233,6 +276,10 @@ struct Writer<'g> {
     is_lanes: Vec<bool>,
     /// The number of lanes.
     stages: Ident,
+    /// Whether numbers are `Real<D>`.
+    is_dual: bool,
+    /// Which fields are truth values.
+    is_condition: Vec<bool>,
 }
 
 impl Writer<'_> {
@@ -288,7 +335,12 @@ impl Writer<'_> {
                 let index = Literal::usize_unsuffixed(index);
                 (quote!(u[#index]), Binding::Atom)
             }
-            Operation::Parameter(index) => (self.graph.parameter(index).tokens.clone(), Binding::Atom),
+            operation @ Operation::Parameter(index) => {
+                let operand = self.graph.parameter(index).operand();
+                let is_lifted =
+                    self.is_dual && !self.is_condition[node.index()] && !self.graph.is_time(operation);
+                (if is_lifted { quote!(D::lift(#operand)) } else { operand }, Binding::Atom)
+            }
             Operation::Constant(bits) => self.constant(f64::from_bits(bits), false),
             Operation::Add(a, b) => (binary(a, quote!(+), b, Binding::Sum, Binding::Product), Binding::Sum),
             Operation::Subtract(a, b) => {
@@ -412,6 +464,11 @@ impl Writer<'_> {
             let literal = Literal::f64_unsuffixed(size);
             quote!(#literal)
         };
-        if value.is_sign_negative() { (quote!(-#literal), Binding::Sign) } else { (literal, Binding::Atom) }
+        let is_negative = value.is_sign_negative();
+        if self.is_dual {
+            let sign = is_negative.then(|| quote!(-));
+            return (quote!(D::real(#sign #literal)), Binding::Atom);
+        }
+        if is_negative { (quote!(-#literal), Binding::Sign) } else { (literal, Binding::Atom) }
     }
 }

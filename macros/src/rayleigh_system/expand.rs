@@ -3,6 +3,7 @@
 //! The comment above each quotation shows what it expands to.
 
 mod derivatives;
+pub mod lowered;
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};
@@ -11,27 +12,47 @@ use syn::{
 };
 
 use super::check::Field;
+use super::dual_numbers;
 use super::implement::{self, discrete, discrete_rayleigh};
-use super::lower::Refusal;
+use super::lower::{Lowered, Refusal};
 use super::model::{Function, Part, RayleighArguments, Role, Rule, Source, System, simple_name};
 use super::rewrite::{Twin, over};
 use super::structure::{Engine, Structure};
 use super::view;
 
+/// Where the functions over dual numbers come from.
+pub enum Twins<'t> {
+    /// The user's bodies, rewritten.
+    Rewritten(&'t [Twin]),
+    /// The expressions that the bodies compute, where rewriting them would need more than numbers.
+    Lowered(&'t Lowered),
+}
+
 /// The whole expansion: the user's item, its functions over dual numbers, and the system that they make.
-pub fn system(system: &System<'_>, twins: &[Twin], refusal: Option<Refusal>) -> TokenStream {
-    let (item, twins) = match system.source {
-        Source::Block(block) => {
+pub fn system(
+    system: &System<'_>,
+    twins: &Twins<'_>,
+    refusal: Option<Refusal>,
+    is_portable: bool,
+) -> TokenStream {
+    let (item, twins) = match (twins, system.source) {
+        (Twins::Rewritten(twins), Source::Block(block)) => {
             (plain_block(system, &block.item, twins), twins_of_block(system, &block.item, twins))
         }
-        Source::Function(function) => {
+        (Twins::Rewritten(twins), Source::Function(function)) => {
             (function_and_struct(system, function), twins_of_function(system, function, &twins[0]))
+        }
+        (Twins::Lowered(lowered), _) => {
+            (lowered::item(system, &lowered.functions, is_portable), lowered::twins(system, lowered))
         }
     };
     let imports = imports(system);
     let (scalar, n) = (&system.scalar, system.degrees.times(1));
     let conditions = conditions(system.source);
+    let (quiet, quiet_twins) = (quiet(), quiet_twins());
     let both = RayleighArguments::ConfigurationAndVelocity;
+    let warning = refusal.as_ref().map(|refusal| dual_numbers::warning(system, refusal));
+    let bound = dual_numbers::bound(system);
     let structure = Structure { engine: Engine::NumDual(refusal), findings: None };
     let lagrangian =
         implement::lagrangian(system, &structure, derivatives::of_function(system, Part::Lagrangian, both));
@@ -44,7 +65,7 @@ pub fn system(system: &System<'_>, twins: &[Twin], refusal: Option<Refusal>) -> 
     let second = system.second.then(|| implement::second_order(system, derivatives::along_vectors(system)));
     let view = view::definition(system);
     let discrete = system.rules.of_displacement.iter().map(|&rule| {
-        let discrete = discrete(system, rule, None);
+        let discrete = discrete(system, rule, false, None);
         let discrete_rayleigh = system.rayleigh.map(|_| discrete_rayleigh(system, rule));
         quote!(#discrete #discrete_rayleigh)
     });
@@ -52,15 +73,21 @@ pub fn system(system: &System<'_>, twins: &[Twin], refusal: Option<Refusal>) -> 
     quote! {
         #item
 
+        #warning
+
+        #bound
+
         #view
 
         #(#conditions)*
+        #quiet_twins
         const _: () = {
             use ::dalembert::dual::{self, Dual, Real};
             #twins
         };
 
         #(#conditions)*
+        #quiet
         const _: () = {
             #imports
 
@@ -83,6 +110,7 @@ pub fn field(system: &System<'_>, twin: &Twin, function: &Function, kind: Field)
     let n = system.degrees.times(1);
     let item = function_and_struct(system, function);
     let conditions = conditions(system.source);
+    let (quiet, quiet_twins) = (quiet(), quiet_twins());
     let twin_name = &twin.over.sig.ident;
     let twin = written(twin, true);
     let lifted: Vec<_> = parameters(function).map(|(field, _)| quote!(D::lift(self.#field))).collect();
@@ -142,6 +170,7 @@ pub fn field(system: &System<'_>, twin: &Twin, function: &Function, kind: Field)
         #item
 
         #(#conditions)*
+        #quiet_twins
         const _: () = {
             use ::dalembert::dual::{self, Dual, Real};
 
@@ -158,10 +187,30 @@ pub fn field(system: &System<'_>, twin: &Twin, function: &Function, kind: Field)
         };
 
         #(#conditions)*
+        #quiet
         const _: () = {
             #implementation
         };
     }
+}
+
+/// No lint of style speaks of generated code, nor of the user's patterns a second time.
+pub fn quiet() -> TokenStream {
+    quote! {
+        #[allow(
+            clippy::all,
+            clippy::pedantic,
+            clippy::nursery,
+            nonstandard_style,
+            unused_variables,
+            unreachable_patterns
+        )]
+    }
+}
+
+/// The user's bodies over dual numbers: rustc checks them there, and there alone.
+fn quiet_twins() -> TokenStream {
+    quote!(#[allow(clippy::pedantic, clippy::nursery)])
 }
 
 /// What the implementations use, and nothing else: an unused import would warn in the user's crate.
@@ -274,6 +323,7 @@ fn plain(system: &System<'_>, function: &mut ImplItemFn) {
     };
     let arguments = lifted_arguments(function.sig.inputs.iter_mut());
     function.attrs.retain(|attribute| !attribute.path().is_ident("expect"));
+    function.attrs.push(parse_quote!(#[allow(clippy::used_underscore_binding)]));
     // Bodies call the twins: a private helper may have no other caller.
     if !is_root(function) {
         function.attrs.push(parse_quote!(#[allow(dead_code)]));
@@ -308,7 +358,7 @@ fn lifted_arguments<'p>(parameters: impl Iterator<Item = &'p mut FnArg>) -> Vec<
 }
 
 /// Whether a value of the type holds floating-point numbers; others are the same in both worlds.
-fn has_floats(ty: &Type) -> bool {
+pub fn has_floats(ty: &Type) -> bool {
     match ty {
         Type::Array(array) => has_floats(&array.elem),
         Type::Tuple(tuple) => tuple.elems.iter().any(has_floats),
@@ -352,6 +402,15 @@ fn named(attributes: &[Attribute], names: &[&str]) -> impl Iterator<Item = Attri
         .iter()
         .filter(is_named)
         .map(|attribute| Attribute { style: AttrStyle::Outer, ..attribute.clone() })
+}
+
+/// What the user's item says of lints.
+pub fn lint_levels(source: &Source) -> Vec<Attribute> {
+    let attributes = match source {
+        Source::Block(block) => &block.item.attrs,
+        Source::Function(function) => &function.item.attrs,
+    };
+    named(attributes, &["allow", "warn", "deny", "forbid"]).collect()
 }
 
 /// The conditions under which the user's item exists at all.

@@ -11,17 +11,16 @@ mod stages;
 mod trapezoidal;
 
 use proc_macro2::{Literal, TokenStream};
-use quote::{ToTokens, format_ident, quote};
+use quote::{format_ident, quote};
 use syn::Ident;
 
 use super::differentiate::{Derivatives, Differentiation, Gradient};
 use super::emit::{StraightLine, straight_line};
 use super::expand;
-use super::graph::{Graph, Node, Operation};
+use super::graph::{Graph, MOST_OPERATIONS, Node, Operation};
 use super::implement::{self, Kernel};
-use super::lower::{Lowered, MAX_NODES, Refusal};
-use super::model::{Home, Part, Rule, Source, System};
-use super::portable;
+use super::lower::{Length, Load, Lowered, Refusal};
+use super::model::{Home, Part, Rule, System};
 use super::structure::{self, Differentiated, Findings, Structure, Terms};
 use super::view;
 
@@ -29,34 +28,48 @@ use super::view;
 ///
 /// `is_portable`: the elementary functions are the runtime's, in the user's bodies too.
 pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Result<TokenStream, Refusal> {
-    let Lowered { graph, n, m, lagrangian, rayleigh, force, functions } = lowered;
+    let Lowered { graph, n, m, lagrangian, rayleigh, force, functions, bindings, heaviest } = lowered;
     let written = graph.len();
     let derivation = Differentiation::default();
     let home = system.home_of(Part::Lagrangian);
-    let mut code =
-        Code { system, graph, written, n, m, derivation, home, is_portable, calls_elementary: false };
+    let mut code = Code {
+        system,
+        graph,
+        written,
+        n,
+        m,
+        derivation,
+        home,
+        is_portable,
+        calls_elementary: false,
+        longest: 0,
+    };
+    let heaviest = heaviest.as_ref();
     let of_lagrangian = code.function("lagrangian", "l", lagrangian);
+    code.bounded(heaviest)?;
     code.home = system.home_of(Part::Rayleigh);
     let of_rayleigh = rayleigh.map(|root| code.function("rayleigh", "r", root));
+    code.bounded(heaviest)?;
     code.home = system.home();
     let of_force = force.as_ref().map(|components| code.force(components));
     let by_input = force.as_ref().and_then(|components| implement::driven(system, code.by_input(components)));
+    code.bounded(heaviest)?;
     let on_request = code.on_request(lagrangian, rayleigh, force.as_deref());
+    code.bounded(heaviest)?;
     let findings = code.findings(lagrangian, rayleigh, force.as_deref());
     let forced = system.rules.gauss.then(|| {
         let stages = code.stages(lagrangian, rayleigh, force.as_deref());
         implement::forced_lagrangian(system, stages)
     });
-    let discrete: TokenStream = findings
-        .newton
-        .iter()
-        .map(|newton| {
-            // Rules that take L and R together bring their own kernel.
-            let kernel = (!newton.rule.is_joint())
-                .then(|| code.kernel(newton, lagrangian, rayleigh, force.as_deref()));
-            implement::discrete(system, newton.rule, kernel)
-        })
-        .collect();
+    code.bounded(heaviest)?;
+    let mut discrete = TokenStream::new();
+    for newton in &findings.newton {
+        // Rules that take L and R together bring their own kernel.
+        let kernel =
+            (!newton.rule.is_joint()).then(|| code.kernel(newton, lagrangian, rayleigh, force.as_deref()));
+        code.bounded(heaviest)?;
+        discrete.extend(implement::discrete(system, newton.rule, true, kernel));
+    }
     let structure = Structure { engine: structure::Engine::Expanded, findings: Some(findings) };
     let of_lagrangian = implement::lagrangian(system, &structure, of_lagrangian);
     let of_rayleigh = system
@@ -67,23 +80,11 @@ pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Resul
     let discrete_rayleigh: Option<TokenStream> = system.rayleigh.map(|_| {
         system.rules.of_displacement.iter().map(|&rule| implement::discrete_rayleigh(system, rule)).collect()
     });
-    if code.graph.len() > MAX_NODES {
-        let reason =
-            format!("the derivatives take more than {MAX_NODES} operations, too many for straight-line code");
-        return Err(Refusal::at(system.source.name(), reason));
-    }
-    let item = match system.source {
-        Source::Block(block) if is_portable => portable::block(&block.item, &functions).to_token_stream(),
-        Source::Block(block) => block.item.to_token_stream(),
-        Source::Function(function) => {
-            let structure = expand::structure(system, function);
-            let item = if is_portable { &portable::function(&function.item) } else { &function.item };
-            quote!(#item #structure)
-        }
-    };
+    let item = expand::lowered::item(system, &functions, is_portable);
+    let bindings = are_bindings(&bindings);
     let view = view::definition(system);
     let imports = imports(system, code.calls_elementary, forced.as_ref());
-    let conditions = expand::conditions(system.source);
+    let (conditions, quiet) = (expand::conditions(system.source), expand::quiet());
     let (scalar, dimension) = (&system.scalar, system.degrees.times(1));
     Ok(quote! {
         #item
@@ -91,6 +92,7 @@ pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Resul
         #view
 
         #(#conditions)*
+        #quiet
         const _: () = {
             #imports
 
@@ -104,7 +106,20 @@ pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Resul
             #discrete
             #discrete_rayleigh
             #on_request
+            #bindings
         };
+    })
+}
+
+/// Has rustc agree that names taken for bindings are none of constants: a constant has another type.
+pub fn are_bindings(names: &[Ident]) -> Option<TokenStream> {
+    (!names.is_empty()).then(|| {
+        quote! {
+            const _: fn() = || {
+                struct Binding;
+                #(let #names = Binding;)*
+            };
+        }
     })
 }
 
@@ -159,9 +174,24 @@ struct Code<'s> {
     is_portable: bool,
     /// Whether any function written calls one of the runtime's elementary functions.
     calls_elementary: bool,
+    /// Operations of the longest function.
+    longest: usize,
 }
 
 impl Code<'_> {
+    /// Refuses what is too long, at the loop that writes most of it.
+    fn bounded(&self, heaviest: Option<&Load>) -> Result<(), Refusal> {
+        let length = match self.longest {
+            longest if longest > MOST_OPERATIONS => Length::Function(longest),
+            _ if self.graph.is_full() => Length::Unknown,
+            _ => return Ok(()),
+        };
+        Err(match heaviest {
+            Some(heaviest) => heaviest.refusal(length),
+            None => length.of(self.system.source.name()),
+        })
+    }
+
     /// What the expressions show of the system's structure.
     fn findings(&mut self, lagrangian: Node, rayleigh: Option<Node>, force: Option<&[Node]>) -> Findings {
         let mut differentiated = |root: Node, symbol: &str| Differentiated {
@@ -366,7 +396,18 @@ impl Code<'_> {
             taken.extend(["u", "t", "t_end"]);
         }
         taken.extend(parameters);
-        let outputs = self.graph.factored(outputs, self.written);
+        let outputs = if self.graph.is_full() {
+            vec![self.graph.constant(0.0); outputs.len()]
+        } else {
+            self.graph.factored(outputs, self.written)
+        };
+        let operations = self.graph.operations(outputs.iter().copied());
+        self.longest = self.longest.max(operations);
+        let outputs = if operations > MOST_OPERATIONS {
+            vec![self.graph.constant(0.0); outputs.len()]
+        } else {
+            outputs
+        };
         let mut line = straight_line(&self.graph, &self.system.scalar, &outputs, &taken, self.is_portable);
         if self.home == Home::View {
             let seen = |tokens: TokenStream| view::seen_from_view(tokens, &self.system.name);

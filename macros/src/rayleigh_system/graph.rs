@@ -8,11 +8,12 @@
 mod algebra;
 mod factor;
 mod operation;
+mod zeros;
 
 #[cfg(test)]
 pub mod interpret;
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use proc_macro2::{Group, Ident, Literal, Span, TokenStream, TokenTree};
 use quote::{format_ident, quote};
@@ -40,6 +41,10 @@ pub struct Parameter {
     is_entry: bool,
     /// Whether derivatives are taken by it.
     is_listed: bool,
+    /// Whether it is a `match`, which reads best behind a `let`.
+    is_block: bool,
+    /// Whether its evaluation may panic where the user's code does not evaluate it: it stays within the condition.
+    stays: bool,
 }
 
 impl Parameter {
@@ -47,10 +52,32 @@ impl Parameter {
     pub fn is_local(&self) -> bool {
         self.is_entry || self.tokens.clone().into_iter().count() == 1
     }
+
+    /// Whether it is written where it is used, however often.
+    pub fn is_in_place(&self) -> bool {
+        self.stays || self.is_local()
+    }
+
+    /// Whether it is written behind a `let`, however seldom it is used.
+    pub fn is_apart(&self) -> bool {
+        self.is_block && !self.stays
+    }
+
+    /// The tokens as an operand.
+    pub fn operand(&self) -> TokenStream {
+        let tokens = &self.tokens;
+        if self.is_block && self.stays { quote!((#tokens)) } else { tokens.clone() }
+    }
 }
 
 /// The time, a local of functions whose bodies read it.
 const TIME: &str = "t";
+
+/// The most expressions of a system, with all that is made on the way to its functions: beyond them the macro would take seconds.
+pub const MOST_EXPRESSIONS: usize = 100_000;
+
+/// The most operations of one generated function, and of what the user wrote: beyond them rustc would take minutes.
+pub const MOST_OPERATIONS: usize = 20_000;
 
 /// The expressions of one system.
 #[derive(Default)]
@@ -59,13 +86,26 @@ pub struct Graph {
     depends: Vec<bool>,
     nodes: HashMap<Operation, Node>,
     parameters: Vec<Parameter>,
+    /// Parameters by their text.
+    places: HashMap<String, usize>,
     names: BTreeMap<Node, String>,
+    /// Whether sums keep the 0 that they start from.
+    keeps_zeros: bool,
+    /// Sums that have lost theirs, as they are without it.
+    without_zero: Vec<Node>,
+    /// The name of the user's system.
+    reserved: Option<String>,
 }
 
 impl Graph {
     /// How many expressions there are.
     pub fn len(&self) -> usize {
         self.operations.len()
+    }
+
+    /// Whether there are more expressions than one run of the macro should make.
+    pub fn is_full(&self) -> bool {
+        self.len() > MOST_EXPRESSIONS
     }
 
     /// All expressions, arguments first.
@@ -87,6 +127,16 @@ impl Graph {
         self.parameters.iter().any(|known| known.text.split(|c| !is_name(c)).any(|other| other == word))
     }
 
+    /// Keeps a name from what is generated.
+    pub fn reserve(&mut self, name: String) {
+        self.reserved = Some(name);
+    }
+
+    /// Whether the name is kept from what is generated.
+    pub fn is_reserved(&self, name: &str) -> bool {
+        self.reserved.as_deref() == Some(name)
+    }
+
     /// Whether the value changes with q, v or u.
     pub fn depends(&self, node: Node) -> bool {
         self.depends[node.index()]
@@ -99,7 +149,10 @@ impl Graph {
 
     /// Names an expression, unless it has a name or needs none.
     pub fn give_name(&mut self, node: Node, name: &str) {
-        let needs_none = self.operation(node).is_literal();
+        let needs_none = match self.operation(node) {
+            Operation::Parameter(index) => self.parameters[index].stays,
+            operation => operation.is_literal(),
+        };
         if !needs_none {
             self.names.entry(node).or_insert_with(|| name.trim_start_matches('_').to_owned());
         }
@@ -142,6 +195,30 @@ impl Graph {
         self.parameter_of(tokens, false)
     }
 
+    /// The same; `is_block` if the tokens are a `match`.
+    pub fn written_as(&mut self, tokens: TokenStream, is_block: bool) -> Node {
+        let node = self.parameter_of(tokens, false);
+        if let Operation::Parameter(index) = self.operation(node) {
+            self.parameters[index].is_block = is_block;
+        }
+        node
+    }
+
+    /// Leaves the parameter within the conditions that it stands in.
+    pub fn keep_in_place(&mut self, node: Node) {
+        if let Operation::Parameter(index) = self.operation(node) {
+            self.parameters[index].stays = true;
+        }
+    }
+
+    /// Whether any of the expressions needs a parameter that stays within conditions.
+    pub fn is_conditional(&self, roots: impl IntoIterator<Item = Node>) -> bool {
+        self.reachable(roots).into_iter().any(|node| match self.operation(node) {
+            Operation::Parameter(index) => self.parameters[index].stays,
+            _ => false,
+        })
+    }
+
     /// `array[index]`, an entry of a local array.
     pub fn entry(&mut self, array: &str, index: usize) -> Node {
         let (array, index) = (format_ident!("{array}"), Literal::usize_unsuffixed(index));
@@ -150,9 +227,21 @@ impl Graph {
 
     fn parameter_of(&mut self, tokens: TokenStream, is_entry: bool) -> Node {
         let tokens = with_own_self(tokens);
+        self.placed(tokens, is_entry, false)
+    }
+
+    fn placed(&mut self, tokens: TokenStream, is_entry: bool, is_listed: bool) -> Node {
         let text = tokens.to_string();
-        let index = self.parameters.iter().position(|known| known.text == text).unwrap_or_else(|| {
-            self.parameters.push(Parameter { tokens, text, is_entry, is_listed: false });
+        let index = self.places.get(&text).copied().unwrap_or_else(|| {
+            self.places.insert(text.clone(), self.parameters.len());
+            self.parameters.push(Parameter {
+                tokens,
+                text,
+                is_entry,
+                is_listed,
+                is_block: false,
+                stays: false,
+            });
             self.parameters.len() - 1
         });
         self.node(Operation::Parameter(index))
@@ -160,13 +249,7 @@ impl Graph {
 
     /// The parameter `self.m` for the expression `m`, from now on one that derivatives are taken by.
     pub fn listed(&mut self, expression: &Expr) -> Node {
-        let tokens = with_own_self(quote!(self.#expression));
-        let text = tokens.to_string();
-        let index = self.parameters.iter().position(|known| known.text == text).unwrap_or_else(|| {
-            self.parameters.push(Parameter { tokens, text, is_entry: false, is_listed: true });
-            self.parameters.len() - 1
-        });
-        self.node(Operation::Parameter(index))
+        self.placed(with_own_self(quote!(self.#expression)), false, true)
     }
 
     /// The time.
@@ -194,16 +277,6 @@ impl Graph {
         self.parameters.iter().map(|parameter| &parameter.tokens)
     }
 
-    /// a + b as written, without an initial 0 that the sum of a loop starts from (which changes no more than the sign of
-    /// a zero).
-    pub fn add(&mut self, a: Node, b: Node) -> Node {
-        match (self.constant_value(a), self.constant_value(b)) {
-            (Some(0.0), None) => b,
-            (None, Some(0.0)) => a,
-            _ => self.node(Operation::Add(a, b)),
-        }
-    }
-
     pub fn function(&mut self, function: Function, argument: Node) -> Node {
         self.node(Operation::Function(function, argument))
     }
@@ -227,10 +300,23 @@ impl Graph {
         if a == b { a } else { self.node(Operation::Select(condition, a, b)) }
     }
 
-    /// The expressions with the coordinates replaced, and the time if it is given; names kept.
-    pub fn at(&mut self, roots: &[Node], configuration: &[Node], time: Option<Node>) -> Vec<Node> {
-        let mut moved: HashMap<Node, Node> = HashMap::new();
-        for node in self.reachable(roots.iter().copied()) {
+    /// The expression with the coordinates replaced, and the time if it is given; names kept. `moved` holds what was replaced
+    /// before.
+    pub fn at(
+        &mut self,
+        root: Node,
+        configuration: &[Node],
+        time: Option<Node>,
+        moved: &mut HashMap<Node, Node>,
+    ) -> Node {
+        let mut new = BTreeSet::new();
+        let mut open = vec![root];
+        while let Some(node) = open.pop() {
+            if !moved.contains_key(&node) && new.insert(node) {
+                open.extend(self.operation(node).arguments());
+            }
+        }
+        for node in new {
             let operation = self.operation(node);
             let replacement = match operation {
                 Operation::Coordinate(index) => configuration[index],
@@ -245,19 +331,28 @@ impl Graph {
             };
             moved.insert(node, replacement);
         }
-        roots.iter().map(|root| moved[root]).collect()
+        moved[&root]
+    }
+
+    /// How many operations compute `roots`.
+    pub fn operations(&self, roots: impl IntoIterator<Item = Node>) -> usize {
+        let is_computed = |node: &Node| self.operation(*node).arguments().next().is_some();
+        self.reachable(roots).iter().filter(|node| is_computed(node)).count()
     }
 
     /// Everything that `roots` need, arguments first.
     pub fn reachable(&self, roots: impl IntoIterator<Item = Node>) -> Vec<Node> {
         let mut seen = vec![false; self.len()];
         let mut open: Vec<Node> = roots.into_iter().collect();
+        let mut reached = Vec::new();
         while let Some(node) = open.pop() {
             if !std::mem::replace(&mut seen[node.index()], true) {
                 open.extend(self.operation(node).arguments());
+                reached.push(node);
             }
         }
-        (0..).zip(seen).filter(|(_, seen)| *seen).map(|(index, _)| Node(index)).collect()
+        reached.sort_unstable();
+        reached
     }
 }
 

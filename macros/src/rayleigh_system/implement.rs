@@ -6,7 +6,7 @@ use quote::{ToTokens, format_ident, quote};
 
 use super::expand::parameters;
 use super::model::{Home, Part, RayleighArguments, Rule, Source, System};
-use super::structure::Structure;
+use super::structure::{Engine, Structure};
 use super::view::{self, arguments, owner, subject};
 
 /// The plain value of L (0) or R (1) at the vectors q and v.
@@ -44,7 +44,9 @@ pub fn lagrangian(system: &System<'_>, structure: &Structure, derivatives: Token
     let subject = subject(system, home);
     let later = if home == Home::View { view::later(system) } else { None };
     let value = value(system, Part::Lagrangian, RayleighArguments::ConfigurationAndVelocity);
-    let delegation = view::delegation(system, Part::Lagrangian);
+    let is_expanded = matches!(structure.engine, Engine::Expanded);
+    let verification = is_expanded.then(|| verification(system, home));
+    let delegation = view::delegation(system, Part::Lagrangian, verification_of_view(system, is_expanded));
     let (documentation, constant) = (structure.documentation(), structure.constant());
     quote! {
         #documentation
@@ -61,11 +63,31 @@ pub fn lagrangian(system: &System<'_>, structure: &Structure, derivatives: Token
 
             #derivatives
 
+            #verification
+
             #later
         }
 
         #delegation
     }
+}
+
+/// `fn verify_generated`: those of L, R and f that `home` has.
+fn verification(system: &System<'_>, home: Home) -> TokenStream {
+    let parts = parts(system).filter(|&part| home == Home::View || system.home_of(part) == home);
+    let functions = parts.map(|part| format_ident!("{}", part.name()));
+    // verification::lagrangian(self, q, v)?; verification::rayleigh(self, q, v)?; Ok(())
+    quote! {
+        fn verify_generated(&self, q: &Vector, v: &Vector) -> Result<(), ::dalembert::StepError> {
+            #(::dalembert::verification::#functions(self, q, v)?;)*
+            Ok(())
+        }
+    }
+}
+
+/// That of the view, where the system itself has one of its own.
+fn verification_of_view(system: &System<'_>, is_expanded: bool) -> Option<TokenStream> {
+    (is_expanded && system.has_view()).then(|| verification(system, Home::View))
 }
 
 /// `impl Rayleigh<2> for Ring`, with the derivatives of either engine.
@@ -74,7 +96,7 @@ pub fn rayleigh(system: &System<'_>, point: RayleighArguments, derivatives: Toke
     let n = system.degrees.times(1);
     let subject = subject(system, system.home_of(Part::Rayleigh));
     let value = value(system, Part::Rayleigh, point);
-    let delegation = view::delegation(system, Part::Rayleigh);
+    let delegation = view::delegation(system, Part::Rayleigh, None);
     let q = match point {
         RayleighArguments::Velocity => quote!(_q),
         RayleighArguments::ConfigurationAndVelocity => quote!(q),
@@ -313,9 +335,9 @@ pub enum Memory {
 
 /// `impl Discrete<Midpoint, 2> for Ring`: one term for each of L, R and f that the system has, unless an engine gives the
 /// kernel's bodies.
-pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> TokenStream {
+pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Option<Kernel>) -> TokenStream {
     if rule.is_joint() {
-        return joint(system, rule);
+        return joint(system, rule, is_expanded);
     }
     let scalar = &system.scalar;
     let n = system.degrees.times(1);
@@ -388,6 +410,7 @@ pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> Toke
             }
         }
     });
+    let verification = is_expanded.then(|| segment_verification(system, &quote!(#rule)));
     // p0 = −D1 L_d − f_d⁻: Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0, v, h)
     quote! {
         #[automatically_derived]
@@ -429,14 +452,31 @@ pub fn discrete(system: &System<'_>, rule: Rule, kernel: Option<Kernel>) -> Toke
             fn segment_energy(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
                 #rule::segment_energy(self, q0, q1, h)
             }
+
+            #verification
         }
 
         #explicit
     }
 }
 
+/// `fn verify_segment`, by the nodes of the rule.
+fn segment_verification(system: &System<'_>, rule: &TokenStream) -> TokenStream {
+    let scalar = &system.scalar;
+    quote! {
+        fn verify_segment(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: #scalar,
+        ) -> Result<(), ::dalembert::StepError> {
+            #rule::verify_segment(self, q0, v, h)
+        }
+    }
+}
+
 /// `impl Discrete<Fitted, 2> for Ring`: L and R together, one call each.
-fn joint(system: &System<'_>, rule: Rule) -> TokenStream {
+fn joint(system: &System<'_>, rule: Rule, is_expanded: bool) -> TokenStream {
     let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
     let (lagrangian, force) = (rule.lagrangian(), rule.force(true, false));
@@ -454,6 +494,7 @@ fn joint(system: &System<'_>, rule: Rule) -> TokenStream {
     let memory = quote!(::dalembert::#memory<#scalar, #n>);
     let is_fitted = rule != Rule::OneSided;
     let rule = format_ident!("{}", rule.name());
+    let verification = is_expanded.then(|| segment_verification(system, &quote!(<#rule as JointRule>)));
     // What depends on h alone is worked out once for all evaluations of a step.
     let steps = is_fitted.then(|| {
         quote! {
@@ -533,6 +574,8 @@ fn joint(system: &System<'_>, rule: Rule) -> TokenStream {
             fn segment_energy(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
                 <#rule as JointRule>::segment_energy(self, q0, q1, h)
             }
+
+            #verification
 
             #steps
         }

@@ -4,25 +4,39 @@
 //! computed. What depends on a comparison of numbers runs both ways, and every local that differs becomes a selection.
 //! What cannot be run is refused with its token and a reason; the caller decides whether that is an error.
 
+mod choice;
+mod field;
+mod integer;
+mod load;
 mod method;
 mod operator;
 mod pattern;
+mod place;
+mod sequence;
 mod statement;
 mod value;
+mod written;
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 use quote::{ToTokens, format_ident, quote};
-use syn::{Block, Expr, ExprLit, FnArg, Ident, ImplItem, ImplItemFn, Lit, Pat, ReturnType, Type};
+use syn::{
+    Block, Expr, ExprLit, FnArg, GenericParam, Ident, ImplItem, ImplItemFn, Lit, Pat, ReturnType, Type,
+};
 
 use super::diagnostics::{Mistake, Report, span_of};
 use super::graph::{Graph, Node, Operation};
 use super::model::{Part, RayleighArguments, Source, System};
-use value::{Closure, Truth, Value, Written};
+use integer::{Classes, IntegerType};
+pub use load::{Length, Load};
+use value::{Chosen, Closure, Truth, Value};
+use written::{Clash, Text, Written};
 
-/// Graphs beyond this are left to num-dual: their straight-line code would compile for minutes.
-pub const MAX_NODES: usize = 20_000;
+/// Bodies beyond this are left to num-dual.
+pub const MAX_NODES: usize = super::graph::MOST_OPERATIONS;
 
 /// Statements and expressions run before a body is given up: an unrolled loop may be long, but not endless.
 const MAX_EVALUATIONS: usize = 400_000;
@@ -41,6 +55,10 @@ pub struct Lowered {
     pub force: Option<Vec<Node>>,
     /// The functions of the block that were run.
     pub functions: Vec<Ident>,
+    /// Names taken for bindings where a constant of that name would be one: rustc has to agree.
+    pub bindings: Vec<Ident>,
+    /// What most operations are written by.
+    pub heaviest: Option<Load>,
 }
 
 /// A token that cannot be lowered, and why.
@@ -50,11 +68,24 @@ pub struct Refusal {
     /// What stands there, on one line.
     pub token: String,
     pub reason: String,
+    /// Whether dual numbers could not follow either.
+    pub is_final: bool,
 }
 
 impl Refusal {
     pub fn at(tokens: &impl ToTokens, reason: impl Into<String>) -> Self {
-        Self { span: span_of(tokens), token: one_line(&tokens.to_token_stream()), reason: reason.into() }
+        Self {
+            span: span_of(tokens),
+            token: one_line(&tokens.to_token_stream()),
+            reason: reason.into(),
+            is_final: false,
+        }
+    }
+
+    /// The same where dual numbers could not follow either.
+    fn for_all(mut self) -> Self {
+        self.is_final = true;
+        self
     }
 
     /// The line of the source file, from 1; 0 where there is none.
@@ -82,18 +113,30 @@ fn refuse<T>(tokens: &impl ToTokens, reason: impl Into<String>) -> Result<T> {
 
 /// L, R and f of the system, or the first token that cannot be lowered.
 pub fn system(system: &System<'_>) -> Result<Lowered> {
+    let lowered = on_graph(system, Graph::default())?;
+    if lowered.graph.shows_zeros_left_out() { on_graph(system, Graph::with_zeros()) } else { Ok(lowered) }
+}
+
+fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
     let mut lowering = Lowering {
         source: system.source,
-        graph: Graph::default(),
+        scalar: system.scalar.clone(),
+        graph,
         locals: Vec::new(),
         captured: 0,
         returned: Returned::Never,
         leaving: None,
+        guards: Vec::new(),
         depth: 0,
         evaluations: 0,
-        expected: None,
+        integers: Classes::default(),
+        bindings: BTreeMap::new(),
+        heaviest: None,
+        is_weighed: false,
+        part: None,
         functions: Vec::new(),
     };
+    lowering.graph.reserve(system.name.to_string());
     // Known before the bodies read them.
     for parameter in &system.parameters {
         lowering.graph.listed(parameter);
@@ -158,7 +201,10 @@ pub fn system(system: &System<'_>) -> Result<Lowered> {
         Some(_) => return refuse(at, "the force is not an array whose entries can be told apart"),
         None => None,
     };
-    Ok(Lowered { graph: lowering.graph, n, m, lagrangian, rayleigh, force, functions: lowering.functions })
+    lowering.integers.settled()?;
+    let bindings = lowering.bindings.into_values().collect();
+    let (functions, heaviest) = (lowering.functions, lowering.heaviest);
+    Ok(Lowered { graph: lowering.graph, n, m, lagrangian, rayleigh, force, functions, bindings, heaviest })
 }
 
 /// Reports parameters that nothing reads, and those that are read where no derivative reaches them.
@@ -230,15 +276,18 @@ enum Returned {
 }
 
 /// `break` or `continue` on its way to a loop.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Leaving {
-    Break,
-    Continue,
+#[derive(Clone)]
+struct Leaving {
+    is_break: bool,
+    label: Option<String>,
+    value: Value,
 }
 
-/// A body on the run.
+/// The state of one symbolic run of a body.
 struct Lowering<'s> {
     source: &'s Source,
+    /// `f64` or `f32`.
+    scalar: Ident,
     graph: Graph,
     /// Innermost last; a later one of the same name hides the earlier.
     locals: Vec<(String, Value)>,
@@ -246,11 +295,18 @@ struct Lowering<'s> {
     captured: usize,
     returned: Returned,
     leaving: Option<Leaving>,
+    /// Conditions, and which way they were decided, under which the code being run is reached.
+    guards: Vec<(Node, bool)>,
     depth: usize,
     evaluations: usize,
-    /// The length that the context gives to an array, for `array::from_fn`.
-    expected: Option<usize>,
+    integers: Classes,
+    bindings: BTreeMap<String, Ident>,
     functions: Vec<Ident>,
+    heaviest: Option<Load>,
+    /// Whether a loop or call is running whose operations are counted.
+    is_weighed: bool,
+    /// The function being run, as it was called from outside.
+    part: Option<Ident>,
 }
 
 impl Lowering<'_> {
@@ -266,17 +322,24 @@ impl Lowering<'_> {
         self.source.functions().find(|function| function.sig.ident == *name)
     }
 
-    /// An integer constant of the annotated block, as written.
-    fn block_constant(&self, name: &Ident) -> Option<Expr> {
+    /// An integer constant of the annotated block, if its value can be computed here.
+    fn block_constant(&mut self, name: &Ident) -> Option<Value> {
         let Source::Block(block) = self.source else { return None };
-        block.item.items.iter().find_map(|item| match item {
-            ImplItem::Const(constant)
-                if constant.ident == *name && super::model::is_integer(&constant.ty) =>
-            {
-                Some(constant.expr.clone())
-            }
+        let constant = block.item.items.iter().find_map(|item| match item {
+            ImplItem::Const(constant) if constant.ident == *name => Some(constant),
             _ => None,
-        })
+        })?;
+        IntegerType::of(&constant.ty)?;
+        let (expression, ty) = (constant.expr.clone(), constant.ty.clone());
+        // No local is in scope there.
+        let outside = self.enter(name, Vec::new()).ok()?;
+        let value = self.expression(&expression);
+        let is_known = value.is_ok();
+        let value = self.leave(name, outside, value.unwrap_or(Value::Unset)).ok().filter(|_| is_known)?;
+        match self.shaped(value, &ty) {
+            Ok(value @ Value::Integer(_)) => Some(value),
+            _ => None,
+        }
     }
 
     /// Calls a function of the block: its body is run with the arguments in place of the parameters.
@@ -298,22 +361,31 @@ impl Lowering<'_> {
         if parameters.len() != arguments.len() {
             return refuse(at, "called with another number of arguments than it has parameters");
         }
+        let is_lifetime = |parameter: &&GenericParam| matches!(parameter, GenericParam::Lifetime(_));
+        if let Some(parameter) = signature.generics.params.iter().find(|parameter| !is_lifetime(parameter)) {
+            return refuse(parameter, "a function that L, R or the force call cannot be generic here");
+        }
         if !self.functions.contains(&signature.ident) {
             self.functions.push(signature.ident.clone());
+        }
+        if self.depth == 0 {
+            self.part = Some(signature.ident.clone());
         }
         let outside = self.enter(at, Vec::new())?;
         for ((pattern, ty), argument) in parameters.iter().zip(arguments) {
             let argument = self.shaped(argument, ty)?;
             self.bind(pattern, argument)?;
         }
-        let (result, ty) = match &signature.output {
-            ReturnType::Type(_, ty) => (self.with_expected(ty, |this| this.block(body))?, Some(ty)),
-            ReturnType::Default => (self.block(body)?, None),
-        };
-        let result = self.leave(at, outside, result)?;
-        match ty {
-            Some(ty) => self.shaped(result, ty),
-            None => Ok(result),
+        match &signature.output {
+            ReturnType::Type(_, ty) => {
+                let result = self.block_of_type(body, ty)?;
+                let result = self.leave(at, outside, result)?;
+                self.shaped(result, ty)
+            }
+            ReturnType::Default => {
+                let result = self.block(body)?;
+                self.leave(at, outside, result)
+            }
         }
     }
 
@@ -324,13 +396,23 @@ impl Lowering<'_> {
                 if closure.parameters.len() != arguments.len() {
                     return refuse(at, "called with another number of arguments than it has parameters");
                 }
+                let mut now = arguments.clone();
                 let outside = self.enter(at, closure.locals.clone())?;
                 self.captured = self.locals.len();
                 for (pattern, argument) in closure.parameters.iter().zip(arguments) {
                     self.bind(pattern, argument)?;
                 }
-                let result = self.expression(&closure.body)?;
-                self.leave(at, outside, result)
+                let result = match &closure.result {
+                    Some(ty) => self.expression_of_type(&closure.body, ty)?,
+                    None => self.expression(&closure.body)?,
+                };
+                let result = self.leave(at, outside, result)?;
+                now.push(result.clone());
+                if let Some(last) = closure.last.borrow().as_ref() {
+                    last.iter().zip(&now).try_for_each(|(a, b)| self.unify_values(a, b))?;
+                }
+                closure.last.replace(Some(now));
+                Ok(result)
             }
             Value::Function(name) => {
                 let Some(function) = self.function(name).cloned() else {
@@ -341,7 +423,7 @@ impl Lowering<'_> {
             Value::Method(name) => {
                 let mut arguments = arguments.into_iter();
                 match arguments.next() {
-                    Some(receiver) => self.value_method(name, receiver, arguments.collect()),
+                    Some(receiver) => self.value_method(name, receiver, arguments.collect(), None),
                     None => refuse(at, "called without an argument"),
                 }
             }
@@ -360,7 +442,7 @@ impl Lowering<'_> {
             captured: std::mem::replace(&mut self.captured, 0),
             returned: std::mem::replace(&mut self.returned, Returned::Never),
             leaving: self.leaving.take(),
-            expected: self.expected.take(),
+            guards: self.guards.len(),
         })
     }
 
@@ -370,24 +452,12 @@ impl Lowering<'_> {
         self.locals = outside.locals;
         self.captured = outside.captured;
         self.leaving = outside.leaving;
-        self.expected = outside.expected;
+        self.guards.truncate(outside.guards);
         match std::mem::replace(&mut self.returned, outside.returned) {
             Returned::Never => Ok(tail),
             Returned::Always(value) => Ok(value),
             Returned::Where(condition, value) => self.select(at, condition, value, tail),
         }
-    }
-
-    /// Runs `body` where an array is expected to have the length that `ty` says.
-    fn with_expected(&mut self, ty: &Type, body: impl FnOnce(&mut Self) -> Result<Value>) -> Result<Value> {
-        let expected = match ty {
-            Type::Array(array) => Some(self.length(&array.len)?),
-            _ => None,
-        };
-        let outer = std::mem::replace(&mut self.expected, expected);
-        let value = body(self);
-        self.expected = outer;
-        value
     }
 
     /// A length in a type: a literal, a constant of the block, or arithmetic on them.
@@ -400,8 +470,9 @@ impl Lowering<'_> {
             }
             return Ok(length);
         }
+        let at_length = length;
         match self.expression(length)? {
-            Value::Integer(length) if (0..=4096).contains(&length) => Ok(length as usize),
+            Value::Integer(length) if (0..=4096).contains(&length.value) => self.size(at_length, length),
             _ => refuse(
                 length,
                 "this length is not known here; write a literal, or a constant of the annotated block",
@@ -409,10 +480,26 @@ impl Lowering<'_> {
         }
     }
 
-    /// A field whose type says that it is an array, as its entries.
+    /// The value with what its type says of it: an array's length, an integer's type.
     fn shaped(&mut self, value: Value, ty: &Type) -> Result<Value> {
         match (value, ty) {
             (value, Type::Reference(reference)) => self.shaped(value, &reference.elem),
+            (value, Type::Paren(inner)) => self.shaped(value, &inner.elem),
+            (value, Type::Group(inner)) => self.shaped(value, &inner.elem),
+            (Value::Integer(integer), ty) => {
+                match (IntegerType::of(ty), ty) {
+                    (Some(ty), _) => self.of_type(integer.class, ty)?,
+                    (None, Type::Infer(_)) => {}
+                    // An alias.
+                    (None, _) => self.beside_field(integer),
+                }
+                Ok(Value::Integer(integer))
+            }
+            (Value::Real(node), ty) if is_of_scalar(ty, &self.scalar) => Ok(Value::Real(node)),
+            (Value::Real(_), ty) => refuse(
+                ty,
+                format!("this system is written in `{}`; write the type out, an alias hides it", self.scalar),
+            ),
             (Value::Written(array), Type::Array(ty)) => {
                 let length = self.length(&ty.len)?;
                 let entries = (0..length).map(|index| Value::Written(array.entry(index)));
@@ -425,6 +512,35 @@ impl Lowering<'_> {
                     .collect::<Result<_>>()
                     .map(Value::Tuple)
             }
+            (Value::Sequence(entries), Type::Array(ty)) => entries
+                .into_iter()
+                .map(|entry| self.shaped(entry, &ty.elem))
+                .collect::<Result<_>>()
+                .map(Value::Sequence),
+            (Value::Sequence(entries), Type::Slice(ty)) => entries
+                .into_iter()
+                .map(|entry| self.shaped(entry, &ty.elem))
+                .collect::<Result<_>>()
+                .map(Value::Sequence),
+            (Value::Tuple(entries), Type::Tuple(ty)) if entries.len() == ty.elems.len() => {
+                let entries = entries.into_iter().zip(&ty.elems);
+                entries.map(|(entry, ty)| self.shaped(entry, ty)).collect::<Result<_>>().map(Value::Tuple)
+            }
+            (Value::Chosen(chosen), ty) => {
+                let a = self.shaped(chosen.a.clone(), ty)?;
+                let b = self.shaped(chosen.b.clone(), ty)?;
+                Ok(Value::Chosen(Rc::new(Chosen {
+                    condition: chosen.condition,
+                    a,
+                    b,
+                    name: chosen.name.clone(),
+                })))
+            }
+            // What is left of a block that has returned.
+            (Value::Tuple(entries), _) if entries.is_empty() => Ok(Value::unit()),
+            (Value::Sequence(_) | Value::Tuple(_), Type::Path(_) | Type::Macro(_)) => {
+                refuse(ty, "write the type out, such as `[f64; 2]`: an alias hides it")
+            }
             (value, _) => Ok(value),
         }
     }
@@ -433,8 +549,21 @@ impl Lowering<'_> {
     fn scalar(&mut self, at: &impl ToTokens, value: Value) -> Result<Node> {
         match value {
             Value::Real(node) => Ok(node),
-            Value::Written(written) => Ok(written.scalar(&mut self.graph)),
+            Value::Written(written) => self.written_scalar(at, &written),
+            Value::Chosen(chosen) => {
+                let Chosen { condition, a, b, name } = &*chosen;
+                let a = self.under(*condition, true, |this| this.scalar(at, a.clone()))?;
+                let b = self.under(*condition, false, |this| this.scalar(at, b.clone()))?;
+                let node = self.graph.select(*condition, a, b);
+                if let Some(name) = name {
+                    self.graph.give_name(node, name);
+                }
+                Ok(node)
+            }
             Value::Integer(_) => refuse(at, "an integer stands where a floating-point number is needed"),
+            Value::Unset => {
+                refuse(at, "this local has no value on every way here; give it one where it is declared")
+            }
             _ => refuse(at, "this is not a single number; take the entries of an array one by one"),
         }
     }
@@ -443,9 +572,56 @@ impl Lowering<'_> {
     fn truth(&mut self, at: &impl ToTokens, value: Value) -> Result<Truth> {
         match value {
             Value::Truth(truth) => Ok(truth),
-            Value::Written(written) => Ok(Truth::Where(self.graph.written(written.operand()))),
+            Value::Written(written) => self.written_truth(at, &written).map(Truth::Where),
+            Value::Chosen(chosen) => {
+                let Chosen { condition, a, b, .. } = &*chosen;
+                let a = self.under(*condition, true, |this| this.truth(at, a.clone()))?;
+                let b = self.under(*condition, false, |this| this.truth(at, b.clone()))?;
+                match self.select(at, *condition, Value::Truth(a), Value::Truth(b))? {
+                    Value::Truth(truth) => Ok(truth),
+                    _ => refuse(at, "this is not a condition that can be followed here"),
+                }
+            }
             _ => refuse(at, "this is not a condition that can be followed here"),
         }
+    }
+
+    /// Runs what is reached where the condition is `way`.
+    fn under<T>(
+        &mut self,
+        condition: Node,
+        way: bool,
+        run: impl FnOnce(&mut Self) -> Result<T>,
+    ) -> Result<T> {
+        let outside = self.guards.len();
+        self.guards.push((condition, way));
+        let value = run(self);
+        self.guards.truncate(outside);
+        value
+    }
+
+    /// The condition under which the code being run is reached, if it is one.
+    fn guard(&mut self) -> Option<Node> {
+        let mut guard = Truth::Known(true);
+        for (node, way) in self.guards.clone() {
+            let condition = Truth::Where(node);
+            let condition = if way { condition } else { condition.not(&mut self.graph) };
+            guard = guard.and(&mut self.graph, condition);
+        }
+        match guard {
+            Truth::Where(node) => Some(node),
+            Truth::Known(_) => None,
+        }
+    }
+
+    /// The expression as it is written out.
+    fn text(&mut self, at: &impl ToTokens, written: &Written) -> Result<Text> {
+        written.text().or_else(|Clash(name)| {
+            refuse(
+                at,
+                format!("two patterns bind `{name}`, and this needs both; give one of them another name"),
+            )
+        })
     }
 
     /// `a` where the condition holds, else `b`.
@@ -453,11 +629,12 @@ impl Lowering<'_> {
         if a.same(&b) {
             return Ok(a);
         }
+        self.unify_values(&a, &b)?;
         match (a, b) {
             (Value::Truth(a), Value::Truth(b)) => {
                 let positive = a.and(&mut self.graph, Truth::Where(condition));
-                let negated = self.graph.node(Operation::Not(condition));
-                let negative = b.and(&mut self.graph, Truth::Where(negated));
+                let negated = Truth::Where(condition).not(&mut self.graph);
+                let negative = b.and(&mut self.graph, negated);
                 Ok(Value::Truth(positive.or(&mut self.graph, negative)))
             }
             (Value::Sequence(a), Value::Sequence(b)) if a.len() == b.len() => {
@@ -474,15 +651,32 @@ impl Lowering<'_> {
                 let a = (0..b.len()).map(|index| Value::Written(a.entry(index))).collect();
                 self.select_all(at, condition, a, b).map(Value::Sequence)
             }
-            (Value::Integer(_), Value::Integer(_)) => refuse(
-                at,
-                "an integer that depends on a comparison of numbers; choose between the results with `if` instead",
-            ),
+            (Value::Integer(a), Value::Integer(b)) if a.value == b.value => Ok(Value::Integer(a)),
+            // Integers, or fields that may be.
+            (
+                a @ (Value::Integer(_) | Value::Written(_) | Value::Chosen(_)),
+                b @ (Value::Integer(_) | Value::Written(_) | Value::Chosen(_)),
+            ) => Ok(Value::Chosen(Rc::new(Chosen { condition, a, b, name: None }))),
+            (Value::Unset, _) | (_, Value::Unset) => Ok(Value::Unset),
             (a, b) => {
-                let (a, b) = (self.scalar(at, a)?, self.scalar(at, b)?);
+                let a = self.under(condition, true, |this| this.scalar(at, a))?;
+                let b = self.under(condition, false, |this| this.scalar(at, b))?;
                 Ok(Value::Real(self.graph.select(condition, a, b)))
             }
         }
+    }
+
+    /// What an operation makes of either of the two that a value may be.
+    fn distribute(
+        &mut self,
+        at: &impl ToTokens,
+        chosen: &Chosen,
+        mut run: impl FnMut(&mut Self, Value) -> Result<Value>,
+    ) -> Result<Value> {
+        self.count(at)?;
+        let a = self.under(chosen.condition, true, |this| run(this, chosen.a.clone()))?;
+        let b = self.under(chosen.condition, false, |this| run(this, chosen.b.clone()))?;
+        self.select(at, chosen.condition, a, b)
     }
 
     fn select_all(
@@ -500,10 +694,14 @@ impl Lowering<'_> {
         self.locals.iter().rev().find(|(known, _)| *known == name).map(|(_, value)| value)
     }
 
+    fn is_too_long(&self) -> bool {
+        self.evaluations > MAX_EVALUATIONS || self.graph.len() > MAX_NODES
+    }
+
     /// Counts work, so that no loop runs without end.
     fn count(&mut self, at: &impl ToTokens) -> Result<()> {
         self.evaluations += 1;
-        if self.evaluations > MAX_EVALUATIONS || self.graph.len() > MAX_NODES {
+        if self.is_too_long() {
             return refuse(at, "the loops, written out, are too long for straight-line code");
         }
         Ok(())
@@ -512,10 +710,21 @@ impl Lowering<'_> {
     fn closure(&self, closure: &syn::ExprClosure) -> Value {
         Value::Closure(Rc::new(Closure {
             parameters: closure.inputs.iter().cloned().collect(),
+            result: match &closure.output {
+                ReturnType::Type(_, ty) => Some((**ty).clone()),
+                ReturnType::Default => None,
+            },
             body: (*closure.body).clone(),
             locals: self.locals.clone(),
+            last: RefCell::new(None),
         }))
     }
+}
+
+/// Whether a floating-point number of the body can have this type.
+fn is_of_scalar(ty: &Type, scalar: &Ident) -> bool {
+    matches!(ty, Type::Infer(_) | Type::ImplTrait(_))
+        || super::model::simple_name(ty).is_some_and(|name| name == scalar)
 }
 
 /// What surrounds a body that is called.
@@ -524,7 +733,7 @@ struct Outside {
     captured: usize,
     returned: Returned,
     leaving: Option<Leaving>,
-    expected: Option<usize>,
+    guards: usize,
 }
 
 /// The tokens of a field with an index or member behind it.

@@ -15,7 +15,7 @@
 use std::collections::{BTreeMap, HashSet};
 
 use proc_macro2::{Span, TokenStream};
-use quote::{ToTokens, format_ident};
+use quote::{ToTokens, format_ident, quote};
 use syn::visit_mut::{self, VisitMut};
 use syn::{
     BinOp, Expr, ExprBinary, ExprCall, ExprCast, ExprField, ExprMethodCall, ExprPath, FnArg, Ident,
@@ -24,11 +24,14 @@ use syn::{
 
 use super::check::qualifiers;
 use super::diagnostics::{Mistake, Report, span_of};
+use super::expand::has_floats;
 use super::model::{Body, Source, System, is_integer, simple_name};
 use super::scope::bound_names;
+use super::syntax::Matches;
 use super::syntax::{
     METHODS, ROUNDING, identifier, is_assignment, is_constant_name, is_float_literal, is_function_of_std,
-    is_generic_of_std, is_place_of_self, is_plain, is_self, real_type, takes_function, without_parentheses,
+    is_generic_of_std, is_place_of_self, is_plain, is_self, is_variant, real_type, takes_function,
+    without_parentheses,
 };
 
 /// A function and what it becomes over `Real<D>`.
@@ -252,6 +255,16 @@ impl VisitMut for Rewriter<'_> {
             }
             // The length of `[x; N]` is a constant of the type system.
             Expr::Repeat(repeat) => self.visit_expr_mut(&mut repeat.expr),
+            Expr::Macro(invocation) if invocation.mac.path.is_ident("matches") => {
+                match invocation.mac.parse_body::<Matches>() {
+                    Ok(Matches { value, pattern, guard }) => {
+                        let guard = guard.map(|guard| quote!(if #guard));
+                        *expression = parse_quote!((match #value { #pattern #guard => true, _ => false }));
+                        visit_mut::visit_expr_mut(self, expression);
+                    }
+                    Err(_) => self.report.at(expression, Mistake::Macro),
+                }
+            }
             Expr::Macro(_) => self.report.at(expression, Mistake::Macro),
             Expr::Unsafe(block) => self.report.at(&block.unsafe_token, Mistake::Unsafe),
             Expr::Async(block) => self.report.at(&block.async_token, Mistake::Async),
@@ -286,6 +299,16 @@ impl VisitMut for Rewriter<'_> {
                 }
             }
             Pat::Macro(_) => self.report.at(pattern, Mistake::Macro),
+            Pat::TupleStruct(inner) if is_variant(&inner.path) => {
+                self.report.at(&inner.path, Mistake::VariantByDuals);
+            }
+            Pat::Struct(inner) if is_variant(&inner.path) => {
+                self.report.at(&inner.path, Mistake::VariantByDuals);
+            }
+            Pat::Path(inner) if is_variant(&inner.path) => self.report.at(inner, Mistake::VariantByDuals),
+            Pat::Ident(inner) if is_variant(&inner.ident.clone().into()) => {
+                self.report.at(inner, Mistake::VariantByDuals);
+            }
             Pat::Const(_) | Pat::Path(_) => {}
             _ => visit_mut::visit_pat_mut(self, pattern),
         }
@@ -386,8 +409,9 @@ impl Rewriter<'_> {
         if is_self(&call.receiver) {
             if self.is_function_of_block(&call.method) {
                 self.functions.push(call.method.clone());
+                let says_nothing = call.args.is_empty() || self.takes_no_float(&call.method);
                 call.method = over(&call.method);
-                if call.args.is_empty() {
+                if says_nothing {
                     call.turbofish = Some(parse_quote!(::<D>));
                 }
             } else {
@@ -501,6 +525,10 @@ impl Rewriter<'_> {
             let span = span_of(path);
             return Some(parse_quote_spanned!(span=> D::lift(#path)));
         }
+        if path.path.segments.len() > 1 && is_variant(&path.path) {
+            self.report.at(path, Mistake::VariantByDuals);
+            return None;
+        }
         // A misspelled local: rustc knows better which one was meant.
         if path.path.get_ident().is_some() {
             return None;
@@ -517,9 +545,10 @@ impl Rewriter<'_> {
             return None;
         }
         self.functions.push(last.ident.clone());
+        let says_nothing = without_arguments || self.takes_no_float(&last.ident);
         let name = over(&last.ident);
         let first = &first.ident;
-        Some(if without_arguments { parse_quote!(#first::#name::<D>) } else { parse_quote!(#first::#name) })
+        Some(if says_nothing { parse_quote!(#first::#name::<D>) } else { parse_quote!(#first::#name) })
     }
 
     /// `f64::sin` → `Real::<D>::sin`.
@@ -536,6 +565,17 @@ impl Rewriter<'_> {
         }
         let span = first.ident.span();
         Some(parse_quote_spanned!(span=> Real::<D>::#last))
+    }
+
+    /// Whether the arguments of a function of the block leave open what numbers it works on.
+    fn takes_no_float(&self, name: &Ident) -> bool {
+        let function = self.system.source.functions().find(|function| function.sig.ident == *name);
+        function.is_some_and(|function| {
+            function.sig.inputs.iter().all(|parameter| match parameter {
+                FnArg::Typed(parameter) => !has_floats(&parameter.ty),
+                FnArg::Receiver(_) => true,
+            })
+        })
     }
 
     fn is_function_of_block(&self, name: &Ident) -> bool {

@@ -1,7 +1,10 @@
 //! What an expression, a path or a type is by its form alone: literals, places of `self`, names of the standard library.
 
 use proc_macro2::Span;
-use syn::{BinOp, Expr, ExprLit, Ident, Lit, Path, PathArguments, Type, UnOp, parse_quote_spanned};
+use syn::parse::{Parse, ParseStream};
+use syn::{
+    BinOp, Expr, ExprLit, Ident, Lit, Pat, Path, PathArguments, Token, Type, UnOp, parse_quote_spanned,
+};
 
 use super::model::is_integer;
 
@@ -47,6 +50,11 @@ pub fn is_assignment(operator: &BinOp) -> bool {
             | BinOp::MulAssign(_)
             | BinOp::DivAssign(_)
             | BinOp::RemAssign(_)
+            | BinOp::BitAndAssign(_)
+            | BinOp::BitOrAssign(_)
+            | BinOp::BitXorAssign(_)
+            | BinOp::ShlAssign(_)
+            | BinOp::ShrAssign(_)
     )
 }
 
@@ -68,6 +76,17 @@ pub fn is_place_of_self(expression: &Expr) -> bool {
 pub fn is_constant_name(name: &Ident) -> bool {
     let name = name.to_string();
     name.contains(char::is_uppercase) && !name.contains(char::is_lowercase)
+}
+
+/// A path such as `Law::Linear`, unless it is one of the standard library's that bodies may hold.
+pub fn is_variant(path: &Path) -> bool {
+    let Some(last) = path.segments.last() else { return false };
+    let name = last.ident.to_string();
+    let of_std = ["Option", "Ordering", "Result"].iter().any(|ty| path.segments[0].ident == ty)
+        || ["Some", "None", "Ok", "Err"].iter().any(|variant| name == *variant)
+        || ["std", "core"].iter().any(|root| path.segments[0].ident == root)
+        || path.is_ident("Self");
+    !of_std && name.starts_with(char::is_uppercase) && name.contains(char::is_lowercase)
 }
 
 /// Methods whose argument is often a function's name.
@@ -181,5 +200,28 @@ pub fn identifier(name: &str, span: Span) -> Ident {
     match name.strip_prefix("r#") {
         Some(raw) => Ident::new_raw(raw, span),
         None => Ident::new(name, span),
+    }
+}
+
+/// What stands between the parentheses of `matches!`.
+pub struct Matches {
+    pub value: Expr,
+    pub pattern: Pat,
+    pub guard: Option<Expr>,
+}
+
+impl Parse for Matches {
+    fn parse(input: ParseStream) -> syn::Result<Self> {
+        let value = input.parse()?;
+        input.parse::<Token![,]>()?;
+        let pattern = Pat::parse_multi_with_leading_vert(input)?;
+        let guard = if input.peek(Token![if]) {
+            input.parse::<Token![if]>()?;
+            Some(input.parse()?)
+        } else {
+            None
+        };
+        input.parse::<Option<Token![,]>>()?;
+        Ok(Self { value, pattern, guard })
     }
 }

@@ -90,12 +90,12 @@ pub fn definition(system: &System<'_>) -> Option<TokenStream> {
     };
     let function = format_ident!("{function}");
     let about = format!(" [`{system_name}`] with {about}; see [`{system_name}::{function}`].");
-    let input_parameter = m.iter().map(|m| quote!(u: impl ::core::convert::Into<[#scalar; #m]>));
+    let input_parameter = m.iter().map(|m| quote!(u: impl ::dalembert::Input<#scalar, #m>));
     let parameters = input_parameter.chain(time_parameter.map(|scalar| quote!(t: #scalar)));
-    let u = m.iter().map(|_| quote!(u: u.into()));
+    let u = m.iter().map(|_| quote!(u: ::dalembert::Input::entries(u)));
     let values = u.chain(t);
     // pub struct DrivenArm<'a> { system: &'a Arm, u: [f64; 2] }
-    // pub fn driven(&self, u: impl Into<[f64; 2]>) -> DrivenArm<'_>
+    // pub fn driven(&self, u: impl Input<f64, 2>) -> DrivenArm<'_>
     Some(quote! {
         #(#conditions)*
         #[doc = #about]
@@ -132,8 +132,9 @@ pub fn later(system: &System<'_>) -> Option<TokenStream> {
     })
 }
 
-/// `impl Lagrangian<2> for DrivenArm<'_>`, or Rayleigh: that of the system itself, where it stands there.
-pub fn delegation(system: &System<'_>, part: Part) -> Option<TokenStream> {
+/// `impl Lagrangian<2> for DrivenArm<'_>`, or Rayleigh: that of the system itself, where it stands there. `verification` is the
+/// view's own: it has more functions than the system.
+pub fn delegation(system: &System<'_>, part: Part, verification: Option<TokenStream>) -> Option<TokenStream> {
     if !system.has_view() || system.home_of(part) == Home::View {
         return None;
     }
@@ -186,6 +187,8 @@ pub fn delegation(system: &System<'_>, part: Part) -> Option<TokenStream> {
             ) -> Variations<#scalar, #n> {
                 #of::#variations(self.system, q, v, minus, plus)
             }
+
+            #verification
 
             #later
         }

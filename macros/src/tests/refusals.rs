@@ -41,7 +41,10 @@ fn what_cannot_be_written_out_is_an_error_that_says_why() {
         let expanded = expansion("expanded", &body);
         assert!(expanded.contains("compile_error"), "{body} was accepted");
         assert!(expanded.contains(reason), "{body}: {expanded}");
-        assert!(expanded.contains("num_dual"), "no way out is named: {expanded}");
+        // The way out that is named is one.
+        let is_named = expanded.contains("or leave the derivatives to `derivatives = num_dual`");
+        let by_duals = expansion("num_dual", &body);
+        assert_eq!(is_named, !by_duals.contains("compile_error"), "{body}: {expanded}");
     }
 }
 
@@ -85,4 +88,208 @@ fn auto_leaves_the_rest_to_num_dual() {
 fn an_unknown_engine_is_named() {
     let expanded = expansion("symbolic", &quote!(q[0] * v[0]));
     assert!(expanded.contains("unknown engine `symbolic`"), "{expanded}");
+}
+
+#[test]
+fn conditions_inside_the_block_are_refused_at_their_tokens() {
+    let inside = [
+        quote!(
+            #[cfg(any())]
+            fn rayleigh(&self, v: [f64; 1]) -> f64 {
+                0.0
+            }
+        ),
+        quote!(
+            #[cfg(any())]
+            const K: usize = 3;
+        ),
+        quote!(
+            fn helper(#[cfg(any())] x: f64) -> f64 {
+                1.0
+            }
+        ),
+        quote!(
+            fn helper(x: f64) -> f64 {
+                #[cfg(any())]
+                let x = 2.0;
+                x
+            }
+        ),
+        quote!(
+            fn helper(x: f64) -> f64 {
+                #[cfg_attr(any(), allow(unused))]
+                let x = 2.0;
+                x
+            }
+        ),
+        quote!(
+            fn helper(n: u8) -> f64 {
+                match n {
+                    #[cfg(any())]
+                    0 => 1.0,
+                    _ => 2.0,
+                }
+            }
+        ),
+        quote!(
+            fn helper(x: f64) -> f64 {
+                [
+                    #[cfg(any())]
+                    1.0,
+                    x,
+                ][0]
+            }
+        ),
+        quote!(
+            fn helper(x: f64) -> f64 {
+                Pair {
+                    #[cfg(any())]
+                    x: 1.0,
+                    x,
+                }
+                .x
+            }
+        ),
+        quote!(
+            fn helper(p: Pair) -> f64 {
+                let Pair {
+                    #[cfg(any())]
+                    x,
+                    y,
+                } = p;
+                y
+            }
+        ),
+        quote!(
+            fn helper(x: f64) -> f64 {
+                x.max(
+                    #[cfg(any())]
+                    1.0,
+                )
+            }
+        ),
+    ];
+    let expanded = |inside: TokenStream, engine: TokenStream| {
+        let block = quote! {
+            impl System {
+                fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 { q[0] * v[0] }
+                #inside
+            }
+        };
+        rayleigh_system(Runtime::STD, quote!(derivatives = #engine), block).to_string()
+    };
+    for inside in &inside {
+        for engine in [quote!(auto), quote!(expanded), quote!(num_dual)] {
+            assert!(expanded(inside.clone(), engine).contains("is not decided yet"), "{inside}");
+        }
+    }
+    // The control: other attributes, and a condition on the whole item.
+    let other = expanded(
+        quote!(
+            #[inline]
+            #[allow(unused)]
+            fn helper() {}
+        ),
+        quote!(auto),
+    );
+    assert!(!other.contains("compile_error"), "{other}");
+    let whole = quote! {
+        #[cfg(any())]
+        impl System { fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 { q[0] * v[0] } }
+    };
+    let whole = rayleigh_system(Runtime::STD, TokenStream::new(), whole).to_string();
+    assert!(!whole.contains("compile_error"), "{whole}");
+}
+
+#[test]
+fn rustc_decides_what_a_name_in_a_pattern_is() {
+    let cases = [
+        (
+            quote!(match self.law {
+                None => 0.0,
+                Some(k) => k,
+            }),
+            "matches ! (self . law , None)",
+        ),
+        (
+            quote!(match self.n {
+                FIRST => 0.0,
+                _ => 1.0,
+            }),
+            "matches ! (self . n , FIRST)",
+        ),
+        (
+            quote!(match 2 {
+                FIRST => 0.0,
+                _ => q[0],
+            }),
+            "2 == FIRST",
+        ),
+        (
+            quote!(match self.n {
+                linear if linear > 3 => 0.0,
+                _ => 1.0,
+            }),
+            "matches ! (self . n , linear)",
+        ),
+        (
+            quote!(match Self::COUNT {
+                linear if linear > 3 => 0.0,
+                _ => q[0],
+            }),
+            "let linear = Binding",
+        ),
+        (
+            quote!({
+                use crate::Law::Linear;
+                match self.law {
+                    Linear(k) => k,
+                    _ => 1.0,
+                }
+            }),
+            "crate :: Law :: Linear (k)",
+        ),
+    ];
+    for (body, emitted) in cases {
+        let expanded = expansion("expanded", &quote!(q[0] * #body));
+        assert!(expanded.contains(emitted) && !expanded.contains("compile_error"), "{body}: {expanded}");
+    }
+    // Nothing decides on numbers.
+    for arms in [quote!(FIRST => 0.0, _ => 1.0), quote!(1.0 => 0.0, _ => 1.0)] {
+        assert!(expansion("expanded", &quote!(match q[0] { #arms })).contains("compile_error"), "{arms}");
+    }
+}
+
+#[test]
+fn methods_that_numbers_do_not_have_are_named_without_dual_numbers() {
+    for engine in ["auto", "expanded"] {
+        let expanded = expansion(engine, &quote!(q[0].square() * v[0]));
+        assert!(expanded.contains("`square` is no method of floating-point numbers"), "{expanded}");
+        assert!(!expanded.contains("num_dual"), "{expanded}");
+    }
+    // The control: one that dual numbers have.
+    assert!(!expansion("auto", &quote!(q[0].midpoint(v[0]))).contains("compile_error"));
+}
+
+#[test]
+fn a_renamed_dependency_is_named_throughout() {
+    let body = quote!(let mut x = q[0]; for i in 0..self.n { x *= v[0] } x);
+    for (engine, body) in [(quote!(expanded), quote!(q[0].sin() * v[0])), (quote!(auto), body)] {
+        let attribute = quote!(rule = [midpoint, gauss], derivatives = #engine, crate = mechanics);
+        let expanded = rayleigh_system(Runtime::STD, attribute, system(body.clone())).to_string();
+        assert!(expanded.contains("mechanics :: ") && !expanded.contains("compile_error"), "{expanded}");
+        assert!(!expanded.contains("dalembert"), "{expanded}");
+        // The control.
+        let attribute = quote!(rule = [midpoint, gauss], derivatives = #engine);
+        let expanded = rayleigh_system(Runtime::STD, attribute, system(body)).to_string();
+        assert!(expanded.contains(":: dalembert ::"), "{expanded}");
+    }
+}
+
+#[test]
+fn a_system_named_like_the_number_of_lanes_keeps_its_name() {
+    let block = |name: TokenStream| quote!(impl #name { fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 { v[0] * v[0] - self.k * q[0] } });
+    let lanes = |name| rayleigh_system(Runtime::STD, quote!(rule = gauss), block(name)).to_string();
+    assert!(lanes(quote!(S)).contains("const S_ : usize"));
+    assert!(lanes(quote!(T)).contains("const S : usize"));
 }

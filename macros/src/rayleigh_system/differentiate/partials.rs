@@ -246,9 +246,13 @@ fn of_pair(graph: &mut Graph, function: PairFunction, a: Node, b: Node, y: Node)
         PairFunction::Hypot => {
             // r = √(a² + b²): (a, b)/r, and the curvature of the circle across.
             let (cosine, sine) = (graph.over(a, y), graph.over(b, y));
-            let (aa, ab, bb) =
-                (graph.times(sine, sine), graph.times(cosine, sine), graph.times(cosine, cosine));
-            let (aa, ab, bb) = (graph.over(aa, y), graph.over(ab, y), graph.over(bb, y));
+            // Divided before they are multiplied: squares of a sine that is small could be none.
+            let (cosine_over, sine_over) = (graph.over(cosine, y), graph.over(sine, y));
+            let (aa, ab, bb) = (
+                graph.times(sine, sine_over),
+                graph.times(cosine, sine_over),
+                graph.times(cosine, cosine_over),
+            );
             let ab = graph.negated(ab);
             Partials { first: vec![(a, cosine), (b, sine)], second: vec![(a, a, aa), (a, b, ab), (b, b, bb)] }
         }

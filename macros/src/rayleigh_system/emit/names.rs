@@ -1,6 +1,6 @@
 //! Names of temporaries: the user's own, or what the expression is.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use syn::Ident;
 
@@ -9,12 +9,18 @@ use super::super::graph::{Graph, Node, Operation};
 /// The names given within one function.
 pub struct Names {
     taken: HashSet<String>,
+    /// The last number behind each name.
+    numbers: HashMap<String, usize>,
     unnamed: usize,
 }
 
 impl Names {
     pub fn new(taken: &[&str]) -> Self {
-        Self { taken: taken.iter().map(|&name| name.to_owned()).collect(), unnamed: 0 }
+        Self {
+            taken: taken.iter().map(|&name| name.to_owned()).collect(),
+            numbers: HashMap::new(),
+            unnamed: 0,
+        }
     }
 
     /// A name for the node that nothing else in the function has.
@@ -29,9 +35,9 @@ impl Names {
         // A keyword that the user wrote raw.
         let name = if syn::parse_str::<Ident>(&name).is_ok() { name } else { format!("{name}_") };
         let mut unique = name.clone();
-        let mut number = 1;
+        let number = self.numbers.entry(name.clone()).or_insert(1);
         while !self.taken.insert(unique.clone()) {
-            number += 1;
+            *number += 1;
             unique = format!("{name}_{number}");
         }
         Ident::new(&unique, proc_macro2::Span::call_site())

@@ -64,6 +64,10 @@ impl Code<'_> {
         let corrections = self.solved(&of_lagrangian, &residuals)?;
 
         let outputs = [rates, residuals, corrections].concat();
+        // Lanes take both ways of a selection.
+        if self.graph.is_conditional(outputs.iter().copied()) {
+            return None;
+        }
         let mut taken = vec!["q", "v", "p", "rate", "momenta"];
         if self.home == Home::View {
             taken.extend(["u", "t", "elapsed"]);

@@ -6,6 +6,8 @@
 //! p1      = ⟨L_v⟩ − (h/2) ⟨R_v⟩ + (h/2) (L_q + f)(q1) − (h²/4) R_q(q1)
 //! ```
 
+use std::collections::HashMap;
+
 use super::kernel::{Equation, Parts};
 use super::*;
 
@@ -14,6 +16,8 @@ struct End {
     q: Vec<Node>,
     /// The time there; that of the start has the name that the bodies know.
     t: Option<Node>,
+    /// What has been moved there.
+    moved: HashMap<Node, Node>,
 }
 
 impl Code<'_> {
@@ -22,13 +26,16 @@ impl Code<'_> {
         let [q0, q1] = ["q0", "q1"]
             .map(|end| (0..self.n).map(|index| self.graph.entry(end, index)).collect::<Vec<Node>>());
         let end_time = self.system.timed.any().then(|| self.graph.written(quote!(t_end)));
-        let (start, end) = (End { q: q0, t: None }, End { q: q1, t: end_time });
+        let (mut start, mut end) = (
+            End { q: q0, t: None, moved: HashMap::new() },
+            End { q: q1, t: end_time, moved: HashMap::new() },
+        );
         let (mut p0, mut p1) = (Vec::new(), Vec::new());
         for index in 0..self.n {
             let (v, q) = (self.variable(index, true), self.variable(index, false));
             let by_v = [&parts.lagrangian, &parts.rayleigh].map(|of| of.gradient.get(&v).copied());
             let by_q = [&parts.lagrangian, &parts.rayleigh].map(|of| of.gradient.get(&q).copied());
-            let [l_v, r_v] = by_v.map(|entry| entry.map(|entry| self.mean(entry, &start, &end)));
+            let [l_v, r_v] = by_v.map(|entry| entry.map(|entry| self.mean(entry, &mut start, &mut end)));
             let r_v = r_v.map(|r_v| self.graph.times(half, r_v));
             let force = [by_q[0], parts.force.get(index).copied()];
             let force = force.into_iter().flatten().reduce(|a, b| self.graph.plus(a, b));
@@ -36,15 +43,15 @@ impl Code<'_> {
             let share = by_q[1].map(|r_q| self.graph.times(half, r_q));
 
             // (h/2) (L_q + f ± (h/2) R_q) at one end.
-            let impulse = |code: &mut Self, end: &End, share: Option<Node>| {
+            let impulse = |code: &mut Self, end: &mut End, share: Option<Node>| {
                 let terms = [force, share].into_iter().flatten();
                 let sum = terms.reduce(|a, b| code.graph.plus(a, b))?;
                 let sum = code.at(sum, end);
                 Some(code.graph.times(half, sum))
             };
-            let before = impulse(self, &start, share).map(|impulse| self.graph.negated(impulse));
+            let before = impulse(self, &mut start, share).map(|impulse| self.graph.negated(impulse));
             let negative = share.map(|share| self.graph.negated(share));
-            let after = impulse(self, &end, negative);
+            let after = impulse(self, &mut end, negative);
             let drag = r_v.map(|r_v| self.graph.negated(r_v));
             for (momenta, terms) in [(&mut p0, [l_v, r_v, before]), (&mut p1, [l_v, drag, after])] {
                 let sum = terms.into_iter().flatten().reduce(|a, b| self.graph.plus(a, b));
@@ -55,9 +62,9 @@ impl Code<'_> {
             let mut sum = None;
             for (of, is_rayleigh) in [(&parts.lagrangian, false), (&parts.rayleigh, true)] {
                 let second =
-                    code.second(of, (i, true), (j, true)).map(|entry| code.mean(entry, &start, &end));
-                let ahead = code.second(of, (i, true), (j, false)).map(|entry| code.at(entry, &end));
-                let behind = code.second(of, (i, false), (j, true)).map(|entry| code.at(entry, &start));
+                    code.second(of, (i, true), (j, true)).map(|entry| code.mean(entry, &mut start, &mut end));
+                let ahead = code.second(of, (i, true), (j, false)).map(|entry| code.at(entry, &mut end));
+                let behind = code.second(of, (i, false), (j, true)).map(|entry| code.at(entry, &mut start));
                 let skew = match (ahead, behind) {
                     (Some(ahead), Some(behind)) if ahead == behind => None,
                     (Some(ahead), Some(behind)) => Some(code.graph.minus(ahead, behind)),
@@ -74,7 +81,7 @@ impl Code<'_> {
             }
             let variable = code.variable(j, true);
             if let Some(&by_v) = parts.rows.get(i).and_then(|row| row.get(&variable)) {
-                let by_v = code.at(by_v, &start);
+                let by_v = code.at(by_v, &mut start);
                 let share = code.graph.times(half, by_v);
                 let share = code.graph.negated(share);
                 sum = Some(code.added(sum, share));
@@ -85,12 +92,12 @@ impl Code<'_> {
     }
 
     /// The expression at one end.
-    fn at(&mut self, node: Node, end: &End) -> Node {
-        self.graph.at(&[node], &end.q, end.t)[0]
+    fn at(&mut self, node: Node, end: &mut End) -> Node {
+        self.graph.at(node, &end.q, end.t, &mut end.moved)
     }
 
     /// The mean over both ends.
-    fn mean(&mut self, node: Node, start: &End, end: &End) -> Node {
+    fn mean(&mut self, node: Node, start: &mut End, end: &mut End) -> Node {
         let (a, b) = (self.at(node, start), self.at(node, end));
         if a == b {
             return a;

@@ -15,6 +15,9 @@ use std::collections::{HashMap, HashSet};
 use super::algebra::exact;
 use super::{Graph, Node, Operation};
 
+/// How many sums and products deep a sum is taken apart, and how many factors of a product are looked at.
+const DEEPEST: u32 = 128;
+
 /// A product: a constant and what it multiplies.
 #[derive(Clone, Debug)]
 struct Term {
@@ -73,14 +76,20 @@ impl Graph {
             .filter(|&node| matches!(self.operation(node), Operation::Compare(..) | Operation::Is(..)));
         let mut kept: HashSet<Node> = self.reachable(conditions).into_iter().collect();
         kept.extend(nodes.iter().filter(|node| node.index() < written));
-        let mut open = HashSet::new();
+        let mut open: HashMap<Node, u32> = HashMap::new();
         for &node in nodes.iter().rev() {
-            if self.is_sum_or_product(node) && (!kept.contains(&node) || open.contains(&node)) {
-                open.extend(self.operation(node).arguments().filter(|&part| {
+            let depth = open.get(&node).copied();
+            if self.is_sum_or_product(node)
+                && (!kept.contains(&node) || depth.is_some())
+                && depth.is_none_or(|depth| depth < DEEPEST)
+            {
+                let parts = self.operation(node).arguments().filter(|&part| {
                     uses[&part] == 1 && self.is_sum_or_product(part) && self.name(part).is_none()
-                }));
+                });
+                open.extend(parts.map(|part| (part, depth.unwrap_or(0) + 1)));
             }
         }
+        let open: HashSet<Node> = open.into_keys().collect();
         let mut factoring =
             Factoring { graph: self, kept, open, rewritten: HashMap::new(), products: HashSet::new() };
         for node in nodes {
@@ -209,8 +218,9 @@ impl Factoring<'_> {
         let factors = std::mem::take(&mut product.factors);
         for factor in factors {
             let mut inner = Term::constant(1.0);
-            self.flatten(&mut inner, factor);
-            let joins = product.coefficient.abs() != 1.0 && inner.coefficient.abs() != 1.0;
+            let joins = product.coefficient.abs() != 1.0
+                && self.flatten(&mut inner, factor)
+                && inner.coefficient.abs() != 1.0;
             if joins && product.scale(inner.coefficient) {
                 product.factors.extend(inner.factors);
             } else {
@@ -219,16 +229,20 @@ impl Factoring<'_> {
         }
     }
 
-    /// Multiplies `product` by the factors of `node`.
-    fn flatten(&self, product: &mut Term, node: Node) {
-        match self.graph.operation(node) {
-            Operation::Multiply(a, b) => {
-                self.flatten(product, a);
-                self.flatten(product, b);
+    /// Multiplies `product` by the factors of `node`, unless they are very many: squares of squares are.
+    fn flatten(&self, product: &mut Term, node: Node) -> bool {
+        let mut ahead = vec![node];
+        while let Some(node) = ahead.pop() {
+            match self.graph.operation(node) {
+                Operation::Multiply(a, b) => ahead.extend([b, a]),
+                Operation::Constant(bits) if product.scale(f64::from_bits(bits)) => {}
+                _ => product.factors.push(node),
             }
-            Operation::Constant(bits) if product.scale(f64::from_bits(bits)) => {}
-            _ => product.factors.push(node),
+            if ahead.len() + product.factors.len() > DEEPEST as usize {
+                return false;
+            }
         }
+        true
     }
 
     /// The sum of `terms`: the factor that most of them share taken out, until they share none.
@@ -382,7 +396,10 @@ fn collected(terms: Vec<Term>) -> Vec<Term> {
 /// Takes the constant that all terms share out of them, with their sign where all have one.
 fn common_coefficient(terms: &mut [Term]) -> f64 {
     let size = terms[0].coefficient.abs();
-    let common = if terms.iter().all(|term| term.coefficient.abs() == size) { size } else { 1.0 };
+    // Where terms cancelled, 0 and what it would be divided by are no common factor.
+    let may_divide = size > 0.0 && size.is_finite();
+    let common =
+        if may_divide && terms.iter().all(|term| term.coefficient.abs() == size) { size } else { 1.0 };
     let sign = if terms.iter().all(|term| term.coefficient.is_sign_negative()) { -1.0 } else { 1.0 };
     terms.iter_mut().for_each(|term| term.coefficient = sign * term.coefficient / common);
     sign * common

@@ -1,16 +1,29 @@
-//! Methods: of the system, of numbers, of integers, of arrays and iterators.
+//! Methods: of the system, of numbers.
 
 use proc_macro2::Ident;
-use syn::ExprMethodCall;
+use syn::{Expr, ExprMethodCall, ExprRange, RangeLimits, Type};
 
 use super::super::differentiate::extremum;
 use super::super::graph::{Comparison, Function, Operation, PairFunction, Predicate};
+use super::super::syntax::{METHODS, ROUNDING};
+use super::integer::IntegerType;
 use super::value::{Truth, Value};
-use super::{Lowering, Node, Result, refuse};
+use super::{Lowering, Node, Refusal, Result, refuse};
 
 impl Lowering<'_> {
     pub fn method_call(&mut self, call: &ExprMethodCall) -> Result<Value> {
+        if let Some(range) = as_range(&call.receiver)
+            && call.method == "contains"
+            && let [value] = &call.args.iter().collect::<Vec<_>>()[..]
+        {
+            return self.range_contains(range, value);
+        }
         let receiver = self.expression(&call.receiver)?;
+        if let Value::Written(written) = &receiver
+            && let Some(value) = self.option_method(call, written)?
+        {
+            return Ok(value);
+        }
         let arguments =
             call.args.iter().map(|argument| self.expression(argument)).collect::<Result<Vec<_>>>()?;
         match receiver {
@@ -23,23 +36,90 @@ impl Lowering<'_> {
                 };
                 self.call(&call.method, &function.sig, &function.block, arguments)
             }
-            receiver => self.value_method(&call.method, receiver, arguments),
+            receiver => {
+                let said = call.turbofish.as_ref().and_then(|turbofish| turbofish.args.first());
+                let said = match said {
+                    Some(syn::GenericArgument::Type(ty)) => Some(ty),
+                    _ => None,
+                };
+                self.value_method(&call.method, receiver, arguments, said)
+            }
         }
     }
 
-    /// A method of a value.
-    pub fn value_method(&mut self, method: &Ident, receiver: Value, arguments: Vec<Value>) -> Result<Value> {
+    /// A method of a value; `said` is the type behind its name.
+    pub fn value_method(
+        &mut self,
+        method: &Ident,
+        receiver: Value,
+        arguments: Vec<Value>,
+        said: Option<&Type>,
+    ) -> Result<Value> {
         match receiver {
-            Value::Sequence(entries) => self.sequence_method(method, entries, arguments),
-            Value::Integer(value) => integer_method(method, value, &arguments),
-            Value::Real(_) | Value::Written(_) => self.number_method(method, receiver, arguments),
             receiver if method == "clone" && arguments.is_empty() => Ok(receiver),
+            Value::Sequence(entries) => self.sequence_method(method, entries, arguments, said),
+            Value::Integer(integer) => {
+                if let Some(Value::Chosen(argument)) = arguments.first().filter(|_| arguments.len() == 1) {
+                    return self.distribute(method, argument, |this, argument| {
+                        this.value_method(method, Value::Integer(integer), vec![argument], None)
+                    });
+                }
+                if let [Value::Written(_)] = &arguments[..] {
+                    self.beside_field(integer);
+                    let receiver = super::operator::literal(integer);
+                    if let Some(value) = self.written_method(method, &receiver, &arguments)? {
+                        return Ok(value);
+                    }
+                }
+                self.integer_method(method, integer, &arguments)
+            }
+            Value::Written(written) => match self.written_method(method, &written, &arguments)? {
+                Some(value) => Ok(value),
+                None => self.number_method(method, Value::Written(written), arguments),
+            },
+            Value::Chosen(chosen) if !arguments.iter().any(|argument| matches!(argument, Value::Real(_))) => {
+                self.distribute(method, &chosen, |this, receiver| {
+                    this.value_method(method, receiver, arguments.clone(), None)
+                })
+            }
+            Value::Real(_) | Value::Chosen(_) => self.number_method(method, receiver, arguments),
             _ => refuse(method, format!("the method `{method}` cannot be followed at compile time")),
         }
     }
 
-    fn number_method(&mut self, method: &Ident, receiver: Value, arguments: Vec<Value>) -> Result<Value> {
+    /// `(low..high).contains(&value)`
+    fn range_contains(&mut self, range: &ExprRange, value: &Expr) -> Result<Value> {
+        let start = range.start.as_deref().map(|start| self.expression(start)).transpose()?;
+        let end = range.end.as_deref().map(|end| self.expression(end)).transpose()?;
+        let value_of = self.expression(value)?;
+        let is_closed = matches!(range.limits, RangeLimits::Closed(_));
+        let mut holds = Truth::Known(true);
+        let span = super::span_of(range);
+        let upper = if is_closed {
+            syn::BinOp::Le(syn::Token![<=](span))
+        } else {
+            syn::BinOp::Lt(syn::Token![<](span))
+        };
+        let lower = syn::BinOp::Le(syn::Token![<=](span));
+        for (bound, operator, is_lower) in [(start, lower, true), (end, upper, false)] {
+            let Some(bound) = bound else { continue };
+            let (left, right) = if is_lower { (bound, value_of.clone()) } else { (value_of.clone(), bound) };
+            let at: syn::ExprBinary = syn::parse_quote!(#value #operator #value);
+            let compared = self.operate(&at, &operator, left, right)?;
+            let compared = self.truth(range, compared)?;
+            holds = holds.and(&mut self.graph, compared);
+        }
+        Ok(Value::Truth(holds))
+    }
+
+    pub fn number_method(&mut self, method: &Ident, receiver: Value, arguments: Vec<Value>) -> Result<Value> {
         let name = method.to_string();
+        if matches!(receiver, Value::Real(_)) && !is_method_of_floats(&name) {
+            let reason = format!(
+                "`{method}` is no method of floating-point numbers with a derivative; make it a function of the annotated block"
+            );
+            return Err(Refusal::at(method, reason).for_all());
+        }
         let unknown = || -> Result<Value> {
             refuse(
                 method,
@@ -54,8 +134,12 @@ impl Lowering<'_> {
         if name == "powi" {
             let x = self.scalar(method, receiver)?;
             return match arguments[..] {
-                [Value::Integer(n)] if i32::try_from(n).is_ok() => {
-                    Ok(Value::Real(self.graph.power(x, n as i32)))
+                [Value::Integer(n)] => {
+                    self.of_type(n.class, IntegerType::I32)?;
+                    match i32::try_from(n.value) {
+                        Ok(n) => Ok(Value::Real(self.graph.power(x, n))),
+                        Err(_) => refuse(method, "an exponent beyond `i32`"),
+                    }
                 }
                 _ => refuse(method, "the exponent of `powi` is not known at compile time; use `powf`"),
             };
@@ -71,6 +155,7 @@ impl Lowering<'_> {
         let x = self.scalar(method, receiver)?;
         let arguments: Vec<Node> =
             arguments.into_iter().map(|argument| self.scalar(method, argument)).collect::<Result<_>>()?;
+        let is_single = self.scalar == "f32";
         let graph = &mut self.graph;
         if let (Some(predicate), []) = (Predicate::named(&name), &arguments[..]) {
             return Ok(Value::Truth(Truth::Where(graph.node(Operation::Is(predicate, x)))));
@@ -98,11 +183,16 @@ impl Lowering<'_> {
             }
             ("mul_add", &[a, b]) => graph.node(Operation::MultiplyAdd(x, a, b)),
             ("to_radians", []) => {
-                let factor = graph.constant(core::f64::consts::PI / 180.0);
+                let single = f64::from(core::f32::consts::PI / 180.0);
+                let factor = if is_single { single } else { core::f64::consts::PI / 180.0 };
+                let factor = graph.constant(factor);
                 graph.node(Operation::Multiply(x, factor))
             }
             ("to_degrees", []) => {
-                let factor = graph.constant(180.0 / core::f64::consts::PI);
+                // The constant that `f32::to_degrees` has.
+                let single = f64::from(57.295_78_f32);
+                let factor = if is_single { single } else { 180.0 / core::f64::consts::PI };
+                let factor = graph.constant(factor);
                 graph.node(Operation::Multiply(x, factor))
             }
             ("log", &[base]) => {
@@ -113,159 +203,51 @@ impl Lowering<'_> {
         };
         Ok(Value::Real(node))
     }
-
-    fn sequence_method(
-        &mut self,
-        method: &Ident,
-        entries: Vec<Value>,
-        arguments: Vec<Value>,
-    ) -> Result<Value> {
-        let name = method.to_string();
-        let pair = |a: Value, b: Value| Value::Tuple(vec![a, b]);
-        let entries: Vec<Value> = match (name.as_str(), &arguments[..]) {
-            (
-                "iter" | "into_iter" | "copied" | "cloned" | "clone" | "by_ref" | "as_slice" | "to_owned",
-                [],
-            ) => entries,
-            ("len" | "count", []) => return Ok(Value::Integer(entries.len() as i128)),
-            ("map" | "flat_map", [function]) => {
-                let mut mapped = Vec::new();
-                for entry in entries {
-                    mapped.push(self.apply(method, function, vec![entry])?);
-                }
-                if name == "map" { mapped } else { flattened(method, mapped)? }
-            }
-            ("flatten", []) => flattened(method, entries)?,
-            ("zip", [Value::Sequence(others)]) => {
-                entries.into_iter().zip(others.iter().cloned()).map(|(a, b)| pair(a, b)).collect()
-            }
-            ("zip", _) => {
-                return refuse(
-                    method,
-                    "the length of what is zipped with is not known here; give it a type, as in `let m: [f64; 3] = self.m;`, or use an index",
-                );
-            }
-            ("enumerate", []) => {
-                (0..).zip(entries).map(|(index, entry)| pair(Value::Integer(index), entry)).collect()
-            }
-            ("rev", []) => entries.into_iter().rev().collect(),
-            ("chain", [Value::Sequence(others)]) => {
-                entries.into_iter().chain(others.iter().cloned()).collect()
-            }
-            ("skip", &[Value::Integer(count)]) => entries.into_iter().skip(size(method, count)?).collect(),
-            ("take", &[Value::Integer(count)]) => entries.into_iter().take(size(method, count)?).collect(),
-            ("step_by", &[Value::Integer(step)]) if step > 0 => {
-                entries.into_iter().step_by(size(method, step)?).collect()
-            }
-            ("windows", &[Value::Integer(width)]) if width > 0 => {
-                entries.windows(size(method, width)?).map(|window| Value::Sequence(window.to_vec())).collect()
-            }
-            ("chunks", &[Value::Integer(width)]) if width > 0 => {
-                entries.chunks(size(method, width)?).map(|chunk| Value::Sequence(chunk.to_vec())).collect()
-            }
-            ("chunks_exact", &[Value::Integer(width)]) if width > 0 => entries
-                .chunks_exact(size(method, width)?)
-                .map(|chunk| Value::Sequence(chunk.to_vec()))
-                .collect(),
-            ("filter", [function]) => {
-                let mut kept = Vec::new();
-                for entry in entries {
-                    let chosen = self.apply(method, function, vec![entry.clone()])?;
-                    match self.truth(method, chosen)? {
-                        Truth::Known(true) => kept.push(entry),
-                        Truth::Known(false) => {}
-                        Truth::Where(_) => {
-                            return refuse(
-                                method,
-                                "numbers decide what is kept; select a term with `if` instead",
-                            );
-                        }
-                    }
-                }
-                kept
-            }
-            ("sum" | "product", []) => return self.total(method, entries),
-            ("fold", [start, function]) => {
-                let mut total = start.clone();
-                for entry in entries {
-                    total = self.apply(method, function, vec![total, entry])?;
-                }
-                return Ok(total);
-            }
-            _ => {
-                return refuse(
-                    method,
-                    format!("the method `{method}` cannot be followed at compile time; use a `for` loop"),
-                );
-            }
-        };
-        Ok(Value::Sequence(entries))
-    }
-
-    /// The sum or the product, from left to right.
-    fn total(&mut self, method: &Ident, entries: Vec<Value>) -> Result<Value> {
-        let is_sum = method == "sum";
-        let integers: Option<Vec<i128>> = entries
-            .iter()
-            .map(|entry| if let Value::Integer(value) = entry { Some(*value) } else { None })
-            .collect();
-        if let Some(integers) = integers.filter(|integers| !integers.is_empty()) {
-            let total = integers.iter().try_fold(i128::from(!is_sum), |total: i128, value| {
-                if is_sum { total.checked_add(*value) } else { total.checked_mul(*value) }
-            });
-            return match total {
-                Some(total) => Ok(Value::Integer(total)),
-                None => refuse(method, "this integer cannot be computed at compile time"),
-            };
-        }
-        let mut total = None;
-        for entry in entries {
-            let entry = self.scalar(method, entry)?;
-            total = Some(match total {
-                None => entry,
-                Some(total) if is_sum => self.graph.add(total, entry),
-                Some(total) => self.graph.node(Operation::Multiply(total, entry)),
-            });
-        }
-        let empty = if is_sum { 0.0 } else { 1.0 };
-        Ok(Value::Real(total.unwrap_or_else(|| self.graph.constant(empty))))
-    }
 }
 
-fn flattened(method: &Ident, entries: Vec<Value>) -> Result<Vec<Value>> {
-    let mut flat = Vec::new();
-    for entry in entries {
-        match entry {
-            Value::Sequence(entries) => flat.extend(entries),
-            _ => return refuse(method, "what is flattened is no array whose length is known here"),
-        }
-    }
-    Ok(flat)
+/// Whether floating-point numbers have a method of that name, here or over dual numbers.
+fn is_method_of_floats(name: &str) -> bool {
+    const OTHERS: [&str; 27] = [
+        "add",
+        "classify",
+        "clone",
+        "clone_into",
+        "cmp",
+        "div",
+        "div_euclid",
+        "eq",
+        "ge",
+        "gt",
+        "into",
+        "is_normal",
+        "is_subnormal",
+        "le",
+        "lt",
+        "midpoint",
+        "mul",
+        "ne",
+        "neg",
+        "partial_cmp",
+        "rem",
+        "rem_euclid",
+        "sub",
+        "to_owned",
+        "total_cmp",
+        "try_into",
+        "borrow",
+    ];
+    METHODS.contains(&name)
+        || ROUNDING.contains(&name)
+        || OTHERS.contains(&name)
+        || Predicate::named(name).is_some()
 }
 
-fn size(method: &Ident, value: i128) -> Result<usize> {
-    match usize::try_from(value) {
-        Ok(size) => Ok(size),
-        Err(_) => refuse(method, "a negative length"),
-    }
-}
-
-fn integer_method(method: &Ident, value: i128, arguments: &[Value]) -> Result<Value> {
-    let result = match (method.to_string().as_str(), arguments) {
-        ("pow", &[Value::Integer(n)]) => u32::try_from(n).ok().and_then(|n| value.checked_pow(n)),
-        ("min", &[Value::Integer(other)]) => Some(value.min(other)),
-        ("max", &[Value::Integer(other)]) => Some(value.max(other)),
-        ("abs", []) => value.checked_abs(),
-        ("abs_diff", &[Value::Integer(other)]) => value.checked_sub(other).and_then(i128::checked_abs),
-        ("saturating_sub", &[Value::Integer(other)]) => Some((value - other).max(0)),
-        ("rem_euclid", &[Value::Integer(other)]) => value.checked_rem_euclid(other),
-        ("clone", []) => Some(value),
+/// The range, without parentheses.
+fn as_range(expression: &Expr) -> Option<&ExprRange> {
+    match expression {
+        Expr::Range(range) => Some(range),
+        Expr::Paren(inner) => as_range(&inner.expr),
+        Expr::Group(inner) => as_range(&inner.expr),
         _ => None,
-    };
-    match result {
-        Some(value) => Ok(Value::Integer(value)),
-        None => {
-            refuse(method, format!("the method `{method}` of an integer cannot be followed at compile time"))
-        }
     }
 }

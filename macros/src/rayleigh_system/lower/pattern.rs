@@ -1,56 +1,83 @@
-//! Names bound to values, and values assigned to places.
+//! Patterns: names bound to values, and whether a value matches.
+//!
+//! Which of constant, variant and binding a name in a pattern is, rustc alone knows. On fields and constants it decides: the
+//! pattern is written out, as `matches!(self.law, Friction::Linear(_))`, and what it binds as a `match` that gives the binding.
 
-use quote::ToTokens;
-use syn::{Expr, Index, Lit, Member, Pat, RangeLimits};
+use std::rc::Rc;
 
-use super::value::{Truth, Value, Written};
-use super::{Lowering, Result, refuse};
+use proc_macro2::TokenStream;
+use quote::{ToTokens, quote};
+use syn::visit::{self, Visit};
+use syn::visit_mut::{self, VisitMut};
+use syn::{Expr, ExprPath, Ident, Lit, Member, Pat, PatIdent, PatStruct, Path, RangeLimits};
+
+use super::integer::{Integer, IntegerType};
+use super::operator::literal;
+use super::value::{Chosen, Truth, Value};
+use super::written::{Arm, Leaf, Text, Written};
+use super::{Lowering, Refusal, Result, refuse};
+
+/// What a pattern binds, and where it matches.
+type Test = (Truth, Vec<(String, Value)>);
 
 impl Lowering<'_> {
-    /// Binds the names of a pattern.
+    /// Binds the names of a pattern that rustc knows to match.
     pub fn bind(&mut self, pattern: &Pat, value: Value) -> Result<()> {
         match (pattern, value) {
-            (Pat::Wild(_), _) => Ok(()),
-            (Pat::Ident(pattern), value) if pattern.subpat.is_none() => {
-                let name = pattern.ident.to_string();
-                let plain = name.trim_start_matches("r#").to_owned();
-                let value = match value {
-                    Value::Real(node) => {
-                        self.graph.give_name(node, &plain);
-                        Value::Real(node)
-                    }
-                    Value::Written(Written::Named(..)) => value,
-                    Value::Written(written) => Value::Written(Written::Named(plain, Box::new(written))),
-                    value => value,
-                };
-                self.locals.push((name, value));
-                Ok(())
+            (Pat::Wild(_) | Pat::Rest(_), _) => Ok(()),
+            (Pat::Ident(pattern), value) => {
+                self.bind_name(&pattern.ident, value.clone());
+                match &pattern.subpat {
+                    Some((_, inner)) => self.bind(inner, value),
+                    None => Ok(()),
+                }
             }
             (Pat::Paren(inner), value) => self.bind(&inner.pat, value),
             (Pat::Type(typed), value) => {
                 let value = self.shaped(value, &typed.ty)?;
                 self.bind(&typed.pat, value)
             }
-            (Pat::Reference(inner), value) => self.bind(&inner.pat, value),
-            (Pat::Tuple(tuple), Value::Tuple(values)) if tuple.elems.len() == values.len() => {
-                tuple.elems.iter().zip(values).try_for_each(|(pattern, value)| self.bind(pattern, value))
+            (Pat::Reference(inner), Value::Written(written)) => {
+                self.bind(&inner.pat, Value::Written(written.dereferenced()))
             }
-            (Pat::Tuple(tuple), Value::Written(values)) => tuple
+            (Pat::Reference(inner), value) => self.bind(&inner.pat, value),
+            (Pat::Tuple(tuple), Value::Tuple(values)) => {
+                for (pattern, range) in parts(pattern, tuple.elems.iter(), values.len())? {
+                    self.bind(pattern, values[range.start].clone())?;
+                }
+                Ok(())
+            }
+            (Pat::Tuple(tuple), Value::Written(values)) => {
+                let elements = tuple.elems.iter().enumerate();
+                if tuple.elems.iter().any(|pattern| matches!(pattern, Pat::Rest(_))) {
+                    return refuse(
+                        pattern,
+                        "the length of this tuple is not known here; use `_` for each entry",
+                    );
+                }
+                elements
+                    .into_iter()
+                    .try_for_each(|(index, pattern)| self.bind(pattern, Value::Written(values.member(index))))
+            }
+            (Pat::Slice(slice), Value::Sequence(values)) => {
+                for (pattern, range) in parts(pattern, slice.elems.iter(), values.len())? {
+                    self.bind_part(pattern, &values, range)?;
+                }
+                Ok(())
+            }
+            (Pat::Slice(slice), Value::Written(values)) if !slice.elems.iter().any(is_rest) => slice
                 .elems
                 .iter()
                 .enumerate()
-                .try_for_each(|(index, pattern)| self.bind(pattern, Value::Written(values.member(index)))),
-            (Pat::Slice(slice), Value::Sequence(values)) if slice.elems.len() == values.len() => {
-                slice.elems.iter().zip(values).try_for_each(|(pattern, value)| self.bind(pattern, value))
+                .try_for_each(|(index, pattern)| self.bind(pattern, Value::Written(values.entry(index)))),
+            // `let Self { m, k, .. } = self;`
+            (Pat::Struct(pattern), Value::System) if self.is_system(&pattern.path) => {
+                self.bind_fields(pattern)
             }
-            (Pat::Slice(slice), Value::Written(values))
-                if !slice.elems.iter().any(|pattern| matches!(pattern, Pat::Rest(_))) =>
-            {
-                slice
-                    .elems
-                    .iter()
-                    .enumerate()
-                    .try_for_each(|(index, pattern)| self.bind(pattern, Value::Written(values.entry(index))))
+            (Pat::Struct(_) | Pat::TupleStruct(_), Value::Written(written)) => {
+                let (_, bound) = self.test_written(pattern, &written)?;
+                self.locals.extend(bound);
+                Ok(())
             }
             (pattern, _) => {
                 refuse(pattern, "this pattern cannot be followed here; use names, tuples and arrays")
@@ -58,106 +85,418 @@ impl Lowering<'_> {
         }
     }
 
-    /// Whether a known value matches the pattern of a `match` arm.
-    pub fn matches(&mut self, pattern: &Pat, value: &Value) -> Result<bool> {
-        match (pattern, value) {
-            (Pat::Wild(_), _) => Ok(true),
-            (Pat::Ident(name), _) if name.subpat.is_none() => Ok(true),
-            (Pat::Or(or), value) => {
-                for pattern in &or.cases {
-                    if self.matches(pattern, value)? {
-                        return Ok(true);
-                    }
-                }
-                Ok(false)
+    fn bind_name(&mut self, ident: &Ident, value: Value) {
+        let name = ident.to_string();
+        let plain = name.trim_start_matches("r#").to_owned();
+        let value = match value {
+            Value::Real(node) => {
+                self.graph.give_name(node, &plain);
+                Value::Real(node)
             }
-            (Pat::Lit(literal), value) => match (&literal.lit, value) {
-                (Lit::Int(literal), Value::Integer(value)) => {
-                    Ok(literal.base10_parse::<i128>().is_ok_and(|literal| literal == *value))
+            Value::Written(Written::Named(..)) => value,
+            Value::Written(written) => Value::Written(Written::Named(plain, Box::new(written))),
+            Value::Chosen(chosen) if chosen.name.is_none() => {
+                let Chosen { condition, a, b, .. } = &*chosen;
+                Value::Chosen(Rc::new(Chosen {
+                    condition: *condition,
+                    a: a.clone(),
+                    b: b.clone(),
+                    name: Some(plain),
+                }))
+            }
+            value => value,
+        };
+        self.locals.push((name, value));
+    }
+
+    /// An entry, or those that `..` stands for.
+    fn bind_part(&mut self, pattern: &Pat, values: &[Value], range: std::ops::Range<usize>) -> Result<()> {
+        match pattern {
+            Pat::Ident(rest) if rest.subpat.as_ref().is_some_and(|(_, inner)| is_rest(inner)) => {
+                self.bind_name(&rest.ident, Value::Sequence(values[range].to_vec()));
+                Ok(())
+            }
+            pattern if is_rest(pattern) => Ok(()),
+            pattern => self.bind(pattern, values[range.start].clone()),
+        }
+    }
+
+    fn is_system(&self, path: &Path) -> bool {
+        path.is_ident("Self") || path.is_ident(self.source.name())
+    }
+
+    fn bind_fields(&mut self, pattern: &PatStruct) -> Result<()> {
+        for field in &pattern.fields {
+            let member: &Member = &field.member;
+            let word = Ident::new("self", super::span_of(member));
+            self.bind(&field.pat, Value::Written(Written::leaf(quote!(#word.#member))))?;
+        }
+        Ok(())
+    }
+
+    /// Whether the value matches, and what the pattern binds where it does.
+    pub fn test(&mut self, pattern: &Pat, value: &Value) -> Result<Test> {
+        let yes = |bound| Ok((Truth::Known(true), bound));
+        match (pattern, value) {
+            (Pat::Wild(_) | Pat::Rest(_), _) => yes(Vec::new()),
+            (Pat::Paren(inner), value) => self.test(&inner.pat, value),
+            (pattern, Value::Written(written)) if !self.matches_always(pattern) => {
+                self.test_written(pattern, written)
+            }
+            (pattern, value) if self.matches_always(pattern) => {
+                let outside = self.locals.len();
+                let names = self.names(pattern);
+                self.bind(pattern, value.clone())?;
+                let bound = self.locals.split_off(outside);
+                if let Value::Written(written) = value {
+                    // What a constant matches is the constant: the value is the same either way.
+                    let truth = if names.is_empty() {
+                        Truth::Known(true)
+                    } else {
+                        self.test_written(pattern, written)?.0
+                    };
+                    return Ok((truth, bound));
                 }
-                (Lit::Bool(literal), Value::Truth(Truth::Known(truth))) => Ok(literal.value == *truth),
-                _ => refuse(pattern, "only integers and bools known at compile time can be matched here"),
-            },
+                self.bindings.extend(names.into_iter().map(|name| (name.to_string(), name)));
+                yes(bound)
+            }
+            (Pat::Ident(PatIdent { ident, subpat: Some((_, inner)), .. }), value) => {
+                let (truth, mut bound) = self.test(inner, value)?;
+                bound.insert(0, (ident.to_string(), value.clone()));
+                self.bindings.insert(ident.to_string(), ident.clone());
+                Ok((truth, bound))
+            }
+            (Pat::Reference(inner), value) => self.test(&inner.pat, value),
+            (Pat::Or(or), value) => self.test_cases(pattern, or.cases.iter(), value),
+            (Pat::Lit(literal), value) => self.test_literal(pattern, &literal.lit, value),
+            (Pat::Path(path), Value::Integer(value)) => self.test_constant(pattern, path, *value),
+            (Pat::Ident(name), Value::Integer(value)) => {
+                let path = ExprPath { attrs: Vec::new(), qself: None, path: name.ident.clone().into() };
+                self.test_constant(pattern, &path, *value)
+            }
             (Pat::Range(range), Value::Integer(value)) => {
                 let mut known = |bound: &Expr| match self.expression(bound)? {
-                    Value::Integer(bound) => Ok(bound),
-                    _ => refuse(bound, "only integers can bound a pattern here"),
-                };
-                let above =
-                    range.start.as_deref().map(&mut known).transpose()?.is_none_or(|start| *value >= start);
-                let end = range.end.as_deref().map(&mut known).transpose()?;
-                let closed = matches!(range.limits, RangeLimits::Closed(_));
-                Ok(above && end.is_none_or(|end| if closed { *value <= end } else { *value < end }))
-            }
-            (Pat::Tuple(tuple), Value::Tuple(values)) if tuple.elems.len() == values.len() => {
-                for (pattern, value) in tuple.elems.iter().zip(values) {
-                    if !self.matches(pattern, value)? {
-                        return Ok(false);
+                    Value::Integer(bound) => {
+                        self.unify(bound.class, value.class)?;
+                        Ok(bound.value)
                     }
-                }
-                Ok(true)
+                    _ => refuse(bound, "only integers known at compile time can bound a pattern here"),
+                };
+                let above = range
+                    .start
+                    .as_deref()
+                    .map(&mut known)
+                    .transpose()?
+                    .is_none_or(|start| value.value >= start);
+                let end = range.end.as_deref().map(&mut known).transpose()?;
+                let is_closed = matches!(range.limits, RangeLimits::Closed(_));
+                let below =
+                    end.is_none_or(|end| if is_closed { value.value <= end } else { value.value < end });
+                Ok((Truth::Known(above && below), Vec::new()))
             }
-            _ => refuse(pattern, "only integers and bools known at compile time can be matched here"),
+            (Pat::Tuple(tuple), Value::Tuple(values)) => {
+                let parts = parts(pattern, tuple.elems.iter(), values.len())?;
+                self.test_parts(
+                    parts.into_iter().map(|(pattern, range)| (pattern, values[range.start].clone())),
+                )
+            }
+            (Pat::Slice(slice), Value::Sequence(values)) => {
+                self.test_slice(pattern, slice.elems.iter(), values)
+            }
+            (pattern, Value::Chosen(chosen)) => {
+                let (a, bound_a) = self.test(pattern, &chosen.a)?;
+                let (b, bound_b) = self.test(pattern, &chosen.b)?;
+                if !(bound_a.is_empty() && bound_b.is_empty()) {
+                    return refuse(pattern, "numbers decide what this binds; use `if`");
+                }
+                match self.select(pattern, chosen.condition, Value::Truth(a), Value::Truth(b))? {
+                    Value::Truth(truth) => Ok((truth, Vec::new())),
+                    _ => refuse(pattern, "this pattern cannot be followed here"),
+                }
+            }
+            (Pat::Ident(_) | Pat::Path(_), Value::Real(_)) => {
+                let reason = "a number cannot be matched with a constant; compare it with `if`";
+                Err(Refusal::at(pattern, reason).for_all())
+            }
+            (Pat::Ident(_) | Pat::Path(_), _) => {
+                refuse(pattern, "a number is matched with what may be a constant; compare it with `if`")
+            }
+            _ => refuse(
+                pattern,
+                "only fields, integers and bools can be matched here; compare numbers with `if`",
+            ),
         }
     }
 
-    /// `place = value`.
-    pub fn assign(&mut self, place: &Expr, value: Value) -> Result<Value> {
-        let mut steps = Vec::new();
-        let name = self.place(place, &mut steps)?;
-        let position = self.locals.iter().rposition(|(known, _)| *known == name);
-        let Some(position) = position else {
-            return refuse(place, "only locals can be assigned to");
+    /// Whether a pattern of names, tuples and `_` matches whatever its value; names in small letters, unless the body imports
+    /// them, are taken for bindings, and rustc is asked to agree.
+    fn matches_always(&self, pattern: &Pat) -> bool {
+        match pattern {
+            Pat::Wild(_) => true,
+            Pat::Ident(name) => {
+                let is_small = name.ident.to_string().starts_with(|c: char| c.is_lowercase() || c == '_');
+                let is_imported = matches!(self.local(&name.ident), Some(Value::Import(_)));
+                is_small
+                    && !is_imported
+                    && name.subpat.as_ref().is_none_or(|(_, inner)| self.matches_always(inner))
+            }
+            Pat::Paren(inner) => self.matches_always(&inner.pat),
+            Pat::Type(inner) => self.matches_always(&inner.pat),
+            Pat::Reference(inner) => self.matches_always(&inner.pat),
+            Pat::Tuple(tuple) => tuple.elems.iter().all(|pattern| self.matches_always(pattern)),
+            _ => false,
+        }
+    }
+
+    /// The names that a pattern may bind.
+    fn names(&self, pattern: &Pat) -> Vec<Ident> {
+        let mut names = Names(Vec::new());
+        names.visit_pat(pattern);
+        names.0
+    }
+
+    /// Lets rustc match a field or constant.
+    fn test_written(&mut self, pattern: &Pat, written: &Written) -> Result<Test> {
+        if let Some(hidden) = hidden(pattern) {
+            return refuse(&hidden, "macros and blocks in patterns cannot be followed here");
+        }
+        let Text { tokens, arms, may_panic } = self.text(pattern, written)?;
+        let mut outside = pattern.clone();
+        Imports { lowering: self }.visit_pat_mut(&mut outside);
+        let truth =
+            Text { tokens: quote!(::core::matches!(#tokens, #outside)), arms: arms.clone(), may_panic };
+        let truth = self.text_truth(truth);
+        if let Some(name) = variant(pattern) {
+            self.graph.give_name(truth, &name);
+        }
+        let names = self.names(pattern);
+        let arm = Rc::new(Arm {
+            scrutinee: tokens,
+            pattern: outside.to_token_stream(),
+            names: names.iter().map(Ident::to_string).collect(),
+        });
+        let arms: Vec<Rc<Arm>> = arms.into_iter().chain([arm]).collect();
+        let bound = names.into_iter().map(|name| {
+            let leaf = Leaf { tokens: name.to_token_stream(), arms: arms.clone(), may_panic, is_bound: true };
+            let plain = name.to_string().trim_start_matches("r#").to_owned();
+            (name.to_string(), Value::Written(Written::Named(plain, Box::new(Written::Leaf(leaf)))))
+        });
+        Ok((Truth::Where(truth), bound.collect()))
+    }
+
+    fn test_cases<'p>(
+        &mut self,
+        at: &Pat,
+        cases: impl Iterator<Item = &'p Pat>,
+        value: &Value,
+    ) -> Result<Test> {
+        let mut all = Truth::Known(false);
+        for case in cases {
+            let (truth, bound) = self.test(case, value)?;
+            if truth == Truth::Known(true) && all == Truth::Known(false) {
+                return Ok((truth, bound));
+            }
+            if !bound.is_empty() && truth != Truth::Known(false) {
+                return refuse(at, "numbers decide what this binds; use `if`");
+            }
+            all = all.or(&mut self.graph, truth);
+        }
+        Ok((all, Vec::new()))
+    }
+
+    fn test_literal(&mut self, at: &Pat, pattern: &Lit, value: &Value) -> Result<Test> {
+        let truth = match (pattern, value) {
+            (Lit::Int(literal), Value::Integer(value)) => {
+                if let Some(ty) = IntegerType::named(literal.suffix()) {
+                    self.of_type(value.class, ty)?;
+                }
+                let Ok(number) = literal.base10_parse::<i128>() else {
+                    return refuse(literal, "not an integer that can be read");
+                };
+                Truth::Known(number == value.value)
+            }
+            (Lit::Bool(literal), Value::Truth(truth)) => {
+                if literal.value {
+                    *truth
+                } else {
+                    truth.not(&mut self.graph)
+                }
+            }
+            _ => return refuse(at, "only integers and bools can be matched here; compare numbers with `if`"),
         };
-        if position < self.captured {
-            return refuse(
-                place,
-                "a closure cannot change a local of its surroundings here; use a `for` loop, or `fold`",
-            );
-        }
-        let mut target = &mut self.locals[position].1;
-        for step in steps {
-            target = match target {
-                Value::Sequence(entries) | Value::Tuple(entries) if step < entries.len() => {
-                    &mut entries[step]
-                }
-                _ => {
-                    return refuse(
-                        place,
-                        "the entries of this place are not known here; give it a type, as in `let mut a: [f64; 3] = …`",
-                    );
-                }
-            };
-        }
-        *target = value;
-        Ok(Value::unit())
+        Ok((truth, Vec::new()))
     }
 
-    /// The local that a place belongs to, and the way from there.
-    fn place(&mut self, place: &Expr, steps: &mut Vec<usize>) -> Result<String> {
-        match place {
-            Expr::Path(path) if path.path.get_ident().is_some() => {
-                Ok(path.path.to_token_stream().to_string())
+    /// An integer against what can be no binding, or is a constant: it would not compile otherwise.
+    fn test_constant(&mut self, at: &Pat, path: &ExprPath, value: Integer) -> Result<Test> {
+        let truth = match self.expression(&Expr::Path(path.clone()))? {
+            Value::Integer(constant) => {
+                self.unify(constant.class, value.class)?;
+                Truth::Known(constant.value == value.value)
             }
-            Expr::Paren(inner) => self.place(&inner.expr, steps),
-            Expr::Group(inner) => self.place(&inner.expr, steps),
-            Expr::Index(index) => {
-                let name = self.place(&index.expr, steps)?;
-                match self.expression(&index.index)? {
-                    Value::Integer(value) if value >= 0 => steps.push(value as usize),
-                    _ => return refuse(&index.index, "this index is not known at compile time"),
-                }
-                Ok(name)
+            Value::Written(constant) => {
+                self.beside_field(value);
+                let equal = syn::BinOp::Eq(Default::default());
+                let equal = Written::Binary(equal, Box::new(literal(value)), Box::new(constant));
+                Truth::Where(self.written_truth(at, &equal)?)
             }
-            Expr::Field(field) => {
-                let name = self.place(&field.base, steps)?;
-                match &field.member {
-                    Member::Unnamed(Index { index, .. }) => steps.push(*index as usize),
-                    member => return refuse(member, "only locals can be assigned to"),
-                }
-                Ok(name)
+            _ => return refuse(at, "only integers and bools can be matched here"),
+        };
+        Ok((truth, Vec::new()))
+    }
+
+    /// All parts must match.
+    fn test_parts<'p>(&mut self, parts: impl Iterator<Item = (&'p Pat, Value)>) -> Result<Test> {
+        let (mut all, mut bound) = (Truth::Known(true), Vec::new());
+        for (pattern, value) in parts {
+            let (truth, names) = self.test(pattern, &value)?;
+            all = all.and(&mut self.graph, truth);
+            bound.extend(names);
+        }
+        Ok((all, bound))
+    }
+
+    fn test_slice<'p>(
+        &mut self,
+        at: &Pat,
+        patterns: impl ExactSizeIterator<Item = &'p Pat>,
+        values: &[Value],
+    ) -> Result<Test> {
+        let patterns: Vec<&Pat> = patterns.collect();
+        let has_rest = patterns.iter().any(|pattern| is_rest_or_named(pattern));
+        let least = patterns.len() - usize::from(has_rest);
+        if values.len() < least || (!has_rest && values.len() > least) {
+            return Ok((Truth::Known(false), Vec::new()));
+        }
+        let (mut all, mut bound) = (Truth::Known(true), Vec::new());
+        for (pattern, range) in parts(at, patterns.into_iter(), values.len())? {
+            if is_rest_or_named(pattern) {
+                let outside = self.locals.len();
+                self.bind_part(pattern, values, range)?;
+                bound.extend(self.locals.split_off(outside));
+                continue;
             }
-            other => refuse(other, "only locals and their entries can be assigned to"),
+            let (truth, names) = self.test(pattern, &values[range.start])?;
+            all = all.and(&mut self.graph, truth);
+            bound.extend(names);
+        }
+        Ok((all, bound))
+    }
+}
+
+fn is_rest(pattern: &Pat) -> bool {
+    matches!(pattern, Pat::Rest(_))
+}
+
+/// `..` or `rest @ ..`
+fn is_rest_or_named(pattern: &Pat) -> bool {
+    match pattern {
+        Pat::Rest(_) => true,
+        Pat::Ident(name) => name.subpat.as_ref().is_some_and(|(_, inner)| is_rest(inner)),
+        _ => false,
+    }
+}
+
+/// The entries that each pattern of a tuple or slice stands for; one for all but `..`.
+fn parts<'p>(
+    at: &Pat,
+    patterns: impl ExactSizeIterator<Item = &'p Pat>,
+    length: usize,
+) -> Result<Vec<(&'p Pat, std::ops::Range<usize>)>> {
+    let count = patterns.len();
+    let patterns: Vec<&Pat> = patterns.collect();
+    let rest = patterns.iter().position(|pattern| is_rest_or_named(pattern));
+    let Some(skipped) = (match rest {
+        Some(_) => (length + 1).checked_sub(count),
+        None => (length == count).then_some(0),
+    }) else {
+        return refuse(at, "this pattern has another length than what it takes apart");
+    };
+    let mut start = 0;
+    Ok(patterns
+        .into_iter()
+        .enumerate()
+        .map(|(index, pattern)| {
+            let end = start + if Some(index) == rest { skipped } else { 1 };
+            let range = start..end;
+            start = end;
+            (pattern, range)
+        })
+        .filter(|(pattern, range)| !(range.is_empty() && is_rest(pattern)))
+        .collect())
+}
+
+/// `Friction::Linear(_)` → `is_linear`.
+fn variant(pattern: &Pat) -> Option<String> {
+    let path = match pattern {
+        Pat::Path(path) => &path.path,
+        Pat::TupleStruct(pattern) => &pattern.path,
+        Pat::Struct(pattern) => &pattern.path,
+        Pat::Ident(name) => return Some(format!("is_{}", name.ident.to_string().to_lowercase())),
+        Pat::Paren(inner) => return variant(&inner.pat),
+        Pat::Reference(inner) => return variant(&inner.pat),
+        _ => return None,
+    };
+    path.segments.last().map(|segment| format!("is_{}", segment.ident.to_string().to_lowercase()))
+}
+
+struct Names(Vec<Ident>);
+
+impl<'ast> Visit<'ast> for Names {
+    fn visit_pat_ident(&mut self, pattern: &'ast PatIdent) {
+        if !self.0.contains(&pattern.ident) {
+            self.0.push(pattern.ident.clone());
+        }
+        visit::visit_pat_ident(self, pattern);
+    }
+}
+
+/// What a pattern hides from the macro, if anything.
+fn hidden(pattern: &Pat) -> Option<TokenStream> {
+    struct Hidden(Option<TokenStream>);
+    impl<'ast> Visit<'ast> for Hidden {
+        fn visit_pat(&mut self, pattern: &'ast Pat) {
+            if let Pat::Macro(_) | Pat::Const(_) | Pat::Verbatim(_) | Pat::Guard(_) = pattern {
+                self.0 = Some(pattern.to_token_stream());
+            }
+            visit::visit_pat(self, pattern);
+        }
+    }
+    let mut hidden = Hidden(None);
+    hidden.visit_pat(pattern);
+    hidden.0
+}
+
+/// Paths as they read outside the body.
+struct Imports<'l, 's> {
+    lowering: &'l Lowering<'s>,
+}
+
+impl VisitMut for Imports<'_, '_> {
+    fn visit_pat_mut(&mut self, pattern: &mut Pat) {
+        if let Pat::Ident(PatIdent { ident, subpat: None, .. }) = pattern
+            && let Some(Value::Import(path)) = self.lowering.local(ident)
+            && let Ok(path) = syn::parse2(path.clone())
+        {
+            *pattern = Pat::Path(ExprPath { attrs: Vec::new(), qself: None, path });
+            return;
+        }
+        visit_mut::visit_pat_mut(self, pattern);
+    }
+
+    fn visit_path_mut(&mut self, path: &mut Path) {
+        if path.leading_colon.is_none()
+            && let Some(Value::Import(import)) = self.lowering.local(&path.segments[0].ident)
+            && let Ok(mut whole) = syn::parse2::<Path>(import.clone())
+        {
+            whole.segments.extend(path.segments.iter().skip(1).cloned());
+            if let Some(last) = path.segments.last()
+                && path.segments.len() == 1
+                && let Some(segment) = whole.segments.last_mut()
+            {
+                segment.arguments = last.arguments.clone();
+            }
+            *path = whole;
         }
     }
 }

@@ -1,23 +1,42 @@
-//! Blocks, `if`, loops and departures from them.
+//! Blocks, loops and departures from them.
 
 use proc_macro2::TokenStream;
 use quote::quote;
-use syn::{Block, Expr, ExprForLoop, ExprIf, ExprMatch, ExprWhile, Item, Pat, Stmt, UseTree};
+use syn::{Block, Expr, ExprForLoop, ExprLoop, ExprWhile, Item, Label, Lifetime, Pat, Stmt, Type, UseTree};
 
-use super::super::graph::Operation;
-use super::value::{Truth, Value, Written};
+use super::value::{Truth, Value};
 use super::{Leaving, Lowering, Result, Returned, refuse};
 
 impl Lowering<'_> {
     /// Runs a block; its value is that of its tail.
     pub fn block(&mut self, block: &Block) -> Result<Value> {
+        self.statements(block, None)
+    }
+
+    /// The same with the type of the tail written down.
+    pub fn block_of_type(&mut self, block: &Block, ty: &Type) -> Result<Value> {
+        self.statements(block, Some(ty))
+    }
+
+    fn statements(&mut self, block: &Block, ty: Option<&Type>) -> Result<Value> {
         let outside = self.locals.len();
+        // A `use` is seen in the whole block.
+        for statement in &block.stmts {
+            if let Stmt::Item(Item::Use(import)) = statement {
+                let root = import.leading_colon.map(|colons| quote!(#colons)).unwrap_or_default();
+                self.import(root, &import.tree)?;
+            }
+        }
         let mut value = Value::unit();
         for statement in &block.stmts {
             if self.is_leaving() {
+                self.integers.has_dead_code = true;
                 break;
             }
-            value = self.statement(statement)?;
+            value = match (statement, ty) {
+                (Stmt::Expr(tail, None), Some(ty)) => self.expression_of_type(tail, ty)?,
+                _ => self.statement(statement)?,
+            };
         }
         self.locals.truncate(outside);
         Ok(value)
@@ -33,31 +52,40 @@ impl Lowering<'_> {
             Stmt::Local(local) => {
                 let Some(init) = &local.init else {
                     // Its value comes later; a place must stand for it until then.
-                    return self.bind(&local.pat, Value::unit()).map(|()| Value::unit());
+                    return self.declare(&local.pat);
                 };
-                if let Some((word, _)) = &init.diverge {
-                    return refuse(word, "`let … else` cannot be followed at compile time");
-                }
                 let value = match &local.pat {
-                    Pat::Type(typed) => self.with_expected(&typed.ty, |this| this.expression(&init.expr))?,
+                    Pat::Type(typed) => self.expression_of_type(&init.expr, &typed.ty)?,
                     _ => self.expression(&init.expr)?,
                 };
-                self.bind(&local.pat, value)?;
+                match &init.diverge {
+                    Some((_, otherwise)) => self.let_else(&local.pat, &value, otherwise)?,
+                    None => self.bind(&local.pat, value)?,
+                }
                 Ok(Value::unit())
             }
             Stmt::Expr(expression, None) => self.expression(expression),
             Stmt::Expr(expression, Some(_)) => self.expression(expression).map(|_| Value::unit()),
-            Stmt::Item(Item::Use(import)) => {
-                let root = import.leading_colon.map(|colons| quote!(#colons)).unwrap_or_default();
-                self.import(root, &import.tree)?;
-                Ok(Value::unit())
-            }
+            Stmt::Item(Item::Use(_)) => Ok(Value::unit()),
             Stmt::Item(item) => {
                 refuse(item, "no items inside a body; make it a function or constant of the annotated block")
             }
             Stmt::Macro(statement) => {
-                refuse(&statement.mac, "macros hide what they compute; write the expression out")
+                let value = self.matches_macro(&statement.mac)?;
+                Ok(if statement.semi_token.is_some() { Value::unit() } else { value })
             }
+        }
+    }
+
+    /// `let x;`
+    fn declare(&mut self, pattern: &Pat) -> Result<Value> {
+        match pattern {
+            Pat::Type(typed) => self.declare(&typed.pat),
+            Pat::Ident(name) if name.subpat.is_none() => {
+                self.locals.push((name.ident.to_string(), Value::Unset));
+                Ok(Value::unit())
+            }
+            other => refuse(other, "declare one name at a time, or give it a value"),
         }
     }
 
@@ -81,110 +109,11 @@ impl Lowering<'_> {
             }
             other => return refuse(other, "what a `*` imports is not known here; name what is used"),
         };
-        self.locals.push((name.to_string(), Value::Written(Written::leaf(path))));
+        self.locals.push((name.to_string(), Value::Import(path)));
         Ok(())
     }
 
-    pub fn choice(&mut self, choice: &ExprIf) -> Result<Value> {
-        let condition = self.expression(&choice.cond)?;
-        let otherwise = |this: &mut Self| match &choice.else_branch {
-            Some((_, otherwise)) => this.expression(otherwise),
-            None => Ok(Value::unit()),
-        };
-        let condition = match self.truth(&choice.cond, condition)? {
-            Truth::Known(true) => return self.block(&choice.then_branch),
-            Truth::Known(false) => return otherwise(self),
-            Truth::Where(condition) => condition,
-        };
-        // Both branches start from the same locals; where they end differently, the condition selects.
-        let before = self.locals.clone();
-        let returned_before = self.returned.clone();
-        let a = self.block(&choice.then_branch)?;
-        let locals_a = std::mem::replace(&mut self.locals, before);
-        let returned_a = std::mem::replace(&mut self.returned, returned_before);
-        let b = otherwise(self)?;
-        if self.leaving.is_some() {
-            return refuse(
-                &choice.cond,
-                "a loop that numbers decide to leave cannot be written out; select a value with `if` instead",
-            );
-        }
-        let always = [&returned_a, &self.returned].map(|returned| matches!(returned, Returned::Always(_)));
-        let locals_b = std::mem::take(&mut self.locals);
-        let value = match always {
-            [true, _] => {
-                self.locals = locals_b;
-                b
-            }
-            [_, true] => {
-                self.locals = locals_a;
-                a
-            }
-            _ => {
-                for ((name, a), (_, b)) in locals_a.into_iter().zip(locals_b) {
-                    let value = self.select(&choice.cond, condition, a, b)?;
-                    self.locals.push((name, value));
-                }
-                self.select(choice, condition, a, b)?
-            }
-        };
-        let returned_b = std::mem::replace(&mut self.returned, Returned::Never);
-        self.returned = self.joined(choice, condition, returned_a, returned_b)?;
-        Ok(value)
-    }
-
-    /// What has been returned after both branches.
-    fn joined(&mut self, at: &ExprIf, condition: super::Node, a: Returned, b: Returned) -> Result<Returned> {
-        let parts = |returned| match returned {
-            Returned::Never => (Truth::Known(false), None),
-            Returned::Where(node, value) => (Truth::Where(node), Some(value)),
-            Returned::Always(value) => (Truth::Known(true), Some(value)),
-        };
-        let ((where_a, a), (where_b, b)) = (parts(a), parts(b));
-        let value = match (a, b) {
-            (None, None) => return Ok(Returned::Never),
-            (Some(a), Some(b)) => self.select(at, condition, a, b)?,
-            (Some(value), None) | (None, Some(value)) => value,
-        };
-        let graph = &mut self.graph;
-        let place = if where_a == where_b {
-            where_a
-        } else {
-            let negated = graph.node(Operation::Not(condition));
-            let (a, b) =
-                (Truth::Where(condition).and(graph, where_a), Truth::Where(negated).and(graph, where_b));
-            a.or(graph, b)
-        };
-        Ok(match place {
-            Truth::Known(true) => Returned::Always(value),
-            Truth::Known(false) => Returned::Never,
-            Truth::Where(node) => Returned::Where(node, value),
-        })
-    }
-
-    pub fn match_known(&mut self, choice: &ExprMatch) -> Result<Value> {
-        let value = self.expression(&choice.expr)?;
-        for arm in &choice.arms {
-            if !self.matches(&arm.pat, &value)? {
-                continue;
-            }
-            let outside = self.locals.len();
-            if let Pat::Ident(_) | Pat::Tuple(_) = &arm.pat
-                && !has_literal(&arm.pat)
-            {
-                self.bind(&arm.pat, value.clone())?;
-            }
-            let value = self.expression(&arm.body);
-            self.locals.truncate(outside);
-            return value;
-        }
-        refuse(choice, "no arm matches")
-    }
-
     pub fn for_loop(&mut self, each: &ExprForLoop) -> Result<Value> {
-        if let Some(label) = &each.label {
-            return refuse(label, "labelled loops cannot be followed at compile time");
-        }
         let entries = self.expression(&each.expr)?;
         let Value::Sequence(entries) = entries else {
             return refuse(
@@ -192,12 +121,14 @@ impl Lowering<'_> {
                 "the number of turns is not known here; loop over a range with constant bounds, or over an array whose type is written out",
             );
         };
+        self.integers.has_dead_code |= entries.is_empty();
         for entry in entries {
+            self.count(&each.pat)?;
             let outside = self.locals.len();
             self.bind(&each.pat, entry)?;
             self.block(&each.body)?;
             self.locals.truncate(outside);
-            if self.leaving.take() == Some(Leaving::Break) || self.is_leaving() {
+            if self.ends(each.label.as_ref()).is_some() {
                 break;
             }
         }
@@ -207,8 +138,8 @@ impl Lowering<'_> {
     pub fn while_loop(&mut self, repeated: &ExprWhile) -> Result<Value> {
         loop {
             self.count(&repeated.cond)?;
-            let condition = self.expression(&repeated.cond)?;
-            match self.truth(&repeated.cond, condition)? {
+            let outside = self.locals.len();
+            match self.condition(&repeated.cond)? {
                 Truth::Known(true) => {}
                 Truth::Known(false) => return Ok(Value::unit()),
                 Truth::Where(_) => {
@@ -219,14 +150,42 @@ impl Lowering<'_> {
                 }
             }
             self.block(&repeated.body)?;
-            if self.leaving.take() == Some(Leaving::Break) || self.is_leaving() {
+            self.locals.truncate(outside);
+            if self.ends(repeated.label.as_ref()).is_some() {
                 return Ok(Value::unit());
             }
         }
     }
 
+    pub fn endless_loop(&mut self, endless: &ExprLoop) -> Result<Value> {
+        loop {
+            self.count(&endless.loop_token)?;
+            self.block(&endless.body)?;
+            if let Some(value) = self.ends(endless.label.as_ref()) {
+                return Ok(value);
+            }
+        }
+    }
+
+    /// After a turn of a loop: the loop's value if that was the last one.
+    fn ends(&mut self, label: Option<&Label>) -> Option<Value> {
+        let own = label.map(|label| label.name.to_string());
+        match self.leaving.take() {
+            Some(leaving) if leaving.label.is_none() || leaving.label == own => {
+                leaving.is_break.then_some(leaving.value)
+            }
+            // On its way to a loop outside.
+            Some(leaving) => {
+                self.leaving = Some(leaving);
+                Some(Value::unit())
+            }
+            None => matches!(self.returned, Returned::Always(_)).then(Value::unit),
+        }
+    }
+
     /// `return`, `break`, `continue`.
     pub fn departure(&mut self, expression: &Expr) -> Result<Value> {
+        let label = |label: &Option<Lifetime>| label.as_ref().map(ToString::to_string);
         match expression {
             Expr::Return(departure) => {
                 let value = match &departure.expr {
@@ -242,21 +201,19 @@ impl Lowering<'_> {
                     Returned::Always(earlier) => Returned::Always(earlier),
                 };
             }
-            Expr::Break(departure) if departure.expr.is_none() && departure.label.is_none() => {
-                self.leaving = Some(Leaving::Break);
+            Expr::Break(departure) => {
+                let value = match &departure.expr {
+                    Some(value) => self.expression(value)?,
+                    None => Value::unit(),
+                };
+                self.leaving = Some(Leaving { is_break: true, label: label(&departure.label), value });
             }
-            Expr::Continue(departure) if departure.label.is_none() => self.leaving = Some(Leaving::Continue),
+            Expr::Continue(departure) => {
+                let label = label(&departure.label);
+                self.leaving = Some(Leaving { is_break: false, label, value: Value::unit() });
+            }
             other => return refuse(other, "this departure cannot be followed at compile time"),
         }
         Ok(Value::unit())
-    }
-}
-
-/// Whether the pattern holds literals, and so binds nothing that an arm could use.
-fn has_literal(pattern: &Pat) -> bool {
-    match pattern {
-        Pat::Lit(_) | Pat::Range(_) | Pat::Or(_) => true,
-        Pat::Tuple(tuple) => tuple.elems.iter().any(has_literal),
-        _ => false,
     }
 }

@@ -1,13 +1,14 @@
 //! What an expression of a body is while the body is run.
 
+use std::cell::RefCell;
 use std::rc::Rc;
 
-use proc_macro2::{TokenStream, TokenTree};
-use quote::{ToTokens, quote};
-use syn::{BinOp, Expr, Ident, Index, Pat};
+use proc_macro2::TokenStream;
+use syn::{Expr, Ident, Pat, Type};
 
 use super::super::graph::{Graph, Node, Operation};
-use super::indexed;
+use super::integer::Integer;
+use super::written::Written;
 
 /// A value of a body.
 #[derive(Clone)]
@@ -16,10 +17,13 @@ pub enum Value {
     Real(Node),
     Truth(Truth),
     /// A known integer.
-    Integer(i128),
+    Integer(Integer),
     /// Made of fields and constants alone, of a type that the macro cannot know.
     Written(Written),
-    /// An array, slice or iterator; its entries are known one by one.
+    /// One of two by a condition, neither a number yet.
+    Chosen(Rc<Chosen>),
+    /// An array, slice or iterator; its entries are known one by one. Closures change nothing outside themselves, so that
+    /// running an adaptor's closure early is running it late.
     Sequence(Vec<Value>),
     Tuple(Vec<Value>),
     Closure(Rc<Closure>),
@@ -27,15 +31,30 @@ pub enum Value {
     Function(Ident),
     /// `f64::sin` handed on.
     Method(Ident),
+    /// What a `use` in the body stands for.
+    Import(TokenStream),
     /// `self`.
     System,
+    /// A local without a value as yet.
+    Unset,
+}
+
+/// A value that a condition decides.
+pub struct Chosen {
+    pub condition: Node,
+    pub a: Value,
+    pub b: Value,
+    pub name: Option<String>,
 }
 
 /// A closure and what it sees.
 pub struct Closure {
     pub parameters: Vec<Pat>,
+    pub result: Option<Type>,
     pub body: Expr,
     pub locals: Vec<(String, Value)>,
+    /// What it was last called with and gave: the types are those of every call.
+    pub last: RefCell<Option<Vec<Value>>>,
 }
 
 /// A condition.
@@ -73,6 +92,13 @@ impl Truth {
             }),
         }
     }
+
+    /// Whether just one of the two holds.
+    pub fn differs(self, graph: &mut Graph, other: Self) -> Self {
+        let (not_self, not_other) = (self.not(graph), other.not(graph));
+        let (first, second) = (self.and(graph, not_other), not_self.and(graph, other));
+        first.or(graph, second)
+    }
 }
 
 impl Value {
@@ -87,131 +113,23 @@ impl Value {
         match (self, other) {
             (Self::Real(a), Self::Real(b)) => a == b,
             (Self::Truth(a), Self::Truth(b)) => a == b,
-            (Self::Integer(a), Self::Integer(b)) => a == b,
-            (Self::Written(a), Self::Written(b)) => a.tokens().to_string() == b.tokens().to_string(),
+            (Self::Integer(a), Self::Integer(b)) => a.value == b.value && a.class == b.class,
+            (Self::Written(a), Self::Written(b)) => match (a.text(), b.text()) {
+                (Ok(a), Ok(b)) => {
+                    let none = quote::quote!(_);
+                    a.within_arms(&none).to_string() == b.within_arms(&none).to_string()
+                }
+                _ => false,
+            },
+            (Self::Chosen(a), Self::Chosen(b)) => {
+                Rc::ptr_eq(a, b) || (a.condition == b.condition && a.a.same(&b.a) && a.b.same(&b.b))
+            }
             (Self::Sequence(a), Self::Sequence(b)) | (Self::Tuple(a), Self::Tuple(b)) => all(a, b),
             (Self::Closure(a), Self::Closure(b)) => Rc::ptr_eq(a, b),
             (Self::Function(a), Self::Function(b)) | (Self::Method(a), Self::Method(b)) => a == b,
-            (Self::System, Self::System) => true,
+            (Self::Import(a), Self::Import(b)) => a.to_string() == b.to_string(),
+            (Self::System, Self::System) | (Self::Unset, Self::Unset) => true,
             _ => false,
         }
     }
-}
-
-/// An expression of fields and constants. Its type shows in its use: as a number it becomes nodes of the graph, as an
-/// index, integer or condition it is written out.
-#[derive(Clone)]
-pub enum Written {
-    Leaf(TokenStream),
-    Named(String, Box<Written>),
-    Negative(Box<Written>),
-    Binary(BinOp, Box<Written>, Box<Written>),
-}
-
-impl Written {
-    pub fn leaf(tokens: TokenStream) -> Self {
-        Self::Leaf(tokens)
-    }
-
-    /// `array[index]`.
-    pub fn entry(&self, index: usize) -> Self {
-        Self::Leaf(indexed(&self.operand(), index))
-    }
-
-    /// `tuple.index`.
-    pub fn member(&self, index: usize) -> Self {
-        let (base, index) = (self.operand(), Index::from(index));
-        Self::Leaf(quote!(#base.#index))
-    }
-
-    pub fn tokens(&self) -> TokenStream {
-        match self {
-            Self::Leaf(tokens) => tokens.clone(),
-            Self::Named(_, inner) => inner.tokens(),
-            Self::Negative(inner) => {
-                let inner = inner.operand();
-                quote!(-#inner)
-            }
-            Self::Binary(operator, a, b) => {
-                let (a, b) = (a.operand(), b.operand());
-                quote!(#a #operator #b)
-            }
-        }
-    }
-
-    /// The tokens, in parentheses where they are more than one operand.
-    pub fn operand(&self) -> TokenStream {
-        match self {
-            Self::Leaf(tokens) => tokens.clone(),
-            Self::Named(_, inner) => inner.operand(),
-            Self::Negative(_) | Self::Binary(..) => {
-                let tokens = self.tokens();
-                quote!((#tokens))
-            }
-        }
-    }
-
-    /// The expression as a floating-point number.
-    pub fn scalar(&self, graph: &mut Graph) -> Node {
-        match self {
-            Self::Leaf(tokens) => {
-                let node = graph.written(tokens.clone());
-                if let Some(name) = name_of(tokens) {
-                    graph.give_name(node, &name);
-                }
-                node
-            }
-            Self::Named(name, inner) => {
-                if let Self::Leaf(tokens) = &**inner {
-                    let node = graph.written(tokens.clone());
-                    graph.give_name(node, name);
-                    return node;
-                }
-                let node = inner.scalar(graph);
-                graph.give_name(node, name);
-                node
-            }
-            Self::Negative(inner) => {
-                let inner = inner.scalar(graph);
-                graph.node(Operation::Negate(inner))
-            }
-            Self::Binary(operator, a, b) => {
-                let (a, b) = (a.scalar(graph), b.scalar(graph));
-                match operator {
-                    BinOp::Add(_) => graph.add(a, b),
-                    BinOp::Sub(_) => graph.node(Operation::Subtract(a, b)),
-                    BinOp::Mul(_) => graph.node(Operation::Multiply(a, b)),
-                    BinOp::Div(_) => graph.node(Operation::Divide(a, b)),
-                    // Remainders and shifts of integers; whole, and whatever type it has.
-                    _ => graph.written(self.operand()),
-                }
-            }
-        }
-    }
-}
-
-/// `self.m[0]` → `m_0`, `Self::G` → `g`.
-fn name_of(tokens: &TokenStream) -> Option<String> {
-    fn collect(tokens: TokenStream, words: &mut Vec<String>) {
-        for token in tokens {
-            match token {
-                TokenTree::Group(group) => collect(group.stream(), words),
-                TokenTree::Ident(ident) => {
-                    words.push(ident.to_string().trim_start_matches("r#").to_lowercase())
-                }
-                TokenTree::Literal(literal) => {
-                    let literal: String =
-                        literal.to_string().chars().filter(char::is_ascii_alphanumeric).collect();
-                    words.push(literal);
-                }
-                TokenTree::Punct(_) => {}
-            }
-        }
-    }
-    let mut all = Vec::new();
-    collect(tokens.to_token_stream(), &mut all);
-    const SILENT: [&str; 8] = ["self", "std", "core", "f64", "f32", "consts", "as", "from"];
-    all.retain(|word| !SILENT.contains(&word.as_str()));
-    let name = all.join("_");
-    (name.starts_with(char::is_alphabetic) && name.len() < 30).then_some(name)
 }

@@ -1,0 +1,93 @@
+//! Functions over dual numbers that compute the expressions of the user's bodies: for bodies with enums, options and other
+//! values that no dual number stands for. The user's item stands as written.
+
+use proc_macro2::TokenStream;
+use quote::{ToTokens, format_ident, quote};
+use syn::Ident;
+
+use super::super::emit::over_duals;
+use super::super::expanded::are_bindings;
+use super::super::graph::Node;
+use super::super::lower::Lowered;
+use super::super::model::{Part, RayleighArguments, Source, System};
+use super::super::portable;
+use super::structure;
+
+/// Whether the user's code has names that functions over dual numbers need.
+pub fn names_are_taken(system: &System<'_>, lowered: &Lowered) -> bool {
+    let generated = ["lagrangian_over", "rayleigh_over", "force_over"];
+    if ["Real", "Dual", "dual", "D"].iter().any(|name| lowered.graph.mentions(name)) {
+        return true;
+    }
+    system.source.functions().any(|function| generated.iter().any(|name| function.sig.ident == name))
+}
+
+/// The user's item, with the struct of a free function.
+pub fn item(system: &System<'_>, functions: &[Ident], is_portable: bool) -> TokenStream {
+    match system.source {
+        Source::Block(block) if is_portable => portable::block(&block.item, functions).to_token_stream(),
+        Source::Block(block) => block.item.to_token_stream(),
+        Source::Function(function) => {
+            let structure = structure(system, function);
+            let item = if is_portable { &portable::function(&function.item) } else { &function.item };
+            quote!(#item #structure)
+        }
+    }
+}
+
+/// L, R and f over `Real<D>`.
+pub fn twins(system: &System<'_>, lowered: &Lowered) -> TokenStream {
+    let name = &system.name;
+    let both = RayleighArguments::ConfigurationAndVelocity;
+    let of = |part, point, outputs: &[Node]| over(system, lowered, part, point, outputs);
+    let lagrangian = of(Part::Lagrangian, both, &[lowered.lagrangian]);
+    let rayleigh =
+        system.rayleigh.zip(lowered.rayleigh).map(|(point, root)| of(Part::Rayleigh, point, &[root]));
+    let force = lowered.force.as_ref().map(|components| of(Part::Force, both, components));
+    let bindings = are_bindings(&lowered.bindings);
+    let quiet_bindings =
+        bindings.map(|bindings| quote!(#[allow(unused_variables, nonstandard_style)] #bindings));
+    // fn lagrangian_over<D: Dual<f64>>(&self, q: [Real<D>; 2], v: [Real<D>; 2]) -> Real<D>
+    let quiet = super::quiet();
+    quote! {
+        #quiet
+        #[allow(dead_code)]
+        impl #name {
+            #lagrangian
+            #rayleigh
+            #force
+        }
+        #quiet_bindings
+    }
+}
+
+fn over(
+    system: &System<'_>,
+    lowered: &Lowered,
+    part: Part,
+    point: RayleighArguments,
+    outputs: &[Node],
+) -> TokenStream {
+    let scalar = &system.scalar;
+    let n = system.degrees.times(1);
+    let line = over_duals(&lowered.graph, scalar, outputs, &["q", "v", "u", "t", "D"]);
+    let q = (point == RayleighArguments::ConfigurationAndVelocity).then(|| quote!(q: [Real<D>; #n],));
+    let input = system.input.as_ref().filter(|_| part == Part::Force).map(|input| input.times(1));
+    let input = input.map(|m| quote!(u: [Real<D>; #m],));
+    let time = system.timed.of(part).then(|| quote!(t: Real<D>,));
+    let (function, statements, values) =
+        (format_ident!("{}_over", part.name()), &line.statements, &line.outputs);
+    let (result, value) = match part {
+        Part::Force => (quote!([Real<D>; #n]), quote!([#(#values),*])),
+        _ => (quote!(Real<D>), quote!(#(#values)*)),
+    };
+    let text = format!(" `{}` over plain and dual numbers.", part.name());
+    quote! {
+        #[doc = #text]
+        #[inline(always)]
+        fn #function<D: Dual<#scalar>>(&self, #q v: [Real<D>; #n], #input #time) -> #result {
+            #statements
+            #value
+        }
+    }
+}

@@ -1,0 +1,492 @@
+//! Integers known at compile time, with the types that Rust gives them.
+//!
+//! A literal's type follows from its use, often from a later one. Integers that must have one type share a class; the class
+//! keeps the extreme values computed in it, which are held against the type once it is known, at the latest when all bodies
+//! have been run. A value that its type does not hold panics or wraps by the build: it is refused.
+
+use proc_macro2::{Ident, Span};
+use quote::ToTokens;
+use syn::{BinOp, Type};
+
+use super::super::diagnostics::span_of;
+use super::super::model::simple_name;
+use super::value::{Truth, Value};
+use super::{Lowering, Refusal, Result, one_line, refuse};
+
+/// An integer and the class that its type belongs to.
+#[derive(Clone, Copy)]
+pub struct Integer {
+    pub value: i128,
+    pub class: Class,
+}
+
+/// Integers of one type.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub struct Class(usize);
+
+/// A primitive integer type.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct IntegerType {
+    name: &'static str,
+    /// Nothing for `usize` and `isize`, whose width is the target's.
+    bits: Option<u32>,
+    is_signed: bool,
+}
+
+/// The width that `usize` has at least.
+const LEAST_WIDTH: u32 = 16;
+
+const TYPES: [IntegerType; 12] = {
+    const fn of(name: &'static str, bits: Option<u32>, is_signed: bool) -> IntegerType {
+        IntegerType { name, bits, is_signed }
+    }
+    [
+        of("i8", Some(8), true),
+        of("i16", Some(16), true),
+        of("i32", Some(32), true),
+        of("i64", Some(64), true),
+        of("i128", Some(128), true),
+        of("isize", None, true),
+        of("u8", Some(8), false),
+        of("u16", Some(16), false),
+        of("u32", Some(32), false),
+        of("u64", Some(64), false),
+        of("u128", Some(128), false),
+        of("usize", None, false),
+    ]
+};
+
+impl IntegerType {
+    pub const USIZE: Self = TYPES[11];
+    const U32: Self = TYPES[8];
+    pub const I32: Self = TYPES[2];
+
+    pub fn named(name: &str) -> Option<Self> {
+        TYPES.into_iter().find(|ty| ty.name == name)
+    }
+
+    /// The type, if it is a primitive integer.
+    pub fn of(ty: &Type) -> Option<Self> {
+        simple_name(ty).and_then(|name| Self::named(&name.to_string()))
+    }
+
+    /// The values that the type holds on every target, as far as they are followed here.
+    fn range(self) -> (i128, i128) {
+        match (self.is_signed, self.bits.unwrap_or(LEAST_WIDTH)) {
+            (true, 128) => (i128::MIN, i128::MAX),
+            (true, bits) => (-(1 << (bits - 1)), (1 << (bits - 1)) - 1),
+            (false, 128) => (0, i128::MAX),
+            (false, bits) => (0, (1 << bits) - 1),
+        }
+    }
+
+    fn holds(self, value: i128) -> bool {
+        let (least, most) = self.range();
+        (least..=most).contains(&value)
+    }
+
+    /// `value as Self`, unless it depends on the target.
+    fn wrapped(self, value: i128) -> Option<i128> {
+        if self.holds(value) {
+            return Some(value);
+        }
+        match (self.bits?, self.is_signed) {
+            (128, _) => None,
+            (bits, is_signed) => {
+                let low = value & ((1 << bits) - 1);
+                let is_negative = is_signed && low >> (bits - 1) == 1;
+                Some(if is_negative { low - (1 << bits) } else { low })
+            }
+        }
+    }
+
+    /// The nearest value, unless it depends on the target.
+    fn saturated(self, value: i128) -> Option<i128> {
+        let (least, most) = self.range();
+        match self.bits {
+            Some(128) => self.holds(value).then_some(value),
+            Some(_) => Some(value.clamp(least, most)),
+            None if value < 0 && !self.is_signed => Some(0),
+            None => self.holds(value).then_some(value),
+        }
+    }
+}
+
+/// A value computed in a class, and where.
+struct Seen {
+    value: i128,
+    span: Span,
+    token: String,
+}
+
+struct Known {
+    parent: usize,
+    ty: Option<IntegerType>,
+    /// Negated somewhere.
+    is_signed: bool,
+    /// Met something whose type the macro cannot see.
+    is_beside_field: bool,
+    least: Option<Seen>,
+    most: Option<Seen>,
+}
+
+/// All classes of one lowering.
+#[derive(Default)]
+pub struct Classes {
+    known: Vec<Known>,
+    /// Whether code was left out that might have said more of types.
+    pub has_dead_code: bool,
+}
+
+impl Classes {
+    fn fresh(&mut self, ty: Option<IntegerType>) -> Class {
+        let parent = self.known.len();
+        self.known.push(Known {
+            parent,
+            ty,
+            is_signed: false,
+            is_beside_field: false,
+            least: None,
+            most: None,
+        });
+        Class(parent)
+    }
+
+    fn root(&self, Class(mut class): Class) -> usize {
+        while self.known[class].parent != class {
+            class = self.known[class].parent;
+        }
+        class
+    }
+
+    fn of(&self, class: Class) -> &Known {
+        &self.known[self.root(class)]
+    }
+
+    fn of_mut(&mut self, class: Class) -> &mut Known {
+        let root = self.root(class);
+        &mut self.known[root]
+    }
+
+    /// Refuses what the type of the class does not hold.
+    fn checked(&self, class: Class) -> Result<()> {
+        let known = self.of(class);
+        let Some(ty) = known.ty else { return Ok(()) };
+        for seen in [&known.least, &known.most].into_iter().flatten() {
+            if !ty.holds(seen.value) {
+                let reason = match ty.bits {
+                    None => format!("{} overflows `{}` on some target", seen.value, ty.name),
+                    Some(_) => format!("{} overflows `{}`", seen.value, ty.name),
+                };
+                return Err(Refusal { span: seen.span, token: seen.token.clone(), reason, is_final: true });
+            }
+        }
+        Ok(())
+    }
+
+    /// Holds what no use gave a type against the types that it may have.
+    pub fn settled(&self) -> Result<()> {
+        for (index, known) in self.known.iter().enumerate() {
+            if known.parent != index || known.ty.is_some() {
+                continue;
+            }
+            let (least, most) = if known.is_beside_field || self.has_dead_code {
+                (if known.is_signed { -128 } else { 0 }, 127)
+            } else {
+                IntegerType::I32.range()
+            };
+            for seen in [&known.least, &known.most].into_iter().flatten() {
+                if !(least..=most).contains(&seen.value) {
+                    let reason = format!(
+                        "the type of this integer is not known here, and not all types hold {}; write it out, as in `2_i64` or `let n: i64 = …`",
+                        seen.value
+                    );
+                    return Err(Refusal {
+                        span: seen.span,
+                        token: seen.token.clone(),
+                        reason,
+                        is_final: false,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Lowering<'_> {
+    /// An integer of a known type, or of one that its use will tell.
+    pub fn integer(&mut self, at: &impl ToTokens, value: i128, ty: Option<IntegerType>) -> Result<Value> {
+        let class = self.integers.fresh(ty);
+        self.in_class(at, value, class)
+    }
+
+    /// The value as one of the class.
+    fn in_class(&mut self, at: &impl ToTokens, value: i128, class: Class) -> Result<Value> {
+        let known = self.integers.of_mut(class);
+        let is_less = known.least.as_ref().is_none_or(|seen| value < seen.value);
+        let is_more = known.most.as_ref().is_none_or(|seen| value > seen.value);
+        if is_less || is_more {
+            let seen = || Seen { value, span: span_of(at), token: one_line(&at.to_token_stream()) };
+            if is_less {
+                known.least = Some(seen());
+            }
+            if is_more {
+                known.most = Some(seen());
+            }
+            self.integers.checked(class)?;
+        }
+        Ok(Value::Integer(Integer { value, class }))
+    }
+
+    /// Makes two classes one.
+    pub fn unify(&mut self, a: Class, b: Class) -> Result<()> {
+        let (a, b) = (self.integers.root(a), self.integers.root(b));
+        if a == b {
+            return Ok(());
+        }
+        let known = &mut self.integers.known;
+        let [ty_a, ty_b] = [known[a].ty, known[b].ty];
+        // Otherwise rustc has refused the program already.
+        known[a].ty = ty_a.or(ty_b);
+        known[a].is_signed |= known[b].is_signed;
+        known[a].is_beside_field |= known[b].is_beside_field;
+        let (least, most) = (known[b].least.take(), known[b].most.take());
+        if least.as_ref().is_some_and(|new| known[a].least.as_ref().is_none_or(|old| new.value < old.value)) {
+            known[a].least = least;
+        }
+        if most.as_ref().is_some_and(|new| known[a].most.as_ref().is_none_or(|old| new.value > old.value)) {
+            known[a].most = most;
+        }
+        known[b].parent = a;
+        self.integers.checked(Class(a))
+    }
+
+    /// Tells the type of the class.
+    pub fn of_type(&mut self, class: Class, ty: IntegerType) -> Result<()> {
+        let typed = self.integers.fresh(Some(ty));
+        self.unify(class, typed)
+    }
+
+    /// Notes that the integer stands beside something of an unknown type.
+    pub fn beside_field(&mut self, integer: Integer) {
+        self.integers.of_mut(integer.class).is_beside_field = true;
+    }
+
+    /// Makes the types of two values that Rust holds to be of one type one.
+    pub fn unify_values(&mut self, a: &Value, b: &Value) -> Result<()> {
+        match (a, b) {
+            (Value::Integer(a), Value::Integer(b)) => self.unify(a.class, b.class),
+            (Value::Integer(a), Value::Written(_)) | (Value::Written(_), Value::Integer(a)) => {
+                self.beside_field(*a);
+                Ok(())
+            }
+            (Value::Sequence(a), Value::Sequence(b)) => match (a.first(), b.first()) {
+                (Some(a), Some(b)) => self.unify_values(a, b),
+                _ => Ok(()),
+            },
+            (Value::Tuple(a), Value::Tuple(b)) => {
+                a.iter().zip(b).try_for_each(|(a, b)| self.unify_values(a, b))
+            }
+            (Value::Chosen(a), b) | (b, Value::Chosen(a)) => {
+                self.unify_values(&a.a, b)?;
+                self.unify_values(&a.b, b)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The type of the class, where an operation cannot do without.
+    fn needed_type(&self, at: &impl ToTokens, class: Class) -> Result<IntegerType> {
+        match self.integers.of(class).ty {
+            Some(ty) => Ok(ty),
+            None => refuse(at, "the type of this integer decides the result; write it out, as in `2_u8`"),
+        }
+    }
+
+    /// `left operator right` of integers.
+    pub fn integers(
+        &mut self,
+        at: &impl ToTokens,
+        operator: &BinOp,
+        left: Integer,
+        right: Integer,
+    ) -> Result<Value> {
+        let (a, b) = (left.value, right.value);
+        if let BinOp::Shl(_) | BinOp::Shr(_) = operator {
+            return self.shifted(at, operator, left, right);
+        }
+        self.unify(left.class, right.class)?;
+        let known = |truth| Ok(Value::Truth(Truth::Known(truth)));
+        let result = match operator {
+            BinOp::Add(_) => a.checked_add(b),
+            BinOp::Sub(_) => a.checked_sub(b),
+            BinOp::Mul(_) => a.checked_mul(b),
+            BinOp::Div(_) | BinOp::Rem(_) if b == 0 => return refuse(at, "a division by 0"),
+            BinOp::Div(_) => a.checked_div(b),
+            BinOp::Rem(_) => {
+                // The least number of a type has no remainder by −1.
+                if b == -1 {
+                    self.negated(at, left)?;
+                }
+                a.checked_rem(b)
+            }
+            BinOp::BitAnd(_) => Some(a & b),
+            BinOp::BitOr(_) => Some(a | b),
+            BinOp::BitXor(_) => Some(a ^ b),
+            BinOp::Lt(_) => return known(a < b),
+            BinOp::Le(_) => return known(a <= b),
+            BinOp::Gt(_) => return known(a > b),
+            BinOp::Ge(_) => return known(a >= b),
+            BinOp::Eq(_) => return known(a == b),
+            BinOp::Ne(_) => return known(a != b),
+            _ => None,
+        };
+        match result {
+            Some(value) => self.in_class(at, value, left.class),
+            None => refuse(at, "this integer cannot be computed at compile time"),
+        }
+    }
+
+    fn shifted(
+        &mut self,
+        at: &impl ToTokens,
+        operator: &BinOp,
+        left: Integer,
+        right: Integer,
+    ) -> Result<Value> {
+        let ty = self.integers.of(left.class).ty;
+        // The narrowest type that it may have.
+        let width = match ty {
+            Some(ty) => i128::from(ty.bits.unwrap_or(LEAST_WIDTH)),
+            None => 8,
+        };
+        if !(0..width.min(64)).contains(&right.value) {
+            return refuse(
+                at,
+                "a shift by as many bits as the type has overflows; write the type out if it has more",
+            );
+        }
+        let value = match operator {
+            BinOp::Shl(_) => left.value.checked_mul(1 << right.value),
+            _ => Some(left.value >> right.value),
+        };
+        let value = match ty {
+            Some(ty) => value.and_then(|value| ty.wrapped(value)),
+            None => value,
+        };
+        match value {
+            Some(value) => self.in_class(at, value, left.class),
+            None => refuse(at, "this integer cannot be computed at compile time"),
+        }
+    }
+
+    /// `-value`
+    pub fn negated(&mut self, at: &impl ToTokens, integer: Integer) -> Result<Value> {
+        self.integers.of_mut(integer.class).is_signed = true;
+        match integer.value.checked_neg() {
+            Some(value) => self.in_class(at, value, integer.class),
+            None => refuse(at, "this integer cannot be computed at compile time"),
+        }
+    }
+
+    /// `!value`
+    pub fn complement(&mut self, at: &impl ToTokens, integer: Integer) -> Result<Value> {
+        let ty = self.needed_type(at, integer.class)?;
+        match (ty.is_signed, ty.bits) {
+            (true, _) => self.in_class(at, -integer.value - 1, integer.class),
+            (false, Some(bits)) if bits < 128 => {
+                self.in_class(at, ty.range().1 - integer.value, integer.class)
+            }
+            _ => refuse(at, "the width of this type decides the result"),
+        }
+    }
+
+    /// `value as ty`
+    pub fn integer_cast(&mut self, at: &impl ToTokens, value: i128, ty: IntegerType) -> Result<Value> {
+        match ty.wrapped(value) {
+            Some(value) => self.integer(at, value, Some(ty)),
+            None => refuse(at, format!("what {value} becomes as `{}` depends on the target", ty.name)),
+        }
+    }
+
+    /// A method of an integer.
+    pub fn integer_method(&mut self, method: &Ident, integer: Integer, arguments: &[Value]) -> Result<Value> {
+        let Integer { value, class } = integer;
+        let name = method.to_string();
+        let unknown = || -> Result<Value> {
+            refuse(method, format!("the method `{method}` of an integer cannot be followed at compile time"))
+        };
+        let numbers: Vec<Integer> = arguments
+            .iter()
+            .filter_map(|argument| if let Value::Integer(number) = argument { Some(*number) } else { None })
+            .collect();
+        if numbers.len() != arguments.len() {
+            return unknown();
+        }
+        if let ("pow" | "wrapping_pow" | "saturating_pow", [exponent]) = (&*name, &numbers[..]) {
+            self.of_type(exponent.class, IntegerType::U32)?;
+        } else {
+            for other in &numbers {
+                self.unify(class, other.class)?;
+            }
+        }
+        let others: Vec<i128> = numbers.iter().map(|number| number.value).collect();
+        let power = |n: i128| u32::try_from(n).ok().and_then(|n| value.checked_pow(n));
+        let result = match (&*name, &others[..]) {
+            ("clone", []) => Some(value),
+            ("pow", &[n]) => power(n),
+            ("min", &[other]) => Some(value.min(other)),
+            ("max", &[other]) => Some(value.max(other)),
+            ("clamp", &[low, high]) if low <= high => Some(value.clamp(low, high)),
+            ("abs", []) => value.checked_abs(),
+            ("signum", []) => Some(value.signum()),
+            ("rem_euclid", &[other]) if other != 0 => {
+                if other == -1 {
+                    self.negated(method, integer)?;
+                }
+                value.checked_rem_euclid(other)
+            }
+            ("div_euclid", &[other]) if other != 0 => value.checked_div_euclid(other),
+            ("abs_diff", &[other]) => {
+                let ty = self.needed_type(method, class)?;
+                let unsigned = IntegerType::named(&ty.name.replace('i', "u"));
+                // `isize` has an `i` of its own.
+                let unsigned = if ty.bits.is_none() { Some(IntegerType::USIZE) } else { unsigned };
+                return match value.checked_sub(other).and_then(i128::checked_abs) {
+                    Some(difference) => self.integer(method, difference, unsigned),
+                    None => unknown(),
+                };
+            }
+            _ => {
+                let (manner, operation) = name.split_once('_').unwrap_or_default();
+                let exact = match (operation, &others[..]) {
+                    ("add", &[other]) => value.checked_add(other),
+                    ("sub", &[other]) => value.checked_sub(other),
+                    ("mul", &[other]) => value.checked_mul(other),
+                    ("pow", &[n]) => power(n),
+                    _ => return unknown(),
+                };
+                let ty = self.needed_type(method, class)?;
+                match manner {
+                    "wrapping" => exact.and_then(|exact| ty.wrapped(exact)),
+                    "saturating" => exact.and_then(|exact| ty.saturated(exact)),
+                    _ => return unknown(),
+                }
+            }
+        };
+        match result {
+            Some(value) => self.in_class(method, value, class),
+            None => unknown(),
+        }
+    }
+
+    /// The integer as a length or an index.
+    pub fn size(&mut self, at: &impl ToTokens, integer: Integer) -> Result<usize> {
+        self.of_type(integer.class, IntegerType::USIZE)?;
+        match usize::try_from(integer.value) {
+            Ok(size) => Ok(size),
+            Err(_) => refuse(at, "a negative length"),
+        }
+    }
+}

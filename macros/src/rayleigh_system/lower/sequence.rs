@@ -1,0 +1,189 @@
+//! Methods of arrays and iterators.
+
+use proc_macro2::Ident;
+use syn::{BinOp, ExprBinary, Type, parse_quote};
+
+use super::super::graph::Operation;
+use super::integer::IntegerType;
+use super::value::{Truth, Value};
+use super::{Lowering, Node, Result, refuse};
+
+impl Lowering<'_> {
+    pub fn sequence_method(
+        &mut self,
+        method: &Ident,
+        entries: Vec<Value>,
+        arguments: Vec<Value>,
+        said: Option<&Type>,
+    ) -> Result<Value> {
+        let name = method.to_string();
+        let pair = |a: Value, b: Value| Value::Tuple(vec![a, b]);
+        let entries: Vec<Value> = match (name.as_str(), &arguments[..]) {
+            ("iter" | "into_iter" | "copied" | "cloned" | "clone" | "as_slice" | "to_owned", []) => entries,
+            ("len" | "count", []) => {
+                return self.integer(method, entries.len() as i128, Some(IntegerType::USIZE));
+            }
+            ("map" | "flat_map", [function]) => {
+                let mut mapped = Vec::new();
+                for entry in entries {
+                    mapped.push(self.apply(method, function, vec![entry])?);
+                }
+                if name == "map" { mapped } else { flattened(method, mapped)? }
+            }
+            ("flatten", []) => flattened(method, entries)?,
+            ("zip", [Value::Sequence(others)]) => {
+                entries.into_iter().zip(others.iter().cloned()).map(|(a, b)| pair(a, b)).collect()
+            }
+            ("zip", _) => {
+                return refuse(
+                    method,
+                    "the length of what is zipped with is not known here; give it a type, as in `let m: [f64; 3] = self.m;`, or use an index",
+                );
+            }
+            ("enumerate", []) => {
+                let mut numbered = Vec::new();
+                for (index, entry) in (0..).zip(entries) {
+                    numbered.push(pair(self.integer(method, index, Some(IntegerType::USIZE))?, entry));
+                }
+                numbered
+            }
+            ("rev", []) => entries.into_iter().rev().collect(),
+            ("chain", [Value::Sequence(others)]) => {
+                if let (Some(a), Some(b)) = (entries.first(), others.first()) {
+                    self.unify_values(a, b)?;
+                }
+                entries.into_iter().chain(others.iter().cloned()).collect()
+            }
+            ("skip", &[Value::Integer(count)]) => {
+                entries.into_iter().skip(self.size(method, count)?).collect()
+            }
+            ("take", &[Value::Integer(count)]) => {
+                entries.into_iter().take(self.size(method, count)?).collect()
+            }
+            ("step_by", &[Value::Integer(step)]) if step.value > 0 => {
+                entries.into_iter().step_by(self.size(method, step)?).collect()
+            }
+            ("windows", &[Value::Integer(width)]) if width.value > 0 => entries
+                .windows(self.size(method, width)?)
+                .map(|window| Value::Sequence(window.to_vec()))
+                .collect(),
+            ("chunks", &[Value::Integer(width)]) if width.value > 0 => entries
+                .chunks(self.size(method, width)?)
+                .map(|chunk| Value::Sequence(chunk.to_vec()))
+                .collect(),
+            ("chunks_exact", &[Value::Integer(width)]) if width.value > 0 => entries
+                .chunks_exact(self.size(method, width)?)
+                .map(|chunk| Value::Sequence(chunk.to_vec()))
+                .collect(),
+            ("filter", [function]) => {
+                let mut kept = Vec::new();
+                for entry in entries {
+                    let chosen = self.apply(method, function, vec![entry.clone()])?;
+                    match self.truth(method, chosen)? {
+                        Truth::Known(true) => kept.push(entry),
+                        Truth::Known(false) => {}
+                        Truth::Where(_) => {
+                            return refuse(
+                                method,
+                                "numbers decide what is kept; select a term with `if` instead",
+                            );
+                        }
+                    }
+                }
+                kept
+            }
+            ("sum" | "product", []) => return self.total(method, entries, said),
+            ("any" | "all", [function]) => return self.decided(method, entries, function),
+            ("contains", [_]) => return refuse(method, "compare the entries one by one"),
+            ("fold", [start, function]) => {
+                let mut total = start.clone();
+                for entry in entries {
+                    let before = total.clone();
+                    total = self.apply(method, function, vec![total, entry])?;
+                    self.unify_values(&before, &total)?;
+                }
+                return Ok(total);
+            }
+            _ => {
+                return refuse(
+                    method,
+                    format!("the method `{method}` cannot be followed at compile time; use a `for` loop"),
+                );
+            }
+        };
+        Ok(Value::Sequence(entries))
+    }
+
+    /// Whether the closure holds for any or for all; closures change nothing, so that the order of asking does not matter.
+    fn decided(&mut self, method: &Ident, entries: Vec<Value>, function: &Value) -> Result<Value> {
+        let is_any = method == "any";
+        let mut truth = Truth::Known(!is_any);
+        let outside = self.guards.len();
+        for entry in entries {
+            let asked = self.apply(method, function, vec![entry])?;
+            let asked = self.truth(method, asked)?;
+            truth = if is_any { truth.or(&mut self.graph, asked) } else { truth.and(&mut self.graph, asked) };
+            match truth {
+                // What comes later is not asked.
+                Truth::Known(known) if known == is_any => break,
+                Truth::Where(node) => self.guards.push((node, !is_any)),
+                Truth::Known(_) => {}
+            }
+        }
+        self.guards.truncate(outside);
+        Ok(Value::Truth(truth))
+    }
+
+    /// The sum or the product, from left to right. Rust starts sums of floating-point numbers at −0, which changes nothing.
+    fn total(&mut self, method: &Ident, entries: Vec<Value>, said: Option<&Type>) -> Result<Value> {
+        let is_sum = method == "sum";
+        let ty = said.and_then(IntegerType::of);
+        let are_integers = entries.iter().all(|entry| matches!(entry, Value::Integer(_) | Value::Chosen(_)))
+            && entries.iter().any(|entry| matches!(entry, Value::Integer(_)));
+        let are_written = entries.iter().any(|entry| matches!(entry, Value::Written(_)))
+            && entries.iter().all(|entry| !matches!(entry, Value::Real(_)));
+        if are_integers || are_written || ty.is_some() {
+            let operator: BinOp = if is_sum { parse_quote!(+) } else { parse_quote!(*) };
+            let at: ExprBinary = parse_quote!(#method #operator #method);
+            let mut total = None;
+            for entry in entries {
+                total = Some(match total {
+                    None => entry,
+                    Some(total) => self.operate(&at, &operator, total, entry)?,
+                });
+            }
+            return match total {
+                Some(Value::Integer(total)) => {
+                    if let Some(ty) = ty {
+                        self.of_type(total.class, ty)?;
+                    }
+                    Ok(Value::Integer(total))
+                }
+                Some(total) => Ok(total),
+                None => self.integer(method, i128::from(!is_sum), ty),
+            };
+        }
+        let mut total: Option<Node> = None;
+        for entry in entries {
+            let entry = self.scalar(method, entry)?;
+            total = Some(match total {
+                None => entry,
+                Some(total) if is_sum => self.graph.add(total, entry),
+                Some(total) => self.graph.node(Operation::Multiply(total, entry)),
+            });
+        }
+        let empty = if is_sum { -0.0 } else { 1.0 };
+        Ok(Value::Real(total.unwrap_or_else(|| self.graph.constant(empty))))
+    }
+}
+
+fn flattened(method: &Ident, entries: Vec<Value>) -> Result<Vec<Value>> {
+    let mut flat = Vec::new();
+    for entry in entries {
+        match entry {
+            Value::Sequence(entries) => flat.extend(entries),
+            _ => return refuse(method, "what is flattened is no array whose length is known here"),
+        }
+    }
+    Ok(flat)
+}
