@@ -1,9 +1,11 @@
 //! What can be asked of a step after it was taken: how well its equation was posed, and on which branch its root lies.
 
+use core::cmp::Ordering;
+
 use nalgebra::{SMatrix, SVector};
 
 use crate::linear::{self, NewtonMatrix};
-use crate::{Discrete, Quantity, Scalar, State, Step, StepError};
+use crate::{Discrete, Scalar, State, Step, StepError};
 
 /// What a step's Newton matrix ∂p0/∂v̄ says of it; see [`Step::certificate`].
 ///
@@ -24,8 +26,10 @@ pub struct Certificate<S> {
     pub condition: S,
     /// The Newton correction still to be made, in the same units, as a share of v̄: the relative error of v̄, but for rounding.
     pub correction: S,
-    /// Whether det ∂p0/∂v̄ has the sign of det ∂²L/∂v². Otherwise an odd number of folds lies between this step and those of small h: the
-    /// root belongs to another branch than the flow, as with negative damping past hr = −2m.
+    /// Whether the determinant of the step's equations has the sign that it has for small h. Otherwise an odd number of folds lies between
+    /// this step and those of small h: the root belongs to another branch than the flow, as with negative damping past hr = −2m. The
+    /// equations are p0(v̄) = p0, with det ∂p0/∂v̄ against det ∂²L/∂v²; those of all stages for [`Gauss`](crate::Gauss), where
+    /// det ∂p0/∂v̄ changes sign through infinity at conjugate points, past which a step is as good as before.
     pub on_the_branch_of_the_flow: bool,
 }
 
@@ -49,7 +53,8 @@ impl<S: Scalar, const N: usize> Step<S, N> {
     /// ```
     ///
     /// # Errors
-    /// [`StepError::NonFinite`] if derivatives at the step are not finite.
+    /// [`StepError::NonFinite`] if derivatives at the step are not finite; those of a step of [`Gauss`](crate::Gauss), which solves for its
+    /// stages again.
     pub fn certificate<L, R>(
         &self,
         system: &L,
@@ -86,7 +91,8 @@ impl<S: Scalar> Certificate<S> {
     /// ```
     ///
     /// # Errors
-    /// [`StepError::NonFinite`] if derivatives at the step are not finite.
+    /// [`StepError::NonFinite`] if derivatives at the step are not finite; those of a step of [`Gauss`](crate::Gauss), which solves for its
+    /// stages again.
     pub fn of_step<L, R, const N: usize>(
         system: &L,
         _rule: R,
@@ -97,12 +103,8 @@ impl<S: Scalar> Certificate<S> {
     where
         L: Discrete<R, N, Scalar = S>,
     {
-        let kernel = system.step_kernel(&state.q, &step.velocity, h);
+        let (kernel, on_the_branch_of_the_flow) = system.equation_at(state, step, h)?;
         let mass = system.lagrangian_derivatives(&state.q, &step.velocity).d22;
-        StepError::require_finite(&kernel.p0, Quantity::Derivatives)?;
-        if let Some(index) = (0..N).find(|&i| !kernel.matrix.row_is_finite(i)) {
-            return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
-        }
         let matrix = kernel.matrix.dense();
         let unit = SVector::<S, N>::from_fn(|i, _| {
             let inertia = mass[(i, i)].abs();
@@ -121,7 +123,7 @@ impl<S: Scalar> Certificate<S> {
         Ok(Self {
             condition,
             correction: if correction == S::zero() { correction } else { correction / size },
-            on_the_branch_of_the_flow: has_positive_determinant(matrix) == has_positive_determinant(mass),
+            on_the_branch_of_the_flow,
         })
     }
 }
@@ -133,9 +135,9 @@ fn norm<S: Scalar, const N: usize>(matrix: &SMatrix<S, N, N>) -> S {
     })
 }
 
-/// The sign of the determinant, by elimination with row exchanges.
-fn has_positive_determinant<S: Scalar, const N: usize>(mut a: SMatrix<S, N, N>) -> bool {
-    let mut positive = true;
+/// The determinant against 0, by elimination with row exchanges.
+pub(crate) fn determinant_sign<S: Scalar, const N: usize>(mut a: SMatrix<S, N, N>) -> Ordering {
+    let mut sign = Ordering::Greater;
     for k in 0..N {
         let mut pivot = k;
         for i in k + 1..N {
@@ -145,13 +147,12 @@ fn has_positive_determinant<S: Scalar, const N: usize>(mut a: SMatrix<S, N, N>) 
         }
         if pivot != k {
             a.swap_rows(k, pivot);
-            positive = !positive;
+            sign = sign.reverse();
         }
         if a[(k, k)] < S::zero() {
-            positive = !positive;
-        }
-        if a[(k, k)] == S::zero() {
-            continue;
+            sign = sign.reverse();
+        } else if a[(k, k)].partial_cmp(&S::zero()) != Some(Ordering::Greater) {
+            return Ordering::Equal;
         }
         for i in k + 1..N {
             let factor = a[(i, k)] / a[(k, k)];
@@ -161,7 +162,7 @@ fn has_positive_determinant<S: Scalar, const N: usize>(mut a: SMatrix<S, N, N>) 
             }
         }
     }
-    positive
+    sign
 }
 
 #[cfg(test)]
@@ -171,9 +172,12 @@ mod tests {
 
     #[test]
     fn signs_of_determinants() {
-        assert!(has_positive_determinant(matrix![2.0, 1.0; 1.0, 2.0]));
-        assert!(!has_positive_determinant(matrix![1.0, 2.0; 2.0, 1.0]));
-        assert!(!has_positive_determinant(matrix![0.0, 1.0; 1.0, 0.0]));
-        assert!(has_positive_determinant(matrix![0.0, 1.0, 0.0; 0.0, 0.0, 1.0; 1.0, 0.0, 0.0]));
+        assert_eq!(determinant_sign(matrix![2.0, 1.0; 1.0, 2.0]), Ordering::Greater);
+        assert_eq!(determinant_sign(matrix![1.0, 2.0; 2.0, 1.0]), Ordering::Less);
+        assert_eq!(determinant_sign(matrix![0.0, 1.0; 1.0, 0.0]), Ordering::Less);
+        assert_eq!(determinant_sign(matrix![0.0, 1.0, 0.0; 0.0, 0.0, 1.0; 1.0, 0.0, 0.0]), Ordering::Greater);
+        // A singular matrix, and one with a NaN, have none.
+        assert_eq!(determinant_sign(matrix![1.0, 2.0; 2.0, 4.0]), Ordering::Equal);
+        assert_eq!(determinant_sign(matrix![f64::NAN]), Ordering::Equal);
     }
 }

@@ -1,5 +1,6 @@
 //! Runs by steps of several parts, of one size.
 
+use crate::checkpoint::Course;
 use crate::{Checkpoint, Lagrangian, State, StepError};
 
 /// A step that is made of several, with what it keeps for the next: [`Substeps`](crate::Substeps) of a
@@ -31,7 +32,7 @@ where
     system: &'a L,
     step: C,
     at: Checkpoint<L::Scalar, N>,
-    failed: bool,
+    course: Course,
 }
 
 impl<'a, L, C, const N: usize> ComposedTrajectory<'a, L, C, N>
@@ -41,7 +42,7 @@ where
 {
     /// From where `checkpoint` was taken.
     pub(crate) fn new(system: &'a L, step: C, checkpoint: Checkpoint<L::Scalar, N>) -> Self {
-        Self { system, step, at: checkpoint, failed: false }
+        Self { system, step, at: checkpoint, course: Course::Starting }
     }
 
     /// The present state: that of the last step that succeeded.
@@ -94,13 +95,13 @@ where
 
     #[inline]
     fn next(&mut self) -> Option<Self::Item> {
-        if self.failed {
-            return None;
+        if let Some(stop) = self.course.stop(self.system, &self.at) {
+            return stop.map(Err);
         }
         let state = self.step.advance(self.system, self.time(), &self.at.state);
         match &state {
             Ok(state) => self.at.follow(state),
-            Err(_) => self.failed = true,
+            Err(_) => self.course = Course::Ended,
         }
         Some(state)
     }

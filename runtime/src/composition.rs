@@ -172,11 +172,36 @@ impl<L, R, const N: usize, const S: usize> Substeps<L, R, N, S>
 where
     L: Discrete<R, N>,
 {
-    fn new(composition: &Composition<R, S>, h: L::Scalar) -> Self {
+    pub(crate) fn new(composition: &Composition<R, S>, h: L::Scalar) -> Self {
         Self {
             sizes: composition.shares.map(|share| L::Scalar::constant(share) * h),
             memories: array::from_fn(|_| L::Memory::default()),
         }
+    }
+
+    /// The step; `count` is told the iterations of every substep.
+    #[inline]
+    pub(crate) fn advance_counted(
+        &mut self,
+        system: &L,
+        mut elapsed: f64,
+        state: &State<L::Scalar, N>,
+        mut count: impl FnMut(u32),
+    ) -> Result<State<L::Scalar, N>, StepError> {
+        let mut state = *state;
+        for (i, &h) in self.sizes.iter().enumerate() {
+            let (before, rest) = self.memories.split_at_mut(i);
+            let Some((memory, after)) = rest.split_first_mut() else { break };
+            // The substep before; of the first, the last of the step before.
+            if let Some(previous) = before.last().or(after.last()) {
+                memory.follow(previous);
+            }
+            let step = memory.advance_later(system, elapsed, &state, h)?;
+            count(step.report.iterations);
+            state = step.state;
+            elapsed += h.widen();
+        }
+        Ok(state)
     }
 }
 
@@ -188,21 +213,10 @@ where
     fn advance(
         &mut self,
         system: &L,
-        mut elapsed: f64,
+        elapsed: f64,
         state: &State<L::Scalar, N>,
     ) -> Result<State<L::Scalar, N>, StepError> {
-        let mut state = *state;
-        for (i, &h) in self.sizes.iter().enumerate() {
-            let (before, rest) = self.memories.split_at_mut(i);
-            let Some((memory, after)) = rest.split_first_mut() else { break };
-            // The substep before; of the first, the last of the step before.
-            if let Some(previous) = before.last().or(after.last()) {
-                memory.follow(previous);
-            }
-            state = memory.advance_later(system, elapsed, &state, h)?.state;
-            elapsed += h.widen();
-        }
-        Ok(state)
+        self.advance_counted(system, elapsed, state, |_| {})
     }
 
     fn forget(&mut self) {

@@ -9,6 +9,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::certificate::determinant_sign;
 use crate::derivatives::linear;
 use crate::error::{Quantity, StepError};
 use crate::newton::{self, Equation};
@@ -96,8 +97,15 @@ impl<S: Scalar, const N: usize> core::ops::Add for DiscreteForceDerivatives<S, N
 /// | question | answer |
 /// |---|---|
 /// | how much work | `iterations`, `damped` |
-/// | how well the equation is solved | `residual` against `floor`: up to some 4 floors rounding is all that is left |
+/// | how well the equation is solved | `residual` against `floor`: at most 4 floors, in every coordinate |
+/// | what is left of v̄ | at most about the square of `last_correction`, relative to v̄ |
 /// | how well it was posed: condition of the Newton matrix, branch of the root | on request, [`Step::certificate`], so that steps do not pay for it |
+///
+/// **A step is solved**, by every rule, with or without a memory, and with `converged` of [`BoundedStep`], where in each coordinate the
+/// residual is at most 4 round-off floors; the floor is that of the solution returned, finite, and small beside the terms of the
+/// equation. It is 4ε (|p| + Σ |J||v̄|) with the Newton matrix J, plus, where forces cancel, what the last places of q and v̄ do to
+/// the residual, measured. The state returned then satisfies the rule's equations with q, v̄ and p changed by some units of their
+/// last places. Whatever does not is an error; no step is taken on a residual that merely stopped falling.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Report<S> {
@@ -143,6 +151,9 @@ impl<S: Scalar, const N: usize> Step<S, N> {
 /// A step, and derivatives of it.
 pub type StepWith<S, const N: usize, D> = (Step<S, N>, D);
 
+/// The step's equation at a step, and whether the step is on the branch of the flow; see [`Discrete::equation_at`].
+pub type EquationAt<S, const N: usize, M> = (StepKernel<S, N, M>, bool);
+
 /// A step by a bounded number of iterations: the best iterate, and whether it is the root.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoundedStep<S, const N: usize> {
@@ -158,8 +169,8 @@ pub struct BoundedStep<S, const N: usize> {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not discretised by `{R}`",
     label = "no discrete system by `{R}`",
-    note = "list the rule in the attribute: `#[rayleigh_system(rule = [midpoint, trapezoidal])]`",
-    note = "a system whose force takes an input is stepped as `system.driven(u)`, one that takes the time as `system.at_time(t)` or `system.driven(u, t)`"
+    note = "if its force takes an input, write `system.driven(u)` where `system` stands; if L, R or f take the time, `system.at_time(t)`, with an input `system.driven(u, t)`",
+    note = "otherwise list the rule in the attribute: `#[rayleigh_system(rule = [midpoint, trapezoidal])]`"
 )]
 pub trait Discrete<R, const N: usize>: Lagrangian<N> {
     /// The form of the Newton matrix: `SMatrix<Scalar, N, N>`, or [`Banded`](crate::Banded).
@@ -280,6 +291,8 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
 
     /// Left side of the forced discrete Euler–Lagrange equation at q1, 0 along solutions:
     /// D2 L_d(q0, q1) + f_d⁺(q0, q1) + D1 L_d(q1, q2) + f_d⁻(q1, q2).
+    ///
+    /// Of a system at a time t, a view, the second segment is that of t + h.
     #[inline]
     fn del_residual(
         &self,
@@ -287,14 +300,18 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         q1: &SVector<Self::Scalar, N>,
         q2: &SVector<Self::Scalar, N>,
         h: Self::Scalar,
-    ) -> SVector<Self::Scalar, N> {
-        self.legendre_plus(q0, q1, h).p - self.legendre_minus(q1, q2, h).p
+    ) -> SVector<Self::Scalar, N>
+    where
+        Self: Sized,
+    {
+        self.legendre_plus(q0, q1, h).p - self.later(h, |system| system.legendre_minus(q1, q2, h).p)
     }
 
     /// The flow on T*Q: solves p0 = −D1 L_d − f_d⁻ for q1, then p1 = D2 L_d + f_d⁺.
     ///
     /// `guess` is a guess for v̄ = (q1 − q0)/h; a [`Trajectory`](crate::Trajectory) extrapolates one. Without it Newton's
-    /// method starts at rest, and ∂²L/∂v² is checked to be invertible. h may be negative. Neither allocates nor panics
+    /// method starts at the velocity of the state, and ∂²L/∂v² is checked to be invertible; where that leads nowhere, it starts
+    /// again at rest, and away from it if rest is a singular point. h may be negative. Neither allocates nor panics
     /// (unless L, R or f do), and takes at most a fixed number of iterations.
     ///
     /// # Errors
@@ -307,7 +324,7 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         guess: Option<&SVector<Self::Scalar, N>>,
     ) -> Result<Step<Self::Scalar, N>, StepError> {
         let kind = if Self::LINEAR { Equation::Linear } else { Equation::General };
-        step_by(
+        let step = step_by(
             self,
             kind,
             |q0, v| self.step_kernel(q0, v, h),
@@ -315,11 +332,18 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
             state,
             h,
             guess,
-        )
+        );
+        if cfg!(debug_assertions)
+            && let Ok(step) = &step
+        {
+            self.verify_segment(&state.q, &step.velocity, h)?;
+        }
+        step
     }
 
     /// The step by at most `iterations` undamped Newton iterations, for a clock that does not wait: the work is bounded, and what is
-    /// returned is the best iterate, with the residual left and the last correction in its report.
+    /// returned is the best iterate, with the residual left and the last correction in its report. Without a `guess` the velocity
+    /// of the state is solved for first.
     ///
     /// # Errors
     /// [`StepError`] where not even one iteration can be made; the state given is untouched.
@@ -330,14 +354,40 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         guess: Option<&SVector<Self::Scalar, N>>,
         iterations: u32,
     ) -> Result<BoundedStep<Self::Scalar, N>, StepError> {
-        step_within_by(
+        let kind = if Self::LINEAR { Equation::Linear } else { Equation::General };
+        let bounded = step_within_by(
+            self,
+            kind,
             |q0, v| self.step_kernel(q0, v, h),
             |q0, v| self.momenta(q0, v, h),
             state,
             h,
             guess,
             iterations,
-        )
+        );
+        if cfg!(debug_assertions)
+            && let Ok(bounded) = &bounded
+        {
+            self.verify_segment(&state.q, &bounded.step.velocity, h)?;
+        }
+        bounded
+    }
+
+    /// Compares L, R and f as generated to those as written ([`Lagrangian::verify_generated`]) at the points where the rule
+    /// evaluates them on the segment from q0 with mean velocity `v`.
+    ///
+    /// With `debug_assertions` every step does so; without them the caller has to.
+    ///
+    /// # Errors
+    /// [`StepError::GeneratedDiffers`].
+    fn verify_segment(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> Result<(), StepError> {
+        let _ = (q0, v, h);
+        Ok(())
     }
 
     /// Both momenta of the segment (`q0`, `q1`) with their derivatives by the two.
@@ -349,6 +399,29 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
     ) -> LegendreDerivatives<Self::Scalar, N> {
         let l = self.discrete_lagrangian_derivatives(q0, q1, h);
         LegendreDerivatives::from_terms(&l, &self.discrete_force_derivatives(q0, q1, h))
+    }
+
+    /// The step's equation at a step that was taken, and whether the determinant of the equations that were solved for it has the sign that
+    /// it has for small h: no fold, or an even number of them, lies between. What a [`Certificate`](crate::Certificate) is made of.
+    ///
+    /// The only equation of a step is 𝔽⁻, unless the rule has others.
+    ///
+    /// # Errors
+    /// [`StepError::NonFinite`] if derivatives at the step are not finite; those of a step, for rules that solve for stages again.
+    fn equation_at(
+        &self,
+        state: &State<Self::Scalar, N>,
+        step: &Step<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> Result<EquationAt<Self::Scalar, N, Self::Matrix>, StepError> {
+        let kernel = self.step_kernel(&state.q, &step.velocity, h);
+        let mass = self.lagrangian_derivatives(&state.q, &step.velocity).d22;
+        StepError::require_finite(&kernel.p0, Quantity::Derivatives)?;
+        if let Some(index) = (0..N).find(|&i| !(kernel.matrix.row_is_finite(i) && mass.row_is_finite(i))) {
+            return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
+        }
+        let signs = [determinant_sign(kernel.matrix.dense()), determinant_sign(mass)];
+        Ok((kernel, signs[0] == signs[1] && signs[0].is_ne()))
     }
 
     /// The step's derivative by its state on the segment (`q0`, `q1`): [`Linearization::of_segment`].
@@ -380,6 +453,8 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
 
     /// The flow on Q×Q: (q0, q1) ↦ (q1, q2), with q2 = `state.q` of the step returned.
     ///
+    /// Of a system at a time t, a view, (q0, q1) is the segment of t, and the step is taken at t + h.
+    ///
     /// # Errors
     /// Those of [`step`](Self::step).
     #[inline]
@@ -389,10 +464,14 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         q1: &SVector<Self::Scalar, N>,
         h: Self::Scalar,
         guess: Option<&SVector<Self::Scalar, N>>,
-    ) -> Result<Step<Self::Scalar, N>, StepError> {
+    ) -> Result<Step<Self::Scalar, N>, StepError>
+    where
+        Self: Sized,
+    {
         require_step_size(h)?;
         StepError::require_finite(q0, Quantity::Configuration)?;
-        self.step(&self.legendre_plus(q0, q1, h), h, guess)
+        let state = self.legendre_plus(q0, q1, h);
+        self.later(h, |system| system.step(&state, h, guess))
     }
 }
 
@@ -484,40 +563,78 @@ where
     M: NewtonMatrix<L::Scalar, N>,
 {
     require_step_size(h)?;
-    let q0 = &state.q;
+    let inertia =
+        |q0: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>| system.lagrangian_derivatives(q0, v).d22;
     let start = match guess {
         Some(v) => *v,
-        None => {
-            let rest = nalgebra::zero();
-            require_regular(&system.lagrangian_derivatives(q0, &rest).d22)
-                .map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
-            rest
+        None => first_guess(system, kind, state)?,
+    };
+    let solution = match newton::solve(kind, &kernel, &momenta, inertia, state, start) {
+        Ok(solution) => solution,
+        Err(error) => {
+            let equations =
+                newton::Equations { evaluate: &kernel, finish: &momenta, inertia: &inertia, state };
+            let found =
+                if guess.is_none() { newton::from_rest(&equations, &start, error) } else { Err(error) };
+            found.map_err(|error| in_arguments(state, guess).unwrap_or(error))?
         }
     };
-    let inertia = |q0: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>| {
-        system.lagrangian_derivatives(q0, v).d22.diagonal()
-    };
-    let solution = newton::solve(kind, kernel, momenta, inertia, state, start)
-        .map_err(|error| in_arguments(state, guess).unwrap_or(error))?;
     // An argument that is not finite shows here or has failed above: none is looked at before.
     Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)
         .map_err(|error| in_arguments(state, guess).unwrap_or(error))
 }
 
+/// The velocity of `state`; where none is found, rest: a step may lead on, as from p = 0 at a singular point of L. Rest as well where
+/// the equation is linear: one correction leads from there to the root, with the least rounding.
+#[cold]
+#[inline(never)]
+fn first_guess<L: Lagrangian<N> + ?Sized, const N: usize>(
+    system: &L,
+    kind: Equation,
+    state: &State<L::Scalar, N>,
+) -> Result<SVector<L::Scalar, N>, StepError> {
+    let rest = nalgebra::zero();
+    if kind == Equation::Linear {
+        state.require_finite()?;
+        return require_regular(&system.lagrangian_derivatives(&state.q, &rest).d22).map(|()| rest);
+    }
+    match state.velocity(system) {
+        Ok(v) if StepError::require_finite(&v, Quantity::Velocity).is_ok() => Ok(v),
+        Err(
+            error @ (StepError::DegenerateLagrangian { .. }
+            | StepError::NonFinite {
+                quantity: Quantity::Configuration | Quantity::Momentum | Quantity::Derivatives,
+                ..
+            }),
+        ) => Err(error),
+        _ => Ok(rest),
+    }
+}
+
 /// [`Discrete::step_within`], likewise.
-pub(crate) fn step_within_by<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
-    kernel: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
-    momenta: impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
-    state: &State<S, N>,
-    h: S,
-    guess: Option<&SVector<S, N>>,
+#[expect(clippy::too_many_arguments, reason = "those of the step, and the number of iterations")]
+pub(crate) fn step_within_by<L, M, const N: usize>(
+    system: &L,
+    kind: Equation,
+    kernel: impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> StepKernel<L::Scalar, N, M>,
+    momenta: impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> Momenta<L::Scalar, N>,
+    state: &State<L::Scalar, N>,
+    h: L::Scalar,
+    guess: Option<&SVector<L::Scalar, N>>,
     iterations: u32,
-) -> Result<BoundedStep<S, N>, StepError> {
+) -> Result<BoundedStep<L::Scalar, N>, StepError>
+where
+    L: Lagrangian<N> + ?Sized,
+    M: NewtonMatrix<L::Scalar, N>,
+{
     require_step_size(h)?;
-    let guess = guess.copied().unwrap_or_else(nalgebra::zero);
     state.require_finite()?;
+    let guess = match guess {
+        Some(v) => *v,
+        None => first_guess(system, kind, state)?,
+    };
     StepError::require_finite(&guess, Quantity::Velocity)?;
-    let (solution, converged) = newton::bounded(iterations, kernel, momenta, state, guess)?;
+    let (solution, converged) = newton::bounded(kind, iterations, kernel, momenta, state, guess)?;
     let step = Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)?;
     Ok(BoundedStep { step, converged })
 }

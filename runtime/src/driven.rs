@@ -9,7 +9,31 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::derivatives::linear;
-use crate::{Discrete, Force, Linearization, State, StepError, StepWith};
+use crate::{Discrete, Force, Linearization, Scalar, State, StepError, StepWith};
+
+/// What `system.driven(u)` takes for the input u ∈ ℝᴹ: `[S; M]`, or an `SVector<S, M>`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not an input of this system: it takes an array `[{S}; {M}]`, or an `SVector<{S}, {M}>`",
+    label = "not `[{S}; {M}]`"
+)]
+pub trait Input<S, const M: usize> {
+    /// u₁ … u_M.
+    fn entries(self) -> [S; M];
+}
+
+impl<S: Scalar, const M: usize> Input<S, M> for [S; M] {
+    #[inline]
+    fn entries(self) -> [S; M] {
+        self
+    }
+}
+
+impl<S: Scalar, const M: usize> Input<S, M> for SVector<S, M> {
+    #[inline]
+    fn entries(self) -> [S; M] {
+        self.into()
+    }
+}
 
 /// A system with its input u ∈ ℝᴹ held: the views that `#[rayleigh_system]` makes of systems with
 /// `fn force(&self, q: [f64; N], v: [f64; N], u: [f64; M]) -> [f64; N]`.

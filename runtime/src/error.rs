@@ -20,13 +20,35 @@ pub enum Quantity {
     Derivatives,
 }
 
-/// Why a step was not taken. The state that it started from is untouched; most failures pass with a smaller step size.
+/// A function of a system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Function {
+    /// L.
+    Lagrangian,
+    /// R.
+    Rayleigh,
+    /// A component of f.
+    Force {
+        /// Its coordinate.
+        index: usize,
+    },
+}
+
+/// Why a step was not taken. The state that it started from is untouched; each message says whether a smaller step size can help.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum StepError {
     /// The step size is zero or not finite.
     StepSize {
         /// The step size given.
+        h: f64,
+    },
+    /// The clock of a run does not tell a step from none: its time is so large that the step does not change it, or is not finite.
+    Time {
+        /// The time of the run.
+        time: f64,
+        /// The step size.
         h: f64,
     },
     /// A value is NaN or infinite.
@@ -40,6 +62,16 @@ pub enum StepError {
     DegenerateLagrangian {
         /// The coordinate whose pivot vanishes.
         column: usize,
+    },
+    /// ∂²L/∂v² is regular but not positive definite, as the rules fitted to damping and the splittings need it.
+    MassNotPositiveDefinite {
+        /// The first coordinate with a pivot that is not positive.
+        column: usize,
+    },
+    /// No velocity in reach has this momentum: ∂L/∂v(q, v) = p, which no step size enters.
+    NoVelocity {
+        /// Largest residual p − ∂L/∂v.
+        residual: f64,
     },
     /// The Newton matrix −h D2 D1 L_d⁺ is singular at an iterate.
     SingularNewtonMatrix {
@@ -70,6 +102,16 @@ pub enum StepError {
         residual: f64,
         /// The round-off floor aimed at.
         floor: f64,
+    },
+    /// The derivatives generated belong to another function than the one written: their values differ
+    /// ([`verification`](crate::verification)).
+    GeneratedDiffers {
+        /// Which function.
+        function: Function,
+        /// Its value as generated together with its derivatives.
+        generated: f64,
+        /// Its value as written.
+        written: f64,
     },
 }
 
@@ -109,18 +151,48 @@ impl fmt::Display for Quantity {
     }
 }
 
+impl fmt::Display for Function {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Lagrangian => f.write_str("L"),
+            Self::Rayleigh => f.write_str("R"),
+            Self::Force { index } => write!(f, "component {index} of f"),
+        }
+    }
+}
+
 impl fmt::Display for StepError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::StepSize { h } => write!(f, "step size {h} is zero or not finite; give a finite h ≠ 0"),
+            Self::Time { time, h } => write!(
+                f,
+                "a step of {h} does not change the time {time} of the run; start a new run from its state, whose time begins at 0, \
+                 with the system as it is at that time"
+            ),
+            Self::NonFinite { quantity: Quantity::Derivatives, index } => write!(
+                f,
+                "derivative of L, R or f {index} is NaN or infinite; look at L, R and f at the state given: if they have \
+                 finite derivatives there, try a smaller step"
+            ),
             Self::NonFinite { quantity, index } => write!(
                 f,
-                "{quantity} {index} is NaN or infinite; check the state given, or try a smaller step"
+                "{quantity} {index} is NaN or infinite; look at the state given: if it is finite, try a smaller step"
             ),
             Self::DegenerateLagrangian { column } => write!(
                 f,
-                "∂²L/∂v² is singular (pivot of coordinate {column}): momenta do not determine velocities; \
-                 give every coordinate a kinetic energy, or remove it"
+                "∂²L/∂v² is singular (pivot of coordinate {column}): momenta do not determine velocities; give \
+                 coordinate {column} a kinetic energy of its own, or remove it"
+            ),
+            Self::MassNotPositiveDefinite { column } => write!(
+                f,
+                "∂²L/∂v² is not positive definite (pivot of coordinate {column}): the fitted rules and the splittings \
+                 need that; step with another rule, or mend the sign of the kinetic energy"
+            ),
+            Self::NoVelocity { residual } => write!(
+                f,
+                "no velocity in reach has this momentum (residual {residual:.3e}): ∂L/∂v is bounded or not monotone; \
+                 check p and L"
             ),
             Self::SingularNewtonMatrix { iteration, column } => write!(
                 f,
@@ -140,6 +212,11 @@ impl fmt::Display for StepError {
                 f,
                 "not converged after {iterations} iterations: residual {residual:.3e}, floor {floor:.3e}; \
                  try a smaller step"
+            ),
+            Self::GeneratedDiffers { function, generated, written } => write!(
+                f,
+                "{function} is {written:e} as written and {generated:e} as generated: the derivatives belong to another \
+                 function, a fault of dalembert; report it with the body, and use `derivatives = num_dual` until it is mended"
             ),
         }
     }

@@ -25,9 +25,10 @@ pub struct Stages<T, const N: usize, const S: usize> {
 /// `#[rayleigh_system(rule = gauss)]` writes it. By hand, a system without force needs nothing but the `impl`; one with force
 /// sets [`IS_FORCED`](Self::IS_FORCED) and gives f_L and its derivatives; one that changes with time, [`IS_TIMED`](Self::IS_TIMED).
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` does not say which force acts at its stages",
-    label = "no forced Lagrangian",
-    note = "list the rule in the attribute: `#[rayleigh_system(rule = gauss)]`"
+    message = "`{Self}` has no step as it stands here",
+    label = "no step",
+    note = "if its force takes an input, write `system.driven(u)` where `system` stands; if L, R or f take the time, `system.at_time(t)`, with an input `system.driven(u, t)`",
+    note = "otherwise list the rule in the attribute: `#[rayleigh_system(rule = [midpoint, gauss])]`"
 )]
 pub trait ForcedLagrangian<const N: usize>: Lagrangian<N> {
     /// Whether there is a force. Without one, f_d and its derivatives are 0 and cost nothing.

@@ -32,6 +32,9 @@
 //! [`HamiltonJacobi::carry`] makes one from γ_0, with the tangent frame (Q_k, P_k) along each characteristic, and
 //! [`HamiltonJacobi::characteristics_report`] its closedness defect Q_kᵀP_k − P_kᵀQ_k and its caustics det Q_k = 0.
 
+//!
+//! Of a system at a time t0, a view, step k and its segment (q_k, q_{k+1}) are those of t0 + k h, in every check of a sequence.
+
 mod caustics;
 mod characteristics;
 mod error;
@@ -49,6 +52,7 @@ mod virtual_work;
 
 use core::marker::PhantomData;
 
+use crate::samples::at_segment;
 use crate::{Discrete, Scalar};
 
 pub use caustics::Caustic;
@@ -111,9 +115,24 @@ where
 
     /// The same with another relative tolerance, for candidates whose own values carry more than rounding errors.
     ///
-    /// An equation holds if its residual is at most `relative` × the size of its terms; 256 ε if not said.
+    /// An equation holds if its residual is at most `relative` × the size of its terms, with the rounding of what they are evaluated at;
+    /// 256 ε if not said.
     #[must_use]
     pub fn with_tolerance(self, relative: f64) -> Self {
         Self { relative, ..self }
+    }
+
+    /// `evaluate` of the theory at the start of step k.
+    fn at_step<T>(&self, k: usize, evaluate: impl FnOnce(&HamiltonJacobi<'_, L, R, N>) -> T) -> T {
+        at_segment(self.system, k, self.h, |system| evaluate(&self.of(system)))
+    }
+
+    /// `evaluate` of the theory a step earlier.
+    fn a_step_before<T>(&self, evaluate: impl FnOnce(&HamiltonJacobi<'_, L, R, N>) -> T) -> T {
+        at_segment(self.system, 1, -self.h, |system| evaluate(&self.of(system)))
+    }
+
+    fn of<'b>(&self, system: &'b L) -> HamiltonJacobi<'b, L, R, N> {
+        HamiltonJacobi { system, rule: PhantomData, h: self.h, relative: self.relative }
     }
 }

@@ -8,6 +8,7 @@
 extern crate self as dalembert;
 
 mod certificate;
+mod checkpoint;
 mod composed_trajectory;
 mod composition;
 mod derivatives;
@@ -46,6 +47,9 @@ pub mod noether;
 pub mod rayleigh;
 #[cfg(feature = "std")]
 pub mod samples;
+#[cfg(feature = "std")]
+mod verdict;
+pub mod verification;
 
 /// The attributes that fit the features of this crate, which a macro cannot see.
 mod attributes {
@@ -111,7 +115,7 @@ mod attributes {
 ///
 /// | the system takes | its view | |
 /// |---|---|---|
-/// | u | `system.driven(u)` | `u` an array or an `SVector` |
+/// | u | `system.driven(u)` | `u` an array or an `SVector`: an [`Input`] |
 /// | t | `system.at_time(t)` | |
 /// | u and t | `system.driven(u, t)` | |
 ///
@@ -168,9 +172,16 @@ mod attributes {
 /// | option | |
 /// |---|---|
 /// | `rule = midpoint`, `rule = [midpoint, trapezoidal]` | the rules of discretisation; midpoint unless said |
-/// | `derivatives = auto`, `expanded`, `num_dual` | who makes the derivatives; written out where that can be, unless said |
+/// | `derivatives = auto`, `expanded`, `num_dual` | who makes the derivatives; written out where that can be, up to 20 000 operations in one function, unless said |
 /// | `parameters = [m, c[0]]` | fields by which the step is differentiated: [`StateBy::of_parameters`]; written out only |
 /// | `step_derivatives = second` | second derivatives of the step: [`StepHessian`] |
+/// | `crate = mechanics` | the path of this crate, where Cargo.toml gives it another name: `mechanics = { package = "dalembert" }`; also of [`differentiable`](macro@differentiable) |
+///
+/// Where `auto` cannot write the derivatives out, dual numbers make them when the program runs: twice as slow for two
+/// coordinates, hundreds of times for nine, and a compile-time error beyond 32 (8 with `step_derivatives = second`), where the
+/// stack of a thread might overflow. A warning at the token that cannot be followed says why. It is rustc's `deprecated`: `derivatives =
+/// num_dual` or `#[allow(deprecated)]` beside the attribute silence it, `derivatives = expanded` or `-D warnings` make it an
+/// error.
 ///
 /// # One free function
 ///
@@ -193,9 +204,48 @@ mod attributes {
 ///
 /// # What bodies may contain
 ///
-/// Fields that are `f64`, integers, `bool`, arrays or tuples of them; constants of the standard library, the module and the
-/// block; `let`, `mut` locals, arrays, tuples, references, loops, iterators, `if` and `match`, early return, closures, casts,
-/// literals and functions of the block. The value is bit by bit that of the same code outside the macro.
+/// One language for `auto`, `expanded` and `num_dual`, with Rust's semantics; the value is bit by bit that of the same code
+/// outside the macro.
+///
+/// - Fields that are `f64`, integers, `bool`, arrays or tuples of them, `Option`s, and enums and structs of your own; constants
+///   of the standard library, the module and the block; functions of the block.
+/// - `let`, `let … else`, `mut` locals, arrays, tuples, references, closures that change nothing outside, loops and iterators,
+///   labels, `if`, `if let`, `match` with guards, `matches!`, early return.
+/// - `is_some`, `is_none`, `unwrap_or`, `map_or`, `is_some_and` and their like of an `Option`. What a pattern matches, rustc
+///   decides: the pattern is written out, and each arm is differentiated for itself.
+/// - Integers, with the types that Rust infers: what overflows is refused, `as` wraps, truncates and rounds.
+///
+/// ```
+/// use dalembert::{Rayleigh, nalgebra::vector, rayleigh_system};
+///
+/// enum Friction {
+///     None,
+///     Linear(f64),
+///     Quadratic { c: f64 },
+/// }
+///
+/// struct Slider {
+///     law: Friction,
+///     k3: Option<f64>,
+/// }
+///
+/// #[rayleigh_system]
+/// impl Slider {
+///     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+///         0.5 * (v[0] * v[0] - q[0] * q[0]) - self.k3.map_or(0.0, |k| 0.25 * k * q[0].powi(4))
+///     }
+///     fn rayleigh(&self, v: [f64; 1]) -> f64 {
+///         match self.law {
+///             Friction::None => 0.0,
+///             Friction::Linear(c) => 0.5 * c * v[0] * v[0],
+///             Friction::Quadratic { c } => c * v[0].abs().powi(3) / 3.0,
+///         }
+///     }
+/// }
+///
+/// let slope = |law| Slider { law, k3: None }.rayleigh_gradient(&vector![0.0], &vector![2.0]).d2[0];
+/// assert_eq!([Friction::None, Friction::Linear(0.5), Friction::Quadratic { c: 0.5 }].map(slope), [0.0, 1.0, 2.0]);
+/// ```
 ///
 /// | methods of floating-point numbers, as `x.sin()`, `f64::sin(x)` or `.map(f64::sin)` | |
 /// |---|---|
@@ -207,15 +257,20 @@ mod attributes {
 /// | sums | `mul_add` `midpoint`, `sum()` and `product()` of iterators |
 /// | questions, on the value alone | `is_nan` `is_finite` `is_infinite` `is_normal` `is_subnormal` `is_sign_positive` `is_sign_negative` `total_cmp`, `==` `<` `partial_cmp` |
 ///
+/// `hypot` guards against overflow and costs 1.5 times as much as `sqrt` of a sum of squares, which serves where the squares stay
+/// between 1e-300 and 1e300.
+///
 /// Without the feature `std` the same source compiles: elementary functions are those of [`Elementary`]. With `std` and `libm`
 /// they are so too, and a host repeats a microcontroller bit by bit. Other functions of the block, and code of your own, import
 /// [`Elementary`] to call them. Bodies must then be such that their derivatives can be written out.
 ///
 /// Where a derivative does not exist, it is what the table of [`Real`](dual::Real) says.
 ///
-/// Refused, with a message at the token: type aliases, items and macros inside a body, functions outside the block, generic
-/// helpers, assignment to a field, casts of coordinates to integers, `%` and rounding and bit methods on them, fields of other
-/// types.
+/// Loops whose turns depend on numbers or fields are left to dual numbers, which take no enum.
+///
+/// Refused, with a message at the token: `#[cfg]` inside the item, type aliases, items and macros inside a body, functions
+/// outside the block, generic helpers, assignment to a field, casts of coordinates to integers, `%` and rounding and bit methods
+/// on them, integers that overflow or whose value depends on a type that is not known.
 pub use attributes::rayleigh_system;
 
 /// Makes a function of the configuration a field with derivatives: a [`VectorField`] if it returns `[f64; N]`, such as the
@@ -245,17 +300,18 @@ pub use attributes::differentiable;
 pub use nalgebra;
 
 pub use certificate::Certificate;
+pub use checkpoint::Checkpoint;
 pub use composed_trajectory::{ComposedStep, ComposedTrajectory};
 pub use composition::{Composition, Substeps};
 pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
 pub use discrete::{
-    BoundedStep, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, Report, Step,
-    StepKernel, StepWith,
+    BoundedStep, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, EquationAt, Momenta,
+    Report, Step, StepKernel, StepWith,
 };
-pub use driven::{DiscreteDriven, Driven, MomentaBy};
+pub use driven::{DiscreteDriven, Driven, Input, MomentaBy};
 pub use elementary::Elementary;
 pub use energy::EnergyLedger;
-pub use error::{Quantity, StepError};
+pub use error::{Function, Quantity, StepError};
 pub use fields::{ScalarField, VectorField};
 pub use forced::{ForcedLagrangian, Stages};
 pub use lanes::{LaneVector, Lanes, Mask};
@@ -276,7 +332,7 @@ pub use state::State;
 pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
 pub use system::{Force, Lagrangian, Rayleigh};
 pub use tolerance::{
-    Breach, Choice, Composed, GaussOr, GuardedTrajectory, Method, MethodRun, Methods, SplitOr,
-    ToleranceError, Trial, WithGauss, WithSplittings,
+    Breach, Choice, Composed, GaussOr, GuardedTrajectory, Method, MethodStep, Methods, SplitOr, Stagewise,
+    Taken, ToleranceError, Trial, WithGauss, WithSplittings,
 };
-pub use trajectory::{Checkpoint, Parted, Sample, Samples, Trajectory};
+pub use trajectory::{Parted, Sample, Samples, Trajectory};

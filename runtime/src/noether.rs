@@ -9,6 +9,8 @@
 //! ξ(L_d) = D1 L_d·ξ(q0) + D2 L_d·ξ(q1),   f_d(ξ) = f_d⁻·ξ(q0) + f_d⁺·ξ(q1)
 //! ```
 //!
+//! Of a system at a time t0, a view, the k-th segment is judged at t0 + k h, and so is the k-th step of a balance.
+//!
 //! J is conserved iff the defect vanishes: a symmetry of L_d on which the force does no work, or the two cancelling.
 //!
 //! Beware of how a force is discretised. A force that does no work along ξ, f(q, v)·ξ(q) = 0, does none along it in the
@@ -47,7 +49,8 @@ use core::marker::PhantomData;
 
 use nalgebra::SVector;
 
-use crate::samples::Tolerance;
+use crate::samples::{Segment, Tolerance, at_segment};
+use crate::verdict::largest;
 use crate::{Discrete, Scalar, VectorField};
 
 pub use balance::Balance;
@@ -137,26 +140,72 @@ where
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
     ) -> Defect<L::Scalar> {
-        let l = self.system.discrete_lagrangian_derivatives(q0, q1, self.h);
-        let f = self.system.discrete_force(q0, q1, self.h);
-        let (xi0, xi1) = (generator.vector(q0), generator.vector(q1));
-        Defect { lagrangian: l.d1.dot(&xi0) + l.d2.dot(&xi1), force: f.minus.dot(&xi0) + f.plus.dot(&xi1) }
+        defect_of(self.system, generator, q0, q1, self.h)
     }
 
+    /// `evaluate` of the system at the start of the k-th segment.
+    fn at_segment<T>(&self, k: usize, evaluate: impl FnOnce(&L) -> T) -> T {
+        at_segment(self.system, k, self.h, evaluate)
+    }
+
+    /// The defect on the k-th segment, NaN where a product of its terms underflows.
     fn terms(
         &self,
+        k: usize,
         generator: &impl VectorField<N, Scalar = L::Scalar>,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
+        segment: &Segment<L::Scalar, N>,
     ) -> Terms {
-        let l = self.system.discrete_lagrangian_derivatives(q0, q1, self.h);
-        let f = self.system.discrete_force(q0, q1, self.h);
+        let Segment { q0, q1 } = segment;
+        let (l, f, defect) = self.at_segment(k, |system| {
+            (
+                system.discrete_lagrangian_derivatives(q0, q1, self.h),
+                system.discrete_force(q0, q1, self.h),
+                defect_of(system, generator, q0, q1, self.h),
+            )
+        });
         let (xi0, xi1) = (generator.vector(q0), generator.vector(q1));
-        let defect = self.defect(generator, q0, q1);
         Terms {
             defect: Defect { lagrangian: defect.lagrangian.widen(), force: defect.force.widen() },
-            lagrangian_scale: (l.d1.abs().dot(&xi0.abs()) + l.d2.abs().dot(&xi1.abs())).widen(),
-            force_scale: (f.minus.abs().dot(&xi0.abs()) + f.plus.abs().dot(&xi1.abs())).widen(),
+            lagrangian_scale: size_of(&[(&l.d1, &xi0), (&l.d2, &xi1)]),
+            force_scale: size_of(&[(&f.minus, &xi0), (&f.plus, &xi1)]),
         }
     }
+}
+
+/// ξ(L_d) and f_d(ξ) of a system at its time.
+fn defect_of<L: Discrete<R, N>, R, const N: usize>(
+    system: &L,
+    generator: &impl VectorField<N, Scalar = L::Scalar>,
+    q0: &SVector<L::Scalar, N>,
+    q1: &SVector<L::Scalar, N>,
+    h: L::Scalar,
+) -> Defect<L::Scalar> {
+    let l = system.discrete_lagrangian_derivatives(q0, q1, h);
+    let f = system.discrete_force(q0, q1, h);
+    let (xi0, xi1) = (generator.vector(q0), generator.vector(q1));
+    Defect { lagrangian: l.d1.dot(&xi0) + l.d2.dot(&xi1), force: f.minus.dot(&xi0) + f.plus.dot(&xi1) }
+}
+
+/// Σ|aᵢ||bᵢ|; NaN where a product is lost to underflow, since nothing can be said of its value then.
+fn size_of<S: Scalar, const N: usize>(products: &[(&SVector<S, N>, &SVector<S, N>)]) -> f64 {
+    let mut sum = S::zero();
+    for (a, b) in products {
+        for (a, b) in a.iter().zip(b.iter()) {
+            let product = a.abs() * b.abs();
+            if product < S::SMALLEST_NORMAL && *a != S::zero() && *b != S::zero() {
+                return f64::NAN;
+            }
+            sum += product;
+        }
+    }
+    sum.widen()
+}
+
+/// Whether ξ moves an end of the segment.
+fn moves_an_end<S: Scalar, const N: usize>(
+    generator: &impl VectorField<N, Scalar = S>,
+    segment: &Segment<S, N>,
+) -> bool {
+    let size = |q| largest(generator.vector(q).iter().map(|entry| entry.widen()));
+    size(&segment.q0) != 0.0 || size(&segment.q1) != 0.0
 }

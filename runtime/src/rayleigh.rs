@@ -11,6 +11,8 @@
 //! v·∂R/∂v ≥ 0                                                                      dissipation
 //! ```
 //!
+//! Of a system at a time t0, a view, the k-th segment is judged at t0 + k h.
+//!
 //! The first condition has three parts (the paper prints the last alone, which is enough for n = 1), and χ the sign + before
 //! φ1 and − before φ0.
 //!
@@ -60,6 +62,7 @@ pub use structure::{Condition, Structure, structure};
 use core::fmt;
 
 use crate::samples::{Segment, Tolerance, Worst};
+use crate::verdict::{excess, is_zero, tells};
 
 /// A quantity that has to vanish: its worst value over the samples, in units of what counts as zero there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,21 +71,30 @@ pub struct Residual<const N: usize> {
     pub worst: Worst<N>,
     /// What counts as zero for that value.
     pub tolerance: f64,
+    /// The size of the terms that it is a sum of.
+    pub terms: f64,
 }
 
 impl<const N: usize> Residual<N> {
-    /// Whether it is zero to rounding at every sample.
+    /// Whether it is zero to rounding at every sample. A tolerance that the quadrature's error brings up to the size of the terms
+    /// says nothing.
     #[must_use]
     pub fn vanishes(&self) -> bool {
-        self.worst.value.abs() <= self.tolerance
+        is_zero(self.worst.value, self.tolerance) && tells(self.tolerance, self.terms)
     }
 
-    /// Keeps the entry that is worse in units of its tolerance.
-    fn keep_worse(worst: &mut Option<Self>, value: f64, tolerance: f64, at: Segment<f64, N>) {
-        let ratio = |value: f64, tolerance: f64| if value == 0.0 { 0.0 } else { value.abs() / tolerance };
-        let known = worst.map_or(-1.0, |known| ratio(known.worst.value, known.tolerance));
-        if ratio(value, tolerance) > known {
-            *worst = Some(Self { worst: Worst { value, at }, tolerance });
+    /// Keeps the entry that is worse in units of its tolerance; what a tolerance says nothing of is worst.
+    fn keep_worse(worst: &mut Option<Self>, value: f64, tolerance: f64, terms: f64, at: Segment<f64, N>) {
+        let new = Self { worst: Worst { value, at }, tolerance, terms };
+        let units = |residual: &Self| {
+            if tells(residual.tolerance, residual.terms) {
+                excess(residual.worst.value, residual.tolerance)
+            } else {
+                f64::INFINITY
+            }
+        };
+        if worst.as_ref().is_none_or(|known| units(&new) > units(known)) {
+            *worst = Some(new);
         }
     }
 }

@@ -10,7 +10,7 @@ mod midpoint;
 mod one_sided;
 mod trapezoidal;
 
-pub(crate) use damped_drift::{ByDrift, DampedDrift, Drift, modes};
+pub(crate) use damped_drift::{ByDrift, DampedDrift, Drift, modes, require_positive_definite};
 pub use displacement::{DisplacementRule, Node};
 pub use fitted::Fitted;
 pub use fitted_trapezoidal::FittedTrapezoidal;

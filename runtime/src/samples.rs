@@ -2,12 +2,19 @@
 //!
 //! A checker's verdict is about the points that it was given. Points of a region, spread evenly by [`region`] and
 //! [`segments`], speak for the region; those of one trajectory ([`Segment::along`]) for that trajectory alone.
+//!
+//! Of a system at a time t0, a view, the k-th segment starts at t0 + k h: the segments of a trajectory each at its own time, those of
+//! a region at times spread over as many steps.
+//!
+//! No verdict is given on samples that prove nothing: a NaN or an infinity is a [`SampleError`], and so are samples that cannot tell
+//! yes from no, such as segments that do not move.
 
 use core::fmt;
 
 use nalgebra::SVector;
 
-use crate::Scalar;
+use crate::verdict::{excess, is_zero};
+use crate::{Lagrangian, Scalar};
 
 /// A segment (q0, q1), a point of Q×Q.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +35,11 @@ impl<S: Scalar, const N: usize> Segment<S, N> {
     #[must_use]
     pub fn along(path: &[SVector<S, N>]) -> Vec<Self> {
         path.windows(2).map(|pair| Self { q0: pair[0], q1: pair[1] }).collect()
+    }
+
+    /// Whether it leads anywhere: one at rest says nothing of what depends on velocities, nor does one whose squares underflow.
+    pub(crate) fn moves(&self) -> bool {
+        is_felt(&(self.q1 - self.q0))
     }
 
     /// The same segment in `f64`.
@@ -139,29 +151,73 @@ impl Ratios {
     }
 }
 
-/// The largest magnitude of a quantity over the samples, and where it is.
+/// Whether some entry has a square that is a normal number. What is not finite is an error of its own.
+pub(crate) fn is_felt<S: Scalar, const N: usize>(vector: &SVector<S, N>) -> bool {
+    vector.iter().any(|entry| *entry * *entry >= S::SMALLEST_NORMAL || !entry.is_finite())
+}
+
+/// `evaluate` of a system at the start of the k-th segment, k h after its own time.
+pub(crate) fn at_segment<L: Lagrangian<N>, T, const N: usize>(
+    system: &L,
+    k: usize,
+    h: L::Scalar,
+    evaluate: impl FnOnce(&L) -> T,
+) -> T {
+    // The time of a trajectory after k steps, bit by bit.
+    system.later(L::Scalar::constant(h.widen() * k as f64), evaluate)
+}
+
+/// Fails on a step size that no verdict can be given for: with one below the normal numbers, forces underflow to an exact 0.
+pub(crate) fn require_step_size<S: Scalar>(h: S) -> Result<(), SampleError> {
+    let size = h.widen().abs();
+    if size >= S::SMALLEST_NORMAL.widen() && size.is_finite() { Ok(()) } else { Err(SampleError::StepSize) }
+}
+
+/// Fails where no segment says anything.
+pub(crate) fn require_informative<S: Scalar, const N: usize>(
+    segments: &[Segment<S, N>],
+    says_something: impl Fn(&Segment<S, N>) -> bool,
+) -> Result<(), SampleError> {
+    if segments.is_empty() {
+        return Err(SampleError::TooFew { given: 0, needed: 1 });
+    }
+    // What is not finite is an error of its own, named where it is met.
+    let finite =
+        |segment: &Segment<S, N>| segment.q0.iter().chain(&segment.q1).all(|entry| entry.is_finite());
+    if segments.iter().any(|segment| !finite(segment) || says_something(segment)) {
+        Ok(())
+    } else {
+        Err(SampleError::Uninformative { given: segments.len() })
+    }
+}
+
+/// The value of a quantity that is furthest above its tolerance over the samples, and where it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Worst<const N: usize> {
-    /// The value with the largest magnitude.
+    /// The value furthest above its tolerance.
     pub value: f64,
     /// The segment where it is taken.
     pub at: Segment<f64, N>,
 }
 
 impl<const N: usize> Worst<N> {
-    /// The largest |value| of a list that is not empty.
+    /// The value furthest above its tolerance, `relative` × its scale, with that tolerance. All have to be finite.
     pub(crate) fn of<S: Scalar>(
         segments: &[Segment<S, N>],
-        mut value: impl FnMut(usize, &Segment<S, N>) -> f64,
-    ) -> Result<Self, SampleError> {
-        let mut worst: Option<Self> = None;
-        for (index, segment) in segments.iter().enumerate() {
-            let value = value(index, segment);
-            if !value.is_finite() {
+        relative: f64,
+        scales: &[f64],
+        mut value: impl FnMut(usize) -> f64,
+    ) -> Result<(Self, Tolerance), SampleError> {
+        let mut worst: Option<(Self, Tolerance)> = None;
+        for (index, (segment, &scale)) in segments.iter().zip(scales).enumerate() {
+            let value = value(index);
+            let tolerance = Tolerance { relative, scale };
+            if !(value.is_finite() && scale.is_finite()) {
                 return Err(SampleError::NonFinite { index });
             }
-            if worst.is_none_or(|worst| value.abs() > worst.value.abs()) {
-                worst = Some(Self { value, at: segment.widen() });
+            let excess = excess(value, tolerance.bound());
+            if worst.is_none_or(|(worst, of)| excess > self::excess(worst.value, of.bound())) {
+                worst = Some((Self { value, at: segment.widen() }, tolerance));
             }
         }
         worst.ok_or(SampleError::TooFew { given: 0, needed: 1 })
@@ -200,10 +256,11 @@ impl Tolerance {
         self.relative * self.scale
     }
 
-    /// Whether `value` counts as zero.
+    /// Whether `value` counts as zero: it and the bound are finite, and the bound is less than the size of the terms, which the value
+    /// cannot exceed.
     #[must_use]
     pub fn covers(&self, value: f64) -> bool {
-        value.abs() <= self.bound()
+        (0.0..1.0).contains(&self.relative) && is_zero(value, self.bound())
     }
 }
 
@@ -229,6 +286,13 @@ pub enum SampleError {
         /// Number of the sample, from 0.
         index: usize,
     },
+    /// No sample can tell yes from no: all are at rest, or the generator vanishes at all of them.
+    Uninformative {
+        /// Samples given.
+        given: usize,
+    },
+    /// The step size is NaN, infinite, 0 or below the normal numbers.
+    StepSize,
 }
 
 impl fmt::Display for SampleError {
@@ -237,6 +301,12 @@ impl fmt::Display for SampleError {
             Self::TooFew { given, needed } => {
                 write!(f, "{given} samples given, at least {needed} needed to decide; give more")
             }
+            Self::Uninformative { given } => write!(
+                f,
+                "none of the {given} samples can tell yes from no: they do not move, or the generator vanishes there; give \
+                 samples that move"
+            ),
+            Self::StepSize => f.write_str("the step size is not a normal number; give a finite h ≠ 0"),
             Self::NonFinite { index } => write!(
                 f,
                 "NaN or infinite value at sample {index}; keep the samples where L, R, f and the generators are smooth"
@@ -264,8 +334,15 @@ mod tests {
     #[test]
     fn a_value_that_is_not_finite_is_named() {
         let segments = segments::<f64, 1>([0.0], [1.0], [0.1], 3);
-        let worst = Worst::of(&segments, |index, _| if index == 1 { f64::NAN } else { 1.0 });
-        assert_eq!(worst, Err(SampleError::NonFinite { index: 1 }));
-        assert!(Worst::of(&segments, |_, _| 1.0).is_ok());
+        let of = |scales: &[f64], value: f64| {
+            Worst::of(&segments, 1e-3, scales, |index| if index == 1 { value } else { 1.0 })
+        };
+        for poison in [f64::NAN, f64::INFINITY] {
+            assert_eq!(of(&[1.0; 3], poison), Err(SampleError::NonFinite { index: 1 }));
+            assert_eq!(of(&[1.0, 1.0, poison], 1.0), Err(SampleError::NonFinite { index: 2 }));
+        }
+        assert_eq!(of(&[1.0; 3], 2.0).unwrap().0.value, 2.0);
+        // The furthest above its own tolerance, not the largest.
+        assert_eq!(of(&[10.0, 1e9, 1.0], 2.0).unwrap().0.at, segments[2]);
     }
 }

@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::composition::symmetric;
 use crate::error::Quantity;
-use crate::rules::{Drift, modes};
+use crate::rules::{Drift, modes, require_positive_definite};
 use crate::{
     Checkpoint, ComposedStep, ComposedTrajectory, Explicit, Momenta, NewtonMatrix, Scalar, State, StepError,
 };
@@ -40,8 +40,8 @@ use crate::{
 /// and decay up to hω = 5 and 9 with damping of 0.01 ≤ hr/m ≤ 10. Where damping is stiff the error falls more slowly than
 /// the order says, as by all splittings; there [`Fitted`](crate::Fitted) and [`Gauss`](crate::Gauss) rules serve.
 ///
-/// **Errors.** [`StepError::NonFinite`], of derivatives where M is not positive definite or damping overflows over a drift
-/// backwards, of the state where it overflows; [`StepError::StepSize`].
+/// **Errors.** [`StepError::MassNotPositiveDefinite`]; [`StepError::NonFinite`], of derivatives where damping overflows over a
+/// drift backwards, of the state where it overflows; [`StepError::StepSize`].
 ///
 /// ```
 /// use dalembert::{Splitting, State, rayleigh_system};
@@ -186,8 +186,13 @@ enum Drifts<T, const N: usize, const S: usize> {
 }
 
 impl<T: Scalar, const N: usize, const S: usize> Kicks<T, N, S> {
-    fn new(splitting: Splitting<S>, h: T) -> Self {
+    pub(crate) fn new(splitting: Splitting<S>, h: T) -> Self {
         Self { splitting, h, prepared: None, force: None }
+    }
+
+    /// Lets go of the force at the end of the last step.
+    pub(crate) fn forget_force(&mut self) {
+        self.force = None;
     }
 }
 
@@ -208,11 +213,12 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
         let times = splitting.drifts.map(|share| T::constant(share) * h);
         let drifts = if is_diagonal {
             let (mass, damping) = (mass.diagonal(), damping.diagonal());
-            if let Some(index) = mass.iter().position(|&mass| mass <= T::zero()) {
-                return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
+            if let Some(column) = mass.iter().position(|&mass| mass <= T::zero()) {
+                return Err(StepError::MassNotPositiveDefinite { column });
             }
             Drifts::Diagonal(once_each(&times, |time| Drift::of_diagonal(&mass, &damping, time))?)
         } else {
+            require_positive_definite(&mass)?;
             let modes = modes(&mass, &damping);
             Drifts::Full(once_each(&times, |time| Drift::of_modes(&modes, time))?)
         };
@@ -270,7 +276,7 @@ fn mass_and_damping<L: Explicit<N>, const N: usize>(
     system: &L,
 ) -> (SMatrix<L::Scalar, N, N>, SMatrix<L::Scalar, N, N>) {
     let mass = system.step_matrix(nalgebra::zero()).dense();
-    // At a step so long nothing of C is lost beside M, and powers of two round nothing.
+    // At a step of 2⁸¹ M is below the rounding of ½h C, and factors that are powers of two round nothing.
     let long = L::Scalar::constant((1_u128 << 81) as f64);
     let damping = (system.step_matrix(long).dense() - mass) * (L::Scalar::constant(2.0) / long);
     (mass, damping)
@@ -317,11 +323,14 @@ where
             }),
         };
         end.require_finite()?;
+        if cfg!(debug_assertions) {
+            system.verify_segment(&state.q, &((end.q - state.q) / self.h), self.h)?;
+        }
         self.force = Some(force);
         Ok(end)
     }
 
     fn forget(&mut self) {
-        self.force = None;
+        self.forget_force();
     }
 }

@@ -8,7 +8,9 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::{CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, Structure, Variations};
+use crate::{
+    CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, StepError, Structure, Variations,
+};
 
 /// A Lagrangian L(q, v) on TQ, Q = ℝᴺ, with its derivatives.
 #[diagnostic::on_unimplemented(
@@ -66,6 +68,22 @@ pub trait Lagrangian<const N: usize> {
     {
         let _ = elapsed;
         evaluate(self)
+    }
+
+    /// Compares the values of L, R and f that were generated together with their derivatives to those of the functions as
+    /// written, at (q, v): bit by bit they are equal ([`verification`](crate::verification)).
+    ///
+    /// A system written by hand has nothing to compare, nor has one of dual numbers.
+    ///
+    /// # Errors
+    /// [`StepError::GeneratedDiffers`] with the function.
+    fn verify_generated(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> Result<(), StepError> {
+        let _ = (q, v);
+        Ok(())
     }
 
     /// E_L(q, v) = v·∂L/∂v − L, the energy. Along the motion dE_L/dt = v·f_L.

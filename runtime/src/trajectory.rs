@@ -4,7 +4,8 @@ use core::marker::PhantomData;
 
 use nalgebra::SVector;
 
-use crate::{Discrete, Memory, Scalar, State, Step, StepError};
+use crate::checkpoint::Course;
+use crate::{Checkpoint, Discrete, Memory, Scalar, State, Step, StepError};
 
 /// The trajectory of a system from a state, one step at a time.
 ///
@@ -21,7 +22,7 @@ where
     rule: PhantomData<R>,
     at: Checkpoint<L::Scalar, N>,
     memory: L::Memory,
-    failed: bool,
+    course: Course,
 }
 
 impl<'a, L, R, const N: usize> Trajectory<'a, L, R, N>
@@ -51,7 +52,7 @@ where
     /// Goes on with another step size from the present state, also after an error.
     pub fn change_step_size(&mut self, h: L::Scalar) {
         self.at = Checkpoint { step_size: h, origin: self.time(), steps: 0, state: self.at.state };
-        self.failed = false;
+        self.course = Course::Starting;
     }
 
     /// All that is needed to go on from here, in this process or another ([`Trajectory::resume`]).
@@ -64,6 +65,9 @@ where
     }
 
     /// The run that `checkpoint` was taken of.
+    ///
+    /// A checkpoint that no run can have left is refused by the first step: with a [`StepError`] that says whether its step size, its state or
+    /// its time is at fault.
     ///
     /// ```
     /// use dalembert::{Midpoint, State, Trajectory, rayleigh_system};
@@ -83,13 +87,18 @@ where
     /// # Ok::<(), dalembert::StepError>(())
     /// ```
     pub fn resume(system: &'a L, _rule: R, checkpoint: Checkpoint<L::Scalar, N>) -> Self {
-        Self { system, rule: PhantomData, at: checkpoint, memory: L::Memory::default(), failed: false }
+        Self {
+            system,
+            rule: PhantomData,
+            at: checkpoint,
+            memory: L::Memory::default(),
+            course: Course::Starting,
+        }
     }
 
     /// The next step, in 2, 4, … 2^`halvings` parts where it cannot be taken at once: at the end the time is that of a whole step.
     ///
-    /// Nothing is hidden: what is returned says in how many parts. The error, where all fail, is that of the whole step; the state is then the
-    /// last good one, the trajectory has ended, and another step size lets it go on.
+    /// The value returned says how many parts were taken. The error, where all fail, is that of the whole step; the state is then the last good one, the trajectory has ended, and another step size lets it go on.
     ///
     /// ```
     /// use dalembert::nalgebra::vector;
@@ -110,6 +119,7 @@ where
     /// # Errors
     /// The [`StepError`] of the whole step.
     pub fn next_in_parts(&mut self, halvings: u32) -> Result<Parted<L::Scalar, N>, StepError> {
+        self.course.require(self.system, &self.at)?;
         let start = self.time();
         let error = match self.memory.advance_later(self.system, start, &self.at.state, self.at.step_size) {
             Ok(step) => {
@@ -141,7 +151,7 @@ where
                 return Ok(Parted { step, parts: 1 << halving });
             }
         }
-        self.failed = true;
+        self.course = Course::Ended;
         Err(error)
     }
 
@@ -161,57 +171,17 @@ where
 
     #[inline]
     fn next(&mut self) -> Option<Self::Item> {
-        if self.failed {
-            return None;
+        if let Some(stop) = self.course.stop(self.system, &self.at) {
+            return stop.map(Err);
         }
         let step = self.memory.advance_later(self.system, self.time(), &self.at.state, self.at.step_size);
         match &step {
             Ok(step) => {
                 self.at.follow(&step.state);
             }
-            Err(_) => self.failed = true,
+            Err(_) => self.course = Course::Ended,
         }
         Some(step)
-    }
-}
-
-/// A run as it can be saved; see [`Trajectory::checkpoint`]. With the feature `serde` it can be written and read.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Checkpoint<S, const N: usize> {
-    /// The state.
-    #[cfg_attr(
-        feature = "serde",
-        serde(bound(
-            serialize = "S: Scalar + serde::Serialize",
-            deserialize = "S: Scalar + serde::Deserialize<'de>"
-        ))
-    )]
-    pub state: State<S, N>,
-    /// The step size h.
-    pub step_size: S,
-    /// The time at which the present step size began.
-    pub origin: f64,
-    /// Steps taken with it.
-    pub steps: u64,
-}
-
-impl<S: Scalar, const N: usize> Checkpoint<S, N> {
-    /// The start of a run with step size `step_size` from `state`, at time 0.
-    pub fn new(step_size: S, state: State<S, N>) -> Self {
-        Self { state, step_size, origin: 0.0, steps: 0 }
-    }
-
-    /// The time, h × the number of steps taken (and what earlier step sizes took): no sum of roundings.
-    pub fn time(&self) -> f64 {
-        // Without a step the product would be NaN for a step size that is not finite.
-        if self.steps == 0 { self.origin } else { self.origin + self.step_size.widen() * self.steps as f64 }
-    }
-
-    /// One step further.
-    pub(crate) fn follow(&mut self, state: &State<S, N>) {
-        self.state = *state;
-        self.steps += 1;
     }
 }
 

@@ -66,6 +66,11 @@ fn mistake(words: &[&str], machine: &str, level: &str, expected: &HashMap<&str, 
             (number(bytes)? > ceiling)
                 .then(|| format!("{scalar}: {bytes} bytes of stack, the ceiling is {ceiling}"))
         }
+        ["part", name, "first_step", count] => {
+            let most = ceiling(machine, level, name)?.first();
+            (number(count)? > most)
+                .then(|| format!("{name}: {count} instructions in the first step, the ceiling is {most}"))
+        }
         ["failing", ..] | ["part", ..] => None,
         _ => Some(format!("not a line of a report: {words:?}")),
     }
@@ -114,6 +119,10 @@ mod tests {
         assert!(said("0000000000000000", "1000", "1000").is_some_and(|text| text.contains("on the host")));
         assert!(said(&bits, "9000", "9000").is_some_and(|text| text.contains("9000 instructions a step")));
         assert!(said(&bits, "1000", "9000").is_some_and(|text| text.contains("in the worst step")));
+        let first =
+            |count: &str| mistake(&["part", "cart_pole_f64", "first_step", count], "m7", "3", &expected);
+        assert_eq!(first("1000"), None);
+        assert!(first("90000").is_some_and(|text| text.contains("in the first step")));
         assert!(mistake(&["stack", "f64", "99999"], "m7", "3", &expected).is_some());
         assert!(mistake(&["fault"], "m7", "3", &expected).is_some());
     }

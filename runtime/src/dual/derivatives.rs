@@ -13,6 +13,12 @@ use super::singular::{self, Alone, AloneFirst, has_nan};
 use super::{HyperDualSVec, Part, Real};
 use crate::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
 
+/// The most variables whose derivatives one number carries all at once.
+///
+/// By k variables it holds k² entries, which every operation of a body moves: twelve are 1.2 kB. Beyond, a function is
+/// evaluated once for each pair of variables, whose numbers are small: the stack holds them, whatever n is.
+const TOGETHER: usize = 12;
+
 /// First derivatives by M seeds.
 pub(super) type First<F, const M: usize> = DualSVec<F, M>;
 
@@ -58,15 +64,29 @@ pub fn gradient<F: Primitive, const N: usize>(
     f: impl Fn([Real<Second<F, N>>; N], [Real<Second<F, N>>; N]) -> Real<Second<F, N>>,
     alone: impl Fn([Real<Alone<F>>; N], [Real<Alone<F>>; N]) -> Real<Alone<F>>,
 ) -> Gradient<F, N> {
+    if N > TOGETHER {
+        return singular::gradient(q, v, alone);
+    }
+    let gradient = gradient_together(q, v, f);
+    if has_nan(&gradient.d1) || has_nan(&gradient.d2) {
+        return singular::gradient(q, v, alone);
+    }
+    gradient
+}
+
+// The numbers that carry all derivatives have functions, and so frames on the stack, of their own.
+
+#[inline]
+fn gradient_together<F: Primitive, const N: usize>(
+    q: &SVector<F, N>,
+    v: &SVector<F, N>,
+    f: impl Fn([Real<Second<F, N>>; N], [Real<Second<F, N>>; N]) -> Real<Second<F, N>>,
+) -> Gradient<F, N> {
     let one = nalgebra::one();
     let qs = array::from_fn(|i| second(q[i], seed(i, one), Derivative(None)));
     let vs = array::from_fn(|i| second(v[i], Derivative(None), seed(i, one)));
     let f = f(qs, vs).0;
-    let (d1, d2) = (entries(f.eps1), entries(f.eps2).transpose());
-    if has_nan(&d1) || has_nan(&d2) {
-        return singular::gradient(q, v, alone);
-    }
-    Gradient { value: f.re, d1, d2 }
+    Gradient { value: f.re, d1: entries(f.eps1), d2: entries(f.eps2).transpose() }
 }
 
 /// Value, first and second derivatives of `f`; M = 2N.
@@ -78,22 +98,37 @@ pub fn derivatives<F: Primitive, const N: usize, const M: usize>(
     alone: impl Fn([Real<Alone<F>>; N], [Real<Alone<F>>; N]) -> Real<Alone<F>>,
 ) -> Derivatives<F, N> {
     const { assert!(M == 2 * N) };
-    let one = nalgebra::one();
-    let qs = array::from_fn(|i| second(q[i], seed(i, one), seed(i, one)));
-    let vs = array::from_fn(|i| second(v[i], seed(N + i, one), seed(N + i, one)));
-    let f = f(qs, vs).0;
-    let (mut first, mut second) = (entries(f.eps1), entries(f.eps1eps2));
-    if has_nan(&first) || has_nan(&second) {
-        (first, second) = singular::derivatives(q, v, alone);
-    }
+    let (value, first, second) = if M > TOGETHER {
+        singular::derivatives::<F, N, M>(q, v, alone)
+    } else {
+        let (value, first, second) = derivatives_together::<F, N, M>(q, v, f);
+        if has_nan(&first) || has_nan(&second) {
+            singular::derivatives(q, v, alone)
+        } else {
+            (value, first, second)
+        }
+    };
     Derivatives {
-        value: f.re,
+        value,
         d1: block(&first, 0, 0),
         d2: block(&first, N, 0),
         d11: block(&second, 0, 0),
         d12: block(&second, 0, N),
         d22: block(&second, N, N),
     }
+}
+
+#[inline]
+fn derivatives_together<F: Primitive, const N: usize, const M: usize>(
+    q: &SVector<F, N>,
+    v: &SVector<F, N>,
+    f: impl Fn([Real<Second<F, M>>; N], [Real<Second<F, M>>; N]) -> Real<Second<F, M>>,
+) -> (F, SVector<F, M>, SMatrix<F, M, M>) {
+    let one = nalgebra::one();
+    let qs = array::from_fn(|i| second(q[i], seed(i, one), seed(i, one)));
+    let vs = array::from_fn(|i| second(v[i], seed(N + i, one), seed(N + i, one)));
+    let f = f(qs, vs).0;
+    (f.re, entries(f.eps1), entries(f.eps1eps2))
 }
 
 /// Derivatives of `f` along `minus` and `plus`, and the mixed one.
@@ -106,14 +141,28 @@ pub fn variations<F: Primitive, const N: usize>(
     f: impl Fn([Real<Second<F, N>>; N], [Real<Second<F, N>>; N]) -> Real<Second<F, N>>,
     alone: impl Fn([Real<Alone<F>>; N], [Real<Alone<F>>; N]) -> Real<Alone<F>>,
 ) -> Variations<F, N> {
+    if N > TOGETHER {
+        return singular::variations(q, v, minus, plus, alone);
+    }
+    let variations = variations_together(q, v, minus, plus, f);
+    if has_nan(&variations.minus) || has_nan(&variations.plus) || has_nan(&variations.mixed) {
+        return singular::variations(q, v, minus, plus, alone);
+    }
+    variations
+}
+
+#[inline]
+fn variations_together<F: Primitive, const N: usize>(
+    q: &SVector<F, N>,
+    v: &SVector<F, N>,
+    minus: Direction<F>,
+    plus: Direction<F>,
+    f: impl Fn([Real<Second<F, N>>; N], [Real<Second<F, N>>; N]) -> Real<Second<F, N>>,
+) -> Variations<F, N> {
     let qs = array::from_fn(|i| second(q[i], seed(i, minus.first), seed(i, plus.first)));
     let vs = array::from_fn(|i| second(v[i], seed(i, minus.second), seed(i, plus.second)));
     let f = f(qs, vs).0;
-    let (by_minus, by_plus, mixed) = (entries(f.eps1), entries(f.eps2).transpose(), entries(f.eps1eps2));
-    if has_nan(&by_minus) || has_nan(&by_plus) || has_nan(&mixed) {
-        return singular::variations(q, v, minus, plus, alone);
-    }
-    Variations { minus: by_minus, plus: by_plus, mixed }
+    Variations { minus: entries(f.eps1), plus: entries(f.eps2).transpose(), mixed: entries(f.eps1eps2) }
 }
 
 /// Value and Jacobians of the covector-valued `f`; M = 2N.

@@ -49,5 +49,5 @@ pub fn hessian<F: Primitive, const N: usize>(
 ) -> SMatrix<F, N, N> {
     let one = nalgebra::one();
     let hessian = entries(f(array::from_fn(|i| second(q[i], seed(i, one), seed(i, one)))).0.eps1eps2);
-    if has_nan(&hessian) { singular::derivatives(q, q, |q, _| alone(q)).1 } else { hessian }
+    if has_nan(&hessian) { singular::derivatives(q, q, |q, _| alone(q)).2 } else { hessian }
 }

@@ -2,7 +2,7 @@
 
 use super::{Dual, Real};
 
-/// A value that can be taken into a differentiated body: numbers, `bool`, arrays and tuples of them.
+/// A value that can be taken into a differentiated body: numbers, `bool`, arrays, tuples and options of them.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` cannot be used in a differentiated body",
     label = "neither a number, nor a bool, nor an array of them",
@@ -219,6 +219,23 @@ impl<D, T: Lift<D>, const M: usize> Lift<D> for [T; M] {
 
 impl<T: Lower, const M: usize> Lower for [T; M] {
     type Lowered = [T::Lowered; M];
+    #[inline]
+    fn lower(self) -> Self::Lowered {
+        self.map(T::lower)
+    }
+}
+
+#[diagnostic::do_not_recommend]
+impl<D, T: Lift<D>> Lift<D> for Option<T> {
+    type Lifted = Option<T::Lifted>;
+    #[inline]
+    fn lift(self) -> Self::Lifted {
+        self.map(T::lift)
+    }
+}
+
+impl<T: Lower> Lower for Option<T> {
+    type Lowered = Option<T::Lowered>;
     #[inline]
     fn lower(self) -> Self::Lowered {
         self.map(T::lower)

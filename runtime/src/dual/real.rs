@@ -380,10 +380,14 @@ where
         let (x, y) = (self.0.primal(), other.0.primal());
         let value = Elementary::hypot(x, y);
         let (cosine, sine) = (D::real(x / value), D::real(y / value));
-        // Along the vector and across it, where the value is 0: √(u² + w²) = u + w²/2u up to w⁴.
+        // Along the vector and across it, where the value is 0: √(u² + w²) = u + w²/2u up to w⁴, with 1/u = (2 − u/r)/r up to
+        // (u/r − 1)², r the value. A quotient by u itself would have derivatives of 1/r², which overflow before 1/r does.
         let along = Self((self * cosine + other * sine).0.with_primal(value));
         let across = Self((other * cosine - self * sine).0.with_primal(F::constant(0.0)));
-        let bend = across * (across / (along + along));
+        let per_value = D::real(F::constant(1.0) / value);
+        let inverse = D::real(F::constant(2.0)) - Self((along * per_value).0.with_primal(F::constant(1.0)));
+        // The square first: it has no first derivative, which times that of the inverse would overflow.
+        let bend = (across * (across * D::real(F::constant(0.5) / value))) * inverse;
         Self((along + bend).0.with_primal(value))
     }
 

@@ -1,4 +1,4 @@
-//! Derivatives at singular points, one pair of variables at a time.
+//! Derivatives at singular points, and of many variables, one pair of variables at a time.
 //!
 //! A number that carries the derivatives by all variables holds a 0 for each that it does not depend on. Where a slope is
 //! infinite, ∞ × 0 would make NaN of it, and the NaN would spread to variables that the singular term does not depend on.
@@ -64,26 +64,27 @@ pub(super) fn gradient<F: Primitive, const N: usize>(
     gradient
 }
 
-/// First and second derivatives by the 2N variables (q, v).
+/// Value, first and second derivatives by the 2N variables (q, v).
 #[cold]
 #[inline(never)]
 pub(super) fn derivatives<F: Primitive, const N: usize, const M: usize>(
     q: &SVector<F, N>,
     v: &SVector<F, N>,
     f: impl Fn([Real<Alone<F>>; N], [Real<Alone<F>>; N]) -> Real<Alone<F>>,
-) -> (SVector<F, M>, SMatrix<F, M, M>) {
-    let (mut first, mut second) = (SVector::zeros(), SMatrix::zeros());
+) -> (F, SVector<F, M>, SMatrix<F, M, M>) {
+    let (mut value, mut first, mut second) = (nalgebra::zero(), SVector::zeros(), SMatrix::zeros());
     for i in 0..M {
         for j in i..M {
             let of_pair = seeded(q, v, &f, |k| [only(k == i), only(k == j)]).0;
             if i == j {
+                value = of_pair.re;
                 first[i] = entries(of_pair.eps1)[0];
             }
             second[(i, j)] = entries(of_pair.eps1eps2)[0];
             second[(j, i)] = second[(i, j)];
         }
     }
-    (first, second)
+    (value, first, second)
 }
 
 /// Derivatives along `minus` and `plus`, and the mixed one.
@@ -170,14 +171,16 @@ fn only<F: Primitive>(is_seeded: bool) -> Option<F> {
     is_seeded.then(nalgebra::one)
 }
 
-/// What variable `k` of (q, v) carries where the unit vector eᵢ is followed along `direction`.
+/// What variable `k` of (q, v) carries where the unit vector eᵢ is followed along `direction`. A variable that does not move
+/// carries nothing: 0 × ∞ would be NaN, as of q at the first node of the trapezoidal rule, which q1 does not move.
 #[inline(always)]
 fn along<F: Primitive>(direction: Direction<F>, i: usize, k: usize, n: usize) -> Option<F> {
-    if k == i {
-        Some(direction.first)
+    let moves = if k == i {
+        direction.first
     } else if k == n + i {
-        Some(direction.second)
+        direction.second
     } else {
-        None
-    }
+        return None;
+    };
+    (moves != nalgebra::zero()).then_some(moves)
 }

@@ -3,14 +3,19 @@
 //! From the straight line's velocity, or the user's guess, damped where a full step does not shrink the next correction.
 //! Where that fails, the motion is followed from small h, where it is nearly straight, to the h asked for: this keeps to
 //! the branch that the exact discrete Lagrangian is defined on.
+//!
+//! A motion whose variations grow is not told by its start: damping seen backwards grows like e^{r|h|/m}. It is told by its end, from
+//! which everything shrinks. Both are tried, and the error that rounding of the start makes at the end is stated.
 
 use nalgebra::{SMatrix, SVector};
 
-use super::motion::{Dynamics, Family, Local, Point, Writer};
-use super::resolve::{Breakdown, Problem, ROUNDING, Resolved};
-use super::{ActingForce, ExactError};
+use super::collocation::unit_of;
+use super::mesh::Carried;
+use super::motion::{Dynamics, Family, Point};
+use super::{ActingForce, ExactError, WORST};
 use crate::Lagrangian;
 use crate::linear::inverse;
+use crate::verdict::largest;
 
 /// Points count as conjugate when the end determines the motion inside to less than half the digits, 1/√ε.
 pub(super) const CONJUGATE: f64 = 6.7e7;
@@ -38,6 +43,8 @@ pub(super) struct Shot<const N: usize> {
     pub(super) inverse: SMatrix<f64, N, N>,
     /// How much larger a variation of q1 is inside the segment than at its end, at least 1.
     pub(super) growth: f64,
+    /// What one rounding of the start makes of the end, relative to the largest of the motion.
+    pub(super) conditioning: f64,
     pub(super) iterations: u32,
     /// Smaller step sizes that the motion was followed through.
     pub(super) continuation: u32,
@@ -51,6 +58,9 @@ struct Trial<const N: usize> {
     correction: SVector<f64, N>,
     inverse: SMatrix<f64, N, N>,
     growth: f64,
+    conditioning: f64,
+    /// What one rounding of the initial momentum makes of q(h), largest coordinate.
+    enlargement: f64,
 }
 
 /// The boundary-value problem.
@@ -60,52 +70,25 @@ pub(super) struct Boundary<'a, L, F, const N: usize> {
     pub(super) q1: SVector<f64, N>,
 }
 
-impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Dynamics<'_, L, F, N> {
-    /// The motion from `start`, with both families of variations.
-    pub(super) fn carry(&self, start: &Point<N>, h: f64, sufficient: f64) -> Result<Resolved, ExactError> {
-        let mut numbers = vec![0.0; Point::<N>::LENGTH];
-        start.write(&mut numbers);
-        let rate = |y: &[f64], rate: &mut [f64]| self.point_rate(y, rate, h).map(drop);
-        Problem { start: numbers, blocks: &Point::<N>::BLOCKS, rate, h, rounding: ROUNDING }
-            .resolve(sufficient)
-    }
-
-    /// Writes the rates of change of a [`Point`], times h; gives the point and what was evaluated there.
-    pub(super) fn point_rate(
-        &self,
-        y: &[f64],
-        rate: &mut [f64],
-        h: f64,
-    ) -> Result<(Point<N>, Local<N>), Breakdown> {
-        let point = Point::<N>::read(y);
-        let local = self.local(&point.q, &point.v)?;
-        let mut writer = Writer(rate);
-        writer.put((point.v * h).as_slice());
-        writer.put((local.acceleration * h).as_slice());
-        for family in [&point.minus, &point.plus] {
-            let v = local.velocities(family);
-            writer.put((v * h).as_slice());
-            writer.put((local.momentum_rates(&family.q, &v) * h).as_slice());
-        }
-        Ok((point, local))
-    }
-}
-
 impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Boundary<'_, L, F, N> {
-    /// The motion from q0 to q1.
-    pub(super) fn solve(&self, h: f64, guess: Option<&SVector<f64, N>>) -> Result<Shot<N>, ExactError> {
-        let straight = |h: f64| (self.q1 - self.q0) / h;
-        let direct = self.shoot(h, guess.copied().unwrap_or_else(|| straight(h)));
-        let first_failure = match direct {
-            Ok(_) | Err(ExactError::ConjugatePoints { .. } | ExactError::DegenerateLagrangian { .. }) => {
-                return direct;
-            }
-            Err(failure) => failure,
-        };
+    /// The motion from q0 to q1 by Newton's method from the straight line's velocity, or a guess.
+    ///
+    /// Where rounding is enlarged beyond `limit`, that is the error.
+    pub(super) fn directly(
+        &self,
+        h: f64,
+        guess: Option<&SVector<f64, N>>,
+        limit: f64,
+    ) -> Result<Shot<N>, ExactError> {
+        self.shoot(h, guess.copied().unwrap_or_else(|| (self.q1 - self.q0) / h), limit)
+    }
 
+    /// The motion from q0 to q1, followed from small h on; `first_failure` is the error where it is not found for any of them.
+    pub(super) fn followed(&self, h: f64, first_failure: ExactError) -> Result<Shot<N>, ExactError> {
+        let straight = |h: f64| (self.q1 - self.q0) / h;
         let small = (1..=12).map(|k| h / f64::from(1 << k));
         let Some((mut reached, mut shot)) =
-            small.into_iter().find_map(|h| self.shoot(h, straight(h)).ok().map(|shot| (h, shot)))
+            small.into_iter().find_map(|h| self.shoot(h, straight(h), WORST).ok().map(|shot| (h, shot)))
         else {
             return Err(first_failure);
         };
@@ -114,7 +97,7 @@ impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Bound
         let mut continuation = 1;
         while reached != h {
             let next = if (reached * ratio / h) < 1.0 { reached * ratio } else { h };
-            match self.shoot(next, shot.v0 * (reached / next)) {
+            match self.shoot(next, shot.v0 * (reached / next), WORST) {
                 Ok(further) => {
                     (reached, shot) = (next, further);
                     in_a_row += 1;
@@ -126,6 +109,9 @@ impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Bound
                 Err(failure) => {
                     in_a_row = 0;
                     ratio = ratio.sqrt();
+                    if matches!(failure, ExactError::TooMuchWork { .. }) {
+                        return Err(failure);
+                    }
                     if ratio < 1.0 + FINEST {
                         return Err(if shot.growth > CEASING {
                             ExactError::ConjugatePoints { h: reached, growth: shot.growth }
@@ -142,48 +128,51 @@ impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Bound
     }
 
     /// Newton's method from the initial velocity `v0`.
-    fn shoot(&self, h: f64, v0: SVector<f64, N>) -> Result<Shot<N>, ExactError> {
+    fn shoot(&self, h: f64, v0: SVector<f64, N>, limit: f64) -> Result<Shot<N>, ExactError> {
         let unit = self.q0.amax().max(self.q1.amax()) / h.abs();
-        let mut full = false;
-        let mut trial = self.trial(h, v0, full)?;
+        let mut trial = self.trial(h, v0)?;
+        // A trial that runs away is large itself: what counts is what its start does to ends of the size asked for.
+        let ends = self.q0.amax().max(self.q1.amax());
+        if trial.enlargement > limit * ends {
+            return Err(ExactError::IllConditioned { h, error: trial.enlargement / ends });
+        }
         let mut previous = f64::INFINITY;
         for iterations in 1..=MAX_ITERATIONS {
             let size = trial.correction.amax();
             let scale = unit.max(trial.v0.amax());
-            if full && size <= 1e-9 * scale && (size <= 8.0 * f64::EPSILON * scale || size > previous / 4.0) {
+            if size <= 1e-9 * scale && (size <= 8.0 * f64::EPSILON * scale || size > previous / 4.0) {
                 if trial.growth > CONJUGATE {
                     return Err(ExactError::ConjugatePoints { h, growth: trial.growth });
                 }
-                let Trial { v0, end, inverse, growth, .. } = trial;
-                return Ok(Shot { v0, end, inverse, growth, iterations, continuation: 0 });
+                if trial.conditioning > limit {
+                    return Err(ExactError::IllConditioned { h, error: trial.conditioning });
+                }
+                let Trial { v0, end, inverse, growth, conditioning, .. } = trial;
+                return Ok(Shot { v0, end, inverse, growth, conditioning, iterations, continuation: 0 });
             }
             previous = size;
-            let was_full = full;
-            full = size <= 1e-4 * scale;
-            if full && !was_full {
-                // The same velocity again: its correction is now exact.
-                trial = self.trial(h, trial.v0, full)?;
-                previous = f64::INFINITY;
-                continue;
-            }
-            trial = self.descend(h, &trial, full)?;
+            trial = self.descend(h, &trial)?;
         }
         Err(Self::failure(h, &trial))
     }
 
     /// A Newton step, shortened until the next correction (by the same matrix) is shorter.
-    fn descend(&self, h: f64, trial: &Trial<N>, full: bool) -> Result<Trial<N>, ExactError> {
+    fn descend(&self, h: f64, trial: &Trial<N>) -> Result<Trial<N>, ExactError> {
         let size = trial.correction.amax();
         let mut share = 1.0;
         for _ in 0..=MAX_HALVINGS {
-            if let Ok(next) = self.trial(h, trial.v0 + trial.correction * share, full) {
-                let simplified = trial.inverse * next.residual;
-                let before = trial.inverse * trial.residual;
-                // At rounding level corrections cannot shrink any more.
-                let rounding = size <= 1e-9 * trial.v0.amax().max(self.q1.amax() / h.abs());
-                if rounding || simplified.amax() <= (1.0 - share / 4.0) * before.amax() {
-                    return Ok(next);
+            match self.trial(h, trial.v0 + trial.correction * share) {
+                Ok(next) => {
+                    let simplified = trial.inverse * next.residual;
+                    let before = trial.inverse * trial.residual;
+                    // At rounding level corrections cannot shrink any more.
+                    let rounding = size <= 1e-9 * trial.v0.amax().max(self.q1.amax() / h.abs());
+                    if rounding || simplified.amax() <= (1.0 - share / 4.0) * before.amax() {
+                        return Ok(next);
+                    }
                 }
+                Err(exhausted @ ExactError::TooMuchWork { .. }) => return Err(exhausted),
+                Err(_) => {}
             }
             share *= 0.5;
         }
@@ -198,26 +187,56 @@ impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Bound
         }
     }
 
-    fn trial(&self, h: f64, v0: SVector<f64, N>, full: bool) -> Result<Trial<N>, ExactError> {
+    fn trial(&self, h: f64, v0: SVector<f64, N>) -> Result<Trial<N>, ExactError> {
+        let local = self
+            .dynamics
+            .local(0.0, &self.q0, &v0)
+            .map_err(|breakdown| breakdown.at(0.0, self.dynamics.work))?;
         let start = Point {
             q: self.q0,
+            p: local.l.d2,
             v: v0,
             minus: Family { q: SMatrix::identity(), p: SMatrix::zeros() },
             plus: Family { q: SMatrix::zeros(), p: SMatrix::identity() },
         };
-        let resolved = self.dynamics.carry(&start, h, if full { 0.0 } else { 1e-6 })?;
-        let end = Point::read(&resolved.end);
-        let largest = Point::<N>::read(&resolved.largest).plus.q;
+        let mesh = self.dynamics.mesh(&start, h)?;
+        let carried = self.dynamics.carry(&start, &mesh, &mut |_, _| {})?;
+        let end = carried.end;
+        let largest = SMatrix::<f64, N, N>::from_column_slice(&carried.largest[3 * N + 2 * N * N..][..N * N]);
         let conjugate = ExactError::ConjugatePoints { h, growth: f64::INFINITY };
         let inverse = inverse(&end.plus.q).map_err(|_| conjugate)?;
         // Diagonal entries of max|∂q(t)/∂p0| |∂q(h)/∂p0|⁻¹ carry no unit.
         let growth = (largest * SMatrix::abs(&inverse)).diagonal().amax().max(1.0);
         let residual = end.q - self.q1;
-        let local = self.dynamics.local(&self.q0, &v0).map_err(|breakdown| match breakdown {
-            Breakdown::Degenerate { column } => ExactError::DegenerateLagrangian { time: 0.0, column },
-            Breakdown::NotFinite => ExactError::MotionNotFinite { time: 0.0 },
-        })?;
-        let correction = -(local.inverse_mass * (inverse * residual));
-        Ok(Trial { v0, end, residual, correction, inverse, growth })
+        let inverse_mass = crate::linear::inverse(&local.l.d22)
+            .map_err(|singular| ExactError::DegenerateLagrangian { time: 0.0, column: singular.column })?;
+        let correction = -(inverse_mass * (inverse * residual));
+        let unit = SVector::from_fn(|a, _| unit_of(&local, a));
+        let conditioning = conditioning(&start, &carried, &unit);
+        let enlargement = f64::EPSILON * (end.plus.q.abs() * start.p.abs()).amax();
+        Ok(Trial { v0, end, residual, correction, inverse, growth, conditioning, enlargement })
     }
+}
+
+/// What one rounding of (q0, p0) makes of the end, relative to the largest of the motion, in units in which every coordinate has mass 1.
+/// The families are those of q0 and p0.
+pub(super) fn conditioning<const N: usize>(
+    start: &Point<N>,
+    Carried { end, largest: most, .. }: &Carried<N>,
+    unit: &SVector<f64, N>,
+) -> f64 {
+    let (q0, p0) = (start.q.abs(), start.p.abs());
+    let moved_q = end.minus.q.abs() * q0 + end.plus.q.abs() * p0;
+    let moved_p = end.minus.p.abs() * q0 + end.plus.p.abs() * p0;
+    let ratio = |moved: [f64; N], most: [f64; N]| {
+        let (moved, most) = (largest(moved), largest(most));
+        if moved == 0.0 { 0.0 } else { moved / most }
+    };
+    let in_q =
+        ratio(core::array::from_fn(|a| moved_q[a] * unit[a]), core::array::from_fn(|a| most[a] * unit[a]));
+    let in_p = ratio(
+        core::array::from_fn(|a| moved_p[a] / unit[a]),
+        core::array::from_fn(|a| most[N + a] / unit[a]),
+    );
+    f64::EPSILON * largest([in_q, in_p])
 }

@@ -47,12 +47,32 @@ pub enum ExactError {
         /// Distance from q1 that the best trial ended at, largest coordinate.
         residual: f64,
     },
-    /// The motion is not resolved by the largest number of integration steps.
+    /// More integration steps do not bring the motion closer to a limit: L, R or f is too rough.
     Unresolved {
         /// Integration steps.
         steps: usize,
         /// Relative difference to half as many steps.
         difference: f64,
+    },
+    /// Neither end of the motion tells the other: rounding of one is enlarged beyond [`Exact::WORST`](super::Exact::WORST), as by
+    /// damping seen backwards, which grows like e^{r|h|/m}, or by an unstable equilibrium, like e^{√(k/m)|h|}.
+    IllConditioned {
+        /// The step size.
+        h: f64,
+        /// What one rounding makes, relative to the largest of the motion.
+        error: f64,
+    },
+    /// All evaluations of L and f that one question may take ([`Exact::EVALUATIONS`](super::Exact::EVALUATIONS)) are spent.
+    TooMuchWork {
+        /// Evaluations made.
+        evaluations: usize,
+        /// The time on the segment that the last attempt got to.
+        time: f64,
+    },
+    /// The rule has no discrete object that is finite at this step size, to be compared with the exact one.
+    RuleNotFinite {
+        /// The step size.
+        h: f64,
     },
     /// The third derivatives of L, or the second ones of f, could not be had by differences of those given.
     NotDifferentiable {
@@ -101,8 +121,21 @@ impl fmt::Display for ExactError {
             Self::Unresolved { steps, difference } => write!(
                 f,
                 "the motion is not resolved by {steps} integration steps (difference to half as many {difference:.1e}); \
-                 try a smaller h"
+                 try a smaller h, or make L, R and f smooth"
             ),
+            Self::IllConditioned { h, error } => write!(
+                f,
+                "the ends of the motion over h = {h} do not tell each other: one rounding of either makes {error:.1e} of the \
+                 other; try a smaller h"
+            ),
+            Self::TooMuchWork { evaluations, time } => write!(
+                f,
+                "the {evaluations} evaluations of L and f that one question may take are spent, the last attempt at \
+                 t = {time}; try a smaller h, or less stiff forces"
+            ),
+            Self::RuleNotFinite { h } => {
+                write!(f, "the rule's discrete objects are not finite at h = {h}; give smaller step sizes")
+            }
             Self::NotDifferentiable { index } => write!(
                 f,
                 "third derivatives along coordinate {index} cannot be had by differences: L, R or f is not smooth, or \

@@ -19,6 +19,7 @@ use nalgebra::SMatrix;
 
 use super::second::SecondDerivatives;
 use super::segment::Segment;
+use crate::verdict::{is_zero, largest, tells};
 
 /// How far the exact discrete force is from being Rayleigh at (q0, q1, h).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,8 +31,11 @@ pub struct Existence<const N: usize> {
     pub minus: SMatrix<f64, N, N>,
     /// D2 f_d^ex+ − (D2 f_d^ex+)ᵀ, shape N×N; 0 for N = 1.
     pub plus: SMatrix<f64, N, N>,
-    /// What counts as 0: ten times the error estimate of the Jacobians.
+    /// What counts as 0: ten times the error estimate of the Jacobians. One as large as the Jacobians themselves says nothing, and none of
+    /// the conditions holds.
     pub tolerance: f64,
+    /// The largest entry of the Jacobians D f_d^ex±.
+    pub terms: f64,
     /// The step size.
     pub h: f64,
 }
@@ -52,15 +56,17 @@ impl<const N: usize> Existence<N> {
     /// The largest entry of the three obstructions.
     #[must_use]
     pub fn largest(&self) -> f64 {
-        self.mixed.amax().max(self.minus.amax()).max(self.plus.amax())
+        largest([size(&self.mixed), size(&self.minus), size(&self.plus)])
+    }
+
+    fn holds(&self, obstruction: &SMatrix<f64, N, N>) -> bool {
+        is_zero(size(obstruction), self.tolerance) && tells(self.tolerance, self.terms)
     }
 
     /// Which conditions hold.
     #[must_use]
     pub fn verdict(&self) -> ExistenceVerdict {
-        let mixed = self.mixed.amax() <= self.tolerance;
-        let symmetric = self.minus.amax().max(self.plus.amax()) <= self.tolerance;
-        match (mixed, symmetric) {
+        match (self.holds(&self.mixed), self.holds(&self.minus) && self.holds(&self.plus)) {
             (true, true) => ExistenceVerdict::Holds,
             (true, false) => ExistenceVerdict::SymmetryFails,
             (false, _) => ExistenceVerdict::MixedFails,
@@ -76,12 +82,8 @@ impl<const N: usize> fmt::Display for Existence<N> {
             ("D1 f⁻ − (D1 f⁻)ᵀ      ", &self.minus),
             ("D2 f⁺ − (D2 f⁺)ᵀ      ", &self.plus),
         ] {
-            let largest = obstruction.amax();
-            writeln!(
-                f,
-                "  {name} {largest:.8e}  {}",
-                if largest <= self.tolerance { "holds" } else { "fails" }
-            )?;
+            let verdict = if self.holds(obstruction) { "holds" } else { "fails" };
+            writeln!(f, "  {name} {:.8e}  {verdict}", size(obstruction))?;
         }
         f.write_str(match self.verdict() {
             ExistenceVerdict::Holds => "  yes: all three conditions hold",
@@ -91,6 +93,11 @@ impl<const N: usize> fmt::Display for Existence<N> {
     }
 }
 
+/// The largest entry, NaN if one is.
+fn size<const N: usize>(matrix: &SMatrix<f64, N, N>) -> f64 {
+    largest(matrix.iter().copied())
+}
+
 pub(super) fn of<const N: usize>(segment: &Segment<N>, second: &SecondDerivatives<N>) -> Existence<N> {
     let force = &second.force;
     Existence {
@@ -98,6 +105,7 @@ pub(super) fn of<const N: usize>(segment: &Segment<N>, second: &SecondDerivative
         minus: force.minus.d1 - force.minus.d1.transpose(),
         plus: force.plus.d2 - force.plus.d2.transpose(),
         tolerance: 10.0 * second.force_error,
+        terms: largest([&force.minus.d1, &force.minus.d2, &force.plus.d1, &force.plus.d2].map(size)),
         h: segment.h,
     }
 }

@@ -1,26 +1,29 @@
-//! The forced motion and its first variations as a system of ordinary differential equations.
+//! The forced motion and its first variations, in configurations and momenta.
 //!
 //! ```text
-//! q′ = v,   L_vv v′ = L_q + f − L_vq v
+//! p = ∂L/∂v,   q′ = v,   p′ = ∂L/∂q + f
 //! δp = L_vq δq + L_vv δv,   δp′ = (L_qq + f_q) δq + (L_qv + f_v) δv
 //! ```
 //!
-//! Variations are carried as (δq, δp), not as (δq, δv): the derivatives of v′ would need third derivatives of L, those of
-//! p′ = L_q + f need the second ones that every [`Lagrangian`] gives. So ∂q(t)/∂q0 and ∂q(t)/∂q1 are exact to rounding.
+//! Neither asks for third derivatives of L, nor for derivatives by the time: ∂q(t)/∂q0 and ∂q(t)/∂q1 are exact to rounding, and where
+//! L, R or f takes the time, each evaluation is that of its own.
 
 use core::marker::PhantomData;
 
 use nalgebra::{SMatrix, SVector};
 
 use super::ActingForce;
-use super::resolve::Breakdown;
-use crate::linear::inverse;
+use super::work::{Breakdown, Work};
+use crate::linear::{inverse, require_regular};
 use crate::{CovectorDerivatives, Derivatives, Lagrangian};
 
 /// A system with the force that acts on it.
 pub(super) struct Dynamics<'a, L, F, const N: usize> {
     pub(super) system: &'a L,
     pub(super) force: PhantomData<F>,
+    /// The time of the system at which the motion starts.
+    pub(super) origin: f64,
+    pub(super) work: &'a Work,
 }
 
 impl<L, F, const N: usize> Clone for Dynamics<'_, L, F, N> {
@@ -31,13 +34,11 @@ impl<L, F, const N: usize> Clone for Dynamics<'_, L, F, N> {
 
 impl<L, F, const N: usize> Copy for Dynamics<'_, L, F, N> {}
 
-/// L and f with their derivatives at (q, v), and the acceleration.
+/// L and f with their derivatives at (q, v).
+#[derive(Clone, Copy)]
 pub(super) struct Local<const N: usize> {
     pub(super) l: Derivatives<f64, N>,
     pub(super) f: CovectorDerivatives<f64, N>,
-    /// (∂²L/∂v²)⁻¹.
-    pub(super) inverse_mass: SMatrix<f64, N, N>,
-    pub(super) acceleration: SVector<f64, N>,
 }
 
 /// A family of N variations: column j is the one of parameter j.
@@ -53,6 +54,7 @@ pub(super) struct Family<const N: usize> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Point<const N: usize> {
     pub(super) q: SVector<f64, N>,
+    pub(super) p: SVector<f64, N>,
     pub(super) v: SVector<f64, N>,
     /// Variations of q0.
     pub(super) minus: Family<N>,
@@ -61,23 +63,30 @@ pub(super) struct Point<const N: usize> {
 }
 
 impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Dynamics<'_, L, F, N> {
-    /// Everything that the equations need at (q, v).
-    pub(super) fn local(&self, q: &SVector<f64, N>, v: &SVector<f64, N>) -> Result<Local<N>, Breakdown> {
-        let (l, f) = self.derivatives(q, v)?;
-        let inverse_mass =
-            inverse(&l.d22).map_err(|singular| Breakdown::Degenerate { column: singular.column })?;
-        let acceleration = inverse_mass * (l.d1 + f.value - l.d12.tr_mul(v));
-        Ok(Local { l, f, inverse_mass, acceleration })
+    /// Everything that the equations need at (q, v), `time` after the start.
+    pub(super) fn local(
+        &self,
+        time: f64,
+        q: &SVector<f64, N>,
+        v: &SVector<f64, N>,
+    ) -> Result<Local<N>, Breakdown> {
+        let (l, f) = self.derivatives(time, q, v)?;
+        // The equations of a step may be solved where accelerations are not determined.
+        require_regular(&l.d22).map_err(|singular| Breakdown::Degenerate { column: singular.column })?;
+        Ok(Local { l, f })
     }
 
     /// L and f with their derivatives, all finite.
     pub(super) fn derivatives(
         &self,
+        time: f64,
         q: &SVector<f64, N>,
         v: &SVector<f64, N>,
     ) -> Result<(Derivatives<f64, N>, CovectorDerivatives<f64, N>), Breakdown> {
-        let l = self.system.lagrangian_derivatives(q, v);
-        let f = F::derivatives(self.system, q, v);
+        self.work.spend()?;
+        let (l, f) = self.system.later(self.origin + time, |system| {
+            (system.lagrangian_derivatives(q, v), F::derivatives(system, q, v))
+        });
         let finite = |matrix: &SMatrix<f64, N, N>| matrix.iter().all(|entry| entry.is_finite());
         let all = l.value.is_finite()
             && l.d1.iter().chain(&l.d2).chain(&f.value).all(|entry| entry.is_finite())
@@ -87,87 +96,48 @@ impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Dynam
 }
 
 impl<const N: usize> Local<N> {
-    /// δv, from δp = L_vq δq + L_vv δv; `excess` is what else makes up δp.
-    pub(super) fn velocity(
-        &self,
-        q: &SVector<f64, N>,
-        p: &SVector<f64, N>,
-        excess: &SVector<f64, N>,
-    ) -> SVector<f64, N> {
-        self.inverse_mass * (p - self.l.d12.tr_mul(q) - excess)
+    /// p′.
+    pub(super) fn rate(&self) -> SVector<f64, N> {
+        self.l.d1 + self.f.value
     }
 
-    /// δv of each column.
+    /// ∂p′/∂q at fixed v.
+    pub(super) fn rate_by_q(&self) -> SMatrix<f64, N, N> {
+        self.l.d11 + self.f.d1
+    }
+
+    /// ∂p′/∂v.
+    pub(super) fn rate_by_v(&self) -> SMatrix<f64, N, N> {
+        self.l.d12 + self.f.d2
+    }
+
+    /// δv of each column; NaN where ∂²L/∂v² is singular, at which no motion gets.
     pub(super) fn velocities(&self, family: &Family<N>) -> SMatrix<f64, N, N> {
-        self.inverse_mass * (family.p - self.l.d12.tr_mul(&family.q))
+        let inverse_mass = inverse(&self.l.d22).unwrap_or(SMatrix::repeat(f64::NAN));
+        inverse_mass * (family.p - self.l.d12.tr_mul(&family.q))
+    }
+}
+
+impl<const N: usize> Family<N> {
+    /// The columns.
+    pub(super) fn columns(&self) -> impl Iterator<Item = (SVector<f64, N>, SVector<f64, N>)> {
+        (0..N).map(|j| (self.q.column(j).into_owned(), self.p.column(j).into_owned()))
     }
 
-    /// δp′ of variations δq, δv.
-    pub(super) fn momentum_rates<const M: usize>(
-        &self,
-        q: &SMatrix<f64, N, M>,
-        v: &SMatrix<f64, N, M>,
-    ) -> SMatrix<f64, N, M> {
-        (self.l.d11 + self.f.d1) * q + (self.l.d12 + self.f.d2) * v
+    /// The family with these columns.
+    pub(super) fn of_columns(column: impl Fn(usize) -> (SVector<f64, N>, SVector<f64, N>)) -> Self {
+        Self { q: SMatrix::from_fn(|i, j| column(j).0[i]), p: SMatrix::from_fn(|i, j| column(j).1[i]) }
     }
 }
 
 impl<const N: usize> Point<N> {
-    /// Numbers that a point takes.
-    pub(super) const LENGTH: usize = 2 * N + 4 * N * N;
-
     /// Runs of numbers that share a unit.
-    pub(super) const BLOCKS: [usize; 6] = [N, N, N * N, N * N, N * N, N * N];
+    pub(super) const BLOCKS: [usize; 7] = [N, N, N, N * N, N * N, N * N, N * N];
 
-    pub(super) fn write(&self, numbers: &mut [f64]) {
-        let mut writer = Writer(numbers);
-        writer.put(self.q.as_slice());
-        writer.put(self.v.as_slice());
-        for family in [&self.minus, &self.plus] {
-            writer.put(family.q.as_slice());
-            writer.put(family.p.as_slice());
-        }
-    }
-
-    pub(super) fn read(numbers: &[f64]) -> Self {
-        let mut reader = Reader(numbers);
-        let (q, v) = (reader.vector(), reader.vector());
-        let minus = Family { q: reader.matrix(), p: reader.matrix() };
-        let plus = Family { q: reader.matrix(), p: reader.matrix() };
-        Self { q, v, minus, plus }
-    }
-}
-
-/// Takes vectors and matrices off the front of a run of numbers.
-pub(super) struct Reader<'a>(pub(super) &'a [f64]);
-
-impl Reader<'_> {
-    pub(super) fn take(&mut self, length: usize) -> &[f64] {
-        let (front, rest) = self.0.split_at(length);
-        self.0 = rest;
-        front
-    }
-
-    pub(super) fn number(&mut self) -> f64 {
-        self.take(1)[0]
-    }
-
-    pub(super) fn vector<const N: usize>(&mut self) -> SVector<f64, N> {
-        SVector::from_column_slice(self.take(N))
-    }
-
-    pub(super) fn matrix<const N: usize>(&mut self) -> SMatrix<f64, N, N> {
-        SMatrix::from_column_slice(self.take(N * N))
-    }
-}
-
-/// Puts runs of numbers one after another.
-pub(super) struct Writer<'a>(pub(super) &'a mut [f64]);
-
-impl Writer<'_> {
-    pub(super) fn put(&mut self, numbers: &[f64]) {
-        let (front, rest) = core::mem::take(&mut self.0).split_at_mut(numbers.len());
-        front.copy_from_slice(numbers);
-        self.0 = rest;
+    /// All numbers, block by block.
+    pub(super) fn numbers(&self) -> Vec<f64> {
+        let vectors = [&self.q, &self.p, &self.v].into_iter().flat_map(|vector| vector.iter());
+        let matrices = [&self.minus.q, &self.minus.p, &self.plus.q, &self.plus.p];
+        vectors.chain(matrices.into_iter().flat_map(|matrix| matrix.iter())).copied().collect()
     }
 }

@@ -13,12 +13,14 @@
 
 use core::fmt;
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
-use super::{ActingForce, Exact, ExactError};
-use crate::{Discrete, Lagrangian};
+use super::work::Work;
+use super::{ActingForce, Exact, ExactError, Segment};
+use crate::verdict::largest;
+use crate::{CovectorDerivatives, Discrete, Lagrangian};
 
-/// A relative error this many times the reference's own counts as round-off plateau.
+/// An error this many times the reference's own counts as round-off plateau.
 const PLATEAU: f64 = 30.0;
 
 /// The errors of a rule at one step size: largest coordinate of each difference.
@@ -53,6 +55,8 @@ pub struct Convergence {
     pub used: usize,
     /// Step sizes left out, their errors being round-off or 0.
     pub cut: usize,
+    /// The largest round-off floor of those left out.
+    pub plateau: f64,
 }
 
 /// The orders of a rule.
@@ -80,11 +84,13 @@ where
 {
     /// Measures the order of rule `R` at q0 with mean velocity `v`, q1 = q0 + h v.
     ///
+    /// Of a system at a time, a view, every segment starts at that time. Step sizes that differ in their sign alone count once.
+    ///
     /// The rule discretises every force that the system has, so the objects compared must be those of every force too: with
     /// [`Exact::unforced`] of a damped system the slopes of f_d are 1.
     ///
     /// # Errors
-    /// As [`Exact::segment`], at any of the step sizes.
+    /// As [`Exact::segment`], at any of the step sizes; [`ExactError::RuleNotFinite`] where the rule has no finite objects.
     pub fn order<R>(
         &self,
         _rule: R,
@@ -96,11 +102,26 @@ where
         L: Discrete<R, N>,
     {
         let (q0, v) = (q0.into(), v.into());
+        let mut known: Vec<f64> = Vec::new();
+        // The same step size twice says nothing of a slope.
+        let mut is_new = |h: f64| {
+            let is_new = !known.contains(&h.abs());
+            known.push(h.abs());
+            is_new
+        };
+        let step_sizes: Vec<f64> = step_sizes.iter().copied().filter(|&h| is_new(h)).collect();
         let samples =
             step_sizes.iter().map(|&h| self.sample::<R>(&q0, &v, h)).collect::<Result<Vec<_>, _>>()?;
         let of = |index: usize| convergence(&samples, index);
         let (lagrangian, force_minus, force_plus, p0, p1) = (of(0), of(1), of(2), of(3), of(4));
         Ok(OrderReport { samples, lagrangian, force_minus, force_plus, p0, p1 })
+    }
+
+    /// f at the start of the motion, with its derivatives.
+    fn acting_derivatives(&self, segment: &Segment<N>) -> Result<CovectorDerivatives<f64, N>, ExactError> {
+        let work = Work::new();
+        let local = self.dynamics(0.0, &work).local(0.0, &segment.q0, &segment.v0);
+        local.map(|local| local.f).map_err(|breakdown| breakdown.at(0.0, &work))
     }
 
     fn sample<R>(&self, q0: &SVector<f64, N>, v: &SVector<f64, N>, h: f64) -> Result<OrderSample, ExactError>
@@ -110,26 +131,40 @@ where
         let q1 = q0 + v * h;
         let exact = self.segment_near(*q0, q1, h, *v)?;
         let system = self.system();
-        let (force, momenta) = (system.discrete_force(q0, &q1, h), system.momenta(q0, v, h));
-        // Digits of v are lost where q1 − q0 is a small difference of large numbers.
-        let rounding = f64::EPSILON * (1.0 + q0.amax() / (v.amax() * h.abs()));
-        let relative = PLATEAU * exact.report.error().max(rounding);
-        let sizes = [
-            // The action may be a small difference of its parts, T − V; its variations are not.
-            exact.lagrangian.value.abs().max((v.dot(&exact.p0.value) * h).abs()),
-            exact.force.minus.amax(),
-            exact.force.plus.amax(),
-            exact.p0.value.amax(),
-            exact.p1.value.amax(),
-        ];
+        // The mean velocity of these very ends: q1 is rounded.
+        let mean = (q1 - q0) / h;
+        let (force, momenta) = (system.discrete_force(q0, &q1, h), system.momenta(q0, &mean, h));
+        let lagrangian = system.discrete_lagrangian(q0, &q1, h);
+        // The largest entry, NaN if one is.
+        let size = |vector: &SVector<f64, N>| largest(vector.iter().copied());
+        if !largest([lagrangian, size(&force.minus), size(&force.plus), size(&momenta.p0), size(&momenta.p1)])
+            .is_finite()
+        {
+            return Err(ExactError::RuleNotFinite { h });
+        }
+        let relative = exact.report.error().max(f64::EPSILON);
+        let floor = |size: f64, by_end: f64| PLATEAU * (size * relative + by_end);
+        // What a rounding of the ends, which the motion meets to no more, makes of each.
+        let ends = SVector::<f64, N>::from_fn(|i, _| f64::EPSILON * q0[i].abs().max(q1[i].abs()));
+        let moved = |by_q1: &SMatrix<f64, N, N>| size(&(by_q1.abs() * ends));
+        let acting = self.acting_derivatives(&exact)?;
+        let of_force = size(&(acting.d2.abs() * ends + acting.d1.abs() * ends * h.abs()));
+        // The action may be a small difference of its parts, T − V; its variations are not.
+        let action = exact.lagrangian.value.abs().max((mean.dot(&exact.p0.value) * h).abs());
         Ok(OrderSample {
             h,
-            lagrangian: (system.discrete_lagrangian(q0, &q1, h) - exact.lagrangian.value).abs(),
-            force_minus: (force.minus - exact.force.minus).amax(),
-            force_plus: (force.plus - exact.force.plus).amax(),
-            p0: (momenta.p0 - exact.p0.value).amax(),
-            p1: (momenta.p1 - exact.p1.value).amax(),
-            floors: sizes.map(|size| size * relative),
+            lagrangian: (lagrangian - exact.lagrangian.value).abs(),
+            force_minus: size(&(force.minus - exact.force.minus)),
+            force_plus: size(&(force.plus - exact.force.plus)),
+            p0: size(&(momenta.p0 - exact.p0.value)),
+            p1: size(&(momenta.p1 - exact.p1.value)),
+            floors: [
+                floor(action, exact.lagrangian.d2.abs().dot(&ends)),
+                floor(size(&exact.force.minus), of_force),
+                floor(size(&exact.force.plus), of_force),
+                floor(size(&exact.p0.value), moved(&exact.p0.d2)),
+                floor(size(&exact.p1.value), moved(&exact.p1.d2)),
+            ],
         })
     }
 }
@@ -152,11 +187,13 @@ fn convergence(samples: &[OrderSample], index: usize) -> Convergence {
         [.., (x0, y0), (x1, y1)] => Some((y1 - y0) / (x1 - x0)),
         _ => None,
     };
+    let below = |sample: &&OrderSample| sample.errors()[index] <= sample.floors[index];
     Convergence {
         slope: last.map(|_| least_squares(&points)),
         last,
         used: points.len(),
         cut: samples.len() - points.len(),
+        plateau: largest(samples.iter().filter(below).map(|sample| sample.floors[index])),
     }
 }
 
@@ -178,7 +215,14 @@ impl fmt::Display for Convergence {
                 "slope {slope:.3}, at the smallest h {last:.3} ({} step sizes, {} on the plateau left out)",
                 self.used, self.cut
             ),
-            _ => write!(f, "equal to rounding ({} step sizes of {})", self.cut, self.cut + self.used),
+            _ if self.cut > 0 => write!(
+                f,
+                "equal to rounding at {} step sizes of {}, of {:.0e} at most",
+                self.cut,
+                self.cut + self.used,
+                self.plateau
+            ),
+            _ => write!(f, "unknown: {} step sizes are too few for a slope", self.used),
         }
     }
 }

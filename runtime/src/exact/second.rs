@@ -14,12 +14,17 @@
 //! they are central differences of order 8 of the second derivatives, along δ_a, with a spacing that the motion itself is
 //! asked for: the one whose result changes least when it is halved.
 
+use core::cell::{Cell, RefCell};
+
 use nalgebra::{SMatrix, SVector};
 
-use super::motion::{Dynamics, Local, Point, Reader, Writer};
-use super::resolve::{Breakdown, Problem};
+use super::collocation::{Source, unit_of};
+use super::mesh::{Question, Visitor};
+use super::motion::{Dynamics, Local, Point};
 use super::segment::Segment;
+use super::work::Breakdown;
 use super::{ActingForce, ExactError};
+use crate::verdict::largest;
 use crate::{CovectorDerivatives, Derivatives, DiscreteForce, DiscreteForceDerivatives, Lagrangian};
 
 /// Second derivatives of the exact discrete objects on a segment.
@@ -54,6 +59,9 @@ const ROUGH: f64 = 1e-6;
 /// The differences round: the second variations may stop converging at this relative error, which is then reported.
 const ROUNDING: f64 = 1e-6;
 
+/// Roundings of the sums along the motion, which two attempts may agree on by chance.
+const ROUNDINGS: f64 = 32.0;
+
 /// Derivatives of the second derivatives of L and the first ones of f along one variation.
 #[derive(Clone, Copy)]
 struct Bend<const N: usize> {
@@ -70,10 +78,10 @@ struct Columns<const N: usize> {
 impl<const N: usize> Columns<N> {
     fn of(point: &Point<N>, local: &Local<N>) -> Self {
         let families = [&point.minus, &point.plus];
-        let q = families.iter().flat_map(|family| family.q.column_iter().map(|column| column.into_owned()));
+        let q = families.iter().flat_map(|family| family.columns().map(|(q, _)| q)).collect();
         let velocities = families.map(|family| local.velocities(family));
         let v = velocities.iter().flat_map(|family| family.column_iter().map(|column| column.into_owned()));
-        Self { q: q.collect(), v: v.collect() }
+        Self { q, v: v.collect() }
     }
 }
 
@@ -82,6 +90,7 @@ fn pairs<const N: usize>() -> impl Iterator<Item = (usize, usize)> {
     (0..2 * N).flat_map(|a| (a..2 * N).map(move |b| (a, b)))
 }
 
+/// Of a segment that was followed from q0 on, its motion being that of `dynamics`.
 pub(super) fn second_derivatives<L, F, const N: usize>(
     dynamics: Dynamics<'_, L, F, N>,
     segment: &Segment<N>,
@@ -96,20 +105,45 @@ where
     let (other, ..) = carry(dynamics, segment, &halved)?;
     // The differences enter both through ∫ f·w dt alone.
     let hessian = |l: &Derivatives<f64, N>| [l.d11, l.d12, l.d22];
-    let largest = |blocks: &[SMatrix<f64, N, N>]| blocks.iter().map(SMatrix::amax).fold(0.0, f64::max);
+    let most = |blocks: &[SMatrix<f64, N, N>]| largest(blocks.iter().flat_map(|block| block.iter().copied()));
     let jacobian = [force.minus.d1, force.minus.d2, force.plus.d1, force.plus.d2];
-    let spread = hessian(&lagrangian)
+    let apart = hessian(&lagrangian)
         .iter()
         .zip(&hessian(&other))
-        .map(|(wide, narrow)| (wide - narrow).amax())
-        .fold(0.0, f64::max);
-    let relative = integration.max(segment.report.error());
+        .map(|(wide, narrow)| wide - narrow)
+        .collect::<Vec<_>>();
+    let spread = most(&apart);
+    let relative = largest([integration, segment.report.error(), ROUNDINGS * f64::EPSILON]);
     Ok(SecondDerivatives {
-        lagrangian_error: spread + relative * largest(&hessian(&lagrangian)),
-        force_error: spread + relative * largest(&jacobian),
+        lagrangian_error: spread + relative * most(&hessian(&lagrangian)),
+        force_error: spread + relative * most(&jacobian),
         lagrangian,
         force,
     })
+}
+
+impl<const N: usize> SecondDerivatives<N> {
+    /// Those of the segment from q1 back to q0; see [`Segment::reversed`].
+    pub(super) fn reversed(self) -> Self {
+        let Derivatives { value, d1, d2, d11, d12, d22 } = self.lagrangian;
+        let turned =
+            |f: CovectorDerivatives<f64, N>| CovectorDerivatives { value: -f.value, d1: -f.d2, d2: -f.d1 };
+        Self {
+            lagrangian: Derivatives {
+                value: -value,
+                d1: -d2,
+                d2: -d1,
+                d11: -d22,
+                d12: -d12.transpose(),
+                d22: -d11,
+            },
+            force: DiscreteForceDerivatives {
+                minus: turned(self.force.plus),
+                plus: turned(self.force.minus),
+            },
+            ..self
+        }
+    }
 }
 
 /// D²L_d^ex and Df_d^ex with these spacings, and the relative error of the integration.
@@ -122,61 +156,69 @@ where
     L: Lagrangian<N, Scalar = f64>,
     F: ActingForce<L, N>,
 {
-    let h = segment.h;
     let count = pairs::<N>().count();
-    let (motion, variations) = (Point::<N>::LENGTH, 2 * N * count);
     let own = 4 * N * N;
-    // Beside the motion: ∫ (f′ δ_b)·δ_a, ∫ f·η, ∫ L″[δ_a, δ_b], then η of all pairs and ζ of all pairs. The first two make up
-    // one Jacobian and are judged together; η and ζ are not judged, as they matter through ∫ f·η alone.
-    let blocks: Vec<usize> = Point::<N>::BLOCKS.into_iter().chain([own + count, count]).collect();
-    let mut numbers = vec![0.0; motion + own + 2 * count + variations];
-    segment.start.write(&mut numbers);
-
-    let rate = |y: &[f64], rate: &mut [f64]| {
-        let (point, local) = dynamics.point_rate(y, &mut rate[..motion], h)?;
-        let Local { l, f, .. } = &local;
-        let along = Columns::of(&point, &local);
-        let mut bends = Vec::with_capacity(2 * N);
-        for ((x, y), spacing) in along.q.iter().zip(&along.v).zip(spacings) {
-            bends.push(bend(dynamics, &point, x, y, *spacing)?);
-        }
-
-        let (own_rates, rest) = rate[motion..].split_at_mut(own);
-        let (work_rates, rest) = rest.split_at_mut(count);
-        let (hessian_rates, rest) = rest.split_at_mut(count);
-        let (eta_rates, zeta_rates) = rest.split_at_mut(N * count);
-        let (etas, zetas) = y[motion + own + 2 * count..].split_at(N * count);
-        let (mut etas, mut zetas) = (Reader(etas), Reader(zetas));
-        let (mut eta_rates, mut zeta_rates) = (Writer(eta_rates), Writer(zeta_rates));
-        for (index, (a, b)) in pairs::<N>().enumerate() {
-            let (xa, va, xb, vb) = (&along.q[a], &along.v[a], &along.q[b], &along.v[b]);
-            let third = &bends[a];
-            let to_momentum = third.l.d12.tr_mul(xb) + third.l.d22 * vb;
-            let to_rate = (third.l.d11 + third.f.d1) * xb + (third.l.d12 + third.f.d2) * vb;
-            let (eta, zeta) = (etas.vector::<N>(), zetas.vector::<N>());
-            let w = local.velocity(&eta, &zeta, &to_momentum);
-            eta_rates.put((w * h).as_slice());
-            zeta_rates.put(((local.momentum_rates(&eta, &w) + to_rate) * h).as_slice());
-            work_rates[index] = f.value.dot(&eta) * h;
-            hessian_rates[index] =
-                (xa.dot(&(l.d11 * xb + l.d12 * vb)) + va.dot(&(l.d12.tr_mul(xb) + l.d22 * vb))) * h;
-        }
-        for a in 0..2 * N {
-            for b in 0..2 * N {
-                own_rates[a * 2 * N + b] = along.q[a].dot(&(f.d1 * along.q[b] + f.d2 * along.v[b])) * h;
+    // Beside the motion: ∫ (f′ δ_b)·δ_a, ∫ f·η, ∫ L″[δ_a, δ_b]. The first two make up one Jacobian and are judged together; η and ζ are
+    // not judged, as they matter through ∫ f·η alone.
+    let breakdown = Cell::new(None);
+    let ends = RefCell::new(Vec::new());
+    let visitor = || -> Box<Visitor<'_, N>> {
+        let (breakdown, ends) = (&breakdown, &ends);
+        let mut seconds = vec![(SVector::zeros(), SVector::zeros()); count];
+        Box::new(move |step, varied, sums| {
+            let mut sources: Vec<Source<N>> = vec![Vec::new(); count];
+            for (i, stage) in step.stages.iter().enumerate() {
+                let Local { l, f } = &stage.local;
+                let along: Vec<_> = varied.iter().map(|varied| varied.stages[i]).collect();
+                let bends = along.iter().zip(spacings).map(|((x, y), spacing)| {
+                    bend(dynamics, stage.time, [&stage.q, &stage.v], [x, y], *spacing).unwrap_or_else(
+                        |found| {
+                            breakdown.set(Some((stage.time, found)));
+                            Bend { l: Derivatives::zero(), f: CovectorDerivatives::zero() }
+                        },
+                    )
+                });
+                let bends: Vec<Bend<N>> = bends.collect();
+                for (index, (a, b)) in pairs::<N>().enumerate() {
+                    let ((xa, va), (xb, vb)) = (along[a], along[b]);
+                    let third = &bends[a];
+                    let to_momentum = third.l.d12.tr_mul(&xb) + third.l.d22 * vb;
+                    let to_rate = (third.l.d11 + third.f.d1) * xb + (third.l.d12 + third.f.d2) * vb;
+                    sources[index].push((to_momentum, to_rate));
+                    let bilinear =
+                        xa.dot(&(l.d11 * xb + l.d12 * vb)) + va.dot(&(l.d12.tr_mul(&xb) + l.d22 * vb));
+                    sums.add(own + count + index, stage.weight * bilinear);
+                }
+                for (a, (xa, _)) in along.iter().enumerate() {
+                    for (b, (xb, vb)) in along.iter().enumerate() {
+                        sums.add(a * 2 * N + b, stage.weight * xa.dot(&(f.d1 * xb + f.d2 * vb)));
+                    }
+                }
             }
-        }
-        Ok(())
+            let followed = step.vary(&seconds, Some(&sources));
+            for (index, followed) in followed.iter().enumerate() {
+                for (stage, (eta, _)) in step.stages.iter().zip(&followed.stages) {
+                    sums.add(own + index, stage.weight * stage.local.f.value.dot(eta));
+                }
+                seconds[index] = followed.end;
+            }
+            *ends.borrow_mut() = seconds.iter().map(|(eta, _)| *eta).collect();
+        })
     };
-    let resolved = Problem { start: numbers, blocks: &blocks, rate, h, rounding: ROUNDING }.resolve(0.0)?;
+    let question = Question { blocks: &[own + count, count], visitor: &visitor, rounding: ROUNDING };
+    let resolved = dynamics.resolve(&segment.course.quarters[0], segment.h, &question);
+    if let Some((time, found)) = breakdown.get() {
+        let found: Breakdown = found;
+        return Err(found.at(time, dynamics.work));
+    }
+    let resolved = resolved?;
 
-    let (own_work, rest) = resolved.end[motion..].split_at(own);
-    let (work, rest) = rest.split_at(count);
-    let (hessian, etas) = rest.split_at(count);
-    let mut etas = Reader(etas);
+    let (own_work, rest) = resolved.sums.split_at(own);
+    let (work, hessian) = rest.split_at(count);
+    let etas: Vec<SVector<f64, N>> = ends.into_inner();
     let mut by_pair = vec![(0.0, 0.0); own];
     for (index, (a, b)) in pairs::<N>().enumerate() {
-        let of_w = work[index] - segment.force.plus.dot(&etas.vector::<N>());
+        let of_w = work[index] - segment.force.plus.dot(&etas[index]);
         by_pair[a * 2 * N + b] = (of_w, hessian[index] - of_w);
         by_pair[b * 2 * N + a] = by_pair[a * 2 * N + b];
     }
@@ -204,9 +246,9 @@ where
 /// The derivatives of D²L and Df along (x, y), by central differences.
 fn bend<L, F, const N: usize>(
     dynamics: Dynamics<'_, L, F, N>,
-    point: &Point<N>,
-    x: &SVector<f64, N>,
-    y: &SVector<f64, N>,
+    time: f64,
+    [q, v]: [&SVector<f64, N>; 2],
+    [x, y]: [&SVector<f64, N>; 2],
     spacing: f64,
 ) -> Result<Bend<N>, Breakdown>
 where
@@ -217,7 +259,7 @@ where
     for (index, weight) in WEIGHTS.into_iter().enumerate() {
         let shift = spacing * (index + 1) as f64;
         for (shift, weight) in [(shift, weight / spacing), (-shift, -weight / spacing)] {
-            let (l, f) = dynamics.derivatives(&(point.q + x * shift), &(point.v + y * shift))?;
+            let (l, f) = dynamics.derivatives(time, &(q + x * shift), &(v + y * shift))?;
             sum = Bend { l: sum.l + l * weight, f: sum.f + f * weight };
         }
     }
@@ -235,20 +277,16 @@ where
     L: Lagrangian<N, Scalar = f64>,
     F: ActingForce<L, N>,
 {
-    let start = |_| ExactError::MotionNotFinite { time: 0.0 };
-    let mut points = Vec::with_capacity(segment.quarters.len());
-    for point in &segment.quarters {
-        let local = dynamics.local(&point.q, &point.v).map_err(start)?;
-        points.push((point, Columns::of(point, &local), Bend { l: local.l, f: local.f }));
+    let mut points = Vec::with_capacity(segment.course.quarters.len());
+    for (k, point) in segment.course.quarters.iter().enumerate() {
+        let time = segment.h * (0.25 * k as f64);
+        let local = dynamics
+            .local(time, &point.q, &point.v)
+            .map_err(|breakdown| breakdown.at(time, dynamics.work))?;
+        points.push(((time, point), Columns::of(point, &local), local));
     }
     // Weights by the masses take the units of the coordinates out of what is compared.
-    let unit = SVector::from_fn(|i, _| {
-        let row = |at: &Bend<N>| match at.l.d22[(i, i)].abs() {
-            0.0 => at.l.d22.row(i).amax(),
-            own => own,
-        };
-        points.iter().map(|(.., at)| row(at)).fold(0.0, f64::max).sqrt()
-    });
+    let unit = SVector::from_fn(|i, _| largest(points.iter().map(|(.., at)| unit_of(at, i))));
 
     (0..2 * N)
         .map(|a| {
@@ -256,7 +294,9 @@ where
             let reach = segment.q0[index].abs().max(segment.q1[index].abs());
             let size = if reach > 0.0 { reach } else { 1.0 };
             let differences = |spacing: f64| -> Option<Vec<Bend<N>>> {
-                let along = points.iter().map(|(p, c, _)| bend(dynamics, p, &c.q[a], &c.v[a], spacing).ok());
+                let along = points.iter().map(|((time, point), columns, _)| {
+                    bend(dynamics, *time, [&point.q, &point.v], [&columns.q[a], &columns.v[a]], spacing).ok()
+                });
                 along.collect()
             };
             let mut best: Option<(f64, f64)> = None;
@@ -266,11 +306,12 @@ where
                 let wide = differences(spacing);
                 if let (Some(narrow), Some(wide)) = (&narrow, &wide) {
                     // Differences that agree by chance are no better than rounding.
-                    let spread = points
-                        .iter()
-                        .zip(wide.iter().zip(narrow))
-                        .map(|((.., at), (wide, narrow))| spread(&unit, [at, wide, narrow], spacing))
-                        .fold(f64::EPSILON / spacing, f64::max);
+                    let spread =
+                        points.iter().zip(wide.iter().zip(narrow)).map(|((.., at), (wide, narrow))| {
+                            let at = Bend { l: at.l, f: at.f };
+                            spread(&unit, [&at, wide, narrow], spacing)
+                        });
+                    let spread = largest(spread.chain([f64::EPSILON / spacing]));
                     match best {
                         Some((least, _)) if spread > OUTGROWN * least => break,
                         Some((least, _)) if spread >= least => {}
@@ -295,9 +336,10 @@ fn spread<const N: usize>(unit: &SVector<f64, N>, [at, wide, narrow]: [&Bend<N>;
     };
     let mut worst = 0.0_f64;
     for ((at, wide), narrow) in matrices(at).iter().zip(matrices(wide)).zip(matrices(narrow)) {
-        let apart = (wide - narrow).amax();
-        if apart > 0.0 {
-            worst = worst.max(apart / at.amax().max(spacing * narrow.amax()));
+        let size = |matrix: &SMatrix<f64, N, N>| largest(matrix.iter().copied());
+        let apart = size(&(wide - narrow));
+        if apart != 0.0 {
+            worst = largest([worst, apart / size(at).max(spacing * size(&narrow))]);
         }
     }
     worst

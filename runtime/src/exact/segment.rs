@@ -5,9 +5,10 @@ use core::fmt;
 use nalgebra::{SMatrix, SVector};
 
 use super::boundary::{Boundary, Shot};
-use super::motion::{Family, Point, Reader, Writer};
-use super::resolve::{Problem, ROUNDING};
+use super::mesh::{Question, ROUNDING, Visitor};
+use super::motion::{Family, Point};
 use super::{ActingForce, ExactError};
+use crate::verdict::largest;
 use crate::{CovectorDerivatives, DiscreteForce, Gradient, Lagrangian};
 
 /// The exact discrete objects at (q0, q1, h).
@@ -34,9 +35,16 @@ pub struct Segment<const N: usize> {
     pub p1: CovectorDerivatives<f64, N>,
     /// What the figures are good for.
     pub report: SegmentReport,
-    /// The motion's start, with the variations of q0 and q1.
-    pub(super) start: Point<N>,
-    /// The motion at times 0, h/4, h/2, 3h/4 and h.
+    /// How the motion was followed.
+    pub(super) course: Course<N>,
+}
+
+/// The motion as it was followed, with the variations of the ends that it starts and ends at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Course<const N: usize> {
+    /// Whether it was followed from q1 back to q0.
+    pub(super) reversed: bool,
+    /// The motion at times 0, h/4, h/2, 3h/4 and h of its course.
     pub(super) quarters: [Point<N>; 5],
 }
 
@@ -59,13 +67,15 @@ pub struct SegmentReport {
     pub identity: f64,
     /// How much larger a variation of q1 is inside the segment than at its end: 1 away from conjugate points.
     pub growth: f64,
+    /// What one rounding at one end of the motion makes of the other, relative to the largest of the motion.
+    pub conditioning: f64,
 }
 
 impl SegmentReport {
-    /// The largest of the three error estimates.
+    /// The largest of the error estimates: `difference`, `boundary`, `identity` and `conditioning`.
     #[must_use]
     pub fn error(&self) -> f64 {
-        self.difference.max(self.boundary).max(self.identity)
+        largest([self.difference, self.boundary, self.identity, self.conditioning])
     }
 }
 
@@ -74,8 +84,14 @@ impl fmt::Display for SegmentReport {
         write!(
             f,
             "{} Newton iterations, {} integration steps; relative errors: integration {:.1e}, boundary {:.1e}, \
-             identity D L_d + f_d = ∓p {:.1e}; growth {:.1e}",
-            self.iterations, self.steps, self.difference, self.boundary, self.identity, self.growth
+             identity D L_d + f_d = ∓p {:.1e}, conditioning {:.1e}; growth {:.1e}",
+            self.iterations,
+            self.steps,
+            self.difference,
+            self.boundary,
+            self.identity,
+            self.conditioning,
+            self.growth
         )?;
         if self.continuation > 0 {
             write!(f, "; followed through {} smaller step sizes", self.continuation)?;
@@ -113,57 +129,61 @@ where
     F: ActingForce<L, N>,
 {
     let Boundary { dynamics, q0, q1 } = *boundary;
+    let local = dynamics.local(0.0, &q0, &shot.v0).map_err(|breakdown| breakdown.at(0.0, dynamics.work))?;
     // At fixed q1 a variation of q0 changes p0 by −(∂q(h)/∂p0)⁻¹ ∂q(h)/∂q0; at fixed q0 one of q1 by (∂q(h)/∂p0)⁻¹.
     let start = Point {
         q: q0,
+        p: local.l.d2,
         v: shot.v0,
         minus: Family { q: SMatrix::identity(), p: -(shot.inverse * shot.end.minus.q) },
         plus: Family { q: SMatrix::zeros(), p: shot.inverse },
     };
 
     // Beside the motion: L, its two first variations, and the work of f on both families.
-    let mut numbers = vec![0.0; Point::<N>::LENGTH + 1 + 4 * N];
-    start.write(&mut numbers);
-    let blocks: Vec<usize> = Point::<N>::BLOCKS.into_iter().chain([1, 2 * N, 2 * N]).collect();
-    let rate = |y: &[f64], rate: &mut [f64]| {
-        let (motion, integrands) = rate.split_at_mut(Point::<N>::LENGTH);
-        let (point, local) = dynamics.point_rate(y, motion, h)?;
-        let mut writer = Writer(integrands);
-        writer.put(&[local.l.value * h]);
-        for family in [&point.minus, &point.plus] {
-            let variation = family.q.tr_mul(&local.l.d1) + local.velocities(family).tr_mul(&local.l.d2);
-            writer.put((variation * h).as_slice());
-        }
-        for family in [&point.minus, &point.plus] {
-            writer.put((family.q.tr_mul(&local.f.value) * h).as_slice());
-        }
-        Ok(())
+    let visitor = || -> Box<Visitor<'_, N>> {
+        Box::new(|step, varied, sums| {
+            for (i, stage) in step.stages.iter().enumerate() {
+                let (l, f) = (&stage.local.l, &stage.local.f);
+                sums.add(0, stage.weight * l.value);
+                for (column, varied) in varied.iter().enumerate() {
+                    let (q, v) = varied.stages[i];
+                    sums.add(1 + column, stage.weight * (l.d1.dot(&q) + l.d2.dot(&v)));
+                    sums.add(1 + 2 * N + column, stage.weight * f.value.dot(&q));
+                }
+            }
+        })
     };
-    let resolved = Problem { start: numbers, blocks: &blocks, rate, h, rounding: ROUNDING }.resolve(0.0)?;
+    // Rounding that the motion enlarges differs from mesh to mesh.
+    let rounding = ROUNDING.max(100.0 * shot.conditioning);
+    let question = Question { blocks: &[1, 2 * N, 2 * N], visitor: &visitor, rounding };
+    let resolved = dynamics.resolve(&start, h, &question)?;
 
-    let end = Point::<N>::read(&resolved.end);
-    let mut integrals = Reader(&resolved.end[Point::<N>::LENGTH..]);
-    let lagrangian = Gradient { value: integrals.number(), d1: integrals.vector(), d2: integrals.vector() };
-    let force = DiscreteForce { minus: integrals.vector(), plus: integrals.vector() };
-    let momentum = |q, v| dynamics.system.lagrangian_gradient(q, v).d2;
-    let p0 = CovectorDerivatives { value: momentum(&q0, &shot.v0), d1: start.minus.p, d2: start.plus.p };
-    let p1 = CovectorDerivatives { value: momentum(&end.q, &end.v), d1: end.minus.p, d2: end.plus.p };
+    let end = resolved.carried.end;
+    let vector = |first: usize| SVector::from_column_slice(&resolved.sums[first..first + N]);
+    let lagrangian = Gradient { value: resolved.sums[0], d1: vector(1), d2: vector(1 + N) };
+    let force = DiscreteForce { minus: vector(1 + 2 * N), plus: vector(1 + 3 * N) };
+    let p0 = CovectorDerivatives { value: start.p, d1: start.minus.p, d2: start.plus.p };
+    let p1 = CovectorDerivatives { value: end.p, d1: end.minus.p, d2: end.plus.p };
 
-    let largest = Point::<N>::read(&resolved.largest);
-    let boundary = relative((end.q - q1).amax(), largest.q.amax())
-        .max(relative(end.minus.q.amax(), largest.minus.q.amax()))
-        .max(relative((end.plus.q - SMatrix::identity()).amax(), largest.plus.q.amax()));
-    let size = [&lagrangian.d1, &lagrangian.d2, &force.minus, &force.plus, &p0.value, &p1.value]
-        .into_iter()
-        .map(SVector::amax)
-        .fold(0.0, f64::max);
-    let identity = relative((lagrangian.d1 + force.minus + p0.value).amax(), size)
-        .max(relative((lagrangian.d2 + force.plus - p1.value).amax(), size));
-
-    let mut quarters = [start; 5];
-    for (quarter, numbers) in quarters.iter_mut().zip(&resolved.snapshots) {
-        *quarter = Point::read(numbers);
-    }
+    let most = |block: usize| {
+        let first: usize = Point::<N>::BLOCKS[..block].iter().sum();
+        largest(resolved.carried.largest[first..first + Point::<N>::BLOCKS[block]].iter().copied())
+    };
+    let of = |entries: &[f64]| largest(entries.iter().copied());
+    let boundary = largest([
+        relative(of((end.q - q1).as_slice()), most(0)),
+        relative(of(end.minus.q.as_slice()), most(3)),
+        relative(of((end.plus.q - SMatrix::identity()).as_slice()), most(5)),
+    ]);
+    let size = largest(
+        [&lagrangian.d1, &lagrangian.d2, &force.minus, &force.plus, &p0.value, &p1.value]
+            .into_iter()
+            .flat_map(|vector| vector.iter().copied()),
+    );
+    let identity = largest([
+        relative(of((lagrangian.d1 + force.minus + p0.value).as_slice()), size),
+        relative(of((lagrangian.d2 + force.plus - p1.value).as_slice()), size),
+    ]);
     Ok(Segment {
         q0,
         q1,
@@ -182,10 +202,35 @@ where
             boundary,
             identity,
             growth: shot.growth,
+            conditioning: shot.conditioning,
         },
-        start,
-        quarters,
+        course: Course { reversed: false, quarters: resolved.carried.quarters },
     })
+}
+
+impl<const N: usize> Segment<N> {
+    /// The segment from q1 back to q0, its time running backwards: L_d changes its sign, and both ends change places.
+    pub(super) fn reversed(self) -> Self {
+        let turned =
+            |p: CovectorDerivatives<f64, N>| CovectorDerivatives { value: p.value, d1: p.d2, d2: p.d1 };
+        Self {
+            q0: self.q1,
+            q1: self.q0,
+            h: -self.h,
+            v0: self.v1,
+            v1: self.v0,
+            lagrangian: Gradient {
+                value: -self.lagrangian.value,
+                d1: -self.lagrangian.d2,
+                d2: -self.lagrangian.d1,
+            },
+            force: DiscreteForce { minus: -self.force.plus, plus: -self.force.minus },
+            p0: turned(self.p1),
+            p1: turned(self.p0),
+            report: self.report,
+            course: Course { reversed: !self.course.reversed, ..self.course },
+        }
+    }
 }
 
 /// |error|/scale, 0 where there is no error.

@@ -95,16 +95,24 @@ where
     {
         let mut state = State { q: *label, p: section.covector(label) };
         let mut frame = Frame { q: SMatrix::identity(), p: section.jacobian(label) };
+        state.require_finite().map_err(ImplicitEquation::Step.at(0))?;
+        if let Some(index) = frame.first_non_finite() {
+            let cause = StepError::NonFinite { quantity: Quantity::Derivatives, index };
+            return Err(ImplicitEquation::Derivative.at(0)(cause));
+        }
         let mut guess = None;
         let (mut states, mut frames) = (vec![state], vec![frame]);
         for k in 0..steps {
-            let step = match (self.system.step(&state, self.h, guess.as_ref()), guess) {
-                (Err(_), Some(_)) => self.system.step(&state, self.h, None),
-                (step, _) => step,
-            }
-            .map_err(ImplicitEquation::Step.at(k))?;
-            let linearization = Linearization::from_legendre(&self.legendre(&state.q, &step.state.q))
-                .map_err(ImplicitEquation::Derivative.at(k))?;
+            let (step, legendre) = self.at_step(k, |theory| {
+                let step = match (theory.system.step(&state, self.h, guess.as_ref()), guess) {
+                    (Err(_), Some(_)) => theory.system.step(&state, self.h, None),
+                    (step, _) => step,
+                }
+                .map_err(ImplicitEquation::Step.at(k))?;
+                Ok((step, theory.legendre(&state.q, &step.state.q)))
+            })?;
+            let linearization =
+                Linearization::from_legendre(&legendre).map_err(ImplicitEquation::Derivative.at(k))?;
             frame = frame.carried(&linearization.a);
             if let Some(index) = frame.first_non_finite() {
                 let cause = StepError::NonFinite { quantity: Quantity::Derivatives, index };
@@ -153,8 +161,10 @@ where
     fn balance_at(&self, balance: &mut Worst<N>, characteristic: &Characteristic<S, N>, k: usize) {
         let [from, to] = [&characteristic.states[k], &characteristic.states[k + 1]];
         let [before, after] = [&characteristic.frames[k], &characteristic.frames[k + 1]];
-        let f = self.system.discrete_force_derivatives(&from.q, &to.q, self.h);
-        let legendre = self.legendre(&from.q, &to.q);
+        let (f, legendre) = self.at_step(k, |theory| {
+            let f = theory.system.discrete_force_derivatives(&from.q, &to.q, self.h);
+            (f, theory.legendre(&from.q, &to.q))
+        });
         let work = before.q.tr_mul(&(f.minus.d1 * before.q + f.minus.d2 * after.q))
             + after.q.tr_mul(&(f.plus.d1 * before.q + f.plus.d2 * after.q));
         let difference = after.q.tr_mul(&after.p) - before.q.tr_mul(&before.p) - work;
@@ -173,6 +183,7 @@ impl<const N: usize> fmt::Display for CharacteristicsReport<N> {
         line(f, "closed: QᵀP − PᵀQ = 0", &self.closed)?;
         line(f, "balance of the defect: its growth is the pull-back of d f_d", &self.balance)?;
         match self.caustics.as_slice() {
+            [] if self.characteristics == 0 => writeln!(f, "  caustics: no characteristic to look at")?,
             [] => writeln!(f, "  no caustic: det Q_k has no zero")?,
             [first, ..] => {
                 writeln!(f, "  caustics: {}, the first of the list {first}", self.caustics.len())?;

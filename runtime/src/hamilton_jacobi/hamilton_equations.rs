@@ -69,10 +69,12 @@ impl<const N: usize> Equations<N> {
         step: usize,
         q: &SVector<S, N>,
         [printed, corrected]: [SVector<S, N>; 2],
-        magnitude: &SVector<S, N>,
+        terms: &SVector<S, N>,
+        reach: &SVector<S, N>,
     ) {
-        self.printed[index].vector(step, q, &printed, magnitude);
-        self.corrected[index].vector(step, q, &corrected, magnitude);
+        let magnitude = &(terms + reach);
+        self.printed[index].vector(step, q, &printed, terms, magnitude);
+        self.corrected[index].vector(step, q, &corrected, terms, magnitude);
     }
 
     fn report(self, relative: f64, rayleigh: bool) -> HamiltonEquationsReport<N> {
@@ -103,35 +105,7 @@ where
     pub fn hamilton_equations(&self, configurations: &[SVector<S, N>]) -> HamiltonEquationsReport<N> {
         let mut equations = Equations::new(self.relative);
         for (step, pair) in configurations.windows(2).enumerate() {
-            let (q0, q1) = (&pair[0], &pair[1]);
-            let v = (q1 - q0) / self.h;
-            let k = self.legendre(q0, q1);
-            let f = self.system.discrete_force(q0, q1, self.h);
-            let size = MomentumMagnitudes::of(&k, q0, q1);
-            let (p0, p1) = (k.momenta.p0, k.momenta.p1);
-
-            match self.discrete_hamiltonian_plus(q0, &p1, Some(&v)) {
-                Ok(right) => {
-                    let a = k.p1_by_q1.tr_mul(&(q1 - right.d2)) + f.plus;
-                    equations.take(0, step, q0, [a, a], &(size.p1 + f.plus.abs()));
-                    let b = p0 - right.d1 + f.minus;
-                    let moved = right.eliminated_by_q.tr_mul(&f.plus);
-                    let reach = right.eliminated_by_q.abs().tr_mul(&size.p1);
-                    equations.take(1, step, q0, [b, b + moved], &(size.p0 + f.minus.abs() + reach));
-                }
-                Err(error) => equations.failure([0, 1], error.at_step(step)),
-            }
-            match self.discrete_hamiltonian_minus(q1, &p0, Some(&v)) {
-                Ok(left) => {
-                    let a = k.p0_by_q0.tr_mul(&(q0 + left.d2)) - f.minus;
-                    equations.take(2, step, q0, [a, a], &(size.p0 + f.minus.abs()));
-                    let b = p1 + left.d1 - f.plus;
-                    let moved = left.eliminated_by_q.tr_mul(&f.minus);
-                    let reach = left.eliminated_by_q.abs().tr_mul(&size.p0);
-                    equations.take(3, step, q0, [b, b - moved], &(size.p1 + f.plus.abs() + reach));
-                }
-                Err(error) => equations.failure([2, 3], error.at_step(step)),
-            }
+            self.at_step(step, |theory| theory.equations_at(&mut equations, step, &pair[0], &pair[1]));
         }
         equations.report(self.relative, false)
     }
@@ -154,41 +128,93 @@ where
     {
         let mut equations = Equations::new(self.relative);
         for (step, pair) in configurations.windows(2).enumerate() {
-            let (q0, q1) = (&pair[0], &pair[1]);
-            let v = (q1 - q0) / self.h;
-            let k = self.legendre(q0, q1);
-            let size = MomentumMagnitudes::of(&k, q0, q1);
-            let (p0, p1) = (k.momenta.p0, k.momenta.p1);
-            let r = self.system.discrete_rayleigh_derivatives(q0, q1, self.h);
-            let plus = self.system.modified_plus_derivatives(q0, q1, self.h);
-            let minus = self.system.modified_minus_derivatives(q0, q1, self.h);
-
-            match self.discrete_hamiltonian_plus(q0, &p1, Some(&v)) {
-                Ok(right) => {
-                    let a = minus.d22.tr_mul(&(q1 - right.d2));
-                    equations.take(0, step, q0, [a + r.d2, a - r.d2], &(size.p1 + r.d2.abs()));
-                    let b = p0 - right.d1;
-                    let moved = right.eliminated_by_q.tr_mul(&r.d2);
-                    let reach = right.eliminated_by_q.abs().tr_mul(&size.p1);
-                    let corrected = b + r.d1 - moved;
-                    equations.take(1, step, q0, [b - r.d1, corrected], &(size.p0 + r.d1.abs() + reach));
-                }
-                Err(error) => equations.failure([0, 1], error.at_step(step)),
-            }
-            match self.discrete_hamiltonian_minus(q1, &p0, Some(&v)) {
-                Ok(left) => {
-                    let a = plus.d11.tr_mul(&(q0 + left.d2));
-                    equations.take(2, step, q0, [a - r.d1, a + r.d1], &(size.p0 + r.d1.abs()));
-                    let b = p1 + left.d1;
-                    let moved = left.eliminated_by_q.tr_mul(&r.d1);
-                    let reach = left.eliminated_by_q.abs().tr_mul(&size.p0);
-                    let corrected = b + r.d2 - moved;
-                    equations.take(3, step, q0, [b - r.d2, corrected], &(size.p1 + r.d2.abs() + reach));
-                }
-                Err(error) => equations.failure([2, 3], error.at_step(step)),
-            }
+            self.at_step(step, |theory| {
+                theory.equations_rayleigh_at(&mut equations, step, &pair[0], &pair[1])
+            });
         }
         equations.report(self.relative, true)
+    }
+
+    fn equations_at(
+        &self,
+        equations: &mut Equations<N>,
+        step: usize,
+        q0: &SVector<S, N>,
+        q1: &SVector<S, N>,
+    ) {
+        let zero = SVector::zeros();
+        let v = (q1 - q0) / self.h;
+        let k = self.legendre(q0, q1);
+        let f = self.system.discrete_force(q0, q1, self.h);
+        let size = MomentumMagnitudes::of(&k, q0, q1);
+        let (p0, p1) = (k.momenta.p0, k.momenta.p1);
+
+        match self.discrete_hamiltonian_plus(q0, &p1, Some(&v)) {
+            Ok(right) => {
+                let a = k.p1_by_q1.tr_mul(&(q1 - right.d2)) + f.plus;
+                equations.take(0, step, q0, [a, a], &(size.p1 + f.plus.abs()), &zero);
+                let b = p0 - right.d1 + f.minus;
+                let moved = right.eliminated_by_q.tr_mul(&f.plus);
+                let reach = right.eliminated_by_q.abs().tr_mul(&size.p1);
+                equations.take(1, step, q0, [b, b + moved], &(size.p0 + f.minus.abs()), &reach);
+            }
+            Err(error) => equations.failure([0, 1], error.at_step(step)),
+        }
+        match self.discrete_hamiltonian_minus(q1, &p0, Some(&v)) {
+            Ok(left) => {
+                let a = k.p0_by_q0.tr_mul(&(q0 + left.d2)) - f.minus;
+                equations.take(2, step, q0, [a, a], &(size.p0 + f.minus.abs()), &zero);
+                let b = p1 + left.d1 - f.plus;
+                let moved = left.eliminated_by_q.tr_mul(&f.minus);
+                let reach = left.eliminated_by_q.abs().tr_mul(&size.p0);
+                equations.take(3, step, q0, [b, b - moved], &(size.p1 + f.plus.abs()), &reach);
+            }
+            Err(error) => equations.failure([2, 3], error.at_step(step)),
+        }
+    }
+
+    fn equations_rayleigh_at(
+        &self,
+        equations: &mut Equations<N>,
+        step: usize,
+        q0: &SVector<S, N>,
+        q1: &SVector<S, N>,
+    ) where
+        L: DiscreteRayleigh<R, N>,
+    {
+        let zero = SVector::zeros();
+        let v = (q1 - q0) / self.h;
+        let k = self.legendre(q0, q1);
+        let size = MomentumMagnitudes::of(&k, q0, q1);
+        let (p0, p1) = (k.momenta.p0, k.momenta.p1);
+        let r = self.system.discrete_rayleigh_derivatives(q0, q1, self.h);
+        let plus = self.system.modified_plus_derivatives(q0, q1, self.h);
+        let minus = self.system.modified_minus_derivatives(q0, q1, self.h);
+
+        match self.discrete_hamiltonian_plus(q0, &p1, Some(&v)) {
+            Ok(right) => {
+                let a = minus.d22.tr_mul(&(q1 - right.d2));
+                equations.take(0, step, q0, [a + r.d2, a - r.d2], &(size.p1 + r.d2.abs()), &zero);
+                let b = p0 - right.d1;
+                let moved = right.eliminated_by_q.tr_mul(&r.d2);
+                let reach = right.eliminated_by_q.abs().tr_mul(&size.p1);
+                let corrected = b + r.d1 - moved;
+                equations.take(1, step, q0, [b - r.d1, corrected], &(size.p0 + r.d1.abs()), &reach);
+            }
+            Err(error) => equations.failure([0, 1], error.at_step(step)),
+        }
+        match self.discrete_hamiltonian_minus(q1, &p0, Some(&v)) {
+            Ok(left) => {
+                let a = plus.d11.tr_mul(&(q0 + left.d2));
+                equations.take(2, step, q0, [a - r.d1, a + r.d1], &(size.p0 + r.d1.abs()), &zero);
+                let b = p1 + left.d1;
+                let moved = left.eliminated_by_q.tr_mul(&r.d1);
+                let reach = left.eliminated_by_q.abs().tr_mul(&size.p0);
+                let corrected = b + r.d2 - moved;
+                equations.take(3, step, q0, [b - r.d2, corrected], &(size.p1 + r.d2.abs()), &reach);
+            }
+            Err(error) => equations.failure([2, 3], error.at_step(step)),
+        }
     }
 }
 

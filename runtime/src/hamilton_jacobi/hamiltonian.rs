@@ -45,9 +45,9 @@ where
     /// The discrete action S_d = Σ L_d(q_k, q_{k+1}) of a sequence of configurations (paper, section 3.2).
     #[must_use]
     pub fn discrete_action(&self, configurations: &[SVector<S, N>]) -> S {
-        configurations
-            .windows(2)
-            .fold(S::zero(), |sum, pair| sum + self.system.discrete_lagrangian(&pair[0], &pair[1], self.h))
+        configurations.windows(2).enumerate().fold(S::zero(), |sum, (k, pair)| {
+            sum + self.at_step(k, |theory| theory.system.discrete_lagrangian(&pair[0], &pair[1], self.h))
+        })
     }
 
     /// The right discrete Hamiltonian H_d⁺(q0, p1) = p1·q1 − L_d(q0, q1), q1 by p1 = D2 L_d + f_d⁺.
@@ -181,7 +181,7 @@ where
                 let p = momentum(known, v);
                 Momenta { p0: p, p1: p }
             },
-            |known, v| self.system.lagrangian_derivatives(known, v).d22.diagonal(),
+            |known, v| self.system.lagrangian_derivatives(known, v).d22,
             &State { q: *known, p: *p },
             guess.copied().unwrap_or_else(nalgebra::zero),
         )?;

@@ -91,7 +91,7 @@ where
                 let p = difference(q, v).p0;
                 Momenta { p0: p, p1: p }
             },
-            |q, v| self.system.lagrangian_derivatives(q, v).d22.diagonal(),
+            |q, v| self.system.lagrangian_derivatives(q, v).d22,
             &State { q: *q, p: nalgebra::zero() },
             guess.copied().unwrap_or_else(nalgebra::zero),
         )

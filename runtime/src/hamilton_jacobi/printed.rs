@@ -58,7 +58,7 @@ where
         let guess = (q1 - q0) / self.h;
         Ok(PairedFlow {
             minus: self.step(q0, &gamma.p0, Some(&guess))?,
-            plus: self.step(q1, &gamma.p1, Some(&guess))?,
+            plus: self.at_step(1, |theory| theory.step(q1, &gamma.p1, Some(&guess)))?,
         })
     }
 
@@ -157,7 +157,7 @@ where
         F: ScalarField<N, Scalar = S>,
     {
         let gamma = self.gamma(s0, s1, q0, q1);
-        self.backward_step(q0, &gamma.p0, Some(&((q1 - q0) / self.h)))
+        self.a_step_before(|theory| theory.backward_step(q0, &gamma.p0, Some(&((q1 - q0) / self.h))))
     }
 
     /// G_d(q_j, q_{j+1}) = S_j(q_j) + S_{j+1}(q_{j+1}) − R_d(q_j, q_{j+1}) of a Rayleigh system, so that γ = DG_d.

@@ -4,8 +4,9 @@ use core::fmt;
 
 use nalgebra::SVector;
 
+use super::lemma::Definition;
 use super::residual::{MomentumMagnitudes, Outcome, Worst, line, tolerance_line};
-use super::{HamiltonJacobi, HamiltonJacobiError, section};
+use super::{EquationValue, HamiltonJacobi, HamiltonJacobiError, section};
 use crate::linearization::inverse;
 use crate::{Discrete, Scalar, ScalarField};
 
@@ -74,7 +75,8 @@ where
         require_lengths(family.len(), configurations.len(), 3)?;
         let mut report = Gathering::new(self.relative);
         for (j, pair) in configurations.windows(2).enumerate() {
-            self.on_segment(&mut report, j, [&family[j], &family[j + 1]], [&pair[0], &pair[1]]);
+            let s = [&family[j], &family[j + 1]];
+            self.at_step(j, |theory| theory.on_segment(&mut report, j, s, [&pair[0], &pair[1]]));
         }
         for (j, q) in configurations.windows(3).enumerate() {
             let s = [&family[j], &family[j + 1], &family[j + 2]];
@@ -97,19 +99,25 @@ where
         let size = MomentumMagnitudes::of(&k, q0, q1);
         let gamma = self.gamma(s0, s1, q0, q1);
         let magnitude = size.p0 + section::magnitude(s0, q0);
-        report.gamma_minus.vector(j, q0, &(gamma.p0 - k.momenta.p0), &magnitude);
+        let terms = gamma.p0.abs() + size.p0;
+        report.gamma_minus.vector(j, q0, &(gamma.p0 - k.momenta.p0), &terms, &magnitude);
         let magnitude = size.p1 + section::magnitude(s1, q1);
-        report.gamma_plus.vector(j, q0, &(gamma.p1 - k.momenta.p1), &magnitude);
+        let terms = gamma.p1.abs() + size.p1;
+        report.gamma_plus.vector(j, q0, &(gamma.p1 - k.momenta.p1), &terms, &magnitude);
         match self.right_equation(s0, s1, q0, q1) {
-            Ok(equation) => report.right_equation.number(j, q0, equation.value, equation.magnitude),
+            Ok(EquationValue { value, magnitude }) => {
+                report.right_equation.number(j, q0, value, magnitude, magnitude);
+            }
             Err(error) => report.right_equation.failure(error.at_step(j)),
         }
         match self.left_equation(s0, s1, q0, q1) {
-            Ok(equation) => report.left_equation.number(j, q0, equation.value, equation.magnitude),
+            Ok(EquationValue { value, magnitude }) => {
+                report.left_equation.number(j, q0, value, magnitude, magnitude);
+            }
             Err(error) => report.left_equation.failure(error.at_step(j)),
         }
-        let increment = self.action_increment(s0, s1, q0, q1);
-        report.action_increment.number(j, q0, increment.value, increment.magnitude);
+        let EquationValue { value, magnitude } = self.action_increment(s0, s1, q0, q1);
+        report.action_increment.number(j, q0, value, magnitude, magnitude);
     }
 
     /// The flows, at q_j with both neighbours.
@@ -122,32 +130,40 @@ where
     ) where
         F: ScalarField<N, Scalar = S>,
     {
-        let (before, after) = (self.legendre(q0, q1), self.legendre(q1, q2));
+        let (before, f_plus) =
+            self.at_step(j - 1, |theory| (theory.legendre(q0, q1), theory.system.force_plus(q0, q1, self.h)));
+        let (after, f_minus) =
+            self.at_step(j, |theory| (theory.legendre(q1, q2), theory.system.force_minus(q1, q2, self.h)));
         let (size_before, size) =
             (MomentumMagnitudes::of(&before, q0, q1), MomentumMagnitudes::of(&after, q1, q2));
         let node = size_before.p1 + size.p0;
-        report.trajectory.vector(j, q1, &(before.momenta.p1 - after.momenta.p0), &node);
-        let net = self.system.force_plus(q0, q1, self.h) + self.system.force_minus(q1, q2, self.h);
-        report.net_force.vector(j, q1, &net, &node);
+        report.trajectory.vector(j, q1, &(before.momenta.p1 - after.momenta.p0), &node, &node);
+        report.net_force.vector(j, q1, &(f_plus + f_minus), &node, &node);
 
         let of_s1 = section::magnitude(s1, q1);
         match (inverse(&before.p0_by_q1), inverse(&after.p0_by_q1)) {
-            (Ok(by_p_before), Ok(by_p)) => match self.paired_flow(s0, s1, q0, q1) {
+            (Ok(by_p_before), Ok(by_p)) => match self
+                .at_step(j - 1, |theory| theory.paired_flow(s0, s1, q0, q1))
+            {
                 Ok(flow) => {
                     let reach = by_p_before.abs() * (size_before.p0 + section::magnitude(s0, q0));
-                    report.flow_gamma_minus.vector(j, q1, &(flow.minus.q - q1), &(q1.abs() + reach));
-                    let there = self.gamma(s1, s2, &flow.minus.q, &flow.plus.q);
+                    let terms = q1.abs() + flow.minus.q.abs();
+                    report.flow_gamma_minus.vector(j, q1, &(flow.minus.q - q1), &terms, &(q1.abs() + reach));
+                    let there = self.at_step(j, |theory| theory.gamma(s1, s2, &flow.minus.q, &flow.plus.q));
                     let magnitude = size_before.p1
                         + section::magnitude(s1, &flow.minus.q)
                         + before.p1_by_q1.abs() * reach
                         + size.p0;
-                    report.gamma_related_minus.vector(j, q1, &(flow.minus.p - there.p0), &magnitude);
+                    let terms = size_before.p1 + there.p0.abs();
+                    report.gamma_related_minus.vector(j, q1, &(flow.minus.p - there.p0), &terms, &magnitude);
 
                     let reach = by_p.abs() * (size.p0 + of_s1);
-                    report.flow_gamma_plus.vector(j, q1, &(flow.plus.q - q2), &(q2.abs() + reach));
+                    let terms = q2.abs() + flow.plus.q.abs();
+                    report.flow_gamma_plus.vector(j, q1, &(flow.plus.q - q2), &terms, &(q2.abs() + reach));
                     let magnitude =
                         size.p1 + section::magnitude(s2, &flow.plus.q) + after.p1_by_q1.abs() * reach;
-                    report.gamma_related_plus.vector(j, q1, &(flow.plus.p - there.p1), &magnitude);
+                    let terms = size.p1 + there.p1.abs();
+                    report.gamma_related_plus.vector(j, q1, &(flow.plus.p - there.p1), &terms, &magnitude);
                 }
                 Err(error) => report.flows_failed(error.at_step(j)),
             },
@@ -156,36 +172,42 @@ where
             }
         }
 
-        match self.lemma_definition_plus(s2, q1, q2) {
-            Ok(definition) => report.lemma_plus.vector(j, q1, &definition.residual, &definition.magnitude),
+        let ends = q1.abs() + q2.abs();
+        match self.at_step(j, |theory| theory.lemma_definition_plus(s2, q1, q2)) {
+            Ok(Definition { residual, magnitude }) => {
+                report.lemma_plus.vector(j, q1, &residual, &ends, &magnitude);
+            }
             Err(error) => report.lemma_plus.failure(error.at_step(j)),
         }
-        match self.lemma_definition_minus(s1, q1, q2) {
-            Ok(definition) => report.lemma_minus.vector(j, q1, &definition.residual, &definition.magnitude),
+        match self.at_step(j, |theory| theory.lemma_definition_minus(s1, q1, q2)) {
+            Ok(Definition { residual, magnitude }) => {
+                report.lemma_minus.vector(j, q1, &residual, &ends, &magnitude);
+            }
             Err(error) => report.lemma_minus.failure(error.at_step(j)),
         }
         let guess = (q2 - q1) / self.h;
-        match self.lemma_flow_plus(s2, q1, Some(&guess)) {
+        let forced =
+            |x: &SVector<S, N>| self.at_step(j - 1, |theory| theory.system.del_residual(q0, q1, x, self.h));
+        match self.at_step(j, |theory| theory.lemma_flow_plus(s2, q1, Some(&guess))) {
             Ok(x) => {
-                report.lemma_plus_forced.vector(j, q1, &self.system.del_residual(q0, q1, &x, self.h), &node);
-                let unforced = self.unforced_residual(q0, q1, &x);
-                report.lemma_plus_unforced.vector(j, q1, &unforced, &node);
+                report.lemma_plus_forced.vector(j, q1, &forced(&x), &node, &node);
+                let unforced = self.at_step(j - 1, |theory| theory.unforced_residual(q0, q1, &x));
+                report.lemma_plus_unforced.vector(j, q1, &unforced, &node, &node);
             }
             Err(error) => {
                 report.lemma_plus_forced.failure(error.at_step(j));
                 report.lemma_plus_unforced.failure(error.at_step(j));
             }
         }
-        match self.lemma_flow_minus(s1, q1, Some(&guess)) {
-            Ok(x) => {
-                report.lemma_minus_forced.vector(j, q1, &self.system.del_residual(q0, q1, &x, self.h), &node);
-            }
+        match self.at_step(j, |theory| theory.lemma_flow_minus(s1, q1, Some(&guess))) {
+            Ok(x) => report.lemma_minus_forced.vector(j, q1, &forced(&x), &node, &node),
             Err(error) => report.lemma_minus_forced.failure(error.at_step(j)),
         }
-        match (self.backward_flow(s1, s2, q1, q2), inverse(&before.p1_by_q0)) {
+        let back = self.at_step(j, |theory| theory.backward_flow(s1, s2, q1, q2));
+        match (back, inverse(&before.p1_by_q0)) {
             (Ok(x), Ok(by_p)) => {
                 let magnitude = q0.abs() + by_p.abs() * (size_before.p1 + of_s1 + size.p0);
-                report.backward_flow.vector(j, q1, &(x - q0), &magnitude);
+                report.backward_flow.vector(j, q1, &(x - q0), &(x.abs() + q0.abs()), &magnitude);
             }
             (Err(error), _) => report.backward_flow.failure(error.at_step(j)),
             (_, Err(cause)) => {
@@ -194,7 +216,7 @@ where
         }
     }
 
-    /// D2 L_d(q0, q1) + D1 L_d(q1, q2).
+    /// D2 L_d(q0, q1) + D1 L_d(q1, q2), the second a step later.
     pub(super) fn unforced_residual(
         &self,
         q0: &SVector<S, N>,
@@ -202,7 +224,7 @@ where
         q2: &SVector<S, N>,
     ) -> SVector<S, N> {
         self.system.discrete_lagrangian_derivatives(q0, q1, self.h).d2
-            + self.system.discrete_lagrangian_derivatives(q1, q2, self.h).d1
+            + self.at_step(1, |theory| theory.system.discrete_lagrangian_derivatives(q1, q2, self.h).d1)
     }
 }
 

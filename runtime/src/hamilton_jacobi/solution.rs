@@ -35,7 +35,7 @@ pub struct SolutionReport<const N: usize> {
 }
 
 impl<const N: usize> SolutionReport<N> {
-    /// Whether both transforms hold: c_{k+1} = F_k(c_k), p_k = γ_k(c_k) then solve the forced discrete equations.
+    /// Whether both transforms hold, at finite sections with finite slopes: c_{k+1} = F_k(c_k), p_k = γ_k(c_k) then solve the forced discrete equations.
     #[must_use]
     pub fn is_solution(&self) -> bool {
         let holds = |outcome: &Outcome<N>| outcome.is_ok_and(|residual| residual.holds());
@@ -122,9 +122,9 @@ where
         G: Section<N, Scalar = S>,
     {
         let mut report = Gathering::new(self.relative);
-        self.for_every_place(sections.len(), 2, samples, |k, q| {
-            match self.image_by_minus(k, &sections[k], q) {
-                Ok(image) => self.check_place(&mut report, k, q, &image, &sections[k], &sections[k + 1]),
+        self.for_every_place(sections.len(), 2, samples, |theory, k, q| {
+            match theory.image_by_minus(k, &sections[k], q) {
+                Ok(image) => theory.check_place(&mut report, k, q, &image, &sections[k], &sections[k + 1]),
                 Err(error) => report.failure(error),
             }
         })?;
@@ -149,13 +149,13 @@ where
             return Err(HamiltonJacobiError::FamilyLength { needed: sections.len() - 1, found: maps.len() });
         }
         let mut report = Gathering::new(self.relative);
-        self.for_every_place(sections.len(), 2, samples, |k, q| {
+        self.for_every_place(sections.len(), 2, samples, |theory, k, q| {
             let image = Image {
                 q1: maps[k].image(q),
                 derivative: maps[k].jacobian(q),
                 spread: maps[k].image(q).abs() + maps[k].jacobian(q).abs() * q.abs(),
             };
-            self.check_place(&mut report, k, q, &image, &sections[k], &sections[k + 1]);
+            theory.check_place(&mut report, k, q, &image, &sections[k], &sections[k + 1]);
         })?;
         Ok(report.report(self.relative, true, false))
     }
@@ -174,12 +174,21 @@ where
         F: ScalarField<N, Scalar = S>,
     {
         let mut report = Gathering::new(self.relative);
-        self.for_every_place(family.len(), 2, samples, |k, q| match self.image_by_minus(k, &family[k], q) {
-            Ok(image) => {
-                self.check_place(&mut report, k, q, &image, &family[k], &family[k + 1]);
-                self.check_hamiltonian(&mut report.hamiltonian, k, q, &image, &family[k], &family[k + 1]);
+        self.for_every_place(family.len(), 2, samples, |theory, k, q| {
+            match theory.image_by_minus(k, &family[k], q) {
+                Ok(image) => {
+                    theory.check_place(&mut report, k, q, &image, &family[k], &family[k + 1]);
+                    theory.check_hamiltonian(
+                        &mut report.hamiltonian,
+                        k,
+                        q,
+                        &image,
+                        &family[k],
+                        &family[k + 1],
+                    );
+                }
+                Err(error) => report.failure(error),
             }
-            Err(error) => report.failure(error),
         })?;
         Ok(report.report(self.relative, false, true))
     }
@@ -189,7 +198,7 @@ where
         family: usize,
         needed: usize,
         samples: &[SVector<S, N>],
-        mut check: impl FnMut(usize, &SVector<S, N>),
+        mut check: impl FnMut(&HamiltonJacobi<'_, L, R, N>, usize, &SVector<S, N>),
     ) -> Result<(), HamiltonJacobiError> {
         if family < needed {
             return Err(HamiltonJacobiError::FamilyLength { needed, found: family });
@@ -198,9 +207,7 @@ where
             return Err(HamiltonJacobiError::TooFewPoints { needed: 1, found: 0 });
         }
         for k in 0..family - 1 {
-            for q in samples {
-                check(k, q);
-            }
+            self.at_step(k, |theory| samples.iter().for_each(|q| check(theory, k, q)));
         }
         Ok(())
     }
@@ -247,13 +254,18 @@ where
         let at_q0 = size.p0 + section::magnitude(before, q) + k.p0_by_q1.abs() * image.spread;
         let spread = (k.p1_by_q1.abs() + after.jacobian(q1).abs()) * image.spread;
         let at_q1 = size.p1 + section::magnitude(after, q1) + spread;
-        report.minus.vector(step, q, &(k.momenta.p0 - gamma0), &at_q0);
-        report.plus.vector(step, q, &(k.momenta.p1 - gamma1), &at_q1);
+        // The slopes of the sections enter what is forgiven, but not what is compared.
+        let terms = size.p0 + gamma0.abs();
+        report.minus.vector(step, q, &(k.momenta.p0 - gamma0), &terms, &at_q0);
+        let terms = size.p1 + gamma1.abs();
+        report.plus.vector(step, q, &(k.momenta.p1 - gamma1), &terms, &at_q1);
 
         let work = f.minus.value + df.tr_mul(&f.plus.value);
         let magnitude = at_q0 + df.abs().tr_mul(&at_q1);
-        report.work.vector(step, q, &(df.tr_mul(&(gamma1 - l.d2)) - gamma0 - l.d1 - work), &magnitude);
-        report.no_work.vector(step, q, &work, &magnitude);
+        let terms = gamma0.abs() + l.d1.abs() + df.abs().tr_mul(&(gamma1.abs() + l.d2.abs()));
+        let difference = df.tr_mul(&(gamma1 - l.d2)) - gamma0 - l.d1 - work;
+        report.work.vector(step, q, &difference, &terms, &magnitude);
+        report.no_work.vector(step, q, &work, &terms, &magnitude);
 
         let jacobian = before.jacobian(q);
         report.closed_sections.antisymmetric_part(step, q, &jacobian, &jacobian.abs());
@@ -284,14 +296,16 @@ where
             Ok(h_plus) => {
                 let value = after.value(q1) - before.value(q) - gamma1.dot(q1) + h_plus.value - work;
                 let rounding = after.hessian(q1).abs() * image.spread;
-                let magnitude = after.value(q1).abs()
+                let terms = after.value(q1).abs()
                     + before.value(q).abs()
-                    + gamma1.abs().dot(&(q1.abs() + image.spread))
+                    + gamma1.abs().dot(&q1.abs())
+                    + h_plus.value.abs();
+                let magnitude = terms
+                    + gamma1.abs().dot(&image.spread)
                     + rounding.dot(&q1.abs())
-                    + h_plus.value.abs()
                     + h_plus.d1.abs().dot(&q.abs())
                     + work.abs();
-                hamiltonian.number(step, q, value, magnitude);
+                hamiltonian.number(step, q, value, terms, magnitude);
             }
             Err(error) => hamiltonian.failure(error.at_step(step)),
         }

@@ -60,11 +60,14 @@ where
         let mut pairs = [[new(), new()], [new(), new()], [new(), new()]];
         for (index, q) in configurations.windows(3).enumerate() {
             let (k, [q0, q1, q2]) = (index + 1, [&q[0], &q[1], &q[2]]);
-            let (before, after) = (self.legendre(q0, q1), self.legendre(q1, q2));
-            let f_plus = self.system.force_plus(q0, q1, self.h);
-            let f_minus = self.system.force_minus(q1, q2, self.h);
-            let d2 = self.system.discrete_lagrangian_derivatives(q0, q1, self.h).d2;
-            let d1 = self.system.discrete_lagrangian_derivatives(q1, q2, self.h).d1;
+            let (before, f_plus, d2) = self.at_step(index, |theory| {
+                let l = theory.system.discrete_lagrangian_derivatives(q0, q1, self.h);
+                (theory.legendre(q0, q1), theory.system.force_plus(q0, q1, self.h), l.d2)
+            });
+            let (after, f_minus, d1) = self.at_step(k, |theory| {
+                let l = theory.system.discrete_lagrangian_derivatives(q1, q2, self.h);
+                (theory.legendre(q1, q2), theory.system.force_minus(q1, q2, self.h), l.d1)
+            });
             let (p_plus, p_minus) = (before.momenta.p1, after.momenta.p0);
             let net = f_plus + f_minus;
             let magnitude = (MomentumMagnitudes::of(&before, q0, q1).p1
@@ -74,7 +77,7 @@ where
 
             let singles = [p_plus - p_minus, net, d2 + f_plus - p_plus, -d1 - f_minus - p_minus];
             for (worst, residual) in plain.iter_mut().zip(&singles) {
-                worst.vector(k, q1, residual, &magnitude);
+                worst.vector(k, q1, residual, &magnitude, &magnitude);
             }
             let right_minus = d2 - f_minus - p_minus;
             let left_plus = -d1 + f_plus - p_plus;
@@ -83,8 +86,8 @@ where
             let misses =
                 [[right_minus, right_minus + net], [left_plus, left_plus - net], [example, example + twice]];
             for (pair, miss) in pairs.iter_mut().zip(&misses) {
-                pair[0].vector(k, q1, &miss[0], &magnitude);
-                pair[1].vector(k, q1, &miss[1], &magnitude);
+                pair[0].vector(k, q1, &miss[0], &magnitude, &magnitude);
+                pair[1].vector(k, q1, &miss[1], &magnitude, &magnitude);
             }
         }
         let [trajectory, net_force, right_plus, left_minus] = plain.map(Worst::outcome);

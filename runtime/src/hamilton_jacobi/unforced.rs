@@ -56,8 +56,11 @@ where
         let [mut right, mut derivative, mut unforced, mut forced] = [new(), new(), new(), new()];
         for (k, s) in family.windows(3).enumerate() {
             for q in samples {
-                let chain = self.right_characteristic(&s[1], q, None).and_then(|x| {
-                    let y = self.right_characteristic(&s[2], &x, Some(&((x - q) / self.h)))?;
+                let first = self.at_step(k, |theory| theory.right_characteristic(&s[1], q, None));
+                let chain = first.and_then(|x| {
+                    let guess = (x - q) / self.h;
+                    let y =
+                        self.at_step(k + 1, |theory| theory.right_characteristic(&s[2], &x, Some(&guess)))?;
                     Ok((x, y))
                 });
                 let (x, y) = match chain {
@@ -69,17 +72,26 @@ where
                         continue;
                     }
                 };
-                let increment = self.action_increment(&s[0], &s[1], q, &x);
-                right.number(k, q, increment.value, increment.magnitude);
-                let (before, after) = (self.legendre(q, &x), self.legendre(&x, &y));
+                let (increment, before, l, unforced_here, forced_here) = self.at_step(k, |theory| {
+                    (
+                        theory.action_increment(&s[0], &s[1], q, &x),
+                        theory.legendre(q, &x),
+                        theory.system.discrete_lagrangian_derivatives(q, &x, self.h),
+                        theory.unforced_residual(q, &x, &y),
+                        theory.system.del_residual(q, &x, &y, self.h),
+                    )
+                });
+                let after = self.at_step(k + 1, |theory| theory.legendre(&x, &y));
+                right.number(k, q, increment.value, increment.magnitude, increment.magnitude);
                 let (first, second) =
                     (MomentumMagnitudes::of(&before, q, &x), MomentumMagnitudes::of(&after, &x, &y));
-                let l = self.system.discrete_lagrangian_derivatives(q, &x, self.h);
+                let terms = first.p0 + s[0].gradient(q).abs();
                 let magnitude = first.p0 + section::magnitude(&s[0], q);
-                derivative.vector(k, q, &(s[0].gradient(q) + l.d1), &magnitude);
+                derivative.vector(k, q, &(s[0].gradient(q) + l.d1), &terms, &magnitude);
                 let magnitude = first.p1 + second.p0 + section::magnitude(&s[1], &x);
-                unforced.vector(k, q, &self.unforced_residual(q, &x, &y), &magnitude);
-                forced.vector(k, q, &self.system.del_residual(q, &x, &y, self.h), &magnitude);
+                let terms = first.p1 + second.p0;
+                unforced.vector(k, q, &unforced_here, &terms, &magnitude);
+                forced.vector(k, q, &forced_here, &terms, &magnitude);
             }
         }
         Ok(RightEquationReport {

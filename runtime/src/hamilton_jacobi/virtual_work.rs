@@ -87,7 +87,11 @@ where
         let mut values = vec![s0.value(label)];
         for (k, work) in virtual_work.iter().enumerate() {
             let [from, to] = [characteristic.states[k].q, characteristic.states[k + 1].q];
-            values.push(values[k] + self.system.discrete_lagrangian(&from, &to, self.h) + *work);
+            values.push(
+                values[k]
+                    + self.at_step(k, |theory| theory.system.discrete_lagrangian(&from, &to, self.h))
+                    + *work,
+            );
         }
         Ok(CarriedGeneratingFunction {
             characteristic,
@@ -124,8 +128,8 @@ where
 
     /// d(W_k ∘ c_k) = Q_kᵀ f_d⁻ + Q_{k+1}ᵀ f_d⁺, a covector on the labels.
     fn work_covector(&self, characteristic: &Characteristic<S, N>, k: usize) -> SVector<S, N> {
-        let f =
-            self.system.discrete_force(&characteristic.states[k].q, &characteristic.states[k + 1].q, self.h);
+        let [from, to] = [&characteristic.states[k].q, &characteristic.states[k + 1].q];
+        let f = self.at_step(k, |theory| theory.system.discrete_force(from, to, self.h));
         characteristic.frames[k].q.tr_mul(&f.minus) + characteristic.frames[k + 1].q.tr_mul(&f.plus)
     }
 }

@@ -78,6 +78,9 @@ where
                 force,
             )
         {
+            if cfg!(debug_assertions) {
+                system.verify_segment(&state.q, &step.velocity, h)?;
+            }
             self.force = Some((step.state.q, force));
             return Ok(step);
         }

@@ -18,7 +18,7 @@ use crate::{Discrete, Momenta, Report, Scalar, State, Step, StepError};
 /// A correction must leave at most this share of the residual.
 const CONTRACTION: f64 = 0.1;
 
-/// A residual of the guess beyond this share of the terms that p0 is made of is no guess: they would say nothing of the
+/// If the guess leaves more than this share of p0 as residual, the old matrix is not tried: the terms at the guess say nothing about
 /// rounding at the root.
 const CLOSE: f64 = 0.025;
 
@@ -94,6 +94,9 @@ where
                 }
             });
             if let Some(step) = step {
+                if cfg!(debug_assertions) {
+                    system.verify_segment(&state.q, &step.velocity, h)?;
+                }
                 self.history.push(step.velocity, h);
                 self.served = self.served.saturating_add(1);
                 if step.report.iterations > STALE {
@@ -151,8 +154,11 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
             let residual = momenta.p0 - p;
             let size = weighted(&residual, &weights);
             if iterations > 0 && size <= S::constant(AT_FLOOR) {
-                let worst = (0..N).find(|&i| residual[i].abs() * weights[i] == size)?;
-                let (residual, floor) = (residual[worst].abs(), floor[worst]);
+                let (residual, floor, is_root) = held_against(&residual, &floor);
+                // A floor that overflows has the weight 0.
+                if !is_root {
+                    return None;
+                }
                 let last_correction = correction.amax();
                 let report = Report { iterations, damped: 0, residual, floor, last_correction };
                 return Step::completed(state, self.h, v, &momenta, report).ok();

@@ -2,16 +2,18 @@
 
 use nalgebra::SVector;
 
-use super::rounding::{AT_FLOOR, estimated_floor, in_units_of, worst};
-use super::{Solution, first_non_finite, unsolvable};
+use super::rounding::{estimated_floor, held_against, in_units_of};
+use super::{Equation, Solution, first_non_finite, is_known_at, largest, unsolvable};
 use crate::discrete::{Momenta, StepKernel};
 use crate::linear::NewtonMatrix;
 use crate::{Quantity, Report, Scalar, State, StepError};
 
-/// The best iterate of at most `bound` undamped Newton iterations, and whether its residual is at its floor.
+/// The best iterate of at most `bound` undamped Newton iterations, and whether it is the solution, by the definition of
+/// `rounding.rs`.
 ///
 /// The work is bounded: `bound` evaluations of the kernel, as many solves, and `bound` + 1 evaluations of the momenta.
 pub(crate) fn bounded<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+    kind: Equation,
     bound: u32,
     evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
     finish: impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
@@ -19,7 +21,7 @@ pub(crate) fn bounded<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     guess: SVector<S, N>,
 ) -> Result<(Solution<S, N>, bool), StepError> {
     let mut v = guess;
-    let mut best: Option<(S, Solution<S, N>)> = None;
+    let mut best: Option<(S, Solution<S, N>, bool)> = None;
     for iteration in 0..bound.max(1) {
         let kernel = evaluate(q, &v);
         let residual = kernel.p0 - p;
@@ -41,19 +43,20 @@ pub(crate) fn bounded<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
                 .unwrap_or(0);
             return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
         }
-        if best.as_ref().is_none_or(|(least, _)| size < *least) {
-            let (residual, floor) = worst(&remaining, &floor);
-            let last_correction = correction.amax();
+        let (residual, floor, is_root) = held_against(&remaining, &floor);
+        let last_correction = largest(&correction);
+        let is_solved = is_root && (kind == Equation::Linear || is_known_at(&next, last_correction));
+        if is_solved || best.as_ref().is_none_or(|(least, ..)| size < *least) {
             let report = Report { iterations: iteration + 1, damped: 0, residual, floor, last_correction };
-            best = Some((size, Solution { unknown: next, momenta, report }));
+            best = Some((size, Solution { unknown: next, momenta, report }, is_solved));
         }
-        if size <= S::constant(AT_FLOOR) {
+        if is_solved {
             break;
         }
         v = next;
     }
     match best {
-        Some((size, solution)) => Ok((solution, size <= S::constant(AT_FLOOR))),
+        Some((_, solution, is_solved)) => Ok((solution, is_solved)),
         None => Err(StepError::NonFinite { quantity: Quantity::Derivatives, index: 0 }),
     }
 }

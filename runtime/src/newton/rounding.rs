@@ -1,26 +1,56 @@
-//! How small a residual can get: its round-off floor.
+//! When a step is solved: the one definition, for every rule, memory and solver.
 //!
-//! Each component has its own,
+//! **Definition.** A step is solved where each component of the residual of its equation is at most [`AT_FLOOR`] times its
+//! round-off floor, and this floor
+//!
+//! 1. belongs to the solution that is returned, not to an iterate on the way: where the last correction was not small beside v̄
+//!    ([`SMALL`]), the matrix is evaluated again at the solution;
+//! 2. is finite;
+//! 3. where the residual had stopped falling, or Newton steps had to be shortened: is at most [`SENSIBLE`] of the terms that
+//!    the equation is made of. Otherwise rounding would explain any residual.
+//!
+//! Then the solution satisfies exactly the equation with q, v̄ and p changed by some units of their last places. Each
+//! component has a floor of its own,
 //!
 //! ```text
-//! floorᵢ = 4ε (|pᵢ| + Σⱼ |Jᵢⱼ||vⱼ|)        v: the iterate that the Newton step leads to
+//! floorᵢ = 4ε (|pᵢ| + Σⱼ |Jᵢⱼ||vⱼ|)                          one-stage rules, J = ∂p0/∂v̄
+//! floorᵢ = 4ε (|pᵢ| + |h| max |Gᵢ| + max Σⱼ |Mᵢⱼ||Vⱼ|)        Gauss rules, the largest of all stages
 //! ```
 //!
-//! so that neither the unit of a coordinate nor its neighbours' size matters. This estimate knows nothing of what q
+//! so that neither the unit of a coordinate nor its neighbours' size matters. These estimates know nothing of what q
 //! contributes: near an equilibrium away from q = 0 large forces cancel, and v and p go to 0 while the rounding of those
 //! forces stays. Where the residual stops falling above the estimate, its rounding is therefore measured ([`rounding`]).
+//!
+//! `tests/examples/verdicts` holds every rule against this definition in twice the precision.
 
 use nalgebra::SVector;
 
 use crate::Scalar;
 use crate::linear::NewtonMatrix;
 
-/// A residual that has stopped falling is accepted up to this many floors, also where no rounding of q or v explains it:
-/// the report then shows it far above its floor.
-pub(super) const STAGNATION: f64 = 4096.0;
-
-/// A residual of at most this many floors, estimated or measured, is a root.
+/// A residual of at most this many floors, estimated or measured, is that of a root.
 pub(crate) const AT_FLOOR: f64 = 4.0;
+
+/// A contraction above this is not that of Newton's method: rounding slows it, or the root is far.
+pub(crate) const SLOW: f64 = 0.25;
+
+/// A correction of at most this share of v̄ leads to a point where the floor is that of the point before.
+pub(crate) const SMALL: f64 = 1.0 / 16.0;
+
+/// A floor above this share of the terms of the equation says that rounding decides it.
+pub(crate) const SENSIBLE: f64 = 1.0 / 1024.0;
+
+/// Whether every floor is at most [`SENSIBLE`] of the `terms` of its equation.
+#[cold]
+pub(crate) fn is_sensible<S: Scalar, const N: usize>(floor: &SVector<S, N>, terms: &SVector<S, N>) -> bool {
+    (0..N).all(|i| floor[i] <= terms[i] * S::constant(SENSIBLE) + S::SMALLEST_NORMAL * S::constant(4.0))
+}
+
+/// What of `terms` is a number: where a term is not finite, it says nothing.
+#[cold]
+pub(crate) fn finite_part<S: Scalar, const N: usize>(terms: &SVector<S, N>) -> SVector<S, N> {
+    terms.map(|term| if term.is_finite() { term.abs() } else { S::zero() })
+}
 
 /// The floor that the terms of p0 give, 4ε (|pᵢ| + Σⱼ |Jᵢⱼ||vⱼ|).
 #[inline]
@@ -88,9 +118,9 @@ pub(crate) fn held_against<S: Scalar, const N: usize>(
 /// The larger of the `worst` so far and of the residual, whose floor this is; and whether it is still that of a root.
 #[inline(always)]
 fn held<S: Scalar>(residual: S, floor: S, worst: (S, S, bool)) -> (S, S, bool) {
-    let size = residual.abs();
-    // Where both overflow there is no telling.
-    let is_root = worst.2 & size.is_finite() & (size <= floor * S::constant(AT_FLOOR));
+    let (size, most) = (residual.abs(), floor * S::constant(AT_FLOOR));
+    // A floor that overflows explains nothing.
+    let is_root = worst.2 & (size <= most) & most.is_finite();
     if size * worst.1 > worst.0 * floor { (size, floor, is_root) } else { (worst.0, worst.1, is_root) }
 }
 
@@ -173,8 +203,26 @@ mod tests {
     fn a_residual_that_overflows_is_no_root() {
         let overflowed = vector![0.0, f64::INFINITY];
         assert!(!held_against(&overflowed, &vector![1.0, f64::INFINITY]).2);
-        // Positive control: finite, it is one beside any floor that is larger.
-        assert!(held_against(&vector![0.0, 1e300], &vector![1.0, f64::INFINITY]).2);
+        // Beside a finite floor that is larger, a large residual is that of a root.
+        assert!(held_against(&vector![0.0, 1e300], &vector![1.0, 1e300]).2);
+    }
+
+    #[test]
+    fn a_floor_that_overflows_explains_no_residual() {
+        for residual in [0.0, 1.0, 1e300] {
+            assert!(!held_against(&vector![0.0, residual], &vector![1.0, f64::INFINITY]).2);
+            assert!(!held_against(&vector![0.0, residual], &vector![1.0, f64::NAN]).2);
+        }
+        let nine = SVector::<f64, 9>::from_fn(|i, _| if i == 6 { f64::INFINITY } else { 1.0 });
+        assert!(!held_against(&SVector::<f64, 9>::repeat(1e-3), &nine).2);
+    }
+
+    #[test]
+    fn a_floor_as_large_as_the_terms_decides_nothing() {
+        assert!(is_sensible(&vector![1e-3, 0.0], &vector![1.1, 0.0]));
+        assert!(!is_sensible(&vector![1e-3, 0.0], &vector![0.9, 0.0]));
+        assert!(!is_sensible(&vector![f64::INFINITY], &vector![1.0]));
+        assert!(!is_sensible(&vector![f64::NAN], &vector![1.0]));
     }
 
     #[test]
@@ -184,7 +232,7 @@ mod tests {
             held_against(&vector![-1e-309], &vector![f64::MIN_POSITIVE]),
             (1e-309, f64::MIN_POSITIVE, true)
         );
-        assert_eq!(held_against(&vector![1e284], &vector![f64::INFINITY]), (1e284, f64::INFINITY, true));
+        assert_eq!(held_against(&vector![1e284], &vector![f64::INFINITY]), (1e284, f64::INFINITY, false));
         let nine = SVector::<f64, 9>::from_fn(|i, _| if i == 6 { 3.0 } else { 1e-320 });
         assert_eq!(held_against(&nine, &SVector::repeat(1.0)), (3.0, 1.0, true));
     }

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector, SVector};
 
 use super::rank::Conditions;
 use super::{Generator, bracket};
+use crate::verdict::{excess, is_zero, largest, typical};
 use crate::{Scalar, VectorField};
 
 /// How far the brackets of a basis lie from its span, at the sampled points.
@@ -19,10 +20,10 @@ pub struct Closure {
 }
 
 impl Closure {
-    /// Whether the span is a Lie algebra, to rounding.
+    /// Whether the span is a Lie algebra, to rounding. A tolerance of 1 or more, the size of a bracket's terms, says nothing.
     #[must_use]
     pub fn is_closed(&self) -> bool {
-        self.residual <= self.tolerance
+        self.tolerance < 1.0 && is_zero(self.residual, self.tolerance)
     }
 }
 
@@ -98,19 +99,9 @@ impl Fields {
     /// Fits the brackets of the combinations `basis` by the combinations.
     pub(super) fn closure(&self, basis: &[Vec<f64>], tolerance: f64) -> Closure {
         let mut closure = Closure { residual: 0.0, pair: None, tolerance };
-        // Coordinates in units of their own size over all generators, so that none drowns the others.
-        let weights: Vec<f64> = (0..self.dimension)
-            .map(|axis| {
-                let largest = self
-                    .values
-                    .iter()
-                    .flat_map(|value| value.iter().skip(axis).step_by(self.dimension))
-                    .fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
-                if largest > 0.0 { 1.0 / largest } else { 0.0 }
-            })
-            .collect();
+        let weights = self.weights();
         let weighted = |mut vector: DVector<f64>| {
-            vector.iter_mut().enumerate().for_each(|(i, entry)| *entry *= weights[i % self.dimension]);
+            vector.iter_mut().zip(&weights).for_each(|(entry, weight)| *entry *= weight);
             vector
         };
         let zero = || DVector::zeros(self.values.first().map_or(0, |value| value.len()));
@@ -137,12 +128,30 @@ impl Fields {
                 let bracket = combined(&self.brackets, &basis[a], &basis[b], false);
                 let size = combined(&self.sizes, &basis[a], &basis[b], true).norm();
                 let outside = &bracket - &orthonormal * (orthonormal.transpose() * &bracket);
-                if size > 0.0 && outside.norm() / size > closure.residual {
-                    closure.residual = outside.norm() / size;
+                let residual = if size == 0.0 { 0.0 } else { outside.norm() / size };
+                if excess(residual, tolerance) > excess(closure.residual, tolerance) {
+                    closure.residual = residual;
                     closure.pair = Some((a, b));
                 }
             }
         }
         closure
+    }
+
+    /// Coordinates in units of their own size over all generators, so that none drowns the others, and points far out in units of
+    /// theirs, so that none drowns the others either.
+    fn weights(&self) -> Vec<f64> {
+        let points = self.values.first().map_or(0, |value| value.len() / self.dimension);
+        let size = |point: usize, axis: usize| {
+            largest(self.values.iter().map(|value| value[point * self.dimension + axis]))
+        };
+        let axes: Vec<f64> =
+            (0..self.dimension).map(|axis| typical((0..points).map(|point| size(point, axis)))).collect();
+        (0..points)
+            .flat_map(|point| {
+                let far = largest((0..self.dimension).map(|axis| size(point, axis) / axes[axis])).max(1.0);
+                axes.iter().map(move |axis| 1.0 / axis / far).collect::<Vec<_>>()
+            })
+            .collect()
     }
 }

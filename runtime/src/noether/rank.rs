@@ -2,10 +2,13 @@ use core::fmt;
 
 use nalgebra::DMatrix;
 
+use crate::verdict::{largest, typical};
+
 /// A rank decision with its evidence: the singular values, the threshold and the gap between those kept and dropped.
 ///
 /// The matrix is scaled first, rows by kind and columns by generator, so that an entry says which part of its terms did
-/// not cancel: 1 if nothing cancels, ε if everything does. Units of coordinates and sizes of generators drop out.
+/// not cancel: 1 if nothing cancels, ε if everything does. Units of coordinates and sizes of generators drop out, and so does the
+/// size of samples that lie far out.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RankDecision {
@@ -29,10 +32,11 @@ impl RankDecision {
         self.smallest_kept() / self.singular_values.get(self.rank).copied().unwrap_or(self.threshold)
     }
 
-    /// Whether the gap spans at least three decades; if not, look at the singular values before trusting the rank.
+    /// Whether the gap spans at least three decades; if not, look at the singular values before trusting the rank. A threshold of 1
+    /// or more, the size of what does not cancel at all, decides nothing.
     #[must_use]
     pub fn is_clear(&self) -> bool {
-        self.gap() >= CLEAR_GAP
+        self.threshold < 1.0 && self.gap() >= CLEAR_GAP
     }
 
     /// Angle by which rounding may have turned the null space: threshold over smallest singular value kept.
@@ -68,8 +72,32 @@ pub(crate) struct Conditions {
     pub(crate) sizes: DMatrix<f64>,
 }
 
+impl Conditions {
+    /// Rows far out in units of their own size, and all in units of the largest: a sample far out would drown the others, and squares
+    /// of its entries overflow.
+    fn equalised(&self) -> Self {
+        let columns: Vec<f64> =
+            self.sizes.column_iter().map(|column| typical(column.iter().copied())).collect();
+        let far = |row: usize| {
+            largest(self.sizes.row(row).iter().zip(&columns).map(|(size, column)| size / column)).max(1.0)
+        };
+        let far: Vec<f64> = (0..self.sizes.nrows()).map(far).collect();
+        let unit = positive_or_one(largest(
+            self.sizes
+                .row_iter()
+                .zip(&far)
+                .flat_map(|(row, far)| row.iter().map(|size| size / far).collect::<Vec<_>>()),
+        ));
+        let scaled = |matrix: &DMatrix<f64>| {
+            DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] / far[i] / unit)
+        };
+        Self { values: scaled(&self.values), sizes: scaled(&self.sizes) }
+    }
+}
+
 /// Combinations that fulfil all conditions: the decision, and a basis in reduced row echelon form.
 pub(crate) fn null_space(conditions: &[Conditions], tolerance: f64) -> (RankDecision, Vec<Vec<f64>>) {
+    let conditions: Vec<Conditions> = conditions.iter().map(Conditions::equalised).collect();
     let columns = conditions.first().map_or(0, |block| block.values.ncols());
     let row_scales: Vec<f64> = conditions.iter().map(|block| positive_or_one(block.sizes.norm())).collect();
     let column_scales: Vec<f64> = (0..columns)

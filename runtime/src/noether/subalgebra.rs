@@ -4,8 +4,9 @@ use nalgebra::{DMatrix, SVector};
 
 use super::closure::Fields;
 use super::rank::{Conditions, null_space};
-use super::{Closure, Generator, Noether, RankDecision};
-use crate::samples::{SampleError, Segment};
+use super::{Closure, Generator, Noether, RankDecision, moves_an_end};
+use crate::samples::{SampleError, Segment, require_informative, require_step_size};
+use crate::verdict::largest;
 use crate::{Discrete, Scalar, VectorField};
 
 /// Which combinations of some generators are symmetries. See [`Noether::subalgebra`].
@@ -48,10 +49,10 @@ impl Subspace {
 }
 
 impl Subalgebra {
-    /// Whether L_d is invariant under all generators, the premise of the paper's theorem.
+    /// Whether L_d is invariant under all generators, the premise of the paper's theorem: decided with a clear gap.
     #[must_use]
     pub fn premise_holds(&self) -> bool {
-        self.lagrangian.dimension() == self.generators.len()
+        self.lagrangian.dimension() == self.generators.len() && self.lagrangian.decision.is_clear()
     }
 }
 
@@ -108,20 +109,26 @@ where
     /// [ξ, η] = Dη ξ − Dξ η are taken at the ends of the segments and fitted by the span.
     ///
     /// # Errors
-    /// [`SubalgebraError`] if there are fewer than two segments a generator, a value is not finite, or the generators are
-    /// linearly dependent.
+    /// [`SubalgebraError`] if there are fewer than two different segments that move for each generator, a value is not finite, or the
+    /// generators are linearly dependent.
     pub fn subalgebra(
         &self,
         generators: &[Generator<L::Scalar, N>],
         segments: &[Segment<L::Scalar, N>],
     ) -> Result<Subalgebra, SubalgebraError> {
+        require_step_size(self.h)?;
+        require_informative(segments, |segment| {
+            segment.moves() && generators.iter().any(|xi| moves_an_end(xi, segment))
+        })?;
         let needed = (2 * generators.len()).max(1);
-        if segments.len() < needed {
-            return Err(SampleError::TooFew { given: segments.len(), needed }.into());
+        let given = different(segments, needed);
+        if given < needed {
+            return Err(SampleError::TooFew { given, needed }.into());
         }
         let rows: Vec<Vec<Row>> = segments
             .iter()
-            .map(|segment| generators.iter().map(|xi| self.row(xi, segment)).collect())
+            .enumerate()
+            .map(|(k, segment)| generators.iter().map(|xi| self.row(k, xi, segment)).collect())
             .collect();
         let points: Vec<SVector<L::Scalar, N>> =
             segments.iter().flat_map(|segment| [segment.q0, segment.q1]).collect();
@@ -141,11 +148,12 @@ where
         let sum = |row: &Row| (row.lagrangian.0 + row.force.0, row.lagrangian.1 + row.force.1);
         let contractions: Vec<_> =
             (0..2 * N).map(|component| block(&|row| row.contraction[component])).collect();
-        let largest = contractions.iter().map(|block| block.sizes.norm()).fold(0.0, f64::max);
+        // Norms of entries that could be squared are not sure to be finite.
+        let size = |block: &Conditions| largest(block.sizes.iter().copied());
+        let most = largest(contractions.iter().map(size));
         let mut invariance = vec![block(&|row| row.force)];
         // A component of df_d that is nothing but rounding beside the others is no condition.
-        invariance
-            .extend(contractions.into_iter().filter(|block| block.sizes.norm() > self.tolerance * largest));
+        invariance.extend(contractions.into_iter().filter(|block| size(block) > self.tolerance * most));
 
         let subspace = |conditions: &[Conditions]| {
             let (decision, basis) = null_space(conditions, self.tolerance);
@@ -164,10 +172,10 @@ where
         })
     }
 
-    fn row(&self, xi: &Generator<L::Scalar, N>, segment: &Segment<L::Scalar, N>) -> Row {
+    fn row(&self, k: usize, xi: &Generator<L::Scalar, N>, segment: &Segment<L::Scalar, N>) -> Row {
         let Segment { q0, q1 } = segment;
-        let terms = self.terms(xi, q0, q1);
-        let f = self.system.discrete_force_derivatives(q0, q1, self.h);
+        let terms = self.terms(k, xi, segment);
+        let f = self.at_segment(k, |system| system.discrete_force_derivatives(q0, q1, self.h));
         // Entry (a, b) of F, rows f⁻ then f⁺, columns q0 then q1.
         let jacobian = |a: usize, b: usize| {
             let covector = if a < N { &f.minus } else { &f.plus };
@@ -188,6 +196,17 @@ where
             contraction: contraction.collect(),
         }
     }
+}
+
+/// The number of different segments that move, counted up to `enough`.
+fn different<S: Scalar, const N: usize>(segments: &[Segment<S, N>], enough: usize) -> usize {
+    let mut known: Vec<&Segment<S, N>> = Vec::new();
+    for segment in segments {
+        if known.len() < enough && segment.moves() && !known.contains(&segment) {
+            known.push(segment);
+        }
+    }
+    known.len()
 }
 
 fn require_finite(rows: &[Vec<Row>], fields: &Fields) -> Result<(), SampleError> {

@@ -1,15 +1,16 @@
 use core::fmt;
 
-use super::{Generator, Noether};
-use crate::samples::{SampleError, Segment, Tolerance, Worst};
-use crate::{Discrete, Scalar};
+use super::{Generator, Noether, Terms, moves_an_end};
+use crate::samples::{SampleError, Segment, Tolerance, Worst, require_informative, require_step_size};
+use crate::verdict::scales;
+use crate::{Discrete, Scalar, VectorField};
 
-/// One of the quantities of Noether's theorem over the samples: its largest value, and whether that counts as zero.
+/// One of the quantities of Noether's theorem over the samples: the value furthest above its tolerance, and whether that counts as zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contribution<const N: usize> {
-    /// The largest value and its segment.
+    /// That value and its segment.
     pub worst: Worst<N>,
-    /// What counts as zero here.
+    /// What counts as zero there.
     pub tolerance: Tolerance,
 }
 
@@ -73,38 +74,45 @@ where
 {
     /// Judges one generator on `segments`.
     ///
-    /// A value counts as zero below `tolerance` × the size of its terms, Σ|D L_d||ξ| and Σ|f_d||ξ|, at the sample where
-    /// these are largest: a sum cannot be known better than its terms are rounded.
+    /// A value counts as zero below `tolerance` × the size of its terms, Σ|D L_d||ξ| and Σ|f_d||ξ|: at its own sample, or as
+    /// half of the samples exceed it, if that is more. A sum cannot be known better than its terms are rounded.
     ///
     /// # Errors
-    /// [`SampleError`] if there is no segment or a value is not finite.
+    /// [`SampleError`] if there is no segment, none that moves with ξ ≠ 0, or a value is not finite.
     pub fn symmetry(
         &self,
         generator: &Generator<L::Scalar, N>,
         segments: &[Segment<L::Scalar, N>],
     ) -> Result<Symmetry<N>, SampleError> {
-        let terms: Vec<_> =
-            segments.iter().map(|segment| self.terms(generator, &segment.q0, &segment.q1)).collect();
-        let largest = |scale: fn(&super::Terms) -> f64| terms.iter().map(scale).fold(0.0, f64::max);
-        let of_lagrangian = largest(|terms| terms.lagrangian_scale);
-        let of_force = largest(|terms| terms.force_scale);
-        let contribution = |value: &dyn Fn(usize, &Segment<L::Scalar, N>) -> f64, scale| {
-            let tolerance = Tolerance { relative: self.tolerance, scale };
-            Worst::of(segments, value).map(|worst| Contribution { worst, tolerance })
+        require_step_size(self.h)?;
+        require_informative(segments, |segment| segment.moves() && moves_an_end(generator, segment))?;
+        let terms: Vec<Terms> =
+            segments.iter().enumerate().map(|(k, segment)| self.terms(k, generator, segment)).collect();
+        let sizes = |scale: fn(&Terms) -> f64| scales(&terms.iter().map(scale).collect::<Vec<_>>());
+        let of_lagrangian = sizes(|terms| terms.lagrangian_scale);
+        let of_force = sizes(|terms| terms.force_scale);
+        let of_both = sizes(|terms| terms.lagrangian_scale + terms.force_scale);
+        let contribution = |value: &dyn Fn(usize) -> f64, scales: &[f64]| {
+            Worst::of(segments, self.tolerance, scales, value)
+                .map(|(worst, tolerance)| Contribution { worst, tolerance })
         };
-        let identity = |index: usize, segment: &Segment<L::Scalar, N>| {
-            let Segment { q0, q1 } = segment;
-            let jump = self.momentum_map_plus(generator, q0, q1) - self.momentum_map_minus(generator, q0, q1);
-            jump.widen() - terms[index].defect.total()
+        let identity = |k: usize| {
+            let Segment { q0, q1 } = &segments[k];
+            let jump = self.at_segment(k, |system| {
+                let (before, after) =
+                    (system.legendre_minus(q0, q1, self.h), system.legendre_plus(q0, q1, self.h));
+                after.p.dot(&generator.vector(q1)) - before.p.dot(&generator.vector(q0))
+            });
+            jump.widen() - terms[k].defect.total()
         };
         Ok(Symmetry {
             generator: generator.name().to_owned(),
             h: self.h.widen(),
             samples: segments.len(),
-            lagrangian: contribution(&|index, _| terms[index].defect.lagrangian, of_lagrangian)?,
-            force: contribution(&|index, _| terms[index].defect.force, of_force)?,
-            defect: contribution(&|index, _| terms[index].defect.total(), of_lagrangian + of_force)?,
-            identity: contribution(&identity, of_lagrangian + of_force)?,
+            lagrangian: contribution(&|k| terms[k].defect.lagrangian, &of_lagrangian)?,
+            force: contribution(&|k| terms[k].defect.force, &of_force)?,
+            defect: contribution(&|k| terms[k].defect.total(), &of_both)?,
+            identity: contribution(&identity, &of_both)?,
         })
     }
 }

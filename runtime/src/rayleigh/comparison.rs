@@ -5,7 +5,8 @@ use nalgebra::SVector;
 
 use super::quadrature::Quadrature;
 use super::{Integral, Residual, rounding_note};
-use crate::samples::{SampleError, Segment, Tolerance};
+use crate::samples::{SampleError, Segment, Tolerance, at_segment, require_informative, require_step_size};
+use crate::verdict::scales;
 use crate::{Discrete, Scalar};
 
 /// Two systems side by side: have they the same forced discrete Euler–Lagrange equations, and by which gauge?
@@ -23,6 +24,8 @@ use crate::{Discrete, Scalar};
 /// ```text
 /// ψ(q) = −½ ∫ₐ^q (p̃0 − p0)(s, a)·ds,   φ1(q) = ½(φ + χ)(a, q),   φ0(q) = ½(φ − χ)(q, a)
 /// ```
+///
+/// Where the systems take the time, so do the three functions, and ψ(q1) is that of t + h.
 pub struct Comparison<'a, L, R, M, T, const N: usize>
 where
     L: Discrete<R, N>,
@@ -88,6 +91,113 @@ where
 
     /// ψ(q) − ψ(a).
     pub fn psi(&self, q: &SVector<L::Scalar, N>) -> Integral {
+        self.pair().psi(q)
+    }
+
+    /// φ0(q), a function of the earlier configuration alone.
+    pub fn phi0(&self, q: &SVector<L::Scalar, N>) -> Integral {
+        self.pair().phi0(q)
+    }
+
+    /// φ1(q), a function of the later configuration alone.
+    pub fn phi1(&self, q: &SVector<L::Scalar, N>) -> Integral {
+        self.pair().phi1(q)
+    }
+
+    fn pair(&self) -> Pair<'_, L, R, M, T, N> {
+        let Self { system, other, h, base, ref quadrature, rules } = *self;
+        Pair { system, other, h, base, quadrature, rules }
+    }
+
+    /// `evaluate` of both systems at the start of the k-th segment.
+    fn at_segment<U>(&self, k: usize, evaluate: impl FnOnce(&Pair<'_, L, R, M, T, N>) -> U) -> U {
+        at_segment(self.system, k, self.h, |system| {
+            at_segment(self.other, k, self.h, |other| evaluate(&Pair { system, other, ..self.pair() }))
+        })
+    }
+
+    /// Compares the equations at (q0, q1, q1 + the next segment's displacement), and the gauge at (q0, q1).
+    ///
+    /// # Errors
+    /// [`SampleError`] if there is no segment, none that moves, or a value is not finite.
+    pub fn check(&self, segments: &[Segment<L::Scalar, N>]) -> Result<Equivalence<N>, SampleError> {
+        require_step_size(self.h)?;
+        require_informative(segments, Segment::moves)?;
+        let relative = Tolerance::rounding::<L::Scalar>();
+        let third = |index: usize| {
+            let next = &segments[(index + 1) % segments.len()];
+            segments[index].q1 + (next.q1 - next.q0)
+        };
+        let sizes: Vec<SVector<f64, N>> = segments
+            .iter()
+            .enumerate()
+            .map(|(k, segment)| {
+                self.at_segment(k, |pair| pair.momentum_sizes(&segment.q0, &segment.q1))
+                    + self.at_segment(k + 1, |pair| pair.momentum_sizes(&segment.q1, &third(k)))
+            })
+            .collect();
+        let scales: [Vec<f64>; N] =
+            core::array::from_fn(|i| scales(&sizes.iter().map(|size| size[i]).collect::<Vec<_>>()));
+        let (mut equations, mut lagrangian, mut rayleigh) = (None, None, None);
+        for (index, segment) in segments.iter().enumerate() {
+            let Segment { q0, q1 } = segment;
+            let at = segment.widen();
+            let (difference, [psi0, phi0, phi1, phi, chi]) = self.at_segment(index, |pair| {
+                let parts = [pair.psi(q0), pair.phi0(q0), pair.phi1(q1), pair.phi(q0, q1), pair.chi(q0, q1)];
+                (pair.difference(q0, q1, &third(index)), parts)
+            });
+            let psi1 = self.at_segment(index + 1, |pair| pair.psi(q1));
+            for (entry, scales) in difference.iter().zip(&scales) {
+                let (entry, scale) = (entry.widen(), scales[index]);
+                if !(entry.is_finite() && scale.is_finite()) {
+                    return Err(SampleError::NonFinite { index });
+                }
+                Residual::keep_worse(&mut equations, entry, relative * scale, scale, at);
+            }
+            let phi = phi + (psi0 + phi1 + phi0 + psi1 * -1.0) * -1.0;
+            let chi = chi + (psi0 + phi1 + phi0 * -1.0 + psi1) * -1.0;
+            for (worst, gap) in [(&mut lagrangian, phi), (&mut rayleigh, chi)] {
+                let tolerance = gap.error + relative * gap.magnitude;
+                if !(gap.value.is_finite() && tolerance.is_finite()) {
+                    return Err(SampleError::NonFinite { index });
+                }
+                Residual::keep_worse(worst, gap.value, tolerance, gap.magnitude, at);
+            }
+        }
+        match (equations, lagrangian, rayleigh) {
+            (Some(equations), Some(lagrangian), Some(rayleigh)) => Ok(Equivalence {
+                h: self.h.widen(),
+                samples: segments.len(),
+                equations,
+                lagrangian,
+                rayleigh,
+                tolerance: relative,
+            }),
+            _ => Err(SampleError::TooFew { given: 0, needed: 1 }),
+        }
+    }
+}
+
+/// Both systems at one time.
+struct Pair<'a, L, R, M, T, const N: usize>
+where
+    L: Discrete<R, N>,
+    M: Discrete<T, N, Scalar = L::Scalar>,
+{
+    system: &'a L,
+    other: &'a M,
+    h: L::Scalar,
+    base: SVector<L::Scalar, N>,
+    quadrature: &'a Quadrature,
+    rules: PhantomData<(R, T)>,
+}
+
+impl<L, R, M, T, const N: usize> Pair<'_, L, R, M, T, N>
+where
+    L: Discrete<R, N>,
+    M: Discrete<T, N, Scalar = L::Scalar>,
+{
+    fn psi(&self, q: &SVector<L::Scalar, N>) -> Integral {
         let difference = |s: &SVector<L::Scalar, N>| {
             self.other.legendre_minus(s, &self.base, self.h).p
                 - self.system.legendre_minus(s, &self.base, self.h).p
@@ -95,13 +205,11 @@ where
         self.quadrature.along_line(&self.base, q, difference) * -0.5
     }
 
-    /// φ0(q), a function of the earlier configuration alone.
-    pub fn phi0(&self, q: &SVector<L::Scalar, N>) -> Integral {
+    fn phi0(&self, q: &SVector<L::Scalar, N>) -> Integral {
         (self.phi(q, &self.base) + self.chi(q, &self.base) * -1.0) * 0.5
     }
 
-    /// φ1(q), a function of the later configuration alone.
-    pub fn phi1(&self, q: &SVector<L::Scalar, N>) -> Integral {
+    fn phi1(&self, q: &SVector<L::Scalar, N>) -> Integral {
         (self.phi(&self.base, q) + self.chi(&self.base, q)) * 0.5
     }
 
@@ -128,59 +236,23 @@ where
         })
     }
 
-    /// Compares the equations at (q0, q1, q1 + the next segment's displacement), and the gauge at (q0, q1).
-    ///
-    /// # Errors
-    /// [`SampleError`] if there is no segment or a value is not finite.
-    pub fn check(&self, segments: &[Segment<L::Scalar, N>]) -> Result<Equivalence<N>, SampleError> {
-        let relative = Tolerance::rounding::<L::Scalar>();
-        let scales = self.momentum_scales(segments);
-        let (mut equations, mut lagrangian, mut rayleigh) = (None, None, None);
-        for (index, segment) in segments.iter().enumerate() {
-            let Segment { q0, q1 } = segment;
-            let next = &segments[(index + 1) % segments.len()];
-            let q2 = q1 + (next.q1 - next.q0);
-            let difference =
-                self.other.del_residual(q0, q1, &q2, self.h) - self.system.del_residual(q0, q1, &q2, self.h);
-            let at = segment.widen();
-            for (entry, scale) in difference.iter().zip(&scales) {
-                Residual::keep_worse(&mut equations, entry.widen(), relative * scale, at);
-            }
-            let (psi0, psi1) = (self.psi(q0), self.psi(q1));
-            let (phi0, phi1) = (self.phi0(q0), self.phi1(q1));
-            let phi = self.phi(q0, q1) + (psi0 + phi1 + phi0 + psi1 * -1.0) * -1.0;
-            let chi = self.chi(q0, q1) + (psi0 + phi1 + phi0 * -1.0 + psi1) * -1.0;
-            if !(difference.iter().all(|entry| entry.widen().is_finite())
-                && phi.value.is_finite()
-                && chi.value.is_finite())
-            {
-                return Err(SampleError::NonFinite { index });
-            }
-            Residual::keep_worse(&mut lagrangian, phi.value, phi.error + relative * phi.magnitude, at);
-            Residual::keep_worse(&mut rayleigh, chi.value, chi.error + relative * chi.magnitude, at);
-        }
-        match (equations, lagrangian, rayleigh) {
-            (Some(equations), Some(lagrangian), Some(rayleigh)) => Ok(Equivalence {
-                h: self.h.widen(),
-                samples: segments.len(),
-                equations,
-                lagrangian,
-                rayleigh,
-                tolerance: relative,
-            }),
-            _ => Err(SampleError::TooFew { given: 0, needed: 1 }),
-        }
+    /// Of the forced discrete Euler–Lagrange equations.
+    fn difference(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        q2: &SVector<L::Scalar, N>,
+    ) -> SVector<L::Scalar, N> {
+        self.other.del_residual(q0, q1, q2, self.h) - self.system.del_residual(q0, q1, q2, self.h)
     }
 
-    /// Largest momenta over the samples, coordinate by coordinate: the terms of the equations.
-    fn momentum_scales(&self, segments: &[Segment<L::Scalar, N>]) -> SVector<f64, N> {
-        segments.iter().fold(SVector::zeros(), |scales: SVector<f64, N>, Segment { q0, q1 }| {
-            let sizes = self.system.legendre_minus(q0, q1, self.h).p.abs()
-                + self.system.legendre_plus(q0, q1, self.h).p.abs()
-                + self.other.legendre_minus(q0, q1, self.h).p.abs()
-                + self.other.legendre_plus(q0, q1, self.h).p.abs();
-            scales.zip_map(&sizes, |scale, size| scale.max(size.widen()))
-        })
+    /// The sizes of all momenta on a segment, coordinate by coordinate: the terms of the equations.
+    fn momentum_sizes(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> SVector<f64, N> {
+        let sizes = self.system.legendre_minus(q0, q1, self.h).p.abs()
+            + self.system.legendre_plus(q0, q1, self.h).p.abs()
+            + self.other.legendre_minus(q0, q1, self.h).p.abs()
+            + self.other.legendre_plus(q0, q1, self.h).p.abs();
+        sizes.map(Scalar::widen)
     }
 }
 

@@ -2,7 +2,8 @@ use core::fmt;
 
 use nalgebra::SVector;
 
-use crate::samples::{SampleError, TangentPoint, Tolerance, coordinates};
+use crate::samples::{SampleError, TangentPoint, Tolerance, coordinates, is_felt};
+use crate::verdict::largest;
 use crate::{Rayleigh, Scalar};
 
 /// Whether R takes energy out, over a set of points (q, v). See [`dissipation`].
@@ -37,7 +38,7 @@ impl<const N: usize> Dissipation<N> {
 
 /// Tests v·∂R/∂v ≥ 0 at `points`: along the motion dE/dt = −v·∂R/∂v.
 ///
-/// A power counts as negative below −1024 ε Σ|vᵢ ∂R/∂vᵢ|, the terms of its own sum.
+/// A power counts as negative below −1024 ε Σ|vᵢ ∂R/∂vᵢ|, the terms of its own sum. The time of a view is that of all points.
 ///
 /// ```
 /// use dalembert::rayleigh::dissipation;
@@ -55,7 +56,7 @@ impl<const N: usize> Dissipation<N> {
 /// ```
 ///
 /// # Errors
-/// [`SampleError`] if there is no point or a derivative is not finite.
+/// [`SampleError`] if there is no point, none with v ≠ 0, or a derivative or a power is not finite.
 pub fn dissipation<L, const N: usize>(
     system: &L,
     points: &[TangentPoint<L::Scalar, N>],
@@ -64,14 +65,18 @@ where
     L: Rayleigh<N>,
 {
     let relative = Tolerance::rounding::<L::Scalar>();
+    if !points.is_empty() && !points.iter().any(|point| is_felt(&point.v)) {
+        return Err(SampleError::Uninformative { given: points.len() });
+    }
     let mut report: Option<Dissipation<N>> = None;
     for (index, point) in points.iter().enumerate() {
         let TangentPoint { q, v } = point;
         let slope = system.rayleigh_gradient(q, v).d2;
         let power = slope.dot(v).widen();
         let tolerance = Tolerance { relative, scale: slope.abs().dot(&v.abs()).widen() };
-        let gradient = system.rayleigh_gradient(q, &nalgebra::zero()).d1.amax().widen();
-        if !(power.is_finite() && gradient.is_finite()) {
+        let at_rest = system.rayleigh_gradient(q, &nalgebra::zero()).d1;
+        let gradient = largest(at_rest.iter().map(|entry| entry.widen()));
+        if !(power.is_finite() && tolerance.bound().is_finite() && gradient.is_finite()) {
             return Err(SampleError::NonFinite { index });
         }
         let driven = usize::from(power < -tolerance.bound());

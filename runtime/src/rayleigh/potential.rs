@@ -6,7 +6,8 @@ use nalgebra::SVector;
 use super::quadrature::Quadrature;
 use super::structure::structure_of;
 use super::{Integral, Residual, Structure, rounding_note};
-use crate::samples::{SampleError, Segment, Tolerance};
+use crate::samples::{SampleError, Segment, Tolerance, at_segment};
+use crate::verdict::largest;
 use crate::{Discrete, Scalar};
 
 /// R_d recovered from f_d = (D1 R_d, −D2 R_d) by quadrature.
@@ -66,23 +67,24 @@ where
     /// R_d(q0, q1) along the straight line from the base.
     pub fn at(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> Integral {
         let (start, end) = (self.base, Segment { q0: *q0, q1: *q1 });
-        self.along(&start, &end)
+        self.along(self.system, &start, &end)
     }
 
-    fn along(&self, start: &Segment<L::Scalar, N>, end: &Segment<L::Scalar, N>) -> Integral {
+    /// Of the system at one time.
+    fn along(&self, system: &L, start: &Segment<L::Scalar, N>, end: &Segment<L::Scalar, N>) -> Integral {
         let (d0, d1) = (end.q0 - start.q0, end.q1 - start.q1);
         if d0.iter().chain(&d1).all(|entry| *entry == L::Scalar::constant(0.0)) {
             return Integral::ZERO;
         }
         self.quadrature.integrate(L::Scalar::EPSILON.widen(), |s| {
             let s = L::Scalar::constant(s);
-            let f = self.system.discrete_force(&(start.q0 + d0 * s), &(start.q1 + d1 * s), self.h);
+            let f = system.discrete_force(&(start.q0 + d0 * s), &(start.q1 + d1 * s), self.h);
             (f.minus.dot(&d0) - f.plus.dot(&d1)).widen()
         })
     }
 
     /// From the base to `end` one coordinate after the other, those of q0 first.
-    fn along_edges(&self, end: &Segment<L::Scalar, N>) -> Integral {
+    fn along_edges(&self, system: &L, end: &Segment<L::Scalar, N>) -> Integral {
         let mut corner = self.base;
         (0..2 * N).fold(Integral::ZERO, |sum, axis| {
             let from = corner;
@@ -91,27 +93,29 @@ where
             } else {
                 corner.q1[axis - N] = end.q1[axis - N];
             }
-            sum + self.along(&from, &corner)
+            sum + self.along(system, &from, &corner)
         })
     }
 
     /// Recovers R_d at `segments`, along the straight path and along the edges of the box in Q×Q.
     ///
     /// # Errors
-    /// [`SampleError`] if there is no segment, or a force on a path is not finite.
+    /// [`SampleError`] if there is no segment, none that moves, or a force on a path is not finite.
     pub fn check(&self, segments: &[Segment<L::Scalar, N>]) -> Result<Recovery<N>, SampleError> {
         let structure = structure_of::<L, R, N>(self.system, self.h, segments)?;
         let relative = Tolerance::rounding::<L::Scalar>();
         let (mut values, mut quadrature_error, mut path_dependence) = (Vec::new(), 0.0_f64, None);
         for (index, segment) in segments.iter().enumerate() {
-            let straight = self.along(&self.base, segment);
-            let gap = straight + self.along_edges(segment) * -1.0;
-            if !gap.value.is_finite() {
+            let (straight, edges) = at_segment(self.system, index, self.h, |system| {
+                (self.along(system, &self.base, segment), self.along_edges(system, segment))
+            });
+            let gap = straight + edges * -1.0;
+            let tolerance = gap.error + relative * gap.magnitude;
+            if !(gap.value.is_finite() && tolerance.is_finite()) {
                 return Err(SampleError::NonFinite { index });
             }
-            let tolerance = gap.error + relative * gap.magnitude;
-            Residual::keep_worse(&mut path_dependence, gap.value, tolerance, segment.widen());
-            quadrature_error = quadrature_error.max(straight.error);
+            Residual::keep_worse(&mut path_dependence, gap.value, tolerance, gap.magnitude, segment.widen());
+            quadrature_error = largest([quadrature_error, straight.error]);
             values.push(straight.value);
         }
         let path_dependence = path_dependence.ok_or(SampleError::TooFew { given: 0, needed: 1 })?;

@@ -6,7 +6,8 @@ use nalgebra::SVector;
 use super::quadrature::Quadrature;
 use super::structure::structure_of;
 use super::{Integral, Residual, Structure, rounding_note};
-use crate::samples::{SampleError, Segment, Tolerance};
+use crate::samples::{SampleError, Segment, Tolerance, at_segment};
+use crate::verdict::largest;
 use crate::{Discrete, Scalar};
 
 /// Any forced system as a Rayleigh one: L_d^± with −D1 L_d⁺ = p0 and D2 L_d⁻ = p1.
@@ -65,12 +66,12 @@ where
 
     /// L_d⁺(q0, q1).
     pub fn modified_plus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> Integral {
-        self.lagrangian(q0, q1) + self.quadrature.along_line(&self.base, q0, self.at_start(q1))
+        self.lagrangian(q0, q1) + self.quadrature.along_line(&self.base, q0, self.at_start(self.system, q1))
     }
 
     /// L_d⁻(q0, q1).
     pub fn modified_minus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> Integral {
-        self.lagrangian(q0, q1) + self.quadrature.along_line(&self.base, q1, self.at_end(q0))
+        self.lagrangian(q0, q1) + self.quadrature.along_line(&self.base, q1, self.at_end(self.system, q0))
     }
 
     /// L_d′ = ½(L_d⁺ + L_d⁻).
@@ -86,30 +87,34 @@ where
     /// Tests at `segments` whether the re-split exists.
     ///
     /// # Errors
-    /// [`SampleError`] if there is no segment, or a force on a path is not finite.
+    /// [`SampleError`] if there is no segment, none that moves, or a force on a path is not finite.
     pub fn check(&self, segments: &[Segment<L::Scalar, N>]) -> Result<ResplitReport<N>, SampleError> {
         let structure = structure_of::<L, R, N>(self.system, self.h, segments)?;
         let relative = Tolerance::rounding::<L::Scalar>();
         let (mut plus, mut minus, mut quadrature_error) = (None, None, 0.0_f64);
         for (index, segment) in segments.iter().enumerate() {
             let Segment { q0, q1 } = segment;
-            let straight = (
-                self.quadrature.along_line(&self.base, q0, self.at_start(q1)),
-                self.quadrature.along_line(&self.base, q1, self.at_end(q0)),
-            );
-            let edges = (
-                self.quadrature.along_edges(&self.base, q0, self.at_start(q1)),
-                self.quadrature.along_edges(&self.base, q1, self.at_end(q0)),
-            );
+            let (straight, edges) = at_segment(self.system, index, self.h, |system| {
+                let (at_start, at_end) = (self.at_start(system, q1), self.at_end(system, q0));
+                let straight = (
+                    self.quadrature.along_line(&self.base, q0, &at_start),
+                    self.quadrature.along_line(&self.base, q1, &at_end),
+                );
+                let edges = (
+                    self.quadrature.along_edges(&self.base, q0, &at_start),
+                    self.quadrature.along_edges(&self.base, q1, &at_end),
+                );
+                (straight, edges)
+            });
             let gaps = (straight.0 + edges.0 * -1.0, straight.1 + edges.1 * -1.0);
-            if !(gaps.0.value.is_finite() && gaps.1.value.is_finite()) {
-                return Err(SampleError::NonFinite { index });
-            }
             for (worst, gap) in [(&mut plus, gaps.0), (&mut minus, gaps.1)] {
                 let tolerance = gap.error + relative * gap.magnitude;
-                Residual::keep_worse(worst, gap.value, tolerance, segment.widen());
+                if !(gap.value.is_finite() && tolerance.is_finite()) {
+                    return Err(SampleError::NonFinite { index });
+                }
+                Residual::keep_worse(worst, gap.value, tolerance, gap.magnitude, segment.widen());
             }
-            quadrature_error = quadrature_error.max(straight.0.error).max(straight.1.error);
+            quadrature_error = largest([quadrature_error, straight.0.error, straight.1.error]);
         }
         match (plus, minus) {
             (Some(plus), Some(minus)) => {
@@ -127,14 +132,19 @@ where
     /// s ↦ f_d⁻(s, q1).
     fn at_start(
         &self,
+        system: &L,
         q1: &SVector<L::Scalar, N>,
     ) -> impl Fn(&SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {
-        move |s| self.system.force_minus(s, q1, self.h)
+        move |s| system.force_minus(s, q1, self.h)
     }
 
     /// s ↦ f_d⁺(q0, s).
-    fn at_end(&self, q0: &SVector<L::Scalar, N>) -> impl Fn(&SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {
-        move |s| self.system.force_plus(q0, s, self.h)
+    fn at_end(
+        &self,
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+    ) -> impl Fn(&SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {
+        move |s| system.force_plus(q0, s, self.h)
     }
 }
 

@@ -1,6 +1,9 @@
 use core::fmt;
 
-use crate::samples::{SampleError, Segment, Tolerance, Worst};
+use crate::samples::{
+    SampleError, Segment, Tolerance, Worst, at_segment, require_informative, require_step_size,
+};
+use crate::verdict::{excess, largest, scales};
 use crate::{Discrete, DiscreteForceDerivatives, Scalar};
 
 /// One of the three conditions, over the samples.
@@ -55,11 +58,11 @@ impl<const N: usize> Structure<N> {
 /// Tests the three conditions for R_d to exist, on `segments`.
 ///
 /// They say that the matrix ∂(f_d⁻, −f_d⁺)/∂(q0, q1), which would be the matrix of second derivatives of R_d, is symmetric.
-/// Entries are compared with 1024 ε (|Hᵢⱼ| + |Hⱼᵢ| + √|Hᵢᵢ Hⱼⱼ|), the largest over the samples: a scale that follows the
-/// units of the coordinates.
+/// Entries are compared with 1024 ε (|Hᵢⱼ| + |Hⱼᵢ| + √|Hᵢᵢ Hⱼⱼ|), at their sample or as half of the samples exceed it: a scale
+/// that follows the units of the coordinates.
 ///
 /// # Errors
-/// [`SampleError`] if there is no segment or a derivative is not finite.
+/// [`SampleError`] if there is no segment, none that moves, or a derivative is not finite.
 pub fn structure<L, R, const N: usize>(
     system: &L,
     _rule: R,
@@ -81,10 +84,22 @@ pub(super) fn structure_of<L, R, const N: usize>(
 where
     L: Discrete<R, N>,
 {
+    require_step_size(h)?;
+    require_informative(segments, Segment::moves)?;
     let hessians: Vec<_> = segments
         .iter()
-        .map(|segment| system.discrete_force_derivatives(&segment.q0, &segment.q1, h))
+        .enumerate()
+        .map(|(k, Segment { q0, q1 })| {
+            at_segment(system, k, h, |system| system.discrete_force_derivatives(q0, q1, h))
+        })
         .collect();
+    // An asymmetry of derivatives that are not finite may still be 0.
+    for (index, f) in hessians.iter().enumerate() {
+        let entries = (0..2 * N).flat_map(|a| (0..2 * N).map(move |b| entry(f, a, b)));
+        if !largest(entries).is_finite() {
+            return Err(SampleError::NonFinite { index });
+        }
+    }
     // Rows and columns 0..N belong to q0, N..2N to q1.
     let condition = |rows: usize, columns: usize| {
         let mut worst: Option<Condition<N>> = None;
@@ -92,10 +107,8 @@ where
             for j in 0..N {
                 let (a, b) = (rows * N + i, columns * N + j);
                 let candidate = compare(segments, &hessians, a, b)?;
-                let ratio = |condition: &Condition<N>| match condition.worst.value {
-                    0.0 => 0.0,
-                    value => value.abs() / condition.tolerance.bound(),
-                };
+                let ratio =
+                    |condition: &Condition<N>| excess(condition.worst.value, condition.tolerance.bound());
                 if worst.is_none_or(|worst| ratio(&candidate) > ratio(&worst)) {
                     worst = Some(Condition { entry: (i, j), ..candidate });
                 }
@@ -125,16 +138,15 @@ fn compare<S: Scalar, const N: usize>(
     a: usize,
     b: usize,
 ) -> Result<Condition<N>, SampleError> {
-    let scale = hessians
-        .iter()
-        .map(|f| {
-            let diagonal = (entry(f, a, a) * entry(f, b, b)).abs().sqrt();
-            entry(f, a, b).abs() + entry(f, b, a).abs() + diagonal
-        })
-        .fold(0.0, f64::max);
-    let worst =
-        Worst::of(segments, |index, _| entry(&hessians[index], b, a) - entry(&hessians[index], a, b))?;
-    let tolerance = Tolerance { relative: Tolerance::rounding::<S>(), scale };
+    let size = |f: &DiscreteForceDerivatives<S, N>| {
+        // Roots first: a product of entries may overflow.
+        let diagonal = entry(f, a, a).abs().sqrt() * entry(f, b, b).abs().sqrt();
+        entry(f, a, b).abs() + entry(f, b, a).abs() + diagonal
+    };
+    let sizes: Vec<f64> = hessians.iter().map(size).collect();
+    let (worst, tolerance) = Worst::of(segments, Tolerance::rounding::<S>(), &scales(&sizes), |index| {
+        entry(&hessians[index], b, a) - entry(&hessians[index], a, b)
+    })?;
     Ok(Condition { worst, entry: (a % N, b % N), tolerance })
 }
 

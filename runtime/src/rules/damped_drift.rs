@@ -14,7 +14,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::discrete::{self, BoundedStep, Momenta, StepKernel};
 use crate::newton::Equation;
-use crate::{Rayleigh, Scalar, State, Step, StepError};
+use crate::{NewtonMatrix, Quantity, Rayleigh, Scalar, State, Step, StepError};
 
 /// The matrices of a damped free segment, and the terms of first degree: what a step by a fitted rule needs of the system, but for the
 /// potential. They depend on h alone.
@@ -120,6 +120,9 @@ pub(crate) trait ByDrift {
     /// What is known of the equation.
     const EQUATION: Equation;
 
+    /// Where on the segment L is evaluated, as shares of it.
+    const NODES: &'static [f64];
+
     /// p0 and ∂p0/∂v̄.
     fn kernel<L: Rayleigh<N> + ?Sized, const N: usize>(
         drift: &DampedDrift<L::Scalar, N>,
@@ -149,7 +152,27 @@ pub(crate) trait ByDrift {
     ) -> Result<Step<L::Scalar, N>, StepError> {
         let kernel = |q0: &_, v: &_| Self::kernel(drift, system, q0, v, h);
         let momenta = |q0: &_, v: &_| Self::momenta(drift, system, q0, v, h);
-        discrete::step_by(system, Self::EQUATION, kernel, momenta, state, h, guess)
+        let step = discrete::step_by(system, Self::EQUATION, kernel, momenta, state, h, guess)
+            .map_err(|error| of_mass(system, &state.q, error));
+        if cfg!(debug_assertions)
+            && let Ok(step) = &step
+        {
+            Self::verify(system, state, step, h)?;
+        }
+        step
+    }
+
+    /// Verifies the system at the nodes of `step` from `state`.
+    fn verify<L: Rayleigh<N> + ?Sized, const N: usize>(
+        system: &L,
+        state: &State<L::Scalar, N>,
+        step: &Step<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<(), StepError> {
+        Self::NODES.iter().try_for_each(|&share| {
+            let q = state.q + step.velocity * (h * L::Scalar::constant(share));
+            system.verify_generated(&q, &step.velocity)
+        })
     }
 
     /// The step by a bounded number of iterations.
@@ -163,7 +186,47 @@ pub(crate) trait ByDrift {
         let drift = DampedDrift::of(system, &state.q, h);
         let kernel = |q0: &_, v: &_| Self::kernel(&drift, system, q0, v, h);
         let momenta = |q0: &_, v: &_| Self::momenta(&drift, system, q0, v, h);
-        discrete::step_within_by(kernel, momenta, state, h, guess, iterations)
+        let bounded =
+            discrete::step_within_by(system, Self::EQUATION, kernel, momenta, state, h, guess, iterations)
+                .map_err(|error| of_mass(system, &state.q, error));
+        if cfg!(debug_assertions)
+            && let Ok(bounded) = &bounded
+        {
+            Self::verify(system, state, &bounded.step, h)?;
+        }
+        bounded
+    }
+}
+
+/// What a step failed for: M, where it is not positive definite, for derivatives that are no numbers.
+#[cold]
+fn of_mass<L: Rayleigh<N> + ?Sized, const N: usize>(
+    system: &L,
+    q: &SVector<L::Scalar, N>,
+    error: StepError,
+) -> StepError {
+    match error {
+        StepError::NonFinite { quantity: Quantity::Derivatives, .. } => {
+            require_positive_definite(&system.lagrangian_derivatives(q, &nalgebra::zero()).d22)
+                .err()
+                .unwrap_or(error)
+        }
+        other => other,
+    }
+}
+
+/// Fails where a finite `mass` has no Cholesky factor.
+#[cold]
+pub(crate) fn require_positive_definite<S: Scalar, const N: usize>(
+    mass: &SMatrix<S, N, N>,
+) -> Result<(), StepError> {
+    if let Some(index) = (0..N).find(|&i| !NewtonMatrix::row_is_finite(mass, i)) {
+        return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
+    }
+    let factor = cholesky(mass);
+    match factor.iter().enumerate().position(|(i, row)| !row.get(i).is_some_and(|pivot| pivot.is_finite())) {
+        Some(column) => Err(StepError::MassNotPositiveDefinite { column }),
+        None => Ok(()),
     }
 }
 

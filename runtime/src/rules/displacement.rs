@@ -13,7 +13,7 @@ use nalgebra::SVector;
 use crate::discrete::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
 use crate::{
     CovectorDerivatives, Derivatives, Direction, Driven, Force, Hessian, Lagrangian, MomentaBy, Parameters,
-    Rayleigh, Scalar, SecondOrder,
+    Rayleigh, Scalar, SecondOrder, StepError,
 };
 
 /// A node of the quadrature over one segment.
@@ -284,7 +284,7 @@ pub trait DisplacementRule: Copy {
         })
     }
 
-    /// What the input of the general force moves in both momenta: −∂f_d⁻/∂u and ∂f_d⁺/∂u.
+    /// ∂p0/∂u and ∂p1/∂u, of the general force: −∂f_d⁻/∂u and ∂f_d⁺/∂u.
     #[inline]
     fn force_by_input<L: Driven<N, M>, const N: usize, const M: usize>(
         system: &L,
@@ -391,6 +391,20 @@ pub trait DisplacementRule: Copy {
             let f = system.later(node.time(h), |system| system.force_along(&node.q, v, &vector));
             sum + node.on_segment(&f, h) * (h * node.weight)
         })
+    }
+
+    /// Verifies the system at the nodes of the segment: [`Lagrangian::verify_generated`].
+    ///
+    /// # Errors
+    /// [`StepError::GeneratedDiffers`].
+    fn verify_segment<L: Lagrangian<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<(), StepError> {
+        on_velocity::<Self, _, N>(q0, v, h)
+            .try_for_each(|node| system.later(node.time(h), |system| system.verify_generated(&node.q, v)))
     }
 
     /// Energy on the segment, Σ bᵢ E_L(qᵢ, v̄).

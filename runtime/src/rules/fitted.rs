@@ -85,6 +85,7 @@ impl Fitted {
 
 impl ByDrift for Fitted {
     const EQUATION: Equation = Equation::General;
+    const NODES: &'static [f64] = &[0.5];
 
     #[inline]
     fn kernel<L: Rayleigh<N> + ?Sized, const N: usize>(

@@ -1,7 +1,7 @@
 use nalgebra::SVector;
 
 use super::damped_drift::{ByDrift, DampedDrift};
-use super::{JointRayleighRule, JointRule};
+use super::{DisplacementRule, JointRayleighRule, JointRule, Trapezoidal};
 use crate::discrete::{BoundedStep, DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
 use crate::newton::Equation;
 use crate::{CovectorDerivatives, Derivatives, Rayleigh, Scalar, State, Step, StepError};
@@ -60,6 +60,7 @@ impl FittedTrapezoidal {
 
 impl ByDrift for FittedTrapezoidal {
     const EQUATION: Equation = Equation::Linear;
+    const NODES: &'static [f64] = &[0.0, 1.0];
 
     #[inline]
     fn kernel<L: Rayleigh<N> + ?Sized, const N: usize>(
@@ -182,6 +183,15 @@ impl JointRule for FittedTrapezoidal {
     ) -> L::Scalar {
         let v = (q1 - q0) / h;
         (system.energy(q0, &v) + system.energy(q1, &v)) * L::Scalar::constant(0.5)
+    }
+
+    fn verify_segment<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<(), StepError> {
+        Trapezoidal::verify_segment(system, q0, v, h)
     }
 }
 

@@ -18,8 +18,8 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::error::Quantity;
 use crate::{
-    Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, ForcedLagrangian, LegendreDerivatives,
-    Linearization, Momenta, Scalar, State, StateBy, Step, StepError, StepKernel,
+    Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, EquationAt, ForcedLagrangian,
+    LegendreDerivatives, Linearization, Momenta, Scalar, State, StateBy, Step, StepError, StepKernel,
 };
 use coefficients::Coefficients;
 pub use history::StageHistory;
@@ -102,6 +102,9 @@ fn completed<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, cons
     StepError::require_finite(&state.p, Quantity::Momentum)?;
     let velocity = displacement / problem.h;
     StepError::require_finite(&velocity, Quantity::Velocity)?;
+    if cfg!(debug_assertions) {
+        problem.verify(&solution.v)?;
+    }
     Ok((Step { state, velocity, report: solution.report }, ends))
 }
 
@@ -216,6 +219,40 @@ where
         Ok(Linearization { a: segment.by_state()?.matrix(), b: StateBy::zero() })
     }
 
+    /// The branch by the equations of all stages: ∂p0/∂v̄ = h (∂q1/∂p0)⁻¹ changes sign through infinity at a conjugate point, which is
+    /// no fold.
+    fn equation_at(
+        &self,
+        state: &State<T, N>,
+        step: &Step<T, N>,
+        h: T,
+    ) -> Result<EquationAt<T, N, SMatrix<T, N, N>>, StepError> {
+        // The stages of this very step: several solutions may share its start, or both its ends.
+        for guess in [Some(&step.velocity), None] {
+            if let Ok((again, segment)) = solved_segment::<_, _, N, S>(self, state, h, guess) {
+                let off = step.velocity - again.velocity;
+                if off.norm() <= step.velocity.norm() * T::EPSILON.sqrt() {
+                    let matrix = segment.variations()?.p0_by_q1 * h;
+                    let p0 = state.p + matrix * off;
+                    return Ok((StepKernel { p0, matrix }, segment.is_on_the_branch_of_the_flow()));
+                }
+            }
+        }
+        let segment = Segment::<'_, L, N, S>::new(self, &state.q, &step.velocity, h)?;
+        let matrix = segment.variations()?.p0_by_q1 * h;
+        let kernel = StepKernel { p0: segment.momenta().p0, matrix };
+        Ok((kernel, segment.is_on_the_branch_of_the_flow()))
+    }
+
+    /// At the nodes of the segment with the mean velocity: near the stages, which would have to be solved for. A step verifies
+    /// its own.
+    fn verify_segment(&self, q0: &SVector<T, N>, v: &SVector<T, N>, h: T) -> Result<(), StepError> {
+        Gauss::<S>::NODES.iter().try_for_each(|&node| {
+            let elapsed = h * T::constant(node);
+            self.later(elapsed, |system| system.verify_generated(&(q0 + v * elapsed), v))
+        })
+    }
+
     /// By the stages of the step itself.
     fn linearized_step(
         &self,
@@ -239,16 +276,34 @@ fn solved<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, con
     crate::discrete::require_step_size(h)?;
     StepError::require_finite(&state.q, Quantity::Configuration)?;
     StepError::require_finite(&state.p, Quantity::Momentum)?;
-    let guess = match guess {
+    let problem = Problem::new(system, Compensated::new(state.q), Compensated::new(state.p), h);
+    let solution = match guess {
         Some(v) => {
             StepError::require_finite(v, Quantity::Velocity)?;
-            *v
+            fixed_point::solve(&problem, v)?
         }
-        None => state.velocity(system)?,
+        None => solved_from(&problem, state)?,
     };
-    let problem = Problem::new(system, Compensated::new(state.q), Compensated::new(state.p), h);
-    let solution = fixed_point::solve(&problem, &guess)?;
     Ok((problem, solution))
+}
+
+/// The stages from the velocity of the `state`; where forces do not exist there, as drag at rest may not, from the one half a step
+/// later without drag.
+#[inline]
+fn solved_from<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    state: &State<T, N>,
+) -> Result<Solution<T, N, S>, StepError> {
+    let v = state.velocity(problem.system)?;
+    match fixed_point::solve(problem, &v) {
+        Err(error @ StepError::NonFinite { quantity: Quantity::Derivatives, .. }) => {
+            let kick = problem.system.lagrangian_gradient(&state.q, &v).d1 * (problem.h * T::constant(0.5));
+            let later = State { q: state.q, p: state.p + kick };
+            let v = later.velocity(problem.system).map_err(|_| error)?;
+            fixed_point::solve(problem, &v).map_err(|_| error)
+        }
+        solved => solved,
+    }
 }
 
 /// The step from `state`, with its equations linearised at the stages.

@@ -2,8 +2,9 @@
 
 use nalgebra::SVector;
 
+use super::{DisplacementRule, Midpoint};
 use crate::discrete::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
-use crate::{Derivatives, Rayleigh};
+use crate::{Derivatives, Rayleigh, StepError};
 
 /// A rule whose discrete objects need L and R at once.
 ///
@@ -64,6 +65,19 @@ pub trait JointRule: Copy {
         q1: &SVector<L::Scalar, N>,
         h: L::Scalar,
     ) -> L::Scalar;
+
+    /// Verifies the system at the middle of the segment.
+    ///
+    /// # Errors
+    /// [`StepError::GeneratedDiffers`].
+    fn verify_segment<L: Rayleigh<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<(), StepError> {
+        Midpoint::verify_segment(system, q0, v, h)
+    }
 }
 
 /// A rule that takes L and R together, and whose force is that of one function R_d.

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::{Choice, Method, ToleranceError, Trial};
+use crate::Lagrangian;
 
 impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -20,18 +21,12 @@ impl fmt::Display for Method {
 
 impl fmt::Display for Trial {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.step_size {
-            Some(h) => write!(
-                f,
-                "{}: h = {h:.3e}, {:.3e} substeps, error {:.1e}",
-                self.method, self.substeps, self.expected
-            ),
-            None => write!(f, "{}: its order does not show at the start", self.method),
-        }
+        let Self { method, step_size, evaluations, expected } = self;
+        write!(f, "{method}: h = {step_size:.3e}, {evaluations:.2e} evaluations, error {expected:.1e}")
     }
 }
 
-impl fmt::Display for Choice {
+impl<L: Lagrangian<N>, M, const N: usize> fmt::Display for Choice<'_, L, M, N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { method, step_size, steps, tolerance, expected, trials, .. } = self;
         write!(
@@ -39,6 +34,12 @@ impl fmt::Display for Choice {
             "{method}, h = {step_size:.4e}, {steps} steps: error {expected:.1e} expected, {tolerance:.1e} asked for"
         )?;
         trials.iter().flatten().try_for_each(|trial| write!(f, "\n  {trial}"))
+    }
+}
+
+impl<L: Lagrangian<N>, M, const N: usize> fmt::Debug for Choice<'_, L, M, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
     }
 }
 
@@ -52,7 +53,7 @@ impl fmt::Display for ToleranceError {
                 f.write_str("no method reaches the tolerance; ask for less, or for a shorter time")?;
                 match closest {
                     Some(trial) => write!(f, "; the closest: {trial}"),
-                    None => f.write_str("; none shows its order at the start"),
+                    None => f.write_str("; none can take a step"),
                 }
             }
             Self::Step(error) => write!(f, "at the start: {error}"),

@@ -4,43 +4,94 @@ use core::fmt;
 
 use nalgebra::SVector;
 
-use super::{Choice, MethodRun, Methods};
+use super::estimate::{ANGLE, Estimate, Scale};
+use super::{Choice, MethodStep, Methods};
 use crate::{Lagrangian, Scalar, State, StepError};
 
-/// Where the estimate no longer held.
+/// Where the error expected has passed the one asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Breach {
     /// The time.
     pub time: f64,
-    /// The error to be expected at the end if the whole run were like this step.
+    /// The error expected of the state there.
     pub expected: f64,
     /// The error asked for.
     pub tolerance: f64,
+    /// A tolerance to ask for instead, from the start.
+    pub instead: f64,
 }
 
-/// Steps between two looks of the guard: a look costs three steps.
-const LOOK_EVERY: u64 = 32;
+/// Steps between two looks at most, and looks over a run at least.
+const STRIDE: u64 = 40;
+const LOOKS: u64 = 6;
+
+/// Runs of fewer steps are looked at more closely.
+const FEW: u64 = 100;
+const LOOKS_OF_FEW: u64 = 24;
+
+/// The share of the run's cost that the motion's derivatives along it may take, and what they cost in evaluations.
+const SHARE: f64 = 0.05;
+
+/// The estimate, over the tolerance, at which a breach is reported: as a rule the estimate is above the error, by up to a factor of 2.
+const REPORTED: f64 = 1.2;
+
+/// Of so many coordinates errors are followed in every turn, whatever it costs.
+const RESOLVED: usize = 3;
+
+/// What the motion's derivative at a state costs in evaluations: two, and the algebra of N×N matrices beside forces of some N terms.
+fn derivatives(n: usize) -> f64 {
+    2.0 + 1.3 * (n * n) as f64 + 4.0 * n as f64
+}
+
+/// A step is looked at where the motion has become rougher than where it was looked at last, by this factor.
+const ROUGHER: f64 = 2.0;
 
 /// The run of a [`Choice`] over its time: an iterator over states, that ends after the last step or an error.
 ///
-/// The guard compares one step with two half ones: every 32 steps, and where the fourth differences of q rise to twice what
-/// they were so far, which costs nothing to see. Where the step and its halves differ so much more than at the start that the
-/// error expected would exceed the tolerance, it notes a [`Breach`]; the run goes on, with the same step size.
+/// It carries an estimate of its error along, in q and p:
+///
+/// ```text
+/// δ_{k+1} = A_k δ_k + d_k
+/// ```
+///
+/// - d_k, the local error, is the difference to two half steps. It is taken at some of the steps, at no period, for those between as well,
+///   and where the motion becomes rougher: by fourth differences of q, of Gauss methods by the last coefficients of the velocity's
+///   polynomial.
+/// - A_k is the tangent map of the motion: exp of ∂(q̇, ṗ)/∂(q, p) at the states of the run, and between them where an error turns far in one
+///   step. A shift in time stays one, exactly, unless the system changes with time. So growth is that of the motion, chaos included. **Not so**
+///   for more than three coordinates where a step costs less than the algebra of its matrices (splittings): there the error is carried
+///   over many steps at once, and the growth of a chaotic motion is not seen.
+/// - Where no force acts and nothing depends on time, the energy says what its part of the error is; a jump of it reveals a step that erred
+///   without being looked at.
+/// - Rounding adds as a random walk that grows with the error.
+///
+/// The run goes on after a [`Breach`], with the same step size. The guard's cost is in the page `docs/error-asked-for.md`, in evaluations of
+/// the forces; runs of fewer than 100 steps are looked at more closely, at up to three times their cost.
 pub struct GuardedTrajectory<'a, L, M, const N: usize>
 where
     L: Lagrangian<N> + 'a,
     M: Methods<L, N>,
 {
-    choice: Choice,
-    system: &'a L,
-    methods: M,
-    run: M::Run<'a>,
+    choice: Choice<'a, L, M, N>,
+    step: M::Step,
+    half: M::Step,
+    state: State<L::Scalar, N>,
     taken: u64,
-    /// The configurations before the present one, the latest first.
+    scale: Scale<L::Scalar, N>,
+    estimate: Estimate<L::Scalar, N>,
+    /// What a step cost on average.
+    evaluations: f64,
+    /// What the guard has cost.
+    looked: f64,
+    /// The step after which the motion was differentiated last, and is next, and was before.
+    carried: [u64; 3],
+    /// The step looked at last, and next; the size of its local error, and how rough the motion was.
+    looks: [u64; 2],
+    local: f64,
+    roughness: f64,
     recent: [SVector<L::Scalar, N>; 4],
-    /// The largest fourth difference so far.
-    largest: L::Scalar,
+    random: u64,
     breach: Option<Breach>,
     failed: bool,
 }
@@ -50,24 +101,40 @@ where
     L: Lagrangian<N>,
     M: Methods<L, N>,
 {
-    pub(super) fn new(choice: Choice, system: &'a L, methods: M, start: State<L::Scalar, N>) -> Self {
-        let run = methods.run(choice.method, system, L::Scalar::constant(choice.step_size), start);
-        Self {
+    pub(super) fn new(choice: Choice<'a, L, M, N>, step: M::Step, half: M::Step) -> Self {
+        let (start, scale) = (choice.start, Scale::new(&choice.start));
+        let local = choice.local;
+        let is_few = choice.steps < FEW;
+        let is_coarse = !is_few && N > RESOLVED && derivatives(N) > choice.evaluations_per_step;
+        let mut estimate = Estimate::new(choice.system, is_few, is_coarse);
+        estimate.carry(choice.system, choice.methods, &start, 0.0, &scale, [0.0; 2]);
+        let mut guarded = Self {
+            estimate,
             choice,
-            system,
-            methods,
-            run,
+            step,
+            half,
+            state: start,
             taken: 0,
+            scale,
+            evaluations: 0.0,
+            looked: 0.0,
+            carried: [0; 3],
+            looks: [0, 0],
+            local,
+            roughness: 0.0,
             recent: [start.q; 4],
-            largest: L::Scalar::constant(0.0),
+            random: 0x9e37_79b9_7f4a_7c15,
             breach: None,
             failed: false,
-        }
+        };
+        guarded.schedule_look();
+        guarded.schedule_derivatives();
+        guarded
     }
 
     /// The present state.
     pub fn state(&self) -> &State<L::Scalar, N> {
-        self.run.state()
+        &self.state
     }
 
     /// The time, h × the number of steps taken.
@@ -75,58 +142,106 @@ where
         self.choice.step_size * self.taken as f64
     }
 
-    /// The worst breach of the estimate so far; `None` while it holds.
+    /// The error expected of the state, in the norm of the promise ([`Method::for_tolerance`](super::Method::for_tolerance)).
+    pub fn expected(&self) -> f64 {
+        let unseen = (self.taken - self.looks[0]) as f64;
+        self.estimate.size(&self.scale) + unseen * self.local
+    }
+
+    /// Where the error expected has first passed the tolerance; `None` while it has not.
     pub fn breach(&self) -> Option<&Breach> {
         self.breach.as_ref()
     }
 
-    /// |q after one step − q after two half ones| from `state`, which the run has after `steps` steps.
-    pub(super) fn local_error(&self, state: &State<L::Scalar, N>, steps: u64) -> Result<f64, StepError> {
-        let (method, h) = (self.choice.method, L::Scalar::constant(self.choice.step_size));
-        let elapsed = L::Scalar::constant(self.choice.step_size * steps as f64);
-        self.system.later(elapsed, |system| {
-            let mut whole = self.methods.run(method, system, h, *state);
-            let mut halves = self.methods.run(method, system, h * L::Scalar::constant(0.5), *state);
-            whole.advance()?;
-            halves.advance()?;
-            halves.advance()?;
-            Ok((whole.state().q - halves.state().q).amax().widen())
-        })
+    /// What the steps taken have cost, in evaluations of the forces, and what the guard has cost beside them.
+    pub fn evaluations(&self) -> (f64, f64) {
+        (self.evaluations * self.taken as f64, self.looked + self.estimate.evaluations)
     }
 
-    pub(super) fn advance(&mut self) -> Result<(), StepError> {
-        self.run.advance()?;
-        self.taken += 1;
-        Ok(())
+    /// The next look: at most [`STRIDE`] steps on, at no period.
+    fn schedule_look(&mut self) {
+        let steps = self.choice.steps;
+        let stride = if steps < FEW { (steps / LOOKS_OF_FEW).max(1) } else { (steps / LOOKS).min(STRIDE) };
+        // Marsaglia's xorshift.
+        self.random ^= self.random << 13;
+        self.random ^= self.random >> 7;
+        self.random ^= self.random << 17;
+        let next = self.taken + 1 + (stride - 1) / 2 + self.random % stride;
+        self.looks[1] = next.min(self.choice.steps);
     }
 
-    /// Whether the motion has become twice as rough as it was so far, by the fourth differences of q.
-    fn is_rougher(&mut self) -> bool {
-        let q = self.state().q;
+    fn schedule_derivatives(&mut self) {
+        let angle = self.estimate.speed * self.choice.step_size;
+        let resolved = if angle > 0.0 { 0.5 * ANGLE / angle } else { f64::INFINITY };
+        // Seldom where the step is long already; twice the last distance at most, as a period may look like rest.
+        let last = (self.taken - self.carried[2]).max(1) as f64;
+        let resolved = resolved.min(2.0 * last);
+        let affordable = derivatives(N) / (SHARE * self.choice.evaluations_per_step);
+        let (least, most) = if self.estimate.is_planar() {
+            (affordable, STRIDE)
+        } else if self.estimate.is_coarse() {
+            (affordable / 3.0, 4 * STRIDE)
+        } else {
+            (1.0, STRIDE)
+        };
+        let stride = resolved.max(least).clamp(1.0, most as f64);
+        self.carried[1] = self.taken + stride as u64;
+    }
+
+    /// The largest fourth difference of q.
+    fn fourth_difference(&mut self) -> f64 {
+        let q = self.state.q;
         let [a, b, c, d] = self.recent;
         let (four, six) = (L::Scalar::constant(4.0), L::Scalar::constant(6.0));
         let difference = ((q + d) - (a + c) * four + b * six).amax();
         self.recent = [q, a, b, c];
-        let rougher = self.taken >= 4 && difference > self.largest * L::Scalar::constant(2.0);
-        if self.taken >= 4 && difference > self.largest {
-            self.largest = difference;
-        }
-        rougher
+        if self.taken >= 4 { difference.widen() } else { 0.0 }
     }
 
-    /// Holds the last step, from `state`, against its halves; halves that cannot be taken are a breach too.
-    fn look(&mut self, state: &State<L::Scalar, N>) {
-        // Differences below rounding compare with nothing.
-        let rounding = 16.0 * L::Scalar::EPSILON.widen() * state.q.amax().widen();
-        let local = self
-            .local_error(state, self.taken - 1)
-            .ok()
-            .filter(|local| !local.is_nan())
-            .unwrap_or(f64::INFINITY);
-        let expected = self.choice.expected * (local / self.choice.local.max(rounding));
-        let worst = self.breach.map_or(self.choice.tolerance, |breach| breach.expected);
-        if expected > worst {
-            self.breach = Some(Breach { time: self.time(), expected, tolerance: self.choice.tolerance });
+    /// Carries the error on to the present state.
+    fn carry(&mut self) {
+        let steps = (self.taken - self.carried[0]) as f64;
+        let roundings = steps * self.choice.roundings;
+        let foreseen = (self.taken - self.looks[0]).max(1) as f64 * self.local;
+        let Choice { system, methods, .. } = self.choice;
+        let time = self.time();
+        self.estimate.carry(system, methods, &self.state, time, &self.scale, [roundings, foreseen]);
+        self.carried[2] = self.carried[0];
+        self.carried[0] = self.taken;
+        self.schedule_derivatives();
+    }
+
+    /// Holds the last step, from `before`, against its halves; halves that cannot be taken are a breach.
+    fn look(&mut self, before: &State<L::Scalar, N>) {
+        let h = self.choice.step_size;
+        let elapsed = h * (self.taken - 1) as f64;
+        self.half.forget();
+        let halves = self.half.advance(self.choice.system, elapsed, before).and_then(|first| {
+            let second = self.half.advance(self.choice.system, elapsed + 0.5 * h, &first.state)?;
+            self.looked += first.evaluations + second.evaluations;
+            Ok(second.state)
+        });
+        let steps = (self.taken - self.looks[0]) as f64;
+        let Ok(halves) = halves else {
+            self.report(f64::INFINITY);
+            return;
+        };
+        let local = self.choice.method.local_error(&self.state, &halves);
+        let size = self.scale.norm(&local);
+        // Those not looked at lie between the last one that was and this one.
+        let share = if size > 0.0 { 0.5 * (1.0 + (self.local / size).min(steps)) } else { 1.0 };
+        self.estimate.add(&local, 1.0 + (steps - 1.0) * share);
+        self.local = size;
+        self.looks[0] = self.taken;
+        self.schedule_look();
+    }
+
+    fn report(&mut self, expected: f64) {
+        let tolerance = self.choice.tolerance;
+        if self.breach.is_none() && (expected.is_nan() || expected > REPORTED * tolerance) {
+            let share = (self.taken as f64 / self.choice.steps as f64) * (tolerance / expected);
+            let instead = tolerance * share.min(0.5);
+            self.breach = Some(Breach { time: self.time(), expected, tolerance, instead });
         }
     }
 }
@@ -142,13 +257,37 @@ where
         if self.failed || self.taken == self.choice.steps {
             return None;
         }
-        let before = *self.state();
-        let stepped = self.advance();
-        self.failed = stepped.is_err();
-        if stepped.is_ok() && (self.is_rougher() || self.taken.is_multiple_of(LOOK_EVERY)) {
+        let before = self.state;
+        let taken = match self.step.advance(self.choice.system, self.time(), &before) {
+            Ok(taken) => taken,
+            Err(error) => {
+                self.failed = true;
+                return Some(Err(error));
+            }
+        };
+        self.state = taken.state;
+        self.taken += 1;
+        self.evaluations += (taken.evaluations - self.evaluations) / self.taken as f64;
+        self.scale.follow(&before, &taken.state);
+        let difference = self.fourth_difference();
+        let roughness = taken.unresolved.unwrap_or(difference);
+        let is_rougher = roughness > ROUGHER * self.roughness && self.taken > 5;
+        let looks = is_rougher || self.taken >= self.looks[1];
+        if self.roughness == 0.0 && self.taken <= 5 {
+            self.roughness = roughness;
+        }
+        if self.taken >= self.carried[1] || (looks && !self.estimate.is_coarse()) {
+            self.carry();
+        }
+        if looks {
+            self.roughness = if is_rougher { roughness } else { self.roughness.max(roughness) };
             self.look(&before);
         }
-        Some(stepped.map(|()| *self.state()))
+        if looks || self.carried[0] == self.taken {
+            let expected = self.expected();
+            self.report(expected);
+        }
+        Some(Ok(self.state))
     }
 }
 
@@ -156,9 +295,8 @@ impl fmt::Display for Breach {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "the estimate made at the start no longer holds at t = {:.4}: {:.1e} to be expected, {:.1e} asked for; ask for less \
-             from there, or take a smaller step",
-            self.time, self.expected, self.tolerance
+            "at t = {:.4} an error of {:.1e} is to be expected, {:.1e} was asked for; start again and ask for {:.1e}",
+            self.time, self.expected, self.tolerance, self.instead
         )
     }
 }

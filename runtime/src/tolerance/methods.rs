@@ -1,42 +1,73 @@
-//! Which methods a choice is among, and their runs.
+//! Which methods a choice is among, and their steps.
+
+use nalgebra::SVector;
 
 use super::Method;
 use crate::{
-    ComposedTrajectory, Composition, Discrete, Explicit, Fitted, FittedTrapezoidal, ForcedLagrangian, Gauss,
-    Kicks, Lagrangian, Midpoint, Splitting, State, StepError, Substeps, Trajectory, Trapezoidal,
+    ComposedStep, Composition, Discrete, Explicit, Fitted, FittedTrapezoidal, ForcedLagrangian, Gauss, Kicks,
+    Lagrangian, LegendreDerivatives, Memory, Midpoint, Scalar, Splitting, StageHistory, State, StepError,
+    Substeps, Trapezoidal,
 };
 
 /// The methods that a system offers to [`Method::for_tolerance`]: a rule of order 2 stands for itself and its compositions;
 /// [`WithSplittings`] and [`WithGauss`] add to those of another.
 pub trait Methods<L: Lagrangian<N>, const N: usize>: Copy {
-    /// A run by any of the methods.
-    type Run<'a>: MethodRun<L, N>
-    where
-        L: 'a;
+    /// A step by any of the methods.
+    type Step: MethodStep<L, N>;
 
     /// Whether there is the method.
     fn offers(method: Method) -> bool;
 
-    /// The run of `system` by `method`; by the rule alone where the method is none of these.
-    fn run<'a>(
+    /// The step of size `h` by `method`; nothing where the method is none of these.
+    fn step(self, method: Method, h: L::Scalar) -> Option<Self::Step>;
+
+    /// Both momenta on the segment (`q0`, `q1`) by the rule of order 2, with their derivatives.
+    fn legendre_derivatives(
         self,
-        method: Method,
-        system: &'a L,
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
         h: L::Scalar,
-        state: State<L::Scalar, N>,
-    ) -> Self::Run<'a>;
+    ) -> LegendreDerivatives<L::Scalar, N>;
+
+    /// Whether a force acts on the segment (`q0`, `q1`).
+    fn is_forced(
+        self,
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> bool;
 }
 
-/// A run by one of several methods.
-pub trait MethodRun<L: Lagrangian<N>, const N: usize> {
-    /// The present state.
-    fn state(&self) -> &State<L::Scalar, N>;
+/// A step taken, and what it cost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Taken<S, const N: usize> {
+    /// Where it leads.
+    pub state: State<S, N>,
+    /// What it cost in evaluations of the forces: of an implicit step those of its iterations, all stages counted.
+    pub evaluations: f64,
+    /// The last coefficients of the polynomial that a Gauss method has of the velocity over the step, which show what it does not
+    /// resolve; nothing for other methods.
+    pub unresolved: Option<f64>,
+}
 
-    /// One step; how many substeps of the rule it costs.
+/// A step by one of several methods, of one size, with what it keeps for the next.
+pub trait MethodStep<L: Lagrangian<N>, const N: usize> {
+    /// The step from `state`, `elapsed` after the time of `system`.
     ///
     /// # Errors
     /// Those of the step.
-    fn advance(&mut self) -> Result<f64, StepError>;
+    fn advance(
+        &mut self,
+        system: &L,
+        elapsed: f64,
+        state: &State<L::Scalar, N>,
+    ) -> Result<Taken<L::Scalar, N>, StepError>;
+
+    /// Lets go of the state that the last step led to, as a step from another has to.
+    fn forget(&mut self);
 }
 
 /// The methods of `M`, and splittings into kicks and drifts: for systems whose trapezoidal rule is [`Explicit`].
@@ -47,63 +78,92 @@ pub struct WithSplittings<M>(pub M);
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WithGauss<M>(pub M);
 
-/// A run by a rule, or composed.
-pub enum Composed<'a, L: Discrete<R, N>, R, const N: usize> {
+/// A step by a rule, alone or composed.
+#[allow(clippy::large_enum_variant, reason = "no allocator")]
+pub enum Composed<L: Discrete<R, N>, R, const N: usize> {
     /// The rule alone.
-    Rule(ComposedTrajectory<'a, L, Substeps<L, R, N, 1>, N>),
+    Rule(Substeps<L, R, N, 1>),
     /// Order 6.
-    KahanLi6(ComposedTrajectory<'a, L, Substeps<L, R, N, 9>, N>),
+    KahanLi6(Substeps<L, R, N, 9>),
     /// Order 8.
-    KahanLi8(ComposedTrajectory<'a, L, Substeps<L, R, N, 17>, N>),
+    KahanLi8(Substeps<L, R, N, 17>),
 }
 
-impl<'a, L: Discrete<R, N>, R, const N: usize> Composed<'a, L, R, N> {
-    fn new(rule: R, method: Method, system: &'a L, h: L::Scalar, state: State<L::Scalar, N>) -> Self {
-        match method {
-            Method::KahanLi6 => Self::KahanLi6(Composition::kahan_li_6(rule).trajectory(system, h, state)),
-            Method::KahanLi8 => Self::KahanLi8(Composition::kahan_li_8(rule).trajectory(system, h, state)),
-            _ => Self::Rule(Composition::alone(rule).trajectory(system, h, state)),
-        }
-    }
-}
+/// What a substep of a rule costs in evaluations for each iteration: the matrix, and the solution with it.
+const ITERATION: f64 = 3.0;
 
-impl<L: Discrete<R, N>, R, const N: usize> MethodRun<L, N> for Composed<'_, L, R, N> {
-    fn state(&self) -> &State<L::Scalar, N> {
-        match self {
-            Self::Rule(run) => run.state(),
-            Self::KahanLi6(run) => run.state(),
-            Self::KahanLi8(run) => run.state(),
-        }
-    }
-
+impl<L: Discrete<R, N>, R, const N: usize> MethodStep<L, N> for Composed<L, R, N> {
     #[inline]
-    fn advance(&mut self) -> Result<f64, StepError> {
-        let (step, substeps) = match self {
-            Self::Rule(run) => (run.next(), 1.0),
-            Self::KahanLi6(run) => (run.next(), 9.0),
-            Self::KahanLi8(run) => (run.next(), 17.0),
+    fn advance(
+        &mut self,
+        system: &L,
+        elapsed: f64,
+        state: &State<L::Scalar, N>,
+    ) -> Result<Taken<L::Scalar, N>, StepError> {
+        let mut evaluations = 0.0;
+        // An explicit step is one iteration with its verdict: two evaluations' worth, of which one is made.
+        let mut count = |iterations: u32| {
+            evaluations +=
+                if iterations <= 1 && L::LINEAR { 2.0 } else { 1.0 + ITERATION * f64::from(iterations) };
         };
-        step.map_or(Ok(substeps), |step| step.map(|_| substeps))
+        let state = match self {
+            Self::Rule(step) => step.advance_counted(system, elapsed, state, &mut count),
+            Self::KahanLi6(step) => step.advance_counted(system, elapsed, state, &mut count),
+            Self::KahanLi8(step) => step.advance_counted(system, elapsed, state, &mut count),
+        }?;
+        Ok(Taken { state, evaluations, unresolved: None })
+    }
+
+    fn forget(&mut self) {
+        // What a linear equation's step keeps is asked for by the state, or belongs to the step size alone.
+        if L::LINEAR {
+            return;
+        }
+        match self {
+            Self::Rule(step) => ComposedStep::forget(step),
+            Self::KahanLi6(step) => ComposedStep::forget(step),
+            Self::KahanLi8(step) => ComposedStep::forget(step),
+        }
     }
 }
 
 macro_rules! rules {
     ($($rule:ident)*) => {$(
         impl<L: Discrete<$rule, N>, const N: usize> Methods<L, N> for $rule {
-            type Run<'a> = Composed<'a, L, Self, N> where L: 'a;
+            type Step = Composed<L, Self, N>;
 
             fn offers(method: Method) -> bool {
                 matches!(method, Method::Rule | Method::KahanLi6 | Method::KahanLi8)
             }
 
-            fn run<'a>(
+            fn step(self, method: Method, h: L::Scalar) -> Option<Self::Step> {
+                match method {
+                    Method::Rule => Some(Composed::Rule(Substeps::new(&Composition::alone(self), h))),
+                    Method::KahanLi6 => Some(Composed::KahanLi6(Substeps::new(&Composition::kahan_li_6(self), h))),
+                    Method::KahanLi8 => Some(Composed::KahanLi8(Substeps::new(&Composition::kahan_li_8(self), h))),
+                    _ => None,
+                }
+            }
+
+            fn legendre_derivatives(
                 self,
-                method: Method,
-                system: &'a L,
+                system: &L,
+                q0: &SVector<L::Scalar, N>,
+                q1: &SVector<L::Scalar, N>,
                 h: L::Scalar,
-                state: State<L::Scalar, N>,
-            ) -> Self::Run<'a> {
-                Composed::new(self, method, system, h, state)
+            ) -> LegendreDerivatives<L::Scalar, N> {
+                Discrete::<$rule, N>::legendre_derivatives(system, q0, q1, h)
+            }
+
+            fn is_forced(
+                self,
+                system: &L,
+                q0: &SVector<L::Scalar, N>,
+                q1: &SVector<L::Scalar, N>,
+                h: L::Scalar,
+            ) -> bool {
+                let force = Discrete::<$rule, N>::discrete_force(system, q0, q1, h);
+                force.minus.iter().chain(force.plus.iter()).any(|&entry| entry != nalgebra::zero())
             }
         }
     )*};
@@ -111,82 +171,141 @@ macro_rules! rules {
 
 rules! { Midpoint Trapezoidal Fitted FittedTrapezoidal }
 
-/// What a wrapper adds to the methods of another: its runs, and which of them a method asks for.
+/// What a wrapper adds to the methods of another: its steps, and which of them a method asks for.
 macro_rules! added {
     ($with:ident: $system:ident, $(#[$doc:meta])* $or:ident {
-        $($(#[$what:meta])* $method:ident($run:ty): $start:expr, $cost:expr;)*
+        $($(#[$what:meta])* $method:ident($step:ty): $start:expr, $advance:expr, $forget:expr;)*
     }) => {
         $(#[$doc])*
-        pub enum $or<'a, L: $system<N>, R, const N: usize> {
-            $($(#[$what])* $method($run),)*
+        #[allow(clippy::large_enum_variant, reason = "no allocator")]
+        pub enum $or<L: $system<N>, R, const N: usize> {
+            $($(#[$what])* $method($step),)*
             /// Of the others.
             Other(R),
         }
 
-        impl<L: $system<N>, R: MethodRun<L, N>, const N: usize> MethodRun<L, N> for $or<'_, L, R, N> {
-            fn state(&self) -> &State<L::Scalar, N> {
+        impl<L: $system<N>, R: MethodStep<L, N>, const N: usize> MethodStep<L, N> for $or<L, R, N> {
+            #[inline]
+            fn advance(
+                &mut self,
+                system: &L,
+                elapsed: f64,
+                state: &State<L::Scalar, N>,
+            ) -> Result<Taken<L::Scalar, N>, StepError> {
                 match self {
-                    $(Self::$method(run) => run.state(),)*
-                    Self::Other(run) => run.state(),
+                    $(Self::$method(step) => $advance(step, system, elapsed, state),)*
+                    Self::Other(step) => step.advance(system, elapsed, state),
                 }
             }
 
-            #[inline]
-            fn advance(&mut self) -> Result<f64, StepError> {
+            fn forget(&mut self) {
                 match self {
-                    $(Self::$method(run) => run.next().map_or(Ok(0.0), |step| step.map($cost)),)*
-                    Self::Other(run) => run.advance(),
+                    $(Self::$method(step) => $forget(step),)*
+                    Self::Other(step) => step.forget(),
                 }
             }
         }
 
         impl<L: $system<N>, M: Methods<L, N>, const N: usize> Methods<L, N> for $with<M> {
-            type Run<'a> = $or<'a, L, M::Run<'a>, N> where L: 'a;
+            type Step = $or<L, M::Step, N>;
 
             fn offers(method: Method) -> bool {
                 matches!(method, $(Method::$method)|*) || M::offers(method)
             }
 
-            fn run<'a>(
-                self,
-                method: Method,
-                system: &'a L,
-                h: L::Scalar,
-                state: State<L::Scalar, N>,
-            ) -> Self::Run<'a> {
+            fn step(self, method: Method, h: L::Scalar) -> Option<Self::Step> {
                 match method {
-                    $(Method::$method => $or::$method($start(system, h, state)),)*
-                    _ => $or::Other(self.0.run(method, system, h, state)),
+                    $(Method::$method => Some($or::$method($start(h))),)*
+                    _ => self.0.step(method, h).map($or::Other),
                 }
+            }
+
+            fn legendre_derivatives(
+                self,
+                system: &L,
+                q0: &SVector<L::Scalar, N>,
+                q1: &SVector<L::Scalar, N>,
+                h: L::Scalar,
+            ) -> LegendreDerivatives<L::Scalar, N> {
+                self.0.legendre_derivatives(system, q0, q1, h)
+            }
+
+            fn is_forced(
+                self,
+                system: &L,
+                q0: &SVector<L::Scalar, N>,
+                q1: &SVector<L::Scalar, N>,
+                h: L::Scalar,
+            ) -> bool {
+                self.0.is_forced(system, q0, q1, h)
             }
         }
     };
 }
 
-// A kick and a drift, without an equation and its verdict, count as half a substep.
-added! { WithSplittings: Explicit,
-    /// A run by a splitting, or by a method of others.
-    SplitOr {
-        /// Order 4.
-        BlanesMoan4(ComposedTrajectory<'a, L, Kicks<L::Scalar, N, 6>, N>):
-            |system, h, state| Splitting::blanes_moan_4().trajectory(system, h, state), |_| 3.0;
-        /// Order 6.
-        BlanesMoan6(ComposedTrajectory<'a, L, Kicks<L::Scalar, N, 11>, N>):
-            |system, h, state| Splitting::blanes_moan_6().trajectory(system, h, state), |_| 5.5;
+/// S kicks and the drifts between them.
+fn kicked<L: Explicit<N>, const N: usize, const S: usize>(
+    step: &mut Kicks<L::Scalar, N, S>,
+    system: &L,
+    elapsed: f64,
+    state: &State<L::Scalar, N>,
+) -> Result<Taken<L::Scalar, N>, StepError> {
+    let state = ComposedStep::<L, N>::advance(step, system, elapsed, state)?;
+    Ok(Taken { state, evaluations: S as f64, unresolved: None })
+}
+
+/// A Gauss step with the stages of the last one.
+#[derive(Clone, Copy, Debug)]
+pub struct Stagewise<T, const N: usize, const S: usize> {
+    h: T,
+    history: StageHistory<T, N, S>,
+}
+
+impl<T: Scalar, const N: usize, const S: usize> Stagewise<T, N, S> {
+    fn new(h: T) -> Self {
+        Self { h, history: StageHistory::default() }
+    }
+
+    fn forget(&mut self) {
+        self.history = StageHistory::default();
     }
 }
 
-// An iteration evaluates all stages, two at once in the narrowest vector registers: it counts as half as many substeps.
+fn staged<L: ForcedLagrangian<N>, const N: usize, const S: usize>(
+    step: &mut Stagewise<L::Scalar, N, S>,
+    system: &L,
+    elapsed: f64,
+    state: &State<L::Scalar, N>,
+) -> Result<Taken<L::Scalar, N>, StepError> {
+    let memory: &mut StageHistory<L::Scalar, N, S> = &mut step.history;
+    let taken = Memory::<L, Gauss<S>, N>::advance_later(memory, system, elapsed, state, step.h)?;
+    Ok(Taken {
+        state: taken.state,
+        evaluations: S as f64 * f64::from(taken.report.iterations),
+        unresolved: Some(step.history.unresolved()),
+    })
+}
+
+fn forget_force<T: Scalar, const N: usize, const S: usize>(step: &mut Kicks<T, N, S>) {
+    step.forget_force();
+}
+
+added! { WithSplittings: Explicit,
+    /// A step by a splitting, or by a method of others.
+    SplitOr {
+        /// Order 4.
+        BlanesMoan4(Kicks<L::Scalar, N, 6>): |h| Kicks::new(Splitting::blanes_moan_4(), h), kicked, forget_force;
+        /// Order 6.
+        BlanesMoan6(Kicks<L::Scalar, N, 11>): |h| Kicks::new(Splitting::blanes_moan_6(), h), kicked, forget_force;
+    }
+}
+
 added! { WithGauss: ForcedLagrangian,
-    /// A run by a Gauss method, or by a method of others.
+    /// A step by a Gauss method, or by a method of others.
     GaussOr {
         /// Order 8.
-        Gauss4(Trajectory<'a, L, Gauss<4>, N>):
-            |system, h, state| Trajectory::<_, Gauss<4>, N>::new(system, Gauss, h, state),
-            |step| 2.0 * f64::from(step.report.iterations);
+        Gauss4(Stagewise<L::Scalar, N, 4>): Stagewise::new, staged, Stagewise::forget;
         /// Order 16.
-        Gauss8(Trajectory<'a, L, Gauss<8>, N>):
-            |system, h, state| Trajectory::<_, Gauss<8>, N>::new(system, Gauss, h, state),
-            |step| 4.0 * f64::from(step.report.iterations);
+        Gauss8(Stagewise<L::Scalar, N, 8>): Stagewise::new, staged, Stagewise::forget;
     }
 }

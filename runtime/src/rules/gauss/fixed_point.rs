@@ -11,22 +11,20 @@ use nalgebra::SVector;
 use super::newton;
 use super::problem::{Problem, Solution, in_units, in_units_of, reciprocals, rounding};
 use crate::lanes::{LaneVector, splat};
+use crate::newton::{AT_FLOOR, finite_part, is_sensible};
 use crate::{ForcedLagrangian, Report, Scalar, Stages, StepError};
 
 /// More iterations than Newton's method would be worth.
 const MAX_ITERATIONS: u32 = 60;
 
-/// Two iterations have to take this much off, or the matrix is worth its price.
-const SLOW: f64 = 0.5;
+/// If two iterations do not halve the residual, Newton's method is cheaper.
+const SLUGGISH: f64 = 0.5;
 
 /// The residual that the last correction may leave, in floors: with the contraction measured, what is left of it.
 const AT_REST: f64 = 1.0 / 64.0;
 
-/// Floors that rise so much make sizes before and after incomparable.
-const RISEN: f64 = 8.0;
-
-/// A residual of so many floors that no longer falls is rounding.
-const AT_FLOOR: f64 = 8.0;
+/// If the floor has risen or fallen by this factor, sizes measured with the old floor are not comparable with new ones.
+const CHANGED: f64 = 8.0;
 
 /// Solves for the stages from the one velocity `guess`.
 #[inline]
@@ -79,9 +77,19 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
         }
         // The contraction is size/last.
         let is_at_rest = size * size <= constant(AT_REST) * last;
-        let has_stopped = iterations > 1 && size >= constant(SLOW) * last;
+        let has_stopped = iterations > 1 && size >= constant(SLUGGISH) * last;
         let mut is_done = is_at_rest || (has_stopped && size <= constant(AT_FLOOR));
-        if !is_done && iterations > 2 && size >= before * constant(SLOW) {
+        if is_done && iterations > 1 {
+            // The floor of the guess says nothing of rounding at the root if it was far out, where forces are larger.
+            let (rate, residual) = (stages.rate, stages.residual);
+            if let Some(fallen) = fallen(problem, &rate, &residual, &floor) {
+                floor = fallen;
+                per_floor = reciprocals(&floor);
+                size = in_units(&stages.residual, &per_floor);
+                (is_done, before, last) = (false, size * constant(4.0), size);
+            }
+        }
+        if !is_done && iterations > 2 && size >= before * constant(SLUGGISH) {
             let (v, residual) = (v, stages.residual);
             match at_rounding(problem, &v, &residual, floor) {
                 Some(measured) => (floor, is_done) = (measured, true),
@@ -113,8 +121,21 @@ fn risen<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     floor: SVector<T, N>,
 ) -> Option<SVector<T, N>> {
     let now = floor.sup(&problem.floor(rate, residual));
-    let has_risen = (0..N).any(|a| now[a] > floor[a] * T::constant(RISEN));
+    let has_risen = (0..N).any(|a| now[a] > floor[a] * T::constant(CHANGED));
     has_risen.then_some(now)
+}
+
+/// The floor now, if the one that the residual was held against is much higher in a coordinate.
+#[inline(always)]
+fn fallen<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    rate: &LaneVector<T, N, S>,
+    residual: &LaneVector<T, N, S>,
+    floor: &SVector<T, N>,
+) -> Option<SVector<T, N>> {
+    let now = problem.floor(rate, residual);
+    let has_fallen = (0..N).any(|a| floor[a] > now[a] * T::constant(CHANGED));
+    has_fallen.then_some(now)
 }
 
 /// How an iteration ended whose last correction leaves the share `remaining` of the residual.
@@ -156,5 +177,32 @@ pub(super) fn at_rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N
     floor: SVector<T, N>,
 ) -> Option<SVector<T, N>> {
     let measured = floor + rounding(problem, v);
-    (in_units_of(residual, &measured) <= T::constant(AT_FLOOR)).then_some(measured)
+    let is_explained = in_units_of(residual, &measured) <= T::constant(AT_FLOOR);
+    (is_explained && is_decided(problem, v, &measured)).then_some(measured)
+}
+
+/// Whether the `floor` at the stages is small beside what their equations are made of: |p0| + |h| max |G| there and at rest, and
+/// forces at rest that cancel.
+#[cold]
+#[inline(never)]
+pub(super) fn is_decided<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    v: &LaneVector<T, N, S>,
+    floor: &SVector<T, N>,
+) -> bool {
+    let momentum = finite_part(&problem.p0.value);
+    if is_sensible(floor, &momentum) {
+        return true;
+    }
+    let rest = splat(&SVector::zeros());
+    let size = |v: &LaneVector<T, N, S>| {
+        let stages = problem.stages(v);
+        let momenta = problem.momenta(&stages.rate);
+        SVector::<T, N>::from_fn(|a, _| momenta[a].amax())
+    };
+    let terms = momentum + finite_part(&size(&rest)) + finite_part(&size(v));
+    is_sensible(floor, &terms) || {
+        let at_rest = rounding(problem, &rest) * (T::one() / T::EPSILON);
+        is_sensible(floor, &(terms + finite_part(&at_rest)))
+    }
 }

@@ -1,11 +1,13 @@
 //! What a run of steps by a Gauss rule keeps.
 
+use core::array;
+
 use nalgebra::SVector;
 
 use super::problem::{Compensated, Problem};
-use super::{Gauss, completed, fixed_point};
+use super::{Gauss, completed, fixed_point, solved_from};
 use crate::error::Quantity;
-use crate::lanes::{LaneVector, Lanes, splat};
+use crate::lanes::{LaneVector, Lanes, lane, splat};
 use crate::{ForcedLagrangian, Memory, Scalar, State, Step, StepError};
 
 /// The stages of the last step, and what rounding has taken from q and p.
@@ -42,6 +44,32 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
     /// to twice the digits.
     pub fn rests(&self) -> (SVector<T, N>, SVector<T, N>) {
         (self.q.rest, self.p.rest)
+    }
+
+    /// The last two coefficients, the larger of them, of the velocity over the last step in Legendre polynomials: what is left of a
+    /// smooth motion, and where it is not smooth, of its kinks.
+    pub(crate) fn unresolved(&self) -> f64 {
+        let coefficients = &Gauss::<S>::COEFFICIENTS;
+        let (mut last, mut before) = ([0.0; S], [0.0; S]);
+        for j in 0..S {
+            let (x, mut p) = (2.0 * coefficients.nodes[j] - 1.0, (0.0, 1.0));
+            for k in 0..S - 1 {
+                let k = k as f64;
+                p = (p.1, ((2.0 * k + 1.0) * x * p.1 - k * p.0) / (k + 1.0));
+            }
+            last[j] = (2 * S - 1) as f64 * coefficients.weights[j] * p.1;
+            before[j] = (2 * S) as f64 * coefficients.weights[j] * p.0;
+        }
+        let sum = |a: usize, weights: &[f64; S]| {
+            let terms = weights.iter().zip(&self.v[a].0);
+            nalgebra::ComplexField::abs(terms.map(|(weight, v)| weight * v.widen()).sum::<f64>())
+        };
+        (0..N).fold(0.0, |largest, a| largest.max(sum(a, &last)).max(sum(a, &before)))
+    }
+
+    /// V_i, the velocities at the stages of the last step: at q0 + h Σ a_ij V_j its equations of motion hold. 0 before the first.
+    pub fn velocities(&self) -> [SVector<T, N>; S] {
+        array::from_fn(|i| lane(&self.v, i))
     }
 
     fn extrapolation(&self) -> LaneVector<T, N, S> {
@@ -82,7 +110,7 @@ where
         };
         let solution = match extrapolated {
             Some(solution) => solution,
-            None => fixed_point::solve(&problem, &state.velocity(system)?)?,
+            None => solved_from(&problem, state)?,
         };
         let (step, [q, p]) = completed(&problem, &solution)?;
         *self = Self { v: solution.v, h, contracted: solution.contracted, q, p };

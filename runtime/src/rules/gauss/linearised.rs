@@ -201,6 +201,23 @@ impl<T: Scalar, const N: usize, const S: usize> Factored<T, N, S> {
         Ok(())
     }
 
+    /// Whether det A > 0.
+    pub(super) fn has_positive_determinant(&self) -> bool {
+        let mut positive = true;
+        for i in 0..S {
+            for a in 0..N {
+                positive ^= self.rows[i][a][i][a] < T::zero();
+                // Pairs of rows that stand in reverse.
+                for k in 0..S {
+                    for c in 0..N {
+                        positive ^= (k, c) > (i, a) && self.order[k][c] < self.order[i][a];
+                    }
+                }
+            }
+        }
+        positive
+    }
+
     /// X with A X = `right`.
     pub(super) fn solve<const K: usize>(&self, right: &StageColumns<T, N, S, K>) -> StageColumns<T, N, S, K> {
         let mut x = [SMatrix::<T, N, K>::zeros(); S];

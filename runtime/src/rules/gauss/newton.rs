@@ -2,28 +2,20 @@
 //!
 //! The matrix has (S N)² entries, on the stack; it is assembled anew in each iteration, from the second derivatives at every
 //! stage. Steps that do not lower the residual are shortened, unless the one after them is shorter ([`nearer`]), as in the solver of
-//! the rules of one stage: residuals of coordinates at rest, without a force as yet, have a floor of next to nothing.
+//! the rules of one stage, whose definition of a solved step this is: `newton/rounding.rs`.
 
 use nalgebra::SVector;
 
-use super::fixed_point::worst;
+use super::fixed_point::{at_rounding, is_decided, worst};
 use super::linearised::{Factored, Local, StageVector, locals, non_finite};
-use super::problem::{Problem, Solution, in_units_of, rounding};
+use super::problem::{Problem, Solution, in_units_of};
 use crate::error::Quantity;
 use crate::lanes::{LaneVector, splat, write_lane};
+use crate::newton::{AT_FLOOR, SLOW};
 use crate::{ForcedLagrangian, Report, Scalar, StepError};
 
 /// As in the solver of the rules of one stage: a few iterations near a root, some dozens from far out.
 const MAX_ITERATIONS: u32 = 100;
-
-/// A residual of so many floors is a root.
-const AT_FLOOR: f64 = 4.0;
-
-/// A residual that has stopped falling is accepted up to so many floors.
-pub(super) const STAGNATION: f64 = 4096.0;
-
-/// A contraction above this is not that of Newton's method.
-const SLOW: f64 = 0.25;
 
 /// An iterate with what was evaluated there.
 pub(super) struct Iterate<T, const N: usize, const S: usize> {
@@ -132,15 +124,11 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
                 if nearer(problem, &next, &last, &correction) {
                     break Some((next, size.min(before) / before));
                 }
-                // No lower than before, or hardly: rounding, if what there is of it explains the residual, or if that is small. One component that
-                // rounding holds up can hide that the step has brought the others down.
-                let candidates = [(&next, true), (&last, false)];
-                for (at, is_next) in candidates.into_iter().take(if lower { 1 } else { 2 }) {
-                    let measured = at.floor + rounding(problem, &at.v);
-                    let is_explained = in_units_of(&at.residual, &measured) <= constant(AT_FLOOR);
-                    if is_explained || !is_next && at.size <= constant(STAGNATION) {
-                        let floor = if is_explained { &measured } else { &at.floor };
-                        let (residual, floor) = worst(&at.residual, floor);
+                // No lower than before, or hardly: rounding, if what there is of it explains the residual. One component that rounding
+                // holds up can hide that the step has brought the others down.
+                for at in [&next, &last].into_iter().take(if lower { 1 } else { 2 }) {
+                    if let Some(measured) = at_rounding(problem, &at.v, &at.residual, at.floor) {
+                        let (residual, floor) = worst(&at.residual, &measured);
                         return Ok(Solution {
                             v: at.v,
                             rate: at.rate,
@@ -178,6 +166,7 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
         // At the floor, and no better for another correction.
         if next.size <= constant(AT_FLOOR)
             && (contraction > constant(0.01) || next.size <= constant(1.0 / 16.0))
+            && is_decided(problem, &next.v, &next.floor)
         {
             let (residual, floor) = worst(&next.residual, &next.floor);
             return Ok(Solution {

@@ -10,9 +10,9 @@ use nalgebra::SVector;
 
 use super::Gauss;
 use super::coefficients::Coefficients;
-use crate::lanes::{LaneVector, Lanes};
+use crate::lanes::{LaneVector, Lanes, lane};
 use crate::newton::PLACES;
-use crate::{ForcedLagrangian, Report, Scalar, Stages};
+use crate::{ForcedLagrangian, Report, Scalar, Stages, StepError};
 
 /// A vector as an unevaluated sum, so that adding many small steps loses nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -125,6 +125,14 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     #[inline(always)]
     pub(super) fn elapsed(&self, i: usize) -> T {
         T::constant(Self::COEFFICIENTS.nodes[i]) * self.h
+    }
+
+    /// Verifies the system at the stages with velocities `v`.
+    pub(super) fn verify(&self, v: &LaneVector<T, N, S>) -> Result<(), StepError> {
+        let q = self.configurations(v);
+        (0..S).try_for_each(|i| {
+            self.system.later(self.elapsed(i), |system| system.verify_generated(&lane(&q, i), &lane(v, i)))
+        })
     }
 
     /// h a_ij.

@@ -11,15 +11,19 @@
 //! Of D²L_d and Df_d alone their sums K are exact; Df_d itself holds second derivatives of the interior points, that is third
 //! ones of L, and is a central difference of order 8 of f_d. Without force it is 0 and D²L_d exact.
 
+use core::cmp::Ordering;
+
 use nalgebra::{SMatrix, SVector};
 
-use super::fixed_point::worst;
+use super::fixed_point::{at_rounding, worst};
 use super::linearised::{Factored, Local};
-use super::newton::{Iterate, STAGNATION};
+use super::newton::Iterate;
 use super::problem::{Compensated, Problem};
 use super::tangent::Tangent;
+use crate::certificate::determinant_sign;
 use crate::error::Quantity;
 use crate::lanes::{LaneVector, lane, splat};
+use crate::newton::AT_FLOOR;
 use crate::{
     CovectorDerivatives, Derivatives, DiscreteForce, DiscreteForceDerivatives, ForcedLagrangian,
     LegendreDerivatives, Momenta, NewtonMatrix, Scalar, Singular, StepError,
@@ -100,7 +104,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
                 let next = Iterate::new(&problem, v);
                 let size = next.size_in(&last.floor);
                 let is_lower = size < last.size;
-                if is_lower || next.size <= one || (share == one && last.size <= T::constant(STAGNATION)) {
+                if is_lower || next.size <= one || (share == one && is_solved(&problem, &last)) {
                     break Some((next, is_lower, size / last.size));
                 }
                 share = crate::newton::shorter(share, last.size, size);
@@ -113,7 +117,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
                 return Err(StepError::NoRealSolution { iteration, residual });
             };
             let has_stopped = !is_lower || contraction > T::constant(0.1);
-            let is_done = share == one && next.size <= T::constant(STAGNATION) && has_stopped;
+            let is_done = share == one && has_stopped && is_solved(&problem, &next);
             if !is_lower {
                 problem.p0.value = p0;
             } else {
@@ -130,6 +134,18 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
             residual: residual.widen(),
             floor: floor.widen(),
         })
+    }
+
+    /// Whether the determinant of the stages' equations has the sign that it has for small h, where it is Π det Mᵢ.
+    pub(super) fn is_on_the_branch_of_the_flow(&self) -> bool {
+        let mut for_small_h = true;
+        for local in &self.locals {
+            match determinant_sign(local.mass) {
+                Ordering::Equal => return false,
+                sign => for_small_h ^= sign.is_lt(),
+            }
+        }
+        self.factored.has_positive_determinant() == for_small_h
     }
 
     /// p0 and p1.
@@ -209,6 +225,15 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
             d22: variations.plus.end.p - force.plus.d2,
         }
     }
+}
+
+/// Whether the residual of `at` is at its floor, estimated or measured.
+#[cold]
+fn is_solved<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    at: &Iterate<T, N, S>,
+) -> bool {
+    at.size <= T::constant(AT_FLOOR) || at_rounding(problem, &at.v, &at.residual, at.floor).is_some()
 }
 
 /// f_d on the segment (q0, q1), NaN where it has no solution.

@@ -1,0 +1,344 @@
+//! Which method, and at which step size: by trying them.
+
+use nalgebra::ComplexField;
+
+use super::estimate::Scale;
+use super::variation::Variation;
+use super::{Choice, Method, MethodStep, Methods, ToleranceError, Trial};
+use crate::{Lagrangian, Scalar, State, StepError};
+
+/// The share of the tolerance that the error expected from the start may fill.
+const SAFETY: f64 = 0.15;
+
+/// The share of the run's cost that trying methods may take, and looking at the motion along its first steps.
+const TRYING: f64 = 0.04;
+const EXPLORING: f64 = 0.05;
+
+/// Step sizes tried of one method at most.
+const TRIES: u32 = 12;
+
+/// A method whose trial would have to be better than its first one by this factor is given up.
+const HOPELESS: f64 = 1.5;
+
+/// What is known of the start.
+struct Start<'a, L: Lagrangian<N>, M, const N: usize> {
+    system: &'a L,
+    methods: M,
+    state: State<L::Scalar, N>,
+    time: f64,
+    tolerance: f64,
+    /// The fastest rate at which the motion changes.
+    fastest: f64,
+    /// What an error of p counts beside one of q.
+    weight: f64,
+    spent: f64,
+}
+
+/// What one step of a method errs by and costs.
+#[derive(Clone, Copy)]
+struct Measured {
+    local: f64,
+    evaluations: f64,
+}
+
+/// A step size of a method.
+#[derive(Clone, Copy)]
+struct Candidate {
+    method: Method,
+    steps: f64,
+    measured: Measured,
+    expected: f64,
+}
+
+impl Candidate {
+    fn cost(&self) -> f64 {
+        self.steps * self.measured.evaluations
+    }
+}
+
+pub(super) fn choice<'a, L, M, const N: usize>(
+    system: &'a L,
+    methods: M,
+    state: &State<L::Scalar, N>,
+    time: f64,
+    tolerance: f64,
+) -> Result<Choice<'a, L, M, N>, ToleranceError>
+where
+    L: Lagrangian<N>,
+    M: Methods<L, N>,
+{
+    state.require_finite().map_err(ToleranceError::Step)?;
+    let mut start = Start::new(system, methods, *state, time, tolerance).map_err(ToleranceError::Step)?;
+    let mut trials = [None; Method::ALL.len()];
+    let mut best: Option<Candidate> = None;
+    // Those first that are known to be good at the error: the others need not be tried far.
+    let mut order = Method::ALL;
+    let asked = start.relative();
+    let is_explicit = M::offers(Method::BlanesMoan6);
+    let usual = |method: Method| method.usual_cost(asked, is_explicit);
+    order.sort_unstable_by(|&a, &b| usual(a).total_cmp(&usual(b)));
+    let mut failure = None;
+    for method in order {
+        if !M::offers(method) {
+            continue;
+        }
+        if let Some(best) = best {
+            let usual = usual(method) / usual(best.method);
+            let left = TRYING * best.cost() - start.spent;
+            if usual > 3.0 || left < 3.0 * best.measured.evaluations {
+                continue;
+            }
+        }
+        let found = start.largest_step(method, best.map(|best| best.cost()));
+        match found {
+            Ok(candidate) => {
+                let index = Method::ALL.iter().position(|of| *of == method);
+                if let Some(trial) = index.and_then(|index| trials.get_mut(index)) {
+                    *trial = Some(start.trial(&candidate));
+                }
+                let reaches = candidate.expected <= tolerance;
+                if reaches && best.is_none_or(|best| candidate.cost() < best.cost()) {
+                    best = Some(candidate);
+                }
+            }
+            Err(error) => failure = Some(error),
+        }
+    }
+    let Some(mut best) = best else {
+        let shown = trials.iter().flatten();
+        let closest = shown.min_by(|a, b| a.expected.total_cmp(&b.expected)).copied();
+        return Err(match (closest, failure) {
+            (None, Some(Some(error))) => ToleranceError::Step(error),
+            _ => ToleranceError::OutOfReach { closest },
+        });
+    };
+    start.explore(&mut best);
+    if best.expected.is_nan() || best.expected > tolerance {
+        return Err(ToleranceError::OutOfReach { closest: Some(start.trial(&best)) });
+    }
+    let step_size = time / best.steps;
+    Ok(Choice {
+        system,
+        methods,
+        start: *state,
+        method: best.method,
+        step_size,
+        steps: best.steps as u64,
+        tolerance,
+        expected: best.expected,
+        local: best.measured.local,
+        evaluations_per_step: best.measured.evaluations,
+        roundings: best.method.roundings(),
+        spent: start.spent,
+        trials,
+    })
+}
+
+impl<'a, L, M, const N: usize> Start<'a, L, M, N>
+where
+    L: Lagrangian<N>,
+    M: Methods<L, N>,
+{
+    fn new(
+        system: &'a L,
+        methods: M,
+        state: State<L::Scalar, N>,
+        time: f64,
+        tolerance: f64,
+    ) -> Result<Self, StepError> {
+        let velocity = state.velocity(system)?;
+        let mut start =
+            Self { system, methods, state, time, tolerance, fastest: 1.0 / time, weight: 0.0, spent: 4.0 };
+        let mut length = L::Scalar::constant(time);
+        for _ in 0..4 {
+            start.spent += 2.0;
+            match Variation::at(system, methods, &state, &velocity, length) {
+                Some(variation) => {
+                    let fastest = variation.fastest();
+                    start.fastest = fastest.widen().max(1.0 / time);
+                    start.weight = variation.matrix.q_by_p.norm().widen() / start.fastest;
+                    let next = L::Scalar::constant(1.0 / start.fastest);
+                    let is_known = next > length * L::Scalar::constant(0.5);
+                    length = next;
+                    if is_known {
+                        break;
+                    }
+                }
+                None => length *= L::Scalar::constant(1e-2),
+            }
+        }
+        Ok(start)
+    }
+
+    /// The error asked for by radian of the fastest motion, as a share of the state.
+    fn relative(&self) -> f64 {
+        let size = self.size();
+        SAFETY * self.tolerance / (size * self.fastest * self.time)
+    }
+
+    fn size(&self) -> f64 {
+        let size = self.state.q.amax().widen().max(self.state.p.amax().widen() * self.weight);
+        size.max(self.tolerance)
+    }
+
+    fn norm(&self, error: &State<L::Scalar, N>) -> f64 {
+        error.q.amax().widen().max(error.p.amax().widen() * self.weight)
+    }
+
+    fn trial(&self, candidate: &Candidate) -> Trial {
+        Trial {
+            method: candidate.method,
+            step_size: self.time / candidate.steps,
+            evaluations: candidate.cost(),
+            expected: candidate.expected,
+        }
+    }
+
+    /// One step from `state` against two half ones.
+    fn measure(
+        &mut self,
+        method: Method,
+        steps: f64,
+        state: &State<L::Scalar, N>,
+        elapsed: f64,
+    ) -> Result<Measured, Option<StepError>> {
+        let h = L::Scalar::constant(self.time / steps);
+        let half = h * L::Scalar::constant(0.5);
+        let mut whole = self.methods.step(method, h).ok_or(None)?;
+        let mut halves = self.methods.step(method, half).ok_or(None)?;
+        let system = self.system;
+        let whole = whole.advance(system, elapsed, state).map_err(Some)?;
+        let first = halves.advance(system, elapsed, state).map_err(Some)?;
+        let second = halves.advance(system, elapsed + half.widen(), &first.state).map_err(Some)?;
+        self.spent += whole.evaluations + first.evaluations + second.evaluations;
+        let local = self.norm(&method.local_error(&whole.state, &second.state));
+        Ok(Measured { local, evaluations: whole.evaluations })
+    }
+
+    /// The error over so many steps that err by `local`.
+    fn expected(&self, method: Method, steps: f64, local: f64) -> f64 {
+        let rounding = L::Scalar::EPSILON.widen() * self.size();
+        // What rounding shows of the step and its halves.
+        let noise = 2.0 * rounding * method.roundings().sqrt();
+        let local = ComplexField::sqrt((local * local - noise * noise).max(0.0));
+        local * steps + 2.0 * rounding * ComplexField::sqrt(steps * method.roundings())
+    }
+
+    /// The largest step tried at which the error expected fills no more than its share.
+    fn largest_step(&mut self, method: Method, best: Option<f64>) -> Result<Candidate, Option<StepError>> {
+        let p = f64::from(method.order());
+        let angle = method.usual_angle(self.relative());
+        let mut steps = ComplexField::ceil(self.fastest * self.time / angle).max(1.0);
+        let (mut good, mut least, mut failure) = (None::<Candidate>, 0.0, None);
+        let mut closest = None::<Candidate>;
+        for _ in 0..TRIES {
+            let state = self.state;
+            let next = match self.measure(method, steps, &state, 0.0) {
+                Err(error) => {
+                    failure = error;
+                    least = steps;
+                    2.0 * steps
+                }
+                Ok(measured) => {
+                    let expected = self.expected(method, steps, measured.local);
+                    let candidate = Candidate { method, steps, measured, expected };
+                    if closest.is_none_or(|closest| expected < closest.expected) {
+                        closest = Some(candidate);
+                    }
+                    let ratio = SAFETY * self.tolerance / expected;
+                    let factor = ComplexField::powf(ratio, 1.0 / p);
+                    if ratio >= 1.0 {
+                        good = Some(candidate);
+                        if factor < 1.15 || steps <= 1.0 {
+                            break;
+                        }
+                        ComplexField::ceil(steps / factor.min(3.0) * 1.02).max(1.0)
+                    } else {
+                        least = steps;
+                        let next = ComplexField::ceil(steps / factor.max(0.1) * 1.03).max(steps + 1.0);
+                        // The dearer, the finer: not worth it where another method is cheaper already.
+                        if best.is_some_and(|best| next * measured.evaluations > HOPELESS * best) {
+                            break;
+                        }
+                        next
+                    }
+                }
+            };
+            steps = match good {
+                // Between what was too long and what was not.
+                Some(good) if next >= good.steps || next <= least => {
+                    let between = ComplexField::ceil(ComplexField::sqrt(good.steps * least.max(1.0)));
+                    if between >= good.steps || good.steps < 1.15 * least {
+                        break;
+                    }
+                    between
+                }
+                _ => next,
+            };
+            if steps.is_nan() || steps >= 1e15 {
+                break;
+            }
+        }
+        good.or(closest).ok_or(failure)
+    }
+
+    /// Looks at the first steps of the run, and shortens or lengthens the step by what they show.
+    fn explore(&mut self, best: &mut Candidate) {
+        let budget = self.spent.max(TRYING * best.cost()) + EXPLORING * best.cost();
+        let p = f64::from(best.method.order());
+        let mut remaining = 3;
+        while remaining > 0 {
+            remaining -= 1;
+            let method = best.method;
+            let h = self.time / best.steps;
+            let Some(mut step) = self.methods.step(method, L::Scalar::constant(h)) else { return };
+            let (mut state, mut sum, mut looks, mut taken) = (self.state, 0.0, 0.0, 0.0);
+            let (mut evaluations, mut stopped) = (0.0, false);
+            let mut scale = Scale::new(&state);
+            let round = self.spent + (budget - self.spent) / (f64::from(remaining) + 1.0);
+            while taken < best.steps && self.spent + 4.0 * best.measured.evaluations <= round {
+                let Ok(next) = step.advance(self.system, h * taken, &state) else {
+                    stopped = true;
+                    break;
+                };
+                scale.follow(&state, &next.state);
+                self.weight = self.weight.max(scale.weight());
+                state = next.state;
+                taken += 1.0;
+                self.spent += next.evaluations;
+                evaluations += next.evaluations;
+                if taken % 2.0 == 0.0 && taken < best.steps {
+                    match self.measure(method, best.steps, &state, h * taken) {
+                        Ok(measured) => {
+                            sum += measured.local;
+                            looks += 1.0;
+                        }
+                        Err(_) => {
+                            stopped = true;
+                            break;
+                        }
+                    }
+                }
+            }
+            if stopped {
+                best.steps = ComplexField::ceil(best.steps * 1.5);
+                continue;
+            }
+            if looks == 0.0 {
+                return;
+            }
+            let mean = sum / looks;
+            best.measured.local = mean;
+            if taken > 0.0 {
+                best.measured.evaluations = evaluations / taken;
+            }
+            best.expected = self.expected(method, best.steps, mean);
+            let ratio = SAFETY * self.tolerance / best.expected;
+            let factor = ComplexField::powf(ratio, 1.0 / p);
+            if (0.95..1.3).contains(&factor) {
+                return;
+            }
+            best.steps = ComplexField::ceil(best.steps / factor.clamp(0.3, 1.5) * 1.02).max(1.0);
+        }
+    }
+}

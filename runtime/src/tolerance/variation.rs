@@ -1,0 +1,222 @@
+//! The equations of motion at one state of a run, with their derivative, and how they carry an error on.
+//!
+//! ```text
+//! ẏ = f(y),  y = (q, p)        an error obeys  δ̇ = J δ,  J = ∂f/∂y
+//! ```
+//!
+//! The rule of order 2 gives both, on a segment so short that it is a point: A = exp(τJ) up to τ³.
+
+use nalgebra::{SMatrix, SVector};
+
+use super::Methods;
+use crate::{Lagrangian, Linearization, PhaseMatrix, Scalar, State};
+
+/// The motion at one state.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Variation<S, const N: usize> {
+    /// f = (v, ṗ).
+    pub(super) rate: State<S, N>,
+    /// J.
+    pub(super) matrix: PhaseMatrix<S, N>,
+    /// The state.
+    at: State<S, N>,
+    /// Whether a force acts here, so that the energy need not be kept.
+    pub(super) is_forced: bool,
+}
+
+/// The length of the segment, as a share of the time in which the motion changes.
+const SEGMENT: f64 = 1.0 / 32.0;
+
+/// A velocity whose momentum differs from the state's by less than this share is its velocity.
+const VELOCITY: f64 = 1e-4;
+
+impl<S: Scalar, const N: usize> Variation<S, N> {
+    /// At `state`, with a guess for the velocity; `time` is one in which the motion changes little more than by itself.
+    /// Nothing where the derivatives do not exist.
+    pub(super) fn at<L, M>(
+        system: &L,
+        methods: M,
+        state: &State<S, N>,
+        guess: &SVector<S, N>,
+        time: S,
+    ) -> Option<Self>
+    where
+        L: Lagrangian<N, Scalar = S>,
+        M: Methods<L, N>,
+    {
+        let tau = time * S::constant(SEGMENT);
+        let half = S::constant(0.5);
+        let mut v = *guess;
+        for _ in 0..4 {
+            let (q0, q1) = (state.q - v * (tau * half), state.q + v * (tau * half));
+            let legendre = methods.legendre_derivatives(system, &q0, &q1, tau);
+            let a = Linearization::from_legendre(&legendre).ok()?.a;
+            let momenta = legendre.momenta;
+            let p = (momenta.p0 + momenta.p1) * half;
+            let matrix = generator(&a, tau);
+            let rate = State { q: v, p: (momenta.p1 - momenta.p0) / tau };
+            let missing = state.p - p;
+            v += matrix.q_by_p * missing;
+            if !v.iter().chain(rate.p.iter()).all(|x| x.is_finite()) {
+                return None;
+            }
+            if missing.amax() <= S::constant(VELOCITY) * (state.p.amax() + rate.p.amax() * time) {
+                let is_forced = methods.is_forced(system, &q0, &q1, tau);
+                return Some(Self { rate: State { q: v, ..rate }, matrix, at: *state, is_forced });
+            }
+        }
+        None
+    }
+
+    /// The velocity at another state near by.
+    pub(super) fn velocity_at(&self, state: &State<S, N>) -> SVector<S, N> {
+        self.rate.q + self.matrix.q_by_q * (state.q - self.at.q) + self.matrix.q_by_p * (state.p - self.at.p)
+    }
+
+    /// The fastest rate at which an error changes: a norm of J that does not depend on the units of q and p.
+    pub(super) fn fastest(&self) -> S {
+        norm(&self.matrix)
+    }
+
+    /// The angle by which an error turns within `t` up to `other`, less where J changes little: the angle over which one J does not
+    /// serve.
+    pub(super) fn angle_to(&self, other: &Self, t: S) -> f64 {
+        let [a, b] = [&self.matrix, &other.matrix];
+        let fastest = norm(a).max(norm(b));
+        let share = |x: &SMatrix<S, N, N>, y: &SMatrix<S, N, N>, size: S| {
+            let change = (x - y).norm();
+            if change > S::zero() { change / size } else { S::zero() }
+        };
+        let size = |x: &SMatrix<S, N, N>, y: &SMatrix<S, N, N>| x.norm().max(y.norm());
+        let share = share(&a.q_by_p, &b.q_by_p, size(&a.q_by_p, &b.q_by_p))
+            .max(share(&a.p_by_q, &b.p_by_q, size(&a.p_by_q, &b.p_by_q)))
+            .max(share(&a.q_by_q, &b.q_by_q, fastest))
+            .max(share(&a.p_by_p, &b.p_by_p, fastest))
+            .min(S::one());
+        (fastest * t * share.sqrt()).widen()
+    }
+
+    /// H = p·v − L(q, v); an error of v enters squared.
+    pub(super) fn energy<L: Lagrangian<N, Scalar = S>>(&self, system: &L) -> S {
+        let State { q, p } = &self.at;
+        let mut v = self.rate.q;
+        for _ in 0..2 {
+            v += self.matrix.q_by_p * (p - system.lagrangian_gradient(q, &v).d2);
+        }
+        p.dot(&v) - system.lagrangian(q, &v)
+    }
+
+    /// Between this state and `other`, `t` later, at the share `s` of the time: the cubic with both rates.
+    pub(super) fn between(&self, other: &Self, t: S, s: S) -> State<S, N> {
+        let (one, two, three) = (S::one(), S::constant(2.0), S::constant(3.0));
+        let r = one - s;
+        let [a, b] = [r * r * (one + two * s), s * s * (three - two * s)];
+        let [c, d] = [r * r * s * t, -(s * s * r * t)];
+        State {
+            q: self.at.q * a + other.at.q * b + self.rate.q * c + other.rate.q * d,
+            p: self.at.p * a + other.at.p * b + self.rate.p * c + other.rate.p * d,
+        }
+    }
+
+    /// ∂H/∂y·δ = v·δp − ṗ·δq where no force acts.
+    pub(super) fn energy_of(&self, error: &State<S, N>) -> S {
+        self.rate.q.dot(&error.p) - self.rate.p.dot(&error.q)
+    }
+}
+
+/// J from A = (I − τJ/2)⁻¹(I + τJ/2), by two terms of the series of the logarithm.
+fn generator<S: Scalar, const N: usize>(a: &PhaseMatrix<S, N>, tau: S) -> PhaseMatrix<S, N> {
+    let unit = SMatrix::<S, N, N>::identity();
+    let d =
+        PhaseMatrix { q_by_q: a.q_by_q - unit, q_by_p: a.q_by_p, p_by_q: a.p_by_q, p_by_p: a.p_by_p - unit };
+    let half = S::constant(0.5);
+    let square = product(&d, &d);
+    let entry = |x: &SMatrix<S, N, N>, y: &SMatrix<S, N, N>| (x - y * half) / tau;
+    PhaseMatrix {
+        q_by_q: entry(&d.q_by_q, &square.q_by_q),
+        q_by_p: entry(&d.q_by_p, &square.q_by_p),
+        p_by_q: entry(&d.p_by_q, &square.p_by_q),
+        p_by_p: entry(&d.p_by_p, &square.p_by_p),
+    }
+}
+
+fn product<S: Scalar, const N: usize>(a: &PhaseMatrix<S, N>, b: &PhaseMatrix<S, N>) -> PhaseMatrix<S, N> {
+    PhaseMatrix {
+        q_by_q: a.q_by_q * b.q_by_q + a.q_by_p * b.p_by_q,
+        q_by_p: a.q_by_q * b.q_by_p + a.q_by_p * b.p_by_p,
+        p_by_q: a.p_by_q * b.q_by_q + a.p_by_p * b.p_by_q,
+        p_by_p: a.p_by_q * b.q_by_p + a.p_by_p * b.p_by_p,
+    }
+}
+
+/// Substeps of the exponential at most, of few coordinates and of many; faster motions than these follow are left where they are.
+const MOST: [f64; 2] = [64.0, 8.0];
+
+/// Terms of its series in each.
+const TERMS: u32 = 8;
+
+/// The error after the time `t` between two states: exp(Ω) δ, by W. Magnus's series with J at both ends, and, where it is given, at
+/// the middle.
+///
+/// ```text
+/// Ω = t (J₀ + J₁)/2        Ω = t (J₀ + 4J_m + J₁)/6 − t² (J₀J₁ − J₁J₀)/12
+/// ```
+pub(super) fn carried<S: Scalar, const N: usize>(
+    error: &State<S, N>,
+    from: &Variation<S, N>,
+    middle: Option<&Variation<S, N>>,
+    to: &Variation<S, N>,
+    t: S,
+) -> State<S, N> {
+    let (a, b) = (&from.matrix, &to.matrix);
+    let mut omega = match middle {
+        None => weighted(t * S::constant(0.5), [a, b], S::one()),
+        Some(middle) => {
+            let ends = weighted(t / S::constant(6.0), [a, b], S::one());
+            weighted(S::one(), [&ends, &middle.matrix], t * S::constant(4.0 / 6.0))
+        }
+    };
+    if middle.is_some() {
+        let commutator = weighted(S::one(), [&product(a, b), &product(b, a)], -S::one());
+        omega = weighted(S::one(), [&omega, &commutator], -(t * t) / S::constant(12.0));
+    }
+    let parts = nalgebra::ComplexField::ceil(norm(&omega).widen());
+    if parts.is_nan() || parts > MOST[usize::from(N > 3)] {
+        return *error;
+    }
+    let parts = parts.max(1.0) as u32;
+    let tau = S::one() / S::constant(f64::from(parts));
+    let mut carried = *error;
+    for _ in 0..parts {
+        let (mut q, mut p) = (carried.q, carried.p);
+        for k in 1..=TERMS {
+            let share = tau / S::constant(f64::from(k));
+            (q, p) = (
+                (omega.q_by_q * q + omega.q_by_p * p) * share,
+                (omega.p_by_q * q + omega.p_by_p * p) * share,
+            );
+            carried.q += q;
+            carried.p += p;
+        }
+    }
+    carried
+}
+
+/// `factor` (a + `share` b).
+fn weighted<S: Scalar, const N: usize>(
+    factor: S,
+    [a, b]: [&PhaseMatrix<S, N>; 2],
+    share: S,
+) -> PhaseMatrix<S, N> {
+    PhaseMatrix {
+        q_by_q: (a.q_by_q + b.q_by_q * share) * factor,
+        q_by_p: (a.q_by_p + b.q_by_p * share) * factor,
+        p_by_q: (a.p_by_q + b.p_by_q * share) * factor,
+        p_by_p: (a.p_by_p + b.p_by_p * share) * factor,
+    }
+}
+
+/// A norm that does not depend on the units of q and p.
+fn norm<S: Scalar, const N: usize>(a: &PhaseMatrix<S, N>) -> S {
+    (a.q_by_p.norm() * a.p_by_q.norm()).sqrt() + a.q_by_q.norm().max(a.p_by_p.norm())
+}

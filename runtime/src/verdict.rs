@@ -1,0 +1,99 @@
+//! What counts as zero: one rule for every verdict of every checker.
+//!
+//! A quantity counts as zero if it is finite, is held against a finite tolerance, and is within it. What is NaN or infinite on either
+//! side proves nothing, and no checker says yes to it. Samples at which nothing could have been found prove nothing either
+//! ([`SampleError::Uninformative`](crate::samples::SampleError::Uninformative)).
+
+/// Whether `value` counts as zero.
+pub(crate) fn is_zero(value: f64, tolerance: f64) -> bool {
+    value.is_finite() && tolerance.is_finite() && value.abs() <= tolerance
+}
+
+/// |`value`| in units of its tolerance: above 1 if and only if it does not count as zero.
+pub(crate) fn excess(value: f64, tolerance: f64) -> f64 {
+    if is_zero(value, tolerance) {
+        if value == 0.0 { 0.0 } else { value.abs() / tolerance }
+    } else {
+        // A quotient of what is not finite would be small or NaN.
+        let ratio = value.abs() / tolerance;
+        if value.is_finite() && tolerance.is_finite() && ratio > 1.0 { ratio } else { f64::INFINITY }
+    }
+}
+
+/// A tolerance of this share of the terms leaves one digit of them.
+const SHARE: f64 = 0.1;
+
+/// Whether a tolerance says anything: it leaves a digit of the terms that the quantity is a sum of, or nothing is to be forgiven.
+pub(crate) fn tells(tolerance: f64, terms: f64) -> bool {
+    tolerance < SHARE * terms || tolerance == 0.0
+}
+
+/// The largest magnitude; NaN if there is a NaN, which `max` and `amax` pass over. 0 of nothing.
+pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0_f64, |largest, value| {
+        if value.abs() > largest || value.is_nan() { value.abs() } else { largest }
+    })
+}
+
+/// The size of the terms that each sample's value is held against: its own, but no less than what half of the samples exceed.
+///
+/// Terms that happen to be small at one sample are themselves rounded like their larger parts. The largest of all would let one
+/// sample far out excuse every other.
+pub(crate) fn scales(sizes: &[f64]) -> Vec<f64> {
+    let median = median(sizes.iter().copied());
+    sizes.iter().map(|&size| if size > median || size.is_nan() { size } else { median }).collect()
+}
+
+/// A size that half of the sizes that are not 0 exceed; 1 where all are 0.
+pub(crate) fn typical(sizes: impl Iterator<Item = f64>) -> f64 {
+    match median(sizes.filter(|size| *size != 0.0)) {
+        0.0 => 1.0,
+        size => size,
+    }
+}
+
+/// The lower median, 0 of nothing.
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut sorted: Vec<f64> = values.collect();
+    sorted.sort_by(f64::total_cmp);
+    if sorted.is_empty() { 0.0 } else { sorted[(sorted.len() - 1) / 2] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const POISON: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+
+    #[test]
+    fn nothing_infinite_counts_as_zero() {
+        for poison in POISON {
+            for other in [0.0, 1.0, f64::MAX, f64::NAN, f64::INFINITY] {
+                assert!(!is_zero(poison, other) && !is_zero(other, poison), "{poison} {other}");
+                assert!(excess(poison, other) > 1.0 && excess(other, poison) > 1.0, "{poison} {other}");
+            }
+        }
+        // Positive control.
+        assert!(is_zero(0.0, 0.0) && is_zero(-1e-14, 2e-14) && excess(-1e-14, 2e-14) == 0.5);
+        assert!(!is_zero(5e-324, 0.0) && excess(5e-324, 0.0) > 1.0);
+    }
+
+    #[test]
+    fn a_tolerance_beyond_the_terms_says_nothing() {
+        assert!(tells(1e-14, 1.0) && tells(0.0, 0.0));
+        assert!(!tells(0.5, 1.0) && !tells(f64::NAN, 1.0) && !tells(1.0, f64::NAN) && !tells(1e-3, 0.0));
+    }
+
+    #[test]
+    fn the_largest_of_numbers_with_a_nan_is_nan() {
+        assert!(largest([1.0, f64::NAN, 2.0]).is_nan() && largest([f64::NAN]).is_nan());
+        assert_eq!(largest([1.0, -3.0, 2.0]), 3.0);
+        assert_eq!(largest([]), 0.0);
+    }
+
+    #[test]
+    fn one_sample_far_out_excuses_itself_alone() {
+        assert_eq!(scales(&[1.0, 2.0, 1e200, 0.0]), [1.0, 2.0, 1e200, 1.0]);
+        assert!(scales(&[1.0, f64::NAN, 2.0])[1].is_nan());
+    }
+}
