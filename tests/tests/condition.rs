@@ -250,7 +250,7 @@ fn at_the_edges() {
         let found = certified(&NearlySingular { m }, Midpoint, &state, 0.1);
         assert!((found * m / 4.0 - 1.0).abs() < m + 1e-6, "{m}: {found:e}");
     }
-    // Derivatives that are none have a name: at q̄ = 0, exactly, the curvature is infinite.
+    // Derivatives that do not exist return a named `StepError`: at q̄ = 0, exactly, the curvature is infinite.
     let state = State { q: vector![1.0], p: vector![0.3] };
     let mut step = Wall {}.step(&state, 0.5, None).unwrap();
     assert!(step.certificate(&Wall {}, Midpoint, &state, 0.5).is_ok());

@@ -4,13 +4,14 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-/// Files of this folder by name, and the names of all functions in them.
+/// Files of this folder and its folders by name, and the names of all functions in them.
 fn tests() -> (BTreeSet<String>, BTreeSet<String>) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
     let (mut files, mut functions) = (BTreeSet::new(), BTreeSet::new());
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_some_and(|extension| extension == "rs") {
+    let mut paths = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("tests")];
+    while let Some(path) = paths.pop() {
+        if path.is_dir() {
+            paths.extend(fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().path()));
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
             files.insert(path.file_stem().unwrap().to_str().unwrap().to_owned());
             let names = fs::read_to_string(path).unwrap();
             let names =
@@ -31,7 +32,12 @@ fn missing(page: &str) -> Vec<String> {
         .step_by(2)
         .flat_map(|quoted| {
             let quoted = quoted.trim_start_matches("tests/tests/").trim_end_matches(".rs");
-            quoted.split("::").filter(|part| !part.contains('…')).map(str::to_owned).collect::<Vec<_>>()
+            quoted
+                .split("::")
+                .flat_map(|part| part.split('/'))
+                .filter(|part| !part.contains('…'))
+                .map(str::to_owned)
+                .collect::<Vec<_>>()
         })
         .filter(|name| {
             let letters = name.chars().all(|letter| letter.is_ascii_lowercase() || letter == '_');

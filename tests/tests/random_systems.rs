@@ -122,7 +122,7 @@ fn carried(a: &Matrix4<f64>, state: &State<f64, 2>, step: &Step<f64, 2>, factor:
     a.abs() * made * factor
 }
 
-/// A step or an error with a name; after an error the run is where it was, and goes on with smaller steps.
+/// A step or a named `StepError`; after an error the run is where it was, and goes on with smaller steps.
 fn taken_or_named<R: Copy>(
     system: &Masses,
     rule: R,

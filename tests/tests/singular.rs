@@ -242,6 +242,12 @@ cases! {
     atan2_of_one: |x, y| x.atan2(0.0); [of_x(0.0, 0.0, NAN, NAN), of_x(2.0, FRAC_PI_2, 0.0, 0.0)]
     hypot: |x, y| x.hypot(y); [
         at([0.0, 0.0], 0.0, [NAN, NAN], [NAN, NAN, NAN]), at([0.0, 2.0], 2.0, [0.0, 1.0], [0.5, 0.0, 0.0]),
+        // Second derivatives of 1/r, where 1/r² overflows or is none.
+        at([1e-300, 0.0], 1e-300, [1.0, 0.0], [0.0, 0.0, 1e300]), at([0.0, -1e-300], 1e-300, [0.0, -1.0], [1e300, 0.0, 0.0]),
+        at([3e-160, 4e-160], 5e-160, [0.6, 0.8], [1.28e159, -9.6e158, 7.2e158]),
+        at([3e160, -4e160], 5e160, [0.6, -0.8], [1.28e-161, 9.6e-162, 7.2e-162]),
+        at([1e-160, 1.0], 1.0, [1e-160, 1.0], [1.0, -1e-160, 1e-320]),
+        at([1e-190, 1e-40], 1e-40, [1e-150, 1.0], [1e40, -1e-110, 1e-260]),
     ]
     hypot_of_one: |x, y| x.hypot(0.0); [of_x(0.0, 0.0, NAN, NAN), of_x(-2.0, 2.0, -1.0, 0.0)]
     root_of_squares: |x, y| (x * x + y * y).sqrt(); [at([0.0, 0.0], 0.0, [NAN, NAN], [NAN, NAN, NAN])]
@@ -304,4 +310,42 @@ fn wrong_expectations_are_found() {
         assert!(check("written out", &system, &wrong).is_err());
     }
     assert!(agree(&system, &abs::num_dual::System, [0.0, 0.7]).is_err());
+}
+
+/// V = |q| + |q|^{3/2}: at q = 0 the slope has two sides and the curvature is infinite. A trapezoidal step sees V″ at its ends alone
+/// where q1 moves them: the first node stays.
+mod kink {
+    macro_rules! kink {
+        ($engine:ident) => {
+            pub mod $engine {
+                #[dalembert::rayleigh_system(rule = trapezoidal, derivatives = $engine)]
+                pub fn kink(q: [f64; 2], v: [f64; 2], c: f64) -> (f64, f64) {
+                    let kinetic = 0.5 * (v[0] * v[0] + v[1] * v[1]);
+                    let potential = q[0].abs() + q[0].abs().powf(1.5) + 0.5 * (q[1] - q[0]) * (q[1] - q[0]);
+                    (kinetic - potential, 0.5 * c * (v[0] * v[0] + v[1] * v[1]))
+                }
+            }
+        };
+    }
+    kink!(expanded);
+    kink!(num_dual);
+}
+
+#[test]
+fn both_engines_take_trapezoidal_steps_from_singular_points() {
+    use dalembert::{State, Trapezoidal};
+    for (q, p) in [([0.0, 0.5], [0.3, -0.2]), ([0.0, 0.0], [-0.1, 0.0]), ([0.0, 0.0], [0.0, 1.0])] {
+        let start = State { q: q.into(), p: p.into() };
+        for h in [0.1, -0.02, 1e-3] {
+            let a = Discrete::<Trapezoidal, 2>::step(&kink::expanded::Kink { c: 0.3 }, &start, h, None);
+            let b = Discrete::<Trapezoidal, 2>::step(&kink::num_dual::Kink { c: 0.3 }, &start, h, None);
+            let (a, b) = (a.unwrap().state, b.unwrap().state);
+            assert!((a.q - b.q).amax() < 1e-15 && (a.p - b.p).amax() < 1e-15, "{start:?} {h}: {a:?} {b:?}");
+            // p = (1 + hc/2) v̄ + (h/2) V′(q0).
+            let pull = q[0] - q[1];
+            let slope = SVector::from([1.0_f64.copysign(q[0]) + pull, -pull]);
+            let v = (start.p - slope * (0.5 * h)) / (1.0 + 0.15 * h);
+            assert!((a.q - start.q - v * h).amax() < 1e-15, "{start:?} {h}");
+        }
+    }
 }

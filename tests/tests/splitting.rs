@@ -346,11 +346,11 @@ fn what_cannot_be_stepped_has_a_name_and_leaves_the_state() {
     fn hyperbolic(q: [f64; 2], v: [f64; 2], coupling: f64) -> f64 {
         0.5 * (v[0] * v[0] - 0.5 * v[1] * v[1]) + coupling * v[0] * v[1] - q[0] * q[0]
     }
-    for (coupling, index) in [(0.0, 1), (0.3, 0)] {
+    for coupling in [0.0, 0.3] {
         let system = Hyperbolic { coupling };
         let start = State { q: vector![0.1, 0.2], p: vector![0.3, 0.4] };
         let found = Splitting::blanes_moan_6().trajectory(&system, 0.1, start).next().unwrap();
-        assert_eq!(found, Err(of(Quantity::Derivatives, index)), "{coupling}");
+        assert_eq!(found, Err(StepError::MassNotPositiveDefinite { column: 1 }), "{coupling}");
     }
 
     // The square root of what has become negative.

@@ -180,3 +180,75 @@ fn explicit_euler_does_not_keep_the_symplectic_form() {
     let matrix = StepMatrix { a, t: DMatrix::identity(2, 2), q0: [q], q1: [q] };
     assert!(symplectic_defect(&matrix).amax() > 1e-2);
 }
+
+/// Thirty bodies on a line with a Lennard-Jones potential between each two: 435 pairs, written out.
+mod pairs {
+    use dalembert::nalgebra::SVector;
+    use dalembert::{Lagrangian, Midpoint, State, Trajectory, rayleigh_system};
+
+    struct Bodies {
+        m: f64,
+    }
+
+    #[rayleigh_system(derivatives = expanded, rule = midpoint)]
+    impl Bodies {
+        fn lagrangian(&self, q: [f64; 30], v: [f64; 30]) -> f64 {
+            let mut l = 0.0;
+            for i in 0..30 {
+                l += 0.5 * self.m * v[i] * v[i];
+                for j in 0..i {
+                    let s = 1.0 / (q[i] - q[j]).powi(6);
+                    l -= 4.0 * (s * s - s);
+                }
+            }
+            l
+        }
+    }
+
+    /// The force by hand, over the pairs up to `reach` bodies apart.
+    fn force(q: &SVector<f64, 30>, reach: usize) -> SVector<f64, 30> {
+        SVector::from_fn(|i, _| {
+            let others = (0..30).filter(|&j| j != i && i.abs_diff(j) <= reach);
+            others
+                .map(|j| {
+                    let r = q[i] - q[j];
+                    24.0 * (2.0 * r.powi(-12) - r.powi(-6)) / r
+                })
+                .sum()
+        })
+    }
+
+    #[test]
+    fn a_sum_over_435_pairs_steps_by_the_force_written_by_hand() {
+        let (system, h) = (Bodies { m: 1.7 }, 0.01);
+        let q = SVector::<f64, 30>::from_fn(|i, _| 1.15 * i as f64 + 0.05 * (2.0 * i as f64).sin());
+        let v = SVector::<f64, 30>::from_fn(|i, _| 0.3 * (1.3 * i as f64).cos());
+        let start = State::from_velocity(&system, q, v).unwrap();
+        let (mut own, mut without_far) = (0.0_f64, 0.0_f64);
+        let mut last = start;
+        for state in Trajectory::new(&system, Midpoint, h, start).take(50) {
+            let state = state.unwrap().state;
+            let (middle, change) = (0.5 * (last.q + state.q), state.p - last.p);
+            let largest = force(&middle, 29).amax();
+            own = own.max((change / h - force(&middle, 29)).amax() / largest);
+            without_far = without_far.max((change / h - force(&middle, 28)).amax() / largest);
+            let drift = (state.q - last.q) / h - 0.5 * (last.p + state.p) / system.m;
+            assert!(drift.amax() < 1e-11, "{drift}");
+            last = state;
+        }
+        assert!((last.q - start.q).amax() > 0.05);
+        assert!(own < 1e-10, "{own:e}");
+        // One pair of 435 fewer is seen, by far.
+        assert!(without_far > 10.0 * own, "{without_far:e} {own:e}");
+
+        // The Hessian by central differences of the force by hand.
+        let hessian = system.lagrangian_derivatives(&last.q, &v).d11;
+        let d = 1e-5;
+        for j in 0..30 {
+            let mut shift = SVector::<f64, 30>::zeros();
+            shift[j] = d;
+            let column = (force(&(last.q + shift), 29) - force(&(last.q - shift), 29)) / (2.0 * d);
+            assert!((hessian.column(j) - column).amax() < 1e-6 * hessian.amax(), "{j}");
+        }
+    }
+}

@@ -31,14 +31,15 @@ fn its_guess_saves_iterations() {
         .map(|step| step.unwrap().report.iterations)
         .sum();
     let mut state = start();
-    let from_rest: u32 = (0..200)
+    let from_velocity: u32 = (0..200)
         .map(|_| {
             let step = Discrete::<Midpoint, 2>::step(&DoublePendulum::EXAMPLE, &state, 0.02, None).unwrap();
             state = step.state;
             step.report.iterations
         })
         .sum();
-    assert!(2 * with_history < from_rest + 200, "{with_history} {from_rest}");
+    // Without one, a step starts at the velocity of its state.
+    assert!(5 * with_history < 4 * from_velocity, "{with_history} {from_velocity}");
 }
 
 /// Cubic drag, R = r v³/3: no real step beyond its fold.

@@ -10,7 +10,7 @@ mod dual {
 
 struct System { k: f64 }
 
-#[rayleigh_system]
+#[rayleigh_system(derivatives = num_dual)]
 impl System {
     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
         Real::G * q[0] + v[0] * dual::TWO * self.k

@@ -7,16 +7,13 @@ use dalembert::{
     Composition, Discrete, ForcedLagrangian, Gauss, Midpoint, Splitting, State, Trajectory, Trapezoidal,
 };
 use dalembert_examples::baseline::{self, Method};
-use dalembert_examples::picture::{Corner, Curve, Mark, Panel, RGBColor, colour};
+use dalembert_examples::picture::{Curve, Dash, Mark, Panel, colour, linear, logarithmic};
 use dalembert_tests::hard::{
     Arm, Effort, FERMI, Fermi, HenonHeiles, Kepler, MathewsLakshmanan, Progress, SpringPendulum,
     TwoPendulums, UniformField, drive, drive_composed,
 };
 
 use crate::page::Case;
-
-/// Third colour, of the trapezoidal rule.
-pub const TRAPEZOIDAL: RGBColor = RGBColor(204, 121, 167);
 
 /// Kahan and Li's composition of the midpoint rule.
 pub const ORDER_6: Composition<Midpoint, 9> = Composition::kahan_li_6(Midpoint);
@@ -68,14 +65,6 @@ pub fn outcome(effort: &Effort) -> String {
     }
 }
 
-fn logarithm(value: f64) -> f64 {
-    value.abs().max(1e-17).log10()
-}
-
-fn curve(label: &'static str, colour: RGBColor, width: u32, points: Vec<(f64, f64)>) -> Curve<'static> {
-    Curve { label, colour, mark: Mark::Line(width), points }
-}
-
 /// Energy and angular momentum on orbits that almost collide.
 pub fn kepler() -> Result<Case> {
     let free = Kepler { k: 0.0 };
@@ -118,7 +107,7 @@ pub fn kepler() -> Result<Case> {
             } else {
                 Kepler::angular_momentum(&at.state) / Kepler::angular_momentum(&start) - 1.0
             };
-            points.push((at.time / TAU, logarithm(error)));
+            points.push((at.time / TAU, error.abs()));
         });
         points
     };
@@ -133,26 +122,31 @@ pub fn kepler() -> Result<Case> {
                 } else {
                     Kepler::angular_momentum(&state) / Kepler::angular_momentum(&start) - 1.0
                 };
-                points.push(((k + 1) as f64 / 10_000.0, logarithm(error)));
+                points.push(((k + 1) as f64 / 10_000.0, error.abs()));
             }
         }
         Ok(points)
     };
     for (energy, title, y) in [
-        (true, "Energy error, e = 0.9, 10 000 steps an orbit", "log₁₀ |E − E₀|"),
-        (false, "Angular momentum error", "log₁₀ |J/J₀ − 1|"),
+        (
+            true,
+            "Energy error, e = 0.9, 10 000 steps an orbit",
+            logarithmic("|E − E₀| (dimensionless)").with_floor(1e-12).from_to(1e-12, 10.0),
+        ),
+        (
+            false,
+            "Angular momentum error: the midpoint rule's is rounding",
+            logarithmic("|J/J₀ − 1| (dimensionless)").with_floor(1e-18).from_to(1e-18, 10.0),
+        ),
     ] {
-        panels.push(Panel {
-            title,
-            x: "orbits",
-            y,
-            legend: Corner::LowerRight,
-            curves: vec![
-                curve("explicit Euler", colour::EULER, 2, other(energy, Method::Euler)?),
-                curve("Runge–Kutta 4", colour::RUNGE_KUTTA, 2, other(energy, Method::RungeKutta4)?),
-                curve("variational midpoint", colour::VARIATIONAL, 1, own(energy)),
-            ],
-        });
+        let curves = vec![
+            Curve::line("explicit Euler", colour::EULER, 2, other(energy, Method::Euler)?)
+                .dashed(Dash::DashDotted),
+            Curve::line("Runge–Kutta 4", colour::RUNGE_KUTTA, 2, other(energy, Method::RungeKutta4)?)
+                .dashed(Dash::Dashed),
+            Curve::line("variational midpoint", colour::VARIATIONAL, 2, own(energy)),
+        ];
+        panels.push(Panel::new(title, linear("time (orbits)"), y, curves));
     }
     Ok(Case {
         title: "Kepler orbits that almost collide",
@@ -175,14 +169,11 @@ pub fn double_pendulum() -> Result<Case> {
     let start = system.high_energy();
     let energy = start.energy(&system)?;
     let mut rows = Vec::new();
-    /// The largest error within each 10 000 steps, against thousands of steps.
+    /// The largest error within each 10 000 steps, against millions of steps.
     fn largest(errors: impl Iterator<Item = f64>) -> Vec<(f64, f64)> {
         let errors: Vec<f64> = errors.collect();
         let largest = errors.chunks(WINDOW).map(|chunk| chunk.iter().fold(0.0, |a: f64, b| a.max(b.abs())));
-        largest
-            .enumerate()
-            .map(|(k, error)| ((k as f64 + 0.5) * WINDOW as f64 / 1e3, logarithm(error)))
-            .collect()
+        largest.enumerate().map(|(k, error)| ((k as f64 + 0.5) * WINDOW as f64 / 1e6, error)).collect()
     }
     const WINDOW: usize = 10_000;
     fn run<R: Copy>(rule: R, h: f64) -> Vec<(f64, f64)>
@@ -216,20 +207,18 @@ pub fn double_pendulum() -> Result<Case> {
         .take(1_000_000)
         .map(|state| Ok(state?.energy(&system)? - energy))
         .collect::<Result<Vec<f64>>>()?;
-    let panels = vec![Panel {
-        title: "Energy error, h = 0.02: largest within 10 000 steps",
-        x: "thousands of steps",
-        y: "log₁₀ |E − 7|",
-        legend: Corner::LowerRight,
-        curves: vec![
-            // Room for the legend.
-            curve("", colour::REFERENCE, 1, vec![(0.0, -9.0)]),
-            curve("Runge–Kutta 4", colour::RUNGE_KUTTA, 2, largest(runge_kutta.into_iter())),
-            curve("trapezoidal", TRAPEZOIDAL, 2, run(Trapezoidal, h)),
-            curve("variational midpoint", colour::VARIATIONAL, 2, run(Midpoint, h)),
-            curve("Gauss, 3 stages", colour::EULER, 2, run(Gauss::<3>, h)),
+    let panels = vec![Panel::new(
+        "Energy error, h = 0.02: largest within each 10 000 steps",
+        linear("steps (millions)"),
+        logarithmic("|E − 7| (dimensionless)"),
+        vec![
+            Curve::line("Runge–Kutta 4", colour::RUNGE_KUTTA, 3, largest(runge_kutta.into_iter()))
+                .dashed(Dash::Dashed),
+            Curve::line("trapezoidal", colour::FOURTH, 3, run(Trapezoidal, h)).dashed(Dash::DashDotted),
+            Curve::line("variational midpoint", colour::VARIATIONAL, 3, run(Midpoint, h)),
+            Curve::line("Gauss, 3 stages", colour::EULER, 3, run(Gauss::<3>, h)).dashed(Dash::Dotted),
         ],
-    }];
+    )];
     Ok(Case {
         title: "Chaotic double pendulum at high energy, a million steps",
         breaks: "Neighbouring motions part by a factor of ten in four units of time; only the energy can be asked for. Methods that do not \
@@ -327,42 +316,41 @@ pub fn henon_heiles() -> Result<Case> {
         let effort = drive_composed(run, 1_000_000, |at| worst = worst.max(error(&at)));
         row("splitting, order 6", worst, &effort);
     }
-    let section = |energy: f64, starts: &[(f64, f64)], most: usize| {
+    let section = |energy: f64, (y, v_y): (f64, f64), most: usize| {
         let mut points = Vec::new();
-        for &(y, v_y) in starts {
-            let mut trajectory = Trajectory::new(&system, Midpoint, 0.02, HenonHeiles::start(energy, y, v_y));
-            let mut before = *trajectory.state();
-            let enough = points.len() + most;
-            while points.len() < enough {
-                let Some(Ok(step)) = trajectory.next() else { break };
-                let now: State<f64, 2> = step.state;
-                if before.q[0] < 0.0 && now.q[0] >= 0.0 {
-                    let share = before.q[0] / (before.q[0] - now.q[0]);
-                    let between = |a: f64, b: f64| a + share * (b - a);
-                    points.push((between(before.q[1], now.q[1]), between(before.p[1], now.p[1])));
-                }
-                before = now;
+        let mut trajectory = Trajectory::new(&system, Midpoint, 0.02, HenonHeiles::start(energy, y, v_y));
+        let mut before = *trajectory.state();
+        while points.len() < most {
+            let Some(Ok(step)) = trajectory.next() else { break };
+            let now: State<f64, 2> = step.state;
+            if before.q[0] < 0.0 && now.q[0] >= 0.0 {
+                let share = before.q[0] / (before.q[0] - now.q[0]);
+                let between = |a: f64, b: f64| a + share * (b - a);
+                points.push((between(before.q[1], now.q[1]), between(before.p[1], now.p[1])));
             }
+            before = now;
         }
         points
     };
-    let panel = |title, points| Panel {
-        title,
-        x: "y",
-        y: "p_y",
-        legend: Corner::UpperRight,
-        curves: vec![Curve { label: "", colour: colour::VARIATIONAL, mark: Mark::Dot, points }],
-    };
+    let panel =
+        |title, curves| Panel::new(title, linear("y (dimensionless)"), linear("p_y (dimensionless)"), curves);
+    let orbits = [
+        ("from (0.05, 0)", (0.05, 0.0), colour::REFERENCE, Mark::Circle),
+        ("(0.15, 0)", (0.15, 0.0), colour::VARIATIONAL, Mark::Disc),
+        ("(0.2, 0)", (0.2, 0.0), colour::RUNGE_KUTTA, Mark::Triangle),
+        ("(−0.1, 0.1)", (-0.1, 0.1), colour::FOURTH, Mark::Cross),
+        ("(−0.2, 0.2)", (-0.2, 0.2), colour::FIFTH, Mark::Disc),
+        ("(0, 0.3)", (0.0, 0.3), colour::EULER, Mark::Square),
+    ];
+    let ordered = orbits
+        .map(|(name, start, colour, mark)| Curve::marks(name, colour, mark, section(1.0 / 12.0, start, 120)));
+    let one = section(1.0 / 6.0, (-0.1, 0.1), 1_200);
     let panels = vec![
+        panel("Section x = 0, E = 1/12: six orbits in order", ordered.to_vec()),
         panel(
-            "Section x = 0, E = 1/12: order",
-            section(
-                1.0 / 12.0,
-                &[(0.05, 0.0), (0.15, 0.0), (0.25, 0.0), (0.35, 0.0), (-0.1, 0.1), (-0.2, 0.2), (0.0, 0.3)],
-                180,
-            ),
+            "Section x = 0, E = 1/6: one orbit, chaos",
+            vec![Curve::marks("from (−0.1, 0.1)", colour::VARIATIONAL, Mark::Dot, one)],
         ),
-        panel("Section x = 0, E = 1/6, one orbit: chaos", section(1.0 / 6.0, &[(-0.1, 0.1)], 1_200)),
     ];
     Ok(Case {
         title: "Hénon–Heiles at the energy of escape",
@@ -439,38 +427,36 @@ pub fn fermi() -> Result<Case> {
         let points = |rows: &[[f64; FERMI]], j: usize| {
             rows.iter().enumerate().map(|(k, row)| (k as f64 + 0.5, row[j])).collect::<Vec<_>>()
         };
-        // Room for the legend.
-        let mut curves = vec![curve("", colour::REFERENCE, 1, vec![(100.0, 1.2)])];
-        for j in 0..FERMI {
-            curves.push(curve(
-                if j == 0 { "I₁, I₂, I₃, Dormand–Prince" } else { "" },
-                colour::REFERENCE,
-                3,
-                points(&exact, j),
-            ));
-            curves.push(curve(
-                if j == 0 { "variational midpoint" } else { "" },
-                colour::VARIATIONAL,
-                1,
-                points(&own, j),
-            ));
+        let looks = [
+            (["I₁, accurate", "I₂, accurate", "I₃, accurate"], Dash::Solid, 2),
+            (["I₁, midpoint", "I₂, midpoint", "I₃, midpoint"], Dash::Dashed, 3),
+        ];
+        let colours = [colour::REFERENCE, colour::RUNGE_KUTTA, colour::VARIATIONAL];
+        let mut curves = Vec::new();
+        for ((labels, dash, width), rows) in looks.into_iter().zip([&exact, &own]) {
+            for (j, (label, colour)) in labels.into_iter().zip(colours).enumerate() {
+                curves.push(Curve::line(label, colour, width, points(rows, j)).dashed(dash));
+            }
         }
-        Panel {
+        Panel::new(
             title,
-            x: "time t",
-            y: "stiff energies, mean over one unit of time",
-            legend: Corner::UpperRight,
+            linear("time t (dimensionless)"),
+            linear("energy of each stiff spring (dimensionless)"),
             curves,
-        }
+        )
     };
-    let panels = vec![panel("h = 0.005, ωh = 0.25", run(0.005)?), panel("h = 0.03, ωh = 1.5", run(0.03)?)];
+    let panels = vec![
+        panel("h = 0.005, ωh = 0.25: the exchange is right", run(0.005)?),
+        panel("h = 0.03, ωh = 1.5: at another pace", run(0.03)?),
+    ];
     Ok(Case {
         title: "The chain of Fermi, Pasta, Ulam and Tsingou, ω = 50",
         breaks: "The stiff springs hand energy on to each other over hundreds of their periods, driven by terms 1/ω of the rest: a method can \
                  keep the energy and hand it on wrongly. Its start has coordinates at rest without a force, whose residual has no scale.",
         ours: "Total energy and the sum of the stiff energies stay over 1e5 periods, by every method. The midpoint rule's exchange is right, to order 2, for ωh ≪ 1; at \
                ωh = 1.5 the midpoint rule hands energy on at another pace (E. Hairer, C. Lubich and G. Wanner, chapter XIII): with a step \
-               beyond the stiff period the sum is to be trusted, the single energies are not.",
+               beyond the stiff period the sum is to be trusted, the single energies are not. The picture shows I₁, I₂, I₃, the energies of the three stiff \
+               springs, as means over one unit of time; accurate: Dormand and Prince's method of order 8 to 1e-12.",
         head: &[
             "h",
             "ωh",

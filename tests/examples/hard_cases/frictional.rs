@@ -7,7 +7,7 @@ use dalembert::nalgebra::vector;
 use dalembert::{
     Discrete, Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, State, Trajectory, Trapezoidal,
 };
-use dalembert_examples::picture::{Corner, Curve, Mark, Panel, colour};
+use dalembert_examples::picture::{Curve, Dash, Mark, Panel, colour, linear};
 use dalembert_tests::hard::{Block, CubicDrag, DampedMass, Effort, Kepler, Progress, drive, drive_composed};
 
 use crate::conservative::{ORDER_6, SPLITTING_6, outcome};
@@ -47,14 +47,14 @@ pub fn overdamped() -> Result<Case> {
         let exact = (0..=400).map(|k| f64::from(k) * 0.05).map(|t| (t, (-ratio * t).exp())).collect();
         let points =
             |momenta: Vec<f64>| momenta.into_iter().enumerate().map(|(k, p)| (k as f64, p)).collect();
-        let curve = |label, colour, mark, points| Curve { label, colour, mark, points };
+        let marks = Curve::marks;
         let curves = vec![
-            curve("exact", colour::REFERENCE, Mark::Line(3), exact),
-            curve("midpoint", colour::VARIATIONAL, Mark::Disc, points(decay(Midpoint, ratio, 20)?)),
-            curve("fitted", colour::RUNGE_KUTTA, Mark::Circle, points(decay(Fitted, ratio, 20)?)),
-            curve("one-sided", colour::EULER, Mark::Triangle, points(decay(OneSided, ratio, 20)?)),
+            Curve::line("exact", colour::REFERENCE, 2, exact),
+            marks("midpoint", colour::VARIATIONAL, Mark::Disc, points(decay(Midpoint, ratio, 20)?)),
+            marks("fitted", colour::RUNGE_KUTTA, Mark::Circle, points(decay(Fitted, ratio, 20)?)),
+            marks("one-sided", colour::EULER, Mark::Triangle, points(decay(OneSided, ratio, 20)?)),
         ];
-        Ok(Panel { title, x: "steps", y: "p/p₀", legend: Corner::UpperRight, curves })
+        Ok(Panel::new(title, linear("steps"), linear("p/p₀ (dimensionless)"), curves))
     };
     Ok(Case {
         title: "Overdamped and stiffly damped motion",
@@ -74,7 +74,10 @@ pub fn overdamped() -> Result<Case> {
             "one-sided",
         ],
         rows,
-        panels: vec![panel("hr/m = 0.5", 0.5)?, panel("hr/m = 20: the midpoint rule rings", 20.0)?],
+        panels: vec![
+            panel("hr/m = 0.5: all decay", 0.5)?,
+            panel("hr/m = 20: the midpoint rule rings", 20.0)?,
+        ],
         test: "damping.rs",
     })
 }
@@ -137,10 +140,10 @@ pub fn stick_slip() -> Result<Case> {
     let (k, mu, u, h) = (1.0, 1.0, 0.1, 1e-2);
     let mut rows = Vec::new();
     let mut curves = Vec::new();
-    for (label, epsilon, colour, width) in [
-        ("ε = 1e-1", 1e-1, colour::RUNGE_KUTTA, 2),
-        ("ε = 1e-2", 1e-2, colour::EULER, 2),
-        ("ε = 1e-6", 1e-6, colour::VARIATIONAL, 2),
+    for (label, epsilon, colour, dash) in [
+        ("ε = 10⁻¹", 1e-1, colour::RUNGE_KUTTA, Dash::Dotted),
+        ("ε = 10⁻²", 1e-2, colour::EULER, Dash::Dashed),
+        ("ε = 10⁻⁶", 1e-6, colour::VARIATIONAL, Dash::Solid),
     ] {
         let system = Block { k, mu, u, epsilon };
         let start = State { q: vector![0.0], p: vector![-u] };
@@ -165,7 +168,7 @@ pub fn stick_slip() -> Result<Case> {
             format!("{:.2}, at most {most}", f64::from(iterations) / 4_000.0),
             format!("{damped}"),
         ]);
-        curves.push(Curve { label, colour, mark: Mark::Line(width), points });
+        curves.push(Curve::line(label, colour, 3, points).dashed(dash));
     }
     Ok(Case {
         title: "Dry friction, regularised: stick and slip",
@@ -173,16 +176,15 @@ pub fn stick_slip() -> Result<Case> {
                  explicit methods need h < 2ε/μ.",
         ours: "One or two iterations a step at every ε; damping of the Newton step catches the jump when the block starts to slip. With ε → 0: \
                slip at t = μ/(ku) = 10, half the speed u after another π/3, and the lowest point −μ/k − u = −1.1. Written as ln cosh the \
-               friction overflows, and written as x + ln(1 + e^{−2x}) it loses its digits at rest: both have a name.",
+               friction overflows, and written as x + ln(1 + e^{−2x}) it loses its digits at rest: both return a named `StepError`.",
         head: &["ε", "hμ/ε", "slips at", "lowest q", "Newton iterations a step", "shortened"],
         rows,
-        panels: vec![Panel {
-            title: "A block on a spring, the floor moves",
-            x: "time t",
-            y: "q",
-            legend: Corner::UpperRight,
+        panels: vec![Panel::new(
+            "A block on a spring, the floor moves: −μ tanh(v/ε)",
+            linear("time t (dimensionless)"),
+            linear("place of the block q (dimensionless)"),
             curves,
-        }],
+        )],
         test: "damping.rs",
     })
 }
@@ -219,19 +221,9 @@ pub fn fold() -> Result<Case> {
             .collect()
     };
     let curves = vec![
-        Curve {
-            label: "root of the flow",
-            colour: colour::REFERENCE,
-            mark: Mark::Line(3),
-            points: branch(1.0),
-        },
-        Curve { label: "other root", colour: colour::RUNGE_KUTTA, mark: Mark::Line(2), points: branch(-1.0) },
-        Curve {
-            label: "found",
-            colour: colour::VARIATIONAL,
-            mark: Mark::Disc,
-            points: found.into_iter().step_by(10).collect(),
-        },
+        Curve::line("root of the flow", colour::REFERENCE, 3, branch(1.0)),
+        Curve::line("other root", colour::RUNGE_KUTTA, 3, branch(-1.0)).dashed(Dash::Dashed),
+        Curve::marks("found", colour::VARIATIONAL, Mark::Disc, found.into_iter().step_by(10).collect()),
     ];
     Ok(Case {
         title: "Cubic drag past its fold",
@@ -241,13 +233,12 @@ pub fn fold() -> Result<Case> {
                untouched, and a smaller step passes.",
         head: &["p, in units of the fold's", "exact v̄", "found"],
         rows,
-        panels: vec![Panel {
-            title: "Roots v̄ of p = m v̄ + (h/2) r v̄²",
-            x: "momentum p",
-            y: "mean velocity v̄",
-            legend: Corner::UpperLeft,
+        panels: vec![Panel::new(
+            "Roots v̄ of p = m v̄ + (h/2) r v̄²: none left of the fold",
+            linear("momentum p (dimensionless)"),
+            linear("mean velocity v̄ (dimensionless)"),
             curves,
-        }],
+        )],
         test: "damping.rs",
     })
 }

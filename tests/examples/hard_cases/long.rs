@@ -3,11 +3,10 @@
 use anyhow::Result;
 use dalembert::nalgebra::vector;
 use dalembert::{Discrete, Gauss, Midpoint, State, Trajectory, Trapezoidal};
-use dalembert_examples::picture::{Corner, Curve, Mark, Panel, colour};
+use dalembert_examples::picture::{Curve, Dash, Mark, Panel, colour, logarithmic};
 use dalembert_tests::hard::Oscillator;
 use dalembert_tests::systems::FreePendulum;
 
-use crate::conservative::TRAPEZOIDAL;
 use crate::page::Case;
 
 const M: f64 = 1.3;
@@ -55,18 +54,22 @@ pub fn rounding() -> Result<Case> {
     let mut rows = Vec::new();
     let mut curves = Vec::new();
     let all = [
-        ("midpoint", colour::VARIATIONAL, walks(Midpoint, 1.0, false)?),
-        ("trapezoidal", TRAPEZOIDAL, walks(Trapezoidal, 1.0 - H * H * K / (4.0 * M), false)?),
-        ("Gauss, 2 stages", colour::EULER, walks(Gauss::<2>, 1.0, false)?),
-        ("Gauss, 2 stages, single steps", colour::RUNGE_KUTTA, walks(Gauss::<2>, 1.0, true)?),
+        ("midpoint", (colour::VARIATIONAL, Mark::Disc), walks(Midpoint, 1.0, false)?),
+        (
+            "trapezoidal",
+            (colour::FOURTH, Mark::Square),
+            walks(Trapezoidal, 1.0 - H * H * K / (4.0 * M), false)?,
+        ),
+        ("Gauss, 2 stages", (colour::EULER, Mark::Triangle), walks(Gauss::<2>, 1.0, false)?),
+        ("Gauss, 2 stages, single steps", (colour::RUNGE_KUTTA, Mark::Cross), walks(Gauss::<2>, 1.0, true)?),
     ];
     let share = STARTS as f64;
-    for (name, colour, walks) in &all {
+    for (name, (colour, mark), walks) in &all {
         let mut points = Vec::new();
         for (index, count) in COUNTS.iter().enumerate() {
             let mean = walks.iter().map(|walk| walk[index]).sum::<f64>() / share;
             let rms = (walks.iter().map(|walk| walk[index].powi(2)).sum::<f64>() / share).sqrt();
-            points.push(((*count as f64).log10(), rms.log10()));
+            points.push((*count as f64, rms));
             rows.push(vec![
                 (*name).to_owned(),
                 format!("{:.0e}", *count as f64),
@@ -75,16 +78,10 @@ pub fn rounding() -> Result<Case> {
                 format!("{:.2}", rms / f64::EPSILON / (*count as f64).sqrt()),
             ]);
         }
-        curves.push(Curve { label: name, colour: *colour, mark: Mark::Disc, points });
+        curves.push(Curve::line(name, *colour, 2, points).marked(*mark, 1));
     }
-    let law = |slope: f64| {
-        COUNTS
-            .iter()
-            .map(|count| (*count as f64).log10())
-            .map(|n| (n, slope * n + f64::EPSILON.log10()))
-            .collect()
-    };
-    curves.push(Curve { label: "ε √n", colour: colour::REFERENCE, mark: Mark::Line(2), points: law(0.5) });
+    let law = COUNTS.iter().map(|count| *count as f64).map(|n| (n, f64::EPSILON * n.sqrt())).collect();
+    curves.push(Curve::line("ε √n", colour::REFERENCE, 2, law).dashed(Dash::Dashed));
     Ok(Case {
         title: "Round-off over tens of millions of steps",
         breaks: "Errors of the last place add up: at best like a random walk, √n (D. Brouwer, 1937), at worst, with a bias, like n. The \
@@ -96,13 +93,12 @@ pub fn rounding() -> Result<Case> {
                steps, which cannot. For the other rules compensated summation was measured, with an earlier solver, to move the mean by some 1e-12 either way over 1e7 steps; it is not used.",
         head: &["rule", "steps n", "rms error", "mean error", "rms/(ε√n)"],
         rows,
-        panels: vec![Panel {
-            title: "Relative energy error, harmonic oscillator, h = 0.1",
-            x: "log₁₀ of the number of steps",
-            y: "log₁₀ of the rms error",
-            legend: Corner::LowerRight,
+        panels: vec![Panel::new(
+            "Relative energy error, harmonic oscillator, h = 0.1",
+            logarithmic("number of steps n"),
+            logarithmic("rms error (dimensionless)"),
             curves,
-        }],
+        )],
         test: "rounding.rs",
     })
 }

@@ -1,17 +1,19 @@
 //! The long versions of the hard cases: writes `docs/hard-cases.md` and its pictures.
 //!
 //! ```text
-//! cargo run --release -p dalembert-tests --example hard_cases [case…]
+//! cargo run --release -p dalembert-tests --example hard_cases [text | case…]
 //! ```
 //!
-//! With names of cases it runs these, prints what they found and writes their pictures, but leaves the page as it is.
+//! With names of cases it runs these, prints what they found and draws their pictures in `target/hard-cases/`: the page and its pictures are of
+//! one run. With `text` it runs none and writes the page's text without figures anew.
 
 mod conservative;
 mod frictional;
 mod long;
 mod page;
+mod text;
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use page::Case;
 
 /// Name on the command line, and what makes the case.
@@ -35,13 +37,22 @@ const CASES: [Entry; 13] = [
 
 fn main() -> Result<()> {
     let wanted: Vec<String> = std::env::args().skip(1).collect();
+    if wanted == ["text"] {
+        println!("{}", page::write_text()?.display());
+        return Ok(());
+    }
+    for name in &wanted {
+        let names = CASES.map(|(name, _)| name).join(", ");
+        ensure!(CASES.iter().any(|(case, _)| case == name), "there is no case {name:?}; there are {names}");
+    }
     let mut cases = Vec::new();
     for (name, run) in CASES {
         if wanted.is_empty() || wanted.iter().any(|wanted| wanted == name) {
             let case = run()?;
             println!("{}", case.text(name));
-            // Written at once: a run that breaks off loses no picture that it has made.
-            case.draw(name)?;
+            if !wanted.is_empty() {
+                case.draw(name, &page::documents().with_file_name("target").join("hard-cases"))?;
+            }
             cases.push((name, case));
         }
     }

@@ -1,11 +1,14 @@
 //! The page: one section a case, its pictures beside it.
 
 use std::fmt::Write as _;
+use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use dalembert_examples::picture::{self, Panel};
 use dalembert_examples::results;
+
+use crate::text;
 
 /// One hard case, as it went.
 pub struct Case {
@@ -26,7 +29,7 @@ pub struct Case {
 }
 
 /// Folder of the repository's documents.
-fn documents() -> PathBuf {
+pub fn documents() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("docs")
 }
 
@@ -48,51 +51,50 @@ impl Case {
         text
     }
 
-    /// Writes the picture.
-    pub fn draw(&self, name: &str) -> Result<()> {
+    /// Writes the picture to `folder`.
+    pub fn draw(&self, name: &str, folder: &Path) -> Result<()> {
         if self.panels.is_empty() {
             return Ok(());
         }
         let columns = self.panels.len().min(2);
         let rows = self.panels.len().div_ceil(columns);
-        let svg = picture::svg([800 * columns as u32, 550 * rows as u32], columns, &self.panels)?;
-        results::save(&documents().join("hard-cases").join(name).with_extension("svg"), &svg)
+        let svg = picture::svg([800 * columns as u32, 600 * rows as u32], columns, &self.panels)?;
+        results::save(&folder.join(name).with_extension("svg"), &svg)
     }
 }
 
-/// Writes the page of all cases.
+const HEAD: &str = "# Hard cases\n\n\
+     What the rules do where codes break. All figures and pictures are of one run, of the code as it was then, by\n\n\
+     ```sh\ncargo run --release -p dalembert-tests --example hard_cases\n```\n\n\
+     It takes some minutes of one core. With `text` at its end the command writes anew what follows the figures, from \"Also tested\" on, and\n\
+     leaves these as they are; with names of cases it prints what they find and leaves the page alone.\n\n\
+     Each case has a quick version among the tests. All quantities are dimensionless. A step that cannot be taken returns a named\n\
+     `StepError` and leaves the last good state; the tables say which error, and where.\n\n";
+
+/// Writes the page of all cases, and their pictures.
 pub fn write(cases: &[(&str, Case)]) -> Result<PathBuf> {
-    let mut text = String::from(
-        "# Hard cases\n\n\
-         What the rules do where codes break: figures from long runs, written by\n\n\
-         ```sh\ncargo run --release -p dalembert-tests --example hard_cases\n```\n\n\
-         Each case has a quick version among the tests. All quantities are dimensionless. A step that cannot be taken has an error\n\
-         with a name, and leaves the last good state; the tables give it where it happened.\n\n",
-    );
+    let mut page = String::from(HEAD);
     for (name, case) in cases {
-        text += &case.text(name);
-        text.push('\n');
+        page += &case.text(name);
+        page.push('\n');
+        case.draw(name, &documents().join("hard-cases"))?;
     }
-    text += OTHERS;
-    text += ADVERSARIAL;
+    page += &text::without_figures();
+    save(&page)
+}
+
+/// Writes the page with the figures that it has.
+pub fn write_text() -> Result<PathBuf> {
     let path = documents().join("hard-cases.md");
-    results::save(&path, &text)?;
+    let page = fs::read_to_string(&path).with_context(|| path.display().to_string())?;
+    let figures = page.split_once("\n## ").and_then(|(_, rest)| rest.split_once(text::FIRST_HEADING));
+    let (figures, _) =
+        figures.with_context(|| format!("{} has no figures: run all cases", path.display()))?;
+    save(&format!("{HEAD}## {figures}{}", text::without_figures()))
+}
+
+fn save(page: &str) -> Result<PathBuf> {
+    let path = documents().join("hard-cases.md");
+    results::save(&path, page)?;
     Ok(path)
 }
-
-/// What random and broken input does, and what faults do: from runs of their own.
-const ADVERSARIAL: &str = include_str!("adversarial.md");
-
-/// What has tests alone, with nothing to plot.
-const OTHERS: &str = "## Also tested\n\n\
-| case | what happens | test |\n\
-| --- | --- | --- |\n\
-| negative damping, z = hr/2m → −1 | grows by (1 + z)/(1 − z); at z = 1 `SingularNewtonMatrix`; past it the root exists and has the wrong sign: choose h < 2m/\\|r\\| | `damping.rs` |\n\
-| damping of both signs (van der Pol, μ = 1, 50) | period and amplitude of the cycle to order 2 | `damping.rs` |\n\
-| friction written carelessly: `cosh` overflows, 1 − 1 cancels | `NonFinite` of a derivative; `LostPrecision` | `damping.rs` |\n\
-| ∂²L/∂v² singular, L linear in v | `DegenerateLagrangian` with its coordinate, at the first step | `singular.rs` |\n\
-| \\|q\\|, \\|q\\|^{3/2}, √\\|q\\|, drag \\|v\\|^{3/2} at 0 | `NonFinite` exactly where no derivative exists, roots next to it | `singular.rs` |\n\
-| coordinates in units of 2^{∓40} | the same motion to rounding, the same iterations | `scales.rs` |\n\
-| h from ±1e-12 to ±1e12 | a step or an error; without friction −h leads back to rounding | `scales.rs` |\n\
-| NaN, ±∞, subnormal and huge values in every argument | an error that names the argument, or a finite step | `scales.rs` |\n\
-| a user function that panics, at any call | the trajectory holds its last state and goes on bit for bit | `faults.rs` |\n";

@@ -25,7 +25,7 @@ impl Chain {
     pub const EXAMPLE: Self = Self { m: 0.6, alpha: 1.7, r: 0.2 };
 }
 
-#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss], derivatives = num_dual)]
 impl Chain {
     fn spring(&self, stretch: f64) -> f64 {
         0.5 * stretch.powi(2) + 0.25 * self.alpha * stretch.powi(4)

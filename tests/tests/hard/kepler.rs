@@ -64,9 +64,9 @@ fn energy_is_of_order_two_once_the_near_side_is_resolved() {
 }
 
 /// At e = 0.999 a thousandth of the period jumps over the near side: the midpoint step there has no real solution, or leads to an
-/// orbit that is not bound; the former has a name, and a shorter step passes.
+/// orbit that is not bound; the former is a named error, and a shorter step passes.
 #[test]
-fn a_step_over_the_collision_has_a_name_and_shorter_ones_pass() {
+fn a_step_over_the_collision_is_a_named_error_and_shorter_ones_pass() {
     let h = TAU / 1000.0;
     let start = Kepler::aphelion(0.999);
     let mut trajectory = Trajectory::new(&FREE, Midpoint, h, start);

@@ -90,7 +90,7 @@ fn and_with_friction_while_digits_last() {
     assert!(start.energy(&system).unwrap() - end.energy(&system).unwrap() > 1e-2);
 }
 
-/// From h = 1e-12 up, each step is solved or has a name; up to its stability limit the trapezoidal rule keeps a bounded energy.
+/// From h = 1e-12 up, each step is solved or returns a named `StepError`; up to its stability limit the trapezoidal rule keeps a bounded energy.
 #[test]
 fn steps_of_every_size() {
     let system = TwoPendulums { r: 0.01 };

@@ -4,15 +4,20 @@
 //! must equal that of the plain one bit by bit, first derivatives must agree with difference quotients of the plain
 //! function, second derivatives with difference quotients of the first ones.
 
+#![allow(deprecated, reason = "some cases are left to dual numbers, which is warned of")]
+
 mod constants;
 mod control_flow;
 mod differentiable;
+mod enums;
 mod fields;
 mod forms;
 mod methods;
 mod names;
 mod quiet;
+mod semantics;
 mod statements;
+mod three_engines;
 
 use dalembert::nalgebra::SVector;
 use dalembert::{Derivatives, Gradient};

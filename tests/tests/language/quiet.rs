@@ -1,4 +1,4 @@
-//! What the macro generates warns of nothing: this module denies all warnings, those of clippy that hold by default, and
+//! What the macro generates warns of nothing: this module denies all warnings, those of clippy, pedantic and nursery among them, and
 //! rustc's stricter ones.
 //!
 //! The systems are private and hardly used, so that generated code that nothing calls would be dead code. Public ones, which
@@ -8,7 +8,7 @@
 #![deny(unused_qualifications, unused_lifetimes, single_use_lifetimes, trivial_casts)]
 #![deny(trivial_numeric_casts, let_underscore_drop, missing_copy_implementations, redundant_imports)]
 #![deny(elided_lifetimes_in_paths, explicit_outlives_requirements, unit_bindings, variant_size_differences)]
-#![deny(clippy::all)]
+#![deny(clippy::all, clippy::pedantic, clippy::nursery)]
 
 use dalembert::rayleigh_system;
 use dalembert_tests::documented;
@@ -20,7 +20,7 @@ struct Private {
     n: usize,
 }
 
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
+#[rayleigh_system(rule = [midpoint, trapezoidal], derivatives = num_dual)]
 impl Private {
     const G: f64 = 9.81;
     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
@@ -33,6 +33,7 @@ impl Private {
     fn rayleigh(&self, _q: [f64; 2], v: [f64; 2]) -> f64 {
         self.k * v[0] * v[0]
     }
+    #[allow(clippy::unused_self, reason = "forces take the system")]
     fn force(&self, q: [f64; 2], _: [f64; 2]) -> [f64; 2] {
         [Self::quiet(q[0], 1), q[1]]
     }
@@ -42,13 +43,14 @@ impl Private {
     const fn unrelated(self) -> usize {
         self.n
     }
+    #[allow(clippy::missing_const_for_fn, reason = "differentiated functions are not `const`")]
     #[expect(unused_variables, reason = "lint levels follow the body")]
     fn quiet(x: f64, n: usize) -> f64 {
         x
     }
 }
 
-#[rayleigh_system]
+#[rayleigh_system(derivatives = num_dual)]
 fn private_function(q: [f64; 1], v: [f64; 1], m: f64, n: i32) -> (f64, f64) {
     (m * v[0] * v[0] - q[0].powi(n), v[0] * v[0])
 }
@@ -59,6 +61,7 @@ fn lagrangian_alone(q: [f64; 1], v: [f64; 1]) -> f64 {
 }
 
 #[test]
+#[allow(clippy::float_cmp, clippy::suboptimal_flops, reason = "exact values, as written")]
 fn systems_that_warn_of_nothing_work() {
     use dalembert::{Discrete, Lagrangian, Midpoint, nalgebra::vector};
     let private = Private { k: 1.0, n: 2 };

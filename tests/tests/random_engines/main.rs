@@ -15,6 +15,10 @@ use generator::COEFFICIENTS;
 
 include!("systems.rs");
 
+mod many_coordinates;
+mod values;
+mod verification;
+
 /// Derivatives written out.
 #[allow(unused, clippy::all, reason = "random text")]
 mod expanded {

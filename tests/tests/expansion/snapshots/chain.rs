@@ -12,6 +12,14 @@ impl Chain {
         0.5 * square + 0.25 * beta * square * square
     }
 }
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{
@@ -122,6 +130,14 @@ const _: () = {
                 ]),
             }
         }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> Result<(), ::dalembert::StepError> {
+            ::dalembert::verification::lagrangian(self, q, v)?;
+            Ok(())
+        }
     }
     #[automatically_derived]
     impl Discrete<Midpoint, 4> for Chain {
@@ -231,6 +247,14 @@ const _: () = {
         /// E_L on the segment.
         fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::segment_energy(self, q0, q1, h)
+        }
+        fn verify_segment(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+        ) -> Result<(), ::dalembert::StepError> {
+            Midpoint::verify_segment(self, q0, v, h)
         }
     }
 };

@@ -14,6 +14,14 @@ impl DoublePendulum {
         0.5 * self.c[0] * v[0] * v[0] + 0.5 * self.c[1] * relative * relative
     }
 }
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{
@@ -103,6 +111,15 @@ const _: () = {
                 d12: SMatrix::from([[-t14, t14], [-t15, t15]]),
                 d22: SMatrix::from([[t18, t6], [t6, t17]]),
             }
+        }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> Result<(), ::dalembert::StepError> {
+            ::dalembert::verification::lagrangian(self, q, v)?;
+            ::dalembert::verification::rayleigh(self, q, v)?;
+            Ok(())
         }
     }
     #[automatically_derived]
@@ -255,6 +272,14 @@ const _: () = {
         /// E_L on the segment.
         fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::segment_energy(self, q0, q1, h)
+        }
+        fn verify_segment(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+        ) -> Result<(), ::dalembert::StepError> {
+            Midpoint::verify_segment(self, q0, v, h)
         }
     }
     #[automatically_derived]

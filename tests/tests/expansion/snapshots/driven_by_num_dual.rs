@@ -1,12 +1,15 @@
 impl Arm {
+    #[allow(clippy::used_underscore_binding)]
     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
         use ::dalembert::dual;
         dual::lower(self.lagrangian_over::<f64>(dual::lift(q), dual::lift(v)))
     }
+    #[allow(clippy::used_underscore_binding)]
     fn rayleigh(&self, v: [f64; 1]) -> f64 {
         use ::dalembert::dual;
         dual::lower(self.rayleigh_over::<f64>(dual::lift(v)))
     }
+    #[allow(clippy::used_underscore_binding)]
     fn force(&self, q: [f64; 1], _v: [f64; 1], u: [f64; 1], t: f64) -> [f64; 1] {
         use ::dalembert::dual;
         dual::lower(
@@ -17,6 +20,10 @@ impl Arm {
         )
     }
 }
+const _: () = ::core::assert!(
+    1 <= 32,
+    "with more than 32 coordinates dual numbers can overflow the stack of a thread; have the derivatives written out: `derivatives = expanded` says what stands in the way"
+);
 /// [`Arm`] with its input held over a step that starts at a given time; see [`Arm::driven`].
 #[derive(Clone, Copy)]
 #[allow(dead_code)]
@@ -30,18 +37,15 @@ impl Arm {
     /// The system with the input `u` held over the step that starts at time `t`.
     #[inline]
     #[must_use]
-    pub fn driven(
-        &self,
-        u: impl ::core::convert::Into<[f64; 1]>,
-        t: f64,
-    ) -> DrivenArm<'_> {
+    pub fn driven(&self, u: impl ::dalembert::Input<f64, 1>, t: f64) -> DrivenArm<'_> {
         DrivenArm {
             system: self,
-            u: u.into(),
+            u: ::dalembert::Input::entries(u),
             t,
         }
     }
 }
+#[allow(clippy::pedantic, clippy::nursery)]
 const _: () = {
     use ::dalembert::dual::{self, Dual, Real};
     #[allow(dead_code)]
@@ -76,6 +80,14 @@ const _: () = {
         }
     }
 };
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{

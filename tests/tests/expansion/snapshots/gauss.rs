@@ -17,6 +17,14 @@ impl Cart {
         [self.a.powf(q[0]), 0.0]
     }
 }
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{
@@ -90,6 +98,16 @@ const _: () = {
                 ]),
                 d22: SMatrix::from([[m, reach], [reach, l_squared]]),
             }
+        }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> Result<(), ::dalembert::StepError> {
+            ::dalembert::verification::lagrangian(self, q, v)?;
+            ::dalembert::verification::rayleigh(self, q, v)?;
+            ::dalembert::verification::force(self, q, v)?;
+            Ok(())
         }
     }
     #[automatically_derived]

@@ -13,6 +13,14 @@ pub struct Oscillator {
     /// Parameter `r` of [`oscillator`].
     pub r: f64,
 }
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{
@@ -69,6 +77,15 @@ const _: () = {
                 d12: SMatrix::from([[0.0]]),
                 d22: SMatrix::from([[m]]),
             }
+        }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> Result<(), ::dalembert::StepError> {
+            ::dalembert::verification::lagrangian(self, q, v)?;
+            ::dalembert::verification::rayleigh(self, q, v)?;
+            Ok(())
         }
     }
     #[automatically_derived]
@@ -164,6 +181,14 @@ const _: () = {
         fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::segment_energy(self, q0, q1, h)
         }
+        fn verify_segment(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+        ) -> Result<(), ::dalembert::StepError> {
+            Midpoint::verify_segment(self, q0, v, h)
+        }
     }
     #[automatically_derived]
     impl Discrete<Trapezoidal, 1> for Oscillator {
@@ -227,6 +252,14 @@ const _: () = {
         /// E_L on the segment.
         fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Trapezoidal::segment_energy(self, q0, q1, h)
+        }
+        fn verify_segment(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+        ) -> Result<(), ::dalembert::StepError> {
+            Trapezoidal::verify_segment(self, q0, v, h)
         }
     }
     #[automatically_derived]

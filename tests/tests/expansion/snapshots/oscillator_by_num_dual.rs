@@ -17,6 +17,11 @@ pub struct Oscillator {
     /// Parameter `r` of [`oscillator`].
     pub r: f64,
 }
+const _: () = ::core::assert!(
+    1 <= 32,
+    "with more than 32 coordinates dual numbers can overflow the stack of a thread; have the derivatives written out: `derivatives = expanded` says what stands in the way"
+);
+#[allow(clippy::pedantic, clippy::nursery)]
 const _: () = {
     use ::dalembert::dual::{self, Dual, Real};
     #[allow(dead_code)]
@@ -66,6 +71,14 @@ const _: () = {
         }
     }
 };
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{

@@ -7,6 +7,14 @@ impl Ring {
         0.5 * self.k * (v[0] * v[0] + v[1] * v[1])
     }
 }
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{
@@ -71,6 +79,15 @@ const _: () = {
                 d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
                 d22: SMatrix::from([[1.0, 0.0], [0.0, 1.0]]),
             }
+        }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> Result<(), ::dalembert::StepError> {
+            ::dalembert::verification::lagrangian(self, q, v)?;
+            ::dalembert::verification::rayleigh(self, q, v)?;
+            Ok(())
         }
     }
     #[automatically_derived]
@@ -184,6 +201,14 @@ const _: () = {
         /// E_L on the segment.
         fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::segment_energy(self, q0, q1, h)
+        }
+        fn verify_segment(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+        ) -> Result<(), ::dalembert::StepError> {
+            Midpoint::verify_segment(self, q0, v, h)
         }
     }
     #[automatically_derived]

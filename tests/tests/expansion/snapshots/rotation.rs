@@ -9,6 +9,7 @@ struct Rotation {
     /// Parameter `speed` of [`rotation`].
     speed: f64,
 }
+#[allow(clippy::pedantic, clippy::nursery)]
 const _: () = {
     use ::dalembert::dual::{self, Dual, Real};
     #[allow(dead_code)]
@@ -25,6 +26,14 @@ const _: () = {
         }
     }
 };
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{VectorField, dual};

@@ -21,13 +21,21 @@ impl Joint {
     /// The system with the input `u` held over the step.
     #[inline]
     #[must_use]
-    pub fn driven(&self, u: impl ::core::convert::Into<[f64; 1]>) -> DrivenJoint<'_> {
+    pub fn driven(&self, u: impl ::dalembert::Input<f64, 1>) -> DrivenJoint<'_> {
         DrivenJoint {
             system: self,
-            u: u.into(),
+            u: ::dalembert::Input::entries(u),
         }
     }
 }
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::{
@@ -82,6 +90,15 @@ const _: () = {
                 d22: SMatrix::from([[l_squared]]),
             }
         }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> Result<(), ::dalembert::StepError> {
+            ::dalembert::verification::lagrangian(self, q, v)?;
+            ::dalembert::verification::rayleigh(self, q, v)?;
+            Ok(())
+        }
     }
     #[automatically_derived]
     impl Lagrangian<1> for DrivenJoint<'_> {
@@ -108,6 +125,16 @@ const _: () = {
             plus: Direction<f64>,
         ) -> Variations<f64, 1> {
             Lagrangian::lagrangian_variations(self.system, q, v, minus, plus)
+        }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> Result<(), ::dalembert::StepError> {
+            ::dalembert::verification::lagrangian(self, q, v)?;
+            ::dalembert::verification::rayleigh(self, q, v)?;
+            ::dalembert::verification::force(self, q, v)?;
+            Ok(())
         }
     }
     #[automatically_derived]
@@ -287,6 +314,14 @@ const _: () = {
         /// E_L on the segment.
         fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::segment_energy(self, q0, q1, h)
+        }
+        fn verify_segment(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+        ) -> Result<(), ::dalembert::StepError> {
+            Midpoint::verify_segment(self, q0, v, h)
         }
     }
     #[automatically_derived]

@@ -1,5 +1,7 @@
 //! What a caller may ask for beyond a step: a certificate, bounded work, parts.
 
+mod branches;
+
 use dalembert::nalgebra::vector;
 use dalembert::{Certificate, Discrete, Midpoint, State, StepError, Trajectory, rayleigh_system};
 use dalembert_tests::hard::{CubicDrag, DampedMass, SpringPendulum, TwoPendulums};

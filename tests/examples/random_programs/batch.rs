@@ -1,0 +1,204 @@
+//! Many programs as one crate: built by cargo beside the workspace, run, and read back.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use super::point::{Point, points};
+use super::print;
+use super::syntax::Program;
+
+/// What a program printed at one point.
+#[derive(Clone, Debug, Default)]
+pub struct Computed {
+    /// L, R and f of the plain functions; nothing where one of them panicked.
+    pub plain: Option<Vec<f64>>,
+    /// L, R and f of the generated code, from each function that tells a value.
+    pub values: Vec<(&'static str, Vec<f64>)>,
+    /// Gradients by (q, v) of L, R and every component of f.
+    pub gradients: Vec<Vec<f64>>,
+    /// Hessians of L and R, row by row.
+    pub hessians: Vec<Vec<f64>>,
+}
+
+/// What became of a batch.
+#[derive(Default)]
+pub struct Outcome {
+    /// By program and point.
+    pub computed: BTreeMap<(usize, usize), Computed>,
+    /// Programs that rustc refused, with its words.
+    pub errors: BTreeMap<usize, String>,
+}
+
+/// Where batches are built.
+pub struct Workshop {
+    folder: PathBuf,
+    workspace: PathBuf,
+    /// Features of the runtime.
+    features: &'static str,
+}
+
+impl Workshop {
+    pub fn new(folder: &Path, workspace: &Path, features: &'static str) -> Self {
+        Self { folder: folder.to_owned(), workspace: workspace.to_owned(), features }
+    }
+
+    /// Builds and runs the programs; those that rustc refuses are taken out and named.
+    pub fn run(&self, programs: &[Program], engine: &str) -> Result<Outcome, String> {
+        let mut outcome = Outcome::default();
+        let source = self.folder.join("src");
+        std::fs::create_dir_all(&source).map_err(|error| error.to_string())?;
+        let runtime = self.workspace.join("runtime");
+        let manifest = format!(
+            "[package]\nname = \"random-programs\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n\
+             [dependencies]\ndalembert = {{ path = {runtime:?}, default-features = false, features = [{}] }}\n\n\
+             [profile.dev]\nopt-level = 0\ndebug = false\nincremental = false\noverflow-checks = true\n\n\
+             [profile.dev.package.\"*\"]\nopt-level = 1\n",
+            self.features
+        );
+        write_if_changed(&self.folder.join("Cargo.toml"), &manifest)?;
+        let lock = self.workspace.join("Cargo.lock");
+        if lock.exists() && !self.folder.join("Cargo.lock").exists() {
+            std::fs::copy(lock, self.folder.join("Cargo.lock")).map_err(|error| error.to_string())?;
+        }
+        for _ in 0..12 {
+            let kept: Vec<usize> =
+                (0..programs.len()).filter(|index| !outcome.errors.contains_key(index)).collect();
+            let (text, lines) = crate_text(programs, &kept, engine);
+            std::fs::write(source.join("main.rs"), text).map_err(|error| error.to_string())?;
+            let build = Command::new(env!("CARGO"))
+                .args(["run", "--offline", "--quiet", "--message-format", "short"])
+                .current_dir(&self.folder)
+                .env("CARGO_TARGET_DIR", self.folder.join("../target"))
+                .env_remove("CARGO_PROFILE_DEV_DEBUG")
+                .env("RUSTFLAGS", "-Awarnings")
+                .output()
+                .map_err(|error| error.to_string())?;
+            if build.status.success() {
+                read(&String::from_utf8_lossy(&build.stdout), programs, &mut outcome)?;
+                return Ok(outcome);
+            }
+            let messages = String::from_utf8_lossy(&build.stderr).into_owned();
+            let before = outcome.errors.len();
+            for message in messages.lines().filter(|line| line.contains(": error")) {
+                let line = message.split(':').nth(1).and_then(|line| line.parse::<usize>().ok());
+                let owner = line.and_then(|line| lines.iter().rposition(|(start, _)| *start <= line));
+                if let Some(owner) = owner {
+                    let words = message.split_once("error").map_or(message, |(_, words)| words);
+                    outcome.errors.entry(lines[owner].1).or_insert_with(|| format!("error{words}"));
+                }
+            }
+            if outcome.errors.len() == before {
+                return Err(messages);
+            }
+        }
+        Err("rustc goes on refusing programs".to_owned())
+    }
+}
+
+fn write_if_changed(path: &Path, text: &str) -> Result<(), String> {
+    if std::fs::read_to_string(path).is_ok_and(|old| old == text) {
+        return Ok(());
+    }
+    std::fs::write(path, text).map_err(|error| error.to_string())
+}
+
+/// The crate, and the line at which each program begins.
+fn crate_text(programs: &[Program], kept: &[usize], engine: &str) -> (String, Vec<(usize, usize)>) {
+    let mut text = String::from(include_str!("harness.txt"));
+    let mut lines = Vec::new();
+    for &index in kept {
+        lines.push((text.lines().count() + 1, index));
+        text += &module(&programs[index], index, engine);
+    }
+    text += "fn main() {\n    std::panic::set_hook(Box::new(|_| {}));\n";
+    for index in kept {
+        writeln!(text, "    p{index}::run();").expect("a string takes all");
+    }
+    (text + "}\n", lines)
+}
+
+fn module(program: &Program, index: usize, engine: &str) -> String {
+    let n = program.n;
+    let scalar = if program.single { "f32" } else { "f64" };
+    let mut text = format!(
+        "mod p{index} {{\n{}#[dalembert::rayleigh_system(derivatives = {engine})]\n{}",
+        print::surroundings(program),
+        print::block(program)
+    );
+    writeln!(text, "pub fn run() {{\nlet s = system();").expect("a string takes all");
+    let arrays: Vec<String> =
+        points(program).iter().map(|Point { q, v }| format!("({q:?}, {v:?})")).collect();
+    writeln!(text, "let points: [([{scalar}; {n}], [{scalar}; {n}]); {}] = [{}];\nfor (k, (q, v)) in points.into_iter().enumerate() {{",
+        arrays.len(),
+        arrays.join(", ")
+    )
+    .expect("a string takes all");
+    let mut plain = String::from("let mut plain = vec![s.lagrangian(q, v) as f64];\n");
+    if let Some((of_both, _)) = &program.rayleigh {
+        let q = if *of_both { "q, " } else { "" };
+        writeln!(plain, "plain.push(s.rayleigh({q}v) as f64);").expect("a string takes all");
+    }
+    if program.force.is_some() {
+        plain += "plain.extend(s.force(q, v).map(|x| x as f64));\n";
+    }
+    writeln!(text, "crate::plain({index}, k, || {{ {plain} plain }});").expect("a string takes all");
+    text += "let (q, v) = (q.into(), v.into());\n";
+    writeln!(text, "crate::lagrangian({index}, k, &s, &q, &v);").expect("a string takes all");
+    if program.rayleigh.is_some() {
+        writeln!(text, "crate::rayleigh({index}, k, &s, &q, &v);").expect("a string takes all");
+    }
+    if program.force.is_some() {
+        writeln!(text, "crate::force({index}, k, &s, &q, &v);").expect("a string takes all");
+    }
+    text + "}\n}\n}\n"
+}
+
+fn read(printed: &str, programs: &[Program], outcome: &mut Outcome) -> Result<(), String> {
+    for line in printed.lines() {
+        let mut words = line.split(' ');
+        let mut word = || words.next().unwrap_or_default();
+        let tag = word().to_owned();
+        let (index, point) = (word().parse(), word().parse());
+        let (Ok(index), Ok(point)) = (index, point) else { return Err(format!("not understood: {line}")) };
+        let numbers: Option<Vec<f64>> =
+            words.map(|word| u64::from_str_radix(word, 16).ok().map(f64::from_bits)).collect();
+        let Some(numbers) = numbers else { return Err(format!("not understood: {line}")) };
+        let n = programs.get(index).map_or(0, |program: &Program| program.n);
+        let computed = outcome.computed.entry((index, point)).or_default();
+        let (first, rest) = numbers.split_at(numbers.len().min(1));
+        match tag.as_str() {
+            "plain" => computed.plain = (!numbers.is_empty()).then_some(numbers),
+            "gradient" => computed.values.push(("gradient", first.to_vec())),
+            "derivatives" => {
+                computed.values.push(("derivatives", first.to_vec()));
+                let (gradient, second) = rest.split_at(2 * n);
+                computed.gradients.push(gradient.to_vec());
+                computed.hessians.push(symmetric(second, n));
+            }
+            "force" => {
+                let (value, jacobian) = numbers.split_at(n);
+                computed.values.push(("force", value.to_vec()));
+                // Column by column: ∂fᵢ/∂xⱼ at i + n j.
+                computed
+                    .gradients
+                    .extend((0..n).map(|i| (0..2 * n).map(|j| jacobian[i + n * j]).collect::<Vec<_>>()));
+            }
+            _ => return Err(format!("not understood: {line}")),
+        }
+    }
+    Ok(())
+}
+
+/// The Hessian by (q, v) from the columns of its blocks.
+fn symmetric(blocks: &[f64], n: usize) -> Vec<f64> {
+    let block = |k: usize, i: usize, j: usize| blocks[k * n * n + i + n * j];
+    let entry = |i: usize, j: usize| match (i < n, j < n) {
+        (true, true) => block(0, i, j),
+        (true, false) => block(1, i, j - n),
+        (false, true) => block(1, j, i - n),
+        (false, false) => block(2, i - n, j - n),
+    };
+    (0..4 * n * n).map(|k| entry(k / (2 * n), k % (2 * n))).collect()
+}

@@ -1,0 +1,73 @@
+//! The study itself, built with another source of the macro: with a mistake put back, for instance.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use super::run::{folder, workspace};
+
+/// A replacement of text in a file of `macros/src/rayleigh_system`.
+#[derive(Clone, Copy)]
+pub struct Edit {
+    pub file: &'static str,
+    pub old: &'static str,
+    pub new: &'static str,
+}
+
+fn copied(from: &Path, to: &Path) -> std::io::Result<()> {
+    std::fs::create_dir_all(to)?;
+    for entry in std::fs::read_dir(from)? {
+        let entry = entry?;
+        let target = to.join(entry.file_name());
+        if entry.file_type()?.is_dir() {
+            copied(&entry.path(), &target)?;
+        } else {
+            let text = std::fs::read(entry.path())?;
+            if !std::fs::read(&target).is_ok_and(|old| old == text) {
+                std::fs::write(&target, text)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The study built with the macro's source from `macros`, edited; its program.
+pub fn study(macros: &Path, edits: &[Edit]) -> Result<PathBuf, String> {
+    let words = |error: std::io::Error| error.to_string();
+    let root = folder()?.join("rebuilt");
+    let source = root.join("macros/src");
+    copied(macros, &source).map_err(words)?;
+    copied(&workspace().join("tests/examples/random_programs"), &root.join("tests/examples/random_programs"))
+        .map_err(words)?;
+    for edit in edits {
+        let path = source.join("rayleigh_system").join(edit.file);
+        let text = std::fs::read_to_string(&path).map_err(words)?;
+        if text.matches(edit.old).count() != 1 {
+            return Err(format!("{} does not hold once: {}", edit.file, edit.old));
+        }
+        std::fs::write(&path, text.replace(edit.old, edit.new)).map_err(words)?;
+    }
+    let manifest = "[package]\nname = \"rebuilt-study\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n\
+        [[bin]]\nname = \"rebuilt-study\"\npath = \"examples/random_programs/main.rs\"\n\n\
+        [dependencies]\nnalgebra = { version = \"0.35\", default-features = false, features = [\"libm\", \"std\"] }\n\
+        num-dual = \"0.15.1\"\nprettyplease = \"0.3.0\"\nproc-macro2 = { version = \"1.0.107\", features = [\"span-locations\"] }\n\
+        quote = \"1.0.47\"\nsyn = { version = \"3\", features = [\"full\", \"visit\", \"visit-mut\"] }\n\n\
+        [profile.dev]\nopt-level = 1\ndebug = false\nincremental = false\n";
+    let crate_folder = root.join("tests");
+    std::fs::write(crate_folder.join("Cargo.toml"), manifest).map_err(words)?;
+    let lock = workspace().join("Cargo.lock");
+    if lock.exists() && !crate_folder.join("Cargo.lock").exists() {
+        std::fs::copy(lock, crate_folder.join("Cargo.lock")).map_err(words)?;
+    }
+    let target = folder()?.join("target");
+    let build = Command::new(env!("CARGO"))
+        .args(["build", "--offline", "--quiet"])
+        .current_dir(&crate_folder)
+        .env("CARGO_TARGET_DIR", &target)
+        .env("RUSTFLAGS", "-Awarnings")
+        .output()
+        .map_err(words)?;
+    if !build.status.success() {
+        return Err(String::from_utf8_lossy(&build.stderr).into_owned());
+    }
+    Ok(target.join("debug/rebuilt-study"))
+}

@@ -1,0 +1,98 @@
+//! One program through the macro: refused, or held against what it must compute.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use super::batch::Computed;
+use super::expansion::{self, Reaction};
+use super::expected::{self, Expected, Skipped};
+use super::lowered;
+use super::point::points;
+use super::print;
+use super::rayleigh_system::Runtime;
+use super::syntax::Program;
+use super::verdict::{self, Verdict};
+
+/// What became of a program.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Trial {
+    /// The plain function would panic or run too long: no program at all.
+    Discarded,
+    Refused(String),
+    /// Values agree at all points; so many points had their derivatives compared, and so many not.
+    Agrees {
+        compared: usize,
+        near_branch: usize,
+        too_large: usize,
+    },
+    /// The graph holds an expression of fields that is read by rustc alone.
+    Unread(String),
+    Failed(String),
+}
+
+/// What is expected at the points of a program; nothing where its plain functions panic.
+pub fn expected(program: &Program) -> Option<Vec<Expected>> {
+    expected::all_points(program, &points(program))
+}
+
+/// Whether the macro takes the program; where it does not, that is the end of the trial.
+pub fn reaction(program: &Program, engine: &str, runtime: Runtime) -> Option<Trial> {
+    match expansion::of(&print::block(program), engine, runtime) {
+        Reaction::Refused(reason) => Some(Trial::Refused(reason)),
+        Reaction::Panicked(message) => Some(Trial::Failed(format!("panic: the macro panics: {message}"))),
+        Reaction::Accepted if program.has_cfg => {
+            Some(Trial::Failed("cfg: a body with `#[cfg]` is accepted".to_owned()))
+        }
+        Reaction::Accepted => None,
+    }
+}
+
+/// The trial of what was computed.
+pub fn judged<'c>(
+    program: &Program,
+    expected: &[Expected],
+    computed: impl Fn(usize) -> Option<&'c Computed>,
+) -> Trial {
+    let (mut compared, mut near_branch, mut too_large) = (0, 0, 0);
+    for (index, expected) in expected.iter().enumerate() {
+        let Some(computed) = computed(index) else {
+            return Trial::Failed("value: the generated code panics".to_owned());
+        };
+        match verdict::of(program, expected, computed) {
+            Verdict::Agrees => compared += 1,
+            Verdict::ValueAgrees(Skipped::NearBranch) => near_branch += 1,
+            Verdict::ValueAgrees(Skipped::TooLarge) => too_large += 1,
+            Verdict::Differs(words) => {
+                return Trial::Failed(format!("{words}; at {:?}", points(program)[index]));
+            }
+        }
+    }
+    Trial::Agrees { compared, near_branch, too_large }
+}
+
+/// A program tried without rustc: its graph evaluated. A panic is a failure, of the study if not of the macro.
+pub fn by_graph(program: &Program) -> Trial {
+    catch_unwind(AssertUnwindSafe(|| graph_tried(program))).unwrap_or_else(|panic| {
+        let message = panic.downcast_ref::<String>().cloned();
+        let message = message.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()));
+        Trial::Failed(format!("panic: {}", message.unwrap_or_default()))
+    })
+}
+
+fn graph_tried(program: &Program) -> Trial {
+    let Some(expected) = expected(program) else { return Trial::Discarded };
+    if let Some(end) = reaction(program, "expanded", Runtime::STD) {
+        return end;
+    }
+    let expressions = match lowered::expressions(program, &print::block(program)) {
+        Ok(expressions) => expressions,
+        Err(reason) => return Trial::Refused(reason),
+    };
+    let mut all = Vec::new();
+    for (point, expected) in points(program).iter().zip(&expected) {
+        match expressions.computed(program, point, &expected.values) {
+            Ok(computed) => all.push(computed),
+            Err(reason) => return Trial::Unread(reason),
+        }
+    }
+    judged(program, &expected, |index| all.get(index))
+}

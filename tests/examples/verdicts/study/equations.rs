@@ -1,0 +1,204 @@
+//! The equations of every rule, written down again: residuals of what a step returned, in twice the precision, each with its bound
+//! of rounding. Nothing here is the runtime's.
+
+use dalembert::{State, Step};
+
+use super::rounded::Rounded;
+use dalembert_tests::double_double::DoubleDouble;
+
+/// A covector or vector of N coordinates.
+pub type Vector<const N: usize> = [Rounded; N];
+
+/// ∂L/∂q, ∂L/∂v, ∂R/∂v at a point.
+#[derive(Clone, Copy, Debug)]
+pub struct Slopes<const N: usize> {
+    /// ∂L/∂q.
+    pub force: Vector<N>,
+    /// ∂L/∂v.
+    pub momentum: Vector<N>,
+    /// ∂R/∂v.
+    pub drag: Vector<N>,
+}
+
+/// A system whose first derivatives are written down a second time.
+pub trait Reference<const N: usize> {
+    /// The slopes at (q, v).
+    fn slopes(&self, q: &Vector<N>, v: &Vector<N>) -> Slopes<N>;
+}
+
+/// A residual may be this many times the first-order bound of the rounding in its equation, with unit ε/2.
+///
+/// A residual as computed may be 4 floors of 4ε = 32 units for each of the terms in a floor; the bound has a unit for each of them.
+/// The difference to the residual as it is, and what p1 and q1 are rounded by, make a few more.
+pub const MOST: f64 = 36.0;
+
+/// How a step is held against the equations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Judged {
+    /// The largest residual over its bound.
+    pub ratio: f64,
+    /// Whether the bound is above a thousandth of the terms of its equation, so that rounding decides it.
+    pub is_undecided: bool,
+    /// Whether the equation overflows as it is written down here, so that nothing is said.
+    pub is_beyond: bool,
+}
+
+impl Judged {
+    const NOTHING: Self = Self { ratio: 0.0, is_undecided: false, is_beyond: false };
+
+    /// Whether the step violates the definition.
+    pub fn is_violation(&self) -> bool {
+        self.ratio.is_nan() || self.ratio > MOST
+    }
+
+    fn hold(&mut self, residual: Rounded, terms: f64) {
+        let (size, bound) = (residual.value.high.abs(), residual.error + 4.0 * f64::MIN_POSITIVE);
+        if !bound.is_finite() || !size.is_finite() {
+            self.is_beyond = true;
+            return;
+        }
+        self.ratio = self.ratio.max(size / bound);
+        let decidable = 1e-3 * terms + 8.0 * f64::MIN_POSITIVE;
+        self.is_undecided |= decidable.is_nan() || bound > decidable;
+    }
+}
+
+/// The rules of one stage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum OneStage {
+    /// One node in the middle.
+    Midpoint,
+    /// One at each end.
+    Trapezoidal,
+    /// The midpoint rule with all damping at the start.
+    OneSided,
+}
+
+fn inputs<const N: usize>(vector: &nalgebra::SVector<f64, N>) -> Vector<N> {
+    std::array::from_fn(|i| Rounded::input(vector[i]))
+}
+
+fn combined<const N: usize>(of: impl Fn(usize) -> Rounded) -> Vector<N> {
+    std::array::from_fn(of)
+}
+
+/// p0 and p1 of the segment, with the size of the terms of p0.
+fn momenta<S: Reference<N>, const N: usize>(
+    rule: OneStage,
+    system: &S,
+    q: &Vector<N>,
+    v: &Vector<N>,
+    h: Rounded,
+) -> (Vector<N>, Vector<N>, [f64; N]) {
+    let at = |share: f64| system.slopes(&combined(|i| q[i] + h * share * v[i]), v);
+    let (momentum, before, after, drag_before, drag_after) = match rule {
+        OneStage::Midpoint => {
+            let m = at(0.5);
+            let drag = combined(|i| m.drag[i] * 0.5);
+            let force = combined(|i| m.force[i] * 0.5);
+            (m.momentum, force, force, drag, drag)
+        }
+        OneStage::OneSided => {
+            let m = at(0.5);
+            let force = combined(|i| m.force[i] * 0.5);
+            (m.momentum, force, force, system.slopes(q, v).drag, [Rounded::ZERO; N])
+        }
+        OneStage::Trapezoidal => {
+            let (start, end) = (at(0.0), at(1.0));
+            let drag = combined(|i| (start.drag[i] + end.drag[i]) * 0.25);
+            let momentum = combined(|i| (start.momentum[i] + end.momentum[i]) * 0.5);
+            (momentum, start.force.map(|f| f * 0.5), end.force.map(|f| f * 0.5), drag, drag)
+        }
+    };
+    let p0 = combined(|i| momentum[i] - h * before[i] + h * drag_before[i]);
+    let p1 = combined(|i| momentum[i] + h * after[i] - h * drag_after[i]);
+    let terms =
+        std::array::from_fn(|i| momentum[i].size() + (h * before[i]).size() + (h * drag_before[i]).size());
+    (p0, p1, terms)
+}
+
+/// A step of a rule of one stage: 𝔽⁻, q1 and 𝔽⁺.
+pub fn one_stage<S: Reference<N>, const N: usize>(
+    rule: OneStage,
+    system: &S,
+    state: &State<f64, N>,
+    h: f64,
+    step: &Step<f64, N>,
+) -> Judged {
+    let (q, p, v) = (inputs(&state.q), inputs(&state.p), inputs(&step.velocity));
+    let size = Rounded::input(h);
+    let (p0, p1, terms) = momenta(rule, system, &q, &v, size);
+    let mut judged = Judged::NOTHING;
+    for i in 0..N {
+        judged.hold(p0[i] - p[i], terms[i] + p[i].size());
+        let q1 = q[i] + size * v[i];
+        judged.hold(q1 - Rounded::input(step.state.q[i]), q1.size() + q[i].size());
+        // p1 = p + (p1 − p0): the rounding of both.
+        let mut p1 = p1[i] - Rounded::input(step.state.p[i]);
+        p1.error += p0[i].error;
+        judged.hold(p1, terms[i] + p[i].size());
+    }
+    judged
+}
+
+/// The velocity of a state: ∂L/∂v(q, v) = p.
+pub fn velocity<S: Reference<N>, const N: usize>(
+    system: &S,
+    state: &State<f64, N>,
+    v: &nalgebra::SVector<f64, N>,
+) -> Judged {
+    let slopes = system.slopes(&inputs(&state.q), &inputs(v));
+    let mut judged = Judged::NOTHING;
+    for i in 0..N {
+        let p = Rounded::input(state.p[i]);
+        judged.hold(slopes.momentum[i] - p, slopes.momentum[i].size() + p.size());
+    }
+    judged
+}
+
+/// A step of a Gauss rule with the velocities `v` at its stages: the equations of all stages, q1 and p1.
+pub fn gauss<S: Reference<N>, const N: usize, const STAGES: usize>(
+    tableau: &super::tableau::Tableau,
+    system: &S,
+    state: &State<f64, N>,
+    h: f64,
+    v: &[nalgebra::SVector<f64, N>; STAGES],
+    end: &State<f64, N>,
+) -> Judged {
+    let (q0, p0) = (inputs(&state.q), inputs(&state.p));
+    let v: [Vector<N>; STAGES] = std::array::from_fn(|i| inputs(&v[i]));
+    let h = Rounded::input(h);
+    let coefficient = |value: DoubleDouble| h * Rounded::coefficient(value);
+    let sum = |start: &Vector<N>, weights: &[DoubleDouble], of: &[Vector<N>; STAGES]| -> Vector<N> {
+        combined(|a| weights.iter().zip(of).fold(start[a], |sum, (w, x)| sum + coefficient(*w) * x[a]))
+    };
+    let slopes: [Slopes<N>; STAGES] =
+        std::array::from_fn(|i| system.slopes(&sum(&q0, &tableau.a[i], &v), &v[i]));
+    let rates = slopes.map(|at| combined(|a| at.force[a] - at.drag[a]));
+    let mut judged = Judged::NOTHING;
+    let largest: [f64; N] =
+        std::array::from_fn(|a| rates.iter().fold(p0[a].size(), |size, rate| size.max((h * rate[a]).size())));
+    // A residual at a stage is p of a stage: its rounding is that of the largest.
+    let mut floor = [0.0_f64; N];
+    let momenta: [Vector<N>; STAGES] = std::array::from_fn(|i| sum(&p0, &tableau.a[i], &rates));
+    for (at, p) in slopes.iter().zip(&momenta) {
+        for a in 0..N {
+            floor[a] = floor[a].max((at.momentum[a] - p[a]).error);
+        }
+    }
+    for (at, p) in slopes.iter().zip(&momenta) {
+        for a in 0..N {
+            let residual = Rounded { error: floor[a], ..(at.momentum[a] - p[a]) };
+            judged.hold(residual, at.momentum[a].size() + largest[a]);
+        }
+    }
+    let (q1, p1) = (sum(&q0, &tableau.b, &v), sum(&p0, &tableau.b, &rates));
+    for a in 0..N {
+        let scale = v.iter().fold(q0[a].size(), |size, v| size.max((h * v[a]).size()));
+        judged.hold(q1[a] - Rounded::input(end.q[a]), scale);
+        let mut p1 = p1[a] - Rounded::input(end.p[a]);
+        p1.error += floor[a];
+        judged.hold(p1, largest[a]);
+    }
+    judged
+}

@@ -1,0 +1,12 @@
+//! Motions at random with references that share nothing with the methods under test: closed forms where there are some, and
+//! extrapolation in twice the digits elsewhere. What [`Method::for_tolerance`](dalembert::Method::for_tolerance) promises is held
+//! against them.
+
+mod collection;
+mod measured;
+mod reference;
+mod systems;
+
+pub use collection::{FAMILIES, collection};
+pub use measured::{Motion, Outcome, Verdict};
+pub use reference::extrapolated;

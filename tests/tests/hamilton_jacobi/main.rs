@@ -1,0 +1,11 @@
+//! Discrete Hamilton–Jacobi theory, as printed and corrected.
+
+mod caustics;
+mod closedness;
+mod constants;
+mod corrected;
+mod example;
+mod hamilton_equations;
+mod printed_family;
+mod printed_trajectory;
+mod sections;

@@ -1,0 +1,147 @@
+//! Enums and options of the user's that choose among laws: `match`, `if let`, `let … else`, `matches!`, methods of `Option`.
+
+use super::case;
+
+case! {
+    friction_by_an_enum: [2] at [([0.3, 0.8], [1.1, 0.4]), ([0.3, 0.8], [-1.1, 0.0])]
+    definitions {
+        #[derive(Clone, Copy)]
+        pub enum Friction { None, Linear(f64), Quadratic { c: f64 }, Table([f64; 2]) }
+        pub struct System { laws: [Friction; 4] }
+        fn system() -> System {
+            let laws = [Friction::None, Friction::Linear(0.7), Friction::Quadratic { c: 1.3 }, Friction::Table([0.2, 0.9])];
+            System { laws }
+        }
+    }
+    functions {
+        fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+            let mut total = 0.5 * (v[0] * v[0] + v[1] * v[1]);
+            for i in 0..4 {
+                let law = self.laws[i];
+                total -= (i + 1) as f64 * match law {
+                    Friction::None => 0.0,
+                    Friction::Linear(c) => 0.5 * c * v[0] * v[0],
+                    Friction::Quadratic { c } => c * v[0] * v[0] * v[0] * q[1],
+                    Friction::Table([a, b]) => a * q[0] + b * v[1] * v[1],
+                };
+            }
+            total
+        }
+    }
+}
+
+case! {
+    optional_terms: [1] at [([0.3], [1.1]), ([-0.3], [1.1])]
+    definitions {
+        pub struct System { some: Option<f64>, none: Option<f64>, n: Option<i32> }
+        fn system() -> System { System { some: Some(2.5), none: None, n: Some(3) } }
+    }
+    functions {
+        fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+            let mut potential = 0.0;
+            if let Some(k) = self.some {
+                potential += 0.5 * k * q[0] * q[0];
+            }
+            if let Some(k) = &self.none {
+                potential += 0.25 * k * q[0].powi(4);
+            } else {
+                potential += *self.some.as_ref().unwrap_or(&0.5) * q[0];
+            }
+            if let Some(n) = &self.n && *n > 2 {
+                potential += *n as f64 * q[0].sin();
+            }
+            potential += self.some.unwrap_or(0.0) * q[0] + self.none.unwrap_or(q[0]) * v[0];
+            potential += self.some.map_or(0.0, |k| k * q[0].cos()) + self.none.map_or(q[0], |k| k / q[0]);
+            if self.some.is_some() && self.none.is_none() {
+                potential += Self::cubic(self.some, q[0]);
+            }
+            0.5 * v[0] * v[0] - potential - self.quartic(q[0])
+        }
+        fn cubic(k: Option<f64>, x: f64) -> f64 {
+            let Some(k) = k else { return 1.0 };
+            k * x * x * x
+        }
+        fn quartic(&self, x: f64) -> f64 {
+            let Some(k) = self.none else { return x };
+            k * x.powi(4) / k
+        }
+    }
+}
+
+case! {
+    laws_within_laws: [1] at [([0.3], [1.1]), ([-0.3], [1.1])]
+    definitions {
+        pub enum Power { Square, Any(i32) }
+        pub enum Law { A, B(f64, Power), C { power: Power, k: Option<f64>, #[allow(dead_code)] table: Vec<f64> } }
+        const FIRST: i32 = 3;
+        #[allow(non_upper_case_globals)]
+        const lower: i32 = 7;
+        pub struct System { a: Law, b: Law, c: Law, kind: i32 }
+        fn system() -> System {
+            let c = Law::C { power: Power::Square, k: Some(1.5), table: vec![0.0; 3] };
+            System { a: Law::A, b: Law::B(0.4, Power::Any(3)), c, kind: 3 }
+        }
+    }
+    functions {
+        const SECOND: i32 = 5;
+        #[allow(non_upper_case_globals)]
+        fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+            let x = q[0];
+            let kind = match self.kind {
+                Self::SECOND => 5.0,
+                FIRST => 3.0,
+                other => other as f64 + x,
+            };
+            let lowered = match self.kind { lower => 1.0, 3 => 2.0, _ => 3.0 };
+            let guarded = match self.kind {
+                n if n > 3 => 1.0,
+                n @ 1..=3 if x > 0.0 => n as f64 * x,
+                i32::MIN..=0 | 3 => x * x,
+                _ => 0.0,
+            };
+            let flags = if matches!(self.a, Law::A | Law::B(..)) && !matches!(self.b, Law::B(c, _) if c > 1.0) { x } else { 0.0 };
+            self.energy(&self.a, x) + self.energy(&self.b, x) + self.energy(&self.c, x) + kind * lowered * guarded + flags
+                + v[0] * v[0]
+        }
+        fn energy(&self, law: &Law, x: f64) -> f64 {
+            match law {
+                Law::A => x,
+                Law::B(c, power) => c * match power {
+                    Power::Square => x * x,
+                    Power::Any(n) => *n as f64 * x.sin(),
+                },
+                Law::C { power: Power::Any(_), .. } => 1.0,
+                Law::C { power: Power::Square, k: Some(k), .. } => *k * x.exp(),
+                Law::C { power: Power::Square, k: None, .. } => 0.0,
+            }
+        }
+    }
+}
+
+case! {
+    what_is_not_taken_is_not_evaluated: [1] at [([0.3], [1.1]), ([-0.3], [1.1])]
+    definitions {
+        #[allow(dead_code)]
+        pub enum Law { Off, Entry(usize), Ratio(i32, i32) }
+        pub struct System { law: Law, table: [f64; 2], index: usize, count: u32 }
+        fn system() -> System { System { law: Law::Off, table: [0.5, 0.7], index: 7, count: 0 } }
+    }
+    functions {
+        fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+            let by_law = match self.law {
+                Law::Off => q[0],
+                Law::Entry(i) => self.table[i] * q[0],
+                Law::Ratio(a, b) => (a / b) as f64 * q[0],
+            };
+            let by_index = if self.index < 2 { self.table[self.index] * v[0] } else { v[0] };
+            let by_count = if self.count > 0 { (self.count - 1) as f64 } else { 2.0 };
+            let shared = self.index < 2 && self.table[self.index] > 0.6;
+            let early = self.early(q[0]);
+            by_law + by_index * by_count * v[0] + if shared { 1.0 } else { q[0] } + early
+        }
+        fn early(&self, x: f64) -> f64 {
+            if self.count == 0 { return x; }
+            self.table[(10 / self.count) as usize] * x
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! One language for all engines: what `auto` writes out, `expanded` does, and `num_dual` takes.
+
+use dalembert::nalgebra::SVector;
+use dalembert::{Discrete, Engine, Lagrangian, Midpoint, Rayleigh, State};
+
+/// The same system by each engine.
+macro_rules! by_each_engine {
+    ($($engine:ident),*) => {$(
+        mod $engine {
+            #[derive(Clone, Copy)]
+            pub enum Friction {
+                None,
+                Linear(f64),
+                Quadratic { c: f64 },
+                Table([f64; 2]),
+            }
+
+            pub struct Slider {
+                pub law: Friction,
+                pub k3: Option<f64>,
+            }
+
+            #[dalembert::rayleigh_system(rule = [midpoint, gauss], derivatives = $engine)]
+            impl Slider {
+                fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+                    let mut potential = 0.5 * q[0] * q[0];
+                    if let Some(k) = self.k3 {
+                        potential += 0.25 * k * q[0].powi(4);
+                    }
+                    0.5 * v[0] * v[0] - potential
+                }
+                fn rayleigh(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+                    Self::dissipation(self.law, v[0]) * if matches!(self.law, Friction::Table(_)) { q[0].cos() } else { 1.0 }
+                }
+                fn dissipation(law: Friction, v: f64) -> f64 {
+                    match law {
+                        Friction::None => 0.0,
+                        Friction::Linear(c) => 0.5 * c * v * v,
+                        Friction::Quadratic { c } => c * v.abs().powi(3) / 3.0,
+                        Friction::Table([a, b]) => a * v * v + b * v.powi(4),
+                    }
+                }
+            }
+
+            pub fn all() -> Vec<Slider> {
+                let laws = [
+                    Friction::None,
+                    Friction::Linear(0.7),
+                    Friction::Quadratic { c: 0.6 },
+                    Friction::Table([0.2, 0.1]),
+                ];
+                laws.into_iter().flat_map(|law| [None, Some(0.8)].map(|k3| Slider { law, k3 })).collect()
+            }
+        }
+    )*};
+}
+by_each_engine!(auto, expanded, num_dual);
+
+type Vector = SVector<f64, 1>;
+
+/// L, R, their derivatives and a step.
+fn seen<S>(system: &S) -> Vec<f64>
+where
+    S: Lagrangian<1, Scalar = f64> + Rayleigh<1> + Discrete<Midpoint, 1>,
+{
+    let (q, v) = (Vector::new(0.7), Vector::new(-0.9));
+    let (l, r) = (system.lagrangian_derivatives(&q, &v), system.rayleigh_derivatives(&q, &v));
+    let start = State::from_velocity(system, [0.7], [-0.9]).expect("a regular start");
+    let step = Discrete::<Midpoint, 1>::step(system, &start, 0.1, None).expect("a short step");
+    let numbers = [l, r].map(|d| [d.value, d.d1[0], d.d2[0], d.d11[0], d.d12[0], d.d22[0]]).concat();
+    numbers.into_iter().chain([step.state.q[0], step.state.p[0]]).collect()
+}
+
+#[test]
+fn friction_by_an_enum_and_optional_terms_are_those_of_every_engine() {
+    for ((auto, expanded), by_duals) in auto::all().iter().zip(&expanded::all()).zip(&num_dual::all()) {
+        let numbers = seen(auto);
+        assert_eq!(numbers, seen(expanded));
+        for (a, b) in numbers.iter().zip(seen(by_duals)) {
+            assert!((a - b).abs() <= 4.0 * f64::EPSILON * (1.0 + b.abs()), "{a} {b}");
+        }
+        // Closed forms.
+        let v = -0.9_f64;
+        let expected = match auto.law {
+            auto::Friction::None => 0.0,
+            auto::Friction::Linear(c) => c * v,
+            auto::Friction::Quadratic { c } => c * v * v.abs(),
+            auto::Friction::Table([a, b]) => (2.0 * a * v + 4.0 * b * v.powi(3)) * 0.7_f64.cos(),
+        };
+        assert!((numbers[8] - expected).abs() < 1e-15, "{} {expected}", numbers[8]);
+    }
+    // The laws differ: a first arm that is always taken would not be seen otherwise.
+    let forces: Vec<f64> = auto::all().iter().map(|system| seen(system)[8]).collect();
+    assert!(forces.windows(3).step_by(2).all(|three| three[0] != three[2]), "{forces:?}");
+}
+
+#[test]
+fn nothing_falls_back_to_dual_numbers() {
+    let engine = |structure: dalembert::Structure| structure.engine;
+    assert!(matches!(engine(auto::Slider::STRUCTURE), Engine::Expanded));
+    assert!(!matches!(engine(num_dual::Slider::STRUCTURE), Engine::Expanded));
+}

@@ -1,0 +1,81 @@
+//! Dual numbers of as many coordinates as they are let: the stack of a thread holds them, and the derivatives are those written out.
+
+use std::thread;
+
+use dalembert::nalgebra::SVector;
+use dalembert::{Discrete, Gauss, Lagrangian, Midpoint, Rayleigh, State, Trapezoidal, rayleigh_system};
+
+macro_rules! chain {
+    ($name:ident, $engine:ident) => {
+        struct $name;
+
+        #[rayleigh_system(derivatives = $engine, rule = [midpoint, trapezoidal, gauss])]
+        impl $name {
+            fn lagrangian(&self, q: [f64; 32], v: [f64; 32]) -> f64 {
+                let mut l = 0.0;
+                for i in 0..32 {
+                    l += 0.5 * v[i] * v[i] + q[i].cos();
+                }
+                for i in 1..32 {
+                    let d = q[i] - q[i - 1];
+                    l -= (1.0 + d * d).sqrt() + 0.1 * v[i] * v[i - 1] * d;
+                }
+                l
+            }
+
+            fn rayleigh(&self, q: [f64; 32], v: [f64; 32]) -> f64 {
+                let mut r = 0.0;
+                for i in 0..32 {
+                    r += 0.05 * (1.0 + q[i] * q[i]) * v[i] * v[i];
+                }
+                r
+            }
+        }
+    };
+}
+
+chain!(ByDualNumbers, num_dual);
+chain!(Expanded, expanded);
+
+/// The largest difference of two families of numbers.
+fn difference<'a>(a: impl IntoIterator<Item = &'a f64>, b: impl IntoIterator<Item = &'a f64>) -> f64 {
+    a.into_iter().zip(b).fold(0.0, |largest, (a, b)| largest.max((a - b).abs()))
+}
+
+#[test]
+fn thirty_two_coordinates_by_dual_numbers_fit_into_a_thread_and_are_right() {
+    let run = || {
+        let q = SVector::<f64, 32>::from_fn(|i, _| (0.7 * i as f64).sin());
+        let v = SVector::<f64, 32>::from_fn(|i, _| (1.3 * i as f64).cos());
+        let (a, b) = (ByDualNumbers.lagrangian_derivatives(&q, &v), Expanded.lagrangian_derivatives(&q, &v));
+        assert!(difference(&a.d1, &b.d1) < 1e-14 && difference(&a.d2, &b.d2) < 1e-14);
+        for (a, b) in [(a.d11, b.d11), (a.d12, b.d12), (a.d22, b.d22)] {
+            assert!(difference(&a, &b) < 1e-14);
+        }
+        assert_eq!(a.value, b.value);
+        let (a, b) = (ByDualNumbers.rayleigh_gradient(&q, &v), Expanded.rayleigh_gradient(&q, &v));
+        assert!(difference(&a.d1, &b.d1) < 1e-14 && difference(&a.d2, &b.d2) < 1e-14);
+
+        let start = State::from_velocity(&ByDualNumbers, q, v).unwrap();
+        let h = 0.05;
+        let pairs = [
+            (
+                Discrete::<Midpoint, 32>::step(&ByDualNumbers, &start, h, None),
+                Discrete::<Midpoint, 32>::step(&Expanded, &start, h, None),
+            ),
+            (
+                Discrete::<Trapezoidal, 32>::step(&ByDualNumbers, &start, h, None),
+                Discrete::<Trapezoidal, 32>::step(&Expanded, &start, h, None),
+            ),
+            (
+                Discrete::<Gauss<2>, 32>::step(&ByDualNumbers, &start, h, None),
+                Discrete::<Gauss<2>, 32>::step(&Expanded, &start, h, None),
+            ),
+        ];
+        for (a, b) in pairs {
+            let (a, b) = (a.unwrap().state, b.unwrap().state);
+            assert!(difference(&a.q, &b.q) < 1e-12 && difference(&a.p, &b.p) < 1e-12);
+        }
+    };
+    thread::Builder::new().stack_size(2 << 20).spawn(run).unwrap().join().unwrap();
+}

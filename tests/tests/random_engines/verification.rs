@@ -1,0 +1,317 @@
+//! Derivatives of another function than the one written are an error: where a state is made, where a run starts, and, with
+//! `debug_assertions`, at every step.
+//!
+//! The control is a system whose values as generated are those written times 1 + `off`, function by function.
+
+use dalembert::nalgebra::{Matrix1, SVector, Vector1, matrix, vector};
+use dalembert::verification;
+use dalembert::{
+    Composition, CovectorDerivatives, Derivatives, Discrete, DisplacementRule, Engine, Explicit, Fitted,
+    FittedTrapezoidal, Force, ForcedLagrangian, Function, Gauss, Lagrangian, Method, Midpoint, Momenta,
+    Rayleigh, Splitting, State, StepError, StepKernel, Structure, ToleranceError, Trajectory, Trapezoidal,
+    WithGauss, rayleigh_system,
+};
+
+/// L = ½v² − ½q², R = ½ r v², f = −¼q, with wrong values of one of them beside the derivatives.
+#[derive(Clone, Copy)]
+struct Mutated {
+    /// What the values as generated are off by, of L, R and f.
+    off: [f64; 3],
+}
+
+type Vector = Vector1<f64>;
+type Matrix = Matrix1<f64>;
+
+const DAMPING: f64 = 0.3;
+
+impl Lagrangian<1> for Mutated {
+    type Scalar = f64;
+    const STRUCTURE: Structure = Structure::UNKNOWN.with_engine(Engine::Expanded);
+
+    fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
+        0.5 * v[0] * v[0] - 0.5 * q[0] * q[0]
+    }
+
+    fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+        Derivatives {
+            value: self.lagrangian(q, v) * (1.0 + self.off[0]),
+            d1: -q,
+            d2: *v,
+            d11: matrix![-1.0],
+            d12: matrix![0.0],
+            d22: matrix![1.0],
+        }
+    }
+
+    fn verify_generated(&self, q: &Vector, v: &Vector) -> Result<(), StepError> {
+        verification::lagrangian(self, q, v)?;
+        verification::rayleigh(self, q, v)?;
+        verification::force(self, q, v)
+    }
+}
+
+impl Rayleigh<1> for Mutated {
+    fn rayleigh(&self, _: &Vector, v: &Vector) -> f64 {
+        0.5 * DAMPING * v[0] * v[0]
+    }
+
+    fn rayleigh_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+        Derivatives {
+            value: self.rayleigh(q, v) * (1.0 + self.off[1]),
+            d1: vector![0.0],
+            d2: v * DAMPING,
+            d11: matrix![0.0],
+            d12: matrix![0.0],
+            d22: matrix![DAMPING],
+        }
+    }
+}
+
+impl Force<1> for Mutated {
+    fn force(&self, q: &Vector, _: &Vector) -> Vector {
+        q * -0.25
+    }
+
+    fn force_derivatives(&self, q: &Vector, v: &Vector) -> CovectorDerivatives<f64, 1> {
+        CovectorDerivatives {
+            value: self.force(q, v) * (1.0 + self.off[2]),
+            d1: matrix![-0.25],
+            d2: matrix![0.0],
+        }
+    }
+}
+
+impl ForcedLagrangian<1> for Mutated {
+    const IS_FORCED: bool = true;
+
+    fn acting_force(&self, q: &Vector, v: &Vector) -> Vector {
+        self.force(q, v) - v * DAMPING
+    }
+
+    fn acting_force_derivatives(&self, q: &Vector, v: &Vector) -> CovectorDerivatives<f64, 1> {
+        CovectorDerivatives { value: self.acting_force(q, v), d1: matrix![-0.25], d2: matrix![-DAMPING] }
+    }
+}
+
+macro_rules! discrete {
+    ($($rule:ident $memory:ident),*) => {
+        $(
+            impl Discrete<$rule, 1> for Mutated {
+                type Matrix = Matrix;
+                type Memory = dalembert::$memory<f64, Matrix, 1>;
+
+                fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+                    <$rule as DisplacementRule>::discrete_lagrangian(self, q0, q1, h)
+                }
+
+                fn discrete_lagrangian_derivatives(&self, q0: &Vector, q1: &Vector, h: f64) -> Derivatives<f64, 1> {
+                    <$rule as DisplacementRule>::discrete_lagrangian_derivatives(self, q0, q1, h)
+                }
+
+                fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
+                    <$rule as DisplacementRule>::lagrangian_kernel(self, q0, v, h)
+                        + <$rule as DisplacementRule>::rayleigh_kernel(self, q0, v, h)
+                        + <$rule as DisplacementRule>::force_kernel(self, q0, v, h)
+                }
+
+                fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
+                    <$rule as DisplacementRule>::lagrangian_momenta(self, q0, v, h)
+                        + <$rule as DisplacementRule>::rayleigh_momenta(self, q0, v, h)
+                        + <$rule as DisplacementRule>::force_momenta(self, q0, v, h)
+                }
+
+                fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+                    <$rule as DisplacementRule>::segment_energy(self, q0, q1, h)
+                }
+
+                fn verify_segment(&self, q0: &Vector, v: &Vector, h: f64) -> Result<(), StepError> {
+                    <$rule as DisplacementRule>::verify_segment(self, q0, v, h)
+                }
+            }
+        )*
+    };
+}
+
+discrete!(Midpoint KeptMatrix, Trapezoidal ExplicitMemory);
+
+impl Explicit<1> for Mutated {
+    fn step_matrix(&self, h: f64) -> Matrix {
+        matrix![1.0 + 0.5 * h * DAMPING]
+    }
+
+    fn velocity_momenta(&self, v: &Vector, h: f64) -> Momenta<f64, 1> {
+        let loss = v * (0.5 * h * DAMPING);
+        Momenta { p0: v + loss, p1: v - loss }
+    }
+
+    fn configuration_force(&self, q: &Vector) -> Vector {
+        q * -1.25
+    }
+}
+
+const RIGHT: Mutated = Mutated { off: [0.0; 3] };
+
+/// L, R or f wrong by one rounding.
+fn wrong() -> [(Mutated, Function); 3] {
+    let functions = [Function::Lagrangian, Function::Rayleigh, Function::Force { index: 0 }];
+    std::array::from_fn(|i| {
+        let mut off = [0.0; 3];
+        off[i] = f64::EPSILON;
+        (Mutated { off }, functions[i])
+    })
+}
+
+/// The function that an error names, of one that was found.
+fn named<T>(result: Result<T, StepError>) -> Option<Function> {
+    match result {
+        Err(StepError::GeneratedDiffers { function, .. }) => Some(function),
+        _ => None,
+    }
+}
+
+const START: State<f64, 1> = State { q: Vector::new(0.5), p: Vector::new(-0.25) };
+const H: f64 = 0.1;
+
+/// What finds a wrong value: the name of the place, and the function that its error names.
+type Finding = (&'static str, Option<Function>);
+
+/// In every build.
+fn at_a_start(system: &Mutated) -> Vec<Finding> {
+    let checkpoint = dalembert::Checkpoint::new(H, START);
+    vec![
+        ("from velocity", named(State::from_velocity(system, START.q, [0.3]))),
+        ("from rest at 0, where every value is 0", named(State::from_velocity(system, [0.0], [0.0]))),
+        ("trajectory, midpoint", named(Trajectory::new(system, Midpoint, H, START).next().unwrap())),
+        ("trajectory, trapezoidal", named(Trajectory::new(system, Trapezoidal, H, START).next().unwrap())),
+        ("trajectory, Gauss", named(Trajectory::new(system, Gauss::<3>, H, START).next().unwrap())),
+        ("resumed", named(Trajectory::resume(system, Midpoint, checkpoint).next().unwrap())),
+        ("in parts", named(Trajectory::new(system, Midpoint, H, START).next_in_parts(3))),
+        (
+            "composition",
+            named(Composition::kahan_li_6(Midpoint).trajectory(system, H, START).next().unwrap()),
+        ),
+        ("splitting", named(Splitting::blanes_moan_4().trajectory(system, H, START).next().unwrap())),
+        ("resumed splitting", named(Splitting::blanes_moan_6().resume(system, checkpoint).next().unwrap())),
+        ("samples", named(Trajectory::new(system, Midpoint, H, START).sample_every(5).next().unwrap())),
+        (
+            "for a tolerance, and so its runs",
+            match Method::for_tolerance(system, WithGauss(Trapezoidal), &START, 1.0, 1e-3) {
+                Err(ToleranceError::Step(error)) => named::<()>(Err(error)),
+                _ => None,
+            },
+        ),
+    ]
+}
+
+/// With `debug_assertions`.
+fn at_a_step(system: &Mutated) -> Vec<Finding> {
+    let midpoint = |guess| Discrete::<Midpoint, 1>::step(system, &START, H, guess);
+    vec![
+        ("midpoint", named(midpoint(None))),
+        ("midpoint from a guess", named(midpoint(Some(&vector![0.3])))),
+        ("trapezoidal", named(Discrete::<Trapezoidal, 1>::step(system, &START, H, None))),
+        ("Gauss, 1 stage", named(Discrete::<Gauss<1>, 1>::step(system, &START, H, None))),
+        ("Gauss, 4 stages", named(Discrete::<Gauss<4>, 1>::step(system, &START, H, None))),
+        ("linearised", named(Discrete::<Gauss<2>, 1>::linearized_step(system, &START, H, None))),
+        ("within", named(Discrete::<Midpoint, 1>::step_within(system, &START, H, None, 3))),
+        (
+            "configurations",
+            named(Discrete::<Midpoint, 1>::step_configurations(system, &START.q, &vector![0.51], H, None)),
+        ),
+    ]
+}
+
+#[test]
+fn a_wrong_value_is_an_error_that_names_the_function_wherever_a_run_starts() {
+    for (system, function) in wrong() {
+        for (place, found) in at_a_start(&system) {
+            assert_eq!(found, Some(function), "{place}");
+        }
+    }
+    for (place, found) in at_a_start(&RIGHT) {
+        assert_eq!(found, None, "{place}");
+    }
+}
+
+#[test]
+fn with_debug_assertions_every_step_verifies_the_points_that_it_evaluates() {
+    for (system, function) in wrong() {
+        for (place, found) in at_a_step(&system) {
+            assert_eq!(found, cfg!(debug_assertions).then_some(function), "{place}");
+        }
+    }
+    for (place, found) in at_a_step(&RIGHT) {
+        assert_eq!(found, None, "{place}");
+    }
+}
+
+#[test]
+fn a_run_that_fails_at_its_start_stays_where_it_is() {
+    let [(system, _), ..] = wrong();
+    let mut run = Trajectory::new(&system, Midpoint, H, START);
+    assert!(run.next().unwrap().is_err() && run.next().is_none());
+    assert_eq!((*run.state(), run.time()), (START, 0.0));
+    // Another step size does not get past it.
+    run.change_step_size(0.5 * H);
+    assert!(run.next().unwrap().is_err());
+    let mut composed = Composition::kahan_li_6(Midpoint).trajectory(&system, H, START);
+    assert!(composed.next().unwrap().is_err() && composed.next().is_none());
+    assert_eq!((*composed.state(), composed.time()), (START, 0.0));
+}
+
+#[test]
+fn the_message_says_what_to_do() {
+    let [.., (system, _)] = wrong();
+    let error = State::from_velocity(&system, START.q, [0.3]).unwrap_err().to_string();
+    for part in ["component 0 of f", "as written", "as generated", "report it", "derivatives = num_dual"] {
+        assert!(error.contains(part), "{error}");
+    }
+}
+
+/// A cart with an input and a clock; damped, so that L, R and f all stand in its view.
+struct Cart {
+    m: f64,
+    c: f64,
+}
+
+#[rayleigh_system(derivatives = expanded, rule = [midpoint, trapezoidal, gauss])]
+impl Cart {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2], t: f64) -> f64 {
+        0.5 * self.m * (v[0] * v[0] + v[1] * v[1]) - (q[0] - t.sin()).powi(4) * q[1].cosh()
+    }
+
+    fn rayleigh(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        0.5 * self.c * (1.0 + q[0] * q[0]) * (v[0] * v[0] + v[1] * v[1])
+    }
+
+    fn force(&self, q: [f64; 2], _v: [f64; 2], u: [f64; 1], t: f64) -> [f64; 2] {
+        [u[0] * q[1].cos() * (3.0 * t).exp(), -u[0] / (1.0 + t)]
+    }
+}
+
+/// A damped oscillator for the rules that take L and R together.
+#[rayleigh_system(derivatives = expanded, rule = [fitted, fitted_trapezoidal, one_sided])]
+fn joint(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+    (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+}
+
+#[test]
+fn views_and_joint_rules_are_verified_at_their_own_input_and_time() -> anyhow::Result<()> {
+    let cart = Cart { m: 1.3, c: 0.2 };
+    let driven = cart.driven([0.7], 2.5);
+    let (q, v) = (vector![0.3, -0.2], vector![1.1, 0.4]);
+    driven.verify_generated(&q, &v)?;
+    let start = State::from_velocity(&driven, q, v)?;
+    Discrete::<Midpoint, 2>::verify_segment(&driven, &q, &v, 0.1)?;
+    Discrete::<Trapezoidal, 2>::verify_segment(&driven, &q, &v, 0.1)?;
+    Discrete::<Gauss<5>, 2>::verify_segment(&driven, &q, &v, 0.1)?;
+    for step in Trajectory::new(&driven, Gauss::<2>, 0.05, start).take(20) {
+        step?;
+    }
+    let joint = Joint { m: 1.0, k: 2.0, r: 0.5 };
+    let (q, v) = (SVector::from([0.3]), SVector::from([0.4]));
+    Discrete::<Fitted, 1>::verify_segment(&joint, &q, &v, 0.1)?;
+    Discrete::<FittedTrapezoidal, 1>::verify_segment(&joint, &q, &v, 0.1)?;
+    Discrete::<dalembert::OneSided, 1>::verify_segment(&joint, &q, &v, 0.1)?;
+    Ok(())
+}

@@ -1,0 +1,7 @@
+//! The Rayleigh structure of forced discrete systems.
+
+mod dissipation;
+mod equivalence;
+mod potential;
+mod resplit;
+mod structure;

@@ -1,0 +1,5 @@
+//! No checker says yes to nonsense, and all of them follow the time.
+
+mod poisoned;
+mod poisoned_sections;
+mod time;
