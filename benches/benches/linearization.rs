@@ -1,14 +1,19 @@
-//! The derivatives A and B of a step, and its second derivatives, against the step itself, interleaved in one run.
+//! The derivatives A and B of a step, and its second derivatives, against the step itself: times of interleaved runs and counted
+//! instructions, as the tables of `docs/performance.md`.
 //!
 //! `cargo bench -p dalembert-benches --bench linearization`
+//!
+//! Instructions are counted where valgrind is installed.
 
+use std::env;
 use std::hint::black_box;
 
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::{
     DiscreteDriven, DiscreteSecondOrder, Driven, ForcedLagrangian, Gauss, Linearization, Midpoint, State,
-    StepHessian, rayleigh_system,
+    StepHessian, Trajectory, rayleigh_system,
 };
+use dalembert_benches::instructions::{self, Part};
 use dalembert_benches::interleaved::medians;
 
 /// A pendulum with a motor in its joint.
@@ -84,42 +89,106 @@ impl Arm {
     }
 }
 
+/// What is measured, in this order.
+const WAYS: [&str; 6] = [
+    "cold step",
+    "step with a guess",
+    "step of a run",
+    "step with A, B",
+    "A, B of the ends",
+    "second derivatives of the ends",
+];
+
+/// Is shown a scene, a rule and the [`WAYS`], each to be run so many times.
+type Visit<'a> = &'a mut dyn FnMut(&str, &str, [&dyn Fn(usize); WAYS.len()]);
+
 fn main() {
+    let arguments: Vec<String> = env::args().collect();
+    if let Some(at) = arguments.iter().position(|argument| argument == instructions::COUNTED) {
+        return counted(&arguments[at + 1..]);
+    }
+    head("ns");
+    scenes(&mut |scene, rule, ways| {
+        let seconds = medians(&ways);
+        row(scene, rule, std::array::from_fn(|way| seconds[way] * 1e9));
+    });
+    println!();
+    head("instructions");
+    scenes(&mut |scene, rule, _| {
+        let key = format!("{scene}/{rule}");
+        let counts = WAYS.map(|way| instructions::each(&key, way, Part::Step, 200));
+        if counts.iter().all(Option::is_some) {
+            row(scene, rule, counts.map(Option::unwrap_or_default));
+        }
+    });
+}
+
+/// The run that valgrind watches.
+fn counted(arguments: &[String]) {
+    let [key, way, _, times] = arguments else { panic!("a scene, a way, a part and a number of times") };
+    let times = times.parse().expect("a number of times");
+    scenes(&mut |scene, rule, ways| {
+        if format!("{scene}/{rule}") == *key {
+            let way = WAYS.iter().position(|name| name == way).expect("a way");
+            ways[way](times);
+        }
+    });
+}
+
+fn head(unit: &str) {
+    println!(
+        "| scene | rule | cold step, {unit} | with a guess, {unit} | of a run, {unit} | step with A, B / of a run | A, B of the ends / of a run \
+         | A, B of the ends / cold | second derivatives / of a run |"
+    );
+    println!("|---|---|--:|--:|--:|--:|--:|--:|--:|");
+}
+
+fn row(scene: &str, rule: &str, [cold, guessed, of_run, with_step, ends, second]: [f64; WAYS.len()]) {
+    println!(
+        "| {scene} | {rule} | {cold:.0} | {guessed:.0} | {of_run:.0} | {:.2} | {:.2} | {:.2} | {:.2} |",
+        with_step / of_run,
+        ends / of_run,
+        ends / cold,
+        second / of_run
+    );
+}
+
+fn scenes(visit: Visit<'_>) {
     let joint = Joint { c: 0.1 };
-    all("pendulum, n = 1, m = 1", &joint.driven([0.3]), vector![0.8], vector![0.4], 0.02);
+    all("pendulum, n = 1", &joint.driven([0.3]), vector![0.8], vector![0.4], 0.02, visit);
     let cart = CartPole { c: [0.1, 0.01] };
-    all("cart and pole, n = 2, m = 1", &cart.driven([0.3]), vector![0.1, 2.8], vector![0.3, -0.4], 0.02);
+    all("cart and pole, n = 2", &cart.driven([0.3]), vector![0.1, 2.8], vector![0.3, -0.4], 0.02, visit);
     let arm = Arm { c: 0.1 };
     let (q, v) = (vector![0.3, 0.5, -0.2, 1.0], vector![0.3, -0.4, 0.7, 0.2]);
-    all("four links, n = 4, m = 4", &arm.driven([1.0, 0.5, 0.2, -0.1]), q, v, 0.01);
+    all("four links, n = 4", &arm.driven([1.0, 0.5, 0.2, -0.1]), q, v, 0.01, visit);
 }
 
 /// By the midpoint rule, and with two and three stages.
 fn all<L, const N: usize, const M: usize>(
-    name: &str,
+    scene: &str,
     system: &L,
     q: SVector<f64, N>,
     v: SVector<f64, N>,
     h: f64,
+    visit: Visit<'_>,
 ) where
     L: DiscreteDriven<Midpoint, N, M, Scalar = f64>
         + DiscreteSecondOrder<Midpoint, N, M>
         + ForcedLagrangian<N>
         + Driven<N, M>,
 {
-    println!("{name}");
-    measure("midpoint", Midpoint, system, q, v, h);
-    measure("Gauss, S = 2", Gauss::<2>, system, q, v, h);
-    measure("Gauss, S = 3", Gauss::<3>, system, q, v, h);
+    measure([scene, "midpoint"], Midpoint, system, (q, v), h, visit);
+    measure([scene, "Gauss, S = 2"], Gauss::<2>, system, (q, v), h, visit);
+    measure([scene, "Gauss, S = 3"], Gauss::<3>, system, (q, v), h, visit);
 }
 
 fn measure<R: Copy, L, const N: usize, const M: usize>(
-    name: &str,
+    [scene, name]: [&str; 2],
     rule: R,
     system: &L,
-    q: SVector<f64, N>,
-    v: SVector<f64, N>,
+    (q, v): (SVector<f64, N>, SVector<f64, N>),
     h: f64,
+    visit: Visit<'_>,
 ) where
     L: DiscreteDriven<R, N, M, Scalar = f64> + DiscreteSecondOrder<R, N, M>,
 {
@@ -129,38 +198,47 @@ fn measure<R: Copy, L, const N: usize, const M: usize>(
     let guess = Some(&first.velocity);
     let next = system.step(&first.state, h, guess).expect("the scene can be stepped");
     let covector = State { q: v, p: q };
-    let times = medians(&[
-        &|repeats| {
-            for _ in 0..repeats {
-                let _ = black_box(system.step(black_box(&first.state), h, guess));
-            }
-        },
-        &|repeats| {
-            for _ in 0..repeats {
-                let state = black_box(&first.state);
-                let _ = black_box(Linearization::of_driven_step(system, rule, state, h, guess));
-            }
-        },
-        &|repeats| {
-            for _ in 0..repeats {
-                let (q0, q1) = (black_box(&first.state.q), black_box(&next.state.q));
-                let _ = black_box(Linearization::of_driven_segment(system, rule, q0, q1, h));
-            }
-        },
-        &|repeats| {
-            for _ in 0..repeats {
-                let (q0, q1) = (black_box(&first.state.q), black_box(&next.state.q));
-                let _ = black_box(StepHessian::of_driven_segment(system, rule, q0, q1, h, &covector));
-            }
-        },
-    ]);
-    let [step, with_step, segment, second] = std::array::from_fn(|i| times[i] * 1e9);
-    println!(
-        "  {name:12} step {step:8.1} ns ({} iterations)   with A, B {with_step:8.1} ns, {:5.2} steps   \
-         A, B of the ends {segment:8.1} ns, {:5.2} steps   second {second:8.1} ns, {:5.2} steps",
-        next.report.iterations,
-        with_step / step,
-        segment / step,
-        second / step
+    let step = |guess: Option<&SVector<f64, N>>, times| {
+        for _ in 0..times {
+            let _ = black_box(system.step(black_box(&first.state), h, guess));
+        }
+    };
+    visit(
+        scene,
+        name,
+        [
+            &|times| step(None, times),
+            &|times| step(guess, times),
+            &|times| {
+                // Not so far that the motion becomes another.
+                let mut left = times;
+                while left > 0 {
+                    let some = left.min(100);
+                    let run = Trajectory::new(system, rule, h, first.state);
+                    for step in run.take(some) {
+                        let _ = black_box(step);
+                    }
+                    left -= some;
+                }
+            },
+            &|times| {
+                for _ in 0..times {
+                    let state = black_box(&first.state);
+                    let _ = black_box(Linearization::of_driven_step(system, rule, state, h, guess));
+                }
+            },
+            &|times| {
+                for _ in 0..times {
+                    let (q0, q1) = (black_box(&first.state.q), black_box(&next.state.q));
+                    let _ = black_box(Linearization::of_driven_segment(system, rule, q0, q1, h));
+                }
+            },
+            &|times| {
+                for _ in 0..times {
+                    let (q0, q1) = (black_box(&first.state.q), black_box(&next.state.q));
+                    let _ = black_box(StepHessian::of_driven_segment(system, rule, q0, q1, h, &covector));
+                }
+            },
+        ],
     );
 }

@@ -14,7 +14,7 @@ use anyhow::{Context, Result, ensure};
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::{Discrete, PhaseMatrix, State, StepError, Trapezoidal, rayleigh_system};
 use dalembert_examples::control::{self, Linearised, Plan, Problem, Quadratic};
-use dalembert_examples::picture::{self, Corner, Curve, Mark, Panel, colour};
+use dalembert_examples::picture::{self, Curve, Dash, Mark, Panel, colour, linear};
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rand_distr::{Distribution, Normal};
@@ -80,7 +80,9 @@ fn main() -> Result<()> {
         1e3 * end.q[0]
     );
 
+    let clock = Instant::now();
     let gain = upright_gain()?;
+    let regulating = clock.elapsed();
     let upright = control::linearised(&PLANT.driven([0.0]), &target(), H)?;
     let radius = |closed: SMatrix<f64, 4, 4>| {
         closed.complex_eigenvalues().iter().fold(0.0_f64, |radius, value| radius.max(value.norm()))
@@ -100,10 +102,24 @@ fn main() -> Result<()> {
         1e3 * run.largest_offset(SWING..PERIODS),
         run.forces.iter().fold(0.0_f64, |force, u| force.max(u.abs())),
     );
+    let [planning, regulating] = [planning, regulating].map(|time| time.as_secs_f64());
+    println!("What control cost, of {:.0} µs a period:", H * 1e6);
     println!(
-        "One period of the controller: {:.2} µs; one step with A and B {:.2} µs",
-        run.seconds / PERIODS as f64 * 1e6,
-        seconds_of_linearisation()? * 1e6
+        "  before the run: plan and its gains {:.0} µs, gain of the regulator {:.0} µs",
+        planning * 1e6,
+        regulating * 1e6
+    );
+    println!(
+        "    (one step with its derivatives A and B, of which they are made: {:.2} µs)",
+        seconds_of_linearisation(&plan)? * 1e6
+    );
+    println!(
+        "  in each period: {:.2} µs, to make momenta of the sensors' velocities and to apply a gain; nothing estimates, nothing plans anew",
+        run.seconds / PERIODS as f64 * 1e6
+    );
+    println!(
+        "  all of it, shared among {PERIODS} periods: {:.2} µs a period",
+        (planning + regulating + run.seconds) / PERIODS as f64 * 1e6
     );
     ensure!(held < 0.5, "the pole fell: {:.1}°", held.to_degrees());
     println!("\nPicture: {}", draw(&plan, &run)?.display());
@@ -242,16 +258,14 @@ impl Run {
     }
 }
 
-/// Seconds of one step with its derivatives.
-fn seconds_of_linearisation() -> Result<f64> {
-    let driven = PLANT.driven([1.0]);
-    let mut x = vector![0.1, 2.8, 0.3, -0.1];
+/// Seconds of one step with its derivatives, over the steps of the plan.
+fn seconds_of_linearisation(plan: &Plan<4, 1>) -> Result<f64> {
     let clock = Instant::now();
-    for _ in 0..1000 {
-        x = control::linearised::<_, 2, 1, 4>(&driven, &x, 1e-4).context("the scene can be stepped")?.next;
+    for (x, u) in plan.states.iter().zip(&plan.inputs) {
+        let step = control::linearised::<_, 2, 1, 4>(&PLANT.driven(*u), x, H);
+        std::hint::black_box(step.context("the plan can be stepped")?);
     }
-    std::hint::black_box(x);
-    Ok(clock.elapsed().as_secs_f64() / 1000.0)
+    Ok(clock.elapsed().as_secs_f64() / SWING as f64)
 }
 
 fn draw(plan: &Plan<4, 1>, run: &Run) -> Result<std::path::PathBuf> {
@@ -261,50 +275,41 @@ fn draw(plan: &Plan<4, 1>, run: &Run) -> Result<std::path::PathBuf> {
     let moved = |index: usize| -> Vec<_> {
         run.states.iter().enumerate().map(|(k, state)| (k as f64 * H, state.q[index])).collect()
     };
-    let curve = |label, colour, width, points| Curve { label, colour, mark: Mark::Line(width), points };
-    let pushes = |level: f64| Curve {
-        label: "push",
-        colour: colour::RUNGE_KUTTA,
-        mark: Mark::Triangle,
-        points: PUSHES.iter().map(|(k, _)| (*k as f64 * H, level)).collect(),
+    let pushes = |level: f64| {
+        let points = PUSHES.iter().map(|(k, _)| (*k as f64 * H, level)).collect();
+        Curve::marks("push", colour::RUNGE_KUTTA, Mark::Triangle, points)
     };
-    let panel = |title, y, legend, curves| Panel { title, x: "time t (s)", y, legend, curves };
+    let time = linear("time t (s)");
+    let curves = |index: usize, pushed: f64| {
+        vec![
+            Curve::line("motion", colour::VARIATIONAL, 4, moved(index)),
+            Curve::line("plan of the swing-up", colour::REFERENCE, 2, planned(index)).dashed(Dash::Dashed),
+            pushes(pushed),
+        ]
+    };
     let forces = run.forces.iter().enumerate().map(|(k, u)| (k as f64 * H, *u)).collect();
     let close =
         moved(1).into_iter().skip(SWING + 50).map(|(t, angle)| (t, (angle - PI).to_degrees())).collect();
     let panels = [
-        panel(
-            "Angle of the pole",
-            "angle from below (rad)",
-            Corner::LowerRight,
-            vec![
-                curve("motion", colour::VARIATIONAL, 3, moved(1)),
-                curve("plan of the swing-up", colour::REFERENCE, 1, planned(1)),
-                pushes(PI),
-            ],
+        Panel::new(
+            "Angle of the pole: swung up, then held",
+            time,
+            linear("angle from below (rad)"),
+            curves(1, PI),
         ),
-        panel(
-            "Position of the cart",
-            "position (m)",
-            Corner::LowerRight,
-            vec![
-                curve("motion", colour::VARIATIONAL, 3, moved(0)),
-                curve("plan of the swing-up", colour::REFERENCE, 1, planned(0)),
-                pushes(0.0),
-            ],
-        ),
-        panel(
+        Panel::new("Position of the cart", time, linear("position (m)"), curves(0, 0.0)),
+        Panel::new(
             "Angle from upright, once held",
-            "angle from upright (degrees)",
-            Corner::UpperRight,
-            vec![curve("motion", colour::VARIATIONAL, 2, close), pushes(0.0)],
+            time,
+            linear("angle from upright (degrees)"),
+            vec![Curve::line("motion", colour::VARIATIONAL, 2, close), pushes(0.0)],
         ),
-        panel(
+        Panel::new(
             "Force of the controller",
-            "force on the cart (N)",
-            Corner::UpperRight,
-            vec![curve("force", colour::VARIATIONAL, 1, forces)],
+            time,
+            linear("force on the cart (N)"),
+            vec![Curve::line("force", colour::VARIATIONAL, 1, forces), pushes(0.0)],
         ),
     ];
-    picture::write("cart_pole", [1600, 1100], 2, &panels)
+    picture::write("cart_pole", [1600, 1200], 2, &panels)
 }

@@ -13,22 +13,13 @@
 //! cargo run --release --example conjecture [picture.svg]
 //! ```
 
-use std::env;
-use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::{Context, Result};
 use dalembert::exact::{Exact, Existence};
 use dalembert::nalgebra::SVector;
 use dalembert::{Rayleigh, rayleigh_system};
-use dalembert_examples::results;
-use plotters::backend::SVGBackend;
-use plotters::chart::{ChartBuilder, SeriesLabelPosition};
-use plotters::coord::combinators::IntoLogRange;
-use plotters::drawing::IntoDrawingArea;
-use plotters::element::{Circle, PathElement};
-use plotters::series::LineSeries;
-use plotters::style::{BLACK, Color, RGBColor, TRANSPARENT, WHITE};
+use dalembert_examples::picture::{self, Curve, Dash, Mark, Panel, RGBColor, colour, logarithmic};
 
 /// V = ½q².
 #[rayleigh_system]
@@ -56,7 +47,7 @@ const Q1: f64 = 1.1;
 /// One potential: what was computed and what the leading term predicts.
 struct Potential {
     name: &'static str,
-    colour: RGBColor,
+    look: (RGBColor, Dash, Mark),
     third: fn(f64) -> f64,
     found: Vec<Existence<1>>,
 }
@@ -64,7 +55,7 @@ struct Potential {
 impl Potential {
     fn of<L: Rayleigh<1, Scalar = f64>>(
         name: &'static str,
-        colour: RGBColor,
+        look: (RGBColor, Dash, Mark),
         third: fn(f64) -> f64,
         system: &L,
     ) -> Result<Self> {
@@ -73,7 +64,7 @@ impl Potential {
             .map(|h| exact.existence(SVector::from([Q0]), SVector::from([Q1]), h))
             .collect::<Result<_, _>>()
             .with_context(|| format!("no exact discrete objects for the {name} potential"))?;
-        Ok(Self { name, colour, third, found })
+        Ok(Self { name, look, third, found })
     }
 
     /// The leading term at step size h; τ²(1−τ)² V''' by Simpson's rule.
@@ -101,9 +92,24 @@ fn obstruction(existence: &Existence<1>) -> f64 {
 
 fn main() -> Result<()> {
     let potentials = [
-        Potential::of("quartic", RGBColor(213, 94, 0), |q| 6.0 * q, &Quartic { m: M, r: R })?,
-        Potential::of("pendulum", RGBColor(0, 114, 178), |q| -q.sin(), &Pendulum { m: M, r: R })?,
-        Potential::of("harmonic", RGBColor(0, 158, 115), |_| 0.0, &Harmonic { m: M, r: R })?,
+        Potential::of(
+            "quartic",
+            (colour::RUNGE_KUTTA, Dash::Solid, Mark::Disc),
+            |q| 6.0 * q,
+            &Quartic { m: M, r: R },
+        )?,
+        Potential::of(
+            "pendulum",
+            (colour::VARIATIONAL, Dash::Dashed, Mark::Circle),
+            |q| -q.sin(),
+            &Pendulum { m: M, r: R },
+        )?,
+        Potential::of(
+            "harmonic",
+            (colour::EULER, Dash::DashDotted, Mark::Triangle),
+            |_| 0.0,
+            &Harmonic { m: M, r: R },
+        )?,
     ];
     report(&potentials);
     println!("\nPicture: {}", draw(&potentials)?.display());
@@ -137,100 +143,29 @@ fn report(potentials: &[Potential]) {
     }
 }
 
-/// Writes the picture to the path that the command line gives, or else to `target/conjecture.svg`.
 fn draw(potentials: &[Potential]) -> Result<PathBuf> {
-    let mut svg = String::new();
-    draw_into(&mut svg, potentials)?;
-    let path = match env::args_os().nth(1) {
-        Some(path) => PathBuf::from(path),
-        None => Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("target").join("conjecture.svg"),
-    };
-    results::save(&path, &svg)?;
-    Ok(path)
-}
-
-fn draw_into(svg: &mut String, potentials: &[Potential]) -> Result<()> {
-    const FONT: &str = "sans-serif";
-    const H: Range<f64> = 0.01..1.25;
-    const OBSTRUCTION: Range<f64> = 1e-17..1.0;
-    let root = SVGBackend::with_string(svg, (1100, 800)).into_drawing_area();
-    root.fill(&WHITE)?;
-    let mut chart = ChartBuilder::on(&root)
-        .caption("Is the exact discrete force Rayleigh?", (FONT, 26))
-        .margin(14)
-        .margin_right(30)
-        .x_label_area_size(56)
-        .y_label_area_size(92)
-        .build_cartesian_2d(H.log_scale(), OBSTRUCTION.log_scale())?;
-    chart
-        .configure_mesh()
-        .x_desc("step size h (dimensionless)")
-        .y_desc("|D1 f⁺ + D2 f⁻| (dimensionless)")
-        .x_labels(6)
-        .y_labels(10)
-        .x_label_formatter(&|h| h.to_string())
-        .y_label_formatter(&|y| power_of_ten(*y))
-        .label_style((FONT, 19))
-        .axis_desc_style((FONT, 21))
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(RGBColor(225, 225, 225).stroke_width(1))
-        .axis_style(BLACK.stroke_width(1))
-        .set_all_tick_mark_size(5)
-        .draw()?;
-
+    let mut curves = Vec::new();
     for potential in potentials {
-        let colour = potential.colour;
+        let (colour, dash, mark) = potential.look;
         let points = potential.found.iter().map(|existence| (existence.h, obstruction(existence).abs()));
-        // 0 has no logarithm: it is drawn on the lower edge.
-        let visible = points.map(|(h, y)| (h, y.max(OBSTRUCTION.start)));
-        chart
-            .draw_series(visible.map(|at| Circle::new(at, 5, colour.filled())))?
-            .label(if potential.leading(1.0) == 0.0 {
-                format!("{} (0 on the lower edge)", potential.name)
-            } else {
-                potential.name.to_owned()
-            })
-            .legend(move |(x, y)| Circle::new((x + 12, y), 5, colour.filled()));
-        let line: Vec<_> = step_sizes().map(|h| (h, potential.leading(h).abs())).collect();
-        if line.iter().all(|point| point.1 > 0.0) {
-            chart
-                .draw_series(LineSeries::new(line, colour.stroke_width(2)))?
-                .label(format!("{}, leading term ∝ h²", potential.name))
-                .legend(move |(x, y)| PathElement::new([(x, y), (x + 24, y)], colour.stroke_width(2)));
+        curves.push(Curve::marks(potential.name, colour, mark, points.collect()));
+        let leading: Vec<_> = step_sizes().map(|h| (h, potential.leading(h).abs())).collect();
+        if leading.iter().all(|point| point.1 > 0.0) {
+            curves.push(Curve::line("its leading term ∝ h²", colour, 2, leading).dashed(dash));
         }
     }
-    let tolerances = potentials.iter().map(|potential| {
-        let points = potential.found.iter().map(|existence| (existence.h, existence.tolerance));
-        LineSeries::new(points.collect::<Vec<_>>(), RGBColor(120, 120, 120).stroke_width(1))
-    });
-    for (index, series) in tolerances.enumerate() {
-        let drawn = chart.draw_series(series)?;
-        if index == 0 {
-            drawn.label("what counts as 0").legend(|(x, y)| {
-                PathElement::new([(x, y), (x + 24, y)], RGBColor(120, 120, 120).stroke_width(1))
-            });
-        }
-    }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::Coordinate(620, 250))
-        .margin(8)
-        .legend_area_size(32)
-        .label_font((FONT, 19))
-        .background_style(WHITE.mix(0.85))
-        .draw()?;
-    root.present()?;
-    Ok(())
-}
-
-/// 10⁻⁶ for 1e-6.
-fn power_of_ten(value: f64) -> String {
-    let exponent = value.log10().round() as i32;
-    let digits = exponent.abs().to_string();
-    let raised = digits
-        .chars()
-        .filter_map(|digit| digit.to_digit(10))
-        .map(|digit| ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize]);
-    let sign = if exponent < 0 { "⁻" } else { "" };
-    format!("10{sign}{}", raised.collect::<String>())
+    // Of the three potentials these are much alike: the largest tells what is no longer 0 for any.
+    let largest = |(k, h): (usize, f64)| {
+        (h, potentials.iter().map(|potential| potential.found[k].tolerance).fold(0.0, f64::max))
+    };
+    let tolerance = step_sizes().enumerate().map(largest).collect();
+    curves.push(Curve::line("below: counts as 0", colour::GREY, 3, tolerance).dashed(Dash::Dotted));
+    let panel = Panel::new(
+        "Is the exact discrete force Rayleigh? Of the harmonic potential alone",
+        logarithmic("step size h (dimensionless)"),
+        // Exact zeros stand at the floor.
+        logarithmic("|D1 f⁺ + D2 f⁻| (dimensionless)").with_floor(1e-17),
+        curves,
+    );
+    picture::write("conjecture", [1100, 850], 1, &[panel])
 }

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use dalembert::{EnergyLedger, Midpoint, State, Trajectory, rayleigh_system};
 use dalembert_examples::baseline::{self, Method};
-use dalembert_examples::picture::{self, Corner, Curve, Mark, Panel, RGBColor, colour};
+use dalembert_examples::picture::{self, Curve, Dash, Panel, RGBColor, colour, linear, logarithmic};
 
 /// A particle of unit mass in the potential s(s − 1)², s = |q|², with isotropic drag.
 #[rayleigh_system]
@@ -90,23 +90,23 @@ impl Run {
 }
 
 fn draw(runs: &[Run]) -> Result<PathBuf> {
-    let panel = |title, y, legend, quantity: fn(&(f64, f64, f64)) -> f64| {
-        let curve = |run: &Run| Curve {
-            label: run.method,
-            colour: run.colour,
-            mark: Mark::Line(2),
-            points: run.course.iter().map(|entry| (entry.0, quantity(entry))).collect(),
+    let time = linear("time t (dimensionless)");
+    let panel = |title, y, quantity: fn(&(f64, f64, f64)) -> f64| {
+        let curve = |(run, dash): (&Run, Dash)| {
+            let points = run.course.iter().map(|entry| (entry.0, quantity(entry))).collect();
+            Curve::line(run.method, run.colour, 3, points).dashed(dash)
         };
-        let mut curves: Vec<_> = runs.iter().rev().map(curve).collect();
-        // Room for the legend.
-        let lowest = curves.iter().flat_map(|curve| &curve.points).map(|point| point.1).fold(0.0, f64::min);
-        let room = vec![(0.0, 1.4 * lowest)];
-        curves.push(Curve { label: "", colour: colour::REFERENCE, mark: Mark::Line(1), points: room });
-        Panel { title, x: "time t", y, legend, curves }
+        let dashes = [Dash::Solid, Dash::Dashed, Dash::DashDotted];
+        Panel::new(title, time, y, runs.iter().zip(dashes).map(curve).collect())
     };
     let panels = [
-        panel("Dissipated by friction", "Σ h v̄·∂R/∂v", Corner::UpperLeft, |entry| entry.1),
-        panel("Brought by the method", "Σ (ΔE + h v̄·∂R/∂v)", Corner::LowerRight, |entry| entry.2),
+        panel("Taken by friction so far", linear("Σ h v̄·∂R/∂v (dimensionless)"), |entry| entry.1),
+        // Implicit Euler's would set the scale of a linear axis.
+        panel(
+            "Taken or brought by the method itself",
+            logarithmic("|Σ (ΔE + h v̄·∂R/∂v)| (dimensionless)").with_floor(1e-5).from_to(1e-5, 1.0),
+            |entry| entry.2.abs(),
+        ),
     ];
-    picture::write("energy_ledger", [1600, 550], 2, &panels)
+    picture::write("energy_ledger", [1600, 600], 2, &panels)
 }

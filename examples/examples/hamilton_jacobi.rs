@@ -12,7 +12,7 @@
 use anyhow::Result;
 use dalembert::hamilton_jacobi::{Caustic, Characteristic, HamiltonJacobi};
 use dalembert::{Midpoint, ScalarField, rayleigh_system};
-use dalembert_examples::picture::{self, Corner, Curve, Mark, Panel, RGBColor};
+use dalembert_examples::picture::{self, Curve, Dash, Mark, Panel, colour, linear};
 use nalgebra::{SMatrix, SVector, vector};
 
 #[rayleigh_system]
@@ -99,8 +99,8 @@ fn main() -> Result<()> {
     println!("{}", swing.characteristics_report(&swing_fan));
     let dense = spread(-2.9, 2.9, 401).into_iter().map(swing_carry).collect::<Result<Vec<_>, _>>()?;
 
-    // Lines of the sections in closed form, over the range that the fan covers at that k.
-    let lines = [("k = 0", 0), ("k = 4", 4), ("k = 8", 8), ("k = 9", 9), ("k = 14", 14)];
+    // Lines of the sections in closed form, over the range that the fan covers at that time.
+    let lines = [("t = 0", 0), ("t = 1", 4), ("t = 2", 8), ("t = 2.25", 9), ("t = 3.5", 14)];
     let carried = lines.map(|(_, k)| section_points(&fan, k));
     let lines = lines.map(|(label, k)| {
         let on_line = |characteristic: &Characteristic<f64, 1>| {
@@ -109,27 +109,17 @@ fn main() -> Result<()> {
         };
         (label, [&fan[0], &fan[fan.len() - 1]].map(on_line).to_vec())
     });
-    let folds = [("k = 0", 0), ("k = 10", 10), ("k = 16", 16), ("k = 20", 20), ("k = 30", 30)]
+    let folds = [("t = 0", 0), ("t = 1", 10), ("t = 1.6", 16), ("t = 2", 20), ("t = 3", 30)]
         .map(|(label, k)| (label, section_points(&dense, k)));
     let path = picture::write(
         "hamilton_jacobi",
-        [1300, 1000],
+        [1600, 1300],
         2,
         &[
-            fan_panel("Damped oscillator: characteristics", h, &fan, &caustics(&fan)),
-            section_panel(
-                "Its sections: carried points on closed-form lines",
-                lines,
-                carried,
-                Corner::LowerLeft,
-            ),
-            fan_panel("Damped pendulum from rest: characteristics", 0.1, &swing_fan, &caustics(&dense)),
-            section_panel(
-                "Its sections fold over beyond the caustic",
-                folds,
-                Default::default(),
-                Corner::UpperRight,
-            ),
+            fan_panel("Damped oscillator: all characteristics meet", h, &fan, &caustics(&fan)),
+            section_panel("Its sections: carried points on closed-form lines", lines, carried),
+            fan_panel("Damped pendulum from rest: a caustic with a cusp", 0.1, &swing_fan, &caustics(&dense)),
+            section_panel("Its sections fold over beyond the caustic", folds, Default::default()),
         ],
     )?;
     println!("picture: {}", path.display());
@@ -145,17 +135,7 @@ fn section_points(fan: &[Characteristic<f64, 1>], k: usize) -> Vec<(f64, f64)> {
     fan.iter().map(|characteristic| (characteristic.states[k].q[0], characteristic.states[k].p[0])).collect()
 }
 
-/// Colours that readers with any colour vision tell apart (Okabe and Ito, 2008).
-const COLOURS: [RGBColor; 5] = [
-    RGBColor(0, 0, 0),
-    RGBColor(0, 114, 178),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(230, 159, 0),
-];
-const CAUSTIC: RGBColor = RGBColor(213, 94, 0);
-
-/// The characteristics over time, the caustics on them marked.
+/// The characteristics over time, and the caustic over them.
 fn fan_panel<'a>(
     title: &'a str,
     h: f64,
@@ -165,22 +145,23 @@ fn fan_panel<'a>(
     let mut curves: Vec<_> = fan
         .iter()
         .enumerate()
-        .map(|(index, characteristic)| Curve {
-            label: if index == 0 { "characteristics" } else { "" },
-            colour: COLOURS[1],
-            mark: Mark::Line(1),
-            points: (0..characteristic.states.len())
-                .map(|k| (k as f64 * h, characteristic.states[k].q[0]))
-                .collect(),
+        .map(|(index, characteristic)| {
+            let label = if index == 0 { "characteristics" } else { "" };
+            let states = characteristic.states.iter().enumerate();
+            let points = states.map(|(k, state)| (k as f64 * h, state.q[0])).collect();
+            Curve::line(label, colour::VARIATIONAL, 1, points)
         })
         .collect();
-    curves.push(Curve {
-        label: "caustic, det Q = 0",
-        colour: CAUSTIC,
-        mark: Mark::Disc,
-        points: caustics.iter().map(|c| ((c.step as f64 + c.fraction) * h, c.q[0])).collect(),
-    });
-    Panel { title, x: "time kh", y: "configuration q", legend: Corner::UpperRight, curves }
+    let points = caustics.iter().map(|c| ((c.step as f64 + c.fraction) * h, c.q[0])).collect();
+    let caustic = Curve::line("caustic, det Q = 0", colour::RUNGE_KUTTA, 4, points);
+    // One that is a single point needs a mark.
+    curves.push(if fan.len() == caustics.len() { caustic.marked(Mark::Circle, 1) } else { caustic });
+    Panel::new(
+        title,
+        linear("time t = kh (dimensionless)"),
+        linear("configuration q (dimensionless)"),
+        curves,
+    )
 }
 
 /// Sections in the phase plane, and on them the points of a carried fan.
@@ -188,12 +169,18 @@ fn section_panel<'a>(
     title: &'a str,
     lines: [(&'a str, Vec<(f64, f64)>); 5],
     carried: [Vec<(f64, f64)>; 5],
-    legend: Corner,
 ) -> Panel<'a> {
+    let styles = [
+        (colour::REFERENCE, Dash::Solid, Mark::Disc),
+        (colour::VARIATIONAL, Dash::Dashed, Mark::Circle),
+        (colour::EULER, Dash::DashDotted, Mark::Triangle),
+        (colour::FOURTH, Dash::Dotted, Mark::Square),
+        (colour::RUNGE_KUTTA, Dash::Solid, Mark::Cross),
+    ];
     let mut curves = Vec::new();
-    for (((label, points), carried), colour) in lines.into_iter().zip(carried).zip(COLOURS) {
-        curves.push(Curve { label, colour, mark: Mark::Line(2), points });
-        curves.push(Curve { label: "", colour, mark: Mark::Disc, points: carried });
+    for (((label, points), carried), (colour, dash, mark)) in lines.into_iter().zip(carried).zip(styles) {
+        curves.push(Curve::line(label, colour, 2, points).dashed(dash));
+        curves.push(Curve::marks("", colour, mark, carried));
     }
-    Panel { title, x: "configuration q", y: "momentum p", legend, curves }
+    Panel::new(title, linear("configuration q (dimensionless)"), linear("momentum p (dimensionless)"), curves)
 }

@@ -12,7 +12,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use dalembert::{Midpoint, State, rayleigh_system};
-use dalembert_examples::picture::{self, Corner, Curve, Mark, Panel, colour};
+use dalembert_examples::picture::{self, Curve, Panel, colour, linear};
 use dalembert_examples::saved_run::{SavedRun, Schedule};
 
 /// Two equal pendulums, one hung from the other, with friction in the upper joint.
@@ -54,14 +54,13 @@ fn main() -> Result<()> {
     println!("\nAt the end q = ({}, {}).", end.q[0], end.q[1]);
     let first = (0.0, start.energy(&system)?);
     let points = [first].into_iter().chain(points).collect();
-    let curve = Curve { label: "", colour: colour::VARIATIONAL, mark: Mark::Line(1), points };
-    let panel = Panel {
-        title: "Chaotic double pendulum with weak friction, 5 000 000 midpoint steps",
-        x: "time t",
-        y: "energy E",
-        legend: Corner::UpperRight,
-        curves: vec![curve],
-    };
+    let curve = Curve::line("midpoint, h = 0.02, every 5 000th step", colour::VARIATIONAL, 1, points);
+    let panel = Panel::new(
+        "Chaotic double pendulum: weak friction takes its energy",
+        linear("time t (dimensionless)"),
+        linear("energy E (dimensionless)"),
+        vec![curve],
+    );
     println!("\nPicture: {}", picture::write("long_run", [1100, 600], 1, &[panel])?.display());
     Ok(())
 }

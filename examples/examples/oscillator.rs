@@ -1,8 +1,9 @@
 //! The damped oscillator m q̈ + r q̇ + k q = 0: the variational midpoint rule, explicit Euler and the classical
 //! Runge–Kutta method against the exact solution.
 //!
-//! Position, momentum, energy and phase plane as in figure 3 of the paper. With m = k = 1 all quantities are in units of
-//! the undamped oscillator: time in √(m/k).
+//! Position, phase plane and energy as in figure 3 of the paper: explicit Euler is visibly off, and the other two lie on the curve. Their errors
+//! stand beside it: at this step size that of Runge–Kutta 4 is some 150 times smaller, by its order. What the midpoint rule keeps instead shows in
+//! long runs (`ring`). With m = k = 1 all quantities are in units of the undamped oscillator: time in √(m/k).
 //!
 //! ```text
 //! cargo run --release --example oscillator [picture.svg]
@@ -14,7 +15,9 @@ use std::path::PathBuf;
 use anyhow::Result;
 use dalembert::{Midpoint, State, Trajectory, rayleigh_system};
 use dalembert_examples::baseline::{self, Method};
-use dalembert_examples::picture::{self, Corner, Curve, Mark, Panel, RGBColor, colour};
+use dalembert_examples::picture::{
+    self, Axis, Curve, Dash, Mark, Panel, RGBColor, colour, linear, logarithmic,
+};
 use nalgebra::vector;
 
 /// L and R of a mass on a spring with linear drag.
@@ -95,41 +98,43 @@ fn energy(state: &State<f64, 1>) -> f64 {
 }
 
 fn draw(motions: &[Motion]) -> Result<PathBuf> {
-    const TIME: &str = "time t (dimensionless)";
+    let time = linear("time t (dimensionless)");
     let panels = [
-        panel("Position", [TIME, "q (dimensionless)"], Corner::UpperRight, motions, |t, state| {
-            (t, state.q[0])
-        }),
-        panel("Momentum", [TIME, "p (dimensionless)"], Corner::UpperRight, motions, |t, state| {
-            (t, state.p[0])
-        }),
-        panel("Energy", [TIME, "E (dimensionless)"], Corner::UpperRight, motions, |t, state| {
-            (t, energy(state))
-        }),
+        panel("Position", [time, linear("q (dimensionless)")], motions, |t, state| (t, state.q[0])),
         panel(
             "Phase plane",
-            ["q (dimensionless)", "v (dimensionless)"],
-            Corner::UpperLeft,
+            [linear("q (dimensionless)"), linear("v (dimensionless)")],
             motions,
             |_, state| (state.q[0], state.p[0] / SYSTEM.m),
         ),
+        panel("Energy", [time, linear("E (dimensionless)")], motions, |t, state| (t, energy(state))),
+        errors(time, motions),
     ];
-    picture::write("oscillator", [1600, 1100], 2, &panels)
+    picture::write("oscillator", [1600, 1200], 2, &panels)
 }
 
 fn panel<'a>(
     title: &'a str,
-    [x, y]: [&'a str; 2],
-    legend: Corner,
+    [x, y]: [Axis<'a>; 2],
     motions: &'a [Motion],
     point: fn(f64, &State<f64, 1>) -> (f64, f64),
 ) -> Panel<'a> {
     let fine = (0..=20 * STEPS).map(|step| step as f64 * H / 20.0);
-    let curve = |label, colour, mark, points| Curve { label, colour, mark, points };
-    let exact = curve("exact", colour::REFERENCE, Mark::Line(2), fine.map(|t| point(t, &exact(t))).collect());
+    let exact = Curve::line("exact", colour::REFERENCE, 2, fine.map(|t| point(t, &exact(t))).collect());
     let methods = motions.iter().map(|motion| {
-        let points = motion.states.iter().map(|(t, state)| point(*t, state));
-        curve(motion.method, motion.colour, motion.mark, points.collect())
+        let points = motion.states.iter().map(|(t, state)| point(*t, state)).collect();
+        Curve::marks(motion.method, motion.colour, motion.mark, points)
     });
-    Panel { title, x, y, legend, curves: once(exact).chain(methods).collect() }
+    Panel::new(title, x, y, once(exact).chain(methods).collect())
+}
+
+/// What the other panels cannot show: of the two that lie on the curve, Runge–Kutta 4 is nearer by its two orders more.
+fn errors<'a>(time: Axis<'a>, motions: &'a [Motion]) -> Panel<'a> {
+    let curves = motions.iter().zip([Dash::DashDotted, Dash::Dashed, Dash::Solid]).map(|(motion, dash)| {
+        // The error at the start is 0.
+        let later = motion.states.iter().skip(1);
+        let points = later.map(|(t, state)| (*t, (energy(state) - energy(&exact(*t))).abs())).collect();
+        Curve::line(motion.method, motion.colour, 3, points).dashed(dash)
+    });
+    Panel::new("Error of the energy", time, logarithmic("|E − exact| (dimensionless)"), curves.collect())
 }

@@ -12,7 +12,7 @@ use std::iter::once;
 use anyhow::Result;
 use dalembert::{Midpoint, State, Trajectory, rayleigh_system};
 use dalembert_examples::baseline::{self, Method};
-use dalembert_examples::picture::{self, Corner, Curve, Mark, Panel, colour};
+use dalembert_examples::picture::{self, Axis, Curve, Mark, Panel, colour, linear};
 
 /// L and R of a pendulum of unit mass and length; q is the angle from the lowest point.
 #[rayleigh_system]
@@ -49,25 +49,23 @@ fn main() -> Result<()> {
         );
     }
 
-    let panel = |title, x, y, legend, point: fn(f64, &State<f64, 1>) -> (f64, f64)| {
-        let curve = |label, colour, mark, h: f64, states: &[State<f64, 1>]| {
-            let points = states.iter().enumerate().map(|(k, state)| point(k as f64 * h, state)).collect();
-            Curve { label, colour, mark, points }
+    let panel = |title, x: Axis<'static>, y: Axis<'static>, point: fn(f64, &State<f64, 1>) -> (f64, f64)| {
+        let points = |h: f64, states: &[State<f64, 1>]| {
+            states.iter().enumerate().map(|(k, state)| point(k as f64 * h, state)).collect()
         };
         let curves = vec![
-            curve("continuous", colour::REFERENCE, Mark::Line(2), H / FINE as f64, &continuous),
-            curve("discrete, h = 0.2", colour::VARIATIONAL, Mark::Disc, H, &discrete),
+            Curve::line("continuous", colour::REFERENCE, 2, points(H / FINE as f64, &continuous)),
+            Curve::marks("midpoint, h = 0.2", colour::VARIATIONAL, Mark::Disc, points(H, &discrete)),
         ];
-        Panel { title, x, y, legend, curves }
+        Panel::new(title, x, y, curves)
     };
+    let (angle, momentum) = (linear("angle q (rad)"), linear("momentum p (dimensionless)"));
     let panels = [
-        panel("Angle", "time t (dimensionless)", "q (radians)", Corner::UpperRight, |t, state| {
+        panel("Angle: discrete points on the curve", linear("time t (dimensionless)"), angle, |t, state| {
             (t, state.q[0])
         }),
-        panel("Phase plane", "q (radians)", "p (dimensionless)", Corner::UpperRight, |_, state| {
-            (state.q[0], state.p[0])
-        }),
+        panel("Phase plane", angle, momentum, |_, state| (state.q[0], state.p[0])),
     ];
-    println!("\nPicture: {}", picture::write("pendulum", [1600, 600], 2, &panels)?.display());
+    println!("\nPicture: {}", picture::write("pendulum", [1600, 640], 2, &panels)?.display());
     Ok(())
 }

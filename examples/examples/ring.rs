@@ -14,7 +14,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use dalembert::{Discrete, Lagrangian, Midpoint, Rayleigh, State, Step, Trajectory, rayleigh_system};
 use dalembert_examples::baseline::{self, Method};
-use dalembert_examples::picture::{self, Corner, Curve, Mark, Panel, colour};
+use dalembert_examples::picture::{self, Axis, Curve, Dash, Panel, colour, linear, logarithmic};
 use indicatif::ProgressBar;
 
 /// A particle of unit mass in the potential s(s − 1)², s = |q|², with isotropic drag.
@@ -215,30 +215,58 @@ fn difference(a: &[f64], b: &[f64]) -> impl Iterator<Item = f64> {
 
 /// Energy and angular momentum above, their errors below.
 fn draw(midpoint: &Motion, runge_kutta: &Motion, reference: &Motion) -> Result<PathBuf> {
-    let panel = |title, y, legend, quantity: &dyn Fn(&Motion) -> Vec<f64>| {
+    let against_time = |values: &mut dyn Iterator<Item = f64>| -> Vec<_> {
+        values.enumerate().map(|(k, value)| (time(k), value)).collect()
+    };
+    let axis = linear("time t (dimensionless)");
+    let panel = |title, y: Axis<'static>, quantity: fn(&Motion) -> &Vec<f64>, width| {
         let curve = |label, colour, width, motion| {
-            let points =
-                quantity(motion).into_iter().enumerate().map(|(k, value)| (time(k), value)).collect();
-            Curve { label, colour, mark: Mark::Line(width), points }
+            Curve::line(label, colour, width, against_time(&mut quantity(motion).iter().copied()))
+        };
+        // Where they lie on each other, each is seen beside or through the one above it.
+        let curves = vec![
+            curve("variational midpoint", colour::VARIATIONAL, width, midpoint),
+            curve("Runge–Kutta 4", colour::RUNGE_KUTTA, 4, runge_kutta).dashed(Dash::Dashed),
+            curve("reference", colour::REFERENCE, 1, reference),
+        ];
+        Panel::new(title, axis, y, curves)
+    };
+    let errors = |title, y: Axis<'static>, quantity: fn(&Motion) -> &Vec<f64>| {
+        let curve = |label, colour, motion| {
+            let mut errors = difference(quantity(motion), quantity(reference)).map(f64::abs);
+            // The error at the start is 0.
+            let points = against_time(&mut errors).split_off(1);
+            Curve::line(label, colour, 2, points)
         };
         let curves = vec![
-            curve("reference", colour::REFERENCE, 3, reference),
-            curve("Runge–Kutta 4", colour::RUNGE_KUTTA, 2, runge_kutta),
-            curve("variational midpoint", colour::VARIATIONAL, 1, midpoint),
+            curve("variational midpoint", colour::VARIATIONAL, midpoint),
+            curve("Runge–Kutta 4", colour::RUNGE_KUTTA, runge_kutta).dashed(Dash::Dashed),
         ];
-        Panel { title, x: "time t (dimensionless)", y, legend, curves }
+        Panel::new(title, axis, y, curves)
     };
     let panels = [
-        panel("Energy, h = 0.2", "E (dimensionless)", Corner::UpperRight, &|motion| motion.energy.clone()),
-        panel("Angular momentum, h = 0.2", "J (dimensionless)", Corner::LowerRight, &|motion| {
-            motion.angular_momentum.clone()
-        }),
-        panel("Error of the energy", "E − reference", Corner::LowerRight, &|motion| {
-            difference(&motion.energy, &reference.energy).collect()
-        }),
-        panel("Error of the angular momentum", "J − reference", Corner::UpperRight, &|motion| {
-            difference(&motion.angular_momentum, &reference.angular_momentum).collect()
-        }),
+        panel(
+            "Energy: the midpoint rule loses what friction takes",
+            linear("E (dimensionless)"),
+            |motion| &motion.energy,
+            2,
+        ),
+        panel(
+            "Angular momentum: all three on each other",
+            linear("J (dimensionless)"),
+            |motion| &motion.angular_momentum,
+            9,
+        ),
+        errors(
+            "Error of the energy, h = 0.2",
+            logarithmic("|E − reference| (dimensionless)").with_floor(1e-6).from_to(1e-6, 1.0),
+            |motion| &motion.energy,
+        ),
+        errors(
+            "Error of the angular momentum, h = 0.2",
+            logarithmic("|J − reference| (dimensionless)").with_floor(1e-6).from_to(1e-6, 1.0),
+            |motion| &motion.angular_momentum,
+        ),
     ];
-    picture::write("ring", [1600, 1100], 2, &panels)
+    picture::write("ring", [1600, 1200], 2, &panels)
 }

@@ -8,16 +8,13 @@
 //! cargo run --release --example symmetries [picture.svg]
 //! ```
 
-use std::error::Error;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
+use anyhow::Result;
 use dalembert::noether::{Generator, Noether};
 use dalembert::samples::{Segment, segments, tangent_points};
 use dalembert::{Discrete, Midpoint, State, Trajectory, rayleigh, rayleigh_system};
-use dalembert_examples::results;
-use plotters::prelude::*;
-
-type Result<T> = std::result::Result<T, Box<dyn Error>>;
+use dalembert_examples::picture::{self, Curve, Dash, Panel, RGBColor, colour, linear, logarithmic};
 
 /// The ring potential with three frictions: isotropic, radial from a Rayleigh function, radial as a force.
 #[derive(Clone, Copy, Default)]
@@ -93,7 +90,7 @@ fn main() -> Result<()> {
     let curves = [
         curve(
             "isotropic drag",
-            RGBColor(213, 94, 0),
+            (colour::RUNGE_KUTTA, Dash::Solid),
             &Ring { isotropic: k, ..Ring::default() },
             &rotation,
             &plane,
@@ -101,7 +98,7 @@ fn main() -> Result<()> {
         )?,
         curve(
             "radial, R(q, v) in Cartesian coordinates",
-            RGBColor(0, 114, 178),
+            (colour::VARIATIONAL, Dash::Dashed),
             &Ring { radial: k, ..Ring::default() },
             &rotation,
             &plane,
@@ -109,7 +106,7 @@ fn main() -> Result<()> {
         )?,
         curve(
             "radial, midpoint force",
-            RGBColor(0, 158, 115),
+            (colour::EULER, Dash::DashDotted),
             &Ring { radial_force: k, ..Ring::default() },
             &rotation,
             &plane,
@@ -117,7 +114,7 @@ fn main() -> Result<()> {
         )?,
         curve(
             "radial, R in polar coordinates",
-            BLACK,
+            (colour::REFERENCE, Dash::Dotted),
             &PolarRing { radial: k },
             &angle,
             &segments([0.7, -3.0], [1.3, 3.0], [0.1, 0.1], 200),
@@ -146,22 +143,15 @@ fn main() -> Result<()> {
     Ok(())
 }
 
-/// |J_k − J_0| over time.
-struct Curve {
-    label: &'static str,
-    colour: RGBColor,
-    points: Vec<(f64, f64)>,
-}
-
 /// Prints the verdict on one system and the balance along its trajectory, and samples what it has lost.
 fn curve<L: Discrete<Midpoint, 2, Scalar = f64>>(
     label: &'static str,
-    colour: RGBColor,
+    (colour, dash): (RGBColor, Dash),
     system: &L,
     generator: &Generator<f64, 2>,
     segments: &[Segment<f64, 2>],
     (q, v): ([f64; 2], [f64; 2]),
-) -> Result<Curve> {
+) -> Result<Curve<'static>> {
     let noether = Noether::new(system, Midpoint, H);
     let start = State::from_velocity(system, q, v)?;
     println!("\n== {label}\n{}", noether.symmetry(generator, segments)?);
@@ -175,53 +165,16 @@ fn curve<L: Discrete<Midpoint, 2, Scalar = f64>>(
         account = account + noether.balance(generator, &at, trajectory.by_ref().take(stretch))?;
     }
     println!("{account}");
-    Ok(Curve { label, colour, points })
+    Ok(Curve::line(label, colour, 3, points).dashed(dash))
 }
 
-/// Writes the picture to the path that the command line gives, or to `target/symmetries.svg`.
-fn draw(curves: &[Curve]) -> Result<PathBuf> {
-    let path = match std::env::args_os().nth(1) {
-        Some(path) => PathBuf::from(path),
-        None => Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("target").join("symmetries.svg"),
-    };
-    let mut svg = String::new();
-    let root = SVGBackend::with_string(&mut svg, (1000, 640)).into_drawing_area();
-    root.fill(&WHITE)?;
-    let mut chart = ChartBuilder::on(&root)
-        .caption("Angular momentum lost under friction, k = 0.1, midpoint rule, h = 0.1", ("sans-serif", 24))
-        .margin(16)
-        .margin_right(30)
-        .x_label_area_size(50)
-        .y_label_area_size(90)
-        .build_cartesian_2d(0.0..STEPS as f64 * H, (1e-18..1e1).log_scale())?;
-    chart
-        .configure_mesh()
-        .x_desc("time t (dimensionless)")
-        .x_label_formatter(&|t| format!("{t:.0}"))
-        .y_desc("|J(t) − J(0)| (dimensionless)")
-        .y_label_formatter(&|y: &f64| format!("1e{:.0}", y.log10()))
-        .label_style(("sans-serif", 17))
-        .light_line_style(TRANSPARENT)
-        .draw()?;
-    for Curve { label, colour, points } in curves {
-        let style = colour.stroke_width(2);
-        // A logarithm has no place for an exact 0: it is drawn on the lower edge.
-        chart
-            .draw_series(LineSeries::new(points.iter().map(|(t, lost)| (*t, lost.max(1e-18))), style))?
-            .label(*label)
-            .legend(move |(x, y)| PathElement::new([(x, y), (x + 24, y)], style));
-    }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::MiddleRight)
-        .legend_area_size(34)
-        .label_font(("sans-serif", 17))
-        .background_style(WHITE)
-        .border_style(BLACK)
-        .draw()?;
-    root.present()?;
-    drop(chart);
-    drop(root);
-    results::save(&path, &svg)?;
-    Ok(path)
+fn draw(curves: &[Curve<'static>]) -> Result<PathBuf> {
+    let panel = Panel::new(
+        "Angular momentum lost under friction, k = 0.1, midpoint rule, h = 0.1",
+        linear("time t (dimensionless)"),
+        // Exact zeros stand at the floor.
+        logarithmic("|J(t) − J(0)| (dimensionless)").with_floor(1e-18),
+        curves.to_vec(),
+    );
+    picture::write("symmetries", [1100, 800], 1, &[panel])
 }

@@ -1,24 +1,27 @@
 //! The pictures of the scenes: panels of curves in one style, as SVG.
 //!
-//! Text stays text in the file, in whatever sans-serif font the viewer has: no font is needed to draw it.
+//! Every panel has its legend above its axes, off the data. Curves differ in dashes or marks as well as in colour. Text stays text in the
+//! file, in whatever sans-serif font the viewer has: no font is needed to draw it.
+
+mod axis;
+mod svg;
 
 use std::env;
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use plotters::backend::SVGBackend;
-use plotters::chart::{ChartBuilder, ChartContext, SeriesLabelPosition};
+use plotters::chart::{ChartBuilder, ChartContext};
 use plotters::coord::Shift;
 use plotters::coord::cartesian::Cartesian2d;
-use plotters::coord::types::RangedCoordf64;
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
-use plotters::element::{Circle, Drawable, EmptyElement, PathElement, PointCollection, TriangleMarker};
-use plotters::series::LineSeries;
+use plotters::element::{Circle, EmptyElement, PathElement, Text, TriangleMarker};
 pub use plotters::style::RGBColor;
-use plotters::style::{BLACK, Color, TRANSPARENT, WHITE};
+use plotters::style::{BLACK, Color, ShapeStyle, TRANSPARENT, WHITE};
 
 use crate::results;
+use axis::Ticks;
+pub use axis::{Axis, linear, logarithmic};
 
 /// Colours that readers with any colour vision tell apart (Okabe and Ito, 2008).
 pub mod colour {
@@ -30,72 +33,170 @@ pub mod colour {
     pub const VARIATIONAL: RGBColor = RGBColor(0, 114, 178);
     /// The classical Runge–Kutta method.
     pub const RUNGE_KUTTA: RGBColor = RGBColor(213, 94, 0);
-    /// Explicit Euler.
+    /// Euler's methods.
     pub const EULER: RGBColor = RGBColor(0, 158, 115);
+    /// A fourth.
+    pub const FOURTH: RGBColor = RGBColor(204, 121, 167);
+    /// A fifth.
+    pub const FIFTH: RGBColor = RGBColor(230, 159, 0);
+    /// A sixth, light.
+    pub const SIXTH: RGBColor = RGBColor(86, 180, 233);
+    /// What stands in the background.
+    pub const GREY: RGBColor = RGBColor(120, 120, 120);
 }
 
-/// How a curve is drawn.
+/// The pattern of a line.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Dash {
+    /// Unbroken.
+    #[default]
+    Solid,
+    /// Long dashes.
+    Dashed,
+    /// Dots.
+    Dotted,
+    /// Dashes and dots in turn.
+    DashDotted,
+}
+
+/// The shape of a mark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mark {
-    /// A line of this many pixels.
-    Line(u32),
-    /// A dot of one pixel at each point.
+    /// A small dot, for thousands of points.
     Dot,
-    /// A disc at each point.
+    /// A disc.
     Disc,
-    /// An open circle at each point.
+    /// An open circle.
     Circle,
-    /// A triangle at each point.
+    /// A triangle.
     Triangle,
+    /// An open square.
+    Square,
+    /// A diagonal cross.
+    Cross,
 }
 
 /// Points drawn in one way.
 #[derive(Clone, Debug)]
 pub struct Curve<'a> {
-    /// Its line in the legend; empty, it has none.
-    pub label: &'a str,
-    /// One of [`colour`].
-    pub colour: RGBColor,
-    /// Line or points.
-    pub mark: Mark,
-    /// The points.
-    pub points: Vec<(f64, f64)>,
+    label: &'a str,
+    colour: RGBColor,
+    line: Option<(u32, Dash)>,
+    mark: Option<(Mark, usize)>,
+    points: Vec<(f64, f64)>,
+}
+
+impl<'a> Curve<'a> {
+    /// A line through `points`, `width` pixels wide. Without a label it has no entry in the legend.
+    pub fn line(label: &'a str, colour: RGBColor, width: u32, points: Vec<(f64, f64)>) -> Self {
+        Self { label, colour, line: Some((width, Dash::Solid)), mark: None, points }
+    }
+
+    /// A mark at each of `points`.
+    pub fn marks(label: &'a str, colour: RGBColor, mark: Mark, points: Vec<(f64, f64)>) -> Self {
+        Self { label, colour, line: None, mark: Some((mark, 1)), points }
+    }
+
+    /// The line broken.
+    #[must_use]
+    pub fn dashed(mut self, dash: Dash) -> Self {
+        self.line = self.line.map(|(width, _)| (width, dash));
+        self
+    }
+
+    /// A mark at every `stride`-th point as well.
+    #[must_use]
+    pub fn marked(mut self, mark: Mark, stride: usize) -> Self {
+        self.mark = Some((mark, stride.max(1)));
+        self
+    }
+
+    /// Its marks at every `stride`-th point alone.
+    #[must_use]
+    pub fn marked_rarely(mut self, stride: usize) -> Self {
+        self.mark = self.mark.map(|(mark, _)| (mark, stride.max(1)));
+        self
+    }
 }
 
 /// A pair of axes that show all of the curves, the first at the bottom.
 #[derive(Clone, Debug)]
 pub struct Panel<'a> {
-    /// The heading.
-    pub title: &'a str,
-    /// The label of the horizontal axis.
-    pub x: &'a str,
-    /// The label of the vertical axis.
-    pub y: &'a str,
-    /// Where the legend covers nothing.
-    pub legend: Corner,
-    /// What is shown.
-    pub curves: Vec<Curve<'a>>,
+    title: &'a str,
+    x: Axis<'a>,
+    y: Axis<'a>,
+    is_equal: bool,
+    curves: Vec<Curve<'a>>,
 }
 
-/// A corner of a panel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Corner {
-    /// Top left.
-    UpperLeft,
-    /// Top right.
-    UpperRight,
-    /// Bottom left.
-    LowerLeft,
-    /// Bottom right.
-    LowerRight,
+impl<'a> Panel<'a> {
+    /// The panel of `curves`, whose legend has their order.
+    pub fn new(title: &'a str, x: Axis<'a>, y: Axis<'a>, curves: Vec<Curve<'a>>) -> Self {
+        Self { title, x, y, is_equal: false, curves }
+    }
+
+    /// Both axes to the same scale.
+    #[must_use]
+    pub fn to_equal_scale(mut self) -> Self {
+        self.is_equal = true;
+        self
+    }
 }
 
-type Chart<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Ticks, Ticks>>;
 
 const FONT: &str = "sans-serif";
 
 /// Units of the drawing to a pixel: plotters rounds coordinates to whole units, which shows as steps in thin lines.
 const PIXEL: i32 = 8;
+
+/// Sizes in pixels.
+const TITLE: i32 = 24;
+const TEXT: i32 = 19;
+const LEGEND_ROW: i32 = 28;
+const SAMPLE: i32 = 44;
+const MARGIN: i32 = 14;
+const RIGHT: i32 = 36;
+const X_LABELS: i32 = 60;
+const Y_LABELS: i32 = 104;
+
+/// What `draw` does with the shape of a mark around the origin: each is a type of its own.
+macro_rules! with_shape {
+    ($mark:expr, $colour:expr, |$shape:ident| $draw:expr) => {{
+        let (filled, open): (ShapeStyle, ShapeStyle) =
+            ($colour.filled(), $colour.stroke_width(2 * PIXEL as u32));
+        let (near, far) = (5 * PIXEL, -5 * PIXEL);
+        match $mark {
+            Mark::Dot => {
+                let $shape = Circle::new((0, 0), PIXEL * 3 / 2, filled);
+                $draw;
+            }
+            Mark::Disc => {
+                let $shape = Circle::new((0, 0), 4 * PIXEL, filled);
+                $draw;
+            }
+            Mark::Circle => {
+                let $shape = Circle::new((0, 0), 5 * PIXEL, open);
+                $draw;
+            }
+            Mark::Triangle => {
+                let $shape = TriangleMarker::new((0, 0), 6 * PIXEL, filled);
+                $draw;
+            }
+            Mark::Square => {
+                let $shape =
+                    PathElement::new([(far, far), (near, far), (near, near), (far, near), (far, far)], open);
+                $draw;
+            }
+            Mark::Cross => {
+                let $shape =
+                    PathElement::new([(far, far), (near, near), (0, 0), (near, far), (far, near)], open);
+                $draw;
+            }
+        }
+    }};
+}
 
 /// Writes the picture to the path that the command line gives, or else to `target/<name>.svg`, and returns the path.
 ///
@@ -116,7 +217,7 @@ pub fn write(name: &str, size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -
 /// The picture, `size` pixels wide and high, with its panels in rows of `columns`.
 ///
 /// # Errors
-/// A picture that cannot be drawn.
+/// A picture that cannot be drawn: also words that do not fit.
 pub fn svg(size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -> Result<String> {
     let mut svg = String::new();
     let units = size.map(|pixels| pixels * PIXEL as u32);
@@ -124,106 +225,146 @@ pub fn svg(size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -> Result<Strin
         let root = SVGBackend::with_string(&mut svg, units.into()).into_drawing_area();
         root.fill(&WHITE)?;
         let areas = root.split_evenly((panels.len().div_ceil(columns), columns));
-        for (area, panel) in areas.iter().zip(panels) {
-            draw(area, panel)?;
+        for (areas, panels) in areas.chunks(columns).zip(panels.chunks(columns)) {
+            let width = areas[0].dim_in_pixel().0 as i32 / PIXEL;
+            let legends: Vec<_> = panels.iter().map(|panel| legend(panel, width)).collect();
+            // Axes side by side are as high as each other.
+            let rows = legends.iter().map(|rows| rows.len()).max().unwrap_or(0);
+            for ((area, panel), legend) in areas.iter().zip(panels).zip(legends) {
+                draw(area, panel, &legend, rows)?;
+            }
         }
         root.present()?;
     }
-    // Attributes that say what holds anyway are half of a picture of many points.
-    for default in [" opacity=\"1\"", " stroke=\"none\" stroke-width=\"1\""] {
-        svg = svg.replace(default, "");
-    }
-    // The size becomes one in pixels; the view box stays in units.
-    let header = |[width, height]: [u32; 2]| format!("<svg width=\"{width}\" height=\"{height}\"");
-    Ok(svg.replacen(&header(units), &header(size), 1))
+    Ok(svg::finished(svg, size, PIXEL as u32))
 }
 
-fn draw<'a>(area: &DrawingArea<SVGBackend<'a>, Shift>, panel: &Panel<'_>) -> Result<()> {
-    let all = || panel.curves.iter().flat_map(|curve| &curve.points);
-    let (x, y) = (extent(all().map(|point| point.0), 0.02), extent(all().map(|point| point.1), 0.05));
-    let pixel = (x.end - x.start) / f64::from(area.dim_in_pixel().0) * f64::from(PIXEL);
-    let mut chart = ChartBuilder::on(area)
-        .caption(panel.title, (FONT, 24 * PIXEL))
-        .margin(14 * PIXEL)
-        .margin_right(36 * PIXEL)
-        .x_label_area_size(52 * PIXEL)
-        .y_label_area_size(94 * PIXEL)
-        .build_cartesian_2d(x, y)?;
+/// How wide a text is, in pixels, for all that is known without a font. (plotters writes sizes that are smaller by 1.24.)
+fn width_of(text: &str, size: i32) -> i32 {
+    let narrow = text.chars().filter(|letter| "iljt.,:;|()[]'1 ".contains(*letter)).count() as i32;
+    let marks = text.chars().filter(|letter| ('\u{300}'..'\u{370}').contains(letter)).count() as i32;
+    let all = text.chars().count() as i32;
+    ((all - marks - narrow) * 50 + narrow * 30) * size / 100
+}
+
+/// The entries of a legend that stand side by side, row by row, each with its distance from the left.
+fn legend<'p>(panel: &'p Panel<'_>, width: i32) -> Vec<Vec<(i32, &'p Curve<'p>)>> {
+    let mut rows: Vec<Vec<_>> = Vec::new();
+    let mut left = i32::MAX;
+    for curve in panel.curves.iter().filter(|curve| !curve.label.is_empty()) {
+        let entry = SAMPLE + width_of(curve.label, TEXT) + 18;
+        if left.saturating_add(entry) > width - RIGHT {
+            rows.push(Vec::new());
+            left = MARGIN + Y_LABELS;
+        }
+        if let Some(row) = rows.last_mut() {
+            row.push((left, curve));
+        }
+        left += entry;
+    }
+    rows
+}
+
+fn draw<'a>(
+    area: &Area<'a>,
+    panel: &Panel<'_>,
+    legend: &[Vec<(i32, &Curve<'_>)>],
+    legend_rows: usize,
+) -> Result<()> {
+    let [width, height] = [area.dim_in_pixel().0, area.dim_in_pixel().1].map(|units| units as i32 / PIXEL);
+    let above = MARGIN + TITLE + 16 + LEGEND_ROW * legend_rows as i32;
+    let [across, up] = [width - MARGIN - Y_LABELS - RIGHT, height - above - X_LABELS - MARGIN];
+    let fits = |text: &str, size, room| {
+        ensure!(width_of(text, size) <= room, "{text:?} is too wide for a panel of {width} pixels");
+        Ok(())
+    };
+    fits(panel.title, TITLE, width - MARGIN - RIGHT)?;
+    fits(panel.x.label, TEXT, across + Y_LABELS)?;
+    fits(panel.y.label, TEXT, height)?;
+    let (head, body) = area.split_vertically(above * PIXEL);
+    let centre = (width + Y_LABELS + MARGIN - RIGHT) / 2 - width_of(panel.title, TITLE) / 2;
+    text(&head, panel.title, (centre.max(MARGIN), MARGIN), TITLE)?;
+    for (row, entries) in legend.iter().enumerate() {
+        let middle = MARGIN + TITLE + 12 + LEGEND_ROW * row as i32 + LEGEND_ROW / 2;
+        for (left, curve) in entries {
+            fits(curve.label, TEXT, width - left - SAMPLE)?;
+            sample(&head, curve, (*left, middle))?;
+            text(&head, curve.label, (left + SAMPLE, middle - TEXT / 2 - 1), TEXT)?;
+        }
+    }
+    let values = |axis: fn(&(f64, f64)) -> f64| panel.curves.iter().flat_map(|curve| &curve.points).map(axis);
+    let (mut x, mut y) = (panel.x.ticks(values(|p| p.0), 0.02, 8), panel.y.ticks(values(|p| p.1), 0.05, 8));
+    if panel.is_equal {
+        axis::equalise(&mut x, &mut y, f64::from(across) / f64::from(up));
+    }
+    let pixel = x.width() / f64::from(across);
+    let mut chart = ChartBuilder::on(&body)
+        .margin(MARGIN * PIXEL)
+        .margin_top(0)
+        .margin_right(RIGHT * PIXEL)
+        .x_label_area_size(X_LABELS * PIXEL)
+        .y_label_area_size(Y_LABELS * PIXEL)
+        .build_cartesian_2d(x.clone(), y.clone())?;
     chart
         .configure_mesh()
-        .x_desc(panel.x)
-        .y_desc(panel.y)
-        .x_labels(8)
-        .y_labels(8)
-        .x_label_formatter(&|x| number(*x))
-        .y_label_formatter(&|y| number(*y))
-        .label_style((FONT, 19 * PIXEL))
-        .axis_desc_style((FONT, 21 * PIXEL))
+        .x_desc(panel.x.label)
+        .y_desc(panel.y.label)
+        .x_labels(32)
+        .y_labels(32)
+        .x_label_formatter(&|at| x.name(*at))
+        .y_label_formatter(&|at| y.name(*at))
+        .label_style((FONT, TEXT * PIXEL))
+        .axis_desc_style((FONT, (TEXT + 2) * PIXEL))
         .light_line_style(TRANSPARENT)
         .bold_line_style(RGBColor(225, 225, 225).stroke_width(PIXEL as u32))
         .axis_style(BLACK.stroke_width(PIXEL as u32))
         .set_all_tick_mark_size(5 * PIXEL)
         .draw()?;
     for curve in &panel.curves {
-        let colour = curve.colour;
-        let stroke = move |width: u32| colour.stroke_width(width * PIXEL as u32);
-        match curve.mark {
-            Mark::Line(width) => {
-                let series = LineSeries::new(thinned(&curve.points, pixel), stroke(width));
-                let sample = stroke(width.max(2));
-                let drawn = chart.draw_series(series)?;
-                if !curve.label.is_empty() {
-                    drawn
-                        .label(curve.label)
-                        .legend(move |(x, y)| PathElement::new([(x, y), (x + 24 * PIXEL, y)], sample));
-                }
-            }
-            Mark::Dot => draw_points(&mut chart, curve, move |at| Circle::new(at, PIXEL, colour.filled()))?,
-            Mark::Disc => {
-                draw_points(&mut chart, curve, move |at| Circle::new(at, 3 * PIXEL, colour.filled()))?
-            }
-            Mark::Circle => draw_points(&mut chart, curve, move |at| Circle::new(at, 5 * PIXEL, stroke(2)))?,
-            Mark::Triangle => {
-                draw_points(&mut chart, curve, move |at| {
-                    TriangleMarker::new(at, 6 * PIXEL, colour.filled())
-                })?;
-            }
+        let points = curve.points.iter().map(|&(at, value)| (panel.x.place(at), panel.y.place(value)));
+        let points: Vec<_> = points.filter(|point| point.0.is_finite() && point.1.is_finite()).collect();
+        if let Some((width, dash)) = curve.line {
+            let style = svg::stroke(curve.colour, width, dash, PIXEL);
+            chart.draw_series([PathElement::new(thinned(&points, pixel), style)])?;
+        }
+        if let Some((mark, stride)) = curve.mark {
+            marks(&mut chart, mark, curve.colour, points.into_iter().step_by(stride))?;
         }
     }
-    if panel.curves.iter().all(|curve| curve.label.is_empty()) {
-        return Ok(());
-    }
-    let position = match panel.legend {
-        Corner::UpperLeft => SeriesLabelPosition::UpperLeft,
-        Corner::UpperRight => SeriesLabelPosition::UpperRight,
-        Corner::LowerLeft => SeriesLabelPosition::LowerLeft,
-        Corner::LowerRight => SeriesLabelPosition::LowerRight,
-    };
-    chart
-        .configure_series_labels()
-        .position(position)
-        .margin(8 * PIXEL)
-        .legend_area_size(32 * PIXEL)
-        .label_font((FONT, 19 * PIXEL))
-        .background_style(WHITE.mix(0.85))
-        .draw()?;
     Ok(())
 }
 
-/// A series of one shape, given by what draws it at a pixel.
-fn draw_points<'a, E>(
-    chart: &mut Chart<'a>,
-    curve: &Curve<'_>,
-    shape: impl Fn((i32, i32)) -> E + 'a,
-) -> Result<()>
-where
-    E: Drawable<SVGBackend<'a>> + 'a,
-    for<'b> &'b E: PointCollection<'b, (i32, i32)>,
-{
-    let drawn =
-        chart.draw_series(curve.points.iter().map(|&point| EmptyElement::at(point) + shape((0, 0))))?;
-    if !curve.label.is_empty() {
-        drawn.label(curve.label).legend(move |(x, y)| shape((x + 12 * PIXEL, y)));
+fn text(area: &Area<'_>, words: &str, (x, y): (i32, i32), size: i32) -> Result<()> {
+    Ok(area.draw(&Text::new(words.to_owned(), (x * PIXEL, y * PIXEL), (FONT, size * PIXEL)))?)
+}
+
+/// The entry's piece of line and mark.
+fn sample(area: &Area<'_>, curve: &Curve<'_>, (left, middle): (i32, i32)) -> Result<()> {
+    let [from, to, middle] = [left, left + SAMPLE - 10, middle].map(|pixels| pixels * PIXEL);
+    if let Some((width, dash)) = curve.line {
+        let style = svg::stroke(curve.colour, width.max(2), dash, PIXEL);
+        area.draw(&PathElement::new([(from, middle), (to, middle)], style))?;
+    }
+    if let Some((mark, _)) = curve.mark {
+        // A dot alone would hardly be seen.
+        let mark = if mark == Mark::Dot { Mark::Disc } else { mark };
+        with_shape!(mark, curve.colour, |shape| area
+            .draw(&(EmptyElement::at(((from + to) / 2, middle)) + shape))?);
+    }
+    Ok(())
+}
+
+/// A series of marks.
+fn marks(
+    chart: &mut Chart<'_, '_>,
+    mark: Mark,
+    colour: RGBColor,
+    points: impl Iterator<Item = (f64, f64)>,
+) -> Result<()> {
+    for at in points {
+        with_shape!(mark, colour, |shape| {
+            chart.draw_series([EmptyElement::at(at) + shape])?;
+        });
     }
     Ok(())
 }
@@ -245,37 +386,19 @@ fn thinned(points: &[(f64, f64)], pixel: f64) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// From the smallest to the largest finite value, wider by the share `margin` of that at both ends.
-fn extent(values: impl Iterator<Item = f64>, margin: f64) -> Range<f64> {
-    let (low, high) = values
-        .filter(|value| value.is_finite())
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
-    if low < high {
-        let margin = margin * (high - low);
-        low - margin..high + margin
-    } else {
-        // Nothing to show, or one value: any range around it.
-        let middle = if low == high { low } else { 0.0 };
-        middle - 1.0..middle + 1.0
-    }
-}
-
-/// A tick's number, without the rounding that made it.
-fn number(value: f64) -> String {
-    let rounded = (value * 1e6).round() / 1e6 + 0.0;
-    rounded.to_string().replace('-', "−")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn picture(title: &str) -> Result<String> {
+        let points = vec![(0.0, -1.0), (1.0, 1.0)];
+        let curve = Curve::line("a line", colour::REFERENCE, 1, points).dashed(Dash::Dashed);
+        svg([400, 300], 1, &[Panel::new(title, linear("time t"), linear("q"), vec![curve])])
+    }
+
     #[test]
     fn the_picture_has_its_size_in_pixels_and_its_words() -> Result<()> {
-        let points = vec![(0.0, -1.0), (1.0, 1.0)];
-        let curves = vec![Curve { label: "a line", colour: colour::REFERENCE, mark: Mark::Line(1), points }];
-        let panel = Panel { title: "Title", x: "time t", y: "q", legend: Corner::UpperLeft, curves };
-        let svg = svg([400, 300], 1, &[panel])?;
+        let svg = picture("Title")?;
         assert!(
             svg.starts_with("<svg width=\"400\" height=\"300\" viewBox=\"0 0 3200 2400\""),
             "{}",
@@ -284,7 +407,14 @@ mod tests {
         for word in ["Title", "time t", "q", "a line", "−0.5"] {
             assert!(svg.lines().any(|line| line == word), "{word}");
         }
+        assert!(svg.contains("stroke-dasharray"));
         Ok(())
+    }
+
+    #[test]
+    fn words_that_do_not_fit_are_an_error() {
+        let error = picture("A title that is by far too long for a panel of 400 pixels").unwrap_err();
+        assert!(error.to_string().contains("too wide"), "{error}");
     }
 
     #[test]
@@ -292,17 +422,5 @@ mod tests {
         let points = [(0.1, 0.0), (0.2, 5.0), (0.3, 1.0), (0.4, -5.0), (0.5, 2.0), (1.1, 3.0)];
         assert_eq!(thinned(&points, 1.0), [(0.1, 0.0), (0.2, 5.0), (0.4, -5.0), (0.5, 2.0), (1.1, 3.0)]);
         assert_eq!(thinned(&points, 0.01), points);
-    }
-
-    #[test]
-    fn numbers_are_rounded_and_have_a_minus() {
-        assert_eq!([0.1 + 0.2, -0.05, -0.0, 2000.0].map(number), ["0.3", "−0.05", "0", "2000"]);
-    }
-
-    #[test]
-    fn an_extent_without_width_is_widened() {
-        assert_eq!(extent([1.0, 3.0, f64::NAN].into_iter(), 0.5), 0.0..4.0);
-        assert_eq!(extent([2.0, 2.0].into_iter(), 0.5), 1.0..3.0);
-        assert_eq!(extent([].into_iter(), 0.5), -1.0..1.0);
     }
 }

@@ -25,13 +25,25 @@ pub fn save(path: &Path, text: &str) -> Result<()> {
     } else {
         "nor to the folder for temporary files, nor to standard output".to_owned()
     };
-    Err(error).with_context(|| {
-        format!("cannot write {}; {kept}. Make room there, or give another path", path.display())
-    })
+    let advice = advice(&error);
+    Err(error).with_context(|| format!("cannot write {}; {kept}. What helps: {advice}", path.display()))
+}
+
+/// What helps against an error of writing.
+pub fn advice(error: &io::Error) -> &'static str {
+    use io::ErrorKind as Kind;
+    match error.kind() {
+        Kind::StorageFull | Kind::QuotaExceeded | Kind::FileTooLarge => "make room",
+        Kind::PermissionDenied | Kind::ReadOnlyFilesystem => "permit writing there, or give another path",
+        Kind::NotADirectory | Kind::AlreadyExists | Kind::IsADirectory => {
+            "a path that leads through folders, to a file"
+        }
+        _ => "another path",
+    }
 }
 
 /// A new file under the name of the old one, once it is complete.
-fn replace(path: &Path, text: &str) -> io::Result<()> {
+pub(crate) fn replace(path: &Path, text: &str) -> io::Result<()> {
     match fs::metadata(path) {
         // A pipe or a device must not be replaced by a file.
         Ok(present) if !present.is_file() => return fs::write(path, text),

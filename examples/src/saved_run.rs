@@ -1,17 +1,19 @@
 //! A run that can be interrupted at any moment and goes on from where it was, bit by bit as if nothing had happened.
 //!
-//! Its folder holds `rows.csv`, one row each time it is looked at, and `checkpoint.json`, written after every few rows. Rows after the
-//! checkpoint are computed again; a row that broke off is cut away.
+//! Its folder holds `rows.csv`, one row each time it is looked at, and `checkpoint.json`, written after every few rows: which run this is, where
+//! it stands, and what the rows were by then. Rows after the checkpoint are computed again; a row that broke off is cut away. What does not
+//! fit together, or is another run's, is refused.
 
-use std::fs::{self, File, OpenOptions};
-use std::io::{ErrorKind, Seek, Write};
-use std::path::{Path, PathBuf};
+mod files;
 
-use anyhow::{Context, Result, ensure};
+use std::any::type_name;
+use std::fmt::Debug;
+use std::path::PathBuf;
+
+use anyhow::{Context, Result, bail, ensure};
 use dalembert::{Checkpoint, Discrete, State, Trajectory};
-use serde::{Deserialize, Serialize};
 
-use crate::results;
+use files::{Digest, Files, ROWS, Saved};
 
 /// When a run looks at its state, saves it, and ends; in steps.
 #[derive(Clone, Copy, Debug)]
@@ -20,16 +22,8 @@ pub struct Schedule {
     pub row: u64,
     /// Rows to a checkpoint.
     pub rows_to_checkpoint: u64,
-    /// Steps of the run.
+    /// Steps of the run, no more and no fewer: the last row may be of fewer steps than the others.
     pub end: u64,
-}
-
-/// What `checkpoint.json` holds.
-#[derive(Serialize, Deserialize)]
-struct Saved<const N: usize> {
-    run: Checkpoint<f64, N>,
-    /// Length of `rows.csv`, in bytes.
-    rows: u64,
 }
 
 /// The files of a run.
@@ -45,20 +39,17 @@ impl SavedRun {
 
     /// The file of rows.
     pub fn rows(&self) -> PathBuf {
-        self.folder.join("rows.csv")
-    }
-
-    fn checkpoint(&self) -> PathBuf {
-        self.folder.join("checkpoint.json")
+        self.folder.join(ROWS)
     }
 
     /// Runs to the end of the schedule, from the checkpoint if there is one. `row` writes what a row says of a time and a state.
     ///
     /// Every checkpoint makes the run forget what its rule remembers; since they come after fixed numbers of steps, neither how
-    /// often nor when a run was interrupted shows in any bit.
+    /// often nor when a run was interrupted shows in any bit. A run that was kept goes on to a later end as well.
     ///
     /// # Errors
-    /// A file cannot be read or written, or a step fails. The files then hold the run as far as they say, and the next call goes on.
+    /// A file cannot be read or written, or is not this run's: of another system, rule, step size, start or schedule, or changed since.
+    /// A step fails. The files then hold the run as far as the error says.
     pub fn run<L, R, const N: usize>(
         &self,
         (system, rule): (&L, R),
@@ -67,60 +58,87 @@ impl SavedRun {
         row: impl Fn(f64, &State<f64, N>) -> String,
     ) -> Result<State<f64, N>>
     where
-        L: Discrete<R, N, Scalar = f64>,
+        L: Discrete<R, N, Scalar = f64> + Debug,
+        R: Copy,
     {
-        let new = Checkpoint::new(h, start);
-        let Saved { run, rows: length } = self.saved()?.unwrap_or(Saved { run: new, rows: 0 });
-        ensure!(run.step_size == h, "{} belongs to another run; remove it", self.checkpoint().display());
-        let mut taken = run.steps;
-        let mut rows = self.rows_of_length(length)?;
-        let mut run = Trajectory::resume(system, rule, run);
-        while taken < schedule.end {
-            for _ in 0..schedule.rows_to_checkpoint {
-                for step in run.by_ref().take(schedule.row as usize) {
-                    step.with_context(|| format!("after {taken} steps; {}", self.as_far_as()))?;
+        let Schedule { row: to_row, rows_to_checkpoint, end } = schedule;
+        let to_checkpoint = to_row.checked_mul(rows_to_checkpoint).filter(|steps| *steps > 0);
+        let to_checkpoint =
+            to_checkpoint.with_context(|| format!("there is no such schedule: {schedule:?}"))?;
+        let identity = identity((system, rule), (h, start), schedule, &row(0.0, &start));
+
+        let mut files = Files::open(&self.folder)?;
+        let at = match files.saved::<N>()? {
+            None => Checkpoint::new(h, start),
+            Some(Saved { identity: of, run, .. }) => {
+                let folder = self.folder.display();
+                ensure!(
+                    of == identity,
+                    "{folder} holds another run; remove it, or take another folder\n  there: {of}\n  here:  {identity}"
+                );
+                if run.steps > end {
+                    bail!(
+                        "{folder} holds this run up to step {}, beyond its end at {end}; remove it, or run on",
+                        run.steps
+                    );
                 }
-                taken += schedule.row;
-                // In one piece: a row that can be read is a whole one.
-                let line = row(run.time(), run.state()) + "\n";
-                self.explained(rows.write_all(line.as_bytes()), &self.rows())?;
+                run
             }
-            self.explained(rows.sync_data(), &self.rows())?;
-            let length = self.explained(rows.stream_position(), &self.rows())?;
-            let saved = serde_json::to_string(&Saved { run: run.checkpoint(), rows: length })?;
-            results::save(&self.checkpoint(), &saved)?;
+        };
+        files.cut_to_checkpoint()?;
+
+        let mut taken = at.steps;
+        let mut run = Trajectory::resume(system, rule, at);
+        while taken < end {
+            let checkpoint = end.min(taken.saturating_add(to_checkpoint));
+            while taken < checkpoint {
+                let next = checkpoint.min(taken.saturating_add(to_row));
+                while taken < next {
+                    let step = run.next().context("a run ends with an error alone")?;
+                    step.with_context(|| format!("after {taken} steps; {}", files.as_far_as()))?;
+                    taken += 1;
+                }
+                files.append(row(run.time(), run.state()) + "\n")?;
+            }
+            // An end between two checkpoints has none: a run to a later end has none there either.
+            if taken.is_multiple_of(to_checkpoint) {
+                files.save(&identity, run.checkpoint())?;
+            }
         }
+        files.finish()?;
         Ok(*run.state())
     }
+}
 
-    fn saved<const N: usize>(&self) -> Result<Option<Saved<N>>> {
-        let path = self.checkpoint();
-        match fs::read_to_string(&path) {
-            Ok(text) => serde_json::from_str(&text)
-                .map(Some)
-                .with_context(|| format!("{} is no checkpoint of this run; remove it", path.display())),
-            Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(error).with_context(|| format!("cannot read {}", path.display())),
+/// Which run this is, in words. What words do not tell of the system shows in its first steps, and what rows say in the one of the start.
+fn identity<L, R, const N: usize>(
+    (system, rule): (&L, R),
+    (h, start): (f64, State<f64, N>),
+    Schedule { row, rows_to_checkpoint, .. }: Schedule,
+    first_row: &str,
+) -> String
+where
+    L: Discrete<R, N, Scalar = f64> + Debug,
+{
+    let mut digest = Digest::default();
+    digest.add(first_row.as_bytes());
+    for step in Trajectory::new(system, rule, h, start).take(16) {
+        match step {
+            Ok(step) => step
+                .state
+                .q
+                .iter()
+                .chain(&step.state.p)
+                .for_each(|entry| digest.add(&entry.to_bits().to_le_bytes())),
+            Err(error) => digest.add(format!("{error:?}").as_bytes()),
         }
     }
-
-    /// The file of rows, cut to what the checkpoint has seen.
-    fn rows_of_length(&self, length: u64) -> Result<File> {
-        let path = self.rows();
-        let opened = fs::create_dir_all(&self.folder).and_then(|()| {
-            let mut file = OpenOptions::new().create(true).truncate(false).write(true).open(&path)?;
-            file.set_len(length)?;
-            file.seek(std::io::SeekFrom::End(0))?;
-            Ok(file)
-        });
-        self.explained(opened, &path)
-    }
-
-    fn as_far_as(&self) -> String {
-        format!("the run is kept up to {}, and goes on from there", self.checkpoint().display())
-    }
-
-    fn explained<T>(&self, result: std::io::Result<T>, path: &Path) -> Result<T> {
-        result.with_context(|| format!("cannot write {}: make room; {}", path.display(), self.as_far_as()))
-    }
+    format!(
+        "{} = {system:?} by {}, h = {h:?}, from q = {:?}, p = {:?}; a row every {row} steps, a checkpoint every {rows_to_checkpoint} rows; \
+         first steps {digest}",
+        type_name::<L>(),
+        type_name::<R>(),
+        start.q.as_slice(),
+        start.p.as_slice(),
+    )
 }

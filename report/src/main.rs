@@ -4,13 +4,13 @@
 //! measured last, `… scenes` and `… long-run` measure one part again, `… scenes ring Kepler` these scenes. Peers with a Python interface are run where the
 //! interpreter that `PYTHON` names has them.
 
+mod figures;
 mod frontier;
 mod long_run;
 mod measure;
 mod ours;
 mod page;
 mod peers;
-mod picture;
 mod reference;
 mod scenes;
 mod study;
@@ -38,7 +38,10 @@ fn main() -> Result<()> {
         Some("long-run") => measure(&folder, None, true)?,
         Some("page") => {}
         Some(other) => {
-            bail!("what is {other:?}? `scenes` or `long-run`, to measure these alone, `page`, or nothing")
+            bail!(
+                "{other:?} is no part of the measurement: give `scenes` or `long-run` to measure these alone, `page` to measure nothing, or \
+                 no argument to measure all"
+            )
         }
     }
     let records: Vec<Record> = read(&folder.join("scenes.csv"))?;

@@ -6,22 +6,21 @@ use std::path::Path;
 use anyhow::Result;
 use dalembert_examples::results;
 
-use crate::frontier::{Point, points, time_to_reach, unbeaten_by_finer};
-use crate::long_run;
-use crate::picture::{self, Curve, Panel};
+use crate::frontier::{Point, points, time_to_reach};
 use crate::study::Record;
+use crate::{figures, long_run};
 
 /// The scenes of the tables; the other chains are for the growth with n.
-const SCENES: [&str; 6] =
+pub const SCENES: [&str; 6] =
     ["ring", "double pendulum", "FPUT chain", "Hénon–Heiles", "Kepler", "seven pendulums"];
 const LEVELS: [f64; 6] = [1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 const COORDINATES: [u32; 5] = [2, 4, 8, 16, 32];
 
 /// One of a run's errors.
-type Error = fn(&Record) -> f64;
+pub type Error = fn(&Record) -> f64;
 
 /// The errors that a table or figure can be about.
-const QUANTITIES: [(&str, Error); 3] = [
+pub const QUANTITIES: [(&str, Error); 3] = [
     ("position", |record| record.position_error),
     ("momentum", |record| record.momentum_error),
     ("energy", |record| record.energy_error),
@@ -40,7 +39,7 @@ pub struct Measured<'a> {
 }
 
 /// Methods written in Rust are compared one trajectory at a time; this one integrates eight.
-const BATCH: &str = "heyoka, batch of 8";
+pub const BATCH: &str = "heyoka, batch of 8";
 
 impl Measured<'_> {
     /// Methods in the order of the first scene they ran on.
@@ -90,63 +89,8 @@ impl Measured<'_> {
 /// # Errors
 /// A file cannot be written.
 pub fn write(docs: &Path, measured: &Measured<'_>) -> Result<()> {
-    let figures = docs.join("speed-against-error");
-    let methods = measured.methods();
-    for (quantity, error) in QUANTITIES {
-        let panels = SCENES.map(|scene| Panel {
-            title: scene.into(),
-            x: "time of one trajectory, µs",
-            y: "error at the end",
-            linear: false,
-            y_range: 1e-15..1.0,
-            curves: curves(&methods, |method| {
-                unbeaten_by_finer(points(measured.records, scene, method, error))
-                    .into_iter()
-                    .map(|p| (p.seconds * 1e6, p.error.max(1e-15)))
-                    .collect()
-            }),
-        });
-        picture::write(&figures.join(format!("{quantity}.svg")), 2, &methods, &panels)?;
-    }
-    let along = Panel {
-        title: format!("energy error along runs that cost about {} ms each", long_run::SHOWN * 1e3),
-        x: "time t",
-        y: "|E − E reference|",
-        linear: true,
-        y_range: 1e-12..1.0,
-        curves: curves(&methods, |method| {
-            let samples = measured.samples.iter().filter(|sample| sample.method == method);
-            samples.map(|sample| (sample.time, sample.energy_error.max(1e-12))).collect()
-        }),
-    };
-    let cost = Panel {
-        title: "largest energy error up to t = 20 000".into(),
-        x: "time of the whole run, ms",
-        y: "largest |E − E reference|",
-        linear: false,
-        y_range: 1e-12..1.0,
-        curves: curves(&methods, |method| {
-            let runs = measured.long.iter().filter(|record| record.method == method);
-            let runs = runs.map(|run| Point { seconds: run.seconds, error: run.error_to_20000 });
-            let runs = unbeaten_by_finer(runs).into_iter();
-            runs.map(|run| (run.seconds * 1e3, run.error.max(1e-12))).collect()
-        }),
-    };
-    if !measured.long.is_empty() {
-        picture::write(&figures.join("long-run.svg"), 2, &methods, &[along, cost])?;
-    }
+    figures::write(&docs.join("speed-against-error"), measured)?;
     results::save(&docs.join("speed-against-error.md"), &text(measured)?)
-}
-
-fn curves<'a>(methods: &[&'a str], points: impl Fn(&str) -> Vec<(f64, f64)>) -> Vec<Curve<'a>> {
-    methods
-        .iter()
-        .map(|&method| {
-            let mut points = points(method);
-            points.retain(|point| point.0.is_finite() && point.1.is_finite());
-            Curve { method, points }
-        })
-        .collect()
 }
 
 fn text(measured: &Measured<'_>) -> Result<String> {
@@ -168,7 +112,10 @@ fn text(measured: &Measured<'_>) -> Result<String> {
     writeln!(page, "{}", measured.reading.trim_end())?;
     writeln!(page, "\n### Aimed at, and reached\n")?;
     aims(&mut page, measured)?;
-    writeln!(page, "\n## Figures\n")?;
+    writeln!(
+        page,
+        "\n## Figures\n\nEight of the methods, this project's in colour, others in black and grey; all are in the tables.\n"
+    )?;
     for (quantity, _) in QUANTITIES {
         writeln!(
             page,

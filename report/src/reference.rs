@@ -44,7 +44,9 @@ fn find(text: &str, name: &str) -> Result<Reference> {
             ("v1", _) => reference.end_v = numbers,
             ("time", &[time]) => reference.time = time,
             ("energy", &[time, energy]) => reference.energies.push((time, energy)),
-            _ => bail!("scene {name}: what is the line {line:?}?"),
+            _ => bail!(
+                "scene {name}: the line {line:?} is none of q0, v0, q1, v1, time, energy with their numbers"
+            ),
         }
     }
     Ok(reference)
