@@ -127,7 +127,7 @@ fn main() -> Result<()> {
 }
 
 fn caustics(fan: &[Characteristic<f64, 1>]) -> Vec<Caustic<1>> {
-    fan.iter().flat_map(Characteristic::caustics).collect()
+    fan.iter().flat_map(|characteristic| characteristic.caustics.clone()).collect()
 }
 
 /// (q_k, p_k) on every characteristic.

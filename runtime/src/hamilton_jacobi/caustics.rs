@@ -19,8 +19,8 @@ use core::fmt;
 
 use nalgebra::{DMatrix, SMatrix, SVector};
 
-use super::Characteristic;
-use crate::Scalar;
+use super::Frame;
+use crate::{PhaseMatrix, Scalar};
 
 /// A zero of det Q on a characteristic.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,66 +40,67 @@ pub struct Caustic<const N: usize> {
 /// Regular Q(s) are sought among these: at both ends, between, and beyond.
 const SHIFTS: [f64; 7] = [0.0, 1.0, 0.5, 0.25, 0.75, -0.5, 1.5];
 
-impl<S: Scalar, const N: usize> Characteristic<S, N> {
-    /// The zeros of det Q_k along this characteristic, in order.
-    ///
-    /// A frame counts as singular on a node k if its smallest singular value is below √ε of the frames' size there. A pair
-    /// of zeros closer than √ε to each other is one caustic of multiplicity 2.
-    #[must_use]
-    pub fn caustics(&self) -> Vec<Caustic<N>> {
-        // A frame that has overflowed ends the search; `carry` does not return one.
-        let finite = self.frames.iter().take_while(|frame| frame.q.iter().all(|entry| entry.is_finite()));
-        let frames: Vec<DMatrix<S>> = finite.map(|frame| dynamic(&frame.q)).collect();
-        let kernels: Vec<usize> = (0..frames.len()).map(|k| kernel(&frames, k)).collect();
-        let mut caustics = Vec::new();
-        for k in 1..frames.len() {
-            for (fraction, multiplicity) in zeros([&frames[k - 1], &frames[k]], [kernels[k - 1], kernels[k]])
-            {
-                let [from, to] = [&self.states[k - 1].q, &self.states[k].q].map(|q| q.map(Scalar::widen));
-                caustics.push(Caustic {
-                    label: self.label.map(Scalar::widen),
-                    step: k - 1,
-                    fraction,
-                    q: from * (1.0 - fraction) + to * fraction,
-                    multiplicity,
-                });
-            }
-        }
-        caustics
+/// A zero counted on a node is found again this near to the start of the next step.
+const SAME: f64 = 1e-3;
+
+/// The tangent plane of a carried section, and the caustics that it has met.
+///
+/// Its basis is made orthonormal at each step, which moves no zero of det Q. The frame itself would not do: a direction in which the fan
+/// grows a millionfold hides in rounding what the others do.
+pub(super) struct TangentPlane<S, const N: usize> {
+    basis: Frame<S, N>,
+    /// How many zeros were counted on the node that it is at.
+    counted: usize,
+}
+
+impl<S: Scalar, const N: usize> TangentPlane<S, N> {
+    pub(super) fn new(frame: &Frame<S, N>) -> Self {
+        Self { basis: orthonormal(frame), counted: 0 }
+    }
+
+    /// Carries it over a step with the step matrix `a`: fractions of the step at which det Q vanishes, with their multiplicities, in order.
+    pub(super) fn carry(&mut self, a: &PhaseMatrix<S, N>) -> Vec<(f64, usize)> {
+        let next = self.basis.carried(a);
+        let (zeros, counted) = zeros([&dynamic(&self.basis.q), &dynamic(&next.q)], self.counted);
+        *self = Self { basis: orthonormal(&next), counted };
+        zeros
     }
 }
 
-/// Dimension of the kernel of Q_k, to rounding.
-fn kernel<S: Scalar>(frames: &[DMatrix<S>], k: usize) -> usize {
-    let neighbours = &frames[k.saturating_sub(1)..(k + 2).min(frames.len())];
-    let size = neighbours.iter().fold(S::zero(), |size, frame| size.max(frame.amax()));
-    let threshold = size * S::EPSILON.sqrt();
-    frames[k].singular_values().iter().filter(|value| **value <= threshold).count()
+/// Another basis of the same plane, by Householder's QR decomposition of (Q, P).
+fn orthonormal<S: Scalar, const N: usize>(frame: &Frame<S, N>) -> Frame<S, N> {
+    // Powers of 2 against overflow of what is squared.
+    let size = frame.q.amax().max(frame.p.amax());
+    let stacked =
+        DMatrix::from_fn(2 * N, N, |i, j| (if i < N { frame.q[(i, j)] } else { frame.p[(i - N, j)] }) / size);
+    let basis = stacked.qr().q();
+    Frame { q: SMatrix::from_fn(|i, j| basis[(i, j)]), p: SMatrix::from_fn(|i, j| basis[(N + i, j)]) }
 }
 
-/// The zeros of det Q(t) in 0 < t ≤ 1 with their multiplicities, in order.
-fn zeros<S: Scalar>([from, to]: [&DMatrix<S>; 2], [at_from, at_to]: [usize; 2]) -> Vec<(f64, usize)> {
+/// The zeros of det Q(t) in 0 < t ≤ 1 with their multiplicities, in order; how many are at t = 1.
+///
+/// `counted` zeros at t = 0 belong to the step before.
+fn zeros<S: Scalar>([from, to]: [&DMatrix<S>; 2], counted: usize) -> (Vec<(f64, usize)>, usize) {
+    let apart = S::EPSILON.sqrt().widen();
     let mut candidates = real_zeros(from, to);
-    // Those on the nodes are known by their kernels: the nearest ones are theirs, and the first node's are counted already.
+    // On which side of the node rounding puts them differs from node to node.
     candidates.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-    candidates.drain(..at_from.min(candidates.len()));
-    candidates.sort_by(|a, b| (a - 1.0).abs().total_cmp(&(b - 1.0).abs()));
-    candidates.drain(..at_to.min(candidates.len()));
-    candidates.retain(|t| (0.0..1.0).contains(t));
+    let again = candidates.iter().take(counted).filter(|t| t.abs() < SAME).count();
+    candidates.drain(..again);
+    candidates.retain(|t| 0.0 <= *t && *t <= 1.0 + apart);
     candidates.sort_by(f64::total_cmp);
 
     let mut zeros: Vec<(f64, usize)> = Vec::new();
-    let apart = S::EPSILON.sqrt().widen();
+    let mut at_end = 0;
     for t in candidates {
+        let t = if (t - 1.0).abs() <= apart { 1.0 } else { t };
+        at_end += usize::from(t == 1.0);
         match zeros.last_mut() {
             Some((last, multiplicity)) if t - *last <= apart => *multiplicity += 1,
             _ => zeros.push((t, 1)),
         }
     }
-    if at_to > 0 {
-        zeros.push((1.0, at_to));
-    }
-    zeros
+    (zeros, at_end)
 }
 
 /// The real t with det((1 − t) `from` + t `to`) = 0, each as often as its multiplicity.

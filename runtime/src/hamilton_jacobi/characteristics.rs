@@ -4,6 +4,7 @@ use core::fmt;
 
 use nalgebra::{SMatrix, SVector};
 
+use super::caustics::TangentPlane;
 use super::residual::{Outcome, Worst, line, tolerance_line};
 use super::{Caustic, HamiltonJacobi, HamiltonJacobiError, ImplicitEquation, Section};
 use crate::error::{Quantity, StepError};
@@ -28,6 +29,11 @@ pub struct Characteristic<S, const N: usize> {
     pub states: Vec<State<S, N>>,
     /// (Q_k, P_k), k = 0 … K, from (I, Dγ_0(x)).
     pub frames: Vec<Frame<S, N>>,
+    /// The zeros of det Q_k, in order.
+    ///
+    /// One that is less than √ε of a step from a node counts as on it, and zeros closer than that to each other as one caustic of
+    /// higher multiplicity.
+    pub caustics: Vec<Caustic<N>>,
 }
 
 /// Closedness and caustics of a carried section.
@@ -102,6 +108,7 @@ where
         }
         let mut guess = None;
         let (mut states, mut frames) = (vec![state], vec![frame]);
+        let (mut plane, mut caustics) = (TangentPlane::new(&frame), Vec::new());
         for k in 0..steps {
             let (step, legendre) = self.at_step(k, |theory| {
                 let step = match (theory.system.step(&state, self.h, guess.as_ref()), guess) {
@@ -118,12 +125,23 @@ where
                 let cause = StepError::NonFinite { quantity: Quantity::Derivatives, index };
                 return Err(ImplicitEquation::Derivative.at(k)(cause));
             }
+            for (fraction, multiplicity) in plane.carry(&linearization.a) {
+                let [from, to] = [state.q, step.state.q].map(|q| q.map(Scalar::widen));
+                let q = from * (1.0 - fraction) + to * fraction;
+                caustics.push(Caustic {
+                    label: label.map(Scalar::widen),
+                    step: k,
+                    fraction,
+                    q,
+                    multiplicity,
+                });
+            }
             state = step.state;
             guess = Some(step.velocity);
             states.push(state);
             frames.push(frame);
         }
-        Ok(Characteristic { label: *label, states, frames })
+        Ok(Characteristic { label: *label, states, frames, caustics })
     }
 
     /// Closedness and caustics of carried characteristics.
@@ -146,7 +164,7 @@ where
             for k in 1..characteristic.frames.len() {
                 self.balance_at(&mut balance, characteristic, k - 1);
             }
-            caustics.extend(characteristic.caustics());
+            caustics.extend_from_slice(&characteristic.caustics);
         }
         CharacteristicsReport {
             closed: closed.outcome(),

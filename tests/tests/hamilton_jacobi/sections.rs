@@ -127,10 +127,10 @@ fn single_precision_is_held_against_its_own_rounding() {
     assert!(report.right_momentum.corrected.unwrap().holds(), "{report}");
     assert!(!report.right_momentum.printed.unwrap().holds(), "{report}");
     assert!(report.relative > 1e-5);
-    let caustics = theory.carry(&Rest, &vector![0.9], 20).unwrap().caustics();
+    let caustics = theory.carry(&Rest, &vector![0.9], 20).unwrap().caustics;
     let double = HamiltonJacobi::new(&DAMPED, Midpoint, 0.25);
     let rest = Slope(0.3);
-    let expected = double.carry(&rest, &vector![0.9], 20).unwrap().caustics();
+    let expected = double.carry(&rest, &vector![0.9], 20).unwrap().caustics;
     assert_eq!((caustics.len(), expected.len()), (1, 1));
     assert_eq!(caustics[0].step, expected[0].step);
     assert!((caustics[0].fraction - expected[0].fraction).abs() < 1e-4);
