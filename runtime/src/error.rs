@@ -38,6 +38,9 @@ pub enum Function {
 /// Why a step was not taken. The state that it started from is untouched; each message says whether a smaller step size can help.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+// A tag of one byte lies where a step has the first byte of its state: `Result<Step, StepError>` is then copied as that byte and the
+// rest, which has no alignment, and on a microcontroller byte by byte.
+#[repr(u32)]
 pub enum StepError {
     /// The step size is zero or not finite.
     StepSize {
