@@ -569,7 +569,7 @@ where
         Some(v) => *v,
         None => first_guess(system, kind, state)?,
     };
-    let solution = match newton::solve(kind, &kernel, &momenta, inertia, state, start) {
+    let solution = match newton::solve(kind, &kernel, &momenta, &inertia, state, start) {
         Ok(solution) => solution,
         Err(error) => {
             let equations =

@@ -22,7 +22,7 @@ mod start;
 mod verdict;
 pub(crate) use bounded::bounded;
 pub(crate) use rounding::{
-    AT_FLOOR, PLACES, SLOW, SMALL, estimated_floor, finite_part, held_against, is_sensible,
+    AT_FLOOR, PLACES, SLOW, SMALL, estimated_floor, finite_part, held_against, held_by_weights, is_sensible,
 };
 use rounding::{in_units_of, worst};
 pub(crate) use start::from_rest;
@@ -71,19 +71,21 @@ pub(crate) enum Equation {
 ///
 /// `evaluate` gives p0 and the Newton matrix, `finish` both momenta, `inertia` the mass matrix, the metric that tells which of
 /// two velocities is longer. The residual that the report states is the one that `finish` measured at the root.
+///
+/// Functions by reference: with `F = &G` for one of them, calls of it would not be inlined where `F` is behind a pointer as well.
 #[inline]
 pub(crate) fn solve<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     kind: Equation,
-    evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
-    finish: impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
-    inertia: impl Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, N>,
+    evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
+    finish: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
+    inertia: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, N>,
     state: &State<S, N>,
     guess: SVector<S, N>,
 ) -> Result<Solution<S, N>, StepError> {
-    match quick(kind, &evaluate, &finish, state, guess) {
+    match quick(kind, evaluate, finish, state, guess) {
         Ok(solution) => Ok(solution),
         Err(reached) => {
-            let of = Equations { evaluate: &evaluate, finish: &finish, inertia: &inertia, state };
+            let of = Equations { evaluate, finish, inertia, state };
             careful(&of, reached)
         }
     }

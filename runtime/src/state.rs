@@ -96,7 +96,7 @@ impl<S: Scalar, const N: usize> State<S, N> {
         let mass = |q: &SVector<S, N>, v: &SVector<S, N>| system.lagrangian_derivatives(q, v).d22;
         let rest = nalgebra::zero();
         let solution = match error {
-            None => newton::solve(newton::Equation::General, transform, momenta, mass, self, rest),
+            None => newton::solve(newton::Equation::General, &transform, &momenta, &mass, self, rest),
             Some(error) => {
                 let of =
                     newton::Equations { evaluate: &transform, finish: &momenta, inertia: &mass, state: self };

@@ -166,7 +166,7 @@ where
         };
         let solution = newton::solve(
             newton::Equation::General,
-            |known, v| {
+            &|known, v| {
                 let (q0, q1) = ends(known, v);
                 let k = self.legendre(&q0, &q1);
                 let matrix = match (unknown, given) {
@@ -177,11 +177,11 @@ where
                 };
                 StepKernel { p0: momentum(known, v), matrix }
             },
-            |known, v| {
+            &|known, v| {
                 let p = momentum(known, v);
                 Momenta { p0: p, p1: p }
             },
-            |known, v| self.system.lagrangian_derivatives(known, v).d22,
+            &|known, v| self.system.lagrangian_derivatives(known, v).d22,
             &State { q: *known, p: *p },
             guess.copied().unwrap_or_else(nalgebra::zero),
         )?;

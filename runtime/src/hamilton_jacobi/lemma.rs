@@ -86,12 +86,12 @@ where
         };
         let solution = newton::solve(
             newton::Equation::General,
-            difference,
-            |q, v| {
+            &difference,
+            &|q, v| {
                 let p = difference(q, v).p0;
                 Momenta { p0: p, p1: p }
             },
-            |q, v| self.system.lagrangian_derivatives(q, v).d22,
+            &|q, v| self.system.lagrangian_derivatives(q, v).d22,
             &State { q: *q, p: nalgebra::zero() },
             guess.copied().unwrap_or_else(nalgebra::zero),
         )

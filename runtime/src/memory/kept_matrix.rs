@@ -12,7 +12,7 @@ use nalgebra::SVector;
 
 use super::{Memory, VelocityHistory};
 use crate::linear::{Factored, NewtonMatrix};
-use crate::newton::{AT_FLOOR, estimated_floor, held_against, weighted};
+use crate::newton::{AT_FLOOR, estimated_floor, held_against, held_by_weights, weighted};
 use crate::{Discrete, Momenta, Report, Scalar, State, Step, StepError};
 
 /// A correction must leave at most this share of the residual.
@@ -154,11 +154,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
             let residual = momenta.p0 - p;
             let size = weighted(&residual, &weights);
             if iterations > 0 && size <= S::constant(AT_FLOOR) {
-                let (residual, floor, is_root) = held_against(&residual, &floor);
-                // A floor that overflows has the weight 0.
-                if !is_root {
-                    return None;
-                }
+                let (residual, floor) = held_by_weights(&residual, &floor, &weights, size)?;
                 let last_correction = correction.amax();
                 let report = Report { iterations, damped: 0, residual, floor, last_correction };
                 return Step::completed(state, self.h, v, &momenta, report).ok();

@@ -124,6 +124,26 @@ fn held<S: Scalar>(residual: S, floor: S, worst: (S, S, bool)) -> (S, S, bool) {
     if size * worst.1 > worst.0 * floor { (size, floor, is_root) } else { (worst.0, worst.1, is_root) }
 }
 
+/// What [`held_against`] says of a residual at a root whose size, [`weighted`](super::weighted) by 1/`floor`, is known, in a third of
+/// its operations; nothing where it is no root, or where the rounding of the weights would decide.
+#[inline]
+pub(crate) fn held_by_weights<S: Scalar, const N: usize>(
+    residual: &SVector<S, N>,
+    floor: &SVector<S, N>,
+    weights: &SVector<S, N>,
+    size: S,
+) -> Option<(S, S)> {
+    // Weight and product are rounded once each.
+    let is_below = size <= S::constant(AT_FLOOR) * (S::one() - S::EPSILON * S::constant(2.0));
+    // A floor that overflows has the weight 0, and explains nothing.
+    let finite = floor.iter().fold(true, |all, &floor| all & (floor * S::constant(AT_FLOOR)).is_finite());
+    if !(is_below & finite) {
+        return None;
+    }
+    let worst = (0..N).find(|&i| residual[i].abs() * weights[i] == size)?;
+    Some((residual[worst].abs(), floor[worst]))
+}
+
 /// One after the other.
 #[inline(always)]
 fn of_slices<S: Scalar>(residuals: &[S], floors: &[S], mut worst: (S, S, bool)) -> (S, S, bool) {
@@ -215,6 +235,38 @@ mod tests {
         }
         let nine = SVector::<f64, 9>::from_fn(|i, _| if i == 6 { f64::INFINITY } else { 1.0 });
         assert!(!held_against(&SVector::<f64, 9>::repeat(1e-3), &nine).2);
+    }
+
+    /// By its weight as by its floor: what one calls a root, the other does, but for the last places of a residual of four floors.
+    #[test]
+    fn weights_say_of_a_residual_what_floors_do() {
+        let by_weights = |residual: [f64; 5], floor: [f64; 5]| {
+            let (residual, floor) = (SVector::from(residual), SVector::from(floor));
+            let weights = floor.map(|floor: f64| 1.0 / floor);
+            let (worst, of, is_root) = held_against(&residual, &floor);
+            let size = crate::newton::weighted(&residual, &weights);
+            let found = held_by_weights(&residual, &floor, &weights, size);
+            assert!(found.is_none() || is_root);
+            assert!(found.is_none_or(|found| found == (worst, of)));
+            (found.is_some(), is_root)
+        };
+        let floor = [0.1, 0.7, 3.0, 1e-9, 1e200];
+        for i in 0..5 {
+            for (floors, expected) in [(3.999, true), (4.0 - 1e-14, true), (4.0 + 1e-14, false), (1e3, false)]
+            {
+                let mut residual = floor.map(|floor| -floor);
+                residual[i] = floors * floor[i];
+                assert_eq!(by_weights(residual, floor), (expected, expected), "{i}, {floors}");
+            }
+            for overflows in [f64::INFINITY, f64::NAN, f64::MAX / 2.0] {
+                let mut floor = floor;
+                floor[i] = overflows;
+                assert_eq!(by_weights([0.0; 5], floor), (false, false), "{i}, {overflows}");
+            }
+            let mut residual = [0.0; 5];
+            residual[i] = f64::NAN;
+            assert_eq!(by_weights(residual, floor), (false, false));
+        }
     }
 
     #[test]
