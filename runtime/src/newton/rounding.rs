@@ -135,9 +135,8 @@ pub(crate) fn held_by_weights<S: Scalar, const N: usize>(
 ) -> Option<(S, S)> {
     // Weight and product are rounded once each.
     let is_below = size <= S::constant(AT_FLOOR) * (S::one() - S::EPSILON * S::constant(2.0));
-    // A floor that overflows has the weight 0, and explains nothing.
-    let finite = floor.iter().fold(true, |all, &floor| all & (floor * S::constant(AT_FLOOR)).is_finite());
-    if !(is_below & finite) {
+    // A floor that overflows has the weight 0, and explains nothing; the sum overflows with it.
+    if !(is_below & (floor.sum() * S::constant(AT_FLOOR)).is_finite()) {
         return None;
     }
     let worst = (0..N).find(|&i| residual[i].abs() * weights[i] == size)?;
