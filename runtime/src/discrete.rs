@@ -324,15 +324,12 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         guess: Option<&SVector<Self::Scalar, N>>,
     ) -> Result<Step<Self::Scalar, N>, StepError> {
         let kind = if Self::LINEAR { Equation::Linear } else { Equation::General };
-        let step = step_by(
-            self,
-            kind,
-            |q0, v| self.step_kernel(q0, v, h),
-            |q0, v| self.momenta(q0, v, h),
-            state,
-            h,
-            guess,
+        let equation = (
+            |q0: &_, v: &_| self.step_kernel(q0, v, h),
+            |q0: &_, v: &_| self.momenta(q0, v, h),
+            |q0: &_, v: &_| self.lagrangian_derivatives(q0, v).d22,
         );
+        let step = step_by(self, kind, equation, state, h, guess);
         if cfg!(debug_assertions)
             && let Ok(step) = &step
         {
@@ -547,13 +544,16 @@ pub trait DiscreteRayleigh<R, const N: usize>: Discrete<R, N> + Rayleigh<N> {
     }
 }
 
-/// [`Discrete::step`] with the step's equation and both momenta as functions of (q0, v̄).
+/// [`Discrete::step`] with the step's equation, both momenta and the mass that the velocity has in them as functions of (q0, v̄).
 #[inline]
 pub(crate) fn step_by<L, M, const N: usize>(
     system: &L,
     kind: Equation,
-    kernel: impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> StepKernel<L::Scalar, N, M>,
-    momenta: impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> Momenta<L::Scalar, N>,
+    (kernel, momenta, inertia): (
+        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> StepKernel<L::Scalar, N, M>,
+        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> Momenta<L::Scalar, N>,
+        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, N>,
+    ),
     state: &State<L::Scalar, N>,
     h: L::Scalar,
     guess: Option<&SVector<L::Scalar, N>>,
@@ -563,17 +563,15 @@ where
     M: NewtonMatrix<L::Scalar, N>,
 {
     require_step_size(h)?;
-    let inertia =
-        |q0: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>| system.lagrangian_derivatives(q0, v).d22;
     let start = match guess {
         Some(v) => *v,
         None => first_guess(system, kind, state)?,
     };
-    let solution = match newton::solve(kind, &kernel, &momenta, &inertia, state, start) {
+    let solution = match newton::solve(kind, &kernel, &momenta, &inertia, state, h, start) {
         Ok(solution) => solution,
         Err(error) => {
             let equations =
-                newton::Equations { evaluate: &kernel, finish: &momenta, inertia: &inertia, state };
+                newton::Equations { evaluate: &kernel, finish: &momenta, inertia: &inertia, state, h };
             let found =
                 if guess.is_none() { newton::from_rest(&equations, &start, error) } else { Err(error) };
             found.map_err(|error| in_arguments(state, guess).unwrap_or(error))?

@@ -25,7 +25,7 @@ pub(crate) use rounding::{
     AT_FLOOR, PLACES, SLOW, SMALL, estimated_floor, finite_part, held_against, held_by_weights, is_sensible,
 };
 use rounding::{in_units_of, worst};
-pub(crate) use start::from_rest;
+pub(crate) use start::{from_rest, is_rest};
 pub(crate) use verdict::Equations;
 use verdict::{stagnated, verified};
 
@@ -70,7 +70,8 @@ pub(crate) enum Equation {
 /// Solves p0(q, v) = p for v at the `state` (q, p).
 ///
 /// `evaluate` gives p0 and the Newton matrix, `finish` both momenta, `inertia` the mass matrix, the metric that tells which of
-/// two velocities is longer. The residual that the report states is the one that `finish` measured at the root.
+/// two velocities is longer; configurations on the way are q plus a share of `h` v, with h = 0 at q itself. The residual that the
+/// report states is the one that `finish` measured at the root.
 ///
 /// Functions by reference: with `F = &G` for one of them, calls of it would not be inlined where `F` is behind a pointer as well.
 #[inline]
@@ -80,12 +81,13 @@ pub(crate) fn solve<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     finish: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
     inertia: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, N>,
     state: &State<S, N>,
+    h: S,
     guess: SVector<S, N>,
 ) -> Result<Solution<S, N>, StepError> {
     match quick(kind, evaluate, finish, state, guess) {
         Ok(solution) => Ok(solution),
         Err(reached) => {
-            let of = Equations { evaluate, finish, inertia, state };
+            let of = Equations { evaluate, finish, inertia, state, h };
             careful(&of, reached)
         }
     }

@@ -94,12 +94,12 @@ impl<S: Scalar, const N: usize> State<S, N> {
             Momenta { p0: p, p1: p }
         };
         let mass = |q: &SVector<S, N>, v: &SVector<S, N>| system.lagrangian_derivatives(q, v).d22;
-        let rest = nalgebra::zero();
+        let (rest, h) = (nalgebra::zero(), S::zero());
         let solution = match error {
-            None => newton::solve(newton::Equation::General, &transform, &momenta, &mass, self, rest),
+            None => newton::solve(newton::Equation::General, &transform, &momenta, &mass, self, h, rest),
             Some(error) => {
-                let of =
-                    newton::Equations { evaluate: &transform, finish: &momenta, inertia: &mass, state: self };
+                let (evaluate, finish, inertia) = (&transform, &momenta, &mass);
+                let of = newton::Equations { evaluate, finish, inertia, state: self, h };
                 newton::from_rest(&of, &rest, error)
             }
         };

@@ -183,6 +183,7 @@ where
             },
             &|known, v| self.system.lagrangian_derivatives(known, v).d22,
             &State { q: *known, p: *p },
+            h,
             guess.copied().unwrap_or_else(nalgebra::zero),
         )?;
         let (q0, q1) = ends(known, &solution.unknown);

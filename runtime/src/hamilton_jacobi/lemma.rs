@@ -93,6 +93,7 @@ where
             },
             &|q, v| self.system.lagrangian_derivatives(q, v).d22,
             &State { q: *q, p: nalgebra::zero() },
+            h,
             guess.copied().unwrap_or_else(nalgebra::zero),
         )
         .map_err(ImplicitEquation::RightCharacteristic.at(0))?;

@@ -52,6 +52,15 @@ pub(crate) fn from_rest<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     others.flatten().ok_or(error)
 }
 
+/// Whether the `residual` vanishes with the velocity in every coordinate, so that rest is its root.
+#[cold]
+pub(crate) fn is_rest<S: Scalar, const N: usize>(
+    residual: &dyn Fn(&SVector<S, N>) -> SVector<S, N>,
+    p: &SVector<S, N>,
+) -> bool {
+    vanishing(residual, p, &nalgebra::zero(), &near_rest(residual)).iter().all(|rests| *rests)
+}
+
 /// A velocity so small that only what is constant is left of the residual, but at which it is a number in every coordinate. No two
 /// entries are alike.
 #[cold]
@@ -158,7 +167,8 @@ fn without<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
             SVector::from_fn(|i, _| if resting.get(i) == Some(&true) { p[i] + change[i] } else { p1[i] });
         Momenta { p0: held(p0), p1 }
     };
-    let others = Equations { evaluate: &evaluate, finish: &finish, inertia: of.inertia, state: of.state };
+    let Equations { inertia, state, h, .. } = *of;
+    let others = Equations { evaluate: &evaluate, finish: &finish, inertia, state, h };
     let solution = careful(&others, Reached { v: start, iterations: 0 }).ok()?;
     let found = vanishing(&|v| (of.finish)(&of.state.q, v).p0 - p, p, &solution.unknown, near);
     resting.iter().zip(found).all(|(rests, found)| !rests || found).then_some(solution)

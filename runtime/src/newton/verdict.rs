@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::rounding::{estimated_floor, finite_part, held_against, is_sensible, rounding};
+use super::rounding::{estimated_floor, finite_part, held_against, is_sensible, rounding, scatter};
 use super::{Iterate, Solution};
 use crate::discrete::{Momenta, StepKernel};
 use crate::linear::NewtonMatrix;
@@ -23,6 +23,8 @@ pub(crate) struct Equations<'f, S, M, const N: usize> {
     pub(crate) finish: &'f Finish<'f, S, N>,
     pub(crate) inertia: &'f Inertia<'f, S, N>,
     pub(crate) state: &'f State<S, N>,
+    /// v times this and a share leads from q to the configurations on the way.
+    pub(crate) h: S,
 }
 
 impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Equations<'_, S, M, N> {
@@ -62,6 +64,10 @@ pub(super) fn verified<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         let momentum = (of.inertia)(q, v).magnitudes(v) * (S::EPSILON * S::constant(8.0));
         floor += rounding(|q, v| (of.finish)(q, v).p0, q, v) + momentum;
         held = held_against(&remaining, &floor);
+        if !held.2 {
+            floor += scatter(|v| (of.finish)(q, v).p0, q, v, of.h);
+            held = held_against(&remaining, &floor);
+        }
     }
     if !held.2 || !last_correction.is_finite() {
         return None;
@@ -112,6 +118,7 @@ mod tests {
             finish: &momenta,
             inertia: &|_, _| matrix![1.0],
             state: &state,
+            h: 1.0,
         };
         verified(&of, &one, &matrix, correction, [1, 0], false).is_some()
     }

@@ -152,7 +152,9 @@ pub(crate) trait ByDrift {
     ) -> Result<Step<L::Scalar, N>, StepError> {
         let kernel = |q0: &_, v: &_| Self::kernel(drift, system, q0, v, h);
         let momenta = |q0: &_, v: &_| Self::momenta(drift, system, q0, v, h);
-        let step = discrete::step_by(system, Self::EQUATION, kernel, momenta, state, h, guess)
+        // Under damping that excites, what is left of M in p0 is below any share of it.
+        let inertia = |_: &_, _: &_| drift.before;
+        let step = discrete::step_by(system, Self::EQUATION, (kernel, momenta, inertia), state, h, guess)
             .map_err(|error| of_mass(system, &state.q, error));
         if cfg!(debug_assertions)
             && let Ok(step) = &step

@@ -17,9 +17,10 @@ mod tangent;
 use nalgebra::{SMatrix, SVector};
 
 use crate::error::Quantity;
+use crate::lanes::splat;
 use crate::{
     Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, EquationAt, ForcedLagrangian,
-    LegendreDerivatives, Linearization, Momenta, Scalar, State, StateBy, Step, StepError, StepKernel,
+    LegendreDerivatives, Linearization, Momenta, Report, Scalar, State, StateBy, Step, StepError, StepKernel,
 };
 use coefficients::Coefficients;
 pub use history::StageHistory;
@@ -287,8 +288,7 @@ fn solved<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, con
     Ok((problem, solution))
 }
 
-/// The stages from the velocity of the `state`; where forces do not exist there, as drag at rest may not, from the one half a step
-/// later without drag.
+/// The stages from the velocity of the `state`.
 #[inline]
 fn solved_from<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
     problem: &Problem<'_, L, N, S>,
@@ -297,13 +297,34 @@ fn solved_from<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, co
     let v = state.velocity(problem.system)?;
     match fixed_point::solve(problem, &v) {
         Err(error @ StepError::NonFinite { quantity: Quantity::Derivatives, .. }) => {
-            let kick = problem.system.lagrangian_gradient(&state.q, &v).d1 * (problem.h * T::constant(0.5));
-            let later = State { q: state.q, p: state.p + kick };
-            let v = later.velocity(problem.system).map_err(|_| error)?;
-            fixed_point::solve(problem, &v).map_err(|_| error)
+            from_singular(problem, state, &v).ok_or(error)
         }
         solved => solved,
     }
+}
+
+/// Where forces do not exist at `v`, as drag at rest may not: the stages from the velocity half a step later without drag; rest
+/// itself, where the equations hold next to it.
+#[cold]
+#[inline(never)]
+fn from_singular<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    state: &State<T, N>,
+    v: &SVector<T, N>,
+) -> Option<Solution<T, N, S>> {
+    let force = problem.system.lagrangian_gradient(&state.q, v).d1;
+    let rest = nalgebra::zero();
+    if *v == rest && force == rest {
+        let residual =
+            |v: &SVector<T, N>| problem.stages(&splat(v)).residual.map(|stages| stages.amax()).into();
+        let (v, none) = (splat(&rest), T::zero());
+        let floor = T::SMALLEST_NORMAL;
+        let report = Report { iterations: 0, damped: 0, residual: none, floor, last_correction: none };
+        let is_rest = crate::newton::is_rest(&residual, &state.p);
+        return is_rest.then_some(Solution { v, rate: v, report, contracted: false });
+    }
+    let later = State { q: state.q, p: state.p + force * (problem.h * T::constant(0.5)) };
+    fixed_point::solve(problem, &later.velocity(problem.system).ok()?).ok()
 }
 
 /// The step from `state`, with its equations linearised at the stages.
