@@ -75,8 +75,14 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
         if !size.is_finite() {
             return None;
         }
-        // The contraction is size/last.
-        let is_at_rest = size * size <= constant(AT_REST) * last;
+        // The contraction is size/last; but where the mass depends on q velocities follow momenta an iteration late, and every other
+        // iteration may take off nothing: the one before is heeded too.
+        let is_at_rest = size * size <= constant(AT_REST) * last
+            && if iterations > 2 {
+                size * last <= constant(AT_REST) * before
+            } else {
+                L::STRUCTURE.constant_mass_matrix || size <= constant(AT_REST)
+            };
         let has_stopped = iterations > 1 && size >= constant(SLUGGISH) * last;
         let mut is_done = is_at_rest || (has_stopped && size <= constant(AT_FLOOR));
         if is_done && iterations > 1 {
@@ -97,7 +103,9 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
             }
         }
         if is_done {
-            let remaining = if last > size { size / last } else { T::one() };
+            let contraction =
+                if iterations > 2 && last * last > size * before { last / before } else { size / last };
+            let remaining = if contraction < T::one() { contraction } else { T::one() };
             let report = report(&stages, &floor, remaining, iterations);
             let v = core::array::from_fn(|a| v[a] + stages.correction[a]);
             return Some(Solution { v, rate: stages.rate, report, contracted: true });
