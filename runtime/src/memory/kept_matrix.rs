@@ -12,7 +12,9 @@ use nalgebra::SVector;
 
 use super::{Memory, VelocityHistory};
 use crate::linear::{Factored, NewtonMatrix};
-use crate::newton::{AT_FLOOR, estimated_floor, held_against, held_by_weights, weighted};
+use crate::newton::{
+    AT_FLOOR, estimated_floor, finite_part, held_against, held_by_weights, is_sensible, weighted,
+};
 use crate::{Discrete, Momenta, Report, Scalar, State, Step, StepError};
 
 /// A correction must leave at most this share of the residual.
@@ -154,7 +156,11 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
             let residual = momenta.p0 - p;
             let size = weighted(&residual, &weights);
             if iterations > 0 && size <= S::constant(AT_FLOOR) {
-                let (residual, floor) = held_by_weights(&residual, &floor, &weights, size)?;
+                let (residual, floor) = if is_shown(&residual, p, &momenta.p1) {
+                    held_by_weights(&residual, &floor, &weights, size)?
+                } else {
+                    self.held_anew(system, state, &v, &residual)?
+                };
                 let last_correction = correction.amax();
                 let report = Report { iterations, damped: 0, residual, floor, last_correction };
                 return Step::completed(state, self.h, v, &momenta, report).ok();
@@ -171,6 +177,24 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
             v -= correction;
         }
         None
+    }
+
+    /// The residual that is largest in units of its floor by the matrix at `v`, and this floor; nothing where it is no root.
+    #[cold]
+    #[inline(never)]
+    fn held_anew<L, R>(
+        &self,
+        system: &L,
+        State { q, p }: &State<S, N>,
+        v: &SVector<S, N>,
+        residual: &SVector<S, N>,
+    ) -> Option<(S, S)>
+    where
+        L: Discrete<R, N, Scalar = S, Matrix = M>,
+    {
+        let floor = estimated_floor(p, &system.step_kernel(q, v, self.h).matrix, v);
+        let (residual, floor, is_root) = held_against(residual, &floor);
+        is_root.then_some((residual, floor))
     }
 
     /// The step to `v`, whose residual has stopped falling, if the rounding of q explains it; nothing if not.
@@ -199,13 +223,15 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         let State { q, p } = state;
         let matrix = |h| system.step_kernel(q, &v, h).matrix;
         // 2E.
-        let even =
-            matrix(self.h).plus(&matrix(-self.h), S::one()).plus(&matrix(S::zero()), -S::constant(2.0));
+        let (now, mass) = (matrix(self.h), matrix(S::zero()));
+        let even = now.plus(&matrix(-self.h), S::one()).plus(&mass, -S::constant(2.0));
         let unit = S::constant(4.0) * S::EPSILON / self.h.abs();
-        let floor = estimated_floor(p, &self.matrix, &v) + even.magnitudes(&(q * unit));
+        let floor = estimated_floor(p, &now, &v) + even.magnitudes(&(q * unit));
+        let terms = finite_part(p) + finite_part(&mass.magnitudes(&v));
+        let is_sensible = is_sensible(&floor, &terms);
         let (residual, floor, is_root) = held_against(&(momenta.p0 - p), &floor);
         let report = Report { iterations, damped: 0, residual, floor, last_correction: correction.amax() };
-        if !is_root {
+        if !is_root || !is_sensible {
             return None;
         }
         Step::completed(state, self.h, v, &momenta, report).ok()
@@ -236,5 +262,38 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         }
         let report = Report { iterations, damped: 0, residual, floor, last_correction: correction.amax() };
         Step::completed(state, self.h, v, &momenta, report).ok()
+    }
+}
+
+/// Whether `residual` is that of a root by what the two momenta alone say of rounding. Elsewhere the kept matrix has no say: after a
+/// collision it is larger than that of the equation now, by any factor, and with it its floor.
+#[inline(always)]
+fn is_shown<S: Scalar, const N: usize>(
+    residual: &SVector<S, N>,
+    p0: &SVector<S, N>,
+    p1: &SVector<S, N>,
+) -> bool {
+    let most = S::EPSILON * S::constant(4.0 * AT_FLOOR);
+    let mut is_shown = true;
+    for i in 0..N {
+        is_shown &= residual[i].abs() <= (p0[i].abs() + p1[i].abs()) * most + S::SMALLEST_NORMAL;
+    }
+    is_shown
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::vector;
+
+    #[test]
+    fn residuals_are_shown_by_the_momenta_in_every_coordinate() {
+        let (p0, p1) = (vector![1.0, 0.0], vector![0.0, -1e-6]);
+        assert!(is_shown(&vector![-3e-15, 3e-21], &p0, &p1));
+        assert!(!is_shown(&vector![15.0, 0.0], &p0, &p1));
+        assert!(!is_shown(&vector![0.0, 5e-21], &p0, &p1));
+        assert!(!is_shown(&vector![f64::NAN, 0.0], &p0, &p1));
+        // At rest.
+        assert!(is_shown(&vector![0.0], &vector![0.0], &vector![0.0]));
     }
 }
