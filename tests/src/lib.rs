@@ -9,4 +9,5 @@ pub mod draws;
 pub mod hard;
 pub mod motions;
 pub mod reference;
+pub mod sections;
 pub mod systems;

@@ -5,6 +5,7 @@ use dalembert::hamilton_jacobi::{ConfigurationMap, HamiltonJacobi, HamiltonJacob
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::{Discrete, Midpoint, Trapezoidal, rayleigh_system};
 use dalembert_tests::damped_oscillator::{CompleteSolution, DAMPED};
+use dalembert_tests::sections::Constant;
 
 struct Whirl;
 
@@ -129,26 +130,11 @@ fn single_precision_is_held_against_its_own_rounding() {
     assert!(report.relative > 1e-5);
     let caustics = theory.carry(&Rest, &vector![0.9], 20).unwrap().caustics;
     let double = HamiltonJacobi::new(&DAMPED, Midpoint, 0.25);
-    let rest = Slope(0.3);
+    let rest = Constant(0.3);
     let expected = double.carry(&rest, &vector![0.9], 20).unwrap().caustics;
     assert_eq!((caustics.len(), expected.len()), (1, 1));
     assert_eq!(caustics[0].step, expected[0].step);
     assert!((caustics[0].fraction - expected[0].fraction).abs() < 1e-4);
-}
-
-/// γ = constant.
-struct Slope(f64);
-
-impl Section<1> for Slope {
-    type Scalar = f64;
-
-    fn covector(&self, _q: &SVector<f64, 1>) -> SVector<f64, 1> {
-        vector![self.0]
-    }
-
-    fn jacobian(&self, _q: &SVector<f64, 1>) -> SMatrix<f64, 1, 1> {
-        SMatrix::zeros()
-    }
 }
 
 #[test]
@@ -181,11 +167,11 @@ fn what_cannot_be_evaluated_is_a_typed_error() {
     let system = Cubic { r: 1.0 };
     let theory = HamiltonJacobi::new(&system, Midpoint, 1.0);
     // p0 = v + v²/2 ≥ −½.
-    let error = theory.carry(&Slope(-0.6), &vector![0.0], 3).unwrap_err();
+    let error = theory.carry(&Constant(-0.6), &vector![0.0], 3).unwrap_err();
     assert!(matches!(error, HamiltonJacobiError::Implicit { step: 0, .. }), "{error}");
-    let report = theory.check_sections(&[Slope(-0.6), Slope(-0.6)], &[vector![0.0]]).unwrap();
+    let report = theory.check_sections(&[Constant(-0.6), Constant(-0.6)], &[vector![0.0]]).unwrap();
     assert!(report.plus.is_err() && !report.is_solution(), "{report}");
     assert!(report.to_string().contains("not evaluated"), "{report}");
     // Positive control: just inside it evaluates.
-    assert!(theory.carry(&Slope(-0.49), &vector![0.0], 1).is_ok());
+    assert!(theory.carry(&Constant(-0.49), &vector![0.0], 1).is_ok());
 }

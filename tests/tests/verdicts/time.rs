@@ -7,6 +7,7 @@ use dalembert::noether::{Generator, Noether};
 use dalembert::rayleigh::{Comparison, Potential, Resplit, structure};
 use dalembert::samples::{Segment, segments};
 use dalembert::{Discrete, Midpoint, State, Trajectory, Trapezoidal, rayleigh_system};
+use dalembert_tests::sections::Constant;
 
 /// A force t.
 struct Ramp;
@@ -53,22 +54,6 @@ impl Late {
 
     fn force(&self, q: [f64; 2], v: [f64; 2], t: f64) -> [f64; 2] {
         if t < 0.5 { [0.0, 0.0] } else { [-v[0] + q[1], -v[1] - q[0]] }
-    }
-}
-
-/// γ(q) = c.
-#[derive(Clone, Copy)]
-struct Constant(f64);
-
-impl Section<1> for Constant {
-    type Scalar = f64;
-
-    fn covector(&self, _q: &SVector<f64, 1>) -> SVector<f64, 1> {
-        vector![self.0]
-    }
-
-    fn jacobian(&self, _q: &SVector<f64, 1>) -> SMatrix<f64, 1, 1> {
-        SMatrix::zeros()
     }
 }
 
