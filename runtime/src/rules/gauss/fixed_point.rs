@@ -23,6 +23,9 @@ const SLUGGISH: f64 = 0.5;
 /// The residual that the last correction may leave, in floors: with the contraction measured, what is left of it.
 const AT_REST: f64 = 1.0 / 64.0;
 
+/// After one iteration, only a residual of at most this many floors is taken to shrink in the next as much as it has.
+const NEAR: f64 = 1024.0;
+
 /// If the floor has risen or fallen by this factor, sizes measured with the old floor are not comparable with new ones.
 const CHANGED: f64 = 8.0;
 
@@ -76,12 +79,14 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
             return None;
         }
         // The contraction is size/last; but where the mass depends on q velocities follow momenta an iteration late, and every other
-        // iteration may take off nothing: the one before is heeded too.
-        let is_at_rest = size * size <= constant(AT_REST) * last
+        // iteration may take off nothing: the one before is heeded too. A first one says little of coordinates with lower floors.
+        let mut is_at_rest = size * size <= constant(AT_REST) * last
             && if iterations > 2 {
                 size * last <= constant(AT_REST) * before
+            } else if L::STRUCTURE.constant_mass_matrix {
+                N == 1 || size <= constant(NEAR)
             } else {
-                L::STRUCTURE.constant_mass_matrix || size <= constant(AT_REST)
+                size <= constant(AT_REST)
             };
         let has_stopped = iterations > 1 && size >= constant(SLUGGISH) * last;
         let mut is_done = is_at_rest || (has_stopped && size <= constant(AT_FLOOR));
@@ -92,22 +97,29 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
                 floor = fallen;
                 per_floor = reciprocals(&floor);
                 size = in_units(&stages.residual, &per_floor);
-                (is_done, before, last) = (false, size * constant(4.0), size);
+                (is_done, is_at_rest) = (false, false);
+                (before, last) = (size * constant(4.0), size);
             }
         }
         if !is_done && iterations > 2 && size >= before * constant(SLUGGISH) {
-            let (v, residual) = (v, stages.residual);
-            match at_rounding(problem, &v, &residual, floor) {
-                Some(measured) => (floor, is_done) = (measured, true),
+            let (v, rate, residual) = (v, stages.rate, stages.residual);
+            // Not that of the guess, which may be far out.
+            let now = problem.floor(&rate, &residual);
+            match at_rounding(problem, &v, &residual, now) {
+                Some(measured) => (floor, is_done, is_at_rest) = (measured, true, false),
                 None => return None,
             }
         }
         if is_done {
-            let contraction =
-                if iterations > 2 && last * last > size * before { last / before } else { size / last };
-            let remaining = if contraction < T::one() { contraction } else { T::one() };
+            // What does not contract is left where its residual is known.
+            let (mut v, mut remaining) = (v, T::one());
+            if is_at_rest {
+                let late = iterations > 2 && last * last > size * before;
+                let contraction = if late { last / before } else { size / last };
+                remaining = if contraction < T::one() { contraction } else { T::one() };
+                v = core::array::from_fn(|a| v[a] + stages.correction[a]);
+            }
             let report = report(&stages, &floor, remaining, iterations);
-            let v = core::array::from_fn(|a| v[a] + stages.correction[a]);
             return Some(Solution { v, rate: stages.rate, report, contracted: true });
         }
         for (v, &correction) in v.iter_mut().zip(&stages.correction) {
