@@ -1,48 +1,84 @@
-//! The study of verdicts: prints its tables, and fails if a step violates its equations.
+//! The study of verdicts: random steps by every rule, each held against its equations in twice the precision; `docs/verdicts.md`.
 //!
 //! ```text
-//! cargo run --release -p dalembert-tests --example verdicts [draws per system] [seed]
+//! cargo run --release -p dalembert-tests --features studies --example verdicts -- NAME DRAWS FIRST LAST
+//! cargo run --release -p dalembert-tests --features studies --example verdicts -- page
 //! ```
+//!
+//! The first takes so many draws of every system with each seed from FIRST to LAST, adds the counts of every seed to
+//! `target/verdicts/NAME.txt`, from which a later run goes on, and fails if a step violates its equations; the second writes the page from
+//! the counts under the names `now` and `before`.
 
+mod counts;
+mod page;
 mod study;
-mod table;
 
 use std::process::ExitCode;
 
-use study::steps::{Job, study, study_all};
+use anyhow::{Context, Result, ensure};
+use study::steps::{Job, Tally, study, study_all, study_composed, study_fitted};
 use study::systems::*;
-use table::{table, violations};
 
-/// Every system, each with Gauss rules of two numbers of stages.
-const JOBS: [Job; 22] = [
-    study::<Harmonic, 1, 1, 4>,
-    study::<Chain, 4, 2, 5>,
-    study::<Quartic, 1, 3, 6>,
-    study::<Ring, 2, 1, 7>,
-    study::<Pendulum, 1, 2, 8>,
-    study::<DoublePendulum, 2, 3, 4>,
-    study::<LennardJones, 1, 1, 8>,
-    study::<Atoms, 3, 2, 6>,
-    study::<Exponential, 1, 1, 5>,
-    study::<Toda, 3, 2, 4>,
-    study::<Morse, 1, 3, 7>,
-    study::<MorseDry, 2, 2, 5>,
-    study::<Kepler, 2, 1, 6>,
-    study::<KeplerDrag, 3, 3, 4>,
-    study::<Stiff, 2, 2, 8>,
-    study::<Fermi, 4, 1, 3>,
-    study::<Polar, 2, 2, 7>,
-    study::<Shot, 2, 1, 4>,
-    study::<Blocks, 4, 2, 3>,
-    study::<Barrier, 1, 3, 8>,
-    study::<Saturating, 1, 2, 5>,
-    study::<Steep, 1, 1, 6>,
+/// Every system, each with a Gauss rule; a composition of some, and the fitted rules of those that have them.
+const JOBS: [Job; 33] = [
+    study::<Harmonic, 1, 4>,
+    study::<Chain, 4, 5>,
+    study::<Quartic, 1, 6>,
+    study::<Ring, 2, 7>,
+    study::<Pendulum, 1, 8>,
+    study::<DoublePendulum, 2, 3>,
+    study::<LennardJones, 1, 1>,
+    study::<Atoms, 3, 2>,
+    study::<Exponential, 1, 1>,
+    study::<Toda, 3, 4>,
+    study::<Morse, 1, 3>,
+    study::<MorseDry, 2, 2>,
+    study::<Kepler, 2, 6>,
+    study::<KeplerDrag, 3, 3>,
+    study::<Stiff, 2, 2>,
+    study::<Fermi, 4, 1>,
+    study::<Polar, 2, 7>,
+    study::<Shot, 2, 4>,
+    study::<Blocks, 4, 2>,
+    study::<Barrier, 1, 8>,
+    study::<Saturating, 1, 5>,
+    study::<Steep, 1, 6>,
+    study_composed::<DoublePendulum, 2>,
+    study_composed::<LennardJones, 1>,
+    study_composed::<KeplerDrag, 3>,
+    study_composed::<Chain, 4>,
+    study_fitted::<Harmonic, 1>,
+    study_fitted::<Ring, 2>,
+    study_fitted::<Pendulum, 1>,
+    study_fitted::<LennardJones, 1>,
+    study_fitted::<Exponential, 1>,
+    study_fitted::<Toda, 3>,
+    study_fitted::<Kepler, 2>,
 ];
 
-fn main() -> ExitCode {
-    let arguments: Vec<u64> = std::env::args().skip(1).filter_map(|text| text.parse().ok()).collect();
-    let draws = arguments.first().copied().unwrap_or(25_000) as u32;
-    let rows = study_all(&JOBS, draws, arguments.get(1).copied().unwrap_or(1));
-    print!("{}", table(&rows));
-    if violations(&rows) == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+fn main() -> Result<ExitCode> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if arguments == ["page"] {
+        println!("{}", page::write()?.display());
+        return Ok(ExitCode::SUCCESS);
+    }
+    let [name, draws, first, last] = &arguments[..] else {
+        anyhow::bail!("NAME DRAWS FIRST LAST, or `page`: see the head of this file");
+    };
+    let number = |text: &String| text.parse::<u32>().with_context(|| format!("{text:?} is no number"));
+    let (draws, seeds) = (number(draws)?, number(first)?..=number(last)?);
+    let mut violations = 0;
+    for seed in seeds {
+        ensure!(!counts::has(name, seed)?, "the counts of {name} have the seed {seed} already");
+        let rows = study_all(&JOBS, draws, u64::from(seed));
+        let mut sum = Tally::NONE;
+        for row in &rows {
+            sum = row.tallies.iter().fold(sum, |sum, of| sum.plus(*of));
+            row.examples.iter().for_each(|example| println!("{} {example}", row.name));
+        }
+        println!("seed {seed}: {} asked, {} taken, {} violations", sum.asked, sum.taken, sum.violations);
+        counts::add(name, seed, &rows)?;
+        violations += sum.violations;
+    }
+    Ok(if violations == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }

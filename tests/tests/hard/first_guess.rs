@@ -69,10 +69,12 @@ where
                 );
             }
         }
-        // Squares that vanish leave stages no drag to evaluate.
-        if start.p.amax() > 1e-100 * m {
-            Discrete::<Gauss<2>, 2>::step(system, &start, h, None)
+        // Squares that vanish leave stages no drag to evaluate, but at rest itself.
+        if start.p.amax() > 1e-100 * m || v == [0.0, 0.0] {
+            let step = Discrete::<Gauss<2>, 2>::step(system, &start, h, None)
                 .unwrap_or_else(|error| panic!("{name}, Gauss, {v:?}: {error}"));
+            let is_at_rest = step.state == start && step.velocity.amax() == 0.0;
+            assert_eq!(is_at_rest, v == [0.0, 0.0] && g == 0.0, "{name} {v:?} {step:?}");
         }
     }
 }

@@ -24,6 +24,9 @@ pub struct Slopes<const N: usize> {
 pub trait Reference<const N: usize> {
     /// The slopes at (q, v).
     fn slopes(&self, q: &Vector<N>, v: &Vector<N>) -> Slopes<N>;
+
+    /// m and r, where L = ½m|v|² − V(q) and R = ½r|v|²; of other systems nothing that means anything.
+    fn mass_and_damping(&self) -> [Rounded; 2];
 }
 
 /// A residual may be this many times the first-order bound of the rounding in its equation, with unit ε/2.
@@ -44,7 +47,8 @@ pub struct Judged {
 }
 
 impl Judged {
-    const NOTHING: Self = Self { ratio: 0.0, is_undecided: false, is_beyond: false };
+    /// Of a step that was not looked at.
+    pub const NOTHING: Self = Self { ratio: 0.0, is_undecided: false, is_beyond: false };
 
     /// Whether the step violates the definition.
     pub fn is_violation(&self) -> bool {
@@ -137,6 +141,82 @@ pub fn one_stage<S: Reference<N>, const N: usize>(
         let mut p1 = p1[i] - Rounded::input(step.state.p[i]);
         p1.error += p0[i].error;
         judged.hold(p1, terms[i] + p[i].size());
+    }
+    judged
+}
+
+/// Of z the function `f`, by which an error grows at most `growth` times.
+fn function(z: Rounded, growth: f64, f: impl Fn(DoubleDouble) -> DoubleDouble) -> Rounded {
+    let value = f(z.value);
+    let carried = if z.size() > 0.0 { z.error / z.size() } else { 0.0 };
+    Rounded { value, error: (carried * growth + f64::EPSILON) * value.high.abs() }
+}
+
+/// z(coth z + 1) = 2z/(1 − e⁻²ᶻ).
+fn before(z: Rounded) -> Rounded {
+    function(z, 1.0 + 2.0 * z.size(), |z| {
+        let twice = z + z;
+        // Beyond, what is left out is below the last digit.
+        match z.high {
+            0.0 => DoubleDouble::new(1.0),
+            40.0.. => twice,
+            ..-40.0 => -twice * twice.exp(),
+            _ => twice / -(-twice).exp_m1(),
+        }
+    })
+}
+
+/// The function of Langevin, coth z − 1/z.
+fn langevin(z: Rounded) -> Rounded {
+    function(z, 1.0, |z| {
+        let one = DoubleDouble::new(1.0);
+        if z.high.abs() < 1e-4 {
+            // The next term is 10⁻¹⁸ of it.
+            return z / DoubleDouble::new(3.0) - z * z * z / DoubleDouble::new(45.0);
+        }
+        one / z.tanh() - one / z
+    })
+}
+
+/// A step of a rule fitted to linear damping: the midpoint rule or, `is_explicit`, the trapezoidal rule. For mass and damping that are
+/// numbers, z = hr/2m:
+///
+/// ```text
+/// p0 = m z (coth z + 1) v̄ + (h/2)(1 + ℒ(z)) ∇V(q̄)        p0 = m z (coth z + 1) v̄ + (h/2) ∇V(q0)
+/// p1 = m z (coth z − 1) v̄ − (h/2)(1 − ℒ(z)) ∇V(q̄)        p1 = m z (coth z − 1) v̄ − (h/2) ∇V(q1)
+/// ```
+pub fn fitted<S: Reference<N>, const N: usize>(
+    is_explicit: bool,
+    system: &S,
+    state: &State<f64, N>,
+    h: f64,
+    step: &Step<f64, N>,
+) -> Judged {
+    let (q, p, v) = (inputs(&state.q), inputs(&state.p), inputs(&step.velocity));
+    let h = Rounded::input(h);
+    let [mass, damping] = system.mass_and_damping();
+    let z = h * damping / mass * 0.5;
+    let force = |share: f64| {
+        let at = combined(|i| q[i] + h * share * v[i]);
+        system.slopes(&at, &[Rounded::ZERO; N]).force.map(|f| h * 0.5 * f)
+    };
+    let (start, end) = if is_explicit {
+        (force(0.0), force(1.0))
+    } else {
+        let (middle, lag) = (force(0.5), langevin(z));
+        (middle.map(|f| (lag + 1.0) * f), middle.map(|f| (-lag + 1.0) * f))
+    };
+    let mut judged = Judged::NOTHING;
+    for i in 0..N {
+        let ends = [mass * before(z) * v[i], mass * before(-z) * v[i]];
+        let terms = ends[0].size() + start[i].size() + p[i].size();
+        let p0 = ends[0] - start[i];
+        judged.hold(p0 - p[i], terms);
+        let q1 = q[i] + h * v[i];
+        judged.hold(q1 - Rounded::input(step.state.q[i]), q1.size() + q[i].size());
+        let mut p1 = ends[1] + end[i] - Rounded::input(step.state.p[i]);
+        p1.error += p0.error;
+        judged.hold(p1, terms + ends[1].size() + end[i].size());
     }
     judged
 }

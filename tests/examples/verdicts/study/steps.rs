@@ -2,13 +2,13 @@
 
 use dalembert::nalgebra::SVector;
 use dalembert::{
-    Discrete, ForcedLagrangian, Gauss, Memory, Midpoint, OneSided, StageHistory, State, Step, StepError,
-    Trapezoidal,
+    Composition, Discrete, Fitted, FittedTrapezoidal, ForcedLagrangian, Gauss, Memory, Midpoint, OneSided,
+    StageHistory, State, Step, StepError, Trapezoidal,
 };
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-use super::equations::{Judged, OneStage, gauss, one_stage, velocity};
+use super::equations::{Judged, OneStage, fitted, gauss, one_stage, velocity};
 use super::systems::{Studied, Units};
 use super::tableau::Tableau;
 
@@ -46,17 +46,6 @@ impl Tally {
         within_reach: 0,
     };
 
-    fn judge(&mut self, judged: Judged) {
-        self.taken += 1;
-        self.undecided += u64::from(judged.is_undecided);
-        self.beyond += u64::from(judged.is_beyond);
-        if judged.is_violation() {
-            self.violations += 1;
-        } else {
-            self.worst = self.worst.max(judged.ratio);
-        }
-    }
-
     /// Both together.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
@@ -73,11 +62,79 @@ impl Tally {
     }
 }
 
-/// The ways to step, in the order of the tallies.
-pub const WAYS: [&str; 6] = ["midpoint", "trapezoidal", "one-sided", "Gauss", "bounded", "velocity"];
+/// A way to step, by which the tallies are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// By the midpoint rule, as all further ones: from the state alone, from guesses, with a memory.
+    Midpoint,
+    /// By the trapezoidal rule.
+    Trapezoidal,
+    /// By the one-sided rule.
+    OneSided,
+    /// By Gauss rules, with their stages remembered.
+    Gauss,
+    /// The substeps of a composition.
+    Composition,
+    /// By the fitted midpoint rule.
+    Fitted,
+    /// By the fitted trapezoidal rule.
+    FittedTrapezoidal,
+    /// Within a given number of iterations, where they are said to have converged.
+    Bounded,
+    /// The velocity of a state.
+    Velocity,
+}
 
-/// A system's name, its coordinates and its tallies by way.
-pub type Row = (&'static str, usize, [Tally; WAYS.len()]);
+/// The names of the ways, in the order of the tallies.
+pub const WAYS: [&str; 9] = [
+    "midpoint",
+    "trapezoidal",
+    "one-sided",
+    "Gauss",
+    "composition, order 6",
+    "fitted",
+    "fitted, trapezoidal",
+    "bounded",
+    "velocity",
+];
+
+/// What was found of a system.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Its name.
+    pub name: &'static str,
+    /// Its number of coordinates.
+    pub n: usize,
+    /// By way.
+    pub tallies: [Tally; WAYS.len()],
+    /// The first violations, to be looked at.
+    pub examples: Vec<String>,
+}
+
+impl Row {
+    fn new(name: &'static str, n: usize) -> Self {
+        Self { name, n, tallies: [Tally::NONE; WAYS.len()], examples: Vec::new() }
+    }
+
+    fn of(&mut self, way: Way) -> &mut Tally {
+        &mut self.tallies[way as usize]
+    }
+
+    fn judge(&mut self, way: Way, judged: Judged, what: &dyn Fn() -> String) {
+        let tally = self.of(way);
+        tally.taken += 1;
+        tally.undecided += u64::from(judged.is_undecided);
+        tally.beyond += u64::from(judged.is_beyond);
+        if !judged.is_violation() {
+            tally.worst = tally.worst.max(judged.ratio);
+            return;
+        }
+        tally.violations += 1;
+        if self.examples.len() < 4 {
+            self.examples.push(format!("{way:?} {judged:?} {}", what()));
+        }
+    }
+}
 
 /// A number of either sign with its logarithm uniform.
 fn spread(random: &mut StdRng, [low, high]: [f64; 2]) -> f64 {
@@ -108,7 +165,9 @@ where
         Units { action, length, speed, rate: length / speed },
     );
     let [low, high] = S::RANGE;
-    let q = SVector::from_fn(|_, _| random.random_range(low..high) / length);
+    // Far out the last places of q are large beside a displacement: angles after many turns.
+    let far = if random.random_bool(0.08) { 10.0_f64.powf(random.random_range(0.0..7.0)) } else { 1.0 };
+    let q = SVector::from_fn(|_, _| random.random_range(low..high) * far / length);
     let v = SVector::from_fn(
         |_, _| {
             if random.random_bool(0.1) { 0.0 } else { spread(random, [-3.0, 1.5]) / speed }
@@ -120,13 +179,41 @@ where
     Some((system, state, v, h))
 }
 
-/// Whether the step is found where small ones lead on to it.
-fn is_within_reach<L, R, const N: usize>(
+/// The step, once for each rule and system: most of the time that the study takes to compile.
+#[inline(never)]
+fn step<L, R, const N: usize>(
     system: &L,
     state: &State<f64, N>,
-    v: SVector<f64, N>,
     h: f64,
-    judge: impl Fn(&Step<f64, N>) -> Option<Judged>,
+    guess: Option<&SVector<f64, N>>,
+) -> Result<Step<f64, N>, StepError>
+where
+    L: Discrete<R, N, Scalar = f64>,
+{
+    system.step(state, h, guess)
+}
+
+/// The step with a memory, likewise.
+#[inline(never)]
+fn advance<L, R, const N: usize>(
+    memory: &mut L::Memory,
+    system: &L,
+    state: &State<f64, N>,
+    h: f64,
+) -> Result<Step<f64, N>, StepError>
+where
+    L: Discrete<R, N, Scalar = f64>,
+{
+    memory.advance(system, state, h)
+}
+
+/// A system, a state, its velocity and a step size.
+type Draw<'a, L, const N: usize> = (&'a L, &'a State<f64, N>, SVector<f64, N>, f64);
+
+/// Whether the step is found where small ones lead on to it.
+fn is_within_reach<L, R, const N: usize>(
+    (system, state, v, h): Draw<'_, L, N>,
+    judge: &dyn Fn(&Step<f64, N>) -> Judged,
 ) -> bool
 where
     L: Discrete<R, N, Scalar = f64>,
@@ -135,80 +222,133 @@ where
     let mut guess = v;
     for k in 1..=PARTS {
         let part = (f64::from(k) / f64::from(PARTS)).powi(3) * h;
-        match system.step(state, part, Some(&guess)) {
+        match step::<L, R, N>(system, state, part, Some(&guess)) {
             Ok(step) => guess = step.velocity,
             Err(_) => return false,
         }
     }
-    let Ok(step) = system.step(state, h, Some(&guess)) else { return false };
-    judge(&step).is_none_or(|judged| !judged.is_violation())
+    step::<L, R, N>(system, state, h, Some(&guess)).is_ok_and(|step| !judge(&step).is_violation())
 }
 
+/// From the state alone, from a guess, within some iterations and with a memory.
 fn by_one_stage<L, R, const N: usize>(
-    rule: OneStage,
-    (system, state, v, h): (&L, &State<f64, N>, SVector<f64, N>, f64),
+    way: Way,
+    draw: Draw<'_, L, N>,
     random: &mut StdRng,
-    [tally, bounded]: [&mut Tally; 2],
+    row: &mut Row,
+    judged: &dyn Fn(&State<f64, N>, &Step<f64, N>) -> Judged,
 ) where
     L: Discrete<R, N, Scalar = f64> + Studied<N>,
 {
-    let judged = |state: &State<f64, N>, step: &Step<f64, N>| one_stage(rule, system, state, h, step);
-    tally.asked += 1;
-    match system.step(state, h, None) {
-        Ok(step) => tally.judge(judged(state, &step)),
+    let (system, state, v, h) = draw;
+    let told = |what: &str, at: &State<f64, N>, step: &Step<f64, N>| {
+        format!("{what} {system:?} {at:?} h = {h:?} {step:?}")
+    };
+    row.of(way).asked += 1;
+    match step::<L, R, N>(system, state, h, None) {
+        Ok(step) => row.judge(way, judged(state, &step), &|| told("cold", state, &step)),
         Err(error) => {
-            tally.refused += 1;
-            let is_found = |step: &Step<f64, N>| Some(judged(state, step));
+            row.of(way).refused += 1;
             // What overflows has no step.
-            if !matches!(error, StepError::StepSize { .. }) && is_within_reach(system, state, v, h, is_found)
+            if !matches!(error, StepError::StepSize { .. })
+                && is_within_reach::<L, R, N>(draw, &|step| judged(state, step))
             {
-                tally.within_reach += 1;
+                row.of(way).within_reach += 1;
             }
         }
     }
     let wild = random.random_bool(0.3);
     let guess =
         v.map(|v| v * if wild { spread(random, [-6.0, 6.0]) } else { 1.0 + random.random_range(-0.3..0.3) });
-    tally.asked += 1;
-    if let Ok(step) = system.step(state, h, Some(&guess)) {
-        tally.judge(judged(state, &step));
-    }
-    bounded.asked += 1;
-    let iterations = random.random_range(1..6);
-    if let Ok(within) = system.step_within(state, h, wild.then_some(&guess), iterations)
-        && within.converged
-    {
-        bounded.judge(judged(state, &within.step));
+    row.of(way).asked += 1;
+    if let Ok(step) = step::<L, R, N>(system, state, h, Some(&guess)) {
+        row.judge(way, judged(state, &step), &|| told("guess", state, &step));
     }
     let (mut memory, mut at) = (L::Memory::default(), *state);
     for _ in 0..4 {
-        tally.asked += 1;
-        let Ok(step) = memory.advance(system, &at, h) else { break };
-        tally.judge(judged(&at, &step));
+        row.of(way).asked += 1;
+        let Ok(step) = advance::<L, R, N>(&mut memory, system, &at, h) else { break };
+        row.judge(way, judged(&at, &step), &|| told("memory", &at, &step));
         at = step.state;
     }
 }
 
-fn by_gauss<L, const N: usize, const STAGES: usize>(
-    tableau: &Tableau,
-    (system, state, v, h): (&L, &State<f64, N>, SVector<f64, N>, f64),
-    tally: &mut Tally,
+/// Two steps of a composition, whose substeps are taken once more to be seen.
+fn by_composition<L, const N: usize>((system, state, _, h): Draw<'_, L, N>, row: &mut Row)
+where
+    L: Discrete<Midpoint, N, Scalar = f64> + Studied<N>,
+{
+    let composition = Composition::kahan_li_6(Midpoint);
+    let shares = *composition.shares();
+    let mut run = composition.trajectory(system, h, *state);
+    let mut memories: [L::Memory; 9] = std::array::from_fn(|_| L::Memory::default());
+    let mut at = *state;
+    for _ in 0..2 {
+        let end = run.next().and_then(Result::ok);
+        for k in 0..shares.len() {
+            let (before, rest) = memories.split_at_mut(k);
+            let (memory, after) = rest.split_first_mut().expect("there are as many memories as shares");
+            if let Some(previous) = before.last().or(after.last()) {
+                memory.follow(previous);
+            }
+            row.of(Way::Composition).asked += 1;
+            let h = shares[k] * h;
+            let Ok(step) = advance::<L, Midpoint, N>(memory, system, &at, h) else {
+                assert!(end.is_none(), "a composition took a substep that is refused: {system:?} {at:?} {h}");
+                return;
+            };
+            let judged = one_stage(OneStage::Midpoint, system, &at, h, &step);
+            row.judge(Way::Composition, judged, &|| format!("{system:?} {at:?} h = {h:?} {step:?}"));
+            at = step.state;
+        }
+        assert_eq!(end, Some(at), "a composition is its substeps: {system:?} {state:?} {h}");
+    }
+}
+
+/// Within a few iterations.
+fn bounded<L, R, const N: usize>(
+    (system, state, v, h): Draw<'_, L, N>,
+    random: &mut StdRng,
+    row: &mut Row,
+    judged: &dyn Fn(&State<f64, N>, &Step<f64, N>) -> Judged,
 ) where
+    L: Discrete<R, N, Scalar = f64> + Studied<N>,
+{
+    for _ in 0..3 {
+        let guess = v.map(|v| v * spread(random, [-0.2, 0.2]).abs());
+        row.of(Way::Bounded).asked += 1;
+        let iterations = random.random_range(1..6);
+        if let Ok(within) =
+            system.step_within(state, h, random.random_bool(0.5).then_some(&guess), iterations)
+            && within.converged
+        {
+            let told = || format!("{system:?} {state:?} h = {h:?} {:?}", within.step);
+            row.judge(Way::Bounded, judged(state, &within.step), &told);
+        }
+    }
+}
+
+fn by_gauss<L, const N: usize, const STAGES: usize>(tableau: &Tableau, draw: Draw<'_, L, N>, row: &mut Row)
+where
     L: ForcedLagrangian<N, Scalar = f64> + Studied<N>,
 {
+    let (system, state, _, h) = draw;
     let (mut memory, mut at) = (StageHistory::<f64, N, STAGES>::default(), *state);
     for k in 0..3 {
-        tally.asked += 1;
-        match Memory::<L, Gauss<STAGES>, N>::advance(&mut memory, system, &at, h) {
+        row.of(Way::Gauss).asked += 1;
+        match advance::<L, Gauss<STAGES>, N>(&mut memory, system, &at, h) {
             Ok(step) => {
-                tally.judge(gauss(tableau, system, &at, h, &memory.velocities(), &step.state));
+                let v = memory.velocities();
+                let judged = gauss(tableau, system, &at, h, &v, &step.state);
+                let told = || format!("{k} {STAGES} {system:?} {at:?} h = {h:?} {step:?} {v:?}");
+                row.judge(Way::Gauss, judged, &told);
                 at = step.state;
             }
             Err(_) => {
                 if k == 0 {
-                    tally.refused += 1;
-                    tally.within_reach +=
-                        u64::from(is_within_reach::<_, Gauss<STAGES>, N>(system, state, v, h, |_| None));
+                    row.of(Way::Gauss).refused += 1;
+                    let is_found = is_within_reach::<L, Gauss<STAGES>, N>(draw, &|_| Judged::NOTHING);
+                    row.of(Way::Gauss).within_reach += u64::from(is_found);
                 }
                 break;
             }
@@ -216,8 +356,8 @@ fn by_gauss<L, const N: usize, const STAGES: usize>(
     }
 }
 
-/// So many draws of one system, with Gauss rules of A and of B stages.
-pub fn study<S, const N: usize, const A: usize, const B: usize>(draws: u32, seed: u64) -> Row
+/// So many draws of one system, with the Gauss rule of so many stages.
+pub fn study<S, const N: usize, const STAGES: usize>(draws: u32, seed: u64) -> Row
 where
     S: Studied<N>
         + Discrete<Midpoint, N>
@@ -226,27 +366,68 @@ where
         + ForcedLagrangian<N, Scalar = f64>,
 {
     let mut random = StdRng::seed_from_u64(seed);
-    let mut tallies = [Tally::NONE; WAYS.len()];
-    let tableaux = [Tableau::new(A), Tableau::new(B)];
+    let mut row = Row::new(S::NAME, N);
+    let tableau = Tableau::new(STAGES);
     for _ in 0..draws {
         let Some((system, state, v, h)) = drawn::<S, N>(&mut random) else { continue };
-        let [midpoint, trapezoidal, one_sided, gauss, bounded, of_velocity] = &mut tallies;
         let draw = (&system, &state, v, h);
-        by_one_stage::<_, Midpoint, N>(OneStage::Midpoint, draw, &mut random, [midpoint, bounded]);
-        by_one_stage::<_, Trapezoidal, N>(OneStage::Trapezoidal, draw, &mut random, [trapezoidal, bounded]);
-        by_one_stage::<_, OneSided, N>(OneStage::OneSided, draw, &mut random, [one_sided, bounded]);
-        by_gauss::<_, N, A>(&tableaux[0], draw, gauss);
-        by_gauss::<_, N, B>(&tableaux[1], draw, gauss);
-        of_velocity.asked += 1;
+        let by = |rule: OneStage| {
+            move |state: &State<f64, N>, step: &Step<f64, N>| one_stage(rule, &system, state, h, step)
+        };
+        by_one_stage::<_, Midpoint, N>(Way::Midpoint, draw, &mut random, &mut row, &by(OneStage::Midpoint));
+        let judged = by(OneStage::Trapezoidal);
+        by_one_stage::<_, Trapezoidal, N>(Way::Trapezoidal, draw, &mut random, &mut row, &judged);
+        bounded::<_, Trapezoidal, N>(draw, &mut random, &mut row, &judged);
+        by_one_stage::<_, OneSided, N>(Way::OneSided, draw, &mut random, &mut row, &by(OneStage::OneSided));
+        by_gauss::<_, N, STAGES>(&tableau, draw, &mut row);
+        row.of(Way::Velocity).asked += 1;
         match state.velocity(&system) {
-            Ok(v) => of_velocity.judge(velocity(&system, &state, &v)),
+            Ok(v) => {
+                let judged = velocity(&system, &state, &v);
+                row.judge(Way::Velocity, judged, &|| format!("{system:?} {state:?} {v:?}"));
+            }
             Err(_) => {
-                of_velocity.refused += 1;
-                of_velocity.within_reach += 1;
+                row.of(Way::Velocity).refused += 1;
+                row.of(Way::Velocity).within_reach += 1;
             }
         }
     }
-    (S::NAME, N, tallies)
+    row
+}
+
+/// So many draws of one system by a composition.
+pub fn study_composed<S, const N: usize>(draws: u32, seed: u64) -> Row
+where
+    S: Studied<N> + Discrete<Midpoint, N> + ForcedLagrangian<N, Scalar = f64>,
+{
+    let mut random = StdRng::seed_from_u64(seed);
+    let mut row = Row::new(S::NAME, N);
+    for _ in 0..draws {
+        if let Some((system, state, v, h)) = drawn::<S, N>(&mut random) {
+            by_composition((&system, &state, v, h), &mut row);
+        }
+    }
+    row
+}
+
+/// So many draws of one system by the fitted rules.
+pub fn study_fitted<S, const N: usize>(draws: u32, seed: u64) -> Row
+where
+    S: Studied<N> + Discrete<Fitted, N> + Discrete<FittedTrapezoidal, N> + ForcedLagrangian<N, Scalar = f64>,
+{
+    let mut random = StdRng::seed_from_u64(seed);
+    let mut row = Row::new(S::NAME, N);
+    for _ in 0..draws {
+        let Some((system, state, v, h)) = drawn::<S, N>(&mut random) else { continue };
+        let draw = (&system, &state, v, h);
+        let by = |is_explicit: bool| {
+            move |state: &State<f64, N>, step: &Step<f64, N>| fitted(is_explicit, &system, state, h, step)
+        };
+        by_one_stage::<_, Fitted, N>(Way::Fitted, draw, &mut random, &mut row, &by(false));
+        let judged = by(true);
+        by_one_stage::<_, FittedTrapezoidal, N>(Way::FittedTrapezoidal, draw, &mut random, &mut row, &judged);
+    }
+    row
 }
 
 /// The draws of one system: their number and seed.
@@ -263,7 +444,7 @@ pub fn study_all(jobs: &[Job], draws: u32, seed: u64) -> Vec<Row> {
                 loop {
                     let at = next.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
                     let Some(job) = jobs.get(at) else { break };
-                    let row = job(draws, seed + at as u64);
+                    let row = job(draws, seed * 1000 + at as u64);
                     rows.lock().expect("no thread panics with the lock").push((at, row));
                 }
             });

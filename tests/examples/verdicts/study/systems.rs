@@ -25,7 +25,7 @@ pub struct Units {
 }
 
 /// A system of the study with its two parameters.
-pub trait Studied<const N: usize>: Reference<N> {
+pub trait Studied<const N: usize>: Reference<N> + Copy + std::fmt::Debug {
     /// What it is called in the tables.
     const NAME: &'static str;
     /// Coordinates from where x is drawn.
@@ -87,6 +87,11 @@ macro_rules! study {
                     drag: drag.map(|d| by_v * self.rate * d),
                 }
             }
+
+            fn mass_and_damping(&self) -> [Rounded; 2] {
+                let mass = Rounded::exact(self.action) * self.speed * self.speed;
+                [mass, mass * self.rate * self.c]
+            }
         }
 
         impl Studied<$n> for $name {
@@ -119,7 +124,7 @@ fn lennard_jones(x: Rounded, a: Rounded) -> Rounded {
 
 study! {
     /// ½u² − ½ax², linear damping.
-    Harmonic(1, "oscillator", [-3.0, 3.0], [midpoint, trapezoidal, one_sided, gauss])
+    Harmonic(1, "oscillator", [-3.0, 3.0], [midpoint, trapezoidal, one_sided, gauss, fitted, fitted_trapezoidal])
     l = |x, u, a| 0.5 * u[0] * u[0] - 0.5 * a * x[0] * x[0];
     r = |u, c| 0.5 * c * u[0] * u[0];
     slopes = |x, u, a, c| ([-(a * x[0])], [u[0]], [c * u[0]]);
@@ -160,7 +165,7 @@ study! {
     slopes = |x, u, a, c| ([-(a * x[0].power(3))], [u[0]], [c * u[0].power(3)]);
 
     /// The ring of Marsden and West, s(s − 1)².
-    Ring(2, "ring", [-1.5, 1.5], [midpoint, trapezoidal, one_sided, gauss])
+    Ring(2, "ring", [-1.5, 1.5], [midpoint, trapezoidal, one_sided, gauss, fitted, fitted_trapezoidal])
     l = |x, u, a| {
         let s = x[0] * x[0] + x[1] * x[1];
         0.5 * (u[0] * u[0] + u[1] * u[1]) - a * s * (s - 1.0) * (s - 1.0)
@@ -173,7 +178,7 @@ study! {
     };
 
     /// A pendulum.
-    Pendulum(1, "pendulum", [-7.0, 7.0], [midpoint, trapezoidal, one_sided, gauss])
+    Pendulum(1, "pendulum", [-7.0, 7.0], [midpoint, trapezoidal, one_sided, gauss, fitted, fitted_trapezoidal])
     l = |x, u, a| 0.5 * u[0] * u[0] + a * x[0].cos();
     r = |u, c| 0.5 * c * u[0] * u[0];
     slopes = |x, u, a, c| ([-(a * x[0].sin_cos().0)], [u[0]], [c * u[0]]);
@@ -193,7 +198,7 @@ study! {
     };
 
     /// Lennard-Jones, 4a(x⁻¹² − x⁻⁶).
-    LennardJones(1, "Lennard-Jones", [0.6, 3.0], [midpoint, trapezoidal, one_sided, gauss])
+    LennardJones(1, "Lennard-Jones", [0.6, 3.0], [midpoint, trapezoidal, one_sided, gauss, fitted, fitted_trapezoidal])
     l = |x, u, a| 0.5 * u[0] * u[0] - 4.0 * a * (x[0].powi(-12) - x[0].powi(-6));
     r = |u, c| 0.5 * c * u[0] * u[0];
     slopes = |x, u, a, c| ([lennard_jones(x[0], a)], [u[0]], [c * u[0]]);
@@ -221,13 +226,13 @@ study! {
     };
 
     /// e^{−ax}.
-    Exponential(1, "exponential", [-5.0, 10.0], [midpoint, trapezoidal, one_sided, gauss])
+    Exponential(1, "exponential", [-5.0, 10.0], [midpoint, trapezoidal, one_sided, gauss, fitted, fitted_trapezoidal])
     l = |x, u, a| 0.5 * u[0] * u[0] - (-(a * x[0])).exp();
     r = |u, c| 0.5 * c * u[0] * u[0];
     slopes = |x, u, a, c| ([a * (-(a * x[0])).exp()], [u[0]], [c * u[0]]);
 
     /// Toda's lattice, e^{x₀ − x₁} + e^{x₁ − x₂}.
-    Toda(3, "Toda lattice", [-3.0, 3.0], [midpoint, trapezoidal, one_sided, gauss])
+    Toda(3, "Toda lattice", [-3.0, 3.0], [midpoint, trapezoidal, one_sided, gauss, fitted, fitted_trapezoidal])
     l = |x, u, a| {
         0.5 * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) - a * ((x[0] - x[1]).exp() + (x[1] - x[2]).exp())
     };
@@ -263,7 +268,7 @@ study! {
     };
 
     /// Kepler's problem in the plane.
-    Kepler(2, "Kepler, plane", [-2.0, 2.0], [midpoint, trapezoidal, one_sided, gauss])
+    Kepler(2, "Kepler, plane", [-2.0, 2.0], [midpoint, trapezoidal, one_sided, gauss, fitted, fitted_trapezoidal])
     l = |x, u, a| 0.5 * (u[0] * u[0] + u[1] * u[1]) + a / (x[0] * x[0] + x[1] * x[1]).sqrt();
     r = |u, c| 0.5 * c * (u[0] * u[0] + u[1] * u[1]);
     slopes = |x, u, a, c| {
