@@ -117,7 +117,8 @@ fn system(
     if options.engine == Engine::NumDual && report.is_empty() {
         let mut mistakes = Report::default();
         let twins = rewrite::over_duals(&system, &mut mistakes);
-        if mistakes.is_empty() {
+        let is_doubtful = twins.iter().any(|twin| twin.is_doubtful) && is_short(&system);
+        if mistakes.is_empty() && !is_doubtful {
             return expand::system(&system, &Twins::Rewritten(&twins), None, is_portable);
         }
     }
@@ -156,6 +157,12 @@ fn system(
             expand::system(&system, &Twins::Rewritten(&twins), refusal, is_portable)
         }
     }
+}
+
+/// Whether the expressions that the bodies compute are few enough to stand in for loops and calls.
+fn is_short(system: &model::System<'_>) -> bool {
+    const MOST_EXPRESSIONS: usize = 2_000;
+    lower::system(system).is_ok_and(|lowered| lowered.graph.len() <= MOST_EXPRESSIONS)
 }
 
 /// The expansion of `#[differentiable] item`: the same stages, for a function of (q, parameters…).

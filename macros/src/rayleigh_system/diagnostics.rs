@@ -133,6 +133,7 @@ pub enum Mistake {
     LocalConst,
     Macro,
     VariantByDuals,
+    StructByDuals,
     OutsideFunction { path: String, name: String },
     OutsideMethod(String),
     OutsideOfFunction { path: String, name: String, scalar: String },
@@ -160,6 +161,7 @@ impl Mistake {
                 | Self::ParameterSlice { .. }
                 | Self::HelperReturnsReference
                 | Self::VariantByDuals
+                | Self::StructByDuals
         )
     }
 }
@@ -229,6 +231,7 @@ impl Display for Mistake {
             Self::LocalConst => f.write_str("no `const` or `static` inside a differentiated body; use `let`, or a constant of the annotated block"),
             Self::Macro => f.write_str("macros hide what they compute from the differentiation; write the expression out"),
             Self::VariantByDuals => f.write_str("dual numbers cannot follow values that are no numbers, such as an enum; choose by an integer or an `Option` here"),
+            Self::StructByDuals => f.write_str("dual numbers cannot follow a struct; read its numbers from `self`, as in `self.spring.k`"),
             Self::OutsideFunction { path, name } => write!(f, "`{path}` is outside the annotated block and cannot be differentiated; move it into the block and call `Self::{name}`"),
             Self::OutsideOfFunction { path, name, scalar } => write!(f, "`{path}` is another function and cannot be differentiated; write it as a closure in this body, such as `let {name} = |x: {scalar}| …;`"),
             Self::OutsideMethod(name) => write!(f, "`{name}` is not a function of the annotated block and cannot be differentiated; move it into the block"),

@@ -376,7 +376,7 @@ fn is_root(function: &ImplItemFn) -> bool {
 
 /// The function over `Real<D>`, with the lint levels that the user set for its body.
 fn written(twin: &Twin, is_root: bool) -> TokenStream {
-    let Twin { plain, over } = twin;
+    let Twin { plain, over, .. } = twin;
     let text = format!(" `{}` over plain and dual numbers.", plain.sig.ident);
     let attributes = lints(&plain.attrs);
     // L, R and f are called from one closure for each kind of number: called, they would hide from the compiler which

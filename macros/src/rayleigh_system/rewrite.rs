@@ -12,14 +12,19 @@
 //! | `i as f64` | `D::number(i)` |
 //! | `i as usize`, `i % n` | `dual::integer::<_, usize>(i)`, `dual::remainder(i % n)`: for integers alone |
 
+mod cast;
+mod doubt;
+mod field;
+mod operand;
+
 use std::collections::{BTreeMap, HashSet};
 
 use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 use syn::visit_mut::{self, VisitMut};
 use syn::{
-    BinOp, Expr, ExprBinary, ExprCall, ExprCast, ExprField, ExprMethodCall, ExprPath, FnArg, Ident,
-    ImplItemFn, Item, Member, Pat, Path, ReturnType, Stmt, Type, parse_quote, parse_quote_spanned,
+    Expr, ExprBinary, ExprCall, ExprField, ExprMethodCall, ExprPath, FnArg, Ident, ImplItemFn, Item, Pat,
+    Path, ReturnType, Stmt, Type, parse_quote, parse_quote_spanned,
 };
 
 use super::check::qualifiers;
@@ -29,9 +34,9 @@ use super::model::{Body, Source, System, is_integer, simple_name};
 use super::scope::bound_names;
 use super::syntax::Matches;
 use super::syntax::{
-    METHODS, ROUNDING, identifier, is_assignment, is_constant_name, is_float_literal, is_function_of_std,
-    is_generic_of_std, is_place_of_self, is_plain, is_self, is_variant, real_type, takes_function,
-    without_parentheses,
+    METHODS, ROUNDING, is_assignment, is_constant_name, is_float_literal, is_function_of_std,
+    is_generic_of_std, is_of_other_float, is_place_of_self, is_plain, is_self, is_variant, real_type,
+    takes_function,
 };
 
 /// A function and what it becomes over `Real<D>`.
@@ -39,6 +44,8 @@ pub struct Twin {
     /// As the user wrote it.
     pub plain: ImplItemFn,
     pub over: ImplItemFn,
+    /// Whether rustc may still refuse it, by types that the body does not tell.
+    pub is_doubtful: bool,
 }
 
 /// L, R, f and, transitively, the functions of the block that they call.
@@ -52,7 +59,8 @@ pub fn over_duals(system: &System<'_>, report: &mut Report) -> Vec<Twin> {
         if report.count() > before {
             report.mark_body(&plain.sig.ident);
         }
-        twins.push(Twin { plain, over });
+        let is_doubtful = doubt::hands_on_fields(&plain);
+        twins.push(Twin { plain, over, is_doubtful });
         for name in functions {
             let known = bodies.iter().any(|body| body.function.sig.ident == name);
             if !known && let Some(helper) = system.source.functions().find(|f| f.sig.ident == name) {
@@ -198,7 +206,7 @@ fn is_value(ty: &Type) -> bool {
     }
 }
 
-/// A field read by a body: the local that holds it, and the user's tokens.
+/// A field of the system, or of a struct within it: the local that holds it, and the user's tokens.
 struct Field {
     local: Ident,
     access: ExprField,
@@ -208,7 +216,8 @@ struct Rewriter<'r> {
     system: &'r System<'r>,
     report: &'r mut Report,
     bound: HashSet<String>,
-    fields: BTreeMap<String, Field>,
+    /// By the members on the way from `self`.
+    fields: BTreeMap<Vec<String>, Field>,
     functions: Vec<Ident>,
 }
 
@@ -216,6 +225,10 @@ impl VisitMut for Rewriter<'_> {
     fn visit_expr_mut(&mut self, expression: &mut Expr) {
         if is_plain(expression) {
             let span = span_of(expression);
+            if is_of_other_float(expression, &self.system.scalar) {
+                let expected = self.system.scalar.to_string();
+                self.report.at(expression, Mistake::OtherFloat { expected });
+            }
             *expression = parse_quote_spanned!(span=> D::real(#expression));
             return;
         }
@@ -236,10 +249,10 @@ impl VisitMut for Rewriter<'_> {
                 }
                 self.visit_expr_mut(&mut reference.expr);
             }
-            Expr::Field(field) if is_self(&field.base) => {
-                let local = self.field(&field.member, field.clone());
-                *expression = parse_quote!(#local);
-            }
+            Expr::Field(field) => match self.field_access(field) {
+                Some(replacement) => *expression = replacement,
+                None => self.visit_expr_mut(&mut field.base),
+            },
             Expr::MethodCall(call) => self.method_call(call),
             Expr::Call(call) => self.call(call),
             Expr::Path(path) => {
@@ -265,6 +278,7 @@ impl VisitMut for Rewriter<'_> {
                     Err(_) => self.report.at(expression, Mistake::Macro),
                 }
             }
+            Expr::Struct(literal) => self.report.at(&literal.path, Mistake::StructByDuals),
             Expr::Macro(_) => self.report.at(expression, Mistake::Macro),
             Expr::Unsafe(block) => self.report.at(&block.unsafe_token, Mistake::Unsafe),
             Expr::Async(block) => self.report.at(&block.async_token, Mistake::Async),
@@ -341,23 +355,14 @@ impl Rewriter<'_> {
         if is_assignment(&binary.op) {
             self.refuse_assignment_to_field(&binary.left);
         }
+        let is_still = self.is_still(&binary.left) && self.is_still(&binary.right);
         if !is_plain(&binary.left) {
             self.visit_expr_mut(&mut binary.left);
         }
         if !is_plain(&binary.right) {
             self.visit_expr_mut(&mut binary.right);
         }
-        let ExprBinary { left, op, right, .. } = binary;
-        let span = span_of(op);
-        // The operator itself stays: through a function, the type of an integer literal would not be inferred.
-        match op {
-            BinOp::Rem(_) => Some(parse_quote_spanned!(span=> dual::remainder(#left % #right))),
-            BinOp::RemAssign(_) => {
-                let right = without_parentheses(right);
-                Some(parse_quote_spanned!(span=> #left = dual::remainder(#left % (#right))))
-            }
-            _ => None,
-        }
+        self.operator(binary, is_still)
     }
 
     /// `Real::G` of the user: the body stands beside the runtime's `Real`.
@@ -381,28 +386,6 @@ impl Rewriter<'_> {
             place if is_place_of_self(place) => self.report.at(place, Mistake::FieldAssignment),
             _ => {}
         }
-    }
-
-    /// The local that holds a field.
-    fn field(&mut self, member: &Member, access: ExprField) -> Ident {
-        let (key, name) = match member {
-            Member::Named(name) => (name.to_string(), name.to_string()),
-            Member::Unnamed(index) => (index.index.to_string(), format!("field_{}", index.index)),
-        };
-        // A local of the same name keeps it: the field becomes `self_k`, and `self_k_` if there is that one too.
-        let mut free = name;
-        if self.bound.contains(&free) {
-            free = format!("self_{}", free.trim_start_matches("r#"));
-        }
-        while self.bound.contains(&free) {
-            free.push('_');
-        }
-        let span = span_of(member);
-        let field =
-            self.fields.entry(key).or_insert_with(|| Field { local: identifier(&free, span), access });
-        let mut local = field.local.clone();
-        local.set_span(span);
-        local
     }
 
     fn method_call(&mut self, call: &mut ExprMethodCall) {
@@ -475,6 +458,10 @@ impl Rewriter<'_> {
         }
         let last = path.path.segments.last()?.ident.to_string();
         let is_local = path.path.get_ident().is_some_and(|name| self.bound.contains(&name.to_string()));
+        if is_variant(&path.path) {
+            self.report.at(&path.path, Mistake::VariantByDuals);
+            return None;
+        }
         let is_constructor = last.starts_with(char::is_uppercase);
         if is_local || is_constructor || is_function_of_std(&path.path) {
             visit_mut::visit_expr_path_mut(self, path);
@@ -580,36 +567,5 @@ impl Rewriter<'_> {
 
     fn is_function_of_block(&self, name: &Ident) -> bool {
         self.system.source.functions().any(|function| function.sig.ident == *name)
-    }
-
-    fn cast(&mut self, cast: &mut ExprCast) -> Option<Expr> {
-        let is_literal = matches!(&*cast.expr, Expr::Lit(_)) && !is_plain(&cast.expr);
-        if is_integer(&cast.ty) {
-            if is_literal {
-                return None;
-            }
-            self.visit_expr_mut(&mut cast.expr);
-            let ExprCast { expr, ty, .. } = &*cast;
-            let expr = without_parentheses(expr);
-            let span = cast.as_token.span;
-            return Some(parse_quote_spanned!(span=> dual::integer::<_, #ty>(#expr)));
-        }
-        match simple_name(&cast.ty) {
-            Some(name) if *name == self.system.scalar => {
-                self.visit_expr_mut(&mut cast.expr);
-                let expr = without_parentheses(&cast.expr);
-                let span = span_of(expr);
-                Some(parse_quote_spanned!(span=> D::number(#expr)))
-            }
-            Some(name) if name == "f64" || name == "f32" => {
-                let expected = self.system.scalar.to_string();
-                self.report.at(&cast.ty, Mistake::OtherFloat { expected });
-                None
-            }
-            _ => {
-                visit_mut::visit_expr_cast_mut(self, cast);
-                None
-            }
-        }
     }
 }

@@ -38,6 +38,23 @@ pub fn is_float_literal(literal: &Lit) -> bool {
     }
 }
 
+/// Whether a plain expression names a precision that is not `scalar`.
+pub fn is_of_other_float(expression: &Expr, scalar: &Ident) -> bool {
+    match expression {
+        Expr::Lit(ExprLit { lit: Lit::Float(number), .. }) => {
+            !number.suffix().is_empty() && scalar != number.suffix()
+        }
+        Expr::Lit(ExprLit { lit: Lit::Int(number), .. }) => scalar != number.suffix(),
+        Expr::Unary(unary) => is_of_other_float(&unary.expr, scalar),
+        Expr::Paren(inner) => is_of_other_float(&inner.expr, scalar),
+        Expr::Group(inner) => is_of_other_float(&inner.expr, scalar),
+        Expr::Binary(binary) => {
+            is_of_other_float(&binary.left, scalar) || is_of_other_float(&binary.right, scalar)
+        }
+        _ => false,
+    }
+}
+
 pub fn is_arithmetic(operator: &BinOp) -> bool {
     matches!(operator, BinOp::Add(_) | BinOp::Sub(_) | BinOp::Mul(_) | BinOp::Div(_))
 }

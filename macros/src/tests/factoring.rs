@@ -143,3 +143,13 @@ fn nothing_is_cancelled() {
     let point = [&[f64::INFINITY, 0.0, 0.0][..], &[1.0, 0.0, 0.0]];
     assert!(interpret::values(&e.graph, &factored, point, |x| x)[0].is_nan());
 }
+
+#[test]
+fn what_cancelled_is_no_common_factor() {
+    let mut e = Expressions::new();
+    let zero = e.graph.constant(0.0);
+    // q0 (0 v0 + 0 v1): the constant that the terms share cannot be divided by.
+    let (a, b) = (e.product(&[zero, e.q[0], e.v[0]]), e.product(&[zero, e.q[0], e.v[1]]));
+    let output = e.sum(a, b);
+    e.factored(&[output], 0);
+}

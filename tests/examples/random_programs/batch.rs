@@ -54,8 +54,12 @@ impl Workshop {
             "[package]\nname = \"random-programs\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n\
              [dependencies]\ndalembert = {{ path = {runtime:?}, default-features = false, features = [{}] }}\n\n\
              [profile.dev]\nopt-level = 0\ndebug = false\nincremental = false\noverflow-checks = true\n\n\
-             [profile.dev.package.\"*\"]\nopt-level = 1\n",
-            self.features
+             [profile.dev.package.\"*\"]\nopt-level = 1\n\n{}",
+            self.features,
+            // The macro runs at every batch, the runtime is built once.
+            ["syn", "quote", "proc-macro2"]
+                .map(|name| format!("[profile.dev.package.{name}]\nopt-level = 3\n\n"))
+                .concat()
         );
         write_if_changed(&self.folder.join("Cargo.toml"), &manifest)?;
         let lock = self.workspace.join("Cargo.lock");
@@ -129,22 +133,29 @@ fn module(program: &Program, index: usize, engine: &str) -> String {
     );
     writeln!(text, "pub fn run() {{\nlet s = system();").expect("a string takes all");
     let arrays: Vec<String> =
-        points(program).iter().map(|Point { q, v }| format!("({q:?}, {v:?})")).collect();
-    writeln!(text, "let points: [([{scalar}; {n}], [{scalar}; {n}]); {}] = [{}];\nfor (k, (q, v)) in points.into_iter().enumerate() {{",
+        points(program).iter().map(|Point { q, v, u, t }| format!("({q:?}, {v:?}, {u:?}, {t:?})")).collect();
+    let m = program.inputs;
+    writeln!(text, "let points: [([{scalar}; {n}], [{scalar}; {n}], [{scalar}; {m}], {scalar}); {}] = [{}];\nfor (k, (q, v, u, t)) in points.into_iter().enumerate() {{",
         arrays.len(),
         arrays.join(", ")
     )
     .expect("a string takes all");
-    let mut plain = String::from("let mut plain = vec![s.lagrangian(q, v) as f64];\n");
+    let time = program.timed.map(|is_timed| if is_timed { ", t" } else { "" });
+    let mut plain = format!("let mut plain = vec![s.lagrangian(q, v{}) as f64];\n", time[0]);
     if let Some((of_both, _)) = &program.rayleigh {
         let q = if *of_both { "q, " } else { "" };
-        writeln!(plain, "plain.push(s.rayleigh({q}v) as f64);").expect("a string takes all");
+        writeln!(plain, "plain.push(s.rayleigh({q}v{}) as f64);", time[1]).expect("a string takes all");
     }
     if program.force.is_some() {
-        plain += "plain.extend(s.force(q, v).map(|x| x as f64));\n";
+        let input = if m > 0 { ", u" } else { "" };
+        writeln!(plain, "plain.extend(s.force(q, v{input}{}).map(|x| x as f64));", time[2])
+            .expect("a string takes all");
     }
     writeln!(text, "crate::plain({index}, k, || {{ {plain} plain }});").expect("a string takes all");
     text += "let (q, v) = (q.into(), v.into());\n";
+    if let Some(view) = program.view("u", "t") {
+        writeln!(text, "let s = s.{view};").expect("a string takes all");
+    }
     writeln!(text, "crate::lagrangian({index}, k, &s, &q, &v);").expect("a string takes all");
     if program.rayleigh.is_some() {
         writeln!(text, "crate::rayleigh({index}, k, &s, &q, &v);").expect("a string takes all");

@@ -9,7 +9,7 @@ macro_rules! classes {
         }
 
         impl Class {
-            /// Each with the percentage of programs that may use it.
+            /// Each with the percentage of programs that may use it; 0 where it is drawn apart.
             pub const ALL: &[(Self, usize)] = &[$((Self::$variant, $percent)),*];
 
             pub fn name(self) -> &'static str {
@@ -90,4 +90,6 @@ classes! {
     ModuleConstants "constants of the module" 30
     Functions "elementary functions" 80
     Cfg "`#[cfg]` inside the block" 1
+    Input "inputs" 0
+    Time "the time" 0
 }

@@ -51,9 +51,10 @@ fn all<S: Copy>(evaluated: &Evaluated<S>) -> Vec<S> {
 }
 
 /// L, R and f over any number, with the largest size met and the distance from the nearest branch.
-fn evaluated<S: Number>(program: &Program, q: &[S], v: &[S]) -> Result<S, (Vec<S>, f64, f64)> {
+fn evaluated<S: Number>(program: &Program, point: &Point, q: &[S], v: &[S]) -> Result<S, (Vec<S>, f64, f64)> {
     let mut interpreter = Interpreter::new(program)?;
-    let evaluated = interpreter.evaluate(q, v)?;
+    let u: Vec<S> = point.u.iter().copied().map(S::constant).collect();
+    let evaluated = interpreter.evaluate([q, v, &u], S::constant(point.t))?;
     Ok((all(&evaluated), interpreter.size, interpreter.distance))
 }
 
@@ -63,10 +64,10 @@ pub fn values(program: &Program, point: &Point) -> Option<Vec<f64>> {
         if is_single {
             let single = |x: &[f64]| x.iter().map(|x| *x as f32).collect::<Vec<_>>();
             let (values, ..) =
-                evaluated(program, &single(&point.q), &single(&point.v)).map_err(|_: Exit<f32>| ())?;
+                evaluated(program, point, &single(&point.q), &single(&point.v)).map_err(|_: Exit<f32>| ())?;
             Ok(values.into_iter().map(f64::from).collect())
         } else {
-            Ok(evaluated(program, &point.q, &point.v).map_err(|_: Exit<f64>| ())?.0)
+            Ok(evaluated(program, point, &point.q, &point.v).map_err(|_: Exit<f64>| ())?.0)
         }
     };
     by_scalar(program.single).ok()
@@ -102,7 +103,7 @@ fn derivatives(
     };
     let q: Vec<Dual> = point.q.iter().enumerate().map(|(i, q)| entry(i, *q)).collect();
     let v: Vec<Dual> = point.v.iter().enumerate().map(|(i, v)| entry(n + i, *v)).collect();
-    let (duals, scale, distance) = evaluated(program, &q, &v).map_err(|_| Skipped::TooLarge)?;
+    let (duals, scale, distance) = evaluated(program, point, &q, &v).map_err(|_| Skipped::TooLarge)?;
     // A NaN is not in reach of any comparison.
     if distance <= MARGIN || distance.is_nan() {
         return Err(Skipped::NearBranch);
@@ -137,7 +138,7 @@ fn differences(program: &Program, point: &Point) -> Option<Vec<Derived>> {
             x[index] = x[index] + DoubleDouble::from(STEP) * f64::from(by).into();
         }
         let (q, v) = x.split_at(n);
-        evaluated(program, q, v).ok().map(|(values, ..)| values)
+        evaluated(program, point, q, v).ok().map(|(values, ..)| values)
     };
     let combined = |terms: Vec<(f64, Vec<DoubleDouble>)>, divisor: f64| -> Vec<f64> {
         let count = terms[0].1.len();

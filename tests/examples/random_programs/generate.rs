@@ -19,11 +19,21 @@ use super::random::Random;
 use super::syntax::*;
 use super::types::{Enumeration, Integer, Structure, Type};
 
+/// Seeds from here on make programs with inputs and time as well.
+pub const VIEWS_FROM: u64 = 1_000_000;
+
 /// Options, enums and `matches!`: drawn where a program may hold them.
 pub fn program(seed: u64) -> Program {
     let mut random = Random::new(seed);
-    let drawn = Class::ALL.iter().filter(|(_, percent)| random.chance(*percent)).map(|(class, _)| *class);
-    let drawn: BTreeSet<Class> = drawn.collect();
+    let by_chance =
+        |(class, percent): &(Class, usize)| (*percent > 0 && random.chance(*percent)).then_some(*class);
+    let mut drawn: BTreeSet<Class> = Class::ALL.iter().filter_map(by_chance).collect();
+    // Programs are known by their seeds: the older ones stay what they were.
+    let mut apart = Random::new(seed ^ 0x71d3_ab1e);
+    let seen = [(Class::Input, 20), (Class::Time, 25)].map(|(class, percent)| (class, apart.chance(percent)));
+    drawn.extend(
+        seen.into_iter().filter_map(|(class, is_drawn)| (seed >= VIEWS_FROM && is_drawn).then_some(class)),
+    );
     let n = *random.choice(&[1, 2, 2, 2, 3]);
     let mut generator = Generator {
         random,
@@ -39,6 +49,8 @@ pub fn program(seed: u64) -> Program {
             lagrangian: Block::default(),
             rayleigh: None,
             force: None,
+            inputs: 0,
+            timed: [false; 3],
             classes: BTreeSet::new(),
             has_cfg: false,
         },

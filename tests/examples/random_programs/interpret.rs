@@ -133,19 +133,27 @@ impl<'p, S: Number> Interpreter<'p, S> {
         (&self.system, &self.constants)
     }
 
-    /// L, R and f at (q, v).
-    pub fn evaluate(&mut self, q: &[S], v: &[S]) -> Result<S, Evaluated<S>> {
+    /// L, R and f at (q, v), with the input and the time.
+    pub fn evaluate(&mut self, [q, v, u]: [&[S]; 3], t: S) -> Result<S, Evaluated<S>> {
         let array = |x: &[S]| Value::Entries(x.iter().copied().map(Value::Real).collect());
         let program = self.program;
         let both = [("q", array(q)), ("v", array(v))];
-        let lagrangian = self.body(&program.lagrangian, &both)?.real();
+        let timed = |part: usize, given: &[(&'static str, Value<S>)]| {
+            let time = program.timed[part].then(|| ("t", Value::Real(t)));
+            given.iter().cloned().chain(time).collect::<Vec<_>>()
+        };
+        let lagrangian = self.body(&program.lagrangian, &timed(0, &both))?.real();
         let rayleigh = match &program.rayleigh {
             None => None,
-            Some((of_both, body)) => Some(self.body(body, &both[usize::from(!of_both)..])?.real()),
+            Some((of_both, body)) => Some(self.body(body, &timed(1, &both[usize::from(!of_both)..]))?.real()),
         };
         let force = match &program.force {
             None => None,
-            Some(body) => Some(self.body(body, &both)?.entries().into_iter().map(Value::real).collect()),
+            Some(body) => {
+                let input = (program.inputs > 0).then(|| ("u", array(u)));
+                let given: Vec<_> = both.iter().cloned().chain(input).collect();
+                Some(self.body(body, &timed(2, &given))?.entries().into_iter().map(Value::real).collect())
+            }
         };
         Ok(Evaluated { lagrangian, rayleigh, force })
     }

@@ -81,12 +81,12 @@ impl Expressions {
         let scalars = self.hessians.len();
         let values = if program.single {
             let single = |x: &[f64]| x.iter().map(|x| *x as f32).collect::<Vec<_>>();
-            self.evaluated(program, &self.values, &single(&point.q), &single(&point.v))?
+            self.evaluated(program, &self.values, point, &single(&point.q), &single(&point.v))?
         } else {
-            self.evaluated(program, &self.values, &point.q, &point.v)?
+            self.evaluated(program, &self.values, point, &point.q, &point.v)?
         };
         let all: Vec<Node> = self.gradients.iter().chain(&self.hessians).flatten().copied().collect();
-        let derivatives = self.evaluated(program, &all, &point.q, &point.v)?;
+        let derivatives = self.evaluated(program, &all, point, &point.q, &point.v)?;
         let size = 2 * program.n;
         let (first, second) = derivatives.split_at(self.gradients.len() * size);
         let mut told: Vec<(&'static str, Vec<f64>)> = Vec::new();
@@ -104,7 +104,14 @@ impl Expressions {
         })
     }
 
-    fn evaluated<S: Number>(&self, program: &Program, roots: &[Node], q: &[S], v: &[S]) -> Result<Vec<f64>> {
+    fn evaluated<S: Number>(
+        &self,
+        program: &Program,
+        roots: &[Node],
+        point: &Point,
+        q: &[S],
+        v: &[S],
+    ) -> Result<Vec<f64>> {
         let truth = |truth: bool| S::constant(f64::from(u8::from(truth)));
         let mut values = vec![S::constant(f64::NAN); self.graph.len()];
         for node in self.graph.reachable(roots.iter().copied()) {
@@ -113,7 +120,8 @@ impl Expressions {
             let value = match self.graph.operation(node) {
                 Operation::Coordinate(i) => q[i],
                 Operation::Velocity(i) => v[i],
-                Operation::Input(_) => return Err("an input".to_owned()),
+                Operation::Input(i) => S::constant(point.u[i]),
+                operation if self.graph.is_time(operation) => S::constant(point.t),
                 Operation::Parameter(i) => {
                     let tokens = &self.graph.parameter(i).tokens;
                     match parameter::evaluate::<S>(program, tokens.clone())? {

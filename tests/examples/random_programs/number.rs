@@ -40,6 +40,20 @@ pub trait Number: Copy {
     }
 }
 
+/// Methods that machine numbers and num-dual's have under the same name.
+macro_rules! elementary {
+    ($name:expr, $x:expr) => {
+        elementary!($name, $x; recip exp exp2 exp_m1 ln log2 log10 ln_1p sin cos tan asin acos atan sinh cosh asinh
+            acosh atanh sqrt cbrt)
+    };
+    ($name:expr, $x:expr; $($function:ident)*) => {
+        match $name {
+            $(stringify!($function) => $x.$function(),)*
+            name => unreachable!("the generator writes no method `{name}`"),
+        }
+    };
+}
+
 macro_rules! machine_number {
     ($scalar:ident) => {
         impl Number for $scalar {
@@ -72,33 +86,12 @@ macro_rules! machine_number {
             }
             fn function(self, name: &str) -> Self {
                 match name {
-                    "recip" => self.recip(),
-                    "exp" => self.exp(),
-                    "exp2" => self.exp2(),
-                    "exp_m1" => self.exp_m1(),
-                    "ln" => self.ln(),
-                    "log2" => self.log2(),
-                    "log10" => self.log10(),
-                    "ln_1p" => self.ln_1p(),
-                    "sin" => self.sin(),
-                    "cos" => self.cos(),
-                    "tan" => self.tan(),
-                    "asin" => self.asin(),
-                    "acos" => self.acos(),
-                    "atan" => self.atan(),
-                    "sinh" => self.sinh(),
-                    "cosh" => self.cosh(),
                     "tanh" => self.tanh(),
-                    "asinh" => self.asinh(),
-                    "acosh" => self.acosh(),
-                    "atanh" => self.atanh(),
-                    "sqrt" => self.sqrt(),
-                    "cbrt" => self.cbrt(),
                     "abs" => self.abs(),
                     "signum" => self.signum(),
                     "to_radians" => self.to_radians(),
                     "to_degrees" => self.to_degrees(),
-                    _ => unreachable!("the generator writes no method `{name}`"),
+                    name => elementary!(name, self),
                 }
             }
             fn pair(self, name: &str, other: Self) -> Self {
@@ -251,33 +244,12 @@ impl Number for Dual {
     }
     fn function(self, name: &str) -> Self {
         match name {
-            "recip" => self.recip(),
-            "exp" => self.exp(),
-            "exp2" => self.exp2(),
-            "exp_m1" => self.exp_m1(),
-            "ln" => self.ln(),
-            "log2" => self.log2(),
-            "log10" => self.log10(),
-            "ln_1p" => self.ln_1p(),
-            "sin" => self.sin(),
-            "cos" => self.cos(),
-            "tan" => self.tan(),
-            "asin" => self.asin(),
-            "acos" => self.acos(),
-            "atan" => self.atan(),
-            "sinh" => self.sinh(),
-            "cosh" => self.cosh(),
             // num-dual's own loses the derivative beyond |x| ≈ 20.
             "tanh" => {
                 let sign = self.re.signum();
                 let twice = self * (-2.0 * sign);
                 -twice.exp_m1() / (twice.exp() + 1.0) * sign
             }
-            "asinh" => self.asinh(),
-            "acosh" => self.acosh(),
-            "atanh" => self.atanh(),
-            "sqrt" => self.sqrt(),
-            "cbrt" => self.cbrt(),
             "abs" => {
                 if self.re.is_sign_negative() {
                     -self
@@ -288,7 +260,7 @@ impl Number for Dual {
             "signum" => self.re.signum().into(),
             "to_radians" => self * (std::f64::consts::PI / 180.0),
             "to_degrees" => self * (180.0 / std::f64::consts::PI),
-            _ => unreachable!("the generator writes no method `{name}`"),
+            name => elementary!(name, self),
         }
     }
     fn pair(self, name: &str, other: Self) -> Self {

@@ -185,19 +185,30 @@ impl Printer<'_> {
         for constant in program.constants.iter().filter(|constant| constant.in_block) {
             self.constant(constant);
         }
-        write!(self.text, "pub fn lagrangian(&self, q: [{scalar}; {n}], v: [{scalar}; {n}]) -> {scalar} ")
-            .expect("a string takes all");
+        let time =
+            program.timed.map(|is_timed| if is_timed { format!(", t: {scalar}") } else { String::new() });
+        write!(
+            self.text,
+            "pub fn lagrangian(&self, q: [{scalar}; {n}], v: [{scalar}; {n}]{}) -> {scalar} ",
+            time[0]
+        )
+        .expect("a string takes all");
         self.block(&program.lagrangian);
         if let Some((of_both, body)) = &program.rayleigh {
             let q = if *of_both { format!("q: [{scalar}; {n}], ") } else { String::new() };
-            write!(self.text, "\npub fn rayleigh(&self, {q}v: [{scalar}; {n}]) -> {scalar} ")
+            write!(self.text, "\npub fn rayleigh(&self, {q}v: [{scalar}; {n}]{}) -> {scalar} ", time[1])
                 .expect("a string takes all");
             self.block(body);
         }
         if let Some(body) = &program.force {
+            let input = match program.inputs {
+                0 => String::new(),
+                m => format!(", u: [{scalar}; {m}]"),
+            };
             write!(
                 self.text,
-                "\npub fn force(&self, q: [{scalar}; {n}], v: [{scalar}; {n}]) -> [{scalar}; {n}] "
+                "\npub fn force(&self, q: [{scalar}; {n}], v: [{scalar}; {n}]{input}{}) -> [{scalar}; {n}] ",
+                time[2]
             )
             .expect("a string takes all");
             self.block(body);

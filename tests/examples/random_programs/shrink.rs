@@ -43,8 +43,14 @@ fn edited(program: &Program, number: usize) -> Option<Program> {
         if present {
             if left == 0 {
                 match index {
-                    0 => program.rayleigh = None,
-                    _ => program.force = None,
+                    0 => {
+                        program.rayleigh = None;
+                        program.timed[1] = false;
+                    }
+                    _ => {
+                        program.force = None;
+                        (program.inputs, program.timed[2]) = (0, false);
+                    }
                 }
                 return Some(program);
             }

@@ -321,8 +321,25 @@ pub struct Program {
     /// Whether R takes q as well.
     pub rayleigh: Option<(bool, Block)>,
     pub force: Option<Block>,
+    /// Entries of the input that f takes; 0 where it takes none.
+    pub inputs: usize,
+    /// Whether L, R and f take the time.
+    pub timed: [bool; 3],
     /// What occurs in it.
     pub classes: BTreeSet<Class>,
     /// Holds an attribute `cfg`, so that it must be refused.
     pub has_cfg: bool,
+}
+
+impl Program {
+    /// The expression that holds the input and the time, where there are any.
+    pub fn view(&self, u: &str, t: &str) -> Option<String> {
+        let is_timed = self.timed.contains(&true);
+        match (self.inputs > 0, is_timed) {
+            (true, true) => Some(format!("driven({u}, {t})")),
+            (true, false) => Some(format!("driven({u})")),
+            (false, true) => Some(format!("at_time({t})")),
+            (false, false) => None,
+        }
+    }
 }

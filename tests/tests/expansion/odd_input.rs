@@ -200,7 +200,7 @@ fn bodies_of_every_kind_of_expression_are_answered() {
         ("let x: dyn Fn(f64) -> f64; let y: fn(f64) -> f64; let z: *const f64; 0.0", 0),
         ("self.f()()(q)", 1),
         ("self.a.b.c(q[0]).d()", 0),
-        ("Self { k: q[0] }.k", 0),
+        ("Self { k: q[0] }.k", 2),
         ("-(-(-1.0))", 0),
         ("1.0..2.0; ..=3.0; ..; q[0]", 0),
         ("self.k = self.k = 1.0; 0.0", 2),

@@ -100,3 +100,106 @@ fn nothing_falls_back_to_dual_numbers() {
     assert!(matches!(engine(auto::Slider::STRUCTURE), Engine::Expanded));
     assert!(!matches!(engine(num_dual::Slider::STRUCTURE), Engine::Expanded));
 }
+
+/// Structs within the system, operands that change what others read, casts of constants: the same system by each engine,
+/// with a body that can be written out, and with a loop that numbers end, which cannot.
+macro_rules! nested_by_each_engine {
+    ($($name:ident by $engine:ident with $speed:ident [$($more:tt)*]),*) => {$(
+        mod $name {
+            #[derive(Clone, Copy)]
+            pub struct Spring {
+                pub k: f64,
+                pub count: u8,
+            }
+
+            pub struct Outer {
+                pub inner: Spring,
+                pub pair: (f64, Spring),
+            }
+
+            pub struct Nested {
+                pub outer: Outer,
+                pub springs: [Spring; 2],
+            }
+
+            #[dalembert::rayleigh_system(derivatives = $engine)]
+            impl Nested {
+                fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+                    let mut x = q[0];
+                    x += {
+                        x -= 1.0;
+                        x * q[1]
+                    };
+                    let mut y = q[1];
+                    let was_less = y < {
+                        y += 0.25;
+                        y
+                    };
+                    let (mut i, mut sums) = (0, [0.0, 0.0]);
+                    sums[{
+                        i -= 1;
+                        i
+                    }] += {
+                        i += 1;
+                        self.springs[i].k * q[0] * q[0]
+                    };
+                    sums[i] += self.outer.pair.1.k * q[1] * q[1];
+                    let c = 1.1_f32 as f64;
+                    let n = 2.7_f64 as u8 + (self.outer.pair.0 as u8 - self.springs[1].count);
+                    let cubic = if was_less { c * q[0] * q[0] * n as f64 * y } else { 0.0 };
+                    let potential = 0.5 * self.outer.inner.k * x * x + 0.5 * (sums[0] + sums[1]) + cubic;
+                    let mut $speed = 0.5 * (v[0] * v[0] + v[1] * v[1]);
+                    $($more)*
+                    $speed - potential
+                }
+            }
+
+            pub fn nested() -> Nested {
+                let spring = |k, count| Spring { k, count };
+                let outer = Outer { inner: spring(0.7, 1), pair: (2.9, spring(1.3, 4)) };
+                Nested { outer, springs: [spring(9.0, 3), spring(0.4, 2)] }
+            }
+        }
+    )*};
+}
+nested_by_each_engine! {
+    nested_auto by auto with speed [speed += 0.0;],
+    nested_expanded by expanded with speed [speed += 0.0;],
+    nested_num_dual by num_dual with speed [speed += 0.0;],
+    fallen_back by auto with speed [while speed > 1e6 { speed *= 0.5; }],
+    asked_for by num_dual with speed [while speed > 1e6 { speed *= 0.5; }]
+}
+
+/// L and its gradient by q.
+fn slopes<S: Lagrangian<2, Scalar = f64>>(system: &S) -> [f64; 3] {
+    let gradient = system.lagrangian_gradient(&[0.3, -0.6].into(), &[0.9, -0.2].into());
+    [gradient.value, gradient.d1[0], gradient.d1[1]]
+}
+
+#[test]
+fn structs_and_effects_within_operands_are_those_of_every_engine() {
+    let (a, b) = (0.3_f64, -0.6_f64);
+    let (x, y, c) = ((a - 1.0) * (1.0 + b), b + 0.25, f64::from(1.1_f32));
+    // The casts give 2 + (2 − 2).
+    let potential = 0.35 * x * x + 0.5 * (0.4 * a * a + 1.3 * b * b) + 2.0 * c * a * a * y;
+    let expected = [
+        0.5 * (0.9 * 0.9 + 0.2 * 0.2) - potential,
+        -(0.7 * x * (1.0 + b) + 0.4 * a + 4.0 * c * a * y),
+        -(0.7 * x * (a - 1.0) + 1.3 * b + 2.0 * c * a * a),
+    ];
+    let all = [
+        slopes(&nested_auto::nested()),
+        slopes(&nested_expanded::nested()),
+        slopes(&nested_num_dual::nested()),
+        slopes(&fallen_back::nested()),
+        slopes(&asked_for::nested()),
+    ];
+    for seen in all {
+        for (seen, expected) in seen.iter().zip(expected) {
+            assert!((seen - expected).abs() < 1e-15 * (1.0 + expected.abs()), "{seen} {expected}");
+        }
+    }
+    // The loop keeps the derivatives from being written out.
+    assert!(matches!(nested_auto::Nested::STRUCTURE.engine, Engine::Expanded));
+    assert!(!matches!(fallen_back::Nested::STRUCTURE.engine, Engine::Expanded));
+}

@@ -9,6 +9,7 @@ use syn::{
 
 use super::super::graph::{Comparison, Operation};
 use super::super::model::simple_name;
+use super::super::syntax::is_plain;
 use super::integer::{Integer, IntegerType};
 use super::place::may_assign;
 use super::value::{Truth, Value};
@@ -501,6 +502,10 @@ impl Lowering<'_> {
     }
 
     fn cast(&mut self, cast: &ExprCast) -> Result<Value> {
+        // Of literals: rustc rounds.
+        if is_plain(&cast.expr) && simple_name(&cast.ty).is_none_or(|name| *name != self.scalar) {
+            return Ok(Value::Written(Written::leaf(quote!((#cast)))));
+        }
         let value = self.expression(&cast.expr)?;
         self.cast_value(cast, value)
     }

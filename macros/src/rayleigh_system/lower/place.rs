@@ -1,7 +1,7 @@
 //! Places: locals, entries of their arrays, members of their tuples.
 
 use syn::visit::{self, Visit};
-use syn::{Expr, Index, Member};
+use syn::{Expr, ExprArray, ExprTuple, Index, Member};
 
 use super::value::Value;
 use super::{Lowering, Result, refuse};
@@ -17,17 +17,11 @@ impl Lowering<'_> {
     pub fn assign(&mut self, left: &Expr, value: Value) -> Result<Value> {
         match (left, value) {
             (Expr::Infer(_), _) => Ok(Value::unit()),
-            (Expr::Tuple(places), Value::Tuple(values)) if places.elems.len() == values.len() => {
+            (Expr::Tuple(ExprTuple { elems: places, .. }), Value::Tuple(values))
+            | (Expr::Array(ExprArray { elems: places, .. }), Value::Sequence(values))
+                if places.len() == values.len() =>
+            {
                 places
-                    .elems
-                    .iter()
-                    .zip(values)
-                    .try_for_each(|(place, value)| self.assign(place, value).map(drop))?;
-                Ok(Value::unit())
-            }
-            (Expr::Array(places), Value::Sequence(values)) if places.elems.len() == values.len() => {
-                places
-                    .elems
                     .iter()
                     .zip(values)
                     .try_for_each(|(place, value)| self.assign(place, value).map(drop))?;

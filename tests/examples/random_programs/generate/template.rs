@@ -17,20 +17,41 @@ impl Generator {
         let array = Type::Array(Box::new(Type::Real), n);
         let both = [("q", array.clone()), ("v", array.clone())];
         self.budget = 90;
-        self.program.lagrangian = self.function(&both, &Type::Real, 6);
+        let given = self.with_time(0, &both);
+        self.program.lagrangian = self.function(&given, &Type::Real, 6);
         if self.random.chance(35) {
             let of_both = self.random.chance(50);
             self.budget = 35;
-            let body = self.function(&both[usize::from(!of_both)..], &Type::Real, 3);
+            let given = self.with_time(1, &both[usize::from(!of_both)..]);
+            let body = self.function(&given, &Type::Real, 3);
             self.program.rayleigh = Some((of_both, body));
         }
-        if self.random.chance(25) {
+        let is_driven = self.drawn.contains(&Class::Input);
+        if self.random.chance(25) || is_driven {
             self.budget = 35;
-            self.program.force = Some(self.function(&both, &array, 2));
+            let mut given = both.to_vec();
+            if is_driven {
+                self.used(Class::Input);
+                self.program.inputs = 1 + self.random.below(2);
+                given.push(("u", Type::Array(Box::new(Type::Real), self.program.inputs)));
+            }
+            let given = self.with_time(2, &given);
+            self.program.force = Some(self.function(&given, &array, 2));
         }
         if self.drawn.contains(&Class::Cfg) {
             self.configure_out();
         }
+    }
+
+    /// The parameters of L, R or f, with the time for some.
+    fn with_time<'n>(&mut self, part: usize, parameters: &[(&'n str, Type)]) -> Vec<(&'n str, Type)> {
+        let mut parameters = parameters.to_vec();
+        if self.may(Class::Time, 60) {
+            self.used(Class::Time);
+            self.program.timed[part] = true;
+            parameters.push(("t", Type::Real));
+        }
+        parameters
     }
 
     fn function(&mut self, parameters: &[(&str, Type)], result: &Type, statements: usize) -> Block {

@@ -1,0 +1,76 @@
+//! Casts: of what does not depend on q and v they are left to rustc.
+
+use syn::{BinOp, Expr, ExprCast, UnOp, parse_quote_spanned, visit_mut};
+
+use super::super::diagnostics::{Mistake, span_of};
+use super::super::model::{is_integer, simple_name};
+use super::super::syntax::{is_arithmetic, is_constant_name, is_self, without_parentheses};
+use super::Rewriter;
+
+impl Rewriter<'_> {
+    /// | written | becomes |
+    /// |---|---|
+    /// | `2.7 as u8`, `self.k as u8` | itself |
+    /// | `i as usize` | `dual::integer::<_, usize>(i)`: for integers alone |
+    /// | `1.1_f32 as f64` | `D::real(1.1_f32 as f64)` |
+    /// | `i as f64` | `D::number(i)` |
+    pub fn cast(&mut self, cast: &mut ExprCast) -> Option<Expr> {
+        let is_constant = self.is_constant(&cast.expr);
+        let span = cast.as_token.span;
+        let to_scalar = simple_name(&cast.ty).is_some_and(|name| *name == self.system.scalar);
+        if is_constant && is_integer(&cast.ty) {
+            return None;
+        }
+        if is_constant && to_scalar {
+            return Some(parse_quote_spanned!(span=> D::real(#cast)));
+        }
+        if is_integer(&cast.ty) {
+            visit_mut::VisitMut::visit_expr_mut(self, &mut cast.expr);
+            let ExprCast { expr, ty, .. } = &*cast;
+            let expr = without_parentheses(expr);
+            return Some(parse_quote_spanned!(span=> dual::integer::<_, #ty>(#expr)));
+        }
+        match simple_name(&cast.ty) {
+            _ if to_scalar => {
+                visit_mut::VisitMut::visit_expr_mut(self, &mut cast.expr);
+                let expr = without_parentheses(&cast.expr);
+                let span = span_of(expr);
+                Some(parse_quote_spanned!(span=> D::number(#expr)))
+            }
+            Some(name) if name == "f64" || name == "f32" => {
+                let expected = self.system.scalar.to_string();
+                self.report.at(&cast.ty, Mistake::OtherFloat { expected });
+                None
+            }
+            _ => {
+                visit_mut::visit_expr_cast_mut(self, cast);
+                None
+            }
+        }
+    }
+
+    /// Whether the expression is made of literals, fields and constants alone, by arithmetic and casts: the same over plain
+    /// numbers.
+    fn is_constant(&self, expression: &Expr) -> bool {
+        match expression {
+            Expr::Lit(_) => true,
+            Expr::Paren(inner) => self.is_constant(&inner.expr),
+            Expr::Group(inner) => self.is_constant(&inner.expr),
+            Expr::Cast(cast) => self.is_constant(&cast.expr),
+            Expr::Unary(unary) => matches!(unary.op, UnOp::Neg(_)) && self.is_constant(&unary.expr),
+            Expr::Binary(binary) => {
+                (is_arithmetic(&binary.op) || matches!(binary.op, BinOp::Rem(_)))
+                    && self.is_constant(&binary.left)
+                    && self.is_constant(&binary.right)
+            }
+            Expr::Field(field) => is_self(&field.base) || self.is_constant(&field.base),
+            Expr::Index(entry) => self.is_constant(&entry.expr) && self.is_constant(&entry.index),
+            Expr::Path(path) => path.path.segments.last().is_some_and(|last| {
+                let is_local =
+                    path.path.get_ident().is_some_and(|name| self.bound.contains(&name.to_string()));
+                !is_local && is_constant_name(&last.ident)
+            }),
+            _ => false,
+        }
+    }
+}
