@@ -222,11 +222,11 @@ impl Method {
         ComplexField::powf(relative / constant, 1.0 / f64::from(self.order())).min(longest)
     }
 
-    /// The evaluations by radian with this step, where equations are solved in few iterations.
-    fn usual_cost(self, relative: f64, is_explicit: bool) -> f64 {
+    /// The evaluations of such a step, where equations are solved in few iterations.
+    fn usual_step(self, relative: f64, is_explicit: bool) -> f64 {
         let angle = self.usual_angle(relative);
         let substep = if is_explicit { 2.0 } else { 9.0 };
-        let step = match self {
+        match self {
             Self::Rule => substep,
             Self::KahanLi6 => 9.0 * substep,
             Self::KahanLi8 => 17.0 * substep,
@@ -234,8 +234,12 @@ impl Method {
             Self::BlanesMoan6 => 11.0,
             Self::Gauss4 => 32.0 + 24.0 * angle,
             Self::Gauss8 => 64.0 + 48.0 * angle,
-        };
-        step / angle
+        }
+    }
+
+    /// The evaluations by radian with this step.
+    fn usual_cost(self, relative: f64, is_explicit: bool) -> f64 {
+        self.usual_step(relative, is_explicit) / self.usual_angle(relative)
     }
 }
 

@@ -4,7 +4,7 @@ use core::fmt;
 
 use nalgebra::SVector;
 
-use super::estimate::{ANGLE, Estimate, Scale};
+use super::estimate::{ANGLE, Estimate, Scale, Since};
 use super::{Choice, MethodStep, Methods};
 use crate::{Lagrangian, Scalar, State, StepError};
 
@@ -22,19 +22,21 @@ pub struct Breach {
     pub instead: f64,
 }
 
-/// Steps between two looks at most, and looks over a run at least.
+/// Steps between two looks at most.
 const STRIDE: u64 = 40;
-const LOOKS: u64 = 6;
 
 /// Runs of fewer steps are looked at more closely.
 const FEW: u64 = 100;
 const LOOKS_OF_FEW: u64 = 24;
 
-/// The share of the run's cost that the motion's derivatives along it may take, and what they cost in evaluations.
+/// The share of the run's cost that the motion's derivatives along it may take.
 const SHARE: f64 = 0.05;
 
+/// Steps from one energy to the next at least, after as many as lie between two looks.
+const ENERGY: u64 = 10;
+
 /// The estimate, over the tolerance, at which a breach is reported: as a rule the estimate is above the error, by up to a factor of 2.
-const REPORTED: f64 = 1.2;
+const REPORTED: f64 = 1.35;
 
 /// Of so many coordinates errors are followed in every turn, whatever it costs.
 const RESOLVED: usize = 3;
@@ -44,8 +46,12 @@ fn derivatives(n: usize) -> f64 {
     2.0 + 1.3 * (n * n) as f64 + 4.0 * n as f64
 }
 
-/// A step is looked at where the motion has become rougher than where it was looked at last, by this factor.
+/// A step is looked at where the motion has become rougher than where it was looked at last, by this factor; of a run of few steps by that.
 const ROUGHER: f64 = 2.0;
+const ROUGHER_OF_FEW: f64 = 1.4;
+
+/// What of the tolerance a change of the force with time over one step has to come to before it is looked at.
+const STROKE: f64 = 0.05;
 
 /// The run of a [`Choice`] over its time: an iterator over states, that ends after the last step or an error.
 ///
@@ -59,12 +65,15 @@ const ROUGHER: f64 = 2.0;
 ///   and where the motion becomes rougher: by fourth differences of q, of Gauss methods by the last coefficients of the velocity's
 ///   polynomial.
 /// - A_k is the tangent map of the motion: exp of ∂(q̇, ṗ)/∂(q, p) at the states of the run, and between them where an error turns far in one
-///   step. A shift in time stays one, exactly, unless the system changes with time. So growth is that of the motion, chaos included. **Not so**
+///   step. A shift in time stays one, exactly, unless the system changes with time. So growth is that of the motion, chaos included: what δ
+///   may err by itself is carried along beside it, as motions that part leave the direction of δ. **Not so**
 ///   for more than three coordinates where a step costs less than the algebra of its matrices (splittings): there the error is carried
 ///   over many steps at once, and the growth of a chaotic motion is not seen.
 /// - Where no force acts and nothing depends on time, the energy says what its part of the error is; a jump of it reveals a step that erred
 ///   without being looked at.
-/// - Rounding adds as a random walk that grows with the error.
+/// - Where the system changes with time, the force is asked for between the nodes of a step as well, at the state last looked at, so that a pulse
+///   is looked at.
+/// - Rounding adds as a random walk that grows with the error; that of the forces counts, in p, by the fastest mode.
 ///
 /// The run goes on after a [`Breach`], with the same step size. The guard's cost is in the page `docs/error-asked-for.md`, in evaluations of
 /// the forces; runs of fewer than 100 steps are looked at more closely, at up to three times their cost.
@@ -91,6 +100,10 @@ where
     local: f64,
     roughness: f64,
     recent: [SVector<L::Scalar, N>; 4],
+    /// The largest change of the force with time.
+    stroke: f64,
+    /// The step after which the energy was asked for.
+    energy: u64,
     random: u64,
     breach: Option<Breach>,
     failed: bool,
@@ -107,7 +120,8 @@ where
         let is_few = choice.steps < FEW;
         let is_coarse = !is_few && N > RESOLVED && derivatives(N) > choice.evaluations_per_step;
         let mut estimate = Estimate::new(choice.system, is_few, is_coarse);
-        estimate.carry(choice.system, choice.methods, &start, 0.0, &scale, [0.0; 2]);
+        let none = Since { steps: 0.0, roundings: 0.0, foreseen: 0.0, affordable: 0.0, is_energy: true };
+        estimate.carry(choice.system, choice.methods, &start, 0.0, &scale, &none);
         let mut guarded = Self {
             estimate,
             choice,
@@ -123,6 +137,8 @@ where
             local,
             roughness: 0.0,
             recent: [start.q; 4],
+            stroke: 0.0,
+            energy: 0,
             random: 0x9e37_79b9_7f4a_7c15,
             breach: None,
             failed: false,
@@ -161,7 +177,7 @@ where
     /// The next look: at most [`STRIDE`] steps on, at no period.
     fn schedule_look(&mut self) {
         let steps = self.choice.steps;
-        let stride = if steps < FEW { (steps / LOOKS_OF_FEW).max(1) } else { (steps / LOOKS).min(STRIDE) };
+        let stride = if steps < FEW { (steps / LOOKS_OF_FEW).max(1) } else { STRIDE };
         // Marsaglia's xorshift.
         self.random ^= self.random << 13;
         self.random ^= self.random >> 7;
@@ -170,9 +186,16 @@ where
         self.looks[1] = next.min(self.choice.steps);
     }
 
+    /// What the derivatives may cost for each step.
+    fn affordable(&self) -> f64 {
+        let share = if self.choice.steps < FEW || N <= RESOLVED { f64::INFINITY } else { SHARE };
+        share * self.choice.evaluations_per_step
+    }
+
     fn schedule_derivatives(&mut self) {
         let angle = self.estimate.speed * self.choice.step_size;
-        let resolved = if angle > 0.0 { 0.5 * ANGLE / angle } else { f64::INFINITY };
+        let part = if self.estimate.is_planar() { 0.5 * ANGLE[0] } else { ANGLE[1] };
+        let resolved = if angle > 0.0 { part / angle } else { f64::INFINITY };
         // Seldom where the step is long already; twice the last distance at most, as a period may look like rest.
         let last = (self.taken - self.carried[2]).max(1) as f64;
         let resolved = resolved.min(2.0 * last);
@@ -201,11 +224,20 @@ where
     /// Carries the error on to the present state.
     fn carry(&mut self) {
         let steps = (self.taken - self.carried[0]) as f64;
-        let roundings = steps * self.choice.roundings;
-        let foreseen = (self.taken - self.looks[0]).max(1) as f64 * self.local;
-        let Choice { system, methods, .. } = self.choice;
+        let Choice { system, methods, roundings, .. } = self.choice;
+        let is_energy = self.choice.steps < FEW || self.taken <= STRIDE || self.taken >= self.energy + ENERGY;
+        if is_energy {
+            self.energy = self.taken;
+        }
+        let since = Since {
+            steps,
+            roundings,
+            foreseen: (self.taken - self.looks[0]).max(1) as f64 * self.local,
+            affordable: steps * self.affordable(),
+            is_energy,
+        };
         let time = self.time();
-        self.estimate.carry(system, methods, &self.state, time, &self.scale, [roundings, foreseen]);
+        self.estimate.carry(system, methods, &self.state, time, &self.scale, &since);
         self.carried[2] = self.carried[0];
         self.carried[0] = self.taken;
         self.schedule_derivatives();
@@ -230,10 +262,24 @@ where
         let size = self.scale.norm(&local);
         // Those not looked at lie between the last one that was and this one.
         let share = if size > 0.0 { 0.5 * (1.0 + (self.local / size).min(steps)) } else { 1.0 };
-        self.estimate.add(&local, 1.0 + (steps - 1.0) * share);
+        self.estimate.add(&local, (steps - 1.0) * share);
         self.local = size;
         self.looks[0] = self.taken;
         self.schedule_look();
+    }
+
+    /// Whether the force, where it changes with time, has done so within the last step as it did not before: between the nodes of the step.
+    fn is_struck(&mut self) -> bool {
+        let Choice { system, methods, step_size, tolerance, evaluations_per_step, .. } = self.choice;
+        let is_seldom =
+            self.choice.steps >= FEW && 2.0 > SHARE * evaluations_per_step * (1 + self.taken % 8) as f64;
+        if !self.estimate.is_timed() || is_seldom {
+            return false;
+        }
+        let change = self.estimate.change_of_force(system, methods, self.time() - 0.5 * step_size);
+        let is_more = change > ROUGHER * self.stroke;
+        self.stroke = self.stroke.max(change);
+        is_more && change * step_size * self.scale.weight() > STROKE * tolerance
     }
 
     fn report(&mut self, expected: f64) {
@@ -271,8 +317,9 @@ where
         self.scale.follow(&before, &taken.state);
         let difference = self.fourth_difference();
         let roughness = taken.unresolved.unwrap_or(difference);
-        let is_rougher = roughness > ROUGHER * self.roughness && self.taken > 5;
-        let looks = is_rougher || self.taken >= self.looks[1];
+        let rougher = if self.choice.steps < FEW { ROUGHER_OF_FEW } else { ROUGHER };
+        let is_rougher = roughness > rougher * self.roughness && self.taken > 5;
+        let looks = self.is_struck() || is_rougher || self.taken >= self.looks[1];
         if self.roughness == 0.0 && self.taken <= 5 {
             self.roughness = roughness;
         }

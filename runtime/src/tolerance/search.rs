@@ -10,9 +10,13 @@ use crate::{Lagrangian, Scalar, State, StepError};
 /// The share of the tolerance that the error expected from the start may fill.
 const SAFETY: f64 = 0.15;
 
-/// The share of the run's cost that trying methods may take, and looking at the motion along its first steps.
+/// The share of the run's cost that trying methods may take; that with looking at the motion along its first steps; of these at least.
 const TRYING: f64 = 0.04;
-const EXPLORING: f64 = 0.05;
+const CHOOSING: f64 = 0.085;
+const EXPLORING: f64 = 0.02;
+
+/// What trying a method costs in its steps: two step sizes, each with two half steps from no guess.
+const TRIAL: f64 = 8.0;
 
 /// Step sizes tried of one method at most.
 const TRIES: u32 = 12;
@@ -82,14 +86,18 @@ where
         if !M::offers(method) {
             continue;
         }
+        let mut limit = f64::INFINITY;
         if let Some(best) = best {
             let usual = usual(method) / usual(best.method);
-            let left = TRYING * best.cost() - start.spent;
-            if usual > 3.0 || left < 3.0 * best.measured.evaluations {
+            let trial = TRIAL * method.usual_step(asked, is_explicit);
+            // A method that should be cheaper by more than its trial is tried.
+            let saving = 0.5 * best.cost() * (1.0 - usual);
+            limit = start.spent + saving.max(TRYING * best.cost() - start.spent);
+            if usual > 3.0 || start.spent + trial > limit {
                 continue;
             }
         }
-        let found = start.largest_step(method, best.map(|best| best.cost()));
+        let found = start.largest_step(method, best.map(|best| best.cost()), limit);
         match found {
             Ok(candidate) => {
                 let index = Method::ALL.iter().position(|of| *of == method);
@@ -225,7 +233,14 @@ where
     }
 
     /// The largest step tried at which the error expected fills no more than its share.
-    fn largest_step(&mut self, method: Method, best: Option<f64>) -> Result<Candidate, Option<StepError>> {
+    ///
+    /// Trying ends where it has cost up to the `limit`.
+    fn largest_step(
+        &mut self,
+        method: Method,
+        best: Option<f64>,
+        limit: f64,
+    ) -> Result<Candidate, Option<StepError>> {
         let p = f64::from(method.order());
         let angle = method.usual_angle(self.relative());
         let mut steps = ComplexField::ceil(self.fastest * self.time / angle).max(1.0);
@@ -275,7 +290,8 @@ where
                 }
                 _ => next,
             };
-            if steps.is_nan() || steps >= 1e15 {
+            let limit = good.map_or(limit, |good| limit.min(TRYING * good.cost()));
+            if steps.is_nan() || steps >= 1e15 || self.spent >= limit {
                 break;
             }
         }
@@ -284,7 +300,7 @@ where
 
     /// Looks at the first steps of the run, and shortens or lengthens the step by what they show.
     fn explore(&mut self, best: &mut Candidate) {
-        let budget = self.spent.max(TRYING * best.cost()) + EXPLORING * best.cost();
+        let budget = (self.spent + EXPLORING * best.cost()).max(CHOOSING * best.cost());
         let p = f64::from(best.method.order());
         let mut remaining = 3;
         while remaining > 0 {

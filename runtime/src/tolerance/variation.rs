@@ -106,16 +106,53 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
         p.dot(&v) - system.lagrangian(q, &v)
     }
 
-    /// Between this state and `other`, `t` later, at the share `s` of the time: the cubic with both rates.
-    pub(super) fn between(&self, other: &Self, t: S, s: S) -> State<S, N> {
-        let (one, two, three) = (S::one(), S::constant(2.0), S::constant(3.0));
-        let r = one - s;
-        let [a, b] = [r * r * (one + two * s), s * s * (three - two * s)];
-        let [c, d] = [r * r * s * t, -(s * s * r * t)];
+    /// Between this state and `other`, `t` later, at the share `s` of the time: the quintic with both rates and with ÿ = J ẏ, or the cubic
+    /// with the rates where J does not tell ÿ, as where the system changes with time, or where it changes within t.
+    pub(super) fn between(&self, other: &Self, t: S, s: S, is_timed: bool) -> State<S, N> {
+        let number = S::constant;
+        let is_long = self.fastest().max(other.fastest()) * t > number(LONG);
+        let [a, b, c, d, e, f] = if is_timed || is_long {
+            let r = S::one() - s;
+            let [two, three] = [number(2.0), number(3.0)];
+            let ends = [r * r * (S::one() + two * s), s * s * (three - two * s)];
+            [ends[0], ends[1], r * r * s * t, -(s * s * r * t), S::zero(), S::zero()]
+        } else {
+            let cube = s * s * s;
+            let end = cube * (number(10.0) - s * (number(15.0) - number(6.0) * s));
+            let half = t * t * number(0.5);
+            [
+                S::one() - end,
+                end,
+                t * (s - cube * (number(6.0) - s * (number(8.0) - number(3.0) * s))),
+                t * cube * (s * (number(7.0) - number(3.0) * s) - number(4.0)),
+                half * s * s * (S::one() - s * (number(3.0) - s * (number(3.0) - s))),
+                half * cube * (S::one() - s * (number(2.0) - s)),
+            ]
+        };
+        let (x, y) = (times(&self.matrix, &self.rate), times(&other.matrix, &other.rate));
         State {
-            q: self.at.q * a + other.at.q * b + self.rate.q * c + other.rate.q * d,
-            p: self.at.p * a + other.at.p * b + self.rate.p * c + other.rate.p * d,
+            q: self.at.q * a + other.at.q * b + self.rate.q * c + other.rate.q * d + x.q * e + y.q * f,
+            p: self.at.p * a + other.at.p * b + self.rate.p * c + other.rate.p * d + x.p * e + y.p * f,
         }
+    }
+
+    /// p over q in the fastest mode: √(∂ṗ/∂q : ∂q̇/∂p).
+    pub(super) fn impedance(&self) -> f64 {
+        let ratio = (self.matrix.p_by_q.norm() / self.matrix.q_by_p.norm()).widen();
+        if ratio.is_finite() { nalgebra::ComplexField::sqrt(ratio) } else { 0.0 }
+    }
+
+    /// By how much ṗ at this state is another in `later`, the system at another time; a segment takes a share of `length`.
+    pub(super) fn change_of_force<L, M>(&self, later: &L, methods: M, length: S) -> f64
+    where
+        L: Lagrangian<N, Scalar = S>,
+        M: Methods<L, N>,
+    {
+        let tau = length * S::constant(SEGMENT);
+        let half = self.rate.q * (tau * S::constant(0.5));
+        let momenta =
+            methods.legendre_derivatives(later, &(self.at.q - half), &(self.at.q + half), tau).momenta;
+        ((momenta.p1 - momenta.p0) / tau - self.rate.p).amax().widen()
     }
 
     /// ∂H/∂y·δ = v·δp − ṗ·δq where no force acts.
@@ -149,25 +186,31 @@ fn product<S: Scalar, const N: usize>(a: &PhaseMatrix<S, N>, b: &PhaseMatrix<S, 
     }
 }
 
-/// Substeps of the exponential at most, of few coordinates and of many; faster motions than these follow are left where they are.
-const MOST: [f64; 2] = [64.0, 8.0];
+/// A quintic says nothing of a motion over so many radians.
+const LONG: f64 = 4.0;
 
-/// Terms of its series in each.
+/// Beyond so many substeps, of few coordinates and of many, the exponential is that of the matrix, by squaring.
+const SQUARED: [f64; 2] = [8.0, 32.0];
+
+/// Turns beyond which the error is left where it is: its phase is lost.
+const LOST: f64 = 1e9;
+
+/// Terms of the series of the exponential.
 const TERMS: u32 = 8;
 
-/// The error after the time `t` between two states: exp(Ω) δ, by W. Magnus's series with J at both ends, and, where it is given, at
+/// The errors after the time `t` between two states: exp(Ω) δ, by W. Magnus's series with J at both ends, and, where it is given, at
 /// the middle.
 ///
 /// ```text
 /// Ω = t (J₀ + J₁)/2        Ω = t (J₀ + 4J_m + J₁)/6 − t² (J₀J₁ − J₁J₀)/12
 /// ```
 pub(super) fn carried<S: Scalar, const N: usize>(
-    error: &State<S, N>,
+    errors: [State<S, N>; 2],
     from: &Variation<S, N>,
     middle: Option<&Variation<S, N>>,
     to: &Variation<S, N>,
     t: S,
-) -> State<S, N> {
+) -> [State<S, N>; 2] {
     let (a, b) = (&from.matrix, &to.matrix);
     let mut omega = match middle {
         None => weighted(t * S::constant(0.5), [a, b], S::one()),
@@ -180,26 +223,57 @@ pub(super) fn carried<S: Scalar, const N: usize>(
         let commutator = weighted(S::one(), [&product(a, b), &product(b, a)], -S::one());
         omega = weighted(S::one(), [&omega, &commutator], -(t * t) / S::constant(12.0));
     }
-    let parts = nalgebra::ComplexField::ceil(norm(&omega).widen());
-    if parts.is_nan() || parts > MOST[usize::from(N > 3)] {
-        return *error;
+    let size = norm(&omega).widen();
+    if size.is_nan() || size > LOST {
+        return errors;
     }
-    let parts = parts.max(1.0) as u32;
+    if size > SQUARED[usize::from(N > 3)] {
+        let power = exponential(&omega, size);
+        return errors.map(|error| times(&power, &error));
+    }
+    let parts = nalgebra::ComplexField::ceil(size).max(1.0) as u32;
     let tau = S::one() / S::constant(f64::from(parts));
-    let mut carried = *error;
-    for _ in 0..parts {
-        let (mut q, mut p) = (carried.q, carried.p);
-        for k in 1..=TERMS {
-            let share = tau / S::constant(f64::from(k));
-            (q, p) = (
-                (omega.q_by_q * q + omega.q_by_p * p) * share,
-                (omega.p_by_q * q + omega.p_by_p * p) * share,
-            );
-            carried.q += q;
-            carried.p += p;
+    errors.map(|error| {
+        let mut carried = error;
+        if carried.q.iter().chain(carried.p.iter()).all(|&x| x == S::zero()) {
+            return carried;
         }
+        for _ in 0..parts {
+            let mut term = carried;
+            for k in 1..=TERMS {
+                let share = tau / S::constant(f64::from(k));
+                let next = times(&omega, &term);
+                term = State { q: next.q * share, p: next.p * share };
+                carried.q += term.q;
+                carried.p += term.p;
+            }
+        }
+        carried
+    })
+}
+
+/// exp(Ω) of Ω with norm `size`: the series of Ω/2ᵏ, squared k times.
+fn exponential<S: Scalar, const N: usize>(omega: &PhaseMatrix<S, N>, size: f64) -> PhaseMatrix<S, N> {
+    let (mut halvings, mut share) = (0, 1.0);
+    while size * share > 0.5 {
+        halvings += 1;
+        share *= 0.5;
     }
-    carried
+    let [zero, unit] = [SMatrix::zeros(), SMatrix::identity()];
+    let unit = PhaseMatrix { q_by_q: unit, q_by_p: zero, p_by_q: zero, p_by_p: unit };
+    let mut power = unit;
+    for k in (1..=TERMS).rev() {
+        let factor = S::constant(share / f64::from(k));
+        power = weighted(S::one(), [&unit, &product(omega, &power)], factor);
+    }
+    for _ in 0..halvings {
+        power = product(&power, &power);
+    }
+    power
+}
+
+fn times<S: Scalar, const N: usize>(a: &PhaseMatrix<S, N>, x: &State<S, N>) -> State<S, N> {
+    State { q: a.q_by_q * x.q + a.q_by_p * x.p, p: a.p_by_q * x.q + a.p_by_p * x.p }
 }
 
 /// `factor` (a + `share` b).
