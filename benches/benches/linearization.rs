@@ -10,8 +10,8 @@ use std::hint::black_box;
 
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::{
-    DiscreteDriven, DiscreteSecondOrder, Driven, ForcedLagrangian, Gauss, Linearization, Midpoint, State,
-    StepHessian, Trajectory, rayleigh_system,
+    DiscreteDriven, DiscreteSecondOrder, Discretise, Discretised, Driven, ForcedLagrangian, Gauss, Midpoint,
+    State, rayleigh_system,
 };
 use dalembert_benches::instructions::{self, Part};
 use dalembert_benches::interleaved::medians;
@@ -193,28 +193,29 @@ fn measure<R: Copy, L, const N: usize, const M: usize>(
     L: DiscreteDriven<R, N, M, Scalar = f64> + DiscreteSecondOrder<R, N, M>,
 {
     let state = State::from_velocity(system, q, v).expect("the scene is regular");
-    let first = system.step(&state, h, None).expect("the scene can be stepped");
+    let by = system.by(rule, h);
+    let first = by.step(&state).expect("the scene can be stepped");
     // In a loop of control the last velocity is the guess.
-    let guess = Some(&first.velocity);
-    let next = system.step(&first.state, h, guess).expect("the scene can be stepped");
+    let near = by.near(&first.velocity);
+    let next = near.step(&first.state).expect("the scene can be stepped");
     let covector = State { q: v, p: q };
-    let step = |guess: Option<&SVector<f64, N>>, times| {
+    let step = |by: &Discretised<L, R, N>, times| {
         for _ in 0..times {
-            let _ = black_box(system.step(black_box(&first.state), h, guess));
+            let _ = black_box(by.step(black_box(&first.state)));
         }
     };
     visit(
         scene,
         name,
         [
-            &|times| step(None, times),
-            &|times| step(guess, times),
+            &|times| step(&by, times),
+            &|times| step(&near, times),
             &|times| {
                 // Not so far that the motion becomes another.
                 let mut left = times;
                 while left > 0 {
                     let some = left.min(100);
-                    let run = Trajectory::new(system, rule, h, first.state);
+                    let run = by.run(first.state);
                     for step in run.take(some) {
                         let _ = black_box(step);
                     }
@@ -224,19 +225,19 @@ fn measure<R: Copy, L, const N: usize, const M: usize>(
             &|times| {
                 for _ in 0..times {
                     let state = black_box(&first.state);
-                    let _ = black_box(Linearization::of_driven_step(system, rule, state, h, guess));
+                    let _ = black_box(near.linearized_step_with_input(state));
                 }
             },
             &|times| {
                 for _ in 0..times {
                     let (q0, q1) = (black_box(&first.state.q), black_box(&next.state.q));
-                    let _ = black_box(Linearization::of_driven_segment(system, rule, q0, q1, h));
+                    let _ = black_box(by.linearization_with_input(q0, q1));
                 }
             },
             &|times| {
                 for _ in 0..times {
                     let (q0, q1) = (black_box(&first.state.q), black_box(&next.state.q));
-                    let _ = black_box(StepHessian::of_driven_segment(system, rule, q0, q1, h, &covector));
+                    let _ = black_box(by.step_hessian(q0, q1, &covector));
                 }
             },
         ],

@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::rc::Rc;
 
 use dalembert::nalgebra::SVector;
-use dalembert::{Discrete, Midpoint, State, Trajectory};
+use dalembert::{Discrete, Discretise, Midpoint, State};
 
 use crate::by_hand::{self, ByHand};
 use crate::scenes::{expanded, num_dual, of_8, of_32};
@@ -75,7 +75,7 @@ impl Scene {
         let system = Rc::new(system);
         self.evaluations.push((way, Box::new(evaluations(Rc::clone(&system), start.q, v.into(), h))));
         let run = move |steps: usize| {
-            let mut trajectory = Trajectory::new(black_box(&*system), Midpoint, h, black_box(start));
+            let mut trajectory = black_box(&*system).by(Midpoint, h).run(black_box(start));
             for step in (&mut trajectory).take(steps) {
                 black_box(step.expect("the scene can be stepped"));
             }

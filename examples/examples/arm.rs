@@ -13,7 +13,7 @@ use std::time::Instant;
 
 use anyhow::{Result, ensure};
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
-use dalembert::{Discrete, State, StepError, Trapezoidal, rayleigh_system};
+use dalembert::{Discretise, State, StepError, Trapezoidal, rayleigh_system};
 use dalembert_examples::control::{self, Estimate, Linearised, Plan, Problem, Quadratic};
 use dalembert_examples::picture::{self, Curve, Dash, Panel, colour, linear, logarithmic};
 use rand::SeedableRng;
@@ -261,7 +261,7 @@ impl Run {
             last_measured = measured;
             let driven = ARM.driven(u + SVector::from_fn(|_, _| unknown.sample(&mut random)));
             for _ in 0..4 {
-                state = Discrete::<Trapezoidal, 2>::step(&driven, &state, H / 4.0, None)?.state;
+                state = driven.by(Trapezoidal, H / 4.0).step(&state)?.state;
             }
         }
         Ok(run)

@@ -7,7 +7,7 @@
 //! ```
 
 use anyhow::{Result, ensure};
-use dalembert::{Discrete, Midpoint, State};
+use dalembert::{Discrete, Discretise, Midpoint, State};
 use dalembert_examples::by_hand::RingByHand;
 
 #[path = "ring.rs"]
@@ -38,5 +38,5 @@ fn main() -> Result<()> {
 
 /// The next state; the macro and the hand implement the same traits.
 fn next(system: &impl Discrete<Midpoint, 2, Scalar = f64>, state: &State<f64, 2>) -> Result<State<f64, 2>> {
-    Ok(system.step(state, ring::H, None)?.state)
+    Ok(system.by(Midpoint, ring::H).step(state)?.state)
 }

@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, ensure};
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
-use dalembert::{Discrete, PhaseMatrix, State, StepError, Trapezoidal, rayleigh_system};
+use dalembert::{Discretise, PhaseMatrix, State, StepError, Trapezoidal, rayleigh_system};
 use dalembert_examples::control::{self, Linearised, Plan, Problem, Quadratic};
 use dalembert_examples::picture::{self, Curve, Dash, Mark, Panel, colour, linear};
 use rand::SeedableRng;
@@ -239,7 +239,7 @@ impl Run {
             }
             let driven = PLANT.driven([u[0] + gust.sample(&mut random)]);
             for _ in 0..10 {
-                state = Discrete::<Trapezoidal, 2>::step(&driven, &state, H / 10.0, None)?.state;
+                state = driven.by(Trapezoidal, H / 10.0).step(&state)?.state;
             }
             run.states.push(state);
             run.forces.push(u[0]);

@@ -10,7 +10,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use dalembert::{EnergyLedger, Midpoint, State, Trajectory, rayleigh_system};
+use dalembert::{Discretise, EnergyLedger, Midpoint, State, rayleigh_system};
 use dalembert_examples::baseline::{self, Method};
 use dalembert_examples::picture::{self, Curve, Dash, Panel, RGBColor, colour, linear, logarithmic};
 
@@ -30,7 +30,7 @@ const STEPS: usize = 10_000;
 
 fn main() -> Result<()> {
     let start = State::from_velocity(&RING, [0.0, 1.15549918674982], [0.5, 0.0])?;
-    let midpoint = Trajectory::new(&RING, Midpoint, H, start).map(|step| Ok(step?.state));
+    let midpoint = RING.by(Midpoint, H).run(start).map(|step| Ok(step?.state));
     let runge_kutta = baseline::states(&RING, Method::RungeKutta4, H, start)?;
     let implicit = baseline::states(&RING, Method::ImplicitEuler, H, start)?;
     let runs = [

@@ -10,8 +10,8 @@
 //! the corrected ones.
 
 use anyhow::Result;
-use dalembert::hamilton_jacobi::{Caustic, Characteristic, HamiltonJacobi};
-use dalembert::{Midpoint, ScalarField, rayleigh_system};
+use dalembert::hamilton_jacobi::{Caustic, Characteristic};
+use dalembert::{Discretise, Midpoint, ScalarField, rayleigh_system};
 use dalembert_examples::picture::{self, Curve, Dash, Mark, Panel, colour, linear};
 use nalgebra::{SMatrix, SVector, vector};
 
@@ -76,7 +76,7 @@ fn spread(from: f64, to: f64, count: usize) -> Vec<f64> {
 fn main() -> Result<()> {
     let (h, steps) = (0.25, 20);
     let system = Oscillator { m: 1.0, k: 1.0, r: 0.5 };
-    let theory = HamiltonJacobi::new(&system, Midpoint, h);
+    let theory = system.by(Midpoint, h).hamilton_jacobi();
     let family = complete_solution(&system, h, -0.4, 0.7, steps);
     let carry = |q: f64| theory.carry(&family[0], &vector![q], steps);
     let fan = spread(-2.0, 2.0, 17).into_iter().map(carry).collect::<Result<Vec<_>, _>>()?;
@@ -92,7 +92,7 @@ fn main() -> Result<()> {
 
     let (rest, swings) = (Quadratic { s: 0.0, lambda: 0.0, constant: 0.0 }, 40);
     let swinging = Pendulum { r: 0.1 };
-    let swing = HamiltonJacobi::new(&swinging, Midpoint, 0.1);
+    let swing = swinging.by(Midpoint, 0.1).hamilton_jacobi();
     let swing_carry = |q: f64| swing.carry(&rest, &vector![q], swings);
     let swing_fan = spread(-2.9, 2.9, 41).into_iter().map(swing_carry).collect::<Result<Vec<_>, _>>()?;
     println!("Damped pendulum, r = 1/10, h = 1/10, released at rest\n");

@@ -13,7 +13,7 @@ use std::iter::once;
 use std::path::PathBuf;
 
 use anyhow::Result;
-use dalembert::{Midpoint, State, Trajectory, rayleigh_system};
+use dalembert::{Discretise, Midpoint, State, rayleigh_system};
 use dalembert_examples::baseline::{self, Method};
 use dalembert_examples::picture::{
     self, Axis, Curve, Dash, Mark, Panel, RGBColor, colour, linear, logarithmic,
@@ -41,7 +41,7 @@ fn exact(t: f64) -> State<f64, 1> {
 
 fn main() -> Result<()> {
     let start = exact(0.0);
-    let midpoint = Trajectory::new(&SYSTEM, Midpoint, H, start).map(|step| Ok(step?.state));
+    let midpoint = SYSTEM.by(Midpoint, H).run(start).map(|step| Ok(step?.state));
     let euler = baseline::states(&SYSTEM, Method::Euler, H, start)?;
     let runge_kutta = baseline::states(&SYSTEM, Method::RungeKutta4, H, start)?;
     let motions = [

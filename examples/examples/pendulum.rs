@@ -10,7 +10,7 @@
 use std::iter::once;
 
 use anyhow::Result;
-use dalembert::{Midpoint, State, Trajectory, rayleigh_system};
+use dalembert::{Discretise, Midpoint, State, rayleigh_system};
 use dalembert_examples::baseline::{self, Method};
 use dalembert_examples::picture::{self, Axis, Curve, Mark, Panel, colour, linear};
 
@@ -29,7 +29,7 @@ fn main() -> Result<()> {
     let system = Pendulum { r: 0.2 };
     let start = State::from_velocity(&system, [3.0], [0.0])?;
 
-    let steps = Trajectory::new(&system, Midpoint, H, start).take(STEPS);
+    let steps = system.by(Midpoint, H).run(start).take(STEPS);
     let discrete = once(Ok(start)).chain(steps.map(|step| Ok(step?.state))).collect::<Result<Vec<_>>>()?;
     let states = baseline::states(&system, Method::DormandPrince853(1e-13), H / FINE as f64, start)?;
     let continuous = once(Ok(start)).chain(states).take(FINE * STEPS + 1).collect::<Result<Vec<_>>>()?;

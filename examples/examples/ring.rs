@@ -12,7 +12,7 @@ use std::iter::once;
 use std::path::PathBuf;
 
 use anyhow::Result;
-use dalembert::{Discrete, Lagrangian, Midpoint, Rayleigh, State, Step, Trajectory, rayleigh_system};
+use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, Rayleigh, State, Step, rayleigh_system};
 use dalembert_examples::baseline::{self, Method};
 use dalembert_examples::picture::{self, Axis, Curve, Dash, Panel, colour, linear, logarithmic};
 use indicatif::ProgressBar;
@@ -124,7 +124,7 @@ pub fn variational_midpoint(
     bar: &ProgressBar,
 ) -> Result<(Motion, Solver)> {
     let (mut states, mut solver) = (vec![start], Solver::default());
-    for step in Trajectory::new(ring, Midpoint, H, start).take(STEPS) {
+    for step in ring.by(Midpoint, H).run(start).take(STEPS) {
         let Step { state, report, .. } = step?;
         states.push(state);
         solver.iterations += report.iterations;

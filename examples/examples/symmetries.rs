@@ -11,9 +11,9 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use dalembert::noether::{Generator, Noether};
+use dalembert::noether::Generator;
 use dalembert::samples::{Segment, segments, tangent_points};
-use dalembert::{Discrete, Midpoint, State, Trajectory, rayleigh, rayleigh_system};
+use dalembert::{Discrete, Discretise, Midpoint, State, rayleigh, rayleigh_system};
 use dalembert_examples::picture::{self, Curve, Dash, Panel, RGBColor, colour, linear, logarithmic};
 
 /// The ring potential with three frictions: isotropic, radial from a Rayleigh function, radial as a force.
@@ -129,7 +129,7 @@ fn main() -> Result<()> {
         Generator::rotation(0, 1).named("Lz"),
     ];
     let particle = Particle { k };
-    let noether = Noether::new(&particle, Midpoint, H);
+    let noether = particle.by(Midpoint, H).noether();
     println!("{}", noether.subalgebra(&rotations, &segments([-1.0; 3], [1.0; 3], [0.1; 3], 60))?);
 
     println!("\n== Rayleigh structure of the ring");
@@ -152,10 +152,10 @@ fn curve<L: Discrete<Midpoint, 2, Scalar = f64>>(
     segments: &[Segment<f64, 2>],
     (q, v): ([f64; 2], [f64; 2]),
 ) -> Result<Curve<'static>> {
-    let noether = Noether::new(system, Midpoint, H);
+    let noether = system.by(Midpoint, H).noether();
     let start = State::from_velocity(system, q, v)?;
     println!("\n== {label}\n{}", noether.symmetry(generator, segments)?);
-    let mut trajectory = Trajectory::new(system, Midpoint, H, start);
+    let mut trajectory = system.by(Midpoint, H).run(start);
     let mut points = Vec::new();
     let stretch = 5;
     let mut account = noether.balance(generator, &start, trajectory.by_ref().take(stretch))?;

@@ -3,7 +3,7 @@
 
 use anyhow::{Context, Result};
 use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::{Discrete, DiscreteDriven, Linearization, Midpoint, State, StepError};
+use dalembert::{Discrete, DiscreteDriven, Discretise, Linearization, Midpoint, State, StepError};
 
 /// A step of the model with its derivatives.
 #[derive(Clone, Copy, Debug)]
@@ -31,7 +31,7 @@ pub fn state<const N: usize, const X: usize>(x: &SVector<f64, X>) -> State<f64, 
 /// The midpoint step from `x` of a system with its input held.
 ///
 /// # Errors
-/// Those of [`Discrete::step`].
+/// Those of [`Discretised::step`](dalembert::Discretised::step).
 pub fn advance<L, const N: usize, const X: usize>(
     system: &L,
     x: &SVector<f64, X>,
@@ -40,13 +40,13 @@ pub fn advance<L, const N: usize, const X: usize>(
 where
     L: Discrete<Midpoint, N, Scalar = f64>,
 {
-    Ok(vector(&system.step(&state(x), h, None)?.state))
+    Ok(vector(&system.by(Midpoint, h).step(&state(x))?.state))
 }
 
 /// The same with A and B.
 ///
 /// # Errors
-/// Those of [`Discrete::step`].
+/// Those of [`Discretised::step`](dalembert::Discretised::step).
 pub fn linearised<L, const N: usize, const M: usize, const X: usize>(
     system: &L,
     x: &SVector<f64, X>,
@@ -55,10 +55,8 @@ pub fn linearised<L, const N: usize, const M: usize, const X: usize>(
 where
     L: DiscreteDriven<Midpoint, N, M, Scalar = f64>,
 {
-    let start = state(x);
-    let end = system.step(&start, h, None)?.state;
-    let Linearization { a, b, .. } = Linearization::of_driven_segment(system, Midpoint, &start.q, &end.q, h)?;
-    Ok(Linearised { next: vector(&end), a: a.assembled(), b: b.assembled() })
+    let (step, Linearization { a, b, .. }) = system.by(Midpoint, h).linearized_step_with_input(&state(x))?;
+    Ok(Linearised { next: vector(&step.state), a: a.assembled(), b: b.assembled() })
 }
 
 /// The gain K of u = −K x that minimises Σ xᵀQx + uᵀRu, by iteration of the discrete Riccati equation.
@@ -107,13 +105,13 @@ pub trait Problem<const X: usize, const M: usize> {
     /// The model's step.
     ///
     /// # Errors
-    /// Those of [`Discrete::step`].
+    /// Those of [`Discretised::step`](dalembert::Discretised::step).
     fn advance(&self, x: &SVector<f64, X>, u: &SVector<f64, M>) -> Result<SVector<f64, X>, StepError>;
 
     /// The model's step with its derivatives.
     ///
     /// # Errors
-    /// Those of [`Discrete::step`].
+    /// Those of [`Discretised::step`](dalembert::Discretised::step).
     fn linearised(&self, x: &SVector<f64, X>, u: &SVector<f64, M>) -> Result<Linearised<X, M>, StepError>;
 
     /// The cost of being at `x` and using `u` in step `k`; at the end of the horizon u is 0 and costs nothing.
@@ -140,7 +138,7 @@ impl<const X: usize, const M: usize> Plan<X, M> {
     /// What the model does from `start` under `inputs`.
     ///
     /// # Errors
-    /// Those of [`Discrete::step`].
+    /// Those of [`Discretised::step`](dalembert::Discretised::step).
     pub fn new(
         problem: &impl Problem<X, M>,
         start: SVector<f64, X>,

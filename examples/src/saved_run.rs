@@ -11,7 +11,7 @@ use std::fmt::Debug;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail, ensure};
-use dalembert::{Checkpoint, Discrete, State, Trajectory};
+use dalembert::{Checkpoint, Discrete, Discretise, State, Trajectory};
 
 use files::{Digest, Files, ROWS, Saved};
 
@@ -122,7 +122,7 @@ where
 {
     let mut digest = Digest::default();
     digest.add(first_row.as_bytes());
-    for step in Trajectory::new(system, rule, h, start).take(16) {
+    for step in system.by(rule, h).run(start).take(16) {
         match step {
             Ok(step) => step
                 .state

@@ -7,7 +7,8 @@
 mod ring;
 
 use dalembert::{
-    CovectorDerivatives, Derivatives, Discrete, DiscreteRayleigh, Lagrangian, Midpoint, Rayleigh, State,
+    CovectorDerivatives, Derivatives, Discrete, DiscreteRayleigh, Discretise, Lagrangian, Midpoint, Rayleigh,
+    State,
 };
 use dalembert_examples::by_hand::RingByHand;
 use nalgebra::{Matrix2, Vector2, vector};
@@ -138,7 +139,8 @@ where
 {
     points().iter().fold(0.0, |worst: f64, (q, v)| {
         let state = State { q: *q, p: *v };
-        let [f, g] = [a.step(&state, ring::H, None).unwrap(), b.step(&state, ring::H, None).unwrap()];
+        let [f, g] =
+            [a.by(Midpoint, ring::H).step(&state).unwrap(), b.by(Midpoint, ring::H).step(&state).unwrap()];
         let j = a.step_kernel(q, &f.velocity, ring::H).matrix.norm();
         let left = 16.0 * 4.0 * f64::EPSILON * (state.p.norm() + j * f.velocity.norm());
         let unit = (2.0 * left * 1.1 * (2.0 + j)).max(f64::MIN_POSITIVE);

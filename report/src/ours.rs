@@ -4,8 +4,8 @@ use std::marker::PhantomData;
 
 use anyhow::Result;
 use dalembert::{
-    ComposedStep, ComposedTrajectory, Composition, Discrete, Explicit, Gauss, Lagrangian, Midpoint,
-    Splitting, State, Trajectory, Trapezoidal,
+    ComposedStep, ComposedTrajectory, Composition, Discrete, Discretise, Explicit, Gauss, Lagrangian,
+    Midpoint, Splitting, State, Trapezoidal,
 };
 
 use crate::scenes::Scene;
@@ -54,7 +54,7 @@ fn run<S, R, const N: usize>(
 where
     S: Discrete<R, N, Scalar = f64>,
 {
-    let mut trajectory = Trajectory::new(scene, rule, h, *start);
+    let mut trajectory = scene.by(rule, h).run(*start);
     for step in trajectory.by_ref().take(steps as usize) {
         step?;
     }

@@ -7,7 +7,7 @@ use nalgebra::{SMatrix, SVector};
 use crate::linear::{self, NewtonMatrix};
 use crate::{Discrete, Scalar, State, Step, StepError};
 
-/// What a step's Newton matrix ∂p0/∂v̄ says of it; see [`Step::certificate`].
+/// What a step's Newton matrix ∂p0/∂v̄ says of it; see [`Discretised::certificate`](crate::Discretised::certificate).
 ///
 /// **When to worry.** The step finds v̄ from p0, and rounding of p0 reaches v̄ enlarged by up to the condition number: with
 /// `condition` = 10^d some d of the digits of v̄ may be lost, out of 16 in `f64` and 7 in `f32`. Up to 1/√ε (7e7 in `f64`, 3e3 in `f32`) at
@@ -33,69 +33,10 @@ pub struct Certificate<S> {
     pub on_the_branch_of_the_flow: bool,
 }
 
-impl<S: Scalar, const N: usize> Step<S, N> {
-    /// The certificate of this step, taken from `state` with step size `h`: [`Certificate::of_step`].
-    ///
-    /// ```
-    /// use dalembert::{Discrete, Midpoint, State, rayleigh_system};
-    ///
-    /// #[rayleigh_system]
-    /// fn spring(q: [f64; 2], v: [f64; 2], k: f64) -> f64 {
-    ///     0.5 * (v[0] * v[0] + v[1] * v[1]) - 0.5 * k * (q[1] - q[0]).powi(2)
-    /// }
-    /// let system = Spring { k: 4e6 };
-    /// let state = State::from_velocity(&system, [0.0, 1.0], [0.2, -0.3])?;
-    /// let step = system.step(&state, 1.0, None)?;
-    /// // I + (h²k/4) [1 −1; −1 1]: the stretch is a million times as stiff as the mass.
-    /// let condition = step.certificate(&system, Midpoint, &state, 1.0)?.condition;
-    /// assert!((condition / 2e6 - 1.0).abs() < 1e-6);
-    /// # Ok::<(), dalembert::StepError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`StepError::NonFinite`] if derivatives at the step are not finite; those of a step of [`Gauss`](crate::Gauss), which solves for its
-    /// stages again.
-    pub fn certificate<L, R>(
-        &self,
-        system: &L,
-        rule: R,
-        state: &State<S, N>,
-        h: S,
-    ) -> Result<Certificate<S>, StepError>
-    where
-        L: Discrete<R, N, Scalar = S>,
-    {
-        Certificate::of_step(system, rule, state, self, h)
-    }
-}
-
 impl<S: Scalar> Certificate<S> {
-    /// Of a step taken from `state` with step size `h`. Costs one evaluation and the inverse of an N×N matrix, twice a Newton
-    /// iteration or less; a step itself never asks for it.
-    ///
-    /// ```
-    /// use dalembert::nalgebra::vector;
-    /// use dalembert::{Certificate, Discrete, Midpoint, State, rayleigh_system};
-    ///
-    /// #[rayleigh_system]
-    /// fn accelerated(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
-    ///     (0.5 * v[0] * v[0] - 0.0 * q[0], 0.5 * r * v[0] * v[0])
-    /// }
-    /// let state = State { q: vector![0.0], p: vector![1.0] };
-    /// let past_the_fold = |r: f64| {
-    ///     let system = Accelerated { r };
-    ///     let step = system.step(&state, 1.0, None).unwrap();
-    ///     !Certificate::of_step(&system, Midpoint, &state, &step, 1.0).unwrap().on_the_branch_of_the_flow
-    /// };
-    /// assert!(!past_the_fold(-1.9) && past_the_fold(-2.1));
-    /// ```
-    ///
-    /// # Errors
-    /// [`StepError::NonFinite`] if derivatives at the step are not finite; those of a step of [`Gauss`](crate::Gauss), which solves for its
-    /// stages again.
-    pub fn of_step<L, R, const N: usize>(
+    /// [`Discretised::certificate`](crate::Discretised::certificate).
+    pub(crate) fn of<L, R, const N: usize>(
         system: &L,
-        _rule: R,
         state: &State<S, N>,
         step: &Step<S, N>,
         h: S,

@@ -99,7 +99,7 @@ impl<S: Scalar, const N: usize> core::ops::Add for DiscreteForceDerivatives<S, N
 /// | how much work | `iterations`, `damped` |
 /// | how well the equation is solved | `residual` against `floor`: at most 4 floors, in every coordinate |
 /// | what is left of v̄ | at most about the square of `last_correction`, relative to v̄ |
-/// | how well it was posed: condition of the Newton matrix, branch of the root | on request, [`Step::certificate`], so that steps do not pay for it |
+/// | how well it was posed: condition of the Newton matrix, branch of the root | on request, [`Discretised::certificate`](crate::Discretised::certificate), so that steps do not pay for it |
 ///
 /// **A step is solved**, by every rule, with or without a memory, and with `converged` of [`BoundedStep`], where in each coordinate the
 /// residual is at most 4 round-off floors; the floor is that of the solution returned, finite, and small beside the terms of the
@@ -421,7 +421,7 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         Ok((kernel, signs[0] == signs[1] && signs[0].is_ne()))
     }
 
-    /// The step's derivative by its state on the segment (`q0`, `q1`): [`Linearization::of_segment`].
+    /// The step's derivative by its state on the segment (`q0`, `q1`): [`Discretised::linearization`](crate::Discretised::linearization).
     ///
     /// # Errors
     /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular.
@@ -434,7 +434,7 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         Linearization::from_legendre(&self.legendre_derivatives(q0, q1, h))
     }
 
-    /// The step with its derivative by the state: [`Linearization::of_step`].
+    /// The step with its derivative by the state: [`Discretised::linearized_step`](crate::Discretised::linearized_step).
     ///
     /// # Errors
     /// Those of [`step`](Self::step) and of [`linearization`](Self::linearization).

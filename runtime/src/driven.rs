@@ -66,7 +66,7 @@ pub trait DiscreteDriven<R, const N: usize, const M: usize>: Discrete<R, N> + Dr
         h: Self::Scalar,
     ) -> MomentaBy<Self::Scalar, N, M>;
 
-    /// The step's derivatives by state and input on the segment (`q0`, `q1`): [`Linearization::of_driven_segment`].
+    /// The step's derivatives by state and input on the segment (`q0`, `q1`): [`Discretised::linearization_with_input`](crate::Discretised::linearization_with_input).
     ///
     /// # Errors
     /// Those of [`Discrete::linearization`].
@@ -80,7 +80,7 @@ pub trait DiscreteDriven<R, const N: usize, const M: usize>: Discrete<R, N> + Dr
         Linearization::with_input(&self.legendre_derivatives(q0, q1, h), &by_input)
     }
 
-    /// The step with its derivatives by state and input: [`Linearization::of_driven_step`].
+    /// The step with its derivatives by state and input: [`Discretised::linearized_step_with_input`](crate::Discretised::linearized_step_with_input).
     ///
     /// # Errors
     /// Those of [`Discrete::linearized_step`].

@@ -24,7 +24,7 @@ use crate::{Force, Lagrangian, Rayleigh, Scalar, State, StepError};
 /// remainder also holds −∫ ∂L/∂t dt, what moving constraints and changing parameters bring.
 ///
 /// ```
-/// use dalembert::{EnergyLedger, Midpoint, State, Trajectory, rayleigh_system};
+/// use dalembert::{Discretise, EnergyLedger, Midpoint, State, Trajectory, rayleigh_system};
 ///
 /// #[rayleigh_system]
 /// fn oscillator(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
@@ -33,7 +33,7 @@ use crate::{Force, Lagrangian, Rayleigh, Scalar, State, StepError};
 /// let system = Oscillator { r: 0.1 };
 /// let mut state = State::from_velocity(&system, [1.0], [0.0])?;
 /// let mut ledger = EnergyLedger::default();
-/// for step in Trajectory::new(&system, Midpoint, 0.1, state).take(100) {
+/// for step in system.by(Midpoint, 0.1).run(state).take(100) {
 ///     let next = step?.state;
 ///     ledger += EnergyLedger::of_rayleigh(&system, &state, &next, 0.1)?;
 ///     state = next;

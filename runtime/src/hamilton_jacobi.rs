@@ -1,6 +1,6 @@
 //! Discrete Hamilton–Jacobi theory with forces: what the paper defines, evaluated as printed, and the corrected theory.
 //!
-//! Start from [`HamiltonJacobi::new`]. Every check returns a report: for each equation whether it holds, the residual, the
+//! Start from [`Discretised::hamilton_jacobi`](crate::Discretised::hamilton_jacobi). Every check returns a report: for each equation whether it holds, the residual, the
 //! place where it is worst, and the tolerance that it was held against.
 //!
 //! **As printed** (paper, section 4). One family of functions S_k gives γ⁻ = DS_k − f_d⁻ and γ⁺ = DS_{k+1} + f_d⁺, which
@@ -77,14 +77,14 @@ const ROUNDINGS: f64 = 256.0;
 /// ```
 /// use dalembert::hamilton_jacobi::HamiltonJacobi;
 /// use dalembert::nalgebra::vector;
-/// use dalembert::{Discrete, Midpoint, rayleigh_system};
+/// use dalembert::{Discretise, Discrete, Midpoint, rayleigh_system};
 ///
 /// #[rayleigh_system]
 /// fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
 ///     (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
 /// }
 /// let system = Oscillator { m: 1.0, k: 1.0, r: 0.5 };
-/// let theory = HamiltonJacobi::new(&system, Midpoint, 0.25);
+/// let theory = system.by(Midpoint, 0.25).hamilton_jacobi();
 ///
 /// let report = theory.hamilton_equations(&[vector![0.3], vector![0.5]]);
 /// assert!(!report.right_momentum.printed?.holds());
@@ -107,9 +107,7 @@ impl<'a, L, R, const N: usize> HamiltonJacobi<'a, L, R, N>
 where
     L: Discrete<R, N>,
 {
-    /// The theory of `system` by `rule` with step size `h`.
-    #[must_use]
-    pub fn new(system: &'a L, _rule: R, h: L::Scalar) -> Self {
+    pub(crate) fn new(system: &'a L, h: L::Scalar) -> Self {
         Self { system, rule: PhantomData, h, relative: ROUNDINGS * L::Scalar::EPSILON.widen() }
     }
 

@@ -13,6 +13,7 @@ mod composed_trajectory;
 mod composition;
 mod derivatives;
 mod discrete;
+mod discretised;
 mod driven;
 mod elementary;
 mod energy;
@@ -69,7 +70,7 @@ mod attributes {
 ///
 /// ```
 /// use dalembert::nalgebra::vector;
-/// use dalembert::{Discrete, Lagrangian, Midpoint, rayleigh_system};
+/// use dalembert::{Discretise, Lagrangian, Midpoint, rayleigh_system};
 ///
 /// struct Ring {
 ///     k: f64,
@@ -89,7 +90,7 @@ mod attributes {
 /// let ring = Ring { k: 1e-3 };
 /// assert_eq!(ring.rayleigh([1.0, 0.0]), 5e-4); // still a plain function
 /// assert_eq!(ring.energy(&vector![0.0, 1.0], &vector![0.5, 0.0]), 0.125);
-/// let p = Discrete::<Midpoint, 2>::legendre_minus(&ring, &vector![0.0, 1.0], &vector![0.0, 1.0], 0.1).p;
+/// let p = ring.by(Midpoint, 0.1).legendre_minus(&vector![0.0, 1.0], &vector![0.0, 1.0]).p;
 /// assert_eq!(p, vector![0.0, 0.0]); // the bottom of the ring is an equilibrium
 /// ```
 ///
@@ -121,7 +122,7 @@ mod attributes {
 ///
 /// ```
 /// use dalembert::nalgebra::vector;
-/// use dalembert::{Discrete, Linearization, Midpoint, State, StepError, rayleigh_system};
+/// use dalembert::{Discretise, Midpoint, State, StepError, rayleigh_system};
 ///
 /// struct Arm {
 ///     c: f64,
@@ -144,15 +145,13 @@ mod attributes {
 /// let mut state = State::from_velocity(&arm, [0.0], [0.0])?;
 /// for _ in 0..2000 {
 ///     let u = 0.5_f64.sin() - 2.0 * (state.q[0] - 0.5) - state.velocity(&arm)?[0];
-///     state = arm.driven([u]).step(&state, h, None)?.state;
+///     state = arm.driven([u]).by(Midpoint, h).step(&state)?.state;
 /// }
 /// assert!((state.q[0] - 0.5).abs() < 1e-3);
 ///
-/// // A = ∂(q1, p1)/∂(q0, p0) and B = ∂(q1, p1)/∂u of the next step.
-/// let driven = arm.driven([0.5_f64.sin()]);
-/// let next = driven.step(&state, h, None)?.state;
-/// let Linearization { a, b, .. } = Linearization::of_driven_segment(&driven, Midpoint, &state.q, &next.q, h)?;
-/// assert!((a.q_by_p[0] / h - 1.0).abs() < 1e-3 && (b.p[0] / h - 1.0).abs() < 1e-3);
+/// // The next step with A = ∂(q1, p1)/∂(q0, p0) and B = ∂(q1, p1)/∂u.
+/// let (_step, by) = arm.driven([0.5_f64.sin()]).by(Midpoint, h).linearized_step_with_input(&state)?;
+/// assert!((by.a.q_by_p[0] / h - 1.0).abs() < 1e-3 && (by.b.p[0] / h - 1.0).abs() < 1e-3);
 /// # Ok::<(), StepError>(())
 /// ```
 ///
@@ -173,7 +172,7 @@ mod attributes {
 /// |---|---|
 /// | `rule = midpoint`, `rule = [midpoint, trapezoidal]` | the rules of discretisation; midpoint unless said |
 /// | `derivatives = auto`, `expanded`, `num_dual` | who makes the derivatives; written out where that can be, up to 20 000 operations in one function, unless said |
-/// | `parameters = [m, c[0]]` | fields by which the step is differentiated: [`StateBy::of_parameters`]; written out only |
+/// | `parameters = [m, c[0]]` | fields by which the step is differentiated: [`Discretised::state_by_parameters`]; written out only |
 /// | `step_derivatives = second` | second derivatives of the step: [`StepHessian`] |
 /// | `crate = mechanics` | the path of this crate, where Cargo.toml gives it another name: `mechanics = { package = "dalembert" }`; also of [`differentiable`](macro@differentiable) |
 ///
@@ -308,6 +307,7 @@ pub use discrete::{
     BoundedStep, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, EquationAt, Momenta,
     Report, Step, StepKernel, StepWith,
 };
+pub use discretised::{Discretise, Discretised, RuleOf};
 pub use driven::{DiscreteDriven, Driven, Input, MomentaBy};
 pub use elementary::Elementary;
 pub use energy::EnergyLedger;

@@ -24,8 +24,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::derivatives::linear;
 use crate::{
-    Derivatives, Discrete, DiscreteDriven, DiscreteForceDerivatives, Lagrangian, Momenta, MomentaBy, Scalar,
-    State, StepError, StepWith, linear,
+    Derivatives, DiscreteForceDerivatives, Lagrangian, Momenta, MomentaBy, Scalar, StepError, linear,
 };
 
 /// Both momenta of a segment with their derivatives by its two configurations; see the formulas above.
@@ -78,15 +77,6 @@ pub struct Linearization<S, const N: usize, const M: usize = 0> {
 }
 
 impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
-    /// The derivatives on the segment (`q0`, `q1`) of `system` by `rule` with step size `h`.
-    #[must_use]
-    pub fn of_segment<L, R>(system: &L, _rule: R, q0: &SVector<S, N>, q1: &SVector<S, N>, h: S) -> Self
-    where
-        L: Discrete<R, N, Scalar = S>,
-    {
-        system.legendre_derivatives(q0, q1, h)
-    }
-
     /// From the derivatives of L_d and of f_d.
     #[must_use]
     pub fn from_terms(l: &Derivatives<S, N>, f: &DiscreteForceDerivatives<S, N>) -> Self {
@@ -123,149 +113,16 @@ impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
 }
 
 impl<S: Scalar, const N: usize> Linearization<S, N> {
-    /// The step matrix of the segment (`q0`, `q1`), that is of the step from (q0, p0), p0 = −D1 L_d − f_d⁻, to (q1, p1).
-    ///
-    /// ```
-    /// use dalembert::{Linearization, Midpoint, rayleigh_system};
-    /// use dalembert::nalgebra::vector;
-    ///
-    /// #[rayleigh_system]
-    /// fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
-    ///     (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
-    /// }
-    /// let (m, k, r, h) = (1.0, 1.0, 0.5, 0.25);
-    /// let system = Oscillator { m, k, r };
-    /// let step = Linearization::of_segment(&system, Midpoint, &vector![0.0], &vector![0.2], h)?;
-    /// let determinant = step.a.assembled::<2>().determinant();
-    /// assert!((determinant - (4.0 * m + h * h * k - 2.0 * h * r) / (4.0 * m + h * h * k + 2.0 * h * r)).abs() < 1e-15);
-    /// # Ok::<(), dalembert::StepError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular on the segment: there the step has no derivative.
-    pub fn of_segment<L, R>(
-        system: &L,
-        _rule: R,
-        q0: &SVector<S, N>,
-        q1: &SVector<S, N>,
-        h: S,
-    ) -> Result<Self, StepError>
-    where
-        L: Discrete<R, N, Scalar = S>,
-    {
-        system.linearization(q0, q1, h)
-    }
-
-    /// The step from `state` with its step matrix. `guess` is that of [`Discrete::step`].
-    ///
-    /// By [`Gauss`](crate::Gauss) it costs less than [`of_segment`](Self::of_segment), which solves for the stages anew, and
-    /// exists where two ends do not determine a segment.
-    ///
-    /// ```
-    /// use dalembert::nalgebra::vector;
-    /// use dalembert::{Gauss, Linearization, State, rayleigh_system};
-    ///
-    /// #[rayleigh_system(rule = gauss)]
-    /// fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64) -> f64 {
-    ///     0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0]
-    /// }
-    /// let state = State { q: vector![0.3], p: vector![-0.2] };
-    /// let (step, Linearization { a, .. }) =
-    ///     Linearization::of_step(&Oscillator { m: 1.0, k: 1.0 }, Gauss::<4>, &state, 0.5, None)?;
-    /// // The rotation by the angle h, to order 8.
-    /// assert!((a.q_by_q[0] - 0.5_f64.cos()).abs() < 1e-9 && (a.q_by_p[0] - 0.5_f64.sin()).abs() < 1e-9);
-    /// assert!((step.state.q[0] - (a.q_by_q[0] * 0.3 - a.q_by_p[0] * 0.2)).abs() < 1e-15);
-    /// # Ok::<(), dalembert::StepError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// A [`StepError`] of the step, or that its derivative does not exist or is not finite.
-    pub fn of_step<L, R>(
-        system: &L,
-        _rule: R,
-        state: &State<S, N>,
-        h: S,
-        guess: Option<&SVector<S, N>>,
-    ) -> Result<StepWith<S, N, Self>, StepError>
-    where
-        L: Discrete<R, N, Scalar = S>,
-    {
-        system.linearized_step(state, h, guess)
-    }
-
     /// The step matrix from the derivatives of both Legendre transforms.
     ///
     /// # Errors
-    /// Those of [`of_segment`](Self::of_segment).
+    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular.
     pub fn from_legendre(k: &LegendreDerivatives<S, N>) -> Result<Self, StepError> {
         Self::with_input(k, &MomentaBy::zero())
     }
 }
 
 impl<S: Scalar, const N: usize, const M: usize> Linearization<S, N, M> {
-    /// The step matrix and the derivative by the input of `system`, which holds it: A and B of
-    /// (q1, p1) ≈ … + A (q0, p0) + B u on the segment (`q0`, `q1`).
-    ///
-    /// ```
-    /// use dalembert::nalgebra::vector;
-    /// use dalembert::{Discrete, Linearization, Midpoint, State, rayleigh_system};
-    ///
-    /// struct Cart {
-    ///     m: f64,
-    /// }
-    ///
-    /// #[rayleigh_system]
-    /// impl Cart {
-    ///     fn lagrangian(&self, _q: [f64; 1], v: [f64; 1]) -> f64 {
-    ///         0.5 * self.m * v[0] * v[0]
-    ///     }
-    ///     fn force(&self, _q: [f64; 1], _v: [f64; 1], u: [f64; 1]) -> [f64; 1] {
-    ///         u
-    ///     }
-    /// }
-    /// let (m, h) = (2.0, 0.1);
-    /// let cart = Cart { m };
-    /// let driven = cart.driven([0.3]);
-    /// let state = State { q: vector![0.0], p: vector![1.0] };
-    /// let step = driven.step(&state, h, None)?;
-    /// let Linearization { a, b, .. } = Linearization::of_driven_segment(&driven, Midpoint, &state.q, &step.state.q, h)?;
-    /// assert!((a.q_by_p[0] - h / m).abs() < 1e-16);
-    /// assert!((b.q[0] - h * h / (2.0 * m)).abs() < 1e-16 && (b.p[0] - h).abs() < 1e-16);
-    /// # Ok::<(), dalembert::StepError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular on the segment.
-    pub fn of_driven_segment<L, R>(
-        system: &L,
-        _rule: R,
-        q0: &SVector<S, N>,
-        q1: &SVector<S, N>,
-        h: S,
-    ) -> Result<Self, StepError>
-    where
-        L: DiscreteDriven<R, N, M, Scalar = S>,
-    {
-        system.linearization_with_input(q0, q1, h)
-    }
-
-    /// The step of the driven system from `state` with A and B; see [`of_step`](Linearization::of_step).
-    ///
-    /// # Errors
-    /// Those of [`of_step`](Linearization::of_step).
-    pub fn of_driven_step<L, R>(
-        system: &L,
-        _rule: R,
-        state: &State<S, N>,
-        h: S,
-        guess: Option<&SVector<S, N>>,
-    ) -> Result<StepWith<S, N, Self>, StepError>
-    where
-        L: DiscreteDriven<R, N, M, Scalar = S>,
-    {
-        system.linearized_step_with_input(state, h, guess)
-    }
-
     /// The derivatives of the step from those of both Legendre transforms, and of the momenta by the input.
     ///
     /// # Errors

@@ -20,7 +20,7 @@
 //!
 //! ```
 //! use dalembert::noether::{Generator, Noether};
-//! use dalembert::{Midpoint, rayleigh_system, samples};
+//! use dalembert::{Discretise, Midpoint, rayleigh_system, samples};
 //!
 //! #[rayleigh_system]
 //! fn puck(q: [f64; 2], v: [f64; 2], k: f64, r: f64) -> (f64, f64) {
@@ -29,7 +29,7 @@
 //! }
 //!
 //! let puck = Puck { k: 1.0, r: 0.1 };
-//! let noether = Noether::new(&puck, Midpoint, 0.1);
+//! let noether = puck.by(Midpoint, 0.1).noether();
 //! let segments = samples::segments([-1.0; 2], [1.0; 2], [0.1; 2], 50);
 //! let along_x = noether.symmetry(&Generator::translation("x", [1.0, 0.0]), &segments)?;
 //! let along_y = noether.symmetry(&Generator::translation("y", [0.0, 1.0]), &segments)?;
@@ -100,8 +100,7 @@ impl<'a, L, R, const N: usize> Noether<'a, L, R, N>
 where
     L: Discrete<R, N>,
 {
-    /// The momentum maps of `system` discretised by `rule` with step size `h`.
-    pub fn new(system: &'a L, _rule: R, h: L::Scalar) -> Self {
+    pub(crate) fn new(system: &'a L, h: L::Scalar) -> Self {
         Self { system, h, tolerance: Tolerance::rounding::<L::Scalar>(), rule: PhantomData }
     }
 

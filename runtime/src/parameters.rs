@@ -78,7 +78,7 @@ pub trait DiscreteParameters<R, const N: usize, const P: usize>: Discrete<R, N> 
         h: Self::Scalar,
     ) -> MomentaBy<Self::Scalar, N, P>;
 
-    /// ∂(q1, p1)/∂θ on the segment (`q0`, `q1`), (q0, p0) held: [`StateBy::of_parameters`].
+    /// ∂(q1, p1)/∂θ on the segment (`q0`, `q1`), (q0, p0) held: [`Discretised::state_by_parameters`](crate::Discretised::state_by_parameters).
     ///
     /// # Errors
     /// Those of [`Discrete::linearization`].
@@ -92,7 +92,7 @@ pub trait DiscreteParameters<R, const N: usize, const P: usize>: Discrete<R, N> 
         self.legendre_derivatives(q0, q1, h).answer(&by_parameters)
     }
 
-    /// The step with ∂(q1, p1)/∂θ: [`StateBy::of_step`].
+    /// The step with ∂(q1, p1)/∂θ: [`Discretised::step_by_parameters`](crate::Discretised::step_by_parameters).
     ///
     /// # Errors
     /// Those of [`Discrete::linearized_step`].
@@ -104,59 +104,5 @@ pub trait DiscreteParameters<R, const N: usize, const P: usize>: Discrete<R, N> 
     ) -> Result<StepWith<Self::Scalar, N, StateBy<Self::Scalar, N, P>>, StepError> {
         let step = self.step(state, h, guess)?;
         Ok((step, self.state_by_parameters(&state.q, &step.state.q, h)?))
-    }
-}
-
-impl<S: Scalar, const N: usize, const P: usize> StateBy<S, N, P> {
-    /// ∂(q1, p1)/∂θ for the step along the segment (`q0`, `q1`), (q0, p0) held.
-    ///
-    /// ```
-    /// use dalembert::nalgebra::vector;
-    /// use dalembert::{Midpoint, StateBy, rayleigh_system};
-    ///
-    /// #[rayleigh_system(parameters = [r])]
-    /// fn drag(q: [f64; 1], v: [f64; 1], m: f64, r: f64) -> (f64, f64) {
-    ///     let _ = q;
-    ///     (0.5 * m * v[0] * v[0], 0.5 * r * v[0] * v[0])
-    /// }
-    /// let (m, r, h) = (2.0, 0.5, 0.1);
-    /// // From p0 the step goes to q1 = q0 + h p0/(m + hr/2).
-    /// let p0 = 1.0;
-    /// let q1 = h * p0 / (m + h * r / 2.0);
-    /// let step = StateBy::of_parameters(&Drag { m, r }, Midpoint, &vector![0.0], &vector![q1], h)?;
-    /// assert!((step.q[0] + h * h / 2.0 * p0 / (m + h * r / 2.0).powi(2)).abs() < 1e-15);
-    /// # Ok::<(), dalembert::StepError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular on the segment.
-    pub fn of_parameters<L, R>(
-        system: &L,
-        _rule: R,
-        q0: &SVector<S, N>,
-        q1: &SVector<S, N>,
-        h: S,
-    ) -> Result<Self, StepError>
-    where
-        L: DiscreteParameters<R, N, P, Scalar = S>,
-    {
-        system.state_by_parameters(q0, q1, h)
-    }
-
-    /// The step from `state` with ∂(q1, p1)/∂θ; see [`Linearization::of_step`](crate::Linearization::of_step).
-    ///
-    /// # Errors
-    /// A [`StepError`] of the step, or that its derivative does not exist or is not finite.
-    pub fn of_step<L, R>(
-        system: &L,
-        _rule: R,
-        state: &State<S, N>,
-        h: S,
-        guess: Option<&SVector<S, N>>,
-    ) -> Result<StepWith<S, N, Self>, StepError>
-    where
-        L: DiscreteParameters<R, N, P, Scalar = S>,
-    {
-        system.step_by_parameters(state, h, guess)
     }
 }

@@ -124,8 +124,19 @@ pub trait DiscreteSecondOrder<R, const N: usize, const M: usize>: Discrete<R, N>
         at_end: &SVector<Self::Scalar, N>,
     ) -> Hessian<Self::Scalar, N, M>;
 
-    /// Second derivatives of the step on the segment (`q0`, `q1`): [`StepHessian::of_segment`]. `p0_by_input` is ∂p0/∂u at
-    /// fixed ends, for rules that ask for it.
+    /// ∂p0/∂u at fixed ends, on the segment from q0 with mean velocity `v`; rules with interior points have no use for it.
+    #[inline]
+    fn p0_by_input(
+        &self,
+        _q0: &SVector<Self::Scalar, N>,
+        _v: &SVector<Self::Scalar, N>,
+        _h: Self::Scalar,
+    ) -> SMatrix<Self::Scalar, N, M> {
+        const { assert!(M == 0, "a system with an input has ∂p0/∂u = −∂f_d⁻/∂u here") };
+        SMatrix::zeros()
+    }
+
+    /// Second derivatives of the step on the segment (`q0`, `q1`): [`Discretised::step_hessian`](crate::Discretised::step_hessian).
     ///
     /// # Errors
     /// Those of [`Discrete::linearization`].
@@ -135,15 +146,15 @@ pub trait DiscreteSecondOrder<R, const N: usize, const M: usize>: Discrete<R, N>
         q1: &SVector<Self::Scalar, N>,
         h: Self::Scalar,
         covector: &State<Self::Scalar, N>,
-        p0_by_input: impl FnOnce() -> SMatrix<Self::Scalar, N, M>,
     ) -> Result<StepHessian<Self::Scalar, N, M>, StepError> {
         let k = self.legendre_derivatives(q0, q1, h);
         // ∂q1/∂p0, ∂q1/∂q0, ∂q1/∂u.
         let by_p = linearization::inverse(&k.p0_by_q1)?;
         let by_q = -(by_p * k.p0_by_q0);
-        let by_u = -(by_p * p0_by_input());
+        let v = (q1 - q0) / h;
+        let by_u = -(by_p * self.p0_by_input(q0, &v, h));
         let at_start = -(by_p.transpose() * (covector.q + k.p1_by_q1.transpose() * covector.p));
-        let phi = self.momenta_along(q0, &((q1 - q0) / h), h, &at_start, &covector.p);
+        let phi = self.momenta_along(q0, &v, h, &at_start, &covector.p);
         let Hessian { d11, d12, d22, d1u, d2u, duu } = phi;
         // ∂²Φ/∂q1∂z with q1 carried along.
         let carried_u = d2u + d22 * by_u;
@@ -158,8 +169,7 @@ pub trait DiscreteSecondOrder<R, const N: usize, const M: usize>: Discrete<R, N>
         })
     }
 
-    /// The step with its second derivatives: [`StepHessian::of_step`]. `p0_by_input` is ∂p0/∂u at fixed ends, given q1, for
-    /// rules that ask for it.
+    /// The step with its second derivatives: [`Discretised::step_with_hessian`](crate::Discretised::step_with_hessian).
     ///
     /// # Errors
     /// Those of [`Discrete::linearized_step`].
@@ -169,11 +179,9 @@ pub trait DiscreteSecondOrder<R, const N: usize, const M: usize>: Discrete<R, N>
         h: Self::Scalar,
         guess: Option<&SVector<Self::Scalar, N>>,
         covector: &State<Self::Scalar, N>,
-        p0_by_input: impl FnOnce(&SVector<Self::Scalar, N>) -> SMatrix<Self::Scalar, N, M>,
     ) -> Result<StepWith<Self::Scalar, N, StepHessian<Self::Scalar, N, M>>, StepError> {
         let step = self.step(state, h, guess)?;
-        let q1 = &step.state.q;
-        Ok((step, self.step_hessian(&state.q, q1, h, covector, || p0_by_input(q1))?))
+        Ok((step, self.step_hessian(&state.q, &step.state.q, h, covector)?))
     }
 }
 
@@ -193,95 +201,4 @@ pub struct StepHessian<S, const N: usize, const M: usize = 0> {
     pub pu: SMatrix<S, N, M>,
     /// By u twice, symmetric.
     pub uu: SMatrix<S, M, M>,
-}
-
-impl<S: Scalar, const N: usize> StepHessian<S, N, 0> {
-    /// Second derivatives of `covector`.q·q1 + `covector`.p·p1 for the step along the segment (`q0`, `q1`).
-    ///
-    /// ```
-    /// use dalembert::nalgebra::vector;
-    /// use dalembert::{Midpoint, State, StepHessian, rayleigh_system};
-    ///
-    /// #[rayleigh_system(step_derivatives = second)]
-    /// fn quartic(q: [f64; 1], v: [f64; 1]) -> f64 {
-    ///     0.5 * v[0] * v[0] - 0.25 * q[0].powi(4)
-    /// }
-    /// let covector = State { q: vector![0.0], p: vector![1.0] };
-    /// let h = StepHessian::of_segment(&Quartic, Midpoint, &vector![1.0], &vector![1.0], 0.1, &covector)?;
-    /// assert!(h.qq[0] < 0.0); // the restoring force grows faster than linearly
-    /// # Ok::<(), dalembert::StepError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular on the segment.
-    pub fn of_segment<L, R>(
-        system: &L,
-        _rule: R,
-        q0: &SVector<S, N>,
-        q1: &SVector<S, N>,
-        h: S,
-        covector: &State<S, N>,
-    ) -> Result<Self, StepError>
-    where
-        L: DiscreteSecondOrder<R, N, 0, Scalar = S>,
-    {
-        system.step_hessian(q0, q1, h, covector, SMatrix::zeros)
-    }
-
-    /// The step from `state` with its second derivatives; see [`Linearization::of_step`](crate::Linearization::of_step).
-    ///
-    /// # Errors
-    /// A [`StepError`] of the step, or that its derivative does not exist or is not finite.
-    pub fn of_step<L, R>(
-        system: &L,
-        _rule: R,
-        state: &State<S, N>,
-        h: S,
-        guess: Option<&SVector<S, N>>,
-        covector: &State<S, N>,
-    ) -> Result<StepWith<S, N, Self>, StepError>
-    where
-        L: DiscreteSecondOrder<R, N, 0, Scalar = S>,
-    {
-        system.step_with_hessian(state, h, guess, covector, |_| SMatrix::zeros())
-    }
-}
-
-impl<S: Scalar, const N: usize, const M: usize> StepHessian<S, N, M> {
-    /// The same for a system with its input held, by the input as well.
-    ///
-    /// # Errors
-    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular on the segment.
-    pub fn of_driven_segment<L, R>(
-        system: &L,
-        _rule: R,
-        q0: &SVector<S, N>,
-        q1: &SVector<S, N>,
-        h: S,
-        covector: &State<S, N>,
-    ) -> Result<Self, StepError>
-    where
-        L: DiscreteSecondOrder<R, N, M, Scalar = S> + crate::DiscreteDriven<R, N, M>,
-    {
-        system.step_hessian(q0, q1, h, covector, || system.momenta_by_input(q0, &((q1 - q0) / h), h).p0)
-    }
-
-    /// [`of_step`](StepHessian::of_step) for a system with its input held, by the input as well.
-    ///
-    /// # Errors
-    /// Those of [`of_step`](StepHessian::of_step).
-    pub fn of_driven_step<L, R>(
-        system: &L,
-        _rule: R,
-        state: &State<S, N>,
-        h: S,
-        guess: Option<&SVector<S, N>>,
-        covector: &State<S, N>,
-    ) -> Result<StepWith<S, N, Self>, StepError>
-    where
-        L: DiscreteSecondOrder<R, N, M, Scalar = S> + crate::DiscreteDriven<R, N, M>,
-    {
-        let by_input = |q1: &SVector<S, N>| system.momenta_by_input(&state.q, &((q1 - state.q) / h), h).p0;
-        system.step_with_hessian(state, h, guess, covector, by_input)
-    }
 }

@@ -29,11 +29,6 @@ impl<'a, L, R, const N: usize> Trajectory<'a, L, R, N>
 where
     L: Discrete<R, N>,
 {
-    /// The trajectory of `system` by `rule` with step size `h` from `state`; its own time starts at 0.
-    pub fn new(system: &'a L, rule: R, h: L::Scalar, state: State<L::Scalar, N>) -> Self {
-        Self::resume(system, rule, Checkpoint::new(h, state))
-    }
-
     /// The present state: that of the last step that succeeded.
     pub fn state(&self) -> &State<L::Scalar, N> {
         &self.at.state
@@ -70,14 +65,14 @@ where
     /// its time is at fault.
     ///
     /// ```
-    /// use dalembert::{Midpoint, State, Trajectory, rayleigh_system};
+    /// use dalembert::{Discretise, Midpoint, State, Trajectory, rayleigh_system};
     ///
     /// #[rayleigh_system]
     /// fn pendulum(q: [f64; 1], v: [f64; 1]) -> f64 {
     ///     0.5 * v[0] * v[0] + q[0].cos()
     /// }
     /// let start = State::from_velocity(&Pendulum {}, [1.0], [0.0])?;
-    /// let mut run = Trajectory::new(&Pendulum {}, Midpoint, 0.1, start);
+    /// let mut run = Pendulum {}.by(Midpoint, 0.1).run(start);
     /// run.by_ref().take(100).for_each(|step| assert!(step.is_ok()));
     /// let mut resumed = Trajectory::resume(&Pendulum {}, Midpoint, run.checkpoint());
     /// for _ in 0..100 {
@@ -87,6 +82,10 @@ where
     /// # Ok::<(), dalembert::StepError>(())
     /// ```
     pub fn resume(system: &'a L, _rule: R, checkpoint: Checkpoint<L::Scalar, N>) -> Self {
+        Self::from_checkpoint(system, checkpoint)
+    }
+
+    pub(crate) fn from_checkpoint(system: &'a L, checkpoint: Checkpoint<L::Scalar, N>) -> Self {
         Self {
             system,
             rule: PhantomData,
@@ -102,7 +101,7 @@ where
     ///
     /// ```
     /// use dalembert::nalgebra::vector;
-    /// use dalembert::{Midpoint, State, Trajectory, rayleigh_system};
+    /// use dalembert::{Discretise, Midpoint, State, Trajectory, rayleigh_system};
     ///
     /// /// Cubic drag, which accelerates for v < 0: no real step of length 1 from p = −1.3, one of length ½.
     /// #[rayleigh_system]
@@ -110,7 +109,7 @@ where
     ///     (0.5 * v[0] * v[0] - 0.0 * q[0], v[0].powi(3) / 3.0)
     /// }
     /// let start = State { q: vector![0.0], p: vector![-0.6] };
-    /// let mut trajectory = Trajectory::new(&Cubic {}, Midpoint, 1.0, start);
+    /// let mut trajectory = Cubic {}.by(Midpoint, 1.0).run(start);
     /// let parted = trajectory.next_in_parts(6)?;
     /// assert!(parted.parts > 1 && trajectory.time() == 1.0);
     /// # Ok::<(), dalembert::StepError>(())

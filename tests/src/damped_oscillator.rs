@@ -9,7 +9,7 @@
 
 use dalembert::hamilton_jacobi::ConfigurationMap;
 use dalembert::nalgebra::{SMatrix, SVector, vector};
-use dalembert::{Discrete, Midpoint, ScalarField, State, rayleigh_system};
+use dalembert::{Discretise, Midpoint, ScalarField, State, rayleigh_system};
 
 /// m q̈ + r q̇ + k q = 0.
 #[rayleigh_system]
@@ -169,7 +169,7 @@ pub fn trajectory(system: &Oscillator, h: f64, q: f64, p: f64, steps: usize) -> 
     let mut state = State { q: vector![q], p: vector![p] };
     let mut configurations = vec![state.q];
     for _ in 0..steps {
-        state = Discrete::<Midpoint, 1>::step(system, &state, h, None).unwrap().state;
+        state = system.by(Midpoint, h).step(&state).unwrap().state;
         configurations.push(state.q);
     }
     configurations

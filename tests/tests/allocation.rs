@@ -3,8 +3,7 @@
 use allocation_counter::measure;
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::{
-    Composition, Discrete, Gauss, Linearization, Midpoint, Splitting, State, StateBy, StepError, StepHessian,
-    Trajectory, Trapezoidal, rayleigh_system,
+    Composition, Discretise, Gauss, Midpoint, Splitting, State, StepError, Trapezoidal, rayleigh_system,
 };
 use dalembert_tests::systems::{Chain, Charge, DoublePendulum, Pendulum};
 
@@ -26,17 +25,9 @@ fn the_counter_counts() {
 fn none_in_a_step() {
     let start = State::from_velocity(&DoublePendulum::EXAMPLE, [1.1, -0.6], [0.3, 1.2]).unwrap();
     assert_no_allocation(|| {
-        let step = Discrete::<Midpoint, 2>::step(&DoublePendulum::EXAMPLE, &start, 0.1, None).unwrap();
-        Discrete::<Trapezoidal, 2>::step(&DoublePendulum::EXAMPLE, &start, 0.1, Some(&step.velocity))
-            .unwrap();
-        Discrete::<Midpoint, 2>::step_configurations(
-            &DoublePendulum::EXAMPLE,
-            &start.q,
-            &step.state.q,
-            0.1,
-            None,
-        )
-        .unwrap();
+        let step = DoublePendulum::EXAMPLE.by(Midpoint, 0.1).step(&start).unwrap();
+        DoublePendulum::EXAMPLE.by(Trapezoidal, 0.1).near(&step.velocity).step(&start).unwrap();
+        DoublePendulum::EXAMPLE.by(Midpoint, 0.1).step_configurations(&start.q, &step.state.q).unwrap();
         step.state.energy(&DoublePendulum::EXAMPLE).unwrap();
     });
 }
@@ -46,8 +37,8 @@ fn none_in_a_trajectory() {
     let chain = State::from_velocity(&Chain::EXAMPLE, [0.5, -0.2, 0.7, 0.1, -0.6], [0.0; 5]).unwrap();
     let charge = State::from_velocity(&Charge::EXAMPLE, [0.9, -0.4, 0.6], [0.2, 1.1, -0.7]).unwrap();
     assert_no_allocation(|| {
-        let mut chain = Trajectory::new(&Chain::EXAMPLE, Midpoint, 0.1, chain);
-        let mut charge = Trajectory::new(&Charge::EXAMPLE, Trapezoidal, 0.1, charge);
+        let mut chain = Chain::EXAMPLE.by(Midpoint, 0.1).run(chain);
+        let mut charge = Charge::EXAMPLE.by(Trapezoidal, 0.1).run(charge);
         for _ in 0..200 {
             chain.next().unwrap().unwrap();
             charge.next().unwrap().unwrap();
@@ -91,18 +82,18 @@ fn none_in_the_derivatives_of_a_step() {
     let state = State::from_velocity(&motor, [1.1], [0.3]).unwrap();
     assert_no_allocation(|| {
         let driven = motor.driven([0.4], 0.2);
-        let end = Discrete::<Midpoint, 1>::step(&driven, &state, 0.1, None).unwrap().state;
-        Linearization::of_driven_segment(&driven, Midpoint, &state.q, &end.q, 0.1).unwrap();
-        StateBy::of_parameters(&driven, Midpoint, &state.q, &end.q, 0.1).unwrap();
-        StepHessian::of_driven_segment(&driven, Midpoint, &state.q, &end.q, 0.1, &state).unwrap();
-        let (step, _) = Linearization::of_driven_step(&driven, Gauss::<3>, &state, 0.1, None).unwrap();
+        let end = driven.by(Midpoint, 0.1).step(&state).unwrap().state;
+        driven.by(Midpoint, 0.1).linearization_with_input(&state.q, &end.q).unwrap();
+        driven.by(Midpoint, 0.1).state_by_parameters(&state.q, &end.q).unwrap();
+        driven.by(Midpoint, 0.1).step_hessian(&state.q, &end.q, &state).unwrap();
+        let (step, _) = driven.by(Gauss::<3>, 0.1).linearized_step_with_input(&state).unwrap();
         let end = step.state;
-        Linearization::of_driven_segment(&driven, Gauss::<3>, &state.q, &end.q, 0.1).unwrap();
-        StateBy::of_parameters(&driven, Gauss::<3>, &state.q, &end.q, 0.1).unwrap();
-        StepHessian::of_driven_segment(&driven, Gauss::<3>, &state.q, &end.q, 0.1, &state).unwrap();
+        driven.by(Gauss::<3>, 0.1).linearization_with_input(&state.q, &end.q).unwrap();
+        driven.by(Gauss::<3>, 0.1).state_by_parameters(&state.q, &end.q).unwrap();
+        driven.by(Gauss::<3>, 0.1).step_hessian(&state.q, &end.q, &state).unwrap();
         // Nor where there is none to be found.
         let nowhere = vector![f64::INFINITY];
-        Linearization::of_driven_segment(&driven, Gauss::<3>, &state.q, &nowhere, 0.1).unwrap_err();
+        driven.by(Gauss::<3>, 0.1).linearization_with_input(&state.q, &nowhere).unwrap_err();
     });
 }
 
@@ -117,7 +108,7 @@ fn none_in_a_step_that_fails() {
     let system = CubicDrag { m: 1.0, r: 1.0 };
     let state = State { q: SVector::zeros(), p: vector![-10.0] };
     assert_no_allocation(|| {
-        let error = Discrete::<Midpoint, 1>::step(&system, &state, 1.0, None).unwrap_err();
+        let error = system.by(Midpoint, 1.0).step(&state).unwrap_err();
         assert!(matches!(error, StepError::NoRealSolution { .. }));
     });
 }

@@ -1,6 +1,8 @@
 //! Kahan and Li's compositions: the order conditions, the order measured, what negative substeps do to damping.
 
-use dalembert::{Composition, Discrete, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
+use dalembert::{
+    Composition, Discrete, Discretise, Midpoint, State, StepError, Trapezoidal, rayleigh_system,
+};
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::convergence::orders;
 use dalembert_tests::systems::{Bead, Chain, DoublePendulum, Pendulum};
@@ -163,7 +165,7 @@ fn damping_survives_negative_substeps_up_to_the_bound_and_not_beyond() {
     // The rule alone damps at any hr/m: it is the composition that does not.
     let system = Oscillator { k: 0.0, r: 10.0 };
     let start = State::from_velocity(&system, [0.0], [1.0]).unwrap();
-    let step = Discrete::<Trapezoidal, 1>::step(&system, &start, 1.0, None).unwrap();
+    let step = system.by(Trapezoidal, 1.0).step(&start).unwrap();
     assert!(step.state.p[0].abs() < 0.7);
 }
 

@@ -5,7 +5,7 @@
 
 use dalembert::nalgebra::{DMatrix, SMatrix, SVector, vector};
 use dalembert::{
-    Discrete, Fitted, Gauss, Lagrangian, Midpoint, NewtonMatrix, State, StepError, Trapezoidal,
+    Discrete, Discretise, Fitted, Gauss, Lagrangian, Midpoint, NewtonMatrix, State, StepError, Trapezoidal,
     rayleigh_system,
 };
 
@@ -22,8 +22,8 @@ fn certified<S, R: Copy, const N: usize>(system: &S, rule: R, state: &State<f64,
 where
     S: Discrete<R, N, Scalar = f64>,
 {
-    let step = system.step(state, h, None).unwrap();
-    step.certificate(system, rule, state, h).unwrap().condition
+    let step = system.by(rule, h).step(state).unwrap();
+    system.by(rule, h).certificate(state, &step).unwrap().condition
 }
 
 /// ∂p0/∂v̄ by central differences of the momentum, which no step kernel computes.
@@ -177,8 +177,8 @@ macro_rules! chains {
                     Full: Discrete<R, N, Scalar = f64>,
                 {
                     let system = Full { k };
-                    let step = system.step(&state(), h, None).unwrap();
-                    let found = step.certificate(&system, rule, &state(), h).unwrap().condition;
+                    let step = system.by(rule, h).step(&state()).unwrap();
+                    let found = system.by(rule, h).certificate(&state(), &step).unwrap().condition;
                     let matrix = by_differences(&system, rule, &state().q, &step.velocity, h);
                     let masses = system.lagrangian_derivatives(&state().q, &step.velocity).d22.diagonal();
                     let exact = condition(&matrix, &masses);
@@ -195,10 +195,10 @@ macro_rules! chains {
             #[test]
             fn of_a_fitted_rule() {
                 let (system, h) = (Springs { m: 1.3, k: 20.0, c: 30.0 }, 0.3);
-                let step = Discrete::<Fitted, N>::step(&system, &state(), h, None).unwrap();
+                let step = system.by(Fitted, h).step(&state()).unwrap();
                 let matrix = by_differences(&system, Fitted, &state().q, &step.velocity, h);
                 let exact = condition(&matrix, &springs_matrices(1.3, 0.0, 0.0)[0].diagonal());
-                let found = step.certificate(&system, Fitted, &state(), h).unwrap().condition;
+                let found = system.by(Fitted, h).certificate(&state(), &step).unwrap().condition;
                 assert!((found / exact - 1.0).abs() < 1e-7 * exact, "{found} {exact}");
             }
         })*
@@ -252,10 +252,10 @@ fn at_the_edges() {
     }
     // Derivatives that do not exist return a named `StepError`: at q̄ = 0, exactly, the curvature is infinite.
     let state = State { q: vector![1.0], p: vector![0.3] };
-    let mut step = Wall {}.step(&state, 0.5, None).unwrap();
-    assert!(step.certificate(&Wall {}, Midpoint, &state, 0.5).is_ok());
+    let mut step = Wall {}.by(Midpoint, 0.5).step(&state).unwrap();
+    assert!(Wall {}.by(Midpoint, 0.5).certificate(&state, &step).is_ok());
     step.velocity = vector![-4.0];
-    let found = step.certificate(&Wall {}, Midpoint, &state, 0.5);
+    let found = Wall {}.by(Midpoint, 0.5).certificate(&state, &step);
     assert!(matches!(found, Err(StepError::NonFinite { .. })), "{found:?}");
 }
 
@@ -269,8 +269,8 @@ fn the_digits_lost_are_those_it_says() {
         for k in 0..40 {
             let x = 0.1 + 0.0371 * f64::from(k);
             let state = State { q: vector![0.0, 0.0], p: vector![x, 0.7 * x] };
-            let step = system.step(&state, 0.1, None).unwrap();
-            let condition = step.certificate(&system, Midpoint, &state, 0.1).unwrap().condition;
+            let step = system.by(Midpoint, 0.1).step(&state).unwrap();
+            let condition = system.by(Midpoint, 0.1).certificate(&state, &step).unwrap().condition;
             // v₁ + v₂ = p₁, m v₂ = p₂ − p₁; the difference of two neighbours is exact.
             let exact = (state.p[1] - state.p[0]) / m;
             let error = ((step.velocity[1] - exact) / exact).abs();

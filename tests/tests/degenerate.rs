@@ -1,7 +1,7 @@
 //! A Lagrangian whose momenta do not determine velocities is refused at the first step, by its coordinate.
 
 use dalembert::nalgebra::vector;
-use dalembert::{Discrete, Midpoint, State, StepError, Trajectory, Trapezoidal, rayleigh_system};
+use dalembert::{Discretise, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
 
 /// The third coordinate has no kinetic energy.
 #[rayleigh_system(rule = [midpoint, trapezoidal])]
@@ -31,9 +31,9 @@ fn a_coordinate_without_kinetic_energy() {
     assert_eq!(State::from_velocity(&system, state.q, vector![0.4, 0.5, 0.6]), Err(degenerate));
     assert_eq!(state.velocity(&system), Err(degenerate));
     assert_eq!(state.energy(&system), Err(degenerate));
-    assert_eq!(Discrete::<Midpoint, 3>::step(&system, &state, 0.1, None).unwrap_err(), degenerate);
-    assert_eq!(Discrete::<Trapezoidal, 3>::step(&system, &state, 0.1, None).unwrap_err(), degenerate);
-    let mut trajectory = Trajectory::new(&system, Midpoint, 0.1, state);
+    assert_eq!(system.by(Midpoint, 0.1).step(&state).unwrap_err(), degenerate);
+    assert_eq!(system.by(Trapezoidal, 0.1).step(&state).unwrap_err(), degenerate);
+    let mut trajectory = system.by(Midpoint, 0.1).run(state);
     assert_eq!(trajectory.next().unwrap().unwrap_err(), degenerate);
     let text = degenerate.to_string();
     assert!(text.contains("∂²L/∂v² is singular") && text.contains("coordinate 2"), "{text}");
@@ -43,7 +43,7 @@ fn a_coordinate_without_kinetic_energy() {
 fn a_mass_matrix_of_deficient_rank() {
     for c in [1.0, 0.1, -3.0, 1e-9, 1e9] {
         let state = State { q: vector![0.1, 0.2], p: vector![0.4, 0.4 * c] };
-        let error = Discrete::<Midpoint, 2>::step(&RankOne { c }, &state, 0.1, None).unwrap_err();
+        let error = RankOne { c }.by(Midpoint, 0.1).step(&state).unwrap_err();
         assert!(matches!(error, StepError::DegenerateLagrangian { .. }), "{c}: {error}");
     }
 }
@@ -56,7 +56,7 @@ fn bad_scaling_is_not_degenerate() {
         // M = D [[1, c], [c, 1]] D with D = diag(1e-12, 1e12).
         let v = vector![1e12, -2e-12];
         let state = State::from_velocity(&system, vector![0.0, 0.0], v).unwrap();
-        let step = Discrete::<Midpoint, 2>::step(&system, &state, 0.1, None).unwrap();
+        let step = system.by(Midpoint, 0.1).step(&state).unwrap();
         // Free motion: v̄ = v, to rounding times the condition number of the scaled matrix, (1 + |c|)/(1 − |c|) < 200.
         for i in 0..2 {
             assert!((step.velocity[i] / v[i] - 1.0).abs() < 1e-13, "{coupling}: {}", step.velocity);

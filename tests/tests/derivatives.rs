@@ -3,7 +3,8 @@
 
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::{
-    Derivatives, Direction, Discrete, DiscreteRayleigh, Force, Midpoint, NewtonMatrix, Rayleigh, Trapezoidal,
+    Derivatives, Direction, Discrete, DiscreteRayleigh, Discretise, Force, Midpoint, NewtonMatrix, Rayleigh,
+    Trapezoidal,
 };
 use dalembert_tests::by_hand::{ByHand, Continuous, Discretised, Part, Rule, TwoPoints, derivatives};
 use dalembert_tests::systems::{Bead, Chain, Charge, DoublePendulum, Follower, FreePendulum, Pendulum};
@@ -237,8 +238,7 @@ fn of_a_free_function() {
 fn the_comparison_sees_what_is_wrong() {
     let (q0, q1) = ([0.7], [0.4]);
     let system = Bead::EXAMPLE;
-    let generated =
-        Discrete::<Midpoint, 1>::discrete_lagrangian_derivatives(&system, &q0.into(), &q1.into(), H);
+    let generated = system.by(Midpoint, H).discrete_lagrangian_derivatives(&q0.into(), &q1.into());
     let by_hand = |system: &Bead, rule| {
         derivatives(&Discretised { system, rule, h: H, part: Part::Lagrangian }, q0, q1)
     };

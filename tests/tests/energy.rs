@@ -1,7 +1,7 @@
 //! Without force the energy neither drifts nor grows over a million steps; and what "energy" means at nodes and segments.
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
-use dalembert::{Discrete, Midpoint, State, Trajectory, Trapezoidal, rayleigh_system};
+use dalembert::{Discrete, Discretise, Midpoint, State, Trapezoidal, rayleigh_system};
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::systems::{Bead, DoublePendulum, FreePendulum, Pendulum};
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
@@ -46,7 +46,7 @@ fn energies<S, R: Copy, const N: usize>(
 where
     S: Discrete<R, N, Scalar = f64>,
 {
-    let mut trajectory = Trajectory::new(system, rule, h, start);
+    let mut trajectory = system.by(rule, h).run(start);
     trajectory
         .sample_every(stride)
         .take((steps / stride) as usize)
@@ -127,10 +127,9 @@ fn on_a_segment_it_is_that_of_the_points_and_the_velocity_which_the_rule_sees() 
         |q: f64, v: f64| 0.5 * m * (1.0 + q.cos().powi(2)) * v * v + m * g * q.sin() + 0.5 * k * q * q;
     let (q0, q1, h) = (0.8, 1.1, 0.25);
     let v = (q1 - q0) / h;
-    let midpoint = Discrete::<Midpoint, 1>::segment_energy(&Bead::EXAMPLE, &vector![q0], &vector![q1], h);
+    let midpoint = Bead::EXAMPLE.by(Midpoint, h).segment_energy(&vector![q0], &vector![q1]);
     assert!((midpoint - energy(0.5 * (q0 + q1), v)).abs() < 1e-14);
-    let trapezoidal =
-        Discrete::<Trapezoidal, 1>::segment_energy(&Bead::EXAMPLE, &vector![q0], &vector![q1], h);
+    let trapezoidal = Bead::EXAMPLE.by(Trapezoidal, h).segment_energy(&vector![q0], &vector![q1]);
     assert!((trapezoidal - 0.5 * (energy(q0, v) + energy(q1, v))).abs() < 1e-14);
     assert!((midpoint - trapezoidal).abs() > 1e-3, "the two rules see different points");
 }

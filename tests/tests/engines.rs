@@ -150,7 +150,7 @@ mod num_dual {
 
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::{
-    Derivatives, Direction, Discrete, DiscreteRayleigh, Force, Lagrangian, Midpoint, NewtonMatrix, Scalar,
+    Derivatives, Direction, DiscreteRayleigh, Discretise, Force, Lagrangian, Midpoint, NewtonMatrix, Scalar,
     State, Trapezoidal,
 };
 
@@ -334,8 +334,8 @@ fn trajectories_stay_together() {
     let mut state_a = State::from_velocity(&a, [0.8, -0.4], [0.0, 0.5]).unwrap();
     let mut state_b = State::from_velocity(&b, [0.8, -0.4], [0.0, 0.5]).unwrap();
     for _ in 0..200 {
-        state_a = Discrete::<Midpoint, 2>::step(&a, &state_a, 0.01, None).unwrap().state;
-        state_b = Discrete::<Midpoint, 2>::step(&b, &state_b, 0.01, None).unwrap().state;
+        state_a = a.by(Midpoint, 0.01).step(&state_a).unwrap().state;
+        state_b = b.by(Midpoint, 0.01).step(&state_b).unwrap().state;
     }
     assert!((state_a.q - state_b.q).amax() < 1e-12, "{} and {}", state_a.q, state_b.q);
 }

@@ -10,8 +10,8 @@
 
 use dalembert::nalgebra::{Matrix2, Vector2};
 use dalembert::{
-    Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Lagrangian, Midpoint,
-    Momenta, State, StepKernel, Trajectory, Trapezoidal, VelocityHistory,
+    Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Discretise, Lagrangian,
+    Midpoint, Momenta, State, StepKernel, Trapezoidal, VelocityHistory,
 };
 use dalembert_tests::systems::DoublePendulum;
 
@@ -169,8 +169,8 @@ where
     let (system, regauged) = (DoublePendulum::EXAMPLE, Regauged::<R>::new(sign));
     let start = State::from_velocity(&system, [1.1, -0.6], [0.3, 1.2]).unwrap();
     let shifted = |state: State<f64, 2>| State { p: state.p - (PSI.gradient)(&state.q) * 2.0, ..state };
-    let plain = Trajectory::new(&system, rule, 0.1, start);
-    let other = Trajectory::new(&regauged, rule, 0.1, shifted(start));
+    let plain = system.by(rule, 0.1).run(start);
+    let other = regauged.by(rule, 0.1).run(shifted(start));
     plain.zip(other).take(steps).fold([0.0, 0.0], |[in_q, in_p]: [f64; 2], (a, b)| {
         let (a, b) = (a.unwrap().state, b.unwrap().state);
         [in_q.max((a.q - b.q).amax()), in_p.max((shifted(a).p - b.p).amax())]

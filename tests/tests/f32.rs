@@ -1,9 +1,7 @@
 //! Systems written in f32 step in f32 and are as accurate as f32 allows.
 
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::{
-    Discrete, DiscreteRayleigh, Midpoint, State, StepError, Trajectory, Trapezoidal, rayleigh_system,
-};
+use dalembert::{Discrete, Discretise, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
 use dalembert_tests::systems::Bead;
 
 /// The bead of the shared systems, in f32.
@@ -42,9 +40,8 @@ where
     Bead: Discrete<R, 1, Scalar = f64>,
 {
     let bead = double();
-    let single =
-        Trajectory::new(&SINGLE, rule, 0.0625, State::from_velocity(&SINGLE, [0.75], [1.25]).unwrap());
-    let double = Trajectory::new(&bead, rule, 0.0625, State::from_velocity(&bead, [0.75], [1.25]).unwrap());
+    let single = SINGLE.by(rule, 0.0625).run(State::from_velocity(&SINGLE, [0.75], [1.25]).unwrap());
+    let double = bead.by(rule, 0.0625).run(State::from_velocity(&bead, [0.75], [1.25]).unwrap());
     single.zip(double).take(1000).fold(0.0, |largest, (single, double)| {
         let (single, double) = (single.unwrap(), double.unwrap());
         let off = |a: &SVector<f32, 1>, b: &SVector<f64, 1>| (f64::from(a[0]) - b[0]).abs();
@@ -65,24 +62,17 @@ fn they_are_as_accurate_as_f32_allows() {
 #[test]
 fn their_discrete_objects_are_f32() {
     let (q0, q1) = (vector![0.75_f32], vector![0.875_f32]);
-    let r: f32 = DiscreteRayleigh::<Midpoint, 1>::discrete_rayleigh(&SINGLE, &q0, &q1, 0.125);
-    let expected =
-        DiscreteRayleigh::<Midpoint, 1>::discrete_rayleigh(&double(), &vector![0.75], &vector![0.875], 0.125);
+    let r: f32 = SINGLE.by(Midpoint, 0.125).discrete_rayleigh(&q0, &q1);
+    let expected = double().by(Midpoint, 0.125).discrete_rayleigh(&vector![0.75], &vector![0.875]);
     assert!((f64::from(r) / expected - 1.0).abs() < 4.0 * f64::from(f32::EPSILON));
 }
 
 #[test]
 fn their_errors_are_those_of_f64() {
     let state = State { q: vector![0.1_f32], p: vector![f32::NAN] };
-    assert!(matches!(
-        Discrete::<Midpoint, 1>::step(&SINGLE, &state, 0.1, None),
-        Err(StepError::NonFinite { index: 0, .. })
-    ));
+    assert!(matches!(SINGLE.by(Midpoint, 0.1).step(&state), Err(StepError::NonFinite { index: 0, .. })));
     let state = State { q: vector![0.1_f32], p: vector![0.0] };
-    assert_eq!(
-        Discrete::<Midpoint, 1>::step(&SINGLE, &state, 0.0, None).unwrap_err(),
-        StepError::StepSize { h: 0.0 }
-    );
+    assert_eq!(SINGLE.by(Midpoint, 0.0).step(&state).unwrap_err(), StepError::StepSize { h: 0.0 });
 }
 
 /// Coordinates in units that differ by 24 decades.
@@ -103,8 +93,8 @@ fn bad_scaling_does_not_matter() {
         q: vector![state.q[0] / unit[0], state.q[1] / unit[1]],
         p: vector![state.p[0] * unit[0], state.p[1] * unit[1]],
     };
-    let a = Trajectory::new(&plain, Midpoint, 0.1, start);
-    let b = Trajectory::new(&scaled, Midpoint, 0.1, in_units(&start));
+    let a = plain.by(Midpoint, 0.1).run(start);
+    let b = scaled.by(Midpoint, 0.1).run(in_units(&start));
     for (a, b) in a.zip(b).take(300) {
         assert_eq!(in_units(&a.unwrap().state), b.unwrap().state);
     }
@@ -112,8 +102,7 @@ fn bad_scaling_does_not_matter() {
 
 #[test]
 fn a_motion_comes_to_rest_without_error() {
-    let mut trajectory =
-        Trajectory::new(&SINGLE, Midpoint, 0.1, State::from_velocity(&SINGLE, [0.75], [1.25]).unwrap());
+    let mut trajectory = SINGLE.by(Midpoint, 0.1).run(State::from_velocity(&SINGLE, [0.75], [1.25]).unwrap());
     let last = trajectory.sample_every(20_000).next().unwrap().unwrap();
     // m g cos q + k q = 0 at rest.
     let force = SINGLE.m * SINGLE.g * last.state.q[0].cos() + SINGLE.k * last.state.q[0];

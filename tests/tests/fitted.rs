@@ -2,8 +2,8 @@
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::{
-    Discrete, DiscreteRayleigh, Fitted, FittedTrapezoidal, Lagrangian, Linearization, Midpoint, OneSided,
-    State, Trajectory, rayleigh_system,
+    Discrete, DiscreteRayleigh, Discretise, Fitted, FittedTrapezoidal, Lagrangian, Midpoint, OneSided, State,
+    rayleigh_system,
 };
 use dalembert_tests::by_hand::{ByHand, Number};
 use dalembert_tests::convergence::Convergence;
@@ -90,7 +90,7 @@ where
     S: Discrete<R, N, Scalar = f64> + ByHand<N>,
 {
     let start = State::from_velocity(system, q, v).unwrap();
-    let mut trajectory = Trajectory::new(system, rule, h, start);
+    let mut trajectory = system.by(rule, h).run(start);
     for _ in 0..(end / h).round() as u64 {
         trajectory.next().unwrap().unwrap();
     }
@@ -148,7 +148,7 @@ fn q_is_of_order_two_uniformly_in_stiffness() {
         };
         let error = |h: f64| {
             let start = State::from_velocity(&system, [q], [v]).unwrap();
-            let mut trajectory = Trajectory::new(&system, Fitted, h, start);
+            let mut trajectory = system.by(Fitted, h).run(start);
             for _ in 0..(1.0 / h).round() as u64 {
                 trajectory.next().unwrap().unwrap();
             }
@@ -170,17 +170,17 @@ fn a_free_mass_decays_exactly() {
         let start = State { q: vector![0.2], p: vector![1.0] };
         let travelled = |p: f64| p / system.r * -(-2.0 * z).exp_m1();
         for step in [
-            Discrete::<Fitted, 1>::step(&system, &start, h, None).unwrap(),
-            Discrete::<FittedTrapezoidal, 1>::step(&system, &start, h, None).unwrap(),
+            system.by(Fitted, h).step(&start).unwrap(),
+            system.by(FittedTrapezoidal, h).step(&start).unwrap(),
         ] {
             // To rounding of the momentum given.
             assert!((step.state.p[0] - (-2.0 * z).exp()).abs() < 4e-16, "{z}: {}", step.state.p[0]);
             assert!((step.state.q[0] - 0.2 - travelled(1.0)).abs() < 4e-16, "{z}: {}", step.state.q[0]);
         }
-        let step = Discrete::<OneSided, 1>::step(&system, &start, h, None).unwrap();
+        let step = system.by(OneSided, h).step(&start).unwrap();
         assert!((step.state.p[0] - 1.0 / (1.0 + 2.0 * z)).abs() < 4e-16, "{z}: {}", step.state.p[0]);
         // The control: the midpoint rule turns back for z > 1.
-        let step = Discrete::<Midpoint, 1>::step(&system, &start, h, None).unwrap();
+        let step = system.by(Midpoint, h).step(&start).unwrap();
         assert!((step.state.p[0] - (1.0 - z) / (1.0 + z)).abs() < 4e-16 * (1.0 + z));
     }
 }
@@ -194,8 +194,8 @@ fn equilibria_and_terminal_velocities_are_exact() {
         let z = 0.25 * r / 1.3;
         let explicit = State { p: start.p * (z / z.tanh()), ..start };
         for (step, p) in [
-            (Discrete::<Fitted, 1>::step(&falling, &start, 0.5, None).unwrap(), start.p[0]),
-            (Discrete::<FittedTrapezoidal, 1>::step(&falling, &explicit, 0.5, None).unwrap(), explicit.p[0]),
+            (falling.by(Fitted, 0.5).step(&start).unwrap(), start.p[0]),
+            (falling.by(FittedTrapezoidal, 0.5).step(&explicit).unwrap(), explicit.p[0]),
         ] {
             assert!((step.velocity[0] * r / 0.7 - 1.0).abs() < 1e-14, "{r}: {step:?}");
             // The rounding of the impulses hf/2 on both ends.
@@ -205,8 +205,8 @@ fn equilibria_and_terminal_velocities_are_exact() {
         let resting = Pendulum { m: 1.3, g: 1.4, f: 0.7, r };
         let start = State { q: vector![0.5_f64.asin()], p: vector![0.0] };
         for step in [
-            Discrete::<Fitted, 1>::step(&resting, &start, 0.5, None).unwrap(),
-            Discrete::<FittedTrapezoidal, 1>::step(&resting, &start, 0.5, None).unwrap(),
+            resting.by(Fitted, 0.5).step(&start).unwrap(),
+            resting.by(FittedTrapezoidal, 0.5).step(&start).unwrap(),
         ] {
             assert!((step.state.q - start.q).amax() < 1e-15 && step.state.p.amax() < 1e-15, "{step:?}");
         }
@@ -217,10 +217,10 @@ fn equilibria_and_terminal_velocities_are_exact() {
 fn without_damping_they_are_the_plain_rules() {
     let system = Pendulum { m: 1.3, g: 2.1, f: 0.4, r: 0.0 };
     let start = State::from_velocity(&system, [1.1], [0.4]).unwrap();
-    let a = Discrete::<Fitted, 1>::step(&system, &start, 0.3, None).unwrap().state;
+    let a = system.by(Fitted, 0.3).step(&start).unwrap().state;
     for b in [
-        Discrete::<Midpoint, 1>::step(&system, &start, 0.3, None).unwrap().state,
-        Discrete::<OneSided, 1>::step(&system, &start, 0.3, None).unwrap().state,
+        system.by(Midpoint, 0.3).step(&start).unwrap().state,
+        system.by(OneSided, 0.3).step(&start).unwrap().state,
     ] {
         assert!((a.q - b.q).amax() < 1e-15 && (a.p - b.p).amax() < 1e-15, "{a:?} {b:?}");
     }
@@ -339,11 +339,8 @@ fn discrete_objects_and_transforms_agree() {
 fn the_explicit_one_contracts_phase_space_as_the_flow() {
     let h = 0.3;
     let state = State { q: vector![0.7, -0.3], p: vector![0.2, 0.9] };
-    let step = Discrete::<FittedTrapezoidal, 2>::step(&COUPLED, &state, h, None).unwrap().state;
-    let a = Linearization::of_segment(&COUPLED, FittedTrapezoidal, &state.q, &step.q, h)
-        .unwrap()
-        .a
-        .assembled::<4>();
+    let step = COUPLED.by(FittedTrapezoidal, h).step(&state).unwrap().state;
+    let a = COUPLED.by(FittedTrapezoidal, h).linearization(&state.q, &step.q).unwrap().a.assembled::<4>();
     let (m, c) = (matrix![1.3, 0.4; 0.4, 0.9], matrix![0.5, -0.2; -0.2, 0.7]);
     let trace = (m.try_inverse().unwrap() * c).trace();
     let det = a.determinant();
@@ -357,14 +354,14 @@ fn the_explicit_one_keeps_the_law_of_angular_momentum() {
     let system = Radial { m, a };
     let start = State::from_velocity(&system, [0.0, 1.15], [0.5, 0.0]).unwrap();
     let mut j = start.q.perp(&start.p);
-    for step in Trajectory::new(&system, FittedTrapezoidal, h, start).take(200) {
+    for step in system.by(FittedTrapezoidal, h).run(start).take(200) {
         let state = step.unwrap().state;
         let next = state.q.perp(&state.p);
         assert!((next / j - (-2.0 * a * h).exp()).abs() < 1e-13, "{next} {j}");
         j = next;
     }
     // The control: by the midpoint rule it falls by another factor, which depends on the place.
-    let by_midpoint = Discrete::<Midpoint, 2>::step(&system, &start, h, None).unwrap().state;
+    let by_midpoint = system.by(Midpoint, h).step(&start).unwrap().state;
     let ratio = by_midpoint.q.perp(&by_midpoint.p) / start.q.perp(&start.p);
     assert!((ratio - (-2.0 * a * h).exp()).abs() > 1e-7, "{ratio}");
 }
@@ -379,8 +376,7 @@ fn the_explicit_one_is_stable_up_to_its_bound() {
             // V = −g cos q is ½gq² near 0.
             let system = Pendulum { m, g: share * bound, f: 0.0, r: 2.0 * z };
             let start = State { q: vector![1e-8], p: vector![0.0] };
-            let last =
-                Trajectory::new(&system, FittedTrapezoidal, h, start).take(2_000).last().unwrap().unwrap();
+            let last = system.by(FittedTrapezoidal, h).run(start).take(2_000).last().unwrap().unwrap();
             last.state.q[0].abs() > 1e-7
         };
         assert!(!grows(0.98) && grows(1.02), "{z}");
@@ -393,12 +389,9 @@ fn it_does_not_ring() {
     let system = Pendulum { m: 1.0, g: 1.0, f: 0.0, r: 1e4 };
     let start = State::from_velocity(&system, [1.0], [1.0]).unwrap();
     let changes = |signs: Vec<bool>| signs.windows(2).filter(|pair| pair[0] != pair[1]).count();
-    let fitted =
-        Trajectory::new(&system, Fitted, 0.1, start).take(100).map(|s| s.unwrap().state.p[0] > 0.0).collect();
-    let midpoint = Trajectory::new(&system, Midpoint, 0.1, start)
-        .take(100)
-        .map(|s| s.unwrap().state.p[0] > 0.0)
-        .collect();
+    let fitted = system.by(Fitted, 0.1).run(start).take(100).map(|s| s.unwrap().state.p[0] > 0.0).collect();
+    let midpoint =
+        system.by(Midpoint, 0.1).run(start).take(100).map(|s| s.unwrap().state.p[0] > 0.0).collect();
     assert!(changes(fitted) <= 1 && changes(midpoint) > 90);
     assert!(system.energy(&vector![1.0], &vector![0.0]) < 0.0);
 }

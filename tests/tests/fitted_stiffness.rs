@@ -1,9 +1,7 @@
 //! The rules fitted to linear damping, where it is stiff: stability, and the orders that are left.
 
 use dalembert::nalgebra::{Matrix2, vector};
-use dalembert::{
-    Discrete, Fitted, FittedTrapezoidal, Linearization, Midpoint, State, Trajectory, rayleigh_system,
-};
+use dalembert::{Discrete, Discretise, Fitted, FittedTrapezoidal, Midpoint, State, rayleigh_system};
 
 /// ∂(q1, p1)/∂(q0, p0) of the oscillator at rest, m = 1, h = 1.
 fn at_rest<R: Copy>(rule: R, z: f64, stiffness: f64) -> Matrix2<f64>
@@ -12,7 +10,7 @@ where
 {
     let system = Oscillator { k: stiffness, r: 2.0 * z };
     let rest = vector![0.0];
-    Linearization::<f64, 1>::of_segment(&system, rule, &rest, &rest, 1.0).unwrap().a.assembled()
+    system.by(rule, 1.0).linearization(&rest, &rest).unwrap().a.assembled()
 }
 
 /// The largest modulus of the eigenvalues of the step of m q̈ + r q̇ + k q = 0.
@@ -73,12 +71,7 @@ where
 {
     let (system, q) = (Creeping { r: 1e9 }, 1.1_f64);
     let start = State { q: vector![q], p: vector![-q.sin()] };
-    let end = Trajectory::new(&system, rule, h, start)
-        .take((1.0 / h).round() as usize)
-        .last()
-        .unwrap()
-        .unwrap()
-        .state;
+    let end = system.by(rule, h).run(start).take((1.0 / h).round() as usize).last().unwrap().unwrap().state;
     let exact = 2.0 * ((0.5 * q).tan() * f64::exp(-1.0)).atan();
     [end.q[0] - exact, end.p[0] + exact.sin()]
 }
@@ -100,7 +93,7 @@ fn orders_in_the_stiff_limit() {
 
     let system = Creeping { r: 1e9 };
     let start = State { q: vector![1.1], p: vector![-0.3] };
-    let end = Discrete::<Fitted, 1>::step(&system, &start, 0.1, None).unwrap().state;
+    let end = system.by(Fitted, 0.1).step(&start).unwrap().state;
     let mean = 0.5 * (start.q[0] + end.q[0]);
     assert!((end.p[0] + mean.sin()).abs() < 1e-8, "{} {}", end.p[0], -mean.sin());
     assert!((end.p[0] + end.q[0].sin()).abs() > 1e-2);
@@ -143,7 +136,7 @@ fn the_lag_of_the_potential_is_essential() {
         let z: f64 = 0.5 * r * 0.3;
         let lag = 1.0 / z.tanh() - 1.0 / z;
         let start = State { q: vector![1.1], p: vector![-0.3] };
-        let end = Discrete::<Fitted, 1>::step(&Creeping { r }, &start, 0.3, None).unwrap().state;
+        let end = Creeping { r }.by(Fitted, 0.3).step(&start).unwrap().state;
         let expected = family(lag, lag, [1.1, -0.3], 0.3, r);
         assert!(
             (end.q[0] - expected[0]).abs() < 1e-14 && (end.p[0] - expected[1]).abs() < 1e-13,

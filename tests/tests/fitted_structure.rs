@@ -2,8 +2,7 @@
 
 use dalembert::nalgebra::{Matrix3, SMatrix, SVector, Vector3, matrix, vector};
 use dalembert::{
-    Discrete, Fitted, FittedTrapezoidal, Linearization, Midpoint, State, Trajectory, Trapezoidal,
-    rayleigh_system,
+    Discrete, Discretise, Fitted, FittedTrapezoidal, Midpoint, State, Trapezoidal, rayleigh_system,
 };
 
 /// A form of three coordinates: entries 11, 12, 13, 22, 23, 33.
@@ -86,12 +85,12 @@ fn the_discrete_lagrangian_is_the_fitted_mass() {
         let system = Three { m: M, c, k: 0.0 };
         let (a, b) = (STATE.q, STATE.q + d);
         let values = [
-            Discrete::<Fitted, 3>::discrete_lagrangian(&system, &a, &b, h),
-            Discrete::<FittedTrapezoidal, 3>::discrete_lagrangian(&system, &a, &b, h),
+            system.by(Fitted, h).discrete_lagrangian(&a, &b),
+            system.by(FittedTrapezoidal, h).discrete_lagrangian(&a, &b),
         ];
         assert!(values.iter().all(|value| (value / expected - 1.0).abs() < 1e-13), "{values:?} {expected}");
         // The control: midpoint's own mass is less.
-        let midpoint = Discrete::<Midpoint, 3>::discrete_lagrangian(&system, &a, &b, h);
+        let midpoint = system.by(Midpoint, h).discrete_lagrangian(&a, &b);
         assert!((midpoint / expected - 1.0).abs() > 1e-5 * share * share);
     }
 
@@ -110,7 +109,7 @@ fn the_discrete_lagrangian_is_the_fitted_mass() {
         })
         .sum();
     let zero = Vector3::zeros();
-    let value = Discrete::<Fitted, 3>::discrete_lagrangian(&system, &zero, &vector![d, 0.0, 0.0], h);
+    let value = system.by(Fitted, h).discrete_lagrangian(&zero, &vector![d, 0.0, 0.0]);
     assert!((value / action - 1.0).abs() < 1e-12, "{value} {action}");
 }
 
@@ -124,7 +123,7 @@ where
     S: Discrete<R, N, Scalar = f64>,
 {
     let end = step(system, rule, state, h);
-    Linearization::<f64, N>::of_segment(system, rule, &state.q, &end.q, h).unwrap().a.assembled::<K>()
+    system.by(rule, h).linearization(&state.q, &end.q).unwrap().a.assembled::<K>()
 }
 
 /// Largest entry of AᵀΩA − sΩ with the s that fits best, and this s.
@@ -216,7 +215,7 @@ fn a_run_goes_where_single_steps_go() {
     where
         Three: Discrete<R, 3, Scalar = f64>,
     {
-        let mut run = Trajectory::new(system, rule, 0.1, STATE);
+        let mut run = system.by(rule, 0.1).run(STATE);
         let mut state = STATE;
         for h in sizes {
             run.change_step_size(h);
@@ -245,11 +244,11 @@ fn a_run_goes_where_single_steps_go() {
 fn steps_within_a_bound() {
     let system = Three { m: M, c: C, k: 2.1 };
     let whole = step(&system, Fitted, &STATE, 0.3);
-    let bounded = Discrete::<Fitted, 3>::step_within(&system, &STATE, 0.3, None, 8).unwrap();
+    let bounded = system.by(Fitted, 0.3).step_within(&STATE, 8).unwrap();
     assert!(bounded.converged && (bounded.step.state.q - whole.q).amax() < 1e-15);
-    assert!(!Discrete::<Fitted, 3>::step_within(&system, &STATE, 0.3, None, 1).unwrap().converged);
+    assert!(!system.by(Fitted, 0.3).step_within(&STATE, 1).unwrap().converged);
     // One correction solves the explicit one.
-    let once = Discrete::<FittedTrapezoidal, 3>::step_within(&system, &STATE, 0.3, None, 1).unwrap();
+    let once = system.by(FittedTrapezoidal, 0.3).step_within(&STATE, 1).unwrap();
     assert!(once.converged);
 }
 
@@ -257,10 +256,10 @@ fn steps_within_a_bound() {
 #[test]
 fn faults_are_named() {
     let odd = Three { m: [1.0, 2.0, 0.0, 1.0, 0.0, 1.0], c: C, k: 0.0 };
-    assert!(Discrete::<Fitted, 3>::step(&odd, &STATE, 0.1, None).is_err());
+    assert!(odd.by(Fitted, 0.1).step(&STATE).is_err());
     let system = Three { m: M, c: C, k: 2.1 };
     for h in [0.0, f64::NAN, f64::INFINITY] {
-        let mut run = Trajectory::new(&system, FittedTrapezoidal, 0.1, STATE);
+        let mut run = system.by(FittedTrapezoidal, 0.1).run(STATE);
         assert!(run.by_ref().take(3).all(|step| step.is_ok()));
         let before = *run.state();
         run.change_step_size(h);

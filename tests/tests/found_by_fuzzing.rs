@@ -1,6 +1,6 @@
 //! What fuzzing the step has found, kept: `fuzz/` has the fuzzer.
 
-use dalembert::{Discrete, Gauss, Lagrangian, State, Step, Trajectory, rayleigh_system};
+use dalembert::{Discrete, Discretise, Gauss, Lagrangian, State, Step, rayleigh_system};
 
 /// Masses on springs of degree 2 and 4, with dampers.
 #[rayleigh_system]
@@ -90,7 +90,7 @@ fn free(q: [f64; 1], v: [f64; 1]) -> f64 {
 fn a_gauss_step_has_a_finite_velocity() {
     let taken = |p: f64| {
         let state = State { q: [-0.88916015625].into(), p: [p].into() };
-        Discrete::<Gauss<3>, 1>::step(&Free {}, &state, -1.6274861991405487e-5, None)
+        Free {}.by(Gauss::<3>, -1.6274861991405487e-5).step(&state)
     };
     assert!(taken(1e300).unwrap().velocity[0].is_finite());
     assert!(taken(f64::MAX).is_ok_and(|step| step.velocity[0].is_finite()) || taken(f64::MAX).is_err());
@@ -107,7 +107,7 @@ fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
 fn an_infinite_floor_hides_no_residual() {
     let system = Oscillator { m: 4.976960679201e274, k: f64::MAX, r: 2.580078125 };
     let start = State { q: [0.4612579345703125].into(), p: [1.0].into() };
-    let mut run = Trajectory::new(&system, Gauss::<3>, 7.2041015625, start);
+    let mut run = system.by(Gauss::<3>, 7.2041015625).run(start);
     let mut taken = 0;
     for _ in 0..64 {
         match run.next().unwrap() {

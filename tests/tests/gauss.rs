@@ -1,7 +1,7 @@
 //! The step of `Gauss<S>` is Gauss collocation on the forced Hamilton equations, and satisfies the forced Galerkin equations.
 
 use dalembert::nalgebra::{DMatrix, DVector, SVector, vector};
-use dalembert::{Discrete, Gauss, Midpoint, State, StepError, Trajectory, rayleigh_system};
+use dalembert::{Discrete, Discretise, Gauss, Midpoint, State, StepError, rayleigh_system};
 use dalembert_tests::by_hand::{ByHand, Continuous, Part, derivatives};
 use dalembert_tests::systems::{Bead, Chain, Charge, DoublePendulum, Follower, Pendulum};
 
@@ -134,7 +134,7 @@ where
     L: ByHand<N> + Discrete<Gauss<S>, N, Scalar = f64>,
 {
     let start = State { q: q.into(), p: system.momentum(q, v) };
-    let step = Discrete::<Gauss<S>, N>::step(system, &start, h, None).unwrap();
+    let step = system.by(Gauss::<S>, h).step(&start).unwrap();
     let ([q1, p1], _) = collocated(system, &Collocation::new(S), start.q, start.p, h);
     let (in_q, in_p) = ((step.state.q - q1).amax(), (step.state.p - p1).amax());
     assert!(in_q < 1e-14 && in_p < 2e-14, "S = {S}, h = {h}: {in_q:e} {in_p:e}");
@@ -167,7 +167,7 @@ fn its_step_is_collocation_on_the_forced_hamilton_equations() {
 fn another_method_is_not_taken_for_it() {
     let (system, q, v, h) = (Charge::EXAMPLE, [0.9, -0.4, 0.6], [0.2, 1.1, -0.7], 0.3);
     let start = State { q: q.into(), p: system.momentum(q, v) };
-    let step = Discrete::<Gauss<3>, 3>::step(&system, &start, h, None).unwrap();
+    let step = system.by(Gauss::<3>, h).step(&start).unwrap();
     let unforced = collocated(&Charge::FREE, &Collocation::new(3), start.q, start.p, h).0;
     assert!((step.state.q - unforced[0]).amax() > 1e-3);
     let mut changed = Collocation::new(3);
@@ -184,19 +184,19 @@ fn one_stage_is_the_midpoint_rule() {
     {
         for h in [0.05, 0.4] {
             let start = State { q: q.into(), p: system.momentum(q, v) };
-            let gauss = Discrete::<Gauss<1>, N>::step(system, &start, h, None).unwrap().state;
-            let midpoint = Discrete::<Midpoint, N>::step(system, &start, h, None).unwrap().state;
+            let gauss = system.by(Gauss::<1>, h).step(&start).unwrap().state;
+            let midpoint = system.by(Midpoint, h).step(&start).unwrap().state;
             assert!((gauss.q - midpoint.q).amax() < 1e-15 * (1.0 + midpoint.q.amax()));
             assert!((gauss.p - midpoint.p).amax() < 2e-15 * (1.0 + midpoint.p.amax()));
             let (q0, q1) = (start.q, midpoint.q);
             let l = |l: f64, m: f64| assert!((l - m).abs() < 1e-14 * (1.0 + m.abs()), "{l} {m}");
             l(
-                Discrete::<Gauss<1>, N>::discrete_lagrangian(system, &q0, &q1, h),
-                Discrete::<Midpoint, N>::discrete_lagrangian(system, &q0, &q1, h),
+                system.by(Gauss::<1>, h).discrete_lagrangian(&q0, &q1),
+                system.by(Midpoint, h).discrete_lagrangian(&q0, &q1),
             );
             l(
-                Discrete::<Gauss<1>, N>::segment_energy(system, &q0, &q1, h),
-                Discrete::<Midpoint, N>::segment_energy(system, &q0, &q1, h),
+                system.by(Gauss::<1>, h).segment_energy(&q0, &q1),
+                system.by(Midpoint, h).segment_energy(&q0, &q1),
             );
         }
     }
@@ -231,7 +231,7 @@ where
     let method = Collocation::new(S);
     let start = State { q: q.into(), p: system.momentum(q, v) };
     let (_, stages) = collocated(system, &method, start.q, start.p, h);
-    let end = Discrete::<Gauss<S>, N>::step(system, &start, h, None).unwrap().state;
+    let end = system.by(Gauss::<S>, h).step(&start).unwrap().state;
     let sum = |nu: usize| {
         let mut size = 0.0;
         let sum = (0..S).fold(SVector::<f64, N>::zeros(), |sum, i| {
@@ -272,7 +272,7 @@ fn the_lagrangian_need_not_be_quadratic_in_v() {
     let start = State::from_velocity(&system, [0.9], [0.5]).unwrap();
     let energy = start.energy(&system).unwrap();
     let mut fastest = 0.0_f64;
-    for step in Trajectory::new(&system, Gauss::<5>, 0.2, start).take(500) {
+    for step in system.by(Gauss::<5>, 0.2).run(start).take(500) {
         let step = step.unwrap();
         fastest = fastest.max(step.velocity[0].abs());
         assert!((step.state.energy(&system).unwrap() - energy).abs() < 1e-9);
@@ -286,9 +286,9 @@ fn a_trajectory_takes_the_steps_of_the_flow() {
     let mut state = State::from_velocity(&system, [1.1, -0.6], [0.3, 1.2]).unwrap();
     let mut extrapolated = 0;
     let mut alone = 0;
-    for step in Trajectory::new(&system, Gauss::<4>, 0.1, state).take(100) {
+    for step in system.by(Gauss::<4>, 0.1).run(state).take(100) {
         let step = step.unwrap();
-        let single = Discrete::<Gauss<4>, 2>::step(&system, &state, 0.1, None).unwrap();
+        let single = system.by(Gauss::<4>, 0.1).step(&state).unwrap();
         assert!(
             (single.state.q - step.state.q).amax() < 1e-14 && (single.state.p - step.state.p).amax() < 1e-14
         );
@@ -303,12 +303,12 @@ fn a_trajectory_takes_the_steps_of_the_flow() {
 fn mistakes_have_names_and_leave_the_state() {
     let system = DoublePendulum::EXAMPLE;
     let start = State::from_velocity(&system, [1.1, -0.6], [0.3, 1.2]).unwrap();
-    let step = |state: &State<f64, 2>, h: f64| Discrete::<Gauss<3>, 2>::step(&system, state, h, None);
+    let step = |state: &State<f64, 2>, h: f64| system.by(Gauss::<3>, h).step(state);
     assert!(matches!(step(&start, 0.0), Err(StepError::StepSize { .. })));
     assert!(matches!(step(&start, f64::NAN), Err(StepError::StepSize { .. })));
     let broken = State { q: vector![f64::NAN, 0.0], p: start.p };
     assert!(matches!(step(&broken, 0.1), Err(StepError::NonFinite { .. })));
-    let mut trajectory = Trajectory::new(&system, Gauss::<3>, 0.1, start);
+    let mut trajectory = system.by(Gauss::<3>, 0.1).run(start);
     trajectory.next().unwrap().unwrap();
     let before = *trajectory.state();
     trajectory.change_step_size(f64::INFINITY);
@@ -316,7 +316,7 @@ fn mistakes_have_names_and_leave_the_state() {
     assert_eq!(trajectory.state(), &before);
     trajectory.change_step_size(0.1);
     let after = trajectory.next().unwrap().unwrap().state;
-    let mut undisturbed = Trajectory::new(&system, Gauss::<3>, 0.1, start);
+    let mut undisturbed = system.by(Gauss::<3>, 0.1).run(start);
     assert_eq!(undisturbed.by_ref().take(2).last().unwrap().unwrap().state, after);
 }
 
@@ -336,15 +336,10 @@ fn energy_error(steps: usize, is_compensated: bool) -> f64 {
             let start = State { q: vector![0.0, 1.15 - shift], p: vector![0.5 + 0.7 * shift, 0.3 * shift] };
             let mut state = start;
             if is_compensated {
-                state = Trajectory::new(&Ring {}, Gauss::<5>, h, start)
-                    .take(steps)
-                    .last()
-                    .unwrap()
-                    .unwrap()
-                    .state;
+                state = Ring {}.by(Gauss::<5>, h).run(start).take(steps).last().unwrap().unwrap().state;
             } else {
                 for _ in 0..steps {
-                    state = Discrete::<Gauss<5>, 2>::step(&Ring {}, &state, h, None).unwrap().state;
+                    state = Ring {}.by(Gauss::<5>, h).step(&state).unwrap().state;
                 }
             }
             let energy = |state: &State<f64, 2>| state.energy(&Ring {}).unwrap();

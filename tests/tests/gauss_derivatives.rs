@@ -67,8 +67,8 @@ mod num_dual {
 
 use dalembert::nalgebra::{DMatrix, DVector, SMatrix, SVector, matrix, vector};
 use dalembert::{
-    Discrete, DiscreteDriven, DiscreteSecondOrder, Gauss, LegendreDerivatives, Linearization, Midpoint,
-    State, StateBy, StepError, StepHessian, rayleigh_system,
+    Discrete, DiscreteDriven, DiscreteSecondOrder, Discretise, Gauss, LegendreDerivatives, Midpoint, State,
+    StepError, StepHessian, rayleigh_system,
 };
 
 /// The diagonal Padé approximant of exp(Z) of degree s: what Gauss collocation makes of z' = Z z.
@@ -140,11 +140,11 @@ fn both<const S: usize>(
 ) {
     let exact = pade(S, &(&linear_flow(&LINEAR)[0] * h));
     let end = &exact * DVector::from_column_slice(&[0.6, -0.4, -0.9, 0.7, U[0], U[1], T, 1.0]);
-    let (step, of_step) = Linearization::of_driven_step(view, Gauss::<S>, &START, h, None).unwrap();
+    let (step, of_step) = view.by(Gauss::<S>, h).linearized_step_with_input(&START).unwrap();
     let reached: SVector<f64, 4> = end.fixed_rows::<4>(0).into();
     let found = vector![step.state.q[0], step.state.q[1], step.state.p[0], step.state.p[1]];
     assert!((found - reached).amax() < 1e-14, "S = {S}, h = {h}: {:e}", (found - reached).amax());
-    let of_segment = Linearization::of_driven_segment(view, Gauss::<S>, &START.q, &step.state.q, h).unwrap();
+    let of_segment = view.by(Gauss::<S>, h).linearization_with_input(&START.q, &step.state.q).unwrap();
     for linearization in [of_step, of_segment] {
         let a = linearization.a.assembled::<4>() - exact.fixed_view::<4, 4>(0, 0);
         let b = linearization.b.assembled::<4>() - exact.fixed_view::<4, 2>(0, 4);
@@ -152,13 +152,12 @@ fn both<const S: usize>(
         assert!(b.amax() < 4e-15 * (1.0 + exact.amax()), "S = {S}, h = {h}: {:e}", b.amax());
     }
     // Without its input the same A.
-    let plain = Linearization::of_step(view, Gauss::<S>, &START, h, None).unwrap();
+    let plain = view.by(Gauss::<S>, h).linearized_step(&START).unwrap();
     assert_eq!((plain.0, plain.1.a), (step, of_step.a));
-    let plain = Linearization::of_segment(view, Gauss::<S>, &START.q, &step.state.q, h).unwrap();
+    let plain = view.by(Gauss::<S>, h).linearization(&START.q, &step.state.q).unwrap();
     assert_eq!(plain.a, of_segment.a);
     // A linear step has no second derivatives.
-    let second =
-        StepHessian::of_driven_segment(view, Gauss::<S>, &START.q, &step.state.q, h, &START).unwrap();
+    let second = view.by(Gauss::<S>, h).step_hessian(&START.q, &step.state.q, &START).unwrap();
     assert_eq!((second.qq.amax(), second.qp.amax(), second.pp.amax()), (0.0, 0.0, 0.0));
     assert_eq!((second.qu.amax(), second.pu.amax(), second.uu.amax()), (0.0, 0.0, 0.0));
     // Positive control: the approximant of another degree is another matrix, as far as they can be told apart.
@@ -171,10 +170,10 @@ fn both<const S: usize>(
 fn parameters<const S: usize>(h: f64) {
     let [flow, by @ ..] = linear_flow(&LINEAR);
     let view = LINEAR.driven(U, T);
-    let q1 = Discrete::<Gauss<S>, 2>::step(&view, &START, h, None).unwrap().state.q;
-    let found = StateBy::<_, 2, 3>::of_parameters(&view, Gauss::<S>, &START.q, &q1, h).unwrap();
+    let q1 = view.by(Gauss::<S>, h).step(&START).unwrap().state.q;
+    let found = view.by(Gauss::<S>, h).state_by_parameters(&START.q, &q1).unwrap();
     let found = found.assembled::<4>();
-    let (step, of_step) = StateBy::<_, 2, 3>::of_step(&view, Gauss::<S>, &START, h, None).unwrap();
+    let (step, of_step) = view.by(Gauss::<S>, h).step_by_parameters(&START).unwrap();
     let of_step = of_step.assembled::<4>();
     assert!(step.state.q == q1);
     // Between two ends the momentum is what leads to q1: rounding of q1 comes in enlarged, the more the closer to a conjugate point.
@@ -226,10 +225,8 @@ fn second_derivatives_of_exact_integrators() {
     where
         D: DiscreteDriven<Gauss<4>, 2, 1, Scalar = f64> + DiscreteSecondOrder<Gauss<4>, 2, 1>,
     {
-        let (step, of_step) =
-            StepHessian::of_driven_step(view, Gauss::<4>, state, h, None, covector).unwrap();
-        let found =
-            StepHessian::of_driven_segment(view, Gauss::<4>, &state.q, &step.state.q, h, covector).unwrap();
+        let (step, of_step) = view.by(Gauss::<4>, h).step_with_hessian(state, covector).unwrap();
+        let found = view.by(Gauss::<4>, h).step_hessian(&state.q, &step.state.q, covector).unwrap();
         for (a, b) in [(of_step.qq, found.qq), (of_step.qp, found.qp), (of_step.pp, found.pp)] {
             assert!((a - b).amax() < 1e-14);
         }
@@ -257,20 +254,20 @@ fn second_derivatives_of_exact_integrators() {
 fn one_stage_has_the_derivatives_of_the_midpoint_rule() {
     let view = LINEAR.driven(U, T);
     let (q0, q1, h) = (START.q, vector![0.7, -0.1], 0.4);
-    let gauss = Linearization::of_driven_segment(&view, Gauss::<1>, &q0, &q1, h).unwrap();
-    let midpoint = Linearization::of_driven_segment(&view, Midpoint, &q0, &q1, h).unwrap();
+    let gauss = view.by(Gauss::<1>, h).linearization_with_input(&q0, &q1).unwrap();
+    let midpoint = view.by(Midpoint, h).linearization_with_input(&q0, &q1).unwrap();
     assert!((gauss.a.assembled::<4>() - midpoint.a.assembled::<4>()).amax() < 2e-15);
     assert!((gauss.b.assembled::<4>() - midpoint.b.assembled::<4>()).amax() < 2e-15);
-    let state = Discrete::<Midpoint, 2>::legendre_minus(&view, &q0, &q1, h);
-    let (step, gauss) = Linearization::of_driven_step(&view, Gauss::<1>, &state, h, None).unwrap();
-    let (other, midpoint) = Linearization::of_driven_step(&view, Midpoint, &state, h, None).unwrap();
+    let state = view.by(Midpoint, h).legendre_minus(&q0, &q1);
+    let (step, gauss) = view.by(Gauss::<1>, h).linearized_step_with_input(&state).unwrap();
+    let (other, midpoint) = view.by(Midpoint, h).linearized_step_with_input(&state).unwrap();
     assert!((step.state.p - other.state.p).amax() < 2e-15 && (step.state.q - q1).amax() < 2e-15);
     assert!((gauss.a.assembled::<4>() - midpoint.a.assembled::<4>()).amax() < 2e-15);
-    let gauss = StateBy::<_, 2, 3>::of_parameters(&view, Gauss::<1>, &q0, &q1, h).unwrap();
-    let midpoint = StateBy::<_, 2, 3>::of_parameters(&view, Midpoint, &q0, &q1, h).unwrap();
+    let gauss = view.by(Gauss::<1>, h).state_by_parameters(&q0, &q1).unwrap();
+    let midpoint = view.by(Midpoint, h).state_by_parameters(&q0, &q1).unwrap();
     assert!((gauss.assembled::<4>() - midpoint.assembled::<4>()).amax() < 2e-15);
     // Positive control: two stages are another rule.
-    let two = StateBy::<_, 2, 3>::of_parameters(&view, Gauss::<2>, &q0, &q1, h).unwrap();
+    let two = view.by(Gauss::<2>, h).state_by_parameters(&q0, &q1).unwrap();
     assert!((two.assembled::<4>() - midpoint.assembled::<4>()).amax() > 1e-3);
 }
 
@@ -310,8 +307,8 @@ fn one_stage_has_the_second_derivatives_of_the_midpoint_rule() {
         all[(4, 4)] = h.uu[0];
         all
     };
-    let gauss = of(StepHessian::of_driven_segment(&view, Gauss::<1>, &q0, &q1, h, &covector).unwrap());
-    let midpoint = of(StepHessian::of_driven_segment(&view, Midpoint, &q0, &q1, h, &covector).unwrap());
+    let gauss = of(view.by(Gauss::<1>, h).step_hessian(&q0, &q1, &covector).unwrap());
+    let midpoint = of(view.by(Midpoint, h).step_hessian(&q0, &q1, &covector).unwrap());
     assert!((gauss - midpoint).amax() < 1e-14 * midpoint.amax(), "{gauss}{midpoint}");
     assert!(midpoint.iter().filter(|entry| entry.abs() > 1e-6).count() == 17, "positive control: {midpoint}");
     // By the ends, which the step's own do not go through.
@@ -338,18 +335,15 @@ fn of_step_is_of_the_segment_that_the_step_takes() {
     {
         let (view, h) = (Swing.driven([0.7], 0.4), 0.3);
         let state = State { q: vector![0.5, -0.8], p: vector![0.9, 0.4] };
-        let (step, a) = Linearization::of_driven_step(&view, rule, &state, h, None).unwrap();
+        let (step, a) = view.by(rule, h).linearized_step_with_input(&state).unwrap();
         assert_eq!(step, view.step(&state, h, None).unwrap());
         let q1 = step.state.q;
-        let b = Linearization::of_driven_segment(&view, rule, &state.q, &q1, h).unwrap();
+        let b = view.by(rule, h).linearization_with_input(&state.q, &q1).unwrap();
         close(a.a.assembled::<4>(), b.a.assembled::<4>());
         close(a.b.assembled::<4>(), b.b.assembled::<4>());
-        close(
-            Linearization::of_step(&view, rule, &state, h, None).unwrap().1.a.assembled::<4>(),
-            b.a.assembled(),
-        );
-        let a = StepHessian::of_driven_step(&view, rule, &state, h, None, &state).unwrap().1;
-        let b = StepHessian::of_driven_segment(&view, rule, &state.q, &q1, h, &state).unwrap();
+        close(view.by(rule, h).linearized_step(&state).unwrap().1.a.assembled::<4>(), b.a.assembled());
+        let a = view.by(rule, h).step_with_hessian(&state, &state).unwrap().1;
+        let b = view.by(rule, h).step_hessian(&state.q, &q1, &state).unwrap();
         close(a.qq, b.qq);
         close(a.qp, b.qp);
         close(a.pu, b.pu);
@@ -370,7 +364,7 @@ fn second_derivatives_by_the_ends_are_those_of_the_first() {
     // Of a·p0 + b·p1, by (q0, q1, u).
     let slope = |q0: &SVector<f64, 2>, q1: &SVector<f64, 2>, u: f64| -> SVector<f64, 5> {
         let view = Swing.driven([u], 0.4);
-        let k = LegendreDerivatives::of_segment(&view, Rule {}, q0, q1, h);
+        let k = view.by(Rule {}, h).legendre_derivatives(q0, q1);
         let by_u = DiscreteDriven::<Rule, 2, 1>::momenta_by_input(&view, q0, &((q1 - q0) / h), h);
         let by_q0 = k.p0_by_q0.transpose() * a + k.p1_by_q0.transpose() * b;
         let by_q1 = k.p0_by_q1.transpose() * a + k.p1_by_q1.transpose() * b;
@@ -412,16 +406,16 @@ fn the_determinant_is_that_of_the_discrete_objects() {
     fn check<const S: usize>() {
         let (view, h) = (Swing.driven([0.7], 0.4), 0.3);
         let (q0, q1) = (vector![0.5, -0.8], vector![0.8, -0.5]);
-        let a = Linearization::of_segment(&view, Gauss::<S>, &q0, &q1, h).unwrap().a;
+        let a = view.by(Gauss::<S>, h).linearization(&q0, &q1).unwrap().a;
         let k = LegendreDerivatives::from_terms(
-            &Discrete::<Gauss<S>, 2>::discrete_lagrangian_derivatives(&view, &q0, &q1, h),
+            &view.by(Gauss::<S>, h).discrete_lagrangian_derivatives(&q0, &q1),
             &Discrete::<Gauss<S>, 2>::discrete_force_derivatives(&view, &q0, &q1, h),
         );
         let expected = k.p1_by_q0.determinant() / (-k.p0_by_q1).determinant();
         let determinant = a.assembled::<4>().determinant();
         assert!((determinant - expected).abs() < 1e-10, "S = {S}: {determinant} {expected}");
         // The exact blocks are those of the differences.
-        let exact = LegendreDerivatives::of_segment(&view, Gauss::<S>, &q0, &q1, h);
+        let exact = view.by(Gauss::<S>, h).legendre_derivatives(&q0, &q1);
         assert!((exact.p1_by_q0 - k.p1_by_q0).amax() < 1e-9 && (exact.p1_by_q1 - k.p1_by_q1).amax() < 1e-9);
         // Positive control: friction, and a ratio upside down.
         assert!((determinant - 1.0).abs() > 0.05 && (determinant - 1.0 / expected).abs() > 0.05);
@@ -444,12 +438,12 @@ fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
 fn a_step_has_a_derivative_where_its_ends_do_not_determine_it() {
     let oscillator = Oscillator { m: 1.0, k: 1.0, r: 0.0 };
     let (h, state) = (12.0_f64.sqrt(), State { q: vector![0.3], p: vector![-0.2] });
-    let (step, linearization) = Linearization::of_step(&oscillator, Gauss::<2>, &state, h, None).unwrap();
+    let (step, linearization) = oscillator.by(Gauss::<2>, h).linearized_step(&state).unwrap();
     assert!((linearization.a.assembled::<2>() + SMatrix::<f64, 2, 2>::identity()).amax() < 1e-14);
     assert!((step.state.q + state.q).amax() < 1e-14);
     // Another momentum leads to the same end.
     let other = State { p: vector![5.0], ..state };
-    let other = Discrete::<Gauss<2>, 1>::step(&oscillator, &other, h, None).unwrap().state;
+    let other = oscillator.by(Gauss::<2>, h).step(&other).unwrap().state;
     assert!((other.q + state.q).amax() < 1e-14 && (other.p + vector![5.0]).amax() < 1e-13);
 }
 
@@ -461,17 +455,17 @@ fn failures_have_names() {
         (0.5 * v[0] * v[0] - q[0].abs().powf(1.5), r * v[0] * v[0])
     }
     let (system, q0) = (Drag { r: 0.1 }, vector![0.0]);
-    let zero_step = Linearization::of_segment(&system, Gauss::<2>, &q0, &vector![0.1], 0.0);
+    let zero_step = system.by(Gauss::<2>, 0.0).linearization(&q0, &vector![0.1]);
     assert_eq!(zero_step, Err(StepError::StepSize { h: 0.0 }));
-    let not_finite = Linearization::of_segment(&system, Gauss::<2>, &q0, &vector![f64::NAN], 0.1);
+    let not_finite = system.by(Gauss::<2>, 0.1).linearization(&q0, &vector![f64::NAN]);
     assert!(matches!(not_finite, Err(StepError::NonFinite { index: 0, .. })), "{not_finite:?}");
     // At rest at q = 0, where V'' is infinite, the step exists and its derivative does not.
     let rest = State { q: q0, p: vector![0.0] };
-    assert!(Discrete::<Gauss<2>, 1>::step(&system, &rest, 0.1, None).is_ok());
-    let cusp = Linearization::of_step(&system, Gauss::<2>, &rest, 0.1, None);
+    assert!(system.by(Gauss::<2>, 0.1).step(&rest).is_ok());
+    let cusp = system.by(Gauss::<2>, 0.1).linearized_step(&rest);
     assert!(matches!(cusp, Err(StepError::NonFinite { index: 0, .. })), "{cusp:?}");
     // M − h²K/12 … singular: V = −12 q²/2 (s = 1: M + h²K/4 = 0 at k = −4/h²).
     let repelled = Oscillator { m: 1.0, k: -16.0, r: 0.0 };
-    let singular = Linearization::of_segment(&repelled, Gauss::<1>, &q0, &vector![0.2], 0.5);
+    let singular = repelled.by(Gauss::<1>, 0.5).linearization(&q0, &vector![0.2]);
     assert!(matches!(singular, Err(StepError::SingularNewtonMatrix { column: 0, .. })), "{singular:?}");
 }

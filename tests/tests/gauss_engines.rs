@@ -3,7 +3,7 @@
 #![expect(clippy::neg_cmp_op_on_partial_ord, reason = "lanes must decide negated comparisons as numbers do")]
 
 use dalembert::nalgebra::vector;
-use dalembert::{Discrete, Force, ForcedLagrangian, Gauss, Lanes, State};
+use dalembert::{Discretise, Force, ForcedLagrangian, Gauss, Lanes, State};
 
 /// One system for each engine, with selections, masks, functions of one and of two numbers, and numbers among their arguments.
 macro_rules! systems {
@@ -97,11 +97,11 @@ fn steps_agree_with_num_dual_and_in_single_precision() {
         single::Everything { a: 0.25, b: 1.3, is_open: true },
     );
     let start = State::from_velocity(&one, [0.5, -0.6], [0.3, 0.4]).unwrap();
-    let a = Discrete::<Gauss<4>, 2>::step(&one, &start, 0.1, None).unwrap().state;
-    let b = Discrete::<Gauss<4>, 2>::step(&other, &start, 0.1, None).unwrap().state;
+    let a = one.by(Gauss::<4>, 0.1).step(&start).unwrap().state;
+    let b = other.by(Gauss::<4>, 0.1).step(&start).unwrap().state;
     assert!((a.q - b.q).amax() < 1e-15 && (a.p - b.p).amax() < 2e-15, "{a:?} {b:?}");
     let start = State::from_velocity(&single, [0.5_f32, -0.6], [0.3_f32, 0.4]).unwrap();
-    let c = Discrete::<Gauss<4>, 2>::step(&single, &start, 0.1, None).unwrap().state;
+    let c = single.by(Gauss::<4>, 0.1).step(&start).unwrap().state;
     assert!(
         (c.q.cast::<f64>() - a.q).amax() < 5e-7 && (c.p.cast::<f64>() - a.p).amax() < 1e-6,
         "{c:?} {a:?}"

@@ -4,7 +4,7 @@
 
 use dalembert::nalgebra::SVector;
 use dalembert::{
-    CovectorDerivatives, Derivatives, Discrete, ForcedLagrangian, Gauss, Lagrangian, State, Trajectory,
+    CovectorDerivatives, Derivatives, Discrete, Discretise, ForcedLagrangian, Gauss, Lagrangian, State,
 };
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::convergence::Convergence;
@@ -38,7 +38,7 @@ where
     loop {
         let h = unit * TIMES[0] / f64::from(steps);
         let system = system(h);
-        let mut run = Trajectory::new(&system, Gauss::<STAGES>, h, start);
+        let mut run = system.by(Gauss::<STAGES>, h).run(start);
         let error = exact.iter().fold(0.0, |sum, exact| {
             let state = run.by_ref().take(steps as usize).last().unwrap().unwrap().state;
             sum + (state.q - exact.q).norm_squared() + (state.p - exact.p).norm_squared()

@@ -2,7 +2,7 @@
 
 use allocation_counter::measure;
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::{Discrete, Gauss, Quantity, State, StepError, Trajectory, rayleigh_system};
+use dalembert::{Discrete, Discretise, Gauss, Quantity, State, StepError, rayleigh_system};
 use dalembert_tests::systems::DoublePendulum;
 
 /// m q̈ + c q̇ + k q = 0, and a weak cubic spring.
@@ -60,7 +60,7 @@ fn stiff_steps<const S: usize>() {
     ] {
         let system = Oscillator { k, c, cubic: 0.0 };
         let start = State { q: vector![0.8], p: vector![-0.3] };
-        let step = Discrete::<Gauss<S>, 1>::step(&system, &start, h, None).unwrap();
+        let step = system.by(Gauss::<S>, h).step(&start).unwrap();
         let (q1, p1) = exact_rational::<S>(k, c, h, 0.8, -0.3);
         // The momenta at the stages are of the size √k.
         let size = 1.0 + k.sqrt() + c;
@@ -90,7 +90,7 @@ fn long_runs_at_large_steps_keep_the_energy_bounded() {
     let start = State { q: vector![1.0], p: vector![0.0] };
     let energy = start.energy(&system).unwrap();
     let mut iterations = 0;
-    for step in Trajectory::new(&system, Gauss::<3>, 0.1, start).take(2000) {
+    for step in system.by(Gauss::<3>, 0.1).run(start).take(2000) {
         let step = step.unwrap();
         iterations += step.report.iterations;
         assert!((step.state.energy(&system).unwrap() / energy - 1.0).abs() < 0.2);
@@ -101,7 +101,7 @@ fn long_runs_at_large_steps_keep_the_energy_bounded() {
     let system = DoublePendulum::FREE;
     let start = State::from_velocity(&system, [2.5, -2.0], [3.0, -2.0]).unwrap();
     let energy = start.energy(&system).unwrap();
-    for step in Trajectory::new(&system, Gauss::<8>, 0.25, start).take(1000) {
+    for step in system.by(Gauss::<8>, 0.25).run(start).take(1000) {
         assert!((step.unwrap().state.energy(&system).unwrap() - energy).abs() < 0.05 * energy.abs());
     }
 }
@@ -133,7 +133,7 @@ where
 {
     let mut start = State { q: SVector::zeros(), p: SVector::zeros() };
     start.q[0] = 1.0;
-    let mut run = Trajectory::new(system, Gauss::<8>, 0.1, start);
+    let mut run = system.by(Gauss::<8>, 0.1).run(start);
     let mut iterations = [0, 0];
     for step in 1..=20_u32 {
         let taken = run.next().unwrap().unwrap();
@@ -173,7 +173,7 @@ fn what_has_no_solution_says_so() {
     // v̇ = −v²: from v = −2 the velocity is infinite at t = ½. One stage: v = p − hv²/2 has a root iff p ≥ −1/(2h).
     let system = CubicDrag { m: 1.0, r: 1.0 };
     let state = State { q: vector![0.0], p: vector![-2.0] };
-    let mut trajectory = Trajectory::new(&system, Gauss::<1>, 1.0, state);
+    let mut trajectory = system.by(Gauss::<1>, 1.0).run(state);
     let error = trajectory.next().unwrap().unwrap_err();
     assert!(
         matches!(error, StepError::NoRealSolution { .. } | StepError::SingularNewtonMatrix { .. }),
@@ -187,7 +187,7 @@ fn what_has_no_solution_says_so() {
         state = trajectory.next().unwrap().unwrap().state;
     }
     assert!((state.p[0] + 2.0 / (1.0 - 2.0 * 0.25)).abs() < 0.1);
-    let mut fine = Trajectory::new(&system, Gauss::<6>, 0.05, State { q: vector![0.0], p: vector![-2.0] });
+    let mut fine = system.by(Gauss::<6>, 0.05).run(State { q: vector![0.0], p: vector![-2.0] });
     let state = fine.by_ref().take(5).last().unwrap().unwrap().state;
     assert!((state.p[0] + 4.0).abs() < 1e-10, "{}", state.p[0]);
 }
@@ -207,14 +207,14 @@ fn wall(q: [f64; 1], v: [f64; 1]) -> f64 {
 #[test]
 fn every_failure_has_its_name() {
     let state = State { q: vector![0.3, 0.1], p: vector![0.2, 0.0] };
-    let error = Discrete::<Gauss<2>, 2>::step(&Degenerate {}, &state, 0.1, None).unwrap_err();
+    let error = Degenerate {}.by(Gauss::<2>, 0.1).step(&state).unwrap_err();
     assert!(matches!(error, StepError::DegenerateLagrangian { column: 1 }), "{error}");
     let state = State { q: vector![-0.3], p: vector![0.2] };
-    let error = Discrete::<Gauss<2>, 1>::step(&Wall {}, &state, 0.1, None).unwrap_err();
+    let error = Wall {}.by(Gauss::<2>, 0.1).step(&state).unwrap_err();
     assert!(matches!(error, StepError::NonFinite { quantity: Quantity::Derivatives, index: 0 }), "{error}");
     // Positive control.
     let state = State { q: vector![0.3], p: vector![0.2] };
-    assert!(Discrete::<Gauss<2>, 1>::step(&Wall {}, &state, 0.1, None).is_ok());
+    assert!(Wall {}.by(Gauss::<2>, 0.1).step(&state).is_ok());
 }
 
 #[test]
@@ -226,7 +226,7 @@ fn an_equilibrium_of_large_forces_is_a_step() {
     }
     let system = Hanging { k: 0.7, g: 700.0 };
     let start = State { q: vector![1000.0], p: vector![0.0] };
-    for step in Trajectory::new(&system, Gauss::<4>, 0.3, start).take(100) {
+    for step in system.by(Gauss::<4>, 0.3).run(start).take(100) {
         let step = step.unwrap();
         assert!((step.state.q[0] - 1000.0).abs() < 1e-10 && step.report.iterations < 30, "{step:?}");
     }
@@ -238,17 +238,17 @@ fn neither_a_step_nor_a_run_allocates() {
     let stiff = Oscillator { k: 900.0, c: 0.0, cubic: 50.0 };
     let drag = CubicDrag { m: 1.0, r: 1.0 };
     let count = measure(|| {
-        for step in Trajectory::new(&DoublePendulum::EXAMPLE, Gauss::<4>, 0.1, start).take(100) {
+        for step in DoublePendulum::EXAMPLE.by(Gauss::<4>, 0.1).run(start).take(100) {
             step.unwrap();
         }
         let oscillating = State { q: vector![1.0], p: vector![0.0] };
-        let by_newton = Trajectory::new(&stiff, Gauss::<6>, 0.5, oscillating).take(10);
+        let by_newton = stiff.by(Gauss::<6>, 0.5).run(oscillating).take(10);
         for step in by_newton {
             step.unwrap();
         }
         let failing = State { q: vector![0.0], p: vector![-2.0] };
-        Discrete::<Gauss<1>, 1>::step(&drag, &failing, 1.0, None).unwrap_err();
-        let step = Discrete::<Gauss<3>, 2>::step(&DoublePendulum::EXAMPLE, &start, 0.1, None).unwrap();
+        drag.by(Gauss::<1>, 1.0).step(&failing).unwrap_err();
+        let step = DoublePendulum::EXAMPLE.by(Gauss::<3>, 0.1).step(&start).unwrap();
         Discrete::<Gauss<3>, 2>::momenta(&DoublePendulum::EXAMPLE, &start.q, &step.velocity, 0.1);
     });
     assert_eq!((count.count_total, count.bytes_total), (0, 0));

@@ -1,10 +1,8 @@
 //! What `Gauss<S>` keeps: the symplectic form and the momentum maps without force, and with it the identities of the theory.
 
 use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::noether::{Generator, Noether};
-use dalembert::{
-    Discrete, Gauss, LegendreDerivatives, Linearization, State, Trajectory, rayleigh_system, samples,
-};
+use dalembert::noether::Generator;
+use dalembert::{Discrete, Discretise, Gauss, State, rayleigh_system, samples};
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::systems::{Bead, Charge, DoublePendulum, Follower};
 
@@ -25,8 +23,8 @@ where
     L: ByHand<N> + Discrete<Gauss<S>, N, Scalar = f64>,
 {
     let start = State { q: q.into(), p: system.momentum(q, v) };
-    let q1 = Discrete::<Gauss<S>, N>::step(system, &start, H, None).unwrap().state.q;
-    (Linearization::of_segment(system, Gauss::<S>, &start.q, &q1, H).unwrap().a.assembled::<M>(), q1)
+    let q1 = system.by(Gauss::<S>, H).step(&start).unwrap().state.q;
+    (system.by(Gauss::<S>, H).linearization(&start.q, &q1).unwrap().a.assembled::<M>(), q1)
 }
 
 /// The same by central differences of order 6 of the step.
@@ -46,7 +44,7 @@ where
             let mut moved = start;
             let entry = if column < N { &mut moved.q[column] } else { &mut moved.p[column - N] };
             *entry += factor * delta;
-            let after = Discrete::<Gauss<S>, N>::step(system, &moved, H, None).unwrap().state;
+            let after = system.by(Gauss::<S>, H).step(&moved).unwrap().state;
             SVector::<f64, M>::from_fn(|i, _| if i < N { after.q[i] } else { after.p[i - N] })
         };
         let odd = |factor: f64| at(factor) - at(-factor);
@@ -101,11 +99,10 @@ where
 {
     let (a, q1) = step_matrix::<L, N, M, S>(system, q, v);
     let q0 = SVector::from(q);
-    let l = Discrete::<Gauss<S>, N>::discrete_lagrangian_derivatives(system, &q0, &q1, H);
+    let l = system.by(Gauss::<S>, H).discrete_lagrangian_derivatives(&q0, &q1);
     let f = Discrete::<Gauss<S>, N>::discrete_force_derivatives(system, &q0, &q1, H);
-    let value = |q0: &SVector<f64, N>, q1: &SVector<f64, N>| {
-        Discrete::<Gauss<S>, N>::discrete_lagrangian(system, q0, q1, H)
-    };
+    let value =
+        |q0: &SVector<f64, N>, q1: &SVector<f64, N>| system.by(Gauss::<S>, H).discrete_lagrangian(q0, q1);
     let delta = 4e-3;
     for coordinate in 0..N {
         for (slope, at_end) in [(l.d1[coordinate], false), (l.d2[coordinate], true)] {
@@ -120,7 +117,7 @@ where
             assert!((slope - difference).abs() < 1e-9, "S = {S}: {slope} {difference}");
         }
     }
-    let k = LegendreDerivatives::of_segment(system, Gauss::<S>, &q0, &q1, H);
+    let k = system.by(Gauss::<S>, H).legendre_derivatives(&q0, &q1);
     assert!((k.momenta.p0 + l.d1 + f.minus.value).amax() < 1e-12, "S = {S}");
     assert!((k.momenta.p1 - l.d2 - f.plus.value).amax() < 1e-12, "S = {S}");
     assert!(
@@ -167,7 +164,7 @@ fn central(q: [f64; 2], v: [f64; 2], isotropic: f64, radial: f64) -> (f64, f64) 
 fn drift<const S: usize>(system: &Central) -> f64 {
     let start = State::from_velocity(system, [0.9, -0.3], [0.4, 1.1]).unwrap();
     let angular = |state: &State<f64, 2>| state.q[0] * state.p[1] - state.q[1] * state.p[0];
-    let run = Trajectory::new(system, Gauss::<S>, H, start).take(2000);
+    let run = system.by(Gauss::<S>, H).run(start).take(2000);
     run.map(|step| (angular(&step.unwrap().state) - angular(&start)).abs()).fold(0.0, f64::max)
 }
 
@@ -193,9 +190,9 @@ fn the_checkers_see_it() {
     let segments = samples::segments([-1.0, -1.0], [1.0, 1.0], [0.1, 0.1], 20);
     let generator = Generator::rotation(0, 1);
     let kept = Central { isotropic: 0.0, radial: 0.2 };
-    let report = Noether::new(&kept, Gauss::<2>, 0.1).symmetry(&generator, &segments).unwrap();
+    let report = kept.by(Gauss::<2>, 0.1).noether().symmetry(&generator, &segments).unwrap();
     assert!(report.is_symmetry_of_lagrangian() && report.is_conserved(), "{report}");
     let lost = Central { isotropic: 0.1, radial: 0.0 };
-    let report = Noether::new(&lost, Gauss::<2>, 0.1).symmetry(&generator, &segments).unwrap();
+    let report = lost.by(Gauss::<2>, 0.1).noether().symmetry(&generator, &segments).unwrap();
     assert!(!report.is_conserved(), "{report}");
 }

@@ -138,9 +138,8 @@ mod num_dual {
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::{
-    Composition, Direction, Discrete, DiscreteDriven, DiscreteRayleigh, EnergyLedger, Force,
-    ForcedLagrangian, Gauss, Lagrangian, Lanes, Midpoint, NewtonMatrix, Rayleigh, Scalar, State, Trajectory,
-    Trapezoidal,
+    Composition, Direction, Discrete, DiscreteDriven, Discretise, EnergyLedger, Force, ForcedLagrangian,
+    Gauss, Lagrangian, Lanes, Midpoint, NewtonMatrix, Rayleigh, Scalar, State, Trapezoidal,
 };
 
 /// The largest difference seen, in units of 64 roundings of the largest entry.
@@ -344,7 +343,7 @@ fn end_of_trajectory<R: Copy, L>(
 where
     L: Discrete<R, 2, Scalar = f64>,
 {
-    let mut trajectory = Trajectory::new(system, rule, length / f64::from(steps), start);
+    let mut trajectory = system.by(rule, length / f64::from(steps)).run(start);
     for step in trajectory.by_ref().take(steps as usize) {
         step.unwrap();
     }
@@ -414,7 +413,7 @@ fn gauss_rules_keep_their_order_in_time() {
     // Positive control: with its time held, the system moves elsewhere.
     let (mut held, h) = (start, 1.5 / 24.0);
     for _ in 0..24 {
-        held = Discrete::<Gauss<3>, 2>::step(&view, &held, h, None).unwrap().state;
+        held = view.by(Gauss::<3>, h).step(&held).unwrap().state;
     }
     assert!((held.q - one).amax() > 1e-3);
 }
@@ -442,12 +441,12 @@ fn stages_see_their_own_time_in_both_engines() {
     }
     let state = State { q: vector![0.4_f32], p: vector![-0.3] };
     let (a, b) = (expanded::Pushed { m: 1.5 }, num_dual::Pushed { m: 1.5 });
-    let a = Discrete::<Gauss<3>, 1>::step(&a.driven([0.3, 0.2]), &state, 0.1, None).unwrap().state;
-    let b = Discrete::<Gauss<3>, 1>::step(&b.driven([0.3, 0.2]), &state, 0.1, None).unwrap().state;
+    let a = a.driven([0.3, 0.2]).by(Gauss::<3>, 0.1).step(&state).unwrap().state;
+    let b = b.driven([0.3, 0.2]).by(Gauss::<3>, 0.1).step(&state).unwrap().state;
     assert!((a.q - b.q).amax() < 1e-6 && (a.p - b.p).amax() < 1e-6);
     let (a, b) = (expanded::Shaken { omega: 3.0 }, num_dual::Shaken { omega: 3.0 });
-    let a = Discrete::<Gauss<3>, 1>::step(&a.at_time(0.6), &state, 0.1, None).unwrap().state;
-    let b = Discrete::<Gauss<3>, 1>::step(&b.at_time(0.6), &state, 0.1, None).unwrap().state;
+    let a = a.at_time(0.6).by(Gauss::<3>, 0.1).step(&state).unwrap().state;
+    let b = b.at_time(0.6).by(Gauss::<3>, 0.1).step(&state).unwrap().state;
     assert!((a.q - b.q).amax() < 1e-6 && (a.p - b.p).amax() < 1e-6);
 }
 
@@ -471,7 +470,7 @@ fn steps_in_parts_see_their_time() {
     let worn = expanded::Worn { r: 0.8 };
     let view = worn.at_time(0.4);
     let start = State::from_velocity(&view, [0.3], [0.9]).unwrap();
-    let run = || Trajectory::new(&view, Midpoint, 0.1, start);
+    let run = || view.by(Midpoint, 0.1).run(start);
     let (mut whole, mut parted) = (run(), run());
     for _ in 0..20 {
         assert_eq!(whole.next().unwrap().unwrap(), parted.next_in_parts(0).unwrap().step);
@@ -489,7 +488,7 @@ fn the_ledger_sees_the_time_within_a_step() {
         let (mut ledger, mut state) = (EnergyLedger::default(), start);
         for k in 0..steps {
             let view = worn.at_time(0.4 + h * f64::from(k));
-            let next = Discrete::<Midpoint, 1>::step(&view, &state, h, None).unwrap().state;
+            let next = view.by(Midpoint, h).step(&state).unwrap().state;
             ledger += EnergyLedger::of_rayleigh(&view, &state, &next, h).unwrap();
             state = next;
         }
@@ -511,7 +510,7 @@ fn what_needs_no_input_stands_on_the_system() {
     assert_eq!(cart.force([0.0; 2], [0.0; 2], [3.0]), [3.0, 0.0]);
     // The discrete Rayleigh function of a driven system is that of its R.
     let driven = cart.driven([3.0]);
-    let r_d = DiscreteRayleigh::<Midpoint, 2>::discrete_rayleigh(&driven, &q, &(q + v * 0.1), 0.1);
+    let r_d = driven.by(Midpoint, 0.1).discrete_rayleigh(&q, &(q + v * 0.1));
     assert!((r_d - 0.005 * cart.rayleigh([-0.3, 0.8])).abs() < 1e-16);
 }
 
@@ -568,16 +567,16 @@ fn a_run_of_a_linear_system_keeps_no_old_force() {
         let h = 0.1;
         let mut state = State { q: vector![0.3, -0.2], p: vector![0.1, 0.4] };
         let view = Rocking.driven([0.5], 0.2);
-        let mut trajectory = Trajectory::new(&view, rule, h, state);
+        let mut trajectory = view.by(rule, h).run(state);
         for k in 0..30 {
             let end = trajectory.next().unwrap().unwrap().state;
-            state = Rocking.driven([0.5], 0.2 + h * f64::from(k)).step(&state, h, None).unwrap().state;
+            state = Rocking.driven([0.5], 0.2 + h * f64::from(k)).by(rule, h).step(&state).unwrap().state;
             assert!((end.q - state.q).amax() < 1e-13 && (end.p - state.p).amax() < 1e-13, "step {k}");
         }
         // Positive control: the force of the first step, kept, leads elsewhere.
         let mut held = State { q: vector![0.3, -0.2], p: vector![0.1, 0.4] };
         for _ in 0..30 {
-            held = view.step(&held, h, None).unwrap().state;
+            held = view.by(rule, h).step(&held).unwrap().state;
         }
         assert!((held.q - state.q).amax() > 0.1);
     }

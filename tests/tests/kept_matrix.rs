@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use dalembert::{
-    Banded, Derivatives, Discrete, KeptMatrix, Lagrangian, Midpoint, Momenta, State, StepKernel, Trajectory,
+    Banded, Derivatives, Discrete, Discretise, KeptMatrix, Lagrangian, Midpoint, Momenta, State, StepKernel,
     VelocityHistory, rayleigh_system,
 };
 use nalgebra::{SMatrix, SVector};
@@ -107,7 +107,7 @@ macro_rules! counted {
             fn run(q: [f64; $n], v: [f64; $n], h: f64) -> [u32; 2] {
                 let system = Self::default();
                 let start = State::from_velocity(&system, q, v).unwrap();
-                for step in Trajectory::new(&system, Midpoint, h, start).take(2000) {
+                for step in system.by(Midpoint, h).run(start).take(2000) {
                     step.unwrap();
                 }
                 [system.equations.get(), system.momenta.get()]

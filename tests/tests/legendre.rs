@@ -1,7 +1,7 @@
 //! Legendre transforms, discrete Euler–Lagrange equations and the two flows fit together.
 
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::{Discrete, Midpoint, State, Trajectory, Trapezoidal, rayleigh_system};
+use dalembert::{Discrete, Discretise, Midpoint, State, Trapezoidal, rayleigh_system};
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::systems::{Bead, Chain, Charge, DoublePendulum, Follower};
 
@@ -17,7 +17,7 @@ where
     assert!((start.p - system.momentum(q, v)).amax() <= 4.0 * f64::EPSILON * start.p.amax());
 
     let states: Vec<_> = std::iter::once(start)
-        .chain(Trajectory::new(system, rule, H, start).take(50).map(|step| step.unwrap().state))
+        .chain(system.by(rule, H).run(start).take(50).map(|step| step.unwrap().state))
         .collect();
     for window in states.windows(3) {
         let [a, b, c] = [window[0], window[1], window[2]];
@@ -64,8 +64,8 @@ fn of_the_trapezoidal_rule() {
 fn a_step_back_undoes_a_step_without_force() {
     let system = DoublePendulum::FREE;
     let start = State::from_velocity(&system, [1.1, -0.6], [0.3, 1.2]).unwrap();
-    let there = Trajectory::new(&system, Midpoint, H, start).take(100).last().unwrap().unwrap().state;
-    let back = Trajectory::new(&system, Midpoint, -H, there).take(100).last().unwrap().unwrap().state;
+    let there = system.by(Midpoint, H).run(start).take(100).last().unwrap().unwrap().state;
+    let back = system.by(Midpoint, -H).run(there).take(100).last().unwrap().unwrap().state;
     assert!((there.q - start.q).amax() > 0.1);
     assert!((back.q - start.q).amax() < 1e-12 && (back.p - start.p).amax() < 1e-12, "{back:?}");
 }

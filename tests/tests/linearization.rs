@@ -3,7 +3,7 @@
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::{
-    Discrete, DiscreteRayleigh, Gauss, Linearization, Midpoint, State, Trapezoidal, rayleigh_system,
+    Discrete, DiscreteRayleigh, Discretise, Gauss, Midpoint, State, Trapezoidal, rayleigh_system,
 };
 
 /// Nonlinear in everything; `curl` is the strength of a force that is not Rayleigh.
@@ -49,7 +49,7 @@ fn step_matrix<R, L>(system: &L, rule: R) -> Phase
 where
     L: Discrete<R, 2, Scalar = f64>,
 {
-    Linearization::of_segment(system, rule, &Q0, &Q1, H).unwrap().a.assembled()
+    system.by(rule, H).linearization(&Q0, &Q1).unwrap().a.assembled()
 }
 
 fn by_differences<R, L>(system: &L) -> Phase
@@ -120,7 +120,7 @@ fn the_force_alone_bends_the_symplectic_form() {
     for (system, bends) in
         [(Tangle { friction: 0.6, curl: 0.8 }, true), (Tangle { friction: 0.0, curl: 0.0 }, false)]
     {
-        let linearization = Linearization::of_segment(&system, Midpoint, &Q0, &Q1, H).unwrap();
+        let linearization = system.by(Midpoint, H).linearization(&Q0, &Q1).unwrap();
         let a: Phase = linearization.a.assembled();
         let defect = a.transpose() * OMEGA * a - OMEGA;
         let f = Discrete::<Midpoint, 2>::discrete_force_derivatives(&system, &Q0, &Q1, H);
@@ -146,13 +146,7 @@ fn a_singular_transform_is_an_error() {
     // Midpoint: ∂p0/∂q1 = m/h + kh/4 + r/2, which vanishes for the repelling k = −4m/h².
     use dalembert_tests::damped_oscillator::Oscillator;
     let at = |k: f64| {
-        Linearization::of_segment(
-            &Oscillator { m: 1.0, k, r: 0.0 },
-            Midpoint,
-            &vector![0.1],
-            &vector![0.2],
-            0.5,
-        )
+        Oscillator { m: 1.0, k, r: 0.0 }.by(Midpoint, 0.5).linearization(&vector![0.1], &vector![0.2])
     };
     assert!(
         matches!(at(-16.0), Err(dalembert::StepError::SingularNewtonMatrix { column: 0, .. })),

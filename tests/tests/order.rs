@@ -4,8 +4,8 @@
 
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::{
-    Derivatives, Discrete, DisplacementRule, Lagrangian, Midpoint, Momenta, Rayleigh, State, StepKernel,
-    Trajectory, Trapezoidal, VelocityHistory,
+    Derivatives, Discrete, Discretise, DisplacementRule, Lagrangian, Midpoint, Momenta, Rayleigh, State,
+    StepKernel, Trapezoidal, VelocityHistory,
 };
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::convergence::Convergence;
@@ -35,7 +35,7 @@ where
     let (mut in_q, mut in_p) = (Convergence::default(), Convergence::default());
     for steps in [16, 32, 64, 128, 256, 512, 1024] {
         let h = time / f64::from(steps);
-        let mut trajectory = Trajectory::new(system, rule, h, start);
+        let mut trajectory = system.by(rule, h).run(start);
         let last = trajectory.by_ref().take(steps as usize).last().unwrap().unwrap().state;
         in_q.push(h, (last.q - SVector::from(q_end)).norm());
         in_p.push(h, (last.p - p_end).norm());

@@ -6,7 +6,7 @@
 //! ```
 
 use dalembert::nalgebra::{Matrix2, vector};
-use dalembert::{Discrete, Midpoint, State, rayleigh_system};
+use dalembert::{Discretise, Midpoint, State, rayleigh_system};
 
 /// The damped oscillator m q̈ + r q̇ + k q = 0.
 #[rayleigh_system]
@@ -23,7 +23,7 @@ fn closed_form(Oscillator { m, k, r }: Oscillator, h: f64) -> Matrix2<f64> {
 }
 
 fn step(system: Oscillator, h: f64, q: f64, p: f64) -> State<f64, 1> {
-    Discrete::<Midpoint, 1>::step(&system, &State { q: vector![q], p: vector![p] }, h, None).unwrap().state
+    system.by(Midpoint, h).step(&State { q: vector![q], p: vector![p] }).unwrap().state
 }
 
 const SYSTEMS: [Oscillator; 5] = [
@@ -95,10 +95,9 @@ fn free_mass_rings_when_the_step_is_long() {
     let (m, r) = (1.3, 0.9);
     let system = Oscillator { m, k: 0.0, r };
     for (h, rings) in [(0.2, false), (2.0, false), (3.5, true), (50.0, true)] {
-        let first =
-            Discrete::<Midpoint, 1>::step(&system, &State { q: vector![0.4], p: vector![1.0] }, h, None);
+        let first = system.by(Midpoint, h).step(&State { q: vector![0.4], p: vector![1.0] });
         let first = first.unwrap();
-        let second = Discrete::<Midpoint, 1>::step(&system, &first.state, h, None).unwrap();
+        let second = system.by(Midpoint, h).step(&first.state).unwrap();
         let ratio = second.velocity[0] / first.velocity[0];
         assert!((ratio - (2.0 * m - h * r) / (2.0 * m + h * r)).abs() <= 1e-14, "{ratio}");
         assert_eq!(ratio < 0.0, rings);

@@ -1,6 +1,6 @@
 //! The paper's polar example lacks the factor h before V(…) in L_d: as printed, L_d/h does not tend to L.
 
-use dalembert::{Discrete, Midpoint, rayleigh_system};
+use dalembert::{Discretise, Midpoint, rayleigh_system};
 
 #[test]
 fn the_polar_example_lacks_h_before_the_potential() {
@@ -19,7 +19,7 @@ fn the_polar_example_lacks_h_before_the_potential() {
         let potential = (mean * mean - 1.0).powi(2);
         let kinetic =
             0.5 * h * ((end[0] - q[0]) / h).powi(2) + 0.5 * h * mean * mean * ((end[1] - q[1]) / h).powi(2);
-        let midpoint = Discrete::<Midpoint, 2>::discrete_lagrangian(&Polar, &q.into(), &end.into(), h);
+        let midpoint = Polar.by(Midpoint, h).discrete_lagrangian(&q.into(), &end.into());
         assert!((kinetic - h * potential - midpoint).abs() < 1e-15);
         assert!(((kinetic - h * potential) / h - continuous).abs() < h);
         let printed = (kinetic - potential) / h;

@@ -5,7 +5,7 @@
 
 use dalembert::nalgebra::{Matrix2, Matrix4, SVector, Vector4};
 use dalembert::{
-    Discrete, DiscreteRayleigh, EnergyLedger, Gauss, Linearization, Midpoint, NewtonMatrix, State, Step,
+    Discrete, DiscreteRayleigh, Discretise, EnergyLedger, Gauss, Midpoint, NewtonMatrix, State, Step,
     StepError, Trajectory, Trapezoidal, rayleigh_system,
 };
 use proptest::prelude::*;
@@ -132,7 +132,7 @@ fn taken_or_named<R: Copy>(
 where
     Masses: Discrete<R, 2, Scalar = f64>,
 {
-    let mut run = Trajectory::new(system, rule, h, start);
+    let mut run = system.by(rule, h).run(start);
     let mut taken = 0;
     for _ in 0..4 {
         let (before, time) = (*run.state(), run.time());
@@ -254,18 +254,18 @@ proptest! {
         let (missed, bound) = force_mismatch(&system, &system, [q0, q1], h);
         prop_assert!(missed <= bound, "{:e} {:e}", missed, bound);
         let l = system_lagrangian(&system, &q0, &q1, h);
-        let r = DiscreteRayleigh::<Midpoint, 2>::discrete_rayleigh(&system, &q0, &q1, h);
-        prop_assert_eq!(DiscreteRayleigh::<Midpoint, 2>::modified_plus(&system, &q0, &q1, h), l + r);
-        prop_assert_eq!(DiscreteRayleigh::<Midpoint, 2>::modified_minus(&system, &q0, &q1, h), l - r);
+        let r = system.by(Midpoint, h).discrete_rayleigh(&q0, &q1);
+        prop_assert_eq!(system.by(Midpoint, h).modified_plus(&q0, &q1), l + r);
+        prop_assert_eq!(system.by(Midpoint, h).modified_minus(&q0, &q1), l - r);
     }
 }
 
 fn system_step(system: &Masses, state: &State<f64, 2>, h: f64) -> Result<Step<f64, 2>, StepError> {
-    Discrete::<Midpoint, 2>::step(system, state, h, None)
+    system.by(Midpoint, h).step(state)
 }
 
 fn system_lagrangian(system: &Masses, q0: &SVector<f64, 2>, q1: &SVector<f64, 2>, h: f64) -> f64 {
-    Discrete::<Midpoint, 2>::discrete_lagrangian(system, q0, q1, h)
+    system.by(Midpoint, h).discrete_lagrangian(q0, q1)
 }
 
 /// How far (q, −p) of the next state leads past (q, −p) of this one, and what rounding allows. Nothing where no step is taken.
@@ -281,7 +281,7 @@ where
     let there = system.step(&start, h, None).ok()?;
     let turned = State { q: there.state.q, p: -there.state.p };
     let back = system.step(&turned, h, None).ok()?;
-    let a = Linearization::<f64, 2>::of_segment(system, rule, &turned.q, &back.state.q, h).ok()?.a;
+    let a = system.by(rule, h).linearization(&turned.q, &back.state.q).ok()?.a;
     let (q, p) = (back.state.q - start.q, back.state.p + start.p);
     let bound = carried(&a.assembled::<4>(), &turned, &back, 64.0)
         + carried(&Matrix4::identity(), &start, &there, 64.0);
@@ -315,7 +315,7 @@ where
     Masses: Discrete<R, 2, Scalar = f64>,
 {
     let step = system.step(&start, h, None).ok()?;
-    let a = Linearization::<f64, 2>::of_segment(system, rule, &start.q, &step.state.q, h).ok()?.a;
+    let a = system.by(rule, h).linearization(&start.q, &step.state.q).ok()?.a;
     let unit = system.m[0].max(system.m[1]) / h;
     let units = Vector4::new(1.0, 1.0, unit, unit);
     let a = a.assembled::<4>().map_with_location(|i, j, entry| entry * units[j] / units[i]);
@@ -331,7 +331,7 @@ where
 {
     let step = system.step(&start, h, None).ok()?;
     let (q0, q1) = (&start.q, &step.state.q);
-    let a = Linearization::<f64, 2>::of_segment(system, rule, q0, q1, h).ok()?.a.assembled::<4>();
+    let a = system.by(rule, h).linearization(q0, q1).ok()?.a.assembled::<4>();
     let minus = system.modified_minus_derivatives(q0, q1, h).d12;
     let plus = system.modified_plus_derivatives(q0, q1, h).d12;
     // Each determinant to the rounding of its products, which may cancel.
@@ -402,7 +402,7 @@ where
         dry: [system.dry[0] * m * x / (t * t), system.dry[1] * x / t],
     };
     let start = State { q: start.q * x, p: start.p * (m * x / t) };
-    let mut run = Trajectory::new(&system, rule, h * t, start);
+    let mut run = system.by(rule, h * t).run(start);
     // Only as far as nothing can overflow in any units.
     let next = |run: &mut Trajectory<'_, Masses, R, 2>| {
         let state = run.next()?.ok()?.state;
@@ -415,7 +415,7 @@ where
 
 /// How far the discrete forces of `system` are from those of `on_paper`, and what rounding allows.
 fn force_mismatch(system: &Masses, on_paper: &Masses, [q0, q1]: [SVector<f64, 2>; 2], h: f64) -> (f64, f64) {
-    let force = Discrete::<Midpoint, 2>::discrete_force(system, &q0, &q1, h);
+    let force = system.by(Midpoint, h).discrete_force(&q0, &q1);
     let (q, v) = ((q0 + q1) * 0.5, (q1 - q0) / h);
     let [by_q, by_v] = on_paper.friction(&q, &v);
     let minus = by_q * (h * h / 4.0) - by_v * (h / 2.0);
@@ -470,7 +470,7 @@ fn every_check_can_fail() {
     let (_, bound) = determinant(&EXAMPLE, Midpoint, start, h).unwrap();
     let of = |system: &Masses| {
         let step = system_step(system, &start, h).unwrap();
-        let a = Linearization::<f64, 2>::of_segment(system, Midpoint, &start.q, &step.state.q, h).unwrap().a;
+        let a = system.by(Midpoint, h).linearization(&start.q, &step.state.q).unwrap().a;
         a.assembled::<4>().determinant()
     };
     assert!((of(&EXAMPLE) - of(&EXAMPLE.frictionless())).abs() > 1e6 * bound);

@@ -2,8 +2,8 @@
 //! matrix, an explicit step's force, one memory for each substep of a composition.
 
 use dalembert::{
-    Checkpoint, Composition, Discrete, Gauss, Midpoint, Splitting, State, StepError, Trajectory, Trapezoidal,
-    rayleigh_system,
+    Checkpoint, Composition, Discrete, Discretise, Gauss, Midpoint, Splitting, State, StepError, Trajectory,
+    Trapezoidal, rayleigh_system,
 };
 use dalembert_tests::systems::{Chain, DoublePendulum};
 
@@ -35,7 +35,7 @@ fn by_rule<L, R: Copy, const N: usize>(system: &L, rule: R, h: f64, is_resumed: 
 where
     L: Discrete<R, N, Scalar = f64>,
 {
-    let mut run = Trajectory::new(system, rule, h, start());
+    let mut run = system.by(rule, h).run(start());
     let mut states = Vec::new();
     for _ in 0..3 {
         states.extend(run.by_ref().take(100).map(|step| bits(&step.unwrap().state)));
@@ -68,7 +68,7 @@ fn every_rule_goes_on_bit_by_bit() {
 #[test]
 fn forgetting_changes_no_more_than_rounding() {
     let of = |every: usize| {
-        let mut run = Trajectory::new(&DoublePendulum::FREE, Gauss::<4>, 0.1, start());
+        let mut run = DoublePendulum::FREE.by(Gauss::<4>, 0.1).run(start());
         for _ in 0..100 / every {
             run.by_ref().take(every).for_each(|step| assert!(step.is_ok()));
             run.checkpoint();
@@ -107,7 +107,7 @@ fn compositions_go_on_bit_by_bit() {
 /// A state that is no state, or text that broke off, is refused.
 #[test]
 fn broken_text_is_refused() {
-    let checkpoint = Trajectory::new(&Ring { k: 0.0 }, Trapezoidal, 0.1, start()).checkpoint();
+    let checkpoint = Ring { k: 0.0 }.by(Trapezoidal, 0.1).run(start()).checkpoint();
     let text = serde_json::to_string(&checkpoint).unwrap();
     assert!(serde_json::from_str::<Checkpoint<f64, 2>>(&text).is_ok());
     for wrong in [

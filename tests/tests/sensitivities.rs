@@ -48,9 +48,9 @@ mod num_dual {
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::{
-    Discrete, DiscreteDriven, DiscreteParameters, DiscreteRayleigh, DiscreteSecondOrder, Gauss, Lagrangian,
-    Linearization, Midpoint, Parameters, PhaseMatrix, Rayleigh, SecondOrder, State, StateBy, StepHessian,
-    Trapezoidal, rayleigh_system,
+    Discrete, DiscreteDriven, DiscreteParameters, DiscreteRayleigh, DiscreteSecondOrder, Discretise, Gauss,
+    Lagrangian, Midpoint, Parameters, PhaseMatrix, Rayleigh, SecondOrder, State, StepHessian, Trapezoidal,
+    rayleigh_system,
 };
 use expanded::CartPole;
 
@@ -95,7 +95,7 @@ fn jacobian<R: Copy>(
 where
     for<'a> expanded::DrivenCartPole<'a>: DiscreteDriven<R, 2, 2, Scalar = f64>,
 {
-    let step = Linearization::of_driven_segment(&cart.driven(u, T), rule, q0, q1, H).unwrap();
+    let step = cart.driven(u, T).by(rule, H).linearization_with_input(q0, q1).unwrap();
     let (a, b) = (step.a.assembled::<4>(), step.b.assembled::<4>());
     SMatrix::from_fn(|i, j| if j < 4 { a[(i, j)] } else { b[(i, j - 4)] })
 }
@@ -140,7 +140,7 @@ where
         jacobian(&CART, rule, u, &q0, &q1).transpose()
             * vector![covector.q[0], covector.q[1], covector.p[0], covector.p[1]]
     };
-    let found = StepHessian::of_driven_segment(&CART.driven(U, T), rule, &Q0, &Q1, H, &covector).unwrap();
+    let found = CART.driven(U, T).by(rule, H).step_hessian(&Q0, &Q1, &covector).unwrap();
     let found = assembled(&found);
     let z = point::<R>(&CART);
     let width = 1e-5;
@@ -189,18 +189,18 @@ where
     let covector = State { q: vector![0.7, -1.1], p: vector![0.4, 0.9] };
     let (a, b) = (CART.driven(U, T), oracle.driven(U, T));
     let first = [
-        Linearization::of_driven_segment(&a, rule, &Q0, &Q1, H).unwrap(),
-        Linearization::of_driven_segment(&b, rule, &Q0, &Q1, H).unwrap(),
+        a.by(rule, H).linearization_with_input(&Q0, &Q1).unwrap(),
+        b.by(rule, H).linearization_with_input(&Q0, &Q1).unwrap(),
     ];
     assert!((first[0].a.assembled::<4>() - first[1].a.assembled::<4>()).amax() < 1e-13);
     assert!((first[0].b.assembled::<4>() - first[1].b.assembled::<4>()).amax() < 1e-14);
     let second = [
-        assembled(&StepHessian::of_driven_segment(&a, rule, &Q0, &Q1, H, &covector).unwrap()),
-        assembled(&StepHessian::of_driven_segment(&b, rule, &Q0, &Q1, H, &covector).unwrap()),
+        assembled(&a.by(rule, H).step_hessian(&Q0, &Q1, &covector).unwrap()),
+        assembled(&b.by(rule, H).step_hessian(&Q0, &Q1, &covector).unwrap()),
     ];
     assert!((second[0] - second[1]).amax() < 1e-13 * second[0].amax());
     let later = CART.driven(U, T + 1e-6);
-    let later = assembled(&StepHessian::of_driven_segment(&later, rule, &Q0, &Q1, H, &covector).unwrap());
+    let later = assembled(&later.by(rule, H).step_hessian(&Q0, &Q1, &covector).unwrap());
     assert!((second[1] - later).amax() > 1e-12 * later.amax(), "positive control");
 }
 
@@ -238,7 +238,7 @@ where
     for<'a> expanded::DrivenCartPole<'a>: DiscreteParameters<R, 2, 4, Scalar = f64>,
 {
     let z = point::<R>(&CART);
-    let exact = StateBy::of_parameters(&CART.driven(U, T), rule, &Q0, &Q1, H).unwrap().assembled::<4>();
+    let exact = CART.driven(U, T).by(rule, H).state_by_parameters(&Q0, &Q1).unwrap().assembled::<4>();
     let moved = |index: usize, shift: f64| {
         let mut cart = CART;
         match index {
@@ -330,7 +330,7 @@ fn the_linear_oscillator_in_closed_form() {
     let state = State { q: vector![0.6], p: vector![-0.9] };
     let (q, p) = (state.q[0], state.p[0]);
     let q1 = driven.step(&state, h, None).unwrap().state.q;
-    let step = Linearization::of_driven_segment(&driven, Midpoint, &state.q, &q1, h).unwrap();
+    let step = driven.by(Midpoint, h).linearization_with_input(&state.q, &q1).unwrap();
     // mathematics: q1 = (4hp + (4m − kh² + 2hr) q + 2h² u)/D and p1 = p − h(k q̄ + r v̄ − u).
     let d = 4.0 * m + h * h * k + 2.0 * h * r;
     let a = matrix![4.0 * m - k * h * h + 2.0 * h * r, 4.0 * h; -4.0 * h * k * m, 4.0 * m - h * h * k - 2.0 * h * r]
@@ -342,14 +342,14 @@ fn the_linear_oscillator_in_closed_form() {
     // By m, k, r: v̄ = (p − (h/2)(k q − u))/(D/4), q1 = q + h v̄, p1 = p − h(k (q + h v̄/2) + r v̄ − u).
     let v = (p - h / 2.0 * (k * q - u)) * 4.0 / d;
     let v_by = vector![-4.0 * v / d, -(h / 2.0 * q + h * h / 4.0 * v) * 4.0 / d, -h / 2.0 * v * 4.0 / d];
-    let by = StateBy::of_parameters(&driven, Midpoint, &state.q, &q1, h).unwrap();
+    let by = driven.by(Midpoint, h).state_by_parameters(&state.q, &q1).unwrap();
     for j in 0..3 {
         let direct = [0.0, -h * (q + h * v / 2.0), -h * v][j];
         let p_by = direct - h * (k * h / 2.0 + r) * v_by[j];
         assert!((by.q[j] - h * v_by[j]).abs() < 1e-15 && (by.p[j] - p_by).abs() < 1e-15, "{j}");
     }
     // A linear step has no second derivatives.
-    let second = StepHessian::of_driven_segment(&driven, Midpoint, &state.q, &q1, h, &state).unwrap();
+    let second = driven.by(Midpoint, h).step_hessian(&state.q, &q1, &state).unwrap();
     assert_eq!((second.qq[0], second.qp[0], second.pp[0], second.uu[0]), (0.0, 0.0, 0.0, 0.0));
 }
 
@@ -359,14 +359,11 @@ fn an_input_alone_leaves_the_step_symplectic() {
     let omega = matrix![0.0, 1.0; -1.0, 0.0];
     for r in [0.0, 0.5] {
         let system = Oscillator { m: 1.3, k: 2.1, r };
-        let step = Linearization::of_driven_segment(
-            &system.driven([0.7]),
-            Midpoint,
-            &vector![0.1],
-            &vector![0.2],
-            0.2,
-        )
-        .unwrap();
+        let step = system
+            .driven([0.7])
+            .by(Midpoint, 0.2)
+            .linearization_with_input(&vector![0.1], &vector![0.2])
+            .unwrap();
         let a = step.a.assembled::<2>();
         let defect = (a.transpose() * omega * a - omega).amax();
         assert_eq!(defect > 1e-2, r > 0.0, "{defect}");
@@ -395,22 +392,21 @@ impl Plain {
 fn systems_without_inputs_have_second_derivatives_too() {
     let (system, h) = (Plain { k: 2.0 }, 0.1);
     let covector = State { q: vector![0.3], p: vector![1.1] };
-    let state = Discrete::<Trapezoidal, 1>::legendre_minus(&system, &vector![0.5], &vector![0.45], h);
+    let state = system.by(Trapezoidal, h).legendre_minus(&vector![0.5], &vector![0.45]);
     let slope = |system: &Plain, q: f64, p: f64| {
         let moved = State { q: vector![q], p: vector![p] };
-        let q1 = Discrete::<Trapezoidal, 1>::step(system, &moved, h, None).unwrap().state.q;
-        let a = Linearization::of_segment(system, Trapezoidal, &moved.q, &q1, h).unwrap().a;
+        let q1 = system.by(Trapezoidal, h).step(&moved).unwrap().state.q;
+        let a = system.by(Trapezoidal, h).linearization(&moved.q, &q1).unwrap().a;
         a.q_by_p[0] * covector.q[0] + a.p_by_p[0] * covector.p[0]
     };
-    let found =
-        StepHessian::of_segment(&system, Trapezoidal, &vector![0.5], &vector![0.45], h, &covector).unwrap();
+    let found = system.by(Trapezoidal, h).step_hessian(&vector![0.5], &vector![0.45], &covector).unwrap();
     let (q, p, width) = (state.q[0], state.p[0], 1e-5);
     let by_q = (slope(&system, q + width, p) - slope(&system, q - width, p)) / (2.0 * width);
     let by_p = (slope(&system, q, p + width) - slope(&system, q, p - width)) / (2.0 * width);
     assert!((found.qp[0] - by_q).abs() < 1e-9, "{} {by_q}", found.qp[0]);
     assert!((found.pp[0] - by_p).abs() < 1e-9, "{} {by_p}", found.pp[0]);
-    let end = |k: f64| Discrete::<Trapezoidal, 1>::step(&Plain { k }, &state, h, None).unwrap().state.p[0];
-    let by_k = StateBy::of_parameters(&system, Trapezoidal, &vector![0.5], &vector![0.45], h).unwrap().p[0];
+    let end = |k: f64| Plain { k }.by(Trapezoidal, h).step(&state).unwrap().state.p[0];
+    let by_k = system.by(Trapezoidal, h).state_by_parameters(&vector![0.5], &vector![0.45]).unwrap().p[0];
     let difference = (end(2.0 + width) - end(2.0 - width)) / (2.0 * width);
     assert!((by_k - difference).abs() < 1e-9 && by_k.abs() > 1e-3);
 }
@@ -478,12 +474,12 @@ fn single_precision_has_them_too() {
     let (m, k, r, h, u) = (1.3, 2.1, 0.4, 0.2, 0.7);
     let (single, double) = (Single { m, k, r }, Oscillator { m: 1.3, k: 2.1, r: 0.4 });
     let (single, double) = (single.driven([u]), double.driven([0.7]));
-    let a = Linearization::of_driven_segment(&single, Midpoint, &vector![0.6], &vector![0.5], h).unwrap();
-    let b = Linearization::of_driven_segment(&double, Midpoint, &vector![0.6], &vector![0.5], 0.2).unwrap();
+    let a = single.by(Midpoint, h).linearization_with_input(&vector![0.6], &vector![0.5]).unwrap();
+    let b = double.by(Midpoint, 0.2).linearization_with_input(&vector![0.6], &vector![0.5]).unwrap();
     let of_double = (b.a.assembled::<2>(), b.b.assembled::<2>());
     assert!((a.a.assembled::<2>().cast::<f64>() - of_double.0).amax() < 1e-6);
     assert!((a.b.assembled::<2>().cast::<f64>() - of_double.1).amax() < 1e-7);
-    let a = StateBy::of_parameters(&single, Midpoint, &vector![0.6], &vector![0.5], h).unwrap();
-    let b = StateBy::of_parameters(&double, Midpoint, &vector![0.6], &vector![0.5], 0.2).unwrap();
+    let a = single.by(Midpoint, h).state_by_parameters(&vector![0.6], &vector![0.5]).unwrap();
+    let b = double.by(Midpoint, 0.2).state_by_parameters(&vector![0.6], &vector![0.5]).unwrap();
     assert!((a.assembled::<2>().cast::<f64>() - b.assembled::<2>()).amax() < 1e-7);
 }

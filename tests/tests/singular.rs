@@ -5,7 +5,7 @@
 //! depend on x or y, however singular the function is.
 
 use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::{Direction, Discrete, Force, Lagrangian, Midpoint, NewtonMatrix};
+use dalembert::{Direction, Discrete, Discretise, Force, Lagrangian, Midpoint, NewtonMatrix};
 
 const INF: f64 = f64::INFINITY;
 const NAN: f64 = f64::NAN;
@@ -337,8 +337,8 @@ fn both_engines_take_trapezoidal_steps_from_singular_points() {
     for (q, p) in [([0.0, 0.5], [0.3, -0.2]), ([0.0, 0.0], [-0.1, 0.0]), ([0.0, 0.0], [0.0, 1.0])] {
         let start = State { q: q.into(), p: p.into() };
         for h in [0.1, -0.02, 1e-3] {
-            let a = Discrete::<Trapezoidal, 2>::step(&kink::expanded::Kink { c: 0.3 }, &start, h, None);
-            let b = Discrete::<Trapezoidal, 2>::step(&kink::num_dual::Kink { c: 0.3 }, &start, h, None);
+            let a = kink::expanded::Kink { c: 0.3 }.by(Trapezoidal, h).step(&start);
+            let b = kink::num_dual::Kink { c: 0.3 }.by(Trapezoidal, h).step(&start);
             let (a, b) = (a.unwrap().state, b.unwrap().state);
             assert!((a.q - b.q).amax() < 1e-15 && (a.p - b.p).amax() < 1e-15, "{start:?} {h}: {a:?} {b:?}");
             // p = (1 + hc/2) v̄ + (h/2) V′(q0).

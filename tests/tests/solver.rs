@@ -2,7 +2,7 @@
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::{
-    Derivatives, Discrete, Lagrangian, Midpoint, Momenta, Quantity, State, StepError, StepKernel, Trajectory,
+    Derivatives, Discrete, Discretise, Lagrangian, Midpoint, Momenta, Quantity, State, StepError, StepKernel,
     Trapezoidal, VelocityHistory, rayleigh_system,
 };
 use dalembert_tests::systems::{Bead, DoublePendulum, Pendulum};
@@ -16,7 +16,7 @@ fn midpoint<S, const N: usize>(
 where
     S: Discrete<Midpoint, N, Scalar = f64>,
 {
-    system.step(&State { q: q.into(), p: p.into() }, h, None)
+    system.by(Midpoint, h).step(&State { q: q.into(), p: p.into() })
 }
 
 mod refuses {
@@ -28,8 +28,7 @@ mod refuses {
             let error = StepError::StepSize { h };
             assert_eq!(midpoint(&Bead::EXAMPLE, [0.1], [0.2], h).unwrap_err(), error);
             let (q0, q1) = (vector![0.1], vector![0.2]);
-            let configurations =
-                Discrete::<Midpoint, 1>::step_configurations(&Bead::EXAMPLE, &q0, &q1, h, None);
+            let configurations = Bead::EXAMPLE.by(Midpoint, h).step_configurations(&q0, &q1);
             assert_eq!(configurations.unwrap_err(), error);
         }
         let error = midpoint(&Bead::EXAMPLE, [0.1], [0.2], f64::NAN).unwrap_err();
@@ -52,16 +51,10 @@ mod refuses {
                 );
                 assert_eq!(midpoint(&system, fine, broken, 0.1).unwrap_err(), non_finite(Quantity::Momentum));
                 let state = State { q: fine.into(), p: fine.into() };
-                let step = Discrete::<Midpoint, 2>::step(&system, &state, 0.1, Some(&broken.into()));
+                let step = system.by(Midpoint, 0.1).near(&broken.into()).step(&state);
                 assert_eq!(step.unwrap_err(), non_finite(Quantity::Velocity));
                 for (q0, q1) in [(broken, fine), (fine, broken)] {
-                    let step = Discrete::<Midpoint, 2>::step_configurations(
-                        &system,
-                        &q0.into(),
-                        &q1.into(),
-                        0.1,
-                        None,
-                    );
+                    let step = system.by(Midpoint, 0.1).step_configurations(&q0.into(), &q1.into());
                     assert_eq!(step.unwrap_err(), non_finite(Quantity::Configuration));
                 }
                 let made = |q: [f64; 2], v: [f64; 2]| State::from_velocity(&system, q, v);
@@ -110,7 +103,7 @@ mod at_the_edge_of_the_domain {
         let system = Wall { strength: 1.0, a: 1.5 };
         assert_eq!(midpoint(&system, [1.5], [0.1], 0.1).unwrap_err(), DERIVATIVES);
         let state = State { q: vector![1.5], p: vector![0.1] };
-        let guessed = Discrete::<Midpoint, 1>::step(&system, &state, 0.1, Some(&vector![0.0]));
+        let guessed = system.by(Midpoint, 0.1).near(&vector![0.0]).step(&state);
         assert_eq!(guessed.unwrap_err(), DERIVATIVES);
         // The Legendre transform asks for ∂L/∂v = v alone, which q does not enter.
         assert_eq!(state.velocity(&system), Ok(vector![0.1]));
@@ -168,7 +161,7 @@ mod cubic_drag {
 
     fn after(x: f64) -> Result<dalembert::Step<f64, 1>, StepError> {
         let d = x * SYSTEM.m / SYSTEM.r;
-        Discrete::<Midpoint, 1>::step_configurations(&SYSTEM, &vector![0.0], &vector![d], H, None)
+        SYSTEM.by(Midpoint, H).step_configurations(&vector![0.0], &vector![d])
     }
 
     #[test]
@@ -201,13 +194,13 @@ mod cubic_drag {
     fn leaves_the_state_and_passes_with_a_smaller_step() {
         let start = State { q: vector![0.2], p: vector![-4.0] };
         let state = start;
-        assert!(Discrete::<Midpoint, 1>::step(&SYSTEM, &state, H, None).is_err_and(|error| matches!(
+        assert!(SYSTEM.by(Midpoint, H).step(&state).is_err_and(|error| matches!(
             error,
             StepError::NoRealSolution { residual, .. } if residual > 0.1
         )));
         assert_eq!(state, start);
         let mut h = H;
-        while Discrete::<Midpoint, 1>::step(&SYSTEM, &state, h, None).is_err() {
+        while SYSTEM.by(Midpoint, h).step(&state).is_err() {
             h *= 0.5;
         }
         // Real iff m² + 2hrp ≥ 0.
@@ -238,7 +231,7 @@ fn flat(q: [f64; 1], v: [f64; 1]) -> f64 {
 #[test]
 fn not_converged() {
     let state = State { q: vector![0.0], p: vector![0.0] };
-    let error = Discrete::<Midpoint, 1>::step(&Flat, &state, 0.1, Some(&vector![1.0])).unwrap_err();
+    let error = Flat.by(Midpoint, 0.1).near(&vector![1.0]).step(&state).unwrap_err();
     let StepError::NotConverged { iterations, residual, floor } = error else { panic!("{error:?}") };
     // Each iteration multiplies v by 8/9.
     let expected = (8.0_f64 / 9.0).powi(9 * 100);
@@ -375,7 +368,7 @@ mod finds {
     #[test]
     fn a_root_by_damping() {
         let state = State { q: vector![0.0], p: vector![0.0] };
-        let step = Discrete::<Midpoint, 1>::step(&Saturating, &state, 0.1, Some(&vector![5.0])).unwrap();
+        let step = Saturating.by(Midpoint, 0.1).near(&vector![5.0]).step(&state).unwrap();
         assert!(step.report.damped > 0, "{:?}", step.report);
     }
 
@@ -421,8 +414,8 @@ mod finds {
             q: vector![s.q[0] / scaled.plain[0], s.q[1] / scaled.plain[1]],
             p: vector![s.p[0] * scaled.plain[0], s.p[1] * scaled.plain[1]],
         };
-        let a = Trajectory::new(&plain, Midpoint, 0.1, start);
-        let b = Trajectory::new(&scaled, Midpoint, 0.1, in_units(&start));
+        let a = plain.by(Midpoint, 0.1).run(start);
+        let b = scaled.by(Midpoint, 0.1).run(in_units(&start));
         for (a, b) in a.zip(b).take(200) {
             let (a, b) = (a.unwrap(), b.unwrap());
             let expected = in_units(&a.state);
@@ -445,7 +438,7 @@ mod finds {
         for exponent in -300..=0 {
             let h = 10.0_f64.powi(exponent);
             for h in [h, -h] {
-                let step = Discrete::<Midpoint, 1>::step(&system, &start, h, None).unwrap();
+                let step = system.by(Midpoint, h).step(&start).unwrap();
                 let p_rate = m * l * l * acceleration;
                 let tolerance = 2.0 * f64::EPSILON + 10.0 * h * h;
                 assert!((step.state.q[0] - (q + h * v)).abs() <= tolerance, "{h:e}");
@@ -518,7 +511,7 @@ mod comes_to_rest {
     {
         let start =
             State { q: vector![system.offset + 0.3, 3.0 * system.offset - 0.2], p: vector![0.3, -0.2] };
-        let mut trajectory = Trajectory::new(system, rule, h, start);
+        let mut trajectory = system.by(rule, h).run(start);
         let mut most = 0;
         let steps = 5_000;
         for step in 0..steps {
@@ -561,8 +554,8 @@ mod comes_to_rest {
             let q = std::f64::consts::TAU * turns + 0.5;
             let start = State { q: vector![q], p: vector![0.2] };
             for h in [0.01, 0.1, 0.5] {
-                let midpoint = Trajectory::new(&system, Midpoint, h, start).take(20_000);
-                let trapezoidal = Trajectory::new(&system, Trapezoidal, h, start).take(20_000);
+                let midpoint = system.by(Midpoint, h).run(start).take(20_000);
+                let trapezoidal = system.by(Trapezoidal, h).run(start).take(20_000);
                 for (step, taken) in midpoint.enumerate().chain(trapezoidal.enumerate()) {
                     if let Err(error) = taken {
                         panic!("{turns} turns, h = {h}, step {step}: {error:?}");
@@ -576,8 +569,7 @@ mod comes_to_rest {
     #[test]
     fn down_to_the_smallest_numbers() {
         let system = Oscillator { m: 1.3, k: 0.0, r: 0.9 };
-        let mut trajectory =
-            Trajectory::new(&system, Midpoint, 0.5, State { q: vector![0.0], p: vector![1.0] });
+        let mut trajectory = system.by(Midpoint, 0.5).run(State { q: vector![0.0], p: vector![1.0] });
         for step in 0..5_000 {
             let taken = trajectory.next().unwrap();
             taken.unwrap_or_else(|error| panic!("step {step}: {error:?}"));
@@ -589,8 +581,7 @@ mod comes_to_rest {
     #[test]
     fn down_to_the_smallest_numbers_on_a_spring() {
         let system = Oscillator { m: 1.3, k: 2.0, r: 0.9 };
-        let mut trajectory =
-            Trajectory::new(&system, Midpoint, 0.5, State { q: vector![0.4], p: vector![1.0] });
+        let mut trajectory = system.by(Midpoint, 0.5).run(State { q: vector![0.4], p: vector![1.0] });
         for step in 0..10_000 {
             let taken = trajectory.next().unwrap();
             taken.unwrap_or_else(|error| panic!("step {step}: {error:?}"));
@@ -606,7 +597,7 @@ fn reports_state_the_residual_of_the_solution() {
     let start = State::from_velocity(&system, [1.1, -0.6], [0.3, 1.2]).unwrap();
     let mut state = start;
     for _ in 0..200 {
-        let step = Discrete::<Midpoint, 2>::step(&system, &state, 0.1, None).unwrap();
+        let step = system.by(Midpoint, 0.1).step(&state).unwrap();
         let p0 = Discrete::<Midpoint, 2>::momenta(&system, &state.q, &step.velocity, 0.1).p0;
         let residual = (p0 - state.p).abs();
         assert!(residual.iter().any(|r| *r == step.report.residual), "{residual} {:?}", step.report);

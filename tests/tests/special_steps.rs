@@ -133,7 +133,7 @@ mod general {
 
 use dalembert::nalgebra::SVector;
 use dalembert::{
-    Discrete, Lagrangian, Memory, Midpoint, Quantity, State, StepError, Trajectory, Trapezoidal,
+    Discrete, Discretise, Lagrangian, Memory, Midpoint, Quantity, State, StepError, Trapezoidal,
     VelocityHistory, rayleigh_system,
 };
 
@@ -148,7 +148,7 @@ fn run<L, R, const N: usize>(
 where
     L: Discrete<R, N, Scalar = f64>,
 {
-    let mut trajectory = Trajectory::new(system, rule, h, start);
+    let mut trajectory = system.by(rule, h).run(start);
     let mut most = 0;
     for (index, step) in (&mut trajectory).take(steps).enumerate() {
         let report = step.expect("the scene can be stepped").report;

@@ -184,7 +184,7 @@ fn explicit_euler_does_not_keep_the_symplectic_form() {
 /// Thirty bodies on a line with a Lennard-Jones potential between each two: 435 pairs, written out.
 mod pairs {
     use dalembert::nalgebra::SVector;
-    use dalembert::{Lagrangian, Midpoint, State, Trajectory, rayleigh_system};
+    use dalembert::{Discretise, Lagrangian, Midpoint, State, rayleigh_system};
 
     struct Bodies {
         m: f64,
@@ -226,7 +226,7 @@ mod pairs {
         let start = State::from_velocity(&system, q, v).unwrap();
         let (mut own, mut without_far) = (0.0_f64, 0.0_f64);
         let mut last = start;
-        for state in Trajectory::new(&system, Midpoint, h, start).take(50) {
+        for state in system.by(Midpoint, h).run(start).take(50) {
             let state = state.unwrap().state;
             let (middle, change) = (0.5 * (last.q + state.q), state.p - last.p);
             let largest = force(&middle, 29).amax();

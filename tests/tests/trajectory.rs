@@ -1,7 +1,7 @@
 //! A trajectory is its steps: errors end it, another step size lets it go on, samples skip nothing.
 
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::{Discrete, Midpoint, State, StepError, Trajectory, rayleigh_system};
+use dalembert::{Discretise, Midpoint, State, StepError, rayleigh_system};
 use dalembert_tests::systems::{Bead, DoublePendulum};
 
 fn start() -> State<f64, 2> {
@@ -10,12 +10,12 @@ fn start() -> State<f64, 2> {
 
 #[test]
 fn it_takes_the_steps_of_the_flow() {
-    let trajectory = Trajectory::new(&DoublePendulum::EXAMPLE, Midpoint, 0.1, start());
+    let trajectory = DoublePendulum::EXAMPLE.by(Midpoint, 0.1).run(start());
     let mut state = start();
     for step in trajectory.take(50) {
         let step = step.unwrap();
         // Another guess, the same root to rounding.
-        let alone = Discrete::<Midpoint, 2>::step(&DoublePendulum::EXAMPLE, &state, 0.1, None).unwrap();
+        let alone = DoublePendulum::EXAMPLE.by(Midpoint, 0.1).step(&state).unwrap();
         assert!(
             (alone.state.q - step.state.q).amax() < 1e-14 && (alone.state.p - step.state.p).amax() < 1e-14
         );
@@ -26,14 +26,16 @@ fn it_takes_the_steps_of_the_flow() {
 
 #[test]
 fn its_guess_saves_iterations() {
-    let with_history: u32 = Trajectory::new(&DoublePendulum::EXAMPLE, Midpoint, 0.02, start())
+    let with_history: u32 = DoublePendulum::EXAMPLE
+        .by(Midpoint, 0.02)
+        .run(start())
         .take(200)
         .map(|step| step.unwrap().report.iterations)
         .sum();
     let mut state = start();
     let from_velocity: u32 = (0..200)
         .map(|_| {
-            let step = Discrete::<Midpoint, 2>::step(&DoublePendulum::EXAMPLE, &state, 0.02, None).unwrap();
+            let step = DoublePendulum::EXAMPLE.by(Midpoint, 0.02).step(&state).unwrap();
             state = step.state;
             step.report.iterations
         })
@@ -52,7 +54,7 @@ fn cubic_drag(q: [f64; 1], v: [f64; 1], m: f64, r: f64) -> (f64, f64) {
 fn an_error_ends_it_and_another_step_size_lets_it_go_on() {
     let system = CubicDrag { m: 1.0, r: 1.0 };
     let start = State { q: vector![0.5], p: vector![-1.3] };
-    let mut trajectory = Trajectory::new(&system, Midpoint, 1.0, start);
+    let mut trajectory = system.by(Midpoint, 1.0).run(start);
     // p = v + v²/2 has no root for p = −1.3.
     assert!(matches!(trajectory.next(), Some(Err(StepError::NoRealSolution { .. }))));
     assert_eq!(trajectory.state(), &start);
@@ -70,7 +72,7 @@ fn an_error_ends_it_and_another_step_size_lets_it_go_on() {
 
 #[test]
 fn a_step_size_that_is_no_number_leaves_its_time_and_state() {
-    let mut trajectory = Trajectory::new(&DoublePendulum::EXAMPLE, Midpoint, 0.1, start());
+    let mut trajectory = DoublePendulum::EXAMPLE.by(Midpoint, 0.1).run(start());
     trajectory.next().unwrap().unwrap();
     let (time, state) = (trajectory.time(), *trajectory.state());
     for h in [f64::NAN, f64::INFINITY, 0.0] {
@@ -85,8 +87,7 @@ fn a_step_size_that_is_no_number_leaves_its_time_and_state() {
 
 #[test]
 fn its_time_is_a_product_and_not_a_sum() {
-    let mut trajectory =
-        Trajectory::new(&Bead::EXAMPLE, Midpoint, 0.1, State { q: vector![0.1], p: vector![0.0] });
+    let mut trajectory = Bead::EXAMPLE.by(Midpoint, 0.1).run(State { q: vector![0.1], p: vector![0.0] });
     let mut sum = 0.0;
     for steps in 1..=10_000_u32 {
         trajectory.next().unwrap().unwrap();
@@ -102,8 +103,8 @@ fn its_time_is_a_product_and_not_a_sum() {
 
 #[test]
 fn samples_are_its_every_kth_state() {
-    let mut sampled = Trajectory::new(&DoublePendulum::EXAMPLE, Midpoint, 0.1, start());
-    let mut plain = Trajectory::new(&DoublePendulum::EXAMPLE, Midpoint, 0.1, start());
+    let mut sampled = DoublePendulum::EXAMPLE.by(Midpoint, 0.1).run(start());
+    let mut plain = DoublePendulum::EXAMPLE.by(Midpoint, 0.1).run(start());
     for sample in sampled.sample_every(7).take(20) {
         let sample = sample.unwrap();
         let (mut iterations, mut worst, mut previous) = (0, 0.0_f64, SVector::zeros());
@@ -123,8 +124,8 @@ fn samples_are_its_every_kth_state() {
 
 #[test]
 fn a_stride_of_0_counts_as_1() {
-    let mut sampled = Trajectory::new(&DoublePendulum::EXAMPLE, Midpoint, 0.1, start());
-    let mut plain = Trajectory::new(&DoublePendulum::EXAMPLE, Midpoint, 0.1, start());
+    let mut sampled = DoublePendulum::EXAMPLE.by(Midpoint, 0.1).run(start());
+    let mut plain = DoublePendulum::EXAMPLE.by(Midpoint, 0.1).run(start());
     let sample = sampled.sample_every(0).next().unwrap().unwrap();
     assert_eq!(sample.state, plain.next().unwrap().unwrap().state);
 }
@@ -134,11 +135,11 @@ fn an_error_between_two_samples_is_returned_at_once() {
     // Accelerated by its drag (v < 0), p = v + hv²/2 reaches the fold after some steps.
     let system = CubicDrag { m: 1.0, r: 1.0 };
     let start = State { q: vector![0.0], p: vector![-0.2] };
-    let mut plain = Trajectory::new(&system, Midpoint, 0.5, start);
+    let mut plain = system.by(Midpoint, 0.5).run(start);
     let good = plain.by_ref().take_while(Result::is_ok).count() as u64;
     assert!(good > 2, "{good}");
 
-    let mut sampled = Trajectory::new(&system, Midpoint, 0.5, start);
+    let mut sampled = system.by(Midpoint, 0.5).run(start);
     let mut samples = sampled.sample_every(good + 1);
     assert!(matches!(samples.next(), Some(Err(StepError::NoRealSolution { .. }))));
     assert!(samples.next().is_none());

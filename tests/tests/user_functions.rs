@@ -1,9 +1,8 @@
 //! The checkers take plain functions of the user: generators and generating functions under `#[differentiable]`.
 
-use dalembert::hamilton_jacobi::HamiltonJacobi;
 use dalembert::nalgebra::vector;
-use dalembert::noether::{Generator, Noether};
-use dalembert::{Midpoint, differentiable, rayleigh_system, samples};
+use dalembert::noether::Generator;
+use dalembert::{Discretise, Midpoint, differentiable, rayleigh_system, samples};
 use dalembert_tests::damped_oscillator::{CompleteSolution, DAMPED, H};
 
 /// A particle in a central potential with drag along one axis.
@@ -27,7 +26,7 @@ fn generating(q: [f64; 1], s: f64, lambda: f64) -> f64 {
 #[test]
 fn a_generator_written_as_a_function_is_the_built_in_one() {
     let system = Particle { c: 0.1 };
-    let theory = Noether::new(&system, Midpoint, 0.1);
+    let theory = system.by(Midpoint, 0.1).noether();
     let segments = samples::segments([-1.0, -1.0], [1.0, 1.0], [0.1, 0.1], 50);
     let built_in = Generator::rotation(0, 1);
     let own = |rate: f64| Generator::from_field("turn", Turn { rate });
@@ -51,7 +50,7 @@ fn a_generator_written_as_a_function_is_the_built_in_one() {
 fn generating_functions_written_as_a_function_solve_the_corrected_equations() {
     const STEPS: usize = 6;
     let closed = CompleteSolution::new(&DAMPED, H, -0.2, 0.7);
-    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, H);
+    let theory = DAMPED.by(Midpoint, H).hamilton_jacobi();
     let points = [-1.7, 0.0, 2.1].map(|q| vector![q]);
     let family = |error: f64| -> Vec<Generating> {
         closed.family(STEPS).iter().map(|s| Generating { s: s.s + error, lambda: s.lambda }).collect()

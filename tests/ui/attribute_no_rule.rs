@@ -11,7 +11,7 @@ impl System {
 
 fn main() {
     use dalembert::nalgebra::vector;
-    use dalembert::{Discrete, Midpoint, State};
+    use dalembert::{Discretise, Midpoint, State};
     let state = State { q: vector![0.0, 0.0], p: vector![0.0, 0.0] };
-    let _ = Discrete::<Midpoint, 2>::step(&System { k: 1.0 }, &state, 0.1, None);
+    let _ = System { k: 1.0 }.by(Midpoint, 0.1).step(&state);
 }

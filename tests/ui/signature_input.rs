@@ -1,4 +1,4 @@
-use dalembert::{Discrete, Midpoint, State, rayleigh_system};
+use dalembert::{Discretise, Midpoint, State, rayleigh_system};
 
 struct Swapped;
 
@@ -64,6 +64,6 @@ impl Taken {
 fn main() {
     // The views of systems with mistakes are there: nothing more is said.
     let state = State { q: [0.0].into(), p: [0.0].into() };
-    let _ = Discrete::<Midpoint, 1>::step(Swapped.driven([1.0], 0.0), &state, 0.1, None);
-    let _ = Empty.driven([0.0; 0]).step(&state, 0.1, None);
+    let _ = Swapped.driven([1.0], 0.0).by(Midpoint, 0.1).step(&state);
+    let _ = Empty.driven([0.0; 0]).by(Midpoint, 0.1).step(&state);
 }

@@ -1,5 +1,5 @@
 use dalembert::nalgebra::vector;
-use dalembert::{Discrete, Trapezoidal, rayleigh_system};
+use dalembert::{Discretise, Trapezoidal, rayleigh_system};
 
 struct System;
 
@@ -11,5 +11,5 @@ impl System {
 }
 
 fn main() {
-    let _ = Discrete::<Trapezoidal, 1>::discrete_lagrangian(&System, &vector![0.0], &vector![1.0], 0.1);
+    let _ = System.by(Trapezoidal, 0.1).discrete_lagrangian(&vector![0.0], &vector![1.0]);
 }

@@ -1,5 +1,5 @@
 use dalembert::nalgebra::vector;
-use dalembert::{DiscreteRayleigh, Midpoint, Rayleigh, rayleigh_system};
+use dalembert::{Discretise, Midpoint, Rayleigh, rayleigh_system};
 
 struct System;
 
@@ -13,5 +13,5 @@ impl System {
 fn main() {
     let (q, v) = (vector![0.0], vector![1.0]);
     let _ = Rayleigh::<1>::rayleigh(&System, &q, &v);
-    let _ = DiscreteRayleigh::<Midpoint, 1>::discrete_rayleigh(&System, &q, &v, 0.1);
+    let _ = System.by(Midpoint, 0.1).discrete_rayleigh(&q, &v);
 }

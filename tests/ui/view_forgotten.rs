@@ -1,8 +1,6 @@
 //! A system that takes an input or the time, without them.
 
-use dalembert::{
-    Composition, Discrete, Gauss, Linearization, Midpoint, State, Trajectory, Trapezoidal, rayleigh_system,
-};
+use dalembert::{Discretise, Composition, Gauss, Midpoint, State, Trapezoidal, rayleigh_system};
 
 struct Cart {
     m: f64,
@@ -31,13 +29,13 @@ impl Clock {
 fn main() {
     let cart = Cart { m: 1.0 };
     let start = State::from_velocity(&cart, [0.0], [1.0]).unwrap();
-    let _ = cart.step(&start, 0.1, None);
-    let _ = Trajectory::new(&cart, Midpoint, 0.1, start);
-    let _ = Trajectory::new(&cart, Gauss::<2>, 0.1, start);
+    let _ = cart.by(Midpoint, 0.1).step(&start);
+    let _ = cart.by(Midpoint, 0.1).run(start);
+    let _ = cart.by(Gauss::<2>, 0.1).run(start);
     let _ = Composition::kahan_li_6(Trapezoidal).trajectory(&cart, 0.1, start);
-    let _ = Linearization::of_segment(&cart, Midpoint, &start.q, &start.q, 0.1);
+    let _ = cart.by(Midpoint, 0.1).linearization(&start.q, &start.q);
 
     let start = State::from_velocity(&Clock, [0.0], [1.0]).unwrap();
-    let _ = Clock.step(&start, 0.1, None);
-    let _ = Trajectory::new(&Clock, Midpoint, 0.1, start);
+    let _ = Clock.by(Midpoint, 0.1).step(&start);
+    let _ = Clock.by(Midpoint, 0.1).run(start);
 }

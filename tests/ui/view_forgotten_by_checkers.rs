@@ -1,10 +1,8 @@
 //! A system that takes an input, handed to the checkers and to joint rules without it.
 
-use dalembert::hamilton_jacobi::HamiltonJacobi;
-use dalembert::noether::Noether;
 use dalembert::rayleigh::structure;
 use dalembert::samples::Segment;
-use dalembert::{Discrete, Fitted, Midpoint, OneSided, rayleigh_system};
+use dalembert::{Discrete, Discretise, Fitted, Midpoint, OneSided, rayleigh_system};
 
 struct Cart {
     m: f64,
@@ -32,8 +30,8 @@ fn fitted(_: &impl Discrete<Fitted, 1>) {}
 fn main() {
     let cart = Cart { m: 1.0, r: 0.1 };
     let segments = [Segment::new([0.0], [0.1])];
-    let _ = Noether::new(&cart, Midpoint, 0.1);
-    let _ = HamiltonJacobi::new(&cart, Midpoint, 0.1);
+    let _ = cart.by(Midpoint, 0.1).noether();
+    let _ = cart.by(Midpoint, 0.1).hamilton_jacobi();
     let _ = structure(&cart, Midpoint, 0.1, &segments);
     one_sided(&cart);
     fitted(&cart);

@@ -79,7 +79,7 @@ fn table() -> Result<(), String> {
 fn program(scene: &str, name: &str, fields: &str, n: usize) -> String {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("src/scenes/{scene}.rs"));
     format!(
-        r#"use dalembert::{{Midpoint, State, Trajectory, rayleigh_system}};
+        r#"use dalembert::{{Discretise, Midpoint, State, rayleigh_system}};
 
 #[macro_use]
 #[path = "{}"]
@@ -92,7 +92,7 @@ const N: usize = {n};
 fn main() -> Result<(), dalembert::StepError> {{
     let system = {name} {{ {fields} }};
     let start = State::from_velocity(&system, [0.1; N], [0.0; N])?;
-    for sample in Trajectory::new(&system, Midpoint, 0.01, start).sample_every(10).take(10) {{
+    for sample in system.by(Midpoint, 0.01).run(start).sample_every(10).take(10) {{
         println!("{{}}", sample?.state.q);
     }}
     Ok(())

@@ -12,7 +12,7 @@ use core::hint::black_box;
 use core::panic::PanicInfo;
 use core::ptr;
 
-use dalembert::{Discrete, Elementary, Midpoint, State, Trajectory};
+use dalembert::{Discrete, Discretise, Elementary, Midpoint, State};
 use firmware_scenes::{STEPS, digest, double, single};
 use report::Line;
 
@@ -50,7 +50,7 @@ where
     L: Discrete<Midpoint, 2, Scalar = S>,
     S: Elementary,
 {
-    let mut trajectory = Trajectory::new(system, Midpoint, h, start);
+    let mut trajectory = system.by(Midpoint, h).run(start);
     let (mut sum, mut first, mut worst, mut iterations, mut hash) = (0, 0, 0, 0, 0);
     let mut succeeded = true;
     for index in 0..STEPS {

@@ -8,7 +8,7 @@ use std::io::Read;
 use std::process::ExitCode;
 
 use ceilings::{Ceiling, ceiling, stack_ceiling};
-use dalembert::{Discrete, Midpoint, State, Trajectory};
+use dalembert::{Discrete, Discretise, Midpoint, State};
 use firmware_scenes::{STEPS, digest, double, single};
 
 /// The digest of the scene's states, by the same elementary functions as on the device.
@@ -16,7 +16,9 @@ fn expected<L, const N: usize>(system: &L, start: State<L::Scalar, N>, h: L::Sca
 where
     L: Discrete<Midpoint, N>,
 {
-    Trajectory::new(system, Midpoint, h, start)
+    system
+        .by(Midpoint, h)
+        .run(start)
         .take(STEPS as usize)
         .fold(0, |hash, step| digest(hash, &step.expect("the scene steps").state))
 }

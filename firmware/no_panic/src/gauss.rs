@@ -2,7 +2,7 @@
 
 use core::hint::black_box;
 
-use dalembert::{Discrete, Gauss, Linearization, State, StateBy, StepHessian, Trajectory, rayleigh_system};
+use dalembert::{Discrete, Discretise, Gauss, State, rayleigh_system};
 
 macro_rules! chains {
     ($($name:ident $driven:ident $n:literal $float:ident $stages:literal)*) => {
@@ -49,18 +49,18 @@ macro_rules! chains {
                 fn failures<const S: usize>() -> i32 {
                     let system = black_box(Self { stiffness: 0.3, friction: 0.1 });
                     let view: $driven<'_> = system.driven([black_box(0.2)], black_box(0.4));
-                    let (h, rule) = (black_box(0.01), Gauss::<S>);
+                    let by = view.by(Gauss::<S>, black_box(0.01));
                     let Ok(start) = State::from_velocity(&view, black_box([0.1; $n]), black_box([0.2; $n])) else {
                         return 1;
                     };
-                    let Ok(step) = Discrete::<Gauss<S>, $n>::step(&view, &start, h, None) else { return 1 };
+                    let Ok(step) = by.step(&start) else { return 1 };
                     let ends = (&start.q, &step.state.q);
-                    let mut trajectory = Trajectory::new(&view, rule, h, start);
+                    let mut trajectory = by.run(start);
                     let steps = trajectory.by_ref().take(3).filter(Result::is_err).count();
-                    let of_step = Linearization::of_driven_step(&view, rule, &start, h, None);
-                    let of_ends = Linearization::of_driven_segment(&view, rule, ends.0, ends.1, h);
-                    let by_parameters = StateBy::<_, $n, 2>::of_parameters(&view, rule, ends.0, ends.1, h);
-                    let second = StepHessian::of_driven_step(&view, rule, &start, h, None, &start);
+                    let of_step = by.linearized_step_with_input(&start);
+                    let of_ends = by.linearization_with_input(ends.0, ends.1);
+                    let by_parameters = by.state_by_parameters(ends.0, ends.1);
+                    let second = by.step_with_hessian(&start, &start);
                     black_box((trajectory.state(), &of_step, &of_ends, &by_parameters, &second));
                     i32::from(of_step.is_err())
                         + i32::from(of_ends.is_err())

@@ -4,7 +4,7 @@
 use core::hint::black_box;
 
 use dalembert::{
-    Composition, Discrete, Fitted, FittedTrapezoidal, Midpoint, OneSided, Splitting, State, Trajectory,
+    Composition, Discrete, Discretise, Fitted, FittedTrapezoidal, Midpoint, OneSided, Splitting, State,
     Trapezoidal, rayleigh_system,
 };
 
@@ -60,7 +60,7 @@ macro_rules! chains {
                         Discrete::<Midpoint, $n>::step_configurations(&system, &start.q, &step.state.q, h, guess)
                     });
                     let bounded = Discrete::<Midpoint, $n>::step_within(&system, &start, h, None, 3);
-                    let mut trajectory = Trajectory::new(&system, Midpoint, h, start);
+                    let mut trajectory = system.by(Midpoint, h).run(start);
                     let steps = trajectory.by_ref().take(3).filter(Result::is_err).count();
                     black_box(&bounded);
                     black_box((&midpoint, &trapezoidal, &by_configurations, trajectory.state()));
@@ -119,7 +119,7 @@ macro_rules! bands {
                     let Ok(start) = State::from_velocity(&system, black_box([0.1; $n]), black_box([0.2; $n])) else {
                         return 1;
                     };
-                    let mut trajectory = Trajectory::new(&system, Midpoint, black_box(0.01), start);
+                    let mut trajectory = system.by(Midpoint, black_box(0.01)).run(start);
                     let failed = trajectory.by_ref().take(3).filter(Result::is_err).count();
                     black_box(trajectory.state());
                     failed as i32
@@ -180,11 +180,11 @@ macro_rules! damped {
                         Discrete::<OneSided, $n>::step(&system, &start, h, None),
                     ];
                     let bounded = Discrete::<Fitted, $n>::step_within(&system, &start, h, None, 3);
-                    let mut fitted = Trajectory::new(&system, Fitted, h, start);
-                    let mut explicit = Trajectory::new(&system, FittedTrapezoidal, h, start);
+                    let mut fitted = system.by(Fitted, h).run(start);
+                    let mut explicit = system.by(FittedTrapezoidal, h).run(start);
                     let steps = fitted.by_ref().take(3).chain(explicit.by_ref().take(3)).filter(Result::is_err).count();
                     black_box((&single, &bounded, fitted.state(), explicit.state()));
-                    let mut verlet = Trajectory::new(&system, Trapezoidal, h, start);
+                    let mut verlet = system.by(Trapezoidal, h).run(start);
                     let steps = steps + verlet.by_ref().take(3).filter(Result::is_err).count();
                     let mut split = Splitting::blanes_moan_6().trajectory(&system, h, start);
                     let steps = steps + split.by_ref().take(3).filter(Result::is_err).count();

@@ -2,8 +2,7 @@
 
 use dalembert::nalgebra::{ComplexField, SVector};
 use dalembert::{
-    Certificate, Composition, Discrete, Lagrangian, Linearization, Midpoint, PhaseMatrix, Scalar, State,
-    StepError, Trajectory,
+    Composition, Discrete, Discretise, Midpoint, PhaseMatrix, Scalar, State, StepError, Trajectory,
 };
 
 use crate::numbers::Bytes;
@@ -63,8 +62,8 @@ impl Exercise {
                     promise::solved(system, &state, h, &step);
                 }
                 let (q0, q1) = (&state.q, &step.state.q);
-                let _ = Certificate::of_step(system, rule, &state, &step, h);
-                let _ = Linearization::<L::Scalar, N>::of_segment(system, rule, q0, q1, h);
+                let _ = system.by(rule, h).certificate(&state, &step);
+                let _ = system.by(rule, h).linearization(q0, q1);
                 let _ = PhaseMatrix::to_velocity(system, q0, &step.velocity);
                 let _ = system.step_configurations(q0, q1, h, guess.as_ref());
                 let _ = (system.discrete_force_derivatives(q0, q1, h), system.segment_energy(q0, q1, h));
@@ -102,7 +101,7 @@ impl Exercise {
         R: Copy,
     {
         let mut h = L::Scalar::constant(self.h);
-        let mut run = Trajectory::new(system, rule, h, state);
+        let mut run = system.by(rule, h).run(state);
         for _ in 0..8 {
             let (before, time) = (*run.state(), run.time());
             let step = if self.asks(3) {

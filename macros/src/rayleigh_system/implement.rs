@@ -267,6 +267,14 @@ pub fn second_order(system: &System<'_>, functions: TokenStream) -> TokenStream 
     let terms: Vec<_> = parts(system).map(|part| format_ident!("{}_along", part.name())).collect();
     let rules = system.rules.of_displacement.iter().map(|rule| format_ident!("{}", rule.name()));
     let discrete = rules.map(|rule| {
+        let p0_by_input = system.input.is_some().then(|| {
+            quote! {
+                /// −∂f_d⁻/∂u.
+                fn p0_by_input(&self, q0: &Vector, v: &Vector, h: #scalar) -> SMatrix<#scalar, #n, #m> {
+                    #rule::force_by_input(self, q0, v, h).p0
+                }
+            }
+        });
         quote! {
             #[automatically_derived]
             impl DiscreteSecondOrder<#rule, #n, #m> for #subject {
@@ -281,6 +289,8 @@ pub fn second_order(system: &System<'_>, functions: TokenStream) -> TokenStream 
                 ) -> Hessian<#scalar, #n, #m> {
                     #(#rule::#terms(self, q0, v, h, [at_start, at_end]))+*
                 }
+
+                #p0_by_input
             }
         }
     });

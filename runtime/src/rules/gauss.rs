@@ -64,7 +64,7 @@ const MAX_STAGES: usize = 8;
 /// allocate nor panic.
 ///
 /// ```
-/// use dalembert::{Gauss, State, Trajectory, rayleigh_system};
+/// use dalembert::{Discretise, Gauss, State, Trajectory, rayleigh_system};
 ///
 /// #[rayleigh_system(rule = gauss)]
 /// fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
@@ -73,7 +73,7 @@ const MAX_STAGES: usize = 8;
 ///
 /// let system = Pendulum { r: 0.0 };
 /// let start = State::from_velocity(&system, [1.0], [0.0])?;
-/// let end = Trajectory::new(&system, Gauss::<4>, 0.5, start).take(1000).last().unwrap()?.state;
+/// let end = system.by(Gauss::<4>, 0.5).run(start).take(1000).last().unwrap()?.state;
 /// assert!((end.energy(&system)? - start.energy(&system)?).abs() < 1e-8);
 /// # Ok::<(), dalembert::StepError>(())
 /// ```

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use anyhow::Result;
 use dalembert::{
-    Composition, Discrete, ForcedLagrangian, Gauss, Midpoint, Splitting, State, Trajectory, Trapezoidal,
+    Composition, Discrete, Discretise, ForcedLagrangian, Gauss, Midpoint, Splitting, State, Trapezoidal,
 };
 use dalembert_examples::baseline::{self, Method};
 use dalembert_examples::picture::{Curve, Dash, Mark, Panel, colour, linear, logarithmic};
@@ -318,7 +318,7 @@ pub fn henon_heiles() -> Result<Case> {
     }
     let section = |energy: f64, (y, v_y): (f64, f64), most: usize| {
         let mut points = Vec::new();
-        let mut trajectory = Trajectory::new(&system, Midpoint, 0.02, HenonHeiles::start(energy, y, v_y));
+        let mut trajectory = system.by(Midpoint, 0.02).run(HenonHeiles::start(energy, y, v_y));
         let mut before = *trajectory.state();
         while points.len() < most {
             let Some(Ok(step)) = trajectory.next() else { break };
@@ -418,7 +418,7 @@ pub fn fermi() -> Result<Case> {
             Ok(means)
         };
     let run = |h: f64| {
-        let steps = Trajectory::new(&system, Midpoint, h, start).take((200.0 / h).round() as usize);
+        let steps = system.by(Midpoint, h).run(start).take((200.0 / h).round() as usize);
         exchange(&mut steps.map(|step| Ok(step?.state)), h)
     };
     let exact = baseline::states(&system, Method::DormandPrince853(1e-12), 0.01, start)?.take(20_000);
@@ -527,7 +527,7 @@ pub fn magnetic() -> Result<Case> {
         let system = UniformField { b, r: 0.0 };
         let speed = 1.0 / (1.0 + (0.5 * h * b).powi(2)).sqrt();
         let mut worst = 0.0_f64;
-        let mut trajectory = Trajectory::new(&system, Midpoint, h, UniformField::start());
+        let mut trajectory = system.by(Midpoint, h).run(UniformField::start());
         for _ in 0..1_000_000 {
             let step = trajectory.next().transpose()?;
             worst = worst.max(step.map_or(f64::NAN, |step| (step.velocity.norm() / speed - 1.0).abs()));

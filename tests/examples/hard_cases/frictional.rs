@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use anyhow::Result;
 use dalembert::nalgebra::vector;
 use dalembert::{
-    Discrete, Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, State, Trajectory, Trapezoidal,
+    Discrete, Discretise, Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, State, Trapezoidal,
 };
 use dalembert_examples::picture::{Curve, Dash, Mark, Panel, colour, linear};
 use dalembert_tests::hard::{Block, CubicDrag, DampedMass, Effort, Kepler, Progress, drive, drive_composed};
@@ -21,7 +21,7 @@ where
     let system = DampedMass { m: 1.0, r: ratio };
     let start = State { q: vector![0.0], p: vector![1.0] };
     let mut momenta = vec![1.0];
-    for step in Trajectory::new(&system, rule, 1.0, start).take(steps) {
+    for step in system.by(rule, 1.0).run(start).take(steps) {
         momenta.push(step?.state.p[0]);
     }
     Ok(momenta)
@@ -148,7 +148,7 @@ pub fn stick_slip() -> Result<Case> {
         let system = Block { k, mu, u, epsilon };
         let start = State { q: vector![0.0], p: vector![-u] };
         let (mut points, mut slip, mut iterations, mut most, mut damped) = (vec![(0.0, 0.0)], None, 0, 0, 0);
-        let mut trajectory = Trajectory::new(&system, Midpoint, h, start);
+        let mut trajectory = system.by(Midpoint, h).run(start);
         for _ in 0..4_000 {
             let Some(step) = trajectory.next().transpose()? else { break };
             points.push((trajectory.time(), step.state.q[0]));
@@ -199,7 +199,7 @@ pub fn fold() -> Result<Case> {
     for k in -120..=400 {
         let p = fold * f64::from(k) * 0.01;
         let state = State { q: vector![0.0], p: vector![p] };
-        let step = Discrete::<Midpoint, 1>::step(&system, &state, h, None);
+        let step = system.by(Midpoint, h).step(&state);
         if let Ok(step) = &step {
             found.push((p, step.velocity[0]));
         }

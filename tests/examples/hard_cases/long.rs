@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use dalembert::nalgebra::vector;
-use dalembert::{Discrete, Gauss, Midpoint, State, Trajectory, Trapezoidal};
+use dalembert::{Discrete, Discretise, Gauss, Midpoint, State, Trapezoidal};
 use dalembert_examples::picture::{Curve, Dash, Mark, Panel, colour, logarithmic};
 use dalembert_tests::hard::Oscillator;
 use dalembert_tests::systems::FreePendulum;
@@ -31,7 +31,7 @@ where
     for start in 0..STARTS {
         let angle = 0.1 + 0.77 * start as f64;
         let start = State { q: vector![angle.cos()], p: vector![angle.sin()] };
-        let mut trajectory = Trajectory::new(&system, rule, H, start);
+        let mut trajectory = system.by(rule, H).run(start);
         let (mut taken, mut errors, mut state) = (0, [0.0; COUNTS.len()], start);
         for (count, error) in COUNTS.iter().zip(&mut errors) {
             while taken < *count {
@@ -109,7 +109,7 @@ pub fn angles() -> Result<Case> {
     let start = State { q: vector![0.0], p: vector![3.9] };
     let energy = |s: &State<f64, 1>| s.p[0] * s.p[0] / 2.6 - 1.17 * s.q[0].cos();
     let mut rows = Vec::new();
-    let mut trajectory = Trajectory::new(&system, Midpoint, 0.05, start);
+    let mut trajectory = system.by(Midpoint, 0.05).run(start);
     let (mut taken, mut worst, mut iterations, mut residual) = (0_u64, 0.0_f64, 0_u64, 0.0_f64);
     for count in [10_000_u64, 1_000_000, 10_000_000, 100_000_000] {
         for sample in trajectory.sample_every(100).take(((count - taken) / 100) as usize) {

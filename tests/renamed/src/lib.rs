@@ -3,7 +3,7 @@
 
 #[cfg(test)]
 mod tests {
-    use mechanics::{Discrete, Gauss, Midpoint, State, Trajectory, differentiable, rayleigh_system};
+    use mechanics::{Discretise, Gauss, Midpoint, State, differentiable, rayleigh_system};
 
     struct Pendulum {
         m: f64,
@@ -67,12 +67,12 @@ mod tests {
         let pendulum = Pendulum { m: 2.0, r: 0.1 };
         let view = pendulum.driven([0.0], 0.0);
         let start = State::from_velocity(&view, [0.3], [0.0]).expect("a regular start");
-        let by_midpoint = Discrete::<Midpoint, 1>::step(&view, &start, 0.01, None).expect("a short step");
-        let by_gauss = Discrete::<Gauss<2>, 1>::step(&view, &start, 0.01, None).expect("a short step");
+        let by_midpoint = view.by(Midpoint, 0.01).step(&start).expect("a short step");
+        let by_gauss = view.by(Gauss::<2>, 0.01).step(&start).expect("a short step");
         assert!((by_midpoint.state.q[0] - by_gauss.state.q[0]).abs() < 1e-7);
         let [oscillator, by_duals] = [
-            Trajectory::new(&Oscillator { k: 1.0 }, Midpoint, 0.1, start).nth(9),
-            Trajectory::new(&ByDuals { k: 1.0 }, Midpoint, 0.1, start).nth(9),
+            Oscillator { k: 1.0 }.by(Midpoint, 0.1).run(start).nth(9),
+            ByDuals { k: 1.0 }.by(Midpoint, 0.1).run(start).nth(9),
         ]
         .map(|step| step.expect("a run goes on").expect("a short step").state.q[0]);
         // The one is damped.
@@ -83,6 +83,6 @@ mod tests {
     fn fields_of_a_renamed_dependency_have_derivatives() {
         use mechanics::VectorField;
         let jacobian = Rotation { rate: 0.7 }.jacobian(&[0.2, 0.5].into());
-        assert_eq!(jacobian, mechanics::nalgebra::matrix![0.0, -0.7; 0.7, 0.0]);
+        assert_eq!(jacobian, mechanics::nalgebra::Matrix2::new(0.0, -0.7, 0.7, 0.0));
     }
 }

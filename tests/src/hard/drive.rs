@@ -1,6 +1,6 @@
 //! Long runs that keep figures instead of states.
 
-use dalembert::{ComposedStep, ComposedTrajectory, Discrete, Lagrangian, State, StepError, Trajectory};
+use dalembert::{ComposedStep, ComposedTrajectory, Discrete, Discretise, Lagrangian, State, StepError};
 
 /// What a run took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -41,7 +41,7 @@ where
     S: Discrete<R, N, Scalar = f64>,
 {
     let mut effort = Effort::default();
-    let mut trajectory = Trajectory::new(system, rule, h, start);
+    let mut trajectory = system.by(rule, h).run(start);
     for sample in trajectory.sample_every(stride).take((steps / stride) as usize) {
         match sample {
             Ok(sample) => {

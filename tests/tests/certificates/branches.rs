@@ -6,7 +6,7 @@
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::{
-    Certificate, Discrete, ForcedLagrangian, Gauss, Midpoint, State, Trapezoidal, rayleigh_system,
+    Discrete, Discretise, ForcedLagrangian, Gauss, Midpoint, State, Trapezoidal, rayleigh_system,
 };
 
 use dalembert_tests::draws::Draws;
@@ -54,8 +54,8 @@ fn on_the_branch<L, R: Copy, const N: usize>(
 where
     L: Discrete<R, N, Scalar = f64>,
 {
-    let step = system.step(state, h, None).ok()?;
-    let certificate = Certificate::of_step(system, rule, state, &step, h).ok()?;
+    let step = system.by(rule, h).step(state).ok()?;
+    let certificate = system.by(rule, h).certificate(state, &step).ok()?;
     // The step's own equation is solved, whichever of several segments joins its ends.
     assert!(certificate.correction < 1e-6, "{certificate:?}");
     Some(certificate.on_the_branch_of_the_flow)
@@ -153,8 +153,8 @@ fn past_a_conjugate_point_a_step_is_on_the_branch() {
     let system = Oscillator { m: 1.0, k: 1.0, r: 0.0 };
     let state = State { q: vector![0.3], p: vector![-0.2] };
     for h in [3.0, 3.3, 4.0, 5.0, 6.0, 6.2, 6.5, 9.0] {
-        let step = Discrete::<Gauss<6>, 1>::step(&system, &state, h, None).unwrap();
-        let certificate = step.certificate(&system, Gauss::<6>, &state, h).unwrap();
+        let step = system.by(Gauss::<6>, h).step(&state).unwrap();
+        let certificate = system.by(Gauss::<6>, h).certificate(&state, &step).unwrap();
         assert!(certificate.on_the_branch_of_the_flow, "{h}: {certificate:?}");
         // Positive control of the case: ∂p0/∂v̄ has the sign of h/sin h.
         let kernel = Discrete::<Gauss<6>, 1>::step_kernel(&system, &state.q, &step.velocity, h);
@@ -196,11 +196,11 @@ fn follow<L, R: Copy, const N: usize>(
     L: Discrete<R, N, Scalar = f64, Matrix = SMatrix<f64, N, N>>,
 {
     let Some(velocity) = continued::<L, R, N>(system, state, h) else { return };
-    let Ok(step) = system.step(state, h, None) else { return };
+    let Ok(step) = system.by(rule, h).step(state) else { return };
     if (step.velocity - velocity).norm() > 1e-9 * (1.0 + velocity.norm()) {
         return;
     }
-    let Ok(certificate) = step.certificate(system, rule, state, h) else { return };
+    let Ok(certificate) = system.by(rule, h).certificate(state, &step) else { return };
     assert!(certificate.on_the_branch_of_the_flow, "{h} {state:?} {certificate:?}");
     followed.on_the_branch += 1;
     let matrix = system.step_kernel(&state.q, &step.velocity, h).matrix;
@@ -263,9 +263,9 @@ fn check<R: Copy>(
 ) where
     Squared: Discrete<R, 1, Scalar = f64>,
 {
-    let step = Discrete::<R, 1>::step(system, state, h, Some(guess)).unwrap();
+    let step = system.by(rule, h).near(guess).step(state).unwrap();
     assert!((step.velocity - guess).norm() < 1e-9 * guess.norm());
-    let certificate = step.certificate(system, rule, state, h).unwrap();
+    let certificate = system.by(rule, h).certificate(state, &step).unwrap();
     assert_eq!(certificate.on_the_branch_of_the_flow, expected, "{h} {state:?} {step:?}");
 }
 

@@ -3,7 +3,7 @@
 mod branches;
 
 use dalembert::nalgebra::vector;
-use dalembert::{Certificate, Discrete, Midpoint, State, StepError, Trajectory, rayleigh_system};
+use dalembert::{Certificate, Discrete, Discretise, Midpoint, State, StepError, rayleigh_system};
 use dalembert_tests::hard::{CubicDrag, DampedMass, SpringPendulum, TwoPendulums};
 use dalembert_tests::systems::DoublePendulum;
 
@@ -17,8 +17,8 @@ fn certificate<S, const N: usize>(system: &S, state: &State<f64, N>, h: f64) -> 
 where
     S: Discrete<Midpoint, N, Scalar = f64>,
 {
-    let step = system.step(state, h, None).unwrap();
-    Certificate::of_step(system, Midpoint, state, &step, h).unwrap()
+    let step = system.by(Midpoint, h).step(state).unwrap();
+    system.by(Midpoint, h).certificate(state, &step).unwrap()
 }
 
 #[test]
@@ -47,8 +47,8 @@ fn a_root_past_a_fold_is_told() {
     let system = CubicDrag { m: 1.3, r: 0.6 };
     let state = State { q: vector![0.0], p: vector![-1.0] };
     for (guess, on_the_branch) in [(0.0, true), (-30.0, false)] {
-        let step = Discrete::<Midpoint, 1>::step(&system, &state, 0.4, Some(&vector![guess])).unwrap();
-        let found = Certificate::of_step(&system, Midpoint, &state, &step, 0.4).unwrap();
+        let step = system.by(Midpoint, 0.4).near(&vector![guess]).step(&state).unwrap();
+        let found = system.by(Midpoint, 0.4).certificate(&state, &step).unwrap();
         assert_eq!(found.on_the_branch_of_the_flow, on_the_branch, "{guess}: {step:?}");
     }
 }
@@ -58,15 +58,15 @@ fn a_root_past_a_fold_is_told() {
 fn steps_of_bounded_work() {
     let system = DoublePendulum::EXAMPLE;
     let state = State { q: vector![1.1, -0.6], p: vector![0.8, 1.9] };
-    let full = Discrete::<Midpoint, 2>::step(&system, &state, 0.3, None).unwrap();
+    let full = system.by(Midpoint, 0.3).step(&state).unwrap();
     let mut before = f64::INFINITY;
     for iterations in 1..=12 {
-        let bounded = Discrete::<Midpoint, 2>::step_within(&system, &state, 0.3, None, iterations).unwrap();
+        let bounded = system.by(Midpoint, 0.3).step_within(&state, iterations).unwrap();
         let error = (bounded.step.velocity - full.velocity).amax();
         assert!(bounded.step.report.iterations <= iterations);
         assert_eq!(bounded.converged, error < 1e-13, "{iterations}: {error:e}");
         assert!(error <= before.max(1e-14), "{iterations}: {error:e}");
-        let found = Certificate::of_step(&system, Midpoint, &state, &bounded.step, 0.3).unwrap();
+        let found = system.by(Midpoint, 0.3).certificate(&state, &bounded.step).unwrap();
         // The correction left is the error, to second order.
         let size = error / full.velocity.amax();
         assert!(
@@ -76,7 +76,7 @@ fn steps_of_bounded_work() {
         before = error;
     }
     assert!(before < 1e-14);
-    let error = Discrete::<Midpoint, 2>::step_within(&system, &state, 0.0, None, 3).unwrap_err();
+    let error = system.by(Midpoint, 0.0).step_within(&state, 3).unwrap_err();
     assert_eq!(error, StepError::StepSize { h: 0.0 });
 }
 
@@ -86,9 +86,9 @@ fn two_iterations_a_step_follow_the_motion() {
     let system = TwoPendulums { r: 0.1 };
     let start = State { q: vector![0.8, -0.3], p: vector![0.2, 0.4] };
     let (mut state, mut guess) = (start, vector![0.0, 0.0]);
-    for exact in Trajectory::new(&system, Midpoint, 0.01, start).take(2_000) {
+    for exact in system.by(Midpoint, 0.01).run(start).take(2_000) {
         let exact = exact.unwrap();
-        let bounded = Discrete::<Midpoint, 2>::step_within(&system, &state, 0.01, Some(&guess), 2).unwrap();
+        let bounded = system.by(Midpoint, 0.01).near(&guess).step_within(&state, 2).unwrap();
         (state, guess) = (bounded.step.state, bounded.step.velocity);
         assert!((state.q - exact.state.q).amax() < 1e-9);
     }
@@ -99,14 +99,13 @@ fn a_step_in_parts() {
     // p = v + hv²/2 has a root iff 1 + 2hp ≥ 0; p itself runs off as p/(1 + pt) does.
     let system = CubicDrag { m: 1.0, r: 1.0 };
     let start = State { q: vector![0.0], p: vector![-0.7] };
-    let mut trajectory = Trajectory::new(&system, Midpoint, 1.0, start);
+    let mut trajectory = system.by(Midpoint, 1.0).run(start);
     let parted = trajectory.next_in_parts(10).unwrap();
     assert!(parted.parts >= 2, "{parted:?}");
     assert_eq!((trajectory.time(), trajectory.state()), (1.0, &parted.step.state));
     // The same by hand.
     let part = 1.0 / f64::from(parted.parts);
-    let last =
-        Trajectory::new(&system, Midpoint, part, start).take(parted.parts as usize).last().unwrap().unwrap();
+    let last = system.by(Midpoint, part).run(start).take(parted.parts as usize).last().unwrap().unwrap();
     assert_eq!(last.state, parted.step.state);
     // Past the blow-up at t = 1/0.7 nothing helps: the error of the whole step, the state kept, the run ended.
     let state = *trajectory.state();
@@ -116,6 +115,6 @@ fn a_step_in_parts() {
     assert!(trajectory.next().is_none());
     // A step that can be taken at once is.
     let easy = SpringPendulum { k: 1e2, r: 0.0 };
-    let mut trajectory = Trajectory::new(&easy, Midpoint, 0.01, easy.at_angle(0.5));
+    let mut trajectory = easy.by(Midpoint, 0.01).run(easy.at_angle(0.5));
     assert_eq!(trajectory.next_in_parts(3).unwrap().parts, 1);
 }

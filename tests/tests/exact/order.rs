@@ -6,8 +6,8 @@
 use dalembert::exact::{Convergence, Exact};
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::{
-    Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DisplacementRule, Midpoint, Momenta,
-    Node, StepKernel, Trapezoidal, VelocityHistory, rayleigh_system,
+    Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, Discretise, DisplacementRule, Midpoint,
+    Momenta, Node, StepKernel, Trapezoidal, VelocityHistory, rayleigh_system,
 };
 
 #[rayleigh_system(rule = [midpoint, trapezoidal])]
@@ -131,7 +131,7 @@ fn the_midpoint_force_is_off_by_a_twelfth() {
     for (h, tolerance) in [(0.02, 2e-2), (0.005, 5e-3)] {
         let q1 = q0 + h * v;
         let segment = exact.segment(vector![q0], vector![q1], h).unwrap();
-        let force = Discrete::<Midpoint, 1>::discrete_force(&PUSHED, &vector![q0], &vector![q1], h);
+        let force = PUSHED.by(Midpoint, h).discrete_force(&vector![q0], &vector![q1]);
         let q = 0.5 * (q0 + q1);
         let acceleration = -q.sin() - PUSHED.r * (1.0 + q * q) * v;
         let (force_now, by_v) = (-PUSHED.r * (1.0 + q * q) * v, -PUSHED.r * (1.0 + q * q));

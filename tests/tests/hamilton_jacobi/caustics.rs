@@ -1,8 +1,8 @@
 //! Caustics are found and located between steps, double ones too, and none where there is none.
 
-use dalembert::hamilton_jacobi::{Characteristic, HamiltonJacobi, Section};
+use dalembert::hamilton_jacobi::{Characteristic, Section};
 use dalembert::nalgebra::{SMatrix, SVector, vector};
-use dalembert::{LegendreDerivatives, Midpoint, rayleigh_system};
+use dalembert::{Discretise, Midpoint, rayleigh_system};
 use dalembert_tests::damped_oscillator::{CompleteSolution, DAMPED, H};
 use dalembert_tests::draws::Draws;
 
@@ -27,7 +27,7 @@ impl<const N: usize> Section<N> for Linear<N> {
 #[test]
 fn the_oscillators_are_where_the_closed_form_says() {
     let closed = CompleteSolution::new(&DAMPED, H, -0.3, 0.7);
-    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, H);
+    let theory = DAMPED.by(Midpoint, H).hamilton_jacobi();
     let steps = 60;
     let caustics = theory.carry(&closed.function(0), &vector![0.9], steps).unwrap().caustics;
     let expected: Vec<usize> =
@@ -44,7 +44,7 @@ fn the_oscillators_are_where_the_closed_form_says() {
 /// On which side of the node rounding puts the zero differs from node to node.
 #[test]
 fn one_on_a_node_is_reported_once() {
-    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, H);
+    let theory = DAMPED.by(Midpoint, H).hamilton_jacobi();
     for node in 1..12 {
         for lambda in [0.7, -0.2] {
             let mut closed = CompleteSolution::new(&DAMPED, H, 0.0, lambda);
@@ -89,13 +89,13 @@ const STEPS: usize = 60;
 
 fn carried(system: &Plane) -> Characteristic<f64, 2> {
     let section = Linear { matrix: SMatrix::zeros(), shift: vector![0.3, -0.1] };
-    HamiltonJacobi::new(system, Midpoint, H).carry(&section, &vector![0.9, 0.4], STEPS).unwrap()
+    system.by(Midpoint, H).hamilton_jacobi().carry(&section, &vector![0.9, 0.4], STEPS).unwrap()
 }
 
 /// Focal points in (k, k + 1] by discrete Sturm theory: negative eigenvalues of Q_kᵀ (∂p0/∂q1) Q_{k+1}.
 fn focal_points(system: &Plane, characteristic: &Characteristic<f64, 2>, k: usize) -> usize {
     let [from, to] = [characteristic.states[k].q, characteristic.states[k + 1].q];
-    let newton = LegendreDerivatives::of_segment(system, Midpoint, &from, &to, H).p0_by_q1;
+    let newton = system.by(Midpoint, H).legendre_derivatives(&from, &to).p0_by_q1;
     let form = characteristic.frames[k].q.transpose() * newton * characteristic.frames[k + 1].q;
     assert!((form - form.transpose()).amax() < 1e-12);
     form.symmetric_eigenvalues().iter().filter(|value| **value < 0.0).count()
@@ -118,7 +118,7 @@ fn a_double_caustic_leaves_the_sign_of_the_determinant_and_is_found() {
         let single = dalembert_tests::damped_oscillator::Oscillator { m: 1.0, k: 1.0, r: friction };
         let section = Linear { matrix: SMatrix::zeros(), shift: vector![0.2] };
         let single =
-            HamiltonJacobi::new(&single, Midpoint, H).carry(&section, &vector![0.5], STEPS).unwrap().caustics;
+            single.by(Midpoint, H).hamilton_jacobi().carry(&section, &vector![0.5], STEPS).unwrap().caustics;
         assert_eq!(single.len(), caustics.len());
         for (one, two) in single.iter().zip(caustics) {
             assert_eq!(one.step, two.step);
@@ -197,7 +197,7 @@ fn random_fans_fold_where_each_of_their_directions_does() {
         let matrix = turn * SMatrix::from_diagonal(&SVector::from(slopes)) * turn.transpose();
         let section = Linear { matrix, shift: vector![0.3, -0.1] };
         let label = vector![draws.between(-1.0, 1.0), draws.between(-1.0, 1.0)];
-        let carried = HamiltonJacobi::new(&system, Midpoint, h).carry(&section, &label, steps).unwrap();
+        let carried = system.by(Midpoint, h).hamilton_jacobi().carry(&section, &label, steps).unwrap();
         let caustics = carried.caustics;
         doubles += caustics.iter().filter(|caustic| caustic.multiplicity == 2).count();
         let found: Vec<f64> = caustics
@@ -230,7 +230,7 @@ fn neighbours_of_a_nonlinear_fan_cross_where_the_caustic_is() {
         (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * friction * v[0] * v[0])
     }
     let system = Pendulum { friction: 0.1 };
-    let theory = HamiltonJacobi::new(&system, Midpoint, 0.2);
+    let theory = system.by(Midpoint, 0.2).hamilton_jacobi();
     let section = Linear { matrix: SMatrix::zeros(), shift: vector![0.4] };
     let (width, steps) = (1e-6, 60);
     let mut places = Vec::new();
@@ -259,7 +259,7 @@ fn a_spreading_fan_has_none() {
         (0.5 * v[0] * v[0], 0.5 * friction * v[0] * v[0])
     }
     let system = Free { friction: 0.3 };
-    let theory = HamiltonJacobi::new(&system, Midpoint, 0.2);
+    let theory = system.by(Midpoint, 0.2).hamilton_jacobi();
     let caustics = |slope: f64| {
         let section = Linear { matrix: SMatrix::from_element(slope), shift: vector![0.4] };
         theory.carry(&section, &vector![1.0], 100).unwrap().caustics

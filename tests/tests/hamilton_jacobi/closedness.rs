@@ -1,9 +1,9 @@
 //! A carried section stays closed iff the pull-back of d f_d vanishes: the closedness defect QᵀP − PᵀQ against differences of
 //! the flow, against the criterion for a Rayleigh force, and 0 without force or for n = 1.
 
-use dalembert::hamilton_jacobi::{Characteristic, HamiltonJacobi};
+use dalembert::hamilton_jacobi::Characteristic;
 use dalembert::nalgebra::{SMatrix, SVector, vector};
-use dalembert::{Discrete, DiscreteRayleigh, Midpoint, ScalarField, Trapezoidal, rayleigh_system};
+use dalembert::{Discrete, Discretise, Midpoint, ScalarField, Trapezoidal, rayleigh_system};
 use dalembert_tests::damped_oscillator::{CompleteSolution, DAMPED};
 
 struct Well {
@@ -57,7 +57,7 @@ fn carried<R: Copy, L>(system: &L, rule: R, label: SVector<f64, 2>) -> Character
 where
     L: Discrete<R, 2, Scalar = f64>,
 {
-    HamiltonJacobi::new(system, rule, H).carry(&Start, &label, STEPS).unwrap()
+    system.by(rule, H).hamilton_jacobi().carry(&Start, &label, STEPS).unwrap()
 }
 
 fn largest_defect(characteristic: &Characteristic<f64, 2>) -> f64 {
@@ -97,7 +97,7 @@ fn the_frame_is_the_derivative_by_the_label() {
 fn without_force_the_section_stays_closed() {
     let system = Well { friction: 0.0, curl: 0.0 };
     let characteristic = carried(&system, Midpoint, LABEL);
-    let report = HamiltonJacobi::new(&system, Midpoint, H).characteristics_report(&[characteristic]);
+    let report = system.by(Midpoint, H).hamilton_jacobi().characteristics_report(&[characteristic]);
     assert!(report.closed.unwrap().holds() && report.balance.unwrap().holds(), "{report}");
 }
 
@@ -108,12 +108,12 @@ fn friction_opens_it_and_a_curl_more_so_and_the_balance_holds() {
     for (system, least) in [(&friction, 1e-3), (&curl, 0.1)] {
         let characteristic = carried(system, Midpoint, LABEL);
         assert!(largest_defect(&characteristic) > least, "{}", largest_defect(&characteristic));
-        let report = HamiltonJacobi::new(system, Midpoint, H).characteristics_report(&[characteristic]);
+        let report = system.by(Midpoint, H).hamilton_jacobi().characteristics_report(&[characteristic]);
         assert!(!report.closed.unwrap().holds() && report.balance.unwrap().holds(), "{report}");
     }
     // Positive control of the balance: frames of another system have none.
     let characteristic = carried(&curl, Midpoint, LABEL);
-    let report = HamiltonJacobi::new(&friction, Midpoint, H).characteristics_report(&[characteristic]);
+    let report = friction.by(Midpoint, H).hamilton_jacobi().characteristics_report(&[characteristic]);
     assert!(!report.balance.unwrap().holds(), "{report}");
 }
 
@@ -121,15 +121,12 @@ fn friction_opens_it_and_a_curl_more_so_and_the_balance_holds() {
 #[test]
 fn for_a_rayleigh_force_it_is_the_antisymmetric_part_of_d1d2r_df() {
     let system = Well { friction: 0.5, curl: 0.0 };
-    let theory = HamiltonJacobi::new(&system, Midpoint, H);
+    let theory = system.by(Midpoint, H).hamilton_jacobi();
     for label in [LABEL, vector![-0.9, 0.3]] {
         let characteristic = theory.carry(&Start, &label, 1).unwrap();
-        let r = DiscreteRayleigh::<Midpoint, 2>::discrete_rayleigh_derivatives(
-            &system,
-            &characteristic.states[0].q,
-            &characteristic.states[1].q,
-            H,
-        );
+        let r = system
+            .by(Midpoint, H)
+            .discrete_rayleigh_derivatives(&characteristic.states[0].q, &characteristic.states[1].q);
         let product = r.d12 * characteristic.frames[1].q;
         let expected = (product - product.transpose()) * 2.0;
         let defect = characteristic.frames[1].closedness_defect();
@@ -145,7 +142,7 @@ fn for_a_rayleigh_force_it_is_the_antisymmetric_part_of_d1d2r_df() {
 
 #[test]
 fn with_one_degree_of_freedom_every_section_is_closed() {
-    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, 0.25);
+    let theory = DAMPED.by(Midpoint, 0.25).hamilton_jacobi();
     let s0 = CompleteSolution::new(&DAMPED, 0.25, -0.4, 0.7).function(0);
     let characteristic = theory.carry(&s0, &vector![0.8], 200).unwrap();
     let report = theory.characteristics_report(&[characteristic]);
@@ -166,7 +163,7 @@ fn proportional_friction_on_an_uncoupled_well_keeps_it_closed() {
         }
     }
     let characteristic = carried(&Uncoupled, Midpoint, LABEL);
-    let theory = HamiltonJacobi::new(&Uncoupled, Midpoint, H);
+    let theory = Uncoupled.by(Midpoint, H).hamilton_jacobi();
     let report = theory.characteristics_report(&[characteristic]);
     assert!(report.closed.unwrap().holds(), "{report}");
     let report = theory.check_sections(&[Start, Start], &[LABEL]).unwrap();

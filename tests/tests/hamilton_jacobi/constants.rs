@@ -2,14 +2,14 @@
 //! the k-step pair (L, R) in closed form gives k steps at once.
 
 use dalembert::nalgebra::vector;
-use dalembert::{Discrete, Midpoint, State};
+use dalembert::{Discretise, Midpoint, State};
 use dalembert_tests::damped_oscillator::{CompleteSolution, DAMPED, H, Oscillator, UNDAMPED};
 
 fn states(system: &Oscillator, [q, p]: [f64; 2], steps: usize) -> Vec<(f64, f64)> {
     let mut state = State { q: vector![q], p: vector![p] };
     let mut states = vec![(state.q[0], state.p[0])];
     for _ in 0..steps {
-        state = Discrete::<Midpoint, 1>::step(system, &state, H, None).unwrap().state;
+        state = system.by(Midpoint, H).step(&state).unwrap().state;
         states.push((state.q[0], state.p[0]));
     }
     states

@@ -1,9 +1,8 @@
 //! The corrected Hamilton–Jacobi theory holds on the closed-form complete solution of the damped oscillator, and its check
 //! rejects what is no solution.
 
-use dalembert::hamilton_jacobi::HamiltonJacobi;
 use dalembert::nalgebra::vector;
-use dalembert::{Midpoint, ScalarField};
+use dalembert::{Discretise, Midpoint, ScalarField};
 use dalembert_tests::damped_oscillator::{CompleteSolution, DAMPED, H, Oscillator, UNDAMPED, Vector};
 
 const STEPS: usize = 12;
@@ -18,7 +17,7 @@ fn solution(system: &Oscillator) -> CompleteSolution {
 
 #[test]
 fn the_closed_form_solves_both_transforms() {
-    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, H);
+    let theory = DAMPED.by(Midpoint, H).hamilton_jacobi();
     let closed = solution(&DAMPED);
     let maps: Vec<_> = (0..STEPS).map(|k| closed.map(k)).collect();
     let family = closed.family(STEPS);
@@ -38,7 +37,7 @@ fn the_closed_form_solves_both_transforms() {
 
 #[test]
 fn a_wrong_parameter_a_wrong_map_and_the_undamped_family_are_rejected() {
-    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, H);
+    let theory = DAMPED.by(Midpoint, H).hamilton_jacobi();
     let closed = solution(&DAMPED);
 
     // λ_{k+1} off by η: the plus transform is missed by η.
@@ -65,7 +64,7 @@ fn a_wrong_parameter_a_wrong_map_and_the_undamped_family_are_rejected() {
 
 #[test]
 fn virtual_work_is_the_closed_form() {
-    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, H);
+    let theory = DAMPED.by(Midpoint, H).hamilton_jacobi();
     let closed = solution(&DAMPED);
     for k in 0..STEPS {
         let (s0, s1) = (closed.function(k), closed.function(k + 1));
@@ -83,7 +82,7 @@ fn virtual_work_is_the_closed_form() {
 
 #[test]
 fn without_force_it_is_the_equation_of_ohsawa_bloch_and_leok() {
-    let theory = HamiltonJacobi::new(&UNDAMPED, Midpoint, H);
+    let theory = UNDAMPED.by(Midpoint, H).hamilton_jacobi();
     let report = theory.check_generating_functions(&solution(&UNDAMPED).family(STEPS), &samples()).unwrap();
     assert!(report.is_solution(), "{report}");
     let no_work = report.no_work.unwrap();
@@ -92,7 +91,7 @@ fn without_force_it_is_the_equation_of_ohsawa_bloch_and_leok() {
 
 #[test]
 fn a_carried_section_reproduces_the_closed_form_and_its_generating_functions() {
-    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, H);
+    let theory = DAMPED.by(Midpoint, H).hamilton_jacobi();
     let closed = solution(&DAMPED);
     let nodes = 4.try_into().unwrap();
     let s0 = closed.function(0);

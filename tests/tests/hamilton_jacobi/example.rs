@@ -1,8 +1,7 @@
 //! The paper's worked oscillator example: its sums, its coefficients of γ⁻, its 𝔽⁻, and its flow (which is right).
 
-use dalembert::hamilton_jacobi::HamiltonJacobi;
 use dalembert::nalgebra::vector;
-use dalembert::{Discrete, Midpoint};
+use dalembert::{Discretise, Midpoint};
 use dalembert_tests::damped_oscillator::{DAMPED, H, Oscillator, trajectory};
 
 /// The example's discrete action and G_d, printed with q_{j+1}, q_j inside the sum over k, and with the index put right.
@@ -42,7 +41,7 @@ fn the_examples_printed_coefficients_and_indices_are_wrong() {
     let plain: Vec<f64> = q.iter().map(|q| q[0]).collect();
     let example = Example { system: &DAMPED, q: &plain };
     let (m, k, r, h) = (DAMPED.m, DAMPED.k, DAMPED.r, H);
-    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, H);
+    let theory = DAMPED.by(Midpoint, H).hamilton_jacobi();
     for j in 2..11 {
         // The action: its sum runs over k, the printed potential does not.
         let action = theory.discrete_action(&q[..=j]);
@@ -65,7 +64,7 @@ fn the_examples_printed_coefficients_and_indices_are_wrong() {
         assert!((example.gamma_minus(j, corrected) - gamma).abs() < 1e-12, "j = {j}");
         assert!((example.gamma_minus(j, printed) - gamma).abs() > 1e-3, "j = {j}");
         // Even so it is not the momentum: it misses by r (q_{j+1} − q_{j−1}), twice the net force.
-        let p = Discrete::<Midpoint, 1>::legendre_minus(&DAMPED, &q[j], &q[j + 1], h).p[0];
+        let p = DAMPED.by(Midpoint, h).legendre_minus(&q[j], &q[j + 1]).p[0];
         assert!((gamma - p - r * (plain[j + 1] - plain[j - 1])).abs() < 1e-12, "j = {j}");
     }
 }
@@ -75,12 +74,12 @@ fn the_examples_printed_coefficients_and_indices_are_wrong() {
 fn the_examples_minus_transform_has_m_over_h() {
     let (m, k, r, h) = (DAMPED.m, DAMPED.k, DAMPED.r, H);
     let (q0, q1) = (0.3, 0.5);
-    let start = Discrete::<Midpoint, 1>::legendre_minus(&DAMPED, &vector![q0], &vector![q1], h);
+    let start = DAMPED.by(Midpoint, h).legendre_minus(&vector![q0], &vector![q1]);
     let of = |mass: f64| mass / h * (q1 - q0) + 0.25 * k * h * (q1 + q0) + 0.5 * r * (q1 - q0);
     assert!((start.p[0] - of(m)).abs() < 1e-15);
     assert!((start.p[0] - of(m - r) - r / h * (q1 - q0)).abs() < 1e-15);
 
-    let end = Discrete::<Midpoint, 1>::step(&DAMPED, &start, h, None).unwrap().state;
+    let end = DAMPED.by(Midpoint, h).step(&start).unwrap().state;
     let (q, p, d) = (q0, start.p[0], 4.0 * m + h * h * k + 2.0 * h * r);
     assert!((end.q[0] - (-h * h * k * q + 4.0 * h * p + 2.0 * h * q * r + 4.0 * m * q) / d).abs() < 1e-15);
     assert!(

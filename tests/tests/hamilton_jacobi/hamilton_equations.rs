@@ -1,9 +1,9 @@
 //! The forced discrete Hamilton equations: the printed second ones miss by the force at the eliminated end, the corrected
 //! ones hold; in Rayleigh form two signs are wrong besides (paper, sections 3.2 and 3.3).
 
-use dalembert::hamilton_jacobi::{HamiltonEquationsReport, HamiltonJacobi};
+use dalembert::hamilton_jacobi::HamiltonEquationsReport;
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::{Discrete, DiscreteRayleigh, LegendreDerivatives, Midpoint, Trapezoidal, rayleigh_system};
+use dalembert::{Discrete, DiscreteRayleigh, Discretise, Midpoint, Trapezoidal, rayleigh_system};
 use dalembert_tests::damped_oscillator::{DAMPED, H, UNDAMPED};
 
 /// Two degrees of freedom, nonlinear, with a Rayleigh function that depends on q.
@@ -57,8 +57,8 @@ fn check_derivatives<R: Copy, L>(system: &L, rule: R)
 where
     L: Discrete<R, 2, Scalar = f64>,
 {
-    let theory = HamiltonJacobi::new(system, rule, H);
-    let momenta = LegendreDerivatives::of_segment(system, rule, &Q0, &Q1, H).momenta;
+    let theory = system.by(rule, H).hamilton_jacobi();
+    let momenta = system.by(rule, H).legendre_derivatives(&Q0, &Q1).momenta;
     let v = (Q1 - Q0) / H;
     let plus = |q0: &SVector<f64, 2>, p1: &SVector<f64, 2>| {
         theory.discrete_hamiltonian_plus(q0, p1, Some(&v)).unwrap()
@@ -98,7 +98,7 @@ fn missing_terms<R: Copy, L>(system: &L, rule: R) -> [SVector<f64, 2>; 2]
 where
     L: Discrete<R, 2, Scalar = f64>,
 {
-    let k = LegendreDerivatives::of_segment(system, rule, &Q0, &Q1, H);
+    let k = system.by(rule, H).legendre_derivatives(&Q0, &Q1);
     let f = system.discrete_force(&Q0, &Q1, H);
     let q1_by_q0 = -k.p1_by_q1.try_inverse().unwrap() * k.p1_by_q0;
     let q0_by_q1 = -k.p0_by_q0.try_inverse().unwrap() * k.p0_by_q1;
@@ -109,7 +109,7 @@ fn check_general<R: Copy, L>(system: &L, rule: R)
 where
     L: Discrete<R, 2, Scalar = f64>,
 {
-    let report = HamiltonJacobi::new(system, rule, H).hamilton_equations(&[Q0, Q1]);
+    let report = system.by(rule, H).hamilton_jacobi().hamilton_equations(&[Q0, Q1]);
     assert!(corrected_hold(&report), "{report}");
     // The first equations are right as printed.
     assert!(report.right_configuration.printed.unwrap().holds(), "{report}");
@@ -135,7 +135,7 @@ fn the_printed_second_equations_miss_by_the_force_at_the_eliminated_end() {
 fn the_oscillators_misses_are_the_closed_form() {
     let (m, k, r, h) = (DAMPED.m, DAMPED.k, DAMPED.r, H);
     let (q0, q1) = (0.3, 0.5);
-    let report = HamiltonJacobi::new(&DAMPED, Midpoint, h).hamilton_equations(&[vector![q0], vector![q1]]);
+    let report = DAMPED.by(Midpoint, h).hamilton_jacobi().hamilton_equations(&[vector![q0], vector![q1]]);
     let f = -0.5 * r * (q1 - q0);
     let right = f * (m / h + k * h / 4.0 - r / 2.0) / (m / h - k * h / 4.0 - r / 2.0);
     let left = f * (m / h + k * h / 4.0 + r / 2.0) / (m / h - k * h / 4.0 + r / 2.0);
@@ -149,8 +149,7 @@ fn the_oscillators_misses_are_the_closed_form() {
 
 #[test]
 fn without_force_printed_and_corrected_agree() {
-    let report =
-        HamiltonJacobi::new(&UNDAMPED, Midpoint, H).hamilton_equations(&[vector![0.3], vector![0.5]]);
+    let report = UNDAMPED.by(Midpoint, H).hamilton_jacobi().hamilton_equations(&[vector![0.3], vector![0.5]]);
     assert!(corrected_hold(&report), "{report}");
     for pair in [report.right_momentum, report.left_momentum] {
         assert!(pair.printed.unwrap().holds(), "{report}");
@@ -161,7 +160,7 @@ fn check_rayleigh<R: Copy, L>(system: &L, rule: R)
 where
     L: DiscreteRayleigh<R, 2, Scalar = f64>,
 {
-    let report = HamiltonJacobi::new(system, rule, H).hamilton_equations_rayleigh(&[Q0, Q1]);
+    let report = system.by(rule, H).hamilton_jacobi().hamilton_equations_rayleigh(&[Q0, Q1]);
     assert!(corrected_hold(&report), "{report}");
     let r = system.discrete_rayleigh_derivatives(&Q0, &Q1, H);
     let [[right_a, _], [right_b, _], [left_a, _], [left_b, _]] = misses(&report);
@@ -171,7 +170,7 @@ where
     assert!(is_one_of(right_a, r.d2) && is_one_of(left_a, r.d1), "{report}");
     assert!(right_b > 1e-3 && left_b > 1e-3, "{report}");
     // Both forms are the same equations.
-    let general = HamiltonJacobi::new(system, rule, H).hamilton_equations(&[Q0, Q1]);
+    let general = system.by(rule, H).hamilton_jacobi().hamilton_equations(&[Q0, Q1]);
     assert!(corrected_hold(&general), "{general}");
 }
 
@@ -181,7 +180,7 @@ fn the_rayleigh_form_needs_all_four_signs() {
     check_rayleigh(&Coupled { friction: 0.7 }, Trapezoidal);
     // Positive control: without friction nothing misses, printed or not.
     let report =
-        HamiltonJacobi::new(&Coupled { friction: 0.0 }, Midpoint, H).hamilton_equations_rayleigh(&[Q0, Q1]);
+        Coupled { friction: 0.0 }.by(Midpoint, H).hamilton_jacobi().hamilton_equations_rayleigh(&[Q0, Q1]);
     for [printed, corrected] in misses(&report) {
         assert_eq!(printed, corrected, "{report}");
     }
@@ -194,7 +193,7 @@ fn the_rayleigh_form_needs_all_four_signs() {
 fn the_oscillators_rayleigh_misses_are_the_closed_form() {
     let (m, k, r, h) = (DAMPED.m, DAMPED.k, DAMPED.r, H);
     let (q0, q1) = (0.3, 0.5);
-    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, h);
+    let theory = DAMPED.by(Midpoint, h).hamilton_jacobi();
     let report = theory.hamilton_equations_rayleigh(&[vector![q0], vector![q1]]);
     let (d1, d2) = (-0.5 * r * (q1 - q0), 0.5 * r * (q1 - q0));
     let q1_by_q0 = (m / h + k * h / 4.0 - r / 2.0) / (m / h - k * h / 4.0 - r / 2.0);

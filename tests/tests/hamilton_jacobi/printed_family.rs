@@ -1,9 +1,9 @@
 //! The paper's theory as printed, on functions S_k: by what each statement misses under force, in closed form, and that all
 //! hold without (paper, section 4).
 
-use dalembert::hamilton_jacobi::{HamiltonJacobi, PrintedReport};
+use dalembert::hamilton_jacobi::PrintedReport;
 use dalembert::nalgebra::vector;
-use dalembert::{Discrete, Midpoint, ScalarField};
+use dalembert::{Discretise, Midpoint, ScalarField};
 use dalembert_tests::damped_oscillator::{
     CompleteSolution, DAMPED, H, Oscillator, Quadratic, UNDAMPED, Vector, trajectory,
 };
@@ -22,7 +22,7 @@ fn on_sections(system: &Oscillator) -> Vec<Vector> {
 
 fn report(system: &Oscillator) -> PrintedReport<1> {
     let family = solution(system).family(STEPS);
-    HamiltonJacobi::new(system, Midpoint, H).as_printed(&family, &on_sections(system)).unwrap()
+    system.by(Midpoint, H).hamilton_jacobi().as_printed(&family, &on_sections(system)).unwrap()
 }
 
 #[test]
@@ -96,7 +96,7 @@ fn under_force_each_statement_misses_by_the_predicted_amount() {
 #[test]
 fn the_right_equation_for_all_q_is_solved_by_the_unforced_family() {
     let samples = [-1.1, 0.2, 0.9].map(|q| vector![q]);
-    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, H);
+    let theory = DAMPED.by(Midpoint, H).hamilton_jacobi();
     let report = theory.right_equation_everywhere(&solution(&UNDAMPED).family(STEPS), &samples).unwrap();
     assert!(report.right_equation.unwrap().holds() && report.derivative.unwrap().holds(), "{report}");
     assert!(report.unforced.unwrap().holds(), "{report}");
@@ -111,7 +111,7 @@ fn the_right_equation_for_all_q_is_solved_by_the_unforced_family() {
 /// x = q̂ − ρ (q̂ − q)/(α − ρ) + ρ (x − q)/(s − ρ) with (α − ρ) q̂ = (s − ρ) x + λ + β q, s and λ those of S_{k+1}.
 #[test]
 fn the_lemmas_flow_solves_neither_the_forced_nor_the_unforced_equations() {
-    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, H);
+    let theory = DAMPED.by(Midpoint, H).hamilton_jacobi();
     let closed = solution(&DAMPED);
     let family = solution(&UNDAMPED).family(STEPS);
     let mut c = vec![vector![0.8]];
@@ -133,13 +133,13 @@ fn the_lemmas_flow_solves_neither_the_forced_nor_the_unforced_equations() {
         );
     }
     for q in c.windows(3) {
-        let forced = Discrete::<Midpoint, 1>::del_residual(&DAMPED, &q[0], &q[1], &q[2], H)[0];
-        let unforced = Discrete::<Midpoint, 1>::del_residual(&UNDAMPED, &q[0], &q[1], &q[2], H)[0];
+        let forced = DAMPED.by(Midpoint, H).del_residual(&q[0], &q[1], &q[2])[0];
+        let unforced = UNDAMPED.by(Midpoint, H).del_residual(&q[0], &q[1], &q[2])[0];
         assert!(forced.abs() > 1e-3 && unforced.abs() > 1e-3, "{forced} {unforced}");
     }
 
     // Positive control: without force 𝓕⁺ and 𝓕⁻ are the flow.
-    let theory = HamiltonJacobi::new(&UNDAMPED, Midpoint, H);
+    let theory = UNDAMPED.by(Midpoint, H).hamilton_jacobi();
     let q = on_sections(&UNDAMPED);
     for k in 1..STEPS {
         let guess = (q[k] - q[k - 1]) / H;
@@ -154,7 +154,7 @@ fn the_lemmas_flow_solves_neither_the_forced_nor_the_unforced_equations() {
 /// (α + ρ) q̂ = β x − (s − ρ) q − λ, s and λ those of S_k. It is no flow of the system either.
 #[test]
 fn the_lemmas_other_flow_is_its_closed_form_and_no_solution() {
-    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, H);
+    let theory = DAMPED.by(Midpoint, H).hamilton_jacobi();
     let CompleteSolution { alpha, beta, rho, .. } = solution(&DAMPED);
     for (k, family) in [solution(&UNDAMPED), solution(&DAMPED)].iter().flat_map(|f| [(1, f), (4, f)]) {
         let function = family.function(k);
@@ -170,7 +170,7 @@ fn the_lemmas_other_flow_is_its_closed_form_and_no_solution() {
         // The step from (q, dS_k(q)) leads elsewhere.
         let p = function.gradient(&vector![q]);
         let state = dalembert::State { q: vector![q], p };
-        let step = Discrete::<Midpoint, 1>::step(&DAMPED, &state, H, None).unwrap().state.q[0];
+        let step = DAMPED.by(Midpoint, H).step(&state).unwrap().state.q[0];
         assert!((x - step).abs() > 1e-3, "k = {k}: {x} {step}");
     }
 }
@@ -178,7 +178,7 @@ fn the_lemmas_other_flow_is_its_closed_form_and_no_solution() {
 /// With q_j not eliminated from H_d⁻ the left equation holds whatever γ⁻ is.
 #[test]
 fn the_left_equation_without_elimination_is_empty() {
-    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, H);
+    let theory = DAMPED.by(Midpoint, H).hamilton_jacobi();
     let q = on_sections(&DAMPED);
     let mut action = 0.0;
     let mut family = Vec::new();
@@ -198,7 +198,7 @@ fn the_left_equation_without_elimination_is_empty() {
 /// γ = DG_d for functions S_k: by differences of G_d, which is quadratic.
 #[test]
 fn gamma_is_the_differential_of_the_generating_function() {
-    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, H);
+    let theory = DAMPED.by(Midpoint, H).hamilton_jacobi();
     let [s0, s1] = [0, 1].map(|k| solution(&DAMPED).function(k));
     let g = |a: f64, b: f64| theory.generating_function(&s0, &s1, &vector![a], &vector![b]);
     let (a, b) = (0.8, 0.9);

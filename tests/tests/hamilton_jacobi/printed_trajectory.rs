@@ -1,15 +1,14 @@
 //! γ⁻ = DS∘π1 − f⁻ as printed misses the momentum by the net force, the example's γ⁻ = D1 G_d by twice that; both hold with
 //! the net force added, and without force (paper, section 4 and Example 4).
 
-use dalembert::hamilton_jacobi::HamiltonJacobi;
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::{Discrete, Midpoint, State, Trapezoidal, rayleigh_system};
+use dalembert::{Discrete, Discretise, Midpoint, State, Trapezoidal, rayleigh_system};
 use dalembert_tests::damped_oscillator::{DAMPED, H, UNDAMPED, trajectory};
 
 #[test]
 fn the_oscillators_gamma_minus_misses_by_half_r_times_the_displacement_over_two_steps() {
     let q = trajectory(&DAMPED, H, 0.0, 1.0, 20);
-    let report = HamiltonJacobi::new(&DAMPED, Midpoint, H).along_trajectory(&q).unwrap();
+    let report = DAMPED.by(Midpoint, H).hamilton_jacobi().along_trajectory(&q).unwrap();
     assert!(report.trajectory.unwrap().holds(), "{report}");
     assert!(report.right_plus.unwrap().holds() && report.left_minus.unwrap().holds(), "{report}");
     for (pair, multiple) in [(report.right_minus, 1.0), (report.left_plus, 1.0), (report.example_minus, 2.0)]
@@ -31,14 +30,14 @@ fn the_oscillators_gamma_minus_misses_by_half_r_times_the_displacement_over_two_
 #[test]
 fn without_force_all_hold() {
     let q = trajectory(&UNDAMPED, H, 0.0, 1.0, 20);
-    let report = HamiltonJacobi::new(&UNDAMPED, Midpoint, H).along_trajectory(&q).unwrap();
+    let report = UNDAMPED.by(Midpoint, H).hamilton_jacobi().along_trajectory(&q).unwrap();
     for pair in [report.right_minus, report.left_plus, report.example_minus] {
         assert!(pair.printed.unwrap().holds() && pair.corrected.unwrap().holds(), "{report}");
     }
     // Positive control: configurations that are no trajectory fail even without force.
     let mut bent = q;
     bent[7][0] += 1e-6;
-    let report = HamiltonJacobi::new(&UNDAMPED, Midpoint, H).along_trajectory(&bent).unwrap();
+    let report = UNDAMPED.by(Midpoint, H).hamilton_jacobi().along_trajectory(&bent).unwrap();
     assert!(
         !report.trajectory.unwrap().holds() && !report.right_minus.corrected.unwrap().holds(),
         "{report}"
@@ -76,7 +75,7 @@ where
         state = Discrete::<R, 2>::step(&system, &state, 0.1, None).unwrap().state;
         q.push(state.q);
     }
-    let report = HamiltonJacobi::new(&system, rule, 0.1).along_trajectory(&q).unwrap();
+    let report = system.by(rule, 0.1).hamilton_jacobi().along_trajectory(&q).unwrap();
     assert!(report.trajectory.unwrap().holds(), "{report}");
     assert!(report.net_force.unwrap().size > 1e-2, "{report}");
     for pair in [report.right_minus, report.left_plus, report.example_minus] {

@@ -1,9 +1,9 @@
 //! Sections that are no differentials solve the corrected problem as well: two degrees of freedom, friction and a force with
 //! curl, sections γ_k(q) = M_k q + l_k from the carried frames. And what cannot be evaluated is a typed error.
 
-use dalembert::hamilton_jacobi::{ConfigurationMap, HamiltonJacobi, HamiltonJacobiError, Section};
+use dalembert::hamilton_jacobi::{ConfigurationMap, HamiltonJacobiError, Section};
 use dalembert::nalgebra::{SMatrix, SVector, vector};
-use dalembert::{Discrete, Midpoint, Trapezoidal, rayleigh_system};
+use dalembert::{Discrete, Discretise, Midpoint, Trapezoidal, rayleigh_system};
 use dalembert_tests::damped_oscillator::{CompleteSolution, DAMPED};
 use dalembert_tests::sections::Constant;
 
@@ -61,7 +61,7 @@ fn check<R: Copy>(rule: R)
 where
     Whirl: Discrete<R, 2, Scalar = f64>,
 {
-    let theory = HamiltonJacobi::new(&Whirl, rule, H);
+    let theory = Whirl.by(rule, H).hamilton_jacobi();
     let start = Affine { matrix: SMatrix::from_row_slice(&[0.2, 0.3, 0.3, -0.1]), shift: vector![0.4, -0.2] };
     let carried = theory.carry(&start, &vector![0.3, 0.7], 6).unwrap();
     let mut sections: Vec<Affine> = carried
@@ -123,13 +123,13 @@ fn single_precision_is_held_against_its_own_rounding() {
         }
     }
     let system = Single { r: 0.5 };
-    let theory = HamiltonJacobi::new(&system, Midpoint, 0.25);
+    let theory = system.by(Midpoint, 0.25).hamilton_jacobi();
     let report = theory.hamilton_equations(&[vector![0.3], vector![0.5]]);
     assert!(report.right_momentum.corrected.unwrap().holds(), "{report}");
     assert!(!report.right_momentum.printed.unwrap().holds(), "{report}");
     assert!(report.relative > 1e-5);
     let caustics = theory.carry(&Rest, &vector![0.9], 20).unwrap().caustics;
-    let double = HamiltonJacobi::new(&DAMPED, Midpoint, 0.25);
+    let double = DAMPED.by(Midpoint, 0.25).hamilton_jacobi();
     let rest = Constant(0.3);
     let expected = double.carry(&rest, &vector![0.9], 20).unwrap().caustics;
     assert_eq!((caustics.len(), expected.len()), (1, 1));
@@ -139,7 +139,7 @@ fn single_precision_is_held_against_its_own_rounding() {
 
 #[test]
 fn what_cannot_be_evaluated_is_a_typed_error() {
-    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, 0.25);
+    let theory = DAMPED.by(Midpoint, 0.25).hamilton_jacobi();
     let family = CompleteSolution::new(&DAMPED, 0.25, -0.4, 0.7).family(3);
     let q = [vector![0.1], vector![0.2], vector![0.3], vector![0.4], vector![0.5]];
     assert_eq!(
@@ -165,7 +165,7 @@ fn what_cannot_be_evaluated_is_a_typed_error() {
         (0.5 * v[0] * v[0], r * v[0].powi(3) / 3.0)
     }
     let system = Cubic { r: 1.0 };
-    let theory = HamiltonJacobi::new(&system, Midpoint, 1.0);
+    let theory = system.by(Midpoint, 1.0).hamilton_jacobi();
     // p0 = v + v²/2 ≥ −½.
     let error = theory.carry(&Constant(-0.6), &vector![0.0], 3).unwrap_err();
     assert!(matches!(error, HamiltonJacobiError::Implicit { step: 0, .. }), "{error}");

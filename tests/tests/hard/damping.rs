@@ -2,7 +2,7 @@
 
 use dalembert::nalgebra::vector;
 use dalembert::{
-    Discrete, Fitted, FittedTrapezoidal, Midpoint, OneSided, Quantity, State, StepError, Trajectory,
+    Discrete, Discretise, Fitted, FittedTrapezoidal, Midpoint, OneSided, Quantity, State, StepError,
     Trapezoidal,
 };
 use dalembert_tests::hard::{
@@ -16,7 +16,7 @@ where
 {
     let (m, h) = (1.3, 0.5);
     let system = DampedMass { m, r: hr_over_m * m / h };
-    let mut trajectory = Trajectory::new(&system, rule, h, State { q: vector![0.0], p: vector![1.0] });
+    let mut trajectory = system.by(rule, h).run(State { q: vector![0.0], p: vector![1.0] });
     let [a, b] = [(); 2].map(|()| trajectory.next().unwrap().unwrap().velocity[0]);
     b / a
 }
@@ -61,7 +61,7 @@ fn equilibria_and_terminal_velocities_are_exact() {
             let system = Oscillator { m: 1.3, k, r, f };
             let (q, v) = if k > 0.0 { (f / k, 0.0) } else { (0.0, f / r) };
             let start = State::from_velocity(&system, [q], [v]).unwrap();
-            for step in Trajectory::new(&system, Midpoint, 0.25, start).take(200) {
+            for step in system.by(Midpoint, 0.25).run(start).take(200) {
                 let step = step.unwrap();
                 assert!(
                     (step.velocity[0] - v).abs() < 1e-13 * (1.0 + v.abs()),
@@ -82,7 +82,7 @@ fn stick_and_slip() {
     for epsilon in [1e-2, 1e-4, 1e-6] {
         let system = Block { k, mu, u, epsilon };
         let start = State { q: vector![0.0], p: vector![-u] };
-        let mut trajectory = Trajectory::new(&system, Midpoint, h, start);
+        let mut trajectory = system.by(Midpoint, h).run(start);
         let (mut slipped, mut lowest) = (None, 0.0_f64);
         while trajectory.time() < 16.0 {
             let step = trajectory.next().unwrap().unwrap();
@@ -108,7 +108,7 @@ fn sliding_to_rest() {
     let (mu, v, h) = (0.7, 1.3, 1e-3);
     for epsilon in [1e-2, 1e-4, 1e-6] {
         let system = Block { k: 0.0, mu, u: 0.0, epsilon };
-        let mut trajectory = Trajectory::new(&system, Midpoint, h, State { q: vector![0.0], p: vector![v] });
+        let mut trajectory = system.by(Midpoint, h).run(State { q: vector![0.0], p: vector![v] });
         for _ in 0..4_000 {
             trajectory.next().unwrap().unwrap();
         }
@@ -130,7 +130,7 @@ fn sliding_to_rest_without_ringing() {
     let system = Block { k: 0.0, mu, u: 0.0, epsilon: 1e-6 };
     let start = State { q: vector![0.0], p: vector![v] };
     let mut before = v;
-    for step in Trajectory::new(&system, OneSided, h, start).take(4_000) {
+    for step in system.by(OneSided, h).run(start).take(4_000) {
         let p = step.unwrap().state.p[0];
         assert!((0.0..=before).contains(&p), "{before} {p}");
         before = p;
@@ -143,15 +143,15 @@ fn sliding_to_rest_without_ringing() {
 fn friction_written_carelessly_is_named() {
     let (mu, epsilon, h) = (0.7, 1e-4, 1e-3);
     let start = State { q: vector![0.0], p: vector![1.3] };
-    let step = Discrete::<Midpoint, 1>::step(&Overflowing { mu, epsilon }, &start, h, Some(&start.p));
+    let step = Overflowing { mu, epsilon }.by(Midpoint, h).near(&start.p).step(&start);
     assert_eq!(step.unwrap_err(), StepError::NonFinite { quantity: Quantity::Derivatives, index: 0 });
 
     let system = Cancelling { mu, epsilon };
-    let error = Trajectory::new(&system, Midpoint, h, start).take(10_000).find_map(Result::err);
+    let error = system.by(Midpoint, h).run(start).take(10_000).find_map(Result::err);
     assert!(matches!(error, Some(StepError::LostPrecision { .. })), "{error:?}");
     // The control: the same friction in two pieces.
     let system = Block { k: 0.0, mu, u: 0.0, epsilon };
-    assert!(Trajectory::new(&system, Midpoint, h, start).take(10_000).all(|step| step.is_ok()));
+    assert!(system.by(Midpoint, h).run(start).take(10_000).all(|step| step.is_ok()));
 }
 
 /// Cubic drag: within the fold the root found is the one that goes to 0 with the step, whatever the guess on its side; beyond
@@ -168,8 +168,8 @@ fn cubic_drag_past_its_fold() {
         let turn = -1.3 / (h * 0.6);
         for guess in [0.0, near * 0.5, near * 2.0, 0.9 * turn].into_iter().filter(|guess| *guess > turn) {
             for step in [
-                Discrete::<Midpoint, 1>::step(&system, &state, h, Some(&vector![guess])),
-                Discrete::<Trapezoidal, 1>::step(&system, &state, h, Some(&vector![guess])),
+                system.by(Midpoint, h).near(&vector![guess]).step(&state),
+                system.by(Trapezoidal, h).near(&vector![guess]).step(&state),
             ] {
                 let v = step.unwrap().velocity[0];
                 assert!(
@@ -181,7 +181,7 @@ fn cubic_drag_past_its_fold() {
     }
     for share in [1.001, 2.0, 1e3] {
         let state = State { q: vector![0.0], p: vector![fold * share] };
-        let step = Discrete::<Midpoint, 1>::step(&system, &state, h, None);
+        let step = system.by(Midpoint, h).step(&state);
         assert!(matches!(step, Err(StepError::NoRealSolution { .. })), "{share}: {step:?}");
     }
 }
@@ -195,7 +195,7 @@ fn negative_damping() {
     }
     let singular = DampedMass { m: 1.0, r: -4.0 };
     let start = State { q: vector![0.0], p: vector![1.0] };
-    let step = Discrete::<Midpoint, 1>::step(&singular, &start, 0.5, None);
+    let step = singular.by(Midpoint, 0.5).step(&start);
     assert!(matches!(step, Err(StepError::SingularNewtonMatrix { .. })), "{step:?}");
 }
 
@@ -205,7 +205,7 @@ fn damping_that_changes_sign() {
     let system = VanDerPol { mu: 1.0 };
     let cycle = |h: f64| {
         let start = State { q: vector![2.0], p: vector![0.0] };
-        let mut trajectory = Trajectory::new(&system, Midpoint, h, start);
+        let mut trajectory = system.by(Midpoint, h).run(start);
         let (mut crossings, mut amplitude, mut before) = (Vec::new(), 0.0_f64, (0.0, 2.0));
         while trajectory.time() < 120.0 {
             let step = trajectory.next().unwrap().unwrap();
@@ -240,7 +240,7 @@ fn gyroscopic_terms() {
     let h = 0.1;
     for b in [0.1, 1.0, 1e2, 1e4, 1e6] {
         let system = UniformField { b, r: 0.0 };
-        let mut trajectory = Trajectory::new(&system, Midpoint, h, UniformField::start());
+        let mut trajectory = system.by(Midpoint, h).run(UniformField::start());
         let mut last: Option<[f64; 2]> = None;
         for step in 1..=1_000_u32 {
             let v = trajectory.next().unwrap().unwrap().velocity;

@@ -5,7 +5,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::{
-    Derivatives, Discrete, DisplacementRule, Lagrangian, Midpoint, Momenta, State, StepKernel, Trajectory,
+    Derivatives, Discrete, Discretise, DisplacementRule, Lagrangian, Midpoint, Momenta, State, StepKernel,
+    Trajectory,
 };
 
 /// A pendulum whose Lagrangian panics at a given call.
@@ -72,12 +73,12 @@ fn a_user_function_that_panics() {
     let start = State { q: vector![0.4], p: vector![0.9] };
     let calm = Panicking { calls: AtomicU32::new(0), at: u32::MAX };
     let expected: Vec<_> =
-        Trajectory::new(&calm, Midpoint, 0.1, start).take(20).map(|step| step.unwrap().state).collect();
+        calm.by(Midpoint, 0.1).run(start).take(20).map(|step| step.unwrap().state).collect();
     let calls = calm.calls.load(Ordering::Relaxed);
     assert!(calls > 40);
     for at in 0..calls {
         let system = Panicking { calls: AtomicU32::new(0), at };
-        let mut trajectory = Trajectory::new(&system, Midpoint, 0.1, start);
+        let mut trajectory = system.by(Midpoint, 0.1).run(start);
         let mut states = Vec::new();
         let mut panics = 0;
         while states.len() < 20 {
@@ -102,7 +103,7 @@ fn a_saved_run_goes_on_bit_by_bit() {
     let system = dalembert_tests::systems::DoublePendulum::EXAMPLE;
     for start in [[1.1, -0.6], [1e-310, 1.0 / 3.0], [-0.0, 1e15 + 0.125]] {
         let start = State { q: start.into(), p: vector![0.1, -1.0 / 7.0] };
-        let mut run = Trajectory::new(&system, Midpoint, 0.1, start);
+        let mut run = system.by(Midpoint, 0.1).run(start);
         run.by_ref().take(37).for_each(|step| assert!(step.is_ok()));
         run.change_step_size(0.07);
         run.by_ref().take(13).for_each(|step| assert!(step.is_ok()));
@@ -118,8 +119,7 @@ fn a_saved_run_goes_on_bit_by_bit() {
     }
     // The control: text that broke off is an error, not a state.
     let checkpoint =
-        Trajectory::new(&system, Midpoint, 0.1, State { q: vector![0.1, 0.2], p: vector![0.3, 0.4] })
-            .checkpoint();
+        system.by(Midpoint, 0.1).run(State { q: vector![0.1, 0.2], p: vector![0.3, 0.4] }).checkpoint();
     let text = serde_json::to_string(&checkpoint).unwrap();
     for end in 0..text.len() {
         assert!(serde_json::from_str::<dalembert::Checkpoint<f64, 2>>(&text[..end]).is_err(), "{end}");

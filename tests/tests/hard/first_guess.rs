@@ -2,7 +2,8 @@
 
 use dalembert::nalgebra::SVector;
 use dalembert::{
-    Discrete, Gauss, Lagrangian, Midpoint, Rayleigh, State, StepError, Trapezoidal, rayleigh_system,
+    Discrete, Discretise, Gauss, Lagrangian, Midpoint, Rayleigh, State, StepError, Trapezoidal,
+    rayleigh_system,
 };
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -48,12 +49,12 @@ where
         let start = State { q: [0.3, 0.7].into(), p: SVector::from(v) * m };
         // Without gravity, a velocity whose square vanishes has no drag to evaluate: an error, and never rest.
         if g == 0.0 && v[1] == -1e-200 {
-            let step = Discrete::<Midpoint, 2>::step(system, &start, h, None);
+            let step = system.by(Midpoint, h).step(&start);
             assert!(step.is_err() || step.is_ok_and(|step| step.velocity[1] < 0.0), "{name}");
             continue;
         }
-        let midpoint = Discrete::<Midpoint, 2>::step(system, &start, h, None);
-        let trapezoidal = Discrete::<Trapezoidal, 2>::step(system, &start, h, None);
+        let midpoint = system.by(Midpoint, h).step(&start);
+        let trapezoidal = system.by(Trapezoidal, h).step(&start);
         let steps =
             [midpoint, trapezoidal].map(|step| step.unwrap_or_else(|error| panic!("{name} {v:?}: {error}")));
         for step in steps {
@@ -71,7 +72,9 @@ where
         }
         // Squares that vanish leave stages no drag to evaluate, but at rest itself.
         if start.p.amax() > 1e-100 * m || v == [0.0, 0.0] {
-            let step = Discrete::<Gauss<2>, 2>::step(system, &start, h, None)
+            let step = system
+                .by(Gauss::<2>, h)
+                .step(&start)
                 .unwrap_or_else(|error| panic!("{name}, Gauss, {v:?}: {error}"));
             let is_at_rest = step.state == start && step.velocity.amax() == 0.0;
             assert_eq!(is_at_rest, v == [0.0, 0.0] && g == 0.0, "{name} {v:?} {step:?}");
@@ -231,7 +234,7 @@ fn a_quartic_energy_has_a_velocity_and_an_energy() {
         assert!((found - v).amax() <= 1e-13 * v.amax(), "{v} {found}");
         let energy = 0.75 * v.norm_squared() * v.norm_squared();
         assert!((state.energy(&Quartic).unwrap() - energy).abs() <= 1e-12 * energy);
-        let step = Discrete::<Trapezoidal, 2>::step(&Quartic, &state, 0.1, None).unwrap();
+        let step = Quartic.by(Trapezoidal, 0.1).step(&state).unwrap();
         assert!((step.velocity - v).amax() <= 1e-13 * v.amax());
     }
 }

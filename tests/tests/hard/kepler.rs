@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use dalembert::{Discrete, Midpoint, State, StepError, Trajectory, Trapezoidal};
+use dalembert::{Discrete, Discretise, Midpoint, State, StepError, Trapezoidal};
 use dalembert_examples::baseline::{self, Method};
 use dalembert_tests::hard::{Kepler, drive, kepler};
 
@@ -69,7 +69,7 @@ fn energy_is_of_order_two_once_the_near_side_is_resolved() {
 fn a_step_over_the_collision_is_a_named_error_and_shorter_ones_pass() {
     let h = TAU / 1000.0;
     let start = Kepler::aphelion(0.999);
-    let mut trajectory = Trajectory::new(&FREE, Midpoint, h, start);
+    let mut trajectory = FREE.by(Midpoint, h).run(start);
     let mut good = start;
     let error = loop {
         match trajectory.next().unwrap() {

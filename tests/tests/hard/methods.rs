@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 
 use dalembert::nalgebra::vector;
 use dalembert::{
-    Composition, Discrete, Explicit, Fitted, FittedTrapezoidal, ForcedLagrangian, Gauss, Midpoint, OneSided,
-    Splitting, State, StepError, Trajectory, Trapezoidal,
+    Composition, Discrete, Discretise, Explicit, Fitted, FittedTrapezoidal, ForcedLagrangian, Gauss,
+    Midpoint, OneSided, Splitting, State, StepError, Trapezoidal,
 };
 use dalembert_tests::hard::{
     Arm, Block, CubicDrag, DampedMass, Effort, Fermi, FirstOrder, HenonHeiles, Kepler, MathewsLakshmanan,
@@ -347,8 +347,8 @@ fn masses_up_to_their_singularity() {
 fn units() {
     let (plain, scaled) = (Scaled { units: [1.0; 3], r: 0.1 }, Scaled { units: UNITS, r: 0.1 });
     let (q, p) = ([1.1, -0.6, 0.4], [0.3, 1.2, -0.5]);
-    let a = Trajectory::new(&plain, Gauss::<3>, 0.05, plain.state(q, p));
-    let b = Trajectory::new(&scaled, Gauss::<3>, 0.05, scaled.state(q, p));
+    let a = plain.by(Gauss::<3>, 0.05).run(plain.state(q, p));
+    let b = scaled.by(Gauss::<3>, 0.05).run(scaled.state(q, p));
     for (a, b) in a.zip(b).take(1_000) {
         let (a, b) = (a.unwrap(), b.unwrap());
         assert!((scaled.plain(&b.state).q - a.state.q).amax() < 1e-13);
@@ -368,8 +368,8 @@ fn units() {
         Oscillator: Discrete<R, 1, Scalar = f64>,
     {
         let start = |unit: f64| State { q: vector![0.4], p: vector![-0.2 * unit] };
-        let a = Trajectory::new(a, rule, 0.1, start(1.0));
-        let b = Trajectory::new(b, rule, 0.1 * time, start(momentum));
+        let a = a.by(rule, 0.1).run(start(1.0));
+        let b = b.by(rule, 0.1 * time).run(start(momentum));
         for (a, b) in a.zip(b).take(500) {
             let (a, b) = (a.unwrap(), b.unwrap());
             // Powers of 2 round nothing.
@@ -389,7 +389,7 @@ fn units() {
 #[test]
 fn time_reverses() {
     let (system, start) = (Kepler { k: 0.0 }, Kepler::aphelion(0.6));
-    let mut run = Trajectory::new(&system, Gauss::<3>, 0.05, start);
+    let mut run = system.by(Gauss::<3>, 0.05).run(start);
     run.by_ref().take(2_000).for_each(|step| assert!(step.is_ok()));
     run.change_step_size(-0.05);
     run.by_ref().take(2_000).for_each(|step| assert!(step.is_ok()));

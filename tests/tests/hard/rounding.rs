@@ -1,6 +1,6 @@
 //! Long runs: rounding errors walk at random, they do not drift.
 
-use dalembert::{Discrete, Midpoint, Scalar, State, Trajectory, Trapezoidal, rayleigh_system};
+use dalembert::{Discrete, Discretise, Midpoint, Scalar, State, Trapezoidal, rayleigh_system};
 use dalembert_tests::systems::FreePendulum;
 
 #[rayleigh_system(rule = [midpoint, trapezoidal])]
@@ -41,7 +41,7 @@ where
         let [q, p] = [angle.cos(), angle.sin()].map(S::constant);
         let start = State { q: [q].into(), p: [p].into() };
         let first = energy(&start);
-        let mut trajectory = Trajectory::new(system, rule, h, start);
+        let mut trajectory = system.by(rule, h).run(start);
         let mut taken = 0;
         for (count, sum) in counts.iter().zip(&mut sums) {
             while taken < *count {
@@ -115,8 +115,8 @@ fn angles_past_many_turns() {
     for turns in [1e3, 1e6] {
         let far = std::f64::consts::TAU * turns;
         let start = |q: f64| State { q: [q].into(), p: [3.9].into() };
-        let near = Trajectory::new(&system, Midpoint, 0.05, start(0.0));
-        let moved = Trajectory::new(&system, Midpoint, 0.05, start(far));
+        let near = system.by(Midpoint, 0.05).run(start(0.0));
+        let moved = system.by(Midpoint, 0.05).run(start(far));
         for (a, b) in near.zip(moved).take(10_000) {
             let (a, b) = (a.unwrap().state, b.unwrap().state);
             // 10 000 roundings of the angle at random, which a rotation stretches linearly in time.

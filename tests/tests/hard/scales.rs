@@ -1,7 +1,7 @@
 //! Units, sizes of h, and time reversal.
 
 use dalembert::nalgebra::vector;
-use dalembert::{Discrete, Midpoint, Quantity, State, StepError, Trajectory, Trapezoidal, rayleigh_system};
+use dalembert::{Discrete, Discretise, Midpoint, Quantity, State, StepError, Trapezoidal, rayleigh_system};
 use dalembert_tests::hard::{HenonHeiles, Kepler, Oscillator, Scaled, TwoPendulums, UNITS, drive};
 
 fn same_motion<R: Copy>(rule: R)
@@ -10,8 +10,8 @@ where
 {
     let (plain, scaled) = (Scaled { units: [1.0; 3], r: 0.1 }, Scaled { units: UNITS, r: 0.1 });
     let (q, p) = ([1.1, -0.6, 0.4], [0.3, 1.2, -0.5]);
-    let a = Trajectory::new(&plain, rule, 0.05, plain.state(q, p));
-    let b = Trajectory::new(&scaled, rule, 0.05, scaled.state(q, p));
+    let a = plain.by(rule, 0.05).run(plain.state(q, p));
+    let b = scaled.by(rule, 0.05).run(scaled.state(q, p));
     for (a, b) in a.zip(b).take(2_000) {
         let (a, b) = (a.unwrap(), b.unwrap());
         // Powers of 2 change no rounding but through the order of elimination, and friction forgets it.
@@ -40,7 +40,7 @@ fn there_and_back<S, R: Copy, const N: usize>(
 where
     S: Discrete<R, N, Scalar = f64>,
 {
-    let mut trajectory = Trajectory::new(system, rule, h, start);
+    let mut trajectory = system.by(rule, h).run(start);
     for _ in 0..steps {
         trajectory.next().unwrap().unwrap();
     }

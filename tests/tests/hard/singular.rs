@@ -1,7 +1,7 @@
 //! Masses that are singular or nearly so; functions without derivatives somewhere.
 
 use dalembert::nalgebra::vector;
-use dalembert::{Discrete, Midpoint, Quantity, State, StepError, Trajectory, Trapezoidal};
+use dalembert::{Discretise, Midpoint, Quantity, State, StepError, Trapezoidal};
 use dalembert_tests::hard::{Arm, Drag, FirstOrder, MathewsLakshmanan, Roots, drive};
 
 /// The amplitude goes up to where the mass is infinite, at |λ|A² = 1: q = A sin ωt with ω² = 1/(1 + λA²).
@@ -12,7 +12,7 @@ fn mathews_lakshmanan_up_to_its_singularity() {
         let omega = system.frequency(a);
         let error = |steps: u32| {
             let h = std::f64::consts::TAU / omega / f64::from(steps);
-            let mut trajectory = Trajectory::new(&system, Midpoint, h, system.start(a));
+            let mut trajectory = system.by(Midpoint, h).run(system.start(a));
             let mut largest = 0.0_f64;
             for _ in 0..2 * steps {
                 let step =
@@ -37,7 +37,7 @@ fn the_singularity_itself_has_a_name() {
     assert!(matches!(made, Err(StepError::NonFinite { quantity: Quantity::Momentum, index: 0 })), "{made:?}");
     let state = State { q: vector![1.0], p: vector![0.1] };
     for h in [1e-3, 0.1] {
-        let step = Discrete::<Midpoint, 1>::step(&system, &state, h, None);
+        let step = system.by(Midpoint, h).step(&state);
         assert!(matches!(step, Err(StepError::NonFinite { .. })), "{step:?}");
     }
 }
@@ -72,8 +72,8 @@ fn a_lagrangian_of_first_order_is_refused() {
     let refused = Err(StepError::DegenerateLagrangian { column: 0 });
     assert_eq!(State::from_velocity(&system, [0.1, 0.2], [0.3, 0.4]), refused);
     let state = State { q: vector![0.1, 0.2], p: vector![0.3, 0.4] };
-    assert_eq!(Discrete::<Midpoint, 2>::step(&system, &state, 0.1, None).map(|step| step.state), refused);
-    assert_eq!(Discrete::<Trapezoidal, 2>::step(&system, &state, 0.1, None).map(|step| step.state), refused);
+    assert_eq!(system.by(Midpoint, 0.1).step(&state).map(|step| step.state), refused);
+    assert_eq!(system.by(Trapezoidal, 0.1).step(&state).map(|step| step.state), refused);
 }
 
 /// |q|: the slope jumps. The step over the kink is found; the energy jumps by what a step of order h can miss, and no more.
@@ -102,13 +102,13 @@ fn roots_at_zero() {
     let at_zero = State { q: vector![0.0], p: vector![0.0] };
     let derivatives = StepError::NonFinite { quantity: Quantity::Derivatives, index: 0 };
     for system in [Roots { kink: 0.0, a: 1.0, b: 0.0 }, Roots { kink: 0.0, a: 0.0, b: 1.0 }] {
-        let step = Discrete::<Midpoint, 1>::step(&system, &at_zero, 0.01, None);
+        let step = system.by(Midpoint, 0.01).step(&at_zero);
         assert_eq!(step.unwrap_err(), derivatives, "{system:?}");
     }
     let system = Roots { kink: 0.0, a: 1.0, b: 0.0 };
     for q in [1e-24, 1e-12, -1e-3] {
         let state = State { q: vector![q], p: vector![0.5] };
-        let step = Discrete::<Midpoint, 1>::step(&system, &state, 0.01, None).unwrap();
+        let step = system.by(Midpoint, 0.01).step(&state).unwrap();
         // p0 = v + (h/2) a √q̄
         let v = step.velocity[0];
         let mean = q + 0.005 * v;
@@ -122,10 +122,10 @@ fn roots_at_zero() {
 fn drag_with_an_infinite_slope_at_rest() {
     let system = Drag { c: 1.0 };
     let rest = State { q: vector![0.0], p: vector![0.0] };
-    let step = Discrete::<Midpoint, 1>::step(&system, &rest, 0.01, None).unwrap();
+    let step = system.by(Midpoint, 0.01).step(&rest).unwrap();
     assert_eq!((step.state, step.velocity, step.report.residual), (rest, vector![0.0], 0.0));
     let moving = State { q: vector![0.0], p: vector![0.25] };
-    let step = Discrete::<Midpoint, 1>::step(&system, &moving, 0.1, Some(&vector![0.25])).unwrap();
+    let step = system.by(Midpoint, 0.1).near(&vector![0.25]).step(&moving).unwrap();
     // v + (h/2)√v = p
     let root = (-0.05 + (0.05_f64 * 0.05 + 1.0).sqrt()) / 2.0;
     assert!((step.velocity[0] - root * root).abs() < 1e-15, "{}", step.velocity[0]);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use dalembert::{Discrete, Midpoint, StepError, Trajectory, Trapezoidal};
+use dalembert::{Discretise, Midpoint, StepError, Trapezoidal};
 use dalembert_examples::baseline::{self, Method};
 use dalembert_tests::hard::{FERMI, Fermi, SpringPendulum, drive};
 
@@ -22,7 +22,7 @@ fn the_spring_pendulum_swings_as_a_rigid_one() {
     for ratio in [1e2, 1e3, 1e4] {
         let system = SpringPendulum { k: ratio * ratio, r: 0.0 };
         let start = system.at_angle(1.0);
-        let mut trajectory = Trajectory::new(&system, Midpoint, h, start);
+        let mut trajectory = system.by(Midpoint, h).run(start);
         let mut before = (0.0, 1.0);
         // The first passage of the vertical, twice which is half the period.
         let passage = loop {
@@ -79,7 +79,7 @@ fn explicit_rules_are_not_for_this() {
 #[test]
 fn a_spring_as_stiff_as_the_last_place_of_q() {
     let system = SpringPendulum { k: 1e16, r: 0.0 };
-    let mut trajectory = Trajectory::new(&system, Midpoint, 0.01, system.at_angle(1.0));
+    let mut trajectory = system.by(Midpoint, 0.01).run(system.at_angle(1.0));
     for step in 1..=20_u32 {
         let taken = trajectory.next().unwrap().unwrap();
         // θ = 1 − ½ sin(1) t²
@@ -94,7 +94,7 @@ fn a_spring_as_stiff_as_the_last_place_of_q() {
 fn the_first_step_of_the_chain_is_found() {
     let system = Fermi { omega: 50.0, r: 0.0 };
     for h in [1e-3, 1e-2, 1e-1] {
-        let step = Discrete::<Midpoint, 6>::step(&system, &system.start(), h, None).unwrap();
+        let step = system.by(Midpoint, h).step(&system.start()).unwrap();
         assert!(step.report.iterations <= 8 && step.report.damped == 0, "{h}: {:?}", step.report);
     }
 }

@@ -1,7 +1,9 @@
 //! No step is taken that does not solve its equations: a part of the study of the example `verdicts`, and what it can see.
 
 use dalembert::nalgebra::SVector;
-use dalembert::{Discrete, Fitted, Gauss, Memory, Midpoint, StageHistory, State, Step, Trapezoidal};
+use dalembert::{
+    Discrete, Discretise, Fitted, Gauss, Memory, Midpoint, StageHistory, State, Step, Trapezoidal,
+};
 use dalembert_tests::hard::TwoPendulums;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -46,13 +48,13 @@ fn a_step_that_is_off_is_seen() {
     let system = Pendulum::new(1.3, 0.2, ONE);
     let start = state([0.7], [0.4]);
     let off = |v: SVector<f64, 1>| v * (1.0 + 1e-12);
-    let mut step = Discrete::<Midpoint, 1>::step(&system, &start, 0.3, None).unwrap();
+    let mut step = system.by(Midpoint, 0.3).step(&start).unwrap();
     assert!(!one_stage(OneStage::Midpoint, &system, &start, 0.3, &step).is_violation());
     // Another rule's equations are not those.
     assert!(one_stage(OneStage::Trapezoidal, &system, &start, 0.3, &step).is_violation());
     step.velocity = off(step.velocity);
     assert!(one_stage(OneStage::Midpoint, &system, &start, 0.3, &step).is_violation());
-    let mut step = Discrete::<Trapezoidal, 1>::step(&system, &start, 0.3, None).unwrap();
+    let mut step = system.by(Trapezoidal, 0.3).step(&start).unwrap();
     assert!(!one_stage(OneStage::Trapezoidal, &system, &start, 0.3, &step).is_violation());
     step.state.p *= 1.0 + 1e-12;
     assert!(one_stage(OneStage::Trapezoidal, &system, &start, 0.3, &step).is_violation());
@@ -88,7 +90,7 @@ fn far_from_zero_steps_are_taken_and_solve_their_equations() {
         (0.02, [19922.654511939854, 27814.280558479204], [0.596438567851395, 3.0605127649630886]),
     ];
     for (h, q, p) in refused {
-        let step = Discrete::<Trapezoidal, 2>::step(&TwoPendulums { r: 0.0 }, &state(q, p), h, None);
+        let step = TwoPendulums { r: 0.0 }.by(Trapezoidal, h).step(&state(q, p));
         let report = step.unwrap().report;
         assert!(report.residual <= 4.0 * report.floor && report.floor < 1e-11, "{report:?}");
     }
@@ -100,7 +102,7 @@ fn far_from_zero_steps_are_taken_and_solve_their_equations() {
         let q = [0; 2].map(|_| random.random_range(-far..far));
         let start = State::from_velocity(&system, q, [0; 2].map(|_| random.random_range(-4.0..4.0))).unwrap();
         let h = random.random_range(0.01..0.1);
-        let step = Discrete::<Trapezoidal, 2>::step(&system, &start, h, None).unwrap();
+        let step = system.by(Trapezoidal, h).step(&start).unwrap();
         let judged = one_stage(OneStage::Trapezoidal, &system, &start, h, &step);
         assert!(!judged.is_violation(), "{start:?} {h} {step:?} {judged:?}");
         worst = worst.max(judged.ratio);
@@ -119,7 +121,7 @@ fn rounding_is_that_of_the_mass_in_the_equation() {
     let system = LennardJones::new(0.960_253_461_252_024_7, 6.307_264_923_699_201, ONE);
     let start = state([2.382_968_107_756_109], [17.497_777_886_413_957]);
     for h in [-14.244_555_914_221_378, -1e-2] {
-        let step = Discrete::<Fitted, 1>::step(&system, &start, h, None);
+        let step = system.by(Fitted, h).step(&start);
         assert!(step.is_ok() || h < -10.0, "{step:?}");
         if let Ok(step) = step {
             let judged = fitted(false, &system, &start, h, &step);
@@ -146,8 +148,8 @@ fn rounding_that_overflows_explains_no_residual() {
     let system = Exponential::new(3.013_205_946_524_166_7, 0.0, ONE);
     let (start, h) = (state([8.978_349_375_816_547], [-23.327_069_555_445_46]), 20.794_962_731_357_785);
     for (rule, step) in [
-        (OneStage::Midpoint, Discrete::<Midpoint, 1>::step(&system, &start, h, None)),
-        (OneStage::Trapezoidal, Discrete::<Trapezoidal, 1>::step(&system, &start, h, None)),
+        (OneStage::Midpoint, system.by(Midpoint, h).step(&start)),
+        (OneStage::Trapezoidal, system.by(Trapezoidal, h).step(&start)),
     ] {
         if let Ok(step) = step {
             assert!(step.state.p.amax() < 1e6, "{step:?}");
@@ -156,5 +158,5 @@ fn rounding_that_overflows_explains_no_residual() {
         }
     }
     // The control: a shorter step is taken.
-    assert!(Discrete::<Midpoint, 1>::step(&system, &start, 0.1, None).is_ok());
+    assert!(system.by(Midpoint, 0.1).step(&start).is_ok());
 }

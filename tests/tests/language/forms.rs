@@ -1,9 +1,7 @@
 //! Forms of a system: with and without R, both argument lists of R, a general force, both rules, f32, one free function.
 
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::{
-    Discrete, DiscreteRayleigh, Force, Lagrangian, Midpoint, Rayleigh, Trapezoidal, rayleigh_system,
-};
+use dalembert::{Discrete, Discretise, Force, Lagrangian, Midpoint, Rayleigh, Trapezoidal, rayleigh_system};
 
 /// Closed forms below are evaluated in another order: a few units in the last place.
 const ROUNDING: f64 = 1e-14;
@@ -71,9 +69,9 @@ impl Isotropic {
 #[test]
 fn a_system_without_force_has_none() {
     let system = Conservative { m: 2.0 };
-    let f = Discrete::<Midpoint, 1>::discrete_force(&system, &vector![0.3], &vector![0.7], 0.1);
+    let f = system.by(Midpoint, 0.1).discrete_force(&vector![0.3], &vector![0.7]);
     assert_eq!((f.minus, f.plus), (vector![0.0], vector![0.0]));
-    let p = Discrete::<Midpoint, 1>::legendre_minus(&system, &vector![0.3], &vector![0.7], 0.1).p;
+    let p = system.by(Midpoint, 0.1).legendre_minus(&vector![0.3], &vector![0.7]).p;
     assert_close(&vector![2.0 * 4.0], &p);
 }
 
@@ -89,13 +87,13 @@ fn rayleigh_and_general_force_add_up_by_both_rules() {
     let middle = (q0 + q1) / 2.0;
 
     // R_d = (h²/2) 𝓡(q̄, v̄): f_d⁻ = D1 R_d = −(h/2) D2𝓡 + (h²/4) D1𝓡, f_d⁺ = −D2 R_d = −(h/2) D2𝓡 − (h²/4) D1𝓡.
-    let f = Discrete::<Midpoint, 2>::discrete_force(&system, &q0, &q1, h);
+    let f = system.by(Midpoint, h).discrete_force(&q0, &q1);
     let half = (minus_d2(middle) + general(middle)) * (h / 2.0);
     assert_close(&(half + d1(middle) * (h * h / 4.0)), &f.minus);
     assert_close(&(half - d1(middle) * (h * h / 4.0)), &f.plus);
 
     // R_d = (h²/4) [𝓡(q0, v̄) + 𝓡(q1, v̄)]: varying q0 moves the first node and v̄, varying q1 the second and v̄.
-    let f = Discrete::<Trapezoidal, 2>::discrete_force(&system, &q0, &q1, h);
+    let f = system.by(Trapezoidal, h).discrete_force(&q0, &q1);
     let shared = (minus_d2(q0) + minus_d2(q1)) * (h / 4.0);
     assert_close(&(shared + d1(q0) * (h * h / 4.0) + general(q0) * (h / 2.0)), &f.minus);
     assert_close(&(shared - d1(q1) * (h * h / 4.0) + general(q1) * (h / 2.0)), &f.plus);
@@ -103,7 +101,7 @@ fn rayleigh_and_general_force_add_up_by_both_rules() {
 
 #[test]
 fn a_force_alone_needs_no_rayleigh_function() {
-    let f = Discrete::<Trapezoidal, 1>::discrete_force(&OnlyForce, &vector![0.5], &vector![2.0], 0.1);
+    let f = OnlyForce.by(Trapezoidal, 0.1).discrete_force(&vector![0.5], &vector![2.0]);
     assert_close(&vector![-0.05 * 0.125], &f.minus);
     assert_close(&vector![-0.05 * 8.0], &f.plus);
     assert_eq!(OnlyForce.force([2.0], [0.0]), [-8.0]);
@@ -123,12 +121,7 @@ fn r_of_v_alone_does_not_depend_on_q() {
     let discrete =
         Discrete::<Midpoint, 2>::force_minus(&system, &vector![0.0, 0.0], &vector![0.2, -0.1], 0.1);
     assert_close(&(vector![-0.6, 0.3] * 0.05), &discrete);
-    let r_d = DiscreteRayleigh::<Midpoint, 2>::discrete_rayleigh(
-        &system,
-        &vector![0.0, 0.0],
-        &vector![0.2, -0.1],
-        0.1,
-    );
+    let r_d = system.by(Midpoint, 0.1).discrete_rayleigh(&vector![0.0, 0.0], &vector![0.2, -0.1]);
     assert_close(&vector![0.005 * 0.75], &vector![r_d]);
 }
 
@@ -207,7 +200,7 @@ fn parameters_may_be_arrays_integers_and_bools() {
     let cube = |x: f64| 4.0 * x.powi(3);
     assert_close(&vector![-cube(-0.3) + cube(-0.4), cube(-0.3) - cube(0.7), cube(0.7) - cube(-0.4)], &l.d1);
     assert_close(&vector![1.0, 4.0, 9.0], &l.d2);
-    assert!(Discrete::<Trapezoidal, 3>::discrete_lagrangian(&system, &q.into(), &v.into(), 0.1).is_finite());
+    assert!(system.by(Trapezoidal, 0.1).discrete_lagrangian(&q.into(), &v.into()).is_finite());
 }
 
 #[test]

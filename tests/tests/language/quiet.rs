@@ -63,10 +63,10 @@ fn lagrangian_alone(q: [f64; 1], v: [f64; 1]) -> f64 {
 #[test]
 #[allow(clippy::float_cmp, clippy::suboptimal_flops, reason = "exact values, as written")]
 fn systems_that_warn_of_nothing_work() {
-    use dalembert::{Discrete, Lagrangian, Midpoint, nalgebra::vector};
+    use dalembert::{Discretise, Lagrangian, Midpoint, nalgebra::vector};
     let private = Private { k: 1.0, n: 2 };
     assert_eq!(private.unrelated(), 2);
-    let p = Discrete::<Midpoint, 2>::legendre_minus(&private, &vector![2.0, 0.0], &vector![2.0, 0.1], 0.1).p;
+    let p = private.by(Midpoint, 0.1).legendre_minus(&vector![2.0, 0.0], &vector![2.0, 0.1]).p;
     // p = 2 v̄ − (h/2) f at q̄ = (2, 0.05), v̄ = (0, 1).
     assert!((p[1] - (2.0 - 0.05 * 0.05)).abs() < 1e-14, "{p}");
     assert_eq!(documented::oscillator([1.0], [2.0], 3.0, 4.0, 0.5), (4.0, 1.0));

@@ -1,7 +1,7 @@
 //! One language for all engines: what `auto` writes out, `expanded` does, and `num_dual` takes.
 
 use dalembert::nalgebra::SVector;
-use dalembert::{Discrete, Engine, Lagrangian, Midpoint, Rayleigh, State};
+use dalembert::{Discrete, Discretise, Engine, Lagrangian, Midpoint, Rayleigh, State};
 
 /// The same system by each engine.
 macro_rules! by_each_engine {
@@ -66,7 +66,7 @@ where
     let (q, v) = (Vector::new(0.7), Vector::new(-0.9));
     let (l, r) = (system.lagrangian_derivatives(&q, &v), system.rayleigh_derivatives(&q, &v));
     let start = State::from_velocity(system, [0.7], [-0.9]).expect("a regular start");
-    let step = Discrete::<Midpoint, 1>::step(system, &start, 0.1, None).expect("a short step");
+    let step = system.by(Midpoint, 0.1).step(&start).expect("a short step");
     let numbers = [l, r].map(|d| [d.value, d.d1[0], d.d2[0], d.d11[0], d.d12[0], d.d22[0]]).concat();
     numbers.into_iter().chain([step.state.q[0], step.state.p[0]]).collect()
 }

@@ -2,8 +2,8 @@
 //! names the ring potential with this drag as an instance of a system that keeps it.
 
 use dalembert::nalgebra::vector;
-use dalembert::noether::{Generator, Noether};
-use dalembert::{Discrete, Midpoint, State, Trajectory, Trapezoidal, rayleigh_system, samples};
+use dalembert::noether::Generator;
+use dalembert::{Discrete, Discretise, Midpoint, State, Trapezoidal, rayleigh_system, samples};
 
 /// Example 3.2.3 of Marsden & West.
 #[derive(Clone, Copy)]
@@ -45,7 +45,7 @@ where
 {
     let (k, h) = (0.3, 0.2);
     let system = Ring { k };
-    let noether = Noether::new(&system, rule, h);
+    let noether = system.by(rule, h).noether();
     let rotation = Generator::rotation(0, 1);
     let segments = samples::segments([-1.5; 2], [1.5; 2], [0.3; 2], 100);
     for segment in &segments {
@@ -74,7 +74,7 @@ fn isotropic_drag_has_the_defect_minus_k_q1_j_q0() {
 fn the_polar_instance_loses_angular_momentum_too() {
     let (k, h) = (0.3, 0.2);
     let system = PolarRing { k };
-    let noether = Noether::new(&system, Midpoint, h);
+    let noether = system.by(Midpoint, h).noether();
     let rotation = Generator::translation("θ", [0.0, 1.0]);
     for segment in samples::segments([0.5, -3.0], [1.5, 3.0], [0.2, 0.4], 100) {
         let mean = 0.5 * (segment.q0[0] + segment.q1[0]);
@@ -91,9 +91,11 @@ fn along_the_run_of_the_paper_it_decays() {
     let final_share = |k: f64, h: f64| {
         let system = Ring { k };
         let start = State::from_velocity(&system, [0.0, 1.15549918674982], [0.5, 0.0]).unwrap();
-        let mut trajectory = Trajectory::new(&system, Midpoint, h, start);
+        let mut trajectory = system.by(Midpoint, h).run(start);
         let steps = (2000.0 / h).round() as usize;
-        let account = Noether::new(&system, Midpoint, h)
+        let account = system
+            .by(Midpoint, h)
+            .noether()
             .balance(&Generator::rotation(0, 1), &start, trajectory.by_ref().take(steps))
             .unwrap();
         assert!(account.is_balanced(), "{account}");

@@ -1,7 +1,7 @@
 //! J_N − J_0 = Σ ξ(L_d) + Σ f_d(ξ) along every trajectory, to rounding, whether J is conserved or not.
 
-use dalembert::noether::{Balance, Generator, Noether};
-use dalembert::{Discrete, Midpoint, State, Trajectory, Trapezoidal, rayleigh_system};
+use dalembert::noether::{Balance, Generator};
+use dalembert::{Discrete, Discretise, Midpoint, State, Trapezoidal, rayleigh_system};
 
 /// The ring potential, tilted: no rotation is a symmetry.
 #[derive(Clone, Copy)]
@@ -26,8 +26,9 @@ where
     Tilted: Discrete<R, 2, Scalar = f64>,
 {
     let start = State::from_velocity(system, [0.3, 1.05], [0.5, 0.1]).unwrap();
-    let mut trajectory = Trajectory::new(system, rule, 0.1, start);
-    Noether::new(of, rule, 0.1)
+    let mut trajectory = system.by(rule, 0.1).run(start);
+    of.by(rule, 0.1)
+        .noether()
         .balance(&Generator::rotation(0, 1), &start, trajectory.by_ref().take(steps))
         .unwrap()
 }
@@ -83,8 +84,8 @@ fn stretches_add() {
     let system = Tilted { k: 0.01, tilt: 0.2 };
     let whole = balance(&system, &system, Midpoint, 300);
     let start = State::from_velocity(&system, [0.3, 1.05], [0.5, 0.1]).unwrap();
-    let mut trajectory = Trajectory::new(&system, Midpoint, 0.1, start);
-    let noether = Noether::new(&system, Midpoint, 0.1);
+    let mut trajectory = system.by(Midpoint, 0.1).run(start);
+    let noether = system.by(Midpoint, 0.1).noether();
     let rotation = Generator::rotation(0, 1);
     let first = noether.balance(&rotation, &start, trajectory.by_ref().take(100)).unwrap();
     let middle = *trajectory.state();

@@ -1,10 +1,10 @@
 //! J⁺ − J⁻ = ξ(L_d) + f_d(ξ) for every vector field, system and rule, symmetry or not.
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
-use dalembert::noether::{Generator, Noether};
+use dalembert::noether::Generator;
 use dalembert::samples::{self, SampleError};
 use dalembert::{
-    Derivatives, Discrete, DiscreteForce, Lagrangian, Midpoint, Momenta, StepKernel, Trapezoidal,
+    Derivatives, Discrete, DiscreteForce, Discretise, Lagrangian, Midpoint, Momenta, StepKernel, Trapezoidal,
     VectorField, VelocityHistory, rayleigh_system,
 };
 
@@ -52,7 +52,7 @@ where
 {
     let system = Involved { k: 0.7 };
     let segments = samples::segments([-2.0; 2], [2.0; 2], [0.5; 2], 200);
-    let noether = Noether::new(&system, rule, 0.1);
+    let noether = system.by(rule, 0.1).noether();
     for generator in generators() {
         let report = noether.symmetry(&generator, &segments).unwrap();
         assert!(report.is_consistent(), "{report}");
@@ -89,7 +89,7 @@ impl Discrete<Midpoint, 2> for Mistaken {
     type Memory = VelocityHistory<f64, 2>;
 
     fn discrete_lagrangian(&self, q0: &SVector<f64, 2>, q1: &SVector<f64, 2>, h: f64) -> f64 {
-        Discrete::<Midpoint, 2>::discrete_lagrangian(&self.0, q0, q1, h)
+        self.0.by(Midpoint, h).discrete_lagrangian(q0, q1)
     }
     fn discrete_lagrangian_derivatives(
         &self,
@@ -97,10 +97,10 @@ impl Discrete<Midpoint, 2> for Mistaken {
         q1: &SVector<f64, 2>,
         h: f64,
     ) -> Derivatives<f64, 2> {
-        Discrete::<Midpoint, 2>::discrete_lagrangian_derivatives(&self.0, q0, q1, h)
+        self.0.by(Midpoint, h).discrete_lagrangian_derivatives(q0, q1)
     }
     fn discrete_force(&self, q0: &SVector<f64, 2>, q1: &SVector<f64, 2>, h: f64) -> DiscreteForce<f64, 2> {
-        Discrete::<Midpoint, 2>::discrete_force(&self.0, q0, q1, h)
+        self.0.by(Midpoint, h).discrete_force(q0, q1)
     }
     fn step_kernel(&self, q0: &SVector<f64, 2>, v: &SVector<f64, 2>, h: f64) -> StepKernel<f64, 2> {
         Discrete::<Midpoint, 2>::step_kernel(&self.0, q0, v, h)
@@ -110,7 +110,7 @@ impl Discrete<Midpoint, 2> for Mistaken {
         Momenta { p0: momenta.p0, p1: momenta.p1 * (1.0 + 1e-6) }
     }
     fn segment_energy(&self, q0: &SVector<f64, 2>, q1: &SVector<f64, 2>, h: f64) -> f64 {
-        Discrete::<Midpoint, 2>::segment_energy(&self.0, q0, q1, h)
+        self.0.by(Midpoint, h).segment_energy(q0, q1)
     }
 }
 
@@ -120,7 +120,7 @@ fn a_mistake_in_the_momenta_is_reported() {
     let system = Mistaken(Involved { k: 0.7 });
     let segments = samples::segments([-2.0; 2], [2.0; 2], [0.5; 2], 200);
     for generator in generators() {
-        let report = Noether::new(&system, Midpoint, 0.1).symmetry(&generator, &segments).unwrap();
+        let report = system.by(Midpoint, 0.1).noether().symmetry(&generator, &segments).unwrap();
         assert!(!report.is_consistent(), "{report}");
         assert!(report.to_string().contains("INCONSISTENT"), "{report}");
     }
@@ -129,7 +129,7 @@ fn a_mistake_in_the_momenta_is_reported() {
 #[test]
 fn samples_that_decide_nothing_are_refused() {
     let system = Involved { k: 0.7 };
-    let noether = Noether::new(&system, Midpoint, 0.1);
+    let noether = system.by(Midpoint, 0.1).noether();
     let [shear, ..] = generators();
     assert_eq!(noether.symmetry(&shear, &[]).unwrap_err(), SampleError::TooFew { given: 0, needed: 1 });
     let mut segments = samples::segments([-2.0; 2], [2.0; 2], [0.5; 2], 5);
@@ -160,7 +160,7 @@ fn single_precision_is_judged_by_its_own_rounding() {
     let segments = samples::segments([-1.0_f32; 2], [1.0; 2], [0.1; 2], 100);
     let verdict = |k| {
         let system = Single { k };
-        Noether::new(&system, Midpoint, 0.1).symmetry(&Generator::rotation(0, 1), &segments).unwrap()
+        system.by(Midpoint, 0.1).noether().symmetry(&Generator::rotation(0, 1), &segments).unwrap()
     };
     let free = verdict(0.0);
     assert!(free.is_conserved() && free.is_consistent() && free.defect.worst.value.abs() > 1e-10, "{free}");

@@ -3,8 +3,8 @@
 //! Cartesian coordinates loses it at order h³ a step, through ∂R/∂q.
 
 use dalembert::nalgebra::vector;
-use dalembert::noether::{Generator, Noether};
-use dalembert::{Midpoint, rayleigh_system, samples};
+use dalembert::noether::Generator;
+use dalembert::{Discretise, Midpoint, rayleigh_system, samples};
 
 /// k(r) = c (1 + r²).
 #[derive(Clone, Copy)]
@@ -59,7 +59,7 @@ impl CartesianRayleigh {
 fn in_polar_coordinates_it_keeps_rotation() {
     let system = Polar { c: 0.3 };
     let segments = samples::segments([0.5, -3.0], [2.0, 3.0], [0.2, 0.4], 200);
-    let noether = Noether::new(&system, Midpoint, 0.1);
+    let noether = system.by(Midpoint, 0.1).noether();
     let report = noether.symmetry(&Generator::translation("θ", [0.0, 1.0]), &segments).unwrap();
     assert!(
         report.is_conserved() && report.is_symmetry_of_lagrangian() && !report.force_does_work(),
@@ -74,8 +74,7 @@ fn in_polar_coordinates_it_keeps_rotation() {
 fn as_a_midpoint_force_it_keeps_rotation() {
     let system = CartesianForce { c: 0.3 };
     let segments = samples::segments([0.5, 0.5], [2.0, 2.0], [0.2; 2], 200);
-    let report =
-        Noether::new(&system, Midpoint, 0.1).symmetry(&Generator::rotation(0, 1), &segments).unwrap();
+    let report = system.by(Midpoint, 0.1).noether().symmetry(&Generator::rotation(0, 1), &segments).unwrap();
     assert!(
         report.is_conserved() && report.is_symmetry_of_lagrangian() && !report.force_does_work(),
         "{report}"
@@ -91,7 +90,7 @@ fn as_a_cartesian_rayleigh_function_it_loses_h_cubed_a_step() {
     let (middle, velocity) = (vector![0.8, 0.9], vector![0.4, -0.7]);
     for h in [0.2, 0.1, 0.05] {
         let (q0, q1) = (middle - velocity * (h / 2.0), middle + velocity * (h / 2.0));
-        let defect = Noether::new(&system, Midpoint, h).defect(&rotation, &q0, &q1);
+        let defect = system.by(Midpoint, h).noether().defect(&rotation, &q0, &q1);
         // R = ½ c (1/s + 1) w², s = |q|², w = q·v:  ∂R/∂q = −c w²/s² q + c (1/s + 1) w v, and v·Jv = 0.
         let (s, w) = (middle.norm_squared(), middle.dot(&velocity));
         let turned = vector![-velocity[1], velocity[0]];

@@ -1,9 +1,9 @@
 //! 𝔤_{f_d} of the paper's theorem, with its dimension, its elements and its closure, against subalgebras known by hand.
 
 use dalembert::nalgebra::matrix;
-use dalembert::noether::{Generator, Noether, Subalgebra, SubalgebraError};
+use dalembert::noether::{Generator, Subalgebra, SubalgebraError};
 use dalembert::samples::{SampleError, Segment};
-use dalembert::{Discrete, Midpoint, rayleigh_system, samples};
+use dalembert::{Discrete, Discretise, Midpoint, rayleigh_system, samples};
 
 /// A particle in a central potential, with drag along the axis n = (1, 2, 2)/3, and isotropic drag.
 #[derive(Clone, Copy)]
@@ -51,7 +51,7 @@ fn subalgebra<L: Discrete<Midpoint, 3, Scalar = f64>>(
     system: &L,
     generators: &[Generator<f64, 3>],
 ) -> Subalgebra {
-    Noether::new(system, Midpoint, 0.1).subalgebra(generators, &space()).unwrap()
+    system.by(Midpoint, 0.1).noether().subalgebra(generators, &space()).unwrap()
 }
 
 fn assert_close(vector: &[f64], expected: &[f64]) {
@@ -74,7 +74,7 @@ fn friction_about_one_axis_leaves_one_dimension() {
     let about = |c: [f64; 3]| {
         let [x, y, z]: [Generator<f64, 3>; 3] = so3().try_into().unwrap();
         let combination = x * c[0] + y * c[1] + z * c[2];
-        Noether::new(&system, Midpoint, 0.1).symmetry(&combination, &space()).unwrap()
+        system.by(Midpoint, 0.1).noether().symmetry(&combination, &space()).unwrap()
     };
     assert!(about([1.0, 2.0, 2.0]).is_conserved(), "{}", about([1.0, 2.0, 2.0]));
     assert!(!about([1.0, 2.0, 2.0 + 1e-6]).is_conserved());
@@ -196,7 +196,7 @@ fn a_rank_without_a_gap_says_so() {
 #[test]
 fn generators_and_samples_that_decide_nothing_are_refused() {
     let system = Particle { stiffness: 0.5, along_axis: 0.1, isotropic: 0.0 };
-    let noether = Noether::new(&system, Midpoint, 0.1);
+    let noether = system.by(Midpoint, 0.1).noether();
     let [x, y, z]: [Generator<f64, 3>; 3] = so3().try_into().unwrap();
     let dependent = [x.clone(), y.clone(), x.clone() * 2.0 - y.clone()];
     match noether.subalgebra(&dependent, &space()).unwrap_err() {

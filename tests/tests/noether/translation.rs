@@ -1,7 +1,7 @@
 //! Drag along one axis keeps the momentum along the other.
 
-use dalembert::noether::{Generator, Noether};
-use dalembert::{Midpoint, State, Trajectory, rayleigh_system, samples};
+use dalembert::noether::Generator;
+use dalembert::{Discretise, Midpoint, State, rayleigh_system, samples};
 
 #[derive(Clone, Copy)]
 struct Channel {
@@ -22,7 +22,7 @@ impl Channel {
 #[test]
 fn drag_across_keeps_the_momentum_along() {
     let system = Channel { r: 0.4, along: 0.0 };
-    let noether = Noether::new(&system, Midpoint, 0.05);
+    let noether = system.by(Midpoint, 0.05).noether();
     let segments = samples::segments([-1.0; 2], [1.0; 2], [0.2; 2], 100);
     let x = Generator::translation("x", [1.0, 0.0]);
     let report = noether.symmetry(&x, &segments).unwrap();
@@ -31,7 +31,7 @@ fn drag_across_keeps_the_momentum_along() {
         "{report}"
     );
     let start = State::from_velocity(&system, [0.0, 0.8], [1.0, 0.0]).unwrap();
-    let mut trajectory = Trajectory::new(&system, Midpoint, 0.05, start);
+    let mut trajectory = system.by(Midpoint, 0.05).run(start);
     let account = noether.balance(&x, &start, trajectory.by_ref().take(5000)).unwrap();
     assert!(account.is_balanced(), "{account}");
     assert!((account.end - account.start).abs() < 1e-12, "{account}");
@@ -47,7 +47,7 @@ fn a_trace_of_drag_along_is_seen() {
     let segments = samples::segments([-1.0; 2], [1.0; 2], [0.2; 2], 100);
     let conserved = |along: f64| {
         let system = Channel { r: 0.4, along };
-        Noether::new(&system, Midpoint, 0.05).symmetry(&x, &segments).unwrap().is_conserved()
+        system.by(Midpoint, 0.05).noether().symmetry(&x, &segments).unwrap().is_conserved()
     };
     assert!(!conserved(1e-9));
     assert!(conserved(1e-17));

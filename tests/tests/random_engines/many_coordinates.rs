@@ -3,7 +3,7 @@
 use std::thread;
 
 use dalembert::nalgebra::SVector;
-use dalembert::{Discrete, Gauss, Lagrangian, Midpoint, Rayleigh, State, Trapezoidal, rayleigh_system};
+use dalembert::{Discretise, Gauss, Lagrangian, Midpoint, Rayleigh, State, Trapezoidal, rayleigh_system};
 
 macro_rules! chain {
     ($name:ident, $engine:ident) => {
@@ -59,18 +59,9 @@ fn thirty_two_coordinates_by_dual_numbers_fit_into_a_thread_and_are_right() {
         let start = State::from_velocity(&ByDualNumbers, q, v).unwrap();
         let h = 0.05;
         let pairs = [
-            (
-                Discrete::<Midpoint, 32>::step(&ByDualNumbers, &start, h, None),
-                Discrete::<Midpoint, 32>::step(&Expanded, &start, h, None),
-            ),
-            (
-                Discrete::<Trapezoidal, 32>::step(&ByDualNumbers, &start, h, None),
-                Discrete::<Trapezoidal, 32>::step(&Expanded, &start, h, None),
-            ),
-            (
-                Discrete::<Gauss<2>, 32>::step(&ByDualNumbers, &start, h, None),
-                Discrete::<Gauss<2>, 32>::step(&Expanded, &start, h, None),
-            ),
+            (ByDualNumbers.by(Midpoint, h).step(&start), Expanded.by(Midpoint, h).step(&start)),
+            (ByDualNumbers.by(Trapezoidal, h).step(&start), Expanded.by(Trapezoidal, h).step(&start)),
+            (ByDualNumbers.by(Gauss::<2>, h).step(&start), Expanded.by(Gauss::<2>, h).step(&start)),
         ];
         for (a, b) in pairs {
             let (a, b) = (a.unwrap().state, b.unwrap().state);

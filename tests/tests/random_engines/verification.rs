@@ -6,10 +6,10 @@
 use dalembert::nalgebra::{Matrix1, SVector, Vector1, matrix, vector};
 use dalembert::verification;
 use dalembert::{
-    Composition, CovectorDerivatives, Derivatives, Discrete, DisplacementRule, Engine, Explicit, Fitted,
-    FittedTrapezoidal, Force, ForcedLagrangian, Function, Gauss, Lagrangian, Method, Midpoint, Momenta,
-    Rayleigh, Splitting, State, StepError, StepKernel, Structure, ToleranceError, Trajectory, Trapezoidal,
-    WithGauss, rayleigh_system,
+    Composition, CovectorDerivatives, Derivatives, Discrete, Discretise, DisplacementRule, Engine, Explicit,
+    Fitted, FittedTrapezoidal, Force, ForcedLagrangian, Function, Gauss, Lagrangian, Method, Midpoint,
+    Momenta, Rayleigh, Splitting, State, StepError, StepKernel, Structure, ToleranceError, Trajectory,
+    Trapezoidal, WithGauss, rayleigh_system,
 };
 
 /// L = ½v² − ½q², R = ½ r v², f = −¼q, with wrong values of one of them beside the derivatives.
@@ -181,18 +181,18 @@ fn at_a_start(system: &Mutated) -> Vec<Finding> {
     vec![
         ("from velocity", named(State::from_velocity(system, START.q, [0.3]))),
         ("from rest at 0, where every value is 0", named(State::from_velocity(system, [0.0], [0.0]))),
-        ("trajectory, midpoint", named(Trajectory::new(system, Midpoint, H, START).next().unwrap())),
-        ("trajectory, trapezoidal", named(Trajectory::new(system, Trapezoidal, H, START).next().unwrap())),
-        ("trajectory, Gauss", named(Trajectory::new(system, Gauss::<3>, H, START).next().unwrap())),
+        ("trajectory, midpoint", named(system.by(Midpoint, H).run(START).next().unwrap())),
+        ("trajectory, trapezoidal", named(system.by(Trapezoidal, H).run(START).next().unwrap())),
+        ("trajectory, Gauss", named(system.by(Gauss::<3>, H).run(START).next().unwrap())),
         ("resumed", named(Trajectory::resume(system, Midpoint, checkpoint).next().unwrap())),
-        ("in parts", named(Trajectory::new(system, Midpoint, H, START).next_in_parts(3))),
+        ("in parts", named(system.by(Midpoint, H).run(START).next_in_parts(3))),
         (
             "composition",
             named(Composition::kahan_li_6(Midpoint).trajectory(system, H, START).next().unwrap()),
         ),
         ("splitting", named(Splitting::blanes_moan_4().trajectory(system, H, START).next().unwrap())),
         ("resumed splitting", named(Splitting::blanes_moan_6().resume(system, checkpoint).next().unwrap())),
-        ("samples", named(Trajectory::new(system, Midpoint, H, START).sample_every(5).next().unwrap())),
+        ("samples", named(system.by(Midpoint, H).run(START).sample_every(5).next().unwrap())),
         (
             "for a tolerance, and so its runs",
             match Method::for_tolerance(system, WithGauss(Trapezoidal), &START, 1.0, 1e-3) {
@@ -209,15 +209,12 @@ fn at_a_step(system: &Mutated) -> Vec<Finding> {
     vec![
         ("midpoint", named(midpoint(None))),
         ("midpoint from a guess", named(midpoint(Some(&vector![0.3])))),
-        ("trapezoidal", named(Discrete::<Trapezoidal, 1>::step(system, &START, H, None))),
-        ("Gauss, 1 stage", named(Discrete::<Gauss<1>, 1>::step(system, &START, H, None))),
-        ("Gauss, 4 stages", named(Discrete::<Gauss<4>, 1>::step(system, &START, H, None))),
+        ("trapezoidal", named(system.by(Trapezoidal, H).step(&START))),
+        ("Gauss, 1 stage", named(system.by(Gauss::<1>, H).step(&START))),
+        ("Gauss, 4 stages", named(system.by(Gauss::<4>, H).step(&START))),
         ("linearised", named(Discrete::<Gauss<2>, 1>::linearized_step(system, &START, H, None))),
-        ("within", named(Discrete::<Midpoint, 1>::step_within(system, &START, H, None, 3))),
-        (
-            "configurations",
-            named(Discrete::<Midpoint, 1>::step_configurations(system, &START.q, &vector![0.51], H, None)),
-        ),
+        ("within", named(system.by(Midpoint, H).step_within(&START, 3))),
+        ("configurations", named(system.by(Midpoint, H).step_configurations(&START.q, &vector![0.51]))),
     ]
 }
 
@@ -248,7 +245,7 @@ fn with_debug_assertions_every_step_verifies_the_points_that_it_evaluates() {
 #[test]
 fn a_run_that_fails_at_its_start_stays_where_it_is() {
     let [(system, _), ..] = wrong();
-    let mut run = Trajectory::new(&system, Midpoint, H, START);
+    let mut run = system.by(Midpoint, H).run(START);
     assert!(run.next().unwrap().is_err() && run.next().is_none());
     assert_eq!((*run.state(), run.time()), (START, 0.0));
     // Another step size does not get past it.
@@ -305,7 +302,7 @@ fn views_and_joint_rules_are_verified_at_their_own_input_and_time() -> anyhow::R
     Discrete::<Midpoint, 2>::verify_segment(&driven, &q, &v, 0.1)?;
     Discrete::<Trapezoidal, 2>::verify_segment(&driven, &q, &v, 0.1)?;
     Discrete::<Gauss<5>, 2>::verify_segment(&driven, &q, &v, 0.1)?;
-    for step in Trajectory::new(&driven, Gauss::<2>, 0.05, start).take(20) {
+    for step in driven.by(Gauss::<2>, 0.05).run(start).take(20) {
         step?;
     }
     let joint = Joint { m: 1.0, k: 2.0, r: 0.5 };

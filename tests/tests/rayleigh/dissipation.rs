@@ -2,7 +2,7 @@
 
 use dalembert::rayleigh::dissipation;
 use dalembert::samples::{SampleError, TangentPoint, tangent_points};
-use dalembert::{Midpoint, State, Trajectory, rayleigh_system};
+use dalembert::{Discretise, Midpoint, State, rayleigh_system};
 
 #[rayleigh_system]
 fn cubic(_q: [f64; 1], v: [f64; 1], m: f64, r: f64) -> (f64, f64) {
@@ -28,7 +28,7 @@ fn cubic_drag_is_caught() {
     assert!(report.to_string().contains("NOT dissipative"), "{report}");
     // What it warns of happens: a mass that moves backwards is accelerated.
     let start = State::from_velocity(&system, [0.0], [-0.5]).unwrap();
-    let end = Trajectory::new(&system, Midpoint, 0.1, start).take(10).last().unwrap().unwrap();
+    let end = system.by(Midpoint, 0.1).run(start).take(10).last().unwrap().unwrap();
     assert!(end.state.p[0] < 1.2 * start.p[0], "{end:?}");
     // Positive control: R = r|v|³/3 brakes both ways.
     let report = dissipation(&AbsoluteCubic { m: 1.0, r: 0.7 }, &points).unwrap();

@@ -5,8 +5,8 @@ use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::rayleigh::Comparison;
 use dalembert::samples::{self, Segment};
 use dalembert::{
-    Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, Lagrangian, Midpoint, Momenta, State,
-    StepKernel, Trajectory, Trapezoidal, VelocityHistory, rayleigh_system,
+    Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, Discretise, Lagrangian, Midpoint,
+    Momenta, State, StepKernel, Trapezoidal, VelocityHistory, rayleigh_system,
 };
 
 type Vector = SVector<f64, 2>;
@@ -63,11 +63,11 @@ impl Discrete<Midpoint, 2> for Regauged {
     type Memory = VelocityHistory<f64, 2>;
 
     fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-        Discrete::<Midpoint, 2>::discrete_lagrangian(&self.system, q0, q1, h)
+        self.system.by(Midpoint, h).discrete_lagrangian(q0, q1)
             + (psi(q0).0 + phi1(q1).0 + phi0(q0).0 - psi(q1).0)
     }
     fn discrete_lagrangian_derivatives(&self, q0: &Vector, q1: &Vector, h: f64) -> Derivatives<f64, 2> {
-        let mut l = Discrete::<Midpoint, 2>::discrete_lagrangian_derivatives(&self.system, q0, q1, h);
+        let mut l = self.system.by(Midpoint, h).discrete_lagrangian_derivatives(q0, q1);
         l.value = self.discrete_lagrangian(q0, q1, h);
         l.d1 += psi(q0).1 + phi0(q0).1;
         l.d2 += phi1(q1).1 - psi(q1).1;
@@ -76,7 +76,7 @@ impl Discrete<Midpoint, 2> for Regauged {
         l
     }
     fn discrete_force(&self, q0: &Vector, q1: &Vector, h: f64) -> DiscreteForce<f64, 2> {
-        let mut f = Discrete::<Midpoint, 2>::discrete_force(&self.system, q0, q1, h);
+        let mut f = self.system.by(Midpoint, h).discrete_force(q0, q1);
         f.minus += psi(q0).1 - phi0(q0).1;
         f.plus -= phi1(q1).1 * self.sign + psi(q1).1;
         f
@@ -105,7 +105,7 @@ impl Discrete<Midpoint, 2> for Regauged {
         }
     }
     fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-        Discrete::<Midpoint, 2>::segment_energy(&self.system, q0, q1, h)
+        self.system.by(Midpoint, h).segment_energy(q0, q1)
     }
 }
 
@@ -149,8 +149,8 @@ fn the_printed_gauge_changes_the_equations() {
     // By 2 dφ1 at the middle configuration, exactly.
     for Segment { q0, q1 } in plane() {
         let q2 = q1 + vector![0.1, 0.05];
-        let difference = printed.del_residual(&q0, &q1, &q2, H)
-            - Discrete::<Midpoint, 2>::del_residual(&system, &q0, &q1, &q2, H);
+        let difference =
+            printed.del_residual(&q0, &q1, &q2, H) - system.by(Midpoint, H).del_residual(&q0, &q1, &q2);
         assert!((difference - phi1(&q1).1 * 2.0).amax() < 1e-12);
     }
 }
@@ -163,8 +163,8 @@ fn trajectories_are_unchanged_and_momenta_shift_by_a_gradient() {
     let distance = |sign: f64| {
         let regauged = Regauged { system, sign };
         let shifted = State { q: start.q, p: start.p - psi(&start.q).1 * 2.0 };
-        let ours = Trajectory::new(&system, Midpoint, H, start);
-        let theirs = Trajectory::new(&regauged, Midpoint, H, shifted);
+        let ours = system.by(Midpoint, H).run(start);
+        let theirs = regauged.by(Midpoint, H).run(shifted);
         ours.zip(theirs).take(200).fold((0.0_f64, 0.0_f64), |(q, p), (ours, theirs)| {
             let (Ok(ours), Ok(theirs)) = (ours, theirs) else { return (f64::INFINITY, f64::INFINITY) };
             let momentum = theirs.state.p - (ours.state.p - psi(&ours.state.q).1 * 2.0);

@@ -3,7 +3,7 @@
 
 use dalembert::rayleigh::Potential;
 use dalembert::samples::{self, Segment};
-use dalembert::{DiscreteRayleigh, Midpoint, Trapezoidal, rayleigh_system};
+use dalembert::{Discretise, Midpoint, Trapezoidal, rayleigh_system};
 
 /// R depends on q, is not quadratic in v, and vanishes at v = 0.
 #[derive(Clone, Copy)]
@@ -75,7 +75,7 @@ fn the_potential_of_a_general_rayleigh_function_is_recovered_for_both_rules() {
         assert!((midpoint.values[index] - expected).abs() < 1e-14 + 1e-13 * expected.abs());
         let expected = 0.25 * h * h * (at(q0) + at(q1));
         assert!((trapezoidal.values[index] - expected).abs() < 1e-14 + 1e-13 * expected.abs());
-        let own = DiscreteRayleigh::<Trapezoidal, 2>::discrete_rayleigh(&system, &q0, &q1, h);
+        let own = system.by(Trapezoidal, h).discrete_rayleigh(&q0, &q1);
         assert!((own - expected).abs() < 1e-15 + 1e-14 * expected.abs());
     }
 }

@@ -13,12 +13,10 @@
 
 use dalembert::exact::{Exact, ExactError, ExistenceVerdict};
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::noether::{Contribution, Generator, Noether};
+use dalembert::noether::{Contribution, Generator};
 use dalembert::rayleigh::{Comparison, Condition, Potential, Residual, Resplit, dissipation, structure};
 use dalembert::samples::{Segment, TangentPoint, Tolerance, Worst, segments, tangent_points};
-use dalembert::{
-    Certificate, Discrete, Midpoint, State, Step, StepError, Trajectory, Trapezoidal, rayleigh_system,
-};
+use dalembert::{Discrete, Discretise, Midpoint, State, Step, StepError, Trapezoidal, rayleigh_system};
 
 /// Nothing that is asked of it holds: no symmetry, a force with curls that drives, R that drives.
 struct Wrong;
@@ -66,7 +64,7 @@ where
     L: Discrete<Midpoint, 2, Scalar = f64> + Discrete<Trapezoidal, 2>,
 {
     let mut answers = Answers::new();
-    let noether = Noether::new(system, Midpoint, h).with_tolerance(relative);
+    let noether = system.by(Midpoint, h).noether().with_tolerance(relative);
     let (x, rotation) = (Generator::translation("x", [1.0, 0.0]), Generator::rotation(0, 1));
     for generator in [x.clone(), rotation.clone(), x.clone() + rotation.clone() * 0.7] {
         if let Ok(found) = noether.symmetry(&generator, segments) {
@@ -263,7 +261,7 @@ fn figures_that_are_not_finite_are_no_verdict() {
 /// Steps of one system, judged by another.
 fn steps(count: usize) -> (State<f64, 2>, Vec<Result<Step<f64, 2>, StepError>>) {
     let start = State { q: vector![0.3, -0.2], p: vector![0.5, 0.4] };
-    (start, Trajectory::new(&Right { c: 0.2 }, Midpoint, H, start).take(count).collect())
+    (start, Right { c: 0.2 }.by(Midpoint, H).run(start).take(count).collect())
 }
 
 #[test]
@@ -272,13 +270,15 @@ fn poisoned_runs_are_not_balanced() {
     let (start, clean) = steps(10);
     let right = Right { c: 0.2 };
     let balanced = |start: &State<f64, 2>, run: &[Result<Step<f64, 2>, StepError>]| {
-        let found = Noether::new(&right, Midpoint, H).balance(&rotation, start, run.iter().copied());
+        let found = right.by(Midpoint, H).noether().balance(&rotation, start, run.iter().copied());
         found.is_ok_and(|found| found.is_balanced() || found.to_string().contains("within"))
     };
     assert!(balanced(&start, &clean));
     assert!(!balanced(&start, &[]));
     assert!(
-        !Noether::new(&Wrong, Midpoint, H)
+        !Wrong
+            .by(Midpoint, H)
+            .noether()
             .balance(&rotation, &start, clean.iter().copied())
             .unwrap()
             .is_balanced()
@@ -301,7 +301,7 @@ fn poisoned_runs_are_not_balanced() {
         }
     }
     // Two stretches, the second of which holds a NaN.
-    let noether = Noether::new(&right, Midpoint, H);
+    let noether = right.by(Midpoint, H).noether();
     let good = noether.balance(&rotation, &start, clean.iter().copied()).unwrap();
     let mut run = clean.clone();
     run[3].as_mut().unwrap().state.p[0] = f64::NAN;
@@ -357,9 +357,9 @@ fn no_exact_force_is_rayleigh_that_is_not() {
 #[test]
 fn no_poisoned_step_is_on_the_branch() {
     let state = State { q: vector![0.3, -0.2], p: vector![0.5, 0.4] };
-    let step = Discrete::<Midpoint, 2>::step(&Wrong, &state, H, None).unwrap();
+    let step = Wrong.by(Midpoint, H).step(&state).unwrap();
     let on = |state: &State<f64, 2>, step: &Step<f64, 2>, h: f64| {
-        Certificate::of_step(&Wrong, Midpoint, state, step, h).is_ok_and(|found| {
+        Wrong.by(Midpoint, h).certificate(state, step).is_ok_and(|found| {
             found.on_the_branch_of_the_flow && found.condition.is_finite() && found.correction < 1e-3
         })
     };

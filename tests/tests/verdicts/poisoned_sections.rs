@@ -1,9 +1,9 @@
 //! Families with values and slopes that are not finite, or too large to say anything: Hamilton–Jacobi reports.
 
-use dalembert::Midpoint;
 use dalembert::ScalarField;
-use dalembert::hamilton_jacobi::{ConfigurationMap, HamiltonJacobi, Outcome, Residual, SolutionReport};
+use dalembert::hamilton_jacobi::{ConfigurationMap, Outcome, Residual, SolutionReport};
 use dalembert::nalgebra::{SMatrix, SVector, vector};
+use dalembert::{Discretise, Midpoint};
 use dalembert_tests::damped_oscillator::{Affine, CompleteSolution, DAMPED, Quadratic, trajectory};
 
 const H: f64 = 0.25;
@@ -78,7 +78,7 @@ fn reports(
     samples: &[SVector<f64, 1>],
     relative: f64,
 ) -> Vec<SolutionReport<1>> {
-    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, H).with_tolerance(relative);
+    let theory = DAMPED.by(Midpoint, H).hamilton_jacobi().with_tolerance(relative);
     let reports = [
         theory.check_sections(family, samples),
         theory.check_generating_functions(family, samples),
@@ -211,7 +211,7 @@ fn residuals_that_are_not_finite_do_not_hold() {
 
 #[test]
 fn reports_along_poisoned_configurations_have_no_equation_that_holds() {
-    let theory = HamiltonJacobi::new(&DAMPED, Midpoint, H);
+    let theory = DAMPED.by(Midpoint, H).hamilton_jacobi();
     let clean = trajectory(&DAMPED, H, 0.4, 0.3, 5);
     let outcomes = |q: &[SVector<f64, 1>]| -> Vec<Outcome<1>> {
         let hamilton = theory.hamilton_equations(q);

@@ -1,12 +1,12 @@
 //! Checkers of a view follow the time: the k-th segment is that of t0 + k h.
 
 use dalembert::exact::Exact;
-use dalembert::hamilton_jacobi::{HamiltonJacobi, Section};
+use dalembert::hamilton_jacobi::Section;
 use dalembert::nalgebra::{SMatrix, SVector, vector};
-use dalembert::noether::{Generator, Noether};
+use dalembert::noether::Generator;
 use dalembert::rayleigh::{Comparison, Potential, Resplit, structure};
 use dalembert::samples::{Segment, segments};
-use dalembert::{Discrete, Midpoint, State, Trajectory, Trapezoidal, rayleigh_system};
+use dalembert::{Discrete, Discretise, Midpoint, State, Trapezoidal, rayleigh_system};
 use dalembert_tests::sections::Constant;
 
 /// A force t.
@@ -78,7 +78,7 @@ fn the_family_of_the_time_that_goes_on_is_the_solution() {
     let samples = [vector![0.3], vector![-0.8]];
     for t0 in [0.0, 0.7] {
         let view = Ramp.at_time(t0);
-        let theory = HamiltonJacobi::new(&view, Midpoint, h);
+        let theory = view.by(Midpoint, h).hamilton_jacobi();
         let at = |k: i32| h * f64::from(k);
         let true_family: Vec<_> = (0..6).map(|k| Constant(0.2 + at(k) * t0 + 0.5 * at(k) * at(k))).collect();
         let held: Vec<_> = (0..6).map(|k| Constant(0.2 + at(k) * (t0 + 0.5 * h))).collect();
@@ -99,7 +99,7 @@ where
     for<'a> SwingAtTime<'a>: Discrete<R, 2, Scalar = f64>,
 {
     let view = Swing.at_time(T0);
-    let run = Trajectory::new(&view, rule, H, start()).take(steps).map(|step| step.unwrap().state);
+    let run = view.by(rule, H).run(start()).take(steps).map(|step| step.unwrap().state);
     std::iter::once(start()).chain(run).collect()
 }
 
@@ -117,15 +117,15 @@ where
         let step = here.step_configurations(&q[0], &q[1], H, None).unwrap();
         assert!((step.state.q - q[2]).amax() < 1e-13, "{k}");
     }
-    let noether = Noether::new(&view, rule, H);
+    let noether = view.by(rule, H).noether();
     let generator = Generator::rotation(0, 1) + Generator::translation("x", [1.0, 0.0]);
-    let run = Trajectory::new(&view, rule, H, start());
+    let run = view.by(rule, H).run(start());
     let account = noether.balance(&generator, &start(), run.take(200)).unwrap();
     assert!(account.is_balanced() && account.worst_step.0 < 1e-13, "{account}");
     let judged = noether.symmetry(&generator, &Segment::along(&q)).unwrap();
     assert!(judged.is_consistent() && !judged.is_conserved(), "{judged}");
 
-    let theory = HamiltonJacobi::new(&view, rule, H);
+    let theory = view.by(rule, H).hamilton_jacobi();
     let along = theory.along_trajectory(&q).unwrap();
     assert!(along.trajectory.unwrap().holds() && along.right_minus.corrected.unwrap().holds(), "{along}");
     assert!(along.example_minus.corrected.unwrap().holds() && !along.net_force.unwrap().holds(), "{along}");
@@ -183,7 +183,7 @@ fn what_begins_later_is_seen() {
     // Five segments before t = ½ see nothing yet.
     for (count, is_free) in [(4, true), (12, false)] {
         let samples = &samples[..count];
-        let judged = Noether::new(&view, Midpoint, h).symmetry(&along, samples).unwrap();
+        let judged = view.by(Midpoint, h).noether().symmetry(&along, samples).unwrap();
         assert_eq!(judged.is_conserved(), is_free, "{judged}");
         assert_eq!(structure(&view, Midpoint, h, samples).unwrap().is_rayleigh(), is_free);
         let base = Segment::new([0.1; 2], [0.0; 2]);

@@ -157,7 +157,6 @@ where
         q1: &SVector<T, N>,
         h: T,
         covector: &State<T, N>,
-        _p0_by_input: impl FnOnce() -> SMatrix<T, N, M>,
     ) -> Result<StepHessian<T, N, M>, StepError> {
         Segment::<'_, L, N, S>::between(self, q0, q1, h)?.hessian(covector)
     }
@@ -168,7 +167,6 @@ where
         h: T,
         guess: Option<&SVector<T, N>>,
         covector: &State<T, N>,
-        _p0_by_input: impl FnOnce(&SVector<T, N>) -> SMatrix<T, N, M>,
     ) -> Result<(Step<T, N>, StepHessian<T, N, M>), StepError> {
         let (step, segment) = solved_segment::<_, _, N, S>(self, state, h, guess)?;
         Ok((step, segment.hessian(covector)?))
