@@ -139,7 +139,7 @@ impl<'p, S: Number> Interpreter<'p, S> {
         let program = self.program;
         let both = [("q", array(q)), ("v", array(v))];
         let timed = |part: usize, given: &[(&'static str, Value<S>)]| {
-            let time = program.timed[part].then(|| ("t", Value::Real(t)));
+            let time = program.timed[part].then_some(("t", Value::Real(t)));
             given.iter().cloned().chain(time).collect::<Vec<_>>()
         };
         let lagrangian = self.body(&program.lagrangian, &timed(0, &both))?.real();

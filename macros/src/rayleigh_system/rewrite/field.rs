@@ -24,8 +24,9 @@ impl Rewriter<'_> {
             let span = span_of(&field.member);
             return Some(parse_quote_spanned!(span=> D::lift(#field)));
         }
-        // A struct that is written out is refused at its name.
+        // Where the struct came from, something may have been said already.
         if let Member::Named(name) = &field.member
+            && self.report.is_empty()
             && !matches!(*field.base, Expr::Struct(_))
         {
             self.report.at(name, Mistake::StructByDuals);
