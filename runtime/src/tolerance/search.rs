@@ -15,8 +15,9 @@ const TRYING: f64 = 0.04;
 const CHOOSING: f64 = 0.085;
 const EXPLORING: f64 = 0.02;
 
-/// What trying a method costs in its steps: two step sizes, each with two half steps from no guess.
-const TRIAL: f64 = 8.0;
+/// What trying a step size costs in usual steps: one, and two half ones, from no guess. What it may save has to be more by a factor.
+const TRIAL: f64 = 1.5;
+const WORTH: f64 = 4.0;
 
 /// Step sizes tried of one method at most.
 const TRIES: u32 = 12;
@@ -90,9 +91,9 @@ where
         if let Some(best) = best {
             let usual = usual(method) / usual(best.method);
             let trial = TRIAL * method.usual_step(asked, is_explicit);
-            // A method that should be cheaper by more than its trial is tried.
-            let saving = 0.5 * best.cost() * (1.0 - usual);
-            limit = start.spent + saving.max(TRYING * best.cost() - start.spent);
+            // A method that should save more than its trial costs is tried.
+            let saving = best.cost() * (1.0 - usual) / WORTH;
+            limit = (start.spent + saving).max(TRYING * best.cost());
             if usual > 3.0 || start.spent + trial > limit {
                 continue;
             }
@@ -290,8 +291,14 @@ where
                 }
                 _ => next,
             };
-            let limit = good.map_or(limit, |good| limit.min(TRYING * good.cost()));
-            if steps.is_nan() || steps >= 1e15 || self.spent >= limit {
+            if steps.is_nan() || steps >= 1e15 {
+                break;
+            }
+            let is_worth = |good: Candidate| {
+                let saving = (good.steps - steps) * good.measured.evaluations;
+                self.spent < TRYING * good.cost() || saving > WORTH * good.measured.evaluations
+            };
+            if good.is_some_and(|good| !is_worth(good)) || (good.is_none() && self.spent >= limit) {
                 break;
             }
         }

@@ -20,7 +20,7 @@ use page::Collection;
 pub const TOLERANCES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 
 /// The two collections: the code was written with an eye on the first, the second was run once.
-const SEEDS: [u64; 2] = [1, 1301];
+const SEEDS: [u64; 2] = [1, 4711];
 
 /// Motions of each, and how many of them are compared to all fixed step sizes.
 const MOTIONS: usize = 252;

@@ -152,8 +152,9 @@ const TAIL: &str = "
 - Runs of fewer than 100 steps are looked at more closely, up to every step: there the guard costs as much as the run and more, in all a
   few hundred evaluations. Of longer runs those of two and three coordinates by splittings, whose errors turn fast beside cheap steps,
   pay more than a tenth.
-- Chaotic motions are where a run can still be silent: an error that is small in the direction that grows is not known to better than its size.
-- With more than three coordinates and cheap steps (splittings) the growth of an error in a chaotic motion is not seen.
+- Runs can still be silent: where motions part (an error that is small in the direction that grows is not known to better than its size), and
+  by a Gauss method of long steps whose local error is made in few of them, between two looks.
+- With more than three coordinates and cheap steps (splittings) the growth of an error is not seen where it turns between two looks.
 - Costs are the library's own counts, not time: a derivative of the motion counts as two evaluations, and the algebra of the matrices that
   carry an error comes on top, for two coordinates about as much as a step of a splitting.
 - A breach can come late: where the error arises within one step between two looks (a kink that the energy does not show, a pulse of a step's
