@@ -1,6 +1,6 @@
 //! Casts: of what does not depend on q and v they are left to rustc.
 
-use syn::{BinOp, Expr, ExprCast, Lit, UnOp, parse_quote_spanned, visit_mut};
+use syn::{BinOp, Expr, ExprCast, UnOp, parse_quote_spanned, visit_mut};
 
 use super::super::diagnostics::{Mistake, span_of};
 use super::super::model::{is_integer, simple_name};
@@ -18,7 +18,7 @@ impl Rewriter<'_> {
         let is_constant = self.is_constant(&cast.expr);
         let span = cast.as_token.span;
         let to_scalar = simple_name(&cast.ty).is_some_and(|name| *name == self.system.scalar);
-        if is_integer(&cast.ty) && (is_constant || matches!(*cast.expr, Expr::Lit(_))) {
+        if is_constant && is_integer(&cast.ty) {
             return None;
         }
         if is_constant && to_scalar {
@@ -53,7 +53,7 @@ impl Rewriter<'_> {
     /// numbers.
     fn is_constant(&self, expression: &Expr) -> bool {
         match expression {
-            Expr::Lit(literal) => matches!(literal.lit, Lit::Int(_) | Lit::Float(_) | Lit::Bool(_)),
+            Expr::Lit(_) => true,
             Expr::Paren(inner) => self.is_constant(&inner.expr),
             Expr::Group(inner) => self.is_constant(&inner.expr),
             Expr::Cast(cast) => self.is_constant(&cast.expr),
