@@ -285,14 +285,14 @@ where
     let mut at = *state;
     for _ in 0..2 {
         let end = run.next().and_then(Result::ok);
-        for k in 0..shares.len() {
+        for (k, share) in shares.iter().enumerate() {
             let (before, rest) = memories.split_at_mut(k);
             let (memory, after) = rest.split_first_mut().expect("there are as many memories as shares");
             if let Some(previous) = before.last().or(after.last()) {
                 memory.follow(previous);
             }
             row.of(Way::Composition).asked += 1;
-            let h = shares[k] * h;
+            let h = share * h;
             let Ok(step) = advance::<L, Midpoint, N>(memory, system, &at, h) else {
                 assert!(end.is_none(), "a composition took a substep that is refused: {system:?} {at:?} {h}");
                 return;
