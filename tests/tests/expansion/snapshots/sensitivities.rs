@@ -450,5 +450,9 @@ const _: () = {
                 + Midpoint::rayleigh_along(self, q0, v, h, [at_start, at_end])
                 + Midpoint::force_along(self, q0, v, h, [at_start, at_end])
         }
+        /// −∂f_d⁻/∂u.
+        fn p0_by_input(&self, q0: &Vector, v: &Vector, h: f64) -> SMatrix<f64, 1, 1> {
+            Midpoint::force_by_input(self, q0, v, h).p0
+        }
     }
 };
