@@ -148,6 +148,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         let floor = estimated_floor(p, &self.matrix, &guess);
         let weights = floor.map(|floor| S::one() / floor);
         let mut v = guess;
+        let mut first: SVector<S, N> = nalgebra::zero();
         let mut correction: SVector<S, N> = nalgebra::zero();
         let mut last_size = S::constant(CLOSE) / (S::EPSILON * S::constant(CONTRACTION));
         // At least one correction: extrapolation alone, step after step, would let rounding grow.
@@ -155,11 +156,18 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
             let momenta = system.momenta(q, &v, self.h);
             let residual = momenta.p0 - p;
             let size = weighted(&residual, &weights);
-            if iterations > 0 && size <= S::constant(AT_FLOOR) {
-                let (residual, floor) = if is_shown(&residual, p, &momenta.p1) {
+            if iterations == 0 {
+                first = residual;
+            } else if size <= S::constant(AT_FLOOR) {
+                let (residual, floor) = if is_shown(&residual, &first, p) {
                     held_by_weights(&residual, &floor, &weights, size)?
                 } else {
-                    self.held_anew(system, state, &v, &residual)?
+                    let (residual, floor, is_root) =
+                        held_against(&residual, &self.floor_at(system, state, &v));
+                    if !is_root {
+                        return None;
+                    }
+                    (residual, floor)
                 };
                 let last_correction = correction.amax();
                 let report = Report { iterations, damped: 0, residual, floor, last_correction };
@@ -179,22 +187,14 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         None
     }
 
-    /// The residual that is largest in units of its floor by the matrix at `v`, and this floor; nothing where it is no root.
+    /// The floor by the matrix at `v`.
     #[cold]
     #[inline(never)]
-    fn held_anew<L, R>(
-        &self,
-        system: &L,
-        State { q, p }: &State<S, N>,
-        v: &SVector<S, N>,
-        residual: &SVector<S, N>,
-    ) -> Option<(S, S)>
+    fn floor_at<L, R>(&self, system: &L, State { q, p }: &State<S, N>, v: &SVector<S, N>) -> SVector<S, N>
     where
         L: Discrete<R, N, Scalar = S, Matrix = M>,
     {
-        let floor = estimated_floor(p, &system.step_kernel(q, v, self.h).matrix, v);
-        let (residual, floor, is_root) = held_against(residual, &floor);
-        is_root.then_some((residual, floor))
+        estimated_floor(p, &system.step_kernel(q, v, self.h).matrix, v)
     }
 
     /// The step to `v`, whose residual has stopped falling, if the rounding of q explains it; nothing if not.
@@ -265,18 +265,20 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
     }
 }
 
-/// Whether `residual` is that of a root by what the two momenta alone say of rounding. Elsewhere the kept matrix has no say: after a
-/// collision it is larger than that of the equation now, by any factor, and with it its floor.
+/// Whether the kept matrix may say what the floor of `residual` is: where its corrections have taken the `first` residual down, the
+/// equation still has it; after a guess too good for that, only what is small beside the momentum needs no matrix. A matrix of a
+/// collision that is over is larger by any factor, and with it the floor.
 #[inline(always)]
 fn is_shown<S: Scalar, const N: usize>(
     residual: &SVector<S, N>,
-    p0: &SVector<S, N>,
-    p1: &SVector<S, N>,
+    first: &SVector<S, N>,
+    p: &SVector<S, N>,
 ) -> bool {
-    let most = S::EPSILON * S::constant(4.0 * AT_FLOOR);
+    let unit = S::EPSILON * S::constant(4.0);
     let mut is_shown = true;
     for i in 0..N {
-        is_shown &= residual[i].abs() <= (p0[i].abs() + p1[i].abs()) * most + S::SMALLEST_NORMAL;
+        let size = residual[i].abs();
+        is_shown &= size <= first[i].abs() * S::constant(CONTRACTION) || size <= p[i].abs() * unit;
     }
     is_shown
 }
@@ -287,13 +289,14 @@ mod tests {
     use nalgebra::vector;
 
     #[test]
-    fn residuals_are_shown_by_the_momenta_in_every_coordinate() {
-        let (p0, p1) = (vector![1.0, 0.0], vector![0.0, -1e-6]);
-        assert!(is_shown(&vector![-3e-15, 3e-21], &p0, &p1));
-        assert!(!is_shown(&vector![15.0, 0.0], &p0, &p1));
-        assert!(!is_shown(&vector![0.0, 5e-21], &p0, &p1));
-        assert!(!is_shown(&vector![f64::NAN, 0.0], &p0, &p1));
-        // At rest.
-        assert!(is_shown(&vector![0.0], &vector![0.0], &vector![0.0]));
+    fn a_kept_matrix_that_took_nothing_off_says_nothing_of_rounding() {
+        let p = vector![1.0, 0.0];
+        // Taken down, small beside the momentum, or 0.
+        assert!(is_shown(&vector![1e-9, 0.0], &vector![1e-7, 0.0], &p));
+        assert!(is_shown(&vector![5e-16, 1e-12], &vector![1e-16, 1e-10], &p));
+        // Neither, in any coordinate.
+        assert!(!is_shown(&vector![15.0, 0.0], &vector![16.0, 0.0], &p));
+        assert!(!is_shown(&vector![5e-16, 1e-12], &vector![1e-16, 2e-12], &p));
+        assert!(!is_shown(&vector![f64::NAN, 0.0], &vector![16.0, 0.0], &p));
     }
 }
