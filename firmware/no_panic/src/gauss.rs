@@ -2,7 +2,7 @@
 
 use core::hint::black_box;
 
-use dalembert::{Discrete, Discretise, Gauss, State, rayleigh_system};
+use dalembert::{Discretise, Gauss, State, rayleigh_system};
 
 macro_rules! chains {
     ($($name:ident $driven:ident $n:literal $float:ident $stages:literal)*) => {
