@@ -1,6 +1,10 @@
-//! Tests of the expanding engine: derivatives against num-dual, refusals.
+//! Tests of the pipeline, called as plain code: derivatives against num-dual, refusals, what it writes, and that nothing makes it panic.
 
+mod corpus;
 mod factoring;
+mod hygiene;
+mod odd_input;
 mod oracle;
 mod refusals;
 mod sizes;
+mod snapshots;

@@ -7,6 +7,7 @@ pub mod documented;
 pub mod double_double;
 pub mod draws;
 pub mod hard;
+#[cfg(feature = "studies")]
 pub mod motions;
 pub mod reference;
 pub mod sections;

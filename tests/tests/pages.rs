@@ -27,7 +27,7 @@ fn the_page_ends_with_what_has_no_figures() {
         assert!(text.contains(heading), "{heading}");
     }
     assert!(!text.contains("<!--"));
-    let command = "cargo run --release -p dalembert-tests --example hard_cases text";
+    let command = "cargo study hard_cases text";
     assert!(the_page().ends_with(&text), "run `{command}`");
 }
 
@@ -35,7 +35,7 @@ fn the_page_ends_with_what_has_no_figures() {
 #[test]
 fn quick_cases_find_what_the_page_says() {
     let page = the_page();
-    let command = "cargo run --release -p dalembert-tests --example hard_cases";
+    let command = "cargo study hard_cases";
     let quick = [
         ("overdamped", frictional::overdamped().unwrap()),
         ("stick-slip", frictional::stick_slip().unwrap()),

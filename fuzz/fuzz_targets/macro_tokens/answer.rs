@@ -2,7 +2,7 @@
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
-use crate::pipeline::rayleigh_system::{Runtime, differentiable, rayleigh_system};
+use super::pipeline::rayleigh_system::{Runtime, differentiable, rayleigh_system};
 
 /// Groups within groups beyond this are not tried: syn's parser itself is recursive.
 const DEEPEST: usize = 64;

@@ -1,7 +1,7 @@
 //! The long versions of the hard cases: writes `docs/hard-cases.md` and its pictures.
 //!
 //! ```text
-//! cargo run --release -p dalembert-tests --example hard_cases [text | case…]
+//! cargo study hard_cases [text | case…]
 //! ```
 //!
 //! With names of cases it runs these, prints what they found and draws their pictures in `target/hard-cases/`: the page and its pictures are of

@@ -1,6 +1,6 @@
 //! Many programs as one crate: built by cargo beside the workspace, run, and read back.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -29,7 +29,15 @@ pub struct Outcome {
     pub computed: BTreeMap<(usize, usize), Computed>,
     /// Programs that rustc refused, with its words.
     pub errors: BTreeMap<usize, String>,
+    /// Those among them that it refuses without the macro too.
+    pub not_rust: BTreeSet<usize>,
 }
+
+/// What rustc's lints would refuse, the interpreter has an answer to.
+const LINTS: &str = "#![allow(arithmetic_overflow, unconditional_panic, overflowing_literals)]";
+
+/// One build finds the programs that fail at the same stage of rustc.
+const MOST_BUILDS: usize = 12;
 
 /// Where batches are built.
 pub struct Workshop {
@@ -66,39 +74,78 @@ impl Workshop {
         if lock.exists() && !self.folder.join("Cargo.lock").exists() {
             std::fs::copy(lock, self.folder.join("Cargo.lock")).map_err(|error| error.to_string())?;
         }
-        for _ in 0..12 {
+        for _ in 0..MOST_BUILDS {
             let kept: Vec<usize> =
                 (0..programs.len()).filter(|index| !outcome.errors.contains_key(index)).collect();
-            let (text, lines) = crate_text(programs, &kept, engine);
-            std::fs::write(source.join("main.rs"), text).map_err(|error| error.to_string())?;
-            let build = Command::new(env!("CARGO"))
-                .args(["run", "--offline", "--quiet", "--message-format", "short"])
-                .current_dir(&self.folder)
-                .env("CARGO_TARGET_DIR", self.folder.join("../target"))
-                .env_remove("CARGO_PROFILE_DEV_DEBUG")
-                .env("RUSTFLAGS", "-Awarnings")
-                .output()
-                .map_err(|error| error.to_string())?;
-            if build.status.success() {
-                read(&String::from_utf8_lossy(&build.stdout), programs, &mut outcome)?;
-                return Ok(outcome);
-            }
-            let messages = String::from_utf8_lossy(&build.stderr).into_owned();
-            let before = outcome.errors.len();
-            for message in messages.lines().filter(|line| line.contains(": error")) {
-                let line = message.split(':').nth(1).and_then(|line| line.parse::<usize>().ok());
-                let owner = line.and_then(|line| lines.iter().rposition(|(start, _)| *start <= line));
-                if let Some(owner) = owner {
-                    let words = message.split_once("error").map_or(message, |(_, words)| words);
-                    outcome.errors.entry(lines[owner].1).or_insert_with(|| format!("error{words}"));
+            match self.built(&crate_text(programs, &kept, engine))? {
+                Built::Printed(printed) => {
+                    read(&printed, programs, &mut outcome)?;
+                    outcome.not_rust = self.not_rust(programs, &outcome.errors)?;
+                    return Ok(outcome);
                 }
-            }
-            if outcome.errors.len() == before {
-                return Err(messages);
+                Built::Refused(errors) => outcome.errors.extend(errors),
             }
         }
         Err("rustc goes on refusing programs".to_owned())
     }
+
+    /// Which of the programs that rustc refuses it refuses without the macro as well.
+    fn not_rust(
+        &self,
+        programs: &[Program],
+        refused: &BTreeMap<usize, String>,
+    ) -> Result<BTreeSet<usize>, String> {
+        let mut found = BTreeSet::new();
+        for _ in 0..MOST_BUILDS {
+            let kept: Vec<usize> = refused.keys().copied().filter(|index| !found.contains(index)).collect();
+            match self.built(&plain_text(programs, &kept))? {
+                Built::Printed(_) => return Ok(found),
+                Built::Refused(errors) => found.extend(errors.into_keys()),
+            }
+        }
+        Err("rustc goes on refusing plain programs".to_owned())
+    }
+
+    /// Builds and runs a crate.
+    fn built(&self, text: &CrateText) -> Result<Built, String> {
+        std::fs::write(self.folder.join("src/main.rs"), &text.text).map_err(|error| error.to_string())?;
+        let build = Command::new(env!("CARGO"))
+            .args(["run", "--offline", "--quiet", "--message-format", "short"])
+            .current_dir(&self.folder)
+            .env("CARGO_TARGET_DIR", self.folder.join("../target"))
+            .env_remove("CARGO_PROFILE_DEV_DEBUG")
+            .env("RUSTFLAGS", "-Awarnings")
+            .output()
+            .map_err(|error| error.to_string())?;
+        if build.status.success() {
+            return Ok(Built::Printed(String::from_utf8_lossy(&build.stdout).into_owned()));
+        }
+        let messages = String::from_utf8_lossy(&build.stderr).into_owned();
+        let mut errors = BTreeMap::new();
+        for message in messages.lines().filter(|line| line.contains(": error")) {
+            let line = message.split(':').nth(1).and_then(|line| line.parse::<usize>().ok());
+            let owner = line.and_then(|line| text.lines.iter().rposition(|(start, _)| *start <= line));
+            if let Some(owner) = owner {
+                let words = message.split_once("error").map_or(message, |(_, words)| words);
+                errors.entry(text.lines[owner].1).or_insert_with(|| format!("error{words}"));
+            }
+        }
+        if errors.is_empty() { Err(messages) } else { Ok(Built::Refused(errors)) }
+    }
+}
+
+/// What became of a crate.
+enum Built {
+    /// What it printed.
+    Printed(String),
+    /// The programs that rustc refuses, with its words.
+    Refused(BTreeMap<usize, String>),
+}
+
+/// The source of a crate, and the lines at which its programs begin.
+struct CrateText {
+    text: String,
+    lines: Vec<(usize, usize)>,
 }
 
 fn write_if_changed(path: &Path, text: &str) -> Result<(), String> {
@@ -108,9 +155,9 @@ fn write_if_changed(path: &Path, text: &str) -> Result<(), String> {
     std::fs::write(path, text).map_err(|error| error.to_string())
 }
 
-/// The crate, and the line at which each program begins.
-fn crate_text(programs: &[Program], kept: &[usize], engine: &str) -> (String, Vec<(usize, usize)>) {
-    let mut text = String::from(include_str!("harness.txt"));
+/// The programs with the macro, and what calls them.
+fn crate_text(programs: &[Program], kept: &[usize], engine: &str) -> CrateText {
+    let mut text = format!("{LINTS}\n{}", include_str!("harness.txt"));
     let mut lines = Vec::new();
     for &index in kept {
         lines.push((text.lines().count() + 1, index));
@@ -120,7 +167,20 @@ fn crate_text(programs: &[Program], kept: &[usize], engine: &str) -> (String, Ve
     for index in kept {
         writeln!(text, "    p{index}::run();").expect("a string takes all");
     }
-    (text + "}\n", lines)
+    CrateText { text: text + "}\n", lines }
+}
+
+/// The programs without the macro.
+fn plain_text(programs: &[Program], kept: &[usize]) -> CrateText {
+    let mut text = format!("{LINTS}\nfn main() {{}}\n");
+    let mut lines = Vec::new();
+    for &index in kept {
+        lines.push((text.lines().count() + 1, index));
+        let program = &programs[index];
+        writeln!(text, "mod p{index} {{\n{}{}\n}}", print::surroundings(program), print::block(program))
+            .expect("a string takes all");
+    }
+    CrateText { text, lines }
 }
 
 fn module(program: &Program, index: usize, engine: &str) -> String {

@@ -1,10 +1,10 @@
 //! Random programs over the language of `#[rayleigh_system]`: refused with a message, or computed as rustc does.
 //!
 //! ```sh
-//! cargo run --release -p dalembert-tests --example random_programs -- <count> <seed>             # graphs evaluated
-//! cargo run --release -p dalembert-tests --example random_programs -- <count> <seed> compiled    # built by rustc
-//! cargo run --release -p dalembert-tests --example random_programs -- mutations                  # mistakes put back
-//! cargo run --release -p dalembert-tests --example random_programs -- page                       # docs/random-programs.md
+//! cargo study random_programs -- <count> <seed>             # graphs evaluated
+//! cargo study random_programs -- <count> <seed> compiled    # built by rustc
+//! cargo study random_programs -- mutations                  # mistakes put back
+//! cargo study random_programs -- page                       # docs/random-programs.md
 //! ```
 //!
 //! `compiled` may be followed by an engine: `expanded` unless said, `auto`, `num_dual`, or `portable` for the elementary

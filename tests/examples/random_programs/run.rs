@@ -144,6 +144,7 @@ pub fn compiled(count: u64, seed: u64, engine: &str) -> Result<usize, String> {
         }
         for (index, program) in programs.iter().enumerate() {
             let trial = match outcome.errors.get(&index) {
+                Some(_) if outcome.not_rust.contains(&index) => Trial::Discarded,
                 Some(error) => trial::told_by_rustc(error),
                 None => trial::judged(program, &all_expected[index], |point| {
                     outcome.computed.get(&(index, point))

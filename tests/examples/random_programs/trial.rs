@@ -15,7 +15,7 @@ use super::verdict::{self, Verdict};
 /// What became of a program.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Trial {
-    /// The plain function would panic or run too long: no program at all.
+    /// The plain function would panic or run too long, or rustc refuses it without the macro as well: no program at all.
     Discarded,
     Refused(String),
     /// Values agree at all points; so many points had their derivatives compared, and so many not.

@@ -1,7 +1,7 @@
 //! What came of the errors asked for, over random motions: writes `docs/error-asked-for.md`.
 //!
 //! ```text
-//! cargo run --release -p dalembert-tests --example tolerance_study [seed motions]
+//! cargo study tolerance_study [seed motions]
 //! ```
 //!
 //! With a seed and a number of motions it prints every run of that collection instead.

@@ -64,7 +64,7 @@ fn quantiles(mut of: Vec<f64>) -> String {
 const HEAD: &str = "# The error asked for
 
 What `Method::for_tolerance` promised and kept, over random motions. Written by
-`cargo run --release -p dalembert-tests --example tolerance_study`; do not edit it.
+`cargo study tolerance_study`; do not edit it.
 
 **Promise.** At every step of the run |δqᵢ| ≤ ε and |δpᵢ| w ≤ ε, or a breach or an error says that it is not so. ε is the tolerance, w
 weighs momenta like the coordinates that they move (`Method::for_tolerance` has the formula). The guard reports a breach

@@ -1,8 +1,8 @@
 //! The study of verdicts: random steps by every rule, each held against its equations in twice the precision; `docs/verdicts.md`.
 //!
 //! ```text
-//! cargo run --release -p dalembert-tests --features studies --example verdicts -- NAME DRAWS FIRST LAST
-//! cargo run --release -p dalembert-tests --features studies --example verdicts -- page
+//! cargo study verdicts -- NAME DRAWS FIRST LAST
+//! cargo study verdicts -- page
 //! ```
 //!
 //! The first takes so many draws of every system with each seed from FIRST to LAST, adds the counts of every seed to

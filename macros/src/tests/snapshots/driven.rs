@@ -1,0 +1,350 @@
+impl Arm {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * self.m * v[0] * v[0] + q[0].cos()
+    }
+    fn rayleigh(&self, v: [f64; 1]) -> f64 {
+        0.5 * self.c * v[0] * v[0]
+    }
+    fn force(&self, q: [f64; 1], _v: [f64; 1], u: [f64; 1], t: f64) -> [f64; 1] {
+        [self.gain * u[0] * q[0].cos() + (Self::RATE * t).sin()]
+    }
+}
+/// [`Arm`] with its input held over a step that starts at a given time; see [`Arm::driven`].
+#[derive(Clone, Copy)]
+#[allow(dead_code)]
+pub struct DrivenArm<'a> {
+    system: &'a Arm,
+    u: [f64; 1],
+    t: f64,
+}
+#[allow(dead_code)]
+impl Arm {
+    /// The system with the input `u` held over the step that starts at time `t`.
+    #[inline]
+    #[must_use]
+    pub fn driven(&self, u: impl ::dalembert::Input<f64, 1>, t: f64) -> DrivenArm<'_> {
+        DrivenArm {
+            system: self,
+            u: ::dalembert::Input::entries(u),
+            t,
+        }
+    }
+}
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
+const _: () = {
+    use ::dalembert::nalgebra::{SMatrix, SVector};
+    use ::dalembert::{
+        CovectorDerivatives, Derivatives, Direction, Discrete, DiscreteDriven,
+        DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, DisplacementRule,
+        Driven, Force, Gradient, Lagrangian, Midpoint, Momenta, MomentaBy, Rayleigh,
+        StepKernel, Variations,
+    };
+    type Vector = SVector<f64, 1>;
+    /// Known at compile time:
+    /// - Derivatives are written out.
+    /// - L = T(v) − V(q).
+    /// - The mass matrix ∂²L/∂v² is constant.
+    /// - The damping force −∂R/∂v is linear in v with constant coefficients.
+    /// - By the rule `Midpoint` the Newton matrix changes with the state.
+    #[automatically_derived]
+    impl Lagrangian<1> for Arm {
+        type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::Expanded)
+            .with_constant_mass_matrix()
+            .with_separable_lagrangian()
+            .with_damping(::dalembert::Damping::Linear)
+            .with_newton_matrices(
+                &[::dalembert::NewtonStructure::new("Midpoint", false, 0)],
+            );
+        #[inline]
+        fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
+            self.lagrangian((*q).into(), (*v).into())
+        }
+        #[inline]
+        fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            let m = self.m;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            Gradient {
+                value: v[0] * (v[0] * (0.5 * m)) + cos_q0,
+                d1: SVector::from([-sin_q0]),
+                d2: SVector::from([v[0] * m]),
+            }
+        }
+        #[inline]
+        fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            let m = self.m;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            Derivatives {
+                value: v[0] * (v[0] * (0.5 * m)) + cos_q0,
+                d1: SVector::from([-sin_q0]),
+                d2: SVector::from([v[0] * m]),
+                d11: SMatrix::from([[-cos_q0]]),
+                d12: SMatrix::from([[0.0]]),
+                d22: SMatrix::from([[m]]),
+            }
+        }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+            ::dalembert::verification::lagrangian(self, q, v)?;
+            ::dalembert::verification::rayleigh(self, q, v)
+        }
+    }
+    #[automatically_derived]
+    impl Lagrangian<1> for DrivenArm<'_> {
+        type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = <Arm as Lagrangian<1>>::STRUCTURE;
+        #[inline]
+        fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
+            Lagrangian::lagrangian(self.system, q, v)
+        }
+        #[inline]
+        fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            Lagrangian::lagrangian_gradient(self.system, q, v)
+        }
+        #[inline]
+        fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            Lagrangian::lagrangian_derivatives(self.system, q, v)
+        }
+        #[inline]
+        fn lagrangian_variations(
+            &self,
+            q: &Vector,
+            v: &Vector,
+            minus: Direction<f64>,
+            plus: Direction<f64>,
+        ) -> Variations<f64, 1> {
+            Lagrangian::lagrangian_variations(self.system, q, v, minus, plus)
+        }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+            ::dalembert::verification::lagrangian(self, q, v)?;
+            ::dalembert::verification::rayleigh(self, q, v)?;
+            ::dalembert::verification::force(self, q, v)
+        }
+        #[inline]
+        fn later<T>(&self, elapsed: f64, evaluate: impl FnOnce(&Self) -> T) -> T {
+            evaluate(
+                &Self {
+                    t: self.t + elapsed,
+                    ..*self
+                },
+            )
+        }
+    }
+    #[automatically_derived]
+    impl Rayleigh<1> for Arm {
+        #[inline]
+        fn rayleigh(&self, _q: &Vector, v: &Vector) -> f64 {
+            self.rayleigh((*v).into())
+        }
+        #[inline]
+        fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            let c = self.c;
+            Gradient {
+                value: v[0] * (v[0] * (0.5 * c)),
+                d1: SVector::from([0.0]),
+                d2: SVector::from([v[0] * c]),
+            }
+        }
+        #[inline]
+        fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            let c = self.c;
+            Derivatives {
+                value: v[0] * (v[0] * (0.5 * c)),
+                d1: SVector::from([0.0]),
+                d2: SVector::from([v[0] * c]),
+                d11: SMatrix::from([[0.0]]),
+                d12: SMatrix::from([[0.0]]),
+                d22: SMatrix::from([[c]]),
+            }
+        }
+    }
+    #[automatically_derived]
+    impl Rayleigh<1> for DrivenArm<'_> {
+        #[inline]
+        fn rayleigh(&self, q: &Vector, v: &Vector) -> f64 {
+            Rayleigh::rayleigh(self.system, q, v)
+        }
+        #[inline]
+        fn rayleigh_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            Rayleigh::rayleigh_gradient(self.system, q, v)
+        }
+        #[inline]
+        fn rayleigh_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            Rayleigh::rayleigh_derivatives(self.system, q, v)
+        }
+        #[inline]
+        fn rayleigh_variations(
+            &self,
+            q: &Vector,
+            v: &Vector,
+            minus: Direction<f64>,
+            plus: Direction<f64>,
+        ) -> Variations<f64, 1> {
+            Rayleigh::rayleigh_variations(self.system, q, v, minus, plus)
+        }
+    }
+    #[automatically_derived]
+    impl Force<1> for DrivenArm<'_> {
+        #[inline]
+        fn force(&self, q: &Vector, v: &Vector) -> Vector {
+            self.system.force((*q).into(), (*v).into(), self.u, self.t).into()
+        }
+        #[inline]
+        fn force_derivatives(
+            &self,
+            q: &Vector,
+            _v: &Vector,
+        ) -> CovectorDerivatives<f64, 1> {
+            let t = self.t;
+            let u = self.u;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            let t1 = u[0] * self.system.gain;
+            CovectorDerivatives {
+                value: SVector::from([cos_q0 * t1 + (t * Arm::RATE).sin()]),
+                d1: SMatrix::from([[-(t1 * sin_q0)]]),
+                d2: SMatrix::from([[0.0]]),
+            }
+        }
+    }
+    #[automatically_derived]
+    impl Driven<1, 1> for DrivenArm<'_> {
+        #[inline]
+        fn force_by_input(&self, q: &Vector, _v: &Vector) -> SMatrix<f64, 1, 1> {
+            SMatrix::from([[q[0].cos() * self.system.gain]])
+        }
+    }
+    #[automatically_derived]
+    impl DiscreteDriven<Midpoint, 1, 1> for DrivenArm<'_> {
+        /// ∂p0/∂u = −∂f_d⁻/∂u and ∂p1/∂u = ∂f_d⁺/∂u.
+        fn momenta_by_input(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+        ) -> MomentaBy<f64, 1, 1> {
+            Midpoint::force_by_input(self, q0, v, h)
+        }
+    }
+    #[automatically_derived]
+    impl Discrete<Midpoint, 1> for DrivenArm<'_> {
+        type Matrix = SMatrix<f64, 1, 1>;
+        type Memory = ::dalembert::VelocityHistory<f64, 1>;
+        /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::discrete_lagrangian(self, q0, q1, h)
+        }
+        /// L_d with D1, D2, D11, D12, D22.
+        fn discrete_lagrangian_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 1> {
+            Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
+        }
+        /// f_d⁻ = D1 R_d + (h/2) f(q̄, v̄), f_d⁺ = −D2 R_d + (h/2) f(q̄, v̄).
+        fn discrete_force(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForce<f64, 1> {
+            Midpoint::rayleigh_force(self, q0, q1, h)
+                + Midpoint::general_force(self, q0, q1, h)
+        }
+        /// f_d with its derivatives by q0 and q1.
+        fn discrete_force_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForceDerivatives<f64, 1> {
+            Midpoint::rayleigh_force_derivatives(self, q0, q1, h)
+                + Midpoint::general_force_derivatives(self, q0, q1, h)
+        }
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        #[inline]
+        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0]];
+            let t = self.t + half;
+            let u = self.u;
+            let m = self.system.m;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            let c = self.system.c;
+            let t1 = u[0] * self.system.gain;
+            StepKernel {
+                p0: SVector::from([
+                    v[0] * m
+                        - half
+                            * (cos_q0 * t1 + (t * Arm::RATE).sin() - sin_q0 - v[0] * c),
+                ]),
+                matrix: SMatrix::from([[m + half * (c + half * (cos_q0 + t1 * sin_q0))]]),
+            }
+        }
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        #[inline]
+        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0]];
+            let t = self.t + half;
+            let u = self.u;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            let t1 = v[0] * self.system.m;
+            let t2 = half
+                * (cos_q0 * (u[0] * self.system.gain) + (t * Arm::RATE).sin() - sin_q0
+                    - v[0] * self.system.c);
+            Momenta {
+                p0: SVector::from([t1 - t2]),
+                p1: SVector::from([t1 + t2]),
+            }
+        }
+        /// E_L on the segment.
+        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::segment_energy(self, q0, q1, h)
+        }
+        fn verify_segment(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+            Midpoint::verify_segment(self, q0, v, h)
+        }
+    }
+    #[automatically_derived]
+    impl DiscreteRayleigh<Midpoint, 1> for DrivenArm<'_> {
+        /// R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::discrete_rayleigh(self, q0, q1, h)
+        }
+        /// R_d with D1, D2, D11, D12, D22.
+        fn discrete_rayleigh_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 1> {
+            Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
+        }
+    }
+    #[automatically_derived]
+    impl ::dalembert::OffersMethods<1> for DrivenArm<'_> {
+        type Methods = Midpoint;
+    }
+};

@@ -1,0 +1,388 @@
+impl Arm {
+    #[allow(clippy::used_underscore_binding)]
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        use ::dalembert::dual;
+        dual::lower(self.lagrangian_over::<f64>(dual::lift(q), dual::lift(v)))
+    }
+    #[allow(clippy::used_underscore_binding)]
+    fn rayleigh(&self, v: [f64; 1]) -> f64 {
+        use ::dalembert::dual;
+        dual::lower(self.rayleigh_over::<f64>(dual::lift(v)))
+    }
+    #[allow(clippy::used_underscore_binding)]
+    fn force(&self, q: [f64; 1], _v: [f64; 1], u: [f64; 1], t: f64) -> [f64; 1] {
+        use ::dalembert::dual;
+        dual::lower(
+            self
+                .force_over::<
+                    f64,
+                >(dual::lift(q), dual::lift(_v), dual::lift(u), dual::lift(t)),
+        )
+    }
+}
+const _: () = ::core::assert!(
+    1 <= 32,
+    "with more than 32 coordinates dual numbers can overflow the stack of a thread; have the derivatives written out: `derivatives = expanded` says what stands in the way"
+);
+/// [`Arm`] with its input held over a step that starts at a given time; see [`Arm::driven`].
+#[derive(Clone, Copy)]
+#[allow(dead_code)]
+pub struct DrivenArm<'a> {
+    system: &'a Arm,
+    u: [f64; 1],
+    t: f64,
+}
+#[allow(dead_code)]
+impl Arm {
+    /// The system with the input `u` held over the step that starts at time `t`.
+    #[inline]
+    #[must_use]
+    pub fn driven(&self, u: impl ::dalembert::Input<f64, 1>, t: f64) -> DrivenArm<'_> {
+        DrivenArm {
+            system: self,
+            u: ::dalembert::Input::entries(u),
+            t,
+        }
+    }
+}
+#[allow(clippy::pedantic, clippy::nursery)]
+const _: () = {
+    use ::dalembert::dual::{self, Dual, Real};
+    #[allow(dead_code)]
+    impl Arm {
+        /// `lagrangian` over plain and dual numbers.
+        #[inline(always)]
+        fn lagrangian_over<D: Dual<f64>>(
+            &self,
+            q: [Real<D>; 1],
+            v: [Real<D>; 1],
+        ) -> Real<D> {
+            let m = D::lift(self.m);
+            0.5 * m * v[0] * v[0] + q[0].cos()
+        }
+        /// `rayleigh` over plain and dual numbers.
+        #[inline(always)]
+        fn rayleigh_over<D: Dual<f64>>(&self, v: [Real<D>; 1]) -> Real<D> {
+            let c = D::lift(self.c);
+            0.5 * c * v[0] * v[0]
+        }
+        /// `force` over plain and dual numbers.
+        #[inline(always)]
+        fn force_over<D: Dual<f64>>(
+            &self,
+            q: [Real<D>; 1],
+            _v: [Real<D>; 1],
+            u: [Real<D>; 1],
+            t: Real<D>,
+        ) -> [Real<D>; 1] {
+            let gain = D::lift(self.gain);
+            [gain * u[0] * q[0].cos() + (D::lift(Self::RATE) * t).sin()]
+        }
+    }
+};
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
+const _: () = {
+    use ::dalembert::nalgebra::{SMatrix, SVector};
+    use ::dalembert::{
+        CovectorDerivatives, Derivatives, Direction, Discrete, DiscreteDriven,
+        DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, DisplacementRule,
+        Driven, Force, Gradient, Lagrangian, Midpoint, Momenta, MomentaBy, Rayleigh,
+        StepKernel, Variations, dual,
+    };
+    type Vector = SVector<f64, 1>;
+    /// Known at compile time:
+    /// - Derivatives are made by dual numbers, as asked.
+    #[automatically_derived]
+    impl Lagrangian<1> for Arm {
+        type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::NumDual {
+                refusal: ::core::option::Option::None,
+            });
+        #[inline]
+        fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
+            self.lagrangian((*q).into(), (*v).into())
+        }
+        fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            dual::gradient(
+                q,
+                v,
+                |q, v| self.lagrangian_over(q, v),
+                |q, v| self.lagrangian_over(q, v),
+            )
+        }
+        fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            dual::derivatives::<
+                f64,
+                1,
+                2,
+            >(q, v, |q, v| self.lagrangian_over(q, v), |q, v| self.lagrangian_over(q, v))
+        }
+        fn lagrangian_variations(
+            &self,
+            q: &Vector,
+            v: &Vector,
+            minus: Direction<f64>,
+            plus: Direction<f64>,
+        ) -> Variations<f64, 1> {
+            dual::variations(
+                q,
+                v,
+                minus,
+                plus,
+                |q, v| self.lagrangian_over(q, v),
+                |q, v| self.lagrangian_over(q, v),
+            )
+        }
+    }
+    #[automatically_derived]
+    impl Lagrangian<1> for DrivenArm<'_> {
+        type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = <Arm as Lagrangian<1>>::STRUCTURE;
+        #[inline]
+        fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
+            Lagrangian::lagrangian(self.system, q, v)
+        }
+        #[inline]
+        fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            Lagrangian::lagrangian_gradient(self.system, q, v)
+        }
+        #[inline]
+        fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            Lagrangian::lagrangian_derivatives(self.system, q, v)
+        }
+        #[inline]
+        fn lagrangian_variations(
+            &self,
+            q: &Vector,
+            v: &Vector,
+            minus: Direction<f64>,
+            plus: Direction<f64>,
+        ) -> Variations<f64, 1> {
+            Lagrangian::lagrangian_variations(self.system, q, v, minus, plus)
+        }
+        #[inline]
+        fn later<T>(&self, elapsed: f64, evaluate: impl FnOnce(&Self) -> T) -> T {
+            evaluate(
+                &Self {
+                    t: self.t + elapsed,
+                    ..*self
+                },
+            )
+        }
+    }
+    #[automatically_derived]
+    impl Rayleigh<1> for Arm {
+        #[inline]
+        fn rayleigh(&self, _q: &Vector, v: &Vector) -> f64 {
+            self.rayleigh((*v).into())
+        }
+        fn rayleigh_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            dual::gradient(
+                q,
+                v,
+                |_, v| self.rayleigh_over(v),
+                |_, v| self.rayleigh_over(v),
+            )
+        }
+        fn rayleigh_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            dual::derivatives::<
+                f64,
+                1,
+                2,
+            >(q, v, |_, v| self.rayleigh_over(v), |_, v| self.rayleigh_over(v))
+        }
+        fn rayleigh_variations(
+            &self,
+            q: &Vector,
+            v: &Vector,
+            minus: Direction<f64>,
+            plus: Direction<f64>,
+        ) -> Variations<f64, 1> {
+            dual::variations(
+                q,
+                v,
+                minus,
+                plus,
+                |_, v| self.rayleigh_over(v),
+                |_, v| self.rayleigh_over(v),
+            )
+        }
+    }
+    #[automatically_derived]
+    impl Rayleigh<1> for DrivenArm<'_> {
+        #[inline]
+        fn rayleigh(&self, q: &Vector, v: &Vector) -> f64 {
+            Rayleigh::rayleigh(self.system, q, v)
+        }
+        #[inline]
+        fn rayleigh_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            Rayleigh::rayleigh_gradient(self.system, q, v)
+        }
+        #[inline]
+        fn rayleigh_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            Rayleigh::rayleigh_derivatives(self.system, q, v)
+        }
+        #[inline]
+        fn rayleigh_variations(
+            &self,
+            q: &Vector,
+            v: &Vector,
+            minus: Direction<f64>,
+            plus: Direction<f64>,
+        ) -> Variations<f64, 1> {
+            Rayleigh::rayleigh_variations(self.system, q, v, minus, plus)
+        }
+    }
+    #[automatically_derived]
+    impl Force<1> for DrivenArm<'_> {
+        #[inline]
+        fn force(&self, q: &Vector, v: &Vector) -> Vector {
+            self.system.force((*q).into(), (*v).into(), self.u, self.t).into()
+        }
+        fn force_derivatives(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> CovectorDerivatives<f64, 1> {
+            dual::covector_derivatives::<
+                f64,
+                1,
+                2,
+            >(
+                q,
+                v,
+                |q, v| {
+                    self.system.force_over(q, v, dual::lift(self.u), dual::lift(self.t))
+                },
+                |q, v| {
+                    self.system.force_over(q, v, dual::lift(self.u), dual::lift(self.t))
+                },
+            )
+        }
+        fn force_variation(
+            &self,
+            q: &Vector,
+            v: &Vector,
+            direction: Direction<f64>,
+        ) -> (Vector, SMatrix<f64, 1, 1>) {
+            dual::covector_variation(
+                q,
+                v,
+                direction,
+                |q, v| {
+                    self.system.force_over(q, v, dual::lift(self.u), dual::lift(self.t))
+                },
+                |q, v| {
+                    self.system.force_over(q, v, dual::lift(self.u), dual::lift(self.t))
+                },
+            )
+        }
+    }
+    #[automatically_derived]
+    impl Driven<1, 1> for DrivenArm<'_> {
+        fn force_by_input(&self, q: &Vector, v: &Vector) -> SMatrix<f64, 1, 1> {
+            dual::by_input(
+                q,
+                v,
+                &self.u,
+                |q, v, u| self.system.force_over(q, v, u, dual::lift(self.t)),
+            )
+        }
+    }
+    #[automatically_derived]
+    impl DiscreteDriven<Midpoint, 1, 1> for DrivenArm<'_> {
+        /// ∂p0/∂u = −∂f_d⁻/∂u and ∂p1/∂u = ∂f_d⁺/∂u.
+        fn momenta_by_input(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+        ) -> MomentaBy<f64, 1, 1> {
+            Midpoint::force_by_input(self, q0, v, h)
+        }
+    }
+    #[automatically_derived]
+    impl Discrete<Midpoint, 1> for DrivenArm<'_> {
+        type Matrix = SMatrix<f64, 1, 1>;
+        type Memory = ::dalembert::VelocityHistory<f64, 1>;
+        /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::discrete_lagrangian(self, q0, q1, h)
+        }
+        /// L_d with D1, D2, D11, D12, D22.
+        fn discrete_lagrangian_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 1> {
+            Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
+        }
+        /// f_d⁻ = D1 R_d + (h/2) f(q̄, v̄), f_d⁺ = −D2 R_d + (h/2) f(q̄, v̄).
+        fn discrete_force(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForce<f64, 1> {
+            Midpoint::rayleigh_force(self, q0, q1, h)
+                + Midpoint::general_force(self, q0, q1, h)
+        }
+        /// f_d with its derivatives by q0 and q1.
+        fn discrete_force_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForceDerivatives<f64, 1> {
+            Midpoint::rayleigh_force_derivatives(self, q0, q1, h)
+                + Midpoint::general_force_derivatives(self, q0, q1, h)
+        }
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        #[inline]
+        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
+            Midpoint::lagrangian_kernel(self, q0, v, h)
+                + Midpoint::rayleigh_kernel(self, q0, v, h)
+                + Midpoint::force_kernel(self, q0, v, h)
+        }
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        #[inline]
+        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
+            Midpoint::lagrangian_momenta(self, q0, v, h)
+                + Midpoint::rayleigh_momenta(self, q0, v, h)
+                + Midpoint::force_momenta(self, q0, v, h)
+        }
+        /// E_L on the segment.
+        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::segment_energy(self, q0, q1, h)
+        }
+    }
+    #[automatically_derived]
+    impl DiscreteRayleigh<Midpoint, 1> for DrivenArm<'_> {
+        /// R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::discrete_rayleigh(self, q0, q1, h)
+        }
+        /// R_d with D1, D2, D11, D12, D22.
+        fn discrete_rayleigh_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 1> {
+            Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
+        }
+    }
+    #[automatically_derived]
+    impl ::dalembert::OffersMethods<1> for DrivenArm<'_> {
+        type Methods = Midpoint;
+    }
+};

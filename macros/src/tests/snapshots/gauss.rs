@@ -1,0 +1,219 @@
+impl Cart {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let reach = self.l * q[1].cos();
+        let kinetic = 0.5 * self.m * v[0] * v[0] + reach * v[0] * v[1]
+            + 0.5 * self.l.powi(2) * v[1] * v[1];
+        let stop = if q[0] > self.end {
+            0.5 * self.k * (q[0] - self.end).powi(2)
+        } else {
+            0.0
+        };
+        kinetic + reach - stop
+    }
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        0.5 * self.c * v[1] * v[1]
+    }
+    fn force(&self, q: [f64; 2], _v: [f64; 2]) -> [f64; 2] {
+        [self.a.powf(q[0]), 0.0]
+    }
+}
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
+const _: () = {
+    use ::dalembert::nalgebra::{SMatrix, SVector};
+    use ::dalembert::{
+        CovectorDerivatives, Derivatives, Force, ForcedLagrangian, Gradient, Lagrangian,
+        LaneVector, Lanes, Rayleigh, Stages,
+    };
+    type Vector = SVector<f64, 2>;
+    /// Known at compile time:
+    /// - Derivatives are written out.
+    /// - The damping force −∂R/∂v is linear in v with constant coefficients.
+    #[automatically_derived]
+    impl Lagrangian<2> for Cart {
+        type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::Expanded)
+            .with_damping(::dalembert::Damping::Linear)
+            .with_newton_matrices(&[]);
+        #[inline]
+        fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
+            self.lagrangian((*q).into(), (*v).into())
+        }
+        #[inline]
+        fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 2> {
+            let (sin_q1, cos_q1) = q[1].sin_cos();
+            let l = self.l;
+            let reach = cos_q1 * l;
+            let m = self.m;
+            let t1 = v[0] * reach;
+            let l_squared = l * l;
+            let kinetic = v[0] * (v[0] * (0.5 * m)) + v[1] * t1
+                + v[1] * (v[1] * (0.5 * l_squared));
+            let end = self.end;
+            let t2 = q[0] > end;
+            let k = self.k;
+            let t3 = q[0] - end;
+            let stop = if t2 { 0.5 * k * (t3 * t3) } else { 0.0 };
+            let t4 = if t2 { -(k * t3) } else { 0.0 };
+            let dl_dreach = 1.0 + v[0] * v[1];
+            Gradient {
+                value: reach + kinetic - stop,
+                d1: SVector::from([t4, -(l * dl_dreach * sin_q1)]),
+                d2: SVector::from([v[1] * reach + v[0] * m, t1 + v[1] * l_squared]),
+            }
+        }
+        #[inline]
+        fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
+            let (sin_q1, cos_q1) = q[1].sin_cos();
+            let l = self.l;
+            let reach = cos_q1 * l;
+            let m = self.m;
+            let t1 = v[0] * reach;
+            let l_squared = l * l;
+            let kinetic = v[0] * (v[0] * (0.5 * m)) + v[1] * t1
+                + v[1] * (v[1] * (0.5 * l_squared));
+            let end = self.end;
+            let t2 = q[0] > end;
+            let k = self.k;
+            let t3 = q[0] - end;
+            let stop = if t2 { 0.5 * k * (t3 * t3) } else { 0.0 };
+            let t4 = if t2 { -(k * t3) } else { 0.0 };
+            let dl_dreach = 1.0 + v[0] * v[1];
+            let t5 = if t2 { -k } else { 0.0 };
+            Derivatives {
+                value: reach + kinetic - stop,
+                d1: SVector::from([t4, -(l * dl_dreach * sin_q1)]),
+                d2: SVector::from([v[1] * reach + v[0] * m, t1 + v[1] * l_squared]),
+                d11: SMatrix::from([[t5, 0.0], [0.0, -(reach * dl_dreach)]]),
+                d12: SMatrix::from([
+                    [0.0, -(sin_q1 * (v[1] * l))],
+                    [0.0, -(sin_q1 * (v[0] * l))],
+                ]),
+                d22: SMatrix::from([[m, reach], [reach, l_squared]]),
+            }
+        }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+            ::dalembert::verification::lagrangian(self, q, v)?;
+            ::dalembert::verification::rayleigh(self, q, v)?;
+            ::dalembert::verification::force(self, q, v)
+        }
+    }
+    #[automatically_derived]
+    impl Rayleigh<2> for Cart {
+        #[inline]
+        fn rayleigh(&self, _q: &Vector, v: &Vector) -> f64 {
+            self.rayleigh((*v).into())
+        }
+        #[inline]
+        fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 2> {
+            let c = self.c;
+            Gradient {
+                value: v[1] * (v[1] * (0.5 * c)),
+                d1: SVector::from([0.0, 0.0]),
+                d2: SVector::from([0.0, v[1] * c]),
+            }
+        }
+        #[inline]
+        fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
+            let c = self.c;
+            Derivatives {
+                value: v[1] * (v[1] * (0.5 * c)),
+                d1: SVector::from([0.0, 0.0]),
+                d2: SVector::from([0.0, v[1] * c]),
+                d11: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                d22: SMatrix::from([[0.0, 0.0], [0.0, c]]),
+            }
+        }
+    }
+    #[automatically_derived]
+    impl Force<2> for Cart {
+        #[inline]
+        fn force(&self, q: &Vector, v: &Vector) -> Vector {
+            self.force((*q).into(), (*v).into()).into()
+        }
+        #[inline]
+        fn force_derivatives(
+            &self,
+            q: &Vector,
+            _v: &Vector,
+        ) -> CovectorDerivatives<f64, 2> {
+            let a = self.a;
+            let t1 = a.powf(q[0]);
+            CovectorDerivatives {
+                value: SVector::from([t1, 0.0]),
+                d1: SMatrix::from([[t1 * a.ln(), 0.0], [0.0, 0.0]]),
+                d2: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+            }
+        }
+    }
+    #[automatically_derived]
+    impl ForcedLagrangian<2> for Cart {
+        const IS_FORCED: bool = true;
+        /// f_L = −∂R/∂v + f.
+        #[inline]
+        fn acting_force(&self, q: &Vector, v: &Vector) -> Vector {
+            -self.rayleigh_gradient(q, v).d2 + Force::force(self, q, v)
+        }
+        /// f_L with its derivatives by q and v.
+        #[inline]
+        fn acting_force_derivatives(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> CovectorDerivatives<f64, 2> {
+            let r = self.rayleigh_derivatives(q, v);
+            CovectorDerivatives {
+                value: -r.d2,
+                d1: -r.d12.transpose(),
+                d2: -r.d22,
+            } + self.force_derivatives(q, v)
+        }
+        /// G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages.
+        #[inline]
+        fn stages<const S: usize>(
+            &self,
+            q: &LaneVector<f64, 2, S>,
+            v: &LaneVector<f64, 2, S>,
+            momenta: impl FnOnce(&LaneVector<f64, 2, S>) -> LaneVector<f64, 2, S>,
+        ) -> Stages<f64, 2, S> {
+            let (sin_q1, cos_q1) = q[1].sin_cos();
+            let l = self.l;
+            let reach = cos_q1 * l;
+            let m = self.m;
+            let t1 = v[0] * (0.5 * m);
+            let l_squared = l * l;
+            let end = self.end;
+            let t2 = Lanes::<f64, S>::splat(end)
+                .less(q[0])
+                .select(-(self.k * (q[0] - end)), Lanes::<f64, S>::splat(0.0));
+            let dl_dreach = 1.0 + v[0] * v[1];
+            let t3 = 1.0 / m;
+            let t4 = reach * t3;
+            let rate = [
+                Lanes::<f64, S>::splat(self.a).powf(q[0]) + t2,
+                -(l * dl_dreach * sin_q1 + 2.0 * (v[1] * (0.5 * self.c))),
+            ];
+            let p = momenta(&rate);
+            let residual0 = p[0] - (t1 + (t1 + v[1] * reach));
+            let residual1 = p[1] - (v[0] * reach + 2.0 * (v[1] * (0.5 * l_squared)));
+            let t5 = 1.0 / (l_squared - reach * t4) * (residual1 - residual0 * t4);
+            Stages {
+                rate,
+                residual: [residual0, residual1],
+                correction: [residual0 * t3 - t4 * t5, t5],
+            }
+        }
+    }
+};

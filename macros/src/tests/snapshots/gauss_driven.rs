@@ -1,0 +1,279 @@
+impl Arm {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * self.m * v[0] * v[0] + q[0].cos()
+    }
+    fn force(&self, q: [f64; 1], v: [f64; 1], u: [f64; 1], t: f64) -> [f64; 1] {
+        let push = if u[0] > 0.0 { self.gain * u[0] } else { 0.0 };
+        [push * q[0].cos() - v[0] + (Self::RATE * t).sin()]
+    }
+}
+/// [`Arm`] with its input held over a step that starts at a given time; see [`Arm::driven`].
+#[derive(Clone, Copy)]
+#[allow(dead_code)]
+pub struct DrivenArm<'a> {
+    system: &'a Arm,
+    u: [f64; 1],
+    t: f64,
+}
+#[allow(dead_code)]
+impl Arm {
+    /// The system with the input `u` held over the step that starts at time `t`.
+    #[inline]
+    #[must_use]
+    pub fn driven(&self, u: impl ::dalembert::Input<f64, 1>, t: f64) -> DrivenArm<'_> {
+        DrivenArm {
+            system: self,
+            u: ::dalembert::Input::entries(u),
+            t,
+        }
+    }
+}
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
+const _: () = {
+    use ::dalembert::nalgebra::{SMatrix, SVector};
+    use ::dalembert::{
+        CovectorDerivatives, Derivatives, Direction, Driven, Force, ForcedLagrangian,
+        Gradient, GradientBy, Hessian, Lagrangian, LaneVector, Lanes, Parameters,
+        SecondOrder, Stages, Variations,
+    };
+    type Vector = SVector<f64, 1>;
+    /// Known at compile time:
+    /// - Derivatives are written out.
+    /// - L = T(v) − V(q).
+    /// - The mass matrix ∂²L/∂v² is constant.
+    #[automatically_derived]
+    impl Lagrangian<1> for Arm {
+        type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::Expanded)
+            .with_constant_mass_matrix()
+            .with_separable_lagrangian()
+            .with_damping(::dalembert::Damping::Absent)
+            .with_newton_matrices(&[]);
+        #[inline]
+        fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
+            self.lagrangian((*q).into(), (*v).into())
+        }
+        #[inline]
+        fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            let m = self.m;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            Gradient {
+                value: v[0] * (v[0] * (0.5 * m)) + cos_q0,
+                d1: SVector::from([-sin_q0]),
+                d2: SVector::from([v[0] * m]),
+            }
+        }
+        #[inline]
+        fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            let m = self.m;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            Derivatives {
+                value: v[0] * (v[0] * (0.5 * m)) + cos_q0,
+                d1: SVector::from([-sin_q0]),
+                d2: SVector::from([v[0] * m]),
+                d11: SMatrix::from([[-cos_q0]]),
+                d12: SMatrix::from([[0.0]]),
+                d22: SMatrix::from([[m]]),
+            }
+        }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+            ::dalembert::verification::lagrangian(self, q, v)
+        }
+    }
+    #[automatically_derived]
+    impl Lagrangian<1> for DrivenArm<'_> {
+        type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = <Arm as Lagrangian<1>>::STRUCTURE;
+        #[inline]
+        fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
+            Lagrangian::lagrangian(self.system, q, v)
+        }
+        #[inline]
+        fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            Lagrangian::lagrangian_gradient(self.system, q, v)
+        }
+        #[inline]
+        fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            Lagrangian::lagrangian_derivatives(self.system, q, v)
+        }
+        #[inline]
+        fn lagrangian_variations(
+            &self,
+            q: &Vector,
+            v: &Vector,
+            minus: Direction<f64>,
+            plus: Direction<f64>,
+        ) -> Variations<f64, 1> {
+            Lagrangian::lagrangian_variations(self.system, q, v, minus, plus)
+        }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+            ::dalembert::verification::lagrangian(self, q, v)?;
+            ::dalembert::verification::force(self, q, v)
+        }
+        #[inline]
+        fn later<T>(&self, elapsed: f64, evaluate: impl FnOnce(&Self) -> T) -> T {
+            evaluate(
+                &Self {
+                    t: self.t + elapsed,
+                    ..*self
+                },
+            )
+        }
+    }
+    #[automatically_derived]
+    impl Force<1> for DrivenArm<'_> {
+        #[inline]
+        fn force(&self, q: &Vector, v: &Vector) -> Vector {
+            self.system.force((*q).into(), (*v).into(), self.u, self.t).into()
+        }
+        #[inline]
+        fn force_derivatives(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> CovectorDerivatives<f64, 1> {
+            let t = self.t;
+            let u = self.u;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            let push = if u[0] > 0.0 { self.system.gain * u[0] } else { 0.0 };
+            CovectorDerivatives {
+                value: SVector::from([cos_q0 * push - v[0] + (t * Arm::RATE).sin()]),
+                d1: SMatrix::from([[-(push * sin_q0)]]),
+                d2: SMatrix::from([[-1.0]]),
+            }
+        }
+    }
+    #[automatically_derived]
+    impl ForcedLagrangian<1> for DrivenArm<'_> {
+        const IS_TIMED: bool = true;
+        const IS_FORCED: bool = true;
+        /// f_L = f.
+        #[inline]
+        fn acting_force(&self, q: &Vector, v: &Vector) -> Vector {
+            Force::force(self, q, v)
+        }
+        /// f_L with its derivatives by q and v.
+        #[inline]
+        fn acting_force_derivatives(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> CovectorDerivatives<f64, 1> {
+            self.force_derivatives(q, v)
+        }
+        /// G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages, each at its own time.
+        #[inline]
+        fn stages_in_time<const S: usize>(
+            &self,
+            elapsed: &Lanes<f64, S>,
+            q: &LaneVector<f64, 1, S>,
+            v: &LaneVector<f64, 1, S>,
+            momenta: impl FnOnce(&LaneVector<f64, 1, S>) -> LaneVector<f64, 1, S>,
+        ) -> Stages<f64, 1, S> {
+            let u = self.u;
+            let t = *elapsed + self.t;
+            let m = self.system.m;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            let push = if u[0] > 0.0 { self.system.gain * u[0] } else { 0.0 };
+            let rate = [cos_q0 * push - v[0] + (t * Arm::RATE).sin() - sin_q0];
+            let p = momenta(&rate);
+            let residual0 = p[0] - 2.0 * (v[0] * (0.5 * m));
+            Stages {
+                rate,
+                residual: [residual0],
+                correction: [residual0 * (1.0 / m)],
+            }
+        }
+    }
+    #[automatically_derived]
+    impl Driven<1, 1> for DrivenArm<'_> {
+        #[inline]
+        fn force_by_input(&self, q: &Vector, _v: &Vector) -> SMatrix<f64, 1, 1> {
+            let u = self.u;
+            let t1 = if u[0] > 0.0 { self.system.gain * q[0].cos() } else { 0.0 };
+            SMatrix::from([[t1]])
+        }
+    }
+    #[automatically_derived]
+    impl Parameters<1, 1> for DrivenArm<'_> {
+        const PARAMETERS: [&'static str; 1] = ["gain"];
+        #[inline]
+        fn lagrangian_by_parameters(
+            &self,
+            _q: &Vector,
+            _v: &Vector,
+        ) -> GradientBy<f64, 1, 1> {
+            GradientBy {
+                d1: SMatrix::from([[0.0]]),
+                d2: SMatrix::from([[0.0]]),
+            }
+        }
+        #[inline]
+        fn force_by_parameters(&self, q: &Vector, _v: &Vector) -> SMatrix<f64, 1, 1> {
+            let u = self.u;
+            let t1 = if u[0] > 0.0 { u[0] * q[0].cos() } else { 0.0 };
+            SMatrix::from([[t1]])
+        }
+    }
+    #[automatically_derived]
+    impl SecondOrder<1, 1> for DrivenArm<'_> {
+        #[inline]
+        fn lagrangian_along(
+            &self,
+            q: &Vector,
+            _v: &Vector,
+            a: &Vector,
+            _b: &Vector,
+        ) -> Hessian<f64, 1, 1> {
+            Hessian {
+                d11: SMatrix::from([[q[0].sin() * a[0]]]),
+                d12: SMatrix::from([[0.0]]),
+                d22: SMatrix::from([[0.0]]),
+                ..Hessian::zero()
+            }
+        }
+        #[inline]
+        fn force_along(
+            &self,
+            q: &Vector,
+            _v: &Vector,
+            vector: &Vector,
+        ) -> Hessian<f64, 1, 1> {
+            let u = self.u;
+            let gain = self.system.gain;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            let t1 = u[0] > 0.0;
+            let push = if t1 { gain * u[0] } else { 0.0 };
+            let d_dpush = cos_q0 * vector[0];
+            let t2 = if t1 { gain * vector[0] } else { 0.0 };
+            Hessian {
+                d11: SMatrix::from([[-(push * d_dpush)]]),
+                d12: SMatrix::from([[0.0]]),
+                d22: SMatrix::from([[0.0]]),
+                d1u: SMatrix::from([[-(sin_q0 * t2)]]),
+                d2u: SMatrix::from([[0.0]]),
+                duu: SMatrix::from([[0.0]]),
+            }
+        }
+        #[inline]
+        fn force_slope_by_input(&self, q: &Vector, v: &Vector) -> SMatrix<f64, 1, 1> {
+            self.force_by_input(q, v)
+        }
+    }
+};

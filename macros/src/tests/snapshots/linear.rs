@@ -1,0 +1,227 @@
+fn linear(q: [f64; 2], v: [f64; 2], k: f64, c: f64) -> (f64, f64) {
+    let d = q[1] - q[0];
+    (
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - 0.5 * k * (q[0] * q[0] + d * d),
+        0.5 * c * v[1] * v[1],
+    )
+}
+/// The mechanical system of [`linear`], with its parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(dead_code)]
+struct Linear {
+    /// Parameter `k` of [`linear`].
+    k: f64,
+    /// Parameter `c` of [`linear`].
+    c: f64,
+}
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
+const _: () = {
+    use ::dalembert::nalgebra::{SMatrix, SVector};
+    use ::dalembert::{
+        Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh,
+        DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta, Rayleigh, StepKernel,
+    };
+    type Vector = SVector<f64, 2>;
+    /// Known at compile time:
+    /// - Derivatives are written out.
+    /// - L = T(v) − V(q), of degree at most 2.
+    /// - The mass matrix ∂²L/∂v² is constant.
+    /// - The damping force −∂R/∂v is linear in v with constant coefficients.
+    /// - By the rule `Midpoint` the Newton matrix is constant: a step is one linear solve.
+    #[automatically_derived]
+    impl Lagrangian<2> for Linear {
+        type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::Expanded)
+            .with_constant_mass_matrix()
+            .with_quadratic_lagrangian()
+            .with_separable_lagrangian()
+            .with_damping(::dalembert::Damping::Linear)
+            .with_newton_matrices(
+                &[::dalembert::NewtonStructure::new("Midpoint", true, 1)],
+            );
+        #[inline]
+        fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
+            linear((*q).into(), (*v).into(), self.k, self.c).0
+        }
+        #[inline]
+        fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 2> {
+            let d = q[1] - q[0];
+            let k = self.k;
+            let t1 = d * k;
+            let dl_dd = -t1;
+            Gradient {
+                value: 0.5 * (v[0] * v[0] + v[1] * v[1])
+                    - 0.5 * k * (q[0] * q[0] + d * d),
+                d1: SVector::from([t1 - q[0] * k, dl_dd]),
+                d2: SVector::from([v[0], v[1]]),
+            }
+        }
+        #[inline]
+        fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
+            let d = q[1] - q[0];
+            let k = self.k;
+            let t1 = d * k;
+            let dl_dd = -t1;
+            Derivatives {
+                value: 0.5 * (v[0] * v[0] + v[1] * v[1])
+                    - 0.5 * k * (q[0] * q[0] + d * d),
+                d1: SVector::from([t1 - q[0] * k, dl_dd]),
+                d2: SVector::from([v[0], v[1]]),
+                d11: SMatrix::from([[-(2.0 * k), k], [k, -k]]),
+                d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                d22: SMatrix::from([[1.0, 0.0], [0.0, 1.0]]),
+            }
+        }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+            ::dalembert::verification::lagrangian(self, q, v)?;
+            ::dalembert::verification::rayleigh(self, q, v)
+        }
+    }
+    #[automatically_derived]
+    impl Rayleigh<2> for Linear {
+        #[inline]
+        fn rayleigh(&self, q: &Vector, v: &Vector) -> f64 {
+            linear((*q).into(), (*v).into(), self.k, self.c).1
+        }
+        #[inline]
+        fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 2> {
+            let c = self.c;
+            Gradient {
+                value: v[1] * (v[1] * (0.5 * c)),
+                d1: SVector::from([0.0, 0.0]),
+                d2: SVector::from([0.0, v[1] * c]),
+            }
+        }
+        #[inline]
+        fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
+            let c = self.c;
+            Derivatives {
+                value: v[1] * (v[1] * (0.5 * c)),
+                d1: SVector::from([0.0, 0.0]),
+                d2: SVector::from([0.0, v[1] * c]),
+                d11: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                d22: SMatrix::from([[0.0, 0.0], [0.0, c]]),
+            }
+        }
+    }
+    #[automatically_derived]
+    impl Discrete<Midpoint, 2> for Linear {
+        type Matrix = SMatrix<f64, 2, 2>;
+        type Memory = ::dalembert::KeptMatrix<f64, Self::Matrix, 2>;
+        const LINEAR: bool = true;
+        /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::discrete_lagrangian(self, q0, q1, h)
+        }
+        /// L_d with D1, D2, D11, D12, D22.
+        fn discrete_lagrangian_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 2> {
+            Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
+        }
+        /// f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d.
+        fn discrete_force(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForce<f64, 2> {
+            Midpoint::rayleigh_force(self, q0, q1, h)
+        }
+        /// f_d with its derivatives by q0 and q1.
+        fn discrete_force_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForceDerivatives<f64, 2> {
+            Midpoint::rayleigh_force_derivatives(self, q0, q1, h)
+        }
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        #[inline]
+        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 2> {
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0], q0[1] + half * v[1]];
+            let d = q[1] - q[0];
+            let k = self.k;
+            let c = self.c;
+            let t1 = d * k;
+            let t2 = half * half;
+            let t3 = k * t2;
+            let t4 = -t3;
+            StepKernel {
+                p0: SVector::from([
+                    v[0] - (t1 - q[0] * k) * half,
+                    v[1] + half * (t1 + v[1] * c),
+                ]),
+                matrix: SMatrix::from([
+                    [1.0 + 2.0 * k * t2, t4],
+                    [t4, 1.0 + c * half + t3],
+                ]),
+            }
+        }
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        #[inline]
+        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 2> {
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0], q0[1] + half * v[1]];
+            let d = q[1] - q[0];
+            let k = self.k;
+            let t1 = d * k;
+            let t2 = (t1 - q[0] * k) * half;
+            let t3 = half * (t1 + v[1] * self.c);
+            Momenta {
+                p0: SVector::from([v[0] - t2, v[1] + t3]),
+                p1: SVector::from([v[0] + t2, v[1] - t3]),
+            }
+        }
+        /// E_L on the segment.
+        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::segment_energy(self, q0, q1, h)
+        }
+        fn verify_segment(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+            Midpoint::verify_segment(self, q0, v, h)
+        }
+    }
+    #[automatically_derived]
+    impl DiscreteRayleigh<Midpoint, 2> for Linear {
+        /// R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::discrete_rayleigh(self, q0, q1, h)
+        }
+        /// R_d with D1, D2, D11, D12, D22.
+        fn discrete_rayleigh_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 2> {
+            Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
+        }
+    }
+    #[automatically_derived]
+    impl ::dalembert::OffersMethods<2> for Linear {
+        type Methods = Midpoint;
+    }
+};

@@ -1,0 +1,322 @@
+/// L and R of a damped oscillator.
+pub fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+    (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+}
+/// The mechanical system of [`oscillator`], with its parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(dead_code)]
+pub struct Oscillator {
+    /// Parameter `m` of [`oscillator`].
+    pub m: f64,
+    /// Parameter `k` of [`oscillator`].
+    pub k: f64,
+    /// Parameter `r` of [`oscillator`].
+    pub r: f64,
+}
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
+const _: () = {
+    use ::dalembert::nalgebra::{SMatrix, SVector};
+    use ::dalembert::{
+        Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh,
+        DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta, Rayleigh, StepKernel,
+        Trapezoidal,
+    };
+    type Vector = SVector<f64, 1>;
+    /// Known at compile time:
+    /// - Derivatives are written out.
+    /// - L = T(v) − V(q), of degree at most 2.
+    /// - The mass matrix ∂²L/∂v² is constant.
+    /// - The damping force −∂R/∂v is linear in v with constant coefficients.
+    /// - By the rule `Midpoint` the Newton matrix is constant: a step is one linear solve.
+    /// - By the rule `Trapezoidal` the Newton matrix is constant: a step is one linear solve.
+    #[automatically_derived]
+    impl Lagrangian<1> for Oscillator {
+        type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::Expanded)
+            .with_constant_mass_matrix()
+            .with_quadratic_lagrangian()
+            .with_separable_lagrangian()
+            .with_damping(::dalembert::Damping::Linear)
+            .with_newton_matrices(
+                &[
+                    ::dalembert::NewtonStructure::new("Midpoint", true, 0),
+                    ::dalembert::NewtonStructure::new("Trapezoidal", true, 0),
+                ],
+            );
+        #[inline]
+        fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
+            oscillator((*q).into(), (*v).into(), self.m, self.k, self.r).0
+        }
+        #[inline]
+        fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            let m = self.m;
+            let k = self.k;
+            Gradient {
+                value: v[0] * (v[0] * (0.5 * m)) - q[0] * (q[0] * (0.5 * k)),
+                d1: SVector::from([-(q[0] * k)]),
+                d2: SVector::from([v[0] * m]),
+            }
+        }
+        #[inline]
+        fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            let m = self.m;
+            let k = self.k;
+            Derivatives {
+                value: v[0] * (v[0] * (0.5 * m)) - q[0] * (q[0] * (0.5 * k)),
+                d1: SVector::from([-(q[0] * k)]),
+                d2: SVector::from([v[0] * m]),
+                d11: SMatrix::from([[-k]]),
+                d12: SMatrix::from([[0.0]]),
+                d22: SMatrix::from([[m]]),
+            }
+        }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+            ::dalembert::verification::lagrangian(self, q, v)?;
+            ::dalembert::verification::rayleigh(self, q, v)
+        }
+    }
+    #[automatically_derived]
+    impl Rayleigh<1> for Oscillator {
+        #[inline]
+        fn rayleigh(&self, q: &Vector, v: &Vector) -> f64 {
+            oscillator((*q).into(), (*v).into(), self.m, self.k, self.r).1
+        }
+        #[inline]
+        fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            let r = self.r;
+            Gradient {
+                value: v[0] * (v[0] * (0.5 * r)),
+                d1: SVector::from([0.0]),
+                d2: SVector::from([v[0] * r]),
+            }
+        }
+        #[inline]
+        fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            let r = self.r;
+            Derivatives {
+                value: v[0] * (v[0] * (0.5 * r)),
+                d1: SVector::from([0.0]),
+                d2: SVector::from([v[0] * r]),
+                d11: SMatrix::from([[0.0]]),
+                d12: SMatrix::from([[0.0]]),
+                d22: SMatrix::from([[r]]),
+            }
+        }
+    }
+    #[automatically_derived]
+    impl Discrete<Midpoint, 1> for Oscillator {
+        type Matrix = SMatrix<f64, 1, 1>;
+        type Memory = ::dalembert::KeptMatrix<f64, Self::Matrix, 1>;
+        const LINEAR: bool = true;
+        /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::discrete_lagrangian(self, q0, q1, h)
+        }
+        /// L_d with D1, D2, D11, D12, D22.
+        fn discrete_lagrangian_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 1> {
+            Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
+        }
+        /// f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d.
+        fn discrete_force(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForce<f64, 1> {
+            Midpoint::rayleigh_force(self, q0, q1, h)
+        }
+        /// f_d with its derivatives by q0 and q1.
+        fn discrete_force_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForceDerivatives<f64, 1> {
+            Midpoint::rayleigh_force_derivatives(self, q0, q1, h)
+        }
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        #[inline]
+        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0]];
+            let m = self.m;
+            let k = self.k;
+            let r = self.r;
+            StepKernel {
+                p0: SVector::from([v[0] * m + half * (q[0] * k + v[0] * r)]),
+                matrix: SMatrix::from([[m + half * (r + k * half)]]),
+            }
+        }
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        #[inline]
+        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0]];
+            let t1 = v[0] * self.m;
+            let t2 = half * (q[0] * self.k + v[0] * self.r);
+            Momenta {
+                p0: SVector::from([t1 + t2]),
+                p1: SVector::from([t1 - t2]),
+            }
+        }
+        /// E_L on the segment.
+        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::segment_energy(self, q0, q1, h)
+        }
+        fn verify_segment(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+            Midpoint::verify_segment(self, q0, v, h)
+        }
+    }
+    #[automatically_derived]
+    impl Discrete<Trapezoidal, 1> for Oscillator {
+        type Matrix = SMatrix<f64, 1, 1>;
+        type Memory = ::dalembert::ExplicitMemory<f64, Self::Matrix, 1>;
+        const LINEAR: bool = true;
+        /// L_d = (h/2) [L(q0, v̄) + L(q1, v̄)], with v̄ = (q1 − q0)/h.
+        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Trapezoidal::discrete_lagrangian(self, q0, q1, h)
+        }
+        /// L_d with D1, D2, D11, D12, D22.
+        fn discrete_lagrangian_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 1> {
+            Trapezoidal::discrete_lagrangian_derivatives(self, q0, q1, h)
+        }
+        /// f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d.
+        fn discrete_force(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForce<f64, 1> {
+            Trapezoidal::rayleigh_force(self, q0, q1, h)
+        }
+        /// f_d with its derivatives by q0 and q1.
+        fn discrete_force_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForceDerivatives<f64, 1> {
+            Trapezoidal::rayleigh_force_derivatives(self, q0, q1, h)
+        }
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        #[inline]
+        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
+            let half = 0.5 * h;
+            let t1 = self.m + self.r * half;
+            StepKernel {
+                p0: SVector::from([self.k * half * q0[0] + v[0] * t1]),
+                matrix: SMatrix::from([[t1]]),
+            }
+        }
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        #[inline]
+        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
+            let half = 0.5 * h;
+            let q1 = [q0[0] + h * v[0]];
+            let t1 = v[0] * self.m;
+            let t2 = self.k * half;
+            let t3 = v[0] * (self.r * half);
+            Momenta {
+                p0: SVector::from([t3 + (t1 + t2 * q0[0])]),
+                p1: SVector::from([t1 - t3 - t2 * q1[0]]),
+            }
+        }
+        /// E_L on the segment.
+        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Trapezoidal::segment_energy(self, q0, q1, h)
+        }
+        fn verify_segment(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+            Trapezoidal::verify_segment(self, q0, v, h)
+        }
+    }
+    #[automatically_derived]
+    impl ::dalembert::Explicit<1> for Oscillator {
+        #[inline]
+        fn step_matrix(&self, h: f64) -> <Self as Discrete<Trapezoidal, 1>>::Matrix {
+            let half = 0.5 * h;
+            SMatrix::from([[self.m + self.r * half]])
+        }
+        #[inline]
+        fn velocity_momenta(&self, v: &Vector, h: f64) -> Momenta<f64, 1> {
+            let half = 0.5 * h;
+            let t1 = v[0] * self.m;
+            let t2 = v[0] * (self.r * half);
+            Momenta {
+                p0: SVector::from([t1 + t2]),
+                p1: SVector::from([t1 - t2]),
+            }
+        }
+        #[inline]
+        fn configuration_force(&self, q: &Vector) -> Vector {
+            SVector::from([-(q[0] * self.k)])
+        }
+    }
+    #[automatically_derived]
+    impl DiscreteRayleigh<Midpoint, 1> for Oscillator {
+        /// R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::discrete_rayleigh(self, q0, q1, h)
+        }
+        /// R_d with D1, D2, D11, D12, D22.
+        fn discrete_rayleigh_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 1> {
+            Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
+        }
+    }
+    #[automatically_derived]
+    impl DiscreteRayleigh<Trapezoidal, 1> for Oscillator {
+        /// R_d = (h²/4) [R(q0, v̄) + R(q1, v̄)], with v̄ = (q1 − q0)/h.
+        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Trapezoidal::discrete_rayleigh(self, q0, q1, h)
+        }
+        /// R_d with D1, D2, D11, D12, D22.
+        fn discrete_rayleigh_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 1> {
+            Trapezoidal::discrete_rayleigh_derivatives(self, q0, q1, h)
+        }
+    }
+    #[automatically_derived]
+    impl ::dalembert::OffersMethods<1> for Oscillator {
+        type Methods = ::dalembert::WithSplittings<Trapezoidal>;
+    }
+};

@@ -1,0 +1,245 @@
+pub fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+    use ::dalembert::dual;
+    dual::lower(
+        Oscillator::oscillator_over::<
+            f64,
+        >(dual::lift(q), dual::lift(v), dual::lift(m), dual::lift(k), dual::lift(r)),
+    )
+}
+/// The mechanical system of [`oscillator`], with its parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(dead_code)]
+pub struct Oscillator {
+    /// Parameter `m` of [`oscillator`].
+    pub m: f64,
+    /// Parameter `k` of [`oscillator`].
+    pub k: f64,
+    /// Parameter `r` of [`oscillator`].
+    pub r: f64,
+}
+const _: () = ::core::assert!(
+    1 <= 32,
+    "with more than 32 coordinates dual numbers can overflow the stack of a thread; have the derivatives written out: `derivatives = expanded` says what stands in the way"
+);
+#[allow(clippy::pedantic, clippy::nursery)]
+const _: () = {
+    use ::dalembert::dual::{self, Dual, Real};
+    #[allow(dead_code)]
+    impl Oscillator {
+        /// `oscillator` over plain and dual numbers.
+        #[inline(always)]
+        fn oscillator_over<D: Dual<f64>>(
+            q: [Real<D>; 1],
+            v: [Real<D>; 1],
+            m: Real<D>,
+            k: Real<D>,
+            r: Real<D>,
+        ) -> (Real<D>, Real<D>) {
+            (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+        }
+        /// L over plain and dual numbers.
+        #[inline(always)]
+        fn lagrangian_over<D: Dual<f64>>(
+            &self,
+            q: [Real<D>; 1],
+            v: [Real<D>; 1],
+        ) -> Real<D> {
+            Self::oscillator_over(
+                    q,
+                    v,
+                    D::lift(self.m),
+                    D::lift(self.k),
+                    D::lift(self.r),
+                )
+                .0
+        }
+        /// The Rayleigh function over plain and dual numbers.
+        #[inline(always)]
+        fn rayleigh_over<D: Dual<f64>>(
+            &self,
+            q: [Real<D>; 1],
+            v: [Real<D>; 1],
+        ) -> Real<D> {
+            Self::oscillator_over(
+                    q,
+                    v,
+                    D::lift(self.m),
+                    D::lift(self.k),
+                    D::lift(self.r),
+                )
+                .1
+        }
+    }
+};
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
+const _: () = {
+    use ::dalembert::nalgebra::{SMatrix, SVector};
+    use ::dalembert::{
+        Derivatives, Direction, Discrete, DiscreteForce, DiscreteForceDerivatives,
+        DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
+        Rayleigh, StepKernel, Variations, dual,
+    };
+    type Vector = SVector<f64, 1>;
+    /// Known at compile time:
+    /// - Derivatives are made by dual numbers, as asked.
+    #[automatically_derived]
+    impl Lagrangian<1> for Oscillator {
+        type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::NumDual {
+                refusal: ::core::option::Option::None,
+            });
+        #[inline]
+        fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
+            oscillator((*q).into(), (*v).into(), self.m, self.k, self.r).0
+        }
+        fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            dual::gradient(
+                q,
+                v,
+                |q, v| self.lagrangian_over(q, v),
+                |q, v| self.lagrangian_over(q, v),
+            )
+        }
+        fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            dual::derivatives::<
+                f64,
+                1,
+                2,
+            >(q, v, |q, v| self.lagrangian_over(q, v), |q, v| self.lagrangian_over(q, v))
+        }
+        fn lagrangian_variations(
+            &self,
+            q: &Vector,
+            v: &Vector,
+            minus: Direction<f64>,
+            plus: Direction<f64>,
+        ) -> Variations<f64, 1> {
+            dual::variations(
+                q,
+                v,
+                minus,
+                plus,
+                |q, v| self.lagrangian_over(q, v),
+                |q, v| self.lagrangian_over(q, v),
+            )
+        }
+    }
+    #[automatically_derived]
+    impl Rayleigh<1> for Oscillator {
+        #[inline]
+        fn rayleigh(&self, q: &Vector, v: &Vector) -> f64 {
+            oscillator((*q).into(), (*v).into(), self.m, self.k, self.r).1
+        }
+        fn rayleigh_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            dual::gradient(
+                q,
+                v,
+                |q, v| self.rayleigh_over(q, v),
+                |q, v| self.rayleigh_over(q, v),
+            )
+        }
+        fn rayleigh_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            dual::derivatives::<
+                f64,
+                1,
+                2,
+            >(q, v, |q, v| self.rayleigh_over(q, v), |q, v| self.rayleigh_over(q, v))
+        }
+        fn rayleigh_variations(
+            &self,
+            q: &Vector,
+            v: &Vector,
+            minus: Direction<f64>,
+            plus: Direction<f64>,
+        ) -> Variations<f64, 1> {
+            dual::variations(
+                q,
+                v,
+                minus,
+                plus,
+                |q, v| self.rayleigh_over(q, v),
+                |q, v| self.rayleigh_over(q, v),
+            )
+        }
+    }
+    #[automatically_derived]
+    impl Discrete<Midpoint, 1> for Oscillator {
+        type Matrix = SMatrix<f64, 1, 1>;
+        type Memory = ::dalembert::VelocityHistory<f64, 1>;
+        /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::discrete_lagrangian(self, q0, q1, h)
+        }
+        /// L_d with D1, D2, D11, D12, D22.
+        fn discrete_lagrangian_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 1> {
+            Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
+        }
+        /// f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d.
+        fn discrete_force(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForce<f64, 1> {
+            Midpoint::rayleigh_force(self, q0, q1, h)
+        }
+        /// f_d with its derivatives by q0 and q1.
+        fn discrete_force_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForceDerivatives<f64, 1> {
+            Midpoint::rayleigh_force_derivatives(self, q0, q1, h)
+        }
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        #[inline]
+        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
+            Midpoint::lagrangian_kernel(self, q0, v, h)
+                + Midpoint::rayleigh_kernel(self, q0, v, h)
+        }
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        #[inline]
+        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
+            Midpoint::lagrangian_momenta(self, q0, v, h)
+                + Midpoint::rayleigh_momenta(self, q0, v, h)
+        }
+        /// E_L on the segment.
+        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::segment_energy(self, q0, q1, h)
+        }
+    }
+    #[automatically_derived]
+    impl DiscreteRayleigh<Midpoint, 1> for Oscillator {
+        /// R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::discrete_rayleigh(self, q0, q1, h)
+        }
+        /// R_d with D1, D2, D11, D12, D22.
+        fn discrete_rayleigh_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 1> {
+            Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
+        }
+    }
+    #[automatically_derived]
+    impl ::dalembert::OffersMethods<1> for Oscillator {
+        type Methods = Midpoint;
+    }
+};

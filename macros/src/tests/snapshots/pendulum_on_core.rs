@@ -1,0 +1,137 @@
+impl Pendulum {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        use ::dalembert::Elementary as _;
+        0.5 * v[0].elementary().powi(2) - self.height(q[0])
+    }
+    fn height(&self, angle: f64) -> f64 {
+        self.g * (1.0 - <f64 as ::dalembert::Elementary>::cos(angle))
+    }
+    fn period(&self) -> f64 {
+        6.0 / self.g
+    }
+}
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
+const _: () = {
+    use ::dalembert::nalgebra::{SMatrix, SVector};
+    use ::dalembert::{
+        Derivatives, Discrete, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
+        StepKernel,
+    };
+    use ::dalembert::Elementary as _;
+    type Vector = SVector<f64, 1>;
+    /// Known at compile time:
+    /// - Derivatives are written out.
+    /// - L = T(v) − V(q).
+    /// - The mass matrix ∂²L/∂v² is constant.
+    /// - By the rule `Midpoint` the Newton matrix changes with the state.
+    #[automatically_derived]
+    impl Lagrangian<1> for Pendulum {
+        type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::Expanded)
+            .with_constant_mass_matrix()
+            .with_separable_lagrangian()
+            .with_damping(::dalembert::Damping::Absent)
+            .with_newton_matrices(
+                &[::dalembert::NewtonStructure::new("Midpoint", false, 0)],
+            );
+        #[inline]
+        fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
+            self.lagrangian((*q).into(), (*v).into())
+        }
+        #[inline]
+        fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            let (sin_q0, cos_q0) = q[0].elementary().sin_cos();
+            let g = self.g;
+            Gradient {
+                value: 0.5 * (v[0] * v[0]) - (1.0 - cos_q0) * g,
+                d1: SVector::from([-(g * sin_q0)]),
+                d2: SVector::from([v[0]]),
+            }
+        }
+        #[inline]
+        fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            let (sin_q0, cos_q0) = q[0].elementary().sin_cos();
+            let g = self.g;
+            Derivatives {
+                value: 0.5 * (v[0] * v[0]) - (1.0 - cos_q0) * g,
+                d1: SVector::from([-(g * sin_q0)]),
+                d2: SVector::from([v[0]]),
+                d11: SMatrix::from([[-(cos_q0 * g)]]),
+                d12: SMatrix::from([[0.0]]),
+                d22: SMatrix::from([[1.0]]),
+            }
+        }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+            ::dalembert::verification::lagrangian(self, q, v)
+        }
+    }
+    #[automatically_derived]
+    impl Discrete<Midpoint, 1> for Pendulum {
+        type Matrix = SMatrix<f64, 1, 1>;
+        type Memory = ::dalembert::VelocityHistory<f64, 1>;
+        /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::discrete_lagrangian(self, q0, q1, h)
+        }
+        /// L_d with D1, D2, D11, D12, D22.
+        fn discrete_lagrangian_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 1> {
+            Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
+        }
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        #[inline]
+        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0]];
+            let (sin_q0, cos_q0) = q[0].elementary().sin_cos();
+            let t1 = self.g * half;
+            StepKernel {
+                p0: SVector::from([v[0] + sin_q0 * t1]),
+                matrix: SMatrix::from([[1.0 + cos_q0 * (half * t1)]]),
+            }
+        }
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        #[inline]
+        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0]];
+            let t1 = q[0].elementary().sin() * (self.g * half);
+            Momenta {
+                p0: SVector::from([v[0] + t1]),
+                p1: SVector::from([v[0] - t1]),
+            }
+        }
+        /// E_L on the segment.
+        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::segment_energy(self, q0, q1, h)
+        }
+        fn verify_segment(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+            Midpoint::verify_segment(self, q0, v, h)
+        }
+    }
+    #[automatically_derived]
+    impl ::dalembert::OffersMethods<1> for Pendulum {
+        type Methods = Midpoint;
+    }
+};

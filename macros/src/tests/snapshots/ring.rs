@@ -1,0 +1,233 @@
+impl Ring {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let s = q[0] * q[0] + q[1] * q[1];
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2)
+    }
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        0.5 * self.k * (v[0] * v[0] + v[1] * v[1])
+    }
+}
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
+const _: () = {
+    use ::dalembert::nalgebra::{SMatrix, SVector};
+    use ::dalembert::{
+        Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh,
+        DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta, Rayleigh, StepKernel,
+    };
+    type Vector = SVector<f64, 2>;
+    /// Known at compile time:
+    /// - Derivatives are written out.
+    /// - L = T(v) − V(q).
+    /// - The mass matrix ∂²L/∂v² is constant.
+    /// - The damping force −∂R/∂v is linear in v with constant coefficients.
+    /// - By the rule `Midpoint` the Newton matrix changes with the state.
+    #[automatically_derived]
+    impl Lagrangian<2> for Ring {
+        type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::Expanded)
+            .with_constant_mass_matrix()
+            .with_separable_lagrangian()
+            .with_damping(::dalembert::Damping::Linear)
+            .with_newton_matrices(
+                &[::dalembert::NewtonStructure::new("Midpoint", false, 1)],
+            );
+        #[inline]
+        fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
+            self.lagrangian((*q).into(), (*v).into())
+        }
+        #[inline]
+        fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 2> {
+            let s = q[0] * q[0] + q[1] * q[1];
+            let t1 = s - 1.0;
+            let t2 = t1 * t1;
+            let t3 = t2 + t1 * (2.0 * s);
+            Gradient {
+                value: 0.5 * (v[0] * v[0] + v[1] * v[1]) - s * t2,
+                d1: SVector::from([-(2.0 * q[0] * t3), -(2.0 * q[1] * t3)]),
+                d2: SVector::from([v[0], v[1]]),
+            }
+        }
+        #[inline]
+        fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
+            let s = q[0] * q[0] + q[1] * q[1];
+            let t1 = s - 1.0;
+            let t2 = t1 * t1;
+            let t3 = 2.0 * q[1];
+            let t4 = 2.0 * q[0];
+            let t5 = 2.0 * s;
+            let t6 = t5 + 4.0 * t1;
+            let t7 = t3 * t6;
+            let t8 = -(t4 * t7);
+            let t9 = t2 + t1 * t5;
+            let t10 = 2.0 * t9;
+            Derivatives {
+                value: 0.5 * (v[0] * v[0] + v[1] * v[1]) - s * t2,
+                d1: SVector::from([-(t4 * t9), -(t3 * t9)]),
+                d2: SVector::from([v[0], v[1]]),
+                d11: SMatrix::from([
+                    [-(t10 + t6 * (t4 * t4)), t8],
+                    [t8, -(t3 * t7 + t10)],
+                ]),
+                d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                d22: SMatrix::from([[1.0, 0.0], [0.0, 1.0]]),
+            }
+        }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+            ::dalembert::verification::lagrangian(self, q, v)?;
+            ::dalembert::verification::rayleigh(self, q, v)
+        }
+    }
+    #[automatically_derived]
+    impl Rayleigh<2> for Ring {
+        #[inline]
+        fn rayleigh(&self, _q: &Vector, v: &Vector) -> f64 {
+            self.rayleigh((*v).into())
+        }
+        #[inline]
+        fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 2> {
+            let k = self.k;
+            Gradient {
+                value: (v[0] * v[0] + v[1] * v[1]) * (0.5 * k),
+                d1: SVector::from([0.0, 0.0]),
+                d2: SVector::from([v[0] * k, v[1] * k]),
+            }
+        }
+        #[inline]
+        fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
+            let k = self.k;
+            Derivatives {
+                value: (v[0] * v[0] + v[1] * v[1]) * (0.5 * k),
+                d1: SVector::from([0.0, 0.0]),
+                d2: SVector::from([v[0] * k, v[1] * k]),
+                d11: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                d22: SMatrix::from([[k, 0.0], [0.0, k]]),
+            }
+        }
+    }
+    #[automatically_derived]
+    impl Discrete<Midpoint, 2> for Ring {
+        type Matrix = SMatrix<f64, 2, 2>;
+        type Memory = ::dalembert::VelocityHistory<f64, 2>;
+        /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::discrete_lagrangian(self, q0, q1, h)
+        }
+        /// L_d with D1, D2, D11, D12, D22.
+        fn discrete_lagrangian_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 2> {
+            Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
+        }
+        /// f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d.
+        fn discrete_force(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForce<f64, 2> {
+            Midpoint::rayleigh_force(self, q0, q1, h)
+        }
+        /// f_d with its derivatives by q0 and q1.
+        fn discrete_force_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForceDerivatives<f64, 2> {
+            Midpoint::rayleigh_force_derivatives(self, q0, q1, h)
+        }
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        #[inline]
+        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 2> {
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0], q0[1] + half * v[1]];
+            let s = q[0] * q[0] + q[1] * q[1];
+            let t1 = s - 1.0;
+            let k = self.k;
+            let t2 = 2.0 * q[1];
+            let t3 = 2.0 * q[0];
+            let t4 = 2.0 * s;
+            let t5 = t4 + 4.0 * t1;
+            let t6 = t2 * t5;
+            let t7 = 1.0 + k * half;
+            let t8 = half * half;
+            let t9 = t1 * (t1 + t4);
+            let t10 = 2.0 * t9;
+            let t11 = t6 * (t3 * t8);
+            StepKernel {
+                p0: SVector::from([
+                    v[0] + half * (v[0] * k + t3 * t9),
+                    v[1] + half * (v[1] * k + t2 * t9),
+                ]),
+                matrix: SMatrix::from([
+                    [t7 + t8 * (t5 * (t3 * t3) + t10), t11],
+                    [t11, t7 + t8 * (t2 * t6 + t10)],
+                ]),
+            }
+        }
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        #[inline]
+        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 2> {
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0], q0[1] + half * v[1]];
+            let s = q[0] * q[0] + q[1] * q[1];
+            let t1 = s - 1.0;
+            let k = self.k;
+            let t2 = t1 * (t1 + 2.0 * s);
+            let t3 = half * (v[0] * k + 2.0 * q[0] * t2);
+            let t4 = half * (v[1] * k + 2.0 * q[1] * t2);
+            Momenta {
+                p0: SVector::from([v[0] + t3, v[1] + t4]),
+                p1: SVector::from([v[0] - t3, v[1] - t4]),
+            }
+        }
+        /// E_L on the segment.
+        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::segment_energy(self, q0, q1, h)
+        }
+        fn verify_segment(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+            Midpoint::verify_segment(self, q0, v, h)
+        }
+    }
+    #[automatically_derived]
+    impl DiscreteRayleigh<Midpoint, 2> for Ring {
+        /// R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::discrete_rayleigh(self, q0, q1, h)
+        }
+        /// R_d with D1, D2, D11, D12, D22.
+        fn discrete_rayleigh_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 2> {
+            Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
+        }
+    }
+    #[automatically_derived]
+    impl ::dalembert::OffersMethods<2> for Ring {
+        type Methods = Midpoint;
+    }
+};

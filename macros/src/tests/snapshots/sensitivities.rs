@@ -1,0 +1,460 @@
+impl Joint {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * self.l * self.l * v[0] * v[0] + self.l * q[0].cos()
+    }
+    fn rayleigh(&self, v: [f64; 1]) -> f64 {
+        0.25 * self.c[0] * v[0].powi(4)
+    }
+    fn force(&self, q: [f64; 1], _v: [f64; 1], u: [f64; 1]) -> [f64; 1] {
+        [u[0] * q[0].cos()]
+    }
+}
+/// [`Joint`] with its input held over a step; see [`Joint::driven`].
+#[derive(Clone, Copy)]
+#[allow(dead_code)]
+pub struct DrivenJoint<'a> {
+    system: &'a Joint,
+    u: [f64; 1],
+}
+#[allow(dead_code)]
+impl Joint {
+    /// The system with the input `u` held over the step.
+    #[inline]
+    #[must_use]
+    pub fn driven(&self, u: impl ::dalembert::Input<f64, 1>) -> DrivenJoint<'_> {
+        DrivenJoint {
+            system: self,
+            u: ::dalembert::Input::entries(u),
+        }
+    }
+}
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
+const _: () = {
+    use ::dalembert::nalgebra::{SMatrix, SVector};
+    use ::dalembert::{
+        CovectorDerivatives, Derivatives, Direction, Discrete, DiscreteDriven,
+        DiscreteForce, DiscreteForceDerivatives, DiscreteParameters, DiscreteRayleigh,
+        DiscreteSecondOrder, DisplacementRule, Driven, Force, Gradient, GradientBy,
+        Hessian, Lagrangian, Midpoint, Momenta, MomentaBy, Parameters, Rayleigh,
+        SecondOrder, StepKernel, Variations,
+    };
+    type Vector = SVector<f64, 1>;
+    /// Known at compile time:
+    /// - Derivatives are written out.
+    /// - L = T(v) − V(q).
+    /// - The damping force −∂R/∂v is not linear in v.
+    /// - By the rule `Midpoint` the Newton matrix changes with the state.
+    #[automatically_derived]
+    impl Lagrangian<1> for Joint {
+        type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
+            .with_engine(::dalembert::Engine::Expanded)
+            .with_separable_lagrangian()
+            .with_damping(::dalembert::Damping::Nonlinear)
+            .with_newton_matrices(
+                &[::dalembert::NewtonStructure::new("Midpoint", false, 0)],
+            );
+        #[inline]
+        fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
+            self.lagrangian((*q).into(), (*v).into())
+        }
+        #[inline]
+        fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            let l = self.l;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            Gradient {
+                value: v[0] * (v[0] * (l * (0.5 * l))) + l * cos_q0,
+                d1: SVector::from([-(l * sin_q0)]),
+                d2: SVector::from([v[0] * (l * l)]),
+            }
+        }
+        #[inline]
+        fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            let l = self.l;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            let t1 = l * cos_q0;
+            let l_squared = l * l;
+            Derivatives {
+                value: v[0] * (v[0] * (l * (0.5 * l))) + t1,
+                d1: SVector::from([-(l * sin_q0)]),
+                d2: SVector::from([v[0] * l_squared]),
+                d11: SMatrix::from([[-t1]]),
+                d12: SMatrix::from([[0.0]]),
+                d22: SMatrix::from([[l_squared]]),
+            }
+        }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+            ::dalembert::verification::lagrangian(self, q, v)?;
+            ::dalembert::verification::rayleigh(self, q, v)
+        }
+    }
+    #[automatically_derived]
+    impl Lagrangian<1> for DrivenJoint<'_> {
+        type Scalar = f64;
+        const STRUCTURE: ::dalembert::Structure = <Joint as Lagrangian<1>>::STRUCTURE;
+        #[inline]
+        fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
+            Lagrangian::lagrangian(self.system, q, v)
+        }
+        #[inline]
+        fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            Lagrangian::lagrangian_gradient(self.system, q, v)
+        }
+        #[inline]
+        fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            Lagrangian::lagrangian_derivatives(self.system, q, v)
+        }
+        #[inline]
+        fn lagrangian_variations(
+            &self,
+            q: &Vector,
+            v: &Vector,
+            minus: Direction<f64>,
+            plus: Direction<f64>,
+        ) -> Variations<f64, 1> {
+            Lagrangian::lagrangian_variations(self.system, q, v, minus, plus)
+        }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+            ::dalembert::verification::lagrangian(self, q, v)?;
+            ::dalembert::verification::rayleigh(self, q, v)?;
+            ::dalembert::verification::force(self, q, v)
+        }
+    }
+    #[automatically_derived]
+    impl Rayleigh<1> for Joint {
+        #[inline]
+        fn rayleigh(&self, _q: &Vector, v: &Vector) -> f64 {
+            self.rayleigh((*v).into())
+        }
+        #[inline]
+        fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            let c_0 = self.c[0];
+            Gradient {
+                value: 0.25 * c_0 * v[0].powi(4),
+                d1: SVector::from([0.0]),
+                d2: SVector::from([v[0] * (v[0] * (c_0 * v[0]))]),
+            }
+        }
+        #[inline]
+        fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            let c_0 = self.c[0];
+            let v0_squared = v[0] * v[0];
+            Derivatives {
+                value: 0.25 * c_0 * v[0].powi(4),
+                d1: SVector::from([0.0]),
+                d2: SVector::from([v0_squared * (c_0 * v[0])]),
+                d11: SMatrix::from([[0.0]]),
+                d12: SMatrix::from([[0.0]]),
+                d22: SMatrix::from([[v0_squared * (3.0 * c_0)]]),
+            }
+        }
+    }
+    #[automatically_derived]
+    impl Rayleigh<1> for DrivenJoint<'_> {
+        #[inline]
+        fn rayleigh(&self, q: &Vector, v: &Vector) -> f64 {
+            Rayleigh::rayleigh(self.system, q, v)
+        }
+        #[inline]
+        fn rayleigh_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            Rayleigh::rayleigh_gradient(self.system, q, v)
+        }
+        #[inline]
+        fn rayleigh_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            Rayleigh::rayleigh_derivatives(self.system, q, v)
+        }
+        #[inline]
+        fn rayleigh_variations(
+            &self,
+            q: &Vector,
+            v: &Vector,
+            minus: Direction<f64>,
+            plus: Direction<f64>,
+        ) -> Variations<f64, 1> {
+            Rayleigh::rayleigh_variations(self.system, q, v, minus, plus)
+        }
+    }
+    #[automatically_derived]
+    impl Force<1> for DrivenJoint<'_> {
+        #[inline]
+        fn force(&self, q: &Vector, v: &Vector) -> Vector {
+            self.system.force((*q).into(), (*v).into(), self.u).into()
+        }
+        #[inline]
+        fn force_derivatives(
+            &self,
+            q: &Vector,
+            _v: &Vector,
+        ) -> CovectorDerivatives<f64, 1> {
+            let u = self.u;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            CovectorDerivatives {
+                value: SVector::from([u[0] * cos_q0]),
+                d1: SMatrix::from([[-(u[0] * sin_q0)]]),
+                d2: SMatrix::from([[0.0]]),
+            }
+        }
+    }
+    #[automatically_derived]
+    impl Driven<1, 1> for DrivenJoint<'_> {
+        #[inline]
+        fn force_by_input(&self, q: &Vector, _v: &Vector) -> SMatrix<f64, 1, 1> {
+            SMatrix::from([[q[0].cos()]])
+        }
+    }
+    #[automatically_derived]
+    impl DiscreteDriven<Midpoint, 1, 1> for DrivenJoint<'_> {
+        /// ∂p0/∂u = −∂f_d⁻/∂u and ∂p1/∂u = ∂f_d⁺/∂u.
+        fn momenta_by_input(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+        ) -> MomentaBy<f64, 1, 1> {
+            Midpoint::force_by_input(self, q0, v, h)
+        }
+    }
+    #[automatically_derived]
+    impl Discrete<Midpoint, 1> for DrivenJoint<'_> {
+        type Matrix = SMatrix<f64, 1, 1>;
+        type Memory = ::dalembert::VelocityHistory<f64, 1>;
+        /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::discrete_lagrangian(self, q0, q1, h)
+        }
+        /// L_d with D1, D2, D11, D12, D22.
+        fn discrete_lagrangian_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 1> {
+            Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
+        }
+        /// f_d⁻ = D1 R_d + (h/2) f(q̄, v̄), f_d⁺ = −D2 R_d + (h/2) f(q̄, v̄).
+        fn discrete_force(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForce<f64, 1> {
+            Midpoint::rayleigh_force(self, q0, q1, h)
+                + Midpoint::general_force(self, q0, q1, h)
+        }
+        /// f_d with its derivatives by q0 and q1.
+        fn discrete_force_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForceDerivatives<f64, 1> {
+            Midpoint::rayleigh_force_derivatives(self, q0, q1, h)
+                + Midpoint::general_force_derivatives(self, q0, q1, h)
+        }
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        #[inline]
+        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0]];
+            let u = self.u;
+            let l = self.system.l;
+            let c_0 = self.system.c[0];
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            let v0_squared = v[0] * v[0];
+            let l_squared = l * l;
+            StepKernel {
+                p0: SVector::from([
+                    v[0] * l_squared
+                        - half * (u[0] * cos_q0 - l * sin_q0 - v0_squared * (c_0 * v[0])),
+                ]),
+                matrix: SMatrix::from([
+                    [
+                        l_squared
+                            + half
+                                * (v0_squared * (3.0 * c_0)
+                                    + half * (l * cos_q0 + u[0] * sin_q0)),
+                    ],
+                ]),
+            }
+        }
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        #[inline]
+        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0]];
+            let u = self.u;
+            let l = self.system.l;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            let t1 = v[0] * (l * l);
+            let t2 = half
+                * (u[0] * cos_q0 - l * sin_q0
+                    - v[0] * (v[0] * (self.system.c[0] * v[0])));
+            Momenta {
+                p0: SVector::from([t1 - t2]),
+                p1: SVector::from([t1 + t2]),
+            }
+        }
+        /// E_L on the segment.
+        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::segment_energy(self, q0, q1, h)
+        }
+        fn verify_segment(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+            Midpoint::verify_segment(self, q0, v, h)
+        }
+    }
+    #[automatically_derived]
+    impl DiscreteRayleigh<Midpoint, 1> for DrivenJoint<'_> {
+        /// R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::discrete_rayleigh(self, q0, q1, h)
+        }
+        /// R_d with D1, D2, D11, D12, D22.
+        fn discrete_rayleigh_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 1> {
+            Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
+        }
+    }
+    #[automatically_derived]
+    impl ::dalembert::OffersMethods<1> for DrivenJoint<'_> {
+        type Methods = Midpoint;
+    }
+    #[automatically_derived]
+    impl Parameters<1, 2> for DrivenJoint<'_> {
+        const PARAMETERS: [&'static str; 2] = ["l", "c[0]"];
+        #[inline]
+        fn lagrangian_by_parameters(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> GradientBy<f64, 1, 2> {
+            GradientBy {
+                d1: SMatrix::from([[-q[0].sin()], [0.0]]),
+                d2: SMatrix::from([[v[0] * (2.0 * self.system.l)], [0.0]]),
+            }
+        }
+        #[inline]
+        fn rayleigh_by_parameters(
+            &self,
+            _q: &Vector,
+            v: &Vector,
+        ) -> GradientBy<f64, 1, 2> {
+            GradientBy {
+                d1: SMatrix::from([[0.0], [0.0]]),
+                d2: SMatrix::from([[0.0], [v[0] * (v[0] * v[0])]]),
+            }
+        }
+        #[inline]
+        fn force_by_parameters(&self, _q: &Vector, _v: &Vector) -> SMatrix<f64, 1, 2> {
+            SMatrix::from([[0.0], [0.0]])
+        }
+    }
+    #[automatically_derived]
+    impl DiscreteParameters<Midpoint, 1, 2> for DrivenJoint<'_> {
+        /// ∂p0/∂θ and ∂p1/∂θ at fixed configurations.
+        fn momenta_by_parameters(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+        ) -> MomentaBy<f64, 1, 2> {
+            Midpoint::lagrangian_by_parameters(self, q0, v, h)
+                + Midpoint::rayleigh_by_parameters(self, q0, v, h)
+                + Midpoint::force_by_parameters(self, q0, v, h)
+        }
+    }
+    #[automatically_derived]
+    impl SecondOrder<1, 1> for DrivenJoint<'_> {
+        #[inline]
+        fn lagrangian_along(
+            &self,
+            q: &Vector,
+            _v: &Vector,
+            a: &Vector,
+            _b: &Vector,
+        ) -> Hessian<f64, 1, 1> {
+            Hessian {
+                d11: SMatrix::from([[q[0].sin() * (self.system.l * a[0])]]),
+                d12: SMatrix::from([[0.0]]),
+                d22: SMatrix::from([[0.0]]),
+                ..Hessian::zero()
+            }
+        }
+        #[inline]
+        fn rayleigh_along(
+            &self,
+            _q: &Vector,
+            v: &Vector,
+            _a: &Vector,
+            b: &Vector,
+        ) -> Hessian<f64, 1, 1> {
+            Hessian {
+                d11: SMatrix::from([[0.0]]),
+                d12: SMatrix::from([[0.0]]),
+                d22: SMatrix::from([[v[0] * (self.system.c[0] * (6.0 * b[0]))]]),
+                ..Hessian::zero()
+            }
+        }
+        #[inline]
+        fn force_along(
+            &self,
+            q: &Vector,
+            _v: &Vector,
+            vector: &Vector,
+        ) -> Hessian<f64, 1, 1> {
+            let u = self.u;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            Hessian {
+                d11: SMatrix::from([[-(cos_q0 * (u[0] * vector[0]))]]),
+                d12: SMatrix::from([[0.0]]),
+                d22: SMatrix::from([[0.0]]),
+                d1u: SMatrix::from([[-(sin_q0 * vector[0])]]),
+                d2u: SMatrix::from([[0.0]]),
+                duu: SMatrix::from([[0.0]]),
+            }
+        }
+    }
+    #[automatically_derived]
+    impl DiscreteSecondOrder<Midpoint, 1, 1> for DrivenJoint<'_> {
+        /// Second derivatives of `at_start`·p0 + `at_end`·p1 by q0, q1 and u.
+        fn momenta_along(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+            at_start: &Vector,
+            at_end: &Vector,
+        ) -> Hessian<f64, 1, 1> {
+            Midpoint::lagrangian_along(self, q0, v, h, [at_start, at_end])
+                + Midpoint::rayleigh_along(self, q0, v, h, [at_start, at_end])
+                + Midpoint::force_along(self, q0, v, h, [at_start, at_end])
+        }
+        /// −∂f_d⁻/∂u.
+        fn p0_by_input(&self, q0: &Vector, v: &Vector, h: f64) -> SMatrix<f64, 1, 1> {
+            Midpoint::force_by_input(self, q0, v, h).p0
+        }
+    }
+};
