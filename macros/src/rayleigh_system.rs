@@ -15,6 +15,7 @@ mod expand;
 mod expanded;
 mod fallback;
 pub mod graph;
+pub mod hygiene;
 mod implement;
 mod joint;
 pub mod lower;
@@ -32,6 +33,7 @@ use proc_macro2::TokenStream;
 
 use diagnostics::{Mistake, Report};
 use expand::Twins;
+use hygiene::Shared;
 use model::{Engine, Rules, Source};
 
 /// How the runtime beside the macro is built: the runtime exports the macro that fits.
@@ -55,9 +57,10 @@ impl Runtime {
 /// The expansion of `#[rayleigh_system(attribute)] item`.
 pub fn rayleigh_system(runtime: Runtime, attribute: TokenStream, item: TokenStream) -> TokenStream {
     let mut report = Report::default();
-    let options = attribute::options(attribute, runtime, &mut report);
+    let names = Shared::of(&item);
+    let options = attribute::options(names.marked_in(attribute), runtime, &mut report);
     let path = options.runtime.clone();
-    let expansion = system(runtime, options, item, report);
+    let expansion = names.resolved(system(runtime, options, names.marked_in(item), report));
     match path {
         Some(path) => renamed::runtime(expansion, &path),
         None => expansion,
@@ -128,7 +131,7 @@ fn system(
             Ok(expansion) => return expansion,
             Err(refusal) => Some(refusal),
         },
-        (Some(Ok(lowered)), _) if !expand::lowered::names_are_taken(&system, &lowered) => {
+        (Some(Ok(lowered)), _) if !expand::lowered::names_are_taken(&system) => {
             return expand::system(&system, &Twins::Lowered(&lowered), None, is_portable);
         }
         (Some(Ok(_)), _) => None,
@@ -169,7 +172,8 @@ fn is_short(system: &model::System<'_>) -> bool {
 pub fn differentiable(runtime: Runtime, attribute: TokenStream, item: TokenStream) -> TokenStream {
     let mut report = Report::default();
     let path = attribute::of_field(attribute, &mut report);
-    let expansion = field(runtime, item, report);
+    let names = Shared::of(&item);
+    let expansion = names.resolved(field(runtime, names.marked_in(item), report));
     match path {
         Some(path) => renamed::runtime(expansion, &path),
         None => expansion,

@@ -8,7 +8,8 @@ use nalgebra::SVector;
 use crate::{
     BoundedStep, Certificate, Checkpoint, Derivatives, Discrete, DiscreteDriven, DiscreteForce,
     DiscreteParameters, DiscreteRayleigh, DiscreteSecondOrder, Lagrangian, LegendreDerivatives,
-    Linearization, State, StateBy, Step, StepError, StepHessian, StepWith, Trajectory,
+    Linearization, OffersMethods, Request, State, StateBy, Step, StepError, StepHessian, StepWith,
+    Trajectory,
 };
 #[cfg(feature = "std")]
 use crate::{hamilton_jacobi::HamiltonJacobi, noether::Noether};
@@ -37,6 +38,33 @@ pub trait Discretise<const N: usize>: Lagrangian<N> + Sized {
     {
         let _ = rule;
         Discretised::new(self, h)
+    }
+
+    /// This system with an error of at most `tolerance` asked for, in units of q, of its state on the whole way: the method and the
+    /// step size are chosen by the motion.
+    ///
+    /// What is promised, and how it is chosen and guarded, [`Method::for_tolerance`](crate::Method::for_tolerance) tells.
+    ///
+    /// ```
+    /// use dalembert::{Discretise, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system(rule = [trapezoidal, gauss])]
+    /// fn pendulum(q: [f64; 1], v: [f64; 1], c: f64) -> (f64, f64) {
+    ///     (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * c * v[0] * v[0])
+    /// }
+    /// let pendulum = Pendulum { c: 0.1 };
+    /// let start = State::from_velocity(&pendulum, [1.0], [0.0])?;
+    /// let mut run = pendulum.to_error(1e-9).until(20.0).run(start)?;
+    /// let end = run.by_ref().last().unwrap()?;
+    /// assert!(run.breach().is_none() && end.energy(&pendulum)? < start.energy(&pendulum)?);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[inline]
+    fn to_error(&self, tolerance: f64) -> Request<'_, Self, Self::Methods>
+    where
+        Self: OffersMethods<N>,
+    {
+        Request::new(self, Self::Methods::default(), tolerance)
     }
 }
 

@@ -332,7 +332,7 @@ pub use state::State;
 pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
 pub use system::{Force, Lagrangian, Rayleigh};
 pub use tolerance::{
-    Breach, Choice, Composed, GaussOr, GuardedTrajectory, Method, MethodStep, Methods, SplitOr, Stagewise,
-    Taken, ToleranceError, Trial, WithGauss, WithSplittings,
+    Breach, Choice, Composed, GaussOr, GuardedTrajectory, Method, MethodStep, Methods, OffersMethods,
+    Request, SplitOr, Stagewise, Taken, TimedRequest, ToleranceError, Trial, WithGauss, WithSplittings,
 };
 pub use trajectory::{Parted, Sample, Samples, Trajectory};

@@ -4,6 +4,7 @@ mod display;
 mod estimate;
 mod guard;
 mod methods;
+mod request;
 mod search;
 mod variation;
 
@@ -14,6 +15,7 @@ pub use guard::{Breach, GuardedTrajectory};
 pub use methods::{
     Composed, GaussOr, MethodStep, Methods, SplitOr, Stagewise, Taken, WithGauss, WithSplittings,
 };
+pub use request::{OffersMethods, Request, TimedRequest};
 
 /// A method of constant step: a self-adjoint rule of order 2, alone or composed, a splitting, or a Gauss method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -143,7 +145,7 @@ impl Method {
     /// The step size stays constant along the run, so that the structure is kept.
     ///
     /// ```
-    /// use dalembert::{Method, State, Trapezoidal, WithGauss, WithSplittings, rayleigh_system};
+    /// use dalembert::{Discretise, State, rayleigh_system};
     ///
     /// #[rayleigh_system(rule = [trapezoidal, gauss])]
     /// fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
@@ -152,8 +154,7 @@ impl Method {
     ///
     /// let system = Pendulum { r: 0.01 };
     /// let start = State::from_velocity(&system, [1.0], [0.0])?;
-    /// let methods = WithGauss(WithSplittings(Trapezoidal));
-    /// let choice = Method::for_tolerance(&system, methods, &start, 100.0, 1e-9)?;
+    /// let choice = system.to_error(1e-9).until(100.0).choice(&start)?;
     /// println!("{choice}"); // order 16, Gauss with 8 stages, h = …
     /// let mut run = choice.trajectory();
     /// for state in &mut run {

@@ -97,7 +97,6 @@ pub enum Mistake {
     TraitImpl,
     GenericBlock,
     UnnamedType,
-    ReservedName(String),
     Condition(String),
     NoLagrangian,
     RayleighWithoutLagrangian,
@@ -140,7 +139,6 @@ pub enum Mistake {
     WithoutSelf { name: String, call: String },
     MethodAsFunction { method: String, scalar: String },
     TwinName(String),
-    GeneratedName(String),
     BareSelf,
     FieldAssignment,
     FieldBorrowedMutably,
@@ -195,7 +193,6 @@ impl Display for Mistake {
             Self::TraitImpl => f.write_str("`#[rayleigh_system]` goes on an inherent `impl` block; remove the trait"),
             Self::GenericBlock => f.write_str("a system cannot be generic; write a struct of concrete numbers, such as `struct System { m: f64 }`"),
             Self::UnnamedType => f.write_str("the system must be a plain named type, without type arguments and lifetimes; write a struct that owns its numbers"),
-            Self::ReservedName(name) => write!(f, "`{name}` is a name that the generated code uses; give the system another one"),
             Self::Condition(word) => write!(f, "`#[{word}]` is not decided yet where `#[rayleigh_system]` reads this: configured-out code would be differentiated; put the condition on the whole item and write one item for each case, or choose with `if` by a constant"),
             Self::NoLagrangian => f.write_str("no Lagrangian; add `fn lagrangian(&self, q: [f64; N], v: [f64; N]) -> f64`"),
             Self::RayleighWithoutLagrangian => f.write_str("a Rayleigh function alone is no system; put `fn lagrangian(&self, q: [f64; N], v: [f64; N]) -> f64` into the same block"),
@@ -246,7 +243,6 @@ impl Display for Mistake {
                 write!(f, "`{method}` is a method; write `x.{method}({one})` or `{scalar}::{method}({all})`")
             }
             Self::TwinName(name) => write!(f, "`{name}` is the name of the differentiated twin of a function of this block; choose another one"),
-            Self::GeneratedName(name) => write!(f, "`{name}` is a name that the generated code uses in this body; import the other one under another name, with `use … as …`"),
             Self::BareSelf => f.write_str("use `self` only as `self.field` or `self.function(…)`"),
             Self::FieldAssignment => f.write_str("L, R and forces are functions: they cannot assign to a field; copy it to a local with `let mut`"),
             Self::FieldBorrowedMutably => f.write_str("L, R and forces are functions: they cannot borrow a field mutably; copy it to a local with `let mut`"),

@@ -64,6 +64,7 @@ pub fn system(
     let driven = implement::driven(system, derivatives::by_input(system));
     let second = system.second.then(|| implement::second_order(system, derivatives::along_vectors(system)));
     let view = view::definition(system);
+    let offered_methods = implement::offered_methods(system, false);
     let discrete = system.rules.of_displacement.iter().map(|&rule| {
         let discrete = discrete(system, rule, false, None);
         let discrete_rayleigh = system.rayleigh.map(|_| discrete_rayleigh(system, rule));
@@ -100,6 +101,7 @@ pub fn system(
             #driven
             #second
             #(#discrete)*
+            #offered_methods
         };
     }
 }

@@ -63,10 +63,12 @@ pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Resul
     });
     code.bounded(heaviest)?;
     let mut discrete = TokenStream::new();
+    let mut is_explicit = false;
     for newton in &findings.newton {
         // Rules that take L and R together bring their own kernel.
         let kernel =
             (!newton.rule.is_joint()).then(|| code.kernel(newton, lagrangian, rayleigh, force.as_deref()));
+        is_explicit |= kernel.as_ref().is_some_and(|kernel| kernel.explicit.is_some());
         code.bounded(heaviest)?;
         discrete.extend(implement::discrete(system, newton.rule, true, kernel));
     }
@@ -80,6 +82,7 @@ pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Resul
     let discrete_rayleigh: Option<TokenStream> = system.rayleigh.map(|_| {
         system.rules.of_displacement.iter().map(|&rule| implement::discrete_rayleigh(system, rule)).collect()
     });
+    let offered_methods = implement::offered_methods(system, is_explicit);
     let item = expand::lowered::item(system, &functions, is_portable);
     let bindings = are_bindings(&bindings);
     let view = view::definition(system);
@@ -105,6 +108,7 @@ pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Resul
             #by_input
             #discrete
             #discrete_rayleigh
+            #offered_methods
             #on_request
             #bindings
         };
@@ -142,7 +146,8 @@ fn imports(system: &System<'_>, calls_elementary: bool, forced: Option<&TokenStr
     }
     if let Some(forced) = forced {
         let text = forced.to_string();
-        let occurs = |name: &str| text.split(|c: char| !c.is_alphanumeric()).any(|word| word == name);
+        let occurs =
+            |name: &str| text.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == name);
         let of_lanes = ["LaneVector", "Lanes", "Mask", "Stages"].into_iter().filter(|name| occurs(name));
         names.extend(of_lanes.map(|name| format_ident!("{name}")));
         names.sort_unstable();

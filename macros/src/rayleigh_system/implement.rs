@@ -75,12 +75,13 @@ pub fn lagrangian(system: &System<'_>, structure: &Structure, derivatives: Token
 /// `fn verify_generated`: those of L, R and f that `home` has.
 fn verification(system: &System<'_>, home: Home) -> TokenStream {
     let parts = parts(system).filter(|&part| home == Home::View || system.home_of(part) == home);
-    let functions = parts.map(|part| format_ident!("{}", part.name()));
-    // verification::lagrangian(self, q, v)?; verification::rayleigh(self, q, v)?; Ok(())
+    let functions: Vec<_> = parts.map(|part| format_ident!("{}", part.name())).collect();
+    let Some((last, others)) = functions.split_last() else { return TokenStream::new() };
+    // verification::lagrangian(self, q, v)?; verification::rayleigh(self, q, v)
     quote! {
-        fn verify_generated(&self, q: &Vector, v: &Vector) -> Result<(), ::dalembert::StepError> {
-            #(::dalembert::verification::#functions(self, q, v)?;)*
-            Ok(())
+        fn verify_generated(&self, q: &Vector, v: &Vector) -> ::core::result::Result<(), ::dalembert::StepError> {
+            #(::dalembert::verification::#others(self, q, v)?;)*
+            ::dalembert::verification::#last(self, q, v)
         }
     }
 }
@@ -470,6 +471,29 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
     }
 }
 
+/// `impl OffersMethods<2> for Ring`: what an error can be asked of.
+pub fn offered_methods(system: &System<'_>, is_explicit: bool) -> Option<TokenStream> {
+    let rules = &system.rules.of_displacement;
+    let rule =
+        if is_explicit { Some(&Rule::Trapezoidal) } else { rules.iter().find(|rule| rule.is_self_adjoint()) };
+    let rule = format_ident!("{}", rule?.name());
+    let mut methods = quote!(#rule);
+    if is_explicit {
+        methods = quote!(::dalembert::WithSplittings<#methods>);
+    }
+    if system.rules.gauss {
+        methods = quote!(::dalembert::WithGauss<#methods>);
+    }
+    let n = system.degrees.times(1);
+    let subject = subject(system, system.home());
+    Some(quote! {
+        #[automatically_derived]
+        impl ::dalembert::OffersMethods<#n> for #subject {
+            type Methods = #methods;
+        }
+    })
+}
+
 /// `fn verify_segment`, by the nodes of the rule.
 fn segment_verification(system: &System<'_>, rule: &TokenStream) -> TokenStream {
     let scalar = &system.scalar;
@@ -479,7 +503,7 @@ fn segment_verification(system: &System<'_>, rule: &TokenStream) -> TokenStream 
             q0: &Vector,
             v: &Vector,
             h: #scalar,
-        ) -> Result<(), ::dalembert::StepError> {
+        ) -> ::core::result::Result<(), ::dalembert::StepError> {
             #rule::verify_segment(self, q0, v, h)
         }
     }
@@ -514,8 +538,8 @@ fn joint(system: &System<'_>, rule: Rule, is_expanded: bool) -> TokenStream {
                 &self,
                 state: &::dalembert::State<#scalar, #n>,
                 h: #scalar,
-                guess: Option<&Vector>,
-            ) -> Result<::dalembert::Step<#scalar, #n>, ::dalembert::StepError> {
+                guess: ::core::option::Option<&Vector>,
+            ) -> ::core::result::Result<::dalembert::Step<#scalar, #n>, ::dalembert::StepError> {
                 #rule::step(self, state, h, guess)
             }
 
@@ -524,9 +548,9 @@ fn joint(system: &System<'_>, rule: Rule, is_expanded: bool) -> TokenStream {
                 &self,
                 state: &::dalembert::State<#scalar, #n>,
                 h: #scalar,
-                guess: Option<&Vector>,
+                guess: ::core::option::Option<&Vector>,
                 iterations: u32,
-            ) -> Result<::dalembert::BoundedStep<#scalar, #n>, ::dalembert::StepError> {
+            ) -> ::core::result::Result<::dalembert::BoundedStep<#scalar, #n>, ::dalembert::StepError> {
                 #rule::step_within(self, state, h, guess, iterations)
             }
         }

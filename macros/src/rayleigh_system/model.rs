@@ -40,6 +40,11 @@ impl Rule {
         matches!(self, Self::Fitted | Self::FittedTrapezoidal | Self::OneSided)
     }
 
+    /// Whether a step back is the step of −h, which compositions rest on.
+    pub fn is_self_adjoint(self) -> bool {
+        self != Self::OneSided
+    }
+
     /// The formula of L_d, as documentation.
     pub fn lagrangian(self) -> &'static str {
         match self {

@@ -256,7 +256,6 @@ impl VisitMut for Rewriter<'_> {
             Expr::MethodCall(call) => self.method_call(call),
             Expr::Call(call) => self.call(call),
             Expr::Path(path) => {
-                self.refuse_generated_name(&path.path);
                 if let Some(replacement) = self.path(path) {
                     *expression = replacement;
                 }
@@ -365,15 +364,6 @@ impl Rewriter<'_> {
         self.operator(binary, is_still)
     }
 
-    /// `Real::G` of the user: the body stands beside the runtime's `Real`.
-    fn refuse_generated_name(&mut self, path: &Path) {
-        if let [first, _, ..] = &path.segments.iter().collect::<Vec<_>>()[..]
-            && ["Real", "Dual", "dual", "D"].iter().any(|name| first.ident == name)
-        {
-            self.report.at(&first.ident, Mistake::GeneratedName(first.ident.to_string()));
-        }
-    }
-
     fn refuse_assignment_to_field(&mut self, place: &Expr) {
         match place {
             // `(self.k, x) = …`
@@ -432,7 +422,6 @@ impl Rewriter<'_> {
     fn call(&mut self, call: &mut ExprCall) {
         match &mut *call.func {
             Expr::Path(path) => {
-                self.refuse_generated_name(&path.path);
                 let without_arguments = call.args.is_empty();
                 if let Some(replacement) = self.called_path(path, without_arguments) {
                     *call.func = replacement;

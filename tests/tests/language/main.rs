@@ -12,6 +12,7 @@ mod differentiable;
 mod enums;
 mod fields;
 mod forms;
+mod hygiene;
 mod methods;
 mod names;
 mod quiet;

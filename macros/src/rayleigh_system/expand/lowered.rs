@@ -13,12 +13,9 @@ use super::super::model::{Part, RayleighArguments, Source, System};
 use super::super::portable;
 use super::structure;
 
-/// Whether the user's code has names that functions over dual numbers need.
-pub fn names_are_taken(system: &System<'_>, lowered: &Lowered) -> bool {
+/// Whether the user's block has functions named as those over dual numbers.
+pub fn names_are_taken(system: &System<'_>) -> bool {
     let generated = ["lagrangian_over", "rayleigh_over", "force_over"];
-    if ["Real", "Dual", "dual", "D"].iter().any(|name| lowered.graph.mentions(name)) {
-        return true;
-    }
     system.source.functions().any(|function| generated.iter().any(|name| function.sig.ident == name))
 }
 

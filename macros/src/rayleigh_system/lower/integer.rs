@@ -168,6 +168,11 @@ impl Classes {
         &mut self.known[root]
     }
 
+    /// The name of the type, where it is known.
+    pub fn type_of(&self, class: Class) -> Option<&'static str> {
+        self.of(class).ty.map(|ty| ty.name)
+    }
+
     /// Refuses what the type of the class does not hold.
     fn checked(&self, class: Class) -> Result<()> {
         let known = self.of(class);

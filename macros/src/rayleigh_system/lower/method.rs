@@ -66,7 +66,7 @@ impl Lowering<'_> {
                 }
                 if let [Value::Written(_)] = &arguments[..] {
                     self.beside_field(integer);
-                    let receiver = super::operator::literal(integer);
+                    let receiver = self.typed_literal(integer);
                     if let Some(value) = self.written_method(method, &receiver, &arguments)? {
                         return Ok(value);
                     }

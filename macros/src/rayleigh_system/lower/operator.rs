@@ -1,6 +1,6 @@
 //! Expressions: literals, paths, operators, casts, calls.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, quote};
 use syn::{
     BinOp, Expr, ExprBinary, ExprCall, ExprCast, ExprPath, ExprRange, ExprUnary, GenericArgument, Lit,
@@ -371,6 +371,18 @@ impl Lowering<'_> {
             self.beside_field(integer);
         }
         literal(integer)
+    }
+
+    /// The integer with its type, which rustc must know before it finds a method.
+    pub fn typed_literal(&self, integer: Integer) -> Written {
+        match self.integers.type_of(integer.class) {
+            Some(ty) => {
+                let digits =
+                    syn::LitInt::new(&format!("{}_{ty}", integer.value.unsigned_abs()), Span::call_site());
+                Written::leaf(if integer.value < 0 { quote!((-#digits)) } else { quote!(#digits) })
+            }
+            None => literal(integer),
+        }
     }
 
     fn field(&mut self, at: &Expr, base: Value, member: &Member) -> Result<Value> {

@@ -1,0 +1,215 @@
+//! Names that both the user's item and the generated code have: no name is taken from a user.
+//!
+//! A user's name that generated code has too is marked before the item is read, and unmarked where the expansion is done; whatever
+//! stands there unmarked is generated, and takes another name:
+//!
+//! ```text
+//! struct Force { … }              use ::dalembert::{Force as Force_, Lagrangian, …};
+//! #[rayleigh_system]         →    impl Lagrangian<1> for Force { … }
+//! impl Force { … }                impl Force_<1> for Force { … }
+//! ```
+
+use std::collections::HashSet;
+
+use proc_macro2::{Group, Ident, Literal, TokenStream, TokenTree};
+use quote::quote;
+
+use super::parse::upper_camel_case;
+
+/// What a marked name ends in: nothing that says whether it is a type or a constant, and no name of Rust code.
+pub const MARK: &str = "__0__0__";
+
+/// Names that generated code brings into its scope, the module `dual` among them.
+pub const GENERATED: &[&str] = &[
+    "CovectorDerivatives",
+    "D",
+    "Derivatives",
+    "Direction",
+    "Discrete",
+    "DiscreteDriven",
+    "DiscreteForce",
+    "DiscreteForceDerivatives",
+    "DiscreteParameters",
+    "DiscreteRayleigh",
+    "DiscreteSecondOrder",
+    "DisplacementRule",
+    "Driven",
+    "Dual",
+    "Fitted",
+    "FittedTrapezoidal",
+    "Force",
+    "ForcedLagrangian",
+    "Gradient",
+    "GradientBy",
+    "Hessian",
+    "JointRayleighRule",
+    "JointRule",
+    "Lagrangian",
+    "LaneVector",
+    "Lanes",
+    "Mask",
+    "Midpoint",
+    "Momenta",
+    "MomentaBy",
+    "OneSided",
+    "Parameters",
+    "Rayleigh",
+    "Real",
+    "SMatrix",
+    "SVector",
+    "ScalarField",
+    "SecondOrder",
+    "Stages",
+    "StepKernel",
+    "T",
+    "Trapezoidal",
+    "Variations",
+    "Vector",
+    "VectorField",
+    "dual",
+];
+
+/// The names of an item that generated code has too.
+pub struct Shared {
+    shared: HashSet<String>,
+    /// All names of the item.
+    all: HashSet<String>,
+}
+
+impl Shared {
+    /// Those of the annotated item, and of the struct that is named after its function.
+    pub fn of(item: &TokenStream) -> Self {
+        let mut all = HashSet::new();
+        collect(item.clone(), &mut all);
+        let tokens: Vec<TokenTree> = item.clone().into_iter().collect();
+        all.extend(tokens.windows(2).filter_map(|pair| match pair {
+            [TokenTree::Ident(keyword), TokenTree::Ident(name)] if keyword == "fn" => {
+                Some(upper_camel_case(name).to_string())
+            }
+            _ => None,
+        }));
+        let shared = all.iter().filter(|name| is_generated(name)).cloned().collect();
+        Self { shared, all }
+    }
+
+    /// The user's tokens, what is shared marked.
+    pub fn marked_in(&self, tokens: TokenStream) -> TokenStream {
+        if self.shared.is_empty() {
+            return tokens;
+        }
+        let marked = tokens.into_iter().map(|token| match token {
+            TokenTree::Ident(name) => TokenTree::Ident(marked(name)),
+            TokenTree::Group(group) => regrouped(&group, self.marked_in(group.stream())),
+            other => other,
+        });
+        marked.collect()
+    }
+
+    /// The expansion: shared names that are marked are the user's, others the generated code's.
+    pub fn resolved(&self, tokens: TokenStream) -> TokenStream {
+        if self.shared.is_empty() { tokens } else { self.resolved_in(tokens, None) }
+    }
+
+    /// `module`: within an import, what the names come from.
+    fn resolved_in(&self, tokens: TokenStream, mut module: Option<String>) -> TokenStream {
+        let tokens: Vec<TokenTree> = tokens.into_iter().collect();
+        let mut resolved = TokenStream::new();
+        for (index, token) in tokens.iter().enumerate() {
+            let (before, after) = (&tokens[..index], tokens.get(index + 1));
+            match token {
+                TokenTree::Ident(name) => {
+                    let text = name.to_string();
+                    let is_leaf = !after.is_some_and(|next| is_punctuation(next, ':'));
+                    if text == "use" {
+                        module = Some(String::new());
+                        resolved.extend([token.clone()]);
+                    } else if text.contains(MARK) {
+                        resolved.extend([Ident::new(&text.replace(MARK, ""), name.span())]);
+                    } else if let Some(module) = &mut module {
+                        let leaf = if text == "self" { module.clone() } else { text.clone() };
+                        if is_leaf && self.shared.contains(&leaf) {
+                            let renamed = self.renamed(&leaf, name);
+                            resolved.extend(quote!(#name as #renamed));
+                        } else {
+                            resolved.extend([token.clone()]);
+                        }
+                        *module = text;
+                    } else if self.shared.contains(&text) && !is_member(before) {
+                        resolved.extend([self.renamed(&text, name)]);
+                    } else {
+                        resolved.extend([token.clone()]);
+                    }
+                }
+                TokenTree::Group(group) => {
+                    resolved.extend([regrouped(group, self.resolved_in(group.stream(), module.clone()))]);
+                }
+                TokenTree::Literal(literal) => resolved.extend([unmarked(literal)]),
+                TokenTree::Punct(punct) => {
+                    if punct.as_char() == ';' {
+                        module = None;
+                    }
+                    resolved.extend([token.clone()]);
+                }
+            }
+        }
+        resolved
+    }
+
+    /// `Force_`, or with more underscores where the user has that too.
+    fn renamed(&self, text: &str, name: &Ident) -> Ident {
+        let mut renamed = format!("{text}_");
+        while self.all.contains(&renamed) {
+            renamed.push('_');
+        }
+        Ident::new(&renamed, name.span())
+    }
+}
+
+/// The name of the user's, marked if generated code has it too.
+pub fn marked(name: Ident) -> Ident {
+    if is_generated(&name.to_string()) { Ident::new(&format!("{name}{MARK}"), name.span()) } else { name }
+}
+
+fn is_generated(name: &str) -> bool {
+    GENERATED.contains(&name)
+}
+
+fn collect(tokens: TokenStream, names: &mut HashSet<String>) {
+    for token in tokens {
+        match token {
+            TokenTree::Ident(name) => {
+                names.insert(name.to_string());
+            }
+            TokenTree::Group(group) => collect(group.stream(), names),
+            _ => {}
+        }
+    }
+}
+
+/// Whether what follows belongs to a path or a value: `::dalembert::`, `self.`.
+fn is_member(before: &[TokenTree]) -> bool {
+    match before {
+        [.., a, b] if is_punctuation(a, ':') && is_punctuation(b, ':') => true,
+        [.., dot] => is_punctuation(dot, '.'),
+        [] => false,
+    }
+}
+
+fn is_punctuation(token: &TokenTree, mark: char) -> bool {
+    matches!(token, TokenTree::Punct(punct) if punct.as_char() == mark)
+}
+
+fn regrouped(group: &Group, tokens: TokenStream) -> TokenTree {
+    let mut own = Group::new(group.delimiter(), tokens);
+    own.set_span(group.span());
+    TokenTree::Group(own)
+}
+
+/// Messages and documentation name what the user wrote.
+fn unmarked(literal: &Literal) -> TokenTree {
+    let text = literal.to_string();
+    let own = text.contains(MARK).then(|| text.replace(MARK, "").parse::<Literal>().ok()).flatten();
+    let mut own = own.unwrap_or_else(|| literal.clone());
+    own.set_span(literal.span());
+    TokenTree::Literal(own)
+}
