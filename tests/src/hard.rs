@@ -1,6 +1,6 @@
 //! Hard cases: systems on which codes break, with what is known of their motions in closed form.
 //!
-//! `tests/hard/` holds their quick versions; `cargo study hard_cases` runs the long
+//! `tests/rules/hard/` holds their quick versions; `cargo study hard_cases` runs the long
 //! ones and writes `docs/hard-cases.md`.
 
 mod chaotic;

@@ -1,4 +1,4 @@
-//! What the tests share. Each claim is one file of `tests/`.
+//! What the tests share. Each claim is one file of a folder of `tests/`, and each folder one program.
 
 pub mod by_hand;
 pub mod convergence;

@@ -9,6 +9,8 @@
 
 mod conservative;
 mod frictional;
+#[cfg(test)]
+mod held;
 mod long;
 mod page;
 mod text;

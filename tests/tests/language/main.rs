@@ -8,17 +8,24 @@
 
 mod constants;
 mod control_flow;
+mod derivatives;
 mod differentiable;
+mod engines;
 mod enums;
 mod fields;
 mod forms;
+mod found_by_fuzzing;
+mod gauss_engines;
 mod hygiene;
 mod methods;
 mod names;
 mod quiet;
 mod semantics;
+mod singular;
 mod statements;
+mod structure;
 mod three_engines;
+mod user_functions;
 
 use dalembert::nalgebra::SVector;
 use dalembert::{Derivatives, Gradient};

@@ -6,7 +6,7 @@ use dalembert_tests::hard::TwoPendulums;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-#[path = "../../examples/verdicts/study/mod.rs"]
+#[path = "../../../examples/verdicts/study/mod.rs"]
 #[allow(dead_code, reason = "the example steps all systems of the study")]
 mod study;
 

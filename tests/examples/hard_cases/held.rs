@@ -1,19 +1,9 @@
-//! Pages that are written or copied say what they are written or copied from: `docs/hard-cases.md`, the README's table of speed.
-
-#[path = "../examples/hard_cases/conservative.rs"]
-#[expect(dead_code, reason = "the long cases")]
-mod conservative;
-#[path = "../examples/hard_cases/frictional.rs"]
-#[expect(dead_code, reason = "the long cases")]
-mod frictional;
-#[path = "../examples/hard_cases/page.rs"]
-#[expect(dead_code, reason = "what writes")]
-mod page;
-#[path = "../examples/hard_cases/text.rs"]
-mod text;
+//! The page is what the cases find: the quick ones are run again.
 
 use std::collections::BTreeSet;
 use std::fs;
+
+use super::{frictional, page, text};
 
 fn the_page() -> String {
     fs::read_to_string(page::documents().join("hard-cases.md")).unwrap()
@@ -62,28 +52,4 @@ fn every_picture_is_on_the_page() {
         .collect();
     assert!(shown.len() >= 8);
     assert_eq!(shown, drawn);
-}
-
-/// The README's columns of the rows of scenes in the table under `heading`.
-fn rows_of_scenes(page: &str, heading: &str) -> Vec<String> {
-    let table = page.split_once(heading).expect("the table").1;
-    let scenes = ["ring", "double pendulum", "FPUT chain", "spring chain", "pendulum chain", "arm"];
-    let rows = table.lines().skip(2).take_while(|line| line.starts_with('|'));
-    let cells = rows.map(|row| row.split('|').map(str::trim).skip(1).take(6).collect::<Vec<_>>());
-    cells.filter(|cells| scenes.contains(&cells[0])).map(|cells| cells.join(" | ")).collect()
-}
-
-/// The README's table of speed has the rows of the page of performance, which the bench prints.
-#[test]
-fn the_readme_has_the_speeds_of_their_page() {
-    let root = page::documents();
-    let readme = fs::read_to_string(root.with_file_name("README.md")).unwrap();
-    let performance = fs::read_to_string(root.join("performance.md")).unwrap();
-    let heading = "| scene | n | by hand, ns | generated, ns | generated / by hand | num-dual, ns |";
-    let in_readme = rows_of_scenes(&readme, heading);
-    assert_eq!(in_readme.len(), 6);
-    assert_eq!(in_readme, rows_of_scenes(&performance, heading));
-    // The control: a figure that is another.
-    let other = readme.replacen("| ring | 2 | 7", "| ring | 2 | 8", 1);
-    assert_ne!(rows_of_scenes(&other, heading), in_readme);
 }

@@ -61,7 +61,8 @@ fn every_test_that_the_page_names_exists() {
 fn a_name_that_does_not_exist_is_seen() {
     assert_eq!(missing("Test: `the_moon_is_a_cheese`."), ["the_moon_is_a_cheese"]);
     assert!(
-        missing("Test: `tests/tests/corrections_page.rs`: `a_name_that_does_not_exist_is_seen`.").is_empty()
+        missing("Test: `tests/tests/project/corrections_page.rs`: `a_name_that_does_not_exist_is_seen`.")
+            .is_empty()
     );
 }
 

@@ -1,0 +1,11 @@
+//! What each rule of discretisation promises, and hard cases.
+
+mod energy;
+mod fitted;
+mod fitted_stiffness;
+mod fitted_structure;
+mod gauss;
+mod gauss_order;
+mod gauss_structure;
+mod hard;
+mod order;

@@ -1,0 +1,8 @@
+//! Runs: memory, checkpoints, compositions, splittings, an error asked for.
+
+mod composition;
+mod kept_matrix;
+mod saved_runs;
+mod splitting;
+mod tolerance;
+mod trajectory;

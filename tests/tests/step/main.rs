@@ -1,0 +1,16 @@
+//! The step: its equation, its solver, its errors, its certificate.
+
+mod allocation;
+mod certificates;
+mod condition;
+mod degenerate;
+mod equivalence;
+mod f32;
+mod gauss_solver;
+mod inputs;
+mod legendre;
+mod oscillator_flow;
+mod polar_example;
+mod random_systems;
+mod solver;
+mod special_steps;

@@ -1,0 +1,8 @@
+//! The checkers: exact objects, Noether, Rayleigh, Hamilton and Jacobi.
+
+mod conjecture;
+mod exact;
+mod hamilton_jacobi;
+mod noether;
+mod rayleigh;
+mod verdicts;
