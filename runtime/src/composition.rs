@@ -2,7 +2,7 @@
 
 use core::array;
 
-use crate::{Checkpoint, ComposedStep, ComposedTrajectory, Discrete, Memory, Scalar, State, StepError};
+use crate::{Checkpoint, ComposedStep, ComposedTrajectory, Discrete, Memory, Scalar, SelfAdjoint, State, StepError};
 
 /// A composition of S substeps γ₁h, …, γ_S h of rule `R`, symmetric (γᵢ = γ_{S+1−i}) and of high order.
 ///
@@ -70,7 +70,7 @@ impl<R> Composition<R, 1> {
     }
 }
 
-impl<R> Composition<R, 9> {
+impl<R: SelfAdjoint> Composition<R, 9> {
     /// Order 6 in 9 substeps of a self-adjoint `rule` of order 2 (Kahan and Li 1997).
     #[must_use]
     #[expect(clippy::excessive_precision, reason = "the digits published")]
@@ -86,7 +86,7 @@ impl<R> Composition<R, 9> {
     }
 }
 
-impl<R> Composition<R, 17> {
+impl<R: SelfAdjoint> Composition<R, 17> {
     /// Order 8 in 17 substeps of a self-adjoint `rule` of order 2 (Kahan and Li 1997).
     #[must_use]
     #[expect(clippy::excessive_precision, reason = "the digits published")]

@@ -8,6 +8,7 @@ mod gauss;
 mod joint;
 mod midpoint;
 mod one_sided;
+mod self_adjoint;
 mod trapezoidal;
 
 pub(crate) use damped_drift::{ByDrift, DampedDrift, Drift, modes, require_positive_definite};
@@ -18,4 +19,5 @@ pub use gauss::{Gauss, StageHistory};
 pub use joint::{JointRayleighRule, JointRule};
 pub use midpoint::Midpoint;
 pub use one_sided::OneSided;
+pub use self_adjoint::SelfAdjoint;
 pub use trapezoidal::Trapezoidal;

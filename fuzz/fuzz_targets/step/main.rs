@@ -27,6 +27,7 @@ macro_rules! by_rules {
         $(
             $(
                 if left == 0 {
+                    $exercise.composed::<_, $n>(&$system);
                     return $exercise.by_rule::<_, _, $n>(&$system, $rule, true);
                 }
                 left -= 1;
