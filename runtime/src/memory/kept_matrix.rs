@@ -160,15 +160,10 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
                 first = residual;
             } else if size <= S::constant(AT_FLOOR) {
                 let (residual, floor) = if is_shown(&residual, &first, p) {
-                    held_by_weights(&residual, &floor, &weights, size)?
+                    held_by_weights(&residual, &floor, &weights, size)
                 } else {
-                    let (residual, floor, is_root) =
-                        held_against(&residual, &self.floor_at(system, state, &v));
-                    if !is_root {
-                        return None;
-                    }
-                    (residual, floor)
-                };
+                    self.held_anew(system, state, &v, &residual)
+                }?;
                 let last_correction = correction.amax();
                 let report = Report { iterations, damped: 0, residual, floor, last_correction };
                 return Step::completed(state, self.h, v, &momenta, report).ok();
@@ -187,14 +182,22 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         None
     }
 
-    /// The floor by the matrix at `v`.
+    /// The `residual` at `v` and its floor by the matrix there; nothing where it is no root's.
     #[cold]
     #[inline(never)]
-    fn floor_at<L, R>(&self, system: &L, State { q, p }: &State<S, N>, v: &SVector<S, N>) -> SVector<S, N>
+    fn held_anew<L, R>(
+        &self,
+        system: &L,
+        State { q, p }: &State<S, N>,
+        v: &SVector<S, N>,
+        residual: &SVector<S, N>,
+    ) -> Option<(S, S)>
     where
         L: Discrete<R, N, Scalar = S, Matrix = M>,
     {
-        estimated_floor(p, &system.step_kernel(q, v, self.h).matrix, v)
+        let floor = estimated_floor(p, &system.step_kernel(q, v, self.h).matrix, v);
+        let (residual, floor, is_root) = held_against(residual, &floor);
+        is_root.then_some((residual, floor))
     }
 
     /// The step to `v`, whose residual has stopped falling, if the rounding of q explains it; nothing if not.
