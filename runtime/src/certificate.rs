@@ -5,7 +5,7 @@ use core::cmp::Ordering;
 use nalgebra::{SMatrix, SVector};
 
 use crate::linear::{self, NewtonMatrix};
-use crate::{Discrete, Scalar, State, Step, StepError};
+use crate::{Discrete, EquationAt, Scalar, State, Step, StepError};
 
 /// What a step's Newton matrix ∂p0/∂v̄ says of it; see [`Discretised::certificate`](crate::Discretised::certificate).
 ///
@@ -44,8 +44,7 @@ impl<S: Scalar> Certificate<S> {
     where
         L: Discrete<R, N, Scalar = S>,
     {
-        let (kernel, on_the_branch_of_the_flow) = system.equation_at(state, step, h)?;
-        let mass = system.lagrangian_derivatives(&state.q, &step.velocity).d22;
+        let EquationAt { kernel, mass, on_the_branch_of_the_flow } = system.equation_at(state, step, h)?;
         let matrix = kernel.matrix.dense();
         let unit = SVector::<S, N>::from_fn(|i, _| {
             let inertia = mass[(i, i)].abs();

@@ -151,8 +151,16 @@ impl<S: Scalar, const N: usize> Step<S, N> {
 /// A step, and derivatives of it.
 pub type StepWith<S, const N: usize, D> = (Step<S, N>, D);
 
-/// The step's equation at a step, and whether the step is on the branch of the flow; see [`Discrete::equation_at`].
-pub type EquationAt<S, const N: usize, M> = (StepKernel<S, N, M>, bool);
+/// The equation of a step at the step that was taken; see [`Discrete::equation_at`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EquationAt<S, const N: usize, M> {
+    /// p0 and the Newton matrix.
+    pub kernel: StepKernel<S, N, M>,
+    /// ∂²L/∂v² at q0 and the mean velocity.
+    pub mass: SMatrix<S, N, N>,
+    /// Whether the determinant of the equations has the sign that it has for small h.
+    pub on_the_branch_of_the_flow: bool,
+}
 
 /// A step by a bounded number of iterations: the best iterate, and whether it is the root.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -418,7 +426,7 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
             return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
         }
         let signs = [determinant_sign(kernel.matrix.dense()), determinant_sign(mass)];
-        Ok((kernel, signs[0] == signs[1] && signs[0].is_ne()))
+        Ok(EquationAt { kernel, mass, on_the_branch_of_the_flow: signs[0] == signs[1] && signs[0].is_ne() })
     }
 
     /// The step's derivative by its state on the segment (`q0`, `q1`): [`Discretised::linearization`](crate::Discretised::linearization).

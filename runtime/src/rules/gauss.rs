@@ -228,6 +228,12 @@ where
         step: &Step<T, N>,
         h: T,
     ) -> Result<EquationAt<T, N, SMatrix<T, N, N>>, StepError> {
+        let mass = self.lagrangian_derivatives(&state.q, &step.velocity).d22;
+        let equation = |kernel, segment: &Segment<'_, L, N, S>| EquationAt {
+            kernel,
+            mass,
+            on_the_branch_of_the_flow: segment.is_on_the_branch_of_the_flow(),
+        };
         // The stages of this very step: several solutions may share its start, or both its ends.
         for guess in [Some(&step.velocity), None] {
             if let Ok((again, segment)) = solved_segment::<_, _, N, S>(self, state, h, guess) {
@@ -235,14 +241,14 @@ where
                 if off.norm() <= step.velocity.norm() * T::EPSILON.sqrt() {
                     let matrix = segment.variations()?.p0_by_q1 * h;
                     let p0 = state.p + matrix * off;
-                    return Ok((StepKernel { p0, matrix }, segment.is_on_the_branch_of_the_flow()));
+                    return Ok(equation(StepKernel { p0, matrix }, &segment));
                 }
             }
         }
         let segment = Segment::<'_, L, N, S>::new(self, &state.q, &step.velocity, h)?;
         let matrix = segment.variations()?.p0_by_q1 * h;
         let kernel = StepKernel { p0: segment.momenta().p0, matrix };
-        Ok((kernel, segment.is_on_the_branch_of_the_flow()))
+        Ok(equation(kernel, &segment))
     }
 
     /// At the nodes of the segment with the mean velocity: near the stages, which would have to be solved for. A step verifies
