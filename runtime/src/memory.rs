@@ -54,6 +54,18 @@ where
     }
 }
 
+/// The `step` from the `guess`. One that leads nowhere is not the step's fault: then once more without.
+#[inline]
+pub(crate) fn from_guess_or_without<S, const N: usize>(
+    guess: Option<&SVector<S, N>>,
+    step: impl Fn(Option<&SVector<S, N>>) -> Result<Step<S, N>, StepError>,
+) -> Result<Step<S, N>, StepError> {
+    match step(guess) {
+        Err(_) if guess.is_some() => step(None),
+        found => found,
+    }
+}
+
 /// The latest four mean velocities: the next, extrapolated to order 3, is the guess for Newton's method.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VelocityHistory<S, const N: usize> {
@@ -109,12 +121,7 @@ where
         state: &State<L::Scalar, N>,
         h: L::Scalar,
     ) -> Result<Step<L::Scalar, N>, StepError> {
-        let guess = self.extrapolation(h);
-        let step = match (system.step(state, h, guess.as_ref()), guess) {
-            // A guess that leads nowhere is not the step's fault: try again from rest.
-            (Err(_), Some(_)) => system.step(state, h, None),
-            (step, _) => step,
-        }?;
+        let step = from_guess_or_without(self.extrapolation(h).as_ref(), |guess| system.step(state, h, guess))?;
         self.push(step.velocity, h);
         Ok(step)
     }

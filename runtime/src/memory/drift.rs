@@ -5,7 +5,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::explicit::Prepared;
-use super::{Memory, VelocityHistory};
+use super::{Memory, VelocityHistory, from_guess_or_without};
 use crate::rules::{ByDrift, DampedDrift};
 use crate::{
     Discrete, Fitted, FittedTrapezoidal, Momenta, NewtonMatrix, Rayleigh, Scalar, State, Step, StepError,
@@ -44,12 +44,9 @@ where
                 (false, &fresh)
             }
         };
-        let guess = self.history.extrapolation(h);
-        let step = match (Fitted::step_by(drift, system, state, h, guess.as_ref()), guess) {
-            // A guess that leads nowhere is not the step's fault: try again from rest.
-            (Err(_), Some(_)) => Fitted::step_by(drift, system, state, h, None),
-            (step, _) => step,
-        }?;
+        let step = from_guess_or_without(self.history.extrapolation(h).as_ref(), |guess| {
+            Fitted::step_by(drift, system, state, h, guess)
+        })?;
         if !is_kept {
             self.kept = Some((h, *drift));
         }
