@@ -132,15 +132,30 @@ pub fn one_stage<S: Reference<N>, const N: usize>(
     let (q, p, v) = (inputs(&state.q), inputs(&state.p), inputs(&step.velocity));
     let size = Rounded::input(h);
     let (p0, p1, terms) = momenta(rule, system, &q, &v, size);
+    ends(state, size, step, |i| {
+        let terms = terms[i] + p[i].size();
+        [(p0[i], terms), (p1[i], terms)]
+    })
+}
+
+/// Both ends of a step: 𝔽⁻ and 𝔽⁺ by the momenta that its mean velocity has there, each with the size of its terms, and q1.
+fn ends<const N: usize>(
+    state: &State<f64, N>,
+    h: Rounded,
+    step: &Step<f64, N>,
+    momenta: impl Fn(usize) -> [(Rounded, f64); 2],
+) -> Judged {
     let mut judged = Judged::NOTHING;
     for i in 0..N {
-        judged.hold(p0[i] - p[i], terms[i] + p[i].size());
-        let q1 = q[i] + size * v[i];
-        judged.hold(q1 - Rounded::input(step.state.q[i]), q1.size() + q[i].size());
+        let [(p0, terms), (p1, terms_after)] = momenta(i);
+        judged.hold(p0 - Rounded::input(state.p[i]), terms);
+        let q0 = Rounded::input(state.q[i]);
+        let q1 = q0 + h * Rounded::input(step.velocity[i]);
+        judged.hold(q1 - Rounded::input(step.state.q[i]), q1.size() + q0.size());
         // p1 = p + (p1 − p0): the rounding of both.
-        let mut p1 = p1[i] - Rounded::input(step.state.p[i]);
-        p1.error += p0[i].error;
-        judged.hold(p1, terms[i] + p[i].size());
+        let mut p1 = p1 - Rounded::input(step.state.p[i]);
+        p1.error += p0.error;
+        judged.hold(p1, terms_after);
     }
     judged
 }
@@ -206,19 +221,12 @@ pub fn fitted<S: Reference<N>, const N: usize>(
         let (middle, lag) = (force(0.5), langevin(z));
         (middle.map(|f| (lag + 1.0) * f), middle.map(|f| (-lag + 1.0) * f))
     };
-    let mut judged = Judged::NOTHING;
-    for i in 0..N {
-        let ends = [mass * before(z) * v[i], mass * before(-z) * v[i]];
-        let terms = ends[0].size() + start[i].size() + p[i].size();
-        let p0 = ends[0] - start[i];
-        judged.hold(p0 - p[i], terms);
-        let q1 = q[i] + h * v[i];
-        judged.hold(q1 - Rounded::input(step.state.q[i]), q1.size() + q[i].size());
-        let mut p1 = ends[1] + end[i] - Rounded::input(step.state.p[i]);
-        p1.error += p0.error;
-        judged.hold(p1, terms + ends[1].size() + end[i].size());
-    }
-    judged
+    ends(state, h, step, |i| {
+        let of_velocity = [mass * before(z) * v[i], mass * before(-z) * v[i]];
+        let terms = of_velocity[0].size() + start[i].size() + p[i].size();
+        let terms_after = terms + of_velocity[1].size() + end[i].size();
+        [(of_velocity[0] - start[i], terms), (of_velocity[1] + end[i], terms_after)]
+    })
 }
 
 /// The velocity of a state: ∂L/∂v(q, v) = p.
