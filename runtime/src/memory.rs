@@ -54,16 +54,20 @@ where
     }
 }
 
-/// The `step` from the `guess`. One that leads nowhere is not the step's fault: then once more without.
-#[inline]
-pub(crate) fn from_guess_or_without<S, const N: usize>(
-    guess: Option<&SVector<S, N>>,
-    step: impl Fn(Option<&SVector<S, N>>) -> Result<Step<S, N>, StepError>,
+/// The step `found`, from a guess if there was one. A guess that leads nowhere is not the step's fault: then the
+/// step `without`.
+///
+/// Both are asked for where they are needed: a function that asks for both would be another copy of the solver.
+#[inline(always)]
+pub(crate) fn or_without_guess<S, const N: usize>(
+    has_guess: bool,
+    mut found: Result<Step<S, N>, StepError>,
+    without: impl FnOnce() -> Result<Step<S, N>, StepError>,
 ) -> Result<Step<S, N>, StepError> {
-    match step(guess) {
-        Err(_) if guess.is_some() => step(None),
-        found => found,
+    if has_guess && found.is_err() {
+        found = without();
     }
+    found
 }
 
 /// The latest four mean velocities: the next, extrapolated to order 3, is the guess for Newton's method.
@@ -121,8 +125,12 @@ where
         state: &State<L::Scalar, N>,
         h: L::Scalar,
     ) -> Result<Step<L::Scalar, N>, StepError> {
-        let step = from_guess_or_without(self.extrapolation(h).as_ref(), |guess| system.step(state, h, guess))?;
-        self.push(step.velocity, h);
-        Ok(step)
+        let guess = self.extrapolation(h);
+        let found = system.step(state, h, guess.as_ref());
+        let step = or_without_guess(guess.is_some(), found, || system.step(state, h, None));
+        if let Ok(step) = &step {
+            self.push(step.velocity, h);
+        }
+        step
     }
 }

@@ -9,7 +9,7 @@ use super::residual::{Outcome, Worst, line, tolerance_line};
 use super::{Caustic, HamiltonJacobi, HamiltonJacobiError, ImplicitEquation, Section};
 use crate::error::{Quantity, StepError};
 use crate::linearization::inverse;
-use crate::memory::from_guess_or_without;
+use crate::memory::or_without_guess;
 use crate::{Discrete, Linearization, PhaseMatrix, Scalar, State};
 
 /// The tangent frame (Q, P) of a carried section: derivatives of (q_k, p_k) by the label, each N×N.
@@ -112,8 +112,9 @@ where
         let (mut plane, mut caustics) = (TangentPlane::new(&frame), Vec::new());
         for k in 0..steps {
             let (step, legendre) = self.at_step(k, |theory| {
+                let found = theory.system.step(&state, self.h, guess.as_ref());
                 let step =
-                    from_guess_or_without(guess.as_ref(), |guess| theory.system.step(&state, self.h, guess))
+                    or_without_guess(guess.is_some(), found, || theory.system.step(&state, self.h, None))
                         .map_err(ImplicitEquation::Step.at(k))?;
                 Ok((step, theory.legendre(&state.q, &step.state.q)))
             })?;

@@ -5,7 +5,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::explicit::Prepared;
-use super::{Memory, VelocityHistory, from_guess_or_without};
+use super::{Memory, VelocityHistory, or_without_guess};
 use crate::rules::{ByDrift, DampedDrift};
 use crate::{
     Discrete, Fitted, FittedTrapezoidal, Momenta, NewtonMatrix, Rayleigh, Scalar, State, Step, StepError,
@@ -44,9 +44,10 @@ where
                 (false, &fresh)
             }
         };
-        let step = from_guess_or_without(self.history.extrapolation(h).as_ref(), |guess| {
-            Fitted::step_by(drift, system, state, h, guess)
-        })?;
+        let guess = self.history.extrapolation(h);
+        let found = Fitted::step_by(drift, system, state, h, guess.as_ref());
+        let step =
+            or_without_guess(guess.is_some(), found, || Fitted::step_by(drift, system, state, h, None))?;
         if !is_kept {
             self.kept = Some((h, *drift));
         }
