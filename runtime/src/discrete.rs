@@ -12,7 +12,7 @@ use nalgebra::{SMatrix, SVector};
 use crate::certificate::determinant_sign;
 use crate::derivatives::linear;
 use crate::error::{Quantity, StepError};
-use crate::newton::{self, Equation};
+use crate::newton::{self, Equation, StepEquations};
 use crate::state::require_regular;
 use crate::{
     CovectorDerivatives, Derivatives, Lagrangian, LegendreDerivatives, Linearization, Memory, NewtonMatrix,
@@ -319,7 +319,7 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
     ///
     /// `guess` is a guess for v̄ = (q1 − q0)/h; a [`Trajectory`](crate::Trajectory) extrapolates one. Without it Newton's
     /// method starts at the velocity of the state, and ∂²L/∂v² is checked to be invertible; where that leads nowhere, it starts
-    /// again at rest, and away from it if rest is a singular point. h may be negative. Neither allocates nor panics
+    /// again at rest, away from it if rest is a singular point, and at last follows the root from small step sizes. h may be negative. Neither allocates nor panics
     /// (unless L, R or f do), and takes at most a fixed number of iterations.
     ///
     /// # Errors
@@ -333,8 +333,8 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
     ) -> Result<Step<Self::Scalar, N>, StepError> {
         let kind = if Self::LINEAR { Equation::Linear } else { Equation::General };
         let equation = (
-            |q0: &_, v: &_| self.step_kernel(q0, v, h),
-            |q0: &_, v: &_| self.momenta(q0, v, h),
+            |q0: &_, v: &_, h| self.step_kernel(q0, v, h),
+            |q0: &_, v: &_, h| self.momenta(q0, v, h),
             |q0: &_, v: &_| self.lagrangian_derivatives(q0, v).d22,
         );
         let step = step_by(self, kind, equation, state, h, guess);
@@ -552,14 +552,14 @@ pub trait DiscreteRayleigh<R, const N: usize>: Discrete<R, N> + Rayleigh<N> {
     }
 }
 
-/// [`Discrete::step`] with the step's equation, both momenta and the mass that the velocity has in them as functions of (q0, v̄).
+/// [`Discrete::step`] with the step's equation and both momenta as functions of (q0, v̄, h), and the mass that the velocity has in them.
 #[inline]
 pub(crate) fn step_by<L, M, const N: usize>(
     system: &L,
     kind: Equation,
     (kernel, momenta, inertia): (
-        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> StepKernel<L::Scalar, N, M>,
-        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> Momenta<L::Scalar, N>,
+        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> StepKernel<L::Scalar, N, M>,
+        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> Momenta<L::Scalar, N>,
         impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, N>,
     ),
     state: &State<L::Scalar, N>,
@@ -575,14 +575,14 @@ where
         Some(v) => *v,
         None => first_guess(system, kind, state)?,
     };
-    let solution = match newton::solve(kind, &kernel, &momenta, &inertia, state, h, start) {
+    let evaluate = |q: &_, v: &_| kernel(q, v, h);
+    let finish = |q: &_, v: &_| momenta(q, v, h);
+    let solution = match newton::quick(kind, &evaluate, &finish, state, start) {
         Ok(solution) => solution,
-        Err(error) => {
-            let equations =
-                newton::Equations { evaluate: &kernel, finish: &momenta, inertia: &inertia, state, h };
-            let found =
-                if guess.is_none() { newton::from_rest(&equations, &start, error) } else { Err(error) };
-            found.map_err(|error| in_arguments(state, guess).unwrap_or(error))?
+        Err(reached) => {
+            let of = StepEquations { kernel: &kernel, momenta: &momenta, inertia: &inertia, state, h };
+            newton::at_length(&of, start, guess.is_some(), reached)
+                .map_err(|error| in_arguments(state, guess).unwrap_or(error))?
         }
     };
     // An argument that is not finite shows here or has failed above: none is looked at before.

@@ -2,8 +2,9 @@
 
 use nalgebra::SVector;
 
+use super::careful::{first_non_finite, unsolvable};
 use super::rounding::{estimated_floor, held_against, in_units_of};
-use super::{Equation, Solution, first_non_finite, is_known_at, largest, unsolvable};
+use super::{Equation, Solution, is_known_at, largest};
 use crate::discrete::{Momenta, StepKernel};
 use crate::linear::NewtonMatrix;
 use crate::{Quantity, Report, Scalar, State, StepError};

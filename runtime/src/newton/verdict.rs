@@ -2,8 +2,9 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::rounding::{estimated_floor, finite_part, held_against, is_sensible, rounding, scatter};
-use super::{Iterate, Solution};
+use super::Solution;
+use super::careful::Iterate;
+use super::rounding::{AT_FLOOR, estimated_floor, finite_part, held_against, is_sensible, rounding, scatter};
 use crate::discrete::{Momenta, StepKernel};
 use crate::linear::NewtonMatrix;
 use crate::{Report, Scalar, State};
@@ -59,7 +60,20 @@ pub(super) fn verified<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     let remaining = momenta.p0 - p;
     let mut floor = estimated_floor(p, matrix, v);
     let mut held = held_against(&remaining, &floor);
-    if !held.2 && may_round {
+    if !held.2 && !may_round || !last_correction.is_finite() {
+        return None;
+    }
+    let mut terms = of.terms(v);
+    let mut has_forces = false;
+    if !held.2 {
+        // Far above what any sensible floor explains, none is measured: of a step that fails, that would be most of the cost.
+        if !may_be_explained(&remaining, &terms) {
+            terms += of.forces_at_rest();
+            has_forces = true;
+            if !may_be_explained(&remaining, &terms) {
+                return None;
+            }
+        }
         // In J the momentum and the forces may cancel: both are rounded.
         let momentum = (of.inertia)(q, v).magnitudes(v) * (S::EPSILON * S::constant(8.0));
         floor += rounding(|q, v| (of.finish)(q, v).p0, q, v) + momentum;
@@ -68,12 +82,11 @@ pub(super) fn verified<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
             floor += scatter(|v| (of.finish)(q, v).p0, q, v, of.h);
             held = held_against(&remaining, &floor);
         }
+        if !held.2 {
+            return None;
+        }
     }
-    if !held.2 || !last_correction.is_finite() {
-        return None;
-    }
-    let terms = of.terms(v);
-    if !is_sensible(&floor, &terms) && !is_sensible(&floor, &(terms + of.forces_at_rest())) {
+    if !is_sensible(&floor, &terms) && (has_forces || !is_sensible(&floor, &(terms + of.forces_at_rest()))) {
         return None;
     }
     let (residual, floor, _) = held;
@@ -96,6 +109,12 @@ pub(super) fn stagnated<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         None if !lower => verified(of, &last.v, &last.matrix, last_correction, counts, true),
         found => found,
     }
+}
+
+/// Whether a floor that [`is_sensible`] beside `terms` can be that of the residual.
+#[cold]
+fn may_be_explained<S: Scalar, const N: usize>(residual: &SVector<S, N>, terms: &SVector<S, N>) -> bool {
+    is_sensible(&(residual * (S::one() / S::constant(AT_FLOOR))), terms)
 }
 
 #[cfg(test)]

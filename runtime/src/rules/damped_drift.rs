@@ -150,8 +150,9 @@ pub(crate) trait ByDrift {
         h: L::Scalar,
         guess: Option<&SVector<L::Scalar, N>>,
     ) -> Result<Step<L::Scalar, N>, StepError> {
-        let kernel = |q0: &_, v: &_| Self::kernel(drift, system, q0, v, h);
-        let momenta = |q0: &_, v: &_| Self::momenta(drift, system, q0, v, h);
+        // With the drift of the whole step, also in parts of it.
+        let kernel = |q0: &_, v: &_, h| Self::kernel(drift, system, q0, v, h);
+        let momenta = |q0: &_, v: &_, h| Self::momenta(drift, system, q0, v, h);
         // Under damping that excites, what is left of M in p0 is below any share of it.
         let inertia = |_: &_, _: &_| drift.before;
         let step = discrete::step_by(system, Self::EQUATION, (kernel, momenta, inertia), state, h, guess)

@@ -18,6 +18,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::error::Quantity;
 use crate::lanes::splat;
+use crate::newton::{ITERATIONS, along_h};
 use crate::{
     Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, EquationAt, ForcedLagrangian,
     LegendreDerivatives, Linearization, Momenta, Report, Scalar, State, StateBy, Step, StepError, StepKernel,
@@ -305,8 +306,24 @@ fn solved_from<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, co
         Err(error @ StepError::NonFinite { quantity: Quantity::Derivatives, .. }) => {
             from_singular(problem, state, &v).ok_or(error)
         }
+        Err(error) => in_parts(problem, &v).ok_or(error),
         solved => solved,
     }
+}
+
+/// The stages that those of shorter steps lead to, from the velocity `v` at the start ([`along_h`]).
+#[cold]
+#[inline(never)]
+fn in_parts<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    v: &SVector<T, N>,
+) -> Option<Solution<T, N, S>> {
+    let Problem { system, q0, p0, h, .. } = *problem;
+    let stages = along_h(splat(v), &|share, v| {
+        let part = Problem::<'_, L, N, S>::new(system, q0, p0, h * share);
+        newton::solve(&part, v, ITERATIONS).ok().map(|solution| solution.v)
+    });
+    newton::solve(problem, &stages?, newton::MAX_ITERATIONS).ok()
 }
 
 /// Where forces do not exist at `v`, as drag at rest may not: the stages from the velocity half a step later without drag; rest

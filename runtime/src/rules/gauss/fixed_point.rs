@@ -38,7 +38,7 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
     let guess = splat(guess);
     match iterate(problem, &guess) {
         Some(solution) => Ok(solution),
-        None => newton::solve(problem, &guess),
+        None => newton::solve(problem, &guess, newton::MAX_ITERATIONS),
     }
 }
 
@@ -196,6 +196,11 @@ pub(super) fn at_rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N
     residual: &LaneVector<T, N, S>,
     floor: SVector<T, N>,
 ) -> Option<SVector<T, N>> {
+    // Far above what any sensible floor explains, none is measured.
+    let least = SVector::from_fn(|a, _| residual[a].amax() * T::constant(1.0 / AT_FLOOR));
+    if !is_decided(problem, v, &least) {
+        return None;
+    }
     let measured = floor + rounding(problem, v);
     let is_explained = in_units_of(residual, &measured) <= T::constant(AT_FLOOR);
     (is_explained && is_decided(problem, v, &measured)).then_some(measured)

@@ -15,7 +15,7 @@ use crate::newton::{AT_FLOOR, SLOW};
 use crate::{ForcedLagrangian, Report, Scalar, StepError};
 
 /// As in the solver of the rules of one stage: a few iterations near a root, some dozens from far out.
-const MAX_ITERATIONS: u32 = 100;
+pub(super) const MAX_ITERATIONS: u32 = 100;
 
 /// An iterate with what was evaluated there.
 pub(super) struct Iterate<T, const N: usize, const S: usize> {
@@ -71,18 +71,19 @@ impl<T: Scalar, const N: usize, const S: usize> Iterate<T, N, S> {
     }
 }
 
-/// Solves for the stages from the velocities `guess`.
+/// Solves for the stages from the velocities `guess` by at most so many iterations.
 #[cold]
 #[inline(never)]
 pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
     problem: &Problem<'_, L, N, S>,
     guess: &LaneVector<T, N, S>,
+    most_iterations: u32,
 ) -> Result<Solution<T, N, S>, StepError> {
     let one = T::one();
     let constant = T::constant;
     let mut last = Iterate::new(problem, *guess);
     let mut damped = 0;
-    for iteration in 0..MAX_ITERATIONS {
+    for iteration in 0..most_iterations {
         if let Some(index) = last.non_finite() {
             return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
         }
@@ -180,7 +181,7 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
     }
     let (residual, floor) = worst(&last.residual, &last.floor);
     Err(StepError::NotConverged {
-        iterations: MAX_ITERATIONS,
+        iterations: most_iterations,
         residual: residual.widen(),
         floor: floor.widen(),
     })
