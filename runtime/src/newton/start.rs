@@ -14,9 +14,9 @@ use crate::discrete::{Momenta, StepKernel};
 use crate::linear::NewtonMatrix;
 use crate::{Report, Scalar, State, StepError};
 
-/// A residual that grows by this factor where the velocity doubles vanishes at rest: half way, on a scale of powers, between one
-/// that is constant and one that is linear.
-const VANISHING: f64 = 1.5;
+/// A residual that grows by this factor where the velocity doubles vanishes at rest: one that is constant next to rest does not grow,
+/// drag through a root does by a root of 2.
+const VANISHING: f64 = 1.0625;
 
 /// The root that is reached from rest or, where rest is a singular point, from away from it. From `tried` there was `error`.
 ///

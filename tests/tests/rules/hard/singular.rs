@@ -1,7 +1,7 @@
 //! Masses that are singular or nearly so; functions without derivatives somewhere.
 
 use dalembert::nalgebra::vector;
-use dalembert::{Discretise, Midpoint, Quantity, State, StepError, Trapezoidal};
+use dalembert::{Discretise, Midpoint, Quantity, State, StepError, Trapezoidal, rayleigh_system};
 use dalembert_tests::hard::{Arm, Drag, FirstOrder, MathewsLakshmanan, Roots, drive};
 
 /// The amplitude goes up to where the mass is infinite, at |λ|A² = 1: q = A sin ωt with ω² = 1/(1 + λA²).
@@ -129,4 +129,28 @@ fn drag_with_an_infinite_slope_at_rest() {
     // v + (h/2)√v = p
     let root = (-0.05 + (0.05_f64 * 0.05 + 1.0).sqrt()) / 2.0;
     assert!((step.velocity[0] - root * root).abs() < 1e-15, "{}", step.velocity[0]);
+}
+
+/// Two masses with drag through a root, |v|^{3/2} and |v|^{6/5}: one rests, without force and momentum, while the other moves.
+#[rayleigh_system(rule = [midpoint, trapezoidal])]
+fn partly_at_rest(q: [f64; 2], v: [f64; 2], force: f64) -> (f64, f64) {
+    let roots = v[0].abs().powf(1.5) + v[1].abs().powf(1.2);
+    (0.5 * (v[0] * v[0] + v[1] * v[1]) - 0.5 * q[0] * q[0] + force * q[1], 0.5 * roots)
+}
+
+#[test]
+fn a_mass_rests_beside_one_that_moves() {
+    let state = State { q: vector![0.3, 0.2], p: vector![0.7, 0.0] };
+    for h in [0.01, 0.1, 1.0] {
+        let free = PartlyAtRest { force: 0.0 };
+        for step in [free.by(Midpoint, h).step(&state), free.by(Trapezoidal, h).step(&state)] {
+            let step = step.unwrap();
+            assert_eq!((step.velocity[1], step.state.p[1]), (0.0, 0.0), "{step:?}");
+            assert!(step.velocity[0] > 0.0 && step.report.residual <= 4.0 * step.report.floor, "{step:?}");
+        }
+        // The control: a force sets it in motion, v + (h/2) 0.6 v^{1/5} = (h/2) force.
+        let pulled = PartlyAtRest { force: 1.0 }.by(Midpoint, h).step(&state).unwrap();
+        let v = pulled.velocity[1];
+        assert!(v > 0.0 && (v + 0.5 * h * (0.6 * v.powf(0.2) - 1.0)).abs() < 1e-15, "{pulled:?}");
+    }
 }
