@@ -198,8 +198,9 @@ pub(super) fn in_units<T: Scalar, const N: usize, const S: usize>(
     if sum.is_finite() { largest.folded(|a, b| if a > b { a } else { b }) } else { sum }
 }
 
-/// What rounding does to the residuals at the stages: their changes when each coordinate of Q and of V moves by the last
-/// place of its terms, added up; measured over [`PLACES`] of them, since functions on the way may swallow one. Near an equilibrium, where large forces cancel, this is more than [`Problem::floor`] knows of.
+/// What rounding does to the residuals at the stages: their changes when each coordinate of Q moves by the last place of its terms, and
+/// of V by its own, added up; measured over [`PLACES`] of them, since functions on the way may swallow one. Near an equilibrium, where
+/// large forces cancel, this is more than [`Problem::floor`] knows of.
 #[cold]
 #[inline(never)]
 pub(super) fn rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
@@ -229,7 +230,7 @@ pub(super) fn rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: u
             moved[a] = moved[a] + unit * size;
             add(&moved, v);
             let mut moved = *v;
-            moved[a] = moved[a] + unit * speed;
+            moved[a] = moved[a] + unit * v[a].abs();
             add(&q, &moved);
         }
     }

@@ -79,12 +79,11 @@ macro_rules! study {
                 let ($sx, $su) = (q.map(|q| q * self.length), v.map(|v| v * self.speed));
                 let ($sa, $sc) = (exact(self.a), exact(self.c));
                 let (force, momentum, drag): (Vector<$n>, Vector<$n>, Vector<$n>) = $slopes;
-                let action = exact(self.action);
-                let (by_q, by_v) = (action * self.length, action * self.speed);
+                let of = |slopes: Vector<$n>, units: &[f64]| slopes.map(|slope| in_units(slope, units));
                 Slopes {
-                    force: force.map(|f| by_q * f),
-                    momentum: momentum.map(|m| by_v * m),
-                    drag: drag.map(|d| by_v * self.rate * d),
+                    force: of(force, &[self.action, self.length]),
+                    momentum: of(momentum, &[self.action, self.speed]),
+                    drag: of(drag, &[self.action, self.speed, self.rate]),
                 }
             }
 
@@ -104,6 +103,16 @@ macro_rules! study {
             }
         }
     )*};
+}
+
+/// A slope in its `units`, with what underflows if it is multiplied by some of them before the others.
+fn in_units(slope: Rounded, units: &[f64]) -> Rounded {
+    let [first, others @ ..] = units else { return slope };
+    let product = others.iter().fold(Rounded::exact(*first), |product, unit| product * *unit);
+    let largest: f64 = units.iter().map(|unit| unit.max(1.0)).product();
+    let mut scaled = product * slope;
+    scaled.error += largest * f64::MIN_POSITIVE * f64::EPSILON;
+    scaled
 }
 
 /// |u|², for the reference.
