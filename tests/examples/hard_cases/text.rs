@@ -19,7 +19,7 @@ const ALSO_TESTED: &str = "## Also tested\n\n\
 | damping of both signs (van der Pol, μ = 1, 50) | period and amplitude of the cycle to order 2 | `damping.rs` |\n\
 | friction written carelessly: `cosh` overflows, 1 − 1 cancels | `NonFinite` of a derivative; `LostPrecision` | `damping.rs` |\n\
 | ∂²L/∂v² singular, L linear in v | `DegenerateLagrangian` with its coordinate, at the first step | `singular.rs` |\n\
-| \\|q\\|, \\|q\\|^{3/2}, √\\|q\\|, drag \\|v\\|^{3/2} at 0 | `NonFinite` exactly where no derivative exists, roots next to it | `singular.rs` |\n\
+| \\|q\\|, \\|q\\|^{3/2}, √\\|q\\|, drag \\|v\\|^{3/2} at 0 | rest where the equations hold next to it, `NonFinite` where no derivative exists, roots next to it | `singular.rs` |\n\
 | coordinates in units of 2^{∓40} | the same motion to rounding, the same iterations | `scales.rs` |\n\
 | h from ±1e-12 to ±1e12 | a step or an error; without friction −h leads back to rounding | `scales.rs` |\n\
 | NaN, ±∞, subnormal and huge values in every argument | an error that names the argument, or a finite step | `scales.rs` |\n\

@@ -96,16 +96,16 @@ fn a_kink() {
     }
 }
 
-/// |q|^{3/2} at 0 has a derivative and no second one, √|q| has neither: both are told at q = 0, and neither next to it.
+/// |q|^{3/2} at 0 has a derivative and no second one: no Newton matrix, but an equilibrium, at which a mass rests. √|q| has neither, which
+/// is told at q = 0, and nothing next to it.
 #[test]
 fn roots_at_zero() {
     let at_zero = State { q: vector![0.0], p: vector![0.0] };
     let derivatives = StepError::NonFinite { quantity: Quantity::Derivatives, index: 0 };
-    for system in [Roots { kink: 0.0, a: 1.0, b: 0.0 }, Roots { kink: 0.0, a: 0.0, b: 1.0 }] {
-        let step = system.by(Midpoint, 0.01).step(&at_zero);
-        assert_eq!(step.unwrap_err(), derivatives, "{system:?}");
-    }
+    let steep = Roots { kink: 0.0, a: 0.0, b: 1.0 };
+    assert_eq!(steep.by(Midpoint, 0.01).step(&at_zero).unwrap_err(), derivatives);
     let system = Roots { kink: 0.0, a: 1.0, b: 0.0 };
+    assert_eq!(system.by(Midpoint, 0.01).step(&at_zero).unwrap().state, at_zero);
     for q in [1e-24, 1e-12, -1e-3] {
         let state = State { q: vector![q], p: vector![0.5] };
         let step = system.by(Midpoint, 0.01).step(&state).unwrap();
