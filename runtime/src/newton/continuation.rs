@@ -4,9 +4,10 @@
 //! iteration from the state leads to the root, h grows part by part, each solved from the root before: a short homotopy (E. L. Allgower
 //! and K. Georg, Numerical Continuation Methods, 1990, chapter 2). It ends where the curve turns back, and then there is no such root.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
 use super::careful::{MAX_ITERATIONS, careful};
+use super::verdict::Inertia;
 use super::{Equations, Reached, Solution, from_rest};
 use crate::discrete::{Momenta, StepKernel};
 use crate::linear::NewtonMatrix;
@@ -21,11 +22,17 @@ const PARTS: u32 = 24;
 /// Iterations for each: what needs more has left the root.
 pub(crate) const ITERATIONS: u32 = 10;
 
+/// p0 and the Newton matrix as a function of (q, v̄, h).
+type Kernel<'f, S, M, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>, S) -> StepKernel<S, N, M> + 'f;
+
+/// Both momenta as a function of (q, v̄, h).
+type BothMomenta<'f, S, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>, S) -> Momenta<S, N> + 'f;
+
 /// The equation of a step as functions of (q, v̄, h), of which `inertia` does not depend on h; behind pointers, for steps that take long.
 pub(crate) struct StepEquations<'f, S, M, const N: usize> {
-    pub(crate) kernel: &'f dyn Fn(&SVector<S, N>, &SVector<S, N>, S) -> StepKernel<S, N, M>,
-    pub(crate) momenta: &'f dyn Fn(&SVector<S, N>, &SVector<S, N>, S) -> Momenta<S, N>,
-    pub(crate) inertia: &'f dyn Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, N>,
+    pub(crate) kernel: &'f Kernel<'f, S, M, N>,
+    pub(crate) momenta: &'f BothMomenta<'f, S, N>,
+    pub(crate) inertia: &'f Inertia<'f, S, N>,
     pub(crate) state: &'f State<S, N>,
     pub(crate) h: S,
 }

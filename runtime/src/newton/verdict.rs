@@ -16,7 +16,8 @@ type Evaluate<'f, S, M, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>)
 type Finish<'f, S, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N> + 'f;
 
 /// The mass matrix as a function of (q, v).
-type Inertia<'f, S, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, N> + 'f;
+pub(super) type Inertia<'f, S, const N: usize> =
+    dyn Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, N> + 'f;
 
 /// What is solved, and from where.
 pub(crate) struct Equations<'f, S, M, const N: usize> {
