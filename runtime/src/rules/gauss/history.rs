@@ -67,6 +67,11 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
         (0..N).fold(0.0, |largest, a| largest.max(sum(a, &last)).max(sum(a, &before)))
     }
 
+    /// Whether the last step was solved by the matrix of all stages, as the fixed point did not contract.
+    pub(crate) fn is_by_newton(&self) -> bool {
+        !self.contracted
+    }
+
     /// V_i, the velocities at the stages of the last step: at q0 + h Σ a_ij V_j its equations of motion hold. 0 before the first.
     pub fn velocities(&self) -> [SVector<T, N>; S] {
         array::from_fn(|i| lane(&self.v, i))
