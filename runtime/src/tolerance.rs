@@ -5,13 +5,15 @@ mod estimate;
 mod guard;
 mod methods;
 mod request;
+mod scale;
 mod search;
+mod tangent;
 mod variation;
 
 use nalgebra::ComplexField;
 
 use crate::{Lagrangian, Scalar, State, StepError, verification};
-pub use guard::{Breach, GuardedTrajectory};
+pub use guard::GuardedTrajectory;
 pub use methods::{
     Composed, GaussOr, MethodStep, Methods, SplitOr, Stagewise, Taken, WithGauss, WithSplittings,
 };
@@ -69,6 +71,20 @@ pub struct Choice<'a, L: Lagrangian<N>, M, const N: usize> {
     /// What choosing has cost.
     spent: f64,
     trials: [Option<Trial>; Method::ALL.len()],
+}
+
+/// Where the error expected has passed the one asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Breach {
+    /// The time.
+    pub time: f64,
+    /// The error expected of the state there.
+    pub expected: f64,
+    /// The error asked for.
+    pub tolerance: f64,
+    /// A tolerance to ask for instead, from the start.
+    pub instead: f64,
 }
 
 /// Why no method was chosen.

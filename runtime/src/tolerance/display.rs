@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::{Choice, Method, ToleranceError, Trial};
+use super::{Breach, Choice, Method, ToleranceError, Trial};
 use crate::Lagrangian;
 
 impl fmt::Display for Method {
@@ -58,6 +58,16 @@ impl fmt::Display for ToleranceError {
             }
             Self::Step(error) => write!(f, "at the start: {error}"),
         }
+    }
+}
+
+impl fmt::Display for Breach {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "at t = {:.4} an error of {:.1e} is to be expected, {:.1e} was asked for; start again and ask for {:.1e}",
+            self.time, self.expected, self.tolerance, self.instead
+        )
     }
 }
 

@@ -7,62 +7,35 @@
 use nalgebra::SVector;
 
 use super::Methods;
-use super::variation::{Variation, carried};
+use super::scale::Scale;
+use super::tangent::{INNER, carried};
+use super::variation::Variation;
 use crate::{Lagrangian, Scalar, State};
 
-/// How an error of p counts beside one of q: the norm of a [`Choice`](super::Choice)'s promise.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Scale<S, const N: usize> {
-    start: SVector<S, N>,
-    /// The largest distance of a coordinate from its start, and the largest momentum.
-    reached: [S; 2],
-    /// The largest change of a coordinate and of a momentum over a step.
-    change: [S; 2],
-    /// The largest coordinate.
-    largest: S,
-}
-
-impl<S: Scalar, const N: usize> Scale<S, N> {
-    pub(super) fn new(start: &State<S, N>) -> Self {
-        let zero = S::zero();
-        Self { start: start.q, reached: [zero, start.p.amax()], change: [zero; 2], largest: start.q.amax() }
-    }
-
-    #[inline]
-    pub(super) fn follow(&mut self, from: &State<S, N>, to: &State<S, N>) {
-        self.reached = [self.reached[0].max((to.q - self.start).amax()), self.reached[1].max(to.p.amax())];
-        self.change =
-            [self.change[0].max((to.q - from.q).amax()), self.change[1].max((to.p - from.p).amax())];
-        self.largest = self.largest.max(to.q.amax());
-    }
-
-    /// What an error of p is multiplied by.
-    pub(super) fn weight(&self) -> f64 {
-        let ratio = |[q, p]: [S; 2]| if p > S::zero() { (q / p).widen() } else { f64::INFINITY };
-        let weight = ratio(self.reached).min(ratio(self.change));
-        if weight.is_finite() { weight } else { 0.0 }
-    }
-
-    pub(super) fn norm(&self, error: &State<S, N>) -> f64 {
-        error.q.amax().widen().max(error.p.amax().widen() * self.weight())
-    }
-}
-
-/// The angle by which an error turns between two derivatives at most, without one at the middle and with it.
-pub(super) const ANGLE: [f64; 2] = [1.4, 2.0];
+/// The angle by which an error turns between two derivatives at most, without states between and with them.
+pub(super) const ANGLE: [f64; 2] = [0.3, 2.0];
 
 /// An error of the energy beyond so many times what was foreseen is news.
 const UNFORESEEN: f64 = 10.0;
 
-/// Parts of the way between two states at most, and what a part costs: J at its end and at its middle.
+/// Parts of the way between two states at most, and what a part costs: J at its end and at two states within.
 const MOST_PARTS: f64 = 8.0;
-const PART: f64 = 4.0;
+const PART: f64 = 6.0;
 
-/// What the sum of local errors, and what their growth between two states, is taken to err by.
-const UNSURE: [f64; 2] = [0.3, 0.05];
+/// What the sum of local errors is taken to err by, and what growth over [`ANGLE`] is.
+const UNSURE: [f64; 2] = [0.3, 0.02];
+
+/// Where J changes by less than this, squared, its mean serves for any number of turns.
+const SLIGHT: f64 = 0.1;
+
+/// What of a change of J counts from one state to the next.
+const REMEMBERED: f64 = 0.8;
 
 /// Growth between two looks at most: more may be that of the norm alone.
 const MOST_GROWTH: f64 = 4.0;
+
+/// Samples of what the error may be besides.
+const SAMPLES: usize = 2;
 
 /// The run between two states that were looked at.
 pub(super) struct Since {
@@ -82,24 +55,23 @@ pub(super) struct Since {
 pub(super) struct Estimate<S, const N: usize> {
     /// δ, the run less the motion, at the state last looked at.
     error: State<S, N>,
-    /// What δ may err by itself, at random: where motions part, it grows in directions in which δ may have no part. 0 where none do.
-    unsure: State<S, N>,
+    /// What δ may be besides, at random: by rounding, by what δ itself may err by, and by steps that were not looked at. Where motions part
+    /// it grows in directions in which δ may have no part.
+    unsure: [State<S, N>; SAMPLES],
     random: u64,
-    is_unsure: bool,
     /// The motion there, and its time.
     last: Option<(Variation<S, N>, f64)>,
-    /// What rounding has made of the state.
+    /// What rounding has made of the state, without growth.
     rounding: f64,
-    /// What steps that were not looked at have made of it, as the energy tells.
-    unseen: f64,
-    /// The energy at the start; nothing where it is not kept.
-    energy: Option<S>,
+    /// The energy at the start, and its error when it was asked for last; nothing where it is not kept.
+    energy: Option<[S; 2]>,
     /// By how much errors have grown since local errors were added last.
     growth: f64,
     /// Whether the system changes with time.
     is_timed: bool,
-    is_planar: bool,
     is_coarse: bool,
+    /// The share of J that has changed between two states, as far as one J does not serve over them.
+    share: f64,
     /// The angle by which an error turned in the last unit of time, as far as one J did not serve.
     pub(super) speed: f64,
     /// What the derivatives have cost.
@@ -107,35 +79,24 @@ pub(super) struct Estimate<S, const N: usize> {
 }
 
 impl<S: Scalar, const N: usize> Estimate<S, N> {
-    /// Of no error yet; `is_close` where the cost of derivatives does not matter, `is_coarse` where it forbids to
-    /// follow every turn of the error.
-    pub(super) fn new<L: Lagrangian<N, Scalar = S>>(system: &L, is_close: bool, is_coarse: bool) -> Self {
-        // A system that changes with time is another one later.
-        let is_timed = system.later(S::one(), |later| !core::ptr::eq(later, system));
-        let is_planar = N == 1 && !is_timed && !is_close;
-        let zero = SVector::zeros();
+    /// Of no error yet; `is_coarse` where the cost of derivatives forbids to follow every turn of the error.
+    pub(super) fn new<L: Lagrangian<N, Scalar = S>>(system: &L, is_coarse: bool) -> Self {
+        let none = State { q: SVector::zeros(), p: SVector::zeros() };
         Self {
-            is_planar,
             is_coarse,
-            error: State { q: zero, p: zero },
-            unsure: State { q: zero, p: zero },
+            error: none,
+            unsure: [none; SAMPLES],
             random: 0x2545_f491_4f6c_dd1d,
-            // On a line shifts in time do not grow, and the energy tells the rest.
-            is_unsure: !is_coarse && (N > 1 || is_timed),
             last: None,
             rounding: 0.0,
-            unseen: 0.0,
             energy: None,
             growth: 1.0,
-            is_timed,
+            // A system that changes with time is another one later.
+            is_timed: system.later(S::one(), |later| !core::ptr::eq(later, system)),
+            share: 0.0,
             speed: f64::INFINITY,
             evaluations: 0.0,
         }
-    }
-
-    /// Whether nothing but shifts in time and their shear remain to be told: one coordinate, and no time.
-    pub(super) fn is_planar(&self) -> bool {
-        self.is_planar
     }
 
     /// Whether the error is not followed in every turn.
@@ -152,7 +113,8 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
     /// errors did on the way.
     pub(super) fn add(&mut self, local: &State<S, N>, before: f64) {
         // On a line growth is shear, and what comes late has none.
-        let growth = if self.is_unsure { self.growth.min(MOST_GROWTH) } else { 1.0 };
+        let is_line = N == 1 && !self.is_timed;
+        let growth = if is_line || self.is_coarse { 1.0 } else { self.growth.min(MOST_GROWTH) };
         let mean = if growth > 1.01 { (growth - 1.0) / nalgebra::ComplexField::ln(growth) } else { 1.0 };
         self.growth = 1.0;
         let steps = S::constant(1.0 + before * mean);
@@ -161,20 +123,20 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         self.err(local, steps.widen() * UNSURE[0]);
     }
 
-    /// Makes δ less sure by so much of `of`.
+    /// Makes δ less sure by so much of `of`, at random.
     fn err(&mut self, of: &State<S, N>, share: f64) {
-        if !self.is_unsure {
-            return;
-        }
-        let mut random = || {
+        let random = &mut self.random;
+        let mut next = || {
             // Marsaglia's xorshift.
-            self.random ^= self.random << 13;
-            self.random ^= self.random >> 7;
-            self.random ^= self.random << 17;
-            S::constant(share * ((self.random >> 11) as f64 / (1_u64 << 52) as f64 - 1.0))
+            *random ^= *random << 13;
+            *random ^= *random >> 7;
+            *random ^= *random << 17;
+            S::constant(share * ((*random >> 11) as f64 / (1_u64 << 52) as f64 - 1.0))
         };
-        self.unsure.q += of.q.map(|x| x * random());
-        self.unsure.p += of.p.map(|x| x * random());
+        for unsure in &mut self.unsure {
+            unsure.q += of.q.map(|x| x * next());
+            unsure.p += of.p.map(|x| x * next());
+        }
     }
 
     /// By how much the force at the state last looked at is another at `time`.
@@ -189,8 +151,42 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         system.later(S::constant(time), |later| last.change_of_force(later, methods, length))
     }
 
+    /// The motion at `state`.
+    fn variation<L, M>(
+        &mut self,
+        system: &L,
+        methods: M,
+        state: &State<S, N>,
+        time: f64,
+    ) -> Option<Variation<S, N>>
+    where
+        L: Lagrangian<N, Scalar = S>,
+        M: Methods<L, N>,
+    {
+        self.evaluations += 2.0;
+        let (guess, length) = if let Some((last, before)) = &self.last {
+            (last.velocity_at(state), (S::one() / last.fastest()).min(S::constant(time - before)))
+        } else {
+            let guess = state.velocity(system).unwrap_or_else(|_| SVector::zeros());
+            let mut length = S::one();
+            // A time in which the motion changes: of the second try, by the first.
+            for _ in 0..3 {
+                if let Some(first) = Variation::at(system, methods, state, &guess, length) {
+                    length = (S::one() / first.fastest().max(S::SMALLEST_NORMAL)).min(S::constant(1e6));
+                } else {
+                    length *= S::constant(1e-3);
+                }
+            }
+            (guess, length)
+        };
+        system.later(S::constant(time), |system| {
+            Variation::at(system, methods, state, &guess, length)
+                .or_else(|| Variation::at(system, methods, state, &state.velocity(system).ok()?, length))
+        })
+    }
+
     /// Carries the error on to `state` at `time`. An error of the energy beyond what is foreseen stands for
-    /// one of the phase besides, of a step that was not looked at.
+    /// others besides, of a step that was not looked at.
     pub(super) fn carry<L, M>(
         &mut self,
         system: &L,
@@ -203,141 +199,134 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         L: Lagrangian<N, Scalar = S>,
         M: Methods<L, N>,
     {
-        let zero = SVector::zeros();
-        let (guess, length) = match &self.last {
-            Some((last, before)) => {
-                let length = S::constant(time - before);
-                (last.velocity_at(state), (S::one() / last.fastest()).min(length))
-            }
-            None => (zero, S::one()),
-        };
-        let guess = if self.last.is_some() { guess } else { state.velocity(system).unwrap_or(zero) };
-        let mut length = length;
-        if self.last.is_none() {
-            // A time in which the motion changes: of the second try, by the first.
-            for _ in 0..3 {
-                if let Some(first) = Variation::at(system, methods, state, &guess, length) {
-                    length = S::one() / first.fastest().max(S::SMALLEST_NORMAL);
-                    length = length.min(S::constant(1e6));
-                } else {
-                    length *= S::constant(1e-3);
-                }
-            }
+        let Some(variation) = self.variation(system, methods, state, time) else { return };
+        if let Some((last, before)) = self.last {
+            self.transport(system, methods, [&last, &variation], [before, time], scale, since);
         }
-        let variation = system.later(S::constant(time), |system| {
-            Variation::at(system, methods, state, &guess, length)
-                .or_else(|| Variation::at(system, methods, state, &state.velocity(system).ok()?, length))
-        });
-        self.evaluations += 2.0;
-        let Some(variation) = variation else { return };
-        if let Some((last, before)) = &self.last {
-            let size = scale.norm(&self.error);
-            let t = S::constant(time - before);
-            // Where the error turns far in this time, by way of states between.
-            let angle = last.angle_to(&variation, t);
-            self.speed = angle / t.widen();
-            let most = if self.is_coarse { 1.0 } else { (since.affordable / PART).clamp(1.0, MOST_PARTS) };
-            let parts = nalgebra::ComplexField::ceil(
-                (angle / ANGLE[usize::from(!self.is_planar)]).min(nalgebra::ComplexField::floor(most)),
-            )
-            .max(1.0);
-            let part = t / S::constant(parts);
-            let (mut from, mut errors) = (*last, [self.error, self.unsure]);
-            let before = *before;
-            let is_coarse =
-                self.is_planar || self.is_coarse || angle < 0.5 * ANGLE[1] || since.affordable < PART;
-            let is_timed = self.is_timed;
-            let mut between = |from: &Variation<S, N>, share: f64| {
-                let share = S::constant(share);
-                let state = last.between(&variation, t, share, is_timed);
-                let guess = from.velocity_at(&state);
-                self.evaluations += 2.0;
-                system.later(S::constant(before) + share * t, |system| {
-                    Variation::at(system, methods, &state, &guess, length)
-                })
-            };
-            for k in 0..parts as u32 {
-                let k = f64::from(k);
-                let middle = if is_coarse { None } else { between(&from, (k + 0.5) / parts) };
-                let to = if k + 1.0 < parts { between(&from, (k + 1.0) / parts) } else { None };
-                let to = to.unwrap_or(variation);
-                errors = if is_timed {
-                    carried(errors, &from, middle.as_ref(), &to, part)
-                } else {
-                    along_the_motion(errors, &from, middle.as_ref(), &to, part, scale)
-                };
-                from = to;
-            }
-            [self.error, self.unsure] = errors;
-            let shift = if is_timed { S::zero() } else { shift(&self.error, &variation.rate, scale) };
-            let across = State {
-                q: self.error.q - variation.rate.q * shift,
-                p: self.error.p - variation.rate.p * shift,
-            };
-            self.err(&across, UNSURE[1] * (angle / parts).min(1.0));
-            let growth = scale.norm(&self.error) / size;
-            if growth.is_finite() {
-                self.rounding *= growth;
-                self.unseen *= growth;
-                self.growth *= growth;
-            }
-        }
-        let rounding =
-            rounding_of_a_step(&variation, state, scale, time - self.last.map_or(0.0, |last| last.1), since);
-        self.rounding =
-            nalgebra::ComplexField::sqrt(self.rounding * self.rounding + rounding * rounding * since.steps);
+        let elapsed = time - self.last.map_or(0.0, |last| last.1);
+        let rounding = rounding(&variation, state, scale, elapsed, since);
+        self.rounding = nalgebra::ComplexField::hypot(self.rounding, scale.norm(&rounding));
+        self.err(&rounding, 2.0);
         if self.is_timed || variation.is_forced {
             self.energy = None;
         } else if self.last.is_none() {
-            self.energy = Some(variation.energy(system));
-        } else if let (Some(energy), true) = (self.energy, since.is_energy) {
+            self.energy = Some([variation.energy(system), S::zero()]);
+        } else if let (Some([start, error]), true) = (self.energy, since.is_energy) {
             self.evaluations += 3.0;
-            let beyond = self.set_energy(&variation, variation.energy(system) - energy, scale);
-            if beyond > UNFORESEEN * since.foreseen + 4.0 * self.rounding {
-                self.unseen += beyond;
+            let now = variation.energy(system) - start;
+            self.energy = Some([start, now]);
+            let made = scale.norm(&variation.of_energy(now - error, scale));
+            if made > UNFORESEEN * since.foreseen + 4.0 * self.rounding {
+                self.err(&scale.of_size(made), 2.0);
             }
+            let missing = now - variation.energy_of(&self.error);
+            self.error = plus(&self.error, &variation.of_energy(missing, scale));
+        }
+        if self.energy.is_some() {
+            let known =
+                |error: State<S, N>| plus(&error, &variation.of_energy(-variation.energy_of(&error), scale));
+            self.unsure = self.unsure.map(known);
         }
         self.last = Some((variation, time));
     }
 
-    /// Puts the energy's error at what it is, and says how much that changes the error.
-    fn set_energy(&mut self, at: &Variation<S, N>, error: S, scale: &Scale<S, N>) -> f64 {
-        // Along the gradient of H in the norm of the scale: q and p in the same units.
-        let w = S::constant(scale.weight());
-        let direction = State { q: -at.rate.p * (w * w), p: at.rate.q };
-        let slope = at.energy_of(&direction);
-        if slope > S::zero() {
-            let share = (error - at.energy_of(&self.error)) / slope;
-            let change = State { q: direction.q * share, p: direction.p * share };
-            self.error.q += change.q;
-            self.error.p += change.p;
-            return scale.norm(&change);
+    /// The errors `from` one state `to` another: where they turn far, by way of states between.
+    fn transport<L, M>(
+        &mut self,
+        system: &L,
+        methods: M,
+        [last, to]: [&Variation<S, N>; 2],
+        [before, time]: [f64; 2],
+        scale: &Scale<S, N>,
+        since: &Since,
+    ) where
+        L: Lagrangian<N, Scalar = S>,
+        M: Methods<L, N>,
+    {
+        let size = scale.norm(&self.error);
+        let t = S::constant(time - before);
+        let length = (S::one() / last.fastest()).min(t);
+        // Once around, J is what it was: what has been seen to change is forgotten by little.
+        let (fastest, share) = last.change_to(to);
+        self.share = share.max(REMEMBERED * self.share);
+        // What changes by more than slightly is followed within a turn.
+        let share = if self.share < SLIGHT { self.share } else { self.share.max(0.5) };
+        self.speed = fastest * share;
+        let angle = self.speed * t.widen();
+        let most = if self.is_coarse { 1.0 } else { (since.affordable / PART).clamp(1.0, MOST_PARTS) };
+        let parts = nalgebra::ComplexField::ceil((angle / ANGLE[1]).min(nalgebra::ComplexField::floor(most)))
+            .max(1.0);
+        let part = t / S::constant(parts);
+        let is_short = self.is_coarse || self.share < SLIGHT || angle < ANGLE[0] || since.affordable < PART;
+        let is_timed = self.is_timed;
+        let evaluations = &mut self.evaluations;
+        let mut between = |from: &Variation<S, N>, share: f64| {
+            let share = S::constant(share / parts);
+            let state = last.between(to, t, share, is_timed);
+            let guess = from.velocity_at(&state);
+            *evaluations += 2.0;
+            system.later(S::constant(before) + share * t, |system| {
+                Variation::at(system, methods, &state, &guess, length)
+            })
+        };
+        let [a, b] = self.unsure;
+        let (mut from, mut errors) = (*last, [self.error, a, b]);
+        for k in 0..parts as u32 {
+            let k = f64::from(k);
+            let inner = if is_short {
+                None
+            } else {
+                let first = between(&from, k + INNER[0]);
+                first.and_then(|first| Some([first, between(&first, k + INNER[1])?]))
+            };
+            let end = if k + 1.0 < parts { between(&from, k + 1.0) } else { None };
+            let end = end.unwrap_or(*to);
+            errors = if is_timed {
+                carried(errors, &from, inner.as_ref(), &end, part)
+            } else {
+                along_the_motion(errors, &from, inner.as_ref(), &end, part, scale)
+            };
+            from = end;
         }
-        0.0
+        if self.energy.is_some() {
+            let kept = last.energy_of(&self.error);
+            errors[0] = plus(&errors[0], &to.of_energy(kept - to.energy_of(&errors[0]), scale));
+        }
+        [self.error, self.unsure[0], self.unsure[1]] = errors;
+        let shift = if is_timed { S::zero() } else { shift(&self.error, &to.rate, scale) };
+        let across = plus(&self.error, &State { q: to.rate.q * -shift, p: to.rate.p * -shift });
+        self.err(&across, UNSURE[1] * (angle / parts / ANGLE[1]).min(1.0));
+        let growth = scale.norm(&self.error) / size;
+        if growth.is_finite() {
+            self.growth *= growth;
+        }
     }
 
     /// The error expected of the state last looked at.
     pub(super) fn size(&self, scale: &Scale<S, N>) -> f64 {
-        let [error, unsure] = [&self.error, &self.unsure].map(|error| scale.norm(error));
-        nalgebra::ComplexField::sqrt(error * error + unsure * unsure) + self.unseen + 2.0 * self.rounding
+        let squares = self.unsure.iter().chain([&self.error]).map(|error| scale.norm(error).powi(2));
+        nalgebra::ComplexField::sqrt(squares.sum::<f64>())
     }
 }
 
-/// What rounding makes of the state in a step: of q, and of p by the forces, which weighs more than that of q where a mode is faster than the
-/// motion that weighs p.
-fn rounding_of_a_step<S: Scalar, const N: usize>(
+fn plus<S: Scalar, const N: usize>(a: &State<S, N>, b: &State<S, N>) -> State<S, N> {
+    State { q: a.q + b.q, p: a.p + b.p }
+}
+
+/// What rounding makes of the state in some steps: of q and p by their own, and of p by the forces in the fastest mode.
+fn rounding<S: Scalar, const N: usize>(
     at: &Variation<S, N>,
     state: &State<S, N>,
     scale: &Scale<S, N>,
     time: f64,
     since: &Since,
-) -> f64 {
-    let each = S::EPSILON.widen() * scale.largest.widen();
-    let of_mode = S::EPSILON.widen() * state.q.amax().widen() * scale.weight() * at.impedance();
+) -> State<S, N> {
+    let root = nalgebra::ComplexField::sqrt;
+    let each =
+        scale.of_size(S::EPSILON.widen() * scale.largest.widen() * root(since.roundings * since.steps));
     let angle = at.fastest().widen() * time / since.steps.max(1.0);
-    let squares =
-        each.max(of_mode) * each.max(of_mode) * since.roundings + (of_mode * angle) * (of_mode * angle);
-    nalgebra::ComplexField::sqrt(squares)
+    let of_force = S::EPSILON.widen() * state.q.amax().widen() * at.impedance() * angle * root(since.steps);
+    State { q: each.q, p: each.p.add_scalar(S::constant(of_force)) }
 }
 
 /// What of an error is a shift in time; 0 at rest.
@@ -349,19 +338,18 @@ fn shift<S: Scalar, const N: usize>(error: &State<S, N>, rate: &State<S, N>, sca
 }
 
 /// What of errors is a shift in time stays one: f is carried to f exactly.
-fn along_the_motion<S: Scalar, const N: usize>(
-    errors: [State<S, N>; 2],
+fn along_the_motion<S: Scalar, const N: usize, const K: usize>(
+    errors: [State<S, N>; K],
     from: &Variation<S, N>,
-    middle: Option<&Variation<S, N>>,
+    inner: Option<&[Variation<S, N>; 2]>,
     to: &Variation<S, N>,
     t: S,
     scale: &Scale<S, N>,
-) -> [State<S, N>; 2] {
+) -> [State<S, N>; K] {
     let (f, g) = (&from.rate, &to.rate);
     let shifts = errors.each_ref().map(|error| shift(error, f, scale));
-    let [a, b] = errors;
-    let across = |x: State<S, N>, shift: S| State { q: x.q - f.q * shift, p: x.p - f.p * shift };
-    let [a, b] = carried([across(a, shifts[0]), across(b, shifts[1])], from, middle, to, t);
-    let along = |x: State<S, N>, shift: S| State { q: x.q + g.q * shift, p: x.p + g.p * shift };
-    [along(a, shifts[0]), along(b, shifts[1])]
+    let across: [State<S, N>; K] =
+        core::array::from_fn(|k| plus(&errors[k], &State { q: f.q * -shifts[k], p: f.p * -shifts[k] }));
+    let across = carried(across, from, inner, to, t);
+    core::array::from_fn(|k| plus(&across[k], &State { q: g.q * shifts[k], p: g.p * shifts[k] }))
 }

@@ -1,33 +1,17 @@
 //! The guard along the run of a choice.
 
-use core::fmt;
-
 use nalgebra::SVector;
 
-use super::estimate::{ANGLE, Estimate, Scale, Since};
-use super::{Choice, MethodStep, Methods};
+use super::estimate::{ANGLE, Estimate, Since};
+use super::scale::Scale;
+use super::{Breach, Choice, MethodStep, Methods};
 use crate::{Lagrangian, Scalar, State, StepError};
-
-/// Where the error expected has passed the one asked for.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Breach {
-    /// The time.
-    pub time: f64,
-    /// The error expected of the state there.
-    pub expected: f64,
-    /// The error asked for.
-    pub tolerance: f64,
-    /// A tolerance to ask for instead, from the start.
-    pub instead: f64,
-}
 
 /// Steps between two looks at most.
 const STRIDE: u64 = 40;
 
-/// Runs of fewer steps are looked at more closely.
+/// Runs of fewer steps are looked at in every step.
 const FEW: u64 = 100;
-const LOOKS_OF_FEW: u64 = 24;
 
 /// The share of the run's cost that the motion's derivatives along it may take.
 const SHARE: f64 = 0.05;
@@ -46,9 +30,8 @@ fn derivatives(n: usize) -> f64 {
     2.0 + 1.3 * (n * n) as f64 + 4.0 * n as f64
 }
 
-/// A step is looked at where the motion has become rougher than where it was looked at last, by this factor; of a run of few steps by that.
+/// A step is looked at where the motion has become rougher than where it was looked at last, by this factor.
 const ROUGHER: f64 = 2.0;
-const ROUGHER_OF_FEW: f64 = 1.4;
 
 /// What of the tolerance a change of the force with time over one step has to come to before it is looked at.
 const STROKE: f64 = 0.05;
@@ -61,19 +44,19 @@ const STROKE: f64 = 0.05;
 /// δ_{k+1} = A_k δ_k + d_k
 /// ```
 ///
-/// - d_k, the local error, is the difference to two half steps. It is taken at some of the steps, at no period, for those between as well,
-///   and where the motion becomes rougher: by fourth differences of q, of Gauss methods by the last coefficients of the velocity's
-///   polynomial.
+/// - d_k, the local error, is the difference to two half steps. Of a run of fewer than 100 steps it is taken at every one, else at some, at no
+///   period, for those between as well, and where the motion becomes rougher: by fourth differences of q, of Gauss methods by the last
+///   coefficients of the velocity's polynomial, whose squares say what the steps between err by.
 /// - A_k is the tangent map of the motion: exp of ∂(q̇, ṗ)/∂(q, p) at the states of the run, and between them where an error turns far in one
-///   step. A shift in time stays one, exactly, unless the system changes with time. So growth is that of the motion, chaos included: what δ
-///   may err by itself is carried along beside it, as motions that part leave the direction of δ. **Not so**
-///   for more than three coordinates where a step costs less than the algebra of its matrices (splittings): there the error is carried
-///   over many steps at once, and the growth of a chaotic motion is not seen.
-/// - Where no force acts and nothing depends on time, the energy says what its part of the error is; a jump of it reveals a step that erred
-///   without being looked at.
+///   step. A shift in time stays one, exactly, unless the system changes with time, and an error's energy stays where no force acts. So growth
+///   is that of the motion, chaos included. **Not so** for more than three coordinates where a step costs less than the algebra of its
+///   matrices (splittings): there the error is carried over many steps at once, and the growth of a chaotic motion is not seen.
+/// - What δ may be besides is carried along as two samples at random, as motions that part leave the direction of δ: by rounding, which is that
+///   of the forces in the fastest mode as well, by what local errors and their growth are not known to, and by steps that were not looked at.
+/// - Where no force acts and nothing depends on time, the energy says what its part of the error is; more of it than the steps since it was
+///   asked for can have made reveals one that erred without being looked at.
 /// - Where the system changes with time, the force is asked for between the nodes of a step as well, at the state last looked at, so that a pulse
 ///   is looked at.
-/// - Rounding adds as a random walk that grows with the error; that of the forces counts, in p, by the fastest mode.
 ///
 /// The run goes on after a [`Breach`], with the same step size. The guard's cost is in the page `docs/error-asked-for.md`, in evaluations of
 /// the forces; runs of fewer than 100 steps are looked at more closely, at up to three times their cost.
@@ -102,6 +85,10 @@ where
     recent: [SVector<L::Scalar, N>; 4],
     /// The largest change of the force with time.
     stroke: f64,
+    /// The squares of what a Gauss method has left unresolved since the last look, added up; the largest looked at, and what local errors are
+    /// of such a square.
+    unresolved: f64,
+    grade: [f64; 2],
     /// The step after which the energy was asked for.
     energy: u64,
     random: u64,
@@ -117,9 +104,8 @@ where
     pub(super) fn new(choice: Choice<'a, L, M, N>, step: M::Step, half: M::Step) -> Self {
         let (start, scale) = (choice.start, Scale::new(&choice.start));
         let local = choice.local;
-        let is_few = choice.steps < FEW;
-        let is_coarse = !is_few && N > RESOLVED && derivatives(N) > choice.evaluations_per_step;
-        let mut estimate = Estimate::new(choice.system, is_few, is_coarse);
+        let is_coarse = choice.steps >= FEW && N > RESOLVED && derivatives(N) > choice.evaluations_per_step;
+        let mut estimate = Estimate::new(choice.system, is_coarse);
         let none = Since { steps: 0.0, roundings: 0.0, foreseen: 0.0, affordable: 0.0, is_energy: true };
         estimate.carry(choice.system, choice.methods, &start, 0.0, &scale, &none);
         let mut guarded = Self {
@@ -138,6 +124,8 @@ where
             roughness: 0.0,
             recent: [start.q; 4],
             stroke: 0.0,
+            unresolved: 0.0,
+            grade: [0.0; 2],
             energy: 0,
             random: 0x9e37_79b9_7f4a_7c15,
             breach: None,
@@ -176,8 +164,7 @@ where
 
     /// The next look: at most [`STRIDE`] steps on, at no period.
     fn schedule_look(&mut self) {
-        let steps = self.choice.steps;
-        let stride = if steps < FEW { (steps / LOOKS_OF_FEW).max(1) } else { STRIDE };
+        let stride = if self.choice.steps < FEW { 1 } else { STRIDE };
         // Marsaglia's xorshift.
         self.random ^= self.random << 13;
         self.random ^= self.random >> 7;
@@ -194,16 +181,12 @@ where
 
     fn schedule_derivatives(&mut self) {
         let angle = self.estimate.speed * self.choice.step_size;
-        let part = if self.estimate.is_planar() { 0.5 * ANGLE[0] } else { ANGLE[1] };
-        let resolved = if angle > 0.0 { part / angle } else { f64::INFINITY };
+        let resolved = if angle > 0.0 { ANGLE[1] / angle } else { f64::INFINITY };
         // Seldom where the step is long already; twice the last distance at most, as a period may look like rest.
         let last = (self.taken - self.carried[2]).max(1) as f64;
         let resolved = resolved.min(2.0 * last);
-        let affordable = derivatives(N) / (SHARE * self.choice.evaluations_per_step);
-        let (least, most) = if self.estimate.is_planar() {
-            (affordable, STRIDE)
-        } else if self.estimate.is_coarse() {
-            (affordable / 3.0, 4 * STRIDE)
+        let (least, most) = if self.estimate.is_coarse() {
+            (derivatives(N) / (3.0 * SHARE * self.choice.evaluations_per_step), 4 * STRIDE)
         } else {
             (1.0, STRIDE)
         };
@@ -244,7 +227,10 @@ where
     }
 
     /// Holds the last step, from `before`, against its halves; halves that cannot be taken are a breach.
-    fn look(&mut self, before: &State<L::Scalar, N>) {
+    ///
+    /// A Gauss method's local error is of twice the order of what it leaves unresolved, `last` of this step: those not looked at err by its
+    /// square.
+    fn look(&mut self, before: &State<L::Scalar, N>, last: Option<f64>) {
         let h = self.choice.step_size;
         let elapsed = h * (self.taken - 1) as f64;
         self.half.forget();
@@ -260,12 +246,28 @@ where
         };
         let local = self.choice.method.local_error(&self.state, &halves);
         let size = self.scale.norm(&local);
-        // Those not looked at lie between the last one that was and this one.
-        let share = if size > 0.0 { 0.5 * (1.0 + (self.local / size).min(steps)) } else { 1.0 };
-        self.estimate.add(&local, (steps - 1.0) * share);
+        let unseen = if let Some(last) = last {
+            self.grade(last, size);
+            if size > 0.0 { self.unresolved * self.grade[1] / size } else { 0.0 }
+        } else if size > 0.0 {
+            // Those not looked at lie between the last one that was and this one.
+            0.5 * (steps - 1.0) * (1.0 + (self.local / size).min(steps))
+        } else {
+            steps - 1.0
+        };
+        self.unresolved = 0.0;
+        self.estimate.add(&local, unseen);
         self.local = size;
         self.looks[0] = self.taken;
         self.schedule_look();
+    }
+
+    /// Takes from a step that errs by `local` what local errors are of the square of what is `unresolved`: the larger, the surer.
+    fn grade(&mut self, unresolved: f64, local: f64) {
+        let square = unresolved * unresolved;
+        if square > 0.0 && square >= self.grade[0] {
+            self.grade = [square, local / square];
+        }
     }
 
     /// Whether the force, where it changes with time, has done so within the last step as it did not before: between the nodes of the step.
@@ -317,8 +319,10 @@ where
         self.scale.follow(&before, &taken.state);
         let difference = self.fourth_difference();
         let roughness = taken.unresolved.unwrap_or(difference);
-        let rougher = if self.choice.steps < FEW { ROUGHER_OF_FEW } else { ROUGHER };
-        let is_rougher = roughness > rougher * self.roughness && self.taken > 5;
+        let is_rougher = roughness > ROUGHER * self.roughness && self.taken > 5;
+        if let (Some(unresolved), 1) = (taken.unresolved, self.taken) {
+            self.grade(unresolved, self.local);
+        }
         let looks = self.is_struck() || is_rougher || self.taken >= self.looks[1];
         if self.roughness == 0.0 && self.taken <= 5 {
             self.roughness = roughness;
@@ -328,22 +332,14 @@ where
         }
         if looks {
             self.roughness = if is_rougher { roughness } else { self.roughness.max(roughness) };
-            self.look(&before);
+            self.look(&before, taken.unresolved);
+        } else if let Some(unresolved) = taken.unresolved {
+            self.unresolved += unresolved * unresolved;
         }
         if looks || self.carried[0] == self.taken {
             let expected = self.expected();
             self.report(expected);
         }
         Some(Ok(self.state))
-    }
-}
-
-impl fmt::Display for Breach {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "at t = {:.4} an error of {:.1e} is to be expected, {:.1e} was asked for; start again and ask for {:.1e}",
-            self.time, self.expected, self.tolerance, self.instead
-        )
     }
 }

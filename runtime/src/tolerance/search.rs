@@ -2,7 +2,7 @@
 
 use nalgebra::ComplexField;
 
-use super::estimate::Scale;
+use super::scale::Scale;
 use super::variation::Variation;
 use super::{Choice, Method, MethodStep, Methods, ToleranceError, Trial};
 use crate::{Lagrangian, Scalar, State, StepError};

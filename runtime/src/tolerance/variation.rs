@@ -9,6 +9,8 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::Methods;
+use super::scale::Scale;
+use super::tangent::{norm, product, times};
 use crate::{Lagrangian, Linearization, PhaseMatrix, Scalar, State};
 
 /// The motion at one state.
@@ -78,9 +80,9 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
         norm(&self.matrix)
     }
 
-    /// The angle by which an error turns within `t` up to `other`, less where J changes little: the angle over which one J does not
-    /// serve.
-    pub(super) fn angle_to(&self, other: &Self, t: S) -> f64 {
+    /// The fastest rate here and at `other`, and the root of the share of J that changes: over their product with a time an error turns as
+    /// one J does not tell.
+    pub(super) fn change_to(&self, other: &Self) -> (f64, f64) {
         let [a, b] = [&self.matrix, &other.matrix];
         let fastest = norm(a).max(norm(b));
         let share = |x: &SMatrix<S, N, N>, y: &SMatrix<S, N, N>, size: S| {
@@ -93,7 +95,7 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
             .max(share(&a.q_by_q, &b.q_by_q, fastest))
             .max(share(&a.p_by_p, &b.p_by_p, fastest))
             .min(S::one());
-        (fastest * t * share.sqrt()).widen()
+        (fastest.widen(), share.sqrt().widen())
     }
 
     /// H = p·v − L(q, v); an error of v enters squared.
@@ -159,6 +161,15 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
     pub(super) fn energy_of(&self, error: &State<S, N>) -> S {
         self.rate.q.dot(&error.p) - self.rate.p.dot(&error.q)
     }
+
+    /// The least error with so much energy: along the gradient of H, with q and p in the same units; none at rest.
+    pub(super) fn of_energy(&self, energy: S, scale: &Scale<S, N>) -> State<S, N> {
+        let w = S::constant(scale.weight());
+        let direction = State { q: -self.rate.p * (w * w), p: self.rate.q };
+        let slope = self.energy_of(&direction);
+        let share = if slope > S::zero() { energy / slope } else { S::zero() };
+        State { q: direction.q * share, p: direction.p * share }
+    }
 }
 
 /// J from A = (I − τJ/2)⁻¹(I + τJ/2), by two terms of the series of the logarithm.
@@ -177,120 +188,5 @@ fn generator<S: Scalar, const N: usize>(a: &PhaseMatrix<S, N>, tau: S) -> PhaseM
     }
 }
 
-fn product<S: Scalar, const N: usize>(a: &PhaseMatrix<S, N>, b: &PhaseMatrix<S, N>) -> PhaseMatrix<S, N> {
-    PhaseMatrix {
-        q_by_q: a.q_by_q * b.q_by_q + a.q_by_p * b.p_by_q,
-        q_by_p: a.q_by_q * b.q_by_p + a.q_by_p * b.p_by_p,
-        p_by_q: a.p_by_q * b.q_by_q + a.p_by_p * b.p_by_q,
-        p_by_p: a.p_by_q * b.q_by_p + a.p_by_p * b.p_by_p,
-    }
-}
-
 /// A quintic says nothing of a motion over so many radians.
 const LONG: f64 = 4.0;
-
-/// Beyond so many substeps, of few coordinates and of many, the exponential is that of the matrix, by squaring.
-const SQUARED: [f64; 2] = [8.0, 32.0];
-
-/// Turns beyond which the error is left where it is: its phase is lost.
-const LOST: f64 = 1e9;
-
-/// Terms of the series of the exponential.
-const TERMS: u32 = 8;
-
-/// The errors after the time `t` between two states: exp(Ω) δ, by W. Magnus's series with J at both ends, and, where it is given, at
-/// the middle.
-///
-/// ```text
-/// Ω = t (J₀ + J₁)/2        Ω = t (J₀ + 4J_m + J₁)/6 − t² (J₀J₁ − J₁J₀)/12
-/// ```
-pub(super) fn carried<S: Scalar, const N: usize>(
-    errors: [State<S, N>; 2],
-    from: &Variation<S, N>,
-    middle: Option<&Variation<S, N>>,
-    to: &Variation<S, N>,
-    t: S,
-) -> [State<S, N>; 2] {
-    let (a, b) = (&from.matrix, &to.matrix);
-    let mut omega = match middle {
-        None => weighted(t * S::constant(0.5), [a, b], S::one()),
-        Some(middle) => {
-            let ends = weighted(t / S::constant(6.0), [a, b], S::one());
-            weighted(S::one(), [&ends, &middle.matrix], t * S::constant(4.0 / 6.0))
-        }
-    };
-    if middle.is_some() {
-        let commutator = weighted(S::one(), [&product(a, b), &product(b, a)], -S::one());
-        omega = weighted(S::one(), [&omega, &commutator], -(t * t) / S::constant(12.0));
-    }
-    let size = norm(&omega).widen();
-    if size.is_nan() || size > LOST {
-        return errors;
-    }
-    if size > SQUARED[usize::from(N > 3)] {
-        let power = exponential(&omega, size);
-        return errors.map(|error| times(&power, &error));
-    }
-    let parts = nalgebra::ComplexField::ceil(size).max(1.0) as u32;
-    let tau = S::one() / S::constant(f64::from(parts));
-    errors.map(|error| {
-        let mut carried = error;
-        if carried.q.iter().chain(carried.p.iter()).all(|&x| x == S::zero()) {
-            return carried;
-        }
-        for _ in 0..parts {
-            let mut term = carried;
-            for k in 1..=TERMS {
-                let share = tau / S::constant(f64::from(k));
-                let next = times(&omega, &term);
-                term = State { q: next.q * share, p: next.p * share };
-                carried.q += term.q;
-                carried.p += term.p;
-            }
-        }
-        carried
-    })
-}
-
-/// exp(Ω) of Ω with norm `size`: the series of Ω/2ᵏ, squared k times.
-fn exponential<S: Scalar, const N: usize>(omega: &PhaseMatrix<S, N>, size: f64) -> PhaseMatrix<S, N> {
-    let (mut halvings, mut share) = (0, 1.0);
-    while size * share > 0.5 {
-        halvings += 1;
-        share *= 0.5;
-    }
-    let [zero, unit] = [SMatrix::zeros(), SMatrix::identity()];
-    let unit = PhaseMatrix { q_by_q: unit, q_by_p: zero, p_by_q: zero, p_by_p: unit };
-    let mut power = unit;
-    for k in (1..=TERMS).rev() {
-        let factor = S::constant(share / f64::from(k));
-        power = weighted(S::one(), [&unit, &product(omega, &power)], factor);
-    }
-    for _ in 0..halvings {
-        power = product(&power, &power);
-    }
-    power
-}
-
-fn times<S: Scalar, const N: usize>(a: &PhaseMatrix<S, N>, x: &State<S, N>) -> State<S, N> {
-    State { q: a.q_by_q * x.q + a.q_by_p * x.p, p: a.p_by_q * x.q + a.p_by_p * x.p }
-}
-
-/// `factor` (a + `share` b).
-fn weighted<S: Scalar, const N: usize>(
-    factor: S,
-    [a, b]: [&PhaseMatrix<S, N>; 2],
-    share: S,
-) -> PhaseMatrix<S, N> {
-    PhaseMatrix {
-        q_by_q: (a.q_by_q + b.q_by_q * share) * factor,
-        q_by_p: (a.q_by_p + b.q_by_p * share) * factor,
-        p_by_q: (a.p_by_q + b.p_by_q * share) * factor,
-        p_by_p: (a.p_by_p + b.p_by_p * share) * factor,
-    }
-}
-
-/// A norm that does not depend on the units of q and p.
-fn norm<S: Scalar, const N: usize>(a: &PhaseMatrix<S, N>) -> S {
-    (a.q_by_p.norm() * a.p_by_q.norm()).sqrt() + a.q_by_q.norm().max(a.p_by_p.norm())
-}

@@ -1,0 +1,50 @@
+//! The norm of the promise.
+
+use nalgebra::SVector;
+
+use crate::{Scalar, State};
+
+/// How an error of p counts beside one of q: the norm of a [`Choice`](super::Choice)'s promise.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scale<S, const N: usize> {
+    start: SVector<S, N>,
+    /// The largest distance of a coordinate from its start, and the largest momentum.
+    reached: [S; 2],
+    /// The largest change of a coordinate and of a momentum over a step.
+    change: [S; 2],
+    /// The largest coordinate.
+    pub(super) largest: S,
+}
+
+impl<S: Scalar, const N: usize> Scale<S, N> {
+    pub(super) fn new(start: &State<S, N>) -> Self {
+        let zero = S::zero();
+        Self { start: start.q, reached: [zero, start.p.amax()], change: [zero; 2], largest: start.q.amax() }
+    }
+
+    #[inline]
+    pub(super) fn follow(&mut self, from: &State<S, N>, to: &State<S, N>) {
+        self.reached = [self.reached[0].max((to.q - self.start).amax()), self.reached[1].max(to.p.amax())];
+        self.change =
+            [self.change[0].max((to.q - from.q).amax()), self.change[1].max((to.p - from.p).amax())];
+        self.largest = self.largest.max(to.q.amax());
+    }
+
+    /// What an error of p is multiplied by.
+    pub(super) fn weight(&self) -> f64 {
+        let ratio = |[q, p]: [S; 2]| if p > S::zero() { (q / p).widen() } else { f64::INFINITY };
+        let weight = ratio(self.reached).min(ratio(self.change));
+        if weight.is_finite() { weight } else { 0.0 }
+    }
+
+    /// An error of so much in every coordinate and momentum.
+    pub(super) fn of_size(&self, size: f64) -> State<S, N> {
+        let weight = self.weight();
+        let of_p = if weight > 0.0 { size / weight } else { 0.0 };
+        State { q: SVector::repeat(S::constant(size)), p: SVector::repeat(S::constant(of_p)) }
+    }
+
+    pub(super) fn norm(&self, error: &State<S, N>) -> f64 {
+        error.q.amax().widen().max(error.p.amax().widen() * self.weight())
+    }
+}
