@@ -18,5 +18,51 @@ fn of_random_motions_none_passes_its_error_in_silence() {
     }
     // Positive control: with the guard switched off these would have passed it in silence.
     assert!(passed >= runs / 10, "{passed} of {runs}");
-    assert!(wrong * 25 <= runs, "{wrong} of {runs} breaches where the error was kept");
+    assert!(wrong * 50 <= runs, "{wrong} of {runs} breaches where the error was kept");
+}
+
+#[test]
+fn what_has_been_missed_or_reported_for_nothing_once_is_not_again() {
+    // Seed, place and tolerance: what the reason was.
+    let passed = [
+        // One J for angles up to a radian, and local errors of few looks, by Gauss methods of long steps where motions part.
+        (4711, 166, 1e-10),
+        (4711, 124, 1e-10),
+    ];
+    let kept = [
+        // What the error is not known to was given an energy that it cannot have.
+        (4711, 4, 1e-2),
+        (4711, 4, 1e-4),
+        // J at looks that meet the same phase of an orbit was taken for constant.
+        (1, 240, 1e-2),
+        (4711, 72, 1e-4),
+        // Rounding grew as an error of another direction did.
+        (4711, 89, 1e-12),
+    ];
+    let ask = |seed: u64, place: usize, tolerance: f64| {
+        let motion = collection(seed, place + 1).pop().unwrap();
+        (format!("{}, {}, {tolerance:e}", motion.family, motion.what), motion.ask(tolerance))
+    };
+    for (seed, place, tolerance) in passed {
+        let (what, outcome) = ask(seed, place, tolerance);
+        // Positive control: the error is passed.
+        assert!(outcome.error > 1.0, "{what}: {outcome:?}");
+        assert_ne!(outcome.verdict, Verdict::Silent, "{what}: {outcome:?}");
+    }
+    for (seed, place, tolerance) in kept {
+        let (what, outcome) = ask(seed, place, tolerance);
+        assert!(outcome.verdict == Verdict::Silent && outcome.error <= 1.0, "{what}: {outcome:?}");
+        // Positive control: an error there is.
+        assert!(outcome.error > 1e-3, "{what}: {outcome:?}");
+    }
+}
+
+#[test]
+fn the_cheapest_fixed_choice_is_no_accident() {
+    // A pendulum that is at rest long before the end, where one step over the whole time leads to by accident.
+    let motion = collection(4711, 4).pop().unwrap();
+    assert!(motion.what.starts_with("r 0.785"), "{}", motion.what);
+    for cheapest in motion.cheapest(&[1e-2, 1e-6, 1e-10]) {
+        assert!(cheapest.unwrap().0 > 100.0, "{cheapest:?}");
+    }
 }

@@ -36,6 +36,20 @@ where
 const CHAIN: [[f64; 5]; 2] = [[0.5, -0.2, 0.7, 0.1, -0.6], [0.0, 0.9, -0.3, 0.4, 0.2]];
 const PENDULUM: [[f64; 1]; 2] = [[1.9], [-0.7]];
 
+#[test]
+fn a_step_of_all_stages_by_newtons_method_is_charged_as_such() {
+    let start = State { q: [1.0].into(), p: [0.0].into() };
+    let evaluations = |h: f64| {
+        let mut step = Methods::<Oscillator, 1>::step(WithGauss(Trapezoidal), Method::Gauss8, h).unwrap();
+        step.advance(&Oscillator {}, 0.0, &start).unwrap().evaluations
+    };
+    // The fixed point contracts: its iterations times the stages.
+    assert_eq!(evaluations(0.3) % 8.0, 0.0);
+    // It does not: derivatives before the first iteration and after it, and a matrix.
+    assert!(evaluations(4.0) >= 8.0 * 4.0, "{}", evaluations(4.0));
+    assert_ne!(evaluations(4.0) % 8.0, 0.0);
+}
+
 /// ½v² − ½q².
 #[rayleigh_system(rule = [trapezoidal, gauss])]
 fn oscillator(q: [f64; 1], v: [f64; 1]) -> f64 {
