@@ -27,7 +27,7 @@ const LOST: f64 = 1e9;
 const TERMS: u32 = 8;
 
 /// The nodes of Lobatto's rule of four between the ends, and what the inner difference weighs beside the outer one in a mean slope: 5/√5.
-pub(super) const INNER: [f64; 2] = [0.276_393_202_250_021_03, 0.723_606_797_749_979];
+pub(super) const INNER: [f64; 2] = [0.276_393_202_250_021, 0.723_606_797_749_979];
 const SLOPE: f64 = 2.236_067_977_499_79;
 
 /// The errors after the time `t` between two states: exp(Ω) δ, by W. Magnus's series with J at both ends, and, where they are given, at
