@@ -2,7 +2,9 @@
 
 use core::array;
 
-use crate::{Checkpoint, ComposedStep, ComposedTrajectory, Discrete, Memory, Scalar, SelfAdjoint, State, StepError};
+use crate::{
+    Checkpoint, ComposedStep, ComposedTrajectory, Discrete, Memory, Scalar, SelfAdjoint, State, StepError,
+};
 
 /// A composition of S substeps γ₁h, …, γ_S h of rule `R`, symmetric (γᵢ = γ_{S+1−i}) and of high order.
 ///
