@@ -109,7 +109,7 @@ impl<S: Scalar, const N: usize> core::ops::Add for DiscreteForceDerivatives<S, N
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Report<S> {
-    /// Newton iterations.
+    /// Corrections: of v̄ by Newton's method, or by a matrix kept; by Gauss rules of all stages at once, by fixed point or Newton's method.
     pub iterations: u32,
     /// Iterations whose Newton step had to be shortened.
     pub damped: u32,

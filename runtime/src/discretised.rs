@@ -8,8 +8,8 @@ use nalgebra::SVector;
 use crate::{
     BoundedStep, Certificate, Checkpoint, Derivatives, Discrete, DiscreteDriven, DiscreteForce,
     DiscreteParameters, DiscreteRayleigh, DiscreteSecondOrder, Lagrangian, LegendreDerivatives,
-    Linearization, OffersMethods, Request, State, StateBy, Step, StepError, StepHessian, StepWith,
-    Trajectory,
+    Linearization, OffersMethods, Request, SolvedForVelocity, State, StateBy, Step, StepError, StepHessian,
+    StepWith, Trajectory,
 };
 #[cfg(feature = "std")]
 use crate::{hamilton_jacobi::HamiltonJacobi, noether::Noether};
@@ -190,7 +190,10 @@ where
         &self,
         state: &State<L::Scalar, N>,
         iterations: u32,
-    ) -> Result<BoundedStep<L::Scalar, N>, StepError> {
+    ) -> Result<BoundedStep<L::Scalar, N>, StepError>
+    where
+        R: SolvedForVelocity,
+    {
         self.system.step_within(state, self.h, self.guess.as_ref(), iterations)
     }
 

@@ -323,7 +323,7 @@ pub use memory::{
 pub use parameters::{DiscreteParameters, GradientBy, Parameters};
 pub use rules::{
     DisplacementRule, Fitted, FittedTrapezoidal, Gauss, JointRayleighRule, JointRule, Midpoint, Node,
-    OneSided, SelfAdjoint, StageHistory, Trapezoidal,
+    OneSided, SelfAdjoint, SolvedForVelocity, StageHistory, Trapezoidal,
 };
 pub use scalar::Scalar;
 pub use second_order::{DiscreteSecondOrder, Hessian, SecondOrder, StepHessian};

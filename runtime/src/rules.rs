@@ -9,6 +9,7 @@ mod joint;
 mod midpoint;
 mod one_sided;
 mod self_adjoint;
+mod solved_for_velocity;
 mod trapezoidal;
 
 pub(crate) use damped_drift::{ByDrift, DampedDrift, Drift, modes, require_positive_definite};
@@ -20,4 +21,5 @@ pub use joint::{JointRayleighRule, JointRule};
 pub use midpoint::Midpoint;
 pub use one_sided::OneSided;
 pub use self_adjoint::SelfAdjoint;
+pub use solved_for_velocity::SolvedForVelocity;
 pub use trapezoidal::Trapezoidal;
