@@ -304,8 +304,8 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
 
     /// The error expected of the state last looked at.
     pub(super) fn size(&self, scale: &Scale<S, N>) -> f64 {
-        let squares = self.unsure.iter().chain([&self.error]).map(|error| scale.norm(error).powi(2));
-        nalgebra::ComplexField::sqrt(squares.sum::<f64>())
+        let sizes = self.unsure.iter().chain([&self.error]).map(|error| scale.norm(error));
+        nalgebra::ComplexField::sqrt(sizes.map(|size| size * size).sum::<f64>())
     }
 }
 

@@ -286,7 +286,8 @@ fn staged<L: ForcedLagrangian<N>, const N: usize, const S: usize>(
     let iterations = f64::from(taken.report.iterations);
     // By Newton's method all stages are differentiated before each iteration and after the last, and their matrix is factored.
     let by_stage = if step.history.is_by_newton() {
-        DERIVATIVE + iterations * (DERIVATIVE + FACTORING * ((S * N) as f64).powi(2))
+        let entries = (S * N * S * N) as f64;
+        DERIVATIVE + iterations * (DERIVATIVE + FACTORING * entries)
     } else {
         iterations
     };
