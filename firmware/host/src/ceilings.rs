@@ -60,8 +60,8 @@ pub fn ceiling(machine: &str, level: &str, scene: &str) -> Option<Ceiling> {
 /// Bytes of stack for scenes of a scalar type, on any machine; `f64` after `f32`.
 pub fn stack_ceiling(scalar: &str) -> Option<u32> {
     match scalar {
-        "f32" => Some(3_060),
-        "f64" => Some(5_520),
+        "f32" => Some(3_320),
+        "f64" => Some(6_140),
         _ => None,
     }
 }
