@@ -21,7 +21,8 @@ case! {
             let shifted = (1_u8 << 7) as f64 + (0x80_u8 << 1) as f64 + (-17_i32 >> 2) as f64;
             let divided = (-7_i32 / 2) as f64 + (-7_i32 % 2) as f64 + (-7_i32).rem_euclid(2) as f64 + (-7_i32).div_euclid(2) as f64;
             let of_literals = 100_u8.wrapping_add(self.m) as f64 + 0_i32.saturating_sub(self.n) as f64 + (-7_i32).min(self.n) as f64;
-            let fields = of_literals + (self.n.pow(2) + 1) as f64 + self.m.wrapping_mul(2) as f64 + self.n.abs() as f64 + (self.n as u8) as f64;
+            let ranged = match self.n { ..=-8 => 1.0, -7.. => 2.0 * q[0] };
+            let fields = ranged + of_literals + (self.n.pow(2) + 1) as f64 + self.m.wrapping_mul(2) as f64 + self.n.abs() as f64 + (self.n as u8) as f64;
             let chosen = if q[0] > 0.0 { self.n } else { 2 };
             let number = if v[0] > 1.0 { 3 } else { -4 };
             let rounded = 16_777_217_i32 as f32 as f64;

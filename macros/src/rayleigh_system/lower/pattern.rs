@@ -263,6 +263,10 @@ impl Lowering<'_> {
         let Text { tokens, arms, may_panic } = self.text(pattern, written)?;
         let mut outside = pattern.clone();
         Imports { lowering: self }.visit_pat_mut(&mut outside);
+        // No macro takes a pattern that begins with `..=`.
+        if outside.to_token_stream().to_string().starts_with("..") {
+            outside = syn::parse_quote!((#outside));
+        }
         let truth =
             Text { tokens: quote!(::core::matches!(#tokens, #outside)), arms: arms.clone(), may_panic };
         let truth = self.text_truth(truth);
