@@ -8,6 +8,8 @@ mod request;
 mod scale;
 mod search;
 mod tangent;
+mod twin;
+mod unresolved;
 mod variation;
 
 use nalgebra::ComplexField;

@@ -7,6 +7,6 @@ mod measured;
 mod reference;
 mod systems;
 
-pub use collection::{FAMILIES, collection};
+pub use collection::{FAMILIES, collection, of_family};
 pub use measured::{Motion, Outcome, Verdict};
 pub use reference::extrapolated;

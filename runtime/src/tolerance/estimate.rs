@@ -9,6 +9,7 @@ use nalgebra::SVector;
 use super::Methods;
 use super::scale::Scale;
 use super::tangent::{INNER, carried};
+use super::twin;
 use super::variation::Variation;
 use crate::{Lagrangian, Scalar, State};
 
@@ -102,6 +103,34 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
     /// Whether the error is not followed in every turn.
     pub(super) fn is_coarse(&self) -> bool {
         self.is_coarse
+    }
+
+    /// Steps of size `h` over which a twin may carry the error at once.
+    pub(super) fn twin_stride(&self, h: f64, most: u64) -> u64 {
+        self.last.map_or(1, |(last, _)| twin::stride(last.fastest().widen(), h, most))
+    }
+
+    /// Carries δ alone, from `state` on, by a twin of the motion.
+    pub(super) fn carry_by_twin<L, M>(
+        &mut self,
+        system: &L,
+        methods: M,
+        state: &State<S, N>,
+        [elapsed, time]: [f64; 2],
+        scale: &Scale<S, N>,
+    ) where
+        L: Lagrangian<N, Scalar = S>,
+        M: Methods<L, N>,
+    {
+        let Some((last, _)) = &self.last else { return };
+        let rate = last.fastest().widen();
+        if scale.norm(&self.error) > 0.0
+            && let Some((error, evaluations)) =
+                twin::carried((system, methods), state, &self.error, [elapsed, time, rate], scale)
+        {
+            self.error = error;
+            self.evaluations += evaluations;
+        }
     }
 
     /// Whether the system changes with time.
@@ -288,7 +317,9 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
             };
             from = end;
         }
-        if self.energy.is_some() {
+        if self.is_coarse {
+            errors[0] = self.error;
+        } else if self.energy.is_some() {
             let kept = last.energy_of(&self.error);
             errors[0] = plus(&errors[0], &to.of_energy(kept - to.energy_of(&errors[0]), scale));
         }
@@ -302,9 +333,19 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         }
     }
 
+    /// `error` at the state last looked at, and what a quarter of a turn of the fastest mode makes of it: a mode's error is one of q at times
+    /// and one of p at others, and the norm weighs these as they count in the slow modes.
+    pub(super) fn over_a_turn(&self, error: &State<S, N>, scale: &Scale<S, N>) -> [State<S, N>; 2] {
+        [*error, self.last.map_or(*error, |(last, _)| last.turned(error, scale))]
+    }
+
     /// The error expected of the state last looked at.
     pub(super) fn size(&self, scale: &Scale<S, N>) -> f64 {
-        let sizes = self.unsure.iter().chain([&self.error]).map(|error| scale.norm(error));
+        let sizes = self
+            .unsure
+            .iter()
+            .chain([&self.error])
+            .map(|error| scale.largest(&self.over_a_turn(error, scale)));
         nalgebra::ComplexField::sqrt(sizes.map(|size| size * size).sum::<f64>())
     }
 }
@@ -323,7 +364,7 @@ fn rounding<S: Scalar, const N: usize>(
 ) -> State<S, N> {
     let root = nalgebra::ComplexField::sqrt;
     let each =
-        scale.of_size(S::EPSILON.widen() * scale.largest.widen() * root(since.roundings * since.steps));
+        scale.of_size(S::EPSILON.widen() * scale.furthest.widen() * root(since.roundings * since.steps));
     let angle = at.fastest().widen() * time / since.steps.max(1.0);
     let of_force = S::EPSILON.widen() * state.q.amax().widen() * at.impedance() * angle * root(since.steps);
     State { q: each.q, p: each.p.add_scalar(S::constant(of_force)) }

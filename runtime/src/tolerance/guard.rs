@@ -4,6 +4,7 @@ use nalgebra::SVector;
 
 use super::estimate::{ANGLE, Estimate, Since};
 use super::scale::Scale;
+use super::unresolved::Unresolved;
 use super::{Breach, Choice, MethodStep, Methods};
 use crate::{Lagrangian, Scalar, State, StepError};
 
@@ -49,8 +50,8 @@ const STROKE: f64 = 0.05;
 ///   coefficients of the velocity's polynomial, whose squares say what the steps between err by.
 /// - A_k is the tangent map of the motion: exp of ∂(q̇, ṗ)/∂(q, p) at the states of the run, and between them where an error turns far in one
 ///   step. A shift in time stays one, exactly, unless the system changes with time, and an error's energy stays where no force acts. So growth
-///   is that of the motion, chaos included. **Not so** for more than three coordinates where a step costs less than the algebra of its
-///   matrices (splittings): there the error is carried over many steps at once, and the growth of a chaotic motion is not seen.
+///   is that of the motion, chaos included. For more than three coordinates where a step costs less than the algebra of its matrices
+///   (splittings) two steps of the rule, from the state and from beside it, carry δ instead.
 /// - What δ may be besides is carried along as two samples at random, as motions that part leave the direction of δ: by rounding, which is that
 ///   of the forces in the fastest mode as well, by what local errors and their growth are not known to, and by steps that were not looked at.
 /// - Where no force acts and nothing depends on time, the energy says what its part of the error is; more of it than the steps since it was
@@ -78,6 +79,8 @@ where
     looked: f64,
     /// The step after which the motion was differentiated last, and is next, and was before.
     carried: [u64; 3],
+    /// Where a twin has carried the error last, and after which step.
+    twin: (State<L::Scalar, N>, u64),
     /// The step looked at last, and next; the size of its local error, and how rough the motion was.
     looks: [u64; 2],
     local: f64,
@@ -85,10 +88,7 @@ where
     recent: [SVector<L::Scalar, N>; 4],
     /// The largest change of the force with time.
     stroke: f64,
-    /// The squares of what a Gauss method has left unresolved since the last look, added up; the largest looked at, and what local errors are
-    /// of such a square.
-    unresolved: f64,
-    grade: [f64; 2],
+    unresolved: Unresolved<L::Scalar, N>,
     /// The step after which the energy was asked for.
     energy: u64,
     random: u64,
@@ -119,19 +119,18 @@ where
             evaluations: 0.0,
             looked: 0.0,
             carried: [0; 3],
-            looks: [0, 0],
+            twin: (start, 0),
+            looks: [0, 1],
             local,
             roughness: 0.0,
             recent: [start.q; 4],
             stroke: 0.0,
-            unresolved: 0.0,
-            grade: [0.0; 2],
+            unresolved: Unresolved::new(),
             energy: 0,
             random: 0x9e37_79b9_7f4a_7c15,
             breach: None,
             failed: false,
         };
-        guarded.schedule_look();
         guarded.schedule_derivatives();
         guarded
     }
@@ -204,6 +203,18 @@ where
         if self.taken >= 4 { difference.widen() } else { 0.0 }
     }
 
+    /// Carries the error by a twin to the present state, where that is far enough or must be.
+    fn carry_by_twin(&mut self, must: bool) {
+        let Choice { system, methods, step_size, .. } = self.choice;
+        let (from, taken) = self.twin;
+        let steps = self.taken - taken;
+        if must || steps >= self.estimate.twin_stride(step_size, STRIDE) {
+            let span = [step_size * taken as f64, step_size * steps as f64];
+            self.estimate.carry_by_twin(system, methods, &from, span, &self.scale);
+            self.twin = (self.state, self.taken);
+        }
+    }
+
     /// Carries the error on to the present state.
     fn carry(&mut self) {
         let steps = (self.taken - self.carried[0]) as f64;
@@ -228,9 +239,8 @@ where
 
     /// Holds the last step, from `before`, against its halves; halves that cannot be taken are a breach.
     ///
-    /// A Gauss method's local error is of twice the order of what it leaves unresolved, `last` of this step: those not looked at err by its
-    /// square.
-    fn look(&mut self, before: &State<L::Scalar, N>, last: Option<f64>) {
+    /// `unresolved` is what a Gauss method has left so.
+    fn look(&mut self, before: &State<L::Scalar, N>, unresolved: Option<[f64; 2]>) {
         let h = self.choice.step_size;
         let elapsed = h * (self.taken - 1) as f64;
         self.half.forget();
@@ -245,29 +255,19 @@ where
             return;
         };
         let local = self.choice.method.local_error(&self.state, &halves);
-        let size = self.scale.norm(&local);
-        let unseen = if let Some(last) = last {
-            self.grade(last, size);
-            if size > 0.0 { self.unresolved * self.grade[1] / size } else { 0.0 }
-        } else if size > 0.0 {
+        let over_a_turn = self.estimate.over_a_turn(&local, &self.scale);
+        let size = self.scale.largest(&over_a_turn);
+        let unseen = match unresolved {
+            Some(_) if size == 0.0 => 0.0,
+            Some(coefficients) => self.unresolved.look(coefficients, over_a_turn, &self.scale) / size,
             // Those not looked at lie between the last one that was and this one.
-            0.5 * (steps - 1.0) * (1.0 + (self.local / size).min(steps))
-        } else {
-            steps - 1.0
+            None if size > 0.0 => 0.5 * (steps - 1.0) * (1.0 + (self.local / size).min(steps)),
+            None => steps - 1.0,
         };
-        self.unresolved = 0.0;
         self.estimate.add(&local, unseen);
         self.local = size;
         self.looks[0] = self.taken;
         self.schedule_look();
-    }
-
-    /// Takes from a step that errs by `local` what local errors are of the square of what is `unresolved`: the larger, the surer.
-    fn grade(&mut self, unresolved: f64, local: f64) {
-        let square = unresolved * unresolved;
-        if square > 0.0 && square >= self.grade[0] {
-            self.grade = [square, local / square];
-        }
     }
 
     /// Whether the force, where it changes with time, has done so within the last step as it did not before: between the nodes of the step.
@@ -318,23 +318,24 @@ where
         self.evaluations += (taken.evaluations - self.evaluations) / self.taken as f64;
         self.scale.follow(&before, &taken.state);
         let difference = self.fourth_difference();
-        let roughness = taken.unresolved.unwrap_or(difference);
+        let roughness = taken.unresolved.map_or(difference, |[before, last]| before.max(last));
         let is_rougher = roughness > ROUGHER * self.roughness && self.taken > 5;
-        if let (Some(unresolved), 1) = (taken.unresolved, self.taken) {
-            self.grade(unresolved, self.local);
-        }
         let looks = self.is_struck() || is_rougher || self.taken >= self.looks[1];
         if self.roughness == 0.0 && self.taken <= 5 {
             self.roughness = roughness;
         }
-        if self.taken >= self.carried[1] || (looks && !self.estimate.is_coarse()) {
+        let carries = self.taken >= self.carried[1] || (looks && !self.estimate.is_coarse());
+        if self.estimate.is_coarse() {
+            self.carry_by_twin(looks || carries);
+        }
+        if carries {
             self.carry();
         }
         if looks {
             self.roughness = if is_rougher { roughness } else { self.roughness.max(roughness) };
             self.look(&before, taken.unresolved);
         } else if let Some(unresolved) = taken.unresolved {
-            self.unresolved += unresolved * unresolved;
+            self.unresolved.pass(unresolved);
         }
         if looks || self.carried[0] == self.taken {
             let expected = self.expected();

@@ -48,9 +48,9 @@ pub struct Taken<S, const N: usize> {
     pub state: State<S, N>,
     /// What it cost in evaluations of the forces: of an implicit step those of its iterations, all stages counted.
     pub evaluations: f64,
-    /// The last coefficients of the polynomial that a Gauss method has of the velocity over the step, which show what it does not
+    /// The last two coefficients of the polynomial that a Gauss method has of the velocity over the step, which show what it does not
     /// resolve; nothing for other methods.
-    pub unresolved: Option<f64>,
+    pub unresolved: Option<[f64; 2]>,
 }
 
 /// A step by one of several methods, of one size, with what it keeps for the next.

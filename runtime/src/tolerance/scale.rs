@@ -13,13 +13,13 @@ pub(super) struct Scale<S, const N: usize> {
     /// The largest change of a coordinate and of a momentum over a step.
     change: [S; 2],
     /// The largest coordinate.
-    pub(super) largest: S,
+    pub(super) furthest: S,
 }
 
 impl<S: Scalar, const N: usize> Scale<S, N> {
     pub(super) fn new(start: &State<S, N>) -> Self {
         let zero = S::zero();
-        Self { start: start.q, reached: [zero, start.p.amax()], change: [zero; 2], largest: start.q.amax() }
+        Self { start: start.q, reached: [zero, start.p.amax()], change: [zero; 2], furthest: start.q.amax() }
     }
 
     #[inline]
@@ -27,7 +27,7 @@ impl<S: Scalar, const N: usize> Scale<S, N> {
         self.reached = [self.reached[0].max((to.q - self.start).amax()), self.reached[1].max(to.p.amax())];
         self.change =
             [self.change[0].max((to.q - from.q).amax()), self.change[1].max((to.p - from.p).amax())];
-        self.largest = self.largest.max(to.q.amax());
+        self.furthest = self.furthest.max(to.q.amax());
     }
 
     /// What an error of p is multiplied by.
@@ -44,7 +44,17 @@ impl<S: Scalar, const N: usize> Scale<S, N> {
         State { q: SVector::repeat(S::constant(size)), p: SVector::repeat(S::constant(of_p)) }
     }
 
+    /// The size of the largest of some errors: infinite where one is no number.
+    pub(super) fn largest(&self, errors: &[State<S, N>]) -> f64 {
+        errors.iter().fold(0.0, |largest, error| self.norm(error).max(largest))
+    }
+
+    /// The size of an error: infinite where it is no number.
     pub(super) fn norm(&self, error: &State<S, N>) -> f64 {
+        let entries = error.q.iter().chain(&error.p);
+        if entries.copied().any(|x| x.widen().is_nan()) {
+            return f64::INFINITY;
+        }
         error.q.amax().widen().max(error.p.amax().widen() * self.weight())
     }
 }

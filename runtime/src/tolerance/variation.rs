@@ -80,6 +80,14 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
         norm(&self.matrix)
     }
 
+    /// J δ over the fastest rate, or over the one at which the whole motion turns q into p where that is faster: what a quarter of a turn of
+    /// the fastest mode makes of an error in it.
+    pub(super) fn turned(&self, error: &State<S, N>, scale: &Scale<S, N>) -> State<S, N> {
+        let State { q, p } = times(&self.matrix, error);
+        let rate = self.fastest().max(self.matrix.q_by_p.norm() / S::constant(scale.weight()));
+        State { q: q / rate, p: p / rate }
+    }
+
     /// The fastest rate here and at `other`, and the root of the share of J that changes: over their product with a time an error turns as
     /// one J does not tell.
     pub(super) fn change_to(&self, other: &Self) -> (f64, f64) {
@@ -162,9 +170,11 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
         self.rate.q.dot(&error.p) - self.rate.p.dot(&error.q)
     }
 
-    /// The least error with so much energy: along the gradient of H, with q and p in the same units; none at rest.
+    /// The least error with so much energy: along the gradient of H, with q and p weighed as in the fastest mode, so that it is one of the
+    /// amplitude there and not of the phase; none at rest.
     pub(super) fn of_energy(&self, energy: S, scale: &Scale<S, N>) -> State<S, N> {
-        let w = S::constant(scale.weight());
+        // A mode as slow as the motion, or none, has the weight of the norm.
+        let w = S::constant((1.0 / self.impedance()).min(scale.weight()));
         let direction = State { q: -self.rate.p * (w * w), p: self.rate.q };
         let slope = self.energy_of(&direction);
         let share = if slope > S::zero() { energy / slope } else { S::zero() };

@@ -80,6 +80,13 @@ pub fn collection(seed: u64, count: usize) -> Vec<Motion> {
     (0..count).map(|i| (FAMILIES[i % FAMILIES.len()].1)(&mut random)).collect()
 }
 
+/// `count` motions of one family from `seed`; none where there is no such family.
+pub fn of_family(name: &str, seed: u64, count: usize) -> Vec<Motion> {
+    let mut random = Random(seed);
+    let of = FAMILIES.iter().find(|family| family.0 == name);
+    of.map_or_else(Vec::new, |family| (0..count).map(|_| (family.1)(&mut random)).collect())
+}
+
 fn oscillator(random: &mut Random) -> Motion {
     let (m, k, a, phase) =
         (random.of_size(0.2, 5.0), random.of_size(0.2, 5.0), random.of_size(0.05, 3.0), random.phase());

@@ -46,9 +46,9 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
         (self.q.rest, self.p.rest)
     }
 
-    /// The last two coefficients, the larger of them, of the velocity over the last step in Legendre polynomials: what is left of a
-    /// smooth motion, and where it is not smooth, of its kinks.
-    pub(crate) fn unresolved(&self) -> f64 {
+    /// The last two coefficients, of all coordinates the largest, of the velocity over the last step in Legendre polynomials: what is left
+    /// of a smooth motion, and where it is not smooth, of its kinks.
+    pub(crate) fn unresolved(&self) -> [f64; 2] {
         let coefficients = &Gauss::<S>::COEFFICIENTS;
         let (mut last, mut before) = ([0.0; S], [0.0; S]);
         for j in 0..S {
@@ -64,7 +64,7 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
             let terms = weights.iter().zip(&self.v[a].0);
             nalgebra::ComplexField::abs(terms.map(|(weight, v)| weight * v.widen()).sum::<f64>())
         };
-        (0..N).fold(0.0, |largest, a| largest.max(sum(a, &last)).max(sum(a, &before)))
+        [before, last].map(|weights| (0..N).fold(0.0, |largest, a| sum(a, &weights).max(largest)))
     }
 
     /// Whether the last step was solved by the matrix of all stages, as the fixed point did not contract.
