@@ -7,50 +7,19 @@
 
 extern crate self as dalembert;
 
-mod certificate;
-mod checkpoint;
-mod composed_trajectory;
-mod composition;
-mod derivatives;
-mod discrete;
-mod discretised;
-mod driven;
-mod elementary;
-mod energy;
-mod error;
-mod fields;
-mod forced;
-mod lanes;
-mod linear;
-mod linearization;
-mod memory;
-mod newton;
-mod parameters;
+mod derivative;
+mod numbers;
 mod rules;
-mod scalar;
-mod second_order;
-mod splitting;
-mod state;
-mod structure;
+mod run;
+mod step;
 mod system;
-mod tolerance;
-mod trajectory;
+mod theory;
 
 #[cfg(feature = "std")]
-pub mod dual;
+pub use numbers::dual;
+pub use step::verification;
 #[cfg(feature = "std")]
-pub mod exact;
-#[cfg(feature = "std")]
-pub mod hamilton_jacobi;
-#[cfg(feature = "std")]
-pub mod noether;
-#[cfg(feature = "std")]
-pub mod rayleigh;
-#[cfg(feature = "std")]
-pub mod samples;
-#[cfg(feature = "std")]
-mod verdict;
-pub mod verification;
+pub use theory::{exact, hamilton_jacobi, noether, rayleigh, samples};
 
 /// The attributes that fit the features of this crate, which a macro cannot see.
 mod attributes {
@@ -298,41 +267,41 @@ pub use attributes::rayleigh_system;
 pub use attributes::differentiable;
 pub use nalgebra;
 
-pub use certificate::Certificate;
-pub use checkpoint::Checkpoint;
-pub use composed_trajectory::{ComposedStep, ComposedTrajectory};
-pub use composition::{Composition, Substeps};
-pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
-pub use discrete::{
-    BoundedStep, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, EquationAt, Momenta,
-    Report, Step, StepKernel, StepWith,
-};
-pub use discretised::{Discretise, Discretised, RuleOf};
-pub use driven::{DiscreteDriven, Driven, Input, MomentaBy};
-pub use elementary::Elementary;
-pub use energy::EnergyLedger;
-pub use error::{Function, Quantity, StepError};
-pub use fields::{ScalarField, VectorField};
-pub use forced::{ForcedLagrangian, Stages};
-pub use lanes::{LaneVector, Lanes, Mask};
-pub use linear::{Banded, Factored, FactoredBand, FactoredDense, NewtonMatrix, Singular};
-pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix, StateBy};
-pub use memory::{
-    DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, KeptMatrix, Memory, VelocityHistory,
-};
-pub use parameters::{DiscreteParameters, GradientBy, Parameters};
+pub use derivative::certificate::Certificate;
+pub use derivative::linearization::{LegendreDerivatives, Linearization, PhaseMatrix, StateBy};
+pub use derivative::parameters::{DiscreteParameters, GradientBy, Parameters};
+pub use derivative::second_order::{DiscreteSecondOrder, Hessian, SecondOrder, StepHessian};
+pub use numbers::derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
+pub use numbers::elementary::Elementary;
+pub use numbers::lanes::{LaneVector, Lanes, Mask};
+pub use numbers::linear::{Banded, Factored, FactoredBand, FactoredDense, NewtonMatrix, Singular};
+pub use numbers::scalar::Scalar;
 pub use rules::{
     DisplacementRule, Fitted, FittedTrapezoidal, Gauss, JointRayleighRule, JointRule, Midpoint, Node,
     OneSided, SelfAdjoint, SolvedForVelocity, StageHistory, Trapezoidal,
 };
-pub use scalar::Scalar;
-pub use second_order::{DiscreteSecondOrder, Hessian, SecondOrder, StepHessian};
-pub use splitting::{Kicks, Splitting};
-pub use state::State;
-pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
-pub use system::{Force, Lagrangian, Rayleigh};
-pub use tolerance::{
+pub use run::checkpoint::Checkpoint;
+pub use run::composed_trajectory::{ComposedStep, ComposedTrajectory};
+pub use run::composition::{Composition, Substeps};
+pub use run::discretised::{Discretise, Discretised, RuleOf};
+pub use run::memory::{
+    DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, KeptMatrix, Memory, VelocityHistory,
+};
+pub use run::splitting::{Kicks, Splitting};
+pub use run::tolerance::{
     Breach, Choice, Composed, GaussOr, GuardedTrajectory, Method, MethodStep, Methods, OffersMethods,
     Request, SplitOr, Stagewise, Taken, TimedRequest, ToleranceError, Trial, WithGauss, WithSplittings,
 };
-pub use trajectory::{Parted, Sample, Samples, Trajectory};
+pub use run::trajectory::{Parted, Sample, Samples, Trajectory};
+pub use step::discrete::{
+    BoundedStep, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, EquationAt, Momenta,
+    Report, Step, StepKernel, StepWith,
+};
+pub use step::error::{Function, Quantity, StepError};
+pub use step::state::State;
+pub use system::continuous::{Force, Lagrangian, Rayleigh};
+pub use system::driven::{DiscreteDriven, Driven, Input, MomentaBy};
+pub use system::fields::{ScalarField, VectorField};
+pub use system::forced::{ForcedLagrangian, Stages};
+pub use system::structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
+pub use theory::energy::EnergyLedger;

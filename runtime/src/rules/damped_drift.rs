@@ -12,8 +12,8 @@ use core::cmp::Ordering;
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::discrete::{self, BoundedStep, Momenta, StepKernel};
-use crate::newton::Equation;
+use crate::step::discrete::{self, BoundedStep, Momenta, StepKernel};
+use crate::step::newton::Equation;
 use crate::{NewtonMatrix, Quantity, Rayleigh, Scalar, State, Step, StepError};
 
 /// The matrices of a damped free segment, and the terms of first degree: what a step by a fitted rule needs of the system, but for the

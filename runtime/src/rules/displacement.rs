@@ -10,7 +10,7 @@
 
 use nalgebra::SVector;
 
-use crate::discrete::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
+use crate::step::discrete::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
 use crate::{
     CovectorDerivatives, Derivatives, Direction, Driven, Force, Hessian, Lagrangian, MomentaBy, Parameters,
     Rayleigh, Scalar, SecondOrder, StepError,

@@ -2,8 +2,8 @@ use nalgebra::SVector;
 
 use super::damped_drift::{ByDrift, DampedDrift};
 use super::{JointRayleighRule, JointRule};
-use crate::discrete::{BoundedStep, DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
-use crate::newton::Equation;
+use crate::step::discrete::{BoundedStep, DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
+use crate::step::newton::Equation;
 use crate::{CovectorDerivatives, Derivatives, Lagrangian, Rayleigh, Scalar, State, Step, StepError};
 
 /// The midpoint rule, exponentially fitted to linear damping: it does not ring, however stiff the damping.

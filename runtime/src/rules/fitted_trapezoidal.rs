@@ -2,8 +2,8 @@ use nalgebra::SVector;
 
 use super::damped_drift::{ByDrift, DampedDrift};
 use super::{DisplacementRule, JointRayleighRule, JointRule, Trapezoidal};
-use crate::discrete::{BoundedStep, DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
-use crate::newton::Equation;
+use crate::step::discrete::{BoundedStep, DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
+use crate::step::newton::Equation;
 use crate::{CovectorDerivatives, Derivatives, Rayleigh, Scalar, State, Step, StepError};
 
 /// The trapezoidal rule, exponentially fitted to linear damping: explicit, and exact where there is no potential.

@@ -16,9 +16,9 @@ mod tangent;
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::error::Quantity;
-use crate::lanes::splat;
-use crate::newton::{ITERATIONS, along_h};
+use crate::numbers::lanes::splat;
+use crate::step::error::Quantity;
+use crate::step::newton::{ITERATIONS, along_h};
 use crate::{
     Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, EquationAt, ForcedLagrangian,
     LegendreDerivatives, Linearization, Momenta, Report, Scalar, State, StateBy, Step, StepError, StepKernel,
@@ -281,7 +281,7 @@ fn solved<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, con
     h: T,
     guess: Option<&SVector<T, N>>,
 ) -> Result<(Problem<'a, L, N, S>, Solution<T, N, S>), StepError> {
-    crate::discrete::require_step_size(h)?;
+    crate::step::discrete::require_step_size(h)?;
     StepError::require_finite(&state.q, Quantity::Configuration)?;
     StepError::require_finite(&state.p, Quantity::Momentum)?;
     let problem = Problem::new(system, Compensated::new(state.q), Compensated::new(state.p), h);
@@ -343,7 +343,7 @@ fn from_singular<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, 
         let (v, none) = (splat(&rest), T::zero());
         let floor = T::SMALLEST_NORMAL;
         let report = Report { iterations: 0, damped: 0, residual: none, floor, last_correction: none };
-        let is_rest = crate::newton::is_rest(&residual, &state.p);
+        let is_rest = crate::step::newton::is_rest(&residual, &state.p);
         return is_rest.then_some(Solution { v, rate: v, report, contracted: false });
     }
     let later = State { q: state.q, p: state.p + force * (problem.h * T::constant(0.5)) };

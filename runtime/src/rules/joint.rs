@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use super::{DisplacementRule, Midpoint};
-use crate::discrete::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
+use crate::step::discrete::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
 use crate::{Derivatives, Rayleigh, StepError};
 
 /// A rule whose discrete objects need L and R at once.

@@ -1,7 +1,7 @@
 use nalgebra::SVector;
 
 use super::{DisplacementRule, JointRayleighRule, JointRule, Midpoint};
-use crate::discrete::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
+use crate::step::discrete::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
 use crate::{Derivatives, Rayleigh};
 
 /// The midpoint rule with all of the damping at the start of the segment: L-stable for every convex R(v), of order 1.

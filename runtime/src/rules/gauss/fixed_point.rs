@@ -10,8 +10,8 @@ use nalgebra::SVector;
 
 use super::newton;
 use super::problem::{Problem, Solution, in_units, in_units_of, reciprocals, rounding};
-use crate::lanes::{LaneVector, splat};
-use crate::newton::{AT_FLOOR, finite_part, is_sensible};
+use crate::numbers::lanes::{LaneVector, splat};
+use crate::step::newton::{AT_FLOOR, finite_part, is_sensible};
 use crate::{ForcedLagrangian, Report, Scalar, Stages, StepError};
 
 /// More iterations than Newton's method would be worth.

@@ -6,8 +6,8 @@ use nalgebra::SVector;
 
 use super::problem::{Compensated, Problem};
 use super::{Gauss, completed, fixed_point, solved_from};
-use crate::error::Quantity;
-use crate::lanes::{LaneVector, Lanes, lane, splat};
+use crate::numbers::lanes::{LaneVector, Lanes, lane, splat};
+use crate::step::error::Quantity;
 use crate::{ForcedLagrangian, Memory, Scalar, State, Step, StepError};
 
 /// The stages of the last step, and what rounding has taken from q and p.
@@ -98,7 +98,7 @@ where
 {
     #[inline]
     fn advance(&mut self, system: &L, state: &State<T, N>, h: T) -> Result<Step<T, N>, StepError> {
-        crate::discrete::require_step_size(h)?;
+        crate::step::discrete::require_step_size(h)?;
         let goes_on = self.h != T::zero() && self.q.value == state.q && self.p.value == state.p;
         let (q0, p0) = if goes_on {
             (self.q, self.p)

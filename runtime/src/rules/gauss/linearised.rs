@@ -12,7 +12,7 @@ use core::array;
 use nalgebra::{SMatrix, SVector};
 
 use super::problem::Problem;
-use crate::lanes::{LaneVector, lane};
+use crate::numbers::lanes::{LaneVector, lane};
 use crate::{ForcedLagrangian, Scalar, Singular};
 
 /// A vector for each stage.

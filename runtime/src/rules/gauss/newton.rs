@@ -9,9 +9,9 @@ use nalgebra::SVector;
 use super::fixed_point::{at_rounding, is_decided, worst};
 use super::linearised::{Factored, Local, StageVector, locals, non_finite};
 use super::problem::{Problem, Solution, in_units_of};
-use crate::error::Quantity;
-use crate::lanes::{LaneVector, splat, write_lane};
-use crate::newton::{AT_FLOOR, SLOW};
+use crate::numbers::lanes::{LaneVector, splat, write_lane};
+use crate::step::error::Quantity;
+use crate::step::newton::{AT_FLOOR, SLOW};
 use crate::{ForcedLagrangian, Report, Scalar, StepError};
 
 /// As in the solver of the rules of one stage: a few iterations near a root, some dozens from far out.
@@ -61,7 +61,7 @@ impl<T: Scalar, const N: usize, const S: usize> Iterate<T, N, S> {
     }
 
     pub(super) fn residuals(&self) -> StageVector<T, N, S> {
-        core::array::from_fn(|i| crate::lanes::lane(&self.residual, i))
+        core::array::from_fn(|i| crate::numbers::lanes::lane(&self.residual, i))
     }
 
     /// The first coordinate with an entry that is not finite.
@@ -142,7 +142,7 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
             if lower {
                 break Some((next, size / before));
             }
-            share = crate::newton::shorter(share, before, size);
+            share = crate::step::newton::shorter(share, before, size);
             if share < T::EPSILON.sqrt() {
                 break None;
             }

@@ -10,8 +10,8 @@ use nalgebra::SVector;
 
 use super::Gauss;
 use super::coefficients::Coefficients;
-use crate::lanes::{LaneVector, Lanes, lane};
-use crate::newton::PLACES;
+use crate::numbers::lanes::{LaneVector, Lanes, lane};
+use crate::step::newton::PLACES;
 use crate::{ForcedLagrangian, Report, Scalar, Stages, StepError};
 
 /// A vector as an unevaluated sum, so that adding many small steps loses nothing.

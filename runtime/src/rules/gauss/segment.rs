@@ -20,10 +20,10 @@ use super::linearised::{Factored, Local};
 use super::newton::Iterate;
 use super::problem::{Compensated, Problem};
 use super::tangent::Tangent;
-use crate::certificate::determinant_sign;
-use crate::error::Quantity;
-use crate::lanes::{LaneVector, lane, splat};
-use crate::newton::AT_FLOOR;
+use crate::derivative::certificate::determinant_sign;
+use crate::numbers::lanes::{LaneVector, lane, splat};
+use crate::step::error::Quantity;
+use crate::step::newton::AT_FLOOR;
 use crate::{
     CovectorDerivatives, Derivatives, DiscreteForce, DiscreteForceDerivatives, ForcedLagrangian,
     LegendreDerivatives, Momenta, NewtonMatrix, Scalar, Singular, StepError,
@@ -58,7 +58,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         q1: &SVector<T, N>,
         h: T,
     ) -> Result<Self, StepError> {
-        crate::discrete::require_step_size(h)?;
+        crate::step::discrete::require_step_size(h)?;
         StepError::require_finite(q0, Quantity::Configuration)?;
         StepError::require_finite(q1, Quantity::Configuration)?;
         Self::new(system, q0, &((q1 - q0) / h), h)
@@ -107,7 +107,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
                 if is_lower || next.size <= one || (share == one && is_solved(&problem, &last)) {
                     break Some((next, is_lower, size / last.size));
                 }
-                share = crate::newton::shorter(share, last.size, size);
+                share = crate::step::newton::shorter(share, last.size, size);
                 if share < T::EPSILON.sqrt() {
                     break None;
                 }
@@ -179,7 +179,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     /// How all stages and momenta follow q0 and q1.
     pub(super) fn variations(&self) -> Result<Variations<T, N, S>, StepError> {
         let by = self.by_state()?;
-        let p0_by_q1 = crate::linearization::inverse(&by.p.end.q)?;
+        let p0_by_q1 = crate::derivative::linearization::inverse(&by.p.end.q)?;
         let p0_by_q0 = -(p0_by_q1 * by.q.end.q);
         let (minus, plus) = (by.p.carried(&p0_by_q0, Some(&by.q)), by.p.carried(&p0_by_q1, None));
         Ok(Variations { minus, plus, p0_by_q0, p0_by_q1 })

@@ -10,7 +10,7 @@ use nalgebra::{SMatrix, SVector};
 use super::segment::Segment;
 use super::tangent::{ByState, Source, Tangent};
 use super::{Gauss, nan, solved_segment};
-use crate::lanes::lane;
+use crate::numbers::lanes::lane;
 use crate::{
     DiscreteDriven, DiscreteParameters, Driven, ForcedLagrangian, Linearization, MomentaBy, Parameters,
     Scalar, State, StateBy, Step, StepError,
@@ -56,7 +56,7 @@ impl<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usi
     /// What a tangent at fixed (q0, p0) moves in the momenta at fixed (q0, q1).
     fn momenta_by<const K: usize>(&self, by: &Tangent<T, N, S, K>) -> Result<MomentaBy<T, N, K>, StepError> {
         let ByState { p, .. } = self.by_state()?;
-        let p0 = -(crate::linearization::inverse(&p.end.q)? * by.end.q);
+        let p0 = -(crate::derivative::linearization::inverse(&p.end.q)? * by.end.q);
         Ok(MomentaBy { p0, p1: by.end.p + p.end.p * p0 })
     }
 

@@ -17,8 +17,8 @@ use nalgebra::SMatrix;
 use super::linearised::{Factored, StageColumns, locals, non_finite};
 use super::problem::Problem;
 use super::segment::Segment;
-use crate::error::Quantity;
-use crate::lanes::LaneVector;
+use crate::numbers::lanes::LaneVector;
+use crate::step::error::Quantity;
 use crate::{ForcedLagrangian, PhaseMatrix, Scalar, StateBy, StepError};
 
 /// What K quantities move by themselves, the stages' velocities being held.

@@ -1,0 +1,124 @@
+//! Runs as they can be saved, and what holds up a run: a system that is not the one written, its end, and a clock that no longer
+//! runs.
+
+use crate::{Lagrangian, Scalar, State, StepError, step::verification};
+
+/// A run as it can be saved; see [`Trajectory::checkpoint`](crate::Trajectory::checkpoint). With the feature `serde` it can be written and read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Checkpoint<S, const N: usize> {
+    /// The state.
+    #[cfg_attr(
+        feature = "serde",
+        serde(bound(
+            serialize = "S: Scalar + serde::Serialize",
+            deserialize = "S: Scalar + serde::Deserialize<'de>"
+        ))
+    )]
+    pub state: State<S, N>,
+    /// The step size h.
+    pub step_size: S,
+    /// The time at which the present step size began.
+    pub origin: f64,
+    /// Steps taken with it.
+    pub steps: u64,
+}
+
+impl<S: Scalar, const N: usize> Checkpoint<S, N> {
+    /// The start of a run with step size `step_size` from `state`, at time 0.
+    pub fn new(step_size: S, state: State<S, N>) -> Self {
+        Self { state, step_size, origin: 0.0, steps: 0 }
+    }
+
+    /// The time, h × the number of steps taken (and what earlier step sizes took): no sum of roundings.
+    pub fn time(&self) -> f64 {
+        // Without a step the product would be NaN for a step size that is not finite.
+        if self.steps == 0 { self.origin } else { self.time_after(self.steps as f64) }
+    }
+
+    fn time_after(&self, steps: f64) -> f64 {
+        self.origin + self.step_size.widen() * steps
+    }
+
+    /// One step further. [`Course`] keeps the number of steps far from its largest value.
+    pub(crate) fn follow(&mut self, state: &State<S, N>) {
+        self.state = *state;
+        self.steps += 1;
+    }
+}
+
+/// What a run has to look at before its next step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Course {
+    /// Before the first step: whether the system is the one written.
+    Starting,
+    /// Nothing: its clock resolves more steps than a computer takes.
+    Open,
+    /// Whether the next step can be told from none by the clock.
+    Watched,
+    /// The run has ended.
+    Ended,
+}
+
+impl Course {
+    /// Steps that a clock without an origin tells apart, with some to spare: at 10 ns a step, a year.
+    const STEPS: u64 = 1 << 52;
+
+    /// That of a run which has started, at `checkpoint`.
+    fn of<S: Scalar, const N: usize>(checkpoint: &Checkpoint<S, N>) -> Self {
+        let (h, origin) = (checkpoint.step_size.widen().abs(), checkpoint.origin.abs());
+        // A step size that is none is the step's to refuse.
+        let is_none = h == 0.0 || !h.is_finite();
+        let resolves = checkpoint.steps <= Self::STEPS && origin <= h * Self::STEPS as f64 && h <= 1e280;
+        if is_none || resolves { Self::Open } else { Self::Watched }
+    }
+
+    /// What stands in the way of the next step of the run at `at`: its end or, once, an error.
+    #[inline]
+    pub(crate) fn stop<L: Lagrangian<N>, const N: usize>(
+        &mut self,
+        system: &L,
+        at: &Checkpoint<L::Scalar, N>,
+    ) -> Option<Option<StepError>> {
+        if *self == Self::Open { None } else { self.stop_unless_open(system, at) }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn stop_unless_open<L: Lagrangian<N>, const N: usize>(
+        &mut self,
+        system: &L,
+        at: &Checkpoint<L::Scalar, N>,
+    ) -> Option<Option<StepError>> {
+        if *self == Self::Ended {
+            return Some(None);
+        }
+        let error = self.require(system, at).err()?;
+        *self = Self::Ended;
+        Some(Some(error))
+    }
+
+    /// Fails before the first step of a system that is not the one written, and where the clock does not tell the next step from none.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn require<L: Lagrangian<N>, const N: usize>(
+        &mut self,
+        system: &L,
+        at: &Checkpoint<L::Scalar, N>,
+    ) -> Result<(), StepError> {
+        if *self == Self::Starting {
+            verification::at_start(system, at.time(), &at.state)?;
+            *self = Self::of(at);
+        }
+        self.require_time(at)
+    }
+
+    /// Fails where the end of the next step has the time of its start, or none.
+    fn require_time<S: Scalar, const N: usize>(self, at: &Checkpoint<S, N>) -> Result<(), StepError> {
+        let (now, next) = (at.time(), at.time_after(at.steps as f64 + 1.0));
+        if self != Self::Watched || (now.is_finite() && next.is_finite() && now != next) {
+            return Ok(());
+        }
+        Err(StepError::Time { time: now, h: at.step_size.widen() })
+    }
+}

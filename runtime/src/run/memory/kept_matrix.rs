@@ -1,0 +1,342 @@
+//! Steps with a Newton matrix kept from an earlier step.
+//!
+//! ```text
+//! v̄ ← v̄ − A⁻¹ (p0(v̄) − p)        A = ∂p0/∂v̄ of an earlier step, factored
+//! ```
+//!
+//! Each correction costs both momenta and no second derivatives. Where the matrix is constant one correction is enough; where
+//! it is not, the corrections shrink by a factor that tells how far the matrix is off. A factor that is not small hands the
+//! step to Newton's method, and its matrix is kept from then on.
+
+use nalgebra::SVector;
+
+use super::{Memory, VelocityHistory};
+use crate::numbers::linear::{Factored, NewtonMatrix};
+use crate::step::newton::{
+    AT_FLOOR, estimated_floor, finite_part, held_against, held_by_weights, is_sensible, weighted,
+};
+use crate::{Discrete, Momenta, Report, Scalar, State, Step, StepError};
+
+/// A correction must leave at most this share of the residual.
+const CONTRACTION: f64 = 0.1;
+
+/// If the guess leaves more than this share of p0 as residual, the old matrix is not tried: the terms at the guess say nothing about
+/// rounding at the root.
+const CLOSE: f64 = 0.025;
+
+/// Corrections before Newton's method takes over.
+const MOST: u32 = 5;
+
+/// Where the equation is linear, a correction above this share of v̄ is followed by another.
+const SMALL: f64 = 1.0 / 64.0;
+
+/// Where a step takes more corrections than this, the matrix is renewed.
+const STALE: u32 = 3;
+
+/// A matrix that serves fewer steps than this costs more than it saves: Newton's method then takes a number of steps, twice
+/// as many each time in a row, before another is kept.
+const WORTHWHILE: u32 = 3;
+
+/// The least and the largest of these numbers of steps.
+const PAUSES: [u32; 2] = [8, 1024];
+
+/// The Newton matrix of an earlier step, factored, and the latest mean velocities.
+///
+/// Where the matrix changes so fast that one kept is soon of no use, most steps are those of [`VelocityHistory`].
+#[derive(Clone, Copy, Debug)]
+pub struct KeptMatrix<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> {
+    history: VelocityHistory<S, N>,
+    kept: Option<Kept<S, M, N>>,
+    /// Steps that the matrix has served.
+    served: u32,
+    /// Steps to take without one.
+    pause: u32,
+    next_pause: u32,
+}
+
+/// A matrix and the step size that it belongs to.
+#[derive(Clone, Copy, Debug)]
+struct Kept<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> {
+    h: S,
+    matrix: M,
+    factored: M::Factored,
+}
+
+impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Default for KeptMatrix<S, M, N> {
+    fn default() -> Self {
+        let [next_pause, _] = PAUSES;
+        Self { history: VelocityHistory::default(), kept: None, served: 0, pause: 0, next_pause }
+    }
+}
+
+impl<L, R, const N: usize> Memory<L, R, N> for KeptMatrix<L::Scalar, L::Matrix, N>
+where
+    L: Discrete<R, N>,
+{
+    #[inline]
+    fn advance(
+        &mut self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<Step<L::Scalar, N>, StepError> {
+        if self.pause > 0 {
+            let step = self.history.advance(system, state, h);
+            self.pause -= u32::from(step.is_ok());
+            return step;
+        }
+        if let Some(kept) = &self.kept
+            && kept.h == h
+        {
+            let step = self.history.extrapolation(h).and_then(|guess| {
+                if L::LINEAR {
+                    kept.linear_step(system, state, guess)
+                } else {
+                    kept.step(system, state, guess)
+                }
+            });
+            if let Some(step) = step {
+                if cfg!(debug_assertions) {
+                    system.verify_segment(&state.q, &step.velocity, h)?;
+                }
+                self.history.push(step.velocity, h);
+                self.served = self.served.saturating_add(1);
+                if step.report.iterations > STALE {
+                    self.renew(system, state, &step, h);
+                }
+                return Ok(step);
+            }
+        }
+        let step = self.history.advance(system, state, h);
+        if let Ok(step) = &step {
+            self.renew(system, state, step, h);
+        }
+        step
+    }
+}
+
+impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> KeptMatrix<S, M, N> {
+    /// Keeps the matrix at the end of the step; none if it cannot be factored, or if the last one was not worth it.
+    #[cold]
+    #[inline(never)]
+    fn renew<L, R>(&mut self, system: &L, state: &State<S, N>, step: &Step<S, N>, h: S)
+    where
+        L: Discrete<R, N, Scalar = S, Matrix = M>,
+    {
+        if !L::LINEAR && self.kept.as_ref().is_some_and(|kept| kept.h == h) {
+            let [shortest, longest] = PAUSES;
+            if self.served < WORTHWHILE {
+                (self.kept, self.pause) = (None, self.next_pause);
+                self.next_pause = (2 * self.next_pause).min(longest);
+                return;
+            }
+            self.next_pause = shortest;
+        }
+        self.served = 0;
+        let matrix = system.step_kernel(&state.q, &step.velocity, h).matrix;
+        self.kept = matrix.factored().map(|factored| Kept { h, matrix, factored });
+    }
+}
+
+impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
+    /// The step from `guess`; nothing where the corrections do not shrink fast, or a number is none.
+    #[inline]
+    #[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a size that is NaN must fail the comparison")]
+    fn step<L, R>(&self, system: &L, state: &State<S, N>, guess: SVector<S, N>) -> Option<Step<S, N>>
+    where
+        L: Discrete<R, N, Scalar = S, Matrix = M>,
+    {
+        let State { q, p } = state;
+        let floor = estimated_floor(p, &self.matrix, &guess);
+        let weights = floor.map(|floor| S::one() / floor);
+        let mut v = guess;
+        let mut first: SVector<S, N> = nalgebra::zero();
+        let mut was_far = false;
+        let mut correction: SVector<S, N> = nalgebra::zero();
+        let mut last_size = S::constant(CLOSE) / (S::EPSILON * S::constant(CONTRACTION));
+        // At least one correction: extrapolation alone, step after step, would let rounding grow.
+        for iterations in 0..=MOST {
+            let momenta = system.momenta(q, &v, self.h);
+            let residual = momenta.p0 - p;
+            let size = weighted(&residual, &weights);
+            if iterations == 0 {
+                first = residual;
+                was_far = is_far(&residual, &weights);
+            } else if size <= S::constant(AT_FLOOR) {
+                let (residual, floor) = if was_far {
+                    held_by_weights(&residual, &floor, &weights, size)
+                } else {
+                    self.held_with_care(system, state, v, [first, residual], floor)
+                }?;
+                let last_correction = correction.amax();
+                let report = Report { iterations, damped: 0, residual, floor, last_correction };
+                return Step::completed(state, self.h, v, &momenta, report).ok();
+            }
+            if !(size <= last_size * S::constant(CONTRACTION)) {
+                return if iterations > 0 {
+                    self.held_up(system, state, v, momenta, (iterations, correction))
+                } else {
+                    None
+                };
+            }
+            last_size = size;
+            correction = self.factored.solve(&residual);
+            v -= correction;
+        }
+        None
+    }
+
+    /// The `residual` at `v` and its floor, by the matrix there unless that kept is shown to do; nothing where it is no root's. `first` is
+    /// the residual of the guess.
+    #[cold]
+    #[inline(never)]
+    fn held_with_care<L, R>(
+        &self,
+        system: &L,
+        State { q, p }: &State<S, N>,
+        v: SVector<S, N>,
+        [first, residual]: [SVector<S, N>; 2],
+        mut floor: SVector<S, N>,
+    ) -> Option<(S, S)>
+    where
+        L: Discrete<R, N, Scalar = S, Matrix = M>,
+    {
+        if !is_shown(&residual, &first, p) {
+            floor = estimated_floor(p, &system.step_kernel(q, &v, self.h).matrix, &v);
+        }
+        let (residual, floor, is_root) = held_against(&residual, &floor);
+        is_root.then_some((residual, floor))
+    }
+
+    /// The step to `v`, whose residual has stopped falling, if the rounding of q explains it; nothing if not.
+    ///
+    /// Forces that cancel, as those of neighbouring springs do on a long wave, are rounded as each is. What q does to p0 is,
+    /// by the midpoint and the trapezoidal rule, 2/h times what of the matrix J(h) is even in h, less the mass matrix:
+    ///
+    /// ```text
+    /// E = (J(h) + J(−h))/2 − J(0) = −(h²/4) ∂²L/∂q² + …      floorᵢ += 4ε (2/|h|) Σⱼ |Eᵢⱼ||qⱼ|
+    /// ```
+    ///
+    /// What damping brings is odd in h: it acts on v, with which it vanishes.
+    #[cold]
+    #[inline(never)]
+    fn held_up<L, R>(
+        &self,
+        system: &L,
+        state: &State<S, N>,
+        v: SVector<S, N>,
+        momenta: Momenta<S, N>,
+        (iterations, correction): (u32, SVector<S, N>),
+    ) -> Option<Step<S, N>>
+    where
+        L: Discrete<R, N, Scalar = S, Matrix = M>,
+    {
+        let State { q, p } = state;
+        let matrix = |h| system.step_kernel(q, &v, h).matrix;
+        // 2E.
+        let (now, mass) = (matrix(self.h), matrix(S::zero()));
+        let even = now.plus(&matrix(-self.h), S::one()).plus(&mass, -S::constant(2.0));
+        let unit = S::constant(4.0) * S::EPSILON / self.h.abs();
+        let floor = estimated_floor(p, &now, &v) + even.magnitudes(&(q * unit));
+        let terms = finite_part(p) + finite_part(&mass.magnitudes(&v));
+        let is_sensible = is_sensible(&floor, &terms);
+        let (residual, floor, is_root) = held_against(&(momenta.p0 - p), &floor);
+        let report = Report { iterations, damped: 0, residual, floor, last_correction: correction.amax() };
+        if !is_root || !is_sensible {
+            return None;
+        }
+        Step::completed(state, self.h, v, &momenta, report).ok()
+    }
+
+    /// The step where the equation is linear, from any `guess`; nothing where rounding holds the residual up or a number is
+    /// none: the general path has the verdict.
+    #[inline]
+    fn linear_step<L, R>(&self, system: &L, state: &State<S, N>, guess: SVector<S, N>) -> Option<Step<S, N>>
+    where
+        L: Discrete<R, N, Scalar = S, Matrix = M>,
+    {
+        let State { q, p } = state;
+        let mut v = guess;
+        let mut correction: SVector<S, N> = nalgebra::zero();
+        let mut iterations = 0;
+        // The factors' rounding is the same at every step, and so is its share of a correction: a drift, unless corrections are small.
+        while iterations == 0 || iterations == 1 && correction.amax() > v.amax() * S::constant(SMALL) {
+            correction = self.factored.solve(&(system.momenta(q, &v, self.h).p0 - p));
+            v -= correction;
+            iterations += 1;
+        }
+        let momenta = system.momenta(q, &v, self.h);
+        let floor = estimated_floor(p, &self.matrix, &v);
+        let (residual, floor, is_root) = held_against(&(momenta.p0 - p), &floor);
+        if !is_root {
+            return None;
+        }
+        let report = Report { iterations, damped: 0, residual, floor, last_correction: correction.amax() };
+        Step::completed(state, self.h, v, &momenta, report).ok()
+    }
+}
+
+/// Whether the residual of a guess is so large in every coordinate that corrections down to [`AT_FLOOR`] floors are seen to work, as
+/// [`is_shown`] asks at the price of a loop after every step. A floor that overflows has the weight 0: nothing is far beside it.
+#[inline(always)]
+fn is_far<S: Scalar, const N: usize>(residual: &SVector<S, N>, weights: &SVector<S, N>) -> bool {
+    const LANES: usize = 4;
+    // Lane by lane, as their largest is found: the compiler takes several at once, and the products of both once.
+    let mut least = [S::one() / S::zero(); LANES];
+    let (of, rest_of) = residual.as_slice().as_chunks::<LANES>();
+    let (by, rest_by) = weights.as_slice().as_chunks::<LANES>();
+    for (of, by) in of.iter().zip(by) {
+        for lane in 0..LANES {
+            let units = of[lane].abs() * by[lane];
+            least[lane] = if units < least[lane] { units } else { least[lane] };
+        }
+    }
+    for (of, by) in rest_of.iter().zip(rest_by) {
+        let units = of.abs() * *by;
+        least[0] = if units < least[0] { units } else { least[0] };
+    }
+    least.iter().all(|units| *units >= S::constant(AT_FLOOR / CONTRACTION))
+}
+
+/// Whether the kept matrix may say what the floor of `residual` is: where its corrections have taken the `first` residual down, the
+/// equation still has it; after a guess too good for that, only what is small beside the momentum needs no matrix. A matrix of a
+/// collision that is over is larger by any factor, and with it the floor.
+fn is_shown<S: Scalar, const N: usize>(
+    residual: &SVector<S, N>,
+    first: &SVector<S, N>,
+    p: &SVector<S, N>,
+) -> bool {
+    let unit = S::EPSILON * S::constant(4.0);
+    let mut is_shown = true;
+    for i in 0..N {
+        let size = residual[i].abs();
+        is_shown &= size <= first[i].abs() * S::constant(CONTRACTION) || size <= p[i].abs() * unit;
+    }
+    is_shown
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::vector;
+
+    /// Below four floors at the end: a tenth of what it was, at most. A floor that overflows is no measure.
+    #[test]
+    fn a_guess_far_off_in_every_coordinate_shows_that_corrections_work() {
+        assert!(is_far(&vector![41.0, -82.0], &vector![1.0, 0.5]));
+        assert!(!is_far(&vector![39.0, 82.0], &vector![1.0, 0.5]));
+        assert!(!is_far(&vector![41.0, 1e300], &vector![1.0, 0.0]));
+    }
+
+    #[test]
+    fn a_kept_matrix_that_took_nothing_off_says_nothing_of_rounding() {
+        let p = vector![1.0, 0.0];
+        // Taken down, small beside the momentum, or 0.
+        assert!(is_shown(&vector![1e-9, 0.0], &vector![1e-7, 0.0], &p));
+        assert!(is_shown(&vector![5e-16, 1e-12], &vector![1e-16, 1e-10], &p));
+        // Neither, in any coordinate.
+        assert!(!is_shown(&vector![15.0, 0.0], &vector![16.0, 0.0], &p));
+        assert!(!is_shown(&vector![5e-16, 1e-12], &vector![1e-16, 2e-12], &p));
+        assert!(!is_shown(&vector![f64::NAN, 0.0], &vector![16.0, 0.0], &p));
+    }
+}

@@ -1,0 +1,321 @@
+//! Order and step size from a requested error, and a guard that carries the error along the run.
+
+mod display;
+mod estimate;
+mod guard;
+mod methods;
+mod request;
+mod scale;
+mod search;
+mod tangent;
+mod twin;
+mod unresolved;
+mod variation;
+
+use nalgebra::ComplexField;
+
+use crate::{Lagrangian, Scalar, State, StepError, step::verification};
+pub use guard::GuardedTrajectory;
+pub use methods::{
+    Composed, GaussOr, MethodStep, Methods, SplitOr, Stagewise, Taken, WithGauss, WithSplittings,
+};
+pub use request::{OffersMethods, Request, TimedRequest};
+
+/// A method of constant step: a self-adjoint rule of order 2, alone or composed, a splitting, or a Gauss method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Method {
+    /// The rule alone, order 2.
+    Rule,
+    /// [`Composition::kahan_li_6`](crate::Composition::kahan_li_6) of it.
+    KahanLi6,
+    /// [`Composition::kahan_li_8`](crate::Composition::kahan_li_8) of it.
+    KahanLi8,
+    /// [`Splitting::blanes_moan_4`](crate::Splitting::blanes_moan_4).
+    BlanesMoan4,
+    /// [`Splitting::blanes_moan_6`](crate::Splitting::blanes_moan_6).
+    BlanesMoan6,
+    /// [`Gauss<4>`](crate::Gauss), order 8.
+    Gauss4,
+    /// [`Gauss<8>`](crate::Gauss), order 16.
+    Gauss8,
+}
+
+/// What the start says of one method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Trial {
+    /// The method.
+    pub method: Method,
+    /// The largest step size tried at which the error expected is small enough, or the one at which it is smallest.
+    pub step_size: f64,
+    /// The cost over the whole time, in evaluations of the forces.
+    pub evaluations: f64,
+    /// The error expected.
+    pub expected: f64,
+}
+
+/// A method and a step size for a system and its start, with the reasons.
+pub struct Choice<'a, L: Lagrangian<N>, M, const N: usize> {
+    system: &'a L,
+    methods: M,
+    start: State<L::Scalar, N>,
+    method: Method,
+    step_size: f64,
+    steps: u64,
+    tolerance: f64,
+    expected: f64,
+    /// The local error at the start.
+    local: f64,
+    evaluations_per_step: f64,
+    /// Roundings of a step.
+    roundings: f64,
+    /// What choosing has cost.
+    spent: f64,
+    trials: [Option<Trial>; Method::ALL.len()],
+}
+
+/// Where the error expected has passed the one asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Breach {
+    /// The time.
+    pub time: f64,
+    /// The error expected of the state there.
+    pub expected: f64,
+    /// The error asked for.
+    pub tolerance: f64,
+    /// A tolerance to ask for instead, from the start.
+    pub instead: f64,
+}
+
+/// Why no method was chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ToleranceError {
+    /// The time or the tolerance is not a finite number above 0.
+    Request {
+        /// The time given.
+        time: f64,
+        /// The tolerance given.
+        tolerance: f64,
+    },
+    /// No method reaches the error: none at a step tried, or rounding over so many steps exceeds it.
+    OutOfReach {
+        /// The method that comes closest; `None` where no step could be taken.
+        closest: Option<Trial>,
+    },
+    /// A step at the chosen size failed at the start, or the system is not that written.
+    Step(StepError),
+}
+
+impl Method {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Rule,
+        Self::KahanLi6,
+        Self::KahanLi8,
+        Self::BlanesMoan4,
+        Self::BlanesMoan6,
+        Self::Gauss4,
+        Self::Gauss8,
+    ];
+
+    /// The order p.
+    #[must_use]
+    pub const fn order(self) -> u32 {
+        match self {
+            Self::Rule => 2,
+            Self::BlanesMoan4 => 4,
+            Self::KahanLi6 | Self::BlanesMoan6 => 6,
+            Self::KahanLi8 | Self::Gauss4 => 8,
+            Self::Gauss8 => 16,
+        }
+    }
+
+    /// The method and step size of least cost for an error of at most `tolerance` on the whole way.
+    ///
+    /// `methods` is the rule of order 2, which stands for itself and its compositions; [`WithSplittings`] of it adds splittings,
+    /// where the trapezoidal rule is explicit, and [`WithGauss`] Gauss methods, where the system has `rule = [trapezoidal, gauss]`.
+    ///
+    /// **What is promised.** With the error (δq, δp) of a state, at every step of [`Choice::trajectory`]
+    ///
+    /// ```text
+    /// |δqᵢ| ≤ ε,   w |δpᵢ| ≤ ε   for every i,       ε the tolerance, in units of q
+    /// w = min(max |qᵢ − qᵢ(0)| / max |pᵢ|,  max |Δqᵢ| / max |Δpᵢ|)
+    /// ```
+    ///
+    /// or a [`Breach`] or an error says that it is not so. The maxima are over the coordinates and the steps so far, Δ is the
+    /// change over a step: w is 1/(mω) for an oscillator, and weighs a momentum like the coordinate that it moves. The promise rests on
+    /// an estimate, which random motions have tried: the page `docs/error-asked-for.md` counts how often it was kept, passed by more
+    /// than twice, and where a breach comes late or for nothing.
+    ///
+    /// **Choice.** One step of each method, from the start and from the first states of its run, is compared to two half ones, at
+    /// steps longer and shorter until the error asked for is met: no error is extrapolated below what was tried. The error expected is the
+    /// sum of these local errors over all steps; it may fill 15 % of the tolerance. Costs are evaluations of the forces, counted:
+    /// iterations times stages. A method that would usually cost much more than the best one so far is not tried, and trying stops at a
+    /// tenth of the cost of the run, so that runs of few steps are chosen for by few tries.
+    ///
+    /// **Guard.** The first steps do not show chaos, kinks, or a passage that comes later. So the run carries its error along
+    /// ([`GuardedTrajectory`]), with the exact growth, and reports where it passes the tolerance. The state reached until then is good:
+    /// [`Breach::instead`] is what to ask for from the start.
+    ///
+    /// The step size stays constant along the run, so that the structure is kept.
+    ///
+    /// ```
+    /// use dalembert::{Discretise, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system(rule = [trapezoidal, gauss])]
+    /// fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    ///     (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
+    /// }
+    ///
+    /// let system = Pendulum { r: 0.01 };
+    /// let start = State::from_velocity(&system, [1.0], [0.0])?;
+    /// let choice = system.to_error(1e-9).until(100.0).choice(&start)?;
+    /// println!("{choice}"); // order 16, Gauss with 8 stages, h = …
+    /// let mut run = choice.trajectory();
+    /// for state in &mut run {
+    ///     state?;
+    /// }
+    /// assert!(run.breach().is_none());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A [`ToleranceError`].
+    pub fn for_tolerance<'a, L, M, const N: usize>(
+        system: &'a L,
+        methods: M,
+        start: &State<L::Scalar, N>,
+        time: f64,
+        tolerance: f64,
+    ) -> Result<Choice<'a, L, M, N>, ToleranceError>
+    where
+        L: Lagrangian<N>,
+        M: Methods<L, N>,
+    {
+        let valid = |x: f64| x.is_finite() && x > 0.0;
+        if !valid(time) || !valid(tolerance) {
+            return Err(ToleranceError::Request { time, tolerance });
+        }
+        verification::at_start(system, 0.0, start).map_err(ToleranceError::Step)?;
+        search::choice(system, methods, start, time, tolerance)
+    }
+
+    /// The local error of a step, from its end and that of two half ones.
+    fn local_error<S: Scalar, const N: usize>(
+        self,
+        whole: &State<S, N>,
+        halves: &State<S, N>,
+    ) -> State<S, N> {
+        let power = f64::from(1_u32 << self.order());
+        let factor = S::constant(power / (power - 1.0));
+        State { q: (whole.q - halves.q) * factor, p: (whole.p - halves.p) * factor }
+    }
+
+    /// Roundings of q in a step.
+    const fn roundings(self) -> f64 {
+        match self {
+            // Compensated: the rounding is that of the increment.
+            Self::Gauss4 | Self::Gauss8 => 0.1,
+            Self::Rule => 1.0,
+            Self::KahanLi6 => 9.0,
+            Self::KahanLi8 => 17.0,
+            Self::BlanesMoan4 => 6.0,
+            Self::BlanesMoan6 => 11.0,
+        }
+    }
+
+    /// The angle hω at which the method's error by radian of an oscillator is `relative`.
+    fn usual_angle(self, relative: f64) -> f64 {
+        let (constant, longest): (f64, f64) = match self {
+            Self::Rule => (5e-2, 1.0),
+            Self::KahanLi6 => (1e-3, 1.5),
+            Self::KahanLi8 => (1e-4, 2.0),
+            Self::BlanesMoan4 => (1e-4, 2.5),
+            Self::BlanesMoan6 => (2e-6, 3.0),
+            Self::Gauss4 => (4e-8, 3.0),
+            Self::Gauss8 => (2e-19, 5.0),
+        };
+        ComplexField::powf(relative / constant, 1.0 / f64::from(self.order())).min(longest)
+    }
+
+    /// The evaluations of such a step, where equations are solved in few iterations.
+    fn usual_step(self, relative: f64, is_explicit: bool) -> f64 {
+        let angle = self.usual_angle(relative);
+        let substep = if is_explicit { 2.0 } else { 9.0 };
+        match self {
+            Self::Rule => substep,
+            Self::KahanLi6 => 9.0 * substep,
+            Self::KahanLi8 => 17.0 * substep,
+            Self::BlanesMoan4 => 6.0,
+            Self::BlanesMoan6 => 11.0,
+            Self::Gauss4 => 32.0 + 24.0 * angle,
+            Self::Gauss8 => 64.0 + 48.0 * angle,
+        }
+    }
+
+    /// The evaluations by radian with this step.
+    fn usual_cost(self, relative: f64, is_explicit: bool) -> f64 {
+        self.usual_step(relative, is_explicit) / self.usual_angle(relative)
+    }
+}
+
+impl<L: Lagrangian<N>, M: Copy, const N: usize> Clone for Choice<'_, L, M, N> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<L: Lagrangian<N>, M: Copy, const N: usize> Copy for Choice<'_, L, M, N> {}
+
+impl<'a, L, M, const N: usize> Choice<'a, L, M, N>
+where
+    L: Lagrangian<N>,
+    M: Methods<L, N>,
+{
+    /// The method chosen: of those that reach the error, the one of least cost.
+    pub fn method(&self) -> Method {
+        self.method
+    }
+
+    /// The step size, a whole fraction of the time.
+    pub fn step_size(&self) -> f64 {
+        self.step_size
+    }
+
+    /// Steps over the whole time.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The error asked for.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// The error expected at the end if the whole run is like its start.
+    pub fn expected(&self) -> f64 {
+        self.expected
+    }
+
+    /// What choosing has cost, in evaluations of the forces.
+    pub fn evaluations(&self) -> f64 {
+        self.spent
+    }
+
+    /// What was found of the methods that were tried, in the order of [`Method::ALL`].
+    pub fn trials(&self) -> impl Iterator<Item = &Trial> {
+        self.trials.iter().flatten()
+    }
+
+    /// The run of this choice, with its guard.
+    pub fn trajectory(&self) -> GuardedTrajectory<'a, L, M, N> {
+        let step = |h: f64| self.methods.step(self.method, L::Scalar::constant(h));
+        match (step(self.step_size), step(0.5 * self.step_size)) {
+            (Some(step), Some(half)) => GuardedTrajectory::new(*self, step, half),
+            _ => unreachable!("the method was tried before it was chosen"),
+        }
+    }
+}

@@ -1,0 +1,254 @@
+//! Runs of steps.
+
+use core::marker::PhantomData;
+
+use nalgebra::SVector;
+
+use crate::run::checkpoint::Course;
+use crate::{Checkpoint, Discrete, Memory, Scalar, State, Step, StepError};
+
+/// The trajectory of a system from a state, one step at a time.
+///
+/// An iterator over steps; it holds the present state and what the rule remembers of the steps before ([`Memory`]). After an
+/// error it ends, its state being the last good one; another step size ([`Trajectory::change_step_size`]) lets it go on.
+///
+/// Where L, R or f take the time, each step sees its own: the time of the system given, `system.at_time(t)`, and what the
+/// trajectory has taken since.
+pub struct Trajectory<'a, L, R, const N: usize>
+where
+    L: Discrete<R, N>,
+{
+    system: &'a L,
+    rule: PhantomData<R>,
+    at: Checkpoint<L::Scalar, N>,
+    memory: L::Memory,
+    course: Course,
+}
+
+impl<'a, L, R, const N: usize> Trajectory<'a, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    /// The present state: that of the last step that succeeded.
+    pub fn state(&self) -> &State<L::Scalar, N> {
+        &self.at.state
+    }
+
+    /// The step size h.
+    pub fn step_size(&self) -> L::Scalar {
+        self.at.step_size
+    }
+
+    /// The time, h × the number of steps taken (and what earlier step sizes took): no sum of roundings.
+    pub fn time(&self) -> f64 {
+        self.at.time()
+    }
+
+    /// Goes on with another step size from the present state, also after an error.
+    pub fn change_step_size(&mut self, h: L::Scalar) {
+        self.at = Checkpoint { step_size: h, origin: self.time(), steps: 0, state: self.at.state };
+        self.course = Course::Starting;
+    }
+
+    /// All that is needed to go on from here, in this process or another ([`Trajectory::resume`]).
+    ///
+    /// The run forgets what its rule remembers of earlier steps, as one that is resumed has to: both go on bit by bit alike. A rule
+    /// that adds up with compensation ([`Gauss`](crate::Gauss)) loses the rest at this one place, less than the last digit.
+    pub fn checkpoint(&mut self) -> Checkpoint<L::Scalar, N> {
+        self.memory = L::Memory::default();
+        self.at
+    }
+
+    /// The run that `checkpoint` was taken of.
+    ///
+    /// A checkpoint that no run can have left is refused by the first step: with a [`StepError`] that says whether its step size, its state or
+    /// its time is at fault.
+    ///
+    /// ```
+    /// use dalembert::{Discretise, Midpoint, State, Trajectory, rayleigh_system};
+    ///
+    /// #[rayleigh_system]
+    /// fn pendulum(q: [f64; 1], v: [f64; 1]) -> f64 {
+    ///     0.5 * v[0] * v[0] + q[0].cos()
+    /// }
+    /// let start = State::from_velocity(&Pendulum {}, [1.0], [0.0])?;
+    /// let mut run = Pendulum {}.by(Midpoint, 0.1).run(start);
+    /// run.by_ref().take(100).for_each(|step| assert!(step.is_ok()));
+    /// let mut resumed = Trajectory::resume(&Pendulum {}, Midpoint, run.checkpoint());
+    /// for _ in 0..100 {
+    ///     assert_eq!(run.next(), resumed.next());
+    /// }
+    /// assert_eq!(run.time(), resumed.time());
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    pub fn resume(system: &'a L, _rule: R, checkpoint: Checkpoint<L::Scalar, N>) -> Self {
+        Self::from_checkpoint(system, checkpoint)
+    }
+
+    pub(crate) fn from_checkpoint(system: &'a L, checkpoint: Checkpoint<L::Scalar, N>) -> Self {
+        Self {
+            system,
+            rule: PhantomData,
+            at: checkpoint,
+            memory: L::Memory::default(),
+            course: Course::Starting,
+        }
+    }
+
+    /// The next step, in 2, 4, … 2^`halvings` parts where it cannot be taken at once: at the end the time is that of a whole step.
+    ///
+    /// The value returned says how many parts were taken. The error, where all fail, is that of the whole step; the state is then the last good one, the trajectory has ended, and another step size lets it go on.
+    ///
+    /// ```
+    /// use dalembert::nalgebra::vector;
+    /// use dalembert::{Discretise, Midpoint, State, Trajectory, rayleigh_system};
+    ///
+    /// /// Cubic drag, which accelerates for v < 0: no real step of length 1 from p = −1.3, one of length ½.
+    /// #[rayleigh_system]
+    /// fn cubic(q: [f64; 1], v: [f64; 1]) -> (f64, f64) {
+    ///     (0.5 * v[0] * v[0] - 0.0 * q[0], v[0].powi(3) / 3.0)
+    /// }
+    /// let start = State { q: vector![0.0], p: vector![-0.6] };
+    /// let mut trajectory = Cubic {}.by(Midpoint, 1.0).run(start);
+    /// let parted = trajectory.next_in_parts(6)?;
+    /// assert!(parted.parts > 1 && trajectory.time() == 1.0);
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The [`StepError`] of the whole step.
+    pub fn next_in_parts(&mut self, halvings: u32) -> Result<Parted<L::Scalar, N>, StepError> {
+        self.course.require(self.system, &self.at)?;
+        let start = self.time();
+        let error = match self.memory.advance_later(self.system, start, &self.at.state, self.at.step_size) {
+            Ok(step) => {
+                self.at.follow(&step.state);
+                return Ok(Parted { step, parts: 1 });
+            }
+            Err(error) => error,
+        };
+        let mut part = self.at.step_size;
+        for halving in 1..=halvings.min(31) {
+            part *= L::Scalar::constant(0.5);
+            let mut memory = L::Memory::default();
+            let (mut state, mut last) = (self.at.state, None);
+            for taken in 0..1_u32 << halving {
+                let elapsed = start + f64::from(taken) * part.widen();
+                match memory.advance_later(self.system, elapsed, &state, part) {
+                    Ok(step) => {
+                        state = step.state;
+                        last = Some(step);
+                    }
+                    Err(_) => {
+                        last = None;
+                        break;
+                    }
+                }
+            }
+            if let Some(step) = last {
+                self.at.follow(&state);
+                return Ok(Parted { step, parts: 1 << halving });
+            }
+        }
+        self.course = Course::Ended;
+        Err(error)
+    }
+
+    /// Every `stride`-th step only, with what the steps between reported: long runs in constant memory.
+    ///
+    /// A stride of 0 counts as 1. An error on any step is returned at once.
+    pub fn sample_every(&mut self, stride: u64) -> Samples<'_, 'a, L, R, N> {
+        Samples { trajectory: self, stride: stride.max(1) }
+    }
+}
+
+impl<L, R, const N: usize> Iterator for Trajectory<'_, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    type Item = Result<Step<L::Scalar, N>, StepError>;
+
+    #[inline]
+    fn next(&mut self) -> Option<Self::Item> {
+        if let Some(stop) = self.course.stop(self.system, &self.at) {
+            return stop.map(Err);
+        }
+        let step = self.memory.advance_later(self.system, self.time(), &self.at.state, self.at.step_size);
+        match &step {
+            Ok(step) => {
+                self.at.follow(&step.state);
+            }
+            Err(_) => self.course = Course::Ended,
+        }
+        Some(step)
+    }
+}
+
+/// A step taken at once or in parts; see [`Trajectory::next_in_parts`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parted<S, const N: usize> {
+    /// The last part: its state is that at the end of the whole step.
+    pub step: Step<S, N>,
+    /// In how many parts, 1 for a whole step.
+    pub parts: u32,
+}
+
+/// A state recorded on a trajectory.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Sample<S, const N: usize> {
+    /// The time of the state.
+    pub time: f64,
+    /// The state.
+    pub state: State<S, N>,
+    /// Configuration one step before; with `state.q` it makes the last segment.
+    pub previous: SVector<S, N>,
+    /// Newton iterations since the last sample, all steps together.
+    pub iterations: u64,
+    /// Steps since the last sample whose Newton step had to be shortened.
+    pub damped: u64,
+    /// Largest residual since the last sample, in units of its round-off floor.
+    pub worst_residual: f64,
+}
+
+/// Iterator over every k-th state of a trajectory; see [`Trajectory::sample_every`].
+pub struct Samples<'t, 'a, L, R, const N: usize>
+where
+    L: Discrete<R, N>,
+{
+    trajectory: &'t mut Trajectory<'a, L, R, N>,
+    stride: u64,
+}
+
+impl<L, R, const N: usize> Iterator for Samples<'_, '_, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    type Item = Result<Sample<L::Scalar, N>, StepError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let (mut iterations, mut damped, mut worst_residual) = (0, 0, 0.0_f64);
+        let mut previous = self.trajectory.at.state.q;
+        for _ in 0..self.stride {
+            previous = self.trajectory.at.state.q;
+            let report = match self.trajectory.next()? {
+                Ok(step) => step.report,
+                Err(error) => return Some(Err(error)),
+            };
+            iterations += u64::from(report.iterations);
+            damped += u64::from(report.damped > 0);
+            if report.residual > L::Scalar::constant(0.0) {
+                worst_residual = worst_residual.max((report.residual / report.floor).widen());
+            }
+        }
+        let trajectory = &*self.trajectory;
+        Some(Ok(Sample {
+            time: trajectory.time(),
+            state: trajectory.at.state,
+            previous,
+            iterations,
+            damped,
+            worst_residual,
+        }))
+    }
+}

@@ -1,0 +1,207 @@
+//! Newton's method with the analytic matrix.
+//!
+//! Nearly every step is solved by the undamped method in two or three iterations ([`quick`]). Where that does not contract,
+//! the residual is held up by rounding, far from a root, or without one: [`careful`] damps it and tells these apart. A step that finds
+//! no root from the state alone is led to it in parts of h ([`continuation`]).
+//!
+//! Residuals are measured in units of their round-off floor, component by component; [`rounding`] defines when a step is solved.
+//! Descent of the residual alone would refuse good iterates: the residual of a coordinate at rest, without a force as yet, has a
+//! floor near 0, and that of a stiff spring grows with the square of a long sideways step. An iterate is therefore taken as well
+//! where the Newton step still to take from it is shorter ([`careful::nearer`]; compare P. Deuflhard, Newton Methods for Nonlinear
+//! Problems, 2004, on tests in the unknowns).
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::numbers::linear::NewtonMatrix;
+use crate::step::discrete::{Momenta, StepKernel};
+use crate::{Report, Scalar, State, StepError};
+
+mod bounded;
+mod careful;
+mod continuation;
+mod rounding;
+mod start;
+mod verdict;
+pub(crate) use bounded::bounded;
+use careful::careful;
+pub(crate) use careful::shorter;
+pub(crate) use continuation::{ITERATIONS, StepEquations, along_h, at_length};
+pub(crate) use rounding::{
+    AT_FLOOR, PLACES, SLOW, SMALL, estimated_floor, finite_part, held_against, held_by_weights, is_sensible,
+};
+pub(crate) use start::{from_rest, is_rest};
+pub(crate) use verdict::Equations;
+
+/// A root, with both momenta there.
+pub(crate) struct Solution<S, const N: usize> {
+    pub(crate) unknown: SVector<S, N>,
+    pub(crate) momenta: Momenta<S, N>,
+    pub(crate) report: Report<S>,
+}
+
+/// The undamped method's iterations: from a guess this far off the careful one goes on.
+const QUICK_ITERATIONS: u32 = 8;
+
+/// What is known of the equation p0(q, v) = p before it is solved.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Equation {
+    /// Linear in v: the first correction leads to the root.
+    Linear,
+    /// Nothing.
+    General,
+}
+
+/// Solves p0(q, v) = p for v at the `state` (q, p).
+///
+/// `evaluate` gives p0 and the Newton matrix, `finish` both momenta, `inertia` the mass matrix, the metric that tells which of
+/// two velocities is longer; configurations on the way are q plus a share of `h` v, with h = 0 at q itself. The residual that the
+/// report states is the one that `finish` measured at the root.
+///
+/// Functions by reference: with `F = &G` for one of them, calls of it would not be inlined where `F` is behind a pointer as well.
+#[inline]
+pub(crate) fn solve<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+    kind: Equation,
+    evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
+    finish: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
+    inertia: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, N>,
+    state: &State<S, N>,
+    h: S,
+    guess: SVector<S, N>,
+) -> Result<Solution<S, N>, StepError> {
+    match quick(kind, evaluate, finish, state, guess) {
+        Ok(solution) => Ok(solution),
+        Err(reached) => {
+            let of = Equations { evaluate, finish, inertia, state, h };
+            careful(&of, reached)
+        }
+    }
+}
+
+/// Where the undamped method left off: the last iterate that lowered the residual, and the corrections that led there.
+pub(crate) struct Reached<S, const N: usize> {
+    v: SVector<S, N>,
+    iterations: u32,
+}
+
+/// The undamped method, as long as it contracts as Newton's does.
+///
+/// Newton's residuals fall as |r′| ≈ C|r|², so the last contraction c predicts the next one, c². Where that ends at the
+/// floor, the matrix is not needed again. On the way residuals are weighed by the floor at the guess; the root is held
+/// against its own.
+#[inline]
+#[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a contraction that is NaN must fail the comparison")]
+pub(crate) fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+    kind: Equation,
+    evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
+    finish: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
+    state: &State<S, N>,
+    guess: SVector<S, N>,
+) -> Result<Solution<S, N>, Reached<S, N>> {
+    let State { q, p } = state;
+    let mut v = guess;
+    let mut weights: SVector<S, N> = nalgebra::zero();
+    let mut last_size = S::zero();
+    let mut reached = Reached { v, iterations: 0 };
+    for iterations in 0..QUICK_ITERATIONS {
+        let kernel = evaluate(q, &v);
+        let residual = kernel.p0 - p;
+        let Ok(correction) = kernel.matrix.solve(&residual) else { break };
+        let next = v - correction;
+        let close = if kind == Equation::Linear {
+            true
+        } else if iterations == 0 {
+            weights = estimated_floor(p, &kernel.matrix, &next).map(|floor| S::one() / floor);
+            last_size = weighted(&residual, &weights);
+            last_size <= S::one()
+        } else {
+            let size = weighted(&residual, &weights);
+            let contraction = size / last_size;
+            if !(contraction <= S::constant(SLOW)) {
+                break;
+            }
+            last_size = size;
+            size <= S::one() || contraction * contraction * size <= S::one()
+        };
+        reached = Reached { v, iterations };
+        v = next;
+        if close {
+            let momenta = finish(q, &v);
+            let residual = momenta.p0 - p;
+            let floor = estimated_floor(p, &kernel.matrix, &v);
+            let (residual, floor, is_root) = held_against(&residual, &floor);
+            let last_correction = largest(&correction);
+            if is_root && (kind == Equation::Linear || is_known_at(&v, last_correction)) {
+                let iterations = iterations + 1;
+                let report = Report { iterations, damped: 0, residual, floor, last_correction };
+                return Ok(Solution { unknown: v, momenta, report });
+            }
+        }
+    }
+    Err(reached)
+}
+
+/// Whether the floor at `v` may be taken from the matrix of the iterate before, from which the `last_correction` led here: from a
+/// guess that is far out by many orders of magnitude that matrix can be larger by as many, and with it the floor.
+#[inline(always)]
+fn is_known_at<S: Scalar, const N: usize>(v: &SVector<S, N>, last_correction: S) -> bool {
+    last_correction <= largest(v) * S::constant(SMALL)
+}
+
+/// max |vᵢ|; a loop of its own, which optimisation for size leaves one.
+#[inline(always)]
+fn largest<S: Scalar, const N: usize>(v: &SVector<S, N>) -> S {
+    let mut largest = S::zero();
+    for entry in v.as_slice() {
+        let size = entry.abs();
+        largest = if size > largest { size } else { largest };
+    }
+    largest
+}
+
+/// max |residualᵢ| weightᵢ; NaN if one of them is no finite number.
+#[inline]
+pub(crate) fn weighted<S: Scalar, const N: usize>(residual: &SVector<S, N>, weights: &SVector<S, N>) -> S {
+    const LANES: usize = 4;
+    let (mut largest, mut sums) = ([S::zero(); LANES], [S::zero(); LANES]);
+    // Lane by lane, the compiler takes several at once.
+    let (of, rest_of) = residual.as_slice().as_chunks::<LANES>();
+    let (by, rest_by) = weights.as_slice().as_chunks::<LANES>();
+    for (of, by) in of.iter().zip(by) {
+        for lane in 0..LANES {
+            let units = of[lane].abs() * by[lane];
+            sums[lane] += units;
+            largest[lane] = if units > largest[lane] { units } else { largest[lane] };
+        }
+    }
+    for (of, by) in rest_of.iter().zip(rest_by) {
+        let units = of.abs() * *by;
+        sums[0] += units;
+        largest[0] = if units > largest[0] { units } else { largest[0] };
+    }
+    let (mut size, mut sum) = (S::zero(), S::zero());
+    for lane in 0..LANES {
+        sum += sums[lane];
+        size = if largest[lane] > size { largest[lane] } else { size };
+    }
+    // 0 × sum is 0 for every finite sum, and NaN for the others.
+    size + sum * S::zero()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_weighted_residual_is_the_largest_or_no_number() {
+        let weights = SVector::from([1.0, 2.0, 0.5, 1.0, 4.0, 1.0]);
+        for (i, expected) in [3.0, 6.0, 1.5, 3.0, 12.0, 3.0].into_iter().enumerate() {
+            let mut residual = SVector::from_element(0.25);
+            residual[i] = -3.0;
+            assert_eq!(weighted(&residual, &weights), expected);
+            for lost in [f64::NAN, f64::INFINITY] {
+                residual[i] = lost;
+                assert!(weighted(&residual, &weights).is_nan());
+            }
+        }
+    }
+}

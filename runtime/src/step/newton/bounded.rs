@@ -1,0 +1,63 @@
+//! A fixed number of Newton iterations, for a clock that does not wait.
+
+use nalgebra::SVector;
+
+use super::careful::{first_non_finite, unsolvable};
+use super::rounding::{estimated_floor, held_against, in_units_of};
+use super::{Equation, Solution, is_known_at, largest};
+use crate::numbers::linear::NewtonMatrix;
+use crate::step::discrete::{Momenta, StepKernel};
+use crate::{Quantity, Report, Scalar, State, StepError};
+
+/// The best iterate of at most `bound` undamped Newton iterations, and whether it is the solution, by the definition of
+/// `rounding.rs`.
+///
+/// The work is bounded: `bound` evaluations of the kernel, as many solves, and `bound` + 1 evaluations of the momenta.
+pub(crate) fn bounded<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+    kind: Equation,
+    bound: u32,
+    evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
+    finish: impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
+    State { q, p }: &State<S, N>,
+    guess: SVector<S, N>,
+) -> Result<(Solution<S, N>, bool), StepError> {
+    let mut v = guess;
+    let mut best: Option<(S, Solution<S, N>, bool)> = None;
+    for iteration in 0..bound.max(1) {
+        let kernel = evaluate(q, &v);
+        let residual = kernel.p0 - p;
+        let correction = match kernel.matrix.solve(&residual) {
+            Ok(correction) => correction,
+            // What was reached before stands.
+            Err(_) if best.is_some() => break,
+            Err(singular) => return Err(unsolvable(singular, &residual, &kernel.matrix, iteration, 0)),
+        };
+        let next = v - correction;
+        let momenta = finish(q, &next);
+        let remaining = momenta.p0 - p;
+        let floor = estimated_floor(p, &kernel.matrix, &next);
+        let size = in_units_of(&remaining, &floor);
+        // A guess or a step that leaves the domain of L, R or f.
+        if !size.is_finite() && best.is_none() {
+            let index = first_non_finite(&residual, &kernel.matrix)
+                .or_else(|| (0..N).find(|&i| !remaining[i].is_finite()))
+                .unwrap_or(0);
+            return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
+        }
+        let (residual, floor, is_root) = held_against(&remaining, &floor);
+        let last_correction = largest(&correction);
+        let is_solved = is_root && (kind == Equation::Linear || is_known_at(&next, last_correction));
+        if is_solved || best.as_ref().is_none_or(|(least, ..)| size < *least) {
+            let report = Report { iterations: iteration + 1, damped: 0, residual, floor, last_correction };
+            best = Some((size, Solution { unknown: next, momenta, report }, is_solved));
+        }
+        if is_solved {
+            break;
+        }
+        v = next;
+    }
+    match best {
+        Some((_, solution, is_solved)) => Ok((solution, is_solved)),
+        None => Err(StepError::NonFinite { quantity: Quantity::Derivatives, index: 0 }),
+    }
+}

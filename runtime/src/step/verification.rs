@@ -1,0 +1,128 @@
+//! Whether the derivatives belong to the functions as written.
+//!
+//! Derivatives that the macro writes out come with a value, of the operations that it read off the body. It is that of the
+//! user's own function, bit by bit; where it is not, the derivatives are those of another function. Each function of this module
+//! compares the two at one point. NaN counts as equal to NaN, and 0 to −0.
+//!
+//! | when | where |
+//! |---|---|
+//! | [`State::from_velocity`] | at (q, v), and at a point beside it where no coordinate is special |
+//! | the start of a run: [`Trajectory`](crate::Trajectory), compositions, splittings, [`resume`](crate::Trajectory::resume) | at the state, and beside it |
+//! | every step, with `debug_assertions` | at the points where the rule evaluates the step taken |
+//!
+//! A difference is [`StepError::GeneratedDiffers`]. Systems written by hand, and those of dual numbers, have one value and
+//! nothing to compare. On x86 processors without SSE2 nothing is compared: their registers round differently each time.
+
+use core::hint::black_box;
+
+use nalgebra::SVector;
+
+use crate::numbers::linear::NewtonMatrix;
+use crate::step::error::{Function, StepError};
+use crate::{Engine, Force, Lagrangian, Rayleigh, Scalar, State};
+
+/// Whether the same operations give the same bits.
+const IS_IEEE: bool = cfg!(not(all(target_arch = "x86", not(target_feature = "sse2"))));
+
+/// L as generated against L as written.
+///
+/// # Errors
+/// [`StepError::GeneratedDiffers`].
+#[cold]
+#[inline(never)]
+pub fn lagrangian<L: Lagrangian<N>, const N: usize>(
+    system: &L,
+    q: &SVector<L::Scalar, N>,
+    v: &SVector<L::Scalar, N>,
+) -> Result<(), StepError> {
+    // Neither side knows more of its arguments than the other: a constant folded by the compiler on one side alone, with the
+    // elementary functions of another machine, would differ.
+    let (system, q, v) = black_box((system, q, v));
+    compare(Function::Lagrangian, system.lagrangian_gradient(q, v).value, system.lagrangian(q, v))
+}
+
+/// R as generated against R as written.
+///
+/// # Errors
+/// [`StepError::GeneratedDiffers`].
+#[cold]
+#[inline(never)]
+pub fn rayleigh<L: Rayleigh<N>, const N: usize>(
+    system: &L,
+    q: &SVector<L::Scalar, N>,
+    v: &SVector<L::Scalar, N>,
+) -> Result<(), StepError> {
+    let (system, q, v) = black_box((system, q, v));
+    compare(Function::Rayleigh, system.rayleigh_gradient(q, v).value, system.rayleigh(q, v))
+}
+
+/// f as generated against f as written, component by component.
+///
+/// # Errors
+/// [`StepError::GeneratedDiffers`].
+#[cold]
+#[inline(never)]
+pub fn force<L: Force<N>, const N: usize>(
+    system: &L,
+    q: &SVector<L::Scalar, N>,
+    v: &SVector<L::Scalar, N>,
+) -> Result<(), StepError> {
+    let (system, q, v) = black_box((system, q, v));
+    let generated = system.force_derivatives(q, v).value;
+    let written = system.force(q, v);
+    for (index, (generated, written)) in generated.iter().zip(written.iter()).enumerate() {
+        compare(Function::Force { index }, *generated, *written)?;
+    }
+    Ok(())
+}
+
+/// Fails unless the two values are equal, or both NaN.
+fn compare<S: Scalar>(function: Function, generated: S, written: S) -> Result<(), StepError> {
+    let (generated, written) = (generated.widen(), written.widen());
+    if !IS_IEEE || generated == written || (generated.is_nan() && written.is_nan()) {
+        Ok(())
+    } else {
+        Err(StepError::GeneratedDiffers { function, generated, written })
+    }
+}
+
+/// Whether there are two values of each function.
+const fn has_two_values(engine: Engine) -> bool {
+    matches!(engine, Engine::Expanded)
+}
+
+/// Verifies a system at (q, v), and beside it: at rest, and where a coordinate is 0, functions agree by chance.
+pub(crate) fn around<L: Lagrangian<N>, const N: usize>(
+    system: &L,
+    q: &SVector<L::Scalar, N>,
+    v: &SVector<L::Scalar, N>,
+) -> Result<(), StepError> {
+    if !has_two_values(L::STRUCTURE.engine) {
+        return Ok(());
+    }
+    system.verify_generated(q, v)?;
+    let beside = |x: &SVector<L::Scalar, N>, direction: f64| {
+        SVector::from_fn(|i, _| x[i] + L::Scalar::constant(direction * (1.0 + 0.125 * i as f64)))
+    };
+    system.verify_generated(&beside(q, 0.75), &beside(v, -1.25))
+}
+
+/// Verifies a system where a run starts, `elapsed` after its own time.
+#[cold]
+#[inline(never)]
+pub(crate) fn at_start<L: Lagrangian<N>, const N: usize>(
+    system: &L,
+    elapsed: f64,
+    state: &State<L::Scalar, N>,
+) -> Result<(), StepError> {
+    if !has_two_values(L::STRUCTURE.engine) {
+        return Ok(());
+    }
+    system.later(L::Scalar::constant(elapsed), |system| {
+        // One Newton iteration for ∂L/∂v(q, v) = p from rest: exact where L is quadratic in v, and a point as good as any elsewhere.
+        let rest = SVector::zeros();
+        let l = system.lagrangian_derivatives(&state.q, &rest);
+        let v = l.d22.solve(&(state.p - l.d2)).unwrap_or(rest);
+        around(system, &state.q, &v)
+    })
+}

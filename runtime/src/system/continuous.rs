@@ -1,0 +1,167 @@
+//! The continuous system: a Lagrangian, and where there is one, a Rayleigh function and a general force.
+//!
+//! ```text
+//! ∂L/∂q − d/dt ∂L/∂v − ∂R/∂v + f = 0
+//! ```
+//!
+//! `#[rayleigh_system]` implements these traits; by hand, the value and the derivatives are enough.
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::{
+    CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, StepError, Structure, Variations,
+};
+
+/// A Lagrangian L(q, v) on TQ, Q = ℝᴺ, with its derivatives.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not a Lagrangian system with N = {N}",
+    label = "no Lagrangian",
+    note = "put `#[rayleigh_system]` on an `impl` block of `{Self}` with `fn lagrangian(&self, q: [f64; {N}], v: [f64; {N}]) -> f64`",
+    note = "a system whose L takes the time has its Lagrangian at a time: `system.at_time(t)`, or `system.driven(u, t)` with an input"
+)]
+pub trait Lagrangian<const N: usize> {
+    /// `f64` or `f32`.
+    type Scalar: Scalar;
+
+    /// What is known of the system when it is compiled.
+    const STRUCTURE: Structure = Structure::UNKNOWN;
+
+    /// L(q, v).
+    fn lagrangian(&self, q: &SVector<Self::Scalar, N>, v: &SVector<Self::Scalar, N>) -> Self::Scalar;
+
+    /// L with ∂L/∂q, ∂L/∂v and its second derivatives at (q, v).
+    fn lagrangian_derivatives(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> Derivatives<Self::Scalar, N>;
+
+    /// L with ∂L/∂q and ∂L/∂v at (q, v).
+    #[inline]
+    fn lagrangian_gradient(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> Gradient<Self::Scalar, N> {
+        self.lagrangian_derivatives(q, v).gradient()
+    }
+
+    /// Derivatives of L along `minus` and `plus`, and the mixed one: all that an implicit step asks for.
+    #[inline]
+    fn lagrangian_variations(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+        minus: Direction<Self::Scalar>,
+        plus: Direction<Self::Scalar>,
+    ) -> Variations<Self::Scalar, N> {
+        self.lagrangian_derivatives(q, v).variations(minus, plus)
+    }
+
+    /// `evaluate` for the system as it is at the time `elapsed` from now.
+    ///
+    /// The same system, unless L, R or f take a time: rules call this so that every node of a segment sees its own.
+    #[inline]
+    fn later<T>(&self, elapsed: Self::Scalar, evaluate: impl FnOnce(&Self) -> T) -> T
+    where
+        Self: Sized,
+    {
+        let _ = elapsed;
+        evaluate(self)
+    }
+
+    /// Compares the values of L, R and f that were generated together with their derivatives to those of the functions as
+    /// written, at (q, v): bit by bit they are equal ([`verification`](crate::verification)).
+    ///
+    /// A system written by hand has nothing to compare, nor has one of dual numbers.
+    ///
+    /// # Errors
+    /// [`StepError::GeneratedDiffers`] with the function.
+    fn verify_generated(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> Result<(), StepError> {
+        let _ = (q, v);
+        Ok(())
+    }
+
+    /// E_L(q, v) = v·∂L/∂v − L, the energy. Along the motion dE_L/dt = v·f_L.
+    #[inline]
+    fn energy(&self, q: &SVector<Self::Scalar, N>, v: &SVector<Self::Scalar, N>) -> Self::Scalar {
+        let l = self.lagrangian_gradient(q, v);
+        v.dot(&l.d2) - l.value
+    }
+}
+
+/// A Rayleigh function R(q, v), with the force −∂R/∂v.
+///
+/// Normalise R(q, 0) = 0: adding g(q) leaves the continuous system as it is, but shifts the discrete forces by ±(h²/4)∇g.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no Rayleigh function",
+    label = "this needs R, and `{Self}` has none",
+    note = "add `fn rayleigh(&self, v: [f64; {N}]) -> f64` to the `#[rayleigh_system]` block; `Discrete` holds all that exists without R"
+)]
+pub trait Rayleigh<const N: usize>: Lagrangian<N> {
+    /// R(q, v).
+    fn rayleigh(&self, q: &SVector<Self::Scalar, N>, v: &SVector<Self::Scalar, N>) -> Self::Scalar;
+
+    /// R with its first and second derivatives at (q, v).
+    fn rayleigh_derivatives(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> Derivatives<Self::Scalar, N>;
+
+    /// R with ∂R/∂q and ∂R/∂v at (q, v).
+    #[inline]
+    fn rayleigh_gradient(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> Gradient<Self::Scalar, N> {
+        self.rayleigh_derivatives(q, v).gradient()
+    }
+
+    /// Derivatives of R along `minus` and `plus`, and the mixed one.
+    #[inline]
+    fn rayleigh_variations(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+        minus: Direction<Self::Scalar>,
+        plus: Direction<Self::Scalar>,
+    ) -> Variations<Self::Scalar, N> {
+        self.rayleigh_derivatives(q, v).variations(minus, plus)
+    }
+}
+
+/// A general force f(q, v), a covector at q, that need not come from a Rayleigh function.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no general force",
+    label = "this needs `force`, and `{Self}` has none",
+    note = "add `fn force(&self, q: [f64; {N}], v: [f64; {N}]) -> [f64; {N}]` to the `#[rayleigh_system]` block"
+)]
+pub trait Force<const N: usize>: Lagrangian<N> {
+    /// f(q, v).
+    fn force(&self, q: &SVector<Self::Scalar, N>, v: &SVector<Self::Scalar, N>) -> SVector<Self::Scalar, N>;
+
+    /// f with ∂f/∂q and ∂f/∂v at (q, v).
+    fn force_derivatives(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> CovectorDerivatives<Self::Scalar, N>;
+
+    /// f and its derivative along `direction`: entry (i, j) differentiates fᵢ along eⱼ.
+    #[inline]
+    fn force_variation(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+        direction: Direction<Self::Scalar>,
+    ) -> (SVector<Self::Scalar, N>, SMatrix<Self::Scalar, N, N>) {
+        let f = self.force_derivatives(q, v);
+        (f.value, f.along(direction))
+    }
+}

@@ -1,0 +1,119 @@
+//! A Lagrangian with the whole force that acts, as methods of several stages ask for it.
+//!
+//! ```text
+//! d/dt ∂L/∂v = g,   g = ∂L/∂q + f_L,   f_L = −∂R/∂v + f
+//! ```
+
+use nalgebra::SVector;
+
+use crate::numbers::lanes::{LaneVector, Lanes, lane, splat, write_lane};
+use crate::{CovectorDerivatives, Lagrangian, NewtonMatrix, Scalar};
+
+/// The equations of motion at S stages at once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stages<T, const N: usize, const S: usize> {
+    /// g = ∂L/∂q + f_L.
+    pub rate: LaneVector<T, N, S>,
+    /// p − ∂L/∂v, with the momenta p that were asked for.
+    pub residual: LaneVector<T, N, S>,
+    /// (∂²L/∂v²)⁻¹ (p − ∂L/∂v), a Newton step of v towards these momenta; not finite where the matrix is singular.
+    pub correction: LaneVector<T, N, S>,
+}
+
+/// A Lagrangian L with the force f_L = −∂R/∂v + f that acts: the terms that the system has, summed.
+///
+/// `#[rayleigh_system(rule = gauss)]` writes it. By hand, a system without force needs nothing but the `impl`; one with force
+/// sets [`IS_FORCED`](Self::IS_FORCED) and gives f_L and its derivatives; one that changes with time, [`IS_TIMED`](Self::IS_TIMED).
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no step as it stands here",
+    label = "no step",
+    note = "if its force takes an input, write `system.driven(u)` where `system` stands; if L, R or f take the time, `system.at_time(t)`, with an input `system.driven(u, t)`",
+    note = "otherwise list the rule in the attribute: `#[rayleigh_system(rule = [midpoint, gauss])]`"
+)]
+pub trait ForcedLagrangian<const N: usize>: Lagrangian<N> {
+    /// Whether there is a force. Without one, f_d and its derivatives are 0 and cost nothing.
+    const IS_FORCED: bool = false;
+
+    /// Whether L or the force changes with time, so that [`Lagrangian::later`] is another system. Without it no stage asks.
+    const IS_TIMED: bool = false;
+
+    /// f_L(q, v), a covector at q.
+    fn acting_force(
+        &self,
+        _q: &SVector<Self::Scalar, N>,
+        _v: &SVector<Self::Scalar, N>,
+    ) -> SVector<Self::Scalar, N> {
+        nalgebra::zero()
+    }
+
+    /// f_L with ∂f_L/∂q and ∂f_L/∂v.
+    fn acting_force_derivatives(
+        &self,
+        _q: &SVector<Self::Scalar, N>,
+        _v: &SVector<Self::Scalar, N>,
+    ) -> CovectorDerivatives<Self::Scalar, N> {
+        CovectorDerivatives::zero()
+    }
+
+    /// The equations of motion at all stages, now. `momenta` gives the stages' momenta from their rates g.
+    fn stages<const S: usize>(
+        &self,
+        q: &LaneVector<Self::Scalar, N, S>,
+        v: &LaneVector<Self::Scalar, N, S>,
+        momenta: impl FnOnce(&LaneVector<Self::Scalar, N, S>) -> LaneVector<Self::Scalar, N, S>,
+    ) -> Stages<Self::Scalar, N, S>
+    where
+        Self: Sized,
+    {
+        one_by_one(self, &Lanes::splat(nalgebra::zero()), q, v, momenta)
+    }
+
+    /// The same with every stage at its own time, `elapsed` from now.
+    #[inline(always)]
+    fn stages_in_time<const S: usize>(
+        &self,
+        elapsed: &Lanes<Self::Scalar, S>,
+        q: &LaneVector<Self::Scalar, N, S>,
+        v: &LaneVector<Self::Scalar, N, S>,
+        momenta: impl FnOnce(&LaneVector<Self::Scalar, N, S>) -> LaneVector<Self::Scalar, N, S>,
+    ) -> Stages<Self::Scalar, N, S>
+    where
+        Self: Sized,
+    {
+        if Self::IS_TIMED { one_by_one(self, elapsed, q, v, momenta) } else { self.stages(q, v, momenta) }
+    }
+}
+
+/// The stages one after the other.
+fn one_by_one<L: ForcedLagrangian<N>, const N: usize, const S: usize>(
+    system: &L,
+    elapsed: &Lanes<L::Scalar, S>,
+    q: &LaneVector<L::Scalar, N, S>,
+    v: &LaneVector<L::Scalar, N, S>,
+    momenta: impl FnOnce(&LaneVector<L::Scalar, N, S>) -> LaneVector<L::Scalar, N, S>,
+) -> Stages<L::Scalar, N, S> {
+    let zero = splat(&SVector::zeros());
+    let mut stages = Stages { rate: zero, residual: zero, correction: zero };
+    let mut masses = [nalgebra::zero(); S];
+    let mut own = zero;
+    for (i, mass) in masses.iter_mut().enumerate() {
+        let (q, v) = (lane(q, i), lane(v, i));
+        let (l, force) = system.later(elapsed.0[i], |system| {
+            let force = if L::IS_FORCED { system.acting_force(&q, &v) } else { nalgebra::zero() };
+            (system.lagrangian_derivatives(&q, &v), force)
+        });
+        write_lane(&mut stages.rate, i, &(l.d1 + force));
+        write_lane(&mut own, i, &l.d2);
+        *mass = l.d22;
+    }
+    let momenta = momenta(&stages.rate);
+    for a in 0..N {
+        stages.residual[a] = momenta[a] - own[a];
+    }
+    for (i, mass) in masses.iter().enumerate() {
+        let not_a_number = SVector::repeat(L::Scalar::constant(f64::NAN));
+        let correction = mass.solve(&lane(&stages.residual, i)).unwrap_or(not_a_number);
+        write_lane(&mut stages.correction, i, &correction);
+    }
+    stages
+}

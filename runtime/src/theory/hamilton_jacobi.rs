@@ -1,0 +1,136 @@
+//! Discrete Hamilton–Jacobi theory with forces: what the paper defines, evaluated as printed, and the corrected theory.
+//!
+//! Start from [`Discretised::hamilton_jacobi`](crate::Discretised::hamilton_jacobi). Every check returns a report: for each equation whether it holds, the residual, the
+//! place where it is worst, and the tolerance that it was held against.
+//!
+//! **As printed** (paper, section 4). One family of functions S_k gives γ⁻ = DS_k − f_d⁻ and γ⁺ = DS_{k+1} + f_d⁺, which
+//! are to be the momenta at both ends of a segment. They are only where there is no net force at the nodes,
+//!
+//! ```text
+//! f_d⁺(q_{k−1}, q_k) + f_d⁻(q_k, q_{k+1}) = 0
+//! ```
+//!
+//! [`HamiltonJacobi::as_printed`] evaluates all of it on a family and a trajectory, [`HamiltonJacobi::along_trajectory`]
+//! where S_k is the discrete action along one trajectory, [`HamiltonJacobi::right_equation_everywhere`] for all q.
+//!
+//! **Corrected.** Sections γ_k: Q → T*Q and maps F_k: Q → Q with
+//!
+//! ```text
+//! 𝔽⁻(q, F_k(q)) = (q, γ_k(q)),      𝔽⁺(q, F_k(q)) = (F_k(q), γ_{k+1}(F_k(q)))
+//! ```
+//!
+//! Then c_{k+1} = F_k(c_k), p_k = γ_k(c_k) solves the forced discrete equations. With γ_k = dS_k:
+//!
+//! ```text
+//! S_{k+1}(F_k(q)) − S_k(q) = L_d(q, F_k(q)) + W_k(q),     dW_k = f_d⁻(q, F_k(q)) + DF_k(q)ᵀ f_d⁺(q, F_k(q))
+//! ```
+//!
+//! W_k is the virtual work of the discrete force; without force it is constant and this is the discrete Hamilton–Jacobi
+//! equation of Ohsawa, Bloch and Leok (SIAM J. Control Optim. 49, 2011). [`HamiltonJacobi::check_sections`],
+//! [`check_solution`](HamiltonJacobi::check_solution) and
+//! [`check_generating_functions`](HamiltonJacobi::check_generating_functions) say whether a candidate is a solution;
+//! [`HamiltonJacobi::carry`] makes one from γ_0, with the tangent frame (Q_k, P_k) along each characteristic, and
+//! [`HamiltonJacobi::characteristics_report`] its closedness defect Q_kᵀP_k − P_kᵀQ_k and its caustics det Q_k = 0.
+
+//!
+//! Of a system at a time t0, a view, step k and its segment (q_k, q_{k+1}) are those of t0 + k h, in every check of a sequence.
+
+mod caustics;
+mod characteristics;
+mod error;
+mod hamilton_equations;
+mod hamiltonian;
+mod lemma;
+mod printed;
+mod printed_report;
+mod residual;
+mod section;
+mod solution;
+mod trajectory;
+mod unforced;
+mod virtual_work;
+
+use core::marker::PhantomData;
+
+use crate::theory::samples::at_segment;
+use crate::{Discrete, Scalar};
+
+pub use caustics::Caustic;
+pub use characteristics::{Characteristic, CharacteristicsReport, Frame};
+pub use error::{HamiltonJacobiError, ImplicitEquation};
+pub use hamilton_equations::{HamiltonEquationsReport, PrintedAndCorrected};
+pub use hamiltonian::DiscreteHamiltonian;
+pub use printed::{EquationValue, PairedFlow};
+pub use printed_report::PrintedReport;
+pub use residual::{Outcome, Residual};
+pub use section::{ConfigurationMap, Section};
+pub use solution::SolutionReport;
+pub use trajectory::TrajectoryReport;
+pub use unforced::RightEquationReport;
+pub use virtual_work::{CarriedGeneratingFunction, VirtualWork};
+
+/// Tolerance of the reports in units of the rounding of an equation's terms: some dozens of operations each.
+const ROUNDINGS: f64 = 256.0;
+
+/// The Hamilton–Jacobi theory of `system` by a rule, with step size h.
+///
+/// ```
+/// use dalembert::hamilton_jacobi::HamiltonJacobi;
+/// use dalembert::nalgebra::vector;
+/// use dalembert::{Discretise, Discrete, Midpoint, rayleigh_system};
+///
+/// #[rayleigh_system]
+/// fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+///     (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+/// }
+/// let system = Oscillator { m: 1.0, k: 1.0, r: 0.5 };
+/// let theory = system.by(Midpoint, 0.25).hamilton_jacobi();
+///
+/// let report = theory.hamilton_equations(&[vector![0.3], vector![0.5]]);
+/// assert!(!report.right_momentum.printed?.holds());
+/// assert!(report.right_momentum.corrected?.holds());
+/// println!("{report}");
+/// # Ok::<(), dalembert::hamilton_jacobi::HamiltonJacobiError>(())
+/// ```
+#[derive(Debug)]
+pub struct HamiltonJacobi<'a, L, R, const N: usize>
+where
+    L: Discrete<R, N>,
+{
+    system: &'a L,
+    rule: PhantomData<R>,
+    h: L::Scalar,
+    relative: f64,
+}
+
+impl<'a, L, R, const N: usize> HamiltonJacobi<'a, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    pub(crate) fn new(system: &'a L, h: L::Scalar) -> Self {
+        Self { system, rule: PhantomData, h, relative: ROUNDINGS * L::Scalar::EPSILON.widen() }
+    }
+
+    /// The same with another relative tolerance, for candidates whose own values carry more than rounding errors.
+    ///
+    /// An equation holds if its residual is at most `relative` × the size of its terms, with the rounding of what they are evaluated at;
+    /// 256 ε if not said.
+    #[must_use]
+    pub fn with_tolerance(self, relative: f64) -> Self {
+        Self { relative, ..self }
+    }
+
+    /// `evaluate` of the theory at the start of step k.
+    fn at_step<T>(&self, k: usize, evaluate: impl FnOnce(&HamiltonJacobi<'_, L, R, N>) -> T) -> T {
+        at_segment(self.system, k, self.h, |system| evaluate(&self.of(system)))
+    }
+
+    /// `evaluate` of the theory a step earlier.
+    fn a_step_before<T>(&self, evaluate: impl FnOnce(&HamiltonJacobi<'_, L, R, N>) -> T) -> T {
+        at_segment(self.system, 1, -self.h, |system| evaluate(&self.of(system)))
+    }
+
+    fn of<'b>(&self, system: &'b L) -> HamiltonJacobi<'b, L, R, N> {
+        HamiltonJacobi { system, rule: PhantomData, h: self.h, relative: self.relative }
+    }
+}

@@ -1,0 +1,210 @@
+//! Noether's theorem for forced discrete systems (paper, section 3.6).
+//!
+//! For a vector field ξ on Q, lifted to Q×Q as (ξ(q0), ξ(q1)):
+//!
+//! ```text
+//! J⁻ = ⟨p0, ξ(q0)⟩,  J⁺ = ⟨p1, ξ(q1)⟩
+//! J⁺ − J⁻ = ξ(L_d) + f_d(ξ) =: defect(q0, q1)                   always
+//! J_{k+1} − J_k = defect(q_k, q_{k+1})                           along solutions
+//! ξ(L_d) = D1 L_d·ξ(q0) + D2 L_d·ξ(q1),   f_d(ξ) = f_d⁻·ξ(q0) + f_d⁺·ξ(q1)
+//! ```
+//!
+//! Of a system at a time t0, a view, the k-th segment is judged at t0 + k h, and so is the k-th step of a balance.
+//!
+//! J is conserved iff the defect vanishes: a symmetry of L_d on which the force does no work, or the two cancelling.
+//!
+//! Beware of how a force is discretised. A force that does no work along ξ, f(q, v)·ξ(q) = 0, does none along it in the
+//! midpoint rule either when ξ is affine; the same force taken from a Rayleigh function R(q, v) does, to order h³ a step,
+//! through ∂R/∂q: f_d(ξ) = D1 R_d·ξ(q0) − D2 R_d·ξ(q1) does not vanish for an invariant R_d. In coordinates that make ξ a
+//! translation it does none in either.
+//!
+//! ```
+//! use dalembert::noether::{Generator, Noether};
+//! use dalembert::{Discretise, Midpoint, rayleigh_system, samples};
+//!
+//! #[rayleigh_system]
+//! fn puck(q: [f64; 2], v: [f64; 2], k: f64, r: f64) -> (f64, f64) {
+//!     let kinetic = 0.5 * (v[0] * v[0] + v[1] * v[1]);
+//!     (kinetic - 0.5 * k * q[1] * q[1], 0.5 * r * v[1] * v[1])
+//! }
+//!
+//! let puck = Puck { k: 1.0, r: 0.1 };
+//! let noether = puck.by(Midpoint, 0.1).noether();
+//! let segments = samples::segments([-1.0; 2], [1.0; 2], [0.1; 2], 50);
+//! let along_x = noether.symmetry(&Generator::translation("x", [1.0, 0.0]), &segments)?;
+//! let along_y = noether.symmetry(&Generator::translation("y", [0.0, 1.0]), &segments)?;
+//! assert!(along_x.is_conserved() && !along_y.is_conserved());
+//! println!("{along_x}\n{along_y}");
+//! # Ok::<(), dalembert::samples::SampleError>(())
+//! ```
+
+mod balance;
+mod closure;
+mod generator;
+mod rank;
+mod subalgebra;
+mod symmetry;
+
+use core::marker::PhantomData;
+
+use nalgebra::SVector;
+
+use crate::theory::samples::{Segment, Tolerance, at_segment};
+use crate::theory::verdict::largest;
+use crate::{Discrete, Scalar, VectorField};
+
+pub use balance::Balance;
+pub use closure::Closure;
+pub use generator::{Generator, bracket};
+pub use rank::RankDecision;
+pub use subalgebra::{Subalgebra, SubalgebraError, Subspace};
+pub use symmetry::{Contribution, Symmetry};
+
+/// Momentum maps and their balance for a system, a rule and a step size.
+pub struct Noether<'a, L, R, const N: usize>
+where
+    L: Discrete<R, N>,
+{
+    system: &'a L,
+    h: L::Scalar,
+    tolerance: f64,
+    rule: PhantomData<R>,
+}
+
+/// The defect J⁺ − J⁻ = ξ(L_d) + f_d(ξ), split into its causes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Defect<S> {
+    /// ξ(L_d): how far L_d is from invariant.
+    pub lagrangian: S,
+    /// f_d(ξ): the work of the discrete force along ξ.
+    pub force: S,
+}
+
+impl<S: Scalar> Defect<S> {
+    /// ξ(L_d) + f_d(ξ).
+    #[must_use]
+    pub fn total(&self) -> S {
+        self.lagrangian + self.force
+    }
+}
+
+/// One row of the checkers: the defect and the size of the terms that it is a sum of.
+#[derive(Clone, Copy)]
+struct Terms {
+    defect: Defect<f64>,
+    lagrangian_scale: f64,
+    force_scale: f64,
+}
+
+impl<'a, L, R, const N: usize> Noether<'a, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    pub(crate) fn new(system: &'a L, h: L::Scalar) -> Self {
+        Self { system, h, tolerance: Tolerance::rounding::<L::Scalar>(), rule: PhantomData }
+    }
+
+    /// Counts as zero what is below `relative` times the size of the terms; 1024 ε unless said.
+    ///
+    /// Raise it where L, R or f lose digits inside, or are known to few digits themselves.
+    #[must_use]
+    pub fn with_tolerance(self, relative: f64) -> Self {
+        Self { tolerance: relative, ..self }
+    }
+
+    /// J⁻(q0, q1) = ⟨p0, ξ(q0)⟩, p0 = −D1 L_d − f_d⁻.
+    pub fn momentum_map_minus(
+        &self,
+        generator: &impl VectorField<N, Scalar = L::Scalar>,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+    ) -> L::Scalar {
+        self.system.legendre_minus(q0, q1, self.h).p.dot(&generator.vector(q0))
+    }
+
+    /// J⁺(q0, q1) = ⟨p1, ξ(q1)⟩, p1 = D2 L_d + f_d⁺.
+    pub fn momentum_map_plus(
+        &self,
+        generator: &impl VectorField<N, Scalar = L::Scalar>,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+    ) -> L::Scalar {
+        self.system.legendre_plus(q0, q1, self.h).p.dot(&generator.vector(q1))
+    }
+
+    /// ξ(L_d) and f_d(ξ) at (q0, q1).
+    pub fn defect(
+        &self,
+        generator: &impl VectorField<N, Scalar = L::Scalar>,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+    ) -> Defect<L::Scalar> {
+        defect_of(self.system, generator, q0, q1, self.h)
+    }
+
+    /// `evaluate` of the system at the start of the k-th segment.
+    fn at_segment<T>(&self, k: usize, evaluate: impl FnOnce(&L) -> T) -> T {
+        at_segment(self.system, k, self.h, evaluate)
+    }
+
+    /// The defect on the k-th segment, NaN where a product of its terms underflows.
+    fn terms(
+        &self,
+        k: usize,
+        generator: &impl VectorField<N, Scalar = L::Scalar>,
+        segment: &Segment<L::Scalar, N>,
+    ) -> Terms {
+        let Segment { q0, q1 } = segment;
+        let (l, f, defect) = self.at_segment(k, |system| {
+            (
+                system.discrete_lagrangian_derivatives(q0, q1, self.h),
+                system.discrete_force(q0, q1, self.h),
+                defect_of(system, generator, q0, q1, self.h),
+            )
+        });
+        let (xi0, xi1) = (generator.vector(q0), generator.vector(q1));
+        Terms {
+            defect: Defect { lagrangian: defect.lagrangian.widen(), force: defect.force.widen() },
+            lagrangian_scale: size_of(&[(&l.d1, &xi0), (&l.d2, &xi1)]),
+            force_scale: size_of(&[(&f.minus, &xi0), (&f.plus, &xi1)]),
+        }
+    }
+}
+
+/// ξ(L_d) and f_d(ξ) of a system at its time.
+fn defect_of<L: Discrete<R, N>, R, const N: usize>(
+    system: &L,
+    generator: &impl VectorField<N, Scalar = L::Scalar>,
+    q0: &SVector<L::Scalar, N>,
+    q1: &SVector<L::Scalar, N>,
+    h: L::Scalar,
+) -> Defect<L::Scalar> {
+    let l = system.discrete_lagrangian_derivatives(q0, q1, h);
+    let f = system.discrete_force(q0, q1, h);
+    let (xi0, xi1) = (generator.vector(q0), generator.vector(q1));
+    Defect { lagrangian: l.d1.dot(&xi0) + l.d2.dot(&xi1), force: f.minus.dot(&xi0) + f.plus.dot(&xi1) }
+}
+
+/// Σ|aᵢ||bᵢ|; NaN where a product is lost to underflow, since nothing can be said of its value then.
+fn size_of<S: Scalar, const N: usize>(products: &[(&SVector<S, N>, &SVector<S, N>)]) -> f64 {
+    let mut sum = S::zero();
+    for (a, b) in products {
+        for (a, b) in a.iter().zip(b.iter()) {
+            let product = a.abs() * b.abs();
+            if product < S::SMALLEST_NORMAL && *a != S::zero() && *b != S::zero() {
+                return f64::NAN;
+            }
+            sum += product;
+        }
+    }
+    sum.widen()
+}
+
+/// Whether ξ moves an end of the segment.
+fn moves_an_end<S: Scalar, const N: usize>(
+    generator: &impl VectorField<N, Scalar = S>,
+    segment: &Segment<S, N>,
+) -> bool {
+    let size = |q| largest(generator.vector(q).iter().map(|entry| entry.widen()));
+    size(&segment.q0) != 0.0 || size(&segment.q1) != 0.0
+}

@@ -1,0 +1,168 @@
+use core::fmt;
+
+use super::{Generator, Noether, Terms, moves_an_end};
+use crate::theory::samples::{
+    SampleError, Segment, Tolerance, Worst, require_informative, require_step_size,
+};
+use crate::theory::verdict::scales;
+use crate::{Discrete, Scalar, VectorField};
+
+/// One of the quantities of Noether's theorem over the samples: the value furthest above its tolerance, and whether that counts as zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contribution<const N: usize> {
+    /// That value and its segment.
+    pub worst: Worst<N>,
+    /// What counts as zero there.
+    pub tolerance: Tolerance,
+}
+
+impl<const N: usize> Contribution<N> {
+    /// Whether it is zero to rounding at every sample.
+    #[must_use]
+    pub fn vanishes(&self) -> bool {
+        self.tolerance.covers(self.worst.value)
+    }
+}
+
+/// What a generator does to L_d, to the force and to J, over a set of segments. See [`Noether::symmetry`].
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Symmetry<const N: usize> {
+    /// Name of the generator.
+    pub generator: String,
+    /// The step size.
+    pub h: f64,
+    /// Number of segments looked at.
+    pub samples: usize,
+    /// ξ(L_d).
+    pub lagrangian: Contribution<N>,
+    /// f_d(ξ).
+    pub force: Contribution<N>,
+    /// The defect ξ(L_d) + f_d(ξ).
+    pub defect: Contribution<N>,
+    /// (J⁺ − J⁻) − (ξ(L_d) + f_d(ξ)), an identity: where it fails, the system's momenta do not belong to its L_d and f_d.
+    pub identity: Contribution<N>,
+}
+
+impl<const N: usize> Symmetry<N> {
+    /// Whether ξ is a symmetry of L_d.
+    #[must_use]
+    pub fn is_symmetry_of_lagrangian(&self) -> bool {
+        self.lagrangian.vanishes()
+    }
+
+    /// Whether the discrete force does work along ξ.
+    #[must_use]
+    pub fn force_does_work(&self) -> bool {
+        !self.force.vanishes()
+    }
+
+    /// Whether J is conserved: the defect vanishes.
+    #[must_use]
+    pub fn is_conserved(&self) -> bool {
+        self.defect.vanishes()
+    }
+
+    /// Whether the momenta that the step uses are those of L_d and f_d, as they must be.
+    #[must_use]
+    pub fn is_consistent(&self) -> bool {
+        self.identity.vanishes()
+    }
+}
+
+impl<L, R, const N: usize> Noether<'_, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    /// Judges one generator on `segments`.
+    ///
+    /// A value counts as zero below `tolerance` × the size of its terms, Σ|D L_d||ξ| and Σ|f_d||ξ|: at its own sample, or as
+    /// half of the samples exceed it, if that is more. A sum cannot be known better than its terms are rounded.
+    ///
+    /// # Errors
+    /// [`SampleError`] if there is no segment, none that moves with ξ ≠ 0, or a value is not finite.
+    pub fn symmetry(
+        &self,
+        generator: &Generator<L::Scalar, N>,
+        segments: &[Segment<L::Scalar, N>],
+    ) -> Result<Symmetry<N>, SampleError> {
+        require_step_size(self.h)?;
+        require_informative(segments, |segment| segment.moves() && moves_an_end(generator, segment))?;
+        let terms: Vec<Terms> =
+            segments.iter().enumerate().map(|(k, segment)| self.terms(k, generator, segment)).collect();
+        let sizes = |scale: fn(&Terms) -> f64| scales(&terms.iter().map(scale).collect::<Vec<_>>());
+        let of_lagrangian = sizes(|terms| terms.lagrangian_scale);
+        let of_force = sizes(|terms| terms.force_scale);
+        let of_both = sizes(|terms| terms.lagrangian_scale + terms.force_scale);
+        let contribution = |value: &dyn Fn(usize) -> f64, scales: &[f64]| {
+            Worst::of(segments, self.tolerance, scales, value)
+                .map(|(worst, tolerance)| Contribution { worst, tolerance })
+        };
+        let identity = |k: usize| {
+            let Segment { q0, q1 } = &segments[k];
+            let jump = self.at_segment(k, |system| {
+                let (before, after) =
+                    (system.legendre_minus(q0, q1, self.h), system.legendre_plus(q0, q1, self.h));
+                after.p.dot(&generator.vector(q1)) - before.p.dot(&generator.vector(q0))
+            });
+            jump.widen() - terms[k].defect.total()
+        };
+        Ok(Symmetry {
+            generator: generator.name().to_owned(),
+            h: self.h.widen(),
+            samples: segments.len(),
+            lagrangian: contribution(&|k| terms[k].defect.lagrangian, &of_lagrangian)?,
+            force: contribution(&|k| terms[k].defect.force, &of_force)?,
+            defect: contribution(&|k| terms[k].defect.total(), &of_both)?,
+            identity: contribution(&identity, &of_both)?,
+        })
+    }
+}
+
+impl<const N: usize> fmt::Display for Symmetry<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let verdict = |yes, affirmative, negative| if yes { affirmative } else { negative };
+        writeln!(f, "{}: {} segments, h = {}", self.generator, self.samples, self.h)?;
+        for (name, contribution, verdict) in [
+            (
+                "ξ(L_d)",
+                &self.lagrangian,
+                verdict(self.is_symmetry_of_lagrangian(), "symmetry of L_d", "no symmetry of L_d"),
+            ),
+            (
+                "f_d(ξ)",
+                &self.force,
+                verdict(
+                    self.force_does_work(),
+                    "the force does work along it",
+                    "the force does no work along it",
+                ),
+            ),
+            ("defect", &self.defect, verdict(self.is_conserved(), "J is conserved", "J is not conserved")),
+        ] {
+            writeln!(
+                f,
+                "  {name:<8}{:>12.3e}   zero below {:.1e}   {verdict}",
+                contribution.worst.value,
+                contribution.tolerance.bound()
+            )?;
+            if !contribution.vanishes() {
+                writeln!(f, "          there: {}", contribution.worst.at)?;
+            }
+        }
+        write!(
+            f,
+            "  tolerance: {:.1e} × the terms' size ({:.2e} of L_d, {:.2e} of f_d), the rounding of their derivatives",
+            self.defect.tolerance.relative, self.lagrangian.tolerance.scale, self.force.tolerance.scale
+        )?;
+        if !self.is_consistent() {
+            write!(
+                f,
+                "\n  INCONSISTENT SYSTEM: J⁺ − J⁻ differs from ξ(L_d) + f_d(ξ) by {}; its momenta are not those of its \
+                 L_d and f_d",
+                self.identity.worst
+            )?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,119 @@
+//! The Rayleigh structure of forced discrete systems (paper, sections 3.3 and 3.4): does f_d have a potential, which one,
+//! which systems are equivalent, and is R dissipative.
+//!
+//! ```text
+//! f_d⁻ = D1 R_d,  f_d⁺ = −D2 R_d                                                   f_d is Rayleigh
+//!   iff D2 f_d⁺ and D1 f_d⁻ are symmetric and D1 f_d⁺ = −(D2 f_d⁻)ᵀ                 structure, Potential
+//! L_d + φ, R_d + χ has the same equations as L_d, R_d                              Comparison
+//!   iff φ = ψ(q0) + φ1(q1) + φ0(q0) − ψ(q1),  χ = ψ(q0) + φ1(q1) − φ0(q0) + ψ(q1)
+//! −D1 L_d⁺ = p0 and D2 L_d⁻ = p1 have a solution                                   Resplit
+//!   iff D1 f_d⁻ and D2 f_d⁺ are symmetric; always for n = 1
+//! v·∂R/∂v ≥ 0                                                                      dissipation
+//! ```
+//!
+//! Of a system at a time t0, a view, the k-th segment is judged at t0 + k h.
+//!
+//! The first condition has three parts (the paper prints the last alone, which is enough for n = 1), and χ the sign + before
+//! φ1 and − before φ0.
+//!
+//! ```
+//! use dalembert::rayleigh::{Potential, structure};
+//! use dalembert::samples::{self, Segment};
+//! use dalembert::{Midpoint, rayleigh_system};
+//!
+//! struct Drag { c: [f64; 2] }
+//!
+//! #[rayleigh_system]
+//! impl Drag {
+//!     fn lagrangian(&self, _q: [f64; 2], v: [f64; 2]) -> f64 {
+//!         0.5 * (v[0] * v[0] + v[1] * v[1])
+//!     }
+//!     fn force(&self, _q: [f64; 2], v: [f64; 2]) -> [f64; 2] {
+//!         [-v[0] - self.c[0] * v[1], -self.c[1] * v[0] - v[1]]
+//!     }
+//! }
+//!
+//! let segments = samples::segments([-1.0; 2], [1.0; 2], [0.3; 2], 40);
+//! let symmetric = Drag { c: [0.5, 0.5] };
+//! assert!(structure(&symmetric, Midpoint, 0.1, &segments)?.is_rayleigh());
+//! assert!(!structure(&Drag { c: [0.5, 0.4] }, Midpoint, 0.1, &segments)?.is_rayleigh());
+//!
+//! // R = ½(vx² + vx vy + vy²), R_d = (h²/2) R, recovered from the force alone.
+//! let potential = Potential::new(&symmetric, Midpoint, 0.1, Segment::new([0.0; 2], [0.0; 2]));
+//! let recovered = potential.at(&[0.0, 0.0].into(), &[0.1, 0.2].into());
+//! assert!((recovered.value - 0.5 * 0.5 * (0.01 + 0.02 + 0.04)).abs() < 1e-15);
+//! # Ok::<(), dalembert::samples::SampleError>(())
+//! ```
+
+mod comparison;
+mod dissipation;
+mod potential;
+mod quadrature;
+mod resplit;
+mod structure;
+
+pub use comparison::{Comparison, Equivalence};
+pub use dissipation::{Dissipation, dissipation};
+pub use potential::{Potential, Recovery};
+pub use quadrature::Integral;
+pub use resplit::{Resplit, ResplitReport};
+pub use structure::{Condition, Structure, structure};
+
+use core::fmt;
+
+use crate::theory::samples::{Segment, Tolerance, Worst};
+use crate::theory::verdict::{excess, is_zero, tells};
+
+/// A quantity that has to vanish: its worst value over the samples, in units of what counts as zero there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Residual<const N: usize> {
+    /// The value furthest above its tolerance.
+    pub worst: Worst<N>,
+    /// What counts as zero for that value.
+    pub tolerance: f64,
+    /// The size of the terms that it is a sum of.
+    pub terms: f64,
+}
+
+impl<const N: usize> Residual<N> {
+    /// Whether it is zero to rounding at every sample. A tolerance that the quadrature's error brings up to the size of the terms
+    /// says nothing.
+    #[must_use]
+    pub fn vanishes(&self) -> bool {
+        is_zero(self.worst.value, self.tolerance) && tells(self.tolerance, self.terms)
+    }
+
+    /// Keeps the entry that is worse in units of its tolerance; what a tolerance says nothing of is worst.
+    fn keep_worse(worst: &mut Option<Self>, value: f64, tolerance: f64, terms: f64, at: Segment<f64, N>) {
+        let new = Self { worst: Worst { value, at }, tolerance, terms };
+        let units = |residual: &Self| {
+            if tells(residual.tolerance, residual.terms) {
+                excess(residual.worst.value, residual.tolerance)
+            } else {
+                f64::INFINITY
+            }
+        };
+        if worst.as_ref().is_none_or(|known| units(&new) > units(known)) {
+            *worst = Some(new);
+        }
+    }
+}
+
+impl<const N: usize> fmt::Display for Residual<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:+.2e}, zero below {:.1e}", self.worst.value, self.tolerance)?;
+        if !self.vanishes() {
+            write!(f, ", at {}", self.worst.at)?;
+        }
+        Ok(())
+    }
+}
+
+/// Relative size of what counts as rounding, for reports.
+fn rounding_note(f: &mut fmt::Formatter<'_>, relative: f64) -> fmt::Result {
+    write!(
+        f,
+        "  tolerances: {relative:.1e} ({} ε) of the terms, and the quadrature's error",
+        Tolerance::ROUNDINGS
+    )
+}

@@ -1,0 +1,274 @@
+use core::fmt;
+use core::marker::PhantomData;
+
+use nalgebra::SVector;
+
+use super::quadrature::Quadrature;
+use super::{Integral, Residual, rounding_note};
+use crate::theory::samples::{
+    SampleError, Segment, Tolerance, at_segment, require_informative, require_step_size,
+};
+use crate::theory::verdict::scales;
+use crate::{Discrete, Scalar};
+
+/// Two systems side by side: have they the same forced discrete Euler–Lagrange equations, and by which gauge?
+///
+/// With φ = L̃_d − L_d and χ = R̃_d − R_d (the latter from the forces), the equations are the same iff
+///
+/// ```text
+/// φ = ψ(q0) + φ1(q1) + φ0(q0) − ψ(q1)
+/// χ = ψ(q0) + φ1(q1) − φ0(q0) + ψ(q1)
+/// ```
+///
+/// (paper, proposition of section 3.3, with the signs of χ corrected). Momenta then differ by p̃ − p = −2 dψ. The three
+/// functions are determined up to constants; here ψ(a) = 0 and χ(a, a) = 0 at the base a:
+///
+/// ```text
+/// ψ(q) = −½ ∫ₐ^q (p̃0 − p0)(s, a)·ds,   φ1(q) = ½(φ + χ)(a, q),   φ0(q) = ½(φ − χ)(q, a)
+/// ```
+///
+/// Where the systems take the time, so do the three functions, and ψ(q1) is that of t + h.
+pub struct Comparison<'a, L, R, M, T, const N: usize>
+where
+    L: Discrete<R, N>,
+    M: Discrete<T, N, Scalar = L::Scalar>,
+{
+    system: &'a L,
+    other: &'a M,
+    h: L::Scalar,
+    base: SVector<L::Scalar, N>,
+    quadrature: Quadrature,
+    rules: PhantomData<(R, T)>,
+}
+
+/// Whether two systems are equivalent, over a set of segments. See [`Comparison::check`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Equivalence<const N: usize> {
+    /// The step size.
+    pub h: f64,
+    /// Number of segments looked at.
+    pub samples: usize,
+    /// Difference of the forced discrete Euler–Lagrange equations.
+    pub equations: Residual<N>,
+    /// φ less its expression by ψ, φ0 and φ1.
+    pub lagrangian: Residual<N>,
+    /// χ less its expression by ψ, φ0 and φ1.
+    pub rayleigh: Residual<N>,
+    /// Rounding allowed, relative to the terms.
+    pub tolerance: f64,
+}
+
+impl<const N: usize> Equivalence<N> {
+    /// Whether the forced discrete Euler–Lagrange equations are the same.
+    #[must_use]
+    pub fn has_same_equations(&self) -> bool {
+        self.equations.vanishes()
+    }
+
+    /// Whether ψ, φ0 and φ1 account for the difference of L_d and of f_d.
+    ///
+    /// The same equations without it: L_d differs by a φ with D1 D2 φ ≠ 0 that the forces undo, which two Rayleigh systems
+    /// cannot do.
+    #[must_use]
+    pub fn is_gauge(&self) -> bool {
+        self.has_same_equations() && self.lagrangian.vanishes() && self.rayleigh.vanishes()
+    }
+}
+
+impl<'a, L, R, M, T, const N: usize> Comparison<'a, L, R, M, T, N>
+where
+    L: Discrete<R, N>,
+    M: Discrete<T, N, Scalar = L::Scalar>,
+{
+    /// `system` by `rule` and `other` by `other_rule` at the same step size; `base` is the point a.
+    pub fn new(
+        (system, _rule): (&'a L, R),
+        (other, _other_rule): (&'a M, T),
+        h: L::Scalar,
+        base: impl Into<SVector<L::Scalar, N>>,
+    ) -> Self {
+        Self { system, other, h, base: base.into(), quadrature: Quadrature::new(), rules: PhantomData }
+    }
+
+    /// ψ(q) − ψ(a).
+    pub fn psi(&self, q: &SVector<L::Scalar, N>) -> Integral {
+        self.pair().psi(q)
+    }
+
+    /// φ0(q), a function of the earlier configuration alone.
+    pub fn phi0(&self, q: &SVector<L::Scalar, N>) -> Integral {
+        self.pair().phi0(q)
+    }
+
+    /// φ1(q), a function of the later configuration alone.
+    pub fn phi1(&self, q: &SVector<L::Scalar, N>) -> Integral {
+        self.pair().phi1(q)
+    }
+
+    fn pair(&self) -> Pair<'_, L, R, M, T, N> {
+        let Self { system, other, h, base, ref quadrature, rules } = *self;
+        Pair { system, other, h, base, quadrature, rules }
+    }
+
+    /// `evaluate` of both systems at the start of the k-th segment.
+    fn at_segment<U>(&self, k: usize, evaluate: impl FnOnce(&Pair<'_, L, R, M, T, N>) -> U) -> U {
+        at_segment(self.system, k, self.h, |system| {
+            at_segment(self.other, k, self.h, |other| evaluate(&Pair { system, other, ..self.pair() }))
+        })
+    }
+
+    /// Compares the equations at (q0, q1, q1 + the next segment's displacement), and the gauge at (q0, q1).
+    ///
+    /// # Errors
+    /// [`SampleError`] if there is no segment, none that moves, or a value is not finite.
+    pub fn check(&self, segments: &[Segment<L::Scalar, N>]) -> Result<Equivalence<N>, SampleError> {
+        require_step_size(self.h)?;
+        require_informative(segments, Segment::moves)?;
+        let relative = Tolerance::rounding::<L::Scalar>();
+        let third = |index: usize| {
+            let next = &segments[(index + 1) % segments.len()];
+            segments[index].q1 + (next.q1 - next.q0)
+        };
+        let sizes: Vec<SVector<f64, N>> = segments
+            .iter()
+            .enumerate()
+            .map(|(k, segment)| {
+                self.at_segment(k, |pair| pair.momentum_sizes(&segment.q0, &segment.q1))
+                    + self.at_segment(k + 1, |pair| pair.momentum_sizes(&segment.q1, &third(k)))
+            })
+            .collect();
+        let scales: [Vec<f64>; N] =
+            core::array::from_fn(|i| scales(&sizes.iter().map(|size| size[i]).collect::<Vec<_>>()));
+        let (mut equations, mut lagrangian, mut rayleigh) = (None, None, None);
+        for (index, segment) in segments.iter().enumerate() {
+            let Segment { q0, q1 } = segment;
+            let at = segment.widen();
+            let (difference, [psi0, phi0, phi1, phi, chi]) = self.at_segment(index, |pair| {
+                let parts = [pair.psi(q0), pair.phi0(q0), pair.phi1(q1), pair.phi(q0, q1), pair.chi(q0, q1)];
+                (pair.difference(q0, q1, &third(index)), parts)
+            });
+            let psi1 = self.at_segment(index + 1, |pair| pair.psi(q1));
+            for (entry, scales) in difference.iter().zip(&scales) {
+                let (entry, scale) = (entry.widen(), scales[index]);
+                if !(entry.is_finite() && scale.is_finite()) {
+                    return Err(SampleError::NonFinite { index });
+                }
+                Residual::keep_worse(&mut equations, entry, relative * scale, scale, at);
+            }
+            let phi = phi + (psi0 + phi1 + phi0 + psi1 * -1.0) * -1.0;
+            let chi = chi + (psi0 + phi1 + phi0 * -1.0 + psi1) * -1.0;
+            for (worst, gap) in [(&mut lagrangian, phi), (&mut rayleigh, chi)] {
+                let tolerance = gap.error + relative * gap.magnitude;
+                if !(gap.value.is_finite() && tolerance.is_finite()) {
+                    return Err(SampleError::NonFinite { index });
+                }
+                Residual::keep_worse(worst, gap.value, tolerance, gap.magnitude, at);
+            }
+        }
+        match (equations, lagrangian, rayleigh) {
+            (Some(equations), Some(lagrangian), Some(rayleigh)) => Ok(Equivalence {
+                h: self.h.widen(),
+                samples: segments.len(),
+                equations,
+                lagrangian,
+                rayleigh,
+                tolerance: relative,
+            }),
+            _ => Err(SampleError::TooFew { given: 0, needed: 1 }),
+        }
+    }
+}
+
+/// Both systems at one time.
+struct Pair<'a, L, R, M, T, const N: usize>
+where
+    L: Discrete<R, N>,
+    M: Discrete<T, N, Scalar = L::Scalar>,
+{
+    system: &'a L,
+    other: &'a M,
+    h: L::Scalar,
+    base: SVector<L::Scalar, N>,
+    quadrature: &'a Quadrature,
+    rules: PhantomData<(R, T)>,
+}
+
+impl<L, R, M, T, const N: usize> Pair<'_, L, R, M, T, N>
+where
+    L: Discrete<R, N>,
+    M: Discrete<T, N, Scalar = L::Scalar>,
+{
+    fn psi(&self, q: &SVector<L::Scalar, N>) -> Integral {
+        let difference = |s: &SVector<L::Scalar, N>| {
+            self.other.legendre_minus(s, &self.base, self.h).p
+                - self.system.legendre_minus(s, &self.base, self.h).p
+        };
+        self.quadrature.along_line(&self.base, q, difference) * -0.5
+    }
+
+    fn phi0(&self, q: &SVector<L::Scalar, N>) -> Integral {
+        (self.phi(q, &self.base) + self.chi(q, &self.base) * -1.0) * 0.5
+    }
+
+    fn phi1(&self, q: &SVector<L::Scalar, N>) -> Integral {
+        (self.phi(&self.base, q) + self.chi(&self.base, q)) * 0.5
+    }
+
+    /// φ = L̃_d − L_d.
+    fn phi(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> Integral {
+        let (theirs, ours) =
+            (self.other.discrete_lagrangian(q0, q1, self.h), self.system.discrete_lagrangian(q0, q1, self.h));
+        let magnitude = theirs.widen().abs() + ours.widen().abs();
+        Integral { value: (theirs - ours).widen(), error: L::Scalar::EPSILON.widen() * magnitude, magnitude }
+    }
+
+    /// χ = R̃_d − R_d, 0 at (a, a).
+    fn chi(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> Integral {
+        let (d0, d1) = (q0 - self.base, q1 - self.base);
+        if d0.iter().chain(&d1).all(|entry| *entry == L::Scalar::constant(0.0)) {
+            return Integral::ZERO;
+        }
+        self.quadrature.integrate(L::Scalar::EPSILON.widen(), |s| {
+            let s = L::Scalar::constant(s);
+            let (q0, q1) = (self.base + d0 * s, self.base + d1 * s);
+            let theirs = self.other.discrete_force(&q0, &q1, self.h);
+            let ours = self.system.discrete_force(&q0, &q1, self.h);
+            ((theirs.minus - ours.minus).dot(&d0) - (theirs.plus - ours.plus).dot(&d1)).widen()
+        })
+    }
+
+    /// Of the forced discrete Euler–Lagrange equations.
+    fn difference(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        q2: &SVector<L::Scalar, N>,
+    ) -> SVector<L::Scalar, N> {
+        self.other.del_residual(q0, q1, q2, self.h) - self.system.del_residual(q0, q1, q2, self.h)
+    }
+
+    /// The sizes of all momenta on a segment, coordinate by coordinate: the terms of the equations.
+    fn momentum_sizes(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> SVector<f64, N> {
+        let sizes = self.system.legendre_minus(q0, q1, self.h).p.abs()
+            + self.system.legendre_plus(q0, q1, self.h).p.abs()
+            + self.other.legendre_minus(q0, q1, self.h).p.abs()
+            + self.other.legendre_plus(q0, q1, self.h).p.abs();
+        sizes.map(Scalar::widen)
+    }
+}
+
+impl<const N: usize> fmt::Display for Equivalence<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let verdict = match (self.has_same_equations(), self.is_gauge()) {
+            (true, true) => "equivalent: the same equations, by a gauge ψ, φ0, φ1",
+            (true, false) => "the same equations, but L_d and f_d differ by more than a gauge",
+            (false, _) => "not equivalent: the equations differ",
+        };
+        writeln!(f, "{verdict} ({} segments, h = {})", self.samples, self.h)?;
+        writeln!(f, "  difference of the equations:               {}", self.equations)?;
+        writeln!(f, "  φ − [ψ(q0) + φ1(q1) + φ0(q0) − ψ(q1)]:      {}", self.lagrangian)?;
+        writeln!(f, "  χ − [ψ(q0) + φ1(q1) − φ0(q0) + ψ(q1)]:      {}", self.rayleigh)?;
+        rounding_note(f, self.tolerance)
+    }
+}

@@ -1,0 +1,150 @@
+use core::fmt;
+use core::marker::PhantomData;
+
+use nalgebra::SVector;
+
+use super::quadrature::Quadrature;
+use super::structure::structure_of;
+use super::{Integral, Residual, Structure, rounding_note};
+use crate::theory::samples::{SampleError, Segment, Tolerance, at_segment};
+use crate::theory::verdict::largest;
+use crate::{Discrete, Scalar};
+
+/// R_d recovered from f_d = (D1 R_d, −D2 R_d) by quadrature.
+///
+/// ```text
+/// R_d(q0, q1) = ∫ f_d⁻·dq0 − f_d⁺·dq1      from the base, where R_d is set to 0
+/// ```
+///
+/// R_d is determined up to that constant. It exists only where [`structure`](super::structure()) says so; [`check`](Self::check) tests the
+/// integral itself along two paths.
+pub struct Potential<'a, L, R, const N: usize>
+where
+    L: Discrete<R, N>,
+{
+    system: &'a L,
+    h: L::Scalar,
+    base: Segment<L::Scalar, N>,
+    quadrature: Quadrature,
+    rule: PhantomData<R>,
+}
+
+/// The recovered R_d over a set of segments. See [`Potential::check`].
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Recovery<const N: usize> {
+    /// The conditions on the derivatives of f_d.
+    pub structure: Structure<N>,
+    /// R_d at each segment.
+    pub values: Vec<f64>,
+    /// Largest error estimate of the quadrature.
+    pub quadrature_error: f64,
+    /// R_d along the straight path less R_d along the edges of the box: 0 for every potential.
+    pub path_dependence: Residual<N>,
+    /// Rounding allowed, relative to ∫ |integrand|.
+    pub tolerance: f64,
+}
+
+impl<const N: usize> Recovery<N> {
+    /// Whether R_d exists: the conditions hold, and both paths agree.
+    #[must_use]
+    pub fn exists(&self) -> bool {
+        self.structure.is_rayleigh() && self.path_dependence.vanishes()
+    }
+}
+
+impl<'a, L, R, const N: usize> Potential<'a, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    /// The potential of the discrete force of `system` by `rule` with step size `h`, 0 at `base`.
+    ///
+    /// Where R(q, 0) = 0, a base at rest (a, a) gives the R_d of the rule itself.
+    pub fn new(system: &'a L, _rule: R, h: L::Scalar, base: Segment<L::Scalar, N>) -> Self {
+        Self { system, h, base, quadrature: Quadrature::new(), rule: PhantomData }
+    }
+
+    /// R_d(q0, q1) along the straight line from the base.
+    pub fn at(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> Integral {
+        let (start, end) = (self.base, Segment { q0: *q0, q1: *q1 });
+        self.along(self.system, &start, &end)
+    }
+
+    /// Of the system at one time.
+    fn along(&self, system: &L, start: &Segment<L::Scalar, N>, end: &Segment<L::Scalar, N>) -> Integral {
+        let (d0, d1) = (end.q0 - start.q0, end.q1 - start.q1);
+        if d0.iter().chain(&d1).all(|entry| *entry == L::Scalar::constant(0.0)) {
+            return Integral::ZERO;
+        }
+        self.quadrature.integrate(L::Scalar::EPSILON.widen(), |s| {
+            let s = L::Scalar::constant(s);
+            let f = system.discrete_force(&(start.q0 + d0 * s), &(start.q1 + d1 * s), self.h);
+            (f.minus.dot(&d0) - f.plus.dot(&d1)).widen()
+        })
+    }
+
+    /// From the base to `end` one coordinate after the other, those of q0 first.
+    fn along_edges(&self, system: &L, end: &Segment<L::Scalar, N>) -> Integral {
+        let mut corner = self.base;
+        (0..2 * N).fold(Integral::ZERO, |sum, axis| {
+            let from = corner;
+            if axis < N {
+                corner.q0[axis] = end.q0[axis];
+            } else {
+                corner.q1[axis - N] = end.q1[axis - N];
+            }
+            sum + self.along(system, &from, &corner)
+        })
+    }
+
+    /// Recovers R_d at `segments`, along the straight path and along the edges of the box in Q×Q.
+    ///
+    /// # Errors
+    /// [`SampleError`] if there is no segment, none that moves, or a force on a path is not finite.
+    pub fn check(&self, segments: &[Segment<L::Scalar, N>]) -> Result<Recovery<N>, SampleError> {
+        let structure = structure_of::<L, R, N>(self.system, self.h, segments)?;
+        let relative = Tolerance::rounding::<L::Scalar>();
+        let (mut values, mut quadrature_error, mut path_dependence) = (Vec::new(), 0.0_f64, None);
+        for (index, segment) in segments.iter().enumerate() {
+            let (straight, edges) = at_segment(self.system, index, self.h, |system| {
+                (self.along(system, &self.base, segment), self.along_edges(system, segment))
+            });
+            let gap = straight + edges * -1.0;
+            let tolerance = gap.error + relative * gap.magnitude;
+            if !(gap.value.is_finite() && tolerance.is_finite()) {
+                return Err(SampleError::NonFinite { index });
+            }
+            Residual::keep_worse(&mut path_dependence, gap.value, tolerance, gap.magnitude, segment.widen());
+            quadrature_error = largest([quadrature_error, straight.error]);
+            values.push(straight.value);
+        }
+        let path_dependence = path_dependence.ok_or(SampleError::TooFew { given: 0, needed: 1 })?;
+        Ok(Recovery { structure, values, quadrature_error, path_dependence, tolerance: relative })
+    }
+}
+
+impl<const N: usize> fmt::Display for Recovery<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.structure)?;
+        let (low, high) =
+            self.values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+                (low.min(*value), high.max(*value))
+            });
+        let verdict = match (self.structure.is_rayleigh(), self.path_dependence.vanishes()) {
+            (true, true) => "the potential exists",
+            (true, false) => {
+                "the conditions hold, but paths disagree: a singularity lies between them, or a path leaves \
+                              the region sampled"
+            }
+            (false, _) => "no potential",
+        };
+        writeln!(f, "R_d recovered: {verdict}")?;
+        writeln!(
+            f,
+            "  values from {low:.6e} to {high:.6e}, quadrature error up to {:.1e}",
+            self.quadrature_error
+        )?;
+        writeln!(f, "  between two paths: {}", self.path_dependence)?;
+        rounding_note(f, self.tolerance)
+    }
+}

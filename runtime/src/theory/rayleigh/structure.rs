@@ -1,0 +1,179 @@
+use core::fmt;
+
+use crate::theory::samples::{
+    SampleError, Segment, Tolerance, Worst, at_segment, require_informative, require_step_size,
+};
+use crate::theory::verdict::{excess, largest, scales};
+use crate::{Discrete, DiscreteForceDerivatives, Scalar};
+
+/// One of the three conditions, over the samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Condition<const N: usize> {
+    /// The asymmetry furthest above its tolerance.
+    pub worst: Worst<N>,
+    /// Its row and column.
+    pub entry: (usize, usize),
+    /// What counts as zero for that entry.
+    pub tolerance: Tolerance,
+}
+
+impl<const N: usize> Condition<N> {
+    /// Whether the condition is fulfilled to rounding at every sample.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.tolerance.covers(self.worst.value)
+    }
+}
+
+/// Whether f_d is Rayleigh, over a set of segments. See [`structure`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Structure<const N: usize> {
+    /// The step size.
+    pub h: f64,
+    /// Number of segments looked at.
+    pub samples: usize,
+    /// D1 f_d⁻ − (D1 f_d⁻)ᵀ; empty for n = 1.
+    pub minus: Condition<N>,
+    /// D2 f_d⁺ − (D2 f_d⁺)ᵀ; empty for n = 1.
+    pub plus: Condition<N>,
+    /// D1 f_d⁺ + (D2 f_d⁻)ᵀ, the condition that the paper prints.
+    pub mixed: Condition<N>,
+}
+
+impl<const N: usize> Structure<N> {
+    /// Whether f_d⁻ = D1 R_d and f_d⁺ = −D2 R_d for a function R_d, in a simply connected region like that sampled.
+    #[must_use]
+    pub fn is_rayleigh(&self) -> bool {
+        self.allows_resplit() && self.mixed.holds()
+    }
+
+    /// Whether L_d^± with −D1 L_d⁺ = p0 and D2 L_d⁻ = p1 exist; see [`Resplit`](super::Resplit).
+    #[must_use]
+    pub fn allows_resplit(&self) -> bool {
+        self.minus.holds() && self.plus.holds()
+    }
+}
+
+/// Tests the three conditions for R_d to exist, on `segments`.
+///
+/// They say that the matrix ∂(f_d⁻, −f_d⁺)/∂(q0, q1), which would be the matrix of second derivatives of R_d, is symmetric.
+/// Entries are compared with 1024 ε (|Hᵢⱼ| + |Hⱼᵢ| + √|Hᵢᵢ Hⱼⱼ|), at their sample or as half of the samples exceed it: a scale
+/// that follows the units of the coordinates.
+///
+/// # Errors
+/// [`SampleError`] if there is no segment, none that moves, or a derivative is not finite.
+pub fn structure<L, R, const N: usize>(
+    system: &L,
+    _rule: R,
+    h: L::Scalar,
+    segments: &[Segment<L::Scalar, N>],
+) -> Result<Structure<N>, SampleError>
+where
+    L: Discrete<R, N>,
+{
+    structure_of::<L, R, N>(system, h, segments)
+}
+
+/// [`structure`] for a rule that only the type names.
+pub(super) fn structure_of<L, R, const N: usize>(
+    system: &L,
+    h: L::Scalar,
+    segments: &[Segment<L::Scalar, N>],
+) -> Result<Structure<N>, SampleError>
+where
+    L: Discrete<R, N>,
+{
+    require_step_size(h)?;
+    require_informative(segments, Segment::moves)?;
+    let hessians: Vec<_> = segments
+        .iter()
+        .enumerate()
+        .map(|(k, Segment { q0, q1 })| {
+            at_segment(system, k, h, |system| system.discrete_force_derivatives(q0, q1, h))
+        })
+        .collect();
+    // An asymmetry of derivatives that are not finite may still be 0.
+    for (index, f) in hessians.iter().enumerate() {
+        let entries = (0..2 * N).flat_map(|a| (0..2 * N).map(move |b| entry(f, a, b)));
+        if !largest(entries).is_finite() {
+            return Err(SampleError::NonFinite { index });
+        }
+    }
+    // Rows and columns 0..N belong to q0, N..2N to q1.
+    let condition = |rows: usize, columns: usize| {
+        let mut worst: Option<Condition<N>> = None;
+        for i in 0..N {
+            for j in 0..N {
+                let (a, b) = (rows * N + i, columns * N + j);
+                let candidate = compare(segments, &hessians, a, b)?;
+                let ratio =
+                    |condition: &Condition<N>| excess(condition.worst.value, condition.tolerance.bound());
+                if worst.is_none_or(|worst| ratio(&candidate) > ratio(&worst)) {
+                    worst = Some(Condition { entry: (i, j), ..candidate });
+                }
+            }
+        }
+        worst.ok_or(SampleError::TooFew { given: 0, needed: 1 })
+    };
+    Ok(Structure {
+        h: h.widen(),
+        samples: segments.len(),
+        minus: condition(0, 0)?,
+        plus: condition(1, 1)?,
+        mixed: condition(1, 0)?,
+    })
+}
+
+/// Entry (a, b) of ∂(f⁻, −f⁺)/∂(q0, q1).
+fn entry<S: Scalar, const N: usize>(f: &DiscreteForceDerivatives<S, N>, a: usize, b: usize) -> f64 {
+    let (covector, sign) = if a < N { (&f.minus, 1.0) } else { (&f.plus, -1.0) };
+    let block = if b < N { &covector.d1 } else { &covector.d2 };
+    sign * block[(a % N, b % N)].widen()
+}
+
+fn compare<S: Scalar, const N: usize>(
+    segments: &[Segment<S, N>],
+    hessians: &[DiscreteForceDerivatives<S, N>],
+    a: usize,
+    b: usize,
+) -> Result<Condition<N>, SampleError> {
+    let size = |f: &DiscreteForceDerivatives<S, N>| {
+        // Roots first: a product of entries may overflow.
+        let diagonal = entry(f, a, a).abs().sqrt() * entry(f, b, b).abs().sqrt();
+        entry(f, a, b).abs() + entry(f, b, a).abs() + diagonal
+    };
+    let sizes: Vec<f64> = hessians.iter().map(size).collect();
+    let (worst, tolerance) = Worst::of(segments, Tolerance::rounding::<S>(), &scales(&sizes), |index| {
+        entry(&hessians[index], b, a) - entry(&hessians[index], a, b)
+    })?;
+    Ok(Condition { worst, entry: (a % N, b % N), tolerance })
+}
+
+impl<const N: usize> fmt::Display for Structure<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let verdict = match (self.is_rayleigh(), self.allows_resplit()) {
+            (true, _) => "f_d is Rayleigh",
+            (false, true) => "f_d is not Rayleigh, but can be re-split into L_d⁺ and L_d⁻",
+            (false, false) => "f_d is not Rayleigh, and no L_d⁺, L_d⁻ exist",
+        };
+        write!(f, "{verdict} ({} segments, h = {})", self.samples, self.h)?;
+        for (name, condition) in [
+            ("D1 f⁻ symmetric        ", &self.minus),
+            ("D2 f⁺ symmetric        ", &self.plus),
+            ("D1 f⁺ = −(D2 f⁻)ᵀ      ", &self.mixed),
+        ] {
+            let (i, j) = condition.entry;
+            let verdict = if condition.holds() { "holds" } else { "FAILS" };
+            write!(
+                f,
+                "\n  {name} {verdict}: {:+.2e} in entry ({i}, {j}), zero below {}",
+                condition.worst.value, condition.tolerance
+            )?;
+            if !condition.holds() {
+                write!(f, "\n      at {}", condition.worst.at)?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,348 @@
+//! Where the checkers look: segments (q0, q1) of Q×Q, points of a region, and the worst of what was found there.
+//!
+//! A checker's verdict is about the points that it was given. Points of a region, spread evenly by [`region`] and
+//! [`segments`], speak for the region; those of one trajectory ([`Segment::along`]) for that trajectory alone.
+//!
+//! Of a system at a time t0, a view, the k-th segment starts at t0 + k h: the segments of a trajectory each at its own time, those of
+//! a region at times spread over as many steps.
+//!
+//! No verdict is given on samples that prove nothing: a NaN or an infinity is a [`SampleError`], and so are samples that cannot tell
+//! yes from no, such as segments that do not move.
+
+use core::fmt;
+
+use nalgebra::SVector;
+
+use crate::theory::verdict::{excess, is_zero};
+use crate::{Lagrangian, Scalar};
+
+/// A segment (q0, q1), a point of Q×Q.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Segment<S, const N: usize> {
+    /// Configuration at the start.
+    pub q0: SVector<S, N>,
+    /// Configuration at the end.
+    pub q1: SVector<S, N>,
+}
+
+impl<S: Scalar, const N: usize> Segment<S, N> {
+    /// The segment (q0, q1).
+    pub fn new(q0: impl Into<SVector<S, N>>, q1: impl Into<SVector<S, N>>) -> Self {
+        Self { q0: q0.into(), q1: q1.into() }
+    }
+
+    /// The segments of a discrete path q₀, q₁, q₂, …, such as the configurations of a trajectory.
+    #[must_use]
+    pub fn along(path: &[SVector<S, N>]) -> Vec<Self> {
+        path.windows(2).map(|pair| Self { q0: pair[0], q1: pair[1] }).collect()
+    }
+
+    /// Whether it leads anywhere: one at rest says nothing of what depends on velocities, nor does one whose squares underflow.
+    pub(crate) fn moves(&self) -> bool {
+        is_felt(&(self.q1 - self.q0))
+    }
+
+    /// The same segment in `f64`.
+    #[must_use]
+    pub fn widen(&self) -> Segment<f64, N> {
+        Segment { q0: self.q0.map(Scalar::widen), q1: self.q1.map(Scalar::widen) }
+    }
+}
+
+impl<S: fmt::Display, const N: usize> fmt::Display for Segment<S, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("q0 = ")?;
+        coordinates(f, &self.q0)?;
+        f.write_str(", q1 = ")?;
+        coordinates(f, &self.q1)
+    }
+}
+
+/// A point (q, v) of TQ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TangentPoint<S, const N: usize> {
+    /// Configuration.
+    pub q: SVector<S, N>,
+    /// Velocity.
+    pub v: SVector<S, N>,
+}
+
+/// Writes (x, y, …).
+pub(crate) fn coordinates<S: fmt::Display, const N: usize>(
+    f: &mut fmt::Formatter<'_>,
+    vector: &SVector<S, N>,
+) -> fmt::Result {
+    f.write_str("(")?;
+    for (index, entry) in vector.iter().enumerate() {
+        if index > 0 {
+            f.write_str(", ")?;
+        }
+        write!(f, "{entry:.4}")?;
+    }
+    f.write_str(")")
+}
+
+/// `count` points spread evenly over the box from `low` to `high`: the additive sequence with the ratios g⁻¹, g⁻², …,
+/// g the positive root of x^{N+1} = x + 1 (the generalised golden ratio; Roberts, 2018).
+///
+/// The same points each time: a verdict can be repeated.
+#[must_use]
+pub fn region<S: Scalar, const N: usize>(
+    low: impl Into<SVector<S, N>>,
+    high: impl Into<SVector<S, N>>,
+    count: usize,
+) -> Vec<SVector<S, N>> {
+    let (low, high) = (low.into(), high.into());
+    let ratios = Ratios::new(N);
+    (0..count)
+        .map(|k| SVector::from_fn(|i, _| low[i] + (high[i] - low[i]) * S::constant(ratios.share(k, i))))
+        .collect()
+}
+
+/// `count` segments: q0 in the box from `low` to `high`, each coordinate of q1 − q0 between ∓`reach`.
+///
+/// Choose `reach` like the displacements that occur, about h times the speed.
+#[must_use]
+pub fn segments<S: Scalar, const N: usize>(
+    low: impl Into<SVector<S, N>>,
+    high: impl Into<SVector<S, N>>,
+    reach: impl Into<SVector<S, N>>,
+    count: usize,
+) -> Vec<Segment<S, N>> {
+    let (low, high, reach) = (low.into(), high.into(), reach.into());
+    let ratios = Ratios::new(2 * N);
+    (0..count)
+        .map(|k| {
+            let share = |i| S::constant(ratios.share(k, i));
+            let q0 = SVector::from_fn(|i, _| low[i] + (high[i] - low[i]) * share(i));
+            let both_ways = |i| share(N + i) * S::constant(2.0) - S::one();
+            Segment { q0, q1: SVector::from_fn(|i, _| q0[i] + reach[i] * both_ways(i)) }
+        })
+        .collect()
+}
+
+/// `count` points (q, v): q in the box from `low` to `high`, each coordinate of v between ∓`speed`.
+#[must_use]
+pub fn tangent_points<S: Scalar, const N: usize>(
+    low: impl Into<SVector<S, N>>,
+    high: impl Into<SVector<S, N>>,
+    speed: impl Into<SVector<S, N>>,
+    count: usize,
+) -> Vec<TangentPoint<S, N>> {
+    segments(low, high, speed, count)
+        .into_iter()
+        .map(|segment| TangentPoint { q: segment.q0, v: segment.q1 - segment.q0 })
+        .collect()
+}
+
+/// The additive quasi-random sequence in a number of dimensions.
+struct Ratios(f64);
+
+impl Ratios {
+    fn new(dimensions: usize) -> Self {
+        // The fixed point of x = (1 + x)^{1/(d+1)}: the map contracts by less than ½, 64 iterations are plenty.
+        let exponent = 1.0 / (dimensions as f64 + 1.0);
+        Self((0..64).fold(1.5_f64, |g, _| (1.0 + g).powf(exponent)))
+    }
+
+    /// Coordinate `axis` of point `k`, in [0, 1).
+    fn share(&self, k: usize, axis: usize) -> f64 {
+        (0.5 + (k as f64 + 1.0) * self.0.powf(-(axis as f64 + 1.0))).fract()
+    }
+}
+
+/// Whether some entry has a square that is a normal number. What is not finite is an error of its own.
+pub(crate) fn is_felt<S: Scalar, const N: usize>(vector: &SVector<S, N>) -> bool {
+    vector.iter().any(|entry| *entry * *entry >= S::SMALLEST_NORMAL || !entry.is_finite())
+}
+
+/// `evaluate` of a system at the start of the k-th segment, k h after its own time.
+pub(crate) fn at_segment<L: Lagrangian<N>, T, const N: usize>(
+    system: &L,
+    k: usize,
+    h: L::Scalar,
+    evaluate: impl FnOnce(&L) -> T,
+) -> T {
+    // The time of a trajectory after k steps, bit by bit.
+    system.later(L::Scalar::constant(h.widen() * k as f64), evaluate)
+}
+
+/// Fails on a step size that no verdict can be given for: with one below the normal numbers, forces underflow to an exact 0.
+pub(crate) fn require_step_size<S: Scalar>(h: S) -> Result<(), SampleError> {
+    let size = h.widen().abs();
+    if size >= S::SMALLEST_NORMAL.widen() && size.is_finite() { Ok(()) } else { Err(SampleError::StepSize) }
+}
+
+/// Fails where no segment says anything.
+pub(crate) fn require_informative<S: Scalar, const N: usize>(
+    segments: &[Segment<S, N>],
+    says_something: impl Fn(&Segment<S, N>) -> bool,
+) -> Result<(), SampleError> {
+    if segments.is_empty() {
+        return Err(SampleError::TooFew { given: 0, needed: 1 });
+    }
+    // What is not finite is an error of its own, named where it is met.
+    let finite =
+        |segment: &Segment<S, N>| segment.q0.iter().chain(&segment.q1).all(|entry| entry.is_finite());
+    if segments.iter().any(|segment| !finite(segment) || says_something(segment)) {
+        Ok(())
+    } else {
+        Err(SampleError::Uninformative { given: segments.len() })
+    }
+}
+
+/// The value of a quantity that is furthest above its tolerance over the samples, and where it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Worst<const N: usize> {
+    /// The value furthest above its tolerance.
+    pub value: f64,
+    /// The segment where it is taken.
+    pub at: Segment<f64, N>,
+}
+
+impl<const N: usize> Worst<N> {
+    /// The value furthest above its tolerance, `relative` × its scale, with that tolerance. All have to be finite.
+    pub(crate) fn of<S: Scalar>(
+        segments: &[Segment<S, N>],
+        relative: f64,
+        scales: &[f64],
+        mut value: impl FnMut(usize) -> f64,
+    ) -> Result<(Self, Tolerance), SampleError> {
+        let mut worst: Option<(Self, Tolerance)> = None;
+        for (index, (segment, &scale)) in segments.iter().zip(scales).enumerate() {
+            let value = value(index);
+            let tolerance = Tolerance { relative, scale };
+            if !(value.is_finite() && scale.is_finite()) {
+                return Err(SampleError::NonFinite { index });
+            }
+            let excess = excess(value, tolerance.bound());
+            if worst.is_none_or(|(worst, of)| excess > self::excess(worst.value, of.bound())) {
+                worst = Some((Self { value, at: segment.widen() }, tolerance));
+            }
+        }
+        worst.ok_or(SampleError::TooFew { given: 0, needed: 1 })
+    }
+}
+
+impl<const N: usize> fmt::Display for Worst<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:+.3e} at {}", self.value, self.at)
+    }
+}
+
+/// What counts as zero: `relative` × `scale`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Rounding allowed, relative to the terms that the quantity is a sum of.
+    pub relative: f64,
+    /// Size of those terms: what the quantity could be if nothing cancelled.
+    pub scale: f64,
+}
+
+impl Tolerance {
+    /// Rounding that a checker allows unless told otherwise, in units of ε: a derivative of L or R takes some hundreds of
+    /// roundings.
+    pub(crate) const ROUNDINGS: f64 = 1024.0;
+
+    /// The default for the scalar type `S`.
+    #[must_use]
+    pub fn rounding<S: Scalar>() -> f64 {
+        Self::ROUNDINGS * S::EPSILON.widen()
+    }
+
+    /// The largest magnitude that counts as zero.
+    #[must_use]
+    pub fn bound(&self) -> f64 {
+        self.relative * self.scale
+    }
+
+    /// Whether `value` counts as zero: it and the bound are finite, and the bound is less than the size of the terms, which the value
+    /// cannot exceed.
+    #[must_use]
+    pub fn covers(&self, value: f64) -> bool {
+        (0.0..1.0).contains(&self.relative) && is_zero(value, self.bound())
+    }
+}
+
+impl fmt::Display for Tolerance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:.1e} = {:.1e} × {:.3e}, the size of the terms", self.bound(), self.relative, self.scale)
+    }
+}
+
+/// Why the samples given cannot be judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum SampleError {
+    /// Fewer samples than unknowns.
+    TooFew {
+        /// Samples given.
+        given: usize,
+        /// The least number that decides.
+        needed: usize,
+    },
+    /// A quantity is NaN or infinite at a sample.
+    NonFinite {
+        /// Number of the sample, from 0.
+        index: usize,
+    },
+    /// No sample can tell yes from no: all are at rest, or the generator vanishes at all of them.
+    Uninformative {
+        /// Samples given.
+        given: usize,
+    },
+    /// The step size is NaN, infinite, 0 or below the normal numbers.
+    StepSize,
+}
+
+impl fmt::Display for SampleError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooFew { given, needed } => {
+                write!(f, "{given} samples given, at least {needed} needed to decide; give more")
+            }
+            Self::Uninformative { given } => write!(
+                f,
+                "none of the {given} samples can tell yes from no: they do not move, or the generator vanishes there; give \
+                 samples that move"
+            ),
+            Self::StepSize => f.write_str("the step size is not a normal number; give a finite h ≠ 0"),
+            Self::NonFinite { index } => write!(
+                f,
+                "NaN or infinite value at sample {index}; keep the samples where L, R, f and the generators are smooth"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for SampleError {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_region_is_filled_evenly() {
+        // Counts in the 16 cells of a 4×4 grid: 1000 points, 62.5 expected; independent points would spread by ±8.
+        let mut cells = [0; 16];
+        for q in region::<f64, 2>([0.0, 0.0], [4.0, 4.0], 1000) {
+            cells[4 * q[0] as usize + q[1] as usize] += 1;
+        }
+        assert!(cells.iter().all(|&count| (56..=69).contains(&count)), "{cells:?}");
+    }
+
+    #[test]
+    fn a_value_that_is_not_finite_is_named() {
+        let segments = segments::<f64, 1>([0.0], [1.0], [0.1], 3);
+        let of = |scales: &[f64], value: f64| {
+            Worst::of(&segments, 1e-3, scales, |index| if index == 1 { value } else { 1.0 })
+        };
+        for poison in [f64::NAN, f64::INFINITY] {
+            assert_eq!(of(&[1.0; 3], poison), Err(SampleError::NonFinite { index: 1 }));
+            assert_eq!(of(&[1.0, 1.0, poison], 1.0), Err(SampleError::NonFinite { index: 2 }));
+        }
+        assert_eq!(of(&[1.0; 3], 2.0).unwrap().0.value, 2.0);
+        // The furthest above its own tolerance, not the largest.
+        assert_eq!(of(&[10.0, 1e9, 1.0], 2.0).unwrap().0.at, segments[2]);
+    }
+}
