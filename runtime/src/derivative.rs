@@ -1,8 +1,11 @@
-//! Derivatives of a step, by its state, its input and the parameters of the system.
+//! What is asked of a step beside where it leads: its derivatives by state, input and parameters, and how well it was posed.
 //!
-//! Uses rules and all below.
+//! Uses rules and all below; runs neither use it nor does it use them.
 
-pub(crate) mod certificate;
-pub(crate) mod linearization;
-pub(crate) mod parameters;
-pub(crate) mod second_order;
+mod certificate;
+mod driven;
+mod linearization;
+mod parameters;
+mod second_order;
+
+pub use certificate::Certificate;

@@ -17,7 +17,7 @@ mod theory;
 
 #[cfg(feature = "std")]
 pub use numbers::dual;
-pub use step::verification;
+pub use system::verification;
 #[cfg(feature = "std")]
 pub use theory::{exact, hamilton_jacobi, noether, rayleigh, samples};
 
@@ -267,41 +267,31 @@ pub use attributes::rayleigh_system;
 pub use attributes::differentiable;
 pub use nalgebra;
 
-pub use derivative::certificate::Certificate;
-pub use derivative::linearization::{LegendreDerivatives, Linearization, PhaseMatrix, StateBy};
-pub use derivative::parameters::{DiscreteParameters, GradientBy, Parameters};
-pub use derivative::second_order::{DiscreteSecondOrder, Hessian, SecondOrder, StepHessian};
-pub use numbers::derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
-pub use numbers::elementary::Elementary;
-pub use numbers::lanes::{LaneVector, Lanes, Mask};
-pub use numbers::linear::{Banded, Factored, FactoredBand, FactoredDense, NewtonMatrix, Singular};
-pub use numbers::scalar::Scalar;
+pub use derivative::Certificate;
+pub use numbers::{
+    Banded, CovectorDerivatives, Derivatives, Direction, Elementary, Factored, FactoredBand, FactoredDense,
+    Gradient, Hessian, LaneVector, Lanes, Mask, NewtonMatrix, Scalar, Singular, Variations,
+};
 pub use rules::{
     DisplacementRule, Fitted, FittedTrapezoidal, Gauss, JointRayleighRule, JointRule, Midpoint, Node,
     OneSided, SelfAdjoint, SolvedForVelocity, StageHistory, Trapezoidal,
 };
-pub use run::checkpoint::Checkpoint;
-pub use run::composed_trajectory::{ComposedStep, ComposedTrajectory};
-pub use run::composition::{Composition, Substeps};
-pub use run::discretised::{Discretise, Discretised, RuleOf};
-pub use run::memory::{
-    DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, KeptMatrix, Memory, VelocityHistory,
+pub use run::{
+    Breach, Checkpoint, Choice, Composed, ComposedStep, ComposedTrajectory, Composition, Discretise,
+    DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, GaussOr, GuardedTrajectory, KeptMatrix,
+    Kicks, Method, MethodStep, Methods, OffersMethods, Parted, Request, Sample, Samples, SplitOr, Splitting,
+    Stagewise, Substeps, Taken, TimedRequest, ToleranceError, Trajectory, Trial, VelocityHistory, WithGauss,
+    WithSplittings,
 };
-pub use run::splitting::{Kicks, Splitting};
-pub use run::tolerance::{
-    Breach, Choice, Composed, GaussOr, GuardedTrajectory, Method, MethodStep, Methods, OffersMethods,
-    Request, SplitOr, Stagewise, Taken, TimedRequest, ToleranceError, Trial, WithGauss, WithSplittings,
+pub use step::{
+    BoundedStep, Discrete, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteParameters,
+    DiscreteRayleigh, DiscreteSecondOrder, Discretised, EquationAt, LegendreDerivatives, Linearization,
+    Memory, Momenta, MomentaBy, PhaseMatrix, Quantity, Report, RuleOf, State, StateBy, Step, StepError,
+    StepHessian, StepKernel, StepWith,
 };
-pub use run::trajectory::{Parted, Sample, Samples, Trajectory};
-pub use step::discrete::{
-    BoundedStep, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, EquationAt, Momenta,
-    Report, Step, StepKernel, StepWith,
+pub use system::{
+    CyclicCoordinate, Damping, Driven, Engine, Force, ForcedLagrangian, Function, GeneratedDiffers,
+    GradientBy, Input, Lagrangian, NewtonStructure, Parameters, Rayleigh, Refusal, ScalarField, SecondOrder,
+    Stages, Structure, VectorField,
 };
-pub use step::error::{Function, Quantity, StepError};
-pub use step::state::State;
-pub use system::continuous::{Force, Lagrangian, Rayleigh};
-pub use system::driven::{DiscreteDriven, Driven, Input, MomentaBy};
-pub use system::fields::{ScalarField, VectorField};
-pub use system::forced::{ForcedLagrangian, Stages};
-pub use system::structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
-pub use theory::energy::EnergyLedger;
+pub use theory::EnergyLedger;

@@ -2,11 +2,19 @@
 //!
 //! The lowest floor: it uses nothing else of this crate.
 
+mod arrays;
 pub(crate) mod derivatives;
-pub(crate) mod elementary;
-pub(crate) mod lanes;
-pub(crate) mod linear;
-pub(crate) mod scalar;
-
 #[cfg(feature = "std")]
 pub mod dual;
+mod elementary;
+pub(crate) mod lanes;
+pub(crate) mod linear;
+mod scalar;
+
+pub(crate) use arrays::{Functions, Vectors};
+pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, Variations};
+pub use elementary::Elementary;
+pub use lanes::{LaneVector, Lanes, Mask};
+pub(crate) use linear::determinant_sign;
+pub use linear::{Banded, Factored, FactoredBand, FactoredDense, NewtonMatrix, Singular};
+pub use scalar::Scalar;

@@ -2,11 +2,24 @@
 //!
 //! Uses rules and all below.
 
-pub(crate) mod checkpoint;
-pub(crate) mod composed_trajectory;
-pub(crate) mod composition;
-pub(crate) mod discretised;
-pub(crate) mod memory;
-pub(crate) mod splitting;
-pub(crate) mod tolerance;
-pub(crate) mod trajectory;
+mod checkpoint;
+mod composed_trajectory;
+mod composition;
+mod discretise;
+mod memory;
+mod splitting;
+mod tolerance;
+mod trajectory;
+
+pub use checkpoint::Checkpoint;
+pub(crate) use checkpoint::Course;
+pub use composed_trajectory::{ComposedStep, ComposedTrajectory};
+pub use composition::{Composition, Substeps};
+pub use discretise::Discretise;
+pub use memory::{DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, KeptMatrix, VelocityHistory};
+pub use splitting::{Kicks, Splitting};
+pub use tolerance::{
+    Breach, Choice, Composed, GaussOr, GuardedTrajectory, Method, MethodStep, Methods, OffersMethods,
+    Request, SplitOr, Stagewise, Taken, TimedRequest, ToleranceError, Trial, WithGauss, WithSplittings,
+};
+pub use trajectory::{Parted, Sample, Samples, Trajectory};

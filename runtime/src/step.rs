@@ -1,9 +1,37 @@
 //! One step: the discrete system, its states, and the solver of its equation.
 //!
-//! Uses numbers and systems. What the rules are, it does not know.
+//! Uses numbers and systems. What rules there are, it does not know.
 
-pub(crate) mod discrete;
-pub(crate) mod error;
+mod discrete;
+mod discrete_force;
+mod discrete_rayleigh;
+mod discretised;
+mod driven;
+mod error;
+mod kernel;
+mod legendre;
+mod linearization;
 pub(crate) mod newton;
-pub(crate) mod state;
-pub mod verification;
+mod outcome;
+mod parameters;
+mod second_order;
+mod solve;
+mod start;
+mod state;
+
+pub use discrete::{Discrete, Memory};
+pub use discrete_force::{DiscreteForce, DiscreteForceDerivatives};
+pub use discrete_rayleigh::DiscreteRayleigh;
+pub use discretised::{Discretised, RuleOf};
+pub use driven::DiscreteDriven;
+pub use error::{Quantity, StepError};
+pub use kernel::{Momenta, MomentaBy, StepKernel};
+pub(crate) use legendre::require_regular;
+pub(crate) use linearization::invert;
+pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix, StateBy};
+pub use outcome::{BoundedStep, EquationAt, Report, Step, StepWith};
+pub use parameters::DiscreteParameters;
+pub use second_order::{DiscreteSecondOrder, StepHessian};
+pub(crate) use solve::{or_without_guess, require_step_size, step_by, step_within_by};
+pub(crate) use start::verify_start;
+pub use state::State;

@@ -2,8 +2,21 @@
 //!
 //! Uses numbers.
 
-pub(crate) mod continuous;
-pub(crate) mod driven;
-pub(crate) mod fields;
-pub(crate) mod forced;
-pub(crate) mod structure;
+mod continuous;
+mod driven;
+mod error;
+mod fields;
+mod forced;
+mod parameters;
+mod second_order;
+mod structure;
+pub mod verification;
+
+pub use continuous::{Force, Lagrangian, Rayleigh};
+pub use driven::{Driven, Input};
+pub use error::{Function, GeneratedDiffers};
+pub use fields::{ScalarField, VectorField};
+pub use forced::{ForcedLagrangian, Stages};
+pub use parameters::{GradientBy, Parameters};
+pub use second_order::SecondOrder;
+pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};

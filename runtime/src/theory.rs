@@ -2,8 +2,7 @@
 //!
 //! The highest floor: it uses all others, and none uses it.
 
-pub(crate) mod energy;
-
+mod energy;
 #[cfg(feature = "std")]
 pub mod exact;
 #[cfg(feature = "std")]
@@ -16,3 +15,5 @@ pub mod rayleigh;
 pub mod samples;
 #[cfg(feature = "std")]
 mod verdict;
+
+pub use energy::EnergyLedger;

@@ -2,7 +2,8 @@
 
 use dalembert::nalgebra::{ComplexField, SVector};
 use dalembert::{
-    Composition, Discrete, Discretise, Midpoint, PhaseMatrix, Scalar, State, StepError, Trajectory,
+    Composition, Discrete, Discretise, Lagrangian, Midpoint, PhaseMatrix, Scalar, State, StepError,
+    Trajectory,
 };
 
 use crate::numbers::Bytes;

@@ -79,7 +79,11 @@ fn verification(system: &System<'_>, home: Home) -> TokenStream {
     let Some((last, others)) = functions.split_last() else { return TokenStream::new() };
     // verification::lagrangian(self, q, v)?; verification::rayleigh(self, q, v)
     quote! {
-        fn verify_generated(&self, q: &Vector, v: &Vector) -> ::core::result::Result<(), ::dalembert::StepError> {
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
             #(::dalembert::verification::#others(self, q, v)?;)*
             ::dalembert::verification::#last(self, q, v)
         }
@@ -503,7 +507,7 @@ fn segment_verification(system: &System<'_>, rule: &TokenStream) -> TokenStream 
             q0: &Vector,
             v: &Vector,
             h: #scalar,
-        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
             #rule::verify_segment(self, q0, v, h)
         }
     }

@@ -1,11 +1,9 @@
 //! What can be asked of a step after it was taken: how well its equation was posed, and on which branch its root lies.
 
-use core::cmp::Ordering;
-
 use nalgebra::{SMatrix, SVector};
 
-use crate::numbers::linear::{self, NewtonMatrix};
-use crate::{Discrete, EquationAt, Scalar, State, Step, StepError};
+use crate::numbers::{NewtonMatrix, Scalar, linear};
+use crate::step::{Discrete, Discretised, EquationAt, State, Step, StepError};
 
 /// What a step's Newton matrix ∂p0/∂v̄ says of it; see [`Discretised::certificate`](crate::Discretised::certificate).
 ///
@@ -75,49 +73,52 @@ fn norm<S: Scalar, const N: usize>(matrix: &SMatrix<S, N, N>) -> S {
     })
 }
 
-/// The determinant against 0, by elimination with row exchanges.
-pub(crate) fn determinant_sign<S: Scalar, const N: usize>(mut a: SMatrix<S, N, N>) -> Ordering {
-    let mut sign = Ordering::Greater;
-    for k in 0..N {
-        let mut pivot = k;
-        for i in k + 1..N {
-            if a[(i, k)].abs() > a[(pivot, k)].abs() {
-                pivot = i;
-            }
-        }
-        if pivot != k {
-            a.swap_rows(k, pivot);
-            sign = sign.reverse();
-        }
-        if a[(k, k)] < S::zero() {
-            sign = sign.reverse();
-        } else if a[(k, k)].partial_cmp(&S::zero()) != Some(Ordering::Greater) {
-            return Ordering::Equal;
-        }
-        for i in k + 1..N {
-            let factor = a[(i, k)] / a[(k, k)];
-            for j in k..N {
-                let upper = a[(k, j)];
-                a[(i, j)] -= factor * upper;
-            }
-        }
-    }
-    sign
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use nalgebra::matrix;
-
-    #[test]
-    fn signs_of_determinants() {
-        assert_eq!(determinant_sign(matrix![2.0, 1.0; 1.0, 2.0]), Ordering::Greater);
-        assert_eq!(determinant_sign(matrix![1.0, 2.0; 2.0, 1.0]), Ordering::Less);
-        assert_eq!(determinant_sign(matrix![0.0, 1.0; 1.0, 0.0]), Ordering::Less);
-        assert_eq!(determinant_sign(matrix![0.0, 1.0, 0.0; 0.0, 0.0, 1.0; 1.0, 0.0, 0.0]), Ordering::Greater);
-        // A singular matrix, and one with a NaN, have none.
-        assert_eq!(determinant_sign(matrix![1.0, 2.0; 2.0, 4.0]), Ordering::Equal);
-        assert_eq!(determinant_sign(matrix![f64::NAN]), Ordering::Equal);
+/// Certificates.
+impl<L, R, const N: usize> Discretised<'_, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    /// How well the equation of a step that was taken from `state` was posed, and on which branch its root lies.
+    ///
+    /// Costs one evaluation and the inverse of an N×N matrix, twice a Newton iteration or less; a step itself never asks for it.
+    ///
+    /// ```
+    /// use dalembert::nalgebra::vector;
+    /// use dalembert::{Discretise, Midpoint, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system]
+    /// fn spring(q: [f64; 2], v: [f64; 2], k: f64) -> f64 {
+    ///     0.5 * (v[0] * v[0] + v[1] * v[1]) - 0.5 * k * (q[1] - q[0]).powi(2)
+    /// }
+    /// let state = State { q: vector![0.0, 1.0], p: vector![0.2, -0.3] };
+    /// let system = Spring { k: 4e6 };
+    /// let by = system.by(Midpoint, 1.0);
+    /// // I + (h²k/4) [1 −1; −1 1]: the stretch is a million times as stiff as the mass.
+    /// let condition = by.certificate(&state, &by.step(&state)?)?.condition;
+    /// assert!((condition / 2e6 - 1.0).abs() < 1e-6);
+    ///
+    /// #[rayleigh_system]
+    /// fn accelerated(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    ///     (0.5 * v[0] * v[0] - 0.0 * q[0], 0.5 * r * v[0] * v[0])
+    /// }
+    /// let state = State { q: vector![0.0], p: vector![1.0] };
+    /// let past_the_fold = |r: f64| {
+    ///     let system = Accelerated { r };
+    ///     let by = system.by(Midpoint, 1.0);
+    ///     !by.certificate(&state, &by.step(&state).unwrap()).unwrap().on_the_branch_of_the_flow
+    /// };
+    /// assert!(!past_the_fold(-1.9) && past_the_fold(-2.1));
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StepError::NonFinite`] if derivatives at the step are not finite; those of a step of [`Gauss`](crate::Gauss), which solves
+    /// for its stages again.
+    pub fn certificate(
+        &self,
+        state: &State<L::Scalar, N>,
+        step: &Step<L::Scalar, N>,
+    ) -> Result<Certificate<L::Scalar>, StepError> {
+        Certificate::of(self.system, state, step, self.h)
     }
 }

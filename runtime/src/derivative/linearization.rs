@@ -1,218 +1,69 @@
-//! The step's derivative by the state that it starts from, exact: no differences, the implicit function theorem.
-//!
-//! On a segment (q0, q1) the two Legendre transforms have the derivatives
-//!
-//! ```text
-//! K00 = ∂p0/∂q0 = −D1D1 L_d − D1 f_d⁻        K01 = ∂p0/∂q1 = −D1D2 L_d − D2 f_d⁻
-//! K10 = ∂p1/∂q0 = (D1D2 L_d)ᵀ + D1 f_d⁺      K11 = ∂p1/∂q1 = D2D2 L_d + D2 f_d⁺
-//! ```
-//!
-//! The step holds p0 fixed and solves for q1, so that dq1 = K01⁻¹ (dp0 − K00 dq0) and dp1 = K10 dq0 + K11 dq1:
-//!
-//! ```text
-//!     ∂(q1, p1)     ⎡     −K01⁻¹ K00            K01⁻¹     ⎤
-//! A = ─────────  =  ⎢                                     ⎥
-//!     ∂(q0, p0)     ⎣ K10 − K11 K01⁻¹ K00    K11 K01⁻¹    ⎦
-//!
-//! det A = det K10 / det(−K01) = det(D1D2 L_d⁻) / det(D1D2 L_d⁺)      the second form for a Rayleigh force
-//! ```
-//!
-//! The derivative B = ∂(q1, p1)/∂u by an input that is held, and those by parameters, come in the same way: what moves the
-//! momenta by P0 and P1 at fixed configurations moves q1 by −K01⁻¹ P0 and p1 by P1 − K11 K01⁻¹ P0.
+//! The step's derivative by the state that it starts from.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
-use crate::numbers::derivatives::linear;
-use crate::{
-    Derivatives, DiscreteForceDerivatives, Lagrangian, Momenta, MomentaBy, Scalar, StepError, numbers::linear,
-};
+use crate::step::{Discrete, Discretised, Linearization, State, StepError, StepWith};
 
-/// Both momenta of a segment with their derivatives by its two configurations; see the formulas above.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LegendreDerivatives<S, const N: usize> {
-    /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺.
-    pub momenta: Momenta<S, N>,
-    /// K00 = ∂p0/∂q0: entry (i, j) differentiates p0ᵢ by q0ⱼ.
-    pub p0_by_q0: SMatrix<S, N, N>,
-    /// K01 = ∂p0/∂q1; times h it is the Newton matrix of the step.
-    pub p0_by_q1: SMatrix<S, N, N>,
-    /// K10 = ∂p1/∂q0.
-    pub p1_by_q0: SMatrix<S, N, N>,
-    /// K11 = ∂p1/∂q1.
-    pub p1_by_q1: SMatrix<S, N, N>,
-}
-
-/// A matrix on T*Q = ℝ²ᴺ in its four blocks.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PhaseMatrix<S, const N: usize> {
-    /// ∂q1/∂q0.
-    pub q_by_q: SMatrix<S, N, N>,
-    /// ∂q1/∂p0.
-    pub q_by_p: SMatrix<S, N, N>,
-    /// ∂p1/∂q0.
-    pub p_by_q: SMatrix<S, N, N>,
-    /// ∂p1/∂p0.
-    pub p_by_p: SMatrix<S, N, N>,
-}
-
-/// Derivatives of a state (q1, p1) by M quantities, such as inputs.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StateBy<S, const N: usize, const M: usize> {
-    /// ∂q1/∂θ, shape N×M.
-    pub q: SMatrix<S, N, M>,
-    /// ∂p1/∂θ, shape N×M.
-    pub p: SMatrix<S, N, M>,
-}
-
-linear!(StateBy<M> { q, p });
-
-/// The derivatives of one step; M is the number of inputs, 0 where there are none.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Linearization<S, const N: usize, const M: usize = 0> {
-    /// The step matrix A = ∂(q1, p1)/∂(q0, p0).
-    pub a: PhaseMatrix<S, N>,
-    /// B = ∂(q1, p1)/∂u, the input being held over the step.
-    pub b: StateBy<S, N, M>,
-}
-
-impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
-    /// From the derivatives of L_d and of f_d.
-    #[must_use]
-    pub fn from_terms(l: &Derivatives<S, N>, f: &DiscreteForceDerivatives<S, N>) -> Self {
-        Self {
-            momenta: Momenta { p0: -l.d1 - f.minus.value, p1: l.d2 + f.plus.value },
-            p0_by_q0: -l.d11 - f.minus.d1,
-            p0_by_q1: -l.d12 - f.minus.d2,
-            p1_by_q0: l.d12.transpose() + f.plus.d1,
-            p1_by_q1: l.d22 + f.plus.d2,
-        }
-    }
-}
-
-impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
-    /// What (q1, p1) makes of quantities that move the momenta by `momenta` at fixed configurations, (q0, p0) being held.
+/// Derivatives by the state.
+impl<L, R, const N: usize> Discretised<'_, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    /// The step with its derivative A = ∂(q1, p1)/∂(q0, p0).
+    ///
+    /// ```
+    /// use dalembert::nalgebra::vector;
+    /// use dalembert::{Discretise, Gauss, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system(rule = gauss)]
+    /// fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64) -> f64 {
+    ///     0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0]
+    /// }
+    /// let state = State { q: vector![0.3], p: vector![-0.2] };
+    /// let (step, linearization) = Oscillator { m: 1.0, k: 1.0 }.by(Gauss::<4>, 0.5).linearized_step(&state)?;
+    /// // The rotation by the angle h, to order 8.
+    /// let a = linearization.a;
+    /// assert!((a.q_by_q[0] - 0.5_f64.cos()).abs() < 1e-9 && (a.q_by_p[0] - 0.5_f64.sin()).abs() < 1e-9);
+    /// assert!((step.state.q[0] - (a.q_by_q[0] * 0.3 - a.q_by_p[0] * 0.2)).abs() < 1e-15);
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
     ///
     /// # Errors
-    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular.
-    pub fn answer<const M: usize>(
+    /// Those of [`step`](Self::step); [`StepError::SingularNewtonMatrix`] where the step has no derivative.
+    pub fn linearized_step(
         &self,
-        momenta: &MomentaBy<S, N, M>,
-    ) -> Result<StateBy<S, N, M>, StepError> {
-        Ok(self.answer_with(&inverse(&self.p0_by_q1)?, momenta))
+        state: &State<L::Scalar, N>,
+    ) -> Result<StepWith<L::Scalar, N, Linearization<L::Scalar, N>>, StepError> {
+        self.system.linearized_step(state, self.h, self.guess.as_ref())
     }
 
-    fn answer_with<const M: usize>(
+    /// A of the step that leads from q0 to q1.
+    ///
+    /// By [`Gauss`](crate::Gauss) [`linearized_step`](Self::linearized_step) costs less: this solves for the stages anew, and two
+    /// ends need not determine a segment.
+    ///
+    /// ```
+    /// use dalembert::nalgebra::vector;
+    /// use dalembert::{Discretise, Midpoint, rayleigh_system};
+    ///
+    /// #[rayleigh_system]
+    /// fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+    ///     (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+    /// }
+    /// let (m, k, r, h) = (1.0, 1.0, 0.5, 0.25);
+    /// let a = Oscillator { m, k, r }.by(Midpoint, h).linearization(&vector![0.0], &vector![0.2])?.a;
+    /// let determinant = (4.0 * m + h * h * k - 2.0 * h * r) / (4.0 * m + h * h * k + 2.0 * h * r);
+    /// assert!((a.assembled::<2>().determinant() - determinant).abs() < 1e-15);
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular: there the step has no derivative.
+    pub fn linearization(
         &self,
-        q_by_p: &SMatrix<S, N, N>,
-        momenta: &MomentaBy<S, N, M>,
-    ) -> StateBy<S, N, M> {
-        let q = -(q_by_p * momenta.p0);
-        StateBy { q, p: momenta.p1 + self.p1_by_q1 * q }
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+    ) -> Result<Linearization<L::Scalar, N>, StepError> {
+        self.system.linearization(q0, q1, self.h)
     }
-}
-
-impl<S: Scalar, const N: usize> Linearization<S, N> {
-    /// The step matrix from the derivatives of both Legendre transforms.
-    ///
-    /// # Errors
-    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular.
-    pub fn from_legendre(k: &LegendreDerivatives<S, N>) -> Result<Self, StepError> {
-        Self::with_input(k, &MomentaBy::zero())
-    }
-}
-
-impl<S: Scalar, const N: usize, const M: usize> Linearization<S, N, M> {
-    /// The derivatives of the step from those of both Legendre transforms, and of the momenta by the input.
-    ///
-    /// # Errors
-    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular.
-    pub fn with_input(
-        k: &LegendreDerivatives<S, N>,
-        by_input: &MomentaBy<S, N, M>,
-    ) -> Result<Self, StepError> {
-        let q_by_p = inverse(&k.p0_by_q1)?;
-        let q_by_q = -(q_by_p * k.p0_by_q0);
-        Ok(Self {
-            a: PhaseMatrix {
-                q_by_q,
-                q_by_p,
-                p_by_q: k.p1_by_q0 + k.p1_by_q1 * q_by_q,
-                p_by_p: k.p1_by_q1 * q_by_p,
-            },
-            b: k.answer_with(&q_by_p, by_input),
-        })
-    }
-}
-
-impl<S: Scalar, const N: usize, const M: usize> StateBy<S, N, M> {
-    /// Both parts as one matrix, q above p; K = 2N.
-    #[must_use]
-    pub fn assembled<const K: usize>(&self) -> SMatrix<S, K, M> {
-        const { assert!(K == 2 * N) };
-        SMatrix::from_fn(|i, j| if i < N { self.q[(i, j)] } else { self.p[(i - N, j)] })
-    }
-}
-
-impl<S: Scalar, const N: usize> PhaseMatrix<S, N> {
-    /// ∂(q, p)/∂(q, v), the derivative of [`State::from_velocity`](crate::State::from_velocity) at (`q`, `v`): the column
-    /// blocks by p stand for those by v.
-    #[must_use]
-    pub fn from_velocity<L: Lagrangian<N, Scalar = S>>(
-        system: &L,
-        q: &SVector<S, N>,
-        v: &SVector<S, N>,
-    ) -> Self {
-        let l = system.lagrangian_derivatives(q, v);
-        Self {
-            q_by_q: SMatrix::identity(),
-            q_by_p: SMatrix::zeros(),
-            p_by_q: l.d12.transpose(),
-            p_by_p: l.d22,
-        }
-    }
-
-    /// ∂(q, v)/∂(q, p), the derivative of [`State::velocity`](crate::State::velocity) at (`q`, `v`): the row blocks of p
-    /// stand for those of v. What a sensor of velocities makes of a state.
-    ///
-    /// # Errors
-    /// [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is singular.
-    pub fn to_velocity<L: Lagrangian<N, Scalar = S>>(
-        system: &L,
-        q: &SVector<S, N>,
-        v: &SVector<S, N>,
-    ) -> Result<Self, StepError> {
-        let l = system.lagrangian_derivatives(q, v);
-        let v_by_p = linear::inverse(&l.d22)
-            .map_err(|singular| StepError::DegenerateLagrangian { column: singular.column })?;
-        Ok(Self {
-            q_by_q: SMatrix::identity(),
-            q_by_p: SMatrix::zeros(),
-            p_by_q: -(v_by_p * l.d12.transpose()),
-            p_by_p: v_by_p,
-        })
-    }
-
-    /// The blocks as one matrix in the order (q, p); M = 2N.
-    #[must_use]
-    pub fn assembled<const M: usize>(&self) -> SMatrix<S, M, M> {
-        const { assert!(M == 2 * N) };
-        SMatrix::from_fn(|i, j| {
-            let block = match (i < N, j < N) {
-                (true, true) => &self.q_by_q,
-                (true, false) => &self.q_by_p,
-                (false, true) => &self.p_by_q,
-                (false, false) => &self.p_by_p,
-            };
-            block[(i % N, j % N)]
-        })
-    }
-}
-
-/// The inverse, or the column whose pivot is lost to rounding.
-pub(crate) fn inverse<S: Scalar, const N: usize>(
-    matrix: &SMatrix<S, N, N>,
-) -> Result<SMatrix<S, N, N>, StepError> {
-    linear::inverse(matrix)
-        .map_err(|singular| StepError::SingularNewtonMatrix { iteration: 0, column: singular.column })
 }

@@ -1,204 +1,57 @@
-//! Second derivatives of the step, contracted with a covector: what second-order optimal control and estimation ask for.
-//!
-//! With λ = (λ_q, λ_p) a covector at (q1, p1), the function λ·(q1, p1) of z = (q0, p0, u) has the second derivatives
-//!
-//! ```text
-//! ∂²(λ·(q1, p1))/∂z² = Dᵀ ∂²Φ D,   Φ(q0, q1, u) = μ·p0(q0, q1, u) + λ_p·p1(q0, q1, u),   D = ∂(q0, q1, u)/∂z
-//! μ = −K01⁻ᵀ (λ_q + K11ᵀ λ_p)
-//! ```
-//!
-//! by the implicit function theorem: μ is what makes Φ + λ_q·q1 stationary in q1, so that the second derivatives of q1
-//! itself drop out. On a segment Φ is a sum over L, R and f of their derivatives along one direction, whose Hessians the
-//! engines give: third derivatives of L and R appear contracted alone.
+//! The step's second derivatives.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
-use crate::numbers::derivatives::{linear, second_along};
-use crate::{Direction, Discrete, Lagrangian, Scalar, State, StepError, StepWith, derivative::linearization};
+use crate::step::{Discrete, DiscreteSecondOrder, Discretised, State, StepError, StepHessian, StepWith};
 
-/// Second derivatives of a function of (x, y, u), x and y ∈ ℝᴺ, u ∈ ℝᴹ.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hessian<S, const N: usize, const M: usize = 0> {
-    /// By x twice, symmetric.
-    pub d11: SMatrix<S, N, N>,
-    /// By x (rows) and y.
-    pub d12: SMatrix<S, N, N>,
-    /// By y twice, symmetric.
-    pub d22: SMatrix<S, N, N>,
-    /// By x (rows) and u.
-    pub d1u: SMatrix<S, N, M>,
-    /// By y (rows) and u.
-    pub d2u: SMatrix<S, N, M>,
-    /// By u twice, symmetric.
-    pub duu: SMatrix<S, M, M>,
-}
-
-linear!(Hessian<M> { d11, d12, d22, d1u, d2u, duu });
-
-impl<S: Scalar, const N: usize, const M: usize> Hessian<S, N, M> {
-    /// Second derivatives by (a, b, u) where x = `a.first` a + `b.first` b and y = `a.second` a + `b.second` b.
-    #[inline]
-    #[must_use]
-    pub fn pull_back(&self, a: Direction<S>, b: Direction<S>) -> Self {
-        let second = |a, b| second_along(&self.d11, &self.d12, &self.d22, a, b);
-        let with_input = |s: Direction<S>| self.d1u * s.first + self.d2u * s.second;
-        Self {
-            d11: second(a, a),
-            d12: second(a, b),
-            d22: second(b, b),
-            d1u: with_input(a),
-            d2u: with_input(b),
-            duu: self.duu,
-        }
-    }
-}
-
-/// L, R and f differentiated once more than a step asks for: `#[rayleigh_system(step_derivatives = second)]` writes it.
-///
-/// M is the number of inputs, 0 where there are none.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` has no second derivatives of its step",
-    label = "no second derivatives",
-    note = "ask for them in the attribute: `#[rayleigh_system(step_derivatives = second)]`"
-)]
-pub trait SecondOrder<const N: usize, const M: usize>: Lagrangian<N> {
-    /// Second derivatives by (q, v) of `a`·∂L/∂q + `b`·∂L/∂v.
-    fn lagrangian_along(
-        &self,
-        q: &SVector<Self::Scalar, N>,
-        v: &SVector<Self::Scalar, N>,
-        a: &SVector<Self::Scalar, N>,
-        b: &SVector<Self::Scalar, N>,
-    ) -> Hessian<Self::Scalar, N, M>;
-
-    /// Second derivatives by (q, v) of `a`·∂R/∂q + `b`·∂R/∂v; 0 where there is no R.
-    #[inline]
-    fn rayleigh_along(
-        &self,
-        _q: &SVector<Self::Scalar, N>,
-        _v: &SVector<Self::Scalar, N>,
-        _a: &SVector<Self::Scalar, N>,
-        _b: &SVector<Self::Scalar, N>,
-    ) -> Hessian<Self::Scalar, N, M> {
-        Hessian::zero()
-    }
-
-    /// Second derivatives by (q, v, u) of `vector`·f; 0 where there is no f.
-    #[inline]
-    fn force_along(
-        &self,
-        _q: &SVector<Self::Scalar, N>,
-        _v: &SVector<Self::Scalar, N>,
-        _vector: &SVector<Self::Scalar, N>,
-    ) -> Hessian<Self::Scalar, N, M> {
-        Hessian::zero()
-    }
-
-    /// ∂f/∂u at (q, v), shape N×M, for rules with interior points: [`Driven::force_by_input`](crate::Driven::force_by_input)
-    /// where there is an input.
-    #[inline]
-    fn force_slope_by_input(
-        &self,
-        _q: &SVector<Self::Scalar, N>,
-        _v: &SVector<Self::Scalar, N>,
-    ) -> SMatrix<Self::Scalar, N, M> {
-        const { assert!(M == 0, "a system with an input has `Driven::force_by_input(self, q, v)` here") };
-        SMatrix::zeros()
-    }
-}
-
-/// Second derivatives of both momenta of a segment by rule `R`.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` has no second derivatives of its step by `{R}`",
-    label = "no second derivatives",
-    note = "ask for them in the attribute: `#[rayleigh_system(step_derivatives = second)]`"
-)]
-pub trait DiscreteSecondOrder<R, const N: usize, const M: usize>: Discrete<R, N> + SecondOrder<N, M> {
-    /// Second derivatives by (q0, q1, u) of `at_start`·p0 + `at_end`·p1, on the segment from q0 with mean velocity `v`.
-    fn momenta_along(
-        &self,
-        q0: &SVector<Self::Scalar, N>,
-        v: &SVector<Self::Scalar, N>,
-        h: Self::Scalar,
-        at_start: &SVector<Self::Scalar, N>,
-        at_end: &SVector<Self::Scalar, N>,
-    ) -> Hessian<Self::Scalar, N, M>;
-
-    /// ∂p0/∂u at fixed ends, on the segment from q0 with mean velocity `v`; rules with interior points have no use for it.
-    #[inline]
-    fn p0_by_input(
-        &self,
-        _q0: &SVector<Self::Scalar, N>,
-        _v: &SVector<Self::Scalar, N>,
-        _h: Self::Scalar,
-    ) -> SMatrix<Self::Scalar, N, M> {
-        const { assert!(M == 0, "a system with an input has ∂p0/∂u = −∂f_d⁻/∂u here") };
-        SMatrix::zeros()
-    }
-
-    /// Second derivatives of the step on the segment (`q0`, `q1`): [`Discretised::step_hessian`](crate::Discretised::step_hessian).
+/// Second derivatives of the step, contracted with a covector (`step_derivatives = second`): by the input as well where the
+/// system holds one.
+impl<L, R, const N: usize> Discretised<'_, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    /// The step with the second derivatives of `covector`.q·q1 + `covector`.p·p1.
     ///
     /// # Errors
-    /// Those of [`Discrete::linearization`].
-    fn step_hessian(
+    /// Those of [`linearized_step`](Self::linearized_step).
+    pub fn step_with_hessian<const M: usize>(
         &self,
-        q0: &SVector<Self::Scalar, N>,
-        q1: &SVector<Self::Scalar, N>,
-        h: Self::Scalar,
-        covector: &State<Self::Scalar, N>,
-    ) -> Result<StepHessian<Self::Scalar, N, M>, StepError> {
-        let k = self.legendre_derivatives(q0, q1, h);
-        // ∂q1/∂p0, ∂q1/∂q0, ∂q1/∂u.
-        let by_p = linearization::inverse(&k.p0_by_q1)?;
-        let by_q = -(by_p * k.p0_by_q0);
-        let v = (q1 - q0) / h;
-        let by_u = -(by_p * self.p0_by_input(q0, &v, h));
-        let at_start = -(by_p.transpose() * (covector.q + k.p1_by_q1.transpose() * covector.p));
-        let phi = self.momenta_along(q0, &v, h, &at_start, &covector.p);
-        let Hessian { d11, d12, d22, d1u, d2u, duu } = phi;
-        // ∂²Φ/∂q1∂z with q1 carried along.
-        let carried_u = d2u + d22 * by_u;
-        let carried_q = d12.transpose() + d22 * by_q;
-        Ok(StepHessian {
-            qq: d11 + d12 * by_q + by_q.transpose() * carried_q,
-            qp: carried_q.transpose() * by_p,
-            pp: by_p.transpose() * d22 * by_p,
-            qu: d1u + d12 * by_u + by_q.transpose() * carried_u,
-            pu: by_p.transpose() * carried_u,
-            uu: duu + d2u.transpose() * by_u + by_u.transpose() * carried_u,
-        })
+        state: &State<L::Scalar, N>,
+        covector: &State<L::Scalar, N>,
+    ) -> Result<StepWith<L::Scalar, N, StepHessian<L::Scalar, N, M>>, StepError>
+    where
+        L: DiscreteSecondOrder<R, N, M>,
+    {
+        self.system.step_with_hessian(state, self.h, self.guess.as_ref(), covector)
     }
 
-    /// The step with its second derivatives: [`Discretised::step_with_hessian`](crate::Discretised::step_with_hessian).
+    /// Second derivatives of `covector`.q·q1 + `covector`.p·p1 for the step that leads from q0 to q1.
+    ///
+    /// ```
+    /// use dalembert::nalgebra::vector;
+    /// use dalembert::{Discretise, Midpoint, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system(step_derivatives = second)]
+    /// fn quartic(q: [f64; 1], v: [f64; 1]) -> f64 {
+    ///     0.5 * v[0] * v[0] - 0.25 * q[0].powi(4)
+    /// }
+    /// let covector = State { q: vector![0.0], p: vector![1.0] };
+    /// let hessian = Quartic {}.by(Midpoint, 0.1).step_hessian(&vector![1.0], &vector![1.0], &covector)?;
+    /// assert!(hessian.qq[0] < 0.0); // the restoring force grows faster than linearly
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
     ///
     /// # Errors
-    /// Those of [`Discrete::linearized_step`].
-    fn step_with_hessian(
+    /// Those of [`linearization`](Self::linearization).
+    pub fn step_hessian<const M: usize>(
         &self,
-        state: &State<Self::Scalar, N>,
-        h: Self::Scalar,
-        guess: Option<&SVector<Self::Scalar, N>>,
-        covector: &State<Self::Scalar, N>,
-    ) -> Result<StepWith<Self::Scalar, N, StepHessian<Self::Scalar, N, M>>, StepError> {
-        let step = self.step(state, h, guess)?;
-        Ok((step, self.step_hessian(&state.q, &step.state.q, h, covector)?))
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        covector: &State<L::Scalar, N>,
+    ) -> Result<StepHessian<L::Scalar, N, M>, StepError>
+    where
+        L: DiscreteSecondOrder<R, N, M>,
+    {
+        self.system.step_hessian(q0, q1, self.h, covector)
     }
-}
-
-/// Second derivatives of λ·(q1, p1) by (q0, p0, u); the formula stands above.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct StepHessian<S, const N: usize, const M: usize = 0> {
-    /// By q0 twice, symmetric.
-    pub qq: SMatrix<S, N, N>,
-    /// By q0 (rows) and p0.
-    pub qp: SMatrix<S, N, N>,
-    /// By p0 twice, symmetric.
-    pub pp: SMatrix<S, N, N>,
-    /// By q0 (rows) and u.
-    pub qu: SMatrix<S, N, M>,
-    /// By p0 (rows) and u.
-    pub pu: SMatrix<S, N, M>,
-    /// By u twice, symmetric.
-    pub uu: SMatrix<S, M, M>,
 }

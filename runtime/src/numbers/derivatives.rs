@@ -5,7 +5,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::Scalar;
+use crate::numbers::Scalar;
 
 /// Value and first derivatives of f(x, y).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -137,10 +137,45 @@ impl<S: Scalar, const N: usize> CovectorDerivatives<S, N> {
     }
 }
 
+/// Second derivatives of a function of (x, y, u), x and y ∈ ℝᴺ, u ∈ ℝᴹ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hessian<S, const N: usize, const M: usize = 0> {
+    /// By x twice, symmetric.
+    pub d11: SMatrix<S, N, N>,
+    /// By x (rows) and y.
+    pub d12: SMatrix<S, N, N>,
+    /// By y twice, symmetric.
+    pub d22: SMatrix<S, N, N>,
+    /// By x (rows) and u.
+    pub d1u: SMatrix<S, N, M>,
+    /// By y (rows) and u.
+    pub d2u: SMatrix<S, N, M>,
+    /// By u twice, symmetric.
+    pub duu: SMatrix<S, M, M>,
+}
+
+impl<S: Scalar, const N: usize, const M: usize> Hessian<S, N, M> {
+    /// Second derivatives by (a, b, u) where x = `a.first` a + `b.first` b and y = `a.second` a + `b.second` b.
+    #[inline]
+    #[must_use]
+    pub fn pull_back(&self, a: Direction<S>, b: Direction<S>) -> Self {
+        let second = |a, b| second_along(&self.d11, &self.d12, &self.d22, a, b);
+        let with_input = |s: Direction<S>| self.d1u * s.first + self.d2u * s.second;
+        Self {
+            d11: second(a, a),
+            d12: second(a, b),
+            d22: second(b, b),
+            d1u: with_input(a),
+            d2u: with_input(b),
+            duu: self.duu,
+        }
+    }
+}
+
 /// Makes a type a vector space: zero, sum and scaling act on every field.
 macro_rules! linear {
     ($type:ident $(<$($size:ident),+>)? { $($field:ident),+ }) => {
-        impl<S: $crate::Scalar, const N: usize $($(, const $size: usize)+)?> $type<S, N $($(, $size)+)?> {
+        impl<S: $crate::numbers::Scalar, const N: usize $($(, const $size: usize)+)?> $type<S, N $($(, $size)+)?> {
             /// Zero in every field.
             #[inline]
             #[must_use]
@@ -149,7 +184,7 @@ macro_rules! linear {
             }
         }
 
-        impl<S: $crate::Scalar, const N: usize $($(, const $size: usize)+)?> core::ops::Add
+        impl<S: $crate::numbers::Scalar, const N: usize $($(, const $size: usize)+)?> core::ops::Add
             for $type<S, N $($(, $size)+)?>
         {
             type Output = Self;
@@ -159,7 +194,7 @@ macro_rules! linear {
             }
         }
 
-        impl<S: $crate::Scalar, const N: usize $($(, const $size: usize)+)?> core::ops::Mul<S>
+        impl<S: $crate::numbers::Scalar, const N: usize $($(, const $size: usize)+)?> core::ops::Mul<S>
             for $type<S, N $($(, $size)+)?>
         {
             type Output = Self;
@@ -175,3 +210,4 @@ pub(crate) use linear;
 linear!(Derivatives { value, d1, d2, d11, d12, d22 });
 linear!(CovectorDerivatives { value, d1, d2 });
 linear!(Variations { minus, plus, mixed });
+linear!(Hessian<M> { d11, d12, d22, d1u, d2u, duu });

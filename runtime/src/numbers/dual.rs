@@ -17,7 +17,7 @@ mod singular;
 use nalgebra::{Const, SMatrix};
 use num_dual::{Derivative, DualNum, DualSVec, HyperDualVec};
 
-use crate::Scalar;
+use crate::numbers::Scalar;
 
 pub use derivatives::{
     by_input, covector_derivatives, covector_variation, derivatives, gradient, variations,

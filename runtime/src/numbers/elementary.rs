@@ -8,7 +8,7 @@
 //!
 //! Everything that this crate evaluates (generated systems, dual numbers) takes its elementary functions from here.
 
-use crate::Scalar;
+use crate::numbers::Scalar;
 
 #[cfg(all(feature = "std", not(feature = "libm")))]
 mod platform;

@@ -8,16 +8,13 @@
 
 mod functions;
 mod operators;
-mod vectors;
 
 use core::array;
 use core::ops::{BitAnd, BitOr, Not};
 
 use nalgebra::SVector;
 
-use crate::Scalar;
-pub(crate) use functions::Functions;
-pub(crate) use vectors::Vectors;
+use crate::numbers::Scalar;
 
 /// S numbers side by side. Operators and functions act on each of them.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,13 +5,15 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::Scalar;
+use crate::numbers::Scalar;
 
 mod banded;
 mod dense;
+mod determinant;
 
 pub use banded::{Banded, FactoredBand};
 pub use dense::FactoredDense;
+pub(crate) use determinant::determinant_sign;
 
 /// A matrix that has no solution to working precision: the column whose pivot is lost to rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use nalgebra::RealField;
 
-use crate::numbers::lanes::{Functions, Vectors};
+use crate::numbers::{Functions, Vectors};
 
 mod sealed {
     pub trait Sealed {}

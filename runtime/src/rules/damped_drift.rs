@@ -12,9 +12,12 @@ use core::cmp::Ordering;
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::step::discrete::{self, BoundedStep, Momenta, StepKernel};
-use crate::step::newton::Equation;
-use crate::{NewtonMatrix, Quantity, Rayleigh, Scalar, State, Step, StepError};
+use crate::numbers::{NewtonMatrix, Scalar};
+use crate::step::{
+    BoundedStep, Momenta, Quantity, State, Step, StepError, StepKernel, newton::Equation, step_by,
+    step_within_by,
+};
+use crate::system::{GeneratedDiffers, Rayleigh};
 
 /// The matrices of a damped free segment, and the terms of first degree: what a step by a fitted rule needs of the system, but for the
 /// potential. They depend on h alone.
@@ -155,7 +158,7 @@ pub(crate) trait ByDrift {
         let momenta = |q0: &_, v: &_, h| Self::momenta(drift, system, q0, v, h);
         // Under damping that excites, what is left of M in p0 is below any share of it.
         let inertia = |_: &_, _: &_| drift.before;
-        let step = discrete::step_by(system, Self::EQUATION, (kernel, momenta, inertia), state, h, guess)
+        let step = step_by(system, Self::EQUATION, (kernel, momenta, inertia), state, h, guess)
             .map_err(|error| of_mass(system, &state.q, error));
         if cfg!(debug_assertions)
             && let Ok(step) = &step
@@ -171,7 +174,7 @@ pub(crate) trait ByDrift {
         state: &State<L::Scalar, N>,
         step: &Step<L::Scalar, N>,
         h: L::Scalar,
-    ) -> Result<(), StepError> {
+    ) -> Result<(), GeneratedDiffers> {
         Self::NODES.iter().try_for_each(|&share| {
             let q = state.q + step.velocity * (h * L::Scalar::constant(share));
             system.verify_generated(&q, &step.velocity)
@@ -189,9 +192,8 @@ pub(crate) trait ByDrift {
         let drift = DampedDrift::of(system, &state.q, h);
         let kernel = |q0: &_, v: &_| Self::kernel(&drift, system, q0, v, h);
         let momenta = |q0: &_, v: &_| Self::momenta(&drift, system, q0, v, h);
-        let bounded =
-            discrete::step_within_by(system, Self::EQUATION, kernel, momenta, state, h, guess, iterations)
-                .map_err(|error| of_mass(system, &state.q, error));
+        let bounded = step_within_by(system, Self::EQUATION, kernel, momenta, state, h, guess, iterations)
+            .map_err(|error| of_mass(system, &state.q, error));
         if cfg!(debug_assertions)
             && let Ok(bounded) = &bounded
         {

@@ -10,11 +10,9 @@
 
 use nalgebra::SVector;
 
-use crate::step::discrete::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
-use crate::{
-    CovectorDerivatives, Derivatives, Direction, Driven, Force, Hessian, Lagrangian, MomentaBy, Parameters,
-    Rayleigh, Scalar, SecondOrder, StepError,
-};
+use crate::numbers::{CovectorDerivatives, Derivatives, Direction, Hessian, Scalar};
+use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, MomentaBy, StepKernel};
+use crate::system::{Driven, Force, GeneratedDiffers, Lagrangian, Parameters, Rayleigh, SecondOrder};
 
 /// A node of the quadrature over one segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -396,13 +394,13 @@ pub trait DisplacementRule: Copy {
     /// Verifies the system at the nodes of the segment: [`Lagrangian::verify_generated`].
     ///
     /// # Errors
-    /// [`StepError::GeneratedDiffers`].
+    /// [`GeneratedDiffers`].
     fn verify_segment<L: Lagrangian<N>, const N: usize>(
         system: &L,
         q0: &SVector<L::Scalar, N>,
         v: &SVector<L::Scalar, N>,
         h: L::Scalar,
-    ) -> Result<(), StepError> {
+    ) -> Result<(), GeneratedDiffers> {
         on_velocity::<Self, _, N>(q0, v, h)
             .try_for_each(|node| system.later(node.time(h), |system| system.verify_generated(&node.q, v)))
     }

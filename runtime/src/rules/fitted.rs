@@ -2,9 +2,12 @@ use nalgebra::SVector;
 
 use super::damped_drift::{ByDrift, DampedDrift};
 use super::{JointRayleighRule, JointRule};
-use crate::step::discrete::{BoundedStep, DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
-use crate::step::newton::Equation;
-use crate::{CovectorDerivatives, Derivatives, Lagrangian, Rayleigh, Scalar, State, Step, StepError};
+use crate::numbers::{CovectorDerivatives, Derivatives, Scalar};
+use crate::step::{
+    BoundedStep, DiscreteForce, DiscreteForceDerivatives, Momenta, State, Step, StepError, StepKernel,
+    newton::Equation,
+};
+use crate::system::{Lagrangian, Rayleigh};
 
 /// The midpoint rule, exponentially fitted to linear damping: it does not ring, however stiff the damping.
 ///

@@ -2,9 +2,12 @@ use nalgebra::SVector;
 
 use super::damped_drift::{ByDrift, DampedDrift};
 use super::{DisplacementRule, JointRayleighRule, JointRule, Trapezoidal};
-use crate::step::discrete::{BoundedStep, DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
-use crate::step::newton::Equation;
-use crate::{CovectorDerivatives, Derivatives, Rayleigh, Scalar, State, Step, StepError};
+use crate::numbers::{CovectorDerivatives, Derivatives, Scalar};
+use crate::step::{
+    BoundedStep, DiscreteForce, DiscreteForceDerivatives, Momenta, State, Step, StepError, StepKernel,
+    newton::Equation,
+};
+use crate::system::{GeneratedDiffers, Rayleigh};
 
 /// The trapezoidal rule, exponentially fitted to linear damping: explicit, and exact where there is no potential.
 ///
@@ -190,7 +193,7 @@ impl JointRule for FittedTrapezoidal {
         q0: &SVector<L::Scalar, N>,
         v: &SVector<L::Scalar, N>,
         h: L::Scalar,
-    ) -> Result<(), StepError> {
+    ) -> Result<(), GeneratedDiffers> {
         Trapezoidal::verify_segment(system, q0, v, h)
     }
 }

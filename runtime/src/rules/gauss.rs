@@ -16,13 +16,13 @@ mod tangent;
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::numbers::lanes::splat;
-use crate::step::error::Quantity;
-use crate::step::newton::{ITERATIONS, along_h};
-use crate::{
-    Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, EquationAt, ForcedLagrangian,
-    LegendreDerivatives, Linearization, Momenta, Report, Scalar, State, StateBy, Step, StepError, StepKernel,
+use crate::numbers::{Derivatives, Scalar, lanes::splat};
+use crate::step::{
+    Discrete, DiscreteForce, DiscreteForceDerivatives, EquationAt, LegendreDerivatives, Linearization,
+    Momenta, Quantity, Report, State, StateBy, Step, StepError, StepKernel,
+    newton::{ITERATIONS, along_h},
 };
+use crate::system::{ForcedLagrangian, GeneratedDiffers};
 use coefficients::Coefficients;
 pub use history::StageHistory;
 use problem::{Compensated, Problem, Solution};
@@ -254,7 +254,7 @@ where
 
     /// At the nodes of the segment with the mean velocity: near the stages, which would have to be solved for. A step verifies
     /// its own.
-    fn verify_segment(&self, q0: &SVector<T, N>, v: &SVector<T, N>, h: T) -> Result<(), StepError> {
+    fn verify_segment(&self, q0: &SVector<T, N>, v: &SVector<T, N>, h: T) -> Result<(), GeneratedDiffers> {
         Gauss::<S>::NODES.iter().try_for_each(|&node| {
             let elapsed = h * T::constant(node);
             self.later(elapsed, |system| system.verify_generated(&(q0 + v * elapsed), v))
@@ -281,7 +281,7 @@ fn solved<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, con
     h: T,
     guess: Option<&SVector<T, N>>,
 ) -> Result<(Problem<'a, L, N, S>, Solution<T, N, S>), StepError> {
-    crate::step::discrete::require_step_size(h)?;
+    crate::step::require_step_size(h)?;
     StepError::require_finite(&state.q, Quantity::Configuration)?;
     StepError::require_finite(&state.p, Quantity::Momentum)?;
     let problem = Problem::new(system, Compensated::new(state.q), Compensated::new(state.p), h);

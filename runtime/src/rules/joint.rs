@@ -3,8 +3,9 @@
 use nalgebra::SVector;
 
 use super::{DisplacementRule, Midpoint};
-use crate::step::discrete::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
-use crate::{Derivatives, Rayleigh, StepError};
+use crate::numbers::Derivatives;
+use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
+use crate::system::{GeneratedDiffers, Rayleigh};
 
 /// A rule whose discrete objects need L and R at once.
 ///
@@ -69,13 +70,13 @@ pub trait JointRule: Copy {
     /// Verifies the system at the middle of the segment.
     ///
     /// # Errors
-    /// [`StepError::GeneratedDiffers`].
+    /// [`GeneratedDiffers`].
     fn verify_segment<L: Rayleigh<N>, const N: usize>(
         system: &L,
         q0: &SVector<L::Scalar, N>,
         v: &SVector<L::Scalar, N>,
         h: L::Scalar,
-    ) -> Result<(), StepError> {
+    ) -> Result<(), GeneratedDiffers> {
         Midpoint::verify_segment(system, q0, v, h)
     }
 }

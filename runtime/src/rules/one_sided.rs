@@ -1,8 +1,9 @@
 use nalgebra::SVector;
 
 use super::{DisplacementRule, JointRayleighRule, JointRule, Midpoint};
-use crate::step::discrete::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
-use crate::{Derivatives, Rayleigh};
+use crate::numbers::Derivatives;
+use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
+use crate::system::Rayleigh;
 
 /// The midpoint rule with all of the damping at the start of the segment: L-stable for every convex R(v), of order 1.
 ///

@@ -1,5 +1,7 @@
 //! The marker of rules whose step is solved for v̄ itself.
 
+use crate::step::{BoundedStep, Discrete, Discretised, State, StepError};
+
 use super::{Fitted, FittedTrapezoidal, Midpoint, OneSided, Trapezoidal};
 
 /// A rule whose step solves p0 = −D1 L_d − f_d⁻ for v̄ itself, so that an iteration is one evaluation of both sides: the work of its step can be
@@ -28,3 +30,24 @@ impl SolvedForVelocity for Trapezoidal {}
 impl SolvedForVelocity for Fitted {}
 impl SolvedForVelocity for FittedTrapezoidal {}
 impl SolvedForVelocity for OneSided {}
+
+/// Steps of bounded work.
+impl<L, R, const N: usize> Discretised<'_, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    /// The step by at most `iterations` undamped Newton iterations, for a clock that does not wait: [`Discrete::step_within`].
+    ///
+    /// # Errors
+    /// [`StepError`] where not even one iteration can be made; the state given is untouched.
+    pub fn step_within(
+        &self,
+        state: &State<L::Scalar, N>,
+        iterations: u32,
+    ) -> Result<BoundedStep<L::Scalar, N>, StepError>
+    where
+        R: SolvedForVelocity,
+    {
+        self.system.step_within(state, self.h, self.guess.as_ref(), iterations)
+    }
+}

@@ -1,7 +1,9 @@
 //! Runs as they can be saved, and what holds up a run: a system that is not the one written, its end, and a clock that no longer
 //! runs.
 
-use crate::{Lagrangian, Scalar, State, StepError, step::verification};
+use crate::numbers::Scalar;
+use crate::step::{State, StepError, verify_start};
+use crate::system::Lagrangian;
 
 /// A run as it can be saved; see [`Trajectory::checkpoint`](crate::Trajectory::checkpoint). With the feature `serde` it can be written and read.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,7 +109,7 @@ impl Course {
         at: &Checkpoint<L::Scalar, N>,
     ) -> Result<(), StepError> {
         if *self == Self::Starting {
-            verification::at_start(system, at.time(), &at.state)?;
+            verify_start(system, at.time(), &at.state)?;
             *self = Self::of(at);
         }
         self.require_time(at)

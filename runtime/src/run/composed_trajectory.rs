@@ -1,7 +1,8 @@
 //! Runs by steps of several parts, of one size.
 
-use crate::run::checkpoint::Course;
-use crate::{Checkpoint, Lagrangian, State, StepError};
+use crate::run::{Checkpoint, Course};
+use crate::step::{State, StepError};
+use crate::system::Lagrangian;
 
 /// A step that is made of several, with what it keeps for the next: [`Substeps`](crate::Substeps) of a
 /// [`Composition`](crate::Composition), [`Kicks`](crate::Kicks) and drifts of a [`Splitting`](crate::Splitting).

@@ -2,9 +2,10 @@
 
 use core::array;
 
-use crate::{
-    Checkpoint, ComposedStep, ComposedTrajectory, Discrete, Memory, Scalar, SelfAdjoint, State, StepError,
-};
+use crate::numbers::Scalar;
+use crate::rules::SelfAdjoint;
+use crate::run::{Checkpoint, ComposedStep, ComposedTrajectory};
+use crate::step::{Discrete, Memory, State, StepError};
 
 /// A composition of S substeps γ₁h, …, γ_S h of rule `R`, symmetric (γᵢ = γ_{S+1−i}) and of high order.
 ///

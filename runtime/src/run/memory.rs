@@ -10,65 +10,8 @@ pub use kept_matrix::KeptMatrix;
 
 use nalgebra::SVector;
 
-use crate::{Discrete, Scalar, State, Step, StepError};
-
-/// What a run keeps from step to step, and how the next step uses it.
-///
-/// [`Default`] is the memory before the first step. What is remembered makes a step cheaper; it never decides where the step
-/// leads, beyond rounding: a memory of other states or another step size does no harm.
-pub trait Memory<L: ?Sized, R, const N: usize>: Default
-where
-    L: Discrete<R, N>,
-{
-    /// The step of [`Discrete::step`] from `state`.
-    ///
-    /// # Errors
-    /// Those of [`Discrete::step`]; what is remembered is then as before.
-    fn advance(
-        &mut self,
-        system: &L,
-        state: &State<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> Result<Step<L::Scalar, N>, StepError>;
-
-    /// Takes over what is known of the state from which the next step starts, from the memory of the step that ended there. In a
-    /// composition that is the one of the substep before.
-    fn follow(&mut self, _previous: &Self) {}
-
-    /// The step from `state`, `elapsed` after the time of `system`: of the system as it is then ([`Lagrangian::later`](crate::Lagrangian::later)).
-    ///
-    /// # Errors
-    /// Those of [`advance`](Self::advance).
-    #[inline]
-    fn advance_later(
-        &mut self,
-        system: &L,
-        elapsed: f64,
-        state: &State<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> Result<Step<L::Scalar, N>, StepError>
-    where
-        L: Sized,
-    {
-        system.later(L::Scalar::constant(elapsed), |system| self.advance(system, state, h))
-    }
-}
-
-/// The step `found`, from a guess if there was one. A guess that leads nowhere is not the step's fault: then the
-/// step `without`.
-///
-/// Both are asked for where they are needed: a function that asks for both would be another copy of the solver.
-#[inline(always)]
-pub(crate) fn or_without_guess<S, const N: usize>(
-    has_guess: bool,
-    mut found: Result<Step<S, N>, StepError>,
-    without: impl FnOnce() -> Result<Step<S, N>, StepError>,
-) -> Result<Step<S, N>, StepError> {
-    if has_guess && found.is_err() {
-        found = without();
-    }
-    found
-}
+use crate::numbers::Scalar;
+use crate::step::{Discrete, Memory, State, Step, StepError, or_without_guess};
 
 /// The latest four mean velocities: the next, extrapolated to order 3, is the guess for Newton's method.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,12 +2,10 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::numbers::{NewtonMatrix, Scalar};
 use crate::rules::{Drift, modes, require_positive_definite};
-use crate::run::composition::symmetric;
-use crate::step::error::Quantity;
-use crate::{
-    Checkpoint, ComposedStep, ComposedTrajectory, Explicit, Momenta, NewtonMatrix, Scalar, State, StepError,
-};
+use crate::run::{Checkpoint, ComposedStep, ComposedTrajectory, Explicit, composition::symmetric};
+use crate::step::{Momenta, Quantity, State, StepError};
 
 /// A splitting of the motion into kicks by the potential and damped free motions between, S of them, symmetric and of high
 /// order: for L = ½vᵀMv − V(q) and R = ½vᵀCv with constant M, positive definite, and C, and a force f(q).
@@ -204,7 +202,7 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
         splitting: &Splitting<S>,
         h: T,
     ) -> Result<Self, StepError> {
-        crate::step::discrete::require_step_size(h)?;
+        crate::step::require_step_size(h)?;
         let Momenta { p0, p1 } = system.velocity_momenta(&nalgebra::zero(), T::one() + T::one());
         let half = T::constant(0.5);
         let (mass, damping) = mass_and_damping(system);

@@ -14,7 +14,9 @@ mod variation;
 
 use nalgebra::ComplexField;
 
-use crate::{Lagrangian, Scalar, State, StepError, step::verification};
+use crate::numbers::Scalar;
+use crate::step::{State, StepError, verify_start};
+use crate::system::Lagrangian;
 pub use guard::GuardedTrajectory;
 pub use methods::{
     Composed, GaussOr, MethodStep, Methods, SplitOr, Stagewise, Taken, WithGauss, WithSplittings,
@@ -199,7 +201,7 @@ impl Method {
         if !valid(time) || !valid(tolerance) {
             return Err(ToleranceError::Request { time, tolerance });
         }
-        verification::at_start(system, 0.0, start).map_err(ToleranceError::Step)?;
+        verify_start(system, 0.0, start).map_err(ToleranceError::Step)?;
         search::choice(system, methods, start, time, tolerance)
     }
 

@@ -4,8 +4,21 @@ use core::marker::PhantomData;
 
 use nalgebra::SVector;
 
-use crate::run::checkpoint::Course;
-use crate::{Checkpoint, Discrete, Memory, Scalar, State, Step, StepError};
+use crate::numbers::Scalar;
+use crate::run::{Checkpoint, Course};
+use crate::step::{Discrete, Discretised, Memory, State, Step, StepError};
+
+/// Runs.
+impl<'a, L, R, const N: usize> Discretised<'a, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    /// The steps from `state`, one after the other: each is cheaper than [`step`](Self::step), by what is known of those before.
+    #[must_use = "a run is an iterator: it takes a step when it is asked for the next"]
+    pub fn run(&self, state: State<L::Scalar, N>) -> Trajectory<'a, L, R, N> {
+        Trajectory::from_checkpoint(self.system, Checkpoint::new(self.h, state))
+    }
+}
 
 /// The trajectory of a system from a state, one step at a time.
 ///

@@ -7,169 +7,15 @@
 //! D2 L_d(q0, q1) + f_d⁺(q0, q1) + D1 L_d(q1, q2) + f_d⁻(q1, q2) = 0
 //! ```
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
-use crate::derivative::certificate::determinant_sign;
-use crate::numbers::derivatives::linear;
-use crate::step::error::{Quantity, StepError};
-use crate::step::newton::{self, Equation, StepEquations};
-use crate::step::state::require_regular;
-use crate::{
-    CovectorDerivatives, Derivatives, Lagrangian, LegendreDerivatives, Linearization, Memory, NewtonMatrix,
-    Rayleigh, Scalar, State,
+use crate::numbers::{Derivatives, NewtonMatrix, Scalar, determinant_sign};
+use crate::step::{
+    BoundedStep, DiscreteForce, DiscreteForceDerivatives, EquationAt, LegendreDerivatives, Linearization,
+    Momenta, Quantity, State, Step, StepError, StepKernel, StepWith, newton::Equation, require_step_size,
+    step_by, step_within_by,
 };
-
-/// The discrete force f_d = (f_d⁻, f_d⁺): covectors at q0 and at q1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DiscreteForce<S, const N: usize> {
-    /// f_d⁻(q0, q1), at q0.
-    pub minus: SVector<S, N>,
-    /// f_d⁺(q0, q1), at q1.
-    pub plus: SVector<S, N>,
-}
-
-/// The discrete force with its derivatives by q0 (`d1`) and q1 (`d2`).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DiscreteForceDerivatives<S, const N: usize> {
-    /// f_d⁻, D1 f_d⁻, D2 f_d⁻.
-    pub minus: CovectorDerivatives<S, N>,
-    /// f_d⁺, D1 f_d⁺, D2 f_d⁺.
-    pub plus: CovectorDerivatives<S, N>,
-}
-
-/// The step's equation at a trial v̄ = (q1 − q0)/h.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepKernel<S, const N: usize, M = SMatrix<S, N, N>> {
-    /// The momentum −D1 L_d − f_d⁻ at q0, to be matched with the state's.
-    pub p0: SVector<S, N>,
-    /// Newton matrix ∂p0/∂v̄ = −h (D2 D1 L_d + D2 f_d⁻).
-    pub matrix: M,
-}
-
-/// Both momenta of a segment.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Momenta<S, const N: usize> {
-    /// −D1 L_d − f_d⁻, at q0.
-    pub p0: SVector<S, N>,
-    /// D2 L_d + f_d⁺, at q1.
-    pub p1: SVector<S, N>,
-}
-
-linear!(DiscreteForce { minus, plus });
-linear!(StepKernel { p0, matrix });
-linear!(Momenta { p0, p1 });
-
-impl<S: Scalar, const N: usize> DiscreteForceDerivatives<S, N> {
-    /// Zero in every field.
-    #[inline]
-    #[must_use]
-    pub fn zero() -> Self {
-        Self { minus: CovectorDerivatives::zero(), plus: CovectorDerivatives::zero() }
-    }
-
-    /// f_d⁻ = D1 R_d and f_d⁺ = −D2 R_d.
-    #[inline]
-    pub(crate) fn of_rayleigh(r: &Derivatives<S, N>) -> Self {
-        Self {
-            minus: CovectorDerivatives { value: r.d1, d1: r.d11, d2: r.d12 },
-            plus: CovectorDerivatives { value: -r.d2, d1: -r.d12.transpose(), d2: -r.d22 },
-        }
-    }
-
-    /// The derivatives of the R_d with this force, and its `value`.
-    #[inline]
-    pub(crate) fn as_of_rayleigh(&self, value: S) -> Derivatives<S, N> {
-        let Self { minus, plus } = self;
-        Derivatives { value, d1: minus.value, d2: -plus.value, d11: minus.d1, d12: minus.d2, d22: -plus.d2 }
-    }
-}
-
-impl<S: Scalar, const N: usize> core::ops::Add for DiscreteForceDerivatives<S, N> {
-    type Output = Self;
-    #[inline]
-    fn add(self, other: Self) -> Self {
-        Self { minus: self.minus + other.minus, plus: self.plus + other.plus }
-    }
-}
-
-/// How a step went.
-///
-/// | question | answer |
-/// |---|---|
-/// | how much work | `iterations`, `damped` |
-/// | how well the equation is solved | `residual` against `floor`: at most 4 floors, in every coordinate |
-/// | what is left of v̄ | at most about the square of `last_correction`, relative to v̄ |
-/// | how well it was posed: condition of the Newton matrix, branch of the root | on request, [`Discretised::certificate`](crate::Discretised::certificate), so that steps do not pay for it |
-///
-/// **A step is solved**, by every rule, with or without a memory, and with `converged` of [`BoundedStep`], where in each coordinate the
-/// residual is at most 4 round-off floors; the floor is that of the solution returned, finite, and small beside the terms of the
-/// equation. It is 4ε (|p| + Σ |J||v̄|) with the Newton matrix J, plus, where forces cancel, what the last places of q and v̄ do to
-/// the residual, measured. The state returned then satisfies the rule's equations with q, v̄ and p changed by some units of their
-/// last places. Whatever does not is an error; no step is taken on a residual that merely stopped falling.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Report<S> {
-    /// Corrections: of v̄ by Newton's method, or by a matrix kept; by Gauss rules of all stages at once, by fixed point or Newton's method.
-    pub iterations: u32,
-    /// Iterations whose Newton step had to be shortened.
-    pub damped: u32,
-    /// |𝔽⁻(q0, q1) − p0| at the solution, as evaluated there, of the coordinate where it is largest in units of its floor.
-    pub residual: S,
-    /// The round-off floor that this residual was held against, in units of the same momentum.
-    pub floor: S,
-    /// Largest entry of the last correction of v̄.
-    pub last_correction: S,
-}
-
-/// A step taken: the new state, the mean velocity over the segment, and how the solver fared.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step<S, const N: usize> {
-    /// (q1, p1).
-    pub state: State<S, N>,
-    /// v̄ = (q1 − q0)/h, a good guess for the next step.
-    pub velocity: SVector<S, N>,
-    /// How the solver fared.
-    pub report: Report<S>,
-}
-
-impl<S: Scalar, const N: usize> Step<S, N> {
-    /// The step from `state` with mean velocity `velocity`, if it leads to finite numbers.
-    #[inline(always)]
-    pub(crate) fn completed(
-        state: &State<S, N>,
-        h: S,
-        velocity: SVector<S, N>,
-        momenta: &Momenta<S, N>,
-        report: Report<S>,
-    ) -> Result<Self, StepError> {
-        // Added to the p0 given: the residual of the solver, always of one sign, would make it drift.
-        let next = State { q: state.q + velocity * h, p: state.p + (momenta.p1 - momenta.p0) };
-        next.require_finite()?;
-        Ok(Self { state: next, velocity, report })
-    }
-}
-/// A step, and derivatives of it.
-pub type StepWith<S, const N: usize, D> = (Step<S, N>, D);
-
-/// The equation of a step at the step that was taken; see [`Discrete::equation_at`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EquationAt<S, const N: usize, M> {
-    /// p0 and the Newton matrix.
-    pub kernel: StepKernel<S, N, M>,
-    /// ∂²L/∂v² at q0 and the mean velocity.
-    pub mass: SMatrix<S, N, N>,
-    /// Whether the determinant of the equations has the sign that it has for small h.
-    pub on_the_branch_of_the_flow: bool,
-}
-
-/// A step by a bounded number of iterations: the best iterate, and whether it is the root.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BoundedStep<S, const N: usize> {
-    /// The step of the best iterate; its report has the residual that is left and the last correction.
-    pub step: Step<S, N>,
-    /// Whether the residual is at its round-off floor, so that the step is that of [`Discrete::step`].
-    pub converged: bool,
-}
+use crate::system::{GeneratedDiffers, Lagrangian};
 
 /// A system discretised by rule `R`: L_d, f_d and what follows from them.
 ///
@@ -384,13 +230,13 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
     /// With `debug_assertions` every step does so; without them the caller has to.
     ///
     /// # Errors
-    /// [`StepError::GeneratedDiffers`].
+    /// [`GeneratedDiffers`].
     fn verify_segment(
         &self,
         q0: &SVector<Self::Scalar, N>,
         v: &SVector<Self::Scalar, N>,
         h: Self::Scalar,
-    ) -> Result<(), StepError> {
+    ) -> Result<(), GeneratedDiffers> {
         let _ = (q0, v, h);
         Ok(())
     }
@@ -480,182 +326,44 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
     }
 }
 
-/// A discrete Rayleigh system: f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d, with L_d⁺ = L_d + R_d and L_d⁻ = L_d − R_d.
+/// What a run keeps from step to step, and how the next step uses it.
 ///
-/// Plus goes with D1 and minus with D2: p0 = −D1 L_d⁺, p1 = D2 L_d⁻ (paper, section 3.3). Where the system has a general
-/// force as well, these are the objects of the Rayleigh part alone.
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` has no discrete Rayleigh function by `{R}`",
-    label = "this needs R_d, and `{Self}` has none",
-    note = "add `fn rayleigh(&self, v: [f64; {N}]) -> f64` to the `#[rayleigh_system]` block; `Discrete` holds all that exists without R"
-)]
-pub trait DiscreteRayleigh<R, const N: usize>: Discrete<R, N> + Rayleigh<N> {
-    /// R_d(q0, q1, h).
-    fn discrete_rayleigh(
-        &self,
-        q0: &SVector<Self::Scalar, N>,
-        q1: &SVector<Self::Scalar, N>,
-        h: Self::Scalar,
-    ) -> Self::Scalar;
-
-    /// R_d with D1, D2, D11, D12, D22.
-    fn discrete_rayleigh_derivatives(
-        &self,
-        q0: &SVector<Self::Scalar, N>,
-        q1: &SVector<Self::Scalar, N>,
-        h: Self::Scalar,
-    ) -> Derivatives<Self::Scalar, N>;
-
-    /// L_d⁺ = L_d + R_d.
-    #[inline]
-    fn modified_plus(
-        &self,
-        q0: &SVector<Self::Scalar, N>,
-        q1: &SVector<Self::Scalar, N>,
-        h: Self::Scalar,
-    ) -> Self::Scalar {
-        self.discrete_lagrangian(q0, q1, h) + self.discrete_rayleigh(q0, q1, h)
-    }
-
-    /// L_d⁻ = L_d − R_d.
-    #[inline]
-    fn modified_minus(
-        &self,
-        q0: &SVector<Self::Scalar, N>,
-        q1: &SVector<Self::Scalar, N>,
-        h: Self::Scalar,
-    ) -> Self::Scalar {
-        self.discrete_lagrangian(q0, q1, h) - self.discrete_rayleigh(q0, q1, h)
-    }
-
-    /// L_d⁺ with D1, D2, D11, D12, D22.
-    #[inline]
-    fn modified_plus_derivatives(
-        &self,
-        q0: &SVector<Self::Scalar, N>,
-        q1: &SVector<Self::Scalar, N>,
-        h: Self::Scalar,
-    ) -> Derivatives<Self::Scalar, N> {
-        self.discrete_lagrangian_derivatives(q0, q1, h) + self.discrete_rayleigh_derivatives(q0, q1, h)
-    }
-
-    /// L_d⁻ with D1, D2, D11, D12, D22.
-    #[inline]
-    fn modified_minus_derivatives(
-        &self,
-        q0: &SVector<Self::Scalar, N>,
-        q1: &SVector<Self::Scalar, N>,
-        h: Self::Scalar,
-    ) -> Derivatives<Self::Scalar, N> {
-        self.discrete_lagrangian_derivatives(q0, q1, h)
-            + self.discrete_rayleigh_derivatives(q0, q1, h) * -Self::Scalar::constant(1.0)
-    }
-}
-
-/// [`Discrete::step`] with the step's equation and both momenta as functions of (q0, v̄, h), and the mass that the velocity has in them.
-#[inline]
-pub(crate) fn step_by<L, M, const N: usize>(
-    system: &L,
-    kind: Equation,
-    (kernel, momenta, inertia): (
-        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> StepKernel<L::Scalar, N, M>,
-        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> Momenta<L::Scalar, N>,
-        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, N>,
-    ),
-    state: &State<L::Scalar, N>,
-    h: L::Scalar,
-    guess: Option<&SVector<L::Scalar, N>>,
-) -> Result<Step<L::Scalar, N>, StepError>
+/// [`Default`] is the memory before the first step. What is remembered makes a step cheaper; it never decides where the step
+/// leads, beyond rounding: a memory of other states or another step size does no harm.
+pub trait Memory<L: ?Sized, R, const N: usize>: Default
 where
-    L: Lagrangian<N> + ?Sized,
-    M: NewtonMatrix<L::Scalar, N>,
+    L: Discrete<R, N>,
 {
-    require_step_size(h)?;
-    let start = match guess {
-        Some(v) => *v,
-        None => first_guess(system, kind, state)?,
-    };
-    let evaluate = |q: &_, v: &_| kernel(q, v, h);
-    let finish = |q: &_, v: &_| momenta(q, v, h);
-    let solution = match newton::quick(kind, &evaluate, &finish, state, start) {
-        Ok(solution) => solution,
-        Err(reached) => {
-            let of = StepEquations { kernel: &kernel, momenta: &momenta, inertia: &inertia, state, h };
-            newton::at_length(&of, start, guess.is_some(), reached)
-                .map_err(|error| in_arguments(state, guess).unwrap_or(error))?
-        }
-    };
-    // An argument that is not finite shows here or has failed above: none is looked at before.
-    Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)
-        .map_err(|error| in_arguments(state, guess).unwrap_or(error))
-}
+    /// The step of [`Discrete::step`] from `state`.
+    ///
+    /// # Errors
+    /// Those of [`Discrete::step`]; what is remembered is then as before.
+    fn advance(
+        &mut self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<Step<L::Scalar, N>, StepError>;
 
-/// The velocity of `state`; where none is found, rest: a step may lead on, as from p = 0 at a singular point of L. Rest as well where
-/// the equation is linear: one correction leads from there to the root, with the least rounding.
-#[cold]
-#[inline(never)]
-fn first_guess<L: Lagrangian<N> + ?Sized, const N: usize>(
-    system: &L,
-    kind: Equation,
-    state: &State<L::Scalar, N>,
-) -> Result<SVector<L::Scalar, N>, StepError> {
-    let rest = nalgebra::zero();
-    if kind == Equation::Linear {
-        state.require_finite()?;
-        return require_regular(&system.lagrangian_derivatives(&state.q, &rest).d22).map(|()| rest);
+    /// Takes over what is known of the state from which the next step starts, from the memory of the step that ended there. In a
+    /// composition that is the one of the substep before.
+    fn follow(&mut self, _previous: &Self) {}
+
+    /// The step from `state`, `elapsed` after the time of `system`: of the system as it is then ([`Lagrangian::later`](crate::Lagrangian::later)).
+    ///
+    /// # Errors
+    /// Those of [`advance`](Self::advance).
+    #[inline]
+    fn advance_later(
+        &mut self,
+        system: &L,
+        elapsed: f64,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<Step<L::Scalar, N>, StepError>
+    where
+        L: Sized,
+    {
+        system.later(L::Scalar::constant(elapsed), |system| self.advance(system, state, h))
     }
-    match state.velocity(system) {
-        Ok(v) if StepError::require_finite(&v, Quantity::Velocity).is_ok() => Ok(v),
-        Err(
-            error @ (StepError::DegenerateLagrangian { .. }
-            | StepError::NonFinite {
-                quantity: Quantity::Configuration | Quantity::Momentum | Quantity::Derivatives,
-                ..
-            }),
-        ) => Err(error),
-        _ => Ok(rest),
-    }
-}
-
-/// [`Discrete::step_within`], likewise.
-#[expect(clippy::too_many_arguments, reason = "those of the step, and the number of iterations")]
-pub(crate) fn step_within_by<L, M, const N: usize>(
-    system: &L,
-    kind: Equation,
-    kernel: impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> StepKernel<L::Scalar, N, M>,
-    momenta: impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> Momenta<L::Scalar, N>,
-    state: &State<L::Scalar, N>,
-    h: L::Scalar,
-    guess: Option<&SVector<L::Scalar, N>>,
-    iterations: u32,
-) -> Result<BoundedStep<L::Scalar, N>, StepError>
-where
-    L: Lagrangian<N> + ?Sized,
-    M: NewtonMatrix<L::Scalar, N>,
-{
-    require_step_size(h)?;
-    state.require_finite()?;
-    let guess = match guess {
-        Some(v) => *v,
-        None => first_guess(system, kind, state)?,
-    };
-    StepError::require_finite(&guess, Quantity::Velocity)?;
-    let (solution, converged) = newton::bounded(kind, iterations, kernel, momenta, state, guess)?;
-    let step = Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)?;
-    Ok(BoundedStep { step, converged })
-}
-
-/// The first argument that is not finite: the cause, where a step has failed.
-#[cold]
-fn in_arguments<S: Scalar, const N: usize>(
-    state: &State<S, N>,
-    guess: Option<&SVector<S, N>>,
-) -> Option<StepError> {
-    let of_guess = || guess.map_or(Ok(()), |v| StepError::require_finite(v, Quantity::Velocity));
-    state.require_finite().and_then(|()| of_guess()).err()
-}
-
-#[inline]
-pub(crate) fn require_step_size<S: Scalar>(h: S) -> Result<(), StepError> {
-    if h.is_finite() && h != S::zero() { Ok(()) } else { Err(StepError::StepSize { h: h.widen() }) }
 }

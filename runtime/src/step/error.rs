@@ -4,7 +4,8 @@ use core::fmt;
 
 use nalgebra::SMatrix;
 
-use crate::Scalar;
+use crate::numbers::Scalar;
+use crate::system::{Function, GeneratedDiffers};
 
 /// A quantity that an error speaks of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,21 +19,6 @@ pub enum Quantity {
     Momentum,
     /// The derivatives of L, R or f, at the point where the step evaluated them.
     Derivatives,
-}
-
-/// A function of a system.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Function {
-    /// L.
-    Lagrangian,
-    /// R.
-    Rayleigh,
-    /// A component of f.
-    Force {
-        /// Its coordinate.
-        index: usize,
-    },
 }
 
 /// Why a step was not taken. The state that it started from is untouched; each message says whether a smaller step size can help.
@@ -143,6 +129,12 @@ impl StepError {
     }
 }
 
+impl From<GeneratedDiffers> for StepError {
+    fn from(GeneratedDiffers { function, generated, written }: GeneratedDiffers) -> Self {
+        Self::GeneratedDiffers { function, generated, written }
+    }
+}
+
 impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -151,16 +143,6 @@ impl fmt::Display for Quantity {
             Self::Momentum => "momentum",
             Self::Derivatives => "derivative of L, R or f",
         })
-    }
-}
-
-impl fmt::Display for Function {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Lagrangian => f.write_str("L"),
-            Self::Rayleigh => f.write_str("R"),
-            Self::Force { index } => write!(f, "component {index} of f"),
-        }
     }
 }
 
@@ -216,11 +198,9 @@ impl fmt::Display for StepError {
                 "not converged after {iterations} iterations: residual {residual:.3e}, floor {floor:.3e}; \
                  try a smaller step"
             ),
-            Self::GeneratedDiffers { function, generated, written } => write!(
-                f,
-                "{function} is {written:e} as written and {generated:e} as generated: the derivatives belong to another \
-                 function, a fault of dalembert; report it with the body, and use `derivatives = num_dual` until it is mended"
-            ),
+            &Self::GeneratedDiffers { function, generated, written } => {
+                GeneratedDiffers { function, generated, written }.fmt(f)
+            }
         }
     }
 }

@@ -12,9 +12,8 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::numbers::linear::NewtonMatrix;
-use crate::step::discrete::{Momenta, StepKernel};
-use crate::{Report, Scalar, State, StepError};
+use crate::numbers::{NewtonMatrix, Scalar};
+use crate::step::{Momenta, Report, State, StepError, StepKernel};
 
 mod bounded;
 mod careful;

@@ -1,12 +1,9 @@
 //! A point of T*Q.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
-use crate::numbers::linear::{self, NewtonMatrix};
-use crate::step::error::{Quantity, StepError};
-use crate::step::newton::{self, estimated_floor, held_against};
-use crate::verification;
-use crate::{Lagrangian, Momenta, Scalar, StepKernel};
+use crate::numbers::Scalar;
+use crate::step::{Quantity, StepError};
 
 /// Configuration and momentum, a point (q, p) of T*Q.
 ///
@@ -30,128 +27,10 @@ pub struct State<S, const N: usize> {
 }
 
 impl<S: Scalar, const N: usize> State<S, N> {
-    /// The state (q, ∂L/∂v(q, v)), by the Legendre transform of L.
-    ///
-    /// # Errors
-    /// [`StepError::NonFinite`] if q, v, p or ∂²L/∂v² is not finite, [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is singular,
-    /// at v and next to it: that of |v|⁴ is singular at v = 0 alone; [`StepError::GeneratedDiffers`] if the derivatives generated
-    /// belong to another function.
-    pub fn from_velocity<L: Lagrangian<N, Scalar = S>>(
-        system: &L,
-        q: impl Into<SVector<S, N>>,
-        v: impl Into<SVector<S, N>>,
-    ) -> Result<Self, StepError> {
-        let (q, v) = (q.into(), v.into());
-        StepError::require_finite(&q, Quantity::Configuration)?;
-        StepError::require_finite(&v, Quantity::Velocity)?;
-        verification::around(system, &q, &v)?;
-        let l = system.lagrangian_derivatives(&q, &v);
-        StepError::require_finite(&l.d2, Quantity::Momentum)?;
-        require_regular(&l.d22).or_else(|error| require_regular_nearby(system, &q, &v, error))?;
-        Ok(Self { q, p: l.d2 })
-    }
-
-    /// The velocity v with ∂L/∂v(q, v) = p, by Newton's method (one iteration where L is quadratic in v).
-    ///
-    /// It starts at v = 0; where ∂²L/∂v² is singular or not finite there, as that of |v|⁴ and of |v|³ is, away from it.
-    ///
-    /// # Errors
-    /// As [`Discrete::step`](crate::Discrete::step); [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is singular everywhere,
-    /// [`StepError::NoVelocity`] if no velocity in reach has this momentum.
-    pub fn velocity<L: Lagrangian<N, Scalar = S> + ?Sized>(
-        &self,
-        system: &L,
-    ) -> Result<SVector<S, N>, StepError> {
-        self.require_finite()?;
-        let rest = nalgebra::zero();
-        let at_rest = system.lagrangian_derivatives(&self.q, &rest);
-        if let Err(error) = require_regular(&at_rest.d22) {
-            require_regular_nearby(system, &self.q, &rest, error)?;
-            return self.velocity_by_newton(system, Some(error));
-        }
-        let v = at_rest.d22.solve(&(self.p - at_rest.d2)).unwrap_or(rest);
-        let residual = system.lagrangian_gradient(&self.q, &v).d2 - self.p;
-        let (_, _, is_root) = held_against(&residual, &estimated_floor(&self.p, &at_rest.d22, &v));
-        if is_root && L::STRUCTURE.constant_mass_matrix {
-            return Ok(v);
-        }
-        self.velocity_by_newton(system, None)
-    }
-
-    /// By Newton's method from rest or, with the `error` that this led to, from away from it.
-    fn velocity_by_newton<L: Lagrangian<N, Scalar = S> + ?Sized>(
-        &self,
-        system: &L,
-        error: Option<StepError>,
-    ) -> Result<SVector<S, N>, StepError> {
-        // 𝔽L is the limit h → 0 of the discrete transforms.
-        let transform = |q: &SVector<S, N>, v: &SVector<S, N>| {
-            let l = system.lagrangian_derivatives(q, v);
-            StepKernel { p0: l.d2, matrix: l.d22 }
-        };
-        let momenta = |q: &SVector<S, N>, v: &SVector<S, N>| {
-            let p = system.lagrangian_gradient(q, v).d2;
-            Momenta { p0: p, p1: p }
-        };
-        let mass = |q: &SVector<S, N>, v: &SVector<S, N>| system.lagrangian_derivatives(q, v).d22;
-        let (rest, h) = (nalgebra::zero(), S::zero());
-        let solution = match error {
-            None => newton::solve(newton::Equation::General, &transform, &momenta, &mass, self, h, rest),
-            Some(error) => {
-                let (evaluate, finish, inertia) = (&transform, &momenta, &mass);
-                let of = newton::Equations { evaluate, finish, inertia, state: self, h };
-                newton::from_rest(&of, &rest, error)
-            }
-        };
-        solution.map(|solution| solution.unknown).map_err(|error| match error {
-            StepError::SingularNewtonMatrix { column, .. } => StepError::DegenerateLagrangian { column },
-            StepError::NoRealSolution { residual, .. } => StepError::NoVelocity { residual },
-            other => other,
-        })
-    }
-
     /// Fails with the first entry of q or p that is not finite.
     #[inline]
     pub(crate) fn require_finite(&self) -> Result<(), StepError> {
         StepError::require_finite(&self.q, Quantity::Configuration)?;
         StepError::require_finite(&self.p, Quantity::Momentum)
     }
-
-    /// E_L at this node, with the velocity that p stands for.
-    ///
-    /// # Errors
-    /// Those of [`State::velocity`].
-    pub fn energy<L: Lagrangian<N, Scalar = S>>(&self, system: &L) -> Result<S, StepError> {
-        Ok(system.energy(&self.q, &self.velocity(system)?))
-    }
-}
-
-/// Fails with `error` where ∂²L/∂v² is not finite or cannot be inverted at a point next to (q, v) either. Where it can, (q, v) is a
-/// singular point of a Lagrangian that is regular.
-#[cold]
-#[inline(never)]
-fn require_regular_nearby<L: Lagrangian<N> + ?Sized, const N: usize>(
-    system: &L,
-    q: &SVector<L::Scalar, N>,
-    v: &SVector<L::Scalar, N>,
-    error: StepError,
-) -> Result<(), StepError> {
-    let constant = L::Scalar::constant;
-    let size = if v.amax() > constant(0.0) { v.amax() } else { constant(1.0) };
-    // No two coordinates alike: one that is symmetric could be singular once more.
-    let nearby = SVector::from_fn(|i, _| {
-        v[i] + size * constant(1.0 / 8.0) * (constant(1.0) + constant(i as f64) / constant(N as f64 + 1.0))
-    });
-    require_regular(&system.lagrangian_derivatives(q, &nearby).d22).map_err(|_| error)
-}
-
-/// Fails where ∂²L/∂v² is not finite or cannot be inverted.
-pub(crate) fn require_regular<S: Scalar, const N: usize>(
-    mass_matrix: &SMatrix<S, N, N>,
-) -> Result<(), StepError> {
-    if let Some(index) = (0..N).find(|&i| mass_matrix.row(i).iter().any(|entry| !entry.is_finite())) {
-        return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
-    }
-    linear::require_regular(mass_matrix)
-        .map_err(|singular| StepError::DegenerateLagrangian { column: singular.column })
 }

@@ -8,9 +8,8 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::{
-    CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, StepError, Structure, Variations,
-};
+use crate::numbers::{CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, Variations};
+use crate::system::{GeneratedDiffers, Structure};
 
 /// A Lagrangian L(q, v) on TQ, Q = ℝᴺ, with its derivatives.
 #[diagnostic::on_unimplemented(
@@ -76,12 +75,12 @@ pub trait Lagrangian<const N: usize> {
     /// A system written by hand has nothing to compare, nor has one of dual numbers.
     ///
     /// # Errors
-    /// [`StepError::GeneratedDiffers`] with the function.
+    /// [`GeneratedDiffers`] with the function.
     fn verify_generated(
         &self,
         q: &SVector<Self::Scalar, N>,
         v: &SVector<Self::Scalar, N>,
-    ) -> Result<(), StepError> {
+    ) -> Result<(), GeneratedDiffers> {
         let _ = (q, v);
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::Scalar;
+use crate::numbers::Scalar;
 
 /// A vector field ξ on Q = ℝᴺ, such as the generator of a symmetry.
 pub trait VectorField<const N: usize> {

@@ -6,8 +6,11 @@
 
 use nalgebra::SVector;
 
-use crate::numbers::lanes::{LaneVector, Lanes, lane, splat, write_lane};
-use crate::{CovectorDerivatives, Lagrangian, NewtonMatrix, Scalar};
+use crate::numbers::{
+    CovectorDerivatives, LaneVector, Lanes, NewtonMatrix, Scalar,
+    lanes::{lane, splat, write_lane},
+};
+use crate::system::Lagrangian;
 
 /// The equations of motion at S stages at once.
 #[derive(Clone, Copy, Debug, PartialEq)]

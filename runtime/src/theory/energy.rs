@@ -4,7 +4,9 @@ use core::ops::{Add, AddAssign};
 
 use nalgebra::SVector;
 
-use crate::{Force, Lagrangian, Rayleigh, Scalar, State, StepError};
+use crate::numbers::Scalar;
+use crate::step::{State, StepError};
+use crate::system::{Force, Lagrangian, Rayleigh};
 
 /// Where energy went over one step, or, added up, over many.
 ///

@@ -56,8 +56,8 @@ use core::marker::PhantomData;
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::step::error::StepError;
-use crate::{Force, Lagrangian, Quantity, Rayleigh, State};
+use crate::step::{Quantity, State, StepError};
+use crate::system::{Force, Lagrangian, Rayleigh};
 
 pub use acting_force::{ActingForce, GeneralForce, RayleighAndGeneralForce, RayleighForce, Unforced};
 pub use error::ExactError;

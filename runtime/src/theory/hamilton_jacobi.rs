@@ -52,8 +52,9 @@ mod virtual_work;
 
 use core::marker::PhantomData;
 
+use crate::numbers::Scalar;
+use crate::step::{Discrete, Discretised};
 use crate::theory::samples::at_segment;
-use crate::{Discrete, Scalar};
 
 pub use caustics::Caustic;
 pub use characteristics::{Characteristic, CharacteristicsReport, Frame};
@@ -132,5 +133,16 @@ where
 
     fn of<'b>(&self, system: &'b L) -> HamiltonJacobi<'b, L, R, N> {
         HamiltonJacobi { system, rule: PhantomData, h: self.h, relative: self.relative }
+    }
+}
+
+impl<'a, L, R, const N: usize> Discretised<'a, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    /// The Hamilton–Jacobi equations of the discrete system, and its characteristics.
+    #[must_use]
+    pub fn hamilton_jacobi(&self) -> HamiltonJacobi<'a, L, R, N> {
+        HamiltonJacobi::new(self.system, self.h)
     }
 }

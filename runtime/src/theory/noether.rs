@@ -49,9 +49,13 @@ use core::marker::PhantomData;
 
 use nalgebra::SVector;
 
-use crate::theory::samples::{Segment, Tolerance, at_segment};
-use crate::theory::verdict::largest;
-use crate::{Discrete, Scalar, VectorField};
+use crate::numbers::Scalar;
+use crate::step::{Discrete, Discretised};
+use crate::system::VectorField;
+use crate::theory::{
+    samples::{Segment, Tolerance, at_segment},
+    verdict::largest,
+};
 
 pub use balance::Balance;
 pub use closure::Closure;
@@ -207,4 +211,15 @@ fn moves_an_end<S: Scalar, const N: usize>(
 ) -> bool {
     let size = |q| largest(generator.vector(q).iter().map(|entry| entry.widen()));
     size(&segment.q0) != 0.0 || size(&segment.q1) != 0.0
+}
+
+impl<'a, L, R, const N: usize> Discretised<'a, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    /// Momentum maps, and what friction does to them.
+    #[must_use]
+    pub fn noether(&self) -> Noether<'a, L, R, N> {
+        Noether::new(self.system, self.h)
+    }
 }

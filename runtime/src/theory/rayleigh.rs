@@ -61,8 +61,10 @@ pub use structure::{Condition, Structure, structure};
 
 use core::fmt;
 
-use crate::theory::samples::{Segment, Tolerance, Worst};
-use crate::theory::verdict::{excess, is_zero, tells};
+use crate::theory::{
+    samples::{Segment, Tolerance, Worst},
+    verdict::{excess, is_zero, tells},
+};
 
 /// A quantity that has to vanish: its worst value over the samples, in units of what counts as zero there.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,8 +13,9 @@ use core::fmt;
 
 use nalgebra::SVector;
 
+use crate::numbers::Scalar;
+use crate::system::Lagrangian;
 use crate::theory::verdict::{excess, is_zero};
-use crate::{Lagrangian, Scalar};
 
 /// A segment (q0, q1), a point of Q×Q.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,13 +1,13 @@
 //! The values of L, R and f as generated are those of the functions as written, bit by bit, at whatever optimisation level the
 //! two are compiled: `--config 'profile.test.package.dalembert-tests.opt-level=0'` and the like.
 
-use dalembert::{Lagrangian, StepError};
+use dalembert::{GeneratedDiffers, Lagrangian};
 use nalgebra::SVector;
 
 use super::{Spread, expanded, generator};
 
 /// `verify_generated` at a point: q, v and the coefficients.
-type Verify = fn(&[f64]) -> Result<(), StepError>;
+type Verify = fn(&[f64]) -> Result<(), GeneratedDiffers>;
 
 macro_rules! verify {
     ($name:ident, $n:literal, [$($rayleigh:ident)?], [$($force:ident)?]) => {

@@ -7,9 +7,9 @@ use dalembert::nalgebra::{Matrix1, SVector, Vector1, matrix, vector};
 use dalembert::verification;
 use dalembert::{
     Composition, CovectorDerivatives, Derivatives, Discrete, Discretise, DisplacementRule, Engine, Explicit,
-    Fitted, FittedTrapezoidal, Force, ForcedLagrangian, Function, Gauss, Lagrangian, Method, Midpoint,
-    Momenta, Rayleigh, Splitting, State, StepError, StepKernel, Structure, ToleranceError, Trajectory,
-    Trapezoidal, WithGauss, rayleigh_system,
+    Fitted, FittedTrapezoidal, Force, ForcedLagrangian, Function, Gauss, GeneratedDiffers, Lagrangian,
+    Method, Midpoint, Momenta, Rayleigh, Splitting, State, StepError, StepKernel, Structure, ToleranceError,
+    Trajectory, Trapezoidal, WithGauss, rayleigh_system,
 };
 
 /// L = ½v² − ½q², R = ½ r v², f = −¼q, with wrong values of one of them beside the derivatives.
@@ -43,7 +43,7 @@ impl Lagrangian<1> for Mutated {
         }
     }
 
-    fn verify_generated(&self, q: &Vector, v: &Vector) -> Result<(), StepError> {
+    fn verify_generated(&self, q: &Vector, v: &Vector) -> Result<(), GeneratedDiffers> {
         verification::lagrangian(self, q, v)?;
         verification::rayleigh(self, q, v)?;
         verification::force(self, q, v)
@@ -124,7 +124,7 @@ macro_rules! discrete {
                     <$rule as DisplacementRule>::segment_energy(self, q0, q1, h)
                 }
 
-                fn verify_segment(&self, q0: &Vector, v: &Vector, h: f64) -> Result<(), StepError> {
+                fn verify_segment(&self, q0: &Vector, v: &Vector, h: f64) -> Result<(), GeneratedDiffers> {
                     <$rule as DisplacementRule>::verify_segment(self, q0, v, h)
                 }
             }

@@ -85,7 +85,7 @@ const _: () = {
             &self,
             q: &Vector,
             v: &Vector,
-        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
             ::dalembert::verification::lagrangian(self, q, v)?;
             ::dalembert::verification::rayleigh(self, q, v)
         }
@@ -213,7 +213,7 @@ const _: () = {
             q0: &Vector,
             v: &Vector,
             h: f64,
-        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
             Trapezoidal::verify_segment(self, q0, v, h)
         }
     }

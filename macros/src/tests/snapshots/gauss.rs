@@ -103,7 +103,7 @@ const _: () = {
             &self,
             q: &Vector,
             v: &Vector,
-        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
             ::dalembert::verification::lagrangian(self, q, v)?;
             ::dalembert::verification::rayleigh(self, q, v)?;
             ::dalembert::verification::force(self, q, v)

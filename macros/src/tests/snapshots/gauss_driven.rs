@@ -88,7 +88,7 @@ const _: () = {
             &self,
             q: &Vector,
             v: &Vector,
-        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
             ::dalembert::verification::lagrangian(self, q, v)
         }
     }
@@ -122,7 +122,7 @@ const _: () = {
             &self,
             q: &Vector,
             v: &Vector,
-        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
             ::dalembert::verification::lagrangian(self, q, v)?;
             ::dalembert::verification::force(self, q, v)
         }

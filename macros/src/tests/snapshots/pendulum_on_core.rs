@@ -73,7 +73,7 @@ const _: () = {
             &self,
             q: &Vector,
             v: &Vector,
-        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
             ::dalembert::verification::lagrangian(self, q, v)
         }
     }
@@ -126,7 +126,7 @@ const _: () = {
             q0: &Vector,
             v: &Vector,
             h: f64,
-        ) -> ::core::result::Result<(), ::dalembert::StepError> {
+        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
             Midpoint::verify_segment(self, q0, v, h)
         }
     }

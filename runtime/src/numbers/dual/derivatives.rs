@@ -11,7 +11,7 @@ use num_dual::{Derivative, DualSVec};
 use super::primitive::Primitive;
 use super::singular::{self, Alone, AloneFirst, has_nan};
 use super::{HyperDualSVec, Part, Real};
-use crate::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
+use crate::numbers::{CovectorDerivatives, Derivatives, Direction, Gradient, Variations};
 
 /// The most variables whose derivatives one number carries all at once.
 ///

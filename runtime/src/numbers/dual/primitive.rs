@@ -5,7 +5,7 @@ use core::cmp::Ordering;
 use num_dual::DualNumFloat;
 
 use super::Dual;
-use crate::Elementary;
+use crate::numbers::Elementary;
 
 /// A plain scalar: its elementary functions, and exact ones.
 pub trait Primitive: Elementary + DualNumFloat + Dual<Self> {

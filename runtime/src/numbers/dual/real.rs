@@ -7,7 +7,7 @@ use num_dual::DualNum;
 use super::Dual;
 use super::lift::Roundable;
 use super::primitive::Primitive;
-use crate::Elementary;
+use crate::numbers::Elementary;
 
 /// What stands for `f64` (or `f32`) in a differentiated body: a number of type `D`, plain or dual.
 ///

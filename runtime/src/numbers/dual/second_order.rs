@@ -8,7 +8,7 @@ use num_dual::{Derivative, DualSVec, HyperDualVec};
 use super::derivatives::{Second, block, entries, second, seed};
 use super::primitive::Primitive;
 use super::{Dual, Real};
-use crate::Hessian;
+use crate::numbers::Hessian;
 
 /// A number with one derivative.
 type Along<F> = DualSVec<F, 1>;

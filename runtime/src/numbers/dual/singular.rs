@@ -13,7 +13,7 @@ use num_dual::Derivative;
 use super::derivatives::{First, Second, entries};
 use super::primitive::Primitive;
 use super::{HyperDualSVec, Real};
-use crate::{Direction, Gradient, Variations};
+use crate::numbers::{Direction, Gradient, Variations};
 
 /// Derivatives by one pair of variables.
 pub type Alone<F> = Second<F, 1>;

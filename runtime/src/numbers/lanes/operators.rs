@@ -2,8 +2,8 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Lanes, Vectors};
-use crate::Scalar;
+use super::Lanes;
+use crate::numbers::{Scalar, Vectors};
 
 impl<T: Scalar, const S: usize> Neg for Lanes<T, S> {
     type Output = Self;

@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use super::{Factored, NewtonMatrix, Singular, dense};
-use crate::Scalar;
+use crate::numbers::Scalar;
 
 /// A matrix whose entries lie within B of the diagonal, W = 2B + 1: Newton matrices of chains, and diagonal ones (W = 1).
 ///

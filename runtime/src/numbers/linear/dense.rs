@@ -5,7 +5,7 @@ use core::array;
 use nalgebra::{SMatrix, SVector};
 
 use super::{Factored, NewtonMatrix, Singular};
-use crate::Scalar;
+use crate::numbers::Scalar;
 
 impl<S: Scalar, const N: usize> NewtonMatrix<S, N> for SMatrix<S, N, N> {
     type Factored = FactoredDense<S, N>;

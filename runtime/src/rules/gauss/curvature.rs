@@ -19,9 +19,9 @@ use super::linearised::StageVector;
 use super::segment::Segment;
 use super::tangent::{ByState, Source, Tangent};
 use super::{Gauss, nan, solved_segment};
-use crate::{
-    DiscreteSecondOrder, ForcedLagrangian, Hessian, Scalar, SecondOrder, State, Step, StepError, StepHessian,
-};
+use crate::numbers::{Hessian, Scalar};
+use crate::step::{DiscreteSecondOrder, State, Step, StepError, StepHessian};
+use crate::system::{ForcedLagrangian, SecondOrder};
 
 /// ∂²[μ_i·∂L/∂v + γ_i·G] at each stage.
 type Curvatures<T, const N: usize, const M: usize, const S: usize> = [Hessian<T, N, M>; S];

@@ -10,9 +10,12 @@ use nalgebra::SVector;
 
 use super::newton;
 use super::problem::{Problem, Solution, in_units, in_units_of, reciprocals, rounding};
-use crate::numbers::lanes::{LaneVector, splat};
-use crate::step::newton::{AT_FLOOR, finite_part, is_sensible};
-use crate::{ForcedLagrangian, Report, Scalar, Stages, StepError};
+use crate::numbers::{LaneVector, Scalar, lanes::splat};
+use crate::step::{
+    Report, StepError,
+    newton::{AT_FLOOR, finite_part, is_sensible},
+};
+use crate::system::{ForcedLagrangian, Stages};
 
 /// More iterations than Newton's method would be worth.
 const MAX_ITERATIONS: u32 = 60;

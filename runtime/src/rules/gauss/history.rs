@@ -6,9 +6,12 @@ use nalgebra::SVector;
 
 use super::problem::{Compensated, Problem};
 use super::{Gauss, completed, fixed_point, solved_from};
-use crate::numbers::lanes::{LaneVector, Lanes, lane, splat};
-use crate::step::error::Quantity;
-use crate::{ForcedLagrangian, Memory, Scalar, State, Step, StepError};
+use crate::numbers::{
+    LaneVector, Lanes, Scalar,
+    lanes::{lane, splat},
+};
+use crate::step::{Memory, Quantity, State, Step, StepError};
+use crate::system::ForcedLagrangian;
 
 /// The stages of the last step, and what rounding has taken from q and p.
 ///
@@ -98,7 +101,7 @@ where
 {
     #[inline]
     fn advance(&mut self, system: &L, state: &State<T, N>, h: T) -> Result<Step<T, N>, StepError> {
-        crate::step::discrete::require_step_size(h)?;
+        crate::step::require_step_size(h)?;
         let goes_on = self.h != T::zero() && self.q.value == state.q && self.p.value == state.p;
         let (q0, p0) = if goes_on {
             (self.q, self.p)

@@ -12,8 +12,8 @@ use core::array;
 use nalgebra::{SMatrix, SVector};
 
 use super::problem::Problem;
-use crate::numbers::lanes::{LaneVector, lane};
-use crate::{ForcedLagrangian, Scalar, Singular};
+use crate::numbers::{LaneVector, Scalar, Singular, lanes::lane};
+use crate::system::ForcedLagrangian;
 
 /// A vector for each stage.
 pub(super) type StageVector<T, const N: usize, const S: usize> = [SVector<T, N>; S];

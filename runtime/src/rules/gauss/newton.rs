@@ -9,10 +9,15 @@ use nalgebra::SVector;
 use super::fixed_point::{at_rounding, is_decided, worst};
 use super::linearised::{Factored, Local, StageVector, locals, non_finite};
 use super::problem::{Problem, Solution, in_units_of};
-use crate::numbers::lanes::{LaneVector, splat, write_lane};
-use crate::step::error::Quantity;
-use crate::step::newton::{AT_FLOOR, SLOW};
-use crate::{ForcedLagrangian, Report, Scalar, StepError};
+use crate::numbers::{
+    LaneVector, Scalar,
+    lanes::{splat, write_lane},
+};
+use crate::step::{
+    Quantity, Report, StepError,
+    newton::{AT_FLOOR, SLOW},
+};
+use crate::system::ForcedLagrangian;
 
 /// As in the solver of the rules of one stage: a few iterations near a root, some dozens from far out.
 pub(super) const MAX_ITERATIONS: u32 = 100;
@@ -66,7 +71,7 @@ impl<T: Scalar, const N: usize, const S: usize> Iterate<T, N, S> {
 
     /// The first coordinate with an entry that is not finite.
     pub(super) fn non_finite(&self) -> Option<usize> {
-        let of_residual = (0..N).find(|&a| self.residual[a].is_finite() != crate::Mask::splat(true));
+        let of_residual = (0..N).find(|&a| self.residual[a].is_finite() != crate::numbers::Mask::splat(true));
         of_residual.or_else(|| non_finite(&self.locals))
     }
 }

@@ -10,9 +10,9 @@ use nalgebra::SVector;
 
 use super::Gauss;
 use super::coefficients::Coefficients;
-use crate::numbers::lanes::{LaneVector, Lanes, lane};
-use crate::step::newton::PLACES;
-use crate::{ForcedLagrangian, Report, Scalar, Stages, StepError};
+use crate::numbers::{LaneVector, Lanes, Scalar, lanes::lane};
+use crate::step::{Report, newton::PLACES};
+use crate::system::{ForcedLagrangian, GeneratedDiffers, Stages};
 
 /// A vector as an unevaluated sum, so that adding many small steps loses nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -128,7 +128,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     }
 
     /// Verifies the system at the stages with velocities `v`.
-    pub(super) fn verify(&self, v: &LaneVector<T, N, S>) -> Result<(), StepError> {
+    pub(super) fn verify(&self, v: &LaneVector<T, N, S>) -> Result<(), GeneratedDiffers> {
         let q = self.configurations(v);
         (0..S).try_for_each(|i| {
             self.system.later(self.elapsed(i), |system| system.verify_generated(&lane(&q, i), &lane(v, i)))

@@ -20,14 +20,15 @@ use super::linearised::{Factored, Local};
 use super::newton::Iterate;
 use super::problem::{Compensated, Problem};
 use super::tangent::Tangent;
-use crate::derivative::certificate::determinant_sign;
-use crate::numbers::lanes::{LaneVector, lane, splat};
-use crate::step::error::Quantity;
-use crate::step::newton::AT_FLOOR;
-use crate::{
-    CovectorDerivatives, Derivatives, DiscreteForce, DiscreteForceDerivatives, ForcedLagrangian,
-    LegendreDerivatives, Momenta, NewtonMatrix, Scalar, Singular, StepError,
+use crate::numbers::{
+    CovectorDerivatives, Derivatives, LaneVector, NewtonMatrix, Scalar, Singular, determinant_sign,
+    lanes::{lane, splat},
 };
+use crate::step::{
+    DiscreteForce, DiscreteForceDerivatives, LegendreDerivatives, Momenta, Quantity, StepError,
+    newton::AT_FLOOR,
+};
+use crate::system::ForcedLagrangian;
 
 /// Iterations of Newton's method for the interior points.
 const MAX_ITERATIONS: u32 = 100;
@@ -58,7 +59,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         q1: &SVector<T, N>,
         h: T,
     ) -> Result<Self, StepError> {
-        crate::step::discrete::require_step_size(h)?;
+        crate::step::require_step_size(h)?;
         StepError::require_finite(q0, Quantity::Configuration)?;
         StepError::require_finite(q1, Quantity::Configuration)?;
         Self::new(system, q0, &((q1 - q0) / h), h)
@@ -179,7 +180,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     /// How all stages and momenta follow q0 and q1.
     pub(super) fn variations(&self) -> Result<Variations<T, N, S>, StepError> {
         let by = self.by_state()?;
-        let p0_by_q1 = crate::derivative::linearization::inverse(&by.p.end.q)?;
+        let p0_by_q1 = crate::step::invert(&by.p.end.q)?;
         let p0_by_q0 = -(p0_by_q1 * by.q.end.q);
         let (minus, plus) = (by.p.carried(&p0_by_q0, Some(&by.q)), by.p.carried(&p0_by_q1, None));
         Ok(Variations { minus, plus, p0_by_q0, p0_by_q1 })

@@ -10,11 +10,11 @@ use nalgebra::{SMatrix, SVector};
 use super::segment::Segment;
 use super::tangent::{ByState, Source, Tangent};
 use super::{Gauss, nan, solved_segment};
-use crate::numbers::lanes::lane;
-use crate::{
-    DiscreteDriven, DiscreteParameters, Driven, ForcedLagrangian, Linearization, MomentaBy, Parameters,
-    Scalar, State, StateBy, Step, StepError,
+use crate::numbers::{Scalar, lanes::lane};
+use crate::step::{
+    DiscreteDriven, DiscreteParameters, Linearization, MomentaBy, State, StateBy, Step, StepError,
 };
+use crate::system::{Driven, ForcedLagrangian, Parameters};
 
 impl<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize> Segment<'_, L, N, S> {
     /// What `of` gives of the system at every stage, each at its own time.
@@ -56,7 +56,7 @@ impl<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usi
     /// What a tangent at fixed (q0, p0) moves in the momenta at fixed (q0, q1).
     fn momenta_by<const K: usize>(&self, by: &Tangent<T, N, S, K>) -> Result<MomentaBy<T, N, K>, StepError> {
         let ByState { p, .. } = self.by_state()?;
-        let p0 = -(crate::derivative::linearization::inverse(&p.end.q)? * by.end.q);
+        let p0 = -(crate::step::invert(&p.end.q)? * by.end.q);
         Ok(MomentaBy { p0, p1: by.end.p + p.end.p * p0 })
     }
 

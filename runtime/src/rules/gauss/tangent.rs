@@ -17,9 +17,9 @@ use nalgebra::SMatrix;
 use super::linearised::{Factored, StageColumns, locals, non_finite};
 use super::problem::Problem;
 use super::segment::Segment;
-use crate::numbers::lanes::LaneVector;
-use crate::step::error::Quantity;
-use crate::{ForcedLagrangian, PhaseMatrix, Scalar, StateBy, StepError};
+use crate::numbers::{LaneVector, Scalar};
+use crate::step::{PhaseMatrix, Quantity, StateBy, StepError};
+use crate::system::ForcedLagrangian;
 
 /// What K quantities move by themselves, the stages' velocities being held.
 pub(super) struct Source<T, const N: usize, const S: usize, const K: usize> {

@@ -4,12 +4,12 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use super::VelocityHistory;
 use super::explicit::Prepared;
-use super::{Memory, VelocityHistory, or_without_guess};
-use crate::rules::{ByDrift, DampedDrift};
-use crate::{
-    Discrete, Fitted, FittedTrapezoidal, Momenta, NewtonMatrix, Rayleigh, Scalar, State, Step, StepError,
-};
+use crate::numbers::{NewtonMatrix, Scalar};
+use crate::rules::{ByDrift, DampedDrift, Fitted, FittedTrapezoidal};
+use crate::step::{Discrete, Memory, Momenta, State, Step, StepError, or_without_guess};
+use crate::system::Rayleigh;
 
 /// The functions of Z that [`Fitted`] asks for, and the latest mean velocities. It belongs to one system.
 #[derive(Clone, Copy, Debug)]

@@ -9,10 +9,12 @@
 
 use nalgebra::SVector;
 
-use super::Memory;
-use crate::numbers::linear::{Factored, NewtonMatrix};
-use crate::step::newton::{estimated_floor, held_against};
-use crate::{Discrete, Momenta, Report, Scalar, State, Step, StepError, Trapezoidal};
+use crate::numbers::{Factored, NewtonMatrix, Scalar};
+use crate::rules::Trapezoidal;
+use crate::step::{
+    Discrete, Memory, Momenta, Report, State, Step, StepError,
+    newton::{estimated_floor, held_against},
+};
 
 /// A system that the trapezoidal rule steps explicitly: L = T(v) − V(q) with T quadratic, R quadratic in v, both with constant
 /// coefficients, and a force f(q).

@@ -10,12 +10,12 @@
 
 use nalgebra::SVector;
 
-use super::{Memory, VelocityHistory};
-use crate::numbers::linear::{Factored, NewtonMatrix};
-use crate::step::newton::{
-    AT_FLOOR, estimated_floor, finite_part, held_against, held_by_weights, is_sensible, weighted,
+use super::VelocityHistory;
+use crate::numbers::{Factored, NewtonMatrix, Scalar};
+use crate::step::{
+    Discrete, Memory, Momenta, Report, State, Step, StepError,
+    newton::{AT_FLOOR, estimated_floor, finite_part, held_against, held_by_weights, is_sensible, weighted},
 };
-use crate::{Discrete, Momenta, Report, Scalar, State, Step, StepError};
 
 /// A correction must leave at most this share of the residual.
 const CONTRACTION: f64 = 0.1;

@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::{Breach, Choice, Method, ToleranceError, Trial};
-use crate::Lagrangian;
+use crate::system::Lagrangian;
 
 impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

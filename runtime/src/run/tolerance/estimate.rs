@@ -11,7 +11,9 @@ use super::scale::Scale;
 use super::tangent::{INNER, carried};
 use super::twin;
 use super::variation::Variation;
-use crate::{Lagrangian, Scalar, State};
+use crate::numbers::Scalar;
+use crate::step::State;
+use crate::system::Lagrangian;
 
 /// The angle by which an error turns between two derivatives at most, without states between and with them.
 pub(super) const ANGLE: [f64; 2] = [0.3, 2.0];

@@ -6,7 +6,9 @@ use super::estimate::{ANGLE, Estimate, Since};
 use super::scale::Scale;
 use super::unresolved::Unresolved;
 use super::{Breach, Choice, MethodStep, Methods};
-use crate::{Lagrangian, Scalar, State, StepError};
+use crate::numbers::Scalar;
+use crate::step::{State, StepError};
+use crate::system::Lagrangian;
 
 /// Steps between two looks at most.
 const STRIDE: u64 = 40;

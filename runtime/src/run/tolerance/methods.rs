@@ -3,11 +3,11 @@
 use nalgebra::SVector;
 
 use super::Method;
-use crate::{
-    ComposedStep, Composition, Discrete, Explicit, Fitted, FittedTrapezoidal, ForcedLagrangian, Gauss, Kicks,
-    Lagrangian, LegendreDerivatives, Memory, Midpoint, Scalar, Splitting, StageHistory, State, StepError,
-    Substeps, Trapezoidal,
-};
+use crate::numbers::Scalar;
+use crate::rules::{Fitted, FittedTrapezoidal, Gauss, Midpoint, StageHistory, Trapezoidal};
+use crate::run::{ComposedStep, Composition, Explicit, Kicks, Splitting, Substeps};
+use crate::step::{Discrete, LegendreDerivatives, Memory, State, StepError};
+use crate::system::{ForcedLagrangian, Lagrangian};
 
 /// The methods that a system offers to [`Method::for_tolerance`]: a rule of order 2 stands for itself and its compositions;
 /// [`WithSplittings`] and [`WithGauss`] add to those of another.

@@ -1,7 +1,8 @@
 //! An error asked for, of the methods that a system offers.
 
 use super::{Choice, GuardedTrajectory, Method, Methods, ToleranceError};
-use crate::{Lagrangian, State};
+use crate::step::State;
+use crate::system::Lagrangian;
 
 /// A system that offers methods where an error is asked for: those of the rules that its attribute lists.
 ///

@@ -2,7 +2,8 @@
 
 use nalgebra::SVector;
 
-use crate::{Scalar, State};
+use crate::numbers::Scalar;
+use crate::step::State;
 
 /// How an error of p counts beside one of q: the norm of a [`Choice`](super::Choice)'s promise.
 #[derive(Clone, Copy, Debug)]

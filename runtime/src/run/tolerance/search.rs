@@ -5,7 +5,9 @@ use nalgebra::ComplexField;
 use super::scale::Scale;
 use super::variation::Variation;
 use super::{Choice, Method, MethodStep, Methods, ToleranceError, Trial};
-use crate::{Lagrangian, Scalar, State, StepError};
+use crate::numbers::Scalar;
+use crate::step::{State, StepError};
+use crate::system::Lagrangian;
 
 /// The share of the tolerance that the error expected from the start may fill.
 const SAFETY: f64 = 0.15;

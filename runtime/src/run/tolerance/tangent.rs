@@ -3,7 +3,8 @@
 use nalgebra::SMatrix;
 
 use super::variation::Variation;
-use crate::{PhaseMatrix, Scalar, State};
+use crate::numbers::Scalar;
+use crate::step::{PhaseMatrix, State};
 
 pub(super) fn product<S: Scalar, const N: usize>(
     a: &PhaseMatrix<S, N>,

@@ -11,7 +11,9 @@ use nalgebra::{SMatrix, SVector};
 use super::Methods;
 use super::scale::Scale;
 use super::tangent::{norm, product, times};
-use crate::{Lagrangian, Linearization, PhaseMatrix, Scalar, State};
+use crate::numbers::Scalar;
+use crate::step::{Linearization, PhaseMatrix, State};
+use crate::system::Lagrangian;
 
 /// The motion at one state.
 #[derive(Clone, Copy, Debug)]

@@ -5,9 +5,8 @@ use nalgebra::SVector;
 use super::careful::{first_non_finite, unsolvable};
 use super::rounding::{estimated_floor, held_against, in_units_of};
 use super::{Equation, Solution, is_known_at, largest};
-use crate::numbers::linear::NewtonMatrix;
-use crate::step::discrete::{Momenta, StepKernel};
-use crate::{Quantity, Report, Scalar, State, StepError};
+use crate::numbers::{NewtonMatrix, Scalar};
+use crate::step::{Momenta, Quantity, Report, State, StepError, StepKernel};
 
 /// The best iterate of at most `bound` undamped Newton iterations, and whether it is the solution, by the definition of
 /// `rounding.rs`.

@@ -5,10 +5,8 @@ use nalgebra::SVector;
 use super::rounding::{SLOW, estimated_floor, in_units_of, worst};
 use super::verdict::{stagnated, verified};
 use super::{Equations, Reached, Solution, largest};
-use crate::numbers::linear::{NewtonMatrix, Singular};
-use crate::step::discrete::StepKernel;
-use crate::step::error::{Quantity, StepError};
-use crate::{Scalar, State};
+use crate::numbers::{NewtonMatrix, Scalar, Singular};
+use crate::step::{Quantity, State, StepError, StepKernel};
 
 /// Newton's method needs a few iterations near a root; damped ones near a fold, or undamped ones from far out on a power
 /// law, where each takes off a fixed share, need some dozens.

@@ -9,9 +9,8 @@ use nalgebra::SVector;
 use super::careful::{MAX_ITERATIONS, careful};
 use super::verdict::Inertia;
 use super::{Equations, Reached, Solution, from_rest};
-use crate::numbers::linear::NewtonMatrix;
-use crate::step::discrete::{Momenta, StepKernel};
-use crate::{Scalar, State, StepError};
+use crate::numbers::{NewtonMatrix, Scalar};
+use crate::step::{Momenta, State, StepError, StepKernel};
 
 /// The first part of h, from which parts double, and the least.
 const FIRST: f64 = 1.0 / 1024.0;

@@ -28,8 +28,7 @@
 
 use nalgebra::SVector;
 
-use crate::Scalar;
-use crate::numbers::linear::NewtonMatrix;
+use crate::numbers::{NewtonMatrix, Scalar};
 
 /// A residual of at most this many floors, estimated or measured, is that of a root.
 pub(crate) const AT_FLOOR: f64 = 4.0;

@@ -10,9 +10,8 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::{Equations, Reached, Solution, careful};
-use crate::numbers::linear::NewtonMatrix;
-use crate::step::discrete::{Momenta, StepKernel};
-use crate::{Report, Scalar, State, StepError};
+use crate::numbers::{NewtonMatrix, Scalar};
+use crate::step::{Momenta, Report, State, StepError, StepKernel};
 
 /// A residual that grows by this factor where the velocity doubles vanishes at rest: one that is constant next to rest does not grow,
 /// drag through a root does by a root of 2.

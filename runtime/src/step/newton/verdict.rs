@@ -5,9 +5,8 @@ use nalgebra::{SMatrix, SVector};
 use super::Solution;
 use super::careful::Iterate;
 use super::rounding::{AT_FLOOR, estimated_floor, finite_part, held_against, is_sensible, rounding, scatter};
-use crate::numbers::linear::NewtonMatrix;
-use crate::step::discrete::{Momenta, StepKernel};
-use crate::{Report, Scalar, State};
+use crate::numbers::{NewtonMatrix, Scalar};
+use crate::step::{Momenta, Report, State, StepKernel};
 
 /// The step's equation as a function of (q, v); behind a pointer where it is called seldom.
 type Evaluate<'f, S, M, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M> + 'f;

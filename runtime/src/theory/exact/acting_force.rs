@@ -2,7 +2,8 @@
 
 use nalgebra::SVector;
 
-use crate::{CovectorDerivatives, Force, Lagrangian, Rayleigh};
+use crate::numbers::CovectorDerivatives;
+use crate::system::{Force, Lagrangian, Rayleigh};
 
 /// The continuous force f_L(q, v) that acts on a system, put together from what the system has.
 ///

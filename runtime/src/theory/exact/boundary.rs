@@ -13,8 +13,8 @@ use super::collocation::unit_of;
 use super::mesh::Carried;
 use super::motion::{Dynamics, Family, Point};
 use super::{ActingForce, ExactError, WORST};
-use crate::Lagrangian;
 use crate::numbers::linear::inverse;
+use crate::system::Lagrangian;
 use crate::theory::verdict::largest;
 
 /// Points count as conjugate when the end determines the motion inside to less than half the digits, 1/√ε.

@@ -23,7 +23,7 @@ use nalgebra::{DMatrix, Dyn, LU, SMatrix, SVector};
 use super::ActingForce;
 use super::motion::{Dynamics, Local};
 use super::work::Breakdown;
-use crate::Lagrangian;
+use crate::system::Lagrangian;
 
 /// Stages of a step.
 pub(super) const STAGES: usize = 8;

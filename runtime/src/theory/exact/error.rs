@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::{Quantity, StepError};
+use crate::step::{Quantity, StepError};
 
 /// Why an exact discrete object was not computed.
 #[derive(Clone, Copy, Debug, PartialEq)]

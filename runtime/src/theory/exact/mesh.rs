@@ -10,7 +10,7 @@ use super::collocation::{Phase, Step, Varied, unit_of};
 use super::motion::{Dynamics, Family, Point};
 use super::work::Breakdown;
 use super::{ActingForce, ExactError};
-use crate::Lagrangian;
+use crate::system::Lagrangian;
 use crate::theory::verdict::largest;
 
 /// How far a step and its halves may differ, relative to the largest of the motion. At order 15 the halves are right to 2⁻¹⁵ of it.

@@ -14,8 +14,11 @@ use nalgebra::{SMatrix, SVector};
 
 use super::ActingForce;
 use super::work::{Breakdown, Work};
-use crate::numbers::linear::{inverse, require_regular};
-use crate::{CovectorDerivatives, Derivatives, Lagrangian};
+use crate::numbers::{
+    CovectorDerivatives, Derivatives,
+    linear::{inverse, require_regular},
+};
+use crate::system::Lagrangian;
 
 /// A system with the force that acts on it.
 pub(super) struct Dynamics<'a, L, F, const N: usize> {

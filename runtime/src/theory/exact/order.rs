@@ -17,8 +17,10 @@ use nalgebra::{SMatrix, SVector};
 
 use super::work::Work;
 use super::{ActingForce, Exact, ExactError, Segment};
+use crate::numbers::CovectorDerivatives;
+use crate::step::Discrete;
+use crate::system::Lagrangian;
 use crate::theory::verdict::largest;
-use crate::{CovectorDerivatives, Discrete, Lagrangian};
 
 /// An error this many times the reference's own counts as round-off plateau.
 const PLATEAU: f64 = 30.0;

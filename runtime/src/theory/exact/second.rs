@@ -24,8 +24,10 @@ use super::motion::{Dynamics, Local, Point};
 use super::segment::Segment;
 use super::work::Breakdown;
 use super::{ActingForce, ExactError};
+use crate::numbers::{CovectorDerivatives, Derivatives};
+use crate::step::{DiscreteForce, DiscreteForceDerivatives};
+use crate::system::Lagrangian;
 use crate::theory::verdict::largest;
-use crate::{CovectorDerivatives, Derivatives, DiscreteForce, DiscreteForceDerivatives, Lagrangian};
 
 /// Second derivatives of the exact discrete objects on a segment.
 #[derive(Clone, Debug, PartialEq)]

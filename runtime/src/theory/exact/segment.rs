@@ -8,8 +8,10 @@ use super::boundary::{Boundary, Shot};
 use super::mesh::{Question, ROUNDING, Visitor};
 use super::motion::{Family, Point};
 use super::{ActingForce, ExactError};
+use crate::numbers::{CovectorDerivatives, Gradient};
+use crate::step::DiscreteForce;
+use crate::system::Lagrangian;
 use crate::theory::verdict::largest;
-use crate::{CovectorDerivatives, DiscreteForce, Gradient, Lagrangian};
 
 /// The exact discrete objects at (q0, q1, h).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -20,7 +20,8 @@ use core::fmt;
 use nalgebra::{DMatrix, SMatrix, SVector};
 
 use super::Frame;
-use crate::{PhaseMatrix, Scalar};
+use crate::numbers::Scalar;
+use crate::step::PhaseMatrix;
 
 /// A zero of det Q on a characteristic.
 #[derive(Clone, Copy, Debug, PartialEq)]

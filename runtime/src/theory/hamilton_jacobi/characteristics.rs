@@ -7,10 +7,10 @@ use nalgebra::{SMatrix, SVector};
 use super::caustics::TangentPlane;
 use super::residual::{Outcome, Worst, line, tolerance_line};
 use super::{Caustic, HamiltonJacobi, HamiltonJacobiError, ImplicitEquation, Section};
-use crate::derivative::linearization::inverse;
-use crate::run::memory::or_without_guess;
-use crate::step::error::{Quantity, StepError};
-use crate::{Discrete, Linearization, PhaseMatrix, Scalar, State};
+use crate::numbers::Scalar;
+use crate::step::{
+    Discrete, Linearization, PhaseMatrix, Quantity, State, StepError, invert, or_without_guess,
+};
 
 /// The tangent frame (Q, P) of a carried section: derivatives of (q_k, p_k) by the label, each N×N.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,7 +62,7 @@ impl<S: Scalar, const N: usize> Frame<S, N> {
     /// Dγ_k = P Q⁻¹; `None` on a caustic, where γ_k is no section.
     #[must_use]
     pub fn section_jacobian(&self) -> Option<SMatrix<S, N, N>> {
-        Some(self.p * inverse(&self.q).ok()?)
+        Some(self.p * invert(&self.q).ok()?)
     }
 
     /// The coordinate whose row of Q or P is not finite.

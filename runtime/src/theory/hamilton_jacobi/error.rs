@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::StepError;
+use crate::step::StepError;
 
 /// Why a Hamilton–Jacobi object could not be evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]

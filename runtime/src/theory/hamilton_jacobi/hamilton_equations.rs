@@ -6,7 +6,8 @@ use nalgebra::SVector;
 
 use super::residual::{MomentumMagnitudes, Outcome, Worst, line, tolerance_line};
 use super::{HamiltonJacobi, HamiltonJacobiError};
-use crate::{Discrete, DiscreteRayleigh, Scalar};
+use crate::numbers::Scalar;
+use crate::step::{Discrete, DiscreteRayleigh};
 
 /// One equation in two forms.
 #[derive(Clone, Copy, Debug, PartialEq)]

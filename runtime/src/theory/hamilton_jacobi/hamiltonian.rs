@@ -3,8 +3,8 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::{HamiltonJacobi, HamiltonJacobiError, ImplicitEquation};
-use crate::derivative::linearization::inverse;
-use crate::{Discrete, LegendreDerivatives, Momenta, Scalar, State, StepError, StepKernel, step::newton};
+use crate::numbers::Scalar;
+use crate::step::{Discrete, LegendreDerivatives, Momenta, State, StepError, StepKernel, invert, newton};
 
 /// A discrete Hamiltonian with its derivatives at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,7 +71,7 @@ where
         let q1 = self.solve(Unknown::Q1, Given::P1, q0, p1, guess).map_err(&at)?;
         let l = self.system.discrete_lagrangian_derivatives(q0, &q1, self.h);
         let k = self.legendre(q0, &q1);
-        let eliminated_by_p = inverse(&k.p1_by_q1).map_err(&at)?;
+        let eliminated_by_p = invert(&k.p1_by_q1).map_err(&at)?;
         let eliminated_by_q = -(eliminated_by_p * k.p1_by_q0);
         let beyond = p1 - l.d2;
         Ok(DiscreteHamiltonian {
@@ -103,7 +103,7 @@ where
         let q0 = self.solve(Unknown::Q0, Given::P0, q1, p0, guess).map_err(&at)?;
         let l = self.system.discrete_lagrangian_derivatives(&q0, q1, self.h);
         let k = self.legendre(&q0, q1);
-        let eliminated_by_p = inverse(&k.p0_by_q0).map_err(&at)?;
+        let eliminated_by_p = invert(&k.p0_by_q0).map_err(&at)?;
         let eliminated_by_q = -(eliminated_by_p * k.p0_by_q1);
         let beyond = p0 + l.d1;
         Ok(DiscreteHamiltonian {

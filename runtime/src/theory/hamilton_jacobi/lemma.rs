@@ -3,10 +3,9 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::{HamiltonJacobi, HamiltonJacobiError, ImplicitEquation, section};
-use crate::derivative::linearization::inverse;
-use crate::{
-    Discrete, Momenta, NewtonMatrix, Scalar, ScalarField, State, StepError, StepKernel, step::newton,
-};
+use crate::numbers::{NewtonMatrix, Scalar};
+use crate::step::{Discrete, Momenta, State, StepError, StepKernel, invert, newton};
+use crate::system::ScalarField;
 
 /// Both sides' difference in a definition of 𝓕^±, with the size of its terms.
 #[derive(Clone, Copy)]
@@ -115,7 +114,7 @@ where
         let f = self.system.discrete_force_derivatives(q, x, self.h);
         let p1 = s1.gradient(x) + f.plus.value;
         let h_plus = self.discrete_hamiltonian_plus(q, &p1, Some(&((x - q) / self.h)))?;
-        let by_x = inverse(&(s1.hessian(x) + f.plus.d2)).map_err(ImplicitEquation::Derivative.at(0))?;
+        let by_x = invert(&(s1.hessian(x) + f.plus.d2)).map_err(ImplicitEquation::Derivative.at(0))?;
         let shift = by_x.tr_mul(&f.plus.value);
         let rounding = section::magnitude(s1, x) + f.plus.value.abs() + f.plus.d1.abs() * q.abs();
         Ok(Definition {
@@ -140,7 +139,7 @@ where
         let f = self.system.discrete_force_derivatives(q, x, self.h);
         let p0 = s0.gradient(q) - f.minus.value;
         let h_minus = self.discrete_hamiltonian_minus(x, &p0, Some(&((x - q) / self.h)))?;
-        let by_q = inverse(&(s0.hessian(q) - f.minus.d1)).map_err(ImplicitEquation::Derivative.at(0))?;
+        let by_q = invert(&(s0.hessian(q) - f.minus.d1)).map_err(ImplicitEquation::Derivative.at(0))?;
         let shift = by_q.tr_mul(&f.minus.value);
         let rounding = section::magnitude(s0, q) + f.minus.value.abs() + f.minus.d2.abs() * x.abs();
         Ok(Definition {

@@ -5,7 +5,9 @@
 use nalgebra::SVector;
 
 use super::{HamiltonJacobi, HamiltonJacobiError};
-use crate::{Discrete, DiscreteRayleigh, Momenta, Scalar, ScalarField, State};
+use crate::numbers::Scalar;
+use crate::step::{Discrete, DiscreteRayleigh, Momenta, State};
+use crate::system::ScalarField;
 
 /// The image of (q_{j−1}, q_j) under F̃_d^H ∘ γ, a point of T*(Q×Q): its two halves.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,8 +7,9 @@ use nalgebra::SVector;
 use super::lemma::Definition;
 use super::residual::{MomentumMagnitudes, Outcome, Worst, line, tolerance_line};
 use super::{EquationValue, HamiltonJacobi, HamiltonJacobiError, section};
-use crate::derivative::linearization::inverse;
-use crate::{Discrete, Scalar, ScalarField};
+use crate::numbers::Scalar;
+use crate::step::{Discrete, invert};
+use crate::system::ScalarField;
 
 /// The paper's statements about a family S_k, each with its residual on a trajectory q_0, …, q_K.
 ///
@@ -141,7 +142,7 @@ where
         report.net_force.vector(j, q1, &(f_plus + f_minus), &node, &node);
 
         let of_s1 = section::magnitude(s1, q1);
-        match (inverse(&before.p0_by_q1), inverse(&after.p0_by_q1)) {
+        match (invert(&before.p0_by_q1), invert(&after.p0_by_q1)) {
             (Ok(by_p_before), Ok(by_p)) => match self
                 .at_step(j - 1, |theory| theory.paired_flow(s0, s1, q0, q1))
             {
@@ -204,7 +205,7 @@ where
             Err(error) => report.lemma_minus_forced.failure(error.at_step(j)),
         }
         let back = self.at_step(j, |theory| theory.backward_flow(s1, s2, q1, q2));
-        match (back, inverse(&before.p1_by_q0)) {
+        match (back, invert(&before.p1_by_q0)) {
             (Ok(x), Ok(by_p)) => {
                 let magnitude = q0.abs() + by_p.abs() * (size_before.p1 + of_s1 + size.p0);
                 report.backward_flow.vector(j, q1, &(x - q0), &(x.abs() + q0.abs()), &magnitude);

@@ -5,8 +5,9 @@ use core::fmt;
 use nalgebra::{SMatrix, SVector};
 
 use super::HamiltonJacobiError;
+use crate::numbers::Scalar;
+use crate::step::LegendreDerivatives;
 use crate::theory::verdict::{excess, is_zero, largest, tells};
-use crate::{LegendreDerivatives, Scalar};
 
 /// Residual of an equation, where it is worst among the places where it was evaluated.
 ///

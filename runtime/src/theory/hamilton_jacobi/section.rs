@@ -2,7 +2,8 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::{Scalar, ScalarField};
+use crate::numbers::Scalar;
+use crate::system::ScalarField;
 
 /// A section γ: Q → T*Q, q ↦ (q, γ(q)).
 ///

@@ -6,8 +6,9 @@ use nalgebra::{SMatrix, SVector};
 
 use super::residual::{MomentumMagnitudes, Outcome, Worst, line, tolerance_line};
 use super::{ConfigurationMap, HamiltonJacobi, HamiltonJacobiError, Section, section};
-use crate::derivative::linearization::inverse;
-use crate::{Discrete, Scalar, ScalarField, numbers::linear};
+use crate::numbers::{Scalar, linear};
+use crate::step::{Discrete, invert};
+use crate::system::ScalarField;
 
 /// Whether a candidate is a solution, and if not, by how much.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -224,7 +225,7 @@ where
     {
         let q1 = self.step(q, &section.covector(q), None).map_err(|error| error.at_step(step))?.q;
         let k = self.legendre(q, &q1);
-        let by_p = inverse(&k.p0_by_q1).map_err(super::ImplicitEquation::Derivative.at(step))?;
+        let by_p = invert(&k.p0_by_q1).map_err(super::ImplicitEquation::Derivative.at(step))?;
         let size = MomentumMagnitudes::of(&k, q, &q1);
         Ok(Image {
             q1,

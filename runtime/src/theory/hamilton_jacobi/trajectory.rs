@@ -6,7 +6,8 @@ use nalgebra::SVector;
 
 use super::residual::{MomentumMagnitudes, Outcome, Worst, line, tolerance_line};
 use super::{HamiltonJacobi, HamiltonJacobiError, PrintedAndCorrected};
-use crate::{Discrete, Scalar};
+use crate::numbers::Scalar;
+use crate::step::Discrete;
 
 /// The sections γ^± along one trajectory, for the two readings of DS_k and for the paper's example.
 ///

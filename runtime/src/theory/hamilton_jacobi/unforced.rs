@@ -7,7 +7,9 @@ use nalgebra::SVector;
 use super::printed_report::require_lengths;
 use super::residual::{MomentumMagnitudes, Outcome, Worst, line, tolerance_line};
 use super::{HamiltonJacobi, HamiltonJacobiError, section};
-use crate::{Discrete, Scalar, ScalarField};
+use crate::numbers::Scalar;
+use crate::step::Discrete;
+use crate::system::ScalarField;
 
 /// The right equation as an equation of functions, q_{k+1} given by γ⁺ = 𝔽⁺.
 ///

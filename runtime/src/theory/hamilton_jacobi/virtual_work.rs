@@ -6,7 +6,9 @@ use gauss_quad::legendre::GaussLegendre;
 use nalgebra::SVector;
 
 use super::{Characteristic, HamiltonJacobi, HamiltonJacobiError};
-use crate::{Discrete, Scalar, ScalarField};
+use crate::numbers::Scalar;
+use crate::step::Discrete;
+use crate::system::ScalarField;
 
 /// W_k of two functions S_k, S_{k+1} at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]

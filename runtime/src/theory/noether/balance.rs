@@ -4,8 +4,10 @@ use core::ops::Add;
 use nalgebra::SVector;
 
 use super::{Defect, Generator, Noether, defect_of};
+use crate::numbers::Scalar;
+use crate::step::{Discrete, State, Step, StepError};
+use crate::system::VectorField;
 use crate::theory::verdict::{is_zero, tells};
-use crate::{Discrete, Scalar, State, Step, StepError, VectorField};
 
 /// The account of a momentum map along a trajectory: J_N − J_0 = Σ ξ(L_d) + Σ f_d(ξ). See [`Noether::balance`].
 #[derive(Clone, Debug, PartialEq)]

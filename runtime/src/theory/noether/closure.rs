@@ -4,8 +4,9 @@ use nalgebra::{DMatrix, DVector, SVector};
 
 use super::rank::Conditions;
 use super::{Generator, bracket};
+use crate::numbers::Scalar;
+use crate::system::VectorField;
 use crate::theory::verdict::{excess, is_zero, largest, typical};
-use crate::{Scalar, VectorField};
 
 /// How far the brackets of a basis lie from its span, at the sampled points.
 #[derive(Clone, Copy, Debug, PartialEq)]

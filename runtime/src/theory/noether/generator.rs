@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::{Scalar, VectorField};
+use crate::numbers::Scalar;
+use crate::system::VectorField;
 
 /// The generator ξ of a one-parameter group acting on Q = ℝᴺ, with a name for reports.
 ///

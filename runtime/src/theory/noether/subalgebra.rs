@@ -5,9 +5,13 @@ use nalgebra::{DMatrix, SVector};
 use super::closure::Fields;
 use super::rank::{Conditions, null_space};
 use super::{Closure, Generator, Noether, RankDecision, moves_an_end};
-use crate::theory::samples::{SampleError, Segment, require_informative, require_step_size};
-use crate::theory::verdict::largest;
-use crate::{Discrete, Scalar, VectorField};
+use crate::numbers::Scalar;
+use crate::step::Discrete;
+use crate::system::VectorField;
+use crate::theory::{
+    samples::{SampleError, Segment, require_informative, require_step_size},
+    verdict::largest,
+};
 
 /// Which combinations of some generators are symmetries. See [`Noether::subalgebra`].
 #[derive(Clone, Debug, PartialEq)]

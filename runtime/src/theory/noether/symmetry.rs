@@ -1,11 +1,13 @@
 use core::fmt;
 
 use super::{Generator, Noether, Terms, moves_an_end};
-use crate::theory::samples::{
-    SampleError, Segment, Tolerance, Worst, require_informative, require_step_size,
+use crate::numbers::Scalar;
+use crate::step::Discrete;
+use crate::system::VectorField;
+use crate::theory::{
+    samples::{SampleError, Segment, Tolerance, Worst, require_informative, require_step_size},
+    verdict::scales,
 };
-use crate::theory::verdict::scales;
-use crate::{Discrete, Scalar, VectorField};
 
 /// One of the quantities of Noether's theorem over the samples: the value furthest above its tolerance, and whether that counts as zero.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,11 +5,12 @@ use nalgebra::SVector;
 
 use super::quadrature::Quadrature;
 use super::{Integral, Residual, rounding_note};
-use crate::theory::samples::{
-    SampleError, Segment, Tolerance, at_segment, require_informative, require_step_size,
+use crate::numbers::Scalar;
+use crate::step::Discrete;
+use crate::theory::{
+    samples::{SampleError, Segment, Tolerance, at_segment, require_informative, require_step_size},
+    verdict::scales,
 };
-use crate::theory::verdict::scales;
-use crate::{Discrete, Scalar};
 
 /// Two systems side by side: have they the same forced discrete Euler–Lagrange equations, and by which gauge?
 ///

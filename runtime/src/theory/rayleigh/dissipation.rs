@@ -2,9 +2,12 @@ use core::fmt;
 
 use nalgebra::SVector;
 
-use crate::theory::samples::{SampleError, TangentPoint, Tolerance, coordinates, is_felt};
-use crate::theory::verdict::largest;
-use crate::{Rayleigh, Scalar};
+use crate::numbers::Scalar;
+use crate::system::Rayleigh;
+use crate::theory::{
+    samples::{SampleError, TangentPoint, Tolerance, coordinates, is_felt},
+    verdict::largest,
+};
 
 /// Whether R takes energy out, over a set of points (q, v). See [`dissipation`].
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,9 +6,12 @@ use nalgebra::SVector;
 use super::quadrature::Quadrature;
 use super::structure::structure_of;
 use super::{Integral, Residual, Structure, rounding_note};
-use crate::theory::samples::{SampleError, Segment, Tolerance, at_segment};
-use crate::theory::verdict::largest;
-use crate::{Discrete, Scalar};
+use crate::numbers::Scalar;
+use crate::step::Discrete;
+use crate::theory::{
+    samples::{SampleError, Segment, Tolerance, at_segment},
+    verdict::largest,
+};
 
 /// R_d recovered from f_d = (D1 R_d, −D2 R_d) by quadrature.
 ///

@@ -4,7 +4,7 @@ use core::ops::{Add, Mul};
 use gauss_quad::GaussLegendre;
 use nalgebra::SVector;
 
-use crate::Scalar;
+use crate::numbers::Scalar;
 
 /// An integral by quadrature.
 #[derive(Clone, Copy, Debug, PartialEq)]

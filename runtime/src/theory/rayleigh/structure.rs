@@ -1,10 +1,11 @@
 use core::fmt;
 
-use crate::theory::samples::{
-    SampleError, Segment, Tolerance, Worst, at_segment, require_informative, require_step_size,
+use crate::numbers::Scalar;
+use crate::step::{Discrete, DiscreteForceDerivatives};
+use crate::theory::{
+    samples::{SampleError, Segment, Tolerance, Worst, at_segment, require_informative, require_step_size},
+    verdict::{excess, largest, scales},
 };
-use crate::theory::verdict::{excess, largest, scales};
-use crate::{Discrete, DiscreteForceDerivatives, Scalar};
 
 /// One of the three conditions, over the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]

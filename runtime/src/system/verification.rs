@@ -6,20 +6,19 @@
 //!
 //! | when | where |
 //! |---|---|
-//! | [`State::from_velocity`] | at (q, v), and at a point beside it where no coordinate is special |
+//! | [`State::from_velocity`](crate::State::from_velocity) | at (q, v), and at a point beside it where no coordinate is special |
 //! | the start of a run: [`Trajectory`](crate::Trajectory), compositions, splittings, [`resume`](crate::Trajectory::resume) | at the state, and beside it |
 //! | every step, with `debug_assertions` | at the points where the rule evaluates the step taken |
 //!
-//! A difference is [`StepError::GeneratedDiffers`]. Systems written by hand, and those of dual numbers, have one value and
+//! A difference is [`StepError::GeneratedDiffers`](crate::StepError::GeneratedDiffers). Systems written by hand, and those of dual numbers, have one value and
 //! nothing to compare. On x86 processors without SSE2 nothing is compared: their registers round differently each time.
 
 use core::hint::black_box;
 
 use nalgebra::SVector;
 
-use crate::numbers::linear::NewtonMatrix;
-use crate::step::error::{Function, StepError};
-use crate::{Engine, Force, Lagrangian, Rayleigh, Scalar, State};
+use crate::numbers::Scalar;
+use crate::system::{Engine, Force, Function, GeneratedDiffers, Lagrangian, Rayleigh};
 
 /// Whether the same operations give the same bits.
 const IS_IEEE: bool = cfg!(not(all(target_arch = "x86", not(target_feature = "sse2"))));
@@ -27,14 +26,14 @@ const IS_IEEE: bool = cfg!(not(all(target_arch = "x86", not(target_feature = "ss
 /// L as generated against L as written.
 ///
 /// # Errors
-/// [`StepError::GeneratedDiffers`].
+/// [`GeneratedDiffers`].
 #[cold]
 #[inline(never)]
 pub fn lagrangian<L: Lagrangian<N>, const N: usize>(
     system: &L,
     q: &SVector<L::Scalar, N>,
     v: &SVector<L::Scalar, N>,
-) -> Result<(), StepError> {
+) -> Result<(), GeneratedDiffers> {
     // Neither side knows more of its arguments than the other: a constant folded by the compiler on one side alone, with the
     // elementary functions of another machine, would differ.
     let (system, q, v) = black_box((system, q, v));
@@ -44,14 +43,14 @@ pub fn lagrangian<L: Lagrangian<N>, const N: usize>(
 /// R as generated against R as written.
 ///
 /// # Errors
-/// [`StepError::GeneratedDiffers`].
+/// [`GeneratedDiffers`].
 #[cold]
 #[inline(never)]
 pub fn rayleigh<L: Rayleigh<N>, const N: usize>(
     system: &L,
     q: &SVector<L::Scalar, N>,
     v: &SVector<L::Scalar, N>,
-) -> Result<(), StepError> {
+) -> Result<(), GeneratedDiffers> {
     let (system, q, v) = black_box((system, q, v));
     compare(Function::Rayleigh, system.rayleigh_gradient(q, v).value, system.rayleigh(q, v))
 }
@@ -59,14 +58,14 @@ pub fn rayleigh<L: Rayleigh<N>, const N: usize>(
 /// f as generated against f as written, component by component.
 ///
 /// # Errors
-/// [`StepError::GeneratedDiffers`].
+/// [`GeneratedDiffers`].
 #[cold]
 #[inline(never)]
 pub fn force<L: Force<N>, const N: usize>(
     system: &L,
     q: &SVector<L::Scalar, N>,
     v: &SVector<L::Scalar, N>,
-) -> Result<(), StepError> {
+) -> Result<(), GeneratedDiffers> {
     let (system, q, v) = black_box((system, q, v));
     let generated = system.force_derivatives(q, v).value;
     let written = system.force(q, v);
@@ -77,17 +76,17 @@ pub fn force<L: Force<N>, const N: usize>(
 }
 
 /// Fails unless the two values are equal, or both NaN.
-fn compare<S: Scalar>(function: Function, generated: S, written: S) -> Result<(), StepError> {
+fn compare<S: Scalar>(function: Function, generated: S, written: S) -> Result<(), GeneratedDiffers> {
     let (generated, written) = (generated.widen(), written.widen());
     if !IS_IEEE || generated == written || (generated.is_nan() && written.is_nan()) {
         Ok(())
     } else {
-        Err(StepError::GeneratedDiffers { function, generated, written })
+        Err(GeneratedDiffers { function, generated, written })
     }
 }
 
 /// Whether there are two values of each function.
-const fn has_two_values(engine: Engine) -> bool {
+pub(crate) const fn has_two_values(engine: Engine) -> bool {
     matches!(engine, Engine::Expanded)
 }
 
@@ -96,7 +95,7 @@ pub(crate) fn around<L: Lagrangian<N>, const N: usize>(
     system: &L,
     q: &SVector<L::Scalar, N>,
     v: &SVector<L::Scalar, N>,
-) -> Result<(), StepError> {
+) -> Result<(), GeneratedDiffers> {
     if !has_two_values(L::STRUCTURE.engine) {
         return Ok(());
     }
@@ -105,24 +104,4 @@ pub(crate) fn around<L: Lagrangian<N>, const N: usize>(
         SVector::from_fn(|i, _| x[i] + L::Scalar::constant(direction * (1.0 + 0.125 * i as f64)))
     };
     system.verify_generated(&beside(q, 0.75), &beside(v, -1.25))
-}
-
-/// Verifies a system where a run starts, `elapsed` after its own time.
-#[cold]
-#[inline(never)]
-pub(crate) fn at_start<L: Lagrangian<N>, const N: usize>(
-    system: &L,
-    elapsed: f64,
-    state: &State<L::Scalar, N>,
-) -> Result<(), StepError> {
-    if !has_two_values(L::STRUCTURE.engine) {
-        return Ok(());
-    }
-    system.later(L::Scalar::constant(elapsed), |system| {
-        // One Newton iteration for ∂L/∂v(q, v) = p from rest: exact where L is quadratic in v, and a point as good as any elsewhere.
-        let rest = SVector::zeros();
-        let l = system.lagrangian_derivatives(&state.q, &rest);
-        let v = l.d22.solve(&(state.p - l.d2)).unwrap_or(rest);
-        around(system, &state.q, &v)
-    })
 }

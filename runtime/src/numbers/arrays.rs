@@ -1,0 +1,7 @@
+//! Arithmetic and functions of arrays of `f64` or `f32`, in vector instructions: what a scalar type brings for lanes.
+
+mod functions;
+mod vectors;
+
+pub use functions::Functions;
+pub use vectors::Vectors;

@@ -1,0 +1,61 @@
+//! What a run begins with: `system.by(rule, h)`, or `system.to_error(tolerance)`.
+
+use crate::run::{OffersMethods, Request};
+use crate::step::{Discretised, RuleOf};
+use crate::system::Lagrangian;
+
+/// What makes a [`Discretised`] of every system.
+pub trait Discretise<const N: usize>: Lagrangian<N> + Sized {
+    /// This system discretised by `rule` with step size `h`: what is asked of a discrete system is asked of the value returned.
+    ///
+    /// ```
+    /// use dalembert::{Discretise, Midpoint, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system]
+    /// fn pendulum(q: [f64; 1], v: [f64; 1], c: f64) -> (f64, f64) {
+    ///     (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * c * v[0] * v[0])
+    /// }
+    /// let pendulum = Pendulum { c: 0.1 };
+    /// let start = State::from_velocity(&pendulum, [1.0], [0.0])?;
+    /// let end = pendulum.by(Midpoint, 0.1).run(start).nth(99).unwrap()?.state;
+    /// assert!(end.energy(&pendulum)? < start.energy(&pendulum)?);
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    #[inline]
+    fn by<R>(&self, rule: R, h: Self::Scalar) -> Discretised<'_, Self, R, N>
+    where
+        R: RuleOf<Self, N>,
+    {
+        let _ = rule;
+        Discretised::new(self, h)
+    }
+
+    /// This system with an error of at most `tolerance` asked for, in units of q, of its state on the whole way: the method and the
+    /// step size are chosen by the motion.
+    ///
+    /// What is promised, and how it is chosen and guarded, [`Method::for_tolerance`](crate::Method::for_tolerance) tells.
+    ///
+    /// ```
+    /// use dalembert::{Discretise, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system(rule = [trapezoidal, gauss])]
+    /// fn pendulum(q: [f64; 1], v: [f64; 1], c: f64) -> (f64, f64) {
+    ///     (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * c * v[0] * v[0])
+    /// }
+    /// let pendulum = Pendulum { c: 0.1 };
+    /// let start = State::from_velocity(&pendulum, [1.0], [0.0])?;
+    /// let mut run = pendulum.to_error(1e-9).until(20.0).run(start)?;
+    /// let end = run.by_ref().last().unwrap()?;
+    /// assert!(run.breach().is_none() && end.energy(&pendulum)? < start.energy(&pendulum)?);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[inline]
+    fn to_error(&self, tolerance: f64) -> Request<'_, Self, Self::Methods>
+    where
+        Self: OffersMethods<N>,
+    {
+        Request::new(self, Self::Methods::default(), tolerance)
+    }
+}
+
+impl<L: Lagrangian<N>, const N: usize> Discretise<N> for L {}

@@ -1,0 +1,251 @@
+//! A system, a rule and a step size as one value: what everything that is asked of a discrete system is asked of. Floors above add
+//! their own questions.
+
+use core::fmt;
+use core::marker::PhantomData;
+
+use nalgebra::SVector;
+
+use crate::numbers::Derivatives;
+use crate::step::{Discrete, DiscreteForce, DiscreteRayleigh, LegendreDerivatives, State, Step, StepError};
+use crate::system::Lagrangian;
+
+/// A system discretised by rule `R` with step size h: [`by`](crate::Discretise::by).
+///
+/// ```
+/// use dalembert::{Discretise, Midpoint, State, rayleigh_system};
+///
+/// #[rayleigh_system]
+/// fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+///     (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+/// }
+/// let system = Oscillator { m: 1.0, k: 1.0, r: 0.5 };
+/// let by = system.by(Midpoint, 0.25);
+/// let start = State::from_velocity(&system, [0.0], [1.0])?;
+/// let step = by.step(&start)?;
+/// assert!((step.state.q[0] - 1.0 / 4.3125).abs() < 1e-15); // 4hp/(4m + h²k + 2hr)
+///
+/// // The momenta of the segment that was stepped over.
+/// let (q0, q1) = (&start.q, &step.state.q);
+/// assert!((by.legendre_minus(q0, q1).p - start.p).amax() < 1e-15);
+/// assert!((by.legendre_plus(q0, q1).p - step.state.p).amax() < 1e-15);
+///
+/// // The same step in two halves.
+/// let half = by.with_step(0.125);
+/// let halves = half.run(start).take(2).last().unwrap()?;
+/// assert!((halves.state.q - step.state.q).amax() < 1e-3);
+/// # Ok::<(), dalembert::StepError>(())
+/// ```
+pub struct Discretised<'a, L, R, const N: usize>
+where
+    L: Lagrangian<N>,
+{
+    pub(crate) system: &'a L,
+    pub(crate) h: L::Scalar,
+    pub(crate) guess: Option<SVector<L::Scalar, N>>,
+    rule: PhantomData<fn() -> R>,
+}
+
+impl<L: Lagrangian<N>, R, const N: usize> Clone for Discretised<'_, L, R, N> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<L: Lagrangian<N>, R, const N: usize> Copy for Discretised<'_, L, R, N> {}
+
+impl<L: Lagrangian<N>, R, const N: usize> fmt::Debug for Discretised<'_, L, R, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (system, rule) = (core::any::type_name::<L>(), core::any::type_name::<R>());
+        write!(f, "{system} by {rule} with h = {}", self.h)
+    }
+}
+
+/// A rule by which `L` is discretised: `Midpoint`, if `L` lists `rule = midpoint`.
+///
+/// That is [`Discrete`] seen from the rule, which [`by`](crate::Discretise::by) takes by value.
+pub trait RuleOf<L: ?Sized, const N: usize> {}
+
+impl<L: Discrete<R, N> + ?Sized, R, const N: usize> RuleOf<L, N> for R {}
+
+impl<'a, L, R, const N: usize> Discretised<'a, L, R, N>
+where
+    L: Lagrangian<N>,
+{
+    pub(crate) fn new(system: &'a L, h: L::Scalar) -> Self {
+        Self { system, h, guess: None, rule: PhantomData }
+    }
+
+    /// The system.
+    #[must_use]
+    pub fn system(&self) -> &'a L {
+        self.system
+    }
+
+    /// The step size h.
+    #[must_use]
+    pub fn step_size(&self) -> L::Scalar {
+        self.h
+    }
+
+    /// The same system by the same rule with step size `h`.
+    #[must_use]
+    pub fn with_step(self, h: L::Scalar) -> Self {
+        Self { h, ..self }
+    }
+
+    /// The same for steps whose mean velocity v̄ = (q1 − q0)/h is near `velocity`, such as that of the step before: Newton's method
+    /// starts there, and not at the velocity of the state.
+    #[must_use]
+    pub fn near(self, velocity: &SVector<L::Scalar, N>) -> Self {
+        Self { guess: Some(*velocity), ..self }
+    }
+}
+
+/// Steps.
+impl<L, R, const N: usize> Discretised<'_, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    /// The flow on T*Q: solves p0 = −D1 L_d − f_d⁻ for q1, then p1 = D2 L_d + f_d⁺.
+    ///
+    /// Newton's method starts at the velocity of the state, and ∂²L/∂v² is checked to be invertible; where that leads nowhere, it
+    /// starts again at rest, and away from it if rest is a singular point. h may be negative. Nothing is allocated, nothing panics
+    /// (unless L, R or f do), and the number of iterations is bounded.
+    ///
+    /// In a sequence of steps, [`run`](Self::run) and [`near`](Self::near) save iterations.
+    ///
+    /// # Errors
+    /// A [`StepError`]; the state given is untouched.
+    #[inline]
+    pub fn step(&self, state: &State<L::Scalar, N>) -> Result<Step<L::Scalar, N>, StepError> {
+        self.system.step(state, self.h, self.guess.as_ref())
+    }
+
+    /// The flow on Q×Q: (q0, q1) ↦ (q1, q2), with q2 = `state.q` of the step returned.
+    ///
+    /// Of a system at a time t, a view, (q0, q1) is the segment of t, and the step is taken at t + h.
+    ///
+    /// # Errors
+    /// Those of [`step`](Self::step).
+    pub fn step_configurations(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+    ) -> Result<Step<L::Scalar, N>, StepError> {
+        self.system.step_configurations(q0, q1, self.h, self.guess.as_ref())
+    }
+}
+
+/// The discrete objects on a segment (q0, q1), under the names of the theory.
+impl<L, R, const N: usize> Discretised<'_, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    /// L_d(q0, q1).
+    pub fn discrete_lagrangian(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar {
+        self.system.discrete_lagrangian(q0, q1, self.h)
+    }
+
+    /// L_d with D1, D2, D11, D12, D22.
+    pub fn discrete_lagrangian_derivatives(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+    ) -> Derivatives<L::Scalar, N> {
+        self.system.discrete_lagrangian_derivatives(q0, q1, self.h)
+    }
+
+    /// f_d = (f_d⁻, f_d⁺), of the Rayleigh function and the general force together; 0 where the system has neither.
+    pub fn discrete_force(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+    ) -> DiscreteForce<L::Scalar, N> {
+        self.system.discrete_force(q0, q1, self.h)
+    }
+
+    /// 𝔽⁻: (q0, q1) ↦ (q0, −D1 L_d − f_d⁻).
+    pub fn legendre_minus(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+    ) -> State<L::Scalar, N> {
+        self.system.legendre_minus(q0, q1, self.h)
+    }
+
+    /// 𝔽⁺: (q0, q1) ↦ (q1, D2 L_d + f_d⁺).
+    pub fn legendre_plus(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+    ) -> State<L::Scalar, N> {
+        self.system.legendre_plus(q0, q1, self.h)
+    }
+
+    /// Both momenta of the segment with their derivatives by q0 and q1.
+    pub fn legendre_derivatives(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+    ) -> LegendreDerivatives<L::Scalar, N> {
+        self.system.legendre_derivatives(q0, q1, self.h)
+    }
+
+    /// Left side of the forced discrete Euler–Lagrange equation at q1, 0 along solutions: [`Discrete::del_residual`].
+    pub fn del_residual(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+        q2: &SVector<L::Scalar, N>,
+    ) -> SVector<L::Scalar, N> {
+        self.system.del_residual(q0, q1, q2, self.h)
+    }
+
+    /// Energy on the segment: E_L at the points and velocity that the rule sees.
+    pub fn segment_energy(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar {
+        self.system.segment_energy(q0, q1, self.h)
+    }
+}
+
+/// The discrete objects of a Rayleigh system on a segment (q0, q1).
+impl<L, R, const N: usize> Discretised<'_, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    /// R_d(q0, q1).
+    pub fn discrete_rayleigh(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar
+    where
+        L: DiscreteRayleigh<R, N>,
+    {
+        self.system.discrete_rayleigh(q0, q1, self.h)
+    }
+
+    /// R_d with D1, D2, D11, D12, D22.
+    pub fn discrete_rayleigh_derivatives(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+    ) -> Derivatives<L::Scalar, N>
+    where
+        L: DiscreteRayleigh<R, N>,
+    {
+        self.system.discrete_rayleigh_derivatives(q0, q1, self.h)
+    }
+
+    /// L_d⁺ = L_d + R_d.
+    pub fn modified_plus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar
+    where
+        L: DiscreteRayleigh<R, N>,
+    {
+        self.system.modified_plus(q0, q1, self.h)
+    }
+
+    /// L_d⁻ = L_d − R_d.
+    pub fn modified_minus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar
+    where
+        L: DiscreteRayleigh<R, N>,
+    {
+        self.system.modified_minus(q0, q1, self.h)
+    }
+}

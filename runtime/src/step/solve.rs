@@ -1,0 +1,135 @@
+//! From the equation of a step to the step.
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::numbers::{NewtonMatrix, Scalar};
+use crate::step::{
+    BoundedStep, Momenta, Quantity, State, Step, StepError, StepKernel, newton,
+    newton::{Equation, StepEquations},
+    require_regular,
+};
+use crate::system::Lagrangian;
+
+/// [`Discrete::step`] with the step's equation and both momenta as functions of (q0, v̄, h), and the mass that the velocity has in them.
+#[inline]
+pub(crate) fn step_by<L, M, const N: usize>(
+    system: &L,
+    kind: Equation,
+    (kernel, momenta, inertia): (
+        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> StepKernel<L::Scalar, N, M>,
+        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> Momenta<L::Scalar, N>,
+        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, N>,
+    ),
+    state: &State<L::Scalar, N>,
+    h: L::Scalar,
+    guess: Option<&SVector<L::Scalar, N>>,
+) -> Result<Step<L::Scalar, N>, StepError>
+where
+    L: Lagrangian<N> + ?Sized,
+    M: NewtonMatrix<L::Scalar, N>,
+{
+    require_step_size(h)?;
+    let start = match guess {
+        Some(v) => *v,
+        None => first_guess(system, kind, state)?,
+    };
+    let evaluate = |q: &_, v: &_| kernel(q, v, h);
+    let finish = |q: &_, v: &_| momenta(q, v, h);
+    let solution = match newton::quick(kind, &evaluate, &finish, state, start) {
+        Ok(solution) => solution,
+        Err(reached) => {
+            let of = StepEquations { kernel: &kernel, momenta: &momenta, inertia: &inertia, state, h };
+            newton::at_length(&of, start, guess.is_some(), reached)
+                .map_err(|error| in_arguments(state, guess).unwrap_or(error))?
+        }
+    };
+    // An argument that is not finite shows here or has failed above: none is looked at before.
+    Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)
+        .map_err(|error| in_arguments(state, guess).unwrap_or(error))
+}
+
+/// The velocity of `state`; where none is found, rest: a step may lead on, as from p = 0 at a singular point of L. Rest as well where
+/// the equation is linear: one correction leads from there to the root, with the least rounding.
+#[cold]
+#[inline(never)]
+fn first_guess<L: Lagrangian<N> + ?Sized, const N: usize>(
+    system: &L,
+    kind: Equation,
+    state: &State<L::Scalar, N>,
+) -> Result<SVector<L::Scalar, N>, StepError> {
+    let rest = nalgebra::zero();
+    if kind == Equation::Linear {
+        state.require_finite()?;
+        return require_regular(&system.lagrangian_derivatives(&state.q, &rest).d22).map(|()| rest);
+    }
+    match state.velocity(system) {
+        Ok(v) if StepError::require_finite(&v, Quantity::Velocity).is_ok() => Ok(v),
+        Err(
+            error @ (StepError::DegenerateLagrangian { .. }
+            | StepError::NonFinite {
+                quantity: Quantity::Configuration | Quantity::Momentum | Quantity::Derivatives,
+                ..
+            }),
+        ) => Err(error),
+        _ => Ok(rest),
+    }
+}
+
+/// [`Discrete::step_within`], likewise.
+#[expect(clippy::too_many_arguments, reason = "those of the step, and the number of iterations")]
+pub(crate) fn step_within_by<L, M, const N: usize>(
+    system: &L,
+    kind: Equation,
+    kernel: impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> StepKernel<L::Scalar, N, M>,
+    momenta: impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> Momenta<L::Scalar, N>,
+    state: &State<L::Scalar, N>,
+    h: L::Scalar,
+    guess: Option<&SVector<L::Scalar, N>>,
+    iterations: u32,
+) -> Result<BoundedStep<L::Scalar, N>, StepError>
+where
+    L: Lagrangian<N> + ?Sized,
+    M: NewtonMatrix<L::Scalar, N>,
+{
+    require_step_size(h)?;
+    state.require_finite()?;
+    let guess = match guess {
+        Some(v) => *v,
+        None => first_guess(system, kind, state)?,
+    };
+    StepError::require_finite(&guess, Quantity::Velocity)?;
+    let (solution, converged) = newton::bounded(kind, iterations, kernel, momenta, state, guess)?;
+    let step = Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)?;
+    Ok(BoundedStep { step, converged })
+}
+
+/// The first argument that is not finite: the cause, where a step has failed.
+#[cold]
+fn in_arguments<S: Scalar, const N: usize>(
+    state: &State<S, N>,
+    guess: Option<&SVector<S, N>>,
+) -> Option<StepError> {
+    let of_guess = || guess.map_or(Ok(()), |v| StepError::require_finite(v, Quantity::Velocity));
+    state.require_finite().and_then(|()| of_guess()).err()
+}
+
+/// The step `found`, from a guess if there was one. A guess that leads nowhere is not the step's fault: then the
+/// step `without`.
+///
+/// Both are asked for where they are needed: a function that asks for both would be another copy of the solver.
+#[inline(always)]
+pub(crate) fn or_without_guess<S, const N: usize>(
+    has_guess: bool,
+    mut found: Result<Step<S, N>, StepError>,
+    without: impl FnOnce() -> Result<Step<S, N>, StepError>,
+) -> Result<Step<S, N>, StepError> {
+    if has_guess && found.is_err() {
+        found = without();
+    }
+    found
+}
+
+#[inline]
+pub(crate) fn require_step_size<S: Scalar>(h: S) -> Result<(), StepError> {
+    if h.is_finite() && h != S::zero() { Ok(()) } else { Err(StepError::StepSize { h: h.widen() }) }
+}

@@ -1,0 +1,346 @@
+//! The runtime's floors: a module uses those below its own, none above; on one floor no modules use each other in a circle.
+//!
+//! `cargo test -p dalembert-tests --test project floors -- --nocapture` prints who uses whom.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+use proc_macro2::{TokenStream, TokenTree};
+use syn::visit::{self, Visit};
+
+/// From the lowest up. What stands side by side does not use each other.
+const LEVELS: [&[&str]; 6] =
+    [&["numbers"], &["system"], &["step"], &["rules"], &["run", "derivative"], &["theory"]];
+
+/// A path that a file names: segments from the crate's root.
+type Segments = Vec<String>;
+
+fn level(floor: &str) -> Option<usize> {
+    LEVELS.iter().position(|floors| floors.contains(&floor))
+}
+
+/// Every path of a file that begins at `crate` or `super`, but for those of its tests.
+struct Paths {
+    /// The module that is looked at, from the crate's root.
+    module: Segments,
+    found: Vec<Segments>,
+}
+
+impl Paths {
+    fn of(module: Segments, text: &str) -> Vec<Segments> {
+        let mut paths = Self { module, found: Vec::new() };
+        paths.visit_file(&syn::parse_file(text).expect("a source file"));
+        paths.found
+    }
+
+    /// The path as written; one that begins elsewhere, or ends at once, names nothing here.
+    fn add(&mut self, written: &[String]) {
+        let from_root = match written.first().map(String::as_str) {
+            Some("crate" | "dalembert") => written[1..].to_vec(),
+            Some("super") => {
+                let up = written.iter().take_while(|segment| *segment == "super").count();
+                let Some(depth) = self.module.len().checked_sub(up) else { return };
+                self.module[..depth].iter().chain(&written[up..]).cloned().collect()
+            }
+            _ => return,
+        };
+        if written.iter().any(|segment| !matches!(segment.as_str(), "crate" | "super")) {
+            self.found.push(from_root);
+        }
+    }
+
+    /// The paths of a `use`, one for each name.
+    fn add_tree(&mut self, before: &[String], tree: &syn::UseTree) {
+        let with = |name: String| before.iter().cloned().chain([name]).collect::<Segments>();
+        match tree {
+            syn::UseTree::Path(path) => self.add_tree(&with(path.ident.to_string()), &path.tree),
+            syn::UseTree::Name(name) if name.ident == "self" => self.add(before),
+            syn::UseTree::Name(name) => self.add(&with(name.ident.to_string())),
+            syn::UseTree::Rename(rename) => self.add(&with(rename.ident.to_string())),
+            syn::UseTree::Glob(_) => self.add(&with("*".into())),
+            syn::UseTree::Group(group) => group.items.iter().for_each(|tree| self.add_tree(before, tree)),
+        }
+    }
+
+    /// The paths in what a macro is given, or consists of.
+    fn add_tokens(&mut self, tokens: TokenStream) {
+        let mut written = Segments::new();
+        for token in tokens {
+            match token {
+                TokenTree::Ident(ident) => {
+                    if written.last().is_none_or(|last| last != "::") {
+                        written.clear();
+                    }
+                    written.push(ident.to_string());
+                    let names: Segments = written.iter().filter(|part| *part != "::").cloned().collect();
+                    let root = names.len() == 2 && (names[0] == "super" || level(&names[1]).is_none());
+                    if names.len() == 3 || root {
+                        self.add(&names);
+                    }
+                }
+                TokenTree::Punct(punct) if punct.as_char() == ':' => {
+                    if written.last().is_some_and(|last| last != "::") {
+                        written.push("::".into());
+                    }
+                }
+                TokenTree::Group(group) => {
+                    written.clear();
+                    self.add_tokens(group.stream());
+                }
+                _ => written.clear(),
+            }
+        }
+    }
+}
+
+fn is_for_tests(attributes: &[syn::Attribute]) -> bool {
+    attributes.iter().any(|attribute| {
+        attribute.path().is_ident("cfg")
+            && attribute.parse_args::<syn::Ident>().is_ok_and(|flag| flag == "test")
+    })
+}
+
+impl<'ast> Visit<'ast> for Paths {
+    fn visit_item_mod(&mut self, module: &'ast syn::ItemMod) {
+        if !is_for_tests(&module.attrs) {
+            self.module.push(module.ident.to_string());
+            visit::visit_item_mod(self, module);
+            self.module.pop();
+        }
+    }
+
+    fn visit_item_use(&mut self, item: &'ast syn::ItemUse) {
+        self.add_tree(&[], &item.tree);
+    }
+
+    fn visit_path(&mut self, path: &'ast syn::Path) {
+        self.add(&path.segments.iter().map(|segment| segment.ident.to_string()).collect::<Segments>());
+        visit::visit_path(self, path);
+    }
+
+    fn visit_macro(&mut self, invocation: &'ast syn::Macro) {
+        self.visit_path(&invocation.path);
+        self.add_tokens(invocation.tokens.clone());
+    }
+}
+
+/// Who uses whom.
+#[derive(Default)]
+struct Plan {
+    /// For each module, as (floor, module): the modules of its floor that it uses, each with the file and path that say so.
+    within: BTreeMap<(String, String), BTreeMap<String, String>>,
+    /// For each floor: the floors that it uses, each with the names.
+    between: BTreeMap<String, BTreeMap<String, BTreeSet<String>>>,
+    refused: Vec<String>,
+}
+
+impl Plan {
+    /// Of files given as their paths, `floor/module.rs` and below, and their texts.
+    fn of(files: &[(String, String)]) -> Self {
+        let mut plan = Self::default();
+        let module_of =
+            |path: &str| -> Segments { path.trim_end_matches(".rs").split('/').map(str::to_owned).collect() };
+        // What a floor shows of its modules: name by name, as `pub use state::State` in its file.
+        let mut shown = BTreeMap::<(String, String), String>::new();
+        for (path, text) in files {
+            let [floor] = &module_of(path)[..] else { continue };
+            for item in syn::parse_file(text).expect("a source file").items {
+                match item {
+                    syn::Item::Mod(module) => {
+                        let module = module.ident.to_string();
+                        plan.within.entry((floor.clone(), module.clone())).or_default();
+                        shown.insert((floor.clone(), module.clone()), module);
+                    }
+                    syn::Item::Use(item) => {
+                        let mut paths = Paths { module: Vec::new(), found: Vec::new() };
+                        paths.add_tree(&["crate".into()], &item.tree);
+                        for path in paths.found {
+                            if let [module, .., name] = &path[..] {
+                                shown.insert((floor.clone(), name.clone()), module.clone());
+                            }
+                        }
+                    }
+                    _ => {}
+                }
+            }
+        }
+        for (path, text) in files {
+            let module = module_of(path);
+            let from = &module[0];
+            let Some(own) = level(from) else {
+                plan.refused.push(format!("{path}: stands on no floor"));
+                continue;
+            };
+            for used in Paths::of(module.clone(), text) {
+                let said = format!("{path}: crate::{}", used.join("::"));
+                let to = &used[0];
+                match level(to) {
+                    None => plan.refused.push(format!("{said} goes through the root: name the floor")),
+                    Some(_) if to == from => plan.use_within(from, module.get(1), &used, &shown, said),
+                    Some(other) if other < own => {
+                        let names =
+                            plan.between.entry(from.clone()).or_default().entry(to.clone()).or_default();
+                        names.extend(used.get(1).cloned());
+                    }
+                    Some(other) if other == own => {
+                        plan.refused.push(format!("{said} goes from {from} to {to} beside it"))
+                    }
+                    Some(_) => plan.refused.push(format!("{said} climbs from {from} to {to}")),
+                }
+            }
+        }
+        plan.refuse_circles();
+        plan
+    }
+
+    fn use_within(
+        &mut self,
+        floor: &str,
+        module: Option<&String>,
+        used: &[String],
+        shown: &BTreeMap<(String, String), String>,
+        said: String,
+    ) {
+        // The floor's own file, which shows what its modules have.
+        let Some(module) = module else { return };
+        let Some(name) = used.get(1) else { return };
+        match shown.get(&(floor.to_owned(), name.clone())) {
+            None => self.refused.push(format!("{said} is nothing that {floor}.rs shows")),
+            Some(other) if other == module => {}
+            Some(other) => {
+                let uses = self.within.entry((floor.to_owned(), module.clone())).or_default();
+                uses.entry(other.clone()).or_insert(said);
+            }
+        }
+    }
+
+    fn refuse_circles(&mut self) {
+        let mut done = BTreeSet::new();
+        for (floor, module) in self.within.keys() {
+            let mut way = vec![module.clone()];
+            if let Some(circle) = self.circle(floor, &mut way, &mut done) {
+                let said =
+                    circle.windows(2).map(|pair| &self.within[&(floor.clone(), pair[0].clone())][&pair[1]]);
+                let said = said.cloned().collect::<Vec<_>>().join(", ");
+                done.extend(way.into_iter().map(|module| (floor.clone(), module)));
+                self.refused.push(format!("{floor}: a circle {} ({said})", circle.join(" → ")));
+            }
+        }
+    }
+
+    /// The first circle met on a way on from the end of `way`.
+    fn circle(
+        &self,
+        floor: &str,
+        way: &mut Vec<String>,
+        done: &mut BTreeSet<(String, String)>,
+    ) -> Option<Vec<String>> {
+        let here = (floor.to_owned(), way.last()?.clone());
+        if done.contains(&here) {
+            return None;
+        }
+        for next in self.within.get(&here)?.keys() {
+            way.push(next.clone());
+            if let Some(start) = way[..way.len() - 1].iter().position(|module| module == next) {
+                return Some(way[start..].to_vec());
+            }
+            if let Some(circle) = self.circle(floor, way, done) {
+                return Some(circle);
+            }
+            way.pop();
+        }
+        done.insert(here);
+        None
+    }
+
+    /// The floors, from the highest down.
+    fn drawn(&self) -> String {
+        let mut drawn = String::new();
+        for floor in LEVELS.iter().rev().copied().flatten().copied() {
+            writeln!(drawn, "{floor}").unwrap();
+            for (_, (module, uses)) in
+                self.within.iter().map(|(key, uses)| (&key.0, (&key.1, uses))).filter(|(of, _)| *of == floor)
+            {
+                let uses = uses.keys().map(String::as_str).collect::<Vec<_>>().join(", ");
+                writeln!(drawn, "    {module}{}{uses}", if uses.is_empty() { "" } else { " → " }).unwrap();
+            }
+            for (other, names) in self.between.get(floor).into_iter().flatten() {
+                let names = names.iter().map(String::as_str).collect::<Vec<_>>().join(", ");
+                writeln!(drawn, "  {other}: {names}").unwrap();
+            }
+        }
+        drawn
+    }
+}
+
+/// The files of `directory`, by their paths from `root`.
+fn read(root: &Path, directory: &Path, files: &mut Vec<(String, String)>) {
+    for entry in fs::read_dir(directory).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            read(root, &path, files);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            let name = path.strip_prefix(root).unwrap().to_str().unwrap().replace('\\', "/");
+            files.push((name, fs::read_to_string(&path).unwrap()));
+        }
+    }
+}
+
+#[test]
+fn floors_use_what_is_below_them() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime/src");
+    let mut files = Vec::new();
+    read(&root, &root, &mut files);
+    // The root itself shows what the floors have.
+    files.retain(|(path, _)| path != "lib.rs");
+    files.sort();
+    let plan = Plan::of(&files);
+    println!("{}", plan.drawn());
+    assert!(plan.refused.is_empty(), "{:#?}", plan.refused);
+    // Not for want of looking.
+    assert!(plan.between["step"]["numbers"].contains("Scalar"));
+    assert!(plan.within[&("step".into(), "legendre".into())].contains_key("newton"));
+}
+
+/// What is refused of a tree of files.
+fn refused(files: &[(&str, &str)]) -> Vec<String> {
+    Plan::of(&files.iter().map(|&(path, text)| (path.to_owned(), text.to_owned())).collect::<Vec<_>>())
+        .refused
+}
+
+#[test]
+fn climbs_and_circles_are_refused() {
+    let below = ("numbers.rs", "mod scalar; pub use scalar::Scalar;");
+    let above = ("step.rs", "mod error; mod state; pub use error::StepError; pub use state::State;");
+    let error = ("step/error.rs", "use crate::numbers::Scalar; pub struct StepError;");
+    let state = ("step/state.rs", "use super::StepError; pub struct State;");
+    let scalar =
+        ("numbers/scalar.rs", "pub trait Scalar {} #[cfg(test)] mod tests { use crate::step::State; }");
+    assert_eq!(refused(&[below, above, error, state, scalar]), [""; 0]);
+
+    let climbing = |text| refused(&[below, above, error, state, ("numbers/scalar.rs", text)]);
+    let message = "numbers/scalar.rs: crate::step::State climbs from numbers to step";
+    assert_eq!(climbing("use crate::{step::State};"), [message]);
+    assert_eq!(climbing("fn of() -> crate::step::State { todo!() }"), [message]);
+    assert_eq!(climbing("macro_rules! of { () => { $crate::step::State } }"), [message]);
+    assert_eq!(climbing("mod inner { use super::super::super::step::State; }"), [message]);
+
+    let through = refused(&[below, above, error, scalar, ("step/state.rs", "use crate::{Scalar};")]);
+    let message = "step/state.rs: crate::Scalar goes through the root: name the floor";
+    assert_eq!(through, [message]);
+    let text = "macro_rules! of { () => { $crate::Scalar } }";
+    assert_eq!(refused(&[below, above, error, scalar, ("step/state.rs", text)]), [message]);
+
+    let beside = ("run.rs", "mod trajectory; use crate::derivative::Certificate;");
+    assert_eq!(
+        refused(&[beside]),
+        ["run.rs: crate::derivative::Certificate goes from run to derivative beside it"]
+    );
+
+    let around = ("step/error.rs", "pub struct StepError(crate::step::State);");
+    let circle = refused(&[below, above, around, state, scalar]);
+    let ways = "step/error.rs: crate::step::State, step/state.rs: crate::step::StepError";
+    assert_eq!(circle, [format!("step: a circle error → state → error ({ways})")]);
+}
