@@ -9,10 +9,9 @@ use std::env;
 use std::hint::black_box;
 
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::{
-    DiscreteDriven, DiscreteSecondOrder, Discretise, Discretised, Driven, ForcedLagrangian, Gauss, Midpoint,
-    State, rayleigh_system,
-};
+use dalembert::step::{DiscreteDriven, DiscreteSecondOrder};
+use dalembert::system::{Driven, ForcedLagrangian};
+use dalembert::{Discretise, Discretised, Gauss, Midpoint, State, rayleigh_system};
 use dalembert_benches::instructions::{self, Part};
 use dalembert_benches::interleaved::medians;
 

@@ -22,9 +22,9 @@ pub use ring::Ring;
 pub use spring_chain::SpringChain;
 
 use dalembert::nalgebra::SVector;
-use dalembert::{
-    Derivatives, Discrete, Gradient, Lagrangian, Memory, Midpoint, Momenta, NewtonMatrix, StepKernel,
-};
+use dalembert::step::{Memory, Momenta, NewtonMatrix, StepKernel};
+use dalembert::system::{Derivatives, Gradient};
+use dalembert::{Discrete, Lagrangian, Midpoint};
 
 /// What a step evaluates, by hand.
 pub trait HandDerived<const N: usize>: Sized {

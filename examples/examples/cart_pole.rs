@@ -11,8 +11,9 @@ use std::f64::consts::PI;
 use std::time::Instant;
 
 use anyhow::{Context, Result, ensure};
+use dalembert::derivative::PhaseMatrix;
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
-use dalembert::{Discretise, PhaseMatrix, State, StepError, Trapezoidal, rayleigh_system};
+use dalembert::{Discretise, State, StepError, Trapezoidal, rayleigh_system};
 use dalembert_examples::control::{self, Linearised, Plan, Problem, Quadratic};
 use dalembert_examples::picture::{self, Curve, Dash, Mark, Panel, colour, linear};
 use rand::SeedableRng;

@@ -12,7 +12,8 @@ use std::iter::once;
 use std::path::PathBuf;
 
 use anyhow::Result;
-use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, Rayleigh, State, Step, rayleigh_system};
+use dalembert::step::Step;
+use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, Rayleigh, State, rayleigh_system};
 use dalembert_examples::baseline::{self, Method};
 use dalembert_examples::picture::{self, Axis, Curve, Dash, Panel, colour, linear, logarithmic};
 use indicatif::ProgressBar;

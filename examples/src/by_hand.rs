@@ -5,10 +5,11 @@
 //! ∂V/∂q = 2V′ q,  ∂²V/∂q² = 2V′ I + 4V″ q qᵀ      V′ = (s − 1)(3s − 1),  V″ = 6s − 4
 //! ```
 
-use dalembert::{
-    Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, DisplacementRule,
-    Lagrangian, Midpoint, Momenta, Rayleigh, StepKernel, VelocityHistory,
-};
+use dalembert::rules::DisplacementRule;
+use dalembert::run::VelocityHistory;
+use dalembert::step::{DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, StepKernel};
+use dalembert::system::Derivatives;
+use dalembert::{Discrete, Lagrangian, Midpoint, Rayleigh};
 use nalgebra::{Matrix2, Vector2};
 
 /// A particle in the ring potential with isotropic drag, as in the scene `ring`.

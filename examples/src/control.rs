@@ -2,8 +2,10 @@
 //! the linear-quadratic regulator, iterative LQR over a horizon, and the extended Kalman filter.
 
 use anyhow::{Context, Result};
+use dalembert::derivative::Linearization;
 use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::{Discrete, DiscreteDriven, Discretise, Linearization, Midpoint, State, StepError};
+use dalembert::step::DiscreteDriven;
+use dalembert::{Discrete, Discretise, Midpoint, State, StepError};
 
 /// A step of the model with its derivatives.
 #[derive(Clone, Copy, Debug)]

@@ -6,10 +6,9 @@
 #[expect(dead_code, reason = "of the scene, the system and its start are tested here")]
 mod ring;
 
-use dalembert::{
-    CovectorDerivatives, Derivatives, Discrete, DiscreteRayleigh, Discretise, Lagrangian, Midpoint, Rayleigh,
-    State,
-};
+use dalembert::step::DiscreteRayleigh;
+use dalembert::system::{CovectorDerivatives, Derivatives};
+use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, Rayleigh, State};
 use dalembert_examples::by_hand::RingByHand;
 use nalgebra::{Matrix2, Vector2, vector};
 use ring::Ring;

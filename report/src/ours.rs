@@ -3,9 +3,9 @@
 use std::marker::PhantomData;
 
 use anyhow::Result;
+use dalembert::run::{ComposedStep, ComposedTrajectory, Explicit};
 use dalembert::{
-    ComposedStep, ComposedTrajectory, Composition, Discrete, Discretise, Explicit, Gauss, Lagrangian,
-    Midpoint, Splitting, State, Trapezoidal,
+    Composition, Discrete, Discretise, Gauss, Lagrangian, Midpoint, Splitting, State, Trapezoidal,
 };
 
 use crate::scenes::Scene;

@@ -1,7 +1,8 @@
 //! The systems measured: for this project a Lagrangian and a Rayleigh function, for its peers the accelerations that follow,
 //! derived by hand with common subexpressions shared.
 
-use dalembert::{Discrete, ForcedLagrangian, Midpoint, Trapezoidal, rayleigh_system};
+use dalembert::system::ForcedLagrangian;
+use dalembert::{Discrete, Midpoint, Trapezoidal, rayleigh_system};
 
 use crate::ours::{Splittings, Steps};
 

@@ -8,4 +8,5 @@ mod linearization;
 mod parameters;
 mod second_order;
 
+pub use crate::step::{LegendreDerivatives, Linearization, PhaseMatrix, StateBy, StepHessian};
 pub use certificate::Certificate;

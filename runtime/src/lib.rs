@@ -7,17 +7,17 @@
 
 extern crate self as dalembert;
 
-mod derivative;
+pub mod derivative;
+pub mod generated;
 mod numbers;
-mod rules;
-mod run;
-mod step;
-mod system;
+pub mod rules;
+pub mod run;
+pub mod step;
+pub mod system;
 mod theory;
 
-#[cfg(feature = "std")]
-pub use numbers::dual;
-pub use system::verification;
+#[doc(inline)]
+pub use run::tolerance;
 #[cfg(feature = "std")]
 pub use theory::{exact, hamilton_jacobi, noether, rayleigh, samples};
 
@@ -85,7 +85,7 @@ mod attributes {
 ///
 /// | the system takes | its view | |
 /// |---|---|---|
-/// | u | `system.driven(u)` | `u` an array or an `SVector`: an [`Input`] |
+/// | u | `system.driven(u)` | `u` an array or an `SVector`: an [`Input`](system::Input) |
 /// | t | `system.at_time(t)` | |
 /// | u and t | `system.driven(u, t)` | |
 ///
@@ -142,7 +142,7 @@ mod attributes {
 /// | `rule = midpoint`, `rule = [midpoint, trapezoidal]` | the rules of discretisation; midpoint unless said |
 /// | `derivatives = auto`, `expanded`, `num_dual` | who makes the derivatives; written out where that can be, up to 20 000 operations in one function, unless said |
 /// | `parameters = [m, c[0]]` | fields by which the step is differentiated: [`Discretised::state_by_parameters`]; written out only |
-/// | `step_derivatives = second` | second derivatives of the step: [`StepHessian`] |
+/// | `step_derivatives = second` | second derivatives of the step: [`StepHessian`](derivative::StepHessian) |
 /// | `crate = mechanics` | the path of this crate, where Cargo.toml gives it another name: `mechanics = { package = "dalembert" }`; also of [`differentiable`](macro@differentiable) |
 ///
 /// Where `auto` cannot write the derivatives out, dual numbers make them when the program runs: twice as slow for two
@@ -232,7 +232,7 @@ mod attributes {
 /// they are so too, and a host repeats a microcontroller bit by bit. Other functions of the block, and code of your own, import
 /// [`Elementary`] to call them. Bodies must then be such that their derivatives can be written out.
 ///
-/// Where a derivative does not exist, it is what the table of [`Real`](dual::Real) says.
+/// Where a derivative does not exist, it is what the table of [`Real`](generated::dual::Real) says.
 ///
 /// Loops whose turns depend on numbers or fields are left to dual numbers, which take no enum.
 ///
@@ -267,31 +267,13 @@ pub use attributes::rayleigh_system;
 pub use attributes::differentiable;
 pub use nalgebra;
 
-pub use derivative::Certificate;
-pub use numbers::{
-    Banded, CovectorDerivatives, Derivatives, Direction, Elementary, Factored, FactoredBand, FactoredDense,
-    Gradient, Hessian, LaneVector, Lanes, Mask, NewtonMatrix, Scalar, Singular, Variations,
-};
-pub use rules::{
-    DisplacementRule, Fitted, FittedTrapezoidal, Gauss, JointRayleighRule, JointRule, Midpoint, Node,
-    OneSided, SelfAdjoint, SolvedForVelocity, StageHistory, Trapezoidal,
-};
-pub use run::{
-    Breach, Checkpoint, Choice, Composed, ComposedStep, ComposedTrajectory, Composition, Discretise,
-    DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, GaussOr, GuardedTrajectory, KeptMatrix,
-    Kicks, Method, MethodStep, Methods, OffersMethods, Parted, Request, Sample, Samples, SplitOr, Splitting,
-    Stagewise, Substeps, Taken, TimedRequest, ToleranceError, Trajectory, Trial, VelocityHistory, WithGauss,
-    WithSplittings,
-};
-pub use step::{
-    BoundedStep, Discrete, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteParameters,
-    DiscreteRayleigh, DiscreteSecondOrder, Discretised, EquationAt, LegendreDerivatives, Linearization,
-    Memory, Momenta, MomentaBy, PhaseMatrix, Quantity, Report, RuleOf, State, StateBy, Step, StepError,
-    StepHessian, StepKernel, StepWith,
-};
-pub use system::{
-    CyclicCoordinate, Damping, Driven, Engine, Force, ForcedLagrangian, Function, GeneratedDiffers,
-    GradientBy, Input, Lagrangian, NewtonStructure, Parameters, Rayleigh, Refusal, ScalarField, SecondOrder,
-    Stages, Structure, VectorField,
-};
+pub use numbers::Elementary;
+#[doc(inline)]
+pub use rules::{Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, Trapezoidal};
+#[doc(inline)]
+pub use run::{Checkpoint, Composition, Discretise, Splitting, Trajectory};
+#[doc(inline)]
+pub use step::{Discrete, Discretised, State, StepError};
+#[doc(inline)]
+pub use system::{Force, Lagrangian, Rayleigh, ScalarField, VectorField};
 pub use theory::EnergyLedger;

@@ -16,5 +16,5 @@ pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Hes
 pub use elementary::Elementary;
 pub use lanes::{LaneVector, Lanes, Mask};
 pub(crate) use linear::determinant_sign;
-pub use linear::{Banded, Factored, FactoredBand, FactoredDense, NewtonMatrix, Singular};
+pub use linear::{Banded, Factored, NewtonMatrix, Singular};
 pub use scalar::Scalar;

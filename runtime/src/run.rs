@@ -8,18 +8,16 @@ mod composition;
 mod discretise;
 mod memory;
 mod splitting;
-mod tolerance;
+pub mod tolerance;
 mod trajectory;
 
 pub use checkpoint::Checkpoint;
 pub(crate) use checkpoint::Course;
 pub use composed_trajectory::{ComposedStep, ComposedTrajectory};
-pub use composition::{Composition, Substeps};
+pub use composition::Composition;
+pub(crate) use composition::Substeps;
 pub use discretise::Discretise;
 pub use memory::{DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, KeptMatrix, VelocityHistory};
-pub use splitting::{Kicks, Splitting};
-pub use tolerance::{
-    Breach, Choice, Composed, GaussOr, GuardedTrajectory, Method, MethodStep, Methods, OffersMethods,
-    Request, SplitOr, Stagewise, Taken, TimedRequest, ToleranceError, Trial, WithGauss, WithSplittings,
-};
-pub use trajectory::{Parted, Sample, Samples, Trajectory};
+pub(crate) use splitting::Kicks;
+pub use splitting::Splitting;
+pub use trajectory::{Sample, Samples, Trajectory};

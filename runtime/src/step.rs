@@ -19,6 +19,7 @@ mod solve;
 mod start;
 mod state;
 
+pub use crate::numbers::{Banded, NewtonMatrix, Singular};
 pub use discrete::{Discrete, Memory};
 pub use discrete_force::{DiscreteForce, DiscreteForceDerivatives};
 pub use discrete_rayleigh::DiscreteRayleigh;
@@ -29,7 +30,8 @@ pub use kernel::{Momenta, MomentaBy, StepKernel};
 pub(crate) use legendre::require_regular;
 pub(crate) use linearization::invert;
 pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix, StateBy};
-pub use outcome::{BoundedStep, EquationAt, Report, Step, StepWith};
+pub(crate) use outcome::EquationAt;
+pub use outcome::{BoundedStep, Report, Step, StepWith};
 pub use parameters::DiscreteParameters;
 pub use second_order::{DiscreteSecondOrder, StepHessian};
 pub(crate) use solve::{or_without_guess, require_step_size, step_by, step_within_by};

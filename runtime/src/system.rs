@@ -1,6 +1,10 @@
 //! The system as the user states it, in continuous time: L, R and f with their derivatives, and what is known of their form.
 //!
-//! Uses numbers.
+//! `#[rayleigh_system]` implements what is here. A system written by hand implements [`Lagrangian`], and [`Rayleigh`] and [`Force`]
+//! where it has them; then [`Discrete`](crate::Discrete) with the data of [`step`](crate::step), or for Gauss rules
+//! [`ForcedLagrangian`] alone.
+//!
+//! Uses numbers, of which those that it speaks in are shown here.
 
 mod continuous;
 mod driven;
@@ -12,6 +16,10 @@ mod second_order;
 mod structure;
 pub mod verification;
 
+pub use crate::numbers::{
+    CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, LaneVector, Lanes, Mask, Scalar,
+    Variations,
+};
 pub use continuous::{Force, Lagrangian, Rayleigh};
 pub use driven::{Driven, Input};
 pub use error::{Function, GeneratedDiffers};

@@ -1,7 +1,7 @@
 //! Systems and their discrete objects written by hand over any number, differentiated pair by pair with num-dual's
 //! hyper-dual numbers: shares nothing with the derivatives that the crate generates but num-dual's arithmetic.
 
-use dalembert::Derivatives;
+use dalembert::system::Derivatives;
 use nalgebra::{SMatrix, SVector};
 use num_dual::{DualNum, HyperDual64};
 

@@ -1,4 +1,5 @@
-use dalembert::{Composition, DisplacementRule, Node, OneSided};
+use dalembert::{Composition, OneSided};
+use dalembert::rules::{DisplacementRule, Node};
 
 #[derive(Clone, Copy)]
 struct Rectangle;

@@ -1,4 +1,5 @@
-use dalembert::{Discrete, Driven, Lagrangian, Midpoint, rayleigh_system};
+use dalembert::{Discrete, Lagrangian, Midpoint, rayleigh_system};
+use dalembert::system::Driven;
 
 struct Cart;
 

@@ -6,7 +6,8 @@
 //! ```
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
-use dalembert::{KeptMatrix, Momenta, StepKernel};
+use dalembert::run::KeptMatrix;
+use dalembert::step::{Momenta, StepKernel};
 
 use super::HandDerived;
 use crate::scenes::expanded;

@@ -1,7 +1,8 @@
 //! The double pendulum, with C = cos(q0 − q1), S = sin(q0 − q1).
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
-use dalembert::{Momenta, StepKernel, VelocityHistory};
+use dalembert::run::VelocityHistory;
+use dalembert::step::{Momenta, StepKernel};
 
 use super::HandDerived;
 use crate::scenes::expanded;

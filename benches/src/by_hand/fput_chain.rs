@@ -1,7 +1,8 @@
 //! The FPUT chain: spring i between the masses i − 1 and i (walls at both ends), force d + β d³, stiffness 1 + 3β d².
 
 use dalembert::nalgebra::SVector;
-use dalembert::{Banded, KeptMatrix, Momenta, StepKernel};
+use dalembert::run::KeptMatrix;
+use dalembert::step::{Banded, Momenta, StepKernel};
 
 use super::HandDerived;
 use crate::scenes::expanded;

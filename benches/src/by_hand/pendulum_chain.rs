@@ -9,7 +9,8 @@
 //! the friction.
 
 use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::{KeptMatrix, Momenta, StepKernel};
+use dalembert::run::KeptMatrix;
+use dalembert::step::{Momenta, StepKernel};
 
 use super::HandDerived;
 use crate::scenes::expanded;

@@ -2,7 +2,9 @@
 //! stiffness k + 3κ d².
 
 use dalembert::nalgebra::SVector;
-use dalembert::{Banded, Discrete, KeptMatrix, Midpoint, Momenta, StepKernel};
+use dalembert::run::KeptMatrix;
+use dalembert::step::{Banded, Momenta, StepKernel};
+use dalembert::{Discrete, Midpoint};
 
 use super::HandDerived;
 

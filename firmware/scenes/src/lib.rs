@@ -8,7 +8,8 @@ mod scenes;
 
 pub use scenes::{double, single};
 
-use dalembert::{Scalar, State};
+use dalembert::State;
+use dalembert::system::Scalar;
 
 /// How many steps each scene takes.
 pub const STEPS: u32 = 200;

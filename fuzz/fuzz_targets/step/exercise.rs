@@ -1,10 +1,9 @@
 //! What is done with a system: steps, runs of them, and what is asked of steps.
 
+use dalembert::derivative::PhaseMatrix;
 use dalembert::nalgebra::{ComplexField, SVector};
-use dalembert::{
-    Composition, Discrete, Discretise, Lagrangian, Midpoint, PhaseMatrix, Scalar, State, StepError,
-    Trajectory,
-};
+use dalembert::system::Scalar;
+use dalembert::{Composition, Discrete, Discretise, Lagrangian, Midpoint, State, StepError, Trajectory};
 
 use crate::numbers::Bytes;
 use crate::promise;
@@ -134,7 +133,7 @@ impl Exercise {
         }
         let mut resumed = Trajectory::resume(system, rule, run.checkpoint());
         for _ in 0..2 {
-            let seen = |step: Option<Result<dalembert::Step<L::Scalar, N>, StepError>>| match step {
+            let seen = |step: Option<Result<dalembert::step::Step<L::Scalar, N>, StepError>>| match step {
                 Some(Ok(step)) => format!("{:?}", bits(&step.state)),
                 other => format!("{other:?}"),
             };

@@ -6,7 +6,9 @@
 //! happens to vanish. All coordinates of a system here have the same unit, and it is held to the largest residual and floor.
 
 use dalembert::nalgebra::{SVector, zero};
-use dalembert::{Discrete, NewtonMatrix, Scalar, State, Step};
+use dalembert::step::{NewtonMatrix, Step};
+use dalembert::system::Scalar;
+use dalembert::{Discrete, State};
 
 /// Floors within which a residual that has stopped falling is accepted.
 const STAGNATION: f64 = 4096.0;

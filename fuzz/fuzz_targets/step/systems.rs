@@ -3,10 +3,11 @@
 use std::cell::Cell;
 
 use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::{
-    Derivatives, Discrete, DisplacementRule, Lagrangian, Midpoint, Momenta, StepKernel, VelocityHistory,
-    rayleigh_system,
-};
+use dalembert::rules::DisplacementRule;
+use dalembert::run::VelocityHistory;
+use dalembert::step::{Momenta, StepKernel};
+use dalembert::system::Derivatives;
+use dalembert::{Discrete, Lagrangian, Midpoint, rayleigh_system};
 
 /// Everything linear: one solve, or explicit.
 #[rayleigh_system(rule = [midpoint, trapezoidal, gauss, fitted, fitted_trapezoidal, one_sided])]

@@ -83,7 +83,7 @@ pub fn system(
         #(#conditions)*
         #quiet_twins
         const _: () = {
-            use ::dalembert::dual::{self, Dual, Real};
+            use ::dalembert::generated::dual::{self, Dual, Real};
             #twins
         };
 
@@ -126,7 +126,7 @@ pub fn field(system: &System<'_>, twin: &Twin, function: &Function, kind: Field)
         // impl VectorField<2> for Rotation
         Field::Vector => quote! {
             use ::dalembert::nalgebra::{SMatrix, SVector};
-            use ::dalembert::{VectorField, dual};
+            use ::dalembert::generated::{VectorField, dual};
 
             type Vector = SVector<#scalar, #n>;
 
@@ -146,7 +146,7 @@ pub fn field(system: &System<'_>, twin: &Twin, function: &Function, kind: Field)
         // impl ScalarField<1> for Generating
         Field::Scalar => quote! {
             use ::dalembert::nalgebra::{SMatrix, SVector};
-            use ::dalembert::{ScalarField, dual};
+            use ::dalembert::generated::{ScalarField, dual};
 
             type Vector = SVector<#scalar, #n>;
 
@@ -174,7 +174,7 @@ pub fn field(system: &System<'_>, twin: &Twin, function: &Function, kind: Field)
         #(#conditions)*
         #quiet_twins
         const _: () = {
-            use ::dalembert::dual::{self, Dual, Real};
+            use ::dalembert::generated::dual::{self, Dual, Real};
 
             #[allow(dead_code)]
             impl #name {
@@ -220,7 +220,7 @@ fn imports(system: &System<'_>) -> TokenStream {
     let names = imported(system);
     quote! {
         use ::dalembert::nalgebra::{SMatrix, SVector};
-        use ::dalembert::{#(#names,)* dual};
+        use ::dalembert::generated::{#(#names,)* dual};
     }
 }
 
@@ -314,7 +314,7 @@ fn twins_of_block(system: &System<'_>, block: &ItemImpl, twins: &[Twin]) -> Toke
     }
 }
 
-/// `fn height(&self, x: f64) -> f64 { use ::dalembert::dual; dual::lower(self.height_over::<f64>(dual::lift(x))) }`
+/// `fn height(&self, x: f64) -> f64 { use ::dalembert::generated::dual; dual::lower(self.height_over::<f64>(dual::lift(x))) }`
 fn plain(system: &System<'_>, function: &mut ImplItemFn) {
     let scalar = &system.scalar;
     let name = over(&function.sig.ident);
@@ -331,7 +331,7 @@ fn plain(system: &System<'_>, function: &mut ImplItemFn) {
         function.attrs.push(parse_quote!(#[allow(dead_code)]));
     }
     function.block = parse_quote!({
-        use ::dalembert::dual;
+        use ::dalembert::generated::dual;
         dual::lower(#callee(#(#arguments),*))
     });
 }
@@ -433,7 +433,7 @@ fn function_and_struct(system: &System<'_>, function: &Function) -> TokenStream 
     let arguments = lifted_arguments(plain.sig.inputs.iter_mut());
     plain.attrs.retain(|attribute| !attribute.path().is_ident("expect"));
     plain.block = parse_quote!({
-        use ::dalembert::dual;
+        use ::dalembert::generated::dual;
         dual::lower(#name::#twin::<#scalar>(#(#arguments),*))
     });
     let structure = structure(system, function);

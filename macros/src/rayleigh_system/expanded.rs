@@ -154,12 +154,12 @@ fn imports(system: &System<'_>, calls_elementary: bool, forced: Option<&TokenStr
     }
     let elementary = calls_elementary.then(|| {
         quote!(
-            use ::dalembert::Elementary as _;
+            use ::dalembert::generated::Elementary as _;
         )
     });
     quote! {
         use ::dalembert::nalgebra::{SMatrix, SVector};
-        use ::dalembert::{#(#names),*};
+        use ::dalembert::generated::{#(#names),*};
         #elementary
     }
 }

@@ -94,7 +94,7 @@ fn field_stubs(source: &Source) -> Option<TokenStream> {
     Some(match &signature.output {
         ReturnType::Type(_, ty) if matches!(**ty, Type::Array(_)) => quote! {
             const _: () = {
-                impl ::dalembert::VectorField<#n> for #name {
+                impl ::dalembert::generated::VectorField<#n> for #name {
                     type Scalar = #scalar;
                     fn vector(&self, _: &#vector) -> #vector { ::core::unreachable!() }
                     fn jacobian(&self, _: &#vector) -> #matrix { ::core::unreachable!() }
@@ -103,7 +103,7 @@ fn field_stubs(source: &Source) -> Option<TokenStream> {
         },
         _ => quote! {
             const _: () = {
-                impl ::dalembert::ScalarField<#n> for #name {
+                impl ::dalembert::generated::ScalarField<#n> for #name {
                     type Scalar = #scalar;
                     fn value(&self, _: &#vector) -> #scalar { ::core::unreachable!() }
                     fn gradient(&self, _: &#vector) -> #vector { ::core::unreachable!() }
@@ -142,39 +142,39 @@ fn shape(signature: &Signature, system: &syn::Ident) -> Option<(TokenStream, Tok
 /// is wrong.
 fn stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream, rules: &Rules) -> TokenStream {
     let vector = quote!(&::dalembert::nalgebra::SVector<#scalar, #n>);
-    let derivatives = quote!(::dalembert::Derivatives<#scalar, #n>);
+    let derivatives = quote!(::dalembert::generated::Derivatives<#scalar, #n>);
     let is_empty = rules.of_displacement.is_empty() && !rules.gauss;
-    let forced =
-        (is_empty || rules.gauss).then(|| quote!(impl ::dalembert::ForcedLagrangian<#n> for #name {}));
+    let forced = (is_empty || rules.gauss)
+        .then(|| quote!(impl ::dalembert::generated::ForcedLagrangian<#n> for #name {}));
     let rules = if is_empty { &[Rule::Midpoint, Rule::Trapezoidal] } else { &rules.of_displacement[..] };
     let rules: Vec<_> = rules.iter().map(|rule| format_ident!("{}", rule.name())).collect();
     quote! {
         const _: () = {
-            impl ::dalembert::Lagrangian<#n> for #name {
+            impl ::dalembert::generated::Lagrangian<#n> for #name {
                 type Scalar = #scalar;
                 fn lagrangian(&self, _: #vector, _: #vector) -> #scalar { ::core::unreachable!() }
                 fn lagrangian_derivatives(&self, _: #vector, _: #vector) -> #derivatives { ::core::unreachable!() }
             }
-            impl ::dalembert::Rayleigh<#n> for #name {
+            impl ::dalembert::generated::Rayleigh<#n> for #name {
                 fn rayleigh(&self, _: #vector, _: #vector) -> #scalar { ::core::unreachable!() }
                 fn rayleigh_derivatives(&self, _: #vector, _: #vector) -> #derivatives { ::core::unreachable!() }
             }
-            impl ::dalembert::Force<#n> for #name {
+            impl ::dalembert::generated::Force<#n> for #name {
                 fn force(&self, _: #vector, _: #vector) -> ::dalembert::nalgebra::SVector<#scalar, #n> { ::core::unreachable!() }
-                fn force_derivatives(&self, _: #vector, _: #vector) -> ::dalembert::CovectorDerivatives<#scalar, #n> { ::core::unreachable!() }
+                fn force_derivatives(&self, _: #vector, _: #vector) -> ::dalembert::generated::CovectorDerivatives<#scalar, #n> { ::core::unreachable!() }
             }
             #forced
             #(
-                impl ::dalembert::Discrete<::dalembert::#rules, #n> for #name {
+                impl ::dalembert::generated::Discrete<::dalembert::generated::#rules, #n> for #name {
                     type Matrix = ::dalembert::nalgebra::SMatrix<#scalar, #n, #n>;
-                    type Memory = ::dalembert::VelocityHistory<#scalar, #n>;
+                    type Memory = ::dalembert::generated::VelocityHistory<#scalar, #n>;
                     fn discrete_lagrangian(&self, _: #vector, _: #vector, _: #scalar) -> #scalar { ::core::unreachable!() }
                     fn discrete_lagrangian_derivatives(&self, _: #vector, _: #vector, _: #scalar) -> #derivatives { ::core::unreachable!() }
-                    fn step_kernel(&self, _: #vector, _: #vector, _: #scalar) -> ::dalembert::StepKernel<#scalar, #n> { ::core::unreachable!() }
-                    fn momenta(&self, _: #vector, _: #vector, _: #scalar) -> ::dalembert::Momenta<#scalar, #n> { ::core::unreachable!() }
+                    fn step_kernel(&self, _: #vector, _: #vector, _: #scalar) -> ::dalembert::generated::StepKernel<#scalar, #n> { ::core::unreachable!() }
+                    fn momenta(&self, _: #vector, _: #vector, _: #scalar) -> ::dalembert::generated::Momenta<#scalar, #n> { ::core::unreachable!() }
                     fn segment_energy(&self, _: #vector, _: #vector, _: #scalar) -> #scalar { ::core::unreachable!() }
                 }
-                impl ::dalembert::DiscreteRayleigh<::dalembert::#rules, #n> for #name {
+                impl ::dalembert::generated::DiscreteRayleigh<::dalembert::generated::#rules, #n> for #name {
                     fn discrete_rayleigh(&self, _: #vector, _: #vector, _: #scalar) -> #scalar { ::core::unreachable!() }
                     fn discrete_rayleigh_derivatives(&self, _: #vector, _: #vector, _: #scalar) -> #derivatives { ::core::unreachable!() }
                 }

@@ -4,7 +4,7 @@
 //! stands there unmarked is generated, and takes another name:
 //!
 //! ```text
-//! struct Force { … }              use ::dalembert::{Force as Force_, Lagrangian, …};
+//! struct Force { … }              use ::dalembert::generated::{Force as Force_, Lagrangian, …};
 //! #[rayleigh_system]         →    impl Lagrangian<1> for Force { … }
 //! impl Force { … }                impl Force_<1> for Force { … }
 //! ```

@@ -83,9 +83,9 @@ fn verification(system: &System<'_>, home: Home) -> TokenStream {
             &self,
             q: &Vector,
             v: &Vector,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
-            #(::dalembert::verification::#others(self, q, v)?;)*
-            ::dalembert::verification::#last(self, q, v)
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            #(::dalembert::generated::verification::#others(self, q, v)?;)*
+            ::dalembert::generated::verification::#last(self, q, v)
         }
     }
 }
@@ -401,15 +401,15 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
         Some(diagonals) => {
             let diagonals = Literal::usize_unsuffixed(diagonals);
             (
-                quote!(::dalembert::Banded<#scalar, #n, #diagonals>),
+                quote!(::dalembert::generated::Banded<#scalar, #n, #diagonals>),
                 quote!(StepKernel<#scalar, #n, Self::Matrix>),
             )
         }
     };
     let memory = match memory {
-        Memory::Velocities => quote!(::dalembert::VelocityHistory<#scalar, #n>),
-        Memory::Matrix => quote!(::dalembert::KeptMatrix<#scalar, Self::Matrix, #n>),
-        Memory::Explicit => quote!(::dalembert::ExplicitMemory<#scalar, Self::Matrix, #n>),
+        Memory::Velocities => quote!(::dalembert::generated::VelocityHistory<#scalar, #n>),
+        Memory::Matrix => quote!(::dalembert::generated::KeptMatrix<#scalar, Self::Matrix, #n>),
+        Memory::Explicit => quote!(::dalembert::generated::ExplicitMemory<#scalar, Self::Matrix, #n>),
     };
     let linear = is_linear.then(|| {
         quote!(
@@ -420,7 +420,7 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
     let explicit = explicit.map(|functions| {
         quote! {
             #[automatically_derived]
-            impl ::dalembert::Explicit<#n> for #subject {
+            impl ::dalembert::generated::Explicit<#n> for #subject {
                 #functions
             }
         }
@@ -483,16 +483,16 @@ pub fn offered_methods(system: &System<'_>, is_explicit: bool) -> Option<TokenSt
     let rule = format_ident!("{}", rule?.name());
     let mut methods = quote!(#rule);
     if is_explicit {
-        methods = quote!(::dalembert::WithSplittings<#methods>);
+        methods = quote!(::dalembert::generated::WithSplittings<#methods>);
     }
     if system.rules.gauss {
-        methods = quote!(::dalembert::WithGauss<#methods>);
+        methods = quote!(::dalembert::generated::WithGauss<#methods>);
     }
     let n = system.degrees.times(1);
     let subject = subject(system, system.home());
     Some(quote! {
         #[automatically_derived]
-        impl ::dalembert::OffersMethods<#n> for #subject {
+        impl ::dalembert::generated::OffersMethods<#n> for #subject {
             type Methods = #methods;
         }
     })
@@ -507,7 +507,7 @@ fn segment_verification(system: &System<'_>, rule: &TokenStream) -> TokenStream 
             q0: &Vector,
             v: &Vector,
             h: #scalar,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             #rule::verify_segment(self, q0, v, h)
         }
     }
@@ -529,7 +529,7 @@ fn joint(system: &System<'_>, rule: Rule, is_expanded: bool) -> TokenStream {
         Rule::FittedTrapezoidal => quote!(ExplicitDriftMemory),
         _ => quote!(VelocityHistory),
     };
-    let memory = quote!(::dalembert::#memory<#scalar, #n>);
+    let memory = quote!(::dalembert::generated::#memory<#scalar, #n>);
     let is_fitted = rule != Rule::OneSided;
     let rule = format_ident!("{}", rule.name());
     let verification = is_expanded.then(|| segment_verification(system, &quote!(<#rule as JointRule>)));
@@ -540,21 +540,21 @@ fn joint(system: &System<'_>, rule: Rule, is_expanded: bool) -> TokenStream {
             #[inline]
             fn step(
                 &self,
-                state: &::dalembert::State<#scalar, #n>,
+                state: &::dalembert::generated::State<#scalar, #n>,
                 h: #scalar,
                 guess: ::core::option::Option<&Vector>,
-            ) -> ::core::result::Result<::dalembert::Step<#scalar, #n>, ::dalembert::StepError> {
+            ) -> ::core::result::Result<::dalembert::generated::Step<#scalar, #n>, ::dalembert::generated::StepError> {
                 #rule::step(self, state, h, guess)
             }
 
             /// The same by at most `iterations` of Newton's.
             fn step_within(
                 &self,
-                state: &::dalembert::State<#scalar, #n>,
+                state: &::dalembert::generated::State<#scalar, #n>,
                 h: #scalar,
                 guess: ::core::option::Option<&Vector>,
                 iterations: u32,
-            ) -> ::core::result::Result<::dalembert::BoundedStep<#scalar, #n>, ::dalembert::StepError> {
+            ) -> ::core::result::Result<::dalembert::generated::BoundedStep<#scalar, #n>, ::dalembert::generated::StepError> {
                 #rule::step_within(self, state, h, guess, iterations)
             }
         }

@@ -3,7 +3,7 @@
 //! | written | becomes |
 //! |---|---|
 //! | `x.sin()` | `x.elementary().sin()` |
-//! | `f64::sin(x)`, `.map(f64::sin)` | `<f64 as ::dalembert::Elementary>::sin(x)` |
+//! | `f64::sin(x)`, `.map(f64::sin)` | `<f64 as ::dalembert::generated::Elementary>::sin(x)` |
 //!
 //! Methods of `f64` itself come before those of a trait: an import alone would leave `x.sin()` to the standard library
 //! wherever there is one.
@@ -52,7 +52,7 @@ fn body(block: &mut Block) {
         block.stmts.insert(
             0,
             parse_quote!(
-                use ::dalembert::Elementary as _;
+                use ::dalembert::generated::Elementary as _;
             ),
         );
     }
@@ -82,7 +82,7 @@ impl VisitMut for Portable {
     }
 }
 
-/// `f64::sin` → `<f64 as ::dalembert::Elementary>::sin`.
+/// `f64::sin` → `<f64 as ::dalembert::generated::Elementary>::sin`.
 fn function_of_scalar(path: &ExprPath) -> Option<Expr> {
     let mut segments = path.path.segments.iter().rev();
     let (function, scalar) = (segments.next()?, segments.next()?);
@@ -93,6 +93,6 @@ fn function_of_scalar(path: &ExprPath) -> Option<Expr> {
         return None;
     }
     let (function, scalar) = (&function.ident, &scalar.ident);
-    let owner = quote!(<#scalar as ::dalembert::Elementary>);
+    let owner = quote!(<#scalar as ::dalembert::generated::Elementary>);
     Some(parse_quote_spanned!(path.span()=> #owner::#function))
 }

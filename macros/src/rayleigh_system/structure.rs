@@ -223,7 +223,7 @@ impl Structure {
                 let (token, reason) = (&refusal.token, &refusal.reason);
                 let line = Literal::usize_unsuffixed(refusal.line());
                 quote!(NumDual {
-                    refusal: ::core::option::Option::Some(::dalembert::Refusal::new(#token, #line, #reason)),
+                    refusal: ::core::option::Option::Some(::dalembert::generated::Refusal::new(#token, #line, #reason)),
                 })
             }
         };
@@ -238,23 +238,23 @@ impl Structure {
             let damping = format_ident!("{}", format!("{:?}", findings.damping));
             let cyclic = findings.cyclic.iter().map(|&Cyclic { index, damped, forced }| {
                 let index = Literal::usize_unsuffixed(index);
-                quote!(::dalembert::CyclicCoordinate::new(#index, #damped, #forced))
+                quote!(::dalembert::generated::CyclicCoordinate::new(#index, #damped, #forced))
             });
             let cyclic = (!findings.cyclic.is_empty()).then(|| quote!(.with_cyclic(&[#(#cyclic),*])));
             let newton = findings.newton.iter().map(|&Newton { rule, constant, bandwidth, .. }| {
                 let (rule, bandwidth) = (rule.name(), Literal::usize_unsuffixed(bandwidth));
-                quote!(::dalembert::NewtonStructure::new(#rule, #constant, #bandwidth))
+                quote!(::dalembert::generated::NewtonStructure::new(#rule, #constant, #bandwidth))
             });
             quote! {
                 #(.#found())*
-                .with_damping(::dalembert::Damping::#damping)
+                .with_damping(::dalembert::generated::Damping::#damping)
                 #cyclic
                 .with_newton_matrices(&[#(#newton),*])
             }
         });
         quote! {
-            const STRUCTURE: ::dalembert::Structure =
-                ::dalembert::Structure::UNKNOWN.with_engine(::dalembert::Engine::#engine) #findings;
+            const STRUCTURE: ::dalembert::generated::Structure =
+                ::dalembert::generated::Structure::UNKNOWN.with_engine(::dalembert::generated::Engine::#engine) #findings;
         }
     }
 }

@@ -90,9 +90,9 @@ pub fn definition(system: &System<'_>) -> Option<TokenStream> {
     };
     let function = format_ident!("{function}");
     let about = format!(" [`{system_name}`] with {about}; see [`{system_name}::{function}`].");
-    let input_parameter = m.iter().map(|m| quote!(u: impl ::dalembert::Input<#scalar, #m>));
+    let input_parameter = m.iter().map(|m| quote!(u: impl ::dalembert::generated::Input<#scalar, #m>));
     let parameters = input_parameter.chain(time_parameter.map(|scalar| quote!(t: #scalar)));
-    let u = m.iter().map(|_| quote!(u: ::dalembert::Input::entries(u)));
+    let u = m.iter().map(|_| quote!(u: ::dalembert::generated::Input::entries(u)));
     let values = u.chain(t);
     // pub struct DrivenArm<'a> { system: &'a Arm, u: [f64; 2] }
     // pub fn driven(&self, u: impl Input<f64, 2>) -> DrivenArm<'_>
@@ -147,7 +147,7 @@ pub fn delegation(system: &System<'_>, part: Part, verification: Option<TokenStr
             let associated = quote! {
                 type Scalar = #scalar;
 
-                const STRUCTURE: ::dalembert::Structure = <#name as Lagrangian<#n>>::STRUCTURE;
+                const STRUCTURE: ::dalembert::generated::Structure = <#name as Lagrangian<#n>>::STRUCTURE;
             };
             ("lagrangian", "Lagrangian", Some(associated), later(system))
         }

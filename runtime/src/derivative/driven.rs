@@ -26,7 +26,8 @@ where
     /// A and B of the step that leads from q0 to q1: (q1, p1) ≈ … + A (q0, p0) + B u.
     ///
     /// ```
-    /// use dalembert::{Discretise, Linearization, Midpoint, State, rayleigh_system};
+    /// use dalembert::derivative::Linearization;
+    /// use dalembert::{Discretise, Midpoint, State, rayleigh_system};
     ///
     /// struct Cart {
     ///     m: f64,

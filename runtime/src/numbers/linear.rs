@@ -11,8 +11,7 @@ mod banded;
 mod dense;
 mod determinant;
 
-pub use banded::{Banded, FactoredBand};
-pub use dense::FactoredDense;
+pub use banded::Banded;
 pub(crate) use determinant::determinant_sign;
 
 /// A matrix that has no solution to working precision: the column whose pivot is lost to rounding.

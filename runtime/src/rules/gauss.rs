@@ -60,7 +60,7 @@ const MAX_STAGES: usize = 8;
 /// The discrete objects solve for the stages between given end points. Where Newton's method finds none, they are NaN.
 ///
 /// Every stage sees its own time t0 + c_i h, and the input that is held. Derivatives of the step ([`Linearization`], [`StateBy`],
-/// [`StepHessian`](crate::StepHessian)) are exact, by the matrix of all stages, factored once. From the state that it starts from,
+/// [`StepHessian`](crate::derivative::StepHessian)) are exact, by the matrix of all stages, factored once. From the state that it starts from,
 /// `of_step` takes them at the stages of the step; between two ends, `of_segment` solves for the stages first. They neither
 /// allocate nor panic.
 ///

@@ -4,8 +4,8 @@ use crate::run::{Checkpoint, Course};
 use crate::step::{State, StepError};
 use crate::system::Lagrangian;
 
-/// A step that is made of several, with what it keeps for the next: [`Substeps`](crate::Substeps) of a
-/// [`Composition`](crate::Composition), [`Kicks`](crate::Kicks) and drifts of a [`Splitting`](crate::Splitting).
+/// A step that is made of several, with what it keeps for the next: substeps of a
+/// [`Composition`](crate::Composition), kicks and drifts of a [`Splitting`](crate::Splitting).
 pub trait ComposedStep<L: Lagrangian<N>, const N: usize> {
     /// The step from `state`, `elapsed` after the time of `system`.
     ///

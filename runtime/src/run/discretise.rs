@@ -1,6 +1,6 @@
 //! What a run begins with: `system.by(rule, h)`, or `system.to_error(tolerance)`.
 
-use crate::run::{OffersMethods, Request};
+use crate::run::tolerance::{OffersMethods, Request};
 use crate::step::{Discretised, RuleOf};
 use crate::system::Lagrangian;
 
@@ -33,7 +33,7 @@ pub trait Discretise<const N: usize>: Lagrangian<N> + Sized {
     /// This system with an error of at most `tolerance` asked for, in units of q, of its state on the whole way: the method and the
     /// step size are chosen by the motion.
     ///
-    /// What is promised, and how it is chosen and guarded, [`Method::for_tolerance`](crate::Method::for_tolerance) tells.
+    /// What is promised, and how it is chosen and guarded, [`Method::for_tolerance`](crate::tolerance::Method::for_tolerance) tells.
     ///
     /// ```
     /// use dalembert::{Discretise, State, rayleigh_system};

@@ -18,9 +18,7 @@ use crate::numbers::Scalar;
 use crate::step::{State, StepError, verify_start};
 use crate::system::Lagrangian;
 pub use guard::GuardedTrajectory;
-pub use methods::{
-    Composed, GaussOr, MethodStep, Methods, SplitOr, Stagewise, Taken, WithGauss, WithSplittings,
-};
+pub use methods::{MethodStep, Methods, Taken, WithGauss, WithSplittings};
 pub use request::{OffersMethods, Request, TimedRequest};
 
 /// A method of constant step: a self-adjoint rule of order 2, alone or composed, a splitting, or a Gauss method.

@@ -27,10 +27,10 @@ use crate::system::{GeneratedDiffers, Lagrangian};
     note = "otherwise list the rule in the attribute: `#[rayleigh_system(rule = [midpoint, trapezoidal])]`"
 )]
 pub trait Discrete<R, const N: usize>: Lagrangian<N> {
-    /// The form of the Newton matrix: `SMatrix<Scalar, N, N>`, or [`Banded`](crate::Banded).
+    /// The form of the Newton matrix: `SMatrix<Scalar, N, N>`, or [`Banded`](crate::step::Banded).
     type Matrix: NewtonMatrix<Self::Scalar, N>;
 
-    /// What a run of steps keeps from one to the next: [`VelocityHistory`](crate::VelocityHistory), unless the rule has
+    /// What a run of steps keeps from one to the next: [`VelocityHistory`](crate::run::VelocityHistory), unless the rule has
     /// something better.
     type Memory: Memory<Self, R, N>;
 
@@ -253,7 +253,7 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
     }
 
     /// The step's equation at a step that was taken, and whether the determinant of the equations that were solved for it has the sign that
-    /// it has for small h: no fold, or an even number of them, lies between. What a [`Certificate`](crate::Certificate) is made of.
+    /// it has for small h: no fold, or an even number of them, lies between. What a [`Certificate`](crate::derivative::Certificate) is made of.
     ///
     /// The only equation of a step is 𝔽⁻, unless the rule has others.
     ///

@@ -93,7 +93,7 @@ pub enum StepError {
         floor: f64,
     },
     /// The derivatives generated belong to another function than the one written: their values differ
-    /// ([`verification`](crate::verification)).
+    /// ([`verification`](crate::system::verification)).
     GeneratedDiffers {
         /// Which function.
         function: Function,

@@ -70,7 +70,7 @@ pub trait Lagrangian<const N: usize> {
     }
 
     /// Compares the values of L, R and f that were generated together with their derivatives to those of the functions as
-    /// written, at (q, v): bit by bit they are equal ([`verification`](crate::verification)).
+    /// written, at (q, v): bit by bit they are equal ([`verification`](crate::system::verification)).
     ///
     /// A system written by hand has nothing to compare, nor has one of dual numbers.
     ///

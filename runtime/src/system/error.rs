@@ -18,7 +18,7 @@ pub enum Function {
 }
 
 /// The derivatives generated belong to another function than the one written: their values differ
-/// ([`verification`](crate::verification)).
+/// ([`verification`](crate::system::verification)).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GeneratedDiffers {
     /// Which function.

@@ -46,7 +46,7 @@ pub trait SecondOrder<const N: usize, const M: usize>: Lagrangian<N> {
         Hessian::zero()
     }
 
-    /// ∂f/∂u at (q, v), shape N×M, for rules with interior points: [`Driven::force_by_input`](crate::Driven::force_by_input)
+    /// ∂f/∂u at (q, v), shape N×M, for rules with interior points: [`Driven::force_by_input`](crate::system::Driven::force_by_input)
     /// where there is an input.
     #[inline]
     fn force_slope_by_input(

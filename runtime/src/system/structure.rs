@@ -7,7 +7,8 @@
 /// system written by hand has [`Structure::UNKNOWN`], unless it says more:
 ///
 /// ```
-/// use dalembert::{Damping, Engine, Lagrangian, Structure, rayleigh_system};
+/// use dalembert::system::{Damping, Engine, Structure};
+/// use dalembert::{Lagrangian, rayleigh_system};
 ///
 /// #[rayleigh_system(rule = trapezoidal)]
 /// fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {

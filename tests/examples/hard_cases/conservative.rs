@@ -3,9 +3,8 @@
 use std::f64::consts::TAU;
 
 use anyhow::Result;
-use dalembert::{
-    Composition, Discrete, Discretise, ForcedLagrangian, Gauss, Midpoint, Splitting, State, Trapezoidal,
-};
+use dalembert::system::ForcedLagrangian;
+use dalembert::{Composition, Discrete, Discretise, Gauss, Midpoint, Splitting, State, Trapezoidal};
 use dalembert_examples::baseline::{self, Method};
 use dalembert_examples::picture::{Curve, Dash, Mark, Panel, colour, linear, logarithmic};
 use dalembert_tests::hard::{

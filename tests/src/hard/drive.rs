@@ -1,6 +1,7 @@
 //! Long runs that keep figures instead of states.
 
-use dalembert::{ComposedStep, ComposedTrajectory, Discrete, Discretise, Lagrangian, State, StepError};
+use dalembert::run::{ComposedStep, ComposedTrajectory};
+use dalembert::{Discrete, Discretise, Lagrangian, State, StepError};
 
 /// What a run took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

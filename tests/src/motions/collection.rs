@@ -2,7 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use dalembert::{State, Trapezoidal, WithGauss, WithSplittings};
+use dalembert::tolerance::{WithGauss, WithSplittings};
+use dalembert::{State, Trapezoidal};
 
 use super::Motion;
 use super::measured::Reference;

@@ -1,7 +1,8 @@
 //! What a choice promised and what it kept, against a reference.
 
 use dalembert::nalgebra::SVector;
-use dalembert::{Lagrangian, Method, MethodStep, Methods, State, ToleranceError};
+use dalembert::tolerance::{Method, MethodStep, Methods, ToleranceError};
+use dalembert::{Lagrangian, State};
 
 /// (q, p) at the times given, ascending.
 pub type Reference<const N: usize> = Box<dyn Fn(&[f64]) -> Vec<State<f64, N>>>;

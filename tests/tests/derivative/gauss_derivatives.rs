@@ -65,11 +65,10 @@ mod num_dual {
     systems!(num_dual);
 }
 
+use dalembert::derivative::{LegendreDerivatives, StepHessian};
 use dalembert::nalgebra::{DMatrix, DVector, SMatrix, SVector, matrix, vector};
-use dalembert::{
-    Discrete, DiscreteDriven, DiscreteSecondOrder, Discretise, Gauss, LegendreDerivatives, Midpoint, State,
-    StepError, StepHessian, rayleigh_system,
-};
+use dalembert::step::{DiscreteDriven, DiscreteSecondOrder};
+use dalembert::{Discrete, Discretise, Gauss, Midpoint, State, StepError, rayleigh_system};
 
 /// The diagonal Padé approximant of exp(Z) of degree s: what Gauss collocation makes of z' = Z z.
 fn pade(s: usize, z: &DMatrix<f64>) -> DMatrix<f64> {

@@ -2,9 +2,8 @@
 //! the symplectic form, for all rules, a general force and a mass and a Rayleigh function that depend on q.
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
-use dalembert::{
-    Discrete, DiscreteRayleigh, Discretise, Gauss, Midpoint, State, Trapezoidal, rayleigh_system,
-};
+use dalembert::step::DiscreteRayleigh;
+use dalembert::{Discrete, Discretise, Gauss, Midpoint, State, Trapezoidal, rayleigh_system};
 
 /// Nonlinear in everything; `curl` is the strength of a force that is not Rayleigh.
 struct Tangle {

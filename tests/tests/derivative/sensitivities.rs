@@ -46,11 +46,12 @@ mod num_dual {
     systems!(derivatives = num_dual);
 }
 
+use dalembert::derivative::{PhaseMatrix, StepHessian};
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
+use dalembert::step::{DiscreteDriven, DiscreteParameters, DiscreteRayleigh, DiscreteSecondOrder};
+use dalembert::system::{Parameters, SecondOrder};
 use dalembert::{
-    Discrete, DiscreteDriven, DiscreteParameters, DiscreteRayleigh, DiscreteSecondOrder, Discretise, Gauss,
-    Lagrangian, Midpoint, Parameters, PhaseMatrix, Rayleigh, SecondOrder, State, StepHessian, Trapezoidal,
-    rayleigh_system,
+    Discrete, Discretise, Gauss, Lagrangian, Midpoint, Rayleigh, State, Trapezoidal, rayleigh_system,
 };
 use expanded::CartPole;
 

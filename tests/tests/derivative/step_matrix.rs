@@ -9,7 +9,8 @@
 //! A and T come from differences of the step; L_d^± and F from the hand-written system.
 
 use dalembert::nalgebra::{DMatrix, DVector, SVector};
-use dalembert::{Derivatives, Discrete, Midpoint, State, Trapezoidal};
+use dalembert::system::Derivatives;
+use dalembert::{Discrete, Midpoint, State, Trapezoidal};
 use dalembert_tests::by_hand::{ByHand, Discretised, Part, Rule, derivatives};
 use dalembert_tests::systems::{Bead, Chain, Charge, DoublePendulum, Follower, FreePendulum, Pendulum};
 

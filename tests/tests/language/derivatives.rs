@@ -2,10 +2,9 @@
 //! central differences. N = 1, 2, 3, and an N given by a constant.
 
 use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::{
-    Derivatives, Direction, Discrete, DiscreteRayleigh, Discretise, Force, Midpoint, NewtonMatrix, Rayleigh,
-    Trapezoidal,
-};
+use dalembert::step::{DiscreteRayleigh, NewtonMatrix};
+use dalembert::system::{Derivatives, Direction};
+use dalembert::{Discrete, Discretise, Force, Midpoint, Rayleigh, Trapezoidal};
 use dalembert_tests::by_hand::{ByHand, Continuous, Discretised, Part, Rule, TwoPoints, derivatives};
 use dalembert_tests::systems::{Bead, Chain, Charge, DoublePendulum, Follower, FreePendulum, Pendulum};
 

@@ -149,10 +149,9 @@ mod num_dual {
 }
 
 use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::{
-    Derivatives, Direction, DiscreteRayleigh, Discretise, Force, Lagrangian, Midpoint, NewtonMatrix, Scalar,
-    State, Trapezoidal,
-};
+use dalembert::step::{DiscreteRayleigh, NewtonMatrix};
+use dalembert::system::{Derivatives, Direction, Scalar};
+use dalembert::{Discretise, Force, Lagrangian, Midpoint, State, Trapezoidal};
 
 /// The largest difference seen, in units of the tolerance of `at`.
 struct Difference {

@@ -1,6 +1,7 @@
 //! What fuzzing the step has found, kept: `fuzz/` has the fuzzer.
 
-use dalembert::{Discrete, Discretise, Gauss, Lagrangian, State, Step, rayleigh_system};
+use dalembert::step::Step;
+use dalembert::{Discrete, Discretise, Gauss, Lagrangian, State, rayleigh_system};
 
 /// Masses on springs of degree 2 and 4, with dampers.
 #[rayleigh_system]

@@ -3,7 +3,8 @@
 #![expect(clippy::neg_cmp_op_on_partial_ord, reason = "lanes must decide negated comparisons as numbers do")]
 
 use dalembert::nalgebra::vector;
-use dalembert::{Discretise, Force, ForcedLagrangian, Gauss, Lanes, State};
+use dalembert::system::{ForcedLagrangian, Lanes};
+use dalembert::{Discretise, Force, Gauss, State};
 
 /// One system for each engine, with selections, masks, functions of one and of two numbers, and numbers among their arguments.
 macro_rules! systems {

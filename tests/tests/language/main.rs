@@ -28,7 +28,7 @@ mod three_engines;
 mod user_functions;
 
 use dalembert::nalgebra::SVector;
-use dalembert::{Derivatives, Gradient};
+use dalembert::system::{Derivatives, Gradient};
 
 /// One case: `definitions` and the functions of the system, compiled plain and annotated.
 ///
@@ -63,10 +63,10 @@ macro_rules! case {
                 pub fn value(q: [f64; $n], v: [f64; $n]) -> f64 {
                     system().lagrangian(q, v)
                 }
-                pub fn gradient(q: &$crate::Vector<$n>, v: &$crate::Vector<$n>) -> dalembert::Gradient<f64, $n> {
+                pub fn gradient(q: &$crate::Vector<$n>, v: &$crate::Vector<$n>) -> dalembert::system::Gradient<f64, $n> {
                     system().lagrangian_gradient(q, v)
                 }
-                pub fn derivatives(q: &$crate::Vector<$n>, v: &$crate::Vector<$n>) -> dalembert::Derivatives<f64, $n> {
+                pub fn derivatives(q: &$crate::Vector<$n>, v: &$crate::Vector<$n>) -> dalembert::system::Derivatives<f64, $n> {
                     system().lagrangian_derivatives(q, v)
                 }
             }

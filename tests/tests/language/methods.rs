@@ -3,7 +3,7 @@
 
 use std::hint::black_box;
 
-use dalembert::dual::{Dual, Real};
+use dalembert::generated::dual::{Dual, Real};
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::{Lagrangian, rayleigh_system};
 use num_dual::{Derivative, DualSVec64};

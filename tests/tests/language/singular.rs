@@ -1,11 +1,13 @@
-//! Derivatives where they do not exist: what the table of `dalembert::dual::Real` says, the same in both engines.
+//! Derivatives where they do not exist: what the table of `dalembert::generated::dual::Real` says, the same in both engines.
 //!
 //! Each case is a function of x = q₀ and y = q₁, as part of L and as a component of f, at its singular points. Expected are
 //! its value, gradient and Hessian in closed form, one-sided limits where there is a side; and zeros for whatever does not
 //! depend on x or y, however singular the function is.
 
 use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::{Direction, Discrete, Discretise, Force, Lagrangian, Midpoint, NewtonMatrix};
+use dalembert::step::NewtonMatrix;
+use dalembert::system::Direction;
+use dalembert::{Discrete, Discretise, Force, Lagrangian, Midpoint};
 
 const INF: f64 = f64::INFINITY;
 const NAN: f64 = f64::NAN;

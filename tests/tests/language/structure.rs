@@ -1,7 +1,8 @@
 //! What the macro finds of a system's structure: for each finding systems that have it, systems that do not, and systems
 //! that have it by algebra alone, of which it must not be stated.
 
-use dalembert::{Damping, Engine, Lagrangian, Structure, rayleigh_system};
+use dalembert::system::{Damping, Engine, Structure};
+use dalembert::{Lagrangian, rayleigh_system};
 
 /// A system of this N, L, R and f, and its structure.
 macro_rules! structure {

@@ -1,7 +1,8 @@
 //! One language for all engines: what `auto` writes out, `expanded` does, and `num_dual` takes.
 
 use dalembert::nalgebra::SVector;
-use dalembert::{Discrete, Discretise, Engine, Lagrangian, Midpoint, Rayleigh, State};
+use dalembert::system::Engine;
+use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, Rayleigh, State};
 
 /// The same system by each engine.
 macro_rules! by_each_engine {
@@ -96,7 +97,7 @@ fn friction_by_an_enum_and_optional_terms_are_those_of_every_engine() {
 
 #[test]
 fn nothing_falls_back_to_dual_numbers() {
-    let engine = |structure: dalembert::Structure| structure.engine;
+    let engine = |structure: dalembert::system::Structure| structure.engine;
     assert!(matches!(engine(auto::Slider::STRUCTURE), Engine::Expanded));
     assert!(!matches!(engine(num_dual::Slider::STRUCTURE), Engine::Expanded));
 }

@@ -3,4 +3,5 @@
 mod corrections_page;
 mod floors;
 mod pages;
+mod root;
 mod ui;

@@ -9,7 +9,9 @@ mod generator;
 use std::path::Path;
 
 use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::{Derivatives, Discrete, Force, Lagrangian, Midpoint, NewtonMatrix, Rayleigh};
+use dalembert::step::NewtonMatrix;
+use dalembert::system::Derivatives;
+use dalembert::{Discrete, Force, Lagrangian, Midpoint, Rayleigh};
 
 use generator::COEFFICIENTS;
 

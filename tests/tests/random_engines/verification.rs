@@ -4,12 +4,17 @@
 //! The control is a system whose values as generated are those written times 1 + `off`, function by function.
 
 use dalembert::nalgebra::{Matrix1, SVector, Vector1, matrix, vector};
-use dalembert::verification;
+use dalembert::rules::DisplacementRule;
+use dalembert::run::Explicit;
+use dalembert::step::{Momenta, StepKernel};
+use dalembert::system::verification;
+use dalembert::system::{
+    CovectorDerivatives, Derivatives, Engine, ForcedLagrangian, Function, GeneratedDiffers, Structure,
+};
+use dalembert::tolerance::{Method, ToleranceError, WithGauss};
 use dalembert::{
-    Composition, CovectorDerivatives, Derivatives, Discrete, Discretise, DisplacementRule, Engine, Explicit,
-    Fitted, FittedTrapezoidal, Force, ForcedLagrangian, Function, Gauss, GeneratedDiffers, Lagrangian,
-    Method, Midpoint, Momenta, Rayleigh, Splitting, State, StepError, StepKernel, Structure, ToleranceError,
-    Trajectory, Trapezoidal, WithGauss, rayleigh_system,
+    Composition, Discrete, Discretise, Fitted, FittedTrapezoidal, Force, Gauss, Lagrangian, Midpoint,
+    Rayleigh, Splitting, State, StepError, Trajectory, Trapezoidal, rayleigh_system,
 };
 
 /// L = ½v² − ½q², R = ½ r v², f = −¼q, with wrong values of one of them beside the derivatives.
@@ -98,7 +103,7 @@ macro_rules! discrete {
         $(
             impl Discrete<$rule, 1> for Mutated {
                 type Matrix = Matrix;
-                type Memory = dalembert::$memory<f64, Matrix, 1>;
+                type Memory = dalembert::run::$memory<f64, Matrix, 1>;
 
                 fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
                     <$rule as DisplacementRule>::discrete_lagrangian(self, q0, q1, h)

@@ -1,9 +1,9 @@
 //! The rules fitted to linear damping, and the one-sided one: what mathematics promises of them.
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
+use dalembert::step::DiscreteRayleigh;
 use dalembert::{
-    Discrete, DiscreteRayleigh, Discretise, Fitted, FittedTrapezoidal, Lagrangian, Midpoint, OneSided, State,
-    rayleigh_system,
+    Discrete, Discretise, Fitted, FittedTrapezoidal, Lagrangian, Midpoint, OneSided, State, rayleigh_system,
 };
 use dalembert_tests::by_hand::{ByHand, Number};
 use dalembert_tests::convergence::Convergence;
@@ -300,7 +300,9 @@ fn discrete_objects_and_transforms_agree() {
     trait Dense<const N: usize> {
         fn matrix_dense(&self) -> SMatrix<f64, N, N>;
     }
-    impl<const N: usize, M: dalembert::NewtonMatrix<f64, N>> Dense<N> for dalembert::StepKernel<f64, N, M> {
+    impl<const N: usize, M: dalembert::step::NewtonMatrix<f64, N>> Dense<N>
+        for dalembert::step::StepKernel<f64, N, M>
+    {
         fn matrix_dense(&self) -> SMatrix<f64, N, N> {
             self.matrix.dense()
         }

@@ -3,9 +3,8 @@
 //! Reference: another method (Dormand–Prince 8(5,3)) on accelerations derived on paper.
 
 use dalembert::nalgebra::SVector;
-use dalembert::{
-    CovectorDerivatives, Derivatives, Discrete, Discretise, ForcedLagrangian, Gauss, Lagrangian, State,
-};
+use dalembert::system::{CovectorDerivatives, Derivatives, ForcedLagrangian};
+use dalembert::{Discrete, Discretise, Gauss, Lagrangian, State};
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::convergence::Convergence;
 use dalembert_tests::reference;

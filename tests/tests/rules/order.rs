@@ -3,10 +3,11 @@
 //! Reference: another method (Dormand–Prince 8(5,3)) on accelerations derived on paper.
 
 use dalembert::nalgebra::{SMatrix, SVector};
-use dalembert::{
-    Derivatives, Discrete, Discretise, DisplacementRule, Lagrangian, Midpoint, Momenta, Rayleigh, State,
-    StepKernel, Trapezoidal, VelocityHistory,
-};
+use dalembert::rules::DisplacementRule;
+use dalembert::run::VelocityHistory;
+use dalembert::step::{Momenta, StepKernel};
+use dalembert::system::Derivatives;
+use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, Rayleigh, State, Trapezoidal};
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::convergence::Convergence;
 use dalembert_tests::reference;

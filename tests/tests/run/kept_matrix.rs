@@ -2,10 +2,10 @@
 
 use std::cell::Cell;
 
-use dalembert::{
-    Banded, Derivatives, Discrete, Discretise, KeptMatrix, Lagrangian, Midpoint, Momenta, State, StepKernel,
-    VelocityHistory, rayleigh_system,
-};
+use dalembert::run::{KeptMatrix, VelocityHistory};
+use dalembert::step::{Banded, Momenta, StepKernel};
+use dalembert::system::Derivatives;
+use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, State, rayleigh_system};
 use nalgebra::{SMatrix, SVector};
 
 /// Three coupled turns whose inertias depend on the angles.

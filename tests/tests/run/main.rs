@@ -1,6 +1,7 @@
 //! Runs: memory, checkpoints, compositions, splittings, an error asked for.
 
 mod composition;
+mod kept;
 mod kept_matrix;
 mod saved_runs;
 mod splitting;

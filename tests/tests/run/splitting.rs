@@ -3,7 +3,9 @@
 use std::f64::consts::PI;
 
 use dalembert::nalgebra::{Matrix2, Matrix4, SMatrix, SVector, matrix, vector};
-use dalembert::{Explicit, Quantity, Splitting, State, StepError, rayleigh_system};
+use dalembert::run::Explicit;
+use dalembert::step::Quantity;
+use dalembert::{Splitting, State, StepError, rayleigh_system};
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::convergence::orders;
 use dalembert_tests::systems::Pendulum;

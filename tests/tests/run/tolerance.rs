@@ -1,10 +1,8 @@
 //! Order and step size from a requested error: kept or said not to be, explained, and watched over along the run.
 
 use dalembert::nalgebra::SVector;
-use dalembert::{
-    Lagrangian, Method, MethodStep, Methods, State, ToleranceError, Trapezoidal, WithGauss, WithSplittings,
-    rayleigh_system,
-};
+use dalembert::tolerance::{Method, MethodStep, Methods, ToleranceError, WithGauss, WithSplittings};
+use dalembert::{Lagrangian, State, Trapezoidal, rayleigh_system};
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::reference;
 use dalembert_tests::systems::{Chain, DoublePendulum, Pendulum};

@@ -2,8 +2,9 @@
 
 mod branches;
 
+use dalembert::derivative::Certificate;
 use dalembert::nalgebra::vector;
-use dalembert::{Certificate, Discrete, Discretise, Midpoint, State, StepError, rayleigh_system};
+use dalembert::{Discrete, Discretise, Midpoint, State, StepError, rayleigh_system};
 use dalembert_tests::hard::{CubicDrag, DampedMass, SpringPendulum, TwoPendulums};
 use dalembert_tests::systems::DoublePendulum;
 

@@ -4,9 +4,9 @@
 //! its inverse and its singular values from nalgebra. Dense, banded and Gauss systems of 1 to 8 coordinates.
 
 use dalembert::nalgebra::{DMatrix, SMatrix, SVector, vector};
+use dalembert::step::NewtonMatrix;
 use dalembert::{
-    Discrete, Discretise, Fitted, Gauss, Lagrangian, Midpoint, NewtonMatrix, State, StepError, Trapezoidal,
-    rayleigh_system,
+    Discrete, Discretise, Fitted, Gauss, Lagrangian, Midpoint, State, StepError, Trapezoidal, rayleigh_system,
 };
 
 /// ‖DAD‖₁ ‖(DAD)⁻¹‖₁ with D = diag(1/√mᵢ).

@@ -9,10 +9,10 @@
 //! −φ1(q1) in χ.
 
 use dalembert::nalgebra::{Matrix2, Vector2};
-use dalembert::{
-    Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Discretise, Lagrangian,
-    Midpoint, Momenta, State, StepKernel, Trapezoidal, VelocityHistory,
-};
+use dalembert::run::VelocityHistory;
+use dalembert::step::{DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, StepKernel};
+use dalembert::system::Derivatives;
+use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, State, Trapezoidal};
 use dalembert_tests::systems::DoublePendulum;
 
 /// A function on Q with its gradient and second derivatives.

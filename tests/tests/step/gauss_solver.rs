@@ -2,7 +2,8 @@
 
 use allocation_counter::measure;
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::{Discrete, Discretise, Gauss, Quantity, State, StepError, rayleigh_system};
+use dalembert::step::Quantity;
+use dalembert::{Discrete, Discretise, Gauss, State, StepError, rayleigh_system};
 use dalembert_tests::systems::DoublePendulum;
 
 /// m q̈ + c q̇ + k q = 0, and a weak cubic spring.

@@ -137,9 +137,11 @@ mod num_dual {
 }
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
+use dalembert::step::{DiscreteDriven, NewtonMatrix};
+use dalembert::system::{Direction, ForcedLagrangian, Lanes, Scalar};
 use dalembert::{
-    Composition, Direction, Discrete, DiscreteDriven, Discretise, EnergyLedger, Force, ForcedLagrangian,
-    Gauss, Lagrangian, Lanes, Midpoint, NewtonMatrix, Rayleigh, Scalar, State, Trapezoidal,
+    Composition, Discrete, Discretise, EnergyLedger, Force, Gauss, Lagrangian, Midpoint, Rayleigh, State,
+    Trapezoidal,
 };
 
 /// The largest difference seen, in units of 64 roundings of the largest entry.

@@ -4,9 +4,10 @@
 //! a control: a system, or a change, for which the same check fails.
 
 use dalembert::nalgebra::{Matrix2, Matrix4, SVector, Vector4};
+use dalembert::step::{DiscreteRayleigh, NewtonMatrix, Step};
 use dalembert::{
-    Discrete, DiscreteRayleigh, Discretise, EnergyLedger, Gauss, Midpoint, NewtonMatrix, State, Step,
-    StepError, Trajectory, Trapezoidal, rayleigh_system,
+    Discrete, Discretise, EnergyLedger, Gauss, Midpoint, State, StepError, Trajectory, Trapezoidal,
+    rayleigh_system,
 };
 use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;

@@ -1,10 +1,10 @@
 //! The solver of a step: every error reached on purpose, and the roots that it must find.
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
-use dalembert::{
-    Derivatives, Discrete, Discretise, Lagrangian, Midpoint, Momenta, Quantity, State, StepError, StepKernel,
-    Trapezoidal, VelocityHistory, rayleigh_system,
-};
+use dalembert::run::VelocityHistory;
+use dalembert::step::{Momenta, Quantity, StepKernel};
+use dalembert::system::Derivatives;
+use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
 use dalembert_tests::systems::{Bead, DoublePendulum, Pendulum};
 
 fn midpoint<S, const N: usize>(
@@ -12,7 +12,7 @@ fn midpoint<S, const N: usize>(
     q: [f64; N],
     p: [f64; N],
     h: f64,
-) -> Result<dalembert::Step<f64, N>, StepError>
+) -> Result<dalembert::step::Step<f64, N>, StepError>
 where
     S: Discrete<Midpoint, N, Scalar = f64>,
 {
@@ -159,7 +159,7 @@ mod cubic_drag {
     const SYSTEM: Cubic = Cubic { m: 1.3, r: 0.6 };
     const H: f64 = 0.4;
 
-    fn after(x: f64) -> Result<dalembert::Step<f64, 1>, StepError> {
+    fn after(x: f64) -> Result<dalembert::step::Step<f64, 1>, StepError> {
         let d = x * SYSTEM.m / SYSTEM.r;
         SYSTEM.by(Midpoint, H).step_configurations(&vector![0.0], &vector![d])
     }

@@ -132,10 +132,9 @@ mod general {
 }
 
 use dalembert::nalgebra::SVector;
-use dalembert::{
-    Discrete, Discretise, Lagrangian, Memory, Midpoint, Quantity, State, StepError, Trapezoidal,
-    VelocityHistory, rayleigh_system,
-};
+use dalembert::run::VelocityHistory;
+use dalembert::step::{Memory, Quantity};
+use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
 
 /// The end of a run, and the largest number of iterations of a step after the first few.
 fn run<L, R, const N: usize>(

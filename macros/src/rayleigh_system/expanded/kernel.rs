@@ -92,7 +92,7 @@ impl Code<'_> {
             .collect();
         let line = self.code_at_node(&[before, &band].concat(), &[]);
         let rows = line.outputs[before.len()..].chunks(diagonals).map(|row| quote!([#(#row),*]));
-        let matrix = quote!(::dalembert::Banded { rows: [#(#rows),*] });
+        let matrix = quote!(::dalembert::generated::Banded { rows: [#(#rows),*] });
         (line, matrix)
     }
 }

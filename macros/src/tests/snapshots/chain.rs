@@ -22,7 +22,7 @@ impl Chain {
 )]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
-    use ::dalembert::{
+    use ::dalembert::generated::{
         Derivatives, Discrete, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
         StepKernel,
     };
@@ -35,13 +35,13 @@ const _: () = {
     #[automatically_derived]
     impl Lagrangian<4> for Chain {
         type Scalar = f64;
-        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
-            .with_engine(::dalembert::Engine::Expanded)
+        const STRUCTURE: ::dalembert::generated::Structure = ::dalembert::generated::Structure::UNKNOWN
+            .with_engine(::dalembert::generated::Engine::Expanded)
             .with_constant_mass_matrix()
             .with_separable_lagrangian()
-            .with_damping(::dalembert::Damping::Absent)
+            .with_damping(::dalembert::generated::Damping::Absent)
             .with_newton_matrices(
-                &[::dalembert::NewtonStructure::new("Midpoint", false, 1)],
+                &[::dalembert::generated::NewtonStructure::new("Midpoint", false, 1)],
             );
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
@@ -134,14 +134,14 @@ const _: () = {
             &self,
             q: &Vector,
             v: &Vector,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
-            ::dalembert::verification::lagrangian(self, q, v)
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian(self, q, v)
         }
     }
     #[automatically_derived]
     impl Discrete<Midpoint, 4> for Chain {
-        type Matrix = ::dalembert::Banded<f64, 4, 3>;
-        type Memory = ::dalembert::KeptMatrix<f64, Self::Matrix, 4>;
+        type Matrix = ::dalembert::generated::Banded<f64, 4, 3>;
+        type Memory = ::dalembert::generated::KeptMatrix<f64, Self::Matrix, 4>;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)
@@ -201,7 +201,7 @@ const _: () = {
                     v[2] - (dl_dd_2 - dl_dd) * half,
                     v[3] - dl_dd * half,
                 ]),
-                matrix: ::dalembert::Banded {
+                matrix: ::dalembert::generated::Banded {
                     rows: [
                         [0.0, 1.0 - t9, t9],
                         [t9, 1.0 - (t6 + t7) * t8, t10],
@@ -252,12 +252,12 @@ const _: () = {
             q0: &Vector,
             v: &Vector,
             h: f64,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             Midpoint::verify_segment(self, q0, v, h)
         }
     }
     #[automatically_derived]
-    impl ::dalembert::OffersMethods<4> for Chain {
+    impl ::dalembert::generated::OffersMethods<4> for Chain {
         type Methods = Midpoint;
     }
 };

@@ -1,17 +1,17 @@
 impl Arm {
     #[allow(clippy::used_underscore_binding)]
     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
-        use ::dalembert::dual;
+        use ::dalembert::generated::dual;
         dual::lower(self.lagrangian_over::<f64>(dual::lift(q), dual::lift(v)))
     }
     #[allow(clippy::used_underscore_binding)]
     fn rayleigh(&self, v: [f64; 1]) -> f64 {
-        use ::dalembert::dual;
+        use ::dalembert::generated::dual;
         dual::lower(self.rayleigh_over::<f64>(dual::lift(v)))
     }
     #[allow(clippy::used_underscore_binding)]
     fn force(&self, q: [f64; 1], _v: [f64; 1], u: [f64; 1], t: f64) -> [f64; 1] {
-        use ::dalembert::dual;
+        use ::dalembert::generated::dual;
         dual::lower(
             self
                 .force_over::<
@@ -37,17 +37,21 @@ impl Arm {
     /// The system with the input `u` held over the step that starts at time `t`.
     #[inline]
     #[must_use]
-    pub fn driven(&self, u: impl ::dalembert::Input<f64, 1>, t: f64) -> DrivenArm<'_> {
+    pub fn driven(
+        &self,
+        u: impl ::dalembert::generated::Input<f64, 1>,
+        t: f64,
+    ) -> DrivenArm<'_> {
         DrivenArm {
             system: self,
-            u: ::dalembert::Input::entries(u),
+            u: ::dalembert::generated::Input::entries(u),
             t,
         }
     }
 }
 #[allow(clippy::pedantic, clippy::nursery)]
 const _: () = {
-    use ::dalembert::dual::{self, Dual, Real};
+    use ::dalembert::generated::dual::{self, Dual, Real};
     #[allow(dead_code)]
     impl Arm {
         /// `lagrangian` over plain and dual numbers.
@@ -90,7 +94,7 @@ const _: () = {
 )]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
-    use ::dalembert::{
+    use ::dalembert::generated::{
         CovectorDerivatives, Derivatives, Direction, Discrete, DiscreteDriven,
         DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, DisplacementRule,
         Driven, Force, Gradient, Lagrangian, Midpoint, Momenta, MomentaBy, Rayleigh,
@@ -102,8 +106,8 @@ const _: () = {
     #[automatically_derived]
     impl Lagrangian<1> for Arm {
         type Scalar = f64;
-        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
-            .with_engine(::dalembert::Engine::NumDual {
+        const STRUCTURE: ::dalembert::generated::Structure = ::dalembert::generated::Structure::UNKNOWN
+            .with_engine(::dalembert::generated::Engine::NumDual {
                 refusal: ::core::option::Option::None,
             });
         #[inline]
@@ -145,7 +149,9 @@ const _: () = {
     #[automatically_derived]
     impl Lagrangian<1> for DrivenArm<'_> {
         type Scalar = f64;
-        const STRUCTURE: ::dalembert::Structure = <Arm as Lagrangian<1>>::STRUCTURE;
+        const STRUCTURE: ::dalembert::generated::Structure = <Arm as Lagrangian<
+            1,
+        >>::STRUCTURE;
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             Lagrangian::lagrangian(self.system, q, v)
@@ -312,7 +318,7 @@ const _: () = {
     #[automatically_derived]
     impl Discrete<Midpoint, 1> for DrivenArm<'_> {
         type Matrix = SMatrix<f64, 1, 1>;
-        type Memory = ::dalembert::VelocityHistory<f64, 1>;
+        type Memory = ::dalembert::generated::VelocityHistory<f64, 1>;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)
@@ -382,7 +388,7 @@ const _: () = {
         }
     }
     #[automatically_derived]
-    impl ::dalembert::OffersMethods<1> for DrivenArm<'_> {
+    impl ::dalembert::generated::OffersMethods<1> for DrivenArm<'_> {
         type Methods = Midpoint;
     }
 };

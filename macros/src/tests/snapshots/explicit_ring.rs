@@ -17,7 +17,7 @@ impl Ring {
 )]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
-    use ::dalembert::{
+    use ::dalembert::generated::{
         Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh,
         DisplacementRule, Gradient, Lagrangian, Momenta, Rayleigh, StepKernel,
         Trapezoidal,
@@ -32,13 +32,13 @@ const _: () = {
     #[automatically_derived]
     impl Lagrangian<2> for Ring {
         type Scalar = f64;
-        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
-            .with_engine(::dalembert::Engine::Expanded)
+        const STRUCTURE: ::dalembert::generated::Structure = ::dalembert::generated::Structure::UNKNOWN
+            .with_engine(::dalembert::generated::Engine::Expanded)
             .with_constant_mass_matrix()
             .with_separable_lagrangian()
-            .with_damping(::dalembert::Damping::Linear)
+            .with_damping(::dalembert::generated::Damping::Linear)
             .with_newton_matrices(
-                &[::dalembert::NewtonStructure::new("Trapezoidal", true, 0)],
+                &[::dalembert::generated::NewtonStructure::new("Trapezoidal", true, 0)],
             );
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
@@ -85,9 +85,9 @@ const _: () = {
             &self,
             q: &Vector,
             v: &Vector,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
-            ::dalembert::verification::lagrangian(self, q, v)?;
-            ::dalembert::verification::rayleigh(self, q, v)
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh(self, q, v)
         }
     }
     #[automatically_derived]
@@ -120,8 +120,8 @@ const _: () = {
     }
     #[automatically_derived]
     impl Discrete<Trapezoidal, 2> for Ring {
-        type Matrix = ::dalembert::Banded<f64, 2, 1>;
-        type Memory = ::dalembert::ExplicitMemory<f64, Self::Matrix, 2>;
+        type Matrix = ::dalembert::generated::Banded<f64, 2, 1>;
+        type Memory = ::dalembert::generated::ExplicitMemory<f64, Self::Matrix, 2>;
         const LINEAR: bool = true;
         /// L_d = (h/2) [L(q0, v̄) + L(q1, v̄)], with v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
@@ -173,7 +173,7 @@ const _: () = {
                     v[0] + half * (v[0] * k + 2.0 * q0[0] * t3),
                     v[1] + half * (v[1] * k + 2.0 * q0[1] * t3),
                 ]),
-                matrix: ::dalembert::Banded {
+                matrix: ::dalembert::generated::Banded {
                     rows: [[t2], [t2]],
                 },
             }
@@ -213,17 +213,17 @@ const _: () = {
             q0: &Vector,
             v: &Vector,
             h: f64,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             Trapezoidal::verify_segment(self, q0, v, h)
         }
     }
     #[automatically_derived]
-    impl ::dalembert::Explicit<2> for Ring {
+    impl ::dalembert::generated::Explicit<2> for Ring {
         #[inline]
         fn step_matrix(&self, h: f64) -> <Self as Discrete<Trapezoidal, 2>>::Matrix {
             let half = 0.5 * h;
             let t1 = 1.0 + self.k * half;
-            ::dalembert::Banded {
+            ::dalembert::generated::Banded {
                 rows: [[t1], [t1]],
             }
         }
@@ -263,7 +263,7 @@ const _: () = {
         }
     }
     #[automatically_derived]
-    impl ::dalembert::OffersMethods<2> for Ring {
-        type Methods = ::dalembert::WithSplittings<Trapezoidal>;
+    impl ::dalembert::generated::OffersMethods<2> for Ring {
+        type Methods = ::dalembert::generated::WithSplittings<Trapezoidal>;
     }
 };

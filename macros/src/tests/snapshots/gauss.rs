@@ -27,7 +27,7 @@ impl Cart {
 )]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
-    use ::dalembert::{
+    use ::dalembert::generated::{
         CovectorDerivatives, Derivatives, Force, ForcedLagrangian, Gradient, Lagrangian,
         LaneVector, Lanes, Rayleigh, Stages,
     };
@@ -38,9 +38,9 @@ const _: () = {
     #[automatically_derived]
     impl Lagrangian<2> for Cart {
         type Scalar = f64;
-        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
-            .with_engine(::dalembert::Engine::Expanded)
-            .with_damping(::dalembert::Damping::Linear)
+        const STRUCTURE: ::dalembert::generated::Structure = ::dalembert::generated::Structure::UNKNOWN
+            .with_engine(::dalembert::generated::Engine::Expanded)
+            .with_damping(::dalembert::generated::Damping::Linear)
             .with_newton_matrices(&[]);
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
@@ -103,10 +103,10 @@ const _: () = {
             &self,
             q: &Vector,
             v: &Vector,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
-            ::dalembert::verification::lagrangian(self, q, v)?;
-            ::dalembert::verification::rayleigh(self, q, v)?;
-            ::dalembert::verification::force(self, q, v)
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh(self, q, v)?;
+            ::dalembert::generated::verification::force(self, q, v)
         }
     }
     #[automatically_derived]

@@ -20,10 +20,14 @@ impl Arm {
     /// The system with the input `u` held over the step that starts at time `t`.
     #[inline]
     #[must_use]
-    pub fn driven(&self, u: impl ::dalembert::Input<f64, 1>, t: f64) -> DrivenArm<'_> {
+    pub fn driven(
+        &self,
+        u: impl ::dalembert::generated::Input<f64, 1>,
+        t: f64,
+    ) -> DrivenArm<'_> {
         DrivenArm {
             system: self,
-            u: ::dalembert::Input::entries(u),
+            u: ::dalembert::generated::Input::entries(u),
             t,
         }
     }
@@ -38,7 +42,7 @@ impl Arm {
 )]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
-    use ::dalembert::{
+    use ::dalembert::generated::{
         CovectorDerivatives, Derivatives, Direction, Driven, Force, ForcedLagrangian,
         Gradient, GradientBy, Hessian, Lagrangian, LaneVector, Lanes, Parameters,
         SecondOrder, Stages, Variations,
@@ -51,11 +55,11 @@ const _: () = {
     #[automatically_derived]
     impl Lagrangian<1> for Arm {
         type Scalar = f64;
-        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
-            .with_engine(::dalembert::Engine::Expanded)
+        const STRUCTURE: ::dalembert::generated::Structure = ::dalembert::generated::Structure::UNKNOWN
+            .with_engine(::dalembert::generated::Engine::Expanded)
             .with_constant_mass_matrix()
             .with_separable_lagrangian()
-            .with_damping(::dalembert::Damping::Absent)
+            .with_damping(::dalembert::generated::Damping::Absent)
             .with_newton_matrices(&[]);
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
@@ -88,14 +92,16 @@ const _: () = {
             &self,
             q: &Vector,
             v: &Vector,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
-            ::dalembert::verification::lagrangian(self, q, v)
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian(self, q, v)
         }
     }
     #[automatically_derived]
     impl Lagrangian<1> for DrivenArm<'_> {
         type Scalar = f64;
-        const STRUCTURE: ::dalembert::Structure = <Arm as Lagrangian<1>>::STRUCTURE;
+        const STRUCTURE: ::dalembert::generated::Structure = <Arm as Lagrangian<
+            1,
+        >>::STRUCTURE;
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             Lagrangian::lagrangian(self.system, q, v)
@@ -122,9 +128,9 @@ const _: () = {
             &self,
             q: &Vector,
             v: &Vector,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
-            ::dalembert::verification::lagrangian(self, q, v)?;
-            ::dalembert::verification::force(self, q, v)
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian(self, q, v)?;
+            ::dalembert::generated::verification::force(self, q, v)
         }
         #[inline]
         fn later<T>(&self, elapsed: f64, evaluate: impl FnOnce(&Self) -> T) -> T {

@@ -24,7 +24,7 @@ struct Linear {
 )]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
-    use ::dalembert::{
+    use ::dalembert::generated::{
         Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh,
         DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta, Rayleigh, StepKernel,
     };
@@ -38,14 +38,14 @@ const _: () = {
     #[automatically_derived]
     impl Lagrangian<2> for Linear {
         type Scalar = f64;
-        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
-            .with_engine(::dalembert::Engine::Expanded)
+        const STRUCTURE: ::dalembert::generated::Structure = ::dalembert::generated::Structure::UNKNOWN
+            .with_engine(::dalembert::generated::Engine::Expanded)
             .with_constant_mass_matrix()
             .with_quadratic_lagrangian()
             .with_separable_lagrangian()
-            .with_damping(::dalembert::Damping::Linear)
+            .with_damping(::dalembert::generated::Damping::Linear)
             .with_newton_matrices(
-                &[::dalembert::NewtonStructure::new("Midpoint", true, 1)],
+                &[::dalembert::generated::NewtonStructure::new("Midpoint", true, 1)],
             );
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
@@ -84,9 +84,9 @@ const _: () = {
             &self,
             q: &Vector,
             v: &Vector,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
-            ::dalembert::verification::lagrangian(self, q, v)?;
-            ::dalembert::verification::rayleigh(self, q, v)
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh(self, q, v)
         }
     }
     #[automatically_derived]
@@ -120,7 +120,7 @@ const _: () = {
     #[automatically_derived]
     impl Discrete<Midpoint, 2> for Linear {
         type Matrix = SMatrix<f64, 2, 2>;
-        type Memory = ::dalembert::KeptMatrix<f64, Self::Matrix, 2>;
+        type Memory = ::dalembert::generated::KeptMatrix<f64, Self::Matrix, 2>;
         const LINEAR: bool = true;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
@@ -200,7 +200,7 @@ const _: () = {
             q0: &Vector,
             v: &Vector,
             h: f64,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             Midpoint::verify_segment(self, q0, v, h)
         }
     }
@@ -221,7 +221,7 @@ const _: () = {
         }
     }
     #[automatically_derived]
-    impl ::dalembert::OffersMethods<2> for Linear {
+    impl ::dalembert::generated::OffersMethods<2> for Linear {
         type Methods = Midpoint;
     }
 };

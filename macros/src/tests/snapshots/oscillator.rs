@@ -23,7 +23,7 @@ pub struct Oscillator {
 )]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
-    use ::dalembert::{
+    use ::dalembert::generated::{
         Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh,
         DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta, Rayleigh, StepKernel,
         Trapezoidal,
@@ -39,16 +39,16 @@ const _: () = {
     #[automatically_derived]
     impl Lagrangian<1> for Oscillator {
         type Scalar = f64;
-        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
-            .with_engine(::dalembert::Engine::Expanded)
+        const STRUCTURE: ::dalembert::generated::Structure = ::dalembert::generated::Structure::UNKNOWN
+            .with_engine(::dalembert::generated::Engine::Expanded)
             .with_constant_mass_matrix()
             .with_quadratic_lagrangian()
             .with_separable_lagrangian()
-            .with_damping(::dalembert::Damping::Linear)
+            .with_damping(::dalembert::generated::Damping::Linear)
             .with_newton_matrices(
                 &[
-                    ::dalembert::NewtonStructure::new("Midpoint", true, 0),
-                    ::dalembert::NewtonStructure::new("Trapezoidal", true, 0),
+                    ::dalembert::generated::NewtonStructure::new("Midpoint", true, 0),
+                    ::dalembert::generated::NewtonStructure::new("Trapezoidal", true, 0),
                 ],
             );
         #[inline]
@@ -82,9 +82,9 @@ const _: () = {
             &self,
             q: &Vector,
             v: &Vector,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
-            ::dalembert::verification::lagrangian(self, q, v)?;
-            ::dalembert::verification::rayleigh(self, q, v)
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh(self, q, v)
         }
     }
     #[automatically_derived]
@@ -118,7 +118,7 @@ const _: () = {
     #[automatically_derived]
     impl Discrete<Midpoint, 1> for Oscillator {
         type Matrix = SMatrix<f64, 1, 1>;
-        type Memory = ::dalembert::KeptMatrix<f64, Self::Matrix, 1>;
+        type Memory = ::dalembert::generated::KeptMatrix<f64, Self::Matrix, 1>;
         const LINEAR: bool = true;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
@@ -185,14 +185,14 @@ const _: () = {
             q0: &Vector,
             v: &Vector,
             h: f64,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             Midpoint::verify_segment(self, q0, v, h)
         }
     }
     #[automatically_derived]
     impl Discrete<Trapezoidal, 1> for Oscillator {
         type Matrix = SMatrix<f64, 1, 1>;
-        type Memory = ::dalembert::ExplicitMemory<f64, Self::Matrix, 1>;
+        type Memory = ::dalembert::generated::ExplicitMemory<f64, Self::Matrix, 1>;
         const LINEAR: bool = true;
         /// L_d = (h/2) [L(q0, v̄) + L(q1, v̄)], with v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
@@ -257,12 +257,12 @@ const _: () = {
             q0: &Vector,
             v: &Vector,
             h: f64,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             Trapezoidal::verify_segment(self, q0, v, h)
         }
     }
     #[automatically_derived]
-    impl ::dalembert::Explicit<1> for Oscillator {
+    impl ::dalembert::generated::Explicit<1> for Oscillator {
         #[inline]
         fn step_matrix(&self, h: f64) -> <Self as Discrete<Trapezoidal, 1>>::Matrix {
             let half = 0.5 * h;
@@ -316,7 +316,7 @@ const _: () = {
         }
     }
     #[automatically_derived]
-    impl ::dalembert::OffersMethods<1> for Oscillator {
-        type Methods = ::dalembert::WithSplittings<Trapezoidal>;
+    impl ::dalembert::generated::OffersMethods<1> for Oscillator {
+        type Methods = ::dalembert::generated::WithSplittings<Trapezoidal>;
     }
 };

@@ -1,5 +1,5 @@
 pub fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
-    use ::dalembert::dual;
+    use ::dalembert::generated::dual;
     dual::lower(
         Oscillator::oscillator_over::<
             f64,
@@ -23,7 +23,7 @@ const _: () = ::core::assert!(
 );
 #[allow(clippy::pedantic, clippy::nursery)]
 const _: () = {
-    use ::dalembert::dual::{self, Dual, Real};
+    use ::dalembert::generated::dual::{self, Dual, Real};
     #[allow(dead_code)]
     impl Oscillator {
         /// `oscillator` over plain and dual numbers.
@@ -81,7 +81,7 @@ const _: () = {
 )]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
-    use ::dalembert::{
+    use ::dalembert::generated::{
         Derivatives, Direction, Discrete, DiscreteForce, DiscreteForceDerivatives,
         DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
         Rayleigh, StepKernel, Variations, dual,
@@ -92,8 +92,8 @@ const _: () = {
     #[automatically_derived]
     impl Lagrangian<1> for Oscillator {
         type Scalar = f64;
-        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
-            .with_engine(::dalembert::Engine::NumDual {
+        const STRUCTURE: ::dalembert::generated::Structure = ::dalembert::generated::Structure::UNKNOWN
+            .with_engine(::dalembert::generated::Engine::NumDual {
                 refusal: ::core::option::Option::None,
             });
         #[inline]
@@ -173,7 +173,7 @@ const _: () = {
     #[automatically_derived]
     impl Discrete<Midpoint, 1> for Oscillator {
         type Matrix = SMatrix<f64, 1, 1>;
-        type Memory = ::dalembert::VelocityHistory<f64, 1>;
+        type Memory = ::dalembert::generated::VelocityHistory<f64, 1>;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)
@@ -239,7 +239,7 @@ const _: () = {
         }
     }
     #[automatically_derived]
-    impl ::dalembert::OffersMethods<1> for Oscillator {
+    impl ::dalembert::generated::OffersMethods<1> for Oscillator {
         type Methods = Midpoint;
     }
 };

@@ -1,10 +1,10 @@
 impl Pendulum {
     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
-        use ::dalembert::Elementary as _;
+        use ::dalembert::generated::Elementary as _;
         0.5 * v[0].elementary().powi(2) - self.height(q[0])
     }
     fn height(&self, angle: f64) -> f64 {
-        self.g * (1.0 - <f64 as ::dalembert::Elementary>::cos(angle))
+        self.g * (1.0 - <f64 as ::dalembert::generated::Elementary>::cos(angle))
     }
     fn period(&self) -> f64 {
         6.0 / self.g
@@ -20,11 +20,11 @@ impl Pendulum {
 )]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
-    use ::dalembert::{
+    use ::dalembert::generated::{
         Derivatives, Discrete, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
         StepKernel,
     };
-    use ::dalembert::Elementary as _;
+    use ::dalembert::generated::Elementary as _;
     type Vector = SVector<f64, 1>;
     /// Known at compile time:
     /// - Derivatives are written out.
@@ -34,13 +34,13 @@ const _: () = {
     #[automatically_derived]
     impl Lagrangian<1> for Pendulum {
         type Scalar = f64;
-        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
-            .with_engine(::dalembert::Engine::Expanded)
+        const STRUCTURE: ::dalembert::generated::Structure = ::dalembert::generated::Structure::UNKNOWN
+            .with_engine(::dalembert::generated::Engine::Expanded)
             .with_constant_mass_matrix()
             .with_separable_lagrangian()
-            .with_damping(::dalembert::Damping::Absent)
+            .with_damping(::dalembert::generated::Damping::Absent)
             .with_newton_matrices(
-                &[::dalembert::NewtonStructure::new("Midpoint", false, 0)],
+                &[::dalembert::generated::NewtonStructure::new("Midpoint", false, 0)],
             );
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
@@ -73,14 +73,14 @@ const _: () = {
             &self,
             q: &Vector,
             v: &Vector,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
-            ::dalembert::verification::lagrangian(self, q, v)
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian(self, q, v)
         }
     }
     #[automatically_derived]
     impl Discrete<Midpoint, 1> for Pendulum {
         type Matrix = SMatrix<f64, 1, 1>;
-        type Memory = ::dalembert::VelocityHistory<f64, 1>;
+        type Memory = ::dalembert::generated::VelocityHistory<f64, 1>;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)
@@ -126,12 +126,12 @@ const _: () = {
             q0: &Vector,
             v: &Vector,
             h: f64,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             Midpoint::verify_segment(self, q0, v, h)
         }
     }
     #[automatically_derived]
-    impl ::dalembert::OffersMethods<1> for Pendulum {
+    impl ::dalembert::generated::OffersMethods<1> for Pendulum {
         type Methods = Midpoint;
     }
 };

@@ -17,7 +17,7 @@ impl Ring {
 )]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
-    use ::dalembert::{
+    use ::dalembert::generated::{
         Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh,
         DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta, Rayleigh, StepKernel,
     };
@@ -31,13 +31,13 @@ const _: () = {
     #[automatically_derived]
     impl Lagrangian<2> for Ring {
         type Scalar = f64;
-        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
-            .with_engine(::dalembert::Engine::Expanded)
+        const STRUCTURE: ::dalembert::generated::Structure = ::dalembert::generated::Structure::UNKNOWN
+            .with_engine(::dalembert::generated::Engine::Expanded)
             .with_constant_mass_matrix()
             .with_separable_lagrangian()
-            .with_damping(::dalembert::Damping::Linear)
+            .with_damping(::dalembert::generated::Damping::Linear)
             .with_newton_matrices(
-                &[::dalembert::NewtonStructure::new("Midpoint", false, 1)],
+                &[::dalembert::generated::NewtonStructure::new("Midpoint", false, 1)],
             );
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
@@ -84,9 +84,9 @@ const _: () = {
             &self,
             q: &Vector,
             v: &Vector,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
-            ::dalembert::verification::lagrangian(self, q, v)?;
-            ::dalembert::verification::rayleigh(self, q, v)
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh(self, q, v)
         }
     }
     #[automatically_derived]
@@ -120,7 +120,7 @@ const _: () = {
     #[automatically_derived]
     impl Discrete<Midpoint, 2> for Ring {
         type Matrix = SMatrix<f64, 2, 2>;
-        type Memory = ::dalembert::VelocityHistory<f64, 2>;
+        type Memory = ::dalembert::generated::VelocityHistory<f64, 2>;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)
@@ -206,7 +206,7 @@ const _: () = {
             q0: &Vector,
             v: &Vector,
             h: f64,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             Midpoint::verify_segment(self, q0, v, h)
         }
     }
@@ -227,7 +227,7 @@ const _: () = {
         }
     }
     #[automatically_derived]
-    impl ::dalembert::OffersMethods<2> for Ring {
+    impl ::dalembert::generated::OffersMethods<2> for Ring {
         type Methods = Midpoint;
     }
 };

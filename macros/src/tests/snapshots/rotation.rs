@@ -1,5 +1,5 @@
 fn rotation(q: [f64; 2], speed: f64) -> [f64; 2] {
-    use ::dalembert::dual;
+    use ::dalembert::generated::dual;
     dual::lower(Rotation::rotation_over::<f64>(dual::lift(q), dual::lift(speed)))
 }
 /// The field of [`rotation`], with its parameters.
@@ -11,7 +11,7 @@ struct Rotation {
 }
 #[allow(clippy::pedantic, clippy::nursery)]
 const _: () = {
-    use ::dalembert::dual::{self, Dual, Real};
+    use ::dalembert::generated::dual::{self, Dual, Real};
     #[allow(dead_code)]
     impl Rotation {
         /// `rotation` over plain and dual numbers.
@@ -36,7 +36,7 @@ const _: () = {
 )]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
-    use ::dalembert::{VectorField, dual};
+    use ::dalembert::generated::{VectorField, dual};
     type Vector = SVector<f64, 2>;
     #[automatically_derived]
     impl VectorField<2> for Rotation {

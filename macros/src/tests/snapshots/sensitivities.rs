@@ -21,10 +21,13 @@ impl Joint {
     /// The system with the input `u` held over the step.
     #[inline]
     #[must_use]
-    pub fn driven(&self, u: impl ::dalembert::Input<f64, 1>) -> DrivenJoint<'_> {
+    pub fn driven(
+        &self,
+        u: impl ::dalembert::generated::Input<f64, 1>,
+    ) -> DrivenJoint<'_> {
         DrivenJoint {
             system: self,
-            u: ::dalembert::Input::entries(u),
+            u: ::dalembert::generated::Input::entries(u),
         }
     }
 }
@@ -38,7 +41,7 @@ impl Joint {
 )]
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
-    use ::dalembert::{
+    use ::dalembert::generated::{
         CovectorDerivatives, Derivatives, Direction, Discrete, DiscreteDriven,
         DiscreteForce, DiscreteForceDerivatives, DiscreteParameters, DiscreteRayleigh,
         DiscreteSecondOrder, DisplacementRule, Driven, Force, Gradient, GradientBy,
@@ -54,12 +57,12 @@ const _: () = {
     #[automatically_derived]
     impl Lagrangian<1> for Joint {
         type Scalar = f64;
-        const STRUCTURE: ::dalembert::Structure = ::dalembert::Structure::UNKNOWN
-            .with_engine(::dalembert::Engine::Expanded)
+        const STRUCTURE: ::dalembert::generated::Structure = ::dalembert::generated::Structure::UNKNOWN
+            .with_engine(::dalembert::generated::Engine::Expanded)
             .with_separable_lagrangian()
-            .with_damping(::dalembert::Damping::Nonlinear)
+            .with_damping(::dalembert::generated::Damping::Nonlinear)
             .with_newton_matrices(
-                &[::dalembert::NewtonStructure::new("Midpoint", false, 0)],
+                &[::dalembert::generated::NewtonStructure::new("Midpoint", false, 0)],
             );
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
@@ -94,15 +97,17 @@ const _: () = {
             &self,
             q: &Vector,
             v: &Vector,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
-            ::dalembert::verification::lagrangian(self, q, v)?;
-            ::dalembert::verification::rayleigh(self, q, v)
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh(self, q, v)
         }
     }
     #[automatically_derived]
     impl Lagrangian<1> for DrivenJoint<'_> {
         type Scalar = f64;
-        const STRUCTURE: ::dalembert::Structure = <Joint as Lagrangian<1>>::STRUCTURE;
+        const STRUCTURE: ::dalembert::generated::Structure = <Joint as Lagrangian<
+            1,
+        >>::STRUCTURE;
         #[inline]
         fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
             Lagrangian::lagrangian(self.system, q, v)
@@ -129,10 +134,10 @@ const _: () = {
             &self,
             q: &Vector,
             v: &Vector,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
-            ::dalembert::verification::lagrangian(self, q, v)?;
-            ::dalembert::verification::rayleigh(self, q, v)?;
-            ::dalembert::verification::force(self, q, v)
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh(self, q, v)?;
+            ::dalembert::generated::verification::force(self, q, v)
         }
     }
     #[automatically_derived]
@@ -232,7 +237,7 @@ const _: () = {
     #[automatically_derived]
     impl Discrete<Midpoint, 1> for DrivenJoint<'_> {
         type Matrix = SMatrix<f64, 1, 1>;
-        type Memory = ::dalembert::VelocityHistory<f64, 1>;
+        type Memory = ::dalembert::generated::VelocityHistory<f64, 1>;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)
@@ -318,7 +323,7 @@ const _: () = {
             q0: &Vector,
             v: &Vector,
             h: f64,
-        ) -> ::core::result::Result<(), ::dalembert::GeneratedDiffers> {
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             Midpoint::verify_segment(self, q0, v, h)
         }
     }
@@ -339,7 +344,7 @@ const _: () = {
         }
     }
     #[automatically_derived]
-    impl ::dalembert::OffersMethods<1> for DrivenJoint<'_> {
+    impl ::dalembert::generated::OffersMethods<1> for DrivenJoint<'_> {
         type Methods = Midpoint;
     }
     #[automatically_derived]

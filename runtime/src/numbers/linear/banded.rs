@@ -10,7 +10,8 @@ use crate::numbers::Scalar;
 /// `rows[i][k]` is the entry at row i and column i + k − B; what falls outside the matrix is 0.
 ///
 /// ```
-/// use dalembert::{Banded, NewtonMatrix, nalgebra::vector};
+/// use dalembert::nalgebra::vector;
+/// use dalembert::step::{Banded, NewtonMatrix};
 ///
 /// let chain = Banded { rows: [[0.0, 1.0, -1.0], [-1.0, 2.0, -1.0], [-1.0, 2.0, 0.0]] };
 /// assert_eq!(chain.solve(&vector![0.0, 0.0, 1.0]), Ok(vector![1.0, 1.0, 1.0]));

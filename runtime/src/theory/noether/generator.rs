@@ -17,9 +17,9 @@ use crate::system::VectorField;
 /// `-` and `*` combine generators linearly.
 ///
 /// ```
-/// use dalembert::noether::Generator;
 /// use dalembert::VectorField;
 /// use dalembert::nalgebra::vector;
+/// use dalembert::noether::Generator;
 ///
 /// let rotation: Generator<f64, 2> = Generator::rotation(0, 1);
 /// let about_one_zero = rotation.clone() - Generator::translation("y", [0.0, 1.0]);

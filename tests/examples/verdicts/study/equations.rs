@@ -1,7 +1,8 @@
 //! The equations of every rule, written down again: residuals of what a step returned, in twice the precision, each with its bound
 //! of rounding. Nothing here is the runtime's.
 
-use dalembert::{State, Step};
+use dalembert::State;
+use dalembert::step::Step;
 
 use super::rounded::Rounded;
 use dalembert_tests::double_double::DoubleDouble;

@@ -1,9 +1,12 @@
 //! Random steps of every rule, cold, from guesses and with memories, each held against its equations.
 
 use dalembert::nalgebra::SVector;
+use dalembert::rules::StageHistory;
+use dalembert::step::{Memory, Step};
+use dalembert::system::ForcedLagrangian;
 use dalembert::{
-    Composition, Discrete, Fitted, FittedTrapezoidal, ForcedLagrangian, Gauss, Memory, Midpoint, OneSided,
-    StageHistory, State, Step, StepError, Trapezoidal,
+    Composition, Discrete, Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, State, StepError,
+    Trapezoidal,
 };
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};

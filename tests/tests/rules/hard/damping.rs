@@ -1,9 +1,9 @@
 //! Friction that is stiff, not smooth, of the wrong sign, or without a real step.
 
 use dalembert::nalgebra::vector;
+use dalembert::step::Quantity;
 use dalembert::{
-    Discrete, Discretise, Fitted, FittedTrapezoidal, Midpoint, OneSided, Quantity, State, StepError,
-    Trapezoidal,
+    Discrete, Discretise, Fitted, FittedTrapezoidal, Midpoint, OneSided, State, StepError, Trapezoidal,
 };
 use dalembert_tests::hard::{
     Block, Cancelling, CubicDrag, DampedMass, Oscillator, Overflowing, UniformField, VanDerPol, drive,

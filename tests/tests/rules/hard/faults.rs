@@ -4,10 +4,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::{
-    Derivatives, Discrete, Discretise, DisplacementRule, Lagrangian, Midpoint, Momenta, State, StepKernel,
-    Trajectory,
-};
+use dalembert::rules::DisplacementRule;
+use dalembert::step::{Momenta, StepKernel};
+use dalembert::system::Derivatives;
+use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, State, Trajectory};
 
 /// A pendulum whose Lagrangian panics at a given call.
 struct Panicking {
@@ -38,7 +38,7 @@ impl Lagrangian<1> for Panicking {
 
 impl Discrete<Midpoint, 1> for Panicking {
     type Matrix = dalembert::nalgebra::SMatrix<f64, 1, 1>;
-    type Memory = dalembert::VelocityHistory<f64, 1>;
+    type Memory = dalembert::run::VelocityHistory<f64, 1>;
 
     fn discrete_lagrangian(&self, q0: &SVector<f64, 1>, q1: &SVector<f64, 1>, h: f64) -> f64 {
         Midpoint::discrete_lagrangian(self, q0, q1, h)

@@ -41,7 +41,7 @@ fn drag_steps<S>(name: &str, system: &S, [m, g, c]: [f64; 3])
 where
     S: Discrete<Midpoint, 2, Scalar = f64>
         + Discrete<Trapezoidal, 2>
-        + dalembert::ForcedLagrangian<2, Scalar = f64>
+        + dalembert::system::ForcedLagrangian<2, Scalar = f64>
         + Rayleigh<2>,
 {
     let h = 0.1;

@@ -4,9 +4,11 @@
 use std::f64::consts::TAU;
 
 use dalembert::nalgebra::vector;
+use dalembert::run::Explicit;
+use dalembert::system::ForcedLagrangian;
 use dalembert::{
-    Composition, Discrete, Discretise, Explicit, Fitted, FittedTrapezoidal, ForcedLagrangian, Gauss,
-    Midpoint, OneSided, Splitting, State, StepError, Trapezoidal,
+    Composition, Discrete, Discretise, Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, Splitting,
+    State, StepError, Trapezoidal,
 };
 use dalembert_tests::hard::{
     Arm, Block, CubicDrag, DampedMass, Effort, Fermi, FirstOrder, HenonHeiles, Kepler, MathewsLakshmanan,

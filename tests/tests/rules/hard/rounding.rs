@@ -1,6 +1,7 @@
 //! Long runs: rounding errors walk at random, they do not drift.
 
-use dalembert::{Discrete, Discretise, Midpoint, Scalar, State, Trapezoidal, rayleigh_system};
+use dalembert::system::Scalar;
+use dalembert::{Discrete, Discretise, Midpoint, State, Trapezoidal, rayleigh_system};
 use dalembert_tests::systems::FreePendulum;
 
 #[rayleigh_system(rule = [midpoint, trapezoidal])]

@@ -1,7 +1,8 @@
 //! Units, sizes of h, and time reversal.
 
 use dalembert::nalgebra::vector;
-use dalembert::{Discrete, Discretise, Midpoint, Quantity, State, StepError, Trapezoidal, rayleigh_system};
+use dalembert::step::Quantity;
+use dalembert::{Discrete, Discretise, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
 use dalembert_tests::hard::{HenonHeiles, Kepler, Oscillator, Scaled, TwoPendulums, UNITS, drive};
 
 fn same_motion<R: Copy>(rule: R)

@@ -1,7 +1,8 @@
 //! Masses that are singular or nearly so; functions without derivatives somewhere.
 
 use dalembert::nalgebra::vector;
-use dalembert::{Discretise, Midpoint, Quantity, State, StepError, Trapezoidal, rayleigh_system};
+use dalembert::step::Quantity;
+use dalembert::{Discretise, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
 use dalembert_tests::hard::{Arm, Drag, FirstOrder, MathewsLakshmanan, Roots, drive};
 
 /// The amplitude goes up to where the mass is infinite, at |λ|A² = 1: q = A sin ωt with ω² = 1/(1 + λA²).

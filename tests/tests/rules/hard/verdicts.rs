@@ -1,7 +1,9 @@
 //! No step is taken that does not solve its equations: a part of the study of the example `verdicts`, and what it can see.
 
 use dalembert::nalgebra::SVector;
-use dalembert::{Discretise, Fitted, Gauss, Memory, Midpoint, StageHistory, State, Step, Trapezoidal};
+use dalembert::rules::StageHistory;
+use dalembert::step::{Memory, Step};
+use dalembert::{Discretise, Fitted, Gauss, Midpoint, State, Trapezoidal};
 use dalembert_tests::hard::TwoPendulums;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};

@@ -5,9 +5,8 @@
 //! system the branch of the flow is what steps from small h on, each from the one before, lead to without a jump.
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
-use dalembert::{
-    Discrete, Discretise, ForcedLagrangian, Gauss, Midpoint, State, Trapezoidal, rayleigh_system,
-};
+use dalembert::system::ForcedLagrangian;
+use dalembert::{Discrete, Discretise, Gauss, Midpoint, State, Trapezoidal, rayleigh_system};
 
 use dalembert_tests::draws::Draws;
 

@@ -2,7 +2,8 @@
 
 use dalembert::exact::{Exact, ExactError};
 use dalembert::nalgebra::vector;
-use dalembert::{Quantity, State, rayleigh_system};
+use dalembert::step::Quantity;
+use dalembert::{State, rayleigh_system};
 
 #[rayleigh_system]
 fn massless(q: [f64; 2], v: [f64; 2]) -> f64 {

@@ -5,10 +5,11 @@
 
 use dalembert::exact::{Convergence, Exact};
 use dalembert::nalgebra::{SMatrix, SVector, vector};
-use dalembert::{
-    Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, Discretise, DisplacementRule, Midpoint,
-    Momenta, Node, StepKernel, Trapezoidal, VelocityHistory, rayleigh_system,
-};
+use dalembert::rules::{DisplacementRule, Node};
+use dalembert::run::VelocityHistory;
+use dalembert::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
+use dalembert::system::Derivatives;
+use dalembert::{Discrete, Discretise, Midpoint, Trapezoidal, rayleigh_system};
 
 #[rayleigh_system(rule = [midpoint, trapezoidal])]
 fn bead(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {

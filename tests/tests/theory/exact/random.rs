@@ -5,7 +5,8 @@ use std::cell::Cell;
 
 use dalembert::exact::{Exact, ExactError};
 use dalembert::nalgebra::{SMatrix, SVector, vector};
-use dalembert::{Derivatives, Lagrangian, Rayleigh, State, rayleigh_system};
+use dalembert::system::Derivatives;
+use dalembert::{Lagrangian, Rayleigh, State, rayleigh_system};
 use dalembert_tests::draws::Draws;
 
 type Vector = SVector<f64, 1>;

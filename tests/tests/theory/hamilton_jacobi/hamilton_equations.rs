@@ -3,7 +3,8 @@
 
 use dalembert::hamilton_jacobi::HamiltonEquationsReport;
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::{Discrete, DiscreteRayleigh, Discretise, Midpoint, Trapezoidal, rayleigh_system};
+use dalembert::step::DiscreteRayleigh;
+use dalembert::{Discrete, Discretise, Midpoint, Trapezoidal, rayleigh_system};
 use dalembert_tests::damped_oscillator::{DAMPED, H, UNDAMPED};
 
 /// Two degrees of freedom, nonlinear, with a Rayleigh function that depends on q.

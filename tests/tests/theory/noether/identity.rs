@@ -2,11 +2,11 @@
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::noether::Generator;
+use dalembert::run::VelocityHistory;
 use dalembert::samples::{self, SampleError};
-use dalembert::{
-    Derivatives, Discrete, DiscreteForce, Discretise, Lagrangian, Midpoint, Momenta, StepKernel, Trapezoidal,
-    VectorField, VelocityHistory, rayleigh_system,
-};
+use dalembert::step::{DiscreteForce, Momenta, StepKernel};
+use dalembert::system::Derivatives;
+use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, Trapezoidal, VectorField, rayleigh_system};
 
 /// Mass and friction depend on q; the force has no potential.
 #[derive(Clone, Copy)]

@@ -3,11 +3,11 @@
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::rayleigh::Comparison;
+use dalembert::run::VelocityHistory;
 use dalembert::samples::{self, Segment};
-use dalembert::{
-    Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, Discretise, Lagrangian, Midpoint,
-    Momenta, State, StepKernel, Trapezoidal, VelocityHistory, rayleigh_system,
-};
+use dalembert::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
+use dalembert::system::Derivatives;
+use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, State, Trapezoidal, rayleigh_system};
 
 type Vector = SVector<f64, 2>;
 

@@ -3,11 +3,11 @@
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::rayleigh::{Potential, structure};
+use dalembert::run::VelocityHistory;
 use dalembert::samples::{self, Segment};
-use dalembert::{
-    CovectorDerivatives, Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, Lagrangian,
-    Midpoint, Momenta, StepKernel, Trapezoidal, VelocityHistory, rayleigh_system,
-};
+use dalembert::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
+use dalembert::system::{CovectorDerivatives, Derivatives};
+use dalembert::{Discrete, Lagrangian, Midpoint, Trapezoidal, rayleigh_system};
 
 /// Linear drag with any matrix, f = −C v.
 #[derive(Clone, Copy)]

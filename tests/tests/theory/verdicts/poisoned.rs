@@ -16,7 +16,8 @@ use dalembert::nalgebra::{SVector, vector};
 use dalembert::noether::{Contribution, Generator};
 use dalembert::rayleigh::{Comparison, Condition, Potential, Residual, Resplit, dissipation, structure};
 use dalembert::samples::{Segment, TangentPoint, Tolerance, Worst, segments, tangent_points};
-use dalembert::{Discrete, Discretise, Midpoint, State, Step, StepError, Trapezoidal, rayleigh_system};
+use dalembert::step::Step;
+use dalembert::{Discrete, Discretise, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
 
 /// Nothing that is asked of it holds: no symmetry, a force with curls that drives, R that drives.
 struct Wrong;

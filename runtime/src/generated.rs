@@ -1,0 +1,34 @@
+//! What the code that the attributes write names: all of it, and nothing else. Users find the same names in the root of the crate,
+//! and in [`system`](crate::system), [`step`](crate::step) and the other modules.
+
+#[cfg(feature = "std")]
+pub use crate::numbers::dual;
+pub use crate::system::verification;
+
+#[doc(no_inline)]
+pub use crate::numbers::{
+    Banded, CovectorDerivatives, Derivatives, Direction, Elementary, Gradient, Hessian, LaneVector, Lanes,
+    Mask, Variations,
+};
+#[doc(no_inline)]
+pub use crate::rules::{
+    DisplacementRule, Fitted, FittedTrapezoidal, Gauss, JointRayleighRule, JointRule, Midpoint, OneSided,
+    Trapezoidal,
+};
+#[doc(no_inline)]
+pub use crate::run::tolerance::{OffersMethods, WithGauss, WithSplittings};
+#[doc(no_inline)]
+pub use crate::run::{
+    DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, KeptMatrix, VelocityHistory,
+};
+#[doc(no_inline)]
+pub use crate::step::{
+    BoundedStep, Discrete, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteParameters,
+    DiscreteRayleigh, DiscreteSecondOrder, Momenta, MomentaBy, State, Step, StepError, StepKernel,
+};
+#[doc(no_inline)]
+pub use crate::system::{
+    CyclicCoordinate, Damping, Driven, Engine, Force, ForcedLagrangian, GeneratedDiffers, GradientBy, Input,
+    Lagrangian, NewtonStructure, Parameters, Rayleigh, Refusal, ScalarField, SecondOrder, Stages, Structure,
+    VectorField,
+};
