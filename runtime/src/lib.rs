@@ -1,4 +1,8 @@
-#![cfg_attr(feature = "std", doc = include_str!("../README.md"))]
+#![cfg_attr(feature = "theory", doc = include_str!("../README.md"))]
+#![cfg_attr(
+    all(feature = "std", not(feature = "theory")),
+    doc = "Structure-preserving integrators for mechanical systems, without the checkers of the theory."
+)]
 #![cfg_attr(
     not(feature = "std"),
     doc = "Structure-preserving integrators for mechanical systems, without std: the step, and systems whose derivatives are written out."
@@ -18,7 +22,7 @@ mod theory;
 
 #[doc(inline)]
 pub use run::tolerance;
-#[cfg(feature = "std")]
+#[cfg(feature = "theory")]
 pub use theory::{exact, hamilton_jacobi, noether, rayleigh, samples};
 
 /// The attributes that fit the features of this crate, which a macro cannot see.

@@ -3,17 +3,17 @@
 //! The highest floor: it uses all others, and none uses it.
 
 mod energy;
-#[cfg(feature = "std")]
+#[cfg(feature = "theory")]
 pub mod exact;
-#[cfg(feature = "std")]
+#[cfg(feature = "theory")]
 pub mod hamilton_jacobi;
-#[cfg(feature = "std")]
+#[cfg(feature = "theory")]
 pub mod noether;
-#[cfg(feature = "std")]
+#[cfg(feature = "theory")]
 pub mod rayleigh;
-#[cfg(feature = "std")]
+#[cfg(feature = "theory")]
 pub mod samples;
-#[cfg(feature = "std")]
+#[cfg(feature = "theory")]
 mod verdict;
 
 pub use energy::EnergyLedger;

@@ -249,7 +249,7 @@ mod tests {
         }
     }
 
-    #[cfg(feature = "std")]
+    #[cfg(feature = "theory")]
     #[test]
     fn nodes_and_weights_are_those_of_gauss_quad() {
         for_all_stages!(agrees_with_a_library);
