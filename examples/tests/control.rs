@@ -50,6 +50,7 @@ fn the_cart_swings_its_pole_up_and_holds_it() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn the_arm_keeps_to_its_reference() {
     use arm::{Run, SETTLED, rms};
     let run = Run::new().unwrap();

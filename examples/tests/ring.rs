@@ -29,6 +29,7 @@ const RUNGE_KUTTA_ENERGY: f64 = 0.0030525408796330603;
 const MIDPOINT_ENERGY: f64 = 0.017815102495656848;
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn the_methods_end_with_the_energies_of_independent_computations() {
     let [reference, runge_kutta, midpoint] =
         [reference(), standard_method(Method::RungeKutta4), variational_midpoint()]
@@ -49,6 +50,7 @@ fn the_motion_starts_with_the_energy_of_the_paper() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn the_angular_momentum_of_the_reference_decays_exactly() {
     let j = reference().angular_momentum;
     for (step, &value) in j.iter().enumerate() {
@@ -59,6 +61,7 @@ fn the_angular_momentum_of_the_reference_decays_exactly() {
 
 /// What figure 2 of the paper shows: the variational midpoint loses energy to drag alone, Runge–Kutta by itself as well.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn the_midpoint_follows_the_energy_and_runge_kutta_does_not() {
     let (reference, midpoint) = (reference(), variational_midpoint());
     let runge_kutta = standard_method(Method::RungeKutta4);

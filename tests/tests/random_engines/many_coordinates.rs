@@ -3,7 +3,10 @@
 use std::thread;
 
 use dalembert::nalgebra::SVector;
-use dalembert::{Discretise, Gauss, Lagrangian, Midpoint, Rayleigh, State, Trapezoidal, rayleigh_system};
+use dalembert::step::Step;
+use dalembert::{
+    Discretise, Gauss, Lagrangian, Midpoint, Rayleigh, State, StepError, Trapezoidal, rayleigh_system,
+};
 
 macro_rules! chain {
     ($name:ident, $engine:ident) => {
@@ -42,11 +45,22 @@ fn difference<'a>(a: impl IntoIterator<Item = &'a f64>, b: impl IntoIterator<Ite
     a.into_iter().zip(b).fold(0.0, |largest, (a, b)| largest.max((a - b).abs()))
 }
 
+fn start() -> State<f64, 32> {
+    let q = SVector::<f64, 32>::from_fn(|i, _| (0.7 * i as f64).sin());
+    let v = SVector::<f64, 32>::from_fn(|i, _| (1.3 * i as f64).cos());
+    State::from_velocity(&ByDualNumbers, q, v).unwrap()
+}
+
+/// On a thread with a stack of so many MiB.
+fn on_a_stack_of(mebibytes: usize, run: fn()) {
+    thread::Builder::new().stack_size(mebibytes << 20).spawn(run).unwrap().join().unwrap();
+}
+
 #[test]
 fn thirty_two_coordinates_by_dual_numbers_fit_into_a_thread_and_are_right() {
-    let run = || {
-        let q = SVector::<f64, 32>::from_fn(|i, _| (0.7 * i as f64).sin());
-        let v = SVector::<f64, 32>::from_fn(|i, _| (1.3 * i as f64).cos());
+    on_a_stack_of(2, || {
+        let state = start();
+        let (q, v) = (state.q, state.velocity(&Expanded).unwrap());
         let (a, b) = (ByDualNumbers.lagrangian_derivatives(&q, &v), Expanded.lagrangian_derivatives(&q, &v));
         assert!(difference(&a.d1, &b.d1) < 1e-14 && difference(&a.d2, &b.d2) < 1e-14);
         for (a, b) in [(a.d11, b.d11), (a.d12, b.d12), (a.d22, b.d22)] {
@@ -55,18 +69,23 @@ fn thirty_two_coordinates_by_dual_numbers_fit_into_a_thread_and_are_right() {
         assert_eq!(a.value, b.value);
         let (a, b) = (ByDualNumbers.rayleigh_gradient(&q, &v), Expanded.rayleigh_gradient(&q, &v));
         assert!(difference(&a.d1, &b.d1) < 1e-14 && difference(&a.d2, &b.d2) < 1e-14);
+    });
+    on_a_stack_of(2, || {
+        same(ByDualNumbers.by(Midpoint, 0.05).step(&start()), Expanded.by(Midpoint, 0.05).step(&start()));
+    });
+    on_a_stack_of(2, || {
+        same(
+            ByDualNumbers.by(Trapezoidal, 0.05).step(&start()),
+            Expanded.by(Trapezoidal, 0.05).step(&start()),
+        );
+    });
+    // Without optimisation the matrix of all stages is copied on its way, whoever makes the derivatives.
+    on_a_stack_of(if cfg!(debug_assertions) { 8 } else { 2 }, || {
+        same(ByDualNumbers.by(Gauss::<2>, 0.05).step(&start()), Expanded.by(Gauss::<2>, 0.05).step(&start()));
+    });
+}
 
-        let start = State::from_velocity(&ByDualNumbers, q, v).unwrap();
-        let h = 0.05;
-        let pairs = [
-            (ByDualNumbers.by(Midpoint, h).step(&start), Expanded.by(Midpoint, h).step(&start)),
-            (ByDualNumbers.by(Trapezoidal, h).step(&start), Expanded.by(Trapezoidal, h).step(&start)),
-            (ByDualNumbers.by(Gauss::<2>, h).step(&start), Expanded.by(Gauss::<2>, h).step(&start)),
-        ];
-        for (a, b) in pairs {
-            let (a, b) = (a.unwrap().state, b.unwrap().state);
-            assert!(difference(&a.q, &b.q) < 1e-12 && difference(&a.p, &b.p) < 1e-12);
-        }
-    };
-    thread::Builder::new().stack_size(2 << 20).spawn(run).unwrap().join().unwrap();
+fn same(a: Result<Step<f64, 32>, StepError>, b: Result<Step<f64, 32>, StepError>) {
+    let (a, b) = (a.unwrap().state, b.unwrap().state);
+    assert!(difference(&a.q, &b.q) < 1e-12 && difference(&a.p, &b.p) < 1e-12);
 }

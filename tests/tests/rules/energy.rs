@@ -75,6 +75,7 @@ fn of_the_pendulum_is_bounded_over_a_million_steps_by_the_trapezoidal_rule() {
 
 /// Two degrees of freedom, a mass matrix that depends on q: the rule is implicit.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn of_the_double_pendulum_is_bounded_over_a_million_steps() {
     let start = State::from_velocity(&DoublePendulum::FREE, [0.9, -0.4], [0.2, 0.3]).unwrap();
     let account = Account::of(&energies(&DoublePendulum::FREE, Midpoint, 0.1, start, [1_000_000, 25]));
@@ -83,6 +84,7 @@ fn of_the_double_pendulum_is_bounded_over_a_million_steps() {
 
 /// Positive control: a friction that takes one part in 10⁷ a unit of time is seen as a drift.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn drifts_under_the_least_friction() {
     let system = Pendulum { m: 1.3, l: 1.0, g: 1.0, r: 1.3e-7 };
     let account = Account::of(&energies(&system, Midpoint, 0.2, swing_start(), [1_000_000, 7]));

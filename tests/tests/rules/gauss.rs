@@ -350,6 +350,7 @@ fn energy_error(steps: usize, is_compensated: bool) -> f64 {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn a_trajectory_loses_less_to_rounding_than_single_steps() {
     let (with, without) = (energy_error(20_000, true), energy_error(20_000, false));
     // A step adds ε|q| without compensation, and εh|v| with it.

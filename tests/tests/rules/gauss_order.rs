@@ -63,6 +63,7 @@ where
 macro_rules! order_2s {
     ($($name:ident: $system:expr, $q:expr, $v:expr, $unit:expr, $($s:literal)*;)*) => {$(
         #[test]
+        #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
         fn $name() {
             $(has_order::<_, _, $s>(&$system, [$q, $v], $unit);)*
         }
@@ -112,6 +113,7 @@ impl ForcedLagrangian<3> for Altered {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn a_force_that_is_off_by_the_fourth_power_of_h_leaves_order_4() {
     let (q, v) = ([0.9, -0.4, 0.6], [0.2, 1.1, -0.7]);
     let altered = |h: f64| Altered { share: h.powi(4) };

@@ -286,6 +286,7 @@ fn is_right<const N: usize>(
 
 /// Whatever stands in a checkpoint, the run goes on rightly or says in a typed error what is wrong; no counter wraps, no clock stands still.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn odd_checkpoints_end_in_a_typed_error_or_a_right_run() {
     let mut odd = Odd(20);
     let mut ends = Ends::default();

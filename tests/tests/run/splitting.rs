@@ -281,6 +281,7 @@ fn a_step_back_undoes_a_step_with_damping_too() {
 
 /// Without damping momenta do not drift: free ones, with a mass matrix that has to be decomposed, and an angular one over 1e6 steps.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn rounding_does_not_drift() {
     let system = Two { damping: [0.0; 3], k: 0.0 };
     // Free: the momenta are kept bit by bit.

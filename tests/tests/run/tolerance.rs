@@ -86,6 +86,7 @@ fn the_whole_state_is_held_at_every_step_from_any_phase() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn the_error_asked_for_is_reached_and_not_by_brute_force() {
     for tolerance in [1e-2, 1e-4, 1e-6, 1e-8, 1e-10] {
         let (error, _) = reached_among(&Pendulum::EXAMPLE, Trapezoidal, PENDULUM, 16.0, tolerance);

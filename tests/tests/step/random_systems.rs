@@ -164,6 +164,7 @@ proptest! {
     })]
 
     #[test]
+    #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
     fn a_step_is_taken_or_named(
         system in masses(6.0), q in pair(-6.0, 6.0), p in pair(-6.0, 6.0), h in signed(-6.0, 3.0),
     ) {

@@ -21,6 +21,7 @@ where
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn the_double_pendulum_at_high_energy_keeps_it() {
     let system = TwoPendulums { r: 0.0 };
     let start = system.high_energy();
@@ -47,6 +48,7 @@ fn the_double_pendulum_at_high_energy_keeps_it() {
 /// E next to 1/6, by twice what the rules' energies err: the motion is almost everywhere chaotic and comes near the rim of the
 /// well, which it must not leave. At 1/6 itself the saddles are open to it.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn henon_heiles_at_the_energy_of_escape() {
     let system = HenonHeiles { r: 0.0 };
     let energy = 1.0 / 6.0 - 4e-4;

@@ -59,6 +59,7 @@ where
 
 /// Brouwer's law: 256 times the steps, 16 times the error. A drift would make it 256.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn energy_errors_grow_with_the_root_of_the_number_of_steps() {
     let counts = [1_000, 256_000];
     let (m, k) = (1.3, 0.7);
@@ -82,6 +83,7 @@ fn energy_errors_grow_with_the_root_of_the_number_of_steps() {
 /// What is kept from step to step rounds the same way at each: the share of it that enters a step must be small. With the last velocity for
 /// guess the mean of these walks was −1260 ε.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn a_kept_matrix_hardly_drifts() {
     let (m, k) = (1.3, 0.7);
     let rows = errors(&Double { m, k }, Midpoint, 0.1, [m, k], 0.0, &[2_000_000]);

@@ -26,6 +26,7 @@ fn state<const N: usize>(q: [f64; N], p: [f64; N]) -> State<f64, N> {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn no_step_of_any_rule_violates_its_equations() {
     const JOBS: [Job; 6] = [
         study::<Pendulum, 1, 5>,

@@ -207,6 +207,7 @@ fn follow<L, R: Copy, const N: usize>(
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn what_small_steps_lead_to_is_on_the_branch() {
     let mut draws = Draws::new(2);
     let mut followed: [Followed; 5] = Default::default();

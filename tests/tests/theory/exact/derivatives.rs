@@ -71,6 +71,7 @@ fn assert_close(value: &SMatrix<f64, 2, 2>, expected: &SMatrix<f64, 2, 2>, what:
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn first_derivatives_of_the_exact_lagrangian() {
     let segment = exact().segment(Q0, Q1, H).unwrap();
     // The value stands in both components: row 0 of the differences is the gradient.
@@ -82,6 +83,7 @@ fn first_derivatives_of_the_exact_lagrangian() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn second_derivatives_of_the_exact_lagrangian() {
     let second = exact().second_derivatives(&exact().segment(Q0, Q1, H).unwrap()).unwrap();
     let (d11, d12) = differences(|s| s.lagrangian.d1);
@@ -94,6 +96,7 @@ fn second_derivatives_of_the_exact_lagrangian() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn jacobians_of_the_exact_force() {
     let second = exact().second_derivatives(&exact().segment(Q0, Q1, H).unwrap()).unwrap();
     let (minus_d1, minus_d2) = differences(|s| s.force.minus);
@@ -108,6 +111,7 @@ fn jacobians_of_the_exact_force() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn derivatives_of_the_momenta() {
     let segment = exact().segment(Q0, Q1, H).unwrap();
     let (p0_d1, p0_d2) = differences(|s| s.p0.value);

@@ -146,6 +146,7 @@ fn oscillator(draws: &mut Draws) -> (Counted, f64) {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn segments_of_random_damped_oscillators() {
     let mut draws = Draws::new(11);
     let (mut found, mut errors, mut most, mut worst) = (0, Vec::new(), 0, 0.0_f64);
@@ -191,6 +192,7 @@ fn segments_of_random_damped_oscillators() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn flows_of_random_damped_oscillators() {
     let mut draws = Draws::new(12);
     let (mut found, mut ill, mut overflow, mut most) = (0, 0, 0, 0);
@@ -249,6 +251,7 @@ fn cubic(_q: [f64; 1], v: [f64; 1], m: f64, r: f64) -> (f64, f64) {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn flows_of_random_cubic_drag() {
     let mut draws = Draws::new(13);
     let (mut found, mut escaped) = (0, 0);
@@ -329,6 +332,7 @@ impl Forced {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn oscillators_forced_in_time() {
     let mut draws = Draws::new(15);
     for draw in 0..150 {
@@ -417,6 +421,7 @@ fn motions_that_were_refused_or_took_long() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn work_is_bounded_and_said() {
     // 10⁷ periods.
     let system = Counted::new(1.0, 1.0, 0.0);

@@ -171,6 +171,7 @@ fn sign_changes(openings: &[f64]) -> (Vec<f64>, bool) {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn random_fans_fold_where_each_of_their_directions_does() {
     let mut draws = Draws::new(1);
     let (mut fans, mut folds, mut doubles) = (0, 0, 0);

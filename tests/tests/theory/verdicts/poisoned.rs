@@ -191,6 +191,7 @@ fn clean_samples_tell_right_from_wrong() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn poisoned_samples_get_no_yes() {
     let mut tried = 0;
     for (name, segments) in poisoned() {
