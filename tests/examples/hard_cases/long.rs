@@ -89,8 +89,8 @@ pub fn rounding() -> Result<Case> {
         ours: "The energy of a free oscillator, which these rules keep exactly but for rounding, walks at random up to some 1e6 steps: rms ≈ ½ε√n over \
                8 starts. The step adds the change of momentum to the momentum given, so that the solver's residual stays out. What is the same at every step, \
                such as the rounding of factors and coefficients, remains as a bias of some 1e-19 a step, ε/2000: it shows in the mean from 1e7 \
-               steps on. Runs by Gauss rules add the rests of q and p before they forget them: that leaves a tenth of the walk, and a quarter of the bias, of single \
-               steps, which cannot. For the other rules compensated summation was measured, with an earlier solver, to move the mean by some 1e-12 either way over 1e7 steps; it is not used.",
+               steps on. Runs by Gauss rules add the rests of q and p before they forget them: that leaves a sixth of the walk of single \
+               steps, which cannot, up to 1e4 steps, and as much of the bias. For the other rules compensated summation was measured, with an earlier solver, to move the mean by some 1e-12 either way over 1e7 steps; it is not used.",
         head: &["rule", "steps n", "rms error", "mean error", "rms/(ε√n)"],
         rows,
         panels: vec![Panel::new(
