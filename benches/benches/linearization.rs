@@ -1,5 +1,5 @@
-//! The derivatives A and B of a step, and its second derivatives, against the step itself: times of interleaved runs and counted
-//! instructions, as the tables of `docs/performance.md`.
+//! The derivatives A and B of a step, and its second derivatives, against the step itself: times of
+//! interleaved runs and counted instructions, as the tables of `docs/performance.md`.
 //!
 //! `cargo bench -p dalembert-benches --bench linearization`
 //!

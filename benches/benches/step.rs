@@ -1,5 +1,5 @@
-//! One midpoint step of every scene: derivatives by hand, generated, and by dual numbers, on one solver; times of interleaved
-//! runs and counted instructions, as the tables of `docs/performance.md`.
+//! One midpoint step of every scene: derivatives by hand, generated, and by dual numbers, on one solver;
+//! times of interleaved runs and counted instructions, as the tables of `docs/performance.md`.
 //!
 //! `cargo bench -p dalembert-benches --bench step`
 //!

@@ -1,5 +1,5 @@
-//! The same systems with the step's equation and both momenta derived and written by hand: shared subexpressions, the
-//! pattern of zeros, constants of the system worked out beforehand.
+//! The same systems with the step's equation and both momenta derived and written by hand: shared
+//! subexpressions, the pattern of zeros, constants of the system worked out beforehand.
 //!
 //! With G = ∂L/∂q − ∂R/∂v and a = h/2 (R depends on v alone in every scene), at q̄ = q0 + a v̄:
 //!
@@ -52,7 +52,8 @@ pub trait HandDerived<const N: usize>: Sized {
     fn momenta(&self, q0: &SVector<f64, N>, v: &SVector<f64, N>, h: f64) -> Momenta<f64, N>;
 }
 
-/// A system whose step is derived by hand: the runtime's solver, guess and reports over hand-written derivatives.
+/// A system whose step is derived by hand: the runtime's solver, guess and reports over hand-written
+/// derivatives.
 pub struct ByHand<K>(pub K);
 
 impl<K: HandDerived<N>, const N: usize> Lagrangian<N> for ByHand<K> {

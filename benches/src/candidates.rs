@@ -120,7 +120,8 @@ impl Scene {
         Some(&**run)
     }
 
-    /// Asserts that all ways end in one state: to 1e-12 of the largest coordinate and of the largest momentum.
+    /// Asserts that all ways end in one state: to 1e-12 of the largest coordinate and of the largest
+    /// momentum.
     pub fn assert_agreement(&self) {
         let ends: Vec<_> = self.ways.iter().map(|(way, run)| (way, run(COMPARED))).collect();
         let (_, reference) = &ends[0];

@@ -2,7 +2,8 @@
 
 use std::process::Command;
 
-/// The first argument of a run that valgrind watches; the scene, the way, the [`Part`] and the number of times follow.
+/// The first argument of a run that valgrind watches; the scene, the way, the [`Part`] and the number of
+/// times follow.
 pub const COUNTED: &str = "--counted";
 
 /// What is counted.
@@ -27,8 +28,8 @@ impl Part {
     }
 }
 
-/// Runs this program again under callgrind so many times over and twice as many; the difference is that of the part alone.
-/// `None` where valgrind is not installed.
+/// Runs this program again under callgrind so many times over and twice as many; the difference is that of
+/// the part alone. `None` where valgrind is not installed.
 pub fn each(scene: &str, way: &str, part: Part, times: usize) -> Option<f64> {
     let [once, twice] = [times, 2 * times].map(|times| collected(scene, way, part, times));
     Some((twice? as f64 - once? as f64) / times as f64)

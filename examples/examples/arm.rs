@@ -1,8 +1,9 @@
-//! A two-link arm whose tip follows a figure eight under a moving-horizon controller at 1 kHz: every millisecond one
-//! iteration of iterative LQR over the next 0.2 s, with the generated step as its model, from the state that an extended
-//! Kalman filter believes. The encoders give angles alone.
+//! A two-link arm whose tip follows a figure eight under a moving-horizon controller at 1 kHz: every
+//! millisecond one iteration of iterative LQR over the next 0.2 s, with the generated step as its model, from
+//! the state that an extended Kalman filter believes. The encoders give angles alone.
 //!
-//! SI units. The motion itself is computed by another rule (trapezoidal) with steps of a quarter of a millisecond.
+//! SI units. The motion itself is computed by another rule (trapezoidal) with steps of a quarter of a
+//! millisecond.
 //!
 //! ```text
 //! cargo run --release --example arm [picture.svg]
@@ -20,8 +21,8 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rand_distr::{Distribution, Normal};
 
-/// Two uniform rods in a vertical plane with a motor in each joint; q is (angle of the first from the horizontal, angle of
-/// the second from the first).
+/// Two uniform rods in a vertical plane with a motor in each joint; q is (angle of the first from the
+/// horizontal, angle of the second from the first).
 pub struct Arm {
     /// Masses, kg.
     pub m: [f64; 2],
@@ -204,7 +205,8 @@ pub struct Run {
     pub misses: Vec<f64>,
     /// Torques of the controller, N m.
     pub torques: Vec<SVector<f64, 2>>,
-    /// Velocity of the second joint: true, believed by the filter, and from differences of the encoder, rad/s.
+    /// Velocity of the second joint: true, believed by the filter, and from differences of the encoder,
+    /// rad/s.
     pub velocities: Vec<[f64; 3]>,
     /// Error of the filter's velocities, rad/s.
     pub filter_errors: Vec<f64>,

@@ -1,7 +1,9 @@
-//! A cart with a pole, friction in rail and joint: swung up by iterative LQR, held upright by a discrete LQR, both from
-//! the exact derivatives A and B of the generated step, under noise, a fluctuating force and two pushes.
+//! A cart with a pole, friction in rail and joint: swung up by iterative LQR, held upright by a discrete LQR,
+//! both from the exact derivatives A and B of the generated step, under noise, a fluctuating force and two
+//! pushes.
 //!
-//! SI units. The motion itself is computed by another rule (trapezoidal) with steps ten times finer than the controller's.
+//! SI units. The motion itself is computed by another rule (trapezoidal) with steps ten times finer than the
+//! controller's.
 //!
 //! ```text
 //! cargo run --release --example cart_pole [picture.svg]
@@ -20,7 +22,8 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rand_distr::{Distribution, Normal};
 
-/// A pole of mass `pole` at the end of a rod of length `l`, hinged to a cart; q is (position, angle from below).
+/// A pole of mass `pole` at the end of a rod of length `l`, hinged to a cart; q is (position, angle from
+/// below).
 pub struct CartPole {
     /// Mass of the cart, kg.
     pub cart: f64,
@@ -210,8 +213,8 @@ pub struct Run {
 }
 
 impl Run {
-    /// The motion from hanging under noise and pushes: the plan with its gains first, then the regulator. Without
-    /// `feedback` the plan's forces alone, then none.
+    /// The motion from hanging under noise and pushes: the plan with its gains first, then the regulator.
+    /// Without `feedback` the plan's forces alone, then none.
     pub fn new(plan: &Plan<4, 1>, gain: &SMatrix<f64, 1, 4>, feedback: bool) -> Result<Self> {
         let mut random = StdRng::seed_from_u64(1);
         let sensor = [1e-3, 2e-3, 2e-2, 2e-2].map(|deviation| Normal::new(0.0, deviation));

@@ -1,13 +1,15 @@
-//! A counterexample: the exact discrete force of a natural Lagrangian with a Rayleigh force need not be Rayleigh.
+//! A counterexample: the exact discrete force of a natural Lagrangian with a Rayleigh force need not be
+//! Rayleigh.
 //!
-//! For L = ½mv² − V(q) and R = ½rv² the obstruction D1 f_d^ex+ + D2 f_d^ex− is computed along the exact motion from q0 to
-//! q1 in time h, for three potentials, and drawn against h with the leading term
+//! For L = ½mv² − V(q) and R = ½rv² the obstruction D1 f_d^ex+ + D2 f_d^ex− is computed along the exact
+//! motion from q0 to q1 in time h, for three potentials, and drawn against h with the leading term
 //!
 //! ```text
 //! −(r/m)(q1−q0) h² ∫₀¹ τ²(1−τ)² V'''(q0 + τ(q1−q0)) dτ
 //! ```
 //!
-//! It vanishes for the harmonic oscillator alone, the paper's example (section 3.4). All quantities are dimensionless.
+//! It vanishes for the harmonic oscillator alone, the paper's example (section 3.4). All quantities are
+//! dimensionless.
 //!
 //! ```text
 //! cargo run --release --example conjecture [picture.svg]
@@ -81,7 +83,8 @@ impl Potential {
     }
 }
 
-/// From 1 down by factors √2. From h ≈ 1.35 on no motion of the quartic potential joins q0 to q1 without a full swing.
+/// From 1 down by factors √2. From h ≈ 1.35 on no motion of the quartic potential joins q0 to q1 without a
+/// full swing.
 fn step_sizes() -> impl Iterator<Item = f64> {
     (0..13).map(|k| 0.5_f64.powf(0.5 * f64::from(k)))
 }

@@ -1,5 +1,5 @@
-//! Where the energy goes: the ledger of friction and of the method itself, for the variational midpoint rule, the classical
-//! Runge–Kutta method and implicit Euler on the ring potential with weak drag.
+//! Where the energy goes: the ledger of friction and of the method itself, for the variational midpoint rule,
+//! the classical Runge–Kutta method and implicit Euler on the ring potential with weak drag.
 //!
 //! All quantities are dimensionless.
 //!

@@ -4,10 +4,10 @@
 //! cargo run --release --example hamilton_jacobi
 //! ```
 //!
-//! Above, the damped oscillator m q̈ + r q̇ + k q = 0 by the midpoint rule, whose complete solution S_k = ½ s_k q² + λ_k q is
-//! known in closed form: all characteristics pass through one point. Below, a damped pendulum released at rest: the caustic
-//! is a curve with a cusp, and the carried section folds over. Prints what holds of the paper's equations as printed and of
-//! the corrected ones.
+//! Above, the damped oscillator m q̈ + r q̇ + k q = 0 by the midpoint rule, whose complete solution S_k = ½ s_k
+//! q² + λ_k q is known in closed form: all characteristics pass through one point. Below, a damped pendulum
+//! released at rest: the caustic is a curve with a cusp, and the carried section folds over. Prints what
+//! holds of the paper's equations as printed and of the corrected ones.
 
 use anyhow::Result;
 use dalembert::hamilton_jacobi::{Caustic, Characteristic};

@@ -1,5 +1,6 @@
-//! A long run that may be interrupted at any moment, by Ctrl-C or a power cut, and goes on when it is started again: a chaotic double
-//! pendulum with weak friction, five million steps. Its energy is all that can be asked of it, and falls as friction takes it.
+//! A long run that may be interrupted at any moment, by Ctrl-C or a power cut, and goes on when it is started
+//! again: a chaotic double pendulum with weak friction, five million steps. Its energy is all that can be
+//! asked of it, and falls as friction takes it.
 //!
 //! All quantities are dimensionless.
 //!

@@ -1,9 +1,10 @@
 //! The damped oscillator m q̈ + r q̇ + k q = 0: the variational midpoint rule, explicit Euler and the classical
 //! Runge–Kutta method against the exact solution.
 //!
-//! Position, phase plane and energy as in figure 3 of the paper: explicit Euler is visibly off, and the other two lie on the curve. Their errors
-//! stand beside it: at this step size that of Runge–Kutta 4 is some 150 times smaller, by its order. What the midpoint rule keeps instead shows in
-//! long runs (`ring`). With m = k = 1 all quantities are in units of the undamped oscillator: time in √(m/k).
+//! Position, phase plane and energy as in figure 3 of the paper: explicit Euler is visibly off, and the other
+//! two lie on the curve. Their errors stand beside it: at this step size that of Runge–Kutta 4 is some 150
+//! times smaller, by its order. What the midpoint rule keeps instead shows in long runs (`ring`). With m =
+//! k = 1 all quantities are in units of the undamped oscillator: time in √(m/k).
 //!
 //! ```text
 //! cargo run --release --example oscillator [picture.svg]
@@ -128,7 +129,8 @@ fn panel<'a>(
     Panel::new(title, x, y, once(exact).chain(methods).collect())
 }
 
-/// What the other panels cannot show: of the two that lie on the curve, Runge–Kutta 4 is nearer by its two orders more.
+/// What the other panels cannot show: of the two that lie on the curve, Runge–Kutta 4 is nearer by its two
+/// orders more.
 fn errors<'a>(time: Axis<'a>, motions: &'a [Motion]) -> Panel<'a> {
     let curves = motions.iter().zip([Dash::DashDotted, Dash::Dashed, Dash::Solid]).map(|(motion, dash)| {
         // The error at the start is 0.

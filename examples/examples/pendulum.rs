@@ -1,5 +1,5 @@
-//! A pendulum with linear drag, released near the top: the discrete points of the variational midpoint rule on the
-//! continuous curve, as in figure 1 of the paper.
+//! A pendulum with linear drag, released near the top: the discrete points of the variational midpoint rule
+//! on the continuous curve, as in figure 1 of the paper.
 //!
 //! Lengths in l, times in √(l/g), masses in m: all quantities are dimensionless.
 //!

@@ -1,5 +1,6 @@
-//! A particle in a ring potential with weak drag, over 10 000 steps: energy and angular momentum by the variational
-//! midpoint rule, by the classical Runge–Kutta method at the same step size, and by an accurate reference.
+//! A particle in a ring potential with weak drag, over 10 000 steps: energy and angular momentum by the
+//! variational midpoint rule, by the classical Runge–Kutta method at the same step size, and by an accurate
+//! reference.
 //!
 //! Marsden and West, Discrete mechanics and variational integrators (2001), example 3.2.3. All quantities are
 //! dimensionless.
@@ -71,7 +72,8 @@ pub fn start(ring: &Ring) -> Result<State<f64, 2>> {
 pub struct Motion {
     /// E = v·∂L/∂v − L at the node (q, p).
     pub energy: Vec<f64>,
-    /// E on the segment that ends at the node, taken at its midpoint and mean velocity; at t = 0 that of the node.
+    /// E on the segment that ends at the node, taken at its midpoint and mean velocity; at t = 0 that of the
+    /// node.
     pub segment_energy: Vec<f64>,
     /// J = q × p.
     pub angular_momentum: Vec<f64>,

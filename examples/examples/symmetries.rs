@@ -1,8 +1,9 @@
-//! Which momentum maps a friction keeps: isotropic and radial friction on the ring potential of Marsden & West (example
-//! 3.2.3), and drag along one axis on a particle in space.
+//! Which momentum maps a friction keeps: isotropic and radial friction on the ring potential of Marsden &
+//! West (example 3.2.3), and drag along one axis on a particle in space.
 //!
-//! The picture shows how much angular momentum each system has lost. Radial friction keeps it exactly in polar coordinates
-//! and as a midpoint force; its Rayleigh function in Cartesian coordinates loses some at order h³ a step, through ∂R/∂q.
+//! The picture shows how much angular momentum each system has lost. Radial friction keeps it exactly in
+//! polar coordinates and as a midpoint force; its Rayleigh function in Cartesian coordinates loses some at
+//! order h³ a step, through ∂R/∂q.
 //!
 //! ```text
 //! cargo run --release --example symmetries [picture.svg]

@@ -14,7 +14,8 @@ pub enum Method {
     ImplicitEuler,
     /// The classical Runge–Kutta method, order 4, one step from state to state.
     RungeKutta4,
-    /// Dormand–Prince 8(5,3) with as many steps from state to state as this relative and absolute tolerance asks for.
+    /// Dormand–Prince 8(5,3) with as many steps from state to state as this relative and absolute tolerance
+    /// asks for.
     DormandPrince853(f64),
 }
 

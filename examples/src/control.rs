@@ -1,5 +1,5 @@
-//! Controllers of the scenes with a closed loop, for states x = (q, p) and a model that gives its step with A and B:
-//! the linear-quadratic regulator, iterative LQR over a horizon, and the extended Kalman filter.
+//! Controllers of the scenes with a closed loop, for states x = (q, p) and a model that gives its step with A
+//! and B: the linear-quadratic regulator, iterative LQR over a horizon, and the extended Kalman filter.
 
 use anyhow::{Context, Result};
 use dalembert::derivative::Linearization;
@@ -116,7 +116,8 @@ pub trait Problem<const X: usize, const M: usize> {
     /// Those of [`Discretised::step`](dalembert::Discretised::step).
     fn linearised(&self, x: &SVector<f64, X>, u: &SVector<f64, M>) -> Result<Linearised<X, M>, StepError>;
 
-    /// The cost of being at `x` and using `u` in step `k`; at the end of the horizon u is 0 and costs nothing.
+    /// The cost of being at `x` and using `u` in step `k`; at the end of the horizon u is 0 and costs
+    /// nothing.
     ///
     /// # Errors
     /// Those of [`State::velocity`].
@@ -173,8 +174,9 @@ impl<const X: usize, const M: usize> Plan<X, M> {
         Ok(next)
     }
 
-    /// One iteration of iterative LQR from `start`: linearise along the plan, solve the linear-quadratic problem backwards,
-    /// follow its answer forwards with the longest share of 1, ½, ¼ … that lowers the cost. Nothing if none does.
+    /// One iteration of iterative LQR from `start`: linearise along the plan, solve the linear-quadratic
+    /// problem backwards, follow its answer forwards with the longest share of 1, ½, ¼ … that lowers the
+    /// cost. Nothing if none does.
     ///
     /// # Errors
     /// Those of [`Discrete::step`] along the plan itself; a trial that cannot be stepped is a share too long.

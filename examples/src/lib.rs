@@ -1,5 +1,5 @@
-//! What the scenes share: the comparison methods, the controllers, the style of the pictures, the files of results and of runs
-//! that go on, and the ring system written by hand.
+//! What the scenes share: the comparison methods, the controllers, the style of the pictures, the files of
+//! results and of runs that go on, and the ring system written by hand.
 //!
 //! Each scene is one file of `examples/`.
 

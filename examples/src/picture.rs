@@ -1,7 +1,8 @@
 //! The pictures of the scenes: panels of curves in one style, as SVG.
 //!
-//! Every panel has its legend above its axes, off the data. Curves differ in dashes or marks as well as in colour. Text stays text in the
-//! file, in whatever sans-serif font the viewer has: no font is needed to draw it.
+//! Every panel has its legend above its axes, off the data. Curves differ in dashes or marks as well as in
+//! colour. Text stays text in the file, in whatever sans-serif font the viewer has: no font is needed to draw
+//! it.
 
 mod axis;
 mod svg;
@@ -148,7 +149,8 @@ type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Ticks, Ticks>>
 
 const FONT: &str = "sans-serif";
 
-/// Units of the drawing to a pixel: plotters rounds coordinates to whole units, which shows as steps in thin lines.
+/// Units of the drawing to a pixel: plotters rounds coordinates to whole units, which shows as steps in thin
+/// lines.
 const PIXEL: i32 = 8;
 
 /// Sizes in pixels.
@@ -198,7 +200,8 @@ macro_rules! with_shape {
     }};
 }
 
-/// Writes the picture to the path that the command line gives, or else to `target/<name>.svg`, and returns the path.
+/// Writes the picture to the path that the command line gives, or else to `target/<name>.svg`, and returns
+/// the path.
 ///
 /// # Errors
 /// The file cannot be written; then the picture is where the error says ([`results::save`]).
@@ -239,7 +242,8 @@ pub fn svg(size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -> Result<Strin
     Ok(svg::finished(svg, size, PIXEL as u32))
 }
 
-/// How wide a text is, in pixels, for all that is known without a font. (plotters writes sizes that are smaller by 1.24.)
+/// How wide a text is, in pixels, for all that is known without a font. (plotters writes sizes that are
+/// smaller by 1.24.)
 fn width_of(text: &str, size: i32) -> i32 {
     let narrow = text.chars().filter(|letter| "iljt.,:;|()[]'1 ".contains(*letter)).count() as i32;
     let marks = text.chars().filter(|letter| ('\u{300}'..'\u{370}').contains(letter)).count() as i32;
@@ -369,7 +373,8 @@ fn marks(
     Ok(())
 }
 
-/// The same line from fewer points: of those within one `pixel` of x the first, the lowest, the highest and the last.
+/// The same line from fewer points: of those within one `pixel` of x the first, the lowest, the highest and
+/// the last.
 fn thinned(points: &[(f64, f64)], pixel: f64) -> Vec<(f64, f64)> {
     let column = |point: &(f64, f64)| (point.0 / pixel).floor();
     points

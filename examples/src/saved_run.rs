@@ -1,8 +1,10 @@
-//! A run that can be interrupted at any moment and goes on from where it was, bit by bit as if nothing had happened.
+//! A run that can be interrupted at any moment and goes on from where it was, bit by bit as if nothing had
+//! happened.
 //!
-//! Its folder holds `rows.csv`, one row each time it is looked at, and `checkpoint.json`, written after every few rows: which run this is, where
-//! it stands, and what the rows were by then. Rows after the checkpoint are computed again; a row that broke off is cut away. What does not
-//! fit together, or is another run's, is refused.
+//! Its folder holds `rows.csv`, one row each time it is looked at, and `checkpoint.json`, written after every
+//! few rows: which run this is, where it stands, and what the rows were by then. Rows after the checkpoint
+//! are computed again; a row that broke off is cut away. What does not fit together, or is another run's, is
+//! refused.
 
 mod files;
 
@@ -42,14 +44,16 @@ impl SavedRun {
         self.folder.join(ROWS)
     }
 
-    /// Runs to the end of the schedule, from the checkpoint if there is one. `row` writes what a row says of a time and a state.
+    /// Runs to the end of the schedule, from the checkpoint if there is one. `row` writes what a row says of
+    /// a time and a state.
     ///
-    /// Every checkpoint makes the run forget what its rule remembers; since they come after fixed numbers of steps, neither how
-    /// often nor when a run was interrupted shows in any bit. A run that was kept goes on to a later end as well.
+    /// Every checkpoint makes the run forget what its rule remembers; since they come after fixed numbers of
+    /// steps, neither how often nor when a run was interrupted shows in any bit. A run that was kept goes
+    /// on to a later end as well.
     ///
     /// # Errors
-    /// A file cannot be read or written, or is not this run's: of another system, rule, step size, start or schedule, or changed since.
-    /// A step fails. The files then hold the run as far as the error says.
+    /// A file cannot be read or written, or is not this run's: of another system, rule, step size, start or
+    /// schedule, or changed since. A step fails. The files then hold the run as far as the error says.
     pub fn run<L, R, const N: usize>(
         &self,
         (system, rule): (&L, R),
@@ -110,7 +114,8 @@ impl SavedRun {
     }
 }
 
-/// Which run this is, in words. What words do not tell of the system shows in its first steps, and what rows say in the one of the start.
+/// Which run this is, in words. What words do not tell of the system shows in its first steps, and what rows
+/// say in the one of the start.
 fn identity<L, R, const N: usize>(
     (system, rule): (&L, R),
     (h, start): (f64, State<f64, N>),

@@ -1,6 +1,7 @@
 //! The ring system of the scene, by the macro, equals the same system written by hand.
 //!
-//! Both compute the same polynomials, of degree 6 in q, in another order: they may differ by rounding, nothing else.
+//! Both compute the same polynomials, of degree 6 in q, in another order: they may differ by rounding,
+//! nothing else.
 
 #[path = "../examples/ring.rs"]
 #[expect(dead_code, reason = "of the scene, the system and its start are tested here")]
@@ -29,15 +30,15 @@ fn points() -> Vec<(Vector2<f64>, Vector2<f64>)> {
     points
 }
 
-/// Sum of the sizes of all terms in the largest entry, once expanded: ∂²L/∂q² with 30 s² + 24 s + 2, L and ∂L/∂v with
-/// |v|² and |v|.
+/// Sum of the sizes of all terms in the largest entry, once expanded: ∂²L/∂q² with 30 s² + 24 s + 2, L and
+/// ∂L/∂v with |v|² and |v|.
 fn terms(q: &Vector2<f64>, v: &Vector2<f64>) -> f64 {
     let s = q.norm_squared();
     30.0 * s * s + 24.0 * s + 2.0 + v.norm_squared() + v.norm()
 }
 
-/// The largest |a − b|, in units of the rounding that it may carry: fewer than 8 roundings of ε/2 reach a term, on
-/// either side.
+/// The largest |a − b|, in units of the rounding that it may carry: fewer than 8 roundings of ε/2 reach a
+/// term, on either side.
 struct Comparison {
     unit: f64,
     worst: f64,
@@ -128,9 +129,9 @@ fn the_functions_and_their_derivatives_are_equal() {
 
 /// How far the states after a step differ, in units of what the solver may leave.
 ///
-/// Newton's method stops where p0 is met to some roundings, 16 · 4ε (|p0| + |J||v̄|) with J = ∂p0/∂v̄. Then v̄ is off by
-/// |J⁻¹| times that, on either side, and p1 by |∂p1/∂v̄| times more. Here ∂p1/∂v̄ = 2 − J and |J⁻¹| < 1.1, as
-/// h²/4 ∂²V/∂q² > −0.05.
+/// Newton's method stops where p0 is met to some roundings, 16 · 4ε (|p0| + |J||v̄|) with J = ∂p0/∂v̄. Then v̄
+/// is off by |J⁻¹| times that, on either side, and p1 by |∂p1/∂v̄| times more. Here ∂p1/∂v̄ = 2 − J and |J⁻¹| <
+/// 1.1, as h²/4 ∂²V/∂q² > −0.05.
 fn of_steps<A, B>(a: &A, b: &B) -> f64
 where
     A: Discrete<Midpoint, 2, Scalar = f64, Matrix = Matrix2<f64>>,

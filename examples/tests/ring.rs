@@ -24,7 +24,8 @@ fn reference() -> Motion {
 
 /// E(2000) of the exact motion, by Taylor series of order 24 in steps of 0.1 with 30 digits (mpmath).
 const EXACT_ENERGY: f64 = 0.016291413218940473;
-/// E(2000) by the classical Runge–Kutta method and by the variational midpoint rule, h = 0.2, both written out in NumPy.
+/// E(2000) by the classical Runge–Kutta method and by the variational midpoint rule, h = 0.2, both written
+/// out in NumPy.
 const RUNGE_KUTTA_ENERGY: f64 = 0.0030525408796330603;
 const MIDPOINT_ENERGY: f64 = 0.017815102495656848;
 
@@ -34,7 +35,8 @@ fn the_methods_end_with_the_energies_of_independent_computations() {
     let [reference, runge_kutta, midpoint] =
         [reference(), standard_method(Method::RungeKutta4), variational_midpoint()]
             .map(|motion| motion.energy[STEPS]);
-    // Rounding of 10⁴ steps, and for the reference its tolerance, over a motion whose phase errors grow with t.
+    // Rounding of 10⁴ steps, and for the reference its tolerance, over a motion whose phase errors grow with
+    // t.
     assert!((reference - EXACT_ENERGY).abs() < 1e-12, "{reference}");
     assert!((runge_kutta - RUNGE_KUTTA_ENERGY).abs() < 1e-12, "{runge_kutta}");
     assert!((midpoint - MIDPOINT_ENERGY).abs() < 1e-11, "{midpoint}");
@@ -59,7 +61,8 @@ fn the_angular_momentum_of_the_reference_decays_exactly() {
     }
 }
 
-/// What figure 2 of the paper shows: the variational midpoint loses energy to drag alone, Runge–Kutta by itself as well.
+/// What figure 2 of the paper shows: the variational midpoint loses energy to drag alone, Runge–Kutta by
+/// itself as well.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn the_midpoint_follows_the_energy_and_runge_kutta_does_not() {

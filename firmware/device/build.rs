@@ -14,7 +14,8 @@ fn main() {
     println!("cargo:rustc-link-arg=--gc-sections");
 }
 
-/// All in one memory that the emulator fills from the file, zeros of `.bss` included: nothing to copy at start.
+/// All in one memory that the emulator fills from the file, zeros of `.bss` included: nothing to copy at
+/// start.
 const SECTIONS: &str = "ENTRY(reset)
 SECTIONS
 {

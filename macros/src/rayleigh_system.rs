@@ -1,8 +1,9 @@
 //! `#[rayleigh_system]` and `#[differentiable]`, from tokens to tokens.
 //!
-//! parse → check → lower → differentiate → emit, or, where a body cannot be lowered, parse → check → rewrite → expand.
-//! Plain proc_macro2 code, so that tests and fuzzers can call it. Each stage goes on with what the one before it found sound,
-//! so that all mistakes show in one compile; if there is any, the user's item is returned beside the diagnostics.
+//! parse → check → lower → differentiate → emit, or, where a body cannot be lowered, parse → check → rewrite
+//! → expand. Plain proc_macro2 code, so that tests and fuzzers can call it. Each stage goes on with what the
+//! one before it found sound, so that all mistakes show in one compile; if there is any, the user's item is
+//! returned beside the diagnostics.
 
 pub mod attribute;
 pub mod check;

@@ -1,4 +1,5 @@
-//! Tests of the pipeline, called as plain code: derivatives against num-dual, refusals, what it writes, and that nothing makes it panic.
+//! Tests of the pipeline, called as plain code: derivatives against num-dual, refusals, what it writes, and
+//! that nothing makes it panic.
 
 mod corpus;
 mod factoring;

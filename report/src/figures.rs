@@ -15,8 +15,8 @@ type Look = (&'static str, RGBColor, Dash, Mark);
 
 const PEER: RGBColor = RGBColor(90, 90, 90);
 
-/// What the figures show, more than which no eye tells apart: of this project's methods one of each kind, in colour; of the others the fastest
-/// of each kind.
+/// What the figures show, more than which no eye tells apart: of this project's methods one of each kind, in
+/// colour; of the others the fastest of each kind.
 const SHOWN: [Look; 8] = [
     ("midpoint", colour::VARIATIONAL, Dash::Solid, Mark::Disc),
     ("Gauss, 4 stages", colour::FIFTH, Dash::Solid, Mark::Triangle),

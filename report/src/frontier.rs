@@ -9,11 +9,12 @@ pub struct Point {
     pub error: f64,
 }
 
-/// The seconds at which a method's error passes below `error`, given its runs from the coarsest to the finest; between two, as log
-/// time over log error.
+/// The seconds at which a method's error passes below `error`, given its runs from the coarsest to the
+/// finest; between two, as log time over log error.
 ///
-/// A run counts only if the next finer one is below as well: one that is right by accident, where an error changes its sign,
-/// reaches nothing. The coarsest runs of a method that iterates may cost more than finer ones. `None` if no run counts.
+/// A run counts only if the next finer one is below as well: one that is right by accident, where an error
+/// changes its sign, reaches nothing. The coarsest runs of a method that iterates may cost more than finer
+/// ones. `None` if no run counts.
 pub fn time_to_reach(error: f64, points: impl IntoIterator<Item = Point>) -> Option<f64> {
     let points: Vec<Point> = points.into_iter().collect();
     let is_below = |point: &Point| point.error <= error;

@@ -1,8 +1,10 @@
-//! Speed against error: what a trajectory costs to given errors, by this project's methods and by others, in one run.
+//! Speed against error: what a trajectory costs to given errors, by this project's methods and by others, in
+//! one run.
 //!
-//! `cargo speed-against-error` measures and writes `docs/speed-against-error.md`; `… page` writes the page again from the figures
-//! measured last, `… scenes` and `… long-run` measure one part again, `… scenes ring Kepler` these scenes. Peers with a Python interface are run where the
-//! interpreter that `PYTHON` names has them.
+//! `cargo speed-against-error` measures and writes `docs/speed-against-error.md`; `… page` writes the page
+//! again from the figures measured last, `… scenes` and `… long-run` measure one part again, `… scenes ring
+//! Kepler` these scenes. Peers with a Python interface are run where the interpreter that `PYTHON` names has
+//! them.
 
 mod figures;
 mod frontier;
@@ -106,7 +108,8 @@ fn write<T: Serialize>(path: &Path, records: &[T]) -> Result<()> {
     results::save(path, std::str::from_utf8(&rows)?)
 }
 
-/// Measures the scenes wanted, or all, by the names that `references.txt` has, and hands the records of each to `keep`.
+/// Measures the scenes wanted, or all, by the names that `references.txt` has, and hands the records of each
+/// to `keep`.
 fn scenes(
     wanted: &[String],
     python: Option<&Python>,

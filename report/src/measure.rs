@@ -76,7 +76,8 @@ pub fn median(mut values: Vec<f64>) -> f64 {
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-/// Times `trajectory`, as often as asked, by the processor time of this thread, which no other program's work is part of; what turns its result into an end is not timed.
+/// Times `trajectory`, as often as asked, by the processor time of this thread, which no other program's work
+/// is part of; what turns its result into an end is not timed.
 pub fn timed<'a, T, E>(
     mut trajectory: impl FnMut() -> Result<T> + 'a,
     end: impl Fn(T) -> Result<E> + 'a,

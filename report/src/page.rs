@@ -34,7 +34,8 @@ pub struct Measured<'a> {
     pub ours: &'a [&'a str],
     /// What ran where, a line each.
     pub setting: &'a str,
-    /// What lies behind the figures, written by hand; figures themselves stand in what is computed from the records.
+    /// What lies behind the figures, written by hand; figures themselves stand in what is computed from the
+    /// records.
     pub reading: &'a str,
 }
 

@@ -1,5 +1,5 @@
-//! Other people's methods, at their best documented settings, on the same accelerations compiled the same way. One line adds
-//! one.
+//! Other people's methods, at their best documented settings, on the same accelerations compiled the same
+//! way. One line adds one.
 
 use std::marker::PhantomData;
 

@@ -1,5 +1,5 @@
-//! The systems measured: for this project a Lagrangian and a Rayleigh function, for its peers the accelerations that follow,
-//! derived by hand with common subexpressions shared.
+//! The systems measured: for this project a Lagrangian and a Rayleigh function, for its peers the
+//! accelerations that follow, derived by hand with common subexpressions shared.
 
 use dalembert::system::ForcedLagrangian;
 use dalembert::{Discrete, Midpoint, Trapezoidal, rayleigh_system};
@@ -205,7 +205,8 @@ impl Scene<2> for Kepler {
     }
 }
 
-/// Seven pendulums of unit masses and lengths, one hanging from the other, absolute angles, friction in every joint.
+/// Seven pendulums of unit masses and lengths, one hanging from the other, absolute angles, friction in every
+/// joint.
 #[derive(Clone, Copy)]
 pub struct Pendulums {
     pub g: f64,

@@ -90,8 +90,8 @@ pub fn scene<S: Scene<N>, const N: usize, const M: usize>(
     Ok(records.collect())
 }
 
-/// Of the settings, from the coarsest to the finest, those that tell something: not far off, not long after the error has
-/// reached what rounding leaves.
+/// Of the settings, from the coarsest to the finest, those that tell something: not far off, not long after
+/// the error has reached what rounding leaves.
 fn worth<'a, E>(
     settings: impl Iterator<Item = f64>,
     error: impl Fn(&E) -> f64,

@@ -1,4 +1,5 @@
-//! What is asked of a step beside where it leads: its derivatives by state, input and parameters, and how well it was posed.
+//! What is asked of a step beside where it leads: its derivatives by state, input and parameters, and how
+//! well it was posed.
 //!
 //! Uses rules and all below; runs neither use it nor does it use them.
 

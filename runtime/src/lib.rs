@@ -39,7 +39,8 @@ mod attributes {
     pub use dalembert_macros::rayleigh_system_portable as rayleigh_system;
 }
 
-/// Generates the discrete mechanical system of a Lagrangian and a Rayleigh function, written as plain Rust.
+/// Generates the discrete mechanical system of a Lagrangian and a Rayleigh function, written as plain
+/// Rust.
 ///
 /// ```
 /// use dalembert::nalgebra::vector;
@@ -82,10 +83,10 @@ mod attributes {
 ///
 /// # Inputs and time
 ///
-/// A system whose force takes an input u, or one of whose functions takes the time t, is stepped through a view of it: with
-/// the input held over the step, and with the time at which the step starts. The rule evaluates each of its nodes at that
-/// node's own time, and a [`Trajectory`] of a view carries its time on. Whatever needs neither u nor t, such as L and its
-/// energy here, the system itself has as well.
+/// A system whose force takes an input u, or one of whose functions takes the time t, is stepped through
+/// a view of it: with the input held over the step, and with the time at which the step starts. The rule
+/// evaluates each of its nodes at that node's own time, and a [`Trajectory`] of a view carries its time
+/// on. Whatever needs neither u nor t, such as L and its energy here, the system itself has as well.
 ///
 /// | the system takes | its view | |
 /// |---|---|---|
@@ -149,11 +150,12 @@ mod attributes {
 /// | `step_derivatives = second` | second derivatives of the step: [`StepHessian`](derivative::StepHessian) |
 /// | `crate = mechanics` | the path of this crate, where Cargo.toml gives it another name: `mechanics = { package = "dalembert" }`; also of [`differentiable`](macro@differentiable) |
 ///
-/// Where `auto` cannot write the derivatives out, dual numbers make them when the program runs: twice as slow for two
-/// coordinates, hundreds of times for nine, and a compile-time error beyond 32 (8 with `step_derivatives = second`), where the
-/// stack of a thread might overflow. A warning at the token that cannot be followed says why. It is rustc's `deprecated`: `derivatives =
-/// num_dual` or `#[allow(deprecated)]` beside the attribute silence it, `derivatives = expanded` or `-D warnings` make it an
-/// error.
+/// Where `auto` cannot write the derivatives out, dual numbers make them when the program runs: twice as
+/// slow for two coordinates, hundreds of times for nine, and a compile-time error beyond 32 (8 with
+/// `step_derivatives = second`), where the stack of a thread might overflow. A warning at the token that
+/// cannot be followed says why. It is rustc's `deprecated`: `derivatives = num_dual` or
+/// `#[allow(deprecated)]` beside the attribute silence it, `derivatives = expanded` or `-D warnings`
+/// make it an error.
 ///
 /// # One free function
 ///
@@ -171,21 +173,24 @@ mod attributes {
 /// assert_eq!(system.energy(&vector![1.0], &vector![0.0]), 4.0);
 /// ```
 ///
-/// `-> (f64, f64)` is (L, R), `-> f64` is L alone. Every parameter after v is a field, also one called `t`: systems with an
-/// input or a time are blocks.
+/// `-> (f64, f64)` is (L, R), `-> f64` is L alone. Every parameter after v is a field, also one called
+/// `t`: systems with an input or a time are blocks.
 ///
 /// # What bodies may contain
 ///
-/// One language for `auto`, `expanded` and `num_dual`, with Rust's semantics; the value is bit by bit that of the same code
-/// outside the macro.
+/// One language for `auto`, `expanded` and `num_dual`, with Rust's semantics; the value is bit by bit
+/// that of the same code outside the macro.
 ///
-/// - Fields that are `f64`, integers, `bool`, arrays or tuples of them, `Option`s, and enums and structs of your own; constants
-///   of the standard library, the module and the block; functions of the block.
-/// - `let`, `let … else`, `mut` locals, arrays, tuples, references, closures that change nothing outside, loops and iterators,
-///   labels, `if`, `if let`, `match` with guards, `matches!`, early return.
-/// - `is_some`, `is_none`, `unwrap_or`, `map_or`, `is_some_and` and their like of an `Option`. What a pattern matches, rustc
-///   decides: the pattern is written out, and each arm is differentiated for itself.
-/// - Integers, with the types that Rust infers: what overflows is refused, `as` wraps, truncates and rounds.
+/// - Fields that are `f64`, integers, `bool`, arrays or tuples of them, `Option`s, and enums and structs
+///   of your own; constants of the standard library, the module and the block; functions of the block.
+/// - `let`, `let … else`, `mut` locals, arrays, tuples, references, closures that change nothing
+///   outside, loops and iterators, labels, `if`, `if let`, `match` with guards, `matches!`, early
+///   return.
+/// - `is_some`, `is_none`, `unwrap_or`, `map_or`, `is_some_and` and their like of an `Option`. What a
+///   pattern matches, rustc decides: the pattern is written out, and each arm is differentiated for
+///   itself.
+/// - Integers, with the types that Rust infers: what overflows is refused, `as` wraps, truncates and
+///   rounds.
 ///
 /// ```
 /// use dalembert::{Rayleigh, nalgebra::vector, rayleigh_system};
@@ -229,27 +234,31 @@ mod attributes {
 /// | sums | `mul_add` `midpoint`, `sum()` and `product()` of iterators |
 /// | questions, on the value alone | `is_nan` `is_finite` `is_infinite` `is_normal` `is_subnormal` `is_sign_positive` `is_sign_negative` `total_cmp`, `==` `<` `partial_cmp` |
 ///
-/// `hypot` guards against overflow and costs 1.5 times as much as `sqrt` of a sum of squares, which serves where the squares stay
-/// between 1e-300 and 1e300.
+/// `hypot` guards against overflow and costs 1.5 times as much as `sqrt` of a sum of squares, which
+/// serves where the squares stay between 1e-300 and 1e300.
 ///
-/// Without the feature `std` the same source compiles: elementary functions are those of [`Elementary`]. With `std` and `libm`
-/// they are so too, and a host repeats a microcontroller bit by bit. Other functions of the block, and code of your own, import
-/// [`Elementary`] to call them. Bodies must then be such that their derivatives can be written out.
+/// Without the feature `std` the same source compiles: elementary functions are those of [`Elementary`].
+/// With `std` and `libm` they are so too, and a host repeats a microcontroller bit by bit. Other
+/// functions of the block, and code of your own, import [`Elementary`] to call them. Bodies must then be
+/// such that their derivatives can be written out.
 ///
 /// Where a derivative does not exist, it is what the table of [`Real`](generated::dual::Real) says.
 ///
 /// Loops whose turns depend on numbers or fields are left to dual numbers, which take no enum.
 ///
-/// Refused, with a message at the token: `#[cfg]` inside the item, type aliases, items and macros inside a body, functions
-/// outside the block, generic helpers, assignment to a field, casts of coordinates to integers, `%` and rounding and bit methods
-/// on them, integers that overflow or whose value depends on a type that is not known.
+/// Refused, with a message at the token: `#[cfg]` inside the item, type aliases, items and macros inside
+/// a body, functions outside the block, generic helpers, assignment to a field, casts of coordinates to
+/// integers, `%` and rounding and bit methods on them, integers that overflow or whose value depends on
+/// a type that is not known.
 pub use attributes::rayleigh_system;
 
-/// Makes a function of the configuration a field with derivatives: a [`VectorField`] if it returns `[f64; N]`, such as the
-/// generator of a symmetry, a [`ScalarField`] if it returns `f64`, such as a generating function.
+/// Makes a function of the configuration a field with derivatives: a [`VectorField`] if it returns
+/// `[f64; N]`, such as the generator of a symmetry, a [`ScalarField`] if it returns `f64`, such as a
+/// generating function.
 ///
-/// Parameters after q become the fields of a struct named after the function, which stays callable. Bodies may contain what
-/// those of [`rayleigh_system`](macro@rayleigh_system) may, with closures for helpers. Needs the feature `std`.
+/// Parameters after q become the fields of a struct named after the function, which stays callable.
+/// Bodies may contain what those of [`rayleigh_system`](macro@rayleigh_system) may, with closures for
+/// helpers. Needs the feature `std`.
 ///
 /// ```
 /// use dalembert::nalgebra::{matrix, vector};

@@ -1,4 +1,5 @@
-//! Numbers: scalars, numbers side by side and numbers that carry derivatives; elementary functions, derivatives as data, matrices.
+//! Numbers: scalars, numbers side by side and numbers that carry derivatives; elementary functions,
+//! derivatives as data, matrices.
 //!
 //! The lowest floor: it uses nothing else of this crate.
 

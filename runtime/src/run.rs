@@ -1,4 +1,5 @@
-//! Runs of steps: what they keep from one to the next, in what order substeps follow, how far they are from the motion.
+//! Runs of steps: what they keep from one to the next, in what order substeps follow, how far they are from
+//! the motion.
 //!
 //! Uses rules and all below.
 

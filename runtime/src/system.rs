@@ -1,8 +1,9 @@
-//! The system as the user states it, in continuous time: L, R and f with their derivatives, and what is known of their form.
+//! The system as the user states it, in continuous time: L, R and f with their derivatives, and what is known
+//! of their form.
 //!
-//! `#[rayleigh_system]` implements what is here. A system written by hand implements [`Lagrangian`], and [`Rayleigh`] and [`Force`]
-//! where it has them; then [`Discrete`](crate::Discrete) with the data of [`step`](crate::step), or for Gauss rules
-//! [`ForcedLagrangian`] alone.
+//! `#[rayleigh_system]` implements what is here. A system written by hand implements [`Lagrangian`], and
+//! [`Rayleigh`] and [`Force`] where it has them; then [`Discrete`](crate::Discrete) with the data of
+//! [`step`](crate::step), or for Gauss rules [`ForcedLagrangian`] alone.
 //!
 //! Uses numbers, of which those that it speaks in are shown here.
 

@@ -1,4 +1,5 @@
-//! The theory's claims, checked on a system: symmetries, structure, Hamilton–Jacobi equations, the exact discrete system.
+//! The theory's claims, checked on a system: symmetries, structure, Hamilton–Jacobi equations, the exact
+//! discrete system.
 //!
 //! The highest floor: it uses all others, and none uses it.
 

@@ -1,5 +1,6 @@
-//! Systems and their discrete objects written by hand over any number, differentiated pair by pair with num-dual's
-//! hyper-dual numbers: shares nothing with the derivatives that the crate generates but num-dual's arithmetic.
+//! Systems and their discrete objects written by hand over any number, differentiated pair by pair with
+//! num-dual's hyper-dual numbers: shares nothing with the derivatives that the crate generates but num-dual's
+//! arithmetic.
 
 use dalembert::system::Derivatives;
 use nalgebra::{SMatrix, SVector};
@@ -86,7 +87,8 @@ impl<S: ByHand<N>, const N: usize> TwoPoints<N> for Continuous<'_, S> {
 pub enum Rule {
     /// L_d = h L(q̄, v̄), R_d = (h²/2) R(q̄, v̄), f_d^± = (h/2) f(q̄, v̄).
     Midpoint,
-    /// L_d = (h/2)(L(q0, v̄) + L(q1, v̄)), R_d = (h²/4)(R(q0, v̄) + R(q1, v̄)), f_d⁻ = (h/2) f(q0, v̄), f_d⁺ = (h/2) f(q1, v̄).
+    /// L_d = (h/2)(L(q0, v̄) + L(q1, v̄)), R_d = (h²/4)(R(q0, v̄) + R(q1, v̄)), f_d⁻ = (h/2) f(q0, v̄), f_d⁺ =
+    /// (h/2) f(q1, v̄).
     Trapezoidal,
 }
 

@@ -21,8 +21,8 @@ impl Convergence {
         self.errors.push((h, error));
     }
 
-    /// Slope of log error over log h by least squares, on the four smallest steps whose error is above `plateau`, the level
-    /// that rounding and the reference's own error keep up.
+    /// Slope of log error over log h by least squares, on the four smallest steps whose error is above
+    /// `plateau`, the level that rounding and the reference's own error keep up.
     ///
     /// # Panics
     /// If fewer than four errors are above the plateau.
@@ -40,8 +40,8 @@ impl Convergence {
     }
 }
 
-/// The orders observed in q and in p, of what `run` makes of a step size, a start and a number of steps, over steps of
-/// `time`/`steps`.
+/// The orders observed in q and in p, of what `run` makes of a step size, a start and a number of steps, over
+/// steps of `time`/`steps`.
 pub fn orders<L: ByHand<N>, const N: usize>(
     system: &L,
     time: f64,

@@ -1,4 +1,5 @@
-//! The damped oscillator by the midpoint rule, with the complete solution of its Hamilton–Jacobi problem in closed form.
+//! The damped oscillator by the midpoint rule, with the complete solution of its Hamilton–Jacobi problem in
+//! closed form.
 //!
 //! ```text
 //! α = m/h − kh/4,  β = m/h + kh/4,  ρ = r/2,  ω = √(km − r²/4),  δ = (β − ρ)/(β + ρ),  tan θ = ω/α,  ϕ_k = ϕ_0 + kθ
@@ -93,7 +94,8 @@ impl CompleteSolution {
         self.lambda * self.shrinkage(k) * self.phase.cos() / self.angle(k).cos()
     }
 
-    /// c_k with W_k(0) = 0: c_{k+1} − c_k = L_d(0, μ) − ½ s_{k+1} μ² − λ_{k+1} μ, L_d(0, μ) = ½ α μ², μ = F_k(0).
+    /// c_k with W_k(0) = 0: c_{k+1} − c_k = L_d(0, μ) − ½ s_{k+1} μ² − λ_{k+1} μ, L_d(0, μ) = ½ α μ², μ =
+    /// F_k(0).
     pub fn constant(&self, k: usize) -> f64 {
         (0..k).fold(0.0, |constant, j| {
             let mu = self.map(j).shift;

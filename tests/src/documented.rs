@@ -1,4 +1,5 @@
-//! Public systems, under the workspace's `deny(missing_docs)`: all that the macro makes public carries documentation.
+//! Public systems, under the workspace's `deny(missing_docs)`: all that the macro makes public carries
+//! documentation.
 
 use dalembert::rayleigh_system;
 

@@ -1,5 +1,5 @@
-//! Sums of two `f64`: about 31 digits (T. J. Dekker, A floating-point technique for extending the available precision, Numerische
-//! Mathematik 18, 1971), with the elementary functions that a body may call.
+//! Sums of two `f64`: about 31 digits (T. J. Dekker, A floating-point technique for extending the available
+//! precision, Numerische Mathematik 18, 1971), with the elementary functions that a body may call.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

@@ -1,5 +1,5 @@
-//! Reference motions by another method: Dormand–Prince 8(5,3) of the crate `differential-equations`, on accelerations
-//! derived on paper.
+//! Reference motions by another method: Dormand–Prince 8(5,3) of the crate `differential-equations`, on
+//! accelerations derived on paper.
 
 use differential_equations::prelude::{ExplicitRungeKutta, IVP, ODE};
 use nalgebra::{SMatrix, SVector};

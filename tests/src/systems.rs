@@ -1,5 +1,6 @@
-//! Mechanical systems, each written twice: for `#[rayleigh_system]`, and by hand ([`ByHand`](crate::by_hand::ByHand)) with
-//! accelerations derived on paper. Masses are never 1, so that a forgotten mass shows.
+//! Mechanical systems, each written twice: for `#[rayleigh_system]`, and by hand
+//! ([`ByHand`](crate::by_hand::ByHand)) with accelerations derived on paper. Masses are never 1, so that a
+//! forgotten mass shows.
 
 mod bead;
 mod chain;

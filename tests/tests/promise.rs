@@ -1,4 +1,5 @@
-//! The error asked for, over a random collection of motions: `cargo study tolerance_study` tries more of them.
+//! The error asked for, over a random collection of motions: `cargo study tolerance_study` tries more of
+//! them.
 
 use dalembert_tests::motions::{Verdict, collection};
 
@@ -25,7 +26,8 @@ fn of_random_motions_none_passes_its_error_in_silence() {
 fn what_has_been_missed_or_reported_for_nothing_once_is_not_again() {
     // Seed, place and tolerance: what the reason was.
     let passed = [
-        // One J for angles up to a radian, and local errors of few looks, by Gauss methods of long steps where motions part.
+        // One J for angles up to a radian, and local errors of few looks, by Gauss methods of long steps
+        // where motions part.
         (4711, 166, 1e-10),
         (4711, 124, 1e-10),
         // Local errors were weighed as at their looks, where a fast mode's are those of its coordinate.
@@ -67,7 +69,8 @@ fn what_has_been_missed_or_reported_for_nothing_once_is_not_again() {
 
 #[test]
 fn the_cheapest_fixed_choice_is_no_accident() {
-    // A pendulum that is at rest long before the end, where one step over the whole time leads to by accident.
+    // A pendulum that is at rest long before the end, where one step over the whole time leads to by
+    // accident.
     let motion = collection(4711, 4).pop().unwrap();
     assert!(motion.what.starts_with("r 0.785"), "{}", motion.what);
     for cheapest in motion.cheapest(&[1e-2, 1e-6, 1e-10]) {

@@ -14,4 +14,5 @@ fn main() {
     use dalembert::{Discretise, Midpoint, State};
     let state = State { q: vector![0.0, 0.0], p: vector![0.0, 0.0] };
     let _ = System { k: 1.0 }.by(Midpoint, 0.1).step(&state);
+    let _ = System { k: 1.0 }.to_error(1e-6).until(1.0).run(state);
 }

@@ -1,7 +1,8 @@
-//! How long one system takes to compile: `cargo check` and a release build of a program that steps it, everything it depends
-//! on being built already. Prints the table of `docs/performance.md`.
+//! How long one system takes to compile: `cargo check` and a release build of a program that steps it,
+//! everything it depends on being built already. Prints the table of `docs/performance.md`.
 //!
-//! `cargo run --release -p dalembert-benches --bin compile_times`, with the number of builds of each behind `--` if not 3
+//! `cargo run --release -p dalembert-benches --bin compile_times`, with the number of builds of each behind
+//! `--` if not 3
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};

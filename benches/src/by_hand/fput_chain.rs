@@ -1,4 +1,5 @@
-//! The FPUT chain: spring i between the masses i − 1 and i (walls at both ends), force d + β d³, stiffness 1 + 3β d².
+//! The FPUT chain: spring i between the masses i − 1 and i (walls at both ends), force d + β d³, stiffness
+//! 1 + 3β d².
 
 use dalembert::nalgebra::SVector;
 use dalembert::run::KeptMatrix;

@@ -1,12 +1,13 @@
-//! The pendulum chain. Mass k has the velocity l Σ_{i≤k} vᵢ (cos qᵢ, sin qᵢ); μᵢ = Σ_{k≥i} mₖ, P_i = l Σ_{k≥i} mₖ velocityₖ.
+//! The pendulum chain. Mass k has the velocity l Σ_{i≤k} vᵢ (cos qᵢ, sin qᵢ); μᵢ = Σ_{k≥i} mₖ, P_i = l
+//! Σ_{k≥i} mₖ velocityₖ.
 //!
 //! ```text
 //! ∂L/∂vᵢ = P_i · (cos qᵢ, sin qᵢ),   ∂L/∂qᵢ = vᵢ P_i · (−sin qᵢ, cos qᵢ) − μᵢ g l sin qᵢ
 //! ```
 //!
-//! Varying v̄ᵢ as the step's equation does moves vᵢ (cos qᵢ, sin qᵢ) along x⁻ = (cos + a v sin, sin − a v cos) and
-//! x⁺ = (cos − a v sin, sin + a v cos), a = h/2: the Newton matrix is l² μ_max(i,j) x⁻ᵢ · x⁺ⱼ, what the diagonal adds, and
-//! the friction.
+//! Varying v̄ᵢ as the step's equation does moves vᵢ (cos qᵢ, sin qᵢ) along x⁻ = (cos + a v sin, sin − a v cos)
+//! and x⁺ = (cos − a v sin, sin + a v cos), a = h/2: the Newton matrix is l² μ_max(i,j) x⁻ᵢ · x⁺ⱼ, what the
+//! diagonal adds, and the friction.
 
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::run::KeptMatrix;

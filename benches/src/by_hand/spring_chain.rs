@@ -1,5 +1,5 @@
-//! The spring chain: spring and dashpot i between the masses i − 1 and i (the first on the wall), force k d + κ d³,
-//! stiffness k + 3κ d².
+//! The spring chain: spring and dashpot i between the masses i − 1 and i (the first on the wall), force k d +
+//! κ d³, stiffness k + 3κ d².
 
 use dalembert::nalgebra::SVector;
 use dalembert::run::KeptMatrix;

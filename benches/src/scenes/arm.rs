@@ -1,4 +1,5 @@
-/// A spatial arm of three joints: yaw of the base, pitch of the shoulder, pitch of the elbow relative to the upper arm.
+/// A spatial arm of three joints: yaw of the base, pitch of the shoulder, pitch of the elbow relative to the
+/// upper arm.
 macro_rules! arm {
     ($engine:ident) => {
         /// Two uniform rods and a payload at the tip, on a turning base.

@@ -1,4 +1,5 @@
-/// A planar chain of point masses on equal massless links, absolute angles from the vertical, with friction in every joint.
+/// A planar chain of point masses on equal massless links, absolute angles from the vertical, with friction
+/// in every joint.
 macro_rules! pendulum_chain {
     ($engine:ident, $n:tt) => {
         /// Every mass moves with all links above it: the mass matrix is full and depends on q.

@@ -27,7 +27,8 @@ pub fn linear(label: &str) -> Axis<'_> {
     Axis { label, scale: Scale::Linear, shown: None }
 }
 
-/// An axis of even decades. Values that are not positive are left out, unless there is a [floor](Axis::with_floor).
+/// An axis of even decades. Values that are not positive are left out, unless there is a
+/// [floor](Axis::with_floor).
 pub fn logarithmic(label: &str) -> Axis<'_> {
     Axis { label, scale: Scale::Logarithmic { floor: None }, shown: None }
 }
@@ -131,7 +132,8 @@ impl Ticks {
     }
 }
 
-/// Widens one of two ranges so that a unit is as long on both; the first axis is `shape` times as long as the second.
+/// Widens one of two ranges so that a unit is as long on both; the first axis is `shape` times as long as the
+/// second.
 pub(super) fn equalise(x: &mut Ticks, y: &mut Ticks, shape: f64) {
     let widen = |ticks: &mut Ticks, width: f64| {
         let by = (width - ticks.width()) / 2.0;

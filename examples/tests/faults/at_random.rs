@@ -1,5 +1,5 @@
-//! Faults drawn at random: whatever is done to the files of a run, before or while it runs, it ends in the bits of the run that was left
-//! alone, or with an error that is true.
+//! Faults drawn at random: whatever is done to the files of a run, before or while it runs, it ends in the
+//! bits of the run that was left alone, or with an error that is true.
 
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -332,7 +332,8 @@ fn any_fault_ends_in_the_same_bits_or_in_a_true_error() {
             assert!(output.status.code() == Some(3) && is_true_of(fault, said), "{fault:?}: {said}");
         }
         let _ = process::Command::new("chmod").args(["-R", "u+w"]).arg(&tried).status();
-        // Without the fault it goes on rightly, from whatever was left, or refuses it; from nothing it is right.
+        // Without the fault it goes on rightly, from whatever was left, or refuses it; from nothing it is
+        // right.
         let again = child("at_random::child_of_random_faults", &tried, "").output().unwrap();
         if again.status.success() {
             assert!(is_right(&tried, &text(&again), &end, &rows), "after {fault:?}: {}", text(&again));

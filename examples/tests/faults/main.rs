@@ -1,4 +1,5 @@
-//! Full disks, paths that cannot be written, runs that are killed: nothing computed is lost, and no file is broken.
+//! Full disks, paths that cannot be written, runs that are killed: nothing computed is lost, and no file is
+//! broken.
 
 mod at_random;
 
@@ -92,7 +93,8 @@ fn readable_rows(folder: &Path) -> usize {
     text.lines().count()
 }
 
-/// SIGKILL, many times, at moments that differ from run to run; at the end all bits are those of the run that was left alone.
+/// SIGKILL, many times, at moments that differ from run to run; at the end all bits are those of the run that
+/// was left alone.
 #[test]
 #[cfg(unix)]
 fn a_killed_run_goes_on_bit_by_bit() {
@@ -157,10 +159,12 @@ fn a_broken_or_foreign_checkpoint_is_refused() {
     fs::remove_dir_all(folder).unwrap();
 }
 
-/// Files may be no longer than 64 blocks of 512 or 1024 bytes: what the kernel says then is what it says of a full disk.
+/// Files may be no longer than 64 blocks of 512 or 1024 bytes: what the kernel says then is what it says of a
+/// full disk.
 const LITTLE_ROOM: &str = "trap '' XFSZ; ulimit -f 64 || exit 99;";
 
-/// A disk that fills up in the middle: a clear error, whole rows but perhaps for the last, and the run goes on when there is room.
+/// A disk that fills up in the middle: a clear error, whole rows but perhaps for the last, and the run goes
+/// on when there is room.
 #[test]
 #[cfg(unix)]
 fn a_disk_that_fills_up() {
@@ -199,7 +203,8 @@ fn child_that_saves() {
     }
 }
 
-/// No room for the file: the old one stands as it was, no half file lies about, and the text goes to standard output.
+/// No room for the file: the old one stands as it was, no half file lies about, and the text goes to standard
+/// output.
 #[test]
 #[cfg(unix)]
 fn no_room_for_a_result() {

@@ -40,7 +40,8 @@ global_asm!(
 /// One semihosting call.
 fn call(operation: u32, argument: *const u32) -> u32 {
     let result;
-    // SAFETY: the emulator reads what the argument points to, and writes nothing for the operations used here.
+    // SAFETY: the emulator reads what the argument points to, and writes nothing for the operations used
+    // here.
     unsafe { asm!("bkpt 0xab", inlateout("r0") operation => result, in("r1") argument) }
     result
 }
@@ -65,7 +66,8 @@ const CURRENT: *mut u32 = 0xe000_e018 as *mut u32;
 /// Instructions of the loop that tells how many ticks an instruction is.
 const CALIBRATION: u32 = 100_000;
 
-/// Counts instructions by ticks of the system timer, which the emulator derives from the instructions executed.
+/// Counts instructions by ticks of the system timer, which the emulator derives from the instructions
+/// executed.
 pub struct Counter {
     /// Ticks of [`CALIBRATION`] instructions.
     ticks: u64,

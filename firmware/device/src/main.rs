@@ -1,4 +1,5 @@
-//! Steps each scene 200 times, and reports the bits it ends with, the instructions of a step and the stack used.
+//! Steps each scene 200 times, and reports the bits it ends with, the instructions of a step and the stack
+//! used.
 
 #![no_std]
 #![no_main]

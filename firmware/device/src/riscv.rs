@@ -34,8 +34,8 @@ global_asm!(
 /// One semihosting call.
 fn call(operation: u32, argument: *const u32) -> u32 {
     let result;
-    // SAFETY: the emulator reads what the argument points to, and writes nothing for the operations used here. It knows the
-    // call by these three instructions, on one page.
+    // SAFETY: the emulator reads what the argument points to, and writes nothing for the operations used
+    // here. It knows the call by these three instructions, on one page.
     unsafe {
         asm!(
             ".balign 16",

@@ -10,8 +10,8 @@ pub struct Ceiling {
 }
 
 impl Ceiling {
-    /// That of the first step of a run, which also finds the velocity to start at and holds the values generated against the
-    /// functions as written, at two points: three times the ceiling of the others.
+    /// That of the first step of a run, which also finds the velocity to start at and holds the values
+    /// generated against the functions as written, at two points: three times the ceiling of the others.
     pub fn first(self) -> u32 {
         self.worst * 3
     }

@@ -1,5 +1,5 @@
-//! Holds the report of a microcontroller, on standard input, against the host: the same bits, and instructions and stack below
-//! their ceilings. `firmware-host m7 3 < report`
+//! Holds the report of a microcontroller, on standard input, against the host: the same bits, and
+//! instructions and stack below their ceilings. `firmware-host m7 3 < report`
 
 mod ceilings;
 

@@ -1,10 +1,12 @@
-//! With the features `std` and `libm`, every way to a value takes the runtime's elementary functions, none the platform's.
+//! With the features `std` and `libm`, every way to a value takes the runtime's elementary functions, none
+//! the platform's.
 
 use dalembert::nalgebra::SVector;
 use dalembert::{Elementary, Force, Lagrangian, Rayleigh, rayleigh_system};
 use firmware_scenes::language::{Double, Single};
 
-/// The same body by both engines: one sum of functions in which libm and the platform's library differ somewhere.
+/// The same body by both engines: one sum of functions in which libm and the platform's library differ
+/// somewhere.
 macro_rules! both_engines {
     ($expanded:ident $by_num_dual:ident $float:ident) => {
         both_engines!(@engine $expanded expanded $float);

@@ -1,4 +1,5 @@
-//! A driven chain by Gauss rules, in time: steps, trajectories, and all derivatives of a step, of two or three stages.
+//! A driven chain by Gauss rules, in time: steps, trajectories, and all derivatives of a step, of two or
+//! three stages.
 
 use core::hint::black_box;
 

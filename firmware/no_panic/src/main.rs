@@ -1,11 +1,12 @@
 //! Links only if no step can panic: its panic handler calls a function that does not exist.
 //!
-//! A handler that nothing reaches is left out of the program, and its call with it. Steps of n = 1…8 coordinates in `f64` and
-//! `f32`, with and without a guess, of bounded work, alone and in a trajectory: by midpoint and trapezoidal rule with dense mass
-//! matrices, friction and a general force; by the midpoint rule with banded Newton matrices, n = 4…8; by the fitted rules, the
-//! one-sided one and the explicit trapezoidal rule, its composition and its splitting; and steps of n = 1…3 coordinates by Gauss
-//! rules, with an input and time, and every derivative of them. Certificates are not among them. `firmware/no_panic/run` builds
-//! it at opt-level 3 and s, and with the feature `may-panic`, which must fail.
+//! A handler that nothing reaches is left out of the program, and its call with it. Steps of n = 1…8
+//! coordinates in `f64` and `f32`, with and without a guess, of bounded work, alone and in a trajectory: by
+//! midpoint and trapezoidal rule with dense mass matrices, friction and a general force; by the midpoint rule
+//! with banded Newton matrices, n = 4…8; by the fitted rules, the one-sided one and the explicit trapezoidal
+//! rule, its composition and its splitting; and steps of n = 1…3 coordinates by Gauss rules, with an input
+//! and time, and every derivative of them. Certificates are not among them. `firmware/no_panic/run` builds it
+//! at opt-level 3 and s, and with the feature `may-panic`, which must fail.
 
 #![no_std]
 #![no_main]

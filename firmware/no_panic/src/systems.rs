@@ -1,5 +1,5 @@
-//! Chains of n coordinates: with full mass matrices that depend on q; with coupling of neighbours alone, whose Newton
-//! matrices are banded; and with linear damping, for the rules fitted to it.
+//! Chains of n coordinates: with full mass matrices that depend on q; with coupling of neighbours alone,
+//! whose Newton matrices are banded; and with linear damping, for the rules fitted to it.
 
 use core::hint::black_box;
 

@@ -1,5 +1,5 @@
-//! Every way in which a body may call an elementary function, in one system for each scalar type: the same source compiles
-//! with the standard library and without.
+//! Every way in which a body may call an elementary function, in one system for each scalar type: the same
+//! source compiles with the standard library and without.
 
 macro_rules! every_way {
     ($(#[$doc:meta])* $name:ident $float:ident) => {

@@ -14,12 +14,14 @@ enum Attribute {
     Differentiable,
 }
 
-/// Gives `text` to the macro that its first attribute names, as an attribute and an item, for each form of the runtime.
+/// Gives `text` to the macro that its first attribute names, as an attribute and an item, for each form of
+/// the runtime.
 ///
 /// Returns whether it was an item, which is all that rustc hands over.
 ///
 /// # Panics
-/// If the answer to an item is not a sequence of items, or says nothing of what is no item, or is another one the second time.
+/// If the answer to an item is not a sequence of items, or says nothing of what is no item, or is another one
+/// the second time.
 pub fn check(text: &str) -> bool {
     let Ok(tokens) = text.parse::<TokenStream>() else { return false };
     if depth(&tokens) > DEEPEST {
@@ -54,8 +56,8 @@ fn depth(tokens: &TokenStream) -> usize {
     tokens.clone().into_iter().map(inner).max().unwrap_or(0)
 }
 
-/// The macro, its options and the item, where the text begins with `#[rayleigh_system…]` or `#[differentiable…]`; otherwise
-/// all of it is the item of a `#[rayleigh_system]`.
+/// The macro, its options and the item, where the text begins with `#[rayleigh_system…]` or
+/// `#[differentiable…]`; otherwise all of it is the item of a `#[rayleigh_system]`.
 fn parts(tokens: TokenStream) -> (Attribute, TokenStream, TokenStream) {
     let mut rest = tokens.clone().into_iter();
     if let Some(TokenTree::Punct(hash)) = rest.next()

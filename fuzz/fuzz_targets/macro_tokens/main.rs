@@ -1,7 +1,7 @@
 //! Any text, as an annotated item: the macros never panic, and answer an item with items.
 //!
-//! Inputs are Rust source, beginning with the attribute. Most mutations change the syntax tree, so that what comes out is an
-//! item again and gets past the parser.
+//! Inputs are Rust source, beginning with the attribute. Most mutations change the syntax tree, so that what
+//! comes out is an item again and gets past the parser.
 
 #![no_main]
 

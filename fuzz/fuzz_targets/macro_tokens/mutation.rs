@@ -1,4 +1,5 @@
-//! Mutations of source text: of its syntax tree where it has one, of its tokens otherwise, of its bytes now and then.
+//! Mutations of source text: of its syntax tree where it has one, of its tokens otherwise, of its bytes now
+//! and then.
 
 use libfuzzer_sys::fuzzer_mutate;
 use proc_macro2::{Group, TokenStream, TokenTree};

@@ -1,4 +1,5 @@
-//! Any text read as a saved run: an error, or a checkpoint that goes on, writes the same text again, and does not panic.
+//! Any text read as a saved run: an error, or a checkpoint that goes on, writes the same text again, and does
+//! not panic.
 
 #![no_main]
 

@@ -9,7 +9,8 @@ use crate::numbers::Bytes;
 use crate::promise;
 use crate::systems::Counted;
 
-/// Most evaluations of L in one step: 100 iterations, each shortened by at least half down to ε², with a look at rounding.
+/// Most evaluations of L in one step: 100 iterations, each shortened by at least half down to ε², with a look
+/// at rounding.
 const EVALUATIONS: u32 = 100 * (104 + 16 + 16);
 
 /// Most coordinates of a system here.

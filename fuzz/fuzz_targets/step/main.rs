@@ -1,5 +1,5 @@
-//! Any state, step size, guess and parameters: a step, or an error with a name. No panic, bounded work, nothing lost on an error,
-//! nothing infinite called a step, no residual beyond what the solver promises.
+//! Any state, step size, guess and parameters: a step, or an error with a name. No panic, bounded work,
+//! nothing lost on an error, nothing infinite called a step, no residual beyond what the solver promises.
 
 #![no_main]
 
@@ -20,7 +20,8 @@ use systems::{
     Relativistic, Ring, Rubbing, Single,
 };
 
-/// Stepped by each of the rules; the promise on the residual is that of [`promise`] or, for several stages, of the report.
+/// Stepped by each of the rules; the promise on the residual is that of [`promise`] or, for several stages,
+/// of the report.
 macro_rules! by_rules {
     ($exercise:ident, $choice:ident: $($system:expr, $n:literal, [$($rule:expr),*], [$($stages:expr),*];)*) => {
         let mut left = $choice;

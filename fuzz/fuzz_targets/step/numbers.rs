@@ -27,7 +27,8 @@ const ODD: [f64; 20] = [
     f64::NAN,
 ];
 
-/// The input, byte by byte; after its end a random sequence that it determines, so that short inputs say as much as long ones.
+/// The input, byte by byte; after its end a random sequence that it determines, so that short inputs say as
+/// much as long ones.
 pub struct Bytes<'a> {
     given: std::slice::Iter<'a, u8>,
     after: StdRng,

@@ -1,9 +1,10 @@
-//! What a step promises: finite numbers, and a residual within 4096 of its round-off floors, or explained by what one rounding
-//! of q or v changes.
+//! What a step promises: finite numbers, and a residual within 4096 of its round-off floors, or explained by
+//! what one rounding of q or v changes.
 //!
-//! Written apart from the solver, from its documentation. The solver holds each component against its own floor, by the matrix
-//! of the iterate before the last correction; the one at the root can be smaller by any factor where a component of the force
-//! happens to vanish. All coordinates of a system here have the same unit, and it is held to the largest residual and floor.
+//! Written apart from the solver, from its documentation. The solver holds each component against its own
+//! floor, by the matrix of the iterate before the last correction; the one at the root can be smaller by any
+//! factor where a component of the force happens to vanish. All coordinates of a system here have the same
+//! unit, and it is held to the largest residual and floor.
 
 use dalembert::nalgebra::{SVector, zero};
 use dalembert::step::{NewtonMatrix, Step};
@@ -13,8 +14,8 @@ use dalembert::{Discrete, State};
 /// Floors within which a residual that has stopped falling is accepted.
 const STAGNATION: f64 = 4096.0;
 
-/// Floors, estimated or measured, within which it is a root's. Between the matrix that the solver held it against and the one
-/// at the root the floor may differ.
+/// Floors, estimated or measured, within which it is a root's. Between the matrix that the solver held it
+/// against and the one at the root the floor may differ.
 const ROOT: f64 = 4.0;
 const SLACK: f64 = 16.0;
 

@@ -1,5 +1,5 @@
-//! The options of the attribute: `rule = midpoint`, `rule = [midpoint, trapezoidal]`, `derivatives = expanded`,
-//! `parameters = [m, c[0]]`, `step_derivatives = second`, `crate = mechanics`.
+//! The options of the attribute: `rule = midpoint`, `rule = [midpoint, trapezoidal]`, `derivatives =
+//! expanded`, `parameters = [m, c[0]]`, `step_derivatives = second`, `crate = mechanics`.
 
 use proc_macro2::TokenStream;
 use syn::ext::IdentExt;

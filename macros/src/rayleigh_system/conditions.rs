@@ -1,5 +1,5 @@
-//! `#[cfg]` and `#[cfg_attr]` inside the annotated item. An attribute macro sees its item before rustc takes configured-out
-//! parts away, so that it would differentiate code that does not run.
+//! `#[cfg]` and `#[cfg_attr]` inside the annotated item. An attribute macro sees its item before rustc takes
+//! configured-out parts away, so that it would differentiate code that does not run.
 
 use syn::Attribute;
 use syn::visit::{self, Visit};

@@ -1,13 +1,14 @@
 //! Derivatives of a graph, as expressions of the same graph.
 //!
-//! Reverse accumulation: from the result down, each node hands its derivative on to its arguments. For second derivatives
-//! the same sweep carries the symmetric edges ∂²f/∂a∂b between the nodes still open (R. M. Gower and M. P. Mello, *A new
-//! framework for the computation of Hessians*, Optimization Methods and Software 27, 2012): only pairs that interact get an
-//! entry, each once. A derivative that vanishes by structure is absent from the maps.
+//! Reverse accumulation: from the result down, each node hands its derivative on to its arguments. For second
+//! derivatives the same sweep carries the symmetric edges ∂²f/∂a∂b between the nodes still open (R. M. Gower
+//! and M. P. Mello, *A new framework for the computation of Hessians*, Optimization Methods and Software 27,
+//! 2012): only pairs that interact get an entry, each once. A derivative that vanishes by structure is absent
+//! from the maps.
 //!
-//! A selection stands for the function of q and v that it selects: its branches are differentiated whole, and the
-//! selection chooses between the results, so that nothing of a rejected branch is multiplied by anything; and where a
-//! variable occurs in one branch alone, neither is the 0 of the other.
+//! A selection stands for the function of q and v that it selects: its branches are differentiated whole, and
+//! the selection chooses between the results, so that nothing of a rejected branch is multiplied by anything;
+//! and where a variable occurs in one branch alone, neither is the 0 of the other.
 
 mod factor;
 pub mod partials;
@@ -40,7 +41,8 @@ pub enum Order {
     Second,
 }
 
-/// How many selections deep branches are differentiated on the way: beyond that they are first, from the inside.
+/// How many selections deep branches are differentiated on the way: beyond that they are first, from the
+/// inside.
 const DEEPEST: u32 = 32;
 
 /// Differentiates nodes of a graph; selections that occur in several are differentiated once.
@@ -57,14 +59,15 @@ impl Differentiation {
         self.differentiated(graph, root, Order::First, None).gradient.clone()
     }
 
-    /// First and second derivatives of `root`. Those by the user's named expressions get names: dL/ds is `dl_ds` where
-    /// `symbol` is `l`.
+    /// First and second derivatives of `root`. Those by the user's named expressions get names: dL/ds is
+    /// `dl_ds` where `symbol` is `l`.
     pub fn hessian(&mut self, graph: &mut Graph, root: Node, symbol: &str) -> Derivatives {
         self.select_from_inside(graph, root, Order::Second);
         Derivatives::clone(&self.differentiated(graph, root, Order::Second, Some(symbol)))
     }
 
-    /// Differentiates selections that are nested deeply, so that a chain of thousands needs no deep recursion.
+    /// Differentiates selections that are nested deeply, so that a chain of thousands needs no deep
+    /// recursion.
     fn select_from_inside(&mut self, graph: &mut Graph, root: Node, order: Order) {
         let mut depths: HashMap<Node, u32> = HashMap::new();
         for node in graph.reachable([root]) {
@@ -151,7 +154,8 @@ impl Differentiation {
         Derivatives { gradient: sweep.adjoints, hessian: sweep.edges }
     }
 
-    /// The nodes that the sweep visits, arguments first: not the branches of selections, which it differentiates whole.
+    /// The nodes that the sweep visits, arguments first: not the branches of selections, which it
+    /// differentiates whole.
     fn open_nodes(&self, graph: &Graph, root: Node) -> Vec<Node> {
         let mut seen = std::collections::BTreeSet::new();
         let mut open = vec![root];
@@ -233,7 +237,8 @@ impl Sweep {
             if partner == node {
                 for (index, &(a, first_a)) in local.first.iter().enumerate() {
                     for &(b, first_b) in &local.first[index..] {
-                        // The pair (a, b) and the pair (b, a) are one edge; if a and b are the same node, both count.
+                        // The pair (a, b) and the pair (b, a) are one edge; if a and b are the same node,
+                        // both count.
                         if let Some(part) = first_a.times_both(graph, weight, first_b) {
                             self.add_edge(graph, a, b, part);
                         }

@@ -1,7 +1,8 @@
-//! What a user is told of dual numbers: a warning where nobody asked for them, an error where they cannot run.
+//! What a user is told of dual numbers: a warning where nobody asked for them, an error where they cannot
+//! run.
 //!
-//! Neither changes what is generated. Stable Rust has no warnings of macros; a deprecated constant, used at the user's token, makes
-//! rustc print one.
+//! Neither changes what is generated. Stable Rust has no warnings of macros; a deprecated constant, used at
+//! the user's token, makes rustc print one.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{quote, quote_spanned};
@@ -11,13 +12,15 @@ use super::expand::{conditions, lint_levels};
 use super::lower::Refusal;
 use super::model::System;
 
-/// The most coordinates that a step by dual numbers has the stack for, on a thread of 2 MiB, the least of Rust's defaults.
+/// The most coordinates that a step by dual numbers has the stack for, on a thread of 2 MiB, the least of
+/// Rust's defaults.
 ///
-/// Measured without optimisation, by the midpoint, the trapezoidal and a Gauss rule: 48 coordinates step, 64 overflow it. What fills it
-/// are matrices of (2n)² entries.
+/// Measured without optimisation, by the midpoint, the trapezoidal and a Gauss rule: 48 coordinates step, 64
+/// overflow it. What fills it are matrices of (2n)² entries.
 const MOST_COORDINATES: usize = 32;
 
-/// The most where third derivatives are asked for: their numbers hold (2n)² entries themselves, and 2n of them are arguments.
+/// The most where third derivatives are asked for: their numbers hold (2n)² entries themselves, and 2n of
+/// them are arguments.
 const MOST_OF_THIRD: usize = 8;
 
 /// The warning at the token that could not be followed.

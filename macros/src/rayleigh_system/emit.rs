@@ -1,7 +1,8 @@
 //! From expressions to straight-line code that reads as if written by hand.
 //!
-//! What is used more than once, what the user named, and every selection becomes a `let`; the rest stands where it is used.
-//! Only what the outputs need is written, in the order in which it was found, so that equal systems give equal text.
+//! What is used more than once, what the user named, and every selection becomes a `let`; the rest stands
+//! where it is used. Only what the outputs need is written, in the order in which it was found, so that equal
+//! systems give equal text.
 //!
 //! The same text serves numbers and lanes, but for selections: what differs is in `lanes.rs`.
 
@@ -18,7 +19,8 @@ use super::graph::{Comparison, Function, Graph, Node, Operation};
 use super::portable;
 use names::Names;
 
-/// How deep an expression is nested before a part of it becomes a `let`: a sum of thousands of terms is as many additions deep.
+/// How deep an expression is nested before a part of it becomes a `let`: a sum of thousands of terms is as
+/// many additions deep.
 const DEEPEST: u32 = 64;
 
 /// Straight-line code: statements, then one expression for each output.
@@ -46,7 +48,8 @@ impl StraightLine {
     }
 }
 
-/// The code for `outputs`. q, v and u are read as `q[0]`, `v[0]`, `u[0]`; the names `taken` are not given to anything.
+/// The code for `outputs`. q, v and u are read as `q[0]`, `v[0]`, `u[0]`; the names `taken` are not given to
+/// anything.
 ///
 /// `is_portable`: elementary functions are the runtime's.
 pub fn straight_line(
@@ -59,7 +62,8 @@ pub fn straight_line(
     written(graph, scalar, outputs, taken, is_portable, Kind::Numbers)
 }
 
-/// The code for `outputs` over `Real<D>`, q, v, u and the time being such numbers; fields and constants are lifted.
+/// The code for `outputs` over `Real<D>`, q, v, u and the time being such numbers; fields and constants are
+/// lifted.
 pub fn over_duals(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&str]) -> StraightLine {
     written(graph, scalar, outputs, taken, false, Kind::Duals)
 }
@@ -73,8 +77,8 @@ enum Kind<'l> {
     Duals,
 }
 
-/// The code for `outputs` where q, v and the time are lanes. The parameters `late` are lanes as well, and known only after the statements
-/// that do not need them.
+/// The code for `outputs` where q, v and the time are lanes. The parameters `late` are lanes as well, and
+/// known only after the statements that do not need them.
 pub fn in_lanes(
     graph: &Graph,
     scalar: &Ident,
@@ -226,7 +230,8 @@ pub fn number_of_stages(graph: &Graph) -> Ident {
     format_ident!("{name}")
 }
 
-/// The cosine of the angle that `node` is the sine of, or the other way about, if it comes later; and the angle.
+/// The cosine of the angle that `node` is the sine of, or the other way about, if it comes later; and the
+/// angle.
 fn partner(graph: &Graph, node: Node, nodes: &[Node]) -> Option<(Node, Node)> {
     let (other, angle) = match graph.operation(node) {
         Operation::Function(Function::Sin, angle) => (Function::Cos, angle),

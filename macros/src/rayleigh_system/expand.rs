@@ -70,7 +70,8 @@ pub fn system(
         let discrete_rayleigh = system.rayleigh.map(|_| discrete_rayleigh(system, rule));
         quote!(#discrete #discrete_rayleigh)
     });
-    // Bodies stand apart from the implementations: the fewer names are imported beside a user's code, the fewer collide.
+    // Bodies stand apart from the implementations: the fewer names are imported beside a user's code, the
+    // fewer collide.
     quote! {
         #item
 
@@ -106,7 +107,8 @@ pub fn system(
     }
 }
 
-/// The whole expansion of a field: the user's function, the struct of its parameters, and the field that it is.
+/// The whole expansion of a field: the user's function, the struct of its parameters, and the field that it
+/// is.
 pub fn field(system: &System<'_>, twin: &Twin, function: &Function, kind: Field) -> TokenStream {
     let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
@@ -314,11 +316,13 @@ fn twins_of_block(system: &System<'_>, block: &ItemImpl, twins: &[Twin]) -> Toke
     }
 }
 
-/// `fn height(&self, x: f64) -> f64 { use ::dalembert::generated::dual; dual::lower(self.height_over::<f64>(dual::lift(x))) }`
+/// `fn height(&self, x: f64) -> f64 { use ::dalembert::generated::dual;
+/// dual::lower(self.height_over::<f64>(dual::lift(x))) }`
 fn plain(system: &System<'_>, function: &mut ImplItemFn) {
     let scalar = &system.scalar;
     let name = over(&function.sig.ident);
-    // The user's own `self`: one of the macro's would be another variable where a `macro_rules!` wrote the attribute.
+    // The user's own `self`: one of the macro's would be another variable where a `macro_rules!` wrote the
+    // attribute.
     let callee = match function.sig.receiver() {
         Some(Receiver { self_token, .. }) => quote!(#self_token.#name::<#scalar>),
         None => quote!(Self::#name::<#scalar>),
@@ -381,8 +385,8 @@ fn written(twin: &Twin, is_root: bool) -> TokenStream {
     let Twin { plain, over, .. } = twin;
     let text = format!(" `{}` over plain and dual numbers.", plain.sig.ident);
     let attributes = lints(&plain.attrs);
-    // L, R and f are called from one closure for each kind of number: called, they would hide from the compiler which
-    // derivatives are absent.
+    // L, R and f are called from one closure for each kind of number: called, they would hide from the
+    // compiler which derivatives are absent.
     let inline = if is_root { quote!(#[inline(always)]) } else { quote!(#[inline]) };
     quote! {
         #[doc = #text]
@@ -479,7 +483,8 @@ fn twins_of_function(system: &System<'_>, function: &Function, twin: &Twin) -> T
     let part = |name: &str, text: &str, index: Option<TokenStream>| {
         let name = format_ident!("{name}_over");
         let index = index.map(|index| quote!(.#index));
-        // fn lagrangian_over<D: Dual<f64>>(&self, q: …, v: …) -> Real<D> { Self::oscillator_over(q, v, D::lift(self.m)).0 }
+        // fn lagrangian_over<D: Dual<f64>>(&self, q: …, v: …) -> Real<D> { Self::oscillator_over(q, v,
+        // D::lift(self.m)).0 }
         quote! {
             #[doc = #text]
             #[inline(always)]

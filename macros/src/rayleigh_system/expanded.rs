@@ -127,7 +127,8 @@ pub fn are_bindings(names: &[Ident]) -> Option<TokenStream> {
     })
 }
 
-/// Whether a rule listed asks for derivatives of L along its directions: the kernels of the others have them folded in.
+/// Whether a rule listed asks for derivatives of L along its directions: the kernels of the others have them
+/// folded in.
 fn has_variations(system: &System<'_>) -> bool {
     system.rules.of_displacement.contains(&Rule::OneSided)
 }

@@ -1,6 +1,6 @@
-//! What stands in for the expansion of a wrong system: the user's item, the diagnostics, and stubs of the traits, so that
-//! one mistake gives one message and not one more for each use of the system. Bodies with mistakes are left out: rustc would
-//! say the same in other words.
+//! What stands in for the expansion of a wrong system: the user's item, the diagnostics, and stubs of the
+//! traits, so that one mistake gives one message and not one more for each use of the system. Bodies with
+//! mistakes are left out: rustc would say the same in other words.
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -138,8 +138,8 @@ fn shape(signature: &Signature, system: &syn::Ident) -> Option<(TokenStream, Tok
 
 /// Implementations that no program will run: the diagnostics stop the compilation.
 ///
-/// Only for the rules listed, since with others beside them `system.step(…)` would be ambiguous; for all where the list is what
-/// is wrong.
+/// Only for the rules listed, since with others beside them `system.step(…)` would be ambiguous; for all
+/// where the list is what is wrong.
 fn stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream, rules: &Rules) -> TokenStream {
     let vector = quote!(&::dalembert::nalgebra::SVector<#scalar, #n>);
     let derivatives = quote!(::dalembert::generated::Derivatives<#scalar, #n>);
@@ -147,6 +147,15 @@ fn stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream, rules: &Rules
     let forced = (is_empty || rules.gauss)
         .then(|| quote!(impl ::dalembert::generated::ForcedLagrangian<#n> for #name {}));
     let rules = if is_empty { &[Rule::Midpoint, Rule::Trapezoidal] } else { &rules.of_displacement[..] };
+    // That the system offers methods: with which rule does not matter.
+    let offered = rules.iter().find(|rule| rule.is_self_adjoint()).map(|rule| {
+        let rule = format_ident!("{}", rule.name());
+        quote! {
+            impl ::dalembert::generated::OffersMethods<#n> for #name {
+                type Methods = ::dalembert::generated::#rule;
+            }
+        }
+    });
     let rules: Vec<_> = rules.iter().map(|rule| format_ident!("{}", rule.name())).collect();
     quote! {
         const _: () = {
@@ -164,6 +173,7 @@ fn stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream, rules: &Rules
                 fn force_derivatives(&self, _: #vector, _: #vector) -> ::dalembert::generated::CovectorDerivatives<#scalar, #n> { ::core::unreachable!() }
             }
             #forced
+            #offered
             #(
                 impl ::dalembert::generated::Discrete<::dalembert::generated::#rules, #n> for #name {
                     type Matrix = ::dalembert::nalgebra::SMatrix<#scalar, #n, #n>;

@@ -1,9 +1,10 @@
 //! Expressions as a graph: every operation stands once, its arguments before it.
 //!
-//! Two ways to add a node. The operation as it stands ([`Graph::add`] and its like) keeps what the user wrote: same
-//! operations, same order, same rounding. The algebra of derivatives ([`Graph::plus`], [`Graph::times`], …) may choose its
-//! own order: it drops factors 1, moves signs outwards and joins constants whose product is exact. A derivative that is 0
-//! because nothing depends on the variable is absent, never a factor 0: no NaN or infinity is hidden by a product.
+//! Two ways to add a node. The operation as it stands ([`Graph::add`] and its like) keeps what the user
+//! wrote: same operations, same order, same rounding. The algebra of derivatives ([`Graph::plus`],
+//! [`Graph::times`], …) may choose its own order: it drops factors 1, moves signs outwards and joins
+//! constants whose product is exact. A derivative that is 0 because nothing depends on the variable is
+//! absent, never a factor 0: no NaN or infinity is hidden by a product.
 
 mod algebra;
 mod factor;
@@ -43,7 +44,8 @@ pub struct Parameter {
     is_listed: bool,
     /// Whether it is a `match`, which reads best behind a `let`.
     is_block: bool,
-    /// Whether its evaluation may panic where the user's code does not evaluate it: it stays within the condition.
+    /// Whether its evaluation may panic where the user's code does not evaluate it: it stays within the
+    /// condition.
     stays: bool,
 }
 
@@ -73,10 +75,12 @@ impl Parameter {
 /// The time, a local of functions whose bodies read it.
 const TIME: &str = "t";
 
-/// The most expressions of a system, with all that is made on the way to its functions: beyond them the macro would take seconds.
+/// The most expressions of a system, with all that is made on the way to its functions: beyond them the macro
+/// would take seconds.
 pub const MOST_EXPRESSIONS: usize = 100_000;
 
-/// The most operations of one generated function, and of what the user wrote: beyond them rustc would take minutes.
+/// The most operations of one generated function, and of what the user wrote: beyond them rustc would take
+/// minutes.
 pub const MOST_OPERATIONS: usize = 20_000;
 
 /// The expressions of one system.
@@ -300,8 +304,8 @@ impl Graph {
         if a == b { a } else { self.node(Operation::Select(condition, a, b)) }
     }
 
-    /// The expression with the coordinates replaced, and the time if it is given; names kept. `moved` holds what was replaced
-    /// before.
+    /// The expression with the coordinates replaced, and the time if it is given; names kept. `moved` holds
+    /// what was replaced before.
     pub fn at(
         &mut self,
         root: Node,
@@ -356,8 +360,8 @@ impl Graph {
     }
 }
 
-/// The tokens with `self` that of the generated function: the user's is another variable where a `macro_rules!` wrote the
-/// attribute.
+/// The tokens with `self` that of the generated function: the user's is another variable where a
+/// `macro_rules!` wrote the attribute.
 fn with_own_self(tokens: TokenStream) -> TokenStream {
     tokens
         .into_iter()

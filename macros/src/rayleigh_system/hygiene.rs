@@ -1,7 +1,7 @@
 //! Names that both the user's item and the generated code have: no name is taken from a user.
 //!
-//! A user's name that generated code has too is marked before the item is read, and unmarked where the expansion is done; whatever
-//! stands there unmarked is generated, and takes another name:
+//! A user's name that generated code has too is marked before the item is read, and unmarked where the
+//! expansion is done; whatever stands there unmarked is generated, and takes another name:
 //!
 //! ```text
 //! struct Force { … }              use ::dalembert::generated::{Force as Force_, Lagrangian, …};
@@ -16,7 +16,8 @@ use quote::quote;
 
 use super::parse::upper_camel_case;
 
-/// What a marked name ends in: nothing that says whether it is a type or a constant, and no name of Rust code.
+/// What a marked name ends in: nothing that says whether it is a type or a constant, and no name of Rust
+/// code.
 pub const MARK: &str = "__0__0__";
 
 /// Names that generated code brings into its scope, the module `dual` among them.

@@ -1,5 +1,5 @@
-//! The traits of the runtime, implemented for a system: each function below writes one `impl`, and the comment above each
-//! quotation shows what it expands to.
+//! The traits of the runtime, implemented for a system: each function below writes one `impl`, and the
+//! comment above each quotation shows what it expands to.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
@@ -139,8 +139,8 @@ pub fn force(system: &System<'_>, derivatives: TokenStream) -> TokenStream {
     }
 }
 
-/// `impl ForcedLagrangian<2> for Ring`: one term for each of R and f that the system has. The equations of motion at the stages
-/// are those that the runtime makes of it, unless an engine gives them.
+/// `impl ForcedLagrangian<2> for Ring`: one term for each of R and f that the system has. The equations of
+/// motion at the stages are those that the runtime makes of it, unless an engine gives them.
 pub fn forced_lagrangian(system: &System<'_>, stages: Option<TokenStream>) -> TokenStream {
     let scalar = &system.scalar;
     let n = system.degrees.times(1);
@@ -326,8 +326,8 @@ fn parts(system: &System<'_>) -> impl Iterator<Item = Part> {
     [Part::Lagrangian].into_iter().chain(rayleigh).chain(force)
 }
 
-/// What an engine makes of the step's equation: bodies of the functions that a step calls, L, R and f together, and what its
-/// structure allows.
+/// What an engine makes of the step's equation: bodies of the functions that a step calls, L, R and f
+/// together, and what its structure allows.
 pub struct Kernel {
     pub step_kernel: TokenStream,
     pub momenta: TokenStream,
@@ -348,8 +348,8 @@ pub enum Memory {
     Explicit,
 }
 
-/// `impl Discrete<Midpoint, 2> for Ring`: one term for each of L, R and f that the system has, unless an engine gives the
-/// kernel's bodies.
+/// `impl Discrete<Midpoint, 2> for Ring`: one term for each of L, R and f that the system has, unless an
+/// engine gives the kernel's bodies.
 pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Option<Kernel>) -> TokenStream {
     if rule.is_joint() {
         return joint(system, rule, is_expanded);
@@ -426,7 +426,8 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
         }
     });
     let verification = is_expanded.then(|| segment_verification(system, &quote!(#rule)));
-    // p0 = −D1 L_d − f_d⁻: Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0, v, h)
+    // p0 = −D1 L_d − f_d⁻: Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0,
+    // v, h)
     quote! {
         #[automatically_derived]
         impl Discrete<#rule, #n> for #subject {

@@ -1,4 +1,5 @@
-//! What the rules that take L and R together ask of a system, on the expressions of L and R as they are written.
+//! What the rules that take L and R together ask of a system, on the expressions of L and R as they are
+//! written.
 
 use super::differentiate::{Derivatives, Differentiation};
 use super::graph::{Graph, Node, Operation};

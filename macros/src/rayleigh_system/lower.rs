@@ -1,8 +1,9 @@
 //! From the bodies of L, R and f, as the user wrote them, to expressions of a graph.
 //!
-//! The body is run over symbolic numbers: helpers and closures are called, loops over known ranges run, integers are
-//! computed. What depends on a comparison of numbers runs both ways, and every local that differs becomes a selection.
-//! What cannot be run is refused with its token and a reason; the caller decides whether that is an error.
+//! The body is run over symbolic numbers: helpers and closures are called, loops over known ranges run,
+//! integers are computed. What depends on a comparison of numbers runs both ways, and every local that
+//! differs becomes a selection. What cannot be run is refused with its token and a reason; the caller decides
+//! whether that is an error.
 
 mod choice;
 mod field;

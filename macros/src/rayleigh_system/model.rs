@@ -35,7 +35,8 @@ impl Rule {
         }
     }
 
-    /// Whether it takes L and R together, by the functions of the runtime's `JointRule`, instead of one term for each.
+    /// Whether it takes L and R together, by the functions of the runtime's `JointRule`, instead of one term
+    /// for each.
     pub fn is_joint(self) -> bool {
         matches!(self, Self::Fitted | Self::FittedTrapezoidal | Self::OneSided)
     }

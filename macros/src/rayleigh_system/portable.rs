@@ -1,12 +1,13 @@
-//! Bodies whose elementary functions are the runtime's: where there is no standard library, or its functions are not wanted.
+//! Bodies whose elementary functions are the runtime's: where there is no standard library, or its functions
+//! are not wanted.
 //!
 //! | written | becomes |
 //! |---|---|
 //! | `x.sin()` | `x.elementary().sin()` |
 //! | `f64::sin(x)`, `.map(f64::sin)` | `<f64 as ::dalembert::generated::Elementary>::sin(x)` |
 //!
-//! Methods of `f64` itself come before those of a trait: an import alone would leave `x.sin()` to the standard library
-//! wherever there is one.
+//! Methods of `f64` itself come before those of a trait: an import alone would leave `x.sin()` to the
+//! standard library wherever there is one.
 
 use quote::quote;
 use syn::visit_mut::{self, VisitMut};

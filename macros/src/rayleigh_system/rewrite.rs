@@ -402,7 +402,8 @@ impl Rewriter<'_> {
             self.visit_angle_bracketed_generic_arguments_mut(turbofish);
         }
         for argument in &mut call.args {
-            // `.map(square)`: a name that is no local is a function handed on, which must be one of the block.
+            // `.map(square)`: a name that is no local is a function handed on, which must be one of the
+            // block.
             match argument {
                 Expr::Path(path) if takes_function(&call.method) && self.is_unknown(&path.path) => {
                     self.called_path(path, false);

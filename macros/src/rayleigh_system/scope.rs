@@ -5,7 +5,8 @@ use std::collections::HashSet;
 use syn::visit::{self, Visit};
 use syn::{ImplItemFn, PatIdent};
 
-/// All names bound anywhere in the function. Scopes are not told apart: a name bound once is a local everywhere.
+/// All names bound anywhere in the function. Scopes are not told apart: a name bound once is a local
+/// everywhere.
 pub fn bound_names(function: &ImplItemFn) -> HashSet<String> {
     let mut names = Names::default();
     names.visit_impl_item_fn(function);

@@ -1,8 +1,9 @@
 //! What the expressions of a system show of its structure, as data and as documentation.
 //!
-//! Two passes over the graph: polynomial degrees and separation, from the operations as written, and the patterns of the
-//! derivatives. Both are conservative: what is found holds for every q, v and field; what cancels only algebraically,
-//! such as q − q, is not found. A second derivative that is absent does not make a function quadratic: |v| has none.
+//! Two passes over the graph: polynomial degrees and separation, from the operations as written, and the
+//! patterns of the derivatives. Both are conservative: what is found holds for every q, v and field; what
+//! cancels only algebraically, such as q − q, is not found. A second derivative that is absent does not make
+//! a function quadratic: |v| has none.
 
 mod degree;
 mod sentences;
@@ -72,7 +73,8 @@ pub struct Newton {
     pub constant: bool,
     /// Largest |i − j| of an entry.
     pub bandwidth: usize,
-    /// Constant by the trapezoidal rule, and no derivative holds both q and v: a step needs the force at one point.
+    /// Constant by the trapezoidal rule, and no derivative holds both q and v: a step needs the force at one
+    /// point.
     pub is_explicit: bool,
 }
 

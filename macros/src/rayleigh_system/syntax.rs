@@ -1,4 +1,5 @@
-//! What an expression, a path or a type is by its form alone: literals, places of `self`, names of the standard library.
+//! What an expression, a path or a type is by its form alone: literals, places of `self`, names of the
+//! standard library.
 
 use proc_macro2::Span;
 use syn::parse::{Parse, ParseStream};
@@ -175,7 +176,8 @@ pub const METHODS: &[&str] = &[
     "to_radians",
 ];
 
-/// Functions of the standard library that work on any type, by their last two segments; and those of integers.
+/// Functions of the standard library that work on any type, by their last two segments; and those of
+/// integers.
 pub fn is_function_of_std(path: &Path) -> bool {
     const GENERIC: &[(&str, &str)] = &[
         ("array", "from_fn"),

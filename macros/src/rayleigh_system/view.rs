@@ -132,8 +132,8 @@ pub fn later(system: &System<'_>) -> Option<TokenStream> {
     })
 }
 
-/// `impl Lagrangian<2> for DrivenArm<'_>`, or Rayleigh: that of the system itself, where it stands there. `verification` is the
-/// view's own: it has more functions than the system.
+/// `impl Lagrangian<2> for DrivenArm<'_>`, or Rayleigh: that of the system itself, where it stands there.
+/// `verification` is the view's own: it has more functions than the system.
 pub fn delegation(system: &System<'_>, part: Part, verification: Option<TokenStream>) -> Option<TokenStream> {
     if !system.has_view() || system.home_of(part) == Home::View {
         return None;

@@ -27,7 +27,8 @@ impl Expressions {
         self.graph.node(Operation::Add(a, b))
     }
 
-    /// The outputs rewritten, after a check that they have the same values, and how many operations they take.
+    /// The outputs rewritten, after a check that they have the same values, and how many operations they
+    /// take.
     fn factored(&mut self, outputs: &[Node], written: usize) -> (Vec<Node>, usize) {
         let factored = self.graph.factored(outputs, written);
         let point = [&[0.3, -1.7, 2.9][..], &[0.11, 5.3, -0.7]];

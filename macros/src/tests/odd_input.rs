@@ -1,4 +1,5 @@
-//! Whatever the tokens are, the pipeline answers with items: either the expansion or the user's item with diagnostics.
+//! Whatever the tokens are, the pipeline answers with items: either the expansion or the user's item with
+//! diagnostics.
 
 use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
 

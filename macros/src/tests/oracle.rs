@@ -1,8 +1,8 @@
 //! Derivatives of random expressions, lowered from source text, against num-dual.
 //!
-//! The two round differently, so that they are held to what rounding can do: the graph is evaluated with every result moved
-//! by about an ulp at random, and the spread over several such evaluations, with 128 ulps of the largest intermediate for
-//! what num-dual rounds on its own way, is what they may differ by.
+//! The two round differently, so that they are held to what rounding can do: the graph is evaluated with
+//! every result moved by about an ulp at random, and the spread over several such evaluations, with 128 ulps
+//! of the largest intermediate for what num-dual rounds on its own way, is what they may differ by.
 
 use nalgebra::SVector;
 use num_dual::{Dual2SVec64, DualNum, DualStruct, hessian};
@@ -289,7 +289,8 @@ fn compare(expression: &Expression, point: [f64; 4], random: &mut Random) -> Out
             x * (1.0 + (random.unit() - 0.5) * 4.0 * f64::EPSILON)
         });
         for (spread, (moved, exact)) in spread.iter_mut().zip(moved.iter().zip(&exact)) {
-            // A rounding away from a singular point, such as acos of x⁻²x²: num-dual rounds to its other side.
+            // A rounding away from a singular point, such as acos of x⁻²x²: num-dual rounds to its other
+            // side.
             let change =
                 if moved.is_finite() && !exact.is_finite() { f64::INFINITY } else { (moved - exact).abs() };
             *spread = spread.max(change);

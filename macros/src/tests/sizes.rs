@@ -1,4 +1,5 @@
-//! Sums over many pairs: written out as far as rustc compiles them well, else refused at the loop, without a deep stack.
+//! Sums over many pairs: written out as far as rustc compiles them well, else refused at the loop, without a
+//! deep stack.
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};

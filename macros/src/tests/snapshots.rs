@@ -72,7 +72,8 @@ fn double_pendulum() {
     assert_eq!(expansion, formatted(rayleigh_system(Runtime::STD, quote!(derivatives = expanded), item)));
 }
 
-/// A system with an input and a time: R needs neither and stands on the system, and so does L; the rest on the view.
+/// A system with an input and a time: R needs neither and stands on the system, and so does L; the rest on
+/// the view.
 #[test]
 fn driven() {
     let item = quote! {
@@ -117,7 +118,8 @@ fn sensitivities() {
     assert_snapshot("sensitivities.rs", &formatted(expansion));
 }
 
-/// Gauss alone, with an input that is one number for all lanes, a time that is each lane's own, and a parameter.
+/// Gauss alone, with an input that is one number for all lanes, a time that is each lane's own, and a
+/// parameter.
 #[test]
 fn gauss_driven() {
     let expansion = rayleigh_system(

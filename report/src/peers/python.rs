@@ -1,4 +1,5 @@
-//! Methods with a Python interface: `python/peers.py` runs them and times them itself, in this program's turns.
+//! Methods with a Python interface: `python/peers.py` runs them and times them itself, in this program's
+//! turns.
 
 use std::cell::RefCell;
 use std::env;
@@ -51,7 +52,8 @@ impl Python {
         Ok(Self { process: RefCell::new(process), methods, missing, versions })
     }
 
-    /// Seconds of one trajectory of the scene of that name, and (q, v) at the ends of so many equal intervals.
+    /// Seconds of one trajectory of the scene of that name, and (q, v) at the ends of so many equal
+    /// intervals.
     ///
     /// # Errors
     /// What the script says.

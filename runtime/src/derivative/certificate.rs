@@ -1,33 +1,40 @@
-//! What can be asked of a step after it was taken: how well its equation was posed, and on which branch its root lies.
+//! What can be asked of a step after it was taken: how well its equation was posed, and on which branch its
+//! root lies.
 
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{NewtonMatrix, Scalar, linear};
 use crate::step::{Discrete, Discretised, EquationAt, State, Step, StepError};
 
-/// What a step's Newton matrix ∂p0/∂v̄ says of it; see [`Discretised::certificate`](crate::Discretised::certificate).
+/// What a step's Newton matrix ∂p0/∂v̄ says of it; see
+/// [`Discretised::certificate`](crate::Discretised::certificate).
 ///
-/// **When to worry.** The step finds v̄ from p0, and rounding of p0 reaches v̄ enlarged by up to the condition number: with
-/// `condition` = 10^d some d of the digits of v̄ may be lost, out of 16 in `f64` and 7 in `f32`. Up to 1/√ε (7e7 in `f64`, 3e3 in `f32`) at
-/// least half of them are left: nothing to do. Above, look for a fold close by (step size, negative damping), for a mass that is nearly
-/// singular, or for stiffness far beyond the step, where only some directions lose digits; a shorter step tells them apart: it brings
-/// the condition down to that of the mass matrix. From 1/ε on (5e15, 8e6) no digit is sure, and a step is liable to end with
-/// [`StepError::SingularNewtonMatrix`]. With one coordinate there is nothing to compare: the number is 1, also near a fold.
+/// **When to worry.** The step finds v̄ from p0, and rounding of p0 reaches v̄ enlarged by up to the condition
+/// number: with `condition` = 10^d some d of the digits of v̄ may be lost, out of 16 in `f64` and 7 in `f32`.
+/// Up to 1/√ε (7e7 in `f64`, 3e3 in `f32`) at least half of them are left: nothing to do. Above, look for a
+/// fold close by (step size, negative damping), for a mass that is nearly singular, or for stiffness far
+/// beyond the step, where only some directions lose digits; a shorter step tells them apart: it brings
+/// the condition down to that of the mass matrix. From 1/ε on (5e15, 8e6) no digit is sure, and a step is
+/// liable to end with [`StepError::SingularNewtonMatrix`]. With one coordinate there is nothing to compare:
+/// the number is 1, also near a fold.
 ///
-/// For [`Gauss`](crate::Gauss) it is the matrix with the stages eliminated, not that of all stages which its solver factors: the same question
-/// of p0 and v̄.
+/// For [`Gauss`](crate::Gauss) it is the matrix with the stages eliminated, not that of all stages which its
+/// solver factors: the same question of p0 and v̄.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Certificate<S> {
-    /// Condition number of the Newton matrix, ‖DAD‖₁ ‖(DAD)⁻¹‖₁ with D = diag(1/√|Mᵢᵢ|), M = ∂²L/∂v² (1 for an entry that is 0): momenta and
-    /// velocities in units in which every coordinate has mass 1, so that no unit of q, t or m changes it. Infinite where the matrix is singular.
+    /// Condition number of the Newton matrix, ‖DAD‖₁ ‖(DAD)⁻¹‖₁ with D = diag(1/√|Mᵢᵢ|), M = ∂²L/∂v² (1 for
+    /// an entry that is 0): momenta and velocities in units in which every coordinate has mass 1, so
+    /// that no unit of q, t or m changes it. Infinite where the matrix is singular.
     pub condition: S,
-    /// The Newton correction still to be made, in the same units, as a share of v̄: the relative error of v̄, but for rounding.
+    /// The Newton correction still to be made, in the same units, as a share of v̄: the relative error of v̄,
+    /// but for rounding.
     pub correction: S,
-    /// Whether the determinant of the step's equations has the sign that it has for small h. Otherwise an odd number of folds lies between
-    /// this step and those of small h: the root belongs to another branch than the flow, as with negative damping past hr = −2m. The
-    /// equations are p0(v̄) = p0, with det ∂p0/∂v̄ against det ∂²L/∂v²; those of all stages for [`Gauss`](crate::Gauss), where
-    /// det ∂p0/∂v̄ changes sign through infinity at conjugate points, past which a step is as good as before.
+    /// Whether the determinant of the step's equations has the sign that it has for small h. Otherwise an
+    /// odd number of folds lies between this step and those of small h: the root belongs to another
+    /// branch than the flow, as with negative damping past hr = −2m. The equations are p0(v̄) = p0, with
+    /// det ∂p0/∂v̄ against det ∂²L/∂v²; those of all stages for [`Gauss`](crate::Gauss), where det ∂p0/∂v̄
+    /// changes sign through infinity at conjugate points, past which a step is as good as before.
     pub on_the_branch_of_the_flow: bool,
 }
 
@@ -78,9 +85,11 @@ impl<L, R, const N: usize> Discretised<'_, L, R, N>
 where
     L: Discrete<R, N>,
 {
-    /// How well the equation of a step that was taken from `state` was posed, and on which branch its root lies.
+    /// How well the equation of a step that was taken from `state` was posed, and on which branch its root
+    /// lies.
     ///
-    /// Costs one evaluation and the inverse of an N×N matrix, twice a Newton iteration or less; a step itself never asks for it.
+    /// Costs one evaluation and the inverse of an N×N matrix, twice a Newton iteration or less; a step itself
+    /// never asks for it.
     ///
     /// ```
     /// use dalembert::nalgebra::vector;
@@ -112,8 +121,8 @@ where
     /// ```
     ///
     /// # Errors
-    /// [`StepError::NonFinite`] if derivatives at the step are not finite; those of a step of [`Gauss`](crate::Gauss), which solves
-    /// for its stages again.
+    /// [`StepError::NonFinite`] if derivatives at the step are not finite; those of a step of
+    /// [`Gauss`](crate::Gauss), which solves for its stages again.
     pub fn certificate(
         &self,
         state: &State<L::Scalar, N>,

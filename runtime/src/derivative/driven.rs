@@ -9,7 +9,8 @@ impl<L, R, const N: usize> Discretised<'_, L, R, N>
 where
     L: Discrete<R, N>,
 {
-    /// The step with its derivatives A by the state and B = ∂(q1, p1)/∂u by the input, which is held over the step.
+    /// The step with its derivatives A by the state and B = ∂(q1, p1)/∂u by the input, which is held over the
+    /// step.
     ///
     /// # Errors
     /// Those of [`linearized_step`](Self::linearized_step).

@@ -39,8 +39,8 @@ where
 
     /// A of the step that leads from q0 to q1.
     ///
-    /// By [`Gauss`](crate::Gauss) [`linearized_step`](Self::linearized_step) costs less: this solves for the stages anew, and two
-    /// ends need not determine a segment.
+    /// By [`Gauss`](crate::Gauss) [`linearized_step`](Self::linearized_step) costs less: this solves for the
+    /// stages anew, and two ends need not determine a segment.
     ///
     /// ```
     /// use dalembert::nalgebra::vector;

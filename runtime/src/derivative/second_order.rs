@@ -4,8 +4,8 @@ use nalgebra::SVector;
 
 use crate::step::{Discrete, DiscreteSecondOrder, Discretised, State, StepError, StepHessian, StepWith};
 
-/// Second derivatives of the step, contracted with a covector (`step_derivatives = second`): by the input as well where the
-/// system holds one.
+/// Second derivatives of the step, contracted with a covector (`step_derivatives = second`): by the input as
+/// well where the system holds one.
 impl<L, R, const N: usize> Discretised<'_, L, R, N>
 where
     L: Discrete<R, N>,

@@ -1,4 +1,5 @@
-//! Arithmetic and functions of arrays of `f64` or `f32`, in vector instructions: what a scalar type brings for lanes.
+//! Arithmetic and functions of arrays of `f64` or `f32`, in vector instructions: what a scalar type brings
+//! for lanes.
 
 mod functions;
 mod vectors;

@@ -1,7 +1,8 @@
-//! First and second derivatives of a function of two points, f: ℝⁿ × ℝⁿ → ℝ, and how they pull back along linear maps.
+//! First and second derivatives of a function of two points, f: ℝⁿ × ℝⁿ → ℝ, and how they pull back along
+//! linear maps.
 //!
-//! The continuous L(q, v) and the discrete L_d(q0, q1) are both of this kind: D1 and D2 are the derivatives by the first
-//! and by the second argument.
+//! The continuous L(q, v) and the discrete L_d(q0, q1) are both of this kind: D1 and D2 are the derivatives
+//! by the first and by the second argument.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -48,8 +49,8 @@ pub struct CovectorDerivatives<S, const N: usize> {
 
 /// A direction (x, y) = (`first`·e, `second`·e) in ℝⁿ × ℝⁿ, the same pair of factors for every unit vector e.
 ///
-/// The rules of this crate reach (q, v) from (q0, q1) by such scalar factors, so that a variation of q0 or of q1 is one
-/// pair of them.
+/// The rules of this crate reach (q, v) from (q0, q1) by such scalar factors, so that a variation of q0 or of
+/// q1 is one pair of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Direction<S> {
     /// Factor of the first argument.
@@ -86,7 +87,8 @@ impl<S: Scalar, const N: usize> Derivatives<S, N> {
         Gradient { value: self.value, d1: self.d1, d2: self.d2 }
     }
 
-    /// Derivatives of (a, b) ↦ f(x, y) with x = `a.first` a + `b.first` b and y = `a.second` a + `b.second` b.
+    /// Derivatives of (a, b) ↦ f(x, y) with x = `a.first` a + `b.first` b and y = `a.second` a + `b.second`
+    /// b.
     ///
     /// `a` and `b` say what varying each new argument does to the old pair.
     #[inline]
@@ -155,7 +157,8 @@ pub struct Hessian<S, const N: usize, const M: usize = 0> {
 }
 
 impl<S: Scalar, const N: usize, const M: usize> Hessian<S, N, M> {
-    /// Second derivatives by (a, b, u) where x = `a.first` a + `b.first` b and y = `a.second` a + `b.second` b.
+    /// Second derivatives by (a, b, u) where x = `a.first` a + `b.first` b and y = `a.second` a + `b.second`
+    /// b.
     #[inline]
     #[must_use]
     pub fn pull_back(&self, a: Direction<S>, b: Direction<S>) -> Self {

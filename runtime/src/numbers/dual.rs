@@ -1,9 +1,10 @@
 //! Derivatives by num-dual: the one place that names its types.
 //!
-//! A body annotated with `#[rayleigh_system]` is written once, over [`Real<D>`](Real); D = `f64` gives the plain value, a
-//! dual number the derivatives. Second derivatives come from [`HyperDualVec`]: seeding its first part along one family of
-//! directions and its second part along another makes the cross block their mixed second derivative. With the directions
-//! of a rule that block is the Newton matrix, and nothing else is computed.
+//! A body annotated with `#[rayleigh_system]` is written once, over [`Real<D>`](Real); D = `f64` gives the
+//! plain value, a dual number the derivatives. Second derivatives come from [`HyperDualVec`]: seeding its
+//! first part along one family of directions and its second part along another makes the cross block their
+//! mixed second derivative. With the directions of a rule that block is the Newton matrix, and nothing else
+//! is computed.
 
 mod derivatives;
 mod fields;
@@ -73,7 +74,8 @@ pub trait Dual<F: Scalar>: DualNum<Primitive = F> + Copy {
         Real(Self::from(value))
     }
 
-    /// A field or constant of the system, whatever its type: floating-point parts become [`Real`], integers and `bool` stay.
+    /// A field or constant of the system, whatever its type: floating-point parts become [`Real`], integers
+    /// and `bool` stay.
     #[inline]
     fn lift<T: Lift<Self>>(value: T) -> T::Lifted {
         value.lift()
@@ -141,11 +143,12 @@ primitive!(f64 f32);
 /// Hyper-dual numbers of fixed shape.
 type HyperDualSVec<T, const M: usize, const N: usize> = HyperDualVec<T, Const<M>, Const<N>>;
 
-/// Derivatives of a number: absent (`None`) where it depends on nothing, which is known when a body is compiled.
+/// Derivatives of a number: absent (`None`) where it depends on nothing, which is known when a body is
+/// compiled.
 type Part<T, const R: usize, const C: usize> = Derivative<T, Const<R>, Const<C>>;
 
-// The operations on num-dual's numbers, written out so that they inline: num-dual's own are calls, and a body of thirty
-// operations would make hundreds of them.
+// The operations on num-dual's numbers, written out so that they inline: num-dual's own are calls, and a body
+// of thirty operations would make hundreds of them.
 
 /// `operation` on every entry.
 #[inline(always)]

@@ -6,7 +6,8 @@
 //! | `std` and `libm` | those of the next row, so that a host repeats a microcontroller bit by bit |
 //! | without `std` | those of the crate libm; for `f32`, where libm computes in `f64`, those of `elementary/single.rs` |
 //!
-//! Everything that this crate evaluates (generated systems, dual numbers) takes its elementary functions from here.
+//! Everything that this crate evaluates (generated systems, dual numbers) takes its elementary functions from
+//! here.
 
 use crate::numbers::Scalar;
 

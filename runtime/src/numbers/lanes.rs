@@ -1,8 +1,8 @@
 //! Numbers side by side, one for each stage of a method: what is computed of one is computed of all at once.
 //!
-//! A method of s stages needs s lanes, in `f64` and in `f32`, with and without `std`: arrays, whose arithmetic is that of the
-//! crate `wide`, and functions as loops of fixed length. Both become vector instructions of the target that the compiler is told
-//! of (`RUSTFLAGS="-C target-cpu=native"`).
+//! A method of s stages needs s lanes, in `f64` and in `f32`, with and without `std`: arrays, whose
+//! arithmetic is that of the crate `wide`, and functions as loops of fixed length. Both become vector
+//! instructions of the target that the compiler is told of (`RUSTFLAGS="-C target-cpu=native"`).
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
 
@@ -78,7 +78,8 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
         Self(T::larger(self.0, other.0))
     }
 
-    /// Of all lanes what `combine` makes of two, halves with halves: the logarithm of S such steps wait for each other.
+    /// Of all lanes what `combine` makes of two, halves with halves: the logarithm of S such steps wait for
+    /// each other.
     #[inline(always)]
     pub(crate) fn folded(mut self, combine: impl Fn(T, T) -> T) -> T {
         let mut lanes = &mut self.0[..];

@@ -1,7 +1,7 @@
 //! Linear systems of the size of the configuration space.
 //!
-//! Own code because a step must not panic, must not allocate, and must tell a singular matrix from a badly scaled one;
-//! nalgebra's factorisations do none of the three for every N.
+//! Own code because a step must not panic, must not allocate, and must tell a singular matrix from a badly
+//! scaled one; nalgebra's factorisations do none of the three for every N.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -27,14 +27,14 @@ mod sealed {
     impl<S, const N: usize, const W: usize> Sealed for super::Banded<S, N, W> {}
 }
 
-/// The form in which a system keeps its Newton matrix: dense, [`SMatrix`], or [`Banded`] where coordinates couple to near
-/// ones only.
+/// The form in which a system keeps its Newton matrix: dense, [`SMatrix`], or [`Banded`] where coordinates
+/// couple to near ones only.
 pub trait NewtonMatrix<S: Scalar, const N: usize>: Copy + core::fmt::Debug + sealed::Sealed {
     /// The matrix made ready to solve with, more than once.
     type Factored: Factored<S, N>;
 
-    /// The matrix made ready; nothing if it is singular, or if its form has no room for the row exchanges that it needs:
-    /// [`solve`](Self::solve) tells which.
+    /// The matrix made ready; nothing if it is singular, or if its form has no room for the row exchanges
+    /// that it needs: [`solve`](Self::solve) tells which.
     fn factored(&self) -> Option<Self::Factored>;
 
     /// The matrix without entries.

@@ -4,8 +4,9 @@
 //! M = W Wᵀ,  ½hC = W Λ Wᵀ,   M f(Z) = W f(Λ) Wᵀ,   f(Z)ᵀ = W f(Λ) W⁻¹
 //! ```
 //!
-//! W from the Cholesky factor of M and the eigenvectors of a symmetric matrix, by Jacobi's rotations: own code because a step must
-//! neither panic nor allocate, for any N; on arrays, where the compiler sees at every opt-level that no index is out of bounds.
+//! W from the Cholesky factor of M and the eigenvectors of a symmetric matrix, by Jacobi's rotations: own
+//! code because a step must neither panic nor allocate, for any N; on arrays, where the compiler sees at
+//! every opt-level that no index is out of bounds.
 
 use core::array;
 use core::cmp::Ordering;
@@ -19,8 +20,8 @@ use crate::step::{
 };
 use crate::system::{GeneratedDiffers, Rayleigh};
 
-/// The matrices of a damped free segment, and the terms of first degree: what a step by a fitted rule needs of the system, but for the
-/// potential. They depend on h alone.
+/// The matrices of a damped free segment, and the terms of first degree: what a step by a fitted rule needs
+/// of the system, but for the potential. They depend on h alone.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DampedDrift<S, const N: usize> {
     /// M(Z coth Z + Z): p0 per unit of v̄.
@@ -38,7 +39,8 @@ pub(crate) struct DampedDrift<S, const N: usize> {
 }
 
 impl<S: Scalar, const N: usize> DampedDrift<S, N> {
-    /// Of a system with constant ∂²L/∂v², positive definite, and constant ∂²R/∂v². NaN where M is not positive definite.
+    /// Of a system with constant ∂²L/∂v², positive definite, and constant ∂²R/∂v². NaN where M is not
+    /// positive definite.
     #[inline]
     pub(crate) fn of<L: Rayleigh<N, Scalar = S> + ?Sized>(system: &L, q: &SVector<S, N>, h: S) -> Self {
         let rest = nalgebra::zero();

@@ -11,8 +11,8 @@ use crate::system::{Lagrangian, Rayleigh};
 
 /// The midpoint rule, exponentially fitted to linear damping: it does not ring, however stiff the damping.
 ///
-/// For L = ½vᵀMv − V(q) and R = ½vᵀCv with constant M, positive definite, and C. With d = q1 − q0, Z = ½hM⁻¹C and the Langevin function
-/// ℒ(z) = coth z − 1/z:
+/// For L = ½vᵀMv − V(q) and R = ½vᵀCv with constant M, positive definite, and C. With d = q1 − q0, Z = ½hM⁻¹C
+/// and the Langevin function ℒ(z) = coth z − 1/z:
 ///
 /// ```text
 /// L_d = (1/2h) dᵀ M Z coth(Z) d − h V(q̄)
@@ -21,20 +21,22 @@ use crate::system::{Lagrangian, Rayleigh};
 /// p1 = M(Z coth Z − Z) v̄ − (h/2)(I − ℒᵀ) ∇V(q̄)
 /// ```
 ///
-/// **Derivation.** A free mass under m q̈ = −r q̇ goes d = (1 − e^{−2z})(m/r) v0, z = rh/2m, so that p0 = m z (coth z + 1) v̄ and
-/// p1 = m z (coth z − 1) v̄: the midpoint's own R_d = (r/4)d² with the mass m z coth z in L_d. A force lasting over the segment acts on the
-/// two ends unequally, because momentum is forgotten on the way; under a constant one the exact motion gives the
-/// shares (h/2)(1 ± ℒ(z)). Without them q falls to order 1 when the damping is stiff.
+/// **Derivation.** A free mass under m q̈ = −r q̇ goes d = (1 − e^{−2z})(m/r) v0, z = rh/2m, so that p0 = m z
+/// (coth z + 1) v̄ and p1 = m z (coth z − 1) v̄: the midpoint's own R_d = (r/4)d² with the mass m z coth z in
+/// L_d. A force lasting over the segment acts on the two ends unequally, because momentum is forgotten on the
+/// way; under a constant one the exact motion gives the shares (h/2)(1 ± ℒ(z)). Without them q falls to order
+/// 1 when the damping is stiff.
 ///
-/// **Properties.** Self-adjoint; L-stable: a free mass decays by e^{−2z} a step; equilibria and terminal velocities exact; equal to the
-/// midpoint rule where C = 0. q is of order 2, uniformly in the stiffness of the damping; p is of order 2, falling to 1 in the stiff limit,
-/// where it lags behind by half a step.
+/// **Properties.** Self-adjoint; L-stable: a free mass decays by e^{−2z} a step; equilibria and terminal
+/// velocities exact; equal to the midpoint rule where C = 0. q is of order 2, uniformly in the stiffness of
+/// the damping; p is of order 2, falling to 1 in the stiff limit, where it lags behind by half a step.
 ///
-/// The functions of Z depend on h alone, and cost several times what is left of a step: a [`Trajectory`](crate::Trajectory) works them out once
-/// for each step size, a single [`Discrete::step`](crate::Discrete::step) once.
+/// The functions of Z depend on h alone, and cost several times what is left of a step: a
+/// [`Trajectory`](crate::Trajectory) works them out once for each step size, a single
+/// [`Discrete::step`](crate::Discrete::step) once.
 ///
-/// For one coordinate, and where C is a multiple of M, it is a Rayleigh system with R_d = ¼ dᵀCd − h ℒ(z) V(q̄); otherwise its
-/// force has no R_d.
+/// For one coordinate, and where C is a multiple of M, it is a Rayleigh system with R_d = ¼ dᵀCd − h ℒ(z)
+/// V(q̄); otherwise its force has no R_d.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Fitted;
 

@@ -9,9 +9,11 @@ use crate::step::{
 };
 use crate::system::{GeneratedDiffers, Rayleigh};
 
-/// The trapezoidal rule, exponentially fitted to linear damping: explicit, and exact where there is no potential.
+/// The trapezoidal rule, exponentially fitted to linear damping: explicit, and exact where there is no
+/// potential.
 ///
-/// For L = ½vᵀMv − V(q) and R = ½vᵀCv with constant M, positive definite, and C. With d = q1 − q0 and Z = ½hM⁻¹C:
+/// For L = ½vᵀMv − V(q) and R = ½vᵀCv with constant M, positive definite, and C. With d = q1 − q0 and Z =
+/// ½hM⁻¹C:
 ///
 /// ```text
 /// L_d = (1/2h) dᵀ M Z coth(Z) d − (h/2)[V(q0) + V(q1)],   R_d = ¼ dᵀCd
@@ -20,12 +22,13 @@ use crate::system::{GeneratedDiffers, Rayleigh};
 ///
 /// **Derivation.** Strang's splitting: half a kick by −∇V, the damped free motion, exactly, half a kick.
 ///
-/// **Properties.** Self-adjoint, of order 2, falling to 1 where the damping is stiff. One linear solve with a constant matrix. The determinant of the
-/// step is e^{−h tr M⁻¹C}, that of the flow, for every V; where C = 2aM, AᵀΩA = e^{−2ah}Ω (conformally symplectic), and an angular momentum of a
-/// radial V falls by e^{−2ah} a step, exactly. Stable for the oscillator iff h²k/m < 4 z coth z.
+/// **Properties.** Self-adjoint, of order 2, falling to 1 where the damping is stiff. One linear solve with a
+/// constant matrix. The determinant of the step is e^{−h tr M⁻¹C}, that of the flow, for every V; where C =
+/// 2aM, AᵀΩA = e^{−2ah}Ω (conformally symplectic), and an angular momentum of a radial V falls by e^{−2ah} a
+/// step, exactly. Stable for the oscillator iff h²k/m < 4 z coth z.
 ///
-/// In a [`Trajectory`](crate::Trajectory) the functions of Z are worked out once for each step size, and a step costs one gradient and one solve
-/// with factors that are kept.
+/// In a [`Trajectory`](crate::Trajectory) the functions of Z are worked out once for each step size, and a
+/// step costs one gradient and one solve with factors that are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FittedTrapezoidal;
 

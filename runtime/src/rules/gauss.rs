@@ -31,10 +31,11 @@ use segment::Segment;
 /// The most stages that there are coefficients for.
 const MAX_STAGES: usize = 8;
 
-/// The Gauss–Galerkin rule of S stages, 1 ≤ S ≤ 8: order 2S, self-adjoint, A-stable; S = 1 is [`Midpoint`](crate::Midpoint).
+/// The Gauss–Galerkin rule of S stages, 1 ≤ S ≤ 8: order 2S, self-adjoint, A-stable; S = 1 is
+/// [`Midpoint`](crate::Midpoint).
 ///
-/// On polynomials q(t) of degree S from q0 to q1, quadrature with the Gauss–Legendre nodes c_i and weights b_i gives
-/// L_d = h Σ b_i L(Q_i, V_i). The interior points solve the **forced** equations
+/// On polynomials q(t) of degree S from q0 to q1, quadrature with the Gauss–Legendre nodes c_i and weights
+/// b_i gives L_d = h Σ b_i L(Q_i, V_i). The interior points solve the **forced** equations
 ///
 /// ```text
 /// h Σ b_i [(∂L/∂q + f_L) ℓ_ν(c_i) + ∂L/∂v ℓ_ν′(c_i)/h] = 0,   0 < ν < S,   f_L = −∂R/∂v + f
@@ -42,30 +43,33 @@ const MAX_STAGES: usize = 8;
 /// p0 = −D1 L_d − f_d⁻,   p1 = D2 L_d + f_d⁺
 /// ```
 ///
-/// **Collocation.** That is Gauss collocation on the forced Hamilton equations (Marsden and West 2001, section 2.6, for the
-/// unforced ones), and so the step is computed:
+/// **Collocation.** That is Gauss collocation on the forced Hamilton equations (Marsden and West 2001,
+/// section 2.6, for the unforced ones), and so the step is computed:
 ///
 /// ```text
 /// Q_i = q0 + h Σ a_ij V_j,   P_i = p0 + h Σ a_ij G_j,   ∂L/∂v(Q_i, V_i) = P_i,   G = ∂L/∂q + f_L
 /// q1 = q0 + h Σ b_j V_j,     p1 = p0 + h Σ b_j G_j
 /// ```
 ///
-/// L need not be quadratic in v. The stages come from a fixed-point iteration where it contracts, which is measured, and from
-/// Newton's method elsewhere (large steps, stiff forces). The rule is symplectic and keeps the momentum maps of symmetries
-/// without force; with force it is in general not Rayleigh for S ≥ 2: there is no R_d.
+/// L need not be quadratic in v. The stages come from a fixed-point iteration where it contracts, which is
+/// measured, and from Newton's method elsewhere (large steps, stiff forces). The rule is symplectic and keeps
+/// the momentum maps of symmetries without force; with force it is in general not Rayleigh for S ≥ 2: there
+/// is no R_d.
 ///
-/// A [`Trajectory`](crate::Trajectory) keeps the stages of the last step ([`StageHistory`]), extrapolates them to those of the
-/// next, and adds up q and p with compensation.
+/// A [`Trajectory`](crate::Trajectory) keeps the stages of the last step ([`StageHistory`]), extrapolates
+/// them to those of the next, and adds up q and p with compensation.
 ///
-/// The discrete objects solve for the stages between given end points. Where Newton's method finds none, they are NaN.
+/// The discrete objects solve for the stages between given end points. Where Newton's method finds none, they
+/// are NaN.
 ///
-/// Every stage sees its own time t0 + c_i h, and the input that is held. Derivatives of the step ([`Linearization`], [`StateBy`],
-/// [`StepHessian`](crate::derivative::StepHessian)) are exact, by the matrix of all stages, factored once. From the state that it starts from,
-/// `of_step` takes them at the stages of the step; between two ends, `of_segment` solves for the stages first. They neither
-/// allocate nor panic.
+/// Every stage sees its own time t0 + c_i h, and the input that is held. Derivatives of the step
+/// ([`Linearization`], [`StateBy`], [`StepHessian`](crate::derivative::StepHessian)) are exact, by the matrix
+/// of all stages, factored once. From the state that it starts from, `of_step` takes them at the stages of
+/// the step; between two ends, `of_segment` solves for the stages first. They neither allocate nor panic.
 ///
-/// **Stack.** The matrix of all stages has (N S)² entries and lives on the stack. Without optimisation it is copied on its way: a step with
-/// its derivatives takes 1 to 8 MiB at N S = 64 there, where a thread has 2 MiB unless `RUST_MIN_STACK` says more.
+/// **Stack.** The matrix of all stages has (N S)² entries and lives on the stack. Without optimisation it is
+/// copied on its way: a step with its derivatives takes 1 to 8 MiB at N S = 64 there, where a thread has 2
+/// MiB unless `RUST_MIN_STACK` says more.
 ///
 /// ```
 /// use dalembert::{Discretise, Gauss, State, Trajectory, rayleigh_system};
@@ -224,8 +228,8 @@ where
         Ok(Linearization { a: segment.by_state()?.matrix(), b: StateBy::zero() })
     }
 
-    /// The branch by the equations of all stages: ∂p0/∂v̄ = h (∂q1/∂p0)⁻¹ changes sign through infinity at a conjugate point, which is
-    /// no fold.
+    /// The branch by the equations of all stages: ∂p0/∂v̄ = h (∂q1/∂p0)⁻¹ changes sign through infinity at a
+    /// conjugate point, which is no fold.
     fn equation_at(
         &self,
         state: &State<T, N>,
@@ -255,8 +259,8 @@ where
         Ok(equation(kernel, &segment))
     }
 
-    /// At the nodes of the segment with the mean velocity: near the stages, which would have to be solved for. A step verifies
-    /// its own.
+    /// At the nodes of the segment with the mean velocity: near the stages, which would have to be solved
+    /// for. A step verifies its own.
     fn verify_segment(&self, q0: &SVector<T, N>, v: &SVector<T, N>, h: T) -> Result<(), GeneratedDiffers> {
         Gauss::<S>::NODES.iter().try_for_each(|&node| {
             let elapsed = h * T::constant(node);
@@ -329,8 +333,8 @@ fn in_parts<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const
     newton::solve(problem, &stages?, newton::MAX_ITERATIONS).ok()
 }
 
-/// Where forces do not exist at `v`, as drag at rest may not: the stages from the velocity half a step later without drag; rest
-/// itself, where the equations hold next to it.
+/// Where forces do not exist at `v`, as drag at rest may not: the stages from the velocity half a step later
+/// without drag; rest itself, where the equations hold next to it.
 #[cold]
 #[inline(never)]
 fn from_singular<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(

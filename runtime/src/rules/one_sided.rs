@@ -5,18 +5,20 @@ use crate::numbers::Derivatives;
 use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
 use crate::system::Rayleigh;
 
-/// The midpoint rule with all of the damping at the start of the segment: L-stable for every convex R(v), of order 1.
+/// The midpoint rule with all of the damping at the start of the segment: L-stable for every convex R(v), of
+/// order 1.
 ///
 /// ```text
 /// L_d = h L(q̄, v̄) + (h²/2) R(v̄),   R_d = (h²/2) R(v̄)
 /// p0 = −D1[h L(q̄, v̄)] + h ∂R/∂v(v̄),   p1 = D2[h L(q̄, v̄)]
 /// ```
 ///
-/// **Derivation.** f_d⁺ = 0 puts the whole force h ∂R/∂v on q0: backward Euler in the damping. The same step re-split with f_d⁻ = D1 R_d and
-/// f_d⁺ = −D2 R_d is the pair above.
+/// **Derivation.** f_d⁺ = 0 puts the whole force h ∂R/∂v on q0: backward Euler in the damping. The same step
+/// re-split with f_d⁻ = D1 R_d and f_d⁺ = −D2 R_d is the pair above.
 ///
-/// A damped free mass slows down by 1/(1 + hr/m) a step, and dry friction, regularised, neither rings nor creeps back. Not self-adjoint: for stiff
-/// and not linear damping alone, and for convex R, which nothing checks.
+/// A damped free mass slows down by 1/(1 + hr/m) a step, and dry friction, regularised, neither rings nor
+/// creeps back. Not self-adjoint: for stiff and not linear damping alone, and for convex R, which nothing
+/// checks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OneSided;
 

@@ -5,8 +5,8 @@ use super::{Fitted, FittedTrapezoidal, Gauss, Midpoint, Trapezoidal};
 /// A self-adjoint rule: its step of −h undoes its step of h, Φ₋ₕ = Φₕ⁻¹. Its order is even, and
 /// [`Composition`](crate::Composition)s raise it.
 ///
-/// A rule of one's own states it where its nodes and weights are symmetric about ½. Nothing checks it: a composition of a rule for which it is
-/// false has the order of the rule, not that of the composition.
+/// A rule of one's own states it where its nodes and weights are symmetric about ½. Nothing checks it: a
+/// composition of a rule for which it is false has the order of the rule, not that of the composition.
 ///
 /// ```compile_fail
 /// use dalembert::{Composition, OneSided};

@@ -4,8 +4,9 @@ use crate::step::{BoundedStep, Discrete, Discretised, State, StepError};
 
 use super::{Fitted, FittedTrapezoidal, Midpoint, OneSided, Trapezoidal};
 
-/// A rule whose step solves p0 = −D1 L_d − f_d⁻ for v̄ itself, so that an iteration is one evaluation of both sides: the work of its step can be
-/// bounded in iterations ([`step_within`](crate::Discretised::step_within)).
+/// A rule whose step solves p0 = −D1 L_d − f_d⁻ for v̄ itself, so that an iteration is one evaluation of both
+/// sides: the work of its step can be bounded in iterations
+/// ([`step_within`](crate::Discretised::step_within)).
 ///
 /// Gauss rules are none: each evaluation of their p0 solves for the stages within the segment.
 ///
@@ -36,7 +37,8 @@ impl<L, R, const N: usize> Discretised<'_, L, R, N>
 where
     L: Discrete<R, N>,
 {
-    /// The step by at most `iterations` undamped Newton iterations, for a clock that does not wait: [`Discrete::step_within`].
+    /// The step by at most `iterations` undamped Newton iterations, for a clock that does not wait:
+    /// [`Discrete::step_within`].
     ///
     /// # Errors
     /// [`StepError`] where not even one iteration can be made; the state given is untouched.

@@ -10,10 +10,12 @@ use super::{DisplacementRule, Node};
 /// f_d⁻ = (h/2) f(q0, v̄),   f_d⁺ = (h/2) f(q1, v̄)
 /// ```
 ///
-/// **Derivation.** ∫₀ʰ L dt by the trapezoidal rule along the straight line from q0 to q1; the force by the same rule,
-/// each endpoint's share going to its own variation. R_d follows as for [`Midpoint`](super::Midpoint), node by node.
+/// **Derivation.** ∫₀ʰ L dt by the trapezoidal rule along the straight line from q0 to q1; the force by the
+/// same rule, each endpoint's share going to its own variation. R_d follows as for
+/// [`Midpoint`](super::Midpoint), node by node.
 ///
-/// For L = ½vᵀMv − V(q) with constant M this is Störmer–Verlet: p0 = M v̄ + (h/2) ∇V(q0) and p1 = M v̄ − (h/2) ∇V(q1).
+/// For L = ½vᵀMv − V(q) with constant M this is Störmer–Verlet: p0 = M v̄ + (h/2) ∇V(q0) and p1 = M v̄ − (h/2)
+/// ∇V(q1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Trapezoidal;
 

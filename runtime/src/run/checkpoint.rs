@@ -1,11 +1,12 @@
-//! Runs as they can be saved, and what holds up a run: a system that is not the one written, its end, and a clock that no longer
-//! runs.
+//! Runs as they can be saved, and what holds up a run: a system that is not the one written, its end, and a
+//! clock that no longer runs.
 
 use crate::numbers::Scalar;
 use crate::step::{State, StepError, verify_start};
 use crate::system::Lagrangian;
 
-/// A run as it can be saved; see [`Trajectory::checkpoint`](crate::Trajectory::checkpoint). With the feature `serde` it can be written and read.
+/// A run as it can be saved; see [`Trajectory::checkpoint`](crate::Trajectory::checkpoint). With the feature
+/// `serde` it can be written and read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Checkpoint<S, const N: usize> {
@@ -100,7 +101,8 @@ impl Course {
         Some(Some(error))
     }
 
-    /// Fails before the first step of a system that is not the one written, and where the clock does not tell the next step from none.
+    /// Fails before the first step of a system that is not the one written, and where the clock does not tell
+    /// the next step from none.
     #[cold]
     #[inline(never)]
     pub(crate) fn require<L: Lagrangian<N>, const N: usize>(

@@ -22,8 +22,8 @@ pub trait ComposedStep<L: Lagrangian<N>, const N: usize> {
     fn forget(&mut self);
 }
 
-/// The trajectory of a system by a [`Composition`](crate::Composition) or a [`Splitting`](crate::Splitting), one whole step at a
-/// time.
+/// The trajectory of a system by a [`Composition`](crate::Composition) or a [`Splitting`](crate::Splitting),
+/// one whole step at a time.
 ///
 /// An iterator over states. After an error it ends, its state being the last good one.
 pub struct ComposedTrajectory<'a, L, C, const N: usize>
@@ -61,7 +61,8 @@ where
         self.at.time()
     }
 
-    /// All that is needed to go on from here, in this process or another ([`Composition::resume`](crate::Composition::resume),
+    /// All that is needed to go on from here, in this process or another
+    /// ([`Composition::resume`](crate::Composition::resume),
     /// [`Splitting::resume`](crate::Splitting::resume)).
     ///
     /// The run forgets what its parts remember, as one that is resumed has to: both go on bit by bit alike.

@@ -9,8 +9,8 @@ use crate::step::{Discrete, Memory, State, StepError};
 
 /// A composition of S substeps γ₁h, …, γ_S h of rule `R`, symmetric (γᵢ = γ_{S+1−i}) and of high order.
 ///
-/// **Derivation.** A self-adjoint rule of order 2, Φ_h = Φ_{−h}⁻¹, is the flow of a modified vector field in even powers of h:
-/// Φ_h = exp(h X₁ + h³ X₃ + h⁵ X₅ + …), where X₁ is the motion's own field. Hence
+/// **Derivation.** A self-adjoint rule of order 2, Φ_h = Φ_{−h}⁻¹, is the flow of a modified vector field in
+/// even powers of h: Φ_h = exp(h X₁ + h³ X₃ + h⁵ X₅ + …), where X₁ is the motion's own field. Hence
 ///
 /// ```text
 /// Φ_{γ_S h} ∘ … ∘ Φ_{γ₁ h} = ∏ᵢ exp(γᵢ h X₁ + γᵢ³ h³ X₃ + γᵢ⁵ h⁵ X₅ + …)
@@ -22,26 +22,28 @@ use crate::step::{Discrete, Memory, State, StepError};
 /// Σ γᵢ = 1,   Σ γᵢ³ = 0,   Σ γᵢ⁵ = 0,   …            and the conditions on products of γᵢ, γⱼ³, … in the order of substeps
 /// ```
 ///
-/// Symmetry satisfies those of even order. The coefficients are those that W. Kahan and R.-C. Li (Composition constants for
-/// raising the orders of unconventional schemes for ordinary differential equations, Math. Comp. 66, 1997, 1089–1099) found to
-/// have small errors among all solutions; with more digits in E. Hairer, C. Lubich and G. Wanner, Geometric Numerical
-/// Integration, 2006, equations V.3.11 and V.3.13.
+/// Symmetry satisfies those of even order. The coefficients are those that W. Kahan and R.-C. Li (Composition
+/// constants for raising the orders of unconventional schemes for ordinary differential equations, Math.
+/// Comp. 66, 1997, 1089–1099) found to have small errors among all solutions; with more digits in E. Hairer,
+/// C. Lubich and G. Wanner, Geometric Numerical Integration, 2006, equations V.3.11 and V.3.13.
 ///
-/// **Structure.** Every substep is the flow of a discrete Lagrangian system with force, so the composition is too: its L_d is
-/// the sum of the substeps' along the way, at step γᵢh. Without force it is symplectic, and it keeps what the substeps keep.
-/// Where [`Trapezoidal`](crate::Trapezoidal) is explicit (constant mass, damping linear in v), so is the composition.
+/// **Structure.** Every substep is the flow of a discrete Lagrangian system with force, so the composition is
+/// too: its L_d is the sum of the substeps' along the way, at step γᵢh. Without force it is symplectic, and
+/// it keeps what the substeps keep. Where [`Trapezoidal`](crate::Trapezoidal) is explicit (constant mass,
+/// damping linear in v), so is the composition.
 ///
-/// **Damping and negative substeps.** A composition of order above 2 steps backwards at times (Sheng 1989), and backwards
-/// friction excites. A substep of either rule multiplies the velocity of a free mass with damping r by
-/// (2m − γhr)/(2m + γhr), which is above 1 for γ < 0; the whole step still damps for
+/// **Damping and negative substeps.** A composition of order above 2 steps backwards at times (Sheng 1989),
+/// and backwards friction excites. A substep of either rule multiplies the velocity of a free mass with
+/// damping r by (2m − γhr)/(2m + γhr), which is above 1 for γ < 0; the whole step still damps for
 ///
 /// | | free mass decays | ... without ringing | oscillator, r = 0 (trapezoidal) |
 /// |---|---|---|---|
 /// | order 6 | 0 < hr/m < 2.727 | hr/m < 2.504 | h²k/m < 2.533² |
 /// | order 8 | 0 < hr/m < 3.299 | hr/m < 3.299 | h²k/m < 3.096² |
 ///
-/// Beyond, it grows without bound: no error tells, since every substep has its solution. Stiff damping (hr/m near 2 or above)
-/// is the business of [`Midpoint`](crate::Midpoint) itself or of implicit rules of high order.
+/// Beyond, it grows without bound: no error tells, since every substep has its solution. Stiff damping (hr/m
+/// near 2 or above) is the business of [`Midpoint`](crate::Midpoint) itself or of implicit rules of high
+/// order.
 ///
 /// ```
 /// use dalembert::{Composition, State, Trapezoidal, rayleigh_system};
@@ -161,8 +163,8 @@ impl<R, const S: usize> Composition<R, S> {
 
 /// The S substeps of a [`Composition`].
 ///
-/// Each remembers the same substep of the steps before ([`Memory`]): those are a step apart; what is known of the state between
-/// two substeps is handed on. Where L, R or f take the time, each substep sees its own.
+/// Each remembers the same substep of the steps before ([`Memory`]): those are a step apart; what is known of
+/// the state between two substeps is handed on. Where L, R or f take the time, each substep sees its own.
 pub struct Substeps<L, R, const N: usize, const S: usize>
 where
     L: Discrete<R, N>,

@@ -6,7 +6,8 @@ use crate::system::Lagrangian;
 
 /// What makes a [`Discretised`] of every system.
 pub trait Discretise<const N: usize>: Lagrangian<N> + Sized {
-    /// This system discretised by `rule` with step size `h`: what is asked of a discrete system is asked of the value returned.
+    /// This system discretised by `rule` with step size `h`: what is asked of a discrete system is asked of
+    /// the value returned.
     ///
     /// ```
     /// use dalembert::{Discretise, Midpoint, State, rayleigh_system};
@@ -30,10 +31,11 @@ pub trait Discretise<const N: usize>: Lagrangian<N> + Sized {
         Discretised::new(self, h)
     }
 
-    /// This system with an error of at most `tolerance` asked for, in units of q, of its state on the whole way: the method and the
-    /// step size are chosen by the motion.
+    /// This system with an error of at most `tolerance` asked for, in units of q, of its state on the whole
+    /// way: the method and the step size are chosen by the motion.
     ///
-    /// What is promised, and how it is chosen and guarded, [`Method::for_tolerance`](crate::tolerance::Method::for_tolerance) tells.
+    /// What is promised, and how it is chosen and guarded,
+    /// [`Method::for_tolerance`](crate::tolerance::Method::for_tolerance) tells.
     ///
     /// ```
     /// use dalembert::{Discretise, State, rayleigh_system};

@@ -7,8 +7,9 @@ use crate::rules::{Drift, modes, require_positive_definite};
 use crate::run::{Checkpoint, ComposedStep, ComposedTrajectory, Explicit, composition::symmetric};
 use crate::step::{Momenta, Quantity, State, StepError};
 
-/// A splitting of the motion into kicks by the potential and damped free motions between, S of them, symmetric and of high
-/// order: for L = ½vᵀMv − V(q) and R = ½vᵀCv with constant M, positive definite, and C, and a force f(q).
+/// A splitting of the motion into kicks by the potential and damped free motions between, S of them,
+/// symmetric and of high order: for L = ½vᵀMv − V(q) and R = ½vᵀCv with constant M, positive definite, and C,
+/// and a force f(q).
 ///
 /// **Derivation.** The motion's vector field is A + B, with flows that are known exactly:
 ///
@@ -18,28 +19,32 @@ use crate::step::{Momenta, Quantity, State, StepError};
 /// step = B(b₁h) A(a₁h) B(b₂h) … A(a_S h) B(b₁h),                  aᵢ = a_{S+1−i},  Σ aᵢ = Σ bᵢ = 1
 /// ```
 ///
-/// A is linear and B adds to p a function of q alone, so that `[B,[B,[B,A]]] = 0`, with damping as without: fewer conditions have
-/// to hold than for fields of any kind, which leaves freedom to make the error small. The coefficients are those of S. Blanes
-/// and P. C. Moan (Practical symplectic partitioned Runge–Kutta and Runge–Kutta–Nyström methods, J. Comput. Appl. Math. 142,
-/// 2002, 313–330). A step costs S gradients and no equation is solved.
+/// A is linear and B adds to p a function of q alone, so that `[B,[B,[B,A]]] = 0`, with damping as without:
+/// fewer conditions have to hold than for fields of any kind, which leaves freedom to make the error small.
+/// The coefficients are those of S. Blanes and P. C. Moan (Practical symplectic partitioned Runge–Kutta and
+/// Runge–Kutta–Nyström methods, J. Comput. Appl. Math. 142, 2002, 313–330). A step costs S gradients and no
+/// equation is solved.
 ///
-/// **Structure.** Each kick with the drift after it is the flow of a discrete Lagrangian system with force. Self-adjoint.
-/// Symplectic where C = 0. The determinant of the step is e^{−h tr M⁻¹C}, that of the flow, for every V; where C = 2aM, AᵀΩA =
-/// e^{−2ah}Ω, and an angular momentum of a radial V falls by e^{−2ah} a step, exactly.
+/// **Structure.** Each kick with the drift after it is the flow of a discrete Lagrangian system with force.
+/// Self-adjoint. Symplectic where C = 0. The determinant of the step is e^{−h tr M⁻¹C}, that of the flow, for
+/// every V; where C = 2aM, AᵀΩA = e^{−2ah}Ω, and an angular momentum of a radial V falls by e^{−2ah} a step,
+/// exactly.
 ///
-/// **Stability.** A free mass decays as its motion does, for any hr/m and without ringing, although some drifts lead backwards:
-/// those are undone exactly. With ω² = k/m, the powers of the step are bounded for an oscillator without damping for
+/// **Stability.** A free mass decays as its motion does, for any hr/m and without ringing, although some
+/// drifts lead backwards: those are undone exactly. With ω² = k/m, the powers of the step are bounded for an
+/// oscillator without damping for
 ///
 /// | | | but for resonances near hω = π, 2π, where they grow |
 /// |---|---|---|
 /// | order 4 | hω < 5.026 | 3.1634 < hω < 3.1686, by 0.24 % a step at most |
 /// | order 6 | hω < 9.073 | 3.1414 < hω < 3.1424, 6.3478 < hω < 6.3493, by 0.07 % a step at most |
 ///
-/// and decay up to hω = 5 and 9 with damping of 0.01 ≤ hr/m ≤ 10. Where damping is stiff the error falls more slowly than
-/// the order says, as by all splittings; there [`Fitted`](crate::Fitted) and [`Gauss`](crate::Gauss) rules serve.
+/// and decay up to hω = 5 and 9 with damping of 0.01 ≤ hr/m ≤ 10. Where damping is stiff the error falls more
+/// slowly than the order says, as by all splittings; there [`Fitted`](crate::Fitted) and
+/// [`Gauss`](crate::Gauss) rules serve.
 ///
-/// **Errors.** [`StepError::MassNotPositiveDefinite`]; [`StepError::NonFinite`], of derivatives where damping overflows over a
-/// drift backwards, of the state where it overflows; [`StepError::StepSize`].
+/// **Errors.** [`StepError::MassNotPositiveDefinite`]; [`StepError::NonFinite`], of derivatives where damping
+/// overflows over a drift backwards, of the state where it overflows; [`StepError::StepSize`].
 ///
 /// ```
 /// use dalembert::{Splitting, State, rayleigh_system};
@@ -151,7 +156,8 @@ impl<const S: usize> Splitting<S> {
 
 /// The kicks and drifts of a [`Splitting`].
 ///
-/// What the drifts do is worked out in the first step. The force at the end of a step is that at the start of the next.
+/// What the drifts do is worked out in the first step. The force at the end of a step is that at the start of
+/// the next.
 #[derive(Clone, Copy, Debug)]
 pub struct Kicks<T, const N: usize, const S: usize> {
     splitting: Splitting<S>,
@@ -229,7 +235,8 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
         })
     }
 
-    /// The step with `drift` for the i-th drift of (q, p − ∂L/∂v(0)), from where the force is `force`; the force at its end.
+    /// The step with `drift` for the i-th drift of (q, p − ∂L/∂v(0)), from where the force is `force`; the
+    /// force at its end.
     #[inline(always)]
     fn step<L: Explicit<N, Scalar = T>, D>(
         &self,

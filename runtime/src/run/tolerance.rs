@@ -21,7 +21,8 @@ pub use guard::GuardedTrajectory;
 pub use methods::{MethodStep, Methods, Taken, WithGauss, WithSplittings};
 pub use request::{OffersMethods, Request, TimedRequest};
 
-/// A method of constant step: a self-adjoint rule of order 2, alone or composed, a splitting, or a Gauss method.
+/// A method of constant step: a self-adjoint rule of order 2, alone or composed, a splitting, or a Gauss
+/// method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Method {
@@ -47,7 +48,8 @@ pub enum Method {
 pub struct Trial {
     /// The method.
     pub method: Method,
-    /// The largest step size tried at which the error expected is small enough, or the one at which it is smallest.
+    /// The largest step size tried at which the error expected is small enough, or the one at which it is
+    /// smallest.
     pub step_size: f64,
     /// The cost over the whole time, in evaluations of the forces.
     pub evaluations: f64,
@@ -135,8 +137,9 @@ impl Method {
 
     /// The method and step size of least cost for an error of at most `tolerance` on the whole way.
     ///
-    /// `methods` is the rule of order 2, which stands for itself and its compositions; [`WithSplittings`] of it adds splittings,
-    /// where the trapezoidal rule is explicit, and [`WithGauss`] Gauss methods, where the system has `rule = [trapezoidal, gauss]`.
+    /// `methods` is the rule of order 2, which stands for itself and its compositions; [`WithSplittings`] of
+    /// it adds splittings, where the trapezoidal rule is explicit, and [`WithGauss`] Gauss methods, where
+    /// the system has `rule = [trapezoidal, gauss]`.
     ///
     /// **What is promised.** With the error (δq, δp) of a state, at every step of [`Choice::trajectory`]
     ///
@@ -145,20 +148,24 @@ impl Method {
     /// w = min(max |qᵢ − qᵢ(0)| / max |pᵢ|,  max |Δqᵢ| / max |Δpᵢ|)
     /// ```
     ///
-    /// or a [`Breach`] or an error says that it is not so. The maxima are over the coordinates and the steps so far, Δ is the
-    /// change over a step: w is 1/(mω) for an oscillator, and weighs a momentum like the coordinate that it moves. The promise rests on
-    /// an estimate, which random motions have tried: the page `docs/error-asked-for.md` counts how often it was kept, passed by more
-    /// than twice, and where a breach comes late or for nothing.
+    /// or a [`Breach`] or an error says that it is not so. The maxima are over the coordinates and the steps
+    /// so far, Δ is the change over a step: w is 1/(mω) for an oscillator, and weighs a momentum like the
+    /// coordinate that it moves. The promise rests on an estimate, which random motions have tried: the
+    /// page `docs/error-asked-for.md` counts how often it was kept, passed by more than twice, and where
+    /// a breach comes late or for nothing.
     ///
-    /// **Choice.** One step of each method, from the start and from the first states of its run, is compared to two half ones, at
-    /// steps longer and shorter until the error asked for is met: no error is extrapolated below what was tried. The error expected is the
-    /// sum of these local errors over all steps; it may fill 15 % of the tolerance. Costs are evaluations of the forces, counted:
-    /// iterations times stages. A method that would usually cost much more than the best one so far is not tried, and trying stops at a
-    /// tenth of the cost of the run, so that runs of few steps are chosen for by few tries.
+    /// **Choice.** One step of each method, from the start and from the first states of its run, is compared
+    /// to two half ones, at steps longer and shorter until the error asked for is met: no error is
+    /// extrapolated below what was tried. The error expected is the sum of these local errors over all
+    /// steps; it may fill 15 % of the tolerance. Costs are evaluations of the forces, counted: iterations
+    /// times stages. A method that would usually cost much more than the best one so far is not tried, and
+    /// trying stops at a tenth of the cost of the run, so that runs of few steps are chosen for by few
+    /// tries.
     ///
-    /// **Guard.** The first steps do not show chaos, kinks, or a passage that comes later. So the run carries its error along
-    /// ([`GuardedTrajectory`]), with the exact growth, and reports where it passes the tolerance. The state reached until then is good:
-    /// [`Breach::instead`] is what to ask for from the start.
+    /// **Guard.** The first steps do not show chaos, kinks, or a passage that comes later. So the run carries
+    /// its error along ([`GuardedTrajectory`]), with the exact growth, and reports where it passes the
+    /// tolerance. The state reached until then is good: [`Breach::instead`] is what to ask for from the
+    /// start.
     ///
     /// The step size stays constant along the run, so that the structure is kept.
     ///

@@ -13,7 +13,8 @@ impl<'a, L, R, const N: usize> Discretised<'a, L, R, N>
 where
     L: Discrete<R, N>,
 {
-    /// The steps from `state`, one after the other: each is cheaper than [`step`](Self::step), by what is known of those before.
+    /// The steps from `state`, one after the other: each is cheaper than [`step`](Self::step), by what is
+    /// known of those before.
     #[must_use = "a run is an iterator: it takes a step when it is asked for the next"]
     pub fn run(&self, state: State<L::Scalar, N>) -> Trajectory<'a, L, R, N> {
         Trajectory::from_checkpoint(self.system, Checkpoint::new(self.h, state))
@@ -22,11 +23,12 @@ where
 
 /// The trajectory of a system from a state, one step at a time.
 ///
-/// An iterator over steps; it holds the present state and what the rule remembers of the steps before ([`Memory`]). After an
-/// error it ends, its state being the last good one; another step size ([`Trajectory::change_step_size`]) lets it go on.
+/// An iterator over steps; it holds the present state and what the rule remembers of the steps before
+/// ([`Memory`]). After an error it ends, its state being the last good one; another step size
+/// ([`Trajectory::change_step_size`]) lets it go on.
 ///
-/// Where L, R or f take the time, each step sees its own: the time of the system given, `system.at_time(t)`, and what the
-/// trajectory has taken since.
+/// Where L, R or f take the time, each step sees its own: the time of the system given, `system.at_time(t)`,
+/// and what the trajectory has taken since.
 pub struct Trajectory<'a, L, R, const N: usize>
 where
     L: Discrete<R, N>,
@@ -65,8 +67,9 @@ where
 
     /// All that is needed to go on from here, in this process or another ([`Trajectory::resume`]).
     ///
-    /// The run forgets what its rule remembers of earlier steps, as one that is resumed has to: both go on bit by bit alike. A rule
-    /// that adds up with compensation ([`Gauss`](crate::Gauss)) loses the rest at this one place, less than the last digit.
+    /// The run forgets what its rule remembers of earlier steps, as one that is resumed has to: both go on
+    /// bit by bit alike. A rule that adds up with compensation ([`Gauss`](crate::Gauss)) loses the rest
+    /// at this one place, less than the last digit.
     pub fn checkpoint(&mut self) -> Checkpoint<L::Scalar, N> {
         self.memory = L::Memory::default();
         self.at
@@ -74,8 +77,8 @@ where
 
     /// The run that `checkpoint` was taken of.
     ///
-    /// A checkpoint that no run can have left is refused by the first step: with a [`StepError`] that says whether its step size, its state or
-    /// its time is at fault.
+    /// A checkpoint that no run can have left is refused by the first step: with a [`StepError`] that says
+    /// whether its step size, its state or its time is at fault.
     ///
     /// ```
     /// use dalembert::{Discretise, Midpoint, State, Trajectory, rayleigh_system};
@@ -108,9 +111,12 @@ where
         }
     }
 
-    /// The next step, in 2, 4, … 2^`halvings` parts where it cannot be taken at once: at the end the time is that of a whole step.
+    /// The next step, in 2, 4, … 2^`halvings` parts where it cannot be taken at once: at the end the time is
+    /// that of a whole step.
     ///
-    /// The value returned says how many parts were taken. The error, where all fail, is that of the whole step; the state is then the last good one, the trajectory has ended, and another step size lets it go on.
+    /// The value returned says how many parts were taken. The error, where all fail, is that of the whole
+    /// step; the state is then the last good one, the trajectory has ended, and another step size lets it go
+    /// on.
     ///
     /// ```
     /// use dalembert::nalgebra::vector;

@@ -19,7 +19,8 @@ use crate::system::{GeneratedDiffers, Lagrangian};
 
 /// A system discretised by rule `R`: L_d, f_d and what follows from them.
 ///
-/// The required functions are what `#[rayleigh_system]` writes; the provided ones hold for every system and rule.
+/// The required functions are what `#[rayleigh_system]` writes; the provided ones hold for every system and
+/// rule.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not discretised by `{R}`",
     label = "no discrete system by `{R}`",
@@ -30,8 +31,8 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
     /// The form of the Newton matrix: `SMatrix<Scalar, N, N>`, or [`Banded`](crate::step::Banded).
     type Matrix: NewtonMatrix<Self::Scalar, N>;
 
-    /// What a run of steps keeps from one to the next: [`VelocityHistory`](crate::run::VelocityHistory), unless the rule has
-    /// something better.
+    /// What a run of steps keeps from one to the next: [`VelocityHistory`](crate::run::VelocityHistory),
+    /// unless the rule has something better.
     type Memory: Memory<Self, R, N>;
 
     /// Whether the step's equation is linear in v̄, so that one correction solves it.
@@ -77,7 +78,8 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         h: Self::Scalar,
     ) -> Self::Scalar;
 
-    /// f_d = (f_d⁻, f_d⁺), of the Rayleigh function and the general force together; 0 where the system has neither.
+    /// f_d = (f_d⁻, f_d⁺), of the Rayleigh function and the general force together; 0 where the system has
+    /// neither.
     #[inline]
     fn discrete_force(
         &self,
@@ -163,9 +165,10 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
 
     /// The flow on T*Q: solves p0 = −D1 L_d − f_d⁻ for q1, then p1 = D2 L_d + f_d⁺.
     ///
-    /// `guess` is a guess for v̄ = (q1 − q0)/h; a [`Trajectory`](crate::Trajectory) extrapolates one. Without it Newton's
-    /// method starts at the velocity of the state, and ∂²L/∂v² is checked to be invertible; where that leads nowhere, it starts
-    /// again at rest, away from it if rest is a singular point, and at last follows the root from small step sizes. h may be negative. Neither allocates nor panics
+    /// `guess` is a guess for v̄ = (q1 − q0)/h; a [`Trajectory`](crate::Trajectory) extrapolates one. Without
+    /// it Newton's method starts at the velocity of the state, and ∂²L/∂v² is checked to be invertible;
+    /// where that leads nowhere, it starts again at rest, away from it if rest is a singular point, and
+    /// at last follows the root from small step sizes. h may be negative. Neither allocates nor panics
     /// (unless L, R or f do), and takes at most a fixed number of iterations.
     ///
     /// # Errors
@@ -192,9 +195,9 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         step
     }
 
-    /// The step by at most `iterations` undamped Newton iterations, for a clock that does not wait: the work is bounded, and what is
-    /// returned is the best iterate, with the residual left and the last correction in its report. Without a `guess` the velocity
-    /// of the state is solved for first.
+    /// The step by at most `iterations` undamped Newton iterations, for a clock that does not wait: the work
+    /// is bounded, and what is returned is the best iterate, with the residual left and the last
+    /// correction in its report. Without a `guess` the velocity of the state is solved for first.
     ///
     /// # Errors
     /// [`StepError`] where not even one iteration can be made; the state given is untouched.
@@ -224,8 +227,8 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         bounded
     }
 
-    /// Compares L, R and f as generated to those as written ([`Lagrangian::verify_generated`]) at the points where the rule
-    /// evaluates them on the segment from q0 with mean velocity `v`.
+    /// Compares L, R and f as generated to those as written ([`Lagrangian::verify_generated`]) at the points
+    /// where the rule evaluates them on the segment from q0 with mean velocity `v`.
     ///
     /// With `debug_assertions` every step does so; without them the caller has to.
     ///
@@ -252,13 +255,15 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         LegendreDerivatives::from_terms(&l, &self.discrete_force_derivatives(q0, q1, h))
     }
 
-    /// The step's equation at a step that was taken, and whether the determinant of the equations that were solved for it has the sign that
-    /// it has for small h: no fold, or an even number of them, lies between. What a [`Certificate`](crate::derivative::Certificate) is made of.
+    /// The step's equation at a step that was taken, and whether the determinant of the equations that were
+    /// solved for it has the sign that it has for small h: no fold, or an even number of them, lies
+    /// between. What a [`Certificate`](crate::derivative::Certificate) is made of.
     ///
     /// The only equation of a step is 𝔽⁻, unless the rule has others.
     ///
     /// # Errors
-    /// [`StepError::NonFinite`] if derivatives at the step are not finite; those of a step, for rules that solve for stages again.
+    /// [`StepError::NonFinite`] if derivatives at the step are not finite; those of a step, for rules that
+    /// solve for stages again.
     fn equation_at(
         &self,
         state: &State<Self::Scalar, N>,
@@ -275,7 +280,8 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         Ok(EquationAt { kernel, mass, on_the_branch_of_the_flow: signs[0] == signs[1] && signs[0].is_ne() })
     }
 
-    /// The step's derivative by its state on the segment (`q0`, `q1`): [`Discretised::linearization`](crate::Discretised::linearization).
+    /// The step's derivative by its state on the segment (`q0`, `q1`):
+    /// [`Discretised::linearization`](crate::Discretised::linearization).
     ///
     /// # Errors
     /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular.
@@ -288,7 +294,8 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         Linearization::from_legendre(&self.legendre_derivatives(q0, q1, h))
     }
 
-    /// The step with its derivative by the state: [`Discretised::linearized_step`](crate::Discretised::linearized_step).
+    /// The step with its derivative by the state:
+    /// [`Discretised::linearized_step`](crate::Discretised::linearized_step).
     ///
     /// # Errors
     /// Those of [`step`](Self::step) and of [`linearization`](Self::linearization).
@@ -328,8 +335,8 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
 
 /// What a run keeps from step to step, and how the next step uses it.
 ///
-/// [`Default`] is the memory before the first step. What is remembered makes a step cheaper; it never decides where the step
-/// leads, beyond rounding: a memory of other states or another step size does no harm.
+/// [`Default`] is the memory before the first step. What is remembered makes a step cheaper; it never decides
+/// where the step leads, beyond rounding: a memory of other states or another step size does no harm.
 pub trait Memory<L: ?Sized, R, const N: usize>: Default
 where
     L: Discrete<R, N>,
@@ -345,11 +352,12 @@ where
         h: L::Scalar,
     ) -> Result<Step<L::Scalar, N>, StepError>;
 
-    /// Takes over what is known of the state from which the next step starts, from the memory of the step that ended there. In a
-    /// composition that is the one of the substep before.
+    /// Takes over what is known of the state from which the next step starts, from the memory of the step
+    /// that ended there. In a composition that is the one of the substep before.
     fn follow(&mut self, _previous: &Self) {}
 
-    /// The step from `state`, `elapsed` after the time of `system`: of the system as it is then ([`Lagrangian::later`](crate::Lagrangian::later)).
+    /// The step from `state`, `elapsed` after the time of `system`: of the system as it is then
+    /// ([`Lagrangian::later`](crate::Lagrangian::later)).
     ///
     /// # Errors
     /// Those of [`advance`](Self::advance).

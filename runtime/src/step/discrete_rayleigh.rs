@@ -8,8 +8,8 @@ use crate::system::Rayleigh;
 
 /// A discrete Rayleigh system: f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d, with L_d⁺ = L_d + R_d and L_d⁻ = L_d − R_d.
 ///
-/// Plus goes with D1 and minus with D2: p0 = −D1 L_d⁺, p1 = D2 L_d⁻ (paper, section 3.3). Where the system has a general
-/// force as well, these are the objects of the Rayleigh part alone.
+/// Plus goes with D1 and minus with D2: p0 = −D1 L_d⁺, p1 = D2 L_d⁻ (paper, section 3.3). Where the system
+/// has a general force as well, these are the objects of the Rayleigh part alone.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no discrete Rayleigh function by `{R}`",
     label = "this needs R_d, and `{Self}` has none",

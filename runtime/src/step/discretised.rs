@@ -1,5 +1,5 @@
-//! A system, a rule and a step size as one value: what everything that is asked of a discrete system is asked of. Floors above add
-//! their own questions.
+//! A system, a rule and a step size as one value: what everything that is asked of a discrete system is asked
+//! of. Floors above add their own questions.
 
 use core::fmt;
 use core::marker::PhantomData;
@@ -94,8 +94,8 @@ where
         Self { h, ..self }
     }
 
-    /// The same for steps whose mean velocity v̄ = (q1 − q0)/h is near `velocity`, such as that of the step before: Newton's method
-    /// starts there, and not at the velocity of the state.
+    /// The same for steps whose mean velocity v̄ = (q1 − q0)/h is near `velocity`, such as that of the step
+    /// before: Newton's method starts there, and not at the velocity of the state.
     #[must_use]
     pub fn near(self, velocity: &SVector<L::Scalar, N>) -> Self {
         Self { guess: Some(*velocity), ..self }
@@ -109,9 +109,10 @@ where
 {
     /// The flow on T*Q: solves p0 = −D1 L_d − f_d⁻ for q1, then p1 = D2 L_d + f_d⁺.
     ///
-    /// Newton's method starts at the velocity of the state, and ∂²L/∂v² is checked to be invertible; where that leads nowhere, it
-    /// starts again at rest, and away from it if rest is a singular point. h may be negative. Nothing is allocated, nothing panics
-    /// (unless L, R or f do), and the number of iterations is bounded.
+    /// Newton's method starts at the velocity of the state, and ∂²L/∂v² is checked to be invertible; where
+    /// that leads nowhere, it starts again at rest, and away from it if rest is a singular point. h may
+    /// be negative. Nothing is allocated, nothing panics (unless L, R or f do), and the number of
+    /// iterations is bounded.
     ///
     /// In a sequence of steps, [`run`](Self::run) and [`near`](Self::near) save iterations.
     ///
@@ -156,7 +157,8 @@ where
         self.system.discrete_lagrangian_derivatives(q0, q1, self.h)
     }
 
-    /// f_d = (f_d⁻, f_d⁺), of the Rayleigh function and the general force together; 0 where the system has neither.
+    /// f_d = (f_d⁻, f_d⁺), of the Rayleigh function and the general force together; 0 where the system has
+    /// neither.
     pub fn discrete_force(
         &self,
         q0: &SVector<L::Scalar, N>,
@@ -192,7 +194,8 @@ where
         self.system.legendre_derivatives(q0, q1, self.h)
     }
 
-    /// Left side of the forced discrete Euler–Lagrange equation at q1, 0 along solutions: [`Discrete::del_residual`].
+    /// Left side of the forced discrete Euler–Lagrange equation at q1, 0 along solutions:
+    /// [`Discrete::del_residual`].
     pub fn del_residual(
         &self,
         q0: &SVector<L::Scalar, N>,

@@ -1,4 +1,5 @@
-//! The step by its input. The input u ∈ ℝᴹ is held over a step, so that it enters a segment through f_d alone:
+//! The step by its input. The input u ∈ ℝᴹ is held over a step, so that it enters a segment through f_d
+//! alone:
 //!
 //! ```text
 //! p0 = −D1 L_d − f_d⁻(q0, q1, u),   p1 = D2 L_d + f_d⁺(q0, q1, u)
@@ -24,7 +25,8 @@ pub trait DiscreteDriven<R, const N: usize, const M: usize>: Discrete<R, N> + Dr
         h: Self::Scalar,
     ) -> MomentaBy<Self::Scalar, N, M>;
 
-    /// The step's derivatives by state and input on the segment (`q0`, `q1`): [`Discretised::linearization_with_input`](crate::Discretised::linearization_with_input).
+    /// The step's derivatives by state and input on the segment (`q0`, `q1`):
+    /// [`Discretised::linearization_with_input`](crate::Discretised::linearization_with_input).
     ///
     /// # Errors
     /// Those of [`Discrete::linearization`].
@@ -38,7 +40,8 @@ pub trait DiscreteDriven<R, const N: usize, const M: usize>: Discrete<R, N> + Dr
         Linearization::with_input(&self.legendre_derivatives(q0, q1, h), &by_input)
     }
 
-    /// The step with its derivatives by state and input: [`Discretised::linearized_step_with_input`](crate::Discretised::linearized_step_with_input).
+    /// The step with its derivatives by state and input:
+    /// [`Discretised::linearized_step_with_input`](crate::Discretised::linearized_step_with_input).
     ///
     /// # Errors
     /// Those of [`Discrete::linearized_step`].

@@ -21,11 +21,12 @@ pub enum Quantity {
     Derivatives,
 }
 
-/// Why a step was not taken. The state that it started from is untouched; each message says whether a smaller step size can help.
+/// Why a step was not taken. The state that it started from is untouched; each message says whether a smaller
+/// step size can help.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-// A tag of one byte lies where a step has the first byte of its state: `Result<Step, StepError>` is then copied as that byte and the
-// rest, which has no alignment, and on a microcontroller byte by byte.
+// A tag of one byte lies where a step has the first byte of its state: `Result<Step, StepError>` is then
+// copied as that byte and the rest, which has no alignment, and on a microcontroller byte by byte.
 #[repr(u32)]
 pub enum StepError {
     /// The step size is zero or not finite.
@@ -33,7 +34,8 @@ pub enum StepError {
         /// The step size given.
         h: f64,
     },
-    /// The clock of a run does not tell a step from none: its time is so large that the step does not change it, or is not finite.
+    /// The clock of a run does not tell a step from none: its time is so large that the step does not change
+    /// it, or is not finite.
     Time {
         /// The time of the run.
         time: f64,
@@ -52,7 +54,8 @@ pub enum StepError {
         /// The coordinate whose pivot vanishes.
         column: usize,
     },
-    /// ∂²L/∂v² is regular but not positive definite, as the rules fitted to damping and the splittings need it.
+    /// ∂²L/∂v² is regular but not positive definite, as the rules fitted to damping and the splittings need
+    /// it.
     MassNotPositiveDefinite {
         /// The first coordinate with a pivot that is not positive.
         column: usize,

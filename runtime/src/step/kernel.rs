@@ -22,7 +22,8 @@ pub struct Momenta<S, const N: usize> {
     pub p1: SVector<S, N>,
 }
 
-/// Derivatives of both momenta of a segment by M quantities other than its configurations, which are held fixed.
+/// Derivatives of both momenta of a segment by M quantities other than its configurations, which are held
+/// fixed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MomentaBy<S, const N: usize, const M: usize> {
     /// ∂p0/∂θ, shape N×M.

@@ -13,9 +13,9 @@ impl<S: Scalar, const N: usize> State<S, N> {
     /// The state (q, ∂L/∂v(q, v)), by the Legendre transform of L.
     ///
     /// # Errors
-    /// [`StepError::NonFinite`] if q, v, p or ∂²L/∂v² is not finite, [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is singular,
-    /// at v and next to it: that of |v|⁴ is singular at v = 0 alone; [`StepError::GeneratedDiffers`] if the derivatives generated
-    /// belong to another function.
+    /// [`StepError::NonFinite`] if q, v, p or ∂²L/∂v² is not finite, [`StepError::DegenerateLagrangian`] if
+    /// ∂²L/∂v² is singular, at v and next to it: that of |v|⁴ is singular at v = 0 alone;
+    /// [`StepError::GeneratedDiffers`] if the derivatives generated belong to another function.
     pub fn from_velocity<L: Lagrangian<N, Scalar = S>>(
         system: &L,
         q: impl Into<SVector<S, N>>,
@@ -33,11 +33,12 @@ impl<S: Scalar, const N: usize> State<S, N> {
 
     /// The velocity v with ∂L/∂v(q, v) = p, by Newton's method (one iteration where L is quadratic in v).
     ///
-    /// It starts at v = 0; where ∂²L/∂v² is singular or not finite there, as that of |v|⁴ and of |v|³ is, away from it.
+    /// It starts at v = 0; where ∂²L/∂v² is singular or not finite there, as that of |v|⁴ and of |v|³ is,
+    /// away from it.
     ///
     /// # Errors
-    /// As [`Discrete::step`](crate::Discrete::step); [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is singular everywhere,
-    /// [`StepError::NoVelocity`] if no velocity in reach has this momentum.
+    /// As [`Discrete::step`](crate::Discrete::step); [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is
+    /// singular everywhere, [`StepError::NoVelocity`] if no velocity in reach has this momentum.
     pub fn velocity<L: Lagrangian<N, Scalar = S> + ?Sized>(
         &self,
         system: &L,
@@ -99,8 +100,8 @@ impl<S: Scalar, const N: usize> State<S, N> {
     }
 }
 
-/// Fails with `error` where ∂²L/∂v² is not finite or cannot be inverted at a point next to (q, v) either. Where it can, (q, v) is a
-/// singular point of a Lagrangian that is regular.
+/// Fails with `error` where ∂²L/∂v² is not finite or cannot be inverted at a point next to (q, v) either.
+/// Where it can, (q, v) is a singular point of a Lagrangian that is regular.
 #[cold]
 #[inline(never)]
 fn require_regular_nearby<L: Lagrangian<N> + ?Sized, const N: usize>(

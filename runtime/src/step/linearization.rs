@@ -1,4 +1,5 @@
-//! The step's derivative by the state that it starts from, exact: no differences, the implicit function theorem.
+//! The step's derivative by the state that it starts from, exact: no differences, the implicit function
+//! theorem.
 //!
 //! On a segment (q0, q1) the two Legendre transforms have the derivatives
 //!
@@ -7,7 +8,8 @@
 //! K10 = ∂p1/∂q0 = (D1D2 L_d)ᵀ + D1 f_d⁺      K11 = ∂p1/∂q1 = D2D2 L_d + D2 f_d⁺
 //! ```
 //!
-//! The step holds p0 fixed and solves for q1, so that dq1 = K01⁻¹ (dp0 − K00 dq0) and dp1 = K10 dq0 + K11 dq1:
+//! The step holds p0 fixed and solves for q1, so that dq1 = K01⁻¹ (dp0 − K00 dq0) and dp1 = K10 dq0 + K11
+//! dq1:
 //!
 //! ```text
 //!     ∂(q1, p1)     ⎡     −K01⁻¹ K00            K01⁻¹     ⎤
@@ -17,8 +19,9 @@
 //! det A = det K10 / det(−K01) = det(D1D2 L_d⁻) / det(D1D2 L_d⁺)      the second form for a Rayleigh force
 //! ```
 //!
-//! The derivative B = ∂(q1, p1)/∂u by an input that is held, and those by parameters, come in the same way: what moves the
-//! momenta by P0 and P1 at fixed configurations moves q1 by −K01⁻¹ P0 and p1 by P1 − K11 K01⁻¹ P0.
+//! The derivative B = ∂(q1, p1)/∂u by an input that is held, and those by parameters, come in the same way:
+//! what moves the momenta by P0 and P1 at fixed configurations moves q1 by −K01⁻¹ P0 and p1 by P1 − K11 K01⁻¹
+//! P0.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -90,7 +93,8 @@ impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
 }
 
 impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
-    /// What (q1, p1) makes of quantities that move the momenta by `momenta` at fixed configurations, (q0, p0) being held.
+    /// What (q1, p1) makes of quantities that move the momenta by `momenta` at fixed configurations, (q0, p0)
+    /// being held.
     ///
     /// # Errors
     /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular.
@@ -154,8 +158,8 @@ impl<S: Scalar, const N: usize, const M: usize> StateBy<S, N, M> {
 }
 
 impl<S: Scalar, const N: usize> PhaseMatrix<S, N> {
-    /// ∂(q, p)/∂(q, v), the derivative of [`State::from_velocity`](crate::State::from_velocity) at (`q`, `v`): the column
-    /// blocks by p stand for those by v.
+    /// ∂(q, p)/∂(q, v), the derivative of [`State::from_velocity`](crate::State::from_velocity) at (`q`,
+    /// `v`): the column blocks by p stand for those by v.
     #[must_use]
     pub fn from_velocity<L: Lagrangian<N, Scalar = S>>(
         system: &L,
@@ -171,8 +175,8 @@ impl<S: Scalar, const N: usize> PhaseMatrix<S, N> {
         }
     }
 
-    /// ∂(q, v)/∂(q, p), the derivative of [`State::velocity`](crate::State::velocity) at (`q`, `v`): the row blocks of p
-    /// stand for those of v. What a sensor of velocities makes of a state.
+    /// ∂(q, v)/∂(q, p), the derivative of [`State::velocity`](crate::State::velocity) at (`q`, `v`): the row
+    /// blocks of p stand for those of v. What a sensor of velocities makes of a state.
     ///
     /// # Errors
     /// [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is singular.

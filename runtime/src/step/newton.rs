@@ -1,13 +1,15 @@
 //! Newton's method with the analytic matrix.
 //!
-//! Nearly every step is solved by the undamped method in two or three iterations ([`quick`]). Where that does not contract,
-//! the residual is held up by rounding, far from a root, or without one: [`careful`] damps it and tells these apart. A step that finds
-//! no root from the state alone is led to it in parts of h ([`continuation`]).
+//! Nearly every step is solved by the undamped method in two or three iterations ([`quick`]). Where that does
+//! not contract, the residual is held up by rounding, far from a root, or without one: [`careful`] damps it
+//! and tells these apart. A step that finds no root from the state alone is led to it in parts of h
+//! ([`continuation`]).
 //!
-//! Residuals are measured in units of their round-off floor, component by component; [`rounding`] defines when a step is solved.
-//! Descent of the residual alone would refuse good iterates: the residual of a coordinate at rest, without a force as yet, has a
-//! floor near 0, and that of a stiff spring grows with the square of a long sideways step. An iterate is therefore taken as well
-//! where the Newton step still to take from it is shorter ([`careful::nearer`]; compare P. Deuflhard, Newton Methods for Nonlinear
+//! Residuals are measured in units of their round-off floor, component by component; [`rounding`] defines
+//! when a step is solved. Descent of the residual alone would refuse good iterates: the residual of a
+//! coordinate at rest, without a force as yet, has a floor near 0, and that of a stiff spring grows with the
+//! square of a long sideways step. An iterate is therefore taken as well where the Newton step still to take
+//! from it is shorter ([`careful::nearer`]; compare P. Deuflhard, Newton Methods for Nonlinear
 //! Problems, 2004, on tests in the unknowns).
 
 use nalgebra::{SMatrix, SVector};
@@ -52,11 +54,12 @@ pub(crate) enum Equation {
 
 /// Solves p0(q, v) = p for v at the `state` (q, p).
 ///
-/// `evaluate` gives p0 and the Newton matrix, `finish` both momenta, `inertia` the mass matrix, the metric that tells which of
-/// two velocities is longer; configurations on the way are q plus a share of `h` v, with h = 0 at q itself. The residual that the
-/// report states is the one that `finish` measured at the root.
+/// `evaluate` gives p0 and the Newton matrix, `finish` both momenta, `inertia` the mass matrix, the metric
+/// that tells which of two velocities is longer; configurations on the way are q plus a share of `h` v, with
+/// h = 0 at q itself. The residual that the report states is the one that `finish` measured at the root.
 ///
-/// Functions by reference: with `F = &G` for one of them, calls of it would not be inlined where `F` is behind a pointer as well.
+/// Functions by reference: with `F = &G` for one of them, calls of it would not be inlined where `F` is
+/// behind a pointer as well.
 #[inline]
 pub(crate) fn solve<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     kind: Equation,
@@ -76,7 +79,8 @@ pub(crate) fn solve<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     }
 }
 
-/// Where the undamped method left off: the last iterate that lowered the residual, and the corrections that led there.
+/// Where the undamped method left off: the last iterate that lowered the residual, and the corrections that
+/// led there.
 pub(crate) struct Reached<S, const N: usize> {
     v: SVector<S, N>,
     iterations: u32,
@@ -84,9 +88,9 @@ pub(crate) struct Reached<S, const N: usize> {
 
 /// The undamped method, as long as it contracts as Newton's does.
 ///
-/// Newton's residuals fall as |r′| ≈ C|r|², so the last contraction c predicts the next one, c². Where that ends at the
-/// floor, the matrix is not needed again. On the way residuals are weighed by the floor at the guess; the root is held
-/// against its own.
+/// Newton's residuals fall as |r′| ≈ C|r|², so the last contraction c predicts the next one, c². Where that
+/// ends at the floor, the matrix is not needed again. On the way residuals are weighed by the floor at the
+/// guess; the root is held against its own.
 #[inline]
 #[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a contraction that is NaN must fail the comparison")]
 pub(crate) fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
@@ -139,8 +143,9 @@ pub(crate) fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     Err(reached)
 }
 
-/// Whether the floor at `v` may be taken from the matrix of the iterate before, from which the `last_correction` led here: from a
-/// guess that is far out by many orders of magnitude that matrix can be larger by as many, and with it the floor.
+/// Whether the floor at `v` may be taken from the matrix of the iterate before, from which the
+/// `last_correction` led here: from a guess that is far out by many orders of magnitude that matrix can be
+/// larger by as many, and with it the floor.
 #[inline(always)]
 fn is_known_at<S: Scalar, const N: usize>(v: &SVector<S, N>, last_correction: S) -> bool {
     last_correction <= largest(v) * S::constant(SMALL)

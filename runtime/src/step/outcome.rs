@@ -14,15 +14,17 @@ use crate::step::{Momenta, State, StepError, StepKernel};
 /// | what is left of v̄ | at most about the square of `last_correction`, relative to v̄ |
 /// | how well it was posed: condition of the Newton matrix, branch of the root | on request, [`Discretised::certificate`](crate::Discretised::certificate), so that steps do not pay for it |
 ///
-/// **A step is solved**, by every rule, with or without a memory, and with `converged` of [`BoundedStep`], where in each coordinate the
-/// residual is at most 4 round-off floors; the floor is that of the solution returned, finite, and small beside the terms of the
-/// equation. It is 4ε (|p| + Σ |J||v̄|) with the Newton matrix J, plus, where forces cancel, what the last places of q and v̄ do to
-/// the residual, measured. The state returned then satisfies the rule's equations with q, v̄ and p changed by some units of their
+/// **A step is solved**, by every rule, with or without a memory, and with `converged` of [`BoundedStep`],
+/// where in each coordinate the residual is at most 4 round-off floors; the floor is that of the solution
+/// returned, finite, and small beside the terms of the equation. It is 4ε (|p| + Σ |J||v̄|) with the Newton
+/// matrix J, plus, where forces cancel, what the last places of q and v̄ do to the residual, measured. The
+/// state returned then satisfies the rule's equations with q, v̄ and p changed by some units of their
 /// last places. Whatever does not is an error; no step is taken on a residual that merely stopped falling.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Report<S> {
-    /// Corrections: of v̄ by Newton's method, or by a matrix kept; by Gauss rules of all stages at once, by fixed point or Newton's method.
+    /// Corrections: of v̄ by Newton's method, or by a matrix kept; by Gauss rules of all stages at once, by
+    /// fixed point or Newton's method.
     pub iterations: u32,
     /// Iterations whose Newton step had to be shortened.
     pub damped: u32,
@@ -65,7 +67,8 @@ impl<S: Scalar, const N: usize> Step<S, N> {
 /// A step, and derivatives of it.
 pub type StepWith<S, const N: usize, D> = (Step<S, N>, D);
 
-/// The equation of a step at the step that was taken; see [`Discrete::equation_at`](crate::Discrete::equation_at).
+/// The equation of a step at the step that was taken; see
+/// [`Discrete::equation_at`](crate::Discrete::equation_at).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EquationAt<S, const N: usize, M> {
     /// p0 and the Newton matrix.
@@ -81,6 +84,7 @@ pub struct EquationAt<S, const N: usize, M> {
 pub struct BoundedStep<S, const N: usize> {
     /// The step of the best iterate; its report has the residual that is left and the last correction.
     pub step: Step<S, N>,
-    /// Whether the residual is at its round-off floor, so that the step is that of [`Discrete::step`](crate::Discrete::step).
+    /// Whether the residual is at its round-off floor, so that the step is that of
+    /// [`Discrete::step`](crate::Discrete::step).
     pub converged: bool,
 }

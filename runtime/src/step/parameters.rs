@@ -20,7 +20,8 @@ pub trait DiscreteParameters<R, const N: usize, const P: usize>: Discrete<R, N> 
         h: Self::Scalar,
     ) -> MomentaBy<Self::Scalar, N, P>;
 
-    /// ∂(q1, p1)/∂θ on the segment (`q0`, `q1`), (q0, p0) held: [`Discretised::state_by_parameters`](crate::Discretised::state_by_parameters).
+    /// ∂(q1, p1)/∂θ on the segment (`q0`, `q1`), (q0, p0) held:
+    /// [`Discretised::state_by_parameters`](crate::Discretised::state_by_parameters).
     ///
     /// # Errors
     /// Those of [`Discrete::linearization`].
@@ -34,7 +35,8 @@ pub trait DiscreteParameters<R, const N: usize, const P: usize>: Discrete<R, N> 
         self.legendre_derivatives(q0, q1, h).answer(&by_parameters)
     }
 
-    /// The step with ∂(q1, p1)/∂θ: [`Discretised::step_by_parameters`](crate::Discretised::step_by_parameters).
+    /// The step with ∂(q1, p1)/∂θ:
+    /// [`Discretised::step_by_parameters`](crate::Discretised::step_by_parameters).
     ///
     /// # Errors
     /// Those of [`Discrete::linearized_step`].

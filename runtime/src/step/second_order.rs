@@ -1,15 +1,17 @@
-//! Second derivatives of the step, contracted with a covector: what second-order optimal control and estimation ask for.
+//! Second derivatives of the step, contracted with a covector: what second-order optimal control and
+//! estimation ask for.
 //!
-//! With λ = (λ_q, λ_p) a covector at (q1, p1), the function λ·(q1, p1) of z = (q0, p0, u) has the second derivatives
+//! With λ = (λ_q, λ_p) a covector at (q1, p1), the function λ·(q1, p1) of z = (q0, p0, u) has the second
+//! derivatives
 //!
 //! ```text
 //! ∂²(λ·(q1, p1))/∂z² = Dᵀ ∂²Φ D,   Φ(q0, q1, u) = μ·p0(q0, q1, u) + λ_p·p1(q0, q1, u),   D = ∂(q0, q1, u)/∂z
 //! μ = −K01⁻ᵀ (λ_q + K11ᵀ λ_p)
 //! ```
 //!
-//! by the implicit function theorem: μ is what makes Φ + λ_q·q1 stationary in q1, so that the second derivatives of q1
-//! itself drop out. On a segment Φ is a sum over L, R and f of their derivatives along one direction, whose Hessians the
-//! engines give: third derivatives of L and R appear contracted alone.
+//! by the implicit function theorem: μ is what makes Φ + λ_q·q1 stationary in q1, so that the second
+//! derivatives of q1 itself drop out. On a segment Φ is a sum over L, R and f of their derivatives along one
+//! direction, whose Hessians the engines give: third derivatives of L and R appear contracted alone.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -24,7 +26,8 @@ use crate::system::SecondOrder;
     note = "ask for them in the attribute: `#[rayleigh_system(step_derivatives = second)]`"
 )]
 pub trait DiscreteSecondOrder<R, const N: usize, const M: usize>: Discrete<R, N> + SecondOrder<N, M> {
-    /// Second derivatives by (q0, q1, u) of `at_start`·p0 + `at_end`·p1, on the segment from q0 with mean velocity `v`.
+    /// Second derivatives by (q0, q1, u) of `at_start`·p0 + `at_end`·p1, on the segment from q0 with mean
+    /// velocity `v`.
     fn momenta_along(
         &self,
         q0: &SVector<Self::Scalar, N>,
@@ -34,7 +37,8 @@ pub trait DiscreteSecondOrder<R, const N: usize, const M: usize>: Discrete<R, N>
         at_end: &SVector<Self::Scalar, N>,
     ) -> Hessian<Self::Scalar, N, M>;
 
-    /// ∂p0/∂u at fixed ends, on the segment from q0 with mean velocity `v`; rules with interior points have no use for it.
+    /// ∂p0/∂u at fixed ends, on the segment from q0 with mean velocity `v`; rules with interior points have
+    /// no use for it.
     #[inline]
     fn p0_by_input(
         &self,
@@ -46,7 +50,8 @@ pub trait DiscreteSecondOrder<R, const N: usize, const M: usize>: Discrete<R, N>
         SMatrix::zeros()
     }
 
-    /// Second derivatives of the step on the segment (`q0`, `q1`): [`Discretised::step_hessian`](crate::Discretised::step_hessian).
+    /// Second derivatives of the step on the segment (`q0`, `q1`):
+    /// [`Discretised::step_hessian`](crate::Discretised::step_hessian).
     ///
     /// # Errors
     /// Those of [`Discrete::linearization`].
@@ -79,7 +84,8 @@ pub trait DiscreteSecondOrder<R, const N: usize, const M: usize>: Discrete<R, N>
         })
     }
 
-    /// The step with its second derivatives: [`Discretised::step_with_hessian`](crate::Discretised::step_with_hessian).
+    /// The step with its second derivatives:
+    /// [`Discretised::step_with_hessian`](crate::Discretised::step_with_hessian).
     ///
     /// # Errors
     /// Those of [`Discrete::linearized_step`].

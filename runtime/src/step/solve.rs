@@ -10,7 +10,8 @@ use crate::step::{
 };
 use crate::system::Lagrangian;
 
-/// [`Discrete::step`] with the step's equation and both momenta as functions of (q0, v̄, h), and the mass that the velocity has in them.
+/// [`Discrete::step`] with the step's equation and both momenta as functions of (q0, v̄, h), and the mass that
+/// the velocity has in them.
 #[inline]
 pub(crate) fn step_by<L, M, const N: usize>(
     system: &L,
@@ -48,8 +49,9 @@ where
         .map_err(|error| in_arguments(state, guess).unwrap_or(error))
 }
 
-/// The velocity of `state`; where none is found, rest: a step may lead on, as from p = 0 at a singular point of L. Rest as well where
-/// the equation is linear: one correction leads from there to the root, with the least rounding.
+/// The velocity of `state`; where none is found, rest: a step may lead on, as from p = 0 at a singular point
+/// of L. Rest as well where the equation is linear: one correction leads from there to the root, with the
+/// least rounding.
 #[cold]
 #[inline(never)]
 fn first_guess<L: Lagrangian<N> + ?Sized, const N: usize>(
@@ -113,10 +115,11 @@ fn in_arguments<S: Scalar, const N: usize>(
     state.require_finite().and_then(|()| of_guess()).err()
 }
 
-/// The step `found`, from a guess if there was one. A guess that leads nowhere is not the step's fault: then the
-/// step `without`.
+/// The step `found`, from a guess if there was one. A guess that leads nowhere is not the step's fault: then
+/// the step `without`.
 ///
-/// Both are asked for where they are needed: a function that asks for both would be another copy of the solver.
+/// Both are asked for where they are needed: a function that asks for both would be another copy of the
+/// solver.
 #[inline(always)]
 pub(crate) fn or_without_guess<S, const N: usize>(
     has_guess: bool,

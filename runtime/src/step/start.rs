@@ -21,7 +21,8 @@ pub(crate) fn verify_start<L: Lagrangian<N>, const N: usize>(
         return Ok(());
     }
     system.later(L::Scalar::constant(elapsed), |system| {
-        // One Newton iteration for ∂L/∂v(q, v) = p from rest: exact where L is quadratic in v, and a point as good as any elsewhere.
+        // One Newton iteration for ∂L/∂v(q, v) = p from rest: exact where L is quadratic in v, and a point as
+        // good as any elsewhere.
         let rest = SVector::zeros();
         let l = system.lagrangian_derivatives(&state.q, &rest);
         let v = l.d22.solve(&(state.p - l.d2)).unwrap_or(rest);

@@ -59,7 +59,8 @@ pub trait Lagrangian<const N: usize> {
 
     /// `evaluate` for the system as it is at the time `elapsed` from now.
     ///
-    /// The same system, unless L, R or f take a time: rules call this so that every node of a segment sees its own.
+    /// The same system, unless L, R or f take a time: rules call this so that every node of a segment sees
+    /// its own.
     #[inline]
     fn later<T>(&self, elapsed: Self::Scalar, evaluate: impl FnOnce(&Self) -> T) -> T
     where
@@ -69,8 +70,9 @@ pub trait Lagrangian<const N: usize> {
         evaluate(self)
     }
 
-    /// Compares the values of L, R and f that were generated together with their derivatives to those of the functions as
-    /// written, at (q, v): bit by bit they are equal ([`verification`](crate::system::verification)).
+    /// Compares the values of L, R and f that were generated together with their derivatives to those of the
+    /// functions as written, at (q, v): bit by bit they are equal
+    /// ([`verification`](crate::system::verification)).
     ///
     /// A system written by hand has nothing to compare, nor has one of dual numbers.
     ///
@@ -95,7 +97,8 @@ pub trait Lagrangian<const N: usize> {
 
 /// A Rayleigh function R(q, v), with the force −∂R/∂v.
 ///
-/// Normalise R(q, 0) = 0: adding g(q) leaves the continuous system as it is, but shifts the discrete forces by ±(h²/4)∇g.
+/// Normalise R(q, 0) = 0: adding g(q) leaves the continuous system as it is, but shifts the discrete forces
+/// by ±(h²/4)∇g.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no Rayleigh function",
     label = "this needs R, and `{Self}` has none",

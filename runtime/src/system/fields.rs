@@ -1,4 +1,5 @@
-//! Functions on the configuration space that the checkers are given: generators of symmetries, generating functions.
+//! Functions on the configuration space that the checkers are given: generators of symmetries, generating
+//! functions.
 
 use nalgebra::{SMatrix, SVector};
 

@@ -19,14 +19,16 @@ pub struct Stages<T, const N: usize, const S: usize> {
     pub rate: LaneVector<T, N, S>,
     /// p − ∂L/∂v, with the momenta p that were asked for.
     pub residual: LaneVector<T, N, S>,
-    /// (∂²L/∂v²)⁻¹ (p − ∂L/∂v), a Newton step of v towards these momenta; not finite where the matrix is singular.
+    /// (∂²L/∂v²)⁻¹ (p − ∂L/∂v), a Newton step of v towards these momenta; not finite where the matrix is
+    /// singular.
     pub correction: LaneVector<T, N, S>,
 }
 
 /// A Lagrangian L with the force f_L = −∂R/∂v + f that acts: the terms that the system has, summed.
 ///
-/// `#[rayleigh_system(rule = gauss)]` writes it. By hand, a system without force needs nothing but the `impl`; one with force
-/// sets [`IS_FORCED`](Self::IS_FORCED) and gives f_L and its derivatives; one that changes with time, [`IS_TIMED`](Self::IS_TIMED).
+/// `#[rayleigh_system(rule = gauss)]` writes it. By hand, a system without force needs nothing but the
+/// `impl`; one with force sets [`IS_FORCED`](Self::IS_FORCED) and gives f_L and its derivatives; one that
+/// changes with time, [`IS_TIMED`](Self::IS_TIMED).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no step as it stands here",
     label = "no step",
@@ -37,7 +39,8 @@ pub trait ForcedLagrangian<const N: usize>: Lagrangian<N> {
     /// Whether there is a force. Without one, f_d and its derivatives are 0 and cost nothing.
     const IS_FORCED: bool = false;
 
-    /// Whether L or the force changes with time, so that [`Lagrangian::later`] is another system. Without it no stage asks.
+    /// Whether L or the force changes with time, so that [`Lagrangian::later`] is another system. Without it
+    /// no stage asks.
     const IS_TIMED: bool = false;
 
     /// f_L(q, v), a covector at q.

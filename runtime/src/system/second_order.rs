@@ -1,11 +1,13 @@
-//! Systems differentiated once more than a step asks for: third derivatives of L and R, contracted with vectors.
+//! Systems differentiated once more than a step asks for: third derivatives of L and R, contracted with
+//! vectors.
 
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::Hessian;
 use crate::system::Lagrangian;
 
-/// L, R and f differentiated once more than a step asks for: `#[rayleigh_system(step_derivatives = second)]` writes it.
+/// L, R and f differentiated once more than a step asks for: `#[rayleigh_system(step_derivatives = second)]`
+/// writes it.
 ///
 /// M is the number of inputs, 0 where there are none.
 #[diagnostic::on_unimplemented(
@@ -46,8 +48,8 @@ pub trait SecondOrder<const N: usize, const M: usize>: Lagrangian<N> {
         Hessian::zero()
     }
 
-    /// ∂f/∂u at (q, v), shape N×M, for rules with interior points: [`Driven::force_by_input`](crate::system::Driven::force_by_input)
-    /// where there is an input.
+    /// ∂f/∂u at (q, v), shape N×M, for rules with interior points:
+    /// [`Driven::force_by_input`](crate::system::Driven::force_by_input) where there is an input.
     #[inline]
     fn force_slope_by_input(
         &self,

@@ -1,10 +1,12 @@
 //! What is known of a system when it is compiled.
 
-/// Findings about a system, as data: `Ring::STRUCTURE`, an associated constant of [`Lagrangian`](crate::Lagrangian).
+/// Findings about a system, as data: `Ring::STRUCTURE`, an associated constant of
+/// [`Lagrangian`](crate::Lagrangian).
 ///
-/// `#[rayleigh_system]` finds them on the expressions of L, R and f as they are written. They are conservative: what is stated
-/// holds for every q, v and value of the fields; what cancels algebraically but not as written (q − q) is not found. A
-/// system written by hand has [`Structure::UNKNOWN`], unless it says more:
+/// `#[rayleigh_system]` finds them on the expressions of L, R and f as they are written. They are
+/// conservative: what is stated holds for every q, v and value of the fields; what cancels algebraically but
+/// not as written (q − q) is not found. A system written by hand has [`Structure::UNKNOWN`], unless it says
+/// more:
 ///
 /// ```
 /// use dalembert::system::{Damping, Engine, Structure};
@@ -78,7 +80,8 @@ pub enum Damping {
     Absent,
     /// R is a polynomial of degree at most 2 in v alone: the force is −C v + c, with C and c constant.
     Linear,
-    /// R is a polynomial of degree at most 2 in v with coefficients that depend on q: the force is −C(q) v + c(q).
+    /// R is a polynomial of degree at most 2 in v with coefficients that depend on q: the force is −C(q) v +
+    /// c(q).
     LinearByConfiguration,
     /// Any other.
     Nonlinear,

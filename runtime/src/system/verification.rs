@@ -1,8 +1,9 @@
 //! Whether the derivatives belong to the functions as written.
 //!
-//! Derivatives that the macro writes out come with a value, of the operations that it read off the body. It is that of the
-//! user's own function, bit by bit; where it is not, the derivatives are those of another function. Each function of this module
-//! compares the two at one point. NaN counts as equal to NaN, and 0 to −0.
+//! Derivatives that the macro writes out come with a value, of the operations that it read off the body. It
+//! is that of the user's own function, bit by bit; where it is not, the derivatives are those of another
+//! function. Each function of this module compares the two at one point. NaN counts as equal to NaN, and 0 to
+//! −0.
 //!
 //! | when | where |
 //! |---|---|
@@ -10,8 +11,9 @@
 //! | the start of a run: [`Trajectory`](crate::Trajectory), compositions, splittings, [`resume`](crate::Trajectory::resume) | at the state, and beside it |
 //! | every step, with `debug_assertions` | at the points where the rule evaluates the step taken |
 //!
-//! A difference is [`StepError::GeneratedDiffers`](crate::StepError::GeneratedDiffers). Systems written by hand, and those of dual numbers, have one value and
-//! nothing to compare. On x86 processors without SSE2 nothing is compared: their registers round differently each time.
+//! A difference is [`StepError::GeneratedDiffers`](crate::StepError::GeneratedDiffers). Systems written by
+//! hand, and those of dual numbers, have one value and nothing to compare. On x86 processors without SSE2
+//! nothing is compared: their registers round differently each time.
 
 use core::hint::black_box;
 
@@ -34,8 +36,8 @@ pub fn lagrangian<L: Lagrangian<N>, const N: usize>(
     q: &SVector<L::Scalar, N>,
     v: &SVector<L::Scalar, N>,
 ) -> Result<(), GeneratedDiffers> {
-    // Neither side knows more of its arguments than the other: a constant folded by the compiler on one side alone, with the
-    // elementary functions of another machine, would differ.
+    // Neither side knows more of its arguments than the other: a constant folded by the compiler on one side
+    // alone, with the elementary functions of another machine, would differ.
     let (system, q, v) = black_box((system, q, v));
     compare(Function::Lagrangian, system.lagrangian_gradient(q, v).value, system.lagrangian(q, v))
 }
@@ -90,7 +92,8 @@ pub(crate) const fn has_two_values(engine: Engine) -> bool {
     matches!(engine, Engine::Expanded)
 }
 
-/// Verifies a system at (q, v), and beside it: at rest, and where a coordinate is 0, functions agree by chance.
+/// Verifies a system at (q, v), and beside it: at rest, and where a coordinate is 0, functions agree by
+/// chance.
 pub(crate) fn around<L: Lagrangian<N>, const N: usize>(
     system: &L,
     q: &SVector<L::Scalar, N>,

@@ -19,11 +19,13 @@ use crate::system::{Force, Lagrangian, Rayleigh};
 /// remainder  = change + dissipated − work
 /// ```
 ///
-/// The remainder is numerical: what the method, not the mechanics, did to the energy. Where nothing is stiff it is h³ times a
-/// constant a step for a method of order 2 and above; one that keeps its sign from step to step is a method that drifts.
+/// The remainder is numerical: what the method, not the mechanics, did to the energy. Where nothing is stiff
+/// it is h³ times a constant a step for a method of order 2 and above; one that keeps its sign from step to
+/// step is a method that drifts.
 ///
-/// A system that takes the time is given as it is at the start of the step, `system.at_time(t)`. Where L itself takes it, the
-/// remainder also holds −∫ ∂L/∂t dt, what moving constraints and changing parameters bring.
+/// A system that takes the time is given as it is at the start of the step, `system.at_time(t)`. Where L
+/// itself takes it, the remainder also holds −∫ ∂L/∂t dt, what moving constraints and changing parameters
+/// bring.
 ///
 /// ```
 /// use dalembert::{Discretise, EnergyLedger, Midpoint, State, Trajectory, rayleigh_system};

@@ -5,20 +5,23 @@
 //! f_d^ex+ = ∫₀ʰ f_L·∂q(t)/∂q1 dt,   f_d^ex− = ∫₀ʰ f_L·∂q(t)/∂q0 dt
 //! ```
 //!
-//! along the forced motion with q(0) = q0 and q(h) = q1 (paper, section 3.4; Marsden and West 2001, section 3.2). The
-//! discrete flow of these objects is the continuous flow, which makes them the measure of every rule of discretisation.
+//! along the forced motion with q(0) = q0 and q(h) = q1 (paper, section 3.4; Marsden and West 2001, section
+//! 3.2). The discrete flow of these objects is the continuous flow, which makes them the measure of every
+//! rule of discretisation.
 //!
-//! The motion is found by shooting, from whichever end tells it better, and its variations are carried beside it, by an implicit
-//! method of order 15 that damping may be stiff to, in steps as long as the motion allows. Where L, R or f takes the time, the motion
-//! of a view is that which starts at its time, and goes on from there. What is reached, for smooth systems and moderate h:
+//! The motion is found by shooting, from whichever end tells it better, and its variations are carried beside
+//! it, by an implicit method of order 15 that damping may be stiff to, in steps as long as the motion allows.
+//! Where L, R or f takes the time, the motion of a view is that which starts at its time, and goes on from
+//! there. What is reached, for smooth systems and moderate h:
 //!
 //! | object | by | relative error |
 //! |---|---|---|
 //! | L_d^ex, D1 L_d^ex, D2 L_d^ex, f_d^ex±, p0, p1, ∂p/∂q | second derivatives of L, first of f: no differences | 1e-14 |
 //! | D11, D12, D22 of L_d^ex; D1, D2 of f_d^ex± | third derivatives of L by differences of the second ones | 1e-12 |
 //!
-//! Each result states its own error estimates: [`Segment::report`], [`SecondDerivatives::force_error`]. What would be wrong by more than
-//! [`Exact::WORST`] is an error, and so is a question that takes more than [`Exact::EVALUATIONS`] evaluations of L and f.
+//! Each result states its own error estimates: [`Segment::report`], [`SecondDerivatives::force_error`]. What
+//! would be wrong by more than [`Exact::WORST`] is an error, and so is a question that takes more than
+//! [`Exact::EVALUATIONS`] evaluations of L and f.
 //!
 //! ```
 //! use dalembert::exact::Exact;
@@ -126,7 +129,8 @@ where
     L: Lagrangian<N, Scalar = f64>,
     F: ActingForce<L, N>,
 {
-    /// Evaluations of L and f, with their derivatives, that one question may take. A segment in the tests takes some thousands.
+    /// Evaluations of L and f, with their derivatives, that one question may take. A segment in the tests
+    /// takes some thousands.
     pub const EVALUATIONS: usize = Work::LIMIT;
 
     /// The largest error estimate, relative to the largest of the motion, that a result is given with.
@@ -137,13 +141,15 @@ where
         self.system
     }
 
-    /// L_d^ex with its first derivatives and f_d^ex on the segment (q0, q1), with both momenta and their derivatives.
+    /// L_d^ex with its first derivatives and f_d^ex on the segment (q0, q1), with both momenta and their
+    /// derivatives.
     ///
-    /// h may be negative. The motion sought is the one near the straight line; where several join q0 to q1 (a pendulum
-    /// that may turn over), [`segment_near`](Self::segment_near) chooses.
+    /// h may be negative. The motion sought is the one near the straight line; where several join q0 to q1 (a
+    /// pendulum that may turn over), [`segment_near`](Self::segment_near) chooses.
     ///
     /// # Errors
-    /// An [`ExactError`]: conjugate points, no motion found, degenerate L, non-finite values, motion not resolved.
+    /// An [`ExactError`]: conjugate points, no motion found, degenerate L, non-finite values, motion not
+    /// resolved.
     pub fn segment(
         &self,
         q0: impl Into<SVector<f64, N>>,
@@ -170,8 +176,8 @@ where
     /// D11, D12, D22 of L_d^ex and D1, D2 of f_d^ex± on a segment.
     ///
     /// # Errors
-    /// [`ExactError::NotDifferentiable`] where third derivatives of L cannot be had by differences of the second ones;
-    /// otherwise as [`segment`](Self::segment).
+    /// [`ExactError::NotDifferentiable`] where third derivatives of L cannot be had by differences of the
+    /// second ones; otherwise as [`segment`](Self::segment).
     pub fn second_derivatives(&self, segment: &Segment<N>) -> Result<SecondDerivatives<N>, ExactError> {
         let work = Work::new();
         if segment.course.reversed {
@@ -272,7 +278,8 @@ where
             }
             Err(failure) => failure,
         };
-        // The start does not tell the end, or a trial escapes on the way. A guess is kept to by where its motion ends.
+        // The start does not tell the end, or a trial escapes on the way. A guess is kept to by where its
+        // motion ends.
         let by_guess = guess.map(|_| work.with_share(8, || forwards.directly(h, guess.as_ref(), WORST)));
         let end = by_guess.as_ref().and_then(|found| found.as_ref().ok()).map(|shot| shot.end.v);
         if guess.is_none() || end.is_some() {

@@ -1,17 +1,21 @@
-//! Discrete Hamilton–Jacobi theory with forces: what the paper defines, evaluated as printed, and the corrected theory.
+//! Discrete Hamilton–Jacobi theory with forces: what the paper defines, evaluated as printed, and the
+//! corrected theory.
 //!
-//! Start from [`Discretised::hamilton_jacobi`](crate::Discretised::hamilton_jacobi). Every check returns a report: for each equation whether it holds, the residual, the
-//! place where it is worst, and the tolerance that it was held against.
+//! Start from [`Discretised::hamilton_jacobi`](crate::Discretised::hamilton_jacobi). Every check returns a
+//! report: for each equation whether it holds, the residual, the place where it is worst, and the tolerance
+//! that it was held against.
 //!
-//! **As printed** (paper, section 4). One family of functions S_k gives γ⁻ = DS_k − f_d⁻ and γ⁺ = DS_{k+1} + f_d⁺, which
-//! are to be the momenta at both ends of a segment. They are only where there is no net force at the nodes,
+//! **As printed** (paper, section 4). One family of functions S_k gives γ⁻ = DS_k − f_d⁻ and γ⁺ = DS_{k+1} +
+//! f_d⁺, which are to be the momenta at both ends of a segment. They are only where there is no net force at
+//! the nodes,
 //!
 //! ```text
 //! f_d⁺(q_{k−1}, q_k) + f_d⁻(q_k, q_{k+1}) = 0
 //! ```
 //!
-//! [`HamiltonJacobi::as_printed`] evaluates all of it on a family and a trajectory, [`HamiltonJacobi::along_trajectory`]
-//! where S_k is the discrete action along one trajectory, [`HamiltonJacobi::right_equation_everywhere`] for all q.
+//! [`HamiltonJacobi::as_printed`] evaluates all of it on a family and a trajectory,
+//! [`HamiltonJacobi::along_trajectory`] where S_k is the discrete action along one trajectory,
+//! [`HamiltonJacobi::right_equation_everywhere`] for all q.
 //!
 //! **Corrected.** Sections γ_k: Q → T*Q and maps F_k: Q → Q with
 //!
@@ -25,15 +29,17 @@
 //! S_{k+1}(F_k(q)) − S_k(q) = L_d(q, F_k(q)) + W_k(q),     dW_k = f_d⁻(q, F_k(q)) + DF_k(q)ᵀ f_d⁺(q, F_k(q))
 //! ```
 //!
-//! W_k is the virtual work of the discrete force; without force it is constant and this is the discrete Hamilton–Jacobi
-//! equation of Ohsawa, Bloch and Leok (SIAM J. Control Optim. 49, 2011). [`HamiltonJacobi::check_sections`],
-//! [`check_solution`](HamiltonJacobi::check_solution) and
-//! [`check_generating_functions`](HamiltonJacobi::check_generating_functions) say whether a candidate is a solution;
-//! [`HamiltonJacobi::carry`] makes one from γ_0, with the tangent frame (Q_k, P_k) along each characteristic, and
-//! [`HamiltonJacobi::characteristics_report`] its closedness defect Q_kᵀP_k − P_kᵀQ_k and its caustics det Q_k = 0.
+//! W_k is the virtual work of the discrete force; without force it is constant and this is the discrete
+//! Hamilton–Jacobi equation of Ohsawa, Bloch and Leok (SIAM J. Control Optim. 49, 2011).
+//! [`HamiltonJacobi::check_sections`], [`check_solution`](HamiltonJacobi::check_solution) and
+//! [`check_generating_functions`](HamiltonJacobi::check_generating_functions) say whether a candidate is a
+//! solution; [`HamiltonJacobi::carry`] makes one from γ_0, with the tangent frame (Q_k, P_k) along each
+//! characteristic, and [`HamiltonJacobi::characteristics_report`] its closedness defect Q_kᵀP_k − P_kᵀQ_k and
+//! its caustics det Q_k = 0.
 
 //!
-//! Of a system at a time t0, a view, step k and its segment (q_k, q_{k+1}) are those of t0 + k h, in every check of a sequence.
+//! Of a system at a time t0, a view, step k and its segment (q_k, q_{k+1}) are those of t0 + k h, in every
+//! check of a sequence.
 
 mod caustics;
 mod characteristics;
@@ -112,10 +118,11 @@ where
         Self { system, rule: PhantomData, h, relative: ROUNDINGS * L::Scalar::EPSILON.widen() }
     }
 
-    /// The same with another relative tolerance, for candidates whose own values carry more than rounding errors.
+    /// The same with another relative tolerance, for candidates whose own values carry more than rounding
+    /// errors.
     ///
-    /// An equation holds if its residual is at most `relative` × the size of its terms, with the rounding of what they are evaluated at;
-    /// 256 ε if not said.
+    /// An equation holds if its residual is at most `relative` × the size of its terms, with the rounding of
+    /// what they are evaluated at; 256 ε if not said.
     #[must_use]
     pub fn with_tolerance(self, relative: f64) -> Self {
         Self { relative, ..self }

@@ -9,14 +9,16 @@
 //! ξ(L_d) = D1 L_d·ξ(q0) + D2 L_d·ξ(q1),   f_d(ξ) = f_d⁻·ξ(q0) + f_d⁺·ξ(q1)
 //! ```
 //!
-//! Of a system at a time t0, a view, the k-th segment is judged at t0 + k h, and so is the k-th step of a balance.
+//! Of a system at a time t0, a view, the k-th segment is judged at t0 + k h, and so is the k-th step of a
+//! balance.
 //!
-//! J is conserved iff the defect vanishes: a symmetry of L_d on which the force does no work, or the two cancelling.
+//! J is conserved iff the defect vanishes: a symmetry of L_d on which the force does no work, or the two
+//! cancelling.
 //!
-//! Beware of how a force is discretised. A force that does no work along ξ, f(q, v)·ξ(q) = 0, does none along it in the
-//! midpoint rule either when ξ is affine; the same force taken from a Rayleigh function R(q, v) does, to order h³ a step,
-//! through ∂R/∂q: f_d(ξ) = D1 R_d·ξ(q0) − D2 R_d·ξ(q1) does not vanish for an invariant R_d. In coordinates that make ξ a
-//! translation it does none in either.
+//! Beware of how a force is discretised. A force that does no work along ξ, f(q, v)·ξ(q) = 0, does none along
+//! it in the midpoint rule either when ξ is affine; the same force taken from a Rayleigh function R(q, v)
+//! does, to order h³ a step, through ∂R/∂q: f_d(ξ) = D1 R_d·ξ(q0) − D2 R_d·ξ(q1) does not vanish for an
+//! invariant R_d. In coordinates that make ξ a translation it does none in either.
 //!
 //! ```
 //! use dalembert::noether::{Generator, Noether};

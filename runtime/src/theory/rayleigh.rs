@@ -1,5 +1,5 @@
-//! The Rayleigh structure of forced discrete systems (paper, sections 3.3 and 3.4): does f_d have a potential, which one,
-//! which systems are equivalent, and is R dissipative.
+//! The Rayleigh structure of forced discrete systems (paper, sections 3.3 and 3.4): does f_d have a
+//! potential, which one, which systems are equivalent, and is R dissipative.
 //!
 //! ```text
 //! f_d⁻ = D1 R_d,  f_d⁺ = −D2 R_d                                                   f_d is Rayleigh
@@ -13,8 +13,8 @@
 //!
 //! Of a system at a time t0, a view, the k-th segment is judged at t0 + k h.
 //!
-//! The first condition has three parts (the paper prints the last alone, which is enough for n = 1), and χ the sign + before
-//! φ1 and − before φ0.
+//! The first condition has three parts (the paper prints the last alone, which is enough for n = 1), and χ
+//! the sign + before φ1 and − before φ0.
 //!
 //! ```
 //! use dalembert::rayleigh::{Potential, structure};
@@ -78,8 +78,8 @@ pub struct Residual<const N: usize> {
 }
 
 impl<const N: usize> Residual<N> {
-    /// Whether it is zero to rounding at every sample. A tolerance that the quadrature's error brings up to the size of the terms
-    /// says nothing.
+    /// Whether it is zero to rounding at every sample. A tolerance that the quadrature's error brings up to
+    /// the size of the terms says nothing.
     #[must_use]
     pub fn vanishes(&self) -> bool {
         is_zero(self.worst.value, self.tolerance) && tells(self.tolerance, self.terms)

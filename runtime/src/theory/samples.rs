@@ -1,13 +1,15 @@
-//! Where the checkers look: segments (q0, q1) of Q×Q, points of a region, and the worst of what was found there.
+//! Where the checkers look: segments (q0, q1) of Q×Q, points of a region, and the worst of what was found
+//! there.
 //!
-//! A checker's verdict is about the points that it was given. Points of a region, spread evenly by [`region`] and
-//! [`segments`], speak for the region; those of one trajectory ([`Segment::along`]) for that trajectory alone.
+//! A checker's verdict is about the points that it was given. Points of a region, spread evenly by [`region`]
+//! and [`segments`], speak for the region; those of one trajectory ([`Segment::along`]) for that trajectory
+//! alone.
 //!
-//! Of a system at a time t0, a view, the k-th segment starts at t0 + k h: the segments of a trajectory each at its own time, those of
-//! a region at times spread over as many steps.
+//! Of a system at a time t0, a view, the k-th segment starts at t0 + k h: the segments of a trajectory each
+//! at its own time, those of a region at times spread over as many steps.
 //!
-//! No verdict is given on samples that prove nothing: a NaN or an infinity is a [`SampleError`], and so are samples that cannot tell
-//! yes from no, such as segments that do not move.
+//! No verdict is given on samples that prove nothing: a NaN or an infinity is a [`SampleError`], and so are
+//! samples that cannot tell yes from no, such as segments that do not move.
 
 use core::fmt;
 
@@ -38,7 +40,8 @@ impl<S: Scalar, const N: usize> Segment<S, N> {
         path.windows(2).map(|pair| Self { q0: pair[0], q1: pair[1] }).collect()
     }
 
-    /// Whether it leads anywhere: one at rest says nothing of what depends on velocities, nor does one whose squares underflow.
+    /// Whether it leads anywhere: one at rest says nothing of what depends on velocities, nor does one whose
+    /// squares underflow.
     pub(crate) fn moves(&self) -> bool {
         is_felt(&(self.q1 - self.q0))
     }
@@ -83,8 +86,8 @@ pub(crate) fn coordinates<S: fmt::Display, const N: usize>(
     f.write_str(")")
 }
 
-/// `count` points spread evenly over the box from `low` to `high`: the additive sequence with the ratios g⁻¹, g⁻², …,
-/// g the positive root of x^{N+1} = x + 1 (the generalised golden ratio; Roberts, 2018).
+/// `count` points spread evenly over the box from `low` to `high`: the additive sequence with the ratios g⁻¹,
+/// g⁻², …, g the positive root of x^{N+1} = x + 1 (the generalised golden ratio; Roberts, 2018).
 ///
 /// The same points each time: a verdict can be repeated.
 #[must_use]
@@ -141,7 +144,8 @@ struct Ratios(f64);
 
 impl Ratios {
     fn new(dimensions: usize) -> Self {
-        // The fixed point of x = (1 + x)^{1/(d+1)}: the map contracts by less than ½, 64 iterations are plenty.
+        // The fixed point of x = (1 + x)^{1/(d+1)}: the map contracts by less than ½, 64 iterations are
+        // plenty.
         let exponent = 1.0 / (dimensions as f64 + 1.0);
         Self((0..64).fold(1.5_f64, |g, _| (1.0 + g).powf(exponent)))
     }
@@ -168,7 +172,8 @@ pub(crate) fn at_segment<L: Lagrangian<N>, T, const N: usize>(
     system.later(L::Scalar::constant(h.widen() * k as f64), evaluate)
 }
 
-/// Fails on a step size that no verdict can be given for: with one below the normal numbers, forces underflow to an exact 0.
+/// Fails on a step size that no verdict can be given for: with one below the normal numbers, forces underflow
+/// to an exact 0.
 pub(crate) fn require_step_size<S: Scalar>(h: S) -> Result<(), SampleError> {
     let size = h.widen().abs();
     if size >= S::SMALLEST_NORMAL.widen() && size.is_finite() { Ok(()) } else { Err(SampleError::StepSize) }
@@ -202,7 +207,8 @@ pub struct Worst<const N: usize> {
 }
 
 impl<const N: usize> Worst<N> {
-    /// The value furthest above its tolerance, `relative` × its scale, with that tolerance. All have to be finite.
+    /// The value furthest above its tolerance, `relative` × its scale, with that tolerance. All have to be
+    /// finite.
     pub(crate) fn of<S: Scalar>(
         segments: &[Segment<S, N>],
         relative: f64,
@@ -241,8 +247,8 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
-    /// Rounding that a checker allows unless told otherwise, in units of ε: a derivative of L or R takes some hundreds of
-    /// roundings.
+    /// Rounding that a checker allows unless told otherwise, in units of ε: a derivative of L or R takes some
+    /// hundreds of roundings.
     pub(crate) const ROUNDINGS: f64 = 1024.0;
 
     /// The default for the scalar type `S`.
@@ -257,8 +263,8 @@ impl Tolerance {
         self.relative * self.scale
     }
 
-    /// Whether `value` counts as zero: it and the bound are finite, and the bound is less than the size of the terms, which the value
-    /// cannot exceed.
+    /// Whether `value` counts as zero: it and the bound are finite, and the bound is less than the size of
+    /// the terms, which the value cannot exceed.
     #[must_use]
     pub fn covers(&self, value: f64) -> bool {
         (0.0..1.0).contains(&self.relative) && is_zero(value, self.bound())
@@ -324,7 +330,8 @@ mod tests {
 
     #[test]
     fn a_region_is_filled_evenly() {
-        // Counts in the 16 cells of a 4×4 grid: 1000 points, 62.5 expected; independent points would spread by ±8.
+        // Counts in the 16 cells of a 4×4 grid: 1000 points, 62.5 expected; independent points would spread
+        // by ±8.
         let mut cells = [0; 16];
         for q in region::<f64, 2>([0.0, 0.0], [4.0, 4.0], 1000) {
             cells[4 * q[0] as usize + q[1] as usize] += 1;

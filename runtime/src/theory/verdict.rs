@@ -1,7 +1,8 @@
 //! What counts as zero: one rule for every verdict of every checker.
 //!
-//! A quantity counts as zero if it is finite, is held against a finite tolerance, and is within it. What is NaN or infinite on either
-//! side proves nothing, and no checker says yes to it. Samples at which nothing could have been found prove nothing either
+//! A quantity counts as zero if it is finite, is held against a finite tolerance, and is within it. What is
+//! NaN or infinite on either side proves nothing, and no checker says yes to it. Samples at which nothing
+//! could have been found prove nothing either
 //! ([`SampleError::Uninformative`](crate::samples::SampleError::Uninformative)).
 
 /// Whether `value` counts as zero.
@@ -23,7 +24,8 @@ pub(crate) fn excess(value: f64, tolerance: f64) -> f64 {
 /// A tolerance of this share of the terms leaves one digit of them.
 const SHARE: f64 = 0.1;
 
-/// Whether a tolerance says anything: it leaves a digit of the terms that the quantity is a sum of, or nothing is to be forgiven.
+/// Whether a tolerance says anything: it leaves a digit of the terms that the quantity is a sum of, or
+/// nothing is to be forgiven.
 pub(crate) fn tells(tolerance: f64, terms: f64) -> bool {
     tolerance < SHARE * terms || tolerance == 0.0
 }
@@ -35,10 +37,11 @@ pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     })
 }
 
-/// The size of the terms that each sample's value is held against: its own, but no less than what half of the samples exceed.
+/// The size of the terms that each sample's value is held against: its own, but no less than what half of the
+/// samples exceed.
 ///
-/// Terms that happen to be small at one sample are themselves rounded like their larger parts. The largest of all would let one
-/// sample far out excuse every other.
+/// Terms that happen to be small at one sample are themselves rounded like their larger parts. The largest of
+/// all would let one sample far out excuse every other.
 pub(crate) fn scales(sizes: &[f64]) -> Vec<f64> {
     let median = median(sizes.iter().copied());
     sizes.iter().map(|&size| if size > median || size.is_nan() { size } else { median }).collect()

@@ -21,7 +21,8 @@ fn the_page_ends_with_what_has_no_figures() {
     assert!(the_page().ends_with(&text), "run `{command}`");
 }
 
-/// The cases that take no time, run again: the page has what they find. Long ones are of the same run as these.
+/// The cases that take no time, run again: the page has what they find. Long ones are of the same run as
+/// these.
 #[test]
 fn quick_cases_find_what_the_page_says() {
     let page = the_page();

@@ -19,8 +19,8 @@ const COUNTS: [u64; 7] = [100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000, 30
 /// Starts on one circle of energy.
 const STARTS: usize = 8;
 
-/// Relative errors of the quadratic form that the rule keeps exactly, by start and count. Single steps, as opposed to a run, keep nothing from one
-/// to the next: no compensation.
+/// Relative errors of the quadratic form that the rule keeps exactly, by start and count. Single steps, as
+/// opposed to a run, keep nothing from one to the next: no compensation.
 fn walks<R: Copy>(rule: R, form: f64, single: bool) -> Result<Vec<[f64; COUNTS.len()]>>
 where
     Oscillator: Discrete<R, 1, Scalar = f64>,

@@ -4,8 +4,9 @@
 //! cargo study hard_cases [text | case…]
 //! ```
 //!
-//! With names of cases it runs these, prints what they found and draws their pictures in `target/hard-cases/`: the page and its pictures are of
-//! one run. With `text` it runs none and writes the page's text without figures anew.
+//! With names of cases it runs these, prints what they found and draws their pictures in
+//! `target/hard-cases/`: the page and its pictures are of one run. With `text` it runs none and writes the
+//! page's text without figures anew.
 
 mod conservative;
 mod frictional;

@@ -1,5 +1,5 @@
-//! The classes of constructs that programs are made of. Each program draws some of them, so that rare combinations occur and
-//! one refused construct does not refuse all.
+//! The classes of constructs that programs are made of. Each program draws some of them, so that rare
+//! combinations occur and one refused construct does not refuse all.
 
 macro_rules! classes {
     ($($variant:ident $name:literal $percent:literal)*) => {

@@ -1,5 +1,5 @@
-//! What a program must compute at a point: values in the arithmetic of its own numbers, derivatives by num-dual and by
-//! central differences in 32 digits.
+//! What a program must compute at a point: values in the arithmetic of its own numbers, derivatives by
+//! num-dual and by central differences in 32 digits.
 
 use super::interpret::{Evaluated, Exit, Interpreter, Result};
 use super::number::{Dual, Number, VARIABLES};
@@ -73,8 +73,8 @@ pub fn values(program: &Program, point: &Point) -> Option<Vec<f64>> {
     by_scalar(program.single).ok()
 }
 
-/// Everything at the points of a program, or nothing where its plain functions panic. Differences are taken at the first point
-/// that has derivatives; num-dual speaks for the others.
+/// Everything at the points of a program, or nothing where its plain functions panic. Differences are taken
+/// at the first point that has derivatives; num-dual speaks for the others.
 pub fn all_points(program: &Program, points: &[Point]) -> Option<Vec<Expected>> {
     let mut is_first = true;
     points

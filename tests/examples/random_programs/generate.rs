@@ -1,7 +1,7 @@
 //! Random programs, directed by types: what is written compiles.
 //!
-//! Borrows are kept apart by three lists: names that may not be read, names that may not be changed, and, for closures and
-//! iterators that live on, the rule that they see immutable names alone.
+//! Borrows are kept apart by three lists: names that may not be read, names that may not be changed, and, for
+//! closures and iterators that live on, the rule that they see immutable names alone.
 
 mod chain;
 mod choice;
@@ -82,7 +82,8 @@ struct Binding {
     name: String,
     ty: Type,
     mutable: bool,
-    /// Whether an integer or bool is known when the macro runs: no field and no comparison of numbers decides it.
+    /// Whether an integer or bool is known when the macro runs: no field and no comparison of numbers
+    /// decides it.
     fixed: bool,
     /// An integer below this.
     below: Option<usize>,

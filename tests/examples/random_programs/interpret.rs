@@ -1,5 +1,5 @@
-//! Programs run over any [`Number`], with Rust's semantics: written from the reference, not from the macro, and held to rustc's
-//! own plain function to the bit.
+//! Programs run over any [`Number`], with Rust's semantics: written from the reference, not from the macro,
+//! and held to rustc's own plain function to the bit.
 
 mod integer;
 mod iterator;

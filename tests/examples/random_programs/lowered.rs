@@ -1,4 +1,5 @@
-//! What the generated code computes, without compiling it: the body lowered by the macro's own stages, and the graph evaluated.
+//! What the generated code computes, without compiling it: the body lowered by the macro's own stages, and
+//! the graph evaluated.
 
 mod parameter;
 

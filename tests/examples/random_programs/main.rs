@@ -1,4 +1,5 @@
-//! Random programs over the language of `#[rayleigh_system]`: refused with a message, or computed as rustc does.
+//! Random programs over the language of `#[rayleigh_system]`: refused with a message, or computed as rustc
+//! does.
 //!
 //! ```sh
 //! cargo study random_programs -- <count> <seed>             # graphs evaluated
@@ -7,8 +8,9 @@
 //! cargo study random_programs -- page                       # docs/random-programs.md
 //! ```
 //!
-//! `compiled` may be followed by an engine: `expanded` unless said, `auto`, `num_dual`, or `portable` for the elementary
-//! functions of the runtime. `show <seed>` prints a program, `shrink <seed>` the smallest part of it that fails.
+//! `compiled` may be followed by an engine: `expanded` unless said, `auto`, `num_dual`, or `portable` for the
+//! elementary functions of the runtime. `show <seed>` prints a program, `shrink <seed>` the smallest part of
+//! it that fails.
 
 mod batch;
 mod class;

@@ -10,7 +10,8 @@ use super::run::{folder, workspace};
 /// Programs tried at most.
 const PROGRAMS: &str = "8000";
 
-/// A mistake, as edits of `macros/src/rayleigh_system`, each of which asks [`is_made`] whether it is in force.
+/// A mistake, as edits of `macros/src/rayleigh_system`, each of which asks [`is_made`] whether it is in
+/// force.
 struct Mutation {
     mistake: &'static str,
     edits: &'static [Edit],

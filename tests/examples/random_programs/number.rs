@@ -1,5 +1,5 @@
-//! The numbers that a program is evaluated over: doubles and singles as rustc computes them, duals for derivatives, numbers
-//! of two doubles for difference quotients.
+//! The numbers that a program is evaluated over: doubles and singles as rustc computes them, duals for
+//! derivatives, numbers of two doubles for difference quotients.
 
 use num_dual::{Dual2SVec64, DualNum};
 

@@ -1,4 +1,5 @@
-//! Failing programs cut down: statements dropped, expressions replaced by their parts, while they go on failing.
+//! Failing programs cut down: statements dropped, expressions replaced by their parts, while they go on
+//! failing.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 

@@ -1,4 +1,5 @@
-//! Programs as trees: what the generator builds, the interpreter runs, the printer writes and the shrinker cuts.
+//! Programs as trees: what the generator builds, the interpreter runs, the printer writes and the shrinker
+//! cuts.
 
 use std::collections::BTreeSet;
 

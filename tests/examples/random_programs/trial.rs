@@ -15,7 +15,8 @@ use super::verdict::{self, Verdict};
 /// What became of a program.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Trial {
-    /// The plain function would panic or run too long, or rustc refuses it without the macro as well: no program at all.
+    /// The plain function would panic or run too long, or rustc refuses it without the macro as well: no
+    /// program at all.
     Discarded,
     Refused(String),
     /// Values agree at all points; so many points had their derivatives compared, and so many not.
@@ -46,8 +47,8 @@ pub fn reaction(program: &Program, engine: &str, runtime: Runtime) -> Option<Tri
     }
 }
 
-/// What rustc said: the runtime's own words for what dual numbers cannot follow are a refusal, anything else is a mistake in
-/// generated code.
+/// What rustc said: the runtime's own words for what dual numbers cannot follow are a refusal, anything else
+/// is a mistake in generated code.
 pub fn told_by_rustc(error: &str) -> Trial {
     const WORDS: [&str; 5] = [
         "cannot be used in a differentiated body",
@@ -85,7 +86,8 @@ pub fn judged<'c>(
     Trial::Agrees { compared, near_branch, too_large }
 }
 
-/// A program tried without rustc: its graph evaluated. A panic is a failure, of the study if not of the macro.
+/// A program tried without rustc: its graph evaluated. A panic is a failure, of the study if not of the
+/// macro.
 pub fn by_graph(program: &Program) -> Trial {
     catch_unwind(AssertUnwindSafe(|| graph_tried(program))).unwrap_or_else(|panic| {
         let message = panic.downcast_ref::<String>().cloned();

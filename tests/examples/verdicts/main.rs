@@ -1,13 +1,14 @@
-//! The study of verdicts: random steps by every rule, each held against its equations in twice the precision; `docs/verdicts.md`.
+//! The study of verdicts: random steps by every rule, each held against its equations in twice the precision;
+//! `docs/verdicts.md`.
 //!
 //! ```text
 //! cargo study verdicts -- NAME DRAWS FIRST LAST
 //! cargo study verdicts -- page
 //! ```
 //!
-//! The first takes so many draws of every system with each seed from FIRST to LAST, adds the counts of every seed to
-//! `target/verdicts/NAME.txt`, from which a later run goes on, and fails if a step violates its equations; the second writes the page from
-//! the counts under the names `now` and `before`.
+//! The first takes so many draws of every system with each seed from FIRST to LAST, adds the counts of every
+//! seed to `target/verdicts/NAME.txt`, from which a later run goes on, and fails if a step violates its
+//! equations; the second writes the page from the counts under the names `now` and `before`.
 
 mod counts;
 mod page;

@@ -1,5 +1,5 @@
-//! A crate that knows dalembert as `mechanics`: the attribute is told by `crate = mechanics`, and whatever it generated under
-//! the old name would not compile here.
+//! A crate that knows dalembert as `mechanics`: the attribute is told by `crate = mechanics`, and whatever it
+//! generated under the old name would not compile here.
 
 #[cfg(test)]
 mod tests {

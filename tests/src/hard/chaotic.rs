@@ -10,13 +10,15 @@ pub fn two_pendulums(q: [f64; 2], v: [f64; 2], r: f64) -> (f64, f64) {
 }
 
 impl TwoPendulums {
-    /// The upper arm level, the lower one hanging and thrown sideways at speed 4: E = 7, where both turn over.
+    /// The upper arm level, the lower one hanging and thrown sideways at speed 4: E = 7, where both turn
+    /// over.
     pub fn high_energy(&self) -> State<f64, 2> {
         State { q: [std::f64::consts::FRAC_PI_2, 0.0].into(), p: [0.0, 4.0].into() }
     }
 }
 
-/// L = ½|v|² − ½|q|² − x²y + ⅓y³. At E = 1/6 the motion reaches the saddles of V; almost all of it is chaotic.
+/// L = ½|v|² − ½|q|² − x²y + ⅓y³. At E = 1/6 the motion reaches the saddles of V; almost all of it is
+/// chaotic.
 #[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 pub fn henon_heiles(q: [f64; 2], v: [f64; 2], r: f64) -> (f64, f64) {
     let [x, y] = q;

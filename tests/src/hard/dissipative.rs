@@ -17,8 +17,8 @@ pub fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64, f: f64) -> (
 
 /// A block of mass 1 on a spring whose other end moves at speed u, on a floor with friction −μ tanh(v/ε).
 ///
-/// In the frame of the moving end the floor moves at −u: R = με ln cosh((v + u)/ε), in two pieces, of which the first keeps its
-/// digits near rest and the second does not overflow.
+/// In the frame of the moving end the floor moves at −u: R = με ln cosh((v + u)/ε), in two pieces, of which
+/// the first keeps its digits near rest and the second does not overflow.
 #[rayleigh_system(rule = [midpoint, trapezoidal, gauss, one_sided])]
 pub fn block(q: [f64; 1], v: [f64; 1], k: f64, mu: f64, u: f64, epsilon: f64) -> (f64, f64) {
     let x = ((v[0] + u) / epsilon).abs();
@@ -55,7 +55,7 @@ pub fn van_der_pol(q: [f64; 1], v: [f64; 1], mu: f64) -> (f64, f64) {
 }
 
 impl VanDerPol {
-    /// Period and amplitude of the limit cycle at μ = 1, to the digits shown: M. Urabe, Nonlinear Autonomous Oscillations
-    /// (1967); more digits by C. M. Andersen and J. F. Geer (1982).
+    /// Period and amplitude of the limit cycle at μ = 1, to the digits shown: M. Urabe, Nonlinear Autonomous
+    /// Oscillations (1967); more digits by C. M. Andersen and J. F. Geer (1982).
     pub const CYCLE: [f64; 2] = [6.663_286_859_3, 2.008_619_860_9];
 }

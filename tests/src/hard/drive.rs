@@ -29,7 +29,8 @@ pub struct Progress<const N: usize> {
     pub state: State<f64, N>,
 }
 
-/// Takes `steps` steps and shows every `stride`-th state to `look`; the first error ends the run and is returned with it.
+/// Takes `steps` steps and shows every `stride`-th state to `look`; the first error ends the run and is
+/// returned with it.
 pub fn drive<S, R, const N: usize>(
     system: &S,
     rule: R,

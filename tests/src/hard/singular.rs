@@ -22,8 +22,8 @@ impl MathewsLakshmanan {
     }
 }
 
-/// Two pendulums of length 1 under g = 1, the upper mass m small: det ∂²L/∂v² = m + sin²(q1 − q2), which all but vanishes where
-/// the arms align.
+/// Two pendulums of length 1 under g = 1, the upper mass m small: det ∂²L/∂v² = m + sin²(q1 − q2), which all
+/// but vanishes where the arms align.
 #[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 pub fn arm(q: [f64; 2], v: [f64; 2], m: f64, r: f64) -> (f64, f64) {
     let upper = 0.5 * m * v[0] * v[0];

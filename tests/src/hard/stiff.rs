@@ -2,7 +2,8 @@
 
 use dalembert::{State, rayleigh_system};
 
-/// A unit mass on a spring of unit length and stiffness k under g = 1, in the plane: √k is the ratio of the frequencies.
+/// A unit mass on a spring of unit length and stiffness k under g = 1, in the plane: √k is the ratio of the
+/// frequencies.
 #[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
 pub fn spring_pendulum(q: [f64; 2], v: [f64; 2], k: f64, r: f64) -> (f64, f64) {
     let speed = v[0] * v[0] + v[1] * v[1];
@@ -32,9 +33,9 @@ impl SpringPendulum {
 /// Stiff springs of the chain: 2m masses, m stiff springs.
 pub const FERMI: usize = 3;
 
-/// The chain of Fermi, Pasta, Ulam and Tsingou with stiff harmonic and soft quartic springs in turn, in the coordinates of
-/// Hairer, Lubich and Wanner, Geometric Numerical Integration, section I.5.1: x₀ᵢ scaled displacements, x₁ᵢ scaled expansions
-/// of the stiff springs.
+/// The chain of Fermi, Pasta, Ulam and Tsingou with stiff harmonic and soft quartic springs in turn, in the
+/// coordinates of Hairer, Lubich and Wanner, Geometric Numerical Integration, section I.5.1: x₀ᵢ scaled
+/// displacements, x₁ᵢ scaled expansions of the stiff springs.
 ///
 /// ```text
 /// V = ½ω² Σ x₁ᵢ² + ¼[(x₀₁ − x₁₁)⁴ + Σ (x₀ᵢ₊₁ − x₁ᵢ₊₁ − x₀ᵢ − x₁ᵢ)⁴ + (x₀ₘ + x₁ₘ)⁴]

@@ -202,7 +202,8 @@ fn pair(random: &mut Random) -> Motion {
     };
     let time = random.of_size(3.0, 60.0);
     let reference: Reference<2> = Box::new(move |times| {
-        // Modes of the very matrix: A = a aᵀ + κ² b bᵀ, a = (c, s), b = (−s, c), where c² + s² is 1 to rounding alone.
+        // Modes of the very matrix: A = a aᵀ + κ² b bᵀ, a = (c, s), b = (−s, c), where c² + s² is 1 to
+        // rounding alone.
         let (c, s) = (double(c), double(s));
         let square = double(kappa) * double(kappa);
         let [a, b, d] = [c * c + square * s * s, (double(1.0) - square) * c * s, s * s + square * c * c];
@@ -256,7 +257,8 @@ fn two_springs(random: &mut Random) -> Motion {
             loop {
                 let is_right = q.high > 0.0 || (q.high == 0.0 && p.high > 0.0);
                 let frequency = if is_right { double(k).sqrt() } else { double(1.0) };
-                // q = 0 next where the phase of (q, p/ω) reaches it: by the angle from there, found by Newton's method.
+                // q = 0 next where the phase of (q, p/ω) reaches it: by the angle from there, found by
+                // Newton's method.
                 let side = if is_right { double(1.0) } else { double(-1.0) };
                 let (x, y) = (side * q * frequency, side * p);
                 let mut angle = double(y.high.atan2(x.high) + PI / 2.0);

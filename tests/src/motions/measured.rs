@@ -132,8 +132,9 @@ impl Motion {
         (self.ask)(tolerance)
     }
 
-    /// The cheapest method and step size for each tolerance, in evaluations, found by trying all step sizes: of those of which all shorter
-    /// ones keep it as well. One step over the whole time ends well by accident where the motion has come to rest by then.
+    /// The cheapest method and step size for each tolerance, in evaluations, found by trying all step sizes:
+    /// of those of which all shorter ones keep it as well. One step over the whole time ends well by
+    /// accident where the motion has come to rest by then.
     pub fn cheapest(&self, tolerances: &[f64]) -> Vec<Cheapest> {
         (self.cheapest)(tolerances)
     }

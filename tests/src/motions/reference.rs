@@ -1,5 +1,5 @@
-//! Reference motions: the modified midpoint rule, extrapolated (W. B. Gragg 1965; R. Bulirsch and J. Stoer 1966), in numbers of twice
-//! the digits.
+//! Reference motions: the modified midpoint rule, extrapolated (W. B. Gragg 1965; R. Bulirsch and J. Stoer
+//! 1966), in numbers of twice the digits.
 
 use crate::double_double::DoubleDouble;
 

@@ -1,6 +1,6 @@
-//! Derivatives of the Gauss step in closed form, by both engines: of a linear system with input and time, whose step is a Padé
-//! approximant of the exponential, and of a chain of integrators, whose step is exact. Central differences stand in
-//! `linearization.rs` and `sensitivities.rs`.
+//! Derivatives of the Gauss step in closed form, by both engines: of a linear system with input and time,
+//! whose step is a Padé approximant of the exponential, and of a chain of integrators, whose step is exact.
+//! Central differences stand in `linearization.rs` and `sensitivities.rs`.
 
 /// The systems, with the options named.
 macro_rules! systems {
@@ -159,7 +159,8 @@ fn both<const S: usize>(
     let second = view.by(Gauss::<S>, h).step_hessian(&START.q, &step.state.q, &START).unwrap();
     assert_eq!((second.qq.amax(), second.qp.amax(), second.pp.amax()), (0.0, 0.0, 0.0));
     assert_eq!((second.qu.amax(), second.pu.amax(), second.uu.amax()), (0.0, 0.0, 0.0));
-    // Positive control: the approximant of another degree is another matrix, as far as they can be told apart.
+    // Positive control: the approximant of another degree is another matrix, as far as they can be told
+    // apart.
     if S < 6 && h > 1.0 {
         let other = pade(S + 1, &(&linear_flow(&LINEAR)[0] * h));
         assert!((other - exact).amax() > 1e-12, "S = {S}, h = {h}");
@@ -175,7 +176,8 @@ fn parameters<const S: usize>(h: f64) {
     let (step, of_step) = view.by(Gauss::<S>, h).step_by_parameters(&START).unwrap();
     let of_step = of_step.assembled::<4>();
     assert!(step.state.q == q1);
-    // Between two ends the momentum is what leads to q1: rounding of q1 comes in enlarged, the more the closer to a conjugate point.
+    // Between two ends the momentum is what leads to q1: rounding of q1 comes in enlarged, the more the
+    // closer to a conjugate point.
     let exact = pade(S, &(&flow * h));
     let enlarged = exact.fixed_view::<2, 2>(0, 2).into_owned().try_inverse().unwrap().amax();
     for (j, by) in by.iter().enumerate() {
@@ -209,7 +211,8 @@ fn a_linear_step_and_its_derivatives_are_pade_approximants() {
     for_stages!(1 2 3 4 5 6 7 8);
 }
 
-/// x = x₀ + p τ + u τ²/2 is a polynomial of the stages' degree, and ∫ t x² dt within the quadrature's, from S = 4 on.
+/// x = x₀ + p τ + u τ²/2 is a polynomial of the stages' degree, and ∫ t x² dt within the quadrature's, from
+/// S = 4 on.
 #[test]
 fn second_derivatives_of_exact_integrators() {
     let (h, t0) = (0.8_f64, 0.3);
@@ -431,8 +434,8 @@ fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
     (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
 }
 
-/// Where the end does not move with p0, the step has its derivative, though its ends do not determine it: at (ωh)² = 12 two
-/// stages turn the oscillator by half a turn, A = −1.
+/// Where the end does not move with p0, the step has its derivative, though its ends do not determine it: at
+/// (ωh)² = 12 two stages turn the oscillator by half a turn, A = −1.
 #[test]
 fn a_step_has_a_derivative_where_its_ends_do_not_determine_it() {
     let oscillator = Oscillator { m: 1.0, k: 1.0, r: 0.0 };

@@ -1,5 +1,6 @@
-//! The step matrix is exact: against central differences of the step, by its determinant, and by what the force makes of
-//! the symplectic form, for all rules, a general force and a mass and a Rayleigh function that depend on q.
+//! The step matrix is exact: against central differences of the step, by its determinant, and by what the
+//! force makes of the symplectic form, for all rules, a general force and a mass and a Rayleigh function that
+//! depend on q.
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::step::DiscreteRayleigh;

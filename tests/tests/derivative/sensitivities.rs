@@ -1,5 +1,6 @@
-//! Derivatives of the step by its input, by parameters and twice: against central differences, closed forms, the other
-//! engine and the identities of the step matrix, for all rules, with friction, time and inputs that act nonlinearly.
+//! Derivatives of the step by its input, by parameters and twice: against central differences, closed forms,
+//! the other engine and the identities of the step matrix, for all rules, with friction, time and inputs that
+//! act nonlinearly.
 
 /// The systems, with the options named.
 macro_rules! systems {

@@ -1,5 +1,5 @@
-//! Generated derivatives agree with num-dual called directly on L_d, R_d and f_d written by hand, and those agree with
-//! central differences. N = 1, 2, 3, and an N given by a constant.
+//! Generated derivatives agree with num-dual called directly on L_d, R_d and f_d written by hand, and those
+//! agree with central differences. N = 1, 2, 3, and an N given by a constant.
 
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::step::{DiscreteRayleigh, NewtonMatrix};
@@ -261,8 +261,9 @@ mod differences {
     }
 
     impl Bounded {
-        /// From the differences at step δ and 2δ, their truncation errors cδ² + O(δ⁴) and 4cδ² + O(δ⁴): the difference of
-        /// the two is 3cδ², three times the error, which leaves room for O(δ⁴). `rounding` bounds that of the quotient.
+        /// From the differences at step δ and 2δ, their truncation errors cδ² + O(δ⁴) and 4cδ² + O(δ⁴): the
+        /// difference of the two is 3cδ², three times the error, which leaves room for O(δ⁴).
+        /// `rounding` bounds that of the quotient.
         fn of(at_step: f64, at_double: f64, rounding: f64) -> Self {
             Self { value: at_step, error: (at_double - at_step).abs() + rounding }
         }
@@ -274,7 +275,8 @@ mod differences {
         }
     }
 
-    /// Largest deviation of `derivatives` from central differences of `f`, in units of the differences' error bound.
+    /// Largest deviation of `derivatives` from central differences of `f`, in units of the differences' error
+    /// bound.
     fn deviation<F: TwoPoints<N>, const N: usize>(
         f: &F,
         x: [f64; N],
@@ -338,7 +340,8 @@ mod differences {
         check(&Chain::EXAMPLE, [0.5, -0.2, 0.7, 0.1, -0.6], [0.4, 0.1, 0.5, 0.3, -0.2]);
     }
 
-    /// Positive control: the bound is tight enough to see one part in 10⁶ of the first and of the second derivatives.
+    /// Positive control: the bound is tight enough to see one part in 10⁶ of the first and of the second
+    /// derivatives.
     #[test]
     fn see_what_is_wrong() {
         let f = Discretised { system: &Bead::EXAMPLE, rule: Rule::Midpoint, h: H, part: Part::Lagrangian };

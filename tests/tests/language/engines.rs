@@ -1,4 +1,5 @@
-//! The two engines of derivatives agree: the same systems, once with derivatives written out and once with num-dual.
+//! The two engines of derivatives agree: the same systems, once with derivatives written out and once with
+//! num-dual.
 
 /// The systems, with the engine named.
 macro_rules! systems {
@@ -78,7 +79,8 @@ macro_rules! systems {
             }
         }
 
-        /// Everything at once: `if`, early return, `abs`, `sqrt`, helpers, loops, a force, R that depends on q.
+        /// Everything at once: `if`, early return, `abs`, `sqrt`, helpers, loops, a force, R that depends on
+        /// q.
         pub struct Medley {
             pub stiff: bool,
             pub weights: [f64; 3],

@@ -1,4 +1,5 @@
-//! Enums and options of the user's that choose among laws: `match`, `if let`, `let … else`, `matches!`, methods of `Option`.
+//! Enums and options of the user's that choose among laws: `match`, `if let`, `let … else`, `matches!`,
+//! methods of `Option`.
 
 use super::case;
 

@@ -1,4 +1,5 @@
-//! Forms of a system: with and without R, both argument lists of R, a general force, both rules, f32, one free function.
+//! Forms of a system: with and without R, both argument lists of R, a general force, both rules, f32, one
+//! free function.
 
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::{Discrete, Discretise, Force, Lagrangian, Midpoint, Rayleigh, Trapezoidal, rayleigh_system};
@@ -86,7 +87,8 @@ fn rayleigh_and_general_force_add_up_by_both_rules() {
     let general = |q: SVector<f64, 2>| vector![1.9 * q[1].sin(), v[0] * v[1]];
     let middle = (q0 + q1) / 2.0;
 
-    // R_d = (h²/2) 𝓡(q̄, v̄): f_d⁻ = D1 R_d = −(h/2) D2𝓡 + (h²/4) D1𝓡, f_d⁺ = −D2 R_d = −(h/2) D2𝓡 − (h²/4) D1𝓡.
+    // R_d = (h²/2) 𝓡(q̄, v̄): f_d⁻ = D1 R_d = −(h/2) D2𝓡 + (h²/4) D1𝓡, f_d⁺ = −D2 R_d = −(h/2) D2𝓡 − (h²/4)
+    // D1𝓡.
     let f = system.by(Midpoint, h).discrete_force(&q0, &q1);
     let half = (minus_d2(middle) + general(middle)) * (h / 2.0);
     assert_close(&(half + d1(middle) * (h * h / 4.0)), &f.minus);

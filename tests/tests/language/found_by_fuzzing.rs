@@ -23,7 +23,8 @@ fn steps(system: &Chain, state: State<f64, 8>, h: f64) -> Vec<Step<f64, 8>> {
     sizes.flat_map(|h| guesses.map(|guess| system.step(&state, h, Some(&guess)).ok())).flatten().collect()
 }
 
-/// A shortened iterate whose matrix is singular is passed by, and counted once only where it is not: `damped` was above `iterations`.
+/// A shortened iterate whose matrix is singular is passed by, and counted once only where it is not: `damped`
+/// was above `iterations`.
 #[test]
 fn no_more_iterations_are_shortened_than_made() {
     let system = Chain { m: 3.827392578125, a: 3.827392578125, r: 3.827392578125 };
@@ -62,8 +63,8 @@ fn coupled(q: [f64; 3], v: [f64; 3], m: f64, a: f64) -> f64 {
     kinetic - a * (q[0] * q[1] * q[2]).cos()
 }
 
-/// From a guess that is out by 76 orders of magnitude the matrix, and with it the floor, was that of far out: a step was taken whose
-/// residual was a third of the momentum.
+/// From a guess that is out by 76 orders of magnitude the matrix, and with it the floor, was that of far out:
+/// a step was taken whose residual was a third of the momentum.
 #[test]
 fn a_wild_guess_does_not_lower_the_demands() {
     let system = Coupled { m: 3.89013671875, a: 0.25 };

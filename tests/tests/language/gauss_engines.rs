@@ -1,4 +1,5 @@
-//! The stages that the macro writes in lanes are those that num-dual gives one by one, for every kind of operation.
+//! The stages that the macro writes in lanes are those that num-dual gives one by one, for every kind of
+//! operation.
 
 #![expect(clippy::neg_cmp_op_on_partial_ord, reason = "lanes must decide negated comparisons as numbers do")]
 
@@ -6,7 +7,8 @@ use dalembert::nalgebra::vector;
 use dalembert::system::{ForcedLagrangian, Lanes};
 use dalembert::{Discretise, Force, Gauss, State};
 
-/// One system for each engine, with selections, masks, functions of one and of two numbers, and numbers among their arguments.
+/// One system for each engine, with selections, masks, functions of one and of two numbers, and numbers among
+/// their arguments.
 macro_rules! systems {
     ($engine:ident, $scalar:ident) => {
         use dalembert::rayleigh_system;

@@ -1,5 +1,6 @@
-//! No name is taken from a user: systems may be named like anything that generated code is made of, bodies may hold types and
-//! constants with such names, and the prelude's names may mean something else where the system stands.
+//! No name is taken from a user: systems may be named like anything that generated code is made of, bodies
+//! may hold types and constants with such names, and the prelude's names may mean something else where the
+//! system stands.
 
 /// A driven pendulum named `$name`, stepped once.
 macro_rules! pendulums {

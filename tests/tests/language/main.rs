@@ -1,8 +1,9 @@
 //! The language of `#[rayleigh_system]`: what works as written in Rust works as written under the attribute.
 //!
-//! Each case is compiled twice from the same tokens, with and without the attribute. The value of the annotated function
-//! must equal that of the plain one bit by bit, first derivatives must agree with difference quotients of the plain
-//! function, second derivatives with difference quotients of the first ones.
+//! Each case is compiled twice from the same tokens, with and without the attribute. The value of the
+//! annotated function must equal that of the plain one bit by bit, first derivatives must agree with
+//! difference quotients of the plain function, second derivatives with difference quotients of the first
+//! ones.
 
 #![allow(deprecated, reason = "some cases are left to dual numbers, which is warned of")]
 
@@ -99,8 +100,8 @@ fn difference(f: impl Fn(f64) -> f64) -> f64 {
     (8.0 * (f(H) - f(-H)) - (f(2.0 * H) - f(-2.0 * H))) / (12.0 * H)
 }
 
-/// Largest error of the first derivatives against difference quotients of `value`, and of the second derivatives against
-/// difference quotients of `gradient`, relative to 1 + |derivative|.
+/// Largest error of the first derivatives against difference quotients of `value`, and of the second
+/// derivatives against difference quotients of `gradient`, relative to 1 + |derivative|.
 pub(crate) fn derivative_error<const N: usize>(
     value: impl Fn(&Vector<N>, &Vector<N>) -> f64,
     gradient: impl Fn(&Vector<N>, &Vector<N>) -> Gradient<f64, N>,

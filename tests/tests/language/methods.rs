@@ -1,5 +1,6 @@
-//! Every supported method of `f64`: its value is that of `f64` bit by bit, its derivatives are closed forms to third order
-//! of the table below, and at the points where a derivative does not exist it is what the documentation says.
+//! Every supported method of `f64`: its value is that of `f64` bit by bit, its derivatives are closed forms
+//! to third order of the table below, and at the points where a derivative does not exist it is what the
+//! documentation says.
 
 use std::hint::black_box;
 

@@ -1,8 +1,8 @@
-//! What the macro generates warns of nothing: this module denies all warnings, those of clippy, pedantic and nursery among them, and
-//! rustc's stricter ones.
+//! What the macro generates warns of nothing: this module denies all warnings, those of clippy, pedantic and
+//! nursery among them, and rustc's stricter ones.
 //!
-//! The systems are private and hardly used, so that generated code that nothing calls would be dead code. Public ones, which
-//! need documentation, are in this package's library.
+//! The systems are private and hardly used, so that generated code that nothing calls would be dead code.
+//! Public ones, which need documentation, are in this package's library.
 #![deny(warnings)]
 #![deny(missing_docs, missing_debug_implementations, unused, nonstandard_style)]
 #![deny(unused_qualifications, unused_lifetimes, single_use_lifetimes, trivial_casts)]

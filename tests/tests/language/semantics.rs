@@ -1,4 +1,5 @@
-//! Rust's own semantics, to the bit: types of integers, casts, order of evaluation, what is run and what is not.
+//! Rust's own semantics, to the bit: types of integers, casts, order of evaluation, what is run and what is
+//! not.
 
 use super::case;
 

@@ -1,8 +1,9 @@
-//! Derivatives where they do not exist: what the table of `dalembert::generated::dual::Real` says, the same in both engines.
+//! Derivatives where they do not exist: what the table of `dalembert::generated::dual::Real` says, the same
+//! in both engines.
 //!
-//! Each case is a function of x = q₀ and y = q₁, as part of L and as a component of f, at its singular points. Expected are
-//! its value, gradient and Hessian in closed form, one-sided limits where there is a side; and zeros for whatever does not
-//! depend on x or y, however singular the function is.
+//! Each case is a function of x = q₀ and y = q₁, as part of L and as a component of f, at its singular
+//! points. Expected are its value, gradient and Hessian in closed form, one-sided limits where there is a
+//! side; and zeros for whatever does not depend on x or y, however singular the function is.
 
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::step::NewtonMatrix;
@@ -314,8 +315,8 @@ fn wrong_expectations_are_found() {
     assert!(agree(&system, &abs::num_dual::System, [0.0, 0.7]).is_err());
 }
 
-/// V = |q| + |q|^{3/2}: at q = 0 the slope has two sides and the curvature is infinite. A trapezoidal step sees V″ at its ends alone
-/// where q1 moves them: the first node stays.
+/// V = |q| + |q|^{3/2}: at q = 0 the slope has two sides and the curvature is infinite. A trapezoidal step
+/// sees V″ at its ends alone where q1 moves them: the first node stays.
 mod kink {
     macro_rules! kink {
         ($engine:ident) => {

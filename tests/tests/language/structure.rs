@@ -1,5 +1,5 @@
-//! What the macro finds of a system's structure: for each finding systems that have it, systems that do not, and systems
-//! that have it by algebra alone, of which it must not be stated.
+//! What the macro finds of a system's structure: for each finding systems that have it, systems that do not,
+//! and systems that have it by algebra alone, of which it must not be stated.
 
 use dalembert::system::{Damping, Engine, Structure};
 use dalembert::{Lagrangian, rayleigh_system};

@@ -102,8 +102,8 @@ fn nothing_falls_back_to_dual_numbers() {
     assert!(!matches!(engine(num_dual::Slider::STRUCTURE), Engine::Expanded));
 }
 
-/// Structs within the system, operands that change what others read, casts of constants: the same system by each engine,
-/// with a body that can be written out, and with a loop that numbers end, which cannot.
+/// Structs within the system, operands that change what others read, casts of constants: the same system by
+/// each engine, with a body that can be written out, and with a loop that numbers end, which cannot.
 macro_rules! nested_by_each_engine {
     ($($name:ident by $engine:ident with $speed:ident [$($more:tt)*]),*) => {$(
         mod $name {

@@ -1,4 +1,5 @@
-//! The checkers take plain functions of the user: generators and generating functions under `#[differentiable]`.
+//! The checkers take plain functions of the user: generators and generating functions under
+//! `#[differentiable]`.
 
 use dalembert::nalgebra::vector;
 use dalembert::noether::Generator;

@@ -22,8 +22,8 @@ fn tests() -> (BTreeSet<String>, BTreeSet<String>) {
     (files, functions)
 }
 
-/// The names in `page` that are neither a file nor a function among the tests: what stands between back-quotes and reads like
-/// a sentence of four words or more, or like a path to a test.
+/// The names in `page` that are neither a file nor a function among the tests: what stands between
+/// back-quotes and reads like a sentence of four words or more, or like a path to a test.
 fn missing(page: &str) -> Vec<String> {
     let (files, functions) = tests();
     let exists = |name: &str| files.contains(name) || functions.contains(name);

@@ -1,4 +1,5 @@
-//! The runtime's floors: a module uses those below its own, none above; on one floor no modules use each other in a circle.
+//! The runtime's floors: a module uses those below its own, none above; on one floor no modules use each
+//! other in a circle.
 //!
 //! `cargo test -p dalembert-tests --test project floors -- --nocapture` prints who uses whom.
 
@@ -129,7 +130,8 @@ impl<'ast> Visit<'ast> for Paths {
 /// Who uses whom.
 #[derive(Default)]
 struct Plan {
-    /// For each module, as (floor, module): the modules of its floor that it uses, each with the file and path that say so.
+    /// For each module, as (floor, module): the modules of its floor that it uses, each with the file and
+    /// path that say so.
     within: BTreeMap<(String, String), BTreeMap<String, String>>,
     /// For each floor: the floors that it uses, each with the names.
     between: BTreeMap<String, BTreeMap<String, BTreeSet<String>>>,

@@ -1,8 +1,10 @@
-//! One compile for each diagnostic of the macro and of the runtime's traits: what is said, where, and that it is said once.
+//! One compile for each diagnostic of the macro and of the runtime's traits: what is said, where, and that it
+//! is said once.
 //!
-//! rustc words its own part of a message anew from version to version, so the expected messages are held against the version
-//! that they were written with; another one skips them, and says so, or fails where the variable `CI` is set.
-//! `TRYBUILD=overwrite cargo test -p dalembert-tests --test project mistakes` writes them anew. Read each one before committing.
+//! rustc words its own part of a message anew from version to version, so the expected messages are held
+//! against the version that they were written with; another one skips them, and says so, or fails where the
+//! variable `CI` is set. `TRYBUILD=overwrite cargo test -p dalembert-tests --test project mistakes` writes
+//! them anew. Read each one before committing.
 
 use std::process::Command;
 

@@ -1,7 +1,7 @@
 //! Fifty systems as source text, the same on every machine: random bodies made of all that a body may hold.
 //!
-//! Arguments of functions with a domain are kept inside it, and sizes near 1, so that what the engines compute can be compared
-//! to a few roundings.
+//! Arguments of functions with a domain are kept inside it, and sizes near 1, so that what the engines
+//! compute can be compared to a few roundings.
 
 use std::fmt::Write;
 

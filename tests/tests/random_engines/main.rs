@@ -1,8 +1,9 @@
-//! Fifty random systems, compiled with derivatives written out and with num-dual, agree to rounding: value, gradient, Hessian
-//! and the step's kernel.
+//! Fifty random systems, compiled with derivatives written out and with num-dual, agree to rounding: value,
+//! gradient, Hessian and the step's kernel.
 //!
-//! How much rounding can do at a point is measured: q, v and the coefficients are moved by about an ulp at random, and what
-//! the two engines may differ by is 40 times the spread that this makes, with 64 ulps of the largest result.
+//! How much rounding can do at a point is measured: q, v and the coefficients are moved by about an ulp at
+//! random, and what the two engines may differ by is 40 times the spread that this makes, with 64 ulps of the
+//! largest result.
 
 mod generator;
 
@@ -147,7 +148,8 @@ impl Spread {
     }
 }
 
-/// The largest difference of each group in units of its tolerance, or nothing where the point is too sensitive: at a kink.
+/// The largest difference of each group in units of its tolerance, or nothing where the point is too
+/// sensitive: at a kink.
 fn differences(
     a: impl Fn(&[f64]) -> Results,
     b: impl Fn(&[f64]) -> Results,

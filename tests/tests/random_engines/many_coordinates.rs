@@ -1,4 +1,5 @@
-//! Dual numbers of as many coordinates as they are let: the stack of a thread holds them, and the derivatives are those written out.
+//! Dual numbers of as many coordinates as they are let: the stack of a thread holds them, and the derivatives
+//! are those written out.
 
 use std::thread;
 

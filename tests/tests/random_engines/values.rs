@@ -1,5 +1,6 @@
-//! The values of L, R and f as generated are those of the functions as written, bit by bit, at whatever optimisation level the
-//! two are compiled: `--config 'profile.test.package.dalembert-tests.opt-level=0'` and the like.
+//! The values of L, R and f as generated are those of the functions as written, bit by bit, at whatever
+//! optimisation level the two are compiled: `--config 'profile.test.package.dalembert-tests.opt-level=0'` and
+//! the like.
 
 use dalembert::Lagrangian;
 use dalembert::system::GeneratedDiffers;

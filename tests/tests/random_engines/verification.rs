@@ -1,5 +1,5 @@
-//! Derivatives of another function than the one written are an error: where a state is made, where a run starts, and, with
-//! `debug_assertions`, at every step.
+//! Derivatives of another function than the one written are an error: where a state is made, where a run
+//! starts, and, with `debug_assertions`, at every step.
 //!
 //! The control is a system whose values as generated are those written times 1 + `off`, function by function.
 

@@ -1,4 +1,5 @@
-//! Without force the energy neither drifts nor grows over a million steps; and what "energy" means at nodes and segments.
+//! Without force the energy neither drifts nor grows over a million steps; and what "energy" means at nodes
+//! and segments.
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::{Discrete, Discretise, Midpoint, State, Trapezoidal, rayleigh_system};
@@ -91,7 +92,8 @@ fn drifts_under_the_least_friction() {
     assert!(account.drift() > 0.1, "{account:?}");
 }
 
-/// Positive control: RK4 at the same step size is more accurate at first, but its energy error grows without bound.
+/// Positive control: RK4 at the same step size is more accurate at first, but its energy error grows without
+/// bound.
 #[test]
 fn drifts_by_runge_kutta() {
     struct Swing;
@@ -142,8 +144,8 @@ fn spring(q: [f64; 2], v: [f64; 2], m: f64, k: f64) -> f64 {
     0.5 * m * (v[0] * v[0] + v[1] * v[1]) - 0.5 * k * (q[0] * q[0] + q[1] * q[1])
 }
 
-/// A quadratic energy is a quadratic invariant, which the midpoint rule keeps: node energies are constant to rounding over
-/// many steps, so the solver leaves no bias.
+/// A quadratic energy is a quadratic invariant, which the midpoint rule keeps: node energies are constant to
+/// rounding over many steps, so the solver leaves no bias.
 #[test]
 fn of_a_linear_system_is_constant_to_rounding() {
     let system = Spring { m: 1.7, k: 0.9 };

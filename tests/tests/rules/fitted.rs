@@ -131,7 +131,8 @@ fn the_fitted_rules_are_of_order_two() {
     }
 }
 
-/// q keeps its order however stiff the damping; the midpoint rule rings. The start is on the slow motion, r v = −V′ to the first two orders.
+/// q keeps its order however stiff the damping; the midpoint rule rings. The start is on the slow motion, r
+/// v = −V′ to the first two orders.
 #[test]
 fn q_is_of_order_two_uniformly_in_stiffness() {
     for r in [1e1, 1e3, 1e5] {
@@ -139,7 +140,8 @@ fn q_is_of_order_two_uniformly_in_stiffness() {
         // In the slow motion q̇ = −sin q (1 + (m/r) cos q …): start there.
         let q = 1.1_f64;
         let v = -q.sin() * (1.0 - system.m / r * q.cos());
-        // The slow motion of q at t = 1, to O(m²/r²), by the reference for moderate r, in closed form for stiff damping.
+        // The slow motion of q at t = 1, to O(m²/r²), by the reference for moderate r, in closed form for
+        // stiff damping.
         let exact = if r < 1e2 {
             reference::motion(&system, [q], [v], 1.0).0[0]
         } else {
@@ -248,7 +250,8 @@ fn they_are_self_adjoint() {
     assert!(returns(&COUPLED, FittedTrapezoidal, start, 0.3) < 4e-15);
 }
 
-/// The matrices of the step from the transforms: p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, and R_d where there is one.
+/// The matrices of the step from the transforms: p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, and R_d where
+/// there is one.
 #[test]
 fn discrete_objects_and_transforms_agree() {
     fn agree<S, R: Copy, const N: usize>(system: &S, _: R, q0: SVector<f64, N>, q1: SVector<f64, N>)
@@ -385,7 +388,8 @@ fn the_explicit_one_is_stable_up_to_its_bound() {
     }
 }
 
-/// The energy of the fitted rule falls in an overdamped motion at every step; that of the midpoint rule's momentum rings.
+/// The energy of the fitted rule falls in an overdamped motion at every step; that of the midpoint rule's
+/// momentum rings.
 #[test]
 fn it_does_not_ring() {
     let system = Pendulum { m: 1.0, g: 1.0, f: 0.0, r: 1e4 };

@@ -30,8 +30,9 @@ fn oscillator(q: [f64; 1], v: [f64; 1], k: f64, r: f64) -> (f64, f64) {
     (0.5 * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
 }
 
-/// Stable for every h: no eigenvalue of the oscillator's step is above 1, over 12 decades of damping and of stiffness. With damping alone
-/// stiff, the eigenvalue of the fast motion goes to 0 (L-stable); midpoint's goes to −1.
+/// Stable for every h: no eigenvalue of the oscillator's step is above 1, over 12 decades of damping and of
+/// stiffness. With damping alone stiff, the eigenvalue of the fast motion goes to 0 (L-stable); midpoint's
+/// goes to −1.
 #[test]
 fn the_implicit_one_is_stable_at_any_step() {
     let mut unstable = 0;
@@ -76,8 +77,8 @@ where
     [end.q[0] - exact, end.p[0] + exact.sin()]
 }
 
-/// In the stiff limit q keeps order 2 and p falls to order 1, lagging by half a step: p1 = −(m/r) V′(q̄). By the explicit one both
-/// are of order 1.
+/// In the stiff limit q keeps order 2 and p falls to order 1, lagging by half a step: p1 = −(m/r) V′(q̄). By
+/// the explicit one both are of order 1.
 #[test]
 fn orders_in_the_stiff_limit() {
     let order = |rule: fn(f64) -> [f64; 2], of: usize| {
@@ -99,7 +100,8 @@ fn orders_in_the_stiff_limit() {
     assert!((end.p[0] + end.q[0].sin()).abs() > 1e-2);
 }
 
-/// q1 and p1 in the stiff limit r → ∞ of one mass with ℒ and φ = 1 + zℒ given: a family of rules of which 1 is backward Euler, 0 midpoint.
+/// q1 and p1 in the stiff limit r → ∞ of one mass with ℒ and φ = 1 + zℒ given: a family of rules of which 1
+/// is backward Euler, 0 midpoint.
 fn family(lag: f64, share_of_potential: f64, [q, p]: [f64; 2], h: f64, r: f64) -> [f64; 2] {
     let z = 0.5 * r * h;
     let phi = 1.0 + z * lag;
@@ -114,7 +116,8 @@ fn family(lag: f64, share_of_potential: f64, [q, p]: [f64; 2], h: f64, r: f64) -
     [q + h * v, (phi - z) * v + impulse]
 }
 
-/// The term −hℒV of R_d is essential: without it q is of order 1 in the stiff limit. With it the rule is `Fitted`, to rounding.
+/// The term −hℒV of R_d is essential: without it q is of order 1 in the stiff limit. With it the rule is
+/// `Fitted`, to rounding.
 #[test]
 fn the_lag_of_the_potential_is_essential() {
     let (r, q) = (1e6, 1.1_f64);

@@ -1,4 +1,5 @@
-//! The rules fitted to linear damping, where damping is a matrix: the free flow, phase space, and what a run keeps.
+//! The rules fitted to linear damping, where damping is a matrix: the free flow, phase space, and what a run
+//! keeps.
 
 use dalembert::nalgebra::{Matrix3, SMatrix, SVector, Vector3, matrix, vector};
 use dalembert::{
@@ -50,8 +51,8 @@ where
     system.step(state, h, None).unwrap().state
 }
 
-/// Without a potential the step is the flow, p1 = e^{−hCM⁻¹} p0 and q1 = q0 + C⁻¹(p0 − p1), for any C. Exponentials by nalgebra, of the
-/// matrix that is not symmetric: nothing of the rules' decomposition.
+/// Without a potential the step is the flow, p1 = e^{−hCM⁻¹} p0 and q1 = q0 + C⁻¹(p0 − p1), for any C.
+/// Exponentials by nalgebra, of the matrix that is not symmetric: nothing of the rules' decomposition.
 #[test]
 fn a_free_motion_is_the_flow_for_any_damping_matrix() {
     for (share, h) in [(1e-3, 0.3), (1.0, 0.3), (1.0, 2.0), (40.0, 0.5), (-0.5, 0.3)] {
@@ -71,8 +72,8 @@ fn a_free_motion_is_the_flow_for_any_damping_matrix() {
     }
 }
 
-/// L_d = (1/2h) dᵀ M Z coth(Z) d, with coth by matrix exponentials; for one coordinate L_d is the action ∫½mv²dt of the damped motion
-/// v = v0 e^{−rt/m} from q0 to q1, by quadrature.
+/// L_d = (1/2h) dᵀ M Z coth(Z) d, with coth by matrix exponentials; for one coordinate L_d is the action
+/// ∫½mv²dt of the damped motion v = v0 e^{−rt/m} from q0 to q1, by quadrature.
 #[test]
 fn the_discrete_lagrangian_is_the_fitted_mass() {
     let (h, d) = (0.7, vector![0.3, -0.4, 0.5]);
@@ -135,7 +136,8 @@ fn conformal<const K: usize>(a: &SMatrix<f64, K, K>) -> (f64, f64) {
     ((form - omega * share).amax(), share)
 }
 
-/// AᵀΩA = e^{−2ah}Ω where C = 2aM, at any state of any V. The midpoint rule and the implicit fitted one scale Ω by another factor, and not all of it alike.
+/// AᵀΩA = e^{−2ah}Ω where C = 2aM, at any state of any V. The midpoint rule and the implicit fitted one scale
+/// Ω by another factor, and not all of it alike.
 #[test]
 fn the_explicit_one_is_conformally_symplectic() {
     for (a, h) in [(0.2, 0.3), (1.5, 0.3), (-0.4, 0.2), (20.0, 0.5)] {
@@ -160,7 +162,8 @@ fn the_explicit_one_is_conformally_symplectic() {
     assert!(rest > 1e-2, "{rest:e}");
 }
 
-/// The determinant of the step is e^{−h tr M⁻¹C}, for any C, at any state: that of the flow. Midpoint's is not.
+/// The determinant of the step is e^{−h tr M⁻¹C}, for any C, at any state: that of the flow. Midpoint's is
+/// not.
 #[test]
 fn the_explicit_one_contracts_volumes_as_the_flow() {
     for (share, h) in [(1.0, 0.3), (10.0, 0.3), (-1.0, 0.2)] {
@@ -174,8 +177,8 @@ fn the_explicit_one_contracts_volumes_as_the_flow() {
     }
 }
 
-/// f_d has an R_d for every N where C is a multiple of M: D1 f⁺ = −(D2 f⁻)ᵀ, with D1 f⁻ and D2 f⁺ symmetric. For another C the
-/// implicit rule's has none.
+/// f_d has an R_d for every N where C is a multiple of M: D1 f⁺ = −(D2 f⁻)ᵀ, with D1 f⁻ and D2 f⁺ symmetric.
+/// For another C the implicit rule's has none.
 #[test]
 fn the_force_of_the_implicit_one_is_rayleigh_where_damping_is_proportional() {
     let defect = |c: Form| {
@@ -208,7 +211,8 @@ fn they_tend_to_the_plain_rules_without_damping() {
     }
 }
 
-/// A run, which keeps what depends on h alone, goes where single steps go; also over changes of h, and from another state.
+/// A run, which keeps what depends on h alone, goes where single steps go; also over changes of h, and from
+/// another state.
 #[test]
 fn a_run_goes_where_single_steps_go() {
     fn same<R: Copy>(system: &Three, rule: R, sizes: [f64; 4])

@@ -1,11 +1,13 @@
-//! The step of `Gauss<S>` is Gauss collocation on the forced Hamilton equations, and satisfies the forced Galerkin equations.
+//! The step of `Gauss<S>` is Gauss collocation on the forced Hamilton equations, and satisfies the forced
+//! Galerkin equations.
 
 use dalembert::nalgebra::{DMatrix, DVector, SVector, vector};
 use dalembert::{Discrete, Discretise, Gauss, Midpoint, State, StepError, rayleigh_system};
 use dalembert_tests::by_hand::{ByHand, Continuous, Part, derivatives};
 use dalembert_tests::systems::{Bead, Chain, Charge, DoublePendulum, Follower, Pendulum};
 
-/// Nodes, weights and a_ij = ∫₀^{c_i} ℓ_j on [0, 1], from linear systems: nothing of the crate's own coefficients.
+/// Nodes, weights and a_ij = ∫₀^{c_i} ℓ_j on [0, 1], from linear systems: nothing of the crate's own
+/// coefficients.
 struct Collocation {
     c: Vec<f64>,
     b: Vec<f64>,
@@ -28,8 +30,8 @@ fn legendre(k: usize, x: f64) -> f64 {
 }
 
 impl Collocation {
-    /// Nodes are the eigenvalues of the Jacobi matrix (Golub and Welsch), polished by Newton's method; weights and a_ij integrate
-    /// the Legendre polynomials of degree below s.
+    /// Nodes are the eigenvalues of the Jacobi matrix (Golub and Welsch), polished by Newton's method;
+    /// weights and a_ij integrate the Legendre polynomials of degree below s.
     fn new(s: usize) -> Self {
         let beta = |k: usize| {
             let k = k as f64;
@@ -91,7 +93,8 @@ fn hamilton<L: ByHand<N>, const N: usize>(
     [v, terms(system, (*q).into(), v.into())[1]]
 }
 
-/// One step of the method by fixed-point iteration on the stages' slopes (k_q, k_p), and the stages (Q_i, V_i).
+/// One step of the method by fixed-point iteration on the stages' slopes (k_q, k_p), and the stages (Q_i,
+/// V_i).
 fn collocated<L: ByHand<N>, const N: usize>(
     system: &L,
     method: &Collocation,

@@ -16,7 +16,8 @@ const PLATEAU: f64 = 2e-13;
 /// Times at which errors are taken: at one alone the leading term may happen to vanish.
 const TIMES: [f64; 3] = [1.0, 2.0, 3.0];
 
-/// Observed order over times in units of `unit`, over ever smaller steps, until the error reaches the plateau.
+/// Observed order over times in units of `unit`, over ever smaller steps, until the error reaches the
+/// plateau.
 fn order<S, L, const N: usize, const STAGES: usize>(
     reference: &S,
     system: impl Fn(f64) -> L,
@@ -69,7 +70,8 @@ macro_rules! order_2s {
         }
     )*};
 }
-// The high orders show on long motions alone: on short ones, errors above rounding need steps that are not small.
+// The high orders show on long motions alone: on short ones, errors above rounding need steps that are not
+// small.
 order_2s! {
     bead_with_mass_and_friction_that_depend_on_q: Bead::EXAMPLE, [0.8], [1.3], 2.0, 1 2 3 4;
     bead_for_long: Bead { r: 0.01, c: 0.02, ..Bead::EXAMPLE }, [0.3], [0.5], 20.0, 1 2 3 4 5 6;
@@ -79,7 +81,8 @@ order_2s! {
     follower_with_general_force_alone: Follower::EXAMPLE, [0.6, -0.9], [0.8, 0.5], 2.0, 1 2 3 4;
 }
 
-/// Positive control: the charge with a force that is off by h⁴ times itself, as a wrong quadrature would make it.
+/// Positive control: the charge with a force that is off by h⁴ times itself, as a wrong quadrature would make
+/// it.
 struct Altered {
     share: f64,
 }

@@ -1,4 +1,5 @@
-//! What `Gauss<S>` keeps: the symplectic form and the momentum maps without force, and with it the identities of the theory.
+//! What `Gauss<S>` keeps: the symplectic form and the momentum maps without force, and with it the identities
+//! of the theory.
 
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::noether::Generator;
@@ -91,8 +92,8 @@ fn the_step_is_symplectic_without_force_and_only_then() {
     for_stages!(step_matrices_agree(&Follower::EXAMPLE, [0.6, -0.9], [0.8, 0.5], false), 2, 4, 2 4);
 }
 
-/// D1, D2 of L_d against central differences of L_d; p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺ with the stages' own momenta; and
-/// AᵀΩA − Ω = Tᵀ(F − Fᵀ)T, which needs Df_d by itself.
+/// D1, D2 of L_d against central differences of L_d; p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺ with the
+/// stages' own momenta; and AᵀΩA − Ω = Tᵀ(F − Fᵀ)T, which needs Df_d by itself.
 fn identities_hold<L, const N: usize, const M: usize, const S: usize>(system: &L, q: [f64; N], v: [f64; N])
 where
     L: ByHand<N> + Discrete<Gauss<S>, N, Scalar = f64>,
@@ -149,7 +150,8 @@ fn the_discrete_objects_fit_together() {
     for_stages!(identities_hold(&Bead::EXAMPLE, [0.8], [1.3]), 1, 2, 2 3);
 }
 
-/// A central force, with friction in the radial direction only where `radial` is set: it keeps the angular momentum.
+/// A central force, with friction in the radial direction only where `radial` is set: it keeps the angular
+/// momentum.
 #[rayleigh_system(rule = gauss)]
 fn central(q: [f64; 2], v: [f64; 2], isotropic: f64, radial: f64) -> (f64, f64) {
     let square = q[0] * q[0] + q[1] * q[1];

@@ -197,8 +197,8 @@ mod wrong {
     }
 }
 
-/// The hand-derived accelerations agree with the Euler–Lagrange equations of the hand-written L, R and f, so that the
-/// reference integrates the system that it should.
+/// The hand-derived accelerations agree with the Euler–Lagrange equations of the hand-written L, R and f, so
+/// that the reference integrates the system that it should.
 #[test]
 fn accelerations_derived_on_paper_solve_the_equations_of_motion() {
     use dalembert_tests::by_hand::{Continuous, Part, derivatives};

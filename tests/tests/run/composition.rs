@@ -1,4 +1,5 @@
-//! Kahan and Li's compositions: the order conditions, the order measured, what negative substeps do to damping.
+//! Kahan and Li's compositions: the order conditions, the order measured, what negative substeps do to
+//! damping.
 
 use dalembert::{
     Composition, Discrete, Discretise, Midpoint, State, StepError, Trapezoidal, rayleigh_system,
@@ -7,8 +8,9 @@ use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::convergence::orders;
 use dalembert_tests::systems::{Bead, Chain, DoublePendulum, Pendulum};
 
-/// The order conditions, for vector fields that do not commute: the product ∏ exp(γᵢX₁ + γᵢ³X₃ + γᵢ⁵X₅ + …) has to agree with
-/// exp(X₁) in the coefficient of every word in X₁, X₃, X₅, … whose weight is at most the order.
+/// The order conditions, for vector fields that do not commute: the product ∏ exp(γᵢX₁ + γᵢ³X₃ + γᵢ⁵X₅ + …)
+/// has to agree with exp(X₁) in the coefficient of every word in X₁, X₃, X₅, … whose weight is at most the
+/// order.
 mod order_conditions {
     use super::*;
     use std::collections::BTreeMap;
@@ -63,7 +65,8 @@ mod order_conditions {
         let order = composition.order();
         let defect_at = |weight| defect(composition.shares(), weight);
         assert!(defect_at(order) < 1e-14, "order {order}: {:e}", defect_at(order));
-        // Positive controls: not of the next order but one, and no longer of its own after a change of one digit.
+        // Positive controls: not of the next order but one, and no longer of its own after a change of one
+        // digit.
         assert!(defect_at(order + 1) > 1e-4, "order {order}: {:e}", defect_at(order + 1));
         let mut altered = *composition.shares();
         (altered[0], altered[S - 1]) = (altered[0] + 1e-6, altered[S - 1] + 1e-6);
@@ -122,7 +125,8 @@ macro_rules! orders {
         }
     )*};
 }
-// Order 8 shows between steps so long that the next order weighs in, and round-off: on motions long enough to leave room.
+// Order 8 shows between steps so long that the next order weighs in, and round-off: on motions long enough to
+// leave room.
 orders! {
     order_6_pendulum: kahan_li_6, Pendulum::EXAMPLE, 1.5, [8, 12, 16, 24, 32, 48], [[1.9], [-0.7]];
     order_6_mass_and_friction_that_depend_on_q: kahan_li_6, Bead::EXAMPLE, 1.5, [8, 12, 16, 24, 32, 48], [[0.8], [1.3]];

@@ -1,4 +1,5 @@
-//! What is asked for and what is returned have names: a user keeps both in types of their own, and writes functions of them.
+//! What is asked for and what is returned have names: a user keeps both in types of their own, and writes
+//! functions of them.
 
 use dalembert::derivative::StateBy;
 use dalembert::rules::SolvedForVelocity;

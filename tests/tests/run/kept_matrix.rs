@@ -1,4 +1,5 @@
-//! A Newton matrix is kept where it serves, and not where it is soon of no use: evaluations counted over a run.
+//! A Newton matrix is kept where it serves, and not where it is soon of no use: evaluations counted over a
+//! run.
 
 use std::cell::Cell;
 
@@ -137,8 +138,9 @@ fn a_matrix_that_hardly_changes_is_kept() {
     assert!(keeping[0] < renewing[0] / 20, "{keeping:?} against {renewing:?}");
 }
 
-/// On a long wave the forces of neighbouring springs cancel, and their rounding holds up the residuals of masses that turn. To
-/// measure that rounding, coordinate by coordinate, takes 129 evaluations; a step in twenty that did so would show.
+/// On a long wave the forces of neighbouring springs cancel, and their rounding holds up the residuals of
+/// masses that turn. To measure that rounding, coordinate by coordinate, takes 129 evaluations; a step in
+/// twenty that did so would show.
 #[test]
 fn cancelling_forces_do_not_hold_up_a_run() {
     let wave = core::array::from_fn(|i| (core::f64::consts::PI * (i + 1) as f64 / 65.0).sin());

@@ -1,5 +1,5 @@
-//! Runs saved as text and read again go on bit by bit, whatever their rule remembers: velocities, stages with compensated sums, a kept
-//! matrix, an explicit step's force, one memory for each substep of a composition.
+//! Runs saved as text and read again go on bit by bit, whatever their rule remembers: velocities, stages with
+//! compensated sums, a kept matrix, an explicit step's force, one memory for each substep of a composition.
 
 use dalembert::{
     Checkpoint, Composition, Discrete, Discretise, Gauss, Midpoint, Splitting, State, StepError, Trajectory,
@@ -30,7 +30,8 @@ fn as_text<const N: usize>(checkpoint: Checkpoint<f64, N>) -> Checkpoint<f64, N>
     serde_json::from_str(&serde_json::to_string(&checkpoint).unwrap()).unwrap()
 }
 
-/// The bits of 300 states: after 100 and 200 steps there is a checkpoint, from which another run goes on if `is_resumed`.
+/// The bits of 300 states: after 100 and 200 steps there is a checkpoint, from which another run goes on if
+/// `is_resumed`.
 fn by_rule<L, R: Copy, const N: usize>(system: &L, rule: R, h: f64, is_resumed: bool) -> Vec<Vec<u64>>
 where
     L: Discrete<R, N, Scalar = f64>,
@@ -229,8 +230,8 @@ fn some<const N: usize>(states: &mut dyn Iterator<Item = Result<State<f64, N>, S
     states
 }
 
-/// A run from `checkpoint` took steps and stands at `end`: as `fresh`, the run of the same state and step size whose clock begins at 0, up to an
-/// error that is right about the clock.
+/// A run from `checkpoint` took steps and stands at `end`: as `fresh`, the run of the same state and step
+/// size whose clock begins at 0, up to an error that is right about the clock.
 fn is_right<const N: usize>(
     checkpoint: &Checkpoint<f64, N>,
     (states, end): (&States<N>, &Checkpoint<f64, N>),
@@ -247,7 +248,8 @@ fn is_right<const N: usize>(
             assert_eq!(bits(state), bits(fresh.as_ref().unwrap()), "{checkpoint:?}");
         }
     }
-    // The clock at the start of each step, not by the code's own formula: fused, and in integers for the count.
+    // The clock at the start of each step, not by the code's own formula: fused, and in integers for the
+    // count.
     let h = checkpoint.step_size;
     let time = |k: usize| h.mul_add((u128::from(checkpoint.steps) + k as u128) as f64, checkpoint.origin);
     let blur = |k: usize| {
@@ -284,7 +286,8 @@ fn is_right<const N: usize>(
     }
 }
 
-/// Whatever stands in a checkpoint, the run goes on rightly or says in a typed error what is wrong; no counter wraps, no clock stands still.
+/// Whatever stands in a checkpoint, the run goes on rightly or says in a typed error what is wrong; no
+/// counter wraps, no clock stands still.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn odd_checkpoints_end_in_a_typed_error_or_a_right_run() {
@@ -357,7 +360,8 @@ fn odd_checkpoints_end_in_a_typed_error_or_a_right_run() {
     let Ends { went_on, step_size, state, time } = ends;
     assert_eq!(went_on + step_size + state + time, 22_000);
     assert!([went_on, step_size, state, time].iter().all(|&count| count > 1_000), "{ends:?}");
-    // The control: without a look at the clock, the time of the last step that can be counted is that of the first.
+    // The control: without a look at the clock, the time of the last step that can be counted is that of the
+    // first.
     let last = Checkpoint { steps: u64::MAX, ..Checkpoint::new(0.1, start::<2>()) };
     assert_eq!(Checkpoint { steps: last.steps.wrapping_add(1), ..last }.time(), 0.0);
     assert_eq!(Checkpoint { steps: last.steps - 1, ..last }.time(), last.time());

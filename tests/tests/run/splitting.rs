@@ -102,7 +102,8 @@ fn the_step_is_the_product_of_its_kicks_and_drifts() {
     check(Splitting::blanes_moan_6());
 }
 
-/// Two coordinates with coupled masses and dampers, terms of first degree, and an anharmonic potential of strength k.
+/// Two coordinates with coupled masses and dampers, terms of first degree, and an anharmonic potential of
+/// strength k.
 struct Two {
     damping: [f64; 3],
     k: f64,
@@ -130,8 +131,8 @@ impl Two {
 const M: Matrix2<f64> = matrix![1.3, 0.3; 0.3, 0.8];
 const START: State<f64, 2> = State { q: vector![0.7, -0.3], p: vector![0.2, 0.9] };
 
-/// Without a force the motion of M v̇ = −C v, p = M v + s, of any size and any damping, negative too: by nalgebra's
-/// exponential of the affine field, which knows nothing of modes.
+/// Without a force the motion of M v̇ = −C v, p = M v + s, of any size and any damping, negative too: by
+/// nalgebra's exponential of the affine field, which knows nothing of modes.
 #[test]
 fn free_motion_is_exact() {
     fn check<const S: usize>(splitting: Splitting<S>) {
@@ -279,7 +280,8 @@ fn a_step_back_undoes_a_step_with_damping_too() {
     assert!((back.q - START.q).amax() < 1e-12 && (back.p - START.p).amax() < 1e-12);
 }
 
-/// Without damping momenta do not drift: free ones, with a mass matrix that has to be decomposed, and an angular one over 1e6 steps.
+/// Without damping momenta do not drift: free ones, with a mass matrix that has to be decomposed, and an
+/// angular one over 1e6 steps.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn rounding_does_not_drift() {

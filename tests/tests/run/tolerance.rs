@@ -1,4 +1,5 @@
-//! Order and step size from a requested error: kept or said not to be, explained, and watched over along the run.
+//! Order and step size from a requested error: kept or said not to be, explained, and watched over along the
+//! run.
 
 use dalembert::nalgebra::SVector;
 use dalembert::tolerance::{Method, MethodStep, Methods, ToleranceError, WithGauss, WithSplittings};

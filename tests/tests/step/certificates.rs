@@ -25,7 +25,8 @@ where
 #[test]
 fn the_condition_number_is_that_of_the_matrix_in_kinetic_units() {
     let state = State { q: vector![0.1, 0.4], p: vector![0.3, -0.2] };
-    // I + (h²k/4)[[1, −1], [−1, 1]] in units of the masses: with a = h²k/4 the 1-norm is 1 + 2a, that of the inverse 1.
+    // I + (h²k/4)[[1, −1], [−1, 1]] in units of the masses: with a = h²k/4 the 1-norm is 1 + 2a, that of the
+    // inverse 1.
     for (a, m) in [(1e-6, 1.0), (0.7, 1.0), (1e6, 1.0), (0.7, 1e-12), (1e6, 1e12)] {
         let system = Coupled { m: [m, m], k: 4.0 * a * m };
         let found = certificate(&system, &state, 1.0);
@@ -54,7 +55,8 @@ fn a_root_past_a_fold_is_told() {
     }
 }
 
-/// The residual of too few iterations shows in the report and in the certificate; with enough the step is that of `step`.
+/// The residual of too few iterations shows in the report and in the certificate; with enough the step is
+/// that of `step`.
 #[test]
 fn steps_of_bounded_work() {
     let system = DoublePendulum::EXAMPLE;
@@ -108,7 +110,8 @@ fn a_step_in_parts() {
     let part = 1.0 / f64::from(parted.parts);
     let last = system.by(Midpoint, part).run(start).take(parted.parts as usize).last().unwrap().unwrap();
     assert_eq!(last.state, parted.step.state);
-    // Past the blow-up at t = 1/0.7 nothing helps: the error of the whole step, the state kept, the run ended.
+    // Past the blow-up at t = 1/0.7 nothing helps: the error of the whole step, the state kept, the run
+    // ended.
     let state = *trajectory.state();
     let error = trajectory.next_in_parts(10).unwrap_err();
     assert!(matches!(error, StepError::NoRealSolution { .. }), "{error:?}");

@@ -1,7 +1,8 @@
 //! The condition number that a step's certificate states, against condition numbers computed otherwise.
 //!
-//! The Newton matrix comes from its closed form, from Padé's approximation of the exponential, or from differences of the momentum;
-//! its inverse and its singular values from nalgebra. Dense, banded and Gauss systems of 1 to 8 coordinates.
+//! The Newton matrix comes from its closed form, from Padé's approximation of the exponential, or from
+//! differences of the momentum; its inverse and its singular values from nalgebra. Dense, banded and Gauss
+//! systems of 1 to 8 coordinates.
 
 use dalembert::nalgebra::{DMatrix, SMatrix, SVector, vector};
 use dalembert::step::NewtonMatrix;
@@ -259,7 +260,8 @@ fn at_the_edges() {
     assert!(matches!(found, Err(StepError::NonFinite { .. })), "{found:?}");
 }
 
-/// So many digits are lost, and hardly more: v̄ of a step in `f64` against its exact value, for conditions up to 1e12.
+/// So many digits are lost, and hardly more: v̄ of a step in `f64` against its exact value, for conditions up
+/// to 1e12.
 #[test]
 fn the_digits_lost_are_those_it_says() {
     let mut worst = 0.0_f64;

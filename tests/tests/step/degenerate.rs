@@ -57,7 +57,8 @@ fn bad_scaling_is_not_degenerate() {
         let v = vector![1e12, -2e-12];
         let state = State::from_velocity(&system, vector![0.0, 0.0], v).unwrap();
         let step = system.by(Midpoint, 0.1).step(&state).unwrap();
-        // Free motion: v̄ = v, to rounding times the condition number of the scaled matrix, (1 + |c|)/(1 − |c|) < 200.
+        // Free motion: v̄ = v, to rounding times the condition number of the scaled matrix, (1 + |c|)/(1 −
+        // |c|) < 200.
         for i in 0..2 {
             assert!((step.velocity[i] / v[i] - 1.0).abs() < 1e-13, "{coupling}: {}", step.velocity);
         }

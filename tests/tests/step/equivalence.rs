@@ -5,8 +5,8 @@
 //! R_d + χ, χ = ψ(q0) + φ1(q1) − φ0(q0) + ψ(q1)
 //! ```
 //!
-//! Then L_d⁺ gains 2ψ(q0) + 2φ1(q1) and L_d⁻ gains 2φ0(q0) − 2ψ(q1): both momenta change by −2∇ψ. The paper prints
-//! −φ1(q1) in χ.
+//! Then L_d⁺ gains 2ψ(q0) + 2φ1(q1) and L_d⁻ gains 2φ0(q0) − 2ψ(q1): both momenta change by −2∇ψ. The paper
+//! prints −φ1(q1) in χ.
 
 use dalembert::nalgebra::{Matrix2, Vector2};
 use dalembert::run::VelocityHistory;
@@ -180,7 +180,8 @@ where
 #[test]
 fn regauged_systems_move_alike() {
     for [in_q, in_p] in [differences(Midpoint, 1.0, 100), differences(Trapezoidal, 1.0, 100)] {
-        // The regauged momenta are differences of L_d's derivatives, which carry 1/h: rounding grows over 100 steps.
+        // The regauged momenta are differences of L_d's derivatives, which carry 1/h: rounding grows over 100
+        // steps.
         assert!(in_q < 1e-11 && in_p < 1e-11, "{in_q:e} {in_p:e}");
     }
 }

@@ -1,4 +1,5 @@
-//! Large steps, stiff forces and what has no solution: where the fixed point of `Gauss<S>` gives way to Newton's method.
+//! Large steps, stiff forces and what has no solution: where the fixed point of `Gauss<S>` gives way to
+//! Newton's method.
 
 use allocation_counter::measure;
 use dalembert::nalgebra::{SVector, vector};
@@ -12,7 +13,8 @@ fn oscillator(q: [f64; 1], v: [f64; 1], k: f64, c: f64, cubic: f64) -> (f64, f64
     (0.5 * v[0] * v[0] - 0.5 * k * q[0] * q[0] - 0.25 * cubic * q[0].powi(4), 0.5 * c * v[0] * v[0])
 }
 
-/// The diagonal Padé approximant (s, s) of the exponential of z ∈ ℂ: what Gauss collocation does to y′ = λy, z = hλ.
+/// The diagonal Padé approximant (s, s) of the exponential of z ∈ ℂ: what Gauss collocation does to y′ = λy,
+/// z = hλ.
 fn pade(s: u32, (x, y): (f64, f64)) -> (f64, f64) {
     let times = |(a, b): (f64, f64), (c, d): (f64, f64)| (a * c - b * d, a * d + b * c);
     let (mut above, mut below, mut power, mut coefficient) = ((0.0, 0.0), (0.0, 0.0), (1.0, 0.0), 1.0);
@@ -126,8 +128,9 @@ macro_rules! masses {
 masses!(three_masses, 3);
 masses!(many_masses, 24);
 
-/// Iterations of the first step and the most of one after it, the masses starting at rest with the first alone displaced; all
-/// positions are held against the normal modes, sin(jkπ/(n+1)) cos(ω_k t), ω_k = 2 sin(kπ/(2n+2)).
+/// Iterations of the first step and the most of one after it, the masses starting at rest with the first
+/// alone displaced; all positions are held against the normal modes, sin(jkπ/(n+1)) cos(ω_k t), ω_k = 2
+/// sin(kπ/(2n+2)).
 fn iterations_of_a_front<L, const N: usize>(system: &L) -> [u32; 2]
 where
     L: Discrete<Gauss<8>, N, Scalar = f64>,
@@ -153,12 +156,14 @@ where
     iterations
 }
 
-/// At the start there is neither momentum nor force for those far from the first, and so no size to hold their residuals against.
+/// At the start there is neither momentum nor force for those far from the first, and so no size to hold
+/// their residuals against.
 #[test]
 fn coordinates_start_to_move_one_after_the_other() {
     let [first, most] = iterations_of_a_front(&ThreeMasses {});
     assert!(first <= 20 && most <= 20, "{first}, {most}");
-    // An iteration goes from each mass to the next: Newton's method, with its matrix of 192² entries, would need few.
+    // An iteration goes from each mass to the next: Newton's method, with its matrix of 192² entries, would
+    // need few.
     let [first, most] = iterations_of_a_front(&ManyMasses {});
     assert!((23..=60).contains(&first) && most <= 60, "{first}, {most}");
 }
@@ -171,7 +176,8 @@ fn cubic_drag(q: [f64; 1], v: [f64; 1], m: f64, r: f64) -> (f64, f64) {
 
 #[test]
 fn what_has_no_solution_says_so() {
-    // v̇ = −v²: from v = −2 the velocity is infinite at t = ½. One stage: v = p − hv²/2 has a root iff p ≥ −1/(2h).
+    // v̇ = −v²: from v = −2 the velocity is infinite at t = ½. One stage: v = p − hv²/2 has a root iff p ≥
+    // −1/(2h).
     let system = CubicDrag { m: 1.0, r: 1.0 };
     let state = State { q: vector![0.0], p: vector![-2.0] };
     let mut trajectory = system.by(Gauss::<1>, 1.0).run(state);

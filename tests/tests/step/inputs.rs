@@ -1,4 +1,5 @@
-//! Inputs and time: a force that takes u, and L, R and f that take t, by both rules and both engines, in both precisions.
+//! Inputs and time: a force that takes u, and L, R and f that take t, by both rules and both engines, in both
+//! precisions.
 
 /// The systems, with the engine named.
 macro_rules! systems {
@@ -258,7 +259,8 @@ fn the_engines_agree() {
     assert!(difference.0 > 1.0);
 }
 
-/// p1 − p0 = h Σ bᵢ (eᵗ + u + cos t) at t0 + cᵢ h, in closed form: every node sees its own time, for L and for f.
+/// p1 − p0 = h Σ bᵢ (eᵗ + u + cos t) at t0 + cᵢ h, in closed form: every node sees its own time, for L and
+/// for f.
 #[test]
 fn every_node_sees_its_own_time() {
     let (t, h, u) = (0.4_f64, 0.3, 0.25);
@@ -366,7 +368,8 @@ fn storm() -> (expanded::DrivenStorm<'static>, State<f64, 2>, SVector<f64, 2>) {
     (view, State::from_velocity(&view, q, v).unwrap(), exact)
 }
 
-/// Order 2 along a trajectory whose time advances; a step that forgot its time would leave an error of order 0.
+/// Order 2 along a trajectory whose time advances; a step that forgot its time would leave an error of order
+/// 0.
 #[test]
 fn a_trajectory_carries_the_time_on() {
     let (view, start, exact) = storm();
@@ -420,7 +423,8 @@ fn gauss_rules_keep_their_order_in_time() {
     assert!((held.q - one).amax() > 1e-3);
 }
 
-/// Stages in lanes, each at its own time, are those that num-dual gives one by one; in both precisions, with inputs.
+/// Stages in lanes, each at its own time, are those that num-dual gives one by one; in both precisions, with
+/// inputs.
 #[test]
 fn stages_see_their_own_time_in_both_engines() {
     let elapsed = Lanes([0.0, 0.05, 0.2]);
@@ -479,8 +483,8 @@ fn steps_in_parts_see_their_time() {
     }
 }
 
-/// The ledger takes each step's friction in its middle: what it leaves unexplained falls as h². Taken at the start of the step,
-/// friction that grows with time would leave what falls as h.
+/// The ledger takes each step's friction in its middle: what it leaves unexplained falls as h². Taken at the
+/// start of the step, friction that grows with time would leave what falls as h.
 #[test]
 fn the_ledger_sees_the_time_within_a_step() {
     let worn = expanded::Worn { r: 0.8 };
@@ -542,7 +546,8 @@ impl<L: Discrete<Midpoint, 1, Scalar = f64>> MomentaOfMidpoint for L {
     }
 }
 
-/// Linear in v̄ and, but for the time, explicit by the trapezoidal rule: what a run keeps must not keep an old force.
+/// Linear in v̄ and, but for the time, explicit by the trapezoidal rule: what a run keeps must not keep an old
+/// force.
 struct Rocking;
 
 #[dalembert::rayleigh_system(rule = [midpoint, trapezoidal])]

@@ -7,8 +7,8 @@ use dalembert_tests::systems::{Bead, Chain, Charge, DoublePendulum, Follower};
 
 const H: f64 = 0.2;
 
-/// Along a trajectory: consecutive configurations solve the DEL, the transforms give the momenta, and the flow on Q×Q is
-/// that on T*Q.
+/// Along a trajectory: consecutive configurations solve the DEL, the transforms give the momenta, and the
+/// flow on Q×Q is that on T*Q.
 fn check<S, R: Copy, const N: usize>(system: &S, rule: R, q: [f64; N], v: [f64; N])
 where
     S: ByHand<N> + Discrete<R, N, Scalar = f64>,
@@ -113,7 +113,8 @@ fn velocity_and_momentum_are_inverse_where_l_is_not_quadratic() {
     }
 }
 
-/// From rest the first Newton step for p = 10⁴ m c leads to 10⁴ times the speed of light: only shorter ones help.
+/// From rest the first Newton step for p = 10⁴ m c leads to 10⁴ times the speed of light: only shorter ones
+/// help.
 #[test]
 fn velocity_is_found_where_newton_steps_leave_the_domain() {
     let (m, c) = (1.3, 2.0);

@@ -1,4 +1,5 @@
-//! The midpoint flow of the damped oscillator is its closed form, and so is the determinant of its step matrix.
+//! The midpoint flow of the damped oscillator is its closed form, and so is the determinant of its step
+//! matrix.
 //!
 //! ```text
 //! q1 = (4hp + (4m − kh² + 2hr) q)/D,   p1 = (4mp − h²kp − 2hrp − 4hkm q)/D,   D = 4m + h²k + 2hr
@@ -35,7 +36,8 @@ const SYSTEMS: [Oscillator; 5] = [
     Oscillator { m: 1.2, k: 3.0, r: -0.4 },
 ];
 
-/// Largest deviation of a step from `flow`, in units of the state's size, over states, systems and step sizes.
+/// Largest deviation of a step from `flow`, in units of the state's size, over states, systems and step
+/// sizes.
 fn deviation(flow: impl Fn(Oscillator, f64) -> Matrix2<f64>) -> f64 {
     let mut largest = 0.0_f64;
     for system in SYSTEMS {

@@ -1,7 +1,7 @@
 //! Random systems over many decades, random states and steps: what holds exactly, to rounding.
 //!
-//! Where a property needs a bound, it is the rounding of what goes in, carried on by the exact derivatives of the step. Each has
-//! a control: a system, or a change, for which the same check fails.
+//! Where a property needs a bound, it is the rounding of what goes in, carried on by the exact derivatives of
+//! the step. Each has a control: a system, or a change, for which the same check fails.
 
 use dalembert::nalgebra::{Matrix2, Matrix4, SVector, Vector4};
 use dalembert::step::{DiscreteRayleigh, NewtonMatrix, Step};
@@ -12,8 +12,8 @@ use dalembert::{
 use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;
 
-/// Two masses on springs of degree 2 and 4 between each other and to walls, coupled in the mass matrix; friction that is linear,
-/// depends on the place, or is dry but for a width.
+/// Two masses on springs of degree 2 and 4 between each other and to walls, coupled in the mass matrix;
+/// friction that is linear, depends on the place, or is dry but for a width.
 #[derive(Clone, Copy, Debug)]
 struct Masses {
     m: [f64; 2],
@@ -98,8 +98,8 @@ fn masses(decades_of: f64) -> impl Strategy<Value = Masses> {
         })
 }
 
-/// A step that resolves the motion, so that its equation has one root in reach: no spring, nor the quartic one, goes through
-/// much of its period, and the distance changes little on the scale of its cosine.
+/// A step that resolves the motion, so that its equation has one root in reach: no spring, nor the quartic
+/// one, goes through much of its period, and the distance changes little on the scale of its cosine.
 fn resolved(system: &Masses, q: &SVector<f64, 2>, p: &SVector<f64, 2>, share: f64) -> f64 {
     let mass = system.m[0].min(system.m[1]) * 0.1;
     let speed = p.amax() / mass;
@@ -270,7 +270,8 @@ fn system_lagrangian(system: &Masses, q0: &SVector<f64, 2>, q1: &SVector<f64, 2>
     system.by(Midpoint, h).discrete_lagrangian(q0, q1)
 }
 
-/// How far (q, −p) of the next state leads past (q, −p) of this one, and what rounding allows. Nothing where no step is taken.
+/// How far (q, −p) of the next state leads past (q, −p) of this one, and what rounding allows. Nothing where
+/// no step is taken.
 fn reversal<R: Copy>(
     system: &Masses,
     rule: R,
@@ -476,7 +477,8 @@ fn every_check_can_fail() {
         a.assembled::<4>().determinant()
     };
     assert!((of(&EXAMPLE) - of(&EXAMPLE.frictionless())).abs() > 1e6 * bound);
-    // Nearly all of the steps that the properties draw within their period are taken, so that something is checked.
+    // Nearly all of the steps that the properties draw within their period are taken, so that something is
+    // checked.
     assert!(taken_or_named(&EXAMPLE, Midpoint, h, start).unwrap() == 4);
     let broken = Masses { m: [f64::NAN, 1.0], ..EXAMPLE };
     assert!(taken_or_named(&broken, Midpoint, h, start).unwrap() == 0);

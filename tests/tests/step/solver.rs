@@ -119,7 +119,8 @@ mod at_the_edge_of_the_domain {
         midpoint(&system, [0.5], [10.0], 0.05).unwrap();
     }
 
-    /// A wall that repels, −(1 − q)^½ with an infinite slope: the full Newton step from rest leaves the domain, a root exists inside.
+    /// A wall that repels, −(1 − q)^½ with an infinite slope: the full Newton step from rest leaves the
+    /// domain, a root exists inside.
     #[test]
     fn a_root_inside_is_found_though_newton_steps_leave_the_domain() {
         let (h, p) = (0.5, 30.0);
@@ -172,8 +173,8 @@ mod cubic_drag {
         {
             let step = after(inside).unwrap_or_else(|error| panic!("{inside}: {error}"));
             let x = SYSTEM.r / SYSTEM.m * H * step.velocity[0];
-            // The root that goes to 0 with the step: the other one is the numerical branch. Rounding ε of the square
-            // becomes ε/√ of its root near the fold.
+            // The root that goes to 0 with the step: the other one is the numerical branch. Rounding ε of the
+            // square becomes ε/√ of its root near the fold.
             let root = (1.0 + 2.0 * inside - inside * inside).sqrt();
             let expected = root - 1.0;
             assert!((x - expected).abs() <= 1e-14 + 4e-15 / root, "{inside}: {x} {expected}");
@@ -222,7 +223,8 @@ mod cubic_drag {
     }
 }
 
-/// A kinetic energy whose momentum is v⁹: at p = 0 a ninefold root, to which Newton's method converges linearly.
+/// A kinetic energy whose momentum is v⁹: at p = 0 a ninefold root, to which Newton's method converges
+/// linearly.
 #[rayleigh_system]
 fn flat(q: [f64; 1], v: [f64; 1]) -> f64 {
     v[0].powi(10) / 10.0 - 0.0 * q[0]
@@ -240,7 +242,8 @@ fn not_converged() {
     assert!(error.to_string().contains("not converged after 100 iterations"), "{error}");
 }
 
-/// A mass whose momentum comes out of a table with steps of 1e-9: digits are lost where no rounding of q or v shows it.
+/// A mass whose momentum comes out of a table with steps of 1e-9: digits are lost where no rounding of q or v
+/// shows it.
 struct Quantised;
 
 const STEP: f64 = 1e-9;
@@ -590,7 +593,8 @@ mod comes_to_rest {
     }
 }
 
-/// What a report says is so: the residual is that of the step returned, in units of a floor that rounding explains.
+/// What a report says is so: the residual is that of the step returned, in units of a floor that rounding
+/// explains.
 #[test]
 fn reports_state_the_residual_of_the_solution() {
     let system = DoublePendulum::EXAMPLE;

@@ -1,5 +1,5 @@
-//! The steps that a system's structure allows, against the general one: the same systems with derivatives by num-dual, whose
-//! every step is Newton's method with a dense matrix.
+//! The steps that a system's structure allows, against the general one: the same systems with derivatives by
+//! num-dual, whose every step is Newton's method with a dense matrix.
 
 /// The systems, with the engine named.
 macro_rules! systems {
@@ -45,7 +45,8 @@ macro_rules! systems {
             }
         }
 
-        /// Linear in v̄ by the trapezoidal rule, though L and f hold products of q and v: a charge in a magnetic field.
+        /// Linear in v̄ by the trapezoidal rule, though L and f hold products of q and v: a charge in a
+        /// magnetic field.
         pub struct Charge {
             pub b: f64,
             pub c: f64,
@@ -63,7 +64,8 @@ macro_rules! systems {
             }
         }
 
-        /// A kept tridiagonal matrix by the midpoint rule; damping between neighbours makes it so by the other rule as well.
+        /// A kept tridiagonal matrix by the midpoint rule; damping between neighbours makes it so by the
+        /// other rule as well.
         pub struct Chain {
             pub beta: f64,
             pub drag: f64,
@@ -94,7 +96,8 @@ macro_rules! systems {
             }
         }
 
-        /// A mass matrix that depends on q: a kept dense matrix by either rule, and the fused trapezoidal kernel with all its terms.
+        /// A mass matrix that depends on q: a kept dense matrix by either rule, and the fused trapezoidal
+        /// kernel with all its terms.
         pub struct Spherical {
             pub g: f64,
             pub c: f64,
@@ -276,8 +279,8 @@ fn memories_follow_the_state_and_the_step_size() {
     check::<_, Trapezoidal, 6>(&special::Chain { beta: 0.7, drag: 0.1 }, states);
 }
 
-/// Where the corrections do not shrink, Newton's method takes the step: a chain so stiff that the matrix of one step is none for
-/// the next.
+/// Where the corrections do not shrink, Newton's method takes the step: a chain so stiff that the matrix of
+/// one step is none for the next.
 #[test]
 fn newton_takes_over_where_a_kept_matrix_is_far_off() {
     let (a, b) = (special::Chain { beta: 500.0, drag: 0.05 }, general::Chain { beta: 500.0, drag: 0.05 });

@@ -1,4 +1,5 @@
-//! Conjecture of section 3.4: "the exact discrete force of a natural Lagrangian with a Rayleigh force is Rayleigh".
+//! Conjecture of section 3.4: "the exact discrete force of a natural Lagrangian with a Rayleigh force is
+//! Rayleigh".
 //!
 //! It is false. For L = ½mv² − V(q), R = ½rv²,
 //!
@@ -6,7 +7,8 @@
 //! D1 f_d^ex+ + D2 f_d^ex− = −(r/m)(q1−q0) h² ∫₀¹ τ²(1−τ)² V'''(q0 + τ(q1−q0)) dτ + O(h³)
 //! ```
 //!
-//! which is −(r/30m) V'''(q)(q1−q0)h² for some q between; it vanishes for the harmonic oscillator, the paper's example.
+//! which is −(r/30m) V'''(q)(q1−q0)h² for some q between; it vanishes for the harmonic oscillator, the
+//! paper's example.
 
 use dalembert::exact::{Exact, Existence, ExistenceVerdict};
 use dalembert::nalgebra::{Matrix2, vector};
@@ -77,7 +79,8 @@ fn the_pendulum_violates_it_by_known_amounts() {
 
 #[test]
 fn it_holds_for_the_harmonic_oscillator() {
-    // The paper's example, and the positive control of the others: the same tool says 0 where the closed form says 0.
+    // The paper's example, and the positive control of the others: the same tool says 0 where the closed form
+    // says 0.
     let system = Harmonic { m: 1.3, r: 0.3, k: 2.0 };
     for h in [0.1, 0.5, 1.0, 2.0] {
         let existence = Exact::rayleigh(&system).existence(vector![0.6], vector![1.1], h).unwrap();
@@ -120,8 +123,8 @@ fn the_leading_term_is_the_integral_over_the_third_derivative() {
 
 #[test]
 fn the_coefficient_is_one_thirtieth() {
-    // V = q⁴/4: V''' = 6q is odd about the middle, so the integral is V'''/30 there, whatever q1 − q0. What is left is
-    // c1 h + c2 h² + …, extrapolated away.
+    // V = q⁴/4: V''' = 6q is odd about the middle, so the integral is V'''/30 there, whatever q1 − q0. What
+    // is left is c1 h + c2 h² + …, extrapolated away.
     let (m, r, q0, q1) = (1.0, 0.3, 0.6, 1.1);
     let system = Quartic { m, r };
     let coefficient = |h: f64| {
@@ -136,7 +139,8 @@ fn the_coefficient_is_one_thirtieth() {
 
 #[test]
 fn for_two_degrees_of_freedom_a_quadratic_potential_violates_it() {
-    // D2f+ − (D2f+)ᵀ = (h²/12)(C M⁻¹K − K M⁻¹C) + O(h³): M = diag(2, 1), K = [[3, .7], [.7, 1]], C = diag(c, 1/5).
+    // D2f+ − (D2f+)ᵀ = (h²/12)(C M⁻¹K − K M⁻¹C) + O(h³): M = diag(2, 1), K = [[3, .7], [.7, 1]], C = diag(c,
+    // 1/5).
     let c = 0.9;
     let system = Springs { c };
     let (mass_inverse, stiffness, damping) =

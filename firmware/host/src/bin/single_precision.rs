@@ -1,8 +1,8 @@
 //! Error of every elementary function of one `f32`, over every `f32`, in units in the last place.
 //!
 //! The reference is the standard library's function in `f64`, whose own error is some 10⁻⁸ of such a unit.
-//! `single_precision 1` takes all 2³² numbers, `single_precision 4099` every 4099th; names of functions behind the stride take
-//! these alone. Fails above 2 units.
+//! `single_precision 1` takes all 2³² numbers, `single_precision 4099` every 4099th; names of functions
+//! behind the stride take these alone. Fails above 2 units.
 
 use std::thread;
 
@@ -48,8 +48,8 @@ struct Worst {
     at: f32,
 }
 
-/// Distance of `value` from `exact`, in units in the last place of an `f32` of that size; infinite where the two are not of
-/// one kind (NaN, infinity).
+/// Distance of `value` from `exact`, in units in the last place of an `f32` of that size; infinite where the
+/// two are not of one kind (NaN, infinity).
 fn error(value: f32, exact: f64) -> f64 {
     // The least number that rounds to infinity.
     let overflow = f64::from(f32::MAX) * (1.0 + f64::from(f32::EPSILON) / 4.0);

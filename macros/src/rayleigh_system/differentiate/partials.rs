@@ -77,7 +77,8 @@ pub fn partials(graph: &mut Graph, node: Node, operation: Operation, order: Orde
             let second = graph.scaled(exponent * (exponent - 1.0), second);
             Partials { first: vec![(x, first)], second: vec![(x, x, second)] }
         }
-        // a − a and a/a are constant; truth values have no derivative; selections and variables are the sweep's business.
+        // a − a and a/a are constant; truth values have no derivative; selections and variables are the
+        // sweep's business.
         _ => Partials::default(),
     };
     partials.first.retain(|(a, _)| graph.depends(*a));
@@ -274,7 +275,8 @@ fn of_pair(graph: &mut Graph, function: PairFunction, a: Node, b: Node, y: Node)
     }
 }
 
-/// n xⁿ⁻¹ and n(n−1) xⁿ⁻² for a constant n; 0 where the factor vanishes, also where the power itself is infinite.
+/// n xⁿ⁻¹ and n(n−1) xⁿ⁻² for a constant n; 0 where the factor vanishes, also where the power itself is
+/// infinite.
 fn real_power(graph: &mut Graph, x: Node, n: Node) -> (Option<Node>, Option<Node>) {
     let mut factor = graph.one();
     let mut exponent = n;
@@ -325,7 +327,8 @@ fn power_of_both(graph: &mut Graph, x: Node, n: Node, y: Node) -> Partials {
     Partials { first: vec![(x, by_x), (n, by_n)], second: vec![(x, x, xx), (x, n, xn), (n, n, nn)] }
 }
 
-/// The smaller or larger of two numbers as the runtime's `Real` has it: the first of equal ones, NaN only where both are.
+/// The smaller or larger of two numbers as the runtime's `Real` has it: the first of equal ones, NaN only
+/// where both are.
 pub fn extremum(graph: &mut Graph, comparison: Comparison, a: Node, b: Node) -> Node {
     let wins = graph.node(Operation::Compare(comparison, b, a));
     let missing = graph.node(Operation::Is(Predicate::Nan, a));

@@ -1,5 +1,5 @@
-//! What is written otherwise where values are lanes: comparisons give masks, selections take both branches, and numbers among
-//! the arguments of a method are spread over the lanes.
+//! What is written otherwise where values are lanes: comparisons give masks, selections take both branches,
+//! and numbers among the arguments of a method are spread over the lanes.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};

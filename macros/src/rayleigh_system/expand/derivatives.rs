@@ -1,5 +1,6 @@
-//! Derivatives by num-dual: each function evaluates a twin over dual numbers, twice named because of two kinds: those that
-//! carry all derivatives, and those that carry the ones of a single pair of variables, for singular points.
+//! Derivatives by num-dual: each function evaluates a twin over dual numbers, twice named because of two
+//! kinds: those that carry all derivatives, and those that carry the ones of a single pair of variables, for
+//! singular points.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};

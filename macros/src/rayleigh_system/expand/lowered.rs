@@ -1,5 +1,5 @@
-//! Functions over dual numbers that compute the expressions of the user's bodies: for bodies with enums, options and other
-//! values that no dual number stands for. The user's item stands as written.
+//! Functions over dual numbers that compute the expressions of the user's bodies: for bodies with enums,
+//! options and other values that no dual number stands for. The user's item stands as written.
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};

@@ -1,4 +1,5 @@
-//! Derivatives along directions: those that a rule passes when the program runs, and those folded into a kernel.
+//! Derivatives along directions: those that a rule passes when the program runs, and those folded into a
+//! kernel.
 
 use super::*;
 

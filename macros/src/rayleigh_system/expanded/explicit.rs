@@ -1,4 +1,5 @@
-//! An explicit step by the trapezoidal rule, in three functions: the matrix, what v̄ adds to the momenta, and the force.
+//! An explicit step by the trapezoidal rule, in three functions: the matrix, what v̄ adds to the momenta, and
+//! the force.
 
 use super::kernel::Parts;
 use super::*;

@@ -1,5 +1,5 @@
-//! The step's equation, fused: L, R and f with the rule's directions folded in, each shared expression once; in the form that
-//! the structure of its matrix allows.
+//! The step's equation, fused: L, R and f with the rule's directions folded in, each shared expression once;
+//! in the form that the structure of its matrix allows.
 
 use super::implement::Memory;
 use super::structure::Newton;

@@ -1,4 +1,5 @@
-//! What systems have on request: derivatives by parameters, and the Hessians that second derivatives of the step need.
+//! What systems have on request: derivatives by parameters, and the Hessians that second derivatives of the
+//! step need.
 
 use syn::Expr;
 

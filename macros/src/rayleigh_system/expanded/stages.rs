@@ -1,11 +1,12 @@
-//! The equations of motion at the stages of a Gauss rule, in lanes: L, R and f together, each shared expression once.
+//! The equations of motion at the stages of a Gauss rule, in lanes: L, R and f together, each shared
+//! expression once.
 //!
 //! ```text
 //! G = ∂L/∂q − ∂R/∂v + f,   residual = P − ∂L/∂v,   correction = (∂²L/∂v²)⁻¹ residual
 //! ```
 //!
-//! The matrix is factored here, M = L D Lᵀ without exchanges, so that its zeros and constants cost nothing. A pivot that is 0
-//! makes the correction infinite, and the runtime takes Newton's method.
+//! The matrix is factored here, M = L D Lᵀ without exchanges, so that its zeros and constants cost nothing. A
+//! pivot that is 0 makes the correction infinite, and the runtime takes Newton's method.
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
 

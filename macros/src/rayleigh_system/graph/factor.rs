@@ -6,9 +6,9 @@
 //! 2 (½ + ½ β s) d        (1 + β s) d
 //! ```
 //!
-//! Works on the expressions of one function, whose uses it counts: what is used more than once stays one expression, and what
-//! the user wrote is not touched. Products put first what does not change with q and v, so that it is the same expression,
-//! computed once, wherever it occurs.
+//! Works on the expressions of one function, whose uses it counts: what is used more than once stays one
+//! expression, and what the user wrote is not touched. Products put first what does not change with q and v,
+//! so that it is the same expression, computed once, wherever it occurs.
 
 use std::collections::{HashMap, HashSet};
 
@@ -61,8 +61,8 @@ struct Factoring<'g> {
 }
 
 impl Graph {
-    /// What `outputs` compute, in fewer operations. The first `written` nodes of the graph stay as they are, and so does what
-    /// conditions are made of: they have to choose as the user's function does.
+    /// What `outputs` compute, in fewer operations. The first `written` nodes of the graph stay as they are,
+    /// and so does what conditions are made of: they have to choose as the user's function does.
     pub fn factored(&mut self, outputs: &[Node], written: usize) -> Vec<Node> {
         let nodes = self.reachable(outputs.iter().copied());
         let mut uses: HashMap<Node, u32> = HashMap::new();

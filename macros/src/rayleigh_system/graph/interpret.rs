@@ -2,7 +2,8 @@
 
 use super::{Comparison, Function, Graph, Node, Operation, PairFunction, Predicate};
 
-/// The values of `roots` at (q, v), each operation's result passed through `rounded`. Truth values are 1 and 0.
+/// The values of `roots` at (q, v), each operation's result passed through `rounded`. Truth values are 1 and
+/// 0.
 pub fn values(
     graph: &Graph,
     roots: &[Node],

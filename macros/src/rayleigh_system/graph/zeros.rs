@@ -1,6 +1,7 @@
 //! The sign of a zero: whether leaving out the 0 that a sum starts from can be seen.
 //!
-//! 0 + x is x, unless x is −0. Most sums go where a zero has no sign; where one is divided by, or asked for its sign, the 0 stays.
+//! 0 + x is x, unless x is −0. Most sums go where a zero has no sign; where one is divided by, or asked for
+//! its sign, the 0 stays.
 
 use super::{Function, Graph, Node, Operation, PairFunction, Predicate};
 

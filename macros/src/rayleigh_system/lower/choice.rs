@@ -1,5 +1,5 @@
-//! `if`, `match`, `let … else` and `matches!`: what numbers decide runs every way, and every local that differs becomes a
-//! selection.
+//! `if`, `match`, `let … else` and `matches!`: what numbers decide runs every way, and every local that
+//! differs becomes a selection.
 
 use syn::{Expr, ExprIf, ExprLet, ExprMatch, Macro, Pat};
 
@@ -39,8 +39,8 @@ impl Lowering<'_> {
         Ok((a, b))
     }
 
-    /// Both ways start from the same locals; where they end differently, the condition selects. Last, whether either way has
-    /// surely returned.
+    /// Both ways start from the same locals; where they end differently, the condition selects. Last, whether
+    /// either way has surely returned.
     fn ways(
         &mut self,
         at: &impl ToTokens,

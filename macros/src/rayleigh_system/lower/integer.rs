@@ -1,8 +1,9 @@
 //! Integers known at compile time, with the types that Rust gives them.
 //!
-//! A literal's type follows from its use, often from a later one. Integers that must have one type share a class; the class
-//! keeps the extreme values computed in it, which are held against the type once it is known, at the latest when all bodies
-//! have been run. A value that its type does not hold panics or wraps by the build: it is refused.
+//! A literal's type follows from its use, often from a later one. Integers that must have one type share a
+//! class; the class keeps the extreme values computed in it, which are held against the type once it is
+//! known, at the latest when all bodies have been run. A value that its type does not hold panics or wraps by
+//! the build: it is refused.
 
 use proc_macro2::{Ident, Span};
 use quote::ToTokens;

@@ -1,7 +1,8 @@
 //! Patterns: names bound to values, and whether a value matches.
 //!
-//! Which of constant, variant and binding a name in a pattern is, rustc alone knows. On fields and constants it decides: the
-//! pattern is written out, as `matches!(self.law, Friction::Linear(_))`, and what it binds as a `match` that gives the binding.
+//! Which of constant, variant and binding a name in a pattern is, rustc alone knows. On fields and constants
+//! it decides: the pattern is written out, as `matches!(self.law, Friction::Linear(_))`, and what it binds as
+//! a `match` that gives the binding.
 
 use std::rc::Rc;
 
@@ -228,8 +229,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// Whether a pattern of names, tuples and `_` matches whatever its value; names in small letters, unless the body imports
-    /// them, are taken for bindings, and rustc is asked to agree.
+    /// Whether a pattern of names, tuples and `_` matches whatever its value; names in small letters, unless
+    /// the body imports them, are taken for bindings, and rustc is asked to agree.
     fn matches_always(&self, pattern: &Pat) -> bool {
         match pattern {
             Pat::Wild(_) => true,

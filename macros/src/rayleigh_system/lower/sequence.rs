@@ -114,7 +114,8 @@ impl Lowering<'_> {
         Ok(Value::Sequence(entries))
     }
 
-    /// Whether the closure holds for any or for all; closures change nothing, so that the order of asking does not matter.
+    /// Whether the closure holds for any or for all; closures change nothing, so that the order of asking
+    /// does not matter.
     fn decided(&mut self, method: &Ident, entries: Vec<Value>, function: &Value) -> Result<Value> {
         let is_any = method == "any";
         let mut truth = Truth::Known(!is_any);
@@ -134,7 +135,8 @@ impl Lowering<'_> {
         Ok(Value::Truth(truth))
     }
 
-    /// The sum or the product, from left to right. Rust starts sums of floating-point numbers at −0, which changes nothing.
+    /// The sum or the product, from left to right. Rust starts sums of floating-point numbers at −0, which
+    /// changes nothing.
     fn total(&mut self, method: &Ident, entries: Vec<Value>, said: Option<&Type>) -> Result<Value> {
         let is_sum = method == "sum";
         let ty = said.and_then(IntegerType::of);

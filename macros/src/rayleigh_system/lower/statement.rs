@@ -89,7 +89,8 @@ impl Lowering<'_> {
         }
     }
 
-    /// Names that a `use` brings into a body, as the paths they stand for: the generated code is outside its scope.
+    /// Names that a `use` brings into a body, as the paths they stand for: the generated code is outside its
+    /// scope.
     fn import(&mut self, path: TokenStream, tree: &UseTree) -> Result<()> {
         let (name, path) = match tree {
             UseTree::Path(inner) => {

@@ -22,8 +22,8 @@ pub enum Value {
     Written(Written),
     /// One of two by a condition, neither a number yet.
     Chosen(Rc<Chosen>),
-    /// An array, slice or iterator; its entries are known one by one. Closures change nothing outside themselves, so that
-    /// running an adaptor's closure early is running it late.
+    /// An array, slice or iterator; its entries are known one by one. Closures change nothing outside
+    /// themselves, so that running an adaptor's closure early is running it late.
     Sequence(Vec<Value>),
     Tuple(Vec<Value>),
     Closure(Rc<Closure>),

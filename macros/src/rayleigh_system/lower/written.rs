@@ -8,8 +8,8 @@ use syn::{BinOp, Index, UnOp};
 
 use super::indexed;
 
-/// An expression of fields and constants. Its type shows in its use: as a number it becomes nodes of the graph, as an
-/// index, integer or condition it is written out.
+/// An expression of fields and constants. Its type shows in its use: as a number it becomes nodes of the
+/// graph, as an index, integer or condition it is written out.
 #[derive(Clone)]
 pub enum Written {
     Leaf(Leaf),
@@ -89,8 +89,8 @@ impl Written {
         self.derived(false, |base| quote!(#base.#index))
     }
 
-    /// The expression as one leaf, in parentheses where it is more than one operand. Names that clash are told by
-    /// [`Written::text`].
+    /// The expression as one leaf, in parentheses where it is more than one operand. Names that clash are
+    /// told by [`Written::text`].
     fn as_leaf(&self) -> Leaf {
         match self {
             Self::Leaf(leaf) => leaf.clone(),

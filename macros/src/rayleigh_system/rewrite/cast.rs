@@ -49,8 +49,8 @@ impl Rewriter<'_> {
         }
     }
 
-    /// Whether the expression is made of literals, fields and constants alone, by arithmetic and casts: the same over plain
-    /// numbers.
+    /// Whether the expression is made of literals, fields and constants alone, by arithmetic and casts: the
+    /// same over plain numbers.
     fn is_constant(&self, expression: &Expr) -> bool {
         match expression {
             Expr::Lit(_) => true,

@@ -5,8 +5,8 @@ use syn::{Expr, ImplItemFn, Local};
 
 use super::super::syntax::is_place_of_self;
 
-/// Whether a field goes into a local as it stands, as in `let law = self.law;`: a number or an array can be lifted, an enum or
-/// a struct cannot, and nothing here tells which it is.
+/// Whether a field goes into a local as it stands, as in `let law = self.law;`: a number or an array can be
+/// lifted, an enum or a struct cannot, and nothing here tells which it is.
 pub fn hands_on_fields(function: &ImplItemFn) -> bool {
     let mut fields = Fields { found: false };
     fields.visit_impl_item_fn(function);

@@ -72,7 +72,8 @@ impl Rewriter<'_> {
                 }
             }
         };
-        // A local of the same name keeps it: the field becomes `self_k`, and `self_k_` if there is that one too.
+        // A local of the same name keeps it: the field becomes `self_k`, and `self_k_` if there is that one
+        // too.
         let mut free = name;
         if self.is_taken(&free, &words) {
             free = format!("self_{}", free.trim_start_matches("r#"));

@@ -1,5 +1,5 @@
-//! Operators over `Real<D>` take their operands as those of plain numbers do: by value, in the order written, the place that
-//! is assigned to last of all. Rust's own rule for other types borrows before it evaluates.
+//! Operators over `Real<D>` take their operands as those of plain numbers do: by value, in the order written,
+//! the place that is assigned to last of all. Rust's own rule for other types borrows before it evaluates.
 
 use proc_macro2::Span;
 use syn::{BinOp, Expr, ExprBinary, Ident, parse_quote_spanned};
@@ -9,7 +9,8 @@ use super::super::syntax::{METHODS, is_assignment, is_self, without_parentheses}
 use super::Rewriter;
 
 impl Rewriter<'_> {
-    /// The operator, whose operands are rewritten; it stays as it is where nothing can tell in which order they run.
+    /// The operator, whose operands are rewritten; it stays as it is where nothing can tell in which order
+    /// they run.
     ///
     /// | written | becomes |
     /// |---|---|
@@ -20,7 +21,8 @@ impl Rewriter<'_> {
         let ExprBinary { left, op, right, .. } = binary;
         let span = span_of(op);
         let [first, second] = ["left", "right"].map(|name| Ident::new(name, Span::mixed_site()));
-        // The operator itself stays: through a function, the type of an integer literal would not be inferred.
+        // The operator itself stays: through a function, the type of an integer literal would not be
+        // inferred.
         match op {
             BinOp::Rem(_) => Some(parse_quote_spanned!(span=> dual::remainder(#left % #right))),
             BinOp::RemAssign(_) => {
@@ -50,8 +52,8 @@ impl Rewriter<'_> {
         }
     }
 
-    /// Whether running the expression changes no place: of calls, that is known of the block's functions and of numbers'
-    /// methods alone.
+    /// Whether running the expression changes no place: of calls, that is known of the block's functions and
+    /// of numbers' methods alone.
     pub fn is_still(&self, expression: &Expr) -> bool {
         let all = |mut arguments: syn::punctuated::Iter<'_, Expr>| {
             arguments.all(|argument| is_self(argument) || self.is_still(argument))

@@ -100,7 +100,8 @@ impl Degrees {
                 Operation::Negate(a) => of(a),
                 Operation::Multiply(a, b) => of(a).product(of(b)),
                 Operation::MultiplyAdd(a, b, c) => of(a).product(of(b)).sum(of(c)),
-                // The parts of a sum over a constant are those of the sum; a variable below is no polynomial in it.
+                // The parts of a sum over a constant are those of the sum; a variable below is no polynomial
+                // in it.
                 Operation::Divide(a, b) => {
                     let below = of(b).function(Shape::CONSTANT);
                     of(a).product(below)

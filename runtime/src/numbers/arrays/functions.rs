@@ -1,8 +1,9 @@
 //! Sine, cosine and exponential of several numbers at once.
 //!
 //! Branch-free, so that they run in vector instructions: reduction by three parts of π/2
-//! or two of ln 2 and the polynomials of fdlibm (Sun Microsystems, 1993; `k_sin.c`, `k_cos.c`, `e_exp.c`), within 1.5 units in
-//! the last place. Arguments beyond their range go one by one through the functions of numbers.
+//! or two of ln 2 and the polynomials of fdlibm (Sun Microsystems, 1993; `k_sin.c`, `k_cos.c`, `e_exp.c`),
+//! within 1.5 units in the last place. Arguments beyond their range go one by one through the functions of
+//! numbers.
 
 /// Functions that have a branch-free form.
 pub trait Functions: Sized {

@@ -1,4 +1,5 @@
-//! Arithmetic of lanes in the vector types of `wide`: as many lanes as one holds at once, the rest in narrower ones.
+//! Arithmetic of lanes in the vector types of `wide`: as many lanes as one holds at once, the rest in
+//! narrower ones.
 //!
 //! Each operation is the one that a number has, so lanes are rounded as numbers are.
 
@@ -31,8 +32,8 @@ pub trait Vectors: Sized {
     fn roots<const S: usize>(a: [Self; S]) -> [Self; S];
 }
 
-/// The operation on chunks of the widest type whose width S is a multiple of, or else one by one; S alone decides, so that one
-/// branch is compiled.
+/// The operation on chunks of the widest type whose width S is a multiple of, or else one by one; S alone
+/// decides, so that one branch is compiled.
 macro_rules! in_chunks {
     ([$($vector:ident $width:literal)*] $arguments:tt => $wide:expr, $alone:expr) => {{
         $(

@@ -1,7 +1,7 @@
 //! Derivatives of functions of (q, v): seeds in, parts out.
 //!
-//! Each takes the function twice, once for each kind of number: with all derivatives at once, and with those of one pair of
-//! variables, for points where some of the former are not numbers (see [`singular`]).
+//! Each takes the function twice, once for each kind of number: with all derivatives at once, and with those
+//! of one pair of variables, for points where some of the former are not numbers (see [`singular`]).
 
 use core::array;
 
@@ -15,8 +15,9 @@ use crate::numbers::{CovectorDerivatives, Derivatives, Direction, Gradient, Vari
 
 /// The most variables whose derivatives one number carries all at once.
 ///
-/// By k variables it holds k² entries, which every operation of a body moves: twelve are 1.2 kB. Beyond, a function is
-/// evaluated once for each pair of variables, whose numbers are small: the stack holds them, whatever n is.
+/// By k variables it holds k² entries, which every operation of a body moves: twelve are 1.2 kB. Beyond, a
+/// function is evaluated once for each pair of variables, whose numbers are small: the stack holds them,
+/// whatever n is.
 const TOGETHER: usize = 12;
 
 /// First derivatives by M seeds.
@@ -55,8 +56,8 @@ pub(super) fn entries<F: Primitive, const R: usize, const C: usize>(part: Part<F
 
 /// Value, ∂f/∂q and ∂f/∂v of `f`.
 ///
-/// q is seeded in the first part and v in the second, so that what depends on one alone carries N derivatives and not 2N;
-/// the mixed part is not read, and so not computed.
+/// q is seeded in the first part and v in the second, so that what depends on one alone carries N derivatives
+/// and not 2N; the mixed part is not read, and so not computed.
 #[inline]
 pub fn gradient<F: Primitive, const N: usize>(
     q: &SVector<F, N>,

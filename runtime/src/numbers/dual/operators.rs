@@ -1,4 +1,5 @@
-//! The operators of `Real<D>`: arithmetic and comparisons between numbers of a body, references to them and plain numbers.
+//! The operators of `Real<D>`: arithmetic and comparisons between numbers of a body, references to them and
+//! plain numbers.
 
 use core::cmp::Ordering;
 use core::fmt;
@@ -10,8 +11,8 @@ use num_dual::DualNum;
 use super::primitive::Primitive;
 use super::{Dual, Real};
 
-/// x % y = x − y·trunc(x/y). Bodies are refused it by [`Remainder`](super::lift::Remainder); that it exists for all numbers
-/// lets the compiler infer the integers that it is for.
+/// x % y = x − y·trunc(x/y). Bodies are refused it by [`Remainder`](super::lift::Remainder); that it exists
+/// for all numbers lets the compiler infer the integers that it is for.
 trait Modulo<F>: Sized {
     fn modulo(self, right: Self) -> Self;
 }

@@ -11,14 +11,14 @@ use crate::numbers::Elementary;
 
 /// What stands for `f64` (or `f32`) in a differentiated body: a number of type `D`, plain or dual.
 ///
-/// Operators take `Real<D>`, references to it and plain numbers, in any mixture, as `f64` does. Methods are those of `f64`
-/// that have a derivative; they give the value that `f64` gives.
+/// Operators take `Real<D>`, references to it and plain numbers, in any mixture, as `f64` does. Methods are
+/// those of `f64` that have a derivative; they give the value that `f64` gives.
 ///
 /// # Where a derivative does not exist
 ///
-/// Derivatives written out at compile time and those of this type are the same there: one-sided limits where there is a
-/// side, infinite where the slope is, NaN where the direction decides. Whatever does not depend on the argument of a singular
-/// function keeps its own derivative, 0 by that argument.
+/// Derivatives written out at compile time and those of this type are the same there: one-sided limits where
+/// there is a side, infinite where the slope is, NaN where the direction decides. Whatever does not depend on
+/// the argument of a singular function keeps its own derivative, 0 by that argument.
 ///
 /// | at | value | derivative | second derivative |
 /// |---|---|---|---|
@@ -39,8 +39,9 @@ use crate::numbers::Elementary;
 /// | `sqrt`, `powf`, `asin`, `acos` outside their domain, `acosh` in (−1, 1) | NaN | NaN | NaN |
 /// | `hypot`, `atan2` at (0, 0) | 0 | NaN | NaN |
 ///
-/// An infinite derivative times one that happens to be 0 is NaN, as for √(x²) at 0: it is 0 only where there is no
-/// dependence at all. What is summed up from infinite derivatives is not finite, ∞ or NaN by the order of the sum.
+/// An infinite derivative times one that happens to be 0 is NaN, as for √(x²) at 0: it is 0 only where there
+/// is no dependence at all. What is summed up from infinite derivatives is not finite, ∞ or NaN by the order
+/// of the sum.
 #[derive(Clone, Copy)]
 pub struct Real<D>(pub D);
 
@@ -274,7 +275,8 @@ where
         self.chain([t, slope, two * t * slope, two * slope * (one + three * t * t)])
     }
 
-    /// Hyperbolic tangent. num-dual divides sinh by cosh: NaN beyond |x| ≈ 710. Here the slope comes from e^(−2|x|).
+    /// Hyperbolic tangent. num-dual divides sinh by cosh: NaN beyond |x| ≈ 710. Here the slope comes from
+    /// e^(−2|x|).
     #[inline]
     #[must_use]
     pub fn tanh(self) -> Self {
@@ -380,8 +382,9 @@ where
         let (x, y) = (self.0.primal(), other.0.primal());
         let value = Elementary::hypot(x, y);
         let (cosine, sine) = (D::real(x / value), D::real(y / value));
-        // Along the vector and across it, where the value is 0: √(u² + w²) = u + w²/2u up to w⁴, with 1/u = (2 − u/r)/r up to
-        // (u/r − 1)², r the value. A quotient by u itself would have derivatives of 1/r², which overflow before 1/r does.
+        // Along the vector and across it, where the value is 0: √(u² + w²) = u + w²/2u up to w⁴, with 1/u =
+        // (2 − u/r)/r up to (u/r − 1)², r the value. A quotient by u itself would have derivatives of
+        // 1/r², which overflow before 1/r does.
         let along = Self((self * cosine + other * sine).0.with_primal(value));
         let across = Self((other * cosine - self * sine).0.with_primal(F::constant(0.0)));
         let per_value = D::real(F::constant(1.0) / value);
@@ -426,7 +429,8 @@ where
         if other > self || self.is_nan() { other } else { self }
     }
 
-    /// The number limited to [`low`, `high`]. Where `low` > `high`, on which `f64::clamp` panics, it is `high`.
+    /// The number limited to [`low`, `high`]. Where `low` > `high`, on which `f64::clamp` panics, it is
+    /// `high`.
     #[inline]
     #[must_use]
     pub fn clamp(self, low: Self, high: Self) -> Self {

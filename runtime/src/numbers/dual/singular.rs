@@ -1,9 +1,10 @@
 //! Derivatives at singular points, and of many variables, one pair of variables at a time.
 //!
-//! A number that carries the derivatives by all variables holds a 0 for each that it does not depend on. Where a slope is
-//! infinite, ∞ × 0 would make NaN of it, and the NaN would spread to variables that the singular term does not depend on.
-//! Here all variables but one pair carry no derivative at all, so that what depends on neither of the two has none: it is 0,
-//! as in code that is written out. What is NaN still does not exist.
+//! A number that carries the derivatives by all variables holds a 0 for each that it does not depend on.
+//! Where a slope is infinite, ∞ × 0 would make NaN of it, and the NaN would spread to variables that the
+//! singular term does not depend on. Here all variables but one pair carry no derivative at all, so that what
+//! depends on neither of the two has none: it is 0, as in code that is written out. What is NaN still does
+//! not exist.
 
 use core::array;
 
@@ -171,8 +172,9 @@ fn only<F: Primitive>(is_seeded: bool) -> Option<F> {
     is_seeded.then(nalgebra::one)
 }
 
-/// What variable `k` of (q, v) carries where the unit vector eᵢ is followed along `direction`. A variable that does not move
-/// carries nothing: 0 × ∞ would be NaN, as of q at the first node of the trapezoidal rule, which q1 does not move.
+/// What variable `k` of (q, v) carries where the unit vector eᵢ is followed along `direction`. A variable
+/// that does not move carries nothing: 0 × ∞ would be NaN, as of q at the first node of the trapezoidal rule,
+/// which q1 does not move.
 #[inline(always)]
 fn along<F: Primitive>(direction: Direction<F>, i: usize, k: usize, n: usize) -> Option<F> {
     let moves = if k == i {

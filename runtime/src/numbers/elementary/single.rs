@@ -1,13 +1,15 @@
 //! Elementary functions of `f32` in `f32`, for processors whose `f64` is software.
 //!
-//! libm's sine, cosine, tangent, 2ˣ, arcsine, cube root and hypotenuse of an `f32` compute in `f64`. These stay in `f32` and
-//! integers; arcosh is here for its error. Errors are below 2 units in the last place: `firmware/host/src/bin/single_precision.rs`
-//! measures them over as many `f32` as one has time for, all if need be, and a test below over samples. Coefficients are minimax
-//! fits of our own, rounded to `f32`, or those of a series.
+//! libm's sine, cosine, tangent, 2ˣ, arcsine, cube root and hypotenuse of an `f32` compute in `f64`. These
+//! stay in `f32` and integers; arcosh is here for its error. Errors are below 2 units in the last place:
+//! `firmware/host/src/bin/single_precision.rs` measures them over as many `f32` as one has time for, all if
+//! need be, and a test below over samples. Coefficients are minimax fits of our own, rounded to `f32`, or
+//! those of a series.
 
 use core::f32::consts::FRAC_PI_4;
 
-/// Below this, x is its own sine, tangent and so on, −0 included: x²/3 is under half a unit in the last place.
+/// Below this, x is its own sine, tangent and so on, −0 included: x²/3 is under half a unit in the last
+/// place.
 const TINY: f32 = 1.0 / 4096.0;
 
 /// What π/2 has beyond [`FRAC_PI_2`](core::f32::consts::FRAC_PI_2), twice [`FRAC_PI_4`].
@@ -102,10 +104,11 @@ fn near_cos(r: f32, low: f32) -> f32 {
             + (z * z * (0.041_666_653 + z * (-0.001_388_765_4 + z * 0.000_024_463_776)) - r * low))
 }
 
-/// The multiple k of π/2 nearest to x > π/4, by its last two bits, and x − kπ/2 in two parts; NaN for infinity and NaN.
+/// The multiple k of π/2 nearest to x > π/4, by its last two bits, and x − kπ/2 in two parts; NaN for
+/// infinity and NaN.
 ///
-/// x = m 2ᵉ with an integer m, so that of 2/π only bits of weight below 4/2ᵉ matter: 96 of them leave an error of 2⁻⁶², and
-/// no `f32` comes closer to a multiple of π/2 than 2⁻³⁰.
+/// x = m 2ᵉ with an integer m, so that of 2/π only bits of weight below 4/2ᵉ matter: 96 of them leave an
+/// error of 2⁻⁶², and no `f32` comes closer to a multiple of π/2 than 2⁻³⁰.
 #[inline]
 fn reduced(x: f32) -> (u32, f32, f32) {
     let bits = x.to_bits();
@@ -253,8 +256,8 @@ pub fn hypot(x: f32, y: f32) -> f32 {
     libm::sqrtf(x * x + y * y) * up
 }
 
-/// arcosh x. Near 1 by √(2t) (1 − t/12 + 3t²/160 − …), t = x − 1, the series of arsinh √(t/2): libm's logarithm of a sum is off by
-/// more than 2 units there.
+/// arcosh x. Near 1 by √(2t) (1 − t/12 + 3t²/160 − …), t = x − 1, the series of arsinh √(t/2): libm's
+/// logarithm of a sum is off by more than 2 units there.
 #[inline]
 pub fn acosh(x: f32) -> f32 {
     let t = x - 1.0;
@@ -288,7 +291,8 @@ mod tests {
 
     #[test]
     fn errors_stay_below_two_units_in_the_last_place() {
-        // `firmware/host/src/bin/single_precision.rs` takes more of them; its table stands in docs/embedding.md.
+        // `firmware/host/src/bin/single_precision.rs` takes more of them; its table stands in
+        // docs/embedding.md.
         assert!(worst(sin, f64::sin) < 1.0);
         assert!(worst(cos, f64::cos) < 1.0);
         assert!(worst(|x| sin_cos(x).0, f64::sin) < 1.0);

@@ -1,4 +1,5 @@
-//! Elementary functions of lanes: sine, cosine and exponential of all at once, the others lane by lane through those of numbers.
+//! Elementary functions of lanes: sine, cosine and exponential of all at once, the others lane by lane
+//! through those of numbers.
 
 use super::Lanes;
 use crate::numbers::Scalar;

@@ -5,7 +5,8 @@ use nalgebra::SVector;
 use super::{Factored, NewtonMatrix, Singular, dense};
 use crate::numbers::Scalar;
 
-/// A matrix whose entries lie within B of the diagonal, W = 2B + 1: Newton matrices of chains, and diagonal ones (W = 1).
+/// A matrix whose entries lie within B of the diagonal, W = 2B + 1: Newton matrices of chains, and diagonal
+/// ones (W = 1).
 ///
 /// `rows[i][k]` is the entry at row i and column i + k − B; what falls outside the matrix is 0.
 ///
@@ -22,7 +23,8 @@ pub struct Banded<S, const N: usize, const W: usize> {
     pub rows: [[S; W]; N],
 }
 
-/// A pivot smaller than this share of its row's largest entry calls for row exchanges, which a band has no room for.
+/// A pivot smaller than this share of its row's largest entry calls for row exchanges, which a band has no
+/// room for.
 const SMALL: f64 = 1e-3;
 
 impl<S: Scalar, const N: usize, const W: usize> Banded<S, N, W> {
@@ -39,8 +41,8 @@ impl<S: Scalar, const N: usize, const W: usize> Banded<S, N, W> {
     }
 }
 
-/// A band as the product L D U of triangles with diagonal 1 and the pivots, whose reciprocals lie on the diagonal: in solving,
-/// nothing waits for a product with one.
+/// A band as the product L D U of triangles with diagonal 1 and the pivots, whose reciprocals lie on the
+/// diagonal: in solving, nothing waits for a product with one.
 #[derive(Clone, Copy, Debug)]
 pub struct FactoredBand<S, const N: usize, const W: usize> {
     rows: [[S; W]; N],
@@ -170,7 +172,8 @@ impl<S: Scalar, const N: usize, const W: usize> NewtonMatrix<S, N> for Banded<S,
     }
 }
 
-/// The same with row exchanges, in dense form: where the band does not dominate its diagonal, and to name a singular column.
+/// The same with row exchanges, in dense form: where the band does not dominate its diagonal, and to name a
+/// singular column.
 #[cold]
 fn pivoted<S: Scalar, const N: usize, const W: usize>(
     matrix: &Banded<S, N, W>,

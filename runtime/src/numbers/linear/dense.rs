@@ -220,7 +220,8 @@ mod tests {
 
     #[test]
     fn bad_scaling_is_not_singularity() {
-        // D A D with D = diag(1e-12, 1e12) and A = [[1, ½], [½, 1]]: regular, though its entries span 48 decades.
+        // D A D with D = diag(1e-12, 1e12) and A = [[1, ½], [½, 1]]: regular, though its entries span 48
+        // decades.
         let a = matrix![1e-24, 0.5; 0.5, 1e24];
         let solution = a.solve(&vector![1e-12, 1e12]).unwrap();
         let expected: SVector<f64, 2> = vector![1e12 * 2.0 / 3.0, 1e-12 * 2.0 / 3.0];

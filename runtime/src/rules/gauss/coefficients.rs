@@ -1,16 +1,17 @@
 //! The Gauss–Legendre collocation method of s stages, computed when the program is compiled.
 //!
-//! With the shifted Legendre polynomials P_k(2τ − 1), x = 2c − 1 and quadrature exact to degree 2s − 1, the basis of
-//! degree s − 1 is
+//! With the shifted Legendre polynomials P_k(2τ − 1), x = 2c − 1 and quadrature exact to degree 2s − 1, the
+//! basis of degree s − 1 is
 //!
 //! ```text
 //! ℓ_j(τ) = b_j Σ_{k<s} (2k + 1) P_k(x_j) P_k(2τ − 1)
 //! a_ij = ∫₀^{c_i} ℓ_j dτ = b_j μ_ij,   μ_ij = (x_i + 1)/2 + ½ Σ_{0<k<s} P_k(x_j) (P_{k+1}(x_i) − P_{k−1}(x_i))
 //! ```
 //!
-//! A method is symplectic if b_i a_ij + b_j a_ji = b_i b_j, that is μ_ij + μ_ji = 1. Rounded so that this holds exactly, the
-//! coefficients are those of a symplectic method, whatever b is (M. Antoñana, J. Makazaga, A. Murua, *Reducing and monitoring
-//! round-off error propagation for symplectic implicit Runge–Kutta schemes*, Numerical Algorithms 76, 2017).
+//! A method is symplectic if b_i a_ij + b_j a_ji = b_i b_j, that is μ_ij + μ_ji = 1. Rounded so that this
+//! holds exactly, the coefficients are those of a symplectic method, whatever b is (M. Antoñana, J. Makazaga,
+//! A. Murua, *Reducing and monitoring round-off error propagation for symplectic implicit Runge–Kutta
+//! schemes*, Numerical Algorithms 76, 2017).
 
 use super::double_double::Double;
 
@@ -23,7 +24,8 @@ pub(crate) struct Coefficients<const S: usize> {
     pub(crate) weights: [f64; S],
     /// `shares[j][i]` = μ_ij = a_ij/b_j.
     pub(crate) shares: [[f64; S]; S],
-    /// `extrapolation[j][i]` = ℓ_j(1 + c_i): the polynomial through the stages of one step at those of the next.
+    /// `extrapolation[j][i]` = ℓ_j(1 + c_i): the polynomial through the stages of one step at those of the
+    /// next.
     pub(crate) extrapolation: [[f64; S]; S],
 }
 
@@ -119,7 +121,8 @@ impl<const S: usize> Coefficients<S> {
         all.symplectic()
     }
 
-    /// μ_ij + μ_ji = 1 exactly: the larger of the two rounded, the other what is left, which is a number of `f64` then.
+    /// μ_ij + μ_ji = 1 exactly: the larger of the two rounded, the other what is left, which is a number of
+    /// `f64` then.
     const fn symplectic(mut self) -> Self {
         let mut j = 0;
         while j < S {

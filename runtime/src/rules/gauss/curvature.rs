@@ -1,15 +1,16 @@
 //! Second derivatives of a step, contracted with a covector.
 //!
-//! With λ = (λ_q, λ_p) at (q1, p1), and multipliers μ_i of the stages' equations r_i = ∂L/∂v(Q_i, V_i) − P_i that make
-//! λ·(q1, p1) + Σ μ_i·r_i stationary in the velocities, second derivatives of the stages themselves drop out:
+//! With λ = (λ_q, λ_p) at (q1, p1), and multipliers μ_i of the stages' equations r_i = ∂L/∂v(Q_i, V_i) − P_i
+//! that make λ·(q1, p1) + Σ μ_i·r_i stationary in the velocities, second derivatives of the stages themselves
+//! drop out:
 //!
 //! ```text
 //! Jᵀ μ = −∂(λ·(q1, p1))/∂V,   γ_i = h b_i λ_p − h Σ_j a_ji μ_j
 //! ∂²(λ·(q1, p1)) = Σ_i D_iᵀ ∂²[μ_i·∂L/∂v + γ_i·G](Q_i, V_i, u) D_i,   D_i = ∂(Q_i, V_i, u)
 //! ```
 //!
-//! Third derivatives of L and R appear contracted alone. Between given ends D_i is that of the segment, and λ_q the covector
-//! that makes a·p0 + b·p1 stationary in p0.
+//! Third derivatives of L and R appear contracted alone. Between given ends D_i is that of the segment, and
+//! λ_q the covector that makes a·p0 + b·p1 stationary in p0.
 
 use core::array;
 

@@ -1,7 +1,8 @@
-//! Sums of two `f64`, evaluated when the program is compiled: about 31 digits for the coefficients of a method.
+//! Sums of two `f64`, evaluated when the program is compiled: about 31 digits for the coefficients of a
+//! method.
 //!
-//! T. J. Dekker, *A floating-point technique for extending the available precision*, Numerische Mathematik 18 (1971). Own
-//! code because it has to be `const`.
+//! T. J. Dekker, *A floating-point technique for extending the available precision*, Numerische Mathematik 18
+//! (1971). Own code because it has to be `const`.
 
 /// high + low, |low| at most half the last place of high.
 #[derive(Clone, Copy, Debug)]

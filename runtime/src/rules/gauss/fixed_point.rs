@@ -1,8 +1,10 @@
-//! The stages by fixed-point iteration in Nyström order: rates at (Q(V), V), momenta from them, velocities from those.
+//! The stages by fixed-point iteration in Nyström order: rates at (Q(V), V), momenta from them, velocities
+//! from those.
 //!
-//! One evaluation of all stages an iteration and no matrix but ∂²L/∂v². Without friction and with a constant mass an iteration
-//! takes the error down by O(h²), otherwise by O(h). Where it does not contract, Newton's method takes over, from the velocity
-//! at the start of the step: from an extrapolation that is far off it may find another root than the motion's.
+//! One evaluation of all stages an iteration and no matrix but ∂²L/∂v². Without friction and with a constant
+//! mass an iteration takes the error down by O(h²), otherwise by O(h). Where it does not contract, Newton's
+//! method takes over, from the velocity at the start of the step: from an extrapolation that is far off it
+//! may find another root than the motion's.
 
 use core::cmp::Ordering;
 
@@ -23,13 +25,16 @@ const MAX_ITERATIONS: u32 = 60;
 /// If two iterations do not halve the residual, Newton's method is cheaper.
 const SLUGGISH: f64 = 0.5;
 
-/// The residual that the last correction may leave, in floors: with the contraction measured, what is left of it.
+/// The residual that the last correction may leave, in floors: with the contraction measured, what is left of
+/// it.
 const AT_REST: f64 = 1.0 / 64.0;
 
-/// After one iteration, only a residual of at most this many floors is taken to shrink in the next as much as it has.
+/// After one iteration, only a residual of at most this many floors is taken to shrink in the next as much as
+/// it has.
 const NEAR: f64 = 1024.0;
 
-/// If the floor has risen or fallen by this factor, sizes measured with the old floor are not comparable with new ones.
+/// If the floor has risen or fallen by this factor, sizes measured with the old floor are not comparable with
+/// new ones.
 const CHANGED: f64 = 8.0;
 
 /// Solves for the stages from the one velocity `guess`.
@@ -67,7 +72,8 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
             // Nothing is known of the contraction yet.
             last = size;
         } else if size.partial_cmp(&last) != Some(Ordering::Less) {
-            // Copies, here and below: what a call is given the address of would be kept in memory through all iterations.
+            // Copies, here and below: what a call is given the address of would be kept in memory through all
+            // iterations.
             let (rate, residual) = (stages.rate, stages.residual);
             if let Some(risen) = risen(problem, &rate, &residual, floor) {
                 floor = risen;
@@ -81,8 +87,9 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
         if !size.is_finite() {
             return None;
         }
-        // The contraction is size/last; but where the mass depends on q velocities follow momenta an iteration late, and every other
-        // iteration may take off nothing: the one before is heeded too. A first one says little of coordinates with lower floors.
+        // The contraction is size/last; but where the mass depends on q velocities follow momenta an
+        // iteration late, and every other iteration may take off nothing: the one before is heeded
+        // too. A first one says little of coordinates with lower floors.
         let mut is_at_rest = size * size <= constant(AT_REST) * last
             && if iterations > 2 {
                 size * last <= constant(AT_REST) * before
@@ -94,7 +101,8 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
         let has_stopped = iterations > 1 && size >= constant(SLUGGISH) * last;
         let mut is_done = is_at_rest || (has_stopped && size <= constant(AT_FLOOR));
         if is_done && iterations > 1 {
-            // The floor of the guess says nothing of rounding at the root if it was far out, where forces are larger.
+            // The floor of the guess says nothing of rounding at the root if it was far out, where forces are
+            // larger.
             let (rate, residual) = (stages.rate, stages.residual);
             if let Some(fallen) = fallen(problem, &rate, &residual, &floor) {
                 floor = fallen;
@@ -133,8 +141,8 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
     None
 }
 
-/// The floor now, if that at the start of the iteration was much lower in a coordinate, one that did not move then: sizes before
-/// say nothing of the contraction.
+/// The floor now, if that at the start of the iteration was much lower in a coordinate, one that did not move
+/// then: sizes before say nothing of the contraction.
 #[cold]
 #[inline(never)]
 fn risen<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
@@ -209,8 +217,8 @@ pub(super) fn at_rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N
     (is_explained && is_decided(problem, v, &measured)).then_some(measured)
 }
 
-/// Whether the `floor` at the stages is small beside what their equations are made of: |p0| + |h| max |G| there and at rest, and
-/// forces at rest that cancel.
+/// Whether the `floor` at the stages is small beside what their equations are made of: |p0| + |h| max |G|
+/// there and at rest, and forces at rest that cancel.
 #[cold]
 #[inline(never)]
 pub(super) fn is_decided<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(

@@ -15,8 +15,9 @@ use crate::system::ForcedLagrangian;
 
 /// The stages of the last step, and what rounding has taken from q and p.
 ///
-/// The polynomial through the stages' velocities, one step on, is the guess for the next. The rests of q and p are added
-/// before they are forgotten (W. Kahan 1965); they are used only where the run goes on from the very state that they belong to.
+/// The polynomial through the stages' velocities, one step on, is the guess for the next. The rests of q and
+/// p are added before they are forgotten (W. Kahan 1965); they are used only where the run goes on from the
+/// very state that they belong to.
 #[derive(Clone, Copy, Debug)]
 pub struct StageHistory<T, const N: usize, const S: usize> {
     /// The velocities V_i of the last step.
@@ -43,14 +44,14 @@ impl<T: Scalar, const N: usize, const S: usize> Default for StageHistory<T, N, S
 }
 
 impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
-    /// What `q` and `p` of the last state lack of the exact sums, in units of the state. The state with these added is known
-    /// to twice the digits.
+    /// What `q` and `p` of the last state lack of the exact sums, in units of the state. The state with these
+    /// added is known to twice the digits.
     pub fn rests(&self) -> (SVector<T, N>, SVector<T, N>) {
         (self.q.rest, self.p.rest)
     }
 
-    /// The last two coefficients, of all coordinates the largest, of the velocity over the last step in Legendre polynomials: what is left
-    /// of a smooth motion, and where it is not smooth, of its kinks.
+    /// The last two coefficients, of all coordinates the largest, of the velocity over the last step in
+    /// Legendre polynomials: what is left of a smooth motion, and where it is not smooth, of its kinks.
     pub(crate) fn unresolved(&self) -> [f64; 2] {
         let coefficients = &Gauss::<S>::COEFFICIENTS;
         let (mut last, mut before) = ([0.0; S], [0.0; S]);
@@ -75,7 +76,8 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
         !self.contracted
     }
 
-    /// V_i, the velocities at the stages of the last step: at q0 + h Σ a_ij V_j its equations of motion hold. 0 before the first.
+    /// V_i, the velocities at the stages of the last step: at q0 + h Σ a_ij V_j its equations of motion hold.
+    /// 0 before the first.
     pub fn velocities(&self) -> [SVector<T, N>; S] {
         array::from_fn(|i| lane(&self.v, i))
     }

@@ -1,7 +1,7 @@
 //! The stages' equations linearised, and elimination for all stages together.
 //!
-//! With M, B the derivatives of ∂L/∂v by v and by q, and K, C those of G by q and by v, at each stage, the residual
-//! r_i = ∂L/∂v(Q_i, V_i) − P_i has
+//! With M, B the derivatives of ∂L/∂v by v and by q, and K, C those of G by q and by v, at each stage, the
+//! residual r_i = ∂L/∂v(Q_i, V_i) − P_i has
 //!
 //! ```text
 //! ∂r_i/∂V_j = δ_ij M_i + h a_ij (B_i − C_j) − h² Σ_k a_ik K_k a_kj

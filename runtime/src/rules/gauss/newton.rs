@@ -1,8 +1,10 @@
-//! Newton's method for all stages together: for large steps and stiff forces, where the fixed point does not contract.
+//! Newton's method for all stages together: for large steps and stiff forces, where the fixed point does not
+//! contract.
 //!
-//! The matrix has (S N)² entries, on the stack; it is assembled anew in each iteration, from the second derivatives at every
-//! stage. Steps that do not lower the residual are shortened, unless the one after them is shorter ([`nearer`]), as in the solver of
-//! the rules of one stage, whose definition of a solved step this is: `newton/rounding.rs`.
+//! The matrix has (S N)² entries, on the stack; it is assembled anew in each iteration, from the second
+//! derivatives at every stage. Steps that do not lower the residual are shortened, unless the one after them
+//! is shorter ([`nearer`]), as in the solver of the rules of one stage, whose definition of a solved step
+//! this is: `newton/rounding.rs`.
 
 use nalgebra::SVector;
 
@@ -60,7 +62,8 @@ impl<T: Scalar, const N: usize, const S: usize> Iterate<T, N, S> {
         Self { v, locals, rate, residual, floor, size }
     }
 
-    /// The size of the residual in units of a floor that two iterates have in common: what they are compared by.
+    /// The size of the residual in units of a floor that two iterates have in common: what they are compared
+    /// by.
     pub(super) fn size_in(&self, floor: &SVector<T, N>) -> T {
         in_units_of(&self.residual, floor)
     }
@@ -130,8 +133,9 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
                 if nearer(problem, &next, &last, &correction) {
                     break Some((next, size.min(before) / before));
                 }
-                // No lower than before, or hardly: rounding, if what there is of it explains the residual. One component that rounding
-                // holds up can hide that the step has brought the others down.
+                // No lower than before, or hardly: rounding, if what there is of it explains the residual.
+                // One component that rounding holds up can hide that the step has brought the
+                // others down.
                 for at in [&next, &last].into_iter().take(if lower { 1 } else { 2 }) {
                     if let Some(measured) = at_rounding(problem, &at.v, &at.residual, at.floor) {
                         let (residual, floor) = worst(&at.residual, &measured);
@@ -192,8 +196,9 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
     })
 }
 
-/// Whether a full step whose residual is hardly lower is nearer to the root all the same: the Newton step from there is at most half as long,
-/// with Σ |Mₐₐ| vₐ² over all stages for the square of a length, by a matrix that has not grown.
+/// Whether a full step whose residual is hardly lower is nearer to the root all the same: the Newton step
+/// from there is at most half as long, with Σ |Mₐₐ| vₐ² over all stages for the square of a length, by a
+/// matrix that has not grown.
 #[cold]
 #[inline(never)]
 fn nearer<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(

@@ -79,7 +79,8 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
 
     /// start + Σ_j μ_ij (h b_j x_j) at every stage i.
     ///
-    /// Loops, not `array::from_fn`, whose closures are calls; two sums, for each of which the other's products need not wait.
+    /// Loops, not `array::from_fn`, whose closures are calls; two sums, for each of which the other's
+    /// products need not wait.
     #[inline(always)]
     fn at_stages(&self, start: &Compensated<T, N>, x: &LaneVector<T, N, S>) -> LaneVector<T, N, S> {
         let steps = Lanes(self.steps);
@@ -153,7 +154,8 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         })
     }
 
-    /// What rounding leaves of the momentum equations: 4ε (|p0| + |h| max |G_i| + max |P_i − ∂L/∂v|), coordinate by coordinate.
+    /// What rounding leaves of the momentum equations: 4ε (|p0| + |h| max |G_i| + max |P_i − ∂L/∂v|),
+    /// coordinate by coordinate.
     #[inline(always)]
     pub(super) fn floor(&self, rate: &LaneVector<T, N, S>, residual: &LaneVector<T, N, S>) -> SVector<T, N> {
         let unit = T::EPSILON * T::constant(4.0);
@@ -198,9 +200,10 @@ pub(super) fn in_units<T: Scalar, const N: usize, const S: usize>(
     if sum.is_finite() { largest.folded(|a, b| if a > b { a } else { b }) } else { sum }
 }
 
-/// What rounding does to the residuals at the stages: their changes when each coordinate of Q moves by the last place of its terms, and
-/// of V by its own, added up; measured over [`PLACES`] of them, since functions on the way may swallow one. Near an equilibrium, where
-/// large forces cancel, this is more than [`Problem::floor`] knows of.
+/// What rounding does to the residuals at the stages: their changes when each coordinate of Q moves by the
+/// last place of its terms, and of V by its own, added up; measured over [`PLACES`] of them, since functions
+/// on the way may swallow one. Near an equilibrium, where large forces cancel, this is more than
+/// [`Problem::floor`] knows of.
 #[cold]
 #[inline(never)]
 pub(super) fn rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
@@ -219,7 +222,8 @@ pub(super) fn rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: u
     };
     let places = T::constant(PLACES);
     let unit = T::EPSILON * places;
-    // All stages alike, then the halves of the step apart: a force that changes sign within it must not cancel.
+    // All stages alike, then the halves of the step apart: a force that changes sign within it must not
+    // cancel.
     for opposed in [unit, -unit] {
         let unit = Lanes::<T, S>(array::from_fn(|i| if 2 * i < S { unit } else { opposed }));
         for a in 0..N {

@@ -1,15 +1,17 @@
 //! The discrete objects on a segment (q0, q1), its interior points eliminated by the forced equations.
 //!
-//! The stages and p0 solve the equations of a step with Σ b_i V_i = v̄ for the configuration at the end. The derivatives of a step
-//! (`tangent.rs`), with q1 returned to its place by p0, are those of a segment: the total variations of all Q_i and V_i.
+//! The stages and p0 solve the equations of a step with Σ b_i V_i = v̄ for the configuration at the end. The
+//! derivatives of a step (`tangent.rs`), with q1 returned to its place by p0, are those of a segment: the
+//! total variations of all Q_i and V_i.
 //!
 //! ```text
 //! K01 = ∂p0/∂q1 = (∂q1/∂p0)⁻¹,   K00 = ∂p0/∂q0 = −K01 ∂q1/∂q0
 //! D L_d = h Σ b_i (∂L/∂q·DQ_i + ∂L/∂v·DV_i),   f_d = h Σ b_i f_L·DQ_i,   p0 = −D1 L_d − f_d⁻,   p1 = D2 L_d + f_d⁺
 //! ```
 //!
-//! Of D²L_d and Df_d alone their sums K are exact; Df_d itself holds second derivatives of the interior points, that is third
-//! ones of L, and is a central difference of order 8 of f_d. Without force it is 0 and D²L_d exact.
+//! Of D²L_d and Df_d alone their sums K are exact; Df_d itself holds second derivatives of the interior
+//! points, that is third ones of L, and is a central difference of order 8 of f_d. Without force it is 0 and
+//! D²L_d exact.
 
 use core::cmp::Ordering;
 
@@ -137,7 +139,8 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         })
     }
 
-    /// Whether the determinant of the stages' equations has the sign that it has for small h, where it is Π det Mᵢ.
+    /// Whether the determinant of the stages' equations has the sign that it has for small h, where it is Π
+    /// det Mᵢ.
     pub(super) fn is_on_the_branch_of_the_flow(&self) -> bool {
         let mut for_small_h = true;
         for local in &self.locals {
@@ -259,7 +262,8 @@ const WEIGHTS: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
 /// Spacings tried, as powers of 2 of the coordinate's size.
 const SPACINGS: core::ops::RangeInclusive<i32> = 2..=11;
 
-/// f_d with its derivatives: along each coordinate by the spacing whose result changes least when it is halved.
+/// f_d with its derivatives: along each coordinate by the spacing whose result changes least when it is
+/// halved.
 pub(super) fn force_derivatives<
     T: Scalar,
     L: ForcedLagrangian<N, Scalar = T>,

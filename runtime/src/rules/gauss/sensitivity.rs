@@ -1,7 +1,7 @@
 //! Derivatives of a step by its input and by parameters.
 //!
-//! Both act at the stages: an input moves G by ∂f/∂u, a parameter ∂L/∂v by ∂²L/∂v∂θ and G by ∂²L/∂q∂θ − ∂²R/∂v∂θ + ∂f/∂θ.
-//! Between given ends p0 moves too, by −K01 ∂q1/∂θ, so that q1 stays.
+//! Both act at the stages: an input moves G by ∂f/∂u, a parameter ∂L/∂v by ∂²L/∂v∂θ and G by ∂²L/∂q∂θ −
+//! ∂²R/∂v∂θ + ∂f/∂θ. Between given ends p0 moves too, by −K01 ∂q1/∂θ, so that q1 stays.
 
 use core::array;
 

@@ -1,7 +1,8 @@
 //! How a solved step follows what it depends on: exact, by the implicit function theorem.
 //!
-//! The stages' equations r(V, z) = 0 hold for every z, such as q0, p0, an input or a parameter, so that J dV = −∂r/∂z dz with the
-//! matrix J = ∂r/∂V of all stages, factored once for all columns. With μ_i, g_i what z itself moves in ∂L/∂v and G at a stage:
+//! The stages' equations r(V, z) = 0 hold for every z, such as q0, p0, an input or a parameter, so that J
+//! dV = −∂r/∂z dz with the matrix J = ∂r/∂V of all stages, factored once for all columns. With μ_i, g_i what
+//! z itself moves in ∂L/∂v and G at a stage:
 //!
 //! ```text
 //! J dV = dp0 − μ_i − B_i dq0 + h Σ_j a_ij (g_j + K_j dq0),   dQ_i = dq0 + h Σ_j a_ij dV_j

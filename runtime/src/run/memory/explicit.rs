@@ -16,8 +16,8 @@ use crate::step::{
     newton::{estimated_floor, held_against},
 };
 
-/// A system that the trapezoidal rule steps explicitly: L = T(v) − V(q) with T quadratic, R quadratic in v, both with constant
-/// coefficients, and a force f(q).
+/// A system that the trapezoidal rule steps explicitly: L = T(v) − V(q) with T quadratic, R quadratic in v,
+/// both with constant coefficients, and a force f(q).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no explicit steps",
     label = "the equations of `{Self}` are not known to be explicit",
@@ -120,8 +120,9 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Prepared<S, M, N> {
         matrix.factored().map(|factored| Self { h, matrix, factored, at_rest })
     }
 
-    /// The step, and G at its end; nothing where a number is none or the residual is above its floor. `configuration_force` is G, `force` its value
-    /// at the start; `velocity_momenta` is what the velocity adds to the momenta.
+    /// The step, and G at its end; nothing where a number is none or the residual is above its floor.
+    /// `configuration_force` is G, `force` its value at the start; `velocity_momenta` is what the
+    /// velocity adds to the momenta.
     #[inline]
     pub(super) fn step(
         &self,

@@ -4,9 +4,9 @@
 //! v̄ ← v̄ − A⁻¹ (p0(v̄) − p)        A = ∂p0/∂v̄ of an earlier step, factored
 //! ```
 //!
-//! Each correction costs both momenta and no second derivatives. Where the matrix is constant one correction is enough; where
-//! it is not, the corrections shrink by a factor that tells how far the matrix is off. A factor that is not small hands the
-//! step to Newton's method, and its matrix is kept from then on.
+//! Each correction costs both momenta and no second derivatives. Where the matrix is constant one correction
+//! is enough; where it is not, the corrections shrink by a factor that tells how far the matrix is off. A
+//! factor that is not small hands the step to Newton's method, and its matrix is kept from then on.
 
 use nalgebra::SVector;
 
@@ -20,8 +20,8 @@ use crate::step::{
 /// A correction must leave at most this share of the residual.
 const CONTRACTION: f64 = 0.1;
 
-/// If the guess leaves more than this share of p0 as residual, the old matrix is not tried: the terms at the guess say nothing about
-/// rounding at the root.
+/// If the guess leaves more than this share of p0 as residual, the old matrix is not tried: the terms at the
+/// guess say nothing about rounding at the root.
 const CLOSE: f64 = 0.025;
 
 /// Corrections before Newton's method takes over.
@@ -33,8 +33,8 @@ const SMALL: f64 = 1.0 / 64.0;
 /// Where a step takes more corrections than this, the matrix is renewed.
 const STALE: u32 = 3;
 
-/// A matrix that serves fewer steps than this costs more than it saves: Newton's method then takes a number of steps, twice
-/// as many each time in a row, before another is kept.
+/// A matrix that serves fewer steps than this costs more than it saves: Newton's method then takes a number
+/// of steps, twice as many each time in a row, before another is kept.
 const WORTHWHILE: u32 = 3;
 
 /// The least and the largest of these numbers of steps.
@@ -42,7 +42,8 @@ const PAUSES: [u32; 2] = [8, 1024];
 
 /// The Newton matrix of an earlier step, factored, and the latest mean velocities.
 ///
-/// Where the matrix changes so fast that one kept is soon of no use, most steps are those of [`VelocityHistory`].
+/// Where the matrix changes so fast that one kept is soon of no use, most steps are those of
+/// [`VelocityHistory`].
 #[derive(Clone, Copy, Debug)]
 pub struct KeptMatrix<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> {
     history: VelocityHistory<S, N>,
@@ -116,7 +117,8 @@ where
 }
 
 impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> KeptMatrix<S, M, N> {
-    /// Keeps the matrix at the end of the step; none if it cannot be factored, or if the last one was not worth it.
+    /// Keeps the matrix at the end of the step; none if it cannot be factored, or if the last one was not
+    /// worth it.
     #[cold]
     #[inline(never)]
     fn renew<L, R>(&mut self, system: &L, state: &State<S, N>, step: &Step<S, N>, h: S)
@@ -186,8 +188,8 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         None
     }
 
-    /// The `residual` at `v` and its floor, by the matrix there unless that kept is shown to do; nothing where it is no root's. `first` is
-    /// the residual of the guess.
+    /// The `residual` at `v` and its floor, by the matrix there unless that kept is shown to do; nothing
+    /// where it is no root's. `first` is the residual of the guess.
     #[cold]
     #[inline(never)]
     fn held_with_care<L, R>(
@@ -210,8 +212,9 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
 
     /// The step to `v`, whose residual has stopped falling, if the rounding of q explains it; nothing if not.
     ///
-    /// Forces that cancel, as those of neighbouring springs do on a long wave, are rounded as each is. What q does to p0 is,
-    /// by the midpoint and the trapezoidal rule, 2/h times what of the matrix J(h) is even in h, less the mass matrix:
+    /// Forces that cancel, as those of neighbouring springs do on a long wave, are rounded as each is. What q
+    /// does to p0 is, by the midpoint and the trapezoidal rule, 2/h times what of the matrix J(h) is even
+    /// in h, less the mass matrix:
     ///
     /// ```text
     /// E = (J(h) + J(−h))/2 − J(0) = −(h²/4) ∂²L/∂q² + …      floorᵢ += 4ε (2/|h|) Σⱼ |Eᵢⱼ||qⱼ|
@@ -248,8 +251,8 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         Step::completed(state, self.h, v, &momenta, report).ok()
     }
 
-    /// The step where the equation is linear, from any `guess`; nothing where rounding holds the residual up or a number is
-    /// none: the general path has the verdict.
+    /// The step where the equation is linear, from any `guess`; nothing where rounding holds the residual up
+    /// or a number is none: the general path has the verdict.
     #[inline]
     fn linear_step<L, R>(&self, system: &L, state: &State<S, N>, guess: SVector<S, N>) -> Option<Step<S, N>>
     where
@@ -259,7 +262,8 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         let mut v = guess;
         let mut correction: SVector<S, N> = nalgebra::zero();
         let mut iterations = 0;
-        // The factors' rounding is the same at every step, and so is its share of a correction: a drift, unless corrections are small.
+        // The factors' rounding is the same at every step, and so is its share of a correction: a drift,
+        // unless corrections are small.
         while iterations == 0 || iterations == 1 && correction.amax() > v.amax() * S::constant(SMALL) {
             correction = self.factored.solve(&(system.momenta(q, &v, self.h).p0 - p));
             v -= correction;
@@ -276,12 +280,14 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
     }
 }
 
-/// Whether the residual of a guess is so large in every coordinate that corrections down to [`AT_FLOOR`] floors are seen to work, as
-/// [`is_shown`] asks at the price of a loop after every step. A floor that overflows has the weight 0: nothing is far beside it.
+/// Whether the residual of a guess is so large in every coordinate that corrections down to [`AT_FLOOR`]
+/// floors are seen to work, as [`is_shown`] asks at the price of a loop after every step. A floor that
+/// overflows has the weight 0: nothing is far beside it.
 #[inline(always)]
 fn is_far<S: Scalar, const N: usize>(residual: &SVector<S, N>, weights: &SVector<S, N>) -> bool {
     const LANES: usize = 4;
-    // Lane by lane, as their largest is found: the compiler takes several at once, and the products of both once.
+    // Lane by lane, as their largest is found: the compiler takes several at once, and the products of both
+    // once.
     let mut least = [S::one() / S::zero(); LANES];
     let (of, rest_of) = residual.as_slice().as_chunks::<LANES>();
     let (by, rest_by) = weights.as_slice().as_chunks::<LANES>();
@@ -298,9 +304,10 @@ fn is_far<S: Scalar, const N: usize>(residual: &SVector<S, N>, weights: &SVector
     least.iter().all(|units| *units >= S::constant(AT_FLOOR / CONTRACTION))
 }
 
-/// Whether the kept matrix may say what the floor of `residual` is: where its corrections have taken the `first` residual down, the
-/// equation still has it; after a guess too good for that, only what is small beside the momentum needs no matrix. A matrix of a
-/// collision that is over is larger by any factor, and with it the floor.
+/// Whether the kept matrix may say what the floor of `residual` is: where its corrections have taken the
+/// `first` residual down, the equation still has it; after a guess too good for that, only what is small
+/// beside the momentum needs no matrix. A matrix of a collision that is over is larger by any factor, and
+/// with it the floor.
 fn is_shown<S: Scalar, const N: usize>(
     residual: &SVector<S, N>,
     first: &SVector<S, N>,

@@ -58,8 +58,8 @@ pub(super) struct Since {
 pub(super) struct Estimate<S, const N: usize> {
     /// δ, the run less the motion, at the state last looked at.
     error: State<S, N>,
-    /// What δ may be besides, at random: by rounding, by what δ itself may err by, and by steps that were not looked at. Where motions part
-    /// it grows in directions in which δ may have no part.
+    /// What δ may be besides, at random: by rounding, by what δ itself may err by, and by steps that were
+    /// not looked at. Where motions part it grows in directions in which δ may have no part.
     unsure: [State<S, N>; SAMPLES],
     random: u64,
     /// The motion there, and its time.
@@ -140,8 +140,8 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         self.is_timed
     }
 
-    /// Adds what the last step errs by, `local` at the state last looked at, and as much for each of `before` steps: those have grown since, as
-    /// errors did on the way.
+    /// Adds what the last step errs by, `local` at the state last looked at, and as much for each of `before`
+    /// steps: those have grown since, as errors did on the way.
     pub(super) fn add(&mut self, local: &State<S, N>, before: f64) {
         // On a line growth is shear, and what comes late has none.
         let is_line = N == 1 && !self.is_timed;
@@ -335,8 +335,9 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         }
     }
 
-    /// `error` at the state last looked at, and what a quarter of a turn of the fastest mode makes of it: a mode's error is one of q at times
-    /// and one of p at others, and the norm weighs these as they count in the slow modes.
+    /// `error` at the state last looked at, and what a quarter of a turn of the fastest mode makes of it: a
+    /// mode's error is one of q at times and one of p at others, and the norm weighs these as they count
+    /// in the slow modes.
     pub(super) fn over_a_turn(&self, error: &State<S, N>, scale: &Scale<S, N>) -> [State<S, N>; 2] {
         [*error, self.last.map_or(*error, |(last, _)| last.turned(error, scale))]
     }
@@ -356,7 +357,8 @@ fn plus<S: Scalar, const N: usize>(a: &State<S, N>, b: &State<S, N>) -> State<S,
     State { q: a.q + b.q, p: a.p + b.p }
 }
 
-/// What rounding makes of the state in some steps: of q and p by their own, and of p by the forces in the fastest mode.
+/// What rounding makes of the state in some steps: of q and p by their own, and of p by the forces in the
+/// fastest mode.
 fn rounding<S: Scalar, const N: usize>(
     at: &Variation<S, N>,
     state: &State<S, N>,

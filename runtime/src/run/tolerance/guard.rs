@@ -22,13 +22,15 @@ const SHARE: f64 = 0.05;
 /// Steps from one energy to the next at least, after as many as lie between two looks.
 const ENERGY: u64 = 10;
 
-/// The estimate, over the tolerance, at which a breach is reported: as a rule the estimate is above the error, by up to a factor of 2.
+/// The estimate, over the tolerance, at which a breach is reported: as a rule the estimate is above the
+/// error, by up to a factor of 2.
 const REPORTED: f64 = 1.35;
 
 /// Of so many coordinates errors are followed in every turn, whatever it costs.
 const RESOLVED: usize = 3;
 
-/// What the motion's derivative at a state costs in evaluations: two, and the algebra of N×N matrices beside forces of some N terms.
+/// What the motion's derivative at a state costs in evaluations: two, and the algebra of N×N matrices beside
+/// forces of some N terms.
 fn derivatives(n: usize) -> f64 {
     2.0 + 1.3 * (n * n) as f64 + 4.0 * n as f64
 }
@@ -47,22 +49,26 @@ const STROKE: f64 = 0.05;
 /// δ_{k+1} = A_k δ_k + d_k
 /// ```
 ///
-/// - d_k, the local error, is the difference to two half steps. Of a run of fewer than 100 steps it is taken at every one, else at some, at no
-///   period, for those between as well, and where the motion becomes rougher: by fourth differences of q, of Gauss methods by the last
-///   coefficients of the velocity's polynomial, whose squares say what the steps between err by.
-/// - A_k is the tangent map of the motion: exp of ∂(q̇, ṗ)/∂(q, p) at the states of the run, and between them where an error turns far in one
-///   step. A shift in time stays one, exactly, unless the system changes with time, and an error's energy stays where no force acts. So growth
-///   is that of the motion, chaos included. For more than three coordinates where a step costs less than the algebra of its matrices
-///   (splittings) two steps of the rule, from the state and from beside it, carry δ instead.
-/// - What δ may be besides is carried along as two samples at random, as motions that part leave the direction of δ: by rounding, which is that
-///   of the forces in the fastest mode as well, by what local errors and their growth are not known to, and by steps that were not looked at.
-/// - Where no force acts and nothing depends on time, the energy says what its part of the error is; more of it than the steps since it was
-///   asked for can have made reveals one that erred without being looked at.
-/// - Where the system changes with time, the force is asked for between the nodes of a step as well, at the state last looked at, so that a pulse
-///   is looked at.
+/// - d_k, the local error, is the difference to two half steps. Of a run of fewer than 100 steps it is taken
+///   at every one, else at some, at no period, for those between as well, and where the motion becomes
+///   rougher: by fourth differences of q, of Gauss methods by the last coefficients of the velocity's
+///   polynomial, whose squares say what the steps between err by.
+/// - A_k is the tangent map of the motion: exp of ∂(q̇, ṗ)/∂(q, p) at the states of the run, and between them
+///   where an error turns far in one step. A shift in time stays one, exactly, unless the system changes with
+///   time, and an error's energy stays where no force acts. So growth is that of the motion, chaos included.
+///   For more than three coordinates where a step costs less than the algebra of its matrices (splittings)
+///   two steps of the rule, from the state and from beside it, carry δ instead.
+/// - What δ may be besides is carried along as two samples at random, as motions that part leave the
+///   direction of δ: by rounding, which is that of the forces in the fastest mode as well, by what local
+///   errors and their growth are not known to, and by steps that were not looked at.
+/// - Where no force acts and nothing depends on time, the energy says what its part of the error is; more of
+///   it than the steps since it was asked for can have made reveals one that erred without being looked at.
+/// - Where the system changes with time, the force is asked for between the nodes of a step as well, at the
+///   state last looked at, so that a pulse is looked at.
 ///
-/// The run goes on after a [`Breach`], with the same step size. The guard's cost is in the page `docs/error-asked-for.md`, in evaluations of
-/// the forces; runs of fewer than 100 steps are looked at more closely, at up to three times their cost.
+/// The run goes on after a [`Breach`], with the same step size. The guard's cost is in the page
+/// `docs/error-asked-for.md`, in evaluations of the forces; runs of fewer than 100 steps are looked at more
+/// closely, at up to three times their cost.
 pub struct GuardedTrajectory<'a, L, M, const N: usize>
 where
     L: Lagrangian<N> + 'a,
@@ -147,7 +153,8 @@ where
         self.choice.step_size * self.taken as f64
     }
 
-    /// The error expected of the state, in the norm of the promise ([`Method::for_tolerance`](super::Method::for_tolerance)).
+    /// The error expected of the state, in the norm of the promise
+    /// ([`Method::for_tolerance`](super::Method::for_tolerance)).
     pub fn expected(&self) -> f64 {
         let unseen = (self.taken - self.looks[0]) as f64;
         self.estimate.size(&self.scale) + unseen * self.local
@@ -183,7 +190,8 @@ where
     fn schedule_derivatives(&mut self) {
         let angle = self.estimate.speed * self.choice.step_size;
         let resolved = if angle > 0.0 { ANGLE[1] / angle } else { f64::INFINITY };
-        // Seldom where the step is long already; twice the last distance at most, as a period may look like rest.
+        // Seldom where the step is long already; twice the last distance at most, as a period may look like
+        // rest.
         let last = (self.taken - self.carried[2]).max(1) as f64;
         let resolved = resolved.min(2.0 * last);
         let (least, most) = if self.estimate.is_coarse() {
@@ -272,7 +280,8 @@ where
         self.schedule_look();
     }
 
-    /// Whether the force, where it changes with time, has done so within the last step as it did not before: between the nodes of the step.
+    /// Whether the force, where it changes with time, has done so within the last step as it did not before:
+    /// between the nodes of the step.
     fn is_struck(&mut self) -> bool {
         let Choice { system, methods, step_size, tolerance, evaluations_per_step, .. } = self.choice;
         let is_seldom =

@@ -9,8 +9,8 @@ use crate::run::{ComposedStep, Composition, Explicit, Kicks, Splitting, Substeps
 use crate::step::{Discrete, LegendreDerivatives, Memory, State, StepError};
 use crate::system::{ForcedLagrangian, Lagrangian};
 
-/// The methods that a system offers to [`Method::for_tolerance`]: a rule of order 2 stands for itself and its compositions;
-/// [`WithSplittings`] and [`WithGauss`] add to those of another.
+/// The methods that a system offers to [`Method::for_tolerance`]: a rule of order 2 stands for itself and its
+/// compositions; [`WithSplittings`] and [`WithGauss`] add to those of another.
 pub trait Methods<L: Lagrangian<N>, const N: usize>: Copy {
     /// A step by any of the methods.
     type Step: MethodStep<L, N>;
@@ -46,10 +46,11 @@ pub trait Methods<L: Lagrangian<N>, const N: usize>: Copy {
 pub struct Taken<S, const N: usize> {
     /// Where it leads.
     pub state: State<S, N>,
-    /// What it cost in evaluations of the forces: of an implicit step those of its iterations, all stages counted.
+    /// What it cost in evaluations of the forces: of an implicit step those of its iterations, all stages
+    /// counted.
     pub evaluations: f64,
-    /// The last two coefficients of the polynomial that a Gauss method has of the velocity over the step, which show what it does not
-    /// resolve; nothing for other methods.
+    /// The last two coefficients of the polynomial that a Gauss method has of the velocity over the step,
+    /// which show what it does not resolve; nothing for other methods.
     pub unresolved: Option<[f64; 2]>,
 }
 
@@ -70,11 +71,13 @@ pub trait MethodStep<L: Lagrangian<N>, const N: usize> {
     fn forget(&mut self);
 }
 
-/// The methods of `M`, and splittings into kicks and drifts: for systems whose trapezoidal rule is [`Explicit`].
+/// The methods of `M`, and splittings into kicks and drifts: for systems whose trapezoidal rule is
+/// [`Explicit`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WithSplittings<M>(pub M);
 
-/// The methods of `M`, and Gauss methods of 4 and 8 stages: for systems of `#[rayleigh_system(rule = [trapezoidal, gauss])]`.
+/// The methods of `M`, and Gauss methods of 4 and 8 stages: for systems of `#[rayleigh_system(rule =
+/// [trapezoidal, gauss])]`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WithGauss<M>(pub M);
 
@@ -254,7 +257,8 @@ fn kicked<L: Explicit<N>, const N: usize, const S: usize>(
     Ok(Taken { state, evaluations: S as f64, unresolved: None })
 }
 
-/// What the derivatives of a stage's forces cost in evaluations, and what its share of a matrix of n rows does, over n².
+/// What the derivatives of a stage's forces cost in evaluations, and what its share of a matrix of n rows
+/// does, over n².
 const DERIVATIVE: f64 = 2.0;
 const FACTORING: f64 = 1.0 / 60.0;
 
@@ -284,7 +288,8 @@ fn staged<L: ForcedLagrangian<N>, const N: usize, const S: usize>(
     let memory: &mut StageHistory<L::Scalar, N, S> = &mut step.history;
     let taken = Memory::<L, Gauss<S>, N>::advance_later(memory, system, elapsed, state, step.h)?;
     let iterations = f64::from(taken.report.iterations);
-    // By Newton's method all stages are differentiated before each iteration and after the last, and their matrix is factored.
+    // By Newton's method all stages are differentiated before each iteration and after the last, and their
+    // matrix is factored.
     let by_stage = if step.history.is_by_newton() {
         let entries = (S * N * S * N) as f64;
         DERIVATIVE + iterations * (DERIVATIVE + FACTORING * entries)

@@ -6,8 +6,9 @@ use crate::system::Lagrangian;
 
 /// A system that offers methods where an error is asked for: those of the rules that its attribute lists.
 ///
-/// `#[rayleigh_system]` writes it for every system with a self-adjoint rule of order 2, which stands for itself and its compositions.
-/// Splittings come with an explicit trapezoidal rule, Gauss methods with `gauss`.
+/// `#[rayleigh_system]` writes it for every system with a self-adjoint rule of order 2, which stands for
+/// itself and its compositions. Splittings come with an explicit trapezoidal rule, Gauss methods with
+/// `gauss`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` offers no method to an error asked for",
     label = "no self-adjoint rule of order 2 is listed for this system",

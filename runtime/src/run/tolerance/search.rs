@@ -12,12 +12,14 @@ use crate::system::Lagrangian;
 /// The share of the tolerance that the error expected from the start may fill.
 const SAFETY: f64 = 0.15;
 
-/// The share of the run's cost that trying methods may take; that with looking at the motion along its first steps; of these at least.
+/// The share of the run's cost that trying methods may take; that with looking at the motion along its first
+/// steps; of these at least.
 const TRYING: f64 = 0.04;
 const CHOOSING: f64 = 0.085;
 const EXPLORING: f64 = 0.02;
 
-/// What trying a step size costs in usual steps: one, and two half ones, from no guess. What it may save has to be more by a factor.
+/// What trying a step size costs in usual steps: one, and two half ones, from no guess. What it may save has
+/// to be more by a factor.
 const TRIAL: f64 = 1.5;
 const WORTH: f64 = 4.0;
 

@@ -18,7 +18,8 @@ pub(super) fn product<S: Scalar, const N: usize>(
     }
 }
 
-/// Beyond so many substeps, of few coordinates and of many, the exponential is that of the matrix, by squaring.
+/// Beyond so many substeps, of few coordinates and of many, the exponential is that of the matrix, by
+/// squaring.
 const SQUARED: [f64; 2] = [8.0, 32.0];
 
 /// Turns beyond which the error is left where it is: its phase is lost.
@@ -27,12 +28,13 @@ const LOST: f64 = 1e9;
 /// Terms of the series of the exponential.
 const TERMS: u32 = 8;
 
-/// The nodes of Lobatto's rule of four between the ends, and what the inner difference weighs beside the outer one in a mean slope: 5/√5.
+/// The nodes of Lobatto's rule of four between the ends, and what the inner difference weighs beside the
+/// outer one in a mean slope: 5/√5.
 pub(super) const INNER: [f64; 2] = [0.276_393_202_250_021, 0.723_606_797_749_979];
 const SLOPE: f64 = 2.236_067_977_499_79;
 
-/// The errors after the time `t` between two states: exp(Ω) δ, by W. Magnus's series with J at both ends, and, where they are given, at
-/// two states between. With the ends alone Ω = t (J₀ + J₁)/2.
+/// The errors after the time `t` between two states: exp(Ω) δ, by W. Magnus's series with J at both ends,
+/// and, where they are given, at two states between. With the ends alone Ω = t (J₀ + J₁)/2.
 pub(super) fn carried<S: Scalar, const N: usize, const K: usize>(
     errors: [State<S, N>; K],
     from: &Variation<S, N>,
@@ -74,7 +76,8 @@ pub(super) fn carried<S: Scalar, const N: usize, const K: usize>(
     })
 }
 
-/// Ω to sixth order (S. Blanes, F. Casas and J. Ros 2000) from J at the nodes of Lobatto's rule, [`INNER`] and the ends.
+/// Ω to sixth order (S. Blanes, F. Casas and J. Ros 2000) from J at the nodes of Lobatto's rule, [`INNER`]
+/// and the ends.
 ///
 /// ```text
 /// J = a₀ + a₁ s + a₂ s²,  s from −½ to ½,  αᵢ = t aᵢ

@@ -1,5 +1,5 @@
-//! An error carried along by two motions side by side: what a step of the rule makes of the state and of the state with a share of the
-//! error. Of many coordinates that costs less than J's matrices.
+//! An error carried along by two motions side by side: what a step of the rule makes of the state and of the
+//! state with a share of the error. Of many coordinates that costs less than J's matrices.
 
 use nalgebra::ComplexField;
 
@@ -15,12 +15,14 @@ const ANGLE: f64 = 2.0;
 /// Steps of the rule for one of the run at most.
 const MOST: f64 = 8.0;
 
-/// Steps of size `h` that one step of the rule may cover where the fastest mode turns at `rate`: `most`, or fewer.
+/// Steps of size `h` that one step of the rule may cover where the fastest mode turns at `rate`: `most`, or
+/// fewer.
 pub(super) fn stride(rate: f64, h: f64, most: u64) -> u64 {
     (ANGLE / (rate * h)).clamp(1.0, most as f64) as u64
 }
 
-/// What becomes of `error` at `state` within `time`, and what that has cost in evaluations; nothing where the motions cannot be followed.
+/// What becomes of `error` at `state` within `time`, and what that has cost in evaluations; nothing where the
+/// motions cannot be followed.
 pub(super) fn carried<L, M, const N: usize>(
     (system, methods): (&L, M),
     state: &State<L::Scalar, N>,

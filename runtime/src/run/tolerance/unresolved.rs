@@ -1,7 +1,7 @@
 //! What a Gauss method leaves unresolved: what steps err by that are not looked at.
 //!
-//! A Gauss method's local error is of twice the order of the last coefficients of its velocity's polynomial, so local errors go as their
-//! squares: of one step that was looked at both are known.
+//! A Gauss method's local error is of twice the order of the last coefficients of its velocity's polynomial,
+//! so local errors go as their squares: of one step that was looked at both are known.
 
 use nalgebra::SVector;
 
@@ -11,14 +11,15 @@ use crate::step::State;
 
 /// The squares along a run, of either coefficient.
 ///
-/// One of the two is even about the middle of a step, the other odd: of an oscillation they are a quarter of a turn apart. Weighed by the
-/// largest that they have been, the two together do not depend on its phase.
+/// One of the two is even about the middle of a step, the other odd: of an oscillation they are a quarter of
+/// a turn apart. Weighed by the largest that they have been, the two together do not depend on its phase.
 pub(super) struct Unresolved<S, const N: usize> {
     /// The largest.
     largest: [f64; 2],
     /// Those since the last look, added up.
     unseen: [f64; 2],
-    /// The largest of those looked at, with the local error there and a quarter of a turn later: the larger, the surer.
+    /// The largest of those looked at, with the local error there and a quarter of a turn later: the larger,
+    /// the surer.
     graded: ([f64; 2], [State<S, N>; 2]),
 }
 
@@ -47,8 +48,8 @@ impl<S: Scalar, const N: usize> Unresolved<S, N> {
         self.unseen = [self.unseen[0] + squares[0], self.unseen[1] + squares[1]];
     }
 
-    /// The sizes of the local errors since the last look, added up, but for that of the step now looked at: it errs by the first of `local`,
-    /// which a quarter of a turn makes the second.
+    /// The sizes of the local errors since the last look, added up, but for that of the step now looked at:
+    /// it errs by the first of `local`, which a quarter of a turn makes the second.
     pub(super) fn look(
         &mut self,
         coefficients: [f64; 2],

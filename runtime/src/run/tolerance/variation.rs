@@ -35,8 +35,8 @@ const SEGMENT: f64 = 1.0 / 32.0;
 const VELOCITY: f64 = 1e-4;
 
 impl<S: Scalar, const N: usize> Variation<S, N> {
-    /// At `state`, with a guess for the velocity; `time` is one in which the motion changes little more than by itself.
-    /// Nothing where the derivatives do not exist.
+    /// At `state`, with a guess for the velocity; `time` is one in which the motion changes little more than
+    /// by itself. Nothing where the derivatives do not exist.
     pub(super) fn at<L, M>(
         system: &L,
         methods: M,
@@ -82,16 +82,16 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
         norm(&self.matrix)
     }
 
-    /// J δ over the fastest rate, or over the one at which the whole motion turns q into p where that is faster: what a quarter of a turn of
-    /// the fastest mode makes of an error in it.
+    /// J δ over the fastest rate, or over the one at which the whole motion turns q into p where that is
+    /// faster: what a quarter of a turn of the fastest mode makes of an error in it.
     pub(super) fn turned(&self, error: &State<S, N>, scale: &Scale<S, N>) -> State<S, N> {
         let State { q, p } = times(&self.matrix, error);
         let rate = self.fastest().max(self.matrix.q_by_p.norm() / S::constant(scale.weight()));
         State { q: q / rate, p: p / rate }
     }
 
-    /// The fastest rate here and at `other`, and the root of the share of J that changes: over their product with a time an error turns as
-    /// one J does not tell.
+    /// The fastest rate here and at `other`, and the root of the share of J that changes: over their product
+    /// with a time an error turns as one J does not tell.
     pub(super) fn change_to(&self, other: &Self) -> (f64, f64) {
         let [a, b] = [&self.matrix, &other.matrix];
         let fastest = norm(a).max(norm(b));
@@ -118,8 +118,9 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
         p.dot(&v) - system.lagrangian(q, &v)
     }
 
-    /// Between this state and `other`, `t` later, at the share `s` of the time: the quintic with both rates and with ÿ = J ẏ, or the cubic
-    /// with the rates where J does not tell ÿ, as where the system changes with time, or where it changes within t.
+    /// Between this state and `other`, `t` later, at the share `s` of the time: the quintic with both rates
+    /// and with ÿ = J ẏ, or the cubic with the rates where J does not tell ÿ, as where the system changes
+    /// with time, or where it changes within t.
     pub(super) fn between(&self, other: &Self, t: S, s: S, is_timed: bool) -> State<S, N> {
         let number = S::constant;
         let is_long = self.fastest().max(other.fastest()) * t > number(LONG);
@@ -154,7 +155,8 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
         if ratio.is_finite() { nalgebra::ComplexField::sqrt(ratio) } else { 0.0 }
     }
 
-    /// By how much ṗ at this state is another in `later`, the system at another time; a segment takes a share of `length`.
+    /// By how much ṗ at this state is another in `later`, the system at another time; a segment takes a share
+    /// of `length`.
     pub(super) fn change_of_force<L, M>(&self, later: &L, methods: M, length: S) -> f64
     where
         L: Lagrangian<N, Scalar = S>,
@@ -172,8 +174,8 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
         self.rate.q.dot(&error.p) - self.rate.p.dot(&error.q)
     }
 
-    /// The least error with so much energy: along the gradient of H, with q and p weighed as in the fastest mode, so that it is one of the
-    /// amplitude there and not of the phase; none at rest.
+    /// The least error with so much energy: along the gradient of H, with q and p weighed as in the fastest
+    /// mode, so that it is one of the amplitude there and not of the phase; none at rest.
     pub(super) fn of_energy(&self, energy: S, scale: &Scale<S, N>) -> State<S, N> {
         // A mode as slow as the motion, or none, has the weight of the norm.
         let w = S::constant((1.0 / self.impedance()).min(scale.weight()));

@@ -8,10 +8,11 @@ use super::{Equation, Solution, is_known_at, largest};
 use crate::numbers::{NewtonMatrix, Scalar};
 use crate::step::{Momenta, Quantity, Report, State, StepError, StepKernel};
 
-/// The best iterate of at most `bound` undamped Newton iterations, and whether it is the solution, by the definition of
-/// `rounding.rs`.
+/// The best iterate of at most `bound` undamped Newton iterations, and whether it is the solution, by the
+/// definition of `rounding.rs`.
 ///
-/// The work is bounded: `bound` evaluations of the kernel, as many solves, and `bound` + 1 evaluations of the momenta.
+/// The work is bounded: `bound` evaluations of the kernel, as many solves, and `bound` + 1 evaluations of the
+/// momenta.
 pub(crate) fn bounded<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     kind: Equation,
     bound: u32,

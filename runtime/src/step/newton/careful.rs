@@ -8,11 +8,12 @@ use super::{Equations, Reached, Solution, largest};
 use crate::numbers::{NewtonMatrix, Scalar, Singular};
 use crate::step::{Quantity, State, StepError, StepKernel};
 
-/// Newton's method needs a few iterations near a root; damped ones near a fold, or undamped ones from far out on a power
-/// law, where each takes off a fixed share, need some dozens.
+/// Newton's method needs a few iterations near a root; damped ones near a fold, or undamped ones from far out
+/// on a power law, where each takes off a fixed share, need some dozens.
 pub(super) const MAX_ITERATIONS: u32 = 100;
 
-/// Once the step has been shortened below this share, a singular matrix is reported instead of stepped around.
+/// Once the step has been shortened below this share, a singular matrix is reported instead of stepped
+/// around.
 const SHORTEST: f64 = 1e-3;
 
 /// An iterate, the Newton step from it, and the measure of its residual.
@@ -48,7 +49,8 @@ pub(super) fn careful<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         if let Some(last) = &iterate {
             let size = in_units_of(&residual, &last.floor);
             let lower = size < last.size;
-            // A contraction that is none, or that is no longer Newton's, may be rounding, unless the next step is a shorter one.
+            // A contraction that is none, or that is no longer Newton's, may be rounding, unless the next
+            // step is a shorter one.
             let slow = share == S::one() && !(lower && size <= last.size * S::constant(SLOW));
             let nearer = slow && nearer(&kernel, of, last);
             if slow
@@ -111,7 +113,8 @@ pub(super) fn careful<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         iterations += 1;
 
         if size <= S::one() || contraction * contraction * size <= S::one() {
-            // The matrix at the root itself: that of an iterate far out can be larger by many orders of magnitude.
+            // The matrix at the root itself: that of an iterate far out can be larger by many orders of
+            // magnitude.
             let matrix = evaluate(q, &trial).matrix;
             if let Some(solution) =
                 verified(of, &trial, &matrix, largest(&correction), [iterations, damped], false)
@@ -124,11 +127,12 @@ pub(super) fn careful<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     }
 }
 
-/// Whether a full step whose residual is no lower is nearer to the root all the same: the Newton step from there is at most
-/// half as long, with Σ |Mᵢᵢ| vᵢ² for the square of a length, by a matrix that has not grown.
+/// Whether a full step whose residual is no lower is nearer to the root all the same: the Newton step from
+/// there is at most half as long, with Σ |Mᵢᵢ| vᵢ² for the square of a length, by a matrix that has not
+/// grown.
 ///
-/// Neither the units of a coordinate nor a stiff direction that turns, nor a component that was 0, change this verdict. With one
-/// coordinate it is that of the residual.
+/// Neither the units of a coordinate nor a stiff direction that turns, nor a component that was 0, change
+/// this verdict. With one coordinate it is that of the residual.
 #[cold]
 fn nearer<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     trial: &StepKernel<S, N, M>,
@@ -162,8 +166,8 @@ pub(super) fn unsolvable<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     }
 }
 
-/// A share of the Newton step to try after `share` gave `next_size` ≥ `size`: where (1 − s) + C s², the residual's first
-/// two terms along the step, is least; between a tenth and a half of the present share.
+/// A share of the Newton step to try after `share` gave `next_size` ≥ `size`: where (1 − s) + C s², the
+/// residual's first two terms along the step, is least; between a tenth and a half of the present share.
 #[cold]
 pub(crate) fn shorter<S: Scalar>(share: S, size: S, next_size: S) -> S {
     let curvature = (next_size / size - S::one() + share) / (share * share);

@@ -1,8 +1,9 @@
 //! Steps in parts: the root that Newton's method misses from the state alone.
 //!
-//! The root of a step is a curve v̄(h) that starts at the velocity of the state; the step continues the motion if it lies on it. Where no
-//! iteration from the state leads to the root, h grows part by part, each solved from the root before: a short homotopy (E. L. Allgower
-//! and K. Georg, Numerical Continuation Methods, 1990, chapter 2). It ends where the curve turns back, and then there is no such root.
+//! The root of a step is a curve v̄(h) that starts at the velocity of the state; the step continues the motion
+//! if it lies on it. Where no iteration from the state leads to the root, h grows part by part, each solved
+//! from the root before: a short homotopy (E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990,
+//! chapter 2). It ends where the curve turns back, and then there is no such root.
 
 use nalgebra::SVector;
 
@@ -27,7 +28,8 @@ type Kernel<'f, S, M, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>, S
 /// Both momenta as a function of (q, v̄, h).
 type BothMomenta<'f, S, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>, S) -> Momenta<S, N> + 'f;
 
-/// The equation of a step as functions of (q, v̄, h), of which `inertia` does not depend on h; behind pointers, for steps that take long.
+/// The equation of a step as functions of (q, v̄, h), of which `inertia` does not depend on h; behind
+/// pointers, for steps that take long.
 pub(crate) struct StepEquations<'f, S, M, const N: usize> {
     pub(crate) kernel: &'f Kernel<'f, S, M, N>,
     pub(crate) momenta: &'f BothMomenta<'f, S, N>,
@@ -54,8 +56,8 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> StepEquations<'_, S, M, N
     }
 }
 
-/// The step where the undamped method from `start` has only `reached` so far: by the damped method and, where `start` is not a guess of
-/// the caller's, from rest and in parts.
+/// The step where the undamped method from `start` has only `reached` so far: by the damped method and, where
+/// `start` is not a guess of the caller's, from rest and in parts.
 ///
 /// # Errors
 /// What the damped method ends with, or what it ends with from rest.
@@ -79,7 +81,8 @@ pub(crate) fn at_length<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     })
 }
 
-/// What `root` leads to part by part, up to the whole of h; `root` gives the root of a share of h from that of another, if it is near.
+/// What `root` leads to part by part, up to the whole of h; `root` gives the root of a share of h from that
+/// of another, if it is near.
 #[cold]
 #[inline(never)]
 pub(crate) fn along_h<S: Scalar, G: Copy>(start: G, root: &dyn Fn(S, &G) -> Option<G>) -> Option<G> {

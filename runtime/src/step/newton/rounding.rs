@@ -1,28 +1,29 @@
 //! When a step is solved: the one definition, for every rule, memory and solver.
 //!
-//! **Definition.** A step is solved where each component of the residual of its equation is at most [`AT_FLOOR`] times its
-//! round-off floor, and this floor
+//! **Definition.** A step is solved where each component of the residual of its equation is at most
+//! [`AT_FLOOR`] times its round-off floor, and this floor
 //!
-//! 1. belongs to the solution that is returned, not to an iterate on the way: where the last correction was not small beside v̄
-//!    ([`SMALL`]), the matrix is evaluated again at the solution;
+//! 1. belongs to the solution that is returned, not to an iterate on the way: where the last correction was
+//!    not small beside v̄ ([`SMALL`]), the matrix is evaluated again at the solution;
 //! 2. is finite;
-//! 3. where the residual had stopped falling, or Newton steps had to be shortened: is at most [`SENSIBLE`] of the terms that
-//!    the equation is made of. Otherwise rounding would explain any residual.
+//! 3. where the residual had stopped falling, or Newton steps had to be shortened: is at most [`SENSIBLE`] of
+//!    the terms that the equation is made of. Otherwise rounding would explain any residual.
 //!
-//! Then the solution satisfies exactly the equation with q, v̄ and p changed by some units of their last places. Each
-//! component has a floor of its own,
+//! Then the solution satisfies exactly the equation with q, v̄ and p changed by some units of their last
+//! places. Each component has a floor of its own,
 //!
 //! ```text
 //! floorᵢ = 4ε (|pᵢ| + Σⱼ |Jᵢⱼ||vⱼ|)                          one-stage rules, J = ∂p0/∂v̄
 //! floorᵢ = 4ε (|pᵢ| + |h| max |Gᵢ| + max Σⱼ |Mᵢⱼ||Vⱼ|)        Gauss rules, the largest of all stages
 //! ```
 //!
-//! so that neither the unit of a coordinate nor its neighbours' size matters. These estimates know nothing of what q
-//! contributes: near an equilibrium away from q = 0 large forces cancel, and v and p go to 0 while the rounding of those
-//! forces stays. Where the residual stops falling above the estimate, its rounding is therefore measured: by what the last places
-//! of q and v change ([`rounding`]), and, where that does not explain it, by how it scatters ([`scatter`]). The latter sees each
-//! configuration on the way rounded on its own: far from q = 0, say after 10³ turns of an angle, q0 and q1 are known to ε|q|, and
-//! where what their errors do cancels if both are moved together, as under the trapezoidal rule, moving q shows nothing of it.
+//! so that neither the unit of a coordinate nor its neighbours' size matters. These estimates know nothing of
+//! what q contributes: near an equilibrium away from q = 0 large forces cancel, and v and p go to 0 while the
+//! rounding of those forces stays. Where the residual stops falling above the estimate, its rounding is
+//! therefore measured: by what the last places of q and v change ([`rounding`]), and, where that does not
+//! explain it, by how it scatters ([`scatter`]). The latter sees each configuration on the way rounded on its
+//! own: far from q = 0, say after 10³ turns of an angle, q0 and q1 are known to ε|q|, and where what their
+//! errors do cancels if both are moved together, as under the trapezoidal rule, moving q shows nothing of it.
 //!
 //! `tests/examples/verdicts` holds every rule against this definition in twice the precision.
 
@@ -71,7 +72,8 @@ pub(crate) fn estimated_floor<S: Scalar, const N: usize>(
     floor
 }
 
-/// max |residualᵢ|/floorᵢ. An exact 0 counts 0, whatever its floor; a NaN or infinite ratio is returned as it is.
+/// max |residualᵢ|/floorᵢ. An exact 0 counts 0, whatever its floor; a NaN or infinite ratio is returned as it
+/// is.
 #[inline]
 pub(super) fn in_units_of<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: &SVector<S, N>) -> S {
     let mut largest = S::zero();
@@ -87,14 +89,16 @@ pub(super) fn in_units_of<S: Scalar, const N: usize>(residual: &SVector<S, N>, f
     largest
 }
 
-/// The residual that is largest in units of its floor, this floor, and whether it is a root's: at most [`AT_FLOOR`] of them.
+/// The residual that is largest in units of its floor, this floor, and whether it is a root's: at most
+/// [`AT_FLOOR`] of them.
 #[inline]
 pub(crate) fn held_against<S: Scalar, const N: usize>(
     residual: &SVector<S, N>,
     floor: &SVector<S, N>,
 ) -> (S, S, bool) {
     const LANES: usize = 4;
-    // One of the residuals from the start: products with one that is tiny, or with a floor that overflows, decide nothing.
+    // One of the residuals from the start: products with one that is tiny, or with a floor that overflows,
+    // decide nothing.
     let first = (residual[0].abs(), floor[0], true);
     if N < 2 * LANES {
         return of_slices(residual.as_slice(), floor.as_slice(), first);
@@ -117,7 +121,8 @@ pub(crate) fn held_against<S: Scalar, const N: usize>(
     larger(larger(rest, b), larger(c, d))
 }
 
-/// The larger of the `worst` so far and of the residual, whose floor this is; and whether it is still that of a root.
+/// The larger of the `worst` so far and of the residual, whose floor this is; and whether it is still that of
+/// a root.
 #[inline(always)]
 fn held<S: Scalar>(residual: S, floor: S, worst: (S, S, bool)) -> (S, S, bool) {
     let (size, most) = (residual.abs(), floor * S::constant(AT_FLOOR));
@@ -126,8 +131,9 @@ fn held<S: Scalar>(residual: S, floor: S, worst: (S, S, bool)) -> (S, S, bool) {
     if size * worst.1 > worst.0 * floor { (size, floor, is_root) } else { (worst.0, worst.1, is_root) }
 }
 
-/// What [`held_against`] says of a residual at a root whose size, [`weighted`](super::weighted) by 1/`floor`, is known, in a third of
-/// its operations; nothing where it is no root, or where the rounding of the weights would decide. No floor may overflow.
+/// What [`held_against`] says of a residual at a root whose size, [`weighted`](super::weighted) by 1/`floor`,
+/// is known, in a third of its operations; nothing where it is no root, or where the rounding of the weights
+/// would decide. No floor may overflow.
 #[inline]
 pub(crate) fn held_by_weights<S: Scalar, const N: usize>(
     residual: &SVector<S, N>,
@@ -166,7 +172,8 @@ pub(super) fn worst<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: 
     worst
 }
 
-/// Last places that rounding is measured over: functions on the way, such as the root in a length, may swallow a single one.
+/// Last places that rounding is measured over: functions on the way, such as the root in a length, may
+/// swallow a single one.
 pub(crate) const PLACES: f64 = 8.0;
 
 /// What rounding does to p0: its changes when each entry of q and of v moves by its last place, added up.
@@ -193,11 +200,12 @@ pub(super) fn rounding<S: Scalar, const N: usize>(
     sum / places
 }
 
-/// The most that [`scatter`] moves a velocity, as a share of it: what is left of a smooth function's fourth differences is below ε.
+/// The most that [`scatter`] moves a velocity, as a share of it: what is left of a smooth function's fourth
+/// differences is below ε.
 const NEXT_TO: f64 = 1.0 / (1 << 24) as f64;
 
-/// How far p0 scatters about a smooth function of v where h v moves by a few last places of q: its fourth differences, which hold
-/// up to 16 times the rounding of p0 and a quarter of them mostly at least that.
+/// How far p0 scatters about a smooth function of v where h v moves by a few last places of q: its fourth
+/// differences, which hold up to 16 times the rounding of p0 and a quarter of them mostly at least that.
 #[cold]
 pub(super) fn scatter<S: Scalar, const N: usize>(
     p0: impl Fn(&SVector<S, N>) -> SVector<S, N>,
@@ -266,7 +274,8 @@ mod tests {
         assert!(!held_against(&SVector::<f64, 9>::repeat(1e-3), &nine).2);
     }
 
-    /// By its weight as by its floor: what one calls a root, the other does, but for the last places of a residual of four floors.
+    /// By its weight as by its floor: what one calls a root, the other does, but for the last places of a
+    /// residual of four floors.
     #[test]
     fn weights_say_of_a_residual_what_floors_do() {
         let by_weights = |residual: [f64; 5], floor: [f64; 5]| {
@@ -344,7 +353,8 @@ mod tests {
         }
     }
 
-    /// The control: what is smooth does not scatter, however steep and curved it is; nor does anything without a place to move to.
+    /// The control: what is smooth does not scatter, however steep and curved it is; nor does anything
+    /// without a place to move to.
     #[test]
     fn what_is_smooth_does_not_scatter() {
         let (q, v) = (vector![8474.05867, 1e9], vector![3.7162, -4e-3]);

@@ -1,11 +1,12 @@
 //! Where Newton's method starts where rest is a singular point.
 //!
-//! At v̄ = 0 a drag such as c|v|³ has a Hessian of 0·∞, and a kinetic energy such as |v|⁴ none to solve with. Each coordinate is
-//! then moved alone to where its own residual changes sign, to a factor of 2. Powers of 2 from the smallest to the largest
-//! number: no unit of length, time or mass is preferred.
+//! At v̄ = 0 a drag such as c|v|³ has a Hessian of 0·∞, and a kinetic energy such as |v|⁴ none to solve with.
+//! Each coordinate is then moved alone to where its own residual changes sign, to a factor of 2. Powers of 2
+//! from the smallest to the largest number: no unit of length, time or mass is preferred.
 //!
-//! A coordinate whose residual vanishes with its velocity rests in the solution too. Where its derivatives do not exist at rest,
-//! it is taken out of the equation, and the solution of the others is held against its residual next to rest.
+//! A coordinate whose residual vanishes with its velocity rests in the solution too. Where its derivatives do
+//! not exist at rest, it is taken out of the equation, and the solution of the others is held against its
+//! residual next to rest.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -13,11 +14,12 @@ use super::{Equations, Reached, Solution, careful};
 use crate::numbers::{NewtonMatrix, Scalar};
 use crate::step::{Momenta, Report, State, StepError, StepKernel};
 
-/// A residual that grows by this factor where the velocity doubles vanishes at rest: one that is constant next to rest does not grow,
-/// drag through a root does by a root of 2.
+/// A residual that grows by this factor where the velocity doubles vanishes at rest: one that is constant
+/// next to rest does not grow, drag through a root does by a root of 2.
 const VANISHING: f64 = 1.0625;
 
-/// The root that is reached from rest or, where rest is a singular point, from away from it. From `tried` there was `error`.
+/// The root that is reached from rest or, where rest is a singular point, from away from it. From `tried`
+/// there was `error`.
 ///
 /// # Errors
 /// What Newton's method from rest ends with; `error` where it has been there or cannot start there.
@@ -60,8 +62,8 @@ pub(crate) fn is_rest<S: Scalar, const N: usize>(
     vanishing(residual, p, &nalgebra::zero(), &near_rest(residual)).iter().all(|rests| *rests)
 }
 
-/// A velocity so small that only what is constant is left of the residual, but at which it is a number in every coordinate. No two
-/// entries are alike.
+/// A velocity so small that only what is constant is left of the residual, but at which it is a number in
+/// every coordinate. No two entries are alike.
 #[cold]
 fn near_rest<S: Scalar, const N: usize>(residual: &dyn Fn(&SVector<S, N>) -> SVector<S, N>) -> SVector<S, N> {
     let mut size = S::SMALLEST_NORMAL;
@@ -78,8 +80,9 @@ fn near_rest<S: Scalar, const N: usize>(residual: &dyn Fn(&SVector<S, N>) -> SVe
     near
 }
 
-/// The coordinates whose residual vanishes as they come to rest, the others as in `v`; `near` is next to rest. Where derivatives do
-/// not exist at rest, p has to be 0: one that is small beside that of `near` could not be told from it.
+/// The coordinates whose residual vanishes as they come to rest, the others as in `v`; `near` is next to
+/// rest. Where derivatives do not exist at rest, p has to be 0: one that is small beside that of `near` could
+/// not be told from it.
 #[cold]
 fn vanishing<S: Scalar, const N: usize>(
     residual: &dyn Fn(&SVector<S, N>) -> SVector<S, N>,
@@ -127,7 +130,8 @@ fn change_at_rest<S: Scalar, M, const N: usize>(
     (change(one) + change(other)) * S::constant(0.5)
 }
 
-/// The solution in which the coordinates `resting` rest: they are held, the equations of the others are solved from `start`.
+/// The solution in which the coordinates `resting` rest: they are held, the equations of the others are
+/// solved from `start`.
 #[cold]
 #[inline(never)]
 fn without<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
@@ -173,7 +177,8 @@ fn without<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     resting.iter().zip(found).all(|(rests, found)| !rests || found).then_some(solution)
 }
 
-/// A velocity of the order of the root's, with the directions in which the `residual` at rest falls; those `resting` stay.
+/// A velocity of the order of the root's, with the directions in which the `residual` at rest falls; those
+/// `resting` stay.
 #[cold]
 #[inline(never)]
 fn away_from_rest<S: Scalar, const N: usize>(

@@ -1,4 +1,5 @@
-//! Whether an iterate of the damped method is the solution: the definition of `rounding.rs`, with the matrix at the iterate itself.
+//! Whether an iterate of the damped method is the solution: the definition of `rounding.rs`, with the matrix
+//! at the iterate itself.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -43,8 +44,8 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Equations<'_, S, M, N> {
     }
 }
 
-/// The solution at `v`, where the Newton matrix is `matrix`; nothing if it is none. With `may_round`, the rounding of q and v may
-/// explain a residual that has stopped falling.
+/// The solution at `v`, where the Newton matrix is `matrix`; nothing if it is none. With `may_round`, the
+/// rounding of q and v may explain a residual that has stopped falling.
 #[cold]
 #[inline(never)]
 pub(super) fn verified<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
@@ -66,7 +67,8 @@ pub(super) fn verified<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     let mut terms = of.terms(v);
     let mut has_forces = false;
     if !held.2 {
-        // Far above what any sensible floor explains, none is measured: of a step that fails, that would be most of the cost.
+        // Far above what any sensible floor explains, none is measured: of a step that fails, that would be
+        // most of the cost.
         if !may_be_explained(&remaining, &terms) {
             terms += of.forces_at_rest();
             has_forces = true;
@@ -94,8 +96,8 @@ pub(super) fn verified<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     Some(Solution { unknown: *v, momenta, report })
 }
 
-/// The root at an iterate whose residual has stopped falling, if rounding holds the residual up there. `trial` is where the
-/// Newton step led, with the matrix there, and whether that still lowered it.
+/// The root at an iterate whose residual has stopped falling, if rounding holds the residual up there.
+/// `trial` is where the Newton step led, with the matrix there, and whether that still lowered it.
 #[cold]
 pub(super) fn stagnated<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     of: &Equations<'_, S, M, N>,

@@ -1,11 +1,12 @@
 //! The motion from q0 to q1 in time h: Newton's method on the initial velocity.
 //!
-//! From the straight line's velocity, or the user's guess, damped where a full step does not shrink the next correction.
-//! Where that fails, the motion is followed from small h, where it is nearly straight, to the h asked for: this keeps to
-//! the branch that the exact discrete Lagrangian is defined on.
+//! From the straight line's velocity, or the user's guess, damped where a full step does not shrink the next
+//! correction. Where that fails, the motion is followed from small h, where it is nearly straight, to the h
+//! asked for: this keeps to the branch that the exact discrete Lagrangian is defined on.
 //!
-//! A motion whose variations grow is not told by its start: damping seen backwards grows like e^{r|h|/m}. It is told by its end, from
-//! which everything shrinks. Both are tried, and the error that rounding of the start makes at the end is stated.
+//! A motion whose variations grow is not told by its start: damping seen backwards grows like e^{r|h|/m}. It
+//! is told by its end, from which everything shrinks. Both are tried, and the error that rounding of the
+//! start makes at the end is stated.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -29,8 +30,8 @@ const MAX_HALVINGS: u32 = 10;
 /// Step sizes less far apart, relatively, are not tried when a motion is followed.
 const FINEST: f64 = 1e-6;
 
-/// Two motions meet and cease where a variation grows like 1/√(1 − h/h*): followed to h* as closely as above, a motion that
-/// grows less than this has not been lost to conjugate points, but to Newton's method.
+/// Two motions meet and cease where a variation grows like 1/√(1 − h/h*): followed to h* as closely as above,
+/// a motion that grows less than this has not been lost to conjugate points, but to Newton's method.
 const CEASING: f64 = 50.0;
 
 /// The initial velocity found, and ∂(q, p)(h)/∂(q0, p0) with it.
@@ -83,7 +84,8 @@ impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Bound
         self.shoot(h, guess.copied().unwrap_or_else(|| (self.q1 - self.q0) / h), limit)
     }
 
-    /// The motion from q0 to q1, followed from small h on; `first_failure` is the error where it is not found for any of them.
+    /// The motion from q0 to q1, followed from small h on; `first_failure` is the error where it is not found
+    /// for any of them.
     pub(super) fn followed(&self, h: f64, first_failure: ExactError) -> Result<Shot<N>, ExactError> {
         let straight = |h: f64| (self.q1 - self.q0) / h;
         let small = (1..=12).map(|k| h / f64::from(1 << k));
@@ -131,7 +133,8 @@ impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Bound
     fn shoot(&self, h: f64, v0: SVector<f64, N>, limit: f64) -> Result<Shot<N>, ExactError> {
         let unit = self.q0.amax().max(self.q1.amax()) / h.abs();
         let mut trial = self.trial(h, v0)?;
-        // A trial that runs away is large itself: what counts is what its start does to ends of the size asked for.
+        // A trial that runs away is large itself: what counts is what its start does to ends of the size
+        // asked for.
         let ends = self.q0.amax().max(self.q1.amax());
         if trial.enlargement > limit * ends {
             return Err(ExactError::IllConditioned { h, error: trial.enlargement / ends });
@@ -218,8 +221,8 @@ impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Bound
     }
 }
 
-/// What one rounding of (q0, p0) makes of the end, relative to the largest of the motion, in units in which every coordinate has mass 1.
-/// The families are those of q0 and p0.
+/// What one rounding of (q0, p0) makes of the end, relative to the largest of the motion, in units in which
+/// every coordinate has mass 1. The families are those of q0 and p0.
 pub(super) fn conditioning<const N: usize>(
     start: &Point<N>,
     Carried { end, largest: most, .. }: &Carried<N>,

@@ -4,15 +4,17 @@
 //! Q_i = q0 + τ Σ a_ij V_j,   P_i = p0 + τ Σ a_ij G_j,   ∂L/∂v(t_i, Q_i, V_i) = P_i,   G = ∂L/∂q + f
 //! ```
 //!
-//! In (q, p) no derivative by the time is asked for: every stage sees L and f as they are at its own time, and ∂²L/∂v∂t is in what
-//! the momenta do. The last stage is the end of the step. The same matrix that Newton's method solves with carries the variations,
-//! of which the first are those of the equations above, and so exact, and the second have sources besides:
+//! In (q, p) no derivative by the time is asked for: every stage sees L and f as they are at its own time,
+//! and ∂²L/∂v∂t is in what the momenta do. The last stage is the end of the step. The same matrix that
+//! Newton's method solves with carries the variations, of which the first are those of the equations above,
+//! and so exact, and the second have sources besides:
 //!
 //! ```text
 //! ∂L/∂v: L_vq δQ_i + L_vv δV_i + m_i = δP_i,   δG_i = (L_qq + f_q) δQ_i + (L_qv + f_v) δV_i + s_i
 //! ```
 //!
-//! L-stability is for damping that is stiff on the step; none of this is the code of the rules that are measured by it.
+//! L-stability is for damping that is stiff on the step; none of this is the code of the rules that are
+//! measured by it.
 
 use core::num::NonZeroUsize;
 use std::sync::OnceLock;
@@ -115,7 +117,8 @@ pub(super) struct Varied<const N: usize> {
     pub(super) end: (SVector<f64, N>, SVector<f64, N>),
 }
 
-/// What a second variation has beside its first-order terms at each stage: m_i in ∂L/∂v, s_i in the rate of the momentum.
+/// What a second variation has beside its first-order terms at each stage: m_i in ∂L/∂v, s_i in the rate of
+/// the momentum.
 pub(super) type Source<const N: usize> = Vec<(SVector<f64, N>, SVector<f64, N>)>;
 
 /// (q, p), and the velocity that Newton's method starts from.
@@ -239,7 +242,8 @@ pub(super) fn unit_of<const N: usize>(local: &Local<N>, a: usize) -> f64 {
     if own > 0.0 { own.sqrt() } else { local.l.d22.row(a).amax().sqrt() }
 }
 
-/// ∂r_i/∂V_j = δ_ij L_vv + τ a_ij (L_vq,i − G_v,j) − τ² Σ_k a_ik G_q,k a_kj of r_i = ∂L/∂v − P_i, both sides in `unit`s.
+/// ∂r_i/∂V_j = δ_ij L_vv + τ a_ij (L_vq,i − G_v,j) − τ² Σ_k a_ik G_q,k a_kj of r_i = ∂L/∂v − P_i, both sides
+/// in `unit`s.
 fn jacobian<const N: usize>(stages: &[Stage<N>], unit: &SVector<f64, N>, length: f64) -> DMatrix<f64> {
     let Coefficients { matrix, .. } = coefficients();
     let mut jacobian = DMatrix::zeros(STAGES * N, STAGES * N);

@@ -32,10 +32,11 @@ pub enum ExactError {
         /// The time on the segment, from 0 to h.
         time: f64,
     },
-    /// q0 and q1 are conjugate: ∂q(h)/∂v(0) is singular to half the digits, so that the motion from q0 to q1 is either
-    /// not unique or does not exist.
+    /// q0 and q1 are conjugate: ∂q(h)/∂v(0) is singular to half the digits, so that the motion from q0 to q1
+    /// is either not unique or does not exist.
     ConjugatePoints {
-        /// The step size at which the points are conjugate; below the one asked for if the motion could be followed so far.
+        /// The step size at which the points are conjugate; below the one asked for if the motion could be
+        /// followed so far.
         h: f64,
         /// How much larger a variation is inside the segment than at its end; infinite at a conjugate point.
         growth: f64,
@@ -54,15 +55,17 @@ pub enum ExactError {
         /// Relative difference to half as many steps.
         difference: f64,
     },
-    /// Neither end of the motion tells the other: rounding of one is enlarged beyond [`Exact::WORST`](super::Exact::WORST), as by
-    /// damping seen backwards, which grows like e^{r|h|/m}, or by an unstable equilibrium, like e^{√(k/m)|h|}.
+    /// Neither end of the motion tells the other: rounding of one is enlarged beyond
+    /// [`Exact::WORST`](super::Exact::WORST), as by damping seen backwards, which grows like e^{r|h|/m},
+    /// or by an unstable equilibrium, like e^{√(k/m)|h|}.
     IllConditioned {
         /// The step size.
         h: f64,
         /// What one rounding makes, relative to the largest of the motion.
         error: f64,
     },
-    /// All evaluations of L and f that one question may take ([`Exact::EVALUATIONS`](super::Exact::EVALUATIONS)) are spent.
+    /// All evaluations of L and f that one question may take
+    /// ([`Exact::EVALUATIONS`](super::Exact::EVALUATIONS)) are spent.
     TooMuchWork {
         /// Evaluations made.
         evaluations: usize,

@@ -1,4 +1,5 @@
-//! Whether the exact discrete force is Rayleigh: the paper's existence criterion, for any number of degrees of freedom.
+//! Whether the exact discrete force is Rayleigh: the paper's existence criterion, for any number of degrees
+//! of freedom.
 //!
 //! The paper (section 3.4, remark) asks D1 f_d⁺ = −D2 f_d⁻ and writes it, for the exact force and n = 1, as
 //!
@@ -6,8 +7,8 @@
 //! ∫₀ʰ [2 f_q ∂q/∂q0 ∂q/∂q1 + f_v ∂v/∂q0 ∂q/∂q1 + f_v ∂q/∂q0 ∂v/∂q1 + 2 f ∂²q/∂q0∂q1] dt = 0
 //! ```
 //!
-//! For n > 1 the 1-form f_d⁻dq0 − f_d⁺dq1 = dR_d is closed iff three conditions hold, of which the printed one, with a
-//! transpose, is the first:
+//! For n > 1 the 1-form f_d⁻dq0 − f_d⁺dq1 = dR_d is closed iff three conditions hold, of which the printed
+//! one, with a transpose, is the first:
 //!
 //! ```text
 //! D1 f_d⁺ + (D2 f_d⁻)ᵀ = 0,   D1 f_d⁻ symmetric,   D2 f_d⁺ symmetric
@@ -31,8 +32,8 @@ pub struct Existence<const N: usize> {
     pub minus: SMatrix<f64, N, N>,
     /// D2 f_d^ex+ − (D2 f_d^ex+)ᵀ, shape N×N; 0 for N = 1.
     pub plus: SMatrix<f64, N, N>,
-    /// What counts as 0: ten times the error estimate of the Jacobians. One as large as the Jacobians themselves says nothing, and none of
-    /// the conditions holds.
+    /// What counts as 0: ten times the error estimate of the Jacobians. One as large as the Jacobians
+    /// themselves says nothing, and none of the conditions holds.
     pub tolerance: f64,
     /// The largest entry of the Jacobians D f_d^ex±.
     pub terms: f64,
@@ -48,7 +49,8 @@ pub enum ExistenceVerdict {
     Holds,
     /// f_d⁻ dq0 − f_d⁺ dq1 is not closed in the mixed block: no R_d, whatever n.
     MixedFails,
-    /// The mixed condition holds, but D1 f_d⁻ or D2 f_d⁺ is not symmetric: no R_d, though the printed condition holds.
+    /// The mixed condition holds, but D1 f_d⁻ or D2 f_d⁺ is not symmetric: no R_d, though the printed
+    /// condition holds.
     SymmetryFails,
 }
 

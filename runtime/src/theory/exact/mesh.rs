@@ -1,8 +1,8 @@
 //! The motion over steps of unequal length, until shorter ones change nothing but rounding.
 //!
-//! A mesh is found by the motion alone: a step is taken whole and in halves, and is short enough when they agree to
-//! [`AGREEMENT`]; the halves are then right to rounding. What is asked for is carried over the mesh and over the mesh with every step
-//! halved, and the difference is the error estimate.
+//! A mesh is found by the motion alone: a step is taken whole and in halves, and is short enough when they
+//! agree to [`AGREEMENT`]; the halves are then right to rounding. What is asked for is carried over the mesh
+//! and over the mesh with every step halved, and the difference is the error estimate.
 
 use nalgebra::SVector;
 
@@ -13,13 +13,15 @@ use super::{ActingForce, ExactError};
 use crate::system::Lagrangian;
 use crate::theory::verdict::largest;
 
-/// How far a step and its halves may differ, relative to the largest of the motion. At order 15 the halves are right to 2⁻¹⁵ of it.
+/// How far a step and its halves may differ, relative to the largest of the motion. At order 15 the halves
+/// are right to 2⁻¹⁵ of it.
 const AGREEMENT: f64 = 1e-12;
 
 /// Differences up to here are what rounding leaves.
 const RIGHT: f64 = 1e-13;
 
-/// Order 15 divides a difference by thousands when the steps are halved; less than this, and rounding holds it up.
+/// Order 15 divides a difference by thousands when the steps are halved; less than this, and rounding holds
+/// it up.
 const FALLING: f64 = 16.0;
 
 /// A momentum that grows so much in the last tenth of the time, in which steps become ever shorter, escapes.

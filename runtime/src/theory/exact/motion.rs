@@ -5,8 +5,8 @@
 //! δp = L_vq δq + L_vv δv,   δp′ = (L_qq + f_q) δq + (L_qv + f_v) δv
 //! ```
 //!
-//! Neither asks for third derivatives of L, nor for derivatives by the time: ∂q(t)/∂q0 and ∂q(t)/∂q1 are exact to rounding, and where
-//! L, R or f takes the time, each evaluation is that of its own.
+//! Neither asks for third derivatives of L, nor for derivatives by the time: ∂q(t)/∂q0 and ∂q(t)/∂q1 are
+//! exact to rounding, and where L, R or f takes the time, each evaluation is that of its own.
 
 use core::marker::PhantomData;
 

@@ -7,9 +7,9 @@
 //! |L_d − L_d^ex| = O(hʳ⁺¹),  |f_d^± − f_d^ex±| = O(hʳ⁺¹)   sufficient for it, but not necessary
 //! ```
 //!
-//! A rule may share the work between L_d and f_d differently from the exact pair. With constant mass matrix M, the midpoint
-//! rule's f_d^± are off by ∓(h²/12)(df_L/dt − (∂f_L/∂v)ᵀM⁻¹f_L), which its D L_d makes up for. So the order of the flow is
-//! read off the momenta.
+//! A rule may share the work between L_d and f_d differently from the exact pair. With constant mass matrix
+//! M, the midpoint rule's f_d^± are off by ∓(h²/12)(df_L/dt − (∂f_L/∂v)ᵀM⁻¹f_L), which its D L_d makes up
+//! for. So the order of the flow is read off the momenta.
 
 use core::fmt;
 
@@ -49,7 +49,8 @@ pub struct OrderSample {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Convergence {
-    /// Slope of log error over log h, least squares; `None` where fewer than two errors stand above the plateau.
+    /// Slope of log error over log h, least squares; `None` where fewer than two errors stand above the
+    /// plateau.
     pub slope: Option<f64>,
     /// Slope of the two smallest step sizes above the plateau: nearest to the limit h → 0.
     pub last: Option<f64>,
@@ -86,13 +87,15 @@ where
 {
     /// Measures the order of rule `R` at q0 with mean velocity `v`, q1 = q0 + h v.
     ///
-    /// Of a system at a time, a view, every segment starts at that time. Step sizes that differ in their sign alone count once.
+    /// Of a system at a time, a view, every segment starts at that time. Step sizes that differ in their sign
+    /// alone count once.
     ///
-    /// The rule discretises every force that the system has, so the objects compared must be those of every force too: with
-    /// [`Exact::unforced`] of a damped system the slopes of f_d are 1.
+    /// The rule discretises every force that the system has, so the objects compared must be those of every
+    /// force too: with [`Exact::unforced`] of a damped system the slopes of f_d are 1.
     ///
     /// # Errors
-    /// As [`Exact::segment`], at any of the step sizes; [`ExactError::RuleNotFinite`] where the rule has no finite objects.
+    /// As [`Exact::segment`], at any of the step sizes; [`ExactError::RuleNotFinite`] where the rule has no
+    /// finite objects.
     pub fn order<R>(
         &self,
         _rule: R,

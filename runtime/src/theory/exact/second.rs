@@ -1,18 +1,20 @@
 //! Second variations of the motion: D11, D12, D22 of L_d^ex and the Jacobians of f_d^ex.
 //!
-//! With parameters a, b among q0 and q1, δ_a q the first variations and w = ∂²q/∂a∂b, which vanishes at both ends,
+//! With parameters a, b among q0 and q1, δ_a q the first variations and w = ∂²q/∂a∂b, which vanishes at both
+//! ends,
 //!
 //! ```text
 //! ∂_b f_a = ∫ (f_q δ_b q + f_v δ_b v)·δ_a q dt + ∫ f·w dt
 //! ∂_a ∂_b L_d^ex = ∫ L″[δ_a, δ_b] dt − ∫ f·w dt
 //! ```
 //!
-//! since (L_q, L_v) along w is a total derivative less f·w. The second variation is carried from zero initial values as
-//! (η, ζ) = (δ²q, δ²p); returning its end to zero by a variation of q1 gives ∫ f·w dt = ∫ f·η dt − f_d^ex+·η(h).
+//! since (L_q, L_v) along w is a total derivative less f·w. The second variation is carried from zero initial
+//! values as (η, ζ) = (δ²q, δ²p); returning its end to zero by a variation of q1 gives ∫ f·w dt = ∫ f·η dt −
+//! f_d^ex+·η(h).
 //!
-//! The sources of (η, ζ) are third derivatives of L and second ones of f along δ_a. [`Lagrangian`] does not give these:
-//! they are central differences of order 8 of the second derivatives, along δ_a, with a spacing that the motion itself is
-//! asked for: the one whose result changes least when it is halved.
+//! The sources of (η, ζ) are third derivatives of L and second ones of f along δ_a. [`Lagrangian`] does not
+//! give these: they are central differences of order 8 of the second derivatives, along δ_a, with a spacing
+//! that the motion itself is asked for: the one whose result changes least when it is halved.
 
 use core::cell::{Cell, RefCell};
 
@@ -37,8 +39,8 @@ pub struct SecondDerivatives<const N: usize> {
     pub lagrangian: Derivatives<f64, N>,
     /// f_d^ex± with D1 and D2.
     pub force: DiscreteForceDerivatives<f64, N>,
-    /// Absolute error estimate of the entries of D11, D12, D22 of L_d^ex: how much halving the spacing of the differences
-    /// changes them, and the relative error of the integration times their size.
+    /// Absolute error estimate of the entries of D11, D12, D22 of L_d^ex: how much halving the spacing of
+    /// the differences changes them, and the relative error of the integration times their size.
     pub lagrangian_error: f64,
     /// Absolute error estimate of the entries of D1, D2 of f_d^ex±, likewise.
     pub force_error: f64,
@@ -50,15 +52,16 @@ const WEIGHTS: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
 /// Spacings tried, in powers of 2 of the coordinate's size, narrow ones first.
 const SPACINGS: core::ops::Range<i32> = -20..20;
 
-/// A spread so many times the least so far shows that the spacing has outgrown the functions. Wider ones are not tried:
-/// their differences may agree again, having stepped over what is to be differenced.
+/// A spread so many times the least so far shows that the spacing has outgrown the functions. Wider ones are
+/// not tried: their differences may agree again, having stepped over what is to be differenced.
 const OUTGROWN: f64 = 1e3;
 
-/// Differences that disagree by more over one spacing, relative to the second derivatives, show that there is no third
-/// derivative: those of a jump disagree by about 1 at every spacing.
+/// Differences that disagree by more over one spacing, relative to the second derivatives, show that there is
+/// no third derivative: those of a jump disagree by about 1 at every spacing.
 const ROUGH: f64 = 1e-6;
 
-/// The differences round: the second variations may stop converging at this relative error, which is then reported.
+/// The differences round: the second variations may stop converging at this relative error, which is then
+/// reported.
 const ROUNDING: f64 = 1e-6;
 
 /// Roundings of the sums along the motion, which two attempts may agree on by chance.
@@ -160,8 +163,8 @@ where
 {
     let count = pairs::<N>().count();
     let own = 4 * N * N;
-    // Beside the motion: ∫ (f′ δ_b)·δ_a, ∫ f·η, ∫ L″[δ_a, δ_b]. The first two make up one Jacobian and are judged together; η and ζ are
-    // not judged, as they matter through ∫ f·η alone.
+    // Beside the motion: ∫ (f′ δ_b)·δ_a, ∫ f·η, ∫ L″[δ_a, δ_b]. The first two make up one Jacobian and are
+    // judged together; η and ζ are not judged, as they matter through ∫ f·η alone.
     let breakdown = Cell::new(None);
     let ends = RefCell::new(Vec::new());
     let visitor = || -> Box<Visitor<'_, N>> {
@@ -268,7 +271,8 @@ where
     Ok(sum)
 }
 
-/// For each variation the spacing at which halving it changes the differences least, over the quarters of the motion.
+/// For each variation the spacing at which halving it changes the differences least, over the quarters of the
+/// motion.
 ///
 /// From narrow to wide the spread first falls, as rounding does, and then rises as truncation does.
 fn spacings<L, F, const N: usize>(
@@ -330,7 +334,8 @@ where
         .collect()
 }
 
-/// Largest disagreement of two differences, relative to the derivatives that were differenced, in mass-weighted coordinates.
+/// Largest disagreement of two differences, relative to the derivatives that were differenced, in
+/// mass-weighted coordinates.
 fn spread<const N: usize>(unit: &SVector<f64, N>, [at, wide, narrow]: [&Bend<N>; 3], spacing: f64) -> f64 {
     let matrices = |bend: &Bend<N>| {
         [bend.l.d11, bend.l.d12, bend.l.d22, bend.f.d1, bend.f.d2]

@@ -60,14 +60,16 @@ pub struct SegmentReport {
     pub continuation: u32,
     /// Integration steps.
     pub steps: usize,
-    /// Relative difference to the results with half as many steps: truncation and rounding of the integration.
+    /// Relative difference to the results with half as many steps: truncation and rounding of the
+    /// integration.
     pub difference: f64,
     /// Relative error of the boundary conditions of q(t), ∂q(t)/∂q0 and ∂q(t)/∂q1 at t = h.
     pub boundary: f64,
-    /// Relative error of D1 L_d^ex + f_d^ex− = −p0 and D2 L_d^ex + f_d^ex+ = p1: integrals on the left, ends of the
-    /// motion on the right.
+    /// Relative error of D1 L_d^ex + f_d^ex− = −p0 and D2 L_d^ex + f_d^ex+ = p1: integrals on the left, ends
+    /// of the motion on the right.
     pub identity: f64,
-    /// How much larger a variation of q1 is inside the segment than at its end: 1 away from conjugate points.
+    /// How much larger a variation of q1 is inside the segment than at its end: 1 away from conjugate
+    /// points.
     pub growth: f64,
     /// What one rounding at one end of the motion makes of the other, relative to the largest of the motion.
     pub conditioning: f64,
@@ -132,7 +134,8 @@ where
 {
     let Boundary { dynamics, q0, q1 } = *boundary;
     let local = dynamics.local(0.0, &q0, &shot.v0).map_err(|breakdown| breakdown.at(0.0, dynamics.work))?;
-    // At fixed q1 a variation of q0 changes p0 by −(∂q(h)/∂p0)⁻¹ ∂q(h)/∂q0; at fixed q0 one of q1 by (∂q(h)/∂p0)⁻¹.
+    // At fixed q1 a variation of q0 changes p0 by −(∂q(h)/∂p0)⁻¹ ∂q(h)/∂q0; at fixed q0 one of q1 by
+    // (∂q(h)/∂p0)⁻¹.
     let start = Point {
         q: q0,
         p: local.l.d2,
@@ -211,7 +214,8 @@ where
 }
 
 impl<const N: usize> Segment<N> {
-    /// The segment from q1 back to q0, its time running backwards: L_d changes its sign, and both ends change places.
+    /// The segment from q1 back to q0, its time running backwards: L_d changes its sign, and both ends change
+    /// places.
     pub(super) fn reversed(self) -> Self {
         let turned =
             |p: CovectorDerivatives<f64, N>| CovectorDerivatives { value: p.value, d1: p.d2, d2: p.d1 };

@@ -1,19 +1,20 @@
 //! Caustics of a carried section, det Q_k = 0, located between the steps.
 //!
-//! Between two steps the characteristics are drawn straight, q(t) = (1 − t) c_k + t c_{k+1}, the path along which the rules
-//! evaluate L. The fan folds where the frame of these lines is singular,
+//! Between two steps the characteristics are drawn straight, q(t) = (1 − t) c_k + t c_{k+1}, the path along
+//! which the rules evaluate L. The fan folds where the frame of these lines is singular,
 //!
 //! ```text
 //! det Q(t) = 0,     Q(t) = (1 − t) Q_k + t Q_{k+1},     0 < t ≤ 1
 //! ```
 //!
 //! a generalised eigenvalue problem: with any regular Q(s), t = s − 1/μ for the real eigenvalues μ of
-//! Q(s)⁻¹(Q_{k+1} − Q_k). Each is counted with its multiplicity, so that a double zero, which leaves the sign of det Q_k as
-//! it was, is found; neither Q_k nor Q_{k+1} is inverted, unless it is the best conditioned of the Q(s).
+//! Q(s)⁻¹(Q_{k+1} − Q_k). Each is counted with its multiplicity, so that a double zero, which leaves the sign
+//! of det Q_k as it was, is found; neither Q_k nor Q_{k+1} is inverted, unless it is the best conditioned of
+//! the Q(s).
 //!
-//! Where the section is closed and ∂p0/∂q1 = −D2D1 L_d⁺ is symmetric and positive, the count is the number of negative
-//! eigenvalues of Q_kᵀ (∂p0/∂q1) Q_{k+1}, the multiplicity of the focal points in (k, k+1] of discrete Sturm theory
-//! (W. Kratz, Discrete oscillation, J. Difference Equ. Appl. 9, 2003).
+//! Where the section is closed and ∂p0/∂q1 = −D2D1 L_d⁺ is symmetric and positive, the count is the number of
+//! negative eigenvalues of Q_kᵀ (∂p0/∂q1) Q_{k+1}, the multiplicity of the focal points in (k, k+1] of
+//! discrete Sturm theory (W. Kratz, Discrete oscillation, J. Difference Equ. Appl. 9, 2003).
 
 use core::fmt;
 
@@ -46,8 +47,8 @@ const SAME: f64 = 1e-3;
 
 /// The tangent plane of a carried section, and the caustics that it has met.
 ///
-/// Its basis is made orthonormal at each step, which moves no zero of det Q. The frame itself would not do: a direction in which the fan
-/// grows a millionfold hides in rounding what the others do.
+/// Its basis is made orthonormal at each step, which moves no zero of det Q. The frame itself would not do: a
+/// direction in which the fan grows a millionfold hides in rounding what the others do.
 pub(super) struct TangentPlane<S, const N: usize> {
     basis: Frame<S, N>,
     /// How many zeros were counted on the node that it is at.
@@ -59,7 +60,8 @@ impl<S: Scalar, const N: usize> TangentPlane<S, N> {
         Self { basis: orthonormal(frame), counted: 0 }
     }
 
-    /// Carries it over a step with the step matrix `a`: fractions of the step at which det Q vanishes, with their multiplicities, in order.
+    /// Carries it over a step with the step matrix `a`: fractions of the step at which det Q vanishes, with
+    /// their multiplicities, in order.
     pub(super) fn carry(&mut self, a: &PhaseMatrix<S, N>) -> Vec<(f64, usize)> {
         let next = self.basis.carried(a);
         let (zeros, counted) = zeros([&dynamic(&self.basis.q), &dynamic(&next.q)], self.counted);

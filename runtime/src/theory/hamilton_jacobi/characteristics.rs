@@ -32,8 +32,8 @@ pub struct Characteristic<S, const N: usize> {
     pub frames: Vec<Frame<S, N>>,
     /// The zeros of det Q_k, in order.
     ///
-    /// One that is less than √ε of a step from a node counts as on it, and zeros closer than that to each other as one caustic of
-    /// higher multiplicity.
+    /// One that is less than √ε of a step from a node counts as on it, and zeros closer than that to each
+    /// other as one caustic of higher multiplicity.
     pub caustics: Vec<Caustic<N>>,
 }
 
@@ -42,7 +42,8 @@ pub struct Characteristic<S, const N: usize> {
 pub struct CharacteristicsReport<const N: usize> {
     /// Closedness defect Q_kᵀP_k − P_kᵀQ_k = 0: the section is a differential, locally.
     pub closed: Outcome<N>,
-    /// The defect's balance: over a step it grows by the pull-back of d f_d and by nothing else. An identity.
+    /// The defect's balance: over a step it grows by the pull-back of d f_d and by nothing else. An
+    /// identity.
     pub balance: Outcome<N>,
     /// The caustics met, in the order of the characteristics given.
     pub caustics: Vec<Caustic<N>>,
@@ -86,8 +87,8 @@ where
 {
     /// Carries the section γ_0 = `section` from the label x over `steps` steps.
     ///
-    /// The characteristics of many labels are the solution (F_k, γ_k) that starts from γ_0: F_k(c_k) = c_{k+1} and
-    /// γ_k(c_k) = p_k, wherever det Q_k ≠ 0.
+    /// The characteristics of many labels are the solution (F_k, γ_k) that starts from γ_0: F_k(c_k) =
+    /// c_{k+1} and γ_k(c_k) = p_k, wherever det Q_k ≠ 0.
     ///
     /// # Errors
     /// [`HamiltonJacobiError::Implicit`] with the step that has no solution or no finite derivative.
@@ -175,7 +176,8 @@ where
         }
     }
 
-    /// Q_{k+1}ᵀP_{k+1} − Q_kᵀP_k − Tᵀ F T is symmetric, T = (Q_k, Q_{k+1}), F = ∂(f_d⁻, f_d⁺)/∂(q_k, q_{k+1}).
+    /// Q_{k+1}ᵀP_{k+1} − Q_kᵀP_k − Tᵀ F T is symmetric, T = (Q_k, Q_{k+1}), F = ∂(f_d⁻, f_d⁺)/∂(q_k,
+    /// q_{k+1}).
     fn balance_at(&self, balance: &mut Worst<N>, characteristic: &Characteristic<S, N>, k: usize) {
         let [from, to] = [&characteristic.states[k], &characteristic.states[k + 1]];
         let [before, after] = [&characteristic.frames[k], &characteristic.frames[k + 1]];

@@ -56,7 +56,8 @@ pub enum ImplicitEquation {
 }
 
 impl HamiltonJacobiError {
-    /// The same at step k: objects of one segment do not know which one they are, reports along a trajectory do.
+    /// The same at step k: objects of one segment do not know which one they are, reports along a trajectory
+    /// do.
     pub(super) fn at_step(self, k: usize) -> Self {
         match self {
             Self::Implicit { equation, cause, .. } => Self::Implicit { equation, step: k, cause },

@@ -28,9 +28,9 @@ pub struct PrintedAndCorrected<const N: usize> {
 /// left, b    p1 = −D1 H_d⁻ + f_d⁺                       p1 = −D1 H_d⁻ + f_d⁺ + (∂q0/∂q1|p0)ᵀ f_d⁻
 /// ```
 ///
-/// Here p0, p1 are the momenta of the segment by 𝔽^±, and H_d^± is a function of its two arguments alone: q1 (q0) is
-/// eliminated through the **forced** transform. Since q1 then moves with q0 at fixed p1, the force f_d⁺ at q1 enters D1 H_d⁺
-/// as well; that term is missing in the printed second equations.
+/// Here p0, p1 are the momenta of the segment by 𝔽^±, and H_d^± is a function of its two arguments alone: q1
+/// (q0) is eliminated through the **forced** transform. Since q1 then moves with q0 at fixed p1, the force
+/// f_d⁺ at q1 enters D1 H_d⁺ as well; that term is missing in the printed second equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HamiltonEquationsReport<const N: usize> {
     /// [q1 − D2 H_d⁺] ∂p1/∂q1 = −f_d⁺.
@@ -101,7 +101,8 @@ where
 {
     /// The residuals of the forced discrete Hamilton equations on every segment of `configurations`.
     ///
-    /// They are identities of a segment, so that the configurations need not solve the discrete Euler–Lagrange equations.
+    /// They are identities of a segment, so that the configurations need not solve the discrete
+    /// Euler–Lagrange equations.
     #[must_use]
     pub fn hamilton_equations(&self, configurations: &[SVector<S, N>]) -> HamiltonEquationsReport<N> {
         let mut equations = Equations::new(self.relative);
@@ -121,7 +122,8 @@ where
     /// left, b    p1 = −D1 H_d⁻ + D2 R_d                    p1 = −D1 H_d⁻ − D2 R_d + (∂q0/∂q1|p0)ᵀ D1 R_d
     /// ```
     ///
-    /// The momenta and H_d^± are those of the whole system: a general force beside R makes even the corrected forms fail.
+    /// The momenta and H_d^± are those of the whole system: a general force beside R makes even the corrected
+    /// forms fail.
     #[must_use]
     pub fn hamilton_equations_rayleigh(&self, configurations: &[SVector<S, N>]) -> HamiltonEquationsReport<N>
     where

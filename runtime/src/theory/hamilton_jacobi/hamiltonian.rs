@@ -15,7 +15,8 @@ pub struct DiscreteHamiltonian<S, const N: usize> {
     pub d1: SVector<S, N>,
     /// D2: derivative by the momentum, shape N.
     pub d2: SVector<S, N>,
-    /// The configuration that the forced Legendre transform eliminates: q1 of H_d⁺(q0, p1), q0 of H_d⁻(q1, p0).
+    /// The configuration that the forced Legendre transform eliminates: q1 of H_d⁺(q0, p1), q0 of H_d⁻(q1,
+    /// p0).
     pub eliminated: SVector<S, N>,
     /// Its derivative by the other configuration, shape N×N: ∂q1/∂q0 at fixed p1, or ∂q0/∂q1 at fixed p0.
     pub eliminated_by_q: SMatrix<S, N, N>,

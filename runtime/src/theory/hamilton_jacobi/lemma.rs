@@ -25,8 +25,9 @@ where
     /// x = D2 H_d⁺(q_k, γ⁺(q_k, x)) − f_d⁺(q_k, x) [D2 γ⁺(q_k, x)]⁻¹,     γ⁺(q_k, x) = DS_{k+1}(x) + f_d⁺(q_k, x)
     /// ```
     ///
-    /// q_{k−1} does not occur in it. Solved by Newton's method from q_k + h `guess`; its matrix is taken by central
-    /// differences, since exact entries would need third derivatives of S and second ones of f_d (the residual is exact).
+    /// q_{k−1} does not occur in it. Solved by Newton's method from q_k + h `guess`; its matrix is taken by
+    /// central differences, since exact entries would need third derivatives of S and second ones of f_d
+    /// (the residual is exact).
     ///
     /// # Errors
     /// [`HamiltonJacobiError::Implicit`] where the definition, or H_d⁺ in it, has no solution in reach.
@@ -49,7 +50,8 @@ where
     /// q_k = f_d⁻(q_k, x) [D_{q_k} γ⁻(q_k, x)]⁻¹ − D2 H_d⁻(x, γ⁻(q_k, x)),     γ⁻(q_k, x) = DS_k(q_k) − f_d⁻(q_k, x)
     /// ```
     ///
-    /// D_{q_k} is read as the partial derivative at fixed x, as in the left Hamilton equation that it stands for.
+    /// D_{q_k} is read as the partial derivative at fixed x, as in the left Hamilton equation that it stands
+    /// for.
     ///
     /// # Errors
     /// [`HamiltonJacobiError::Implicit`] where the definition, or H_d⁻ in it, has no solution in reach.

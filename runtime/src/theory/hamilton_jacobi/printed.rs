@@ -1,6 +1,7 @@
 //! The paper's section 4 as printed, for one family S_k: sections, flows, equations, generating function.
 //!
-//! Index convention: on the segment (q_j, q_{j+1}) the functions S_j and S_{j+1} are used, `s0` and `s1` below.
+//! Index convention: on the segment (q_j, q_{j+1}) the functions S_j and S_{j+1} are used, `s0` and `s1`
+//! below.
 
 use nalgebra::SVector;
 
@@ -42,7 +43,8 @@ where
         Momenta { p0: s0.gradient(q0) - f.minus, p1: s1.gradient(q1) + f.plus }
     }
 
-    /// F̃_d^H ∘ γ as printed; the configurations of the two halves are (F_d^H)^γ = ((F_d^H)^{γ⁻}, (F_d^H)^{γ⁺}).
+    /// F̃_d^H ∘ γ as printed; the configurations of the two halves are (F_d^H)^γ = ((F_d^H)^{γ⁻},
+    /// (F_d^H)^{γ⁺}).
     ///
     /// # Errors
     /// [`HamiltonJacobiError::Implicit`] if the step from one of the momenta has no solution.
@@ -67,7 +69,8 @@ where
     /// The forced right discrete Hamilton–Jacobi equation as printed,
     /// S_{j+1}(q_{j+1}) − S_j(q_j) − γ⁺·q_{j+1} + H_d⁺(q_j, γ⁺) = 0.
     ///
-    /// H_d⁺ is the function of its two arguments: its q_{j+1} comes from 𝔽⁺ and γ⁺, not from the points given.
+    /// H_d⁺ is the function of its two arguments: its q_{j+1} comes from 𝔽⁺ and γ⁺, not from the points
+    /// given.
     ///
     /// # Errors
     /// Those of [`discrete_hamiltonian_plus`](Self::discrete_hamiltonian_plus).
@@ -94,8 +97,8 @@ where
     /// The forced left discrete Hamilton–Jacobi equation as printed,
     /// S_{j+1}(q_{j+1}) − S_j(q_j) + γ⁻·q_j + H_d⁻(q_{j+1}, γ⁻) = 0.
     ///
-    /// H_d⁻ is the function of its two arguments, its q_j eliminated through 𝔽⁻. If it is not, as in the paper's example,
-    /// γ⁻ drops out and [`action_increment`](Self::action_increment) is what is left.
+    /// H_d⁻ is the function of its two arguments, its q_j eliminated through 𝔽⁻. If it is not, as in the
+    /// paper's example, γ⁻ drops out and [`action_increment`](Self::action_increment) is what is left.
     ///
     /// # Errors
     /// Those of [`discrete_hamiltonian_minus`](Self::discrete_hamiltonian_minus).
@@ -119,8 +122,9 @@ where
         })
     }
 
-    /// S_{j+1}(q_{j+1}) − S_j(q_j) − L_d(q_j, q_{j+1}): what both equations say when no configuration is eliminated from
-    /// H_d^±. It holds no γ at all, so that along one trajectory it is the recursion that defines the discrete action.
+    /// S_{j+1}(q_{j+1}) − S_j(q_j) − L_d(q_j, q_{j+1}): what both equations say when no configuration is
+    /// eliminated from H_d^±. It holds no γ at all, so that along one trajectory it is the recursion that
+    /// defines the discrete action.
     #[must_use]
     pub fn action_increment<F>(
         &self,
@@ -162,11 +166,12 @@ where
         self.a_step_before(|theory| theory.backward_step(q0, &gamma.p0, Some(&((q1 - q0) / self.h))))
     }
 
-    /// G_d(q_j, q_{j+1}) = S_j(q_j) + S_{j+1}(q_{j+1}) − R_d(q_j, q_{j+1}) of a Rayleigh system, so that γ = DG_d.
+    /// G_d(q_j, q_{j+1}) = S_j(q_j) + S_{j+1}(q_{j+1}) − R_d(q_j, q_{j+1}) of a Rayleigh system, so that γ =
+    /// DG_d.
     ///
-    /// For functions S_j of one point D1 G_d and D2 G_d are the γ^± of [`gamma`](Self::gamma). The paper's example puts the
-    /// discrete action of a trajectory for S_j and S_{j+1}; then D1 G_d differentiates S_{j+1} too, and
-    /// [`along_trajectory`](Self::along_trajectory) shows by how much it misses.
+    /// For functions S_j of one point D1 G_d and D2 G_d are the γ^± of [`gamma`](Self::gamma). The paper's
+    /// example puts the discrete action of a trajectory for S_j and S_{j+1}; then D1 G_d differentiates
+    /// S_{j+1} too, and [`along_trajectory`](Self::along_trajectory) shows by how much it misses.
     #[must_use]
     pub fn generating_function<F>(&self, s0: &F, s1: &F, q0: &SVector<S, N>, q1: &SVector<S, N>) -> S
     where

@@ -13,8 +13,8 @@ use crate::system::ScalarField;
 
 /// The paper's statements about a family S_k, each with its residual on a trajectory q_0, …, q_K.
 ///
-/// If the trajectory solves the forced discrete Euler–Lagrange equations, all of them are claimed to hold together; they
-/// do where the net force f_d⁺(q_{j−1}, q_j) + f_d⁻(q_j, q_{j+1}) is 0.
+/// If the trajectory solves the forced discrete Euler–Lagrange equations, all of them are claimed to hold
+/// together; they do where the net force f_d⁺(q_{j−1}, q_j) + f_d⁻(q_j, q_{j+1}) is 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PrintedReport<const N: usize> {
     /// Forced discrete Euler–Lagrange equation of the trajectory itself: if it fails, the rest says little.
@@ -29,7 +29,8 @@ pub struct PrintedReport<const N: usize> {
     pub flow_gamma_minus: Outcome<N>,
     /// (F_d^H)^{γ⁺}(q_{j−1}, q_j) = q_{j+1}.
     pub flow_gamma_plus: Outcome<N>,
-    /// F̃_d^H ∘ γ = γ ∘ (F_d^H)^γ, first half: the momentum that the flow gives against γ⁻ at the pair it leads to.
+    /// F̃_d^H ∘ γ = γ ∘ (F_d^H)^γ, first half: the momentum that the flow gives against γ⁻ at the pair it
+    /// leads to.
     pub gamma_related_minus: Outcome<N>,
     /// F̃_d^H ∘ γ = γ ∘ (F_d^H)^γ, second half: against γ⁺.
     pub gamma_related_plus: Outcome<N>,
@@ -60,11 +61,13 @@ where
     S: Scalar,
     L: Discrete<R, N, Scalar = S>,
 {
-    /// Evaluates the paper's Hamilton–Jacobi theory as printed, S_k = `family[k]` on q_k = `configurations[k]`.
+    /// Evaluates the paper's Hamilton–Jacobi theory as printed, S_k = `family[k]` on q_k =
+    /// `configurations[k]`.
     ///
     /// # Errors
-    /// [`HamiltonJacobiError::TooFewPoints`] for fewer than three configurations, [`HamiltonJacobiError::FamilyLength`] if
-    /// there are fewer functions than configurations. What cannot be evaluated is an error in its own field.
+    /// [`HamiltonJacobiError::TooFewPoints`] for fewer than three configurations,
+    /// [`HamiltonJacobiError::FamilyLength`] if there are fewer functions than configurations. What
+    /// cannot be evaluated is an error in its own field.
     pub fn as_printed<F>(
         &self,
         family: &[F],

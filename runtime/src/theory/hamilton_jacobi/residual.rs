@@ -15,11 +15,12 @@ use crate::theory::verdict::{excess, is_zero, largest, tells};
 /// tolerance = relative · magnitude,    magnitude = sum of the sizes of the terms, in the unit of the residual
 /// ```
 ///
-/// For momenta the magnitude is |p| + Σ |∂p/∂q||q|, so that the rounding of q0 and q1 themselves is covered; for
-/// configurations it is |q| + |∂q/∂p| · (magnitude of p). "Worst" is the largest residual in units of its tolerance.
+/// For momenta the magnitude is |p| + Σ |∂p/∂q||q|, so that the rounding of q0 and q1 themselves is covered;
+/// for configurations it is |q| + |∂q/∂p| · (magnitude of p). "Worst" is the largest residual in units of its
+/// tolerance.
 ///
-/// A place tells something where the tolerance is less than the terms themselves: not on a caustic, where the slope of a section
-/// makes the rounding of q larger than the momenta, nor where all terms are 0.
+/// A place tells something where the tolerance is less than the terms themselves: not on a caustic, where the
+/// slope of a section makes the rounding of q larger than the momenta, nor where all terms are 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Residual<const N: usize> {
     /// Size of the residual at the worst place: its component that exceeds its tolerance most.
@@ -42,7 +43,8 @@ pub struct Residual<const N: usize> {
 pub type Outcome<const N: usize> = Result<Residual<N>, HamiltonJacobiError>;
 
 impl<const N: usize> Residual<N> {
-    /// Whether the equation holds to rounding wherever it was evaluated, one place at least telling something, and no step silent.
+    /// Whether the equation holds to rounding wherever it was evaluated, one place at least telling
+    /// something, and no step silent.
     #[must_use]
     pub fn holds(&self) -> bool {
         is_zero(self.size, self.tolerance) && self.tells()
@@ -113,8 +115,8 @@ impl<const N: usize> Worst<N> {
         Self { relative, worst: None, places: 0, telling: 0, silent: 0, latest: None, failed: None }
     }
 
-    /// Takes in a covector or a point, component by component: `terms` are the sizes of the terms, `magnitude` those with the rounding of
-    /// what they are evaluated at.
+    /// Takes in a covector or a point, component by component: `terms` are the sizes of the terms,
+    /// `magnitude` those with the rounding of what they are evaluated at.
     pub(super) fn vector<S: Scalar>(
         &mut self,
         step: usize,
@@ -132,7 +134,8 @@ impl<const N: usize> Worst<N> {
         }
     }
 
-    /// Takes in M − Mᵀ; `magnitude` holds the sizes of the entries of M. That a matrix of zeros is symmetric tells something.
+    /// Takes in M − Mᵀ; `magnitude` holds the sizes of the entries of M. That a matrix of zeros is symmetric
+    /// tells something.
     pub(super) fn antisymmetric_part<S: Scalar>(
         &mut self,
         step: usize,

@@ -17,11 +17,12 @@ pub struct SolutionReport<const N: usize> {
     pub minus: Option<Outcome<N>>,
     /// Plus transform, 𝔽⁺(q, F_k(q)) = γ_{k+1}(F_k(q)).
     pub plus: Outcome<N>,
-    /// Differential of the W-equation, DF_kᵀ(γ_{k+1} − D2 L_d) − γ_k − D1 L_d = f_d⁻ + DF_kᵀ f_d⁺. With the minus
-    /// transform and DF_k invertible it is equivalent to the plus transform.
+    /// Differential of the W-equation, DF_kᵀ(γ_{k+1} − D2 L_d) − γ_k − D1 L_d = f_d⁻ + DF_kᵀ f_d⁺. With the
+    /// minus transform and DF_k invertible it is equivalent to the plus transform.
     pub work: Outcome<N>,
     /// The right Hamilton–Jacobi equation with the virtual work on its right side,
-    /// S_{k+1}(q1) − S_k(q0) − γ_{k+1}(q1)·q1 + H_d⁺(q0, γ_{k+1}(q1)) = W_k(q0). For generating functions only.
+    /// S_{k+1}(q1) − S_k(q0) − γ_{k+1}(q1)·q1 + H_d⁺(q0, γ_{k+1}(q1)) = W_k(q0). For generating functions
+    /// only.
     pub hamiltonian: Option<Outcome<N>>,
     /// dW_k = 0: the equation without virtual work, that of Ohsawa, Bloch and Leok. No part of the verdict.
     pub no_work: Outcome<N>,
@@ -29,14 +30,16 @@ pub struct SolutionReport<const N: usize> {
     pub closed_sections: Outcome<N>,
     /// The pull-back of d f_d by (id, F_k) vanishes: W_k exists locally.
     pub closed_work: Outcome<N>,
-    /// Places where DF_k is singular, a caustic of the family: there the W-equation does not give the plus transform.
+    /// Places where DF_k is singular, a caustic of the family: there the W-equation does not give the plus
+    /// transform.
     pub singular_maps: usize,
     /// Relative tolerance used.
     pub relative: f64,
 }
 
 impl<const N: usize> SolutionReport<N> {
-    /// Whether both transforms hold, at finite sections with finite slopes: c_{k+1} = F_k(c_k), p_k = γ_k(c_k) then solve the forced discrete equations.
+    /// Whether both transforms hold, at finite sections with finite slopes: c_{k+1} = F_k(c_k), p_k =
+    /// γ_k(c_k) then solve the forced discrete equations.
     #[must_use]
     pub fn is_solution(&self) -> bool {
         let holds = |outcome: &Outcome<N>| outcome.is_ok_and(|residual| residual.holds());
@@ -107,13 +110,14 @@ where
     S: Scalar,
     L: Discrete<R, N, Scalar = S>,
 {
-    /// Whether sections γ_k are a solution: F_k is defined by the minus transform, the plus transform is checked.
+    /// Whether sections γ_k are a solution: F_k is defined by the minus transform, the plus transform is
+    /// checked.
     ///
     /// Every k is evaluated at every sample q.
     ///
     /// # Errors
-    /// [`HamiltonJacobiError::FamilyLength`] for fewer than two sections, [`HamiltonJacobiError::TooFewPoints`] without
-    /// samples.
+    /// [`HamiltonJacobiError::FamilyLength`] for fewer than two sections,
+    /// [`HamiltonJacobiError::TooFewPoints`] without samples.
     pub fn check_sections<G>(
         &self,
         sections: &[G],

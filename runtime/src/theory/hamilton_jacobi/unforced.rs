@@ -40,8 +40,8 @@ where
     /// Evaluates the right equation as an equation of functions: at every sample q for every k of the family.
     ///
     /// # Errors
-    /// [`HamiltonJacobiError::FamilyLength`] for fewer than three functions, [`HamiltonJacobiError::TooFewPoints`] without
-    /// samples.
+    /// [`HamiltonJacobiError::FamilyLength`] for fewer than three functions,
+    /// [`HamiltonJacobiError::TooFewPoints`] without samples.
     pub fn right_equation_everywhere<F>(
         &self,
         family: &[F],

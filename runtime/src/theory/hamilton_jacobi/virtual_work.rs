@@ -57,16 +57,17 @@ where
 
     /// S_k along the characteristic from `label`, for the section carried from γ_0 = dS_0, S_0 = `s0`.
     ///
-    /// W_k is found as a function of the label x, by quadrature along the straight line from `reference` to `label`:
+    /// W_k is found as a function of the label x, by quadrature along the straight line from `reference` to
+    /// `label`:
     ///
     /// ```text
     /// S_{k+1}(c_{k+1}(x)) = S_k(c_k(x)) + L_d(c_k, c_{k+1}) + W_k(c_k(x)),     W_k = 0 on the reference characteristic
     /// d(W_k ∘ c_k) = Q_kᵀ f_d⁻ + Q_{k+1}ᵀ f_d⁺                                   Q_k = ∂c_k/∂x
     /// ```
     ///
-    /// Nothing is divided by det Q_k, so that S_k goes on through caustics, as a function of the label. Where the section is
-    /// not closed (n > 1), the value depends on the path of labels. `nodes` Gauss–Legendre nodes are used; each carries its
-    /// own characteristic.
+    /// Nothing is divided by det Q_k, so that S_k goes on through caustics, as a function of the label. Where
+    /// the section is not closed (n > 1), the value depends on the path of labels. `nodes` Gauss–Legendre
+    /// nodes are used; each carries its own characteristic.
     ///
     /// # Errors
     /// Those of [`carry`](Self::carry), for any of the characteristics.

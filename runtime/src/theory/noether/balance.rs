@@ -9,7 +9,8 @@ use crate::step::{Discrete, State, Step, StepError};
 use crate::system::VectorField;
 use crate::theory::verdict::{is_zero, tells};
 
-/// The account of a momentum map along a trajectory: J_N − J_0 = Σ ξ(L_d) + Σ f_d(ξ). See [`Noether::balance`].
+/// The account of a momentum map along a trajectory: J_N − J_0 = Σ ξ(L_d) + Σ f_d(ξ). See
+/// [`Noether::balance`].
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Balance {
@@ -38,8 +39,9 @@ impl Balance {
         self.end - self.start - self.accumulated.total()
     }
 
-    /// Whether the account, of at least one step, is balanced to rounding, in total and at each step. If not, the trajectory is not the system's, or its steps
-    /// are solved so badly that their residuals exceed the terms.
+    /// Whether the account, of at least one step, is balanced to rounding, in total and at each step. If not,
+    /// the trajectory is not the system's, or its steps are solved so badly that their residuals exceed
+    /// the terms.
     #[must_use]
     pub fn is_balanced(&self) -> bool {
         // A step that goes astray and comes back leaves the sum as it is.
@@ -70,7 +72,8 @@ impl Add for Balance {
     }
 }
 
-/// Roundings of one term of a step's account, in units of ε: products and sums over coordinates, and those inside L and f.
+/// Roundings of one term of a step's account, in units of ε: products and sums over coordinates, and those
+/// inside L and f.
 const ROUNDINGS: f64 = 16.0;
 
 impl<L, R, const N: usize> Noether<'_, L, R, N>
@@ -78,17 +81,19 @@ where
     L: Discrete<R, N>,
 {
     /// Follows J along `steps`, which start at `start`: usually
-    /// `noether.balance(&generator, &start, trajectory.by_ref().take(n))`. Step k is taken to start k h after the time of the system
-    /// given: the second stretch of a run is that of the system at its own start.
+    /// `noether.balance(&generator, &start, trajectory.by_ref().take(n))`. Step k is taken to start k h after
+    /// the time of the system given: the second stretch of a run is that of the system at its own start.
     ///
-    /// The defects come from the derivatives of L_d and f_d at the configurations reached, J from the momenta of the states,
-    /// so that the balance tests the flow and not itself. Its tolerance is a bound, summed over the steps:
+    /// The defects come from the derivatives of L_d and f_d at the configurations reached, J from the momenta
+    /// of the states, so that the balance tests the flow and not itself. Its tolerance is a bound, summed
+    /// over the steps:
     ///
     /// ```text
     /// |residual|·|ξ(q_k)| + 16 ε Σ |ξᵢ| (|∂ᵢL_d| + |f_dᵢ| + Σⱼ (|∂ᵢ∂ⱼL_d| + |∂ⱼf_dᵢ|) |qⱼ|)
     /// ```
     ///
-    /// what the solver left, the rounding of each term, and what rounding the configurations themselves does to it.
+    /// what the solver left, the rounding of each term, and what rounding the configurations themselves does
+    /// to it.
     ///
     /// # Errors
     /// The first error among `steps`.

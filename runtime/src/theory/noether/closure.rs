@@ -12,7 +12,8 @@ use crate::theory::verdict::{excess, is_zero, largest, typical};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Closure {
-    /// Largest distance of a bracket from the span, relative to the terms of the bracket: 1 leads out, ε stays inside.
+    /// Largest distance of a bracket from the span, relative to the terms of the bracket: 1 leads out, ε
+    /// stays inside.
     pub residual: f64,
     /// The pair of basis elements whose bracket that is.
     pub pair: Option<(usize, usize)>,
@@ -21,7 +22,8 @@ pub struct Closure {
 }
 
 impl Closure {
-    /// Whether the span is a Lie algebra, to rounding. A tolerance of 1 or more, the size of a bracket's terms, says nothing.
+    /// Whether the span is a Lie algebra, to rounding. A tolerance of 1 or more, the size of a bracket's
+    /// terms, says nothing.
     #[must_use]
     pub fn is_closed(&self) -> bool {
         self.tolerance < 1.0 && is_zero(self.residual, self.tolerance)
@@ -139,8 +141,8 @@ impl Fields {
         closure
     }
 
-    /// Coordinates in units of their own size over all generators, so that none drowns the others, and points far out in units of
-    /// theirs, so that none drowns the others either.
+    /// Coordinates in units of their own size over all generators, so that none drowns the others, and points
+    /// far out in units of theirs, so that none drowns the others either.
     fn weights(&self) -> Vec<f64> {
         let points = self.values.first().map_or(0, |value| value.len() / self.dimension);
         let size = |point: usize, axis: usize| {

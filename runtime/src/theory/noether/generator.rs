@@ -13,8 +13,8 @@ use crate::system::VectorField;
 /// ξ(q) = A q + b + Σ cᵢ ξᵢ(q)
 /// ```
 ///
-/// Translations and rotations are the affine part; [`from_field`](Self::from_field) takes any other vector field, and `+`,
-/// `-` and `*` combine generators linearly.
+/// Translations and rotations are the affine part; [`from_field`](Self::from_field) takes any other vector
+/// field, and `+`, `-` and `*` combine generators linearly.
 ///
 /// ```
 /// use dalembert::VectorField;
@@ -51,10 +51,11 @@ impl<S: Scalar, const N: usize> Generator<S, N> {
         Self::affine(name, SMatrix::zeros(), direction)
     }
 
-    /// Rotations in the plane of two coordinates, from the first towards the second: ξ = q_from ∂_to − q_to ∂_from, so that
-    /// J = q_from p_to − q_to p_from.
+    /// Rotations in the plane of two coordinates, from the first towards the second: ξ = q_from ∂_to − q_to
+    /// ∂_from, so that J = q_from p_to − q_to p_from.
     ///
-    /// In ℝ³, `rotation(0, 1)`, `rotation(1, 2)` and `rotation(2, 0)` turn about the third, first and second axis.
+    /// In ℝ³, `rotation(0, 1)`, `rotation(1, 2)` and `rotation(2, 0)` turn about the third, first and second
+    /// axis.
     ///
     /// # Panics
     /// If the coordinates are equal or not below N.

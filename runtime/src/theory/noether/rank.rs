@@ -4,17 +4,19 @@ use nalgebra::DMatrix;
 
 use crate::theory::verdict::{largest, typical};
 
-/// A rank decision with its evidence: the singular values, the threshold and the gap between those kept and dropped.
+/// A rank decision with its evidence: the singular values, the threshold and the gap between those kept and
+/// dropped.
 ///
-/// The matrix is scaled first, rows by kind and columns by generator, so that an entry says which part of its terms did
-/// not cancel: 1 if nothing cancels, ε if everything does. Units of coordinates and sizes of generators drop out, and so does the
-/// size of samples that lie far out.
+/// The matrix is scaled first, rows by kind and columns by generator, so that an entry says which part of its
+/// terms did not cancel: 1 if nothing cancels, ε if everything does. Units of coordinates and sizes of
+/// generators drop out, and so does the size of samples that lie far out.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RankDecision {
     /// Singular values of the scaled matrix, decreasing.
     pub singular_values: Vec<f64>,
-    /// Singular values up to here count as zero: the tolerance × √(columns), which bounds what rounding adds to them.
+    /// Singular values up to here count as zero: the tolerance × √(columns), which bounds what rounding adds
+    /// to them.
     pub threshold: f64,
     /// Number of singular values above the threshold.
     pub rank: usize,
@@ -26,14 +28,15 @@ const CLEAR_GAP: f64 = 1e3;
 impl RankDecision {
     /// Smallest singular value kept over the largest dropped, infinite if the latter is 0.
     ///
-    /// Where none is kept, 1 stands for it, the size of an entry without cancellation; where none is dropped, the threshold.
+    /// Where none is kept, 1 stands for it, the size of an entry without cancellation; where none is dropped,
+    /// the threshold.
     #[must_use]
     pub fn gap(&self) -> f64 {
         self.smallest_kept() / self.singular_values.get(self.rank).copied().unwrap_or(self.threshold)
     }
 
-    /// Whether the gap spans at least three decades; if not, look at the singular values before trusting the rank. A threshold of 1
-    /// or more, the size of what does not cancel at all, decides nothing.
+    /// Whether the gap spans at least three decades; if not, look at the singular values before trusting the
+    /// rank. A threshold of 1 or more, the size of what does not cancel at all, decides nothing.
     #[must_use]
     pub fn is_clear(&self) -> bool {
         self.threshold < 1.0 && self.gap() >= CLEAR_GAP
@@ -64,7 +67,8 @@ impl fmt::Display for RankDecision {
     }
 }
 
-/// Linear conditions of one kind on the coefficients of a combination: one row a sample, one column a generator.
+/// Linear conditions of one kind on the coefficients of a combination: one row a sample, one column a
+/// generator.
 pub(crate) struct Conditions {
     /// The values that have to vanish.
     pub(crate) values: DMatrix<f64>,
@@ -73,8 +77,8 @@ pub(crate) struct Conditions {
 }
 
 impl Conditions {
-    /// Rows far out in units of their own size, and all in units of the largest: a sample far out would drown the others, and squares
-    /// of its entries overflow.
+    /// Rows far out in units of their own size, and all in units of the largest: a sample far out would drown
+    /// the others, and squares of its entries overflow.
     fn equalised(&self) -> Self {
         let columns: Vec<f64> =
             self.sizes.column_iter().map(|column| typical(column.iter().copied())).collect();

@@ -27,8 +27,8 @@ pub struct Subalgebra {
     pub lagrangian: Subspace,
     /// { ξ : ξ(L_d) + f_d(ξ) = 0 }, the largest subspace that keeps J. It need not be a subalgebra.
     pub conserved: Subspace,
-    /// 𝔤_{f_d} = { ξ : f_d(ξ) = 0 and ι_ξ df_d = 0 }, the subalgebra of the paper's theorem: the force does no work along ξ
-    /// and is carried into itself.
+    /// 𝔤_{f_d} = { ξ : f_d(ξ) = 0 and ι_ξ df_d = 0 }, the subalgebra of the paper's theorem: the force does
+    /// no work along ξ and is carried into itself.
     pub invariant: Subspace,
 }
 
@@ -53,7 +53,8 @@ impl Subspace {
 }
 
 impl Subalgebra {
-    /// Whether L_d is invariant under all generators, the premise of the paper's theorem: decided with a clear gap.
+    /// Whether L_d is invariant under all generators, the premise of the paper's theorem: decided with a
+    /// clear gap.
     #[must_use]
     pub fn premise_holds(&self) -> bool {
         self.lagrangian.dimension() == self.generators.len() && self.lagrangian.decision.is_clear()
@@ -108,13 +109,14 @@ where
 {
     /// The largest subspaces of the span of `generators` that keep L_d, J and f_d, judged on `segments`.
     ///
-    /// Every condition is linear in ξ and becomes rows of a matrix, one a segment (2N for ι_ξ df_d = (F − Fᵀ)(ξ(q0), ξ(q1)),
-    /// F = ∂(f_d⁻, f_d⁺)/∂(q0, q1)); the subspace is its null space, its dimension a [`RankDecision`]. Brackets
-    /// [ξ, η] = Dη ξ − Dξ η are taken at the ends of the segments and fitted by the span.
+    /// Every condition is linear in ξ and becomes rows of a matrix, one a segment (2N for ι_ξ df_d = (F −
+    /// Fᵀ)(ξ(q0), ξ(q1)), F = ∂(f_d⁻, f_d⁺)/∂(q0, q1)); the subspace is its null space, its dimension a
+    /// [`RankDecision`]. Brackets [ξ, η] = Dη ξ − Dξ η are taken at the ends of the segments and fitted
+    /// by the span.
     ///
     /// # Errors
-    /// [`SubalgebraError`] if there are fewer than two different segments that move for each generator, a value is not finite, or the
-    /// generators are linearly dependent.
+    /// [`SubalgebraError`] if there are fewer than two different segments that move for each generator, a
+    /// value is not finite, or the generators are linearly dependent.
     pub fn subalgebra(
         &self,
         generators: &[Generator<L::Scalar, N>],

@@ -9,7 +9,8 @@ use crate::theory::{
     verdict::scales,
 };
 
-/// One of the quantities of Noether's theorem over the samples: the value furthest above its tolerance, and whether that counts as zero.
+/// One of the quantities of Noether's theorem over the samples: the value furthest above its tolerance, and
+/// whether that counts as zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contribution<const N: usize> {
     /// That value and its segment.
@@ -42,7 +43,8 @@ pub struct Symmetry<const N: usize> {
     pub force: Contribution<N>,
     /// The defect ξ(L_d) + f_d(ξ).
     pub defect: Contribution<N>,
-    /// (J⁺ − J⁻) − (ξ(L_d) + f_d(ξ)), an identity: where it fails, the system's momenta do not belong to its L_d and f_d.
+    /// (J⁺ − J⁻) − (ξ(L_d) + f_d(ξ)), an identity: where it fails, the system's momenta do not belong to its
+    /// L_d and f_d.
     pub identity: Contribution<N>,
 }
 
@@ -78,8 +80,9 @@ where
 {
     /// Judges one generator on `segments`.
     ///
-    /// A value counts as zero below `tolerance` × the size of its terms, Σ|D L_d||ξ| and Σ|f_d||ξ|: at its own sample, or as
-    /// half of the samples exceed it, if that is more. A sum cannot be known better than its terms are rounded.
+    /// A value counts as zero below `tolerance` × the size of its terms, Σ|D L_d||ξ| and Σ|f_d||ξ|: at its
+    /// own sample, or as half of the samples exceed it, if that is more. A sum cannot be known better
+    /// than its terms are rounded.
     ///
     /// # Errors
     /// [`SampleError`] if there is no segment, none that moves with ξ ≠ 0, or a value is not finite.

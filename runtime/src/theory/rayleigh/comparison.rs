@@ -21,8 +21,8 @@ use crate::theory::{
 /// χ = ψ(q0) + φ1(q1) − φ0(q0) + ψ(q1)
 /// ```
 ///
-/// (paper, proposition of section 3.3, with the signs of χ corrected). Momenta then differ by p̃ − p = −2 dψ. The three
-/// functions are determined up to constants; here ψ(a) = 0 and χ(a, a) = 0 at the base a:
+/// (paper, proposition of section 3.3, with the signs of χ corrected). Momenta then differ by p̃ − p = −2 dψ.
+/// The three functions are determined up to constants; here ψ(a) = 0 and χ(a, a) = 0 at the base a:
 ///
 /// ```text
 /// ψ(q) = −½ ∫ₐ^q (p̃0 − p0)(s, a)·ds,   φ1(q) = ½(φ + χ)(a, q),   φ0(q) = ½(φ − χ)(q, a)
@@ -69,8 +69,8 @@ impl<const N: usize> Equivalence<N> {
 
     /// Whether ψ, φ0 and φ1 account for the difference of L_d and of f_d.
     ///
-    /// The same equations without it: L_d differs by a φ with D1 D2 φ ≠ 0 that the forces undo, which two Rayleigh systems
-    /// cannot do.
+    /// The same equations without it: L_d differs by a φ with D1 D2 φ ≠ 0 that the forces undo, which two
+    /// Rayleigh systems cannot do.
     #[must_use]
     pub fn is_gauge(&self) -> bool {
         self.has_same_equations() && self.lagrangian.vanishes() && self.rayleigh.vanishes()

@@ -25,7 +25,8 @@ pub struct Dissipation<const N: usize> {
     pub tolerance: Tolerance,
     /// Largest entry of ∂R/∂q(q, 0).
     ///
-    /// If it is not 0, R holds a g(q) that has no part in the motion but shifts f_d^∓ by ±(h²/4)∇g: subtract R(q, 0).
+    /// If it is not 0, R holds a g(q) that has no part in the motion but shifts f_d^∓ by ±(h²/4)∇g: subtract
+    /// R(q, 0).
     pub gradient_at_rest: f64,
     /// The configuration where that is.
     pub gradient_at: SVector<f64, N>,
@@ -41,7 +42,8 @@ impl<const N: usize> Dissipation<N> {
 
 /// Tests v·∂R/∂v ≥ 0 at `points`: along the motion dE/dt = −v·∂R/∂v.
 ///
-/// A power counts as negative below −1024 ε Σ|vᵢ ∂R/∂vᵢ|, the terms of its own sum. The time of a view is that of all points.
+/// A power counts as negative below −1024 ε Σ|vᵢ ∂R/∂vᵢ|, the terms of its own sum. The time of a view is
+/// that of all points.
 ///
 /// ```
 /// use dalembert::rayleigh::dissipation;

@@ -19,8 +19,8 @@ use crate::theory::{
 /// R_d(q0, q1) = ∫ f_d⁻·dq0 − f_d⁺·dq1      from the base, where R_d is set to 0
 /// ```
 ///
-/// R_d is determined up to that constant. It exists only where [`structure`](super::structure()) says so; [`check`](Self::check) tests the
-/// integral itself along two paths.
+/// R_d is determined up to that constant. It exists only where [`structure`](super::structure()) says so;
+/// [`check`](Self::check) tests the integral itself along two paths.
 pub struct Potential<'a, L, R, const N: usize>
 where
     L: Discrete<R, N>,

@@ -43,15 +43,15 @@ impl Mul<f64> for Integral {
     }
 }
 
-/// Adaptive Gauss–Legendre quadrature: the interval where 10 and 20 nodes differ most is halved until the differences add up
-/// to rounding.
+/// Adaptive Gauss–Legendre quadrature: the interval where 10 and 20 nodes differ most is halved until the
+/// differences add up to rounding.
 pub(crate) struct Quadrature {
     coarse: GaussLegendre,
     fine: GaussLegendre,
 }
 
-/// Intervals at most: a kink takes some twenty; an integrand that is itself a small difference of large numbers never
-/// settles, and its error estimate then states its noise.
+/// Intervals at most: a kink takes some twenty; an integrand that is itself a small difference of large
+/// numbers never settles, and its error estimate then states its noise.
 const MAX_INTERVALS: usize = 64;
 
 /// Rounding of an integral, in units of ε ∫|integrand|.

@@ -20,9 +20,9 @@ use crate::theory::{
 /// L_d′ = ½(L_d⁺ + L_d⁻),   R_d′ = ½(L_d⁺ − L_d⁻)
 /// ```
 ///
-/// The new system (L_d′, R_d′) has the same Legendre transforms, and so the same flow and momenta, as (L_d, f_d). For n = 1
-/// it exists for every force; for n > 1 iff D1 f_d⁻ and D2 f_d⁺ are symmetric. The base a fixes the free functions of
-/// integration: L_d⁺(a, q1) = L_d(a, q1) and L_d⁻(q0, a) = L_d(q0, a).
+/// The new system (L_d′, R_d′) has the same Legendre transforms, and so the same flow and momenta, as (L_d,
+/// f_d). For n = 1 it exists for every force; for n > 1 iff D1 f_d⁻ and D2 f_d⁺ are symmetric. The base a
+/// fixes the free functions of integration: L_d⁺(a, q1) = L_d(a, q1) and L_d⁻(q0, a) = L_d(q0, a).
 pub struct Resplit<'a, L, R, const N: usize>
 where
     L: Discrete<R, N>,

@@ -43,7 +43,8 @@ pub struct Structure<const N: usize> {
 }
 
 impl<const N: usize> Structure<N> {
-    /// Whether f_d⁻ = D1 R_d and f_d⁺ = −D2 R_d for a function R_d, in a simply connected region like that sampled.
+    /// Whether f_d⁻ = D1 R_d and f_d⁺ = −D2 R_d for a function R_d, in a simply connected region like that
+    /// sampled.
     #[must_use]
     pub fn is_rayleigh(&self) -> bool {
         self.allows_resplit() && self.mixed.holds()
@@ -58,9 +59,9 @@ impl<const N: usize> Structure<N> {
 
 /// Tests the three conditions for R_d to exist, on `segments`.
 ///
-/// They say that the matrix ∂(f_d⁻, −f_d⁺)/∂(q0, q1), which would be the matrix of second derivatives of R_d, is symmetric.
-/// Entries are compared with 1024 ε (|Hᵢⱼ| + |Hⱼᵢ| + √|Hᵢᵢ Hⱼⱼ|), at their sample or as half of the samples exceed it: a scale
-/// that follows the units of the coordinates.
+/// They say that the matrix ∂(f_d⁻, −f_d⁺)/∂(q0, q1), which would be the matrix of second derivatives of R_d,
+/// is symmetric. Entries are compared with 1024 ε (|Hᵢⱼ| + |Hⱼᵢ| + √|Hᵢᵢ Hⱼⱼ|), at their sample or as half of
+/// the samples exceed it: a scale that follows the units of the coordinates.
 ///
 /// # Errors
 /// [`SampleError`] if there is no segment, none that moves, or a derivative is not finite.

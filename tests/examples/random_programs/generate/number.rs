@@ -1,4 +1,5 @@
-//! Real numbers: literals, places, arithmetic, elementary functions inside their domains, and all that ends in a number.
+//! Real numbers: literals, places, arithmetic, elementary functions inside their domains, and all that ends
+//! in a number.
 
 use super::*;
 

@@ -58,7 +58,8 @@ pub fn method<S: Number>(name: &str, ty: Integer, arguments: &[i128]) -> Result<
     let clamped = |value: Option<i128>, up: bool| {
         Ok(match value {
             Some(value) => value.clamp(ty.least(), ty.greatest()),
-            // Beyond an i128: only 128-bit types get there, and their bound is meant, unless it is that of u128.
+            // Beyond an i128: only 128-bit types get there, and their bound is meant, unless it is that of
+            // u128.
             None if ty.signed => {
                 if up {
                     ty.greatest()

@@ -1,4 +1,5 @@
-//! Expressions of fields and constants, which the generated code leaves to rustc, evaluated from their tokens.
+//! Expressions of fields and constants, which the generated code leaves to rustc, evaluated from their
+//! tokens.
 
 use proc_macro2::TokenStream;
 use quote::ToTokens;

@@ -1,5 +1,5 @@
-//! The equations of every rule, written down again: residuals of what a step returned, in twice the precision, each with its bound
-//! of rounding. Nothing here is the runtime's.
+//! The equations of every rule, written down again: residuals of what a step returned, in twice the
+//! precision, each with its bound of rounding. Nothing here is the runtime's.
 
 use dalembert::State;
 use dalembert::step::Step;
@@ -32,8 +32,9 @@ pub trait Reference<const N: usize> {
 
 /// A residual may be this many times the first-order bound of the rounding in its equation, with unit ε/2.
 ///
-/// A residual as computed may be 4 floors of 4ε = 32 units for each of the terms in a floor; the bound has a unit for each of them.
-/// The difference to the residual as it is, and what p1 and q1 are rounded by, make a few more.
+/// A residual as computed may be 4 floors of 4ε = 32 units for each of the terms in a floor; the bound has a
+/// unit for each of them. The difference to the residual as it is, and what p1 and q1 are rounded by, make a
+/// few more.
 pub const MOST: f64 = 36.0;
 
 /// How a step is held against the equations.
@@ -139,7 +140,8 @@ pub fn one_stage<S: Reference<N>, const N: usize>(
     })
 }
 
-/// Both ends of a step: 𝔽⁻ and 𝔽⁺ by the momenta that its mean velocity has there, each with the size of its terms, and q1.
+/// Both ends of a step: 𝔽⁻ and 𝔽⁺ by the momenta that its mean velocity has there, each with the size of its
+/// terms, and q1.
 fn ends<const N: usize>(
     state: &State<f64, N>,
     h: Rounded,
@@ -194,8 +196,8 @@ fn langevin(z: Rounded) -> Rounded {
     })
 }
 
-/// A step of a rule fitted to linear damping: the midpoint rule or, `is_explicit`, the trapezoidal rule. For mass and damping that are
-/// numbers, z = hr/2m:
+/// A step of a rule fitted to linear damping: the midpoint rule or, `is_explicit`, the trapezoidal rule. For
+/// mass and damping that are numbers, z = hr/2m:
 ///
 /// ```text
 /// p0 = m z (coth z + 1) v̄ + (h/2)(1 + ℒ(z)) ∇V(q̄)        p0 = m z (coth z + 1) v̄ + (h/2) ∇V(q0)

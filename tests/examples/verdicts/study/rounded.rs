@@ -1,4 +1,5 @@
-//! A number of twice the precision, and what `f64` arithmetic may lose of it: running error analysis (J. H. Wilkinson, 1963).
+//! A number of twice the precision, and what `f64` arithmetic may lose of it: running error analysis (J. H.
+//! Wilkinson, 1963).
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -7,7 +8,8 @@ use dalembert_tests::double_double::DoubleDouble;
 /// u = ε/2, the relative error of one rounding.
 const UNIT: f64 = 0.5 * f64::EPSILON;
 
-/// A value, and to first order a bound of the error with which `f64` knows it, if inputs are known to u and every operation rounds.
+/// A value, and to first order a bound of the error with which `f64` knows it, if inputs are known to u and
+/// every operation rounds.
 #[derive(Clone, Copy, Debug)]
 pub struct Rounded {
     /// The value of the formula at the inputs as they are.

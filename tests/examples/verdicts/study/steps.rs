@@ -30,7 +30,8 @@ pub struct Tally {
     pub undecided: u64,
     /// Steps taken whose equation overflows as it is written down here.
     pub beyond: u64,
-    /// Steps refused from the state alone, and how many of them the same rule takes if it is led there from small step sizes.
+    /// Steps refused from the state alone, and how many of them the same rule takes if it is led there from
+    /// small step sizes.
     pub refused: u64,
     /// See `refused`.
     pub within_reach: u64,

@@ -1,4 +1,5 @@
-//! The systems of the study, each written twice: L and R for the attribute, their slopes by hand for the reference.
+//! The systems of the study, each written twice: L and R for the attribute, their slopes by hand for the
+//! reference.
 //!
 //! ```text
 //! L(q, v) = s l(x, u),   R(v) = s t r(u),   x = length q,   u = speed v

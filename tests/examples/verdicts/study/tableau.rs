@@ -1,5 +1,5 @@
-//! Gauss–Legendre collocation in twice the precision: nodes as roots of Legendre polynomials, the rest by integrating Lagrange
-//! polynomials, exactly up to rounding.
+//! Gauss–Legendre collocation in twice the precision: nodes as roots of Legendre polynomials, the rest by
+//! integrating Lagrange polynomials, exactly up to rounding.
 
 use dalembert_tests::double_double::DoubleDouble;
 

@@ -45,8 +45,8 @@ fn the_double_pendulum_at_high_energy_keeps_it() {
     assert!(drift[1] > 1.5 * drift[0], "{drift:?}");
 }
 
-/// E next to 1/6, by twice what the rules' energies err: the motion is almost everywhere chaotic and comes near the rim of the
-/// well, which it must not leave. At 1/6 itself the saddles are open to it.
+/// E next to 1/6, by twice what the rules' energies err: the motion is almost everywhere chaotic and comes
+/// near the rim of the well, which it must not leave. At 1/6 itself the saddles are open to it.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn henon_heiles_at_the_energy_of_escape() {

@@ -21,8 +21,8 @@ where
     b / a
 }
 
-/// Midpoint and trapezoidal rule multiply v̄ by (2m − hr)/(2m + hr): past hr = 2m the sign alternates, and for hr/m → ∞ nothing
-/// is damped any more.
+/// Midpoint and trapezoidal rule multiply v̄ by (2m − hr)/(2m + hr): past hr = 2m the sign alternates, and for
+/// hr/m → ∞ nothing is damped any more.
 #[test]
 fn midpoint_rings_past_twice_the_mass_over_h() {
     for hr_over_m in [0.1, 1.0, 1.99, 2.01, 10.0, 1e2, 1e4, 1e6] {
@@ -74,8 +74,8 @@ fn equilibria_and_terminal_velocities_are_exact() {
     }
 }
 
-/// The block is carried along with the floor until the spring holds the friction μ, then slips: q̈ = −kq − μ from there on, so
-/// that q swings about −μ/k with the amplitude u/√k.
+/// The block is carried along with the floor until the spring holds the friction μ, then slips: q̈ = −kq − μ
+/// from there on, so that q swings about −μ/k with the amplitude u/√k.
 #[test]
 fn stick_and_slip() {
     let (k, mu, u, h) = (1.0, 1.0, 0.1, 1e-2);
@@ -92,7 +92,8 @@ fn stick_and_slip() {
             }
             lowest = lowest.min(step.state.q[0]);
         }
-        // k u t = μ at the slip. Before, it creeps at ε artanh(kut/μ), by ε ln 2 μ/(ku) in all; speed u/2 takes another π/3.
+        // k u t = μ at the slip. Before, it creeps at ε artanh(kut/μ), by ε ln 2 μ/(ku) in all; speed u/2
+        // takes another π/3.
         let (release, creep) = (mu / (k * u), epsilon * 2.0_f64.ln() * mu / (k * u * u));
         let slipped = slipped.unwrap();
         let expected = release + std::f64::consts::FRAC_PI_3;
@@ -101,8 +102,8 @@ fn stick_and_slip() {
     }
 }
 
-/// A block that slides to rest: the distance is v²/2μ, and there it stays, to within ε. Past the fold hr = 2m of its regularised
-/// friction the midpoint momentum rings: that is the rule, and q does not show it.
+/// A block that slides to rest: the distance is v²/2μ, and there it stays, to within ε. Past the fold hr = 2m
+/// of its regularised friction the midpoint momentum rings: that is the rule, and q does not show it.
 #[test]
 fn sliding_to_rest() {
     let (mu, v, h) = (0.7, 1.3, 1e-3);
@@ -114,7 +115,8 @@ fn sliding_to_rest() {
         }
         let distance = v * v / (2.0 * mu);
         let rest = trajectory.state().q[0];
-        // The last velocities below ε decay by e^{−μt/ε}, over a way of order ε²/μ · ln; the rule adds its h².
+        // The last velocities below ε decay by e^{−μt/ε}, over a way of order ε²/μ · ln; the rule adds its
+        // h².
         assert!(
             (rest - distance).abs() < 10.0 * epsilon * epsilon.max(v) + h * h,
             "{epsilon:e}: {rest} {distance}"
@@ -154,8 +156,8 @@ fn friction_written_carelessly_is_named() {
     assert!(system.by(Midpoint, h).run(start).take(10_000).all(|step| step.is_ok()));
 }
 
-/// Cubic drag: within the fold the root found is the one that goes to 0 with the step, whatever the guess on its side; beyond
-/// it there is none, and the error says so.
+/// Cubic drag: within the fold the root found is the one that goes to 0 with the step, whatever the guess on
+/// its side; beyond it there is none, and the error says so.
 #[test]
 fn cubic_drag_past_its_fold() {
     let system = CubicDrag { m: 1.3, r: 0.6 };
@@ -186,7 +188,8 @@ fn cubic_drag_past_its_fold() {
     }
 }
 
-/// Negative damping grows by (1 + z)/(1 − z); at z = 1 the step is singular, and past it the root has the wrong sign.
+/// Negative damping grows by (1 + z)/(1 − z); at z = 1 the step is singular, and past it the root has the
+/// wrong sign.
 #[test]
 fn negative_damping() {
     for z in [0.1, 0.5, 0.9] {
@@ -225,7 +228,8 @@ fn damping_that_changes_sign() {
     assert!((fine - period).abs() < 5e-4, "{fine}");
     assert!((((coarse - period) / (fine - period)).log2() - 2.0).abs() < 0.3, "{coarse} {fine}");
     assert!((amplitude - known).abs() < 5e-4, "{amplitude}");
-    // Strongly nonlinear: T → (3 − 2 ln 2) μ + 3·2.338107 μ^{−1/3}; the slow parts creep, the jumps do not fail.
+    // Strongly nonlinear: T → (3 − 2 ln 2) μ + 3·2.338107 μ^{−1/3}; the slow parts creep, the jumps do not
+    // fail.
     let stiff = VanDerPol { mu: 50.0 };
     let effort =
         drive(&stiff, Midpoint, 0.005, State { q: vector![2.0], p: vector![0.0] }, [60_000, 1], |at| {
@@ -234,7 +238,8 @@ fn damping_that_changes_sign() {
     assert_eq!(effort.stopped, None);
 }
 
-/// A charge in a uniform field, from slow to far faster than h: the speed is kept exactly, each step turns it by 2 arctan(hb/2).
+/// A charge in a uniform field, from slow to far faster than h: the speed is kept exactly, each step turns it
+/// by 2 arctan(hb/2).
 #[test]
 fn gyroscopic_terms() {
     let h = 0.1;

@@ -66,8 +66,8 @@ impl Discrete<Midpoint, 1> for Panicking {
     }
 }
 
-/// Wherever in a step the user's function panics, the trajectory holds the last state, and goes on from it as if nothing had
-/// happened.
+/// Wherever in a step the user's function panics, the trajectory holds the last state, and goes on from it as
+/// if nothing had happened.
 #[test]
 fn a_user_function_that_panics() {
     let start = State { q: vector![0.4], p: vector![0.9] };
@@ -96,8 +96,8 @@ fn a_user_function_that_panics() {
     }
 }
 
-/// A run saved as text, in the middle, and read again goes on bit by bit as the one that was not interrupted; also one that had
-/// changed its step size, and one whose state is odd.
+/// A run saved as text, in the middle, and read again goes on bit by bit as the one that was not interrupted;
+/// also one that had changed its step size, and one whose state is odd.
 #[test]
 fn a_saved_run_goes_on_bit_by_bit() {
     let system = dalembert_tests::systems::DoublePendulum::EXAMPLE;

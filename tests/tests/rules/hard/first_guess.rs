@@ -1,4 +1,5 @@
-//! The first step, without a guess: from any velocity and from rest, where Hessians at v = 0 are singular or do not exist.
+//! The first step, without a guess: from any velocity and from rest, where Hessians at v = 0 are singular or
+//! do not exist.
 
 use dalembert::nalgebra::SVector;
 use dalembert::{
@@ -29,7 +30,8 @@ spelling!(power, |v| (v[0] * v[0] + v[1] * v[1]).powf(1.5));
 spelling!(hypotenuse_cubed, |v| v[0].hypot(v[1]).powi(3));
 spelling!(root_times, |v| (v[0] * v[0] + v[1] * v[1]) * (v[0] * v[0] + v[1] * v[1]).sqrt());
 
-/// The speed along one line: m v + (h/2) c v² = p − (h/2) m g by the midpoint rule and the trapezoidal rule alike.
+/// The speed along one line: m v + (h/2) c v² = p − (h/2) m g by the midpoint rule and the trapezoidal rule
+/// alike.
 fn along_a_line([m, g, c]: [f64; 3], p: f64, h: f64) -> f64 {
     let push = p - 0.5 * h * m * g;
     let (half, size) = (0.5 * m, push.abs());
@@ -47,7 +49,8 @@ where
     let h = 0.1;
     for v in [[5.0, 3.0], [5.0, 0.0], [0.0, 3.0], [0.0, -1e-200], [1e-3, 1e9], [0.0, 0.0]] {
         let start = State { q: [0.3, 0.7].into(), p: SVector::from(v) * m };
-        // Without gravity, a velocity whose square vanishes has no drag to evaluate: an error, and never rest.
+        // Without gravity, a velocity whose square vanishes has no drag to evaluate: an error, and never
+        // rest.
         if g == 0.0 && v[1] == -1e-200 {
             let step = system.by(Midpoint, h).step(&start);
             assert!(step.is_err() || step.is_ok_and(|step| step.velocity[1] < 0.0), "{name}");
@@ -132,7 +135,8 @@ macro_rules! homogeneous {
         }
 
         impl $name {
-            /// v with ∂L/∂v + (h/2) ∂R/∂v = p, in closed form for h = 0 and by bisection of the size otherwise: both are monotone.
+            /// v with ∂L/∂v + (h/2) ∂R/∂v = p, in closed form for h = 0 and by bisection of the size
+            /// otherwise: both are monotone.
             fn velocity(&self, p: [f64; $n], h: f64) -> [f64; $n] {
                 let size = |p: f64| {
                     // s^{a−1} + (h/2) c s^{b−1} = p

@@ -63,8 +63,8 @@ fn energy_is_of_order_two_once_the_near_side_is_resolved() {
     }
 }
 
-/// At e = 0.999 a thousandth of the period jumps over the near side: the midpoint step there has no real solution, or leads to an
-/// orbit that is not bound; the former is a named error, and a shorter step passes.
+/// At e = 0.999 a thousandth of the period jumps over the near side: the midpoint step there has no real
+/// solution, or leads to an orbit that is not bound; the former is a named error, and a shorter step passes.
 #[test]
 fn a_step_over_the_collision_is_a_named_error_and_shorter_ones_pass() {
     let h = TAU / 1000.0;

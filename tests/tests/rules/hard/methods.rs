@@ -1,5 +1,5 @@
-//! Every case by every method that takes it: midpoint, trapezoidal, Gauss with 3 stages, Kahan and Li's composition of order 6 of
-//! the midpoint rule, and the rules for damping where they apply.
+//! Every case by every method that takes it: midpoint, trapezoidal, Gauss with 3 stages, Kahan and Li's
+//! composition of order 6 of the midpoint rule, and the rules for damping where they apply.
 
 use std::f64::consts::TAU;
 
@@ -112,8 +112,8 @@ fn assert_named(case: &str, runs: &[Run]) {
     }
 }
 
-/// J e^{kt}, which the flow keeps. Where the near side is resolved all are right to their order; where it is not, a step returns a named error
-/// or J is right all the same.
+/// J e^{kt}, which the flow keeps. Where the near side is resolved all are right to their order; where it is
+/// not, a step returns a named error or J is right all the same.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn orbits_that_almost_collide_with_and_without_drag() {
@@ -134,7 +134,8 @@ fn orbits_that_almost_collide_with_and_without_drag() {
                     let drag = [3e-5, 1e-10, 1e-11, 1e-10];
                     assert_below("Kepler, resolved", &runs, if k == 0.0 { [1e-12; 4] } else { drag });
                 }
-                // The explicit fitted rule has the law exactly, resolved or not: what is left is the rounding of q × p, on orbits thrown far out.
+                // The explicit fitted rule has the law exactly, resolved or not: what is left is the rounding
+                // of q × p, on orbits thrown far out.
                 let explicit = by(&system, FittedTrapezoidal, h, start, 3 * steps, &error);
                 assert!(
                     explicit.stopped.is_none() && explicit.largest < 1e-7,
@@ -160,7 +161,8 @@ fn chaotic_motions() {
     let energy = |at: &Progress<2>| (at.state.energy(&system).unwrap() - 7.0).abs();
     let runs = by_each(&system, 0.02, system.high_energy(), 10_000, energy);
     assert_below("double pendulum", &runs, [0.1, 0.15, 1e-5, 1e-4]);
-    // The trapezoidal rule leaves the well at these steps after some 40 000: a limit of the rule, not of the solver.
+    // The trapezoidal rule leaves the well at these steps after some 40 000: a limit of the rule, not of the
+    // solver.
     let start = HenonHeiles::start(1.0 / 6.0, -0.1, 0.1);
     let energy = |at: &Progress<2>| (HenonHeiles::energy_of(&at.state) - 1.0 / 6.0).abs();
     let runs = by_each(&HenonHeiles { r: 0.0 }, 0.05, start, 20_000, energy);
@@ -169,8 +171,9 @@ fn chaotic_motions() {
     assert_below("Hénon–Heiles, splittings", &runs, [1e-9, 1e-12]);
 }
 
-/// Spring pendulums of every ratio by Gauss: residuals that grow with the square of a sideways step, and rounding of the spring's
-/// force far above that of the momentum. The energy is that of the start, to the rounding of the spring's, ½k(ε|q|)², and its force times the way.
+/// Spring pendulums of every ratio by Gauss: residuals that grow with the square of a sideways step, and
+/// rounding of the spring's force far above that of the momentum. The energy is that of the start, to the
+/// rounding of the spring's, ½k(ε|q|)², and its force times the way.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn stiff_springs_by_gauss() {
@@ -347,7 +350,8 @@ fn masses_up_to_their_singularity() {
     }
 }
 
-/// Gauss in units that differ by 24 decades takes the very same steps; so does any method with other units of mass and time.
+/// Gauss in units that differ by 24 decades takes the very same steps; so does any method with other units of
+/// mass and time.
 #[test]
 fn units() {
     let (plain, scaled) = (Scaled { units: [1.0; 3], r: 0.1 }, Scaled { units: UNITS, r: 0.1 });
@@ -359,7 +363,8 @@ fn units() {
         assert!((scaled.plain(&b.state).q - a.state.q).amax() < 1e-13);
     }
 
-    // Mass in units of 2⁻⁹⁰ and time in units of 2⁻³⁰, as for atoms: m → 2⁹⁰m, h → 2³⁰h, r → 2⁶⁰r, k → 2³⁰k, p → 2⁶⁰p.
+    // Mass in units of 2⁻⁹⁰ and time in units of 2⁻³⁰, as for atoms: m → 2⁹⁰m, h → 2³⁰h, r → 2⁶⁰r, k → 2³⁰k,
+    // p → 2⁶⁰p.
     let (mass, time) = (2.0_f64.powi(90), 2.0_f64.powi(30));
     let plain = Oscillator { m: 1.3, k: 0.7, r: 0.2, f: 0.3 };
     let atomic = Oscillator {

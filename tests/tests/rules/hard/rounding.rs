@@ -17,8 +17,8 @@ fn double(q: [f64; 1], v: [f64; 1], m: f64, k: f64) -> f64 {
 /// Starts on the circle of one energy.
 const STARTS: u32 = 24;
 
-/// Mean and root mean square, over the starts, of the relative error of the quadratic form that the rule keeps exactly, in units of ε,
-/// after each of `counts` steps: p²/2m + ½kq²(1 − `share` h²k/4m).
+/// Mean and root mean square, over the starts, of the relative error of the quadratic form that the rule
+/// keeps exactly, in units of ε, after each of `counts` steps: p²/2m + ½kq²(1 − `share` h²k/4m).
 fn errors<S, L, R: Copy>(
     system: &L,
     rule: R,
@@ -80,8 +80,8 @@ fn energy_errors_grow_with_the_root_of_the_number_of_steps() {
     }
 }
 
-/// What is kept from step to step rounds the same way at each: the share of it that enters a step must be small. With the last velocity for
-/// guess the mean of these walks was −1260 ε.
+/// What is kept from step to step rounds the same way at each: the share of it that enters a step must be
+/// small. With the last velocity for guess the mean of these walks was −1260 ε.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn a_kept_matrix_hardly_drifts() {

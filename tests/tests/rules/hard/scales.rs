@@ -29,8 +29,8 @@ fn units_that_differ_by_24_decades_change_nothing() {
     same_motion(Trapezoidal);
 }
 
-/// Forward and back again: a self-adjoint rule without friction returns to where it started, to rounding times how far
-/// neighbouring motions part on the way.
+/// Forward and back again: a self-adjoint rule without friction returns to where it started, to rounding
+/// times how far neighbouring motions part on the way.
 fn there_and_back<S, R: Copy, const N: usize>(
     system: &S,
     rule: R,
@@ -77,8 +77,8 @@ fn time_reverses_to_rounding_without_friction() {
     }
 }
 
-/// The control: with friction the way back is another one, by self-adjointness the exact inverse all the same; a rule that is not
-/// self-adjoint would not return.
+/// The control: with friction the way back is another one, by self-adjointness the exact inverse all the
+/// same; a rule that is not self-adjoint would not return.
 #[test]
 fn and_with_friction_while_digits_last() {
     let system = TwoPendulums { r: 0.05 };
@@ -91,7 +91,8 @@ fn and_with_friction_while_digits_last() {
     assert!(start.energy(&system).unwrap() - end.energy(&system).unwrap() > 1e-2);
 }
 
-/// From h = 1e-12 up, each step is solved or returns a named `StepError`; up to its stability limit the trapezoidal rule keeps a bounded energy.
+/// From h = 1e-12 up, each step is solved or returns a named `StepError`; up to its stability limit the
+/// trapezoidal rule keeps a bounded energy.
 #[test]
 fn steps_of_every_size() {
     let system = TwoPendulums { r: 0.01 };
@@ -142,7 +143,8 @@ const ODD: [f64; 13] = [
     f64::NAN,
 ];
 
-/// Every argument takes every odd value: a step is finite, or has an error; and what is not finite is never called converged.
+/// Every argument takes every odd value: a step is finite, or has an error; and what is not finite is never
+/// called converged.
 #[test]
 fn odd_values_in_every_argument() {
     let (mut taken, mut refused) = (0, 0);

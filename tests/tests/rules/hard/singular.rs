@@ -30,7 +30,8 @@ fn mathews_lakshmanan_up_to_its_singularity() {
     }
 }
 
-/// Beyond the singularity L is another system: a state there is not reached by steps, and at the singularity it has an error.
+/// Beyond the singularity L is another system: a state there is not reached by steps, and at the singularity
+/// it has an error.
 #[test]
 fn the_singularity_itself_has_a_name() {
     let system = MathewsLakshmanan { lambda: -1.0, r: 0.0 };
@@ -117,8 +118,8 @@ fn roots_at_zero() {
     }
 }
 
-/// Drag c|v|^{1/2} sign v: at rest its slope is infinite, so that a mass at rest with p = 0 has no Newton matrix, but rests; one
-/// that comes to rest is stopped within finite time.
+/// Drag c|v|^{1/2} sign v: at rest its slope is infinite, so that a mass at rest with p = 0 has no Newton
+/// matrix, but rests; one that comes to rest is stopped within finite time.
 #[test]
 fn drag_with_an_infinite_slope_at_rest() {
     let system = Drag { c: 1.0 };
@@ -132,7 +133,8 @@ fn drag_with_an_infinite_slope_at_rest() {
     assert!((step.velocity[0] - root * root).abs() < 1e-15, "{}", step.velocity[0]);
 }
 
-/// Two masses with drag through a root, |v|^{3/2} and |v|^{6/5}: one rests, without force and momentum, while the other moves.
+/// Two masses with drag through a root, |v|^{3/2} and |v|^{6/5}: one rests, without force and momentum, while
+/// the other moves.
 #[rayleigh_system(rule = [midpoint, trapezoidal])]
 fn partly_at_rest(q: [f64; 2], v: [f64; 2], force: f64) -> (f64, f64) {
     let roots = v[0].abs().powf(1.5) + v[1].abs().powf(1.2);

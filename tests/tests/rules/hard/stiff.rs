@@ -15,7 +15,8 @@ fn half_period(a: f64) -> f64 {
     PI / x
 }
 
-/// While ωh² is below 1 the motion is that of the rigid pendulum, though h is far above the period of the spring.
+/// While ωh² is below 1 the motion is that of the rigid pendulum, though h is far above the period of the
+/// spring.
 #[test]
 fn the_spring_pendulum_swings_as_a_rigid_one() {
     let h = 0.01;
@@ -52,13 +53,15 @@ fn its_energy_is_bounded_while_the_chord_stays_within_the_spring() {
             largest = largest.max((system.energy_of(&at.state) - energy).abs());
         });
         assert_eq!(effort.stopped, None);
-        // The spring has its length at the middle of the chord, so that nodes lie outside by h²v²/8, v² ≤ 2(1 − cos 1).
+        // The spring has its length at the middle of the chord, so that nodes lie outside by h²v²/8, v² ≤
+        // 2(1 − cos 1).
         let sagitta = h * h / 8.0 * 2.0 * (1.0 - 1.0_f64.cos());
         assert!(largest < system.k * sagitta * sagitta + h * h, "{ratio:e}: {largest:e}");
     }
 }
 
-/// Explicit steps longer than the spring's period are not stable: the trapezoidal rule is no help here, nor is Runge–Kutta.
+/// Explicit steps longer than the spring's period are not stable: the trapezoidal rule is no help here, nor
+/// is Runge–Kutta.
 #[test]
 fn explicit_rules_are_not_for_this() {
     let system = SpringPendulum { k: 1e6, r: 0.0 };
@@ -75,7 +78,8 @@ fn explicit_rules_are_not_for_this() {
     assert!(!bounded);
 }
 
-/// The spring's force at the last place of q is larger than gravity: still the step is solved, and does not stand still.
+/// The spring's force at the last place of q is larger than gravity: still the step is solved, and does not
+/// stand still.
 #[test]
 fn a_spring_as_stiff_as_the_last_place_of_q() {
     let system = SpringPendulum { k: 1e16, r: 0.0 };
@@ -99,14 +103,15 @@ fn the_first_step_of_the_chain_is_found() {
     }
 }
 
-/// The stiff springs hand their energies on in some hundreds of their periods, while the sum stays: compared with Dormand–Prince
-/// as long as neighbouring motions stay together.
+/// The stiff springs hand their energies on in some hundreds of their periods, while the sum stays: compared
+/// with Dormand–Prince as long as neighbouring motions stay together.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn the_chain_exchanges_stiff_energies() {
     let system = Fermi { omega: 50.0, r: 0.0 };
     let (end, stride) = (80.0, 2.0);
-    // Averages over each two units of time, some sixteen periods of a stiff spring: the fast oscillation is left out.
+    // Averages over each two units of time, some sixteen periods of a stiff spring: the fast oscillation is
+    // left out.
     let averages = |energies: &mut dyn Iterator<Item = [f64; FERMI]>, count: usize| {
         let mut rows = Vec::new();
         loop {
@@ -155,7 +160,8 @@ fn the_chain_exchanges_stiff_energies() {
     assert!(handed_on);
 }
 
-/// Far beyond, ωh² = 100: what happens is not the pendulum's motion, and the energy says so, or the step has an error.
+/// Far beyond, ωh² = 100: what happens is not the pendulum's motion, and the energy says so, or the step has
+/// an error.
 #[test]
 fn beyond_the_chord_the_energy_or_an_error_tells() {
     let system = SpringPendulum { k: 1e8, r: 0.0 };

@@ -1,4 +1,5 @@
-//! No step is taken that does not solve its equations: a part of the study of the example `verdicts`, and what it can see.
+//! No step is taken that does not solve its equations: a part of the study of the example `verdicts`, and
+//! what it can see.
 
 use dalembert::nalgebra::SVector;
 use dalembert::rules::StageHistory;
@@ -70,7 +71,8 @@ fn a_step_that_is_off_is_seen() {
     assert!(gauss(&tableau, &system, &start, 0.3, &v, &step.state).is_beyond);
 }
 
-/// The floor of the guess, next to the wall of 10⁶⁰, was taken for that of the root: q1 = 8.35e6, with a last correction of 1.5e7.
+/// The floor of the guess, next to the wall of 10⁶⁰, was taken for that of the root: q1 = 8.35e6, with a last
+/// correction of 1.5e7.
 #[test]
 fn a_wall_at_the_guess_does_not_lower_the_demands() {
     let system = LennardJones::new(1.0, 0.0, ONE);
@@ -82,8 +84,9 @@ fn a_wall_at_the_guess_does_not_lower_the_demands() {
     }
 }
 
-/// After some thousand turns the ends of a step are known to the last places of the angles alone. Where what their errors do cancels
-/// if both ends are moved together, no move of q shows it: one step of 80 000 by the trapezoidal rule was refused as `LostPrecision`.
+/// After some thousand turns the ends of a step are known to the last places of the angles alone. Where what
+/// their errors do cancels if both ends are moved together, no move of q shows it: one step of 80 000 by the
+/// trapezoidal rule was refused as `LostPrecision`.
 #[test]
 fn far_from_zero_steps_are_taken_and_solve_their_equations() {
     let refused = [
@@ -116,7 +119,8 @@ fn far_from_zero_steps_are_taken_and_solve_their_equations() {
     assert!(worst > 0.1, "{worst}");
 }
 
-/// The momentum M v̄ was taken for a term of the equation, in which damping backwards in time leaves 10⁻⁴⁰ of it: v̄ = −4.8e15.
+/// The momentum M v̄ was taken for a term of the equation, in which damping backwards in time leaves 10⁻⁴⁰ of
+/// it: v̄ = −4.8e15.
 #[test]
 fn rounding_is_that_of_the_mass_in_the_equation() {
     let system = LennardJones::new(0.960_253_461_252_024_7, 6.307_264_923_699_201, ONE);
@@ -131,7 +135,8 @@ fn rounding_is_that_of_the_mass_in_the_equation() {
     }
 }
 
-/// Polar coordinates: in every other iteration the residual stays, and one that takes off much says nothing of the next.
+/// Polar coordinates: in every other iteration the residual stays, and one that takes off much says nothing
+/// of the next.
 #[test]
 fn an_iteration_that_takes_off_much_is_not_the_last() {
     let system = Polar::new(0.217_066_546_343_400_7, 0.0, ONE);
@@ -162,8 +167,9 @@ fn rounding_that_overflows_explains_no_residual() {
     assert!(system.by(Midpoint, 0.1).step(&start).is_ok());
 }
 
-/// The rounding of a velocity was taken to be that of the largest of all stages: a planet that passes close to the sun within the step, in
-/// polar coordinates, turns there 10³ times as fast as at the others, and that explained residuals of 98 bounds.
+/// The rounding of a velocity was taken to be that of the largest of all stages: a planet that passes close
+/// to the sun within the step, in polar coordinates, turns there 10³ times as fast as at the others, and that
+/// explained residuals of 98 bounds.
 #[test]
 fn a_stage_is_not_rounded_like_the_fastest_of_all() {
     let system = Polar::new(0.104_987_439_222_101_35, 0.027_496_817_774_202_36, ONE);
@@ -182,8 +188,8 @@ fn a_stage_is_not_rounded_like_the_fastest_of_all() {
     assert!(!stepped(0.01).unwrap().is_violation());
 }
 
-/// A potential so flat that a force underflows where it is multiplied by the action before the length: the reference, which multiplies
-/// the other way round, allows for it, and for no more.
+/// A potential so flat that a force underflows where it is multiplied by the action before the length: the
+/// reference, which multiplies the other way round, allows for it, and for no more.
 #[test]
 fn what_underflows_on_the_way_is_allowed_for() {
     let units = Units { action: 2.67e-86, length: 4.05e111, speed: 1.96e50, rate: 2.07e61 };
@@ -197,8 +203,8 @@ fn what_underflows_on_the_way_is_allowed_for() {
     assert!(gauss(&Tableau::new(3), &system, &start, h, &v, &step.state).is_violation());
 }
 
-/// From the velocity of the state Newton's method leads away from the wall, or into it; part by part in h it is led to the root. What it
-/// finds is on the branch of the flow.
+/// From the velocity of the state Newton's method leads away from the wall, or into it; part by part in h it
+/// is led to the root. What it finds is on the branch of the flow.
 #[test]
 fn a_root_that_the_state_alone_misses_is_led_to() {
     let system = LennardJones::new(0.5, 0.0, ONE);

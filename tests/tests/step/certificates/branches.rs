@@ -1,8 +1,9 @@
 //! The branch that a certificate tells, on both sides of folds and of conjugate points.
 //!
-//! Two oracles that know nothing of the certificate's matrix. Of linear systems y′ = Xy the equations of all stages have the
-//! determinant Π D_S(hλ) det M^S, λ the eigenvalues of X and D_S the denominator of the diagonal Padé approximant of order S. Of any
-//! system the branch of the flow is what steps from small h on, each from the one before, lead to without a jump.
+//! Two oracles that know nothing of the certificate's matrix. Of linear systems y′ = Xy the equations of all
+//! stages have the determinant Π D_S(hλ) det M^S, λ the eigenvalues of X and D_S the denominator of the
+//! diagonal Padé approximant of order S. Of any system the branch of the flow is what steps from small h on,
+//! each from the one before, lead to without a jump.
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::system::ForcedLagrangian;
@@ -161,7 +162,8 @@ fn past_a_conjugate_point_a_step_is_on_the_branch() {
     }
 }
 
-/// The step at h that steps from small h on lead to, each from the one before; `None` where one fails, or jumps.
+/// The step at h that steps from small h on lead to, each from the one before; `None` where one fails, or
+/// jumps.
 fn continued<L, R, const N: usize>(system: &L, state: &State<f64, N>, h: f64) -> Option<SVector<f64, N>>
 where
     L: Discrete<R, N, Scalar = f64>,

@@ -1,4 +1,5 @@
-//! The free mass with cubic Rayleigh function R = r v³/3 has an exact discrete Rayleigh system in closed form:
+//! The free mass with cubic Rayleigh function R = r v³/3 has an exact discrete Rayleigh system in closed
+//! form:
 //!
 //! ```text
 //! L_d^ex = (m³/r²h)(cosh(rd/m) − 1),   R_d^ex = (m²/rh)[(m/r) sinh(rd/m) − d],   d = q1 − q0

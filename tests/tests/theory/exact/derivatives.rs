@@ -1,5 +1,5 @@
-//! Derivatives of the exact objects against central differences of order 8 of what they differentiate, on a system with
-//! q-dependent mass, q-dependent Rayleigh function and general force.
+//! Derivatives of the exact objects against central differences of order 8 of what they differentiate, on a
+//! system with q-dependent mass, q-dependent Rayleigh function and general force.
 
 use dalembert::exact::{Exact, RayleighAndGeneralForce, Segment};
 use dalembert::nalgebra::{SMatrix, SVector, vector};
@@ -105,8 +105,8 @@ fn jacobians_of_the_exact_force() {
     assert_close(&second.force.minus.d2, &minus_d2, "D2 f-");
     assert_close(&second.force.plus.d1, &plus_d1, "D1 f+");
     assert_close(&second.force.plus.d2, &plus_d2, "D2 f+");
-    // Positive control: the part that the third derivatives make up is far above the tolerance; without it the blocks
-    // would be symmetric under exchange, which those of this system are not.
+    // Positive control: the part that the third derivatives make up is far above the tolerance; without it
+    // the blocks would be symmetric under exchange, which those of this system are not.
     assert!((plus_d1 + minus_d2.transpose()).amax() > 1e-3);
 }
 

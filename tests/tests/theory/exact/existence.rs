@@ -1,11 +1,12 @@
-//! For n > 1 an exact discrete force is Rayleigh iff three conditions hold: the one that the paper prints (section 3.4) is
-//! D1 f_d⁺ = −(D2 f_d⁻)ᵀ, and the symmetry of D1 f_d⁻ and D2 f_d⁺ must be asked for besides.
+//! For n > 1 an exact discrete force is Rayleigh iff three conditions hold: the one that the paper prints
+//! (section 3.4) is D1 f_d⁺ = −(D2 f_d⁻)ᵀ, and the symmetry of D1 f_d⁻ and D2 f_d⁺ must be asked for besides.
 
 use dalembert::exact::{Exact, ExistenceVerdict};
 use dalembert::nalgebra::{Matrix2, vector};
 use dalembert::rayleigh_system;
 
-/// An isotropic spring in the plane with the circulatory force f = κ(−y, x), which does work on every closed curve.
+/// An isotropic spring in the plane with the circulatory force f = κ(−y, x), which does work on every closed
+/// curve.
 struct Circulation {
     k: f64,
     kappa: f64,
@@ -58,7 +59,8 @@ fn the_mixed_condition_does_not_suffice_for_two_degrees_of_freedom() {
 
 #[test]
 fn a_force_with_a_potential_fails_in_the_mixed_condition() {
-    // Positive control: the other way round. With f = −dU, D2 f+ is symmetric, and D1 f+ = (D2 f−)ᵀ with the wrong sign.
+    // Positive control: the other way round. With f = −dU, D2 f+ is symmetric, and D1 f+ = (D2 f−)ᵀ with the
+    // wrong sign.
     let system = Attraction { k: 1.2 };
     let existence = Exact::general(&system).existence(vector![0.3, -0.2], vector![0.5, 0.4], 0.05).unwrap();
     assert_eq!(existence.verdict(), ExistenceVerdict::MixedFails, "{existence}");

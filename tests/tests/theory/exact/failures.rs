@@ -89,7 +89,8 @@ fn time_by_way_of(turning: f64, q0: f64, q1: f64) -> f64 {
 #[test]
 #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn the_step_size_where_a_motion_ceases_is_found() {
-    // The longest time from 0.6 to 1.1 with one turn: beyond it the motion near the straight line ceases to exist.
+    // The longest time from 0.6 to 1.1 with one turn: beyond it the motion near the straight line ceases to
+    // exist.
     let turnings = (1..4000).map(|i| 1.1 + 1e-4 * f64::from(i));
     let longest = turnings.map(|turning| time_by_way_of(turning, 0.6, 1.1)).fold(0.0, f64::max);
     let exact = Exact::unforced(&Quartic);
@@ -103,11 +104,13 @@ fn the_step_size_where_a_motion_ceases_is_found() {
 
 #[test]
 fn points_too_far_apart_for_the_swing() {
-    // Frequency near 1 in small swings: past half a period every motion from 0.3 to 0.9 has turned back or gone round.
+    // Frequency near 1 in small swings: past half a period every motion from 0.3 to 0.9 has turned back or
+    // gone round.
     let exact = Exact::rayleigh(&PENDULUM);
     let followed = exact.segment(vector![0.3], vector![0.9], 2.5).unwrap();
     assert!(followed.report.error() < 1e-12, "{}", followed.report);
-    // The end's velocity has changed sign: it is not the straight line's motion any more, but the one grown out of it.
+    // The end's velocity has changed sign: it is not the straight line's motion any more, but the one grown
+    // out of it.
     assert!(followed.v0[0] > 0.0 && followed.v1[0] < 0.0, "{followed}");
 }
 

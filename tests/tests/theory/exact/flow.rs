@@ -1,5 +1,5 @@
-//! The discrete flow of the exact objects is the continuous flow: points and momenta along a motion solve the forced
-//! discrete Euler–Lagrange equations and both Legendre transforms.
+//! The discrete flow of the exact objects is the continuous flow: points and momenta along a motion solve the
+//! forced discrete Euler–Lagrange equations and both Legendre transforms.
 //!
 //! The motion comes from equations of motion written by hand and a Runge–Kutta method of the test's own.
 
@@ -133,7 +133,8 @@ fn a_segment_backwards_is_the_segment_with_opposite_sign() {
 
 #[test]
 fn unforced_curves_through_the_points_do_not_join() {
-    // The paper's "solutions of the Euler–Lagrange equations for L" between the nodes must be those of (L, f_L).
+    // The paper's "solutions of the Euler–Lagrange equations for L" between the nodes must be those of (L,
+    // f_L).
     let h = 0.7;
     let [y0, y1, y2] = motion(h);
     let points = [configuration(&y0), configuration(&y1), configuration(&y2)];

@@ -1,7 +1,7 @@
 //! The order of a discretisation, measured against the exact discrete objects.
 //!
-//! A nonlinear system with q-dependent mass and q-dependent R: midpoint and trapezoidal rule of order 2, a one-sided
-//! rectangle rule of order 1.
+//! A nonlinear system with q-dependent mass and q-dependent R: midpoint and trapezoidal rule of order 2, a
+//! one-sided rectangle rule of order 1.
 
 use dalembert::exact::{Convergence, Exact};
 use dalembert::nalgebra::{SMatrix, SVector, vector};
@@ -126,7 +126,8 @@ fn a_one_sided_rule_has_order_one() {
 
 #[test]
 fn the_midpoint_force_is_off_by_a_twelfth() {
-    // f_d^± − f_d^ex± = ∓(h²/12)(df/dt − f_v f/m) + O(h³), df/dt along the motion, m = 1: f_v bends ∂q(t)/∂q1 too.
+    // f_d^± − f_d^ex± = ∓(h²/12)(df/dt − f_v f/m) + O(h³), df/dt along the motion, m = 1: f_v bends ∂q(t)/∂q1
+    // too.
     let exact = Exact::general(&PUSHED);
     let (q0, v) = (0.5_f64, 0.3);
     for (h, tolerance) in [(0.02, 2e-2), (0.005, 5e-3)] {

@@ -1,5 +1,5 @@
-//! The exact discrete objects of the damped oscillator m q″ + r q′ + k q = 0 have the closed forms of section 3.4 with
-//! a = r/2m and, underdamped, b = √(4km − r²)/2m:
+//! The exact discrete objects of the damped oscillator m q″ + r q′ + k q = 0 have the closed forms of section
+//! 3.4 with a = r/2m and, underdamped, b = √(4km − r²)/2m:
 //!
 //! ```text
 //! L_d^ex = (mb/2)[(q0² + q1²) cot bh − 2 q0q1 cosh(ah)/sin bh]
@@ -7,7 +7,8 @@
 //! R_d^ex = (r/4)(q0² + q1²) − r b q0q1 sinh(ah)/(2a sin bh)
 //! ```
 //!
-//! The paper prints sinh bh for sin bh in R_d^ex, and an L_d with coth bh: these hold for b = √(r² − 4km)/2m, overdamped.
+//! The paper prints sinh bh for sin bh in R_d^ex, and an L_d with coth bh: these hold for b = √(r² − 4km)/2m,
+//! overdamped.
 
 use dalembert::exact::{Exact, ExactError};
 use dalembert::nalgebra::vector;
@@ -147,7 +148,8 @@ fn the_printed_forms_hold_overdamped_only() {
         let segment = exact.segment(vector![q0], vector![q1], h).unwrap();
         let second = exact.second_derivatives(&segment).unwrap();
         let scale = system.m * (q0 * q0 + q1 * q1) / h;
-        // The two differ by O(h²) of the action: little at h = 0.05, but 10⁴ times what the overdamped comparison allows.
+        // The two differ by O(h²) of the action: little at h = 0.05, but 10⁴ times what the overdamped
+        // comparison allows.
         let least = if h < 0.1 { 1e-7 } else { 1e-3 };
         let apart = (segment.lagrangian.value - system.printed_lagrangian(q0, q1, h)).abs() / scale;
         assert!(apart > least, "{q0} {q1} {h}: {apart}");
@@ -166,7 +168,8 @@ fn half_a_period_apart_points_are_conjugate() {
     let ExactError::ConjugatePoints { h, growth } = error else { panic!("{error}") };
     println!("{error}");
     assert!((h / half_period - 1.0).abs() < 1e-2 && growth > 100.0, "{h} {growth}");
-    // Positive control: a little before and after, the motion exists and the report shows how near it is to failing.
+    // Positive control: a little before and after, the motion exists and the report shows how near it is to
+    // failing.
     for share in [0.999, 1.001] {
         let segment = exact.segment(vector![0.4], vector![0.9], share * half_period).unwrap();
         assert!(segment.report.growth > 100.0 && segment.report.error() < 1e-10, "{}", segment.report);

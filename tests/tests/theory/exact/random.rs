@@ -1,5 +1,5 @@
-//! Motions with closed forms, drawn at random over wide ranges: a result within what it claims, or an error of the right name,
-//! within the evaluations that one question may take.
+//! Motions with closed forms, drawn at random over wide ranges: a result within what it claims, or an error
+//! of the right name, within the evaluations that one question may take.
 
 use std::cell::Cell;
 
@@ -163,7 +163,8 @@ fn segments_of_random_damped_oscillators() {
             Ok(segment) => {
                 found += 1;
                 let [v0, v1] = system.ends(q0, q1, h);
-                // The fastest of the motion; the closed form itself loses digits where its arguments are large, or close to a zero.
+                // The fastest of the motion; the closed form itself loses digits where its arguments are
+                // large, or close to a zero.
                 let fastest =
                     v0.abs().max(v1.abs()).max(a.abs().max(square.abs().sqrt()) * q0.abs().max(q1.abs()));
                 let of_closed_form =
@@ -178,7 +179,8 @@ fn segments_of_random_damped_oscillators() {
             Err(error) => {
                 let right = match error {
                     ExactError::ConjugatePoints { .. } => phase < 1e-6,
-                    // An undamped end that the other cannot tell: many periods, or close to a conjugate point.
+                    // An undamped end that the other cannot tell: many periods, or close to a conjugate
+                    // point.
                     ExactError::IllConditioned { .. } => square > 0.0 && (a * h).abs() > 1.0,
                     _ => false,
                 };

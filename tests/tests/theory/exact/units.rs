@@ -50,7 +50,8 @@ fn units_of_the_coordinates_do_not_matter() {
 
 #[test]
 fn small_motions_and_equilibria_are_resolved() {
-    // The pendulum's third derivatives along motions this small are lost in rounding; what they contribute is smaller still.
+    // The pendulum's third derivatives along motions this small are lost in rounding; what they contribute is
+    // smaller still.
     let exact = Exact::rayleigh(&Pendulum { r: 0.3 });
     for (q0, q1) in [(0.6e-9, 1.1e-9), (0.0, 1e-6), (0.0, 0.0)] {
         let existence = exact.existence(vector![q0], vector![q1], 0.7).unwrap();

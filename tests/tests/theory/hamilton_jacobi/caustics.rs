@@ -142,8 +142,8 @@ fn unequal_stiffnesses_split_it_into_simple_ones_as_sturm_theory_counts() {
     assert!(characteristic.caustics.iter().all(|caustic| caustic.multiplicity == 1));
 }
 
-/// What a direction that moves for itself opens by, x_k of the map of one oscillator from x = 1, p = slope: the midpoint rule solved
-/// by hand.
+/// What a direction that moves for itself opens by, x_k of the map of one oscillator from x = 1, p = slope:
+/// the midpoint rule solved by hand.
 fn openings(stiffness: f64, friction: f64, slope: f64, h: f64, steps: usize) -> Vec<f64> {
     let (mut x, mut p) = (1.0, slope);
     let mut openings = vec![x];

@@ -1,5 +1,6 @@
-//! A carried section stays closed iff the pull-back of d f_d vanishes: the closedness defect QᵀP − PᵀQ against differences of
-//! the flow, against the criterion for a Rayleigh force, and 0 without force or for n = 1.
+//! A carried section stays closed iff the pull-back of d f_d vanishes: the closedness defect QᵀP − PᵀQ
+//! against differences of the flow, against the criterion for a Rayleigh force, and 0 without force or for
+//! n = 1.
 
 use dalembert::hamilton_jacobi::Characteristic;
 use dalembert::nalgebra::{SMatrix, SVector, vector};

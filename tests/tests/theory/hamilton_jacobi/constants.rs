@@ -1,5 +1,5 @@
-//! The complete solution of the damped oscillator: λ_0 as a function of (q, p, k) is a constant of motion, ∂S/∂λ_0 is not;
-//! the k-step pair (L, R) in closed form gives k steps at once.
+//! The complete solution of the damped oscillator: λ_0 as a function of (q, p, k) is a constant of motion,
+//! ∂S/∂λ_0 is not; the k-step pair (L, R) in closed form gives k steps at once.
 
 use dalembert::nalgebra::vector;
 use dalembert::{Discretise, Midpoint, State};
@@ -44,8 +44,8 @@ fn lambda_0_is_a_constant_of_motion() {
     }
 }
 
-/// The additive constant of S_k may depend on λ_0, so that two trajectories with the same λ_0 are compared: if ∂S/∂λ_0 were
-/// a constant of motion, so would be its difference. It is δ^k times what it was.
+/// The additive constant of S_k may depend on λ_0, so that two trajectories with the same λ_0 are compared:
+/// if ∂S/∂λ_0 were a constant of motion, so would be its difference. It is δ^k times what it was.
 #[test]
 fn the_derivative_by_the_parameter_is_constant_without_force_alone() {
     for system in [DAMPED, UNDAMPED] {
@@ -66,7 +66,8 @@ fn the_derivative_by_the_parameter_is_constant_without_force_alone() {
 }
 
 /// k steps at once: L = ½ω cot(kθ)(q0² + q_k²) − ω cosh(kκ)/sin(kθ) q0 q_k,
-/// R = (r/4)(q0² + q_k²) − ω sinh(kκ)/sin(kθ) q0 q_k, e^{−2κ} = δ; the momenta are p0 = −D1(L + R), p_k = D2(L − R).
+/// R = (r/4)(q0² + q_k²) − ω sinh(kκ)/sin(kθ) q0 q_k, e^{−2κ} = δ; the momenta are p0 = −D1(L + R), p_k =
+/// D2(L − R).
 #[test]
 fn the_closed_k_step_pair_has_the_momenta_of_k_steps() {
     let closed = CompleteSolution::new(&DAMPED, H, 0.0, 0.0);

@@ -1,5 +1,5 @@
-//! The corrected Hamilton–Jacobi theory holds on the closed-form complete solution of the damped oscillator, and its check
-//! rejects what is no solution.
+//! The corrected Hamilton–Jacobi theory holds on the closed-form complete solution of the damped oscillator,
+//! and its check rejects what is no solution.
 
 use dalembert::nalgebra::vector;
 use dalembert::{Discretise, Midpoint, ScalarField};

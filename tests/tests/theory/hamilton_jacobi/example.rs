@@ -1,10 +1,12 @@
-//! The paper's worked oscillator example: its sums, its coefficients of γ⁻, its 𝔽⁻, and its flow (which is right).
+//! The paper's worked oscillator example: its sums, its coefficients of γ⁻, its 𝔽⁻, and its flow (which is
+//! right).
 
 use dalembert::nalgebra::vector;
 use dalembert::{Discretise, Midpoint};
 use dalembert_tests::damped_oscillator::{DAMPED, H, Oscillator, trajectory};
 
-/// The example's discrete action and G_d, printed with q_{j+1}, q_j inside the sum over k, and with the index put right.
+/// The example's discrete action and G_d, printed with q_{j+1}, q_j inside the sum over k, and with the index
+/// put right.
 struct Example<'a> {
     system: &'a Oscillator,
     q: &'a [f64],
@@ -50,8 +52,8 @@ fn the_examples_printed_coefficients_and_indices_are_wrong() {
             .sum();
         assert!((action - corrected).abs() < 1e-14 && (action - example.action_printed(j)).abs() > 1e-3);
 
-        // D1 G_d, G_d = S_j + S_{j+1} − R_d with the actions along the trajectory, by differences in q_j (G_d is quadratic,
-        // so that central differences are exact).
+        // D1 G_d, G_d = S_j + S_{j+1} − R_d with the actions along the trajectory, by differences in q_j (G_d
+        // is quadratic, so that central differences are exact).
         let generating = |shift: f64| {
             let mut moved = q.clone();
             moved[j][0] += shift;

@@ -1,5 +1,5 @@
-//! The forced discrete Hamilton equations: the printed second ones miss by the force at the eliminated end, the corrected
-//! ones hold; in Rayleigh form two signs are wrong besides (paper, sections 3.2 and 3.3).
+//! The forced discrete Hamilton equations: the printed second ones miss by the force at the eliminated end,
+//! the corrected ones hold; in Rayleigh form two signs are wrong besides (paper, sections 3.2 and 3.3).
 
 use dalembert::hamilton_jacobi::HamiltonEquationsReport;
 use dalembert::nalgebra::{SVector, vector};
@@ -94,7 +94,8 @@ fn the_derivatives_of_the_hamiltonians_are_those_of_their_values() {
     check_derivatives(&Curl, Midpoint);
 }
 
-/// The terms that the printed equations lack, from the matrices of the transforms: (∂q1/∂q0)ᵀ f⁺ and (∂q0/∂q1)ᵀ f⁻.
+/// The terms that the printed equations lack, from the matrices of the transforms: (∂q1/∂q0)ᵀ f⁺ and
+/// (∂q0/∂q1)ᵀ f⁻.
 fn missing_terms<R: Copy, L>(system: &L, rule: R) -> [SVector<f64, 2>; 2]
 where
     L: Discrete<R, 2, Scalar = f64>,
@@ -130,8 +131,9 @@ fn the_printed_second_equations_miss_by_the_force_at_the_eliminated_end() {
     check_general(&Curl, Midpoint);
 }
 
-/// One degree of freedom: the misses in closed form. With K10 = −(m/h + kh/4) + r/2, K11 = m/h − kh/4 − r/2 and
-/// f⁺ = f⁻ = −(r/2)(q1 − q0) the right one is −(K10/K11) f⁺; the left one −(K01/K00) f⁻, r with the other sign.
+/// One degree of freedom: the misses in closed form. With K10 = −(m/h + kh/4) + r/2, K11 = m/h − kh/4 − r/2
+/// and f⁺ = f⁻ = −(r/2)(q1 − q0) the right one is −(K10/K11) f⁺; the left one −(K01/K00) f⁻, r with the other
+/// sign.
 #[test]
 fn the_oscillators_misses_are_the_closed_form() {
     let (m, k, r, h) = (DAMPED.m, DAMPED.k, DAMPED.r, H);
@@ -188,8 +190,8 @@ fn the_rayleigh_form_needs_all_four_signs() {
     assert!(corrected_hold(&report), "{report}");
 }
 
-/// The oscillator's Rayleigh form, where also the second equations' misses have a closed form: printed less corrected is
-/// 2 D1 R_d − (∂q1/∂q0) D2 R_d (right) and 2 D2 R_d − (∂q0/∂q1) D1 R_d (left).
+/// The oscillator's Rayleigh form, where also the second equations' misses have a closed form: printed less
+/// corrected is 2 D1 R_d − (∂q1/∂q0) D2 R_d (right) and 2 D2 R_d − (∂q0/∂q1) D1 R_d (left).
 #[test]
 fn the_oscillators_rayleigh_misses_are_the_closed_form() {
     let (m, k, r, h) = (DAMPED.m, DAMPED.k, DAMPED.r, H);

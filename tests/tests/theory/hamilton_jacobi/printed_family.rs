@@ -1,5 +1,5 @@
-//! The paper's theory as printed, on functions S_k: by what each statement misses under force, in closed form, and that all
-//! hold without (paper, section 4).
+//! The paper's theory as printed, on functions S_k: by what each statement misses under force, in closed
+//! form, and that all hold without (paper, section 4).
 
 use dalembert::hamilton_jacobi::PrintedReport;
 use dalembert::nalgebra::vector;
@@ -51,8 +51,8 @@ fn without_force_all_that_is_printed_holds() {
     }
 }
 
-/// The corrected solution γ_k = dS_k put into the printed formulas: γ⁻ = p_k − f⁻ and γ⁺ = p_{k+1} + f⁺, and the flows miss
-/// by what these errors make of them.
+/// The corrected solution γ_k = dS_k put into the printed formulas: γ⁻ = p_k − f⁻ and γ⁺ = p_{k+1} + f⁺, and
+/// the flows miss by what these errors make of them.
 #[test]
 fn under_force_each_statement_misses_by_the_predicted_amount() {
     let (q, report) = (on_sections(&DAMPED), report(&DAMPED));
@@ -91,8 +91,8 @@ fn under_force_each_statement_misses_by_the_predicted_amount() {
     }
 }
 
-/// Functions that satisfy the right equation for all q, under force: those of the undamped oscillator. Their points solve
-/// the unforced Euler–Lagrange equations.
+/// Functions that satisfy the right equation for all q, under force: those of the undamped oscillator. Their
+/// points solve the unforced Euler–Lagrange equations.
 #[test]
 fn the_right_equation_for_all_q_is_solved_by_the_unforced_family() {
     let samples = [-1.1, 0.2, 0.9].map(|q| vector![q]);
@@ -108,7 +108,8 @@ fn the_right_equation_for_all_q_is_solved_by_the_unforced_family() {
 }
 
 /// The lemma's 𝓕⁺ from a family that satisfies the right equation for all q. Its points, in closed form:
-/// x = q̂ − ρ (q̂ − q)/(α − ρ) + ρ (x − q)/(s − ρ) with (α − ρ) q̂ = (s − ρ) x + λ + β q, s and λ those of S_{k+1}.
+/// x = q̂ − ρ (q̂ − q)/(α − ρ) + ρ (x − q)/(s − ρ) with (α − ρ) q̂ = (s − ρ) x + λ + β q, s and λ those of
+/// S_{k+1}.
 #[test]
 fn the_lemmas_flow_solves_neither_the_forced_nor_the_unforced_equations() {
     let theory = DAMPED.by(Midpoint, H).hamilton_jacobi();

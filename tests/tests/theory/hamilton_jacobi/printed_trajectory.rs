@@ -1,5 +1,5 @@
-//! γ⁻ = DS∘π1 − f⁻ as printed misses the momentum by the net force, the example's γ⁻ = D1 G_d by twice that; both hold with
-//! the net force added, and without force (paper, section 4 and Example 4).
+//! γ⁻ = DS∘π1 − f⁻ as printed misses the momentum by the net force, the example's γ⁻ = D1 G_d by twice that;
+//! both hold with the net force added, and without force (paper, section 4 and Example 4).
 
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::{Discrete, Discretise, Midpoint, State, Trapezoidal, rayleigh_system};
@@ -44,7 +44,8 @@ fn without_force_all_hold() {
     );
 }
 
-/// Pendulum-like, two degrees of freedom, friction that depends on q: the miss is the net force whatever the system.
+/// Pendulum-like, two degrees of freedom, friction that depends on q: the miss is the net force whatever the
+/// system.
 struct Drive {
     friction: f64,
 }

@@ -1,5 +1,6 @@
-//! Sections that are no differentials solve the corrected problem as well: two degrees of freedom, friction and a force with
-//! curl, sections γ_k(q) = M_k q + l_k from the carried frames. And what cannot be evaluated is a typed error.
+//! Sections that are no differentials solve the corrected problem as well: two degrees of freedom, friction
+//! and a force with curl, sections γ_k(q) = M_k q + l_k from the carried frames. And what cannot be evaluated
+//! is a typed error.
 
 use dalembert::hamilton_jacobi::{ConfigurationMap, HamiltonJacobiError, Section};
 use dalembert::nalgebra::{SMatrix, SVector, vector};
@@ -159,7 +160,8 @@ fn what_cannot_be_evaluated_is_a_typed_error() {
         Err(HamiltonJacobiError::TooFewPoints { needed: 1, found: 0 })
     );
 
-    // Cubic drag R = r v³/3 from a momentum that no real step has: an error with its place, and an outcome in the report.
+    // Cubic drag R = r v³/3 from a momentum that no real step has: an error with its place, and an outcome in
+    // the report.
     #[rayleigh_system]
     fn cubic(_q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
         (0.5 * v[0] * v[0], r * v[0].powi(3) / 3.0)

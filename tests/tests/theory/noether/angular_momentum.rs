@@ -1,5 +1,5 @@
-//! Isotropic drag does not keep the angular momentum: its defect is −k q1·J q0. The paper (last example of section 3.6)
-//! names the ring potential with this drag as an instance of a system that keeps it.
+//! Isotropic drag does not keep the angular momentum: its defect is −k q1·J q0. The paper (last example of
+//! section 3.6) names the ring potential with this drag as an instance of a system that keeps it.
 
 use dalembert::nalgebra::vector;
 use dalembert::noether::Generator;
@@ -84,8 +84,8 @@ fn the_polar_instance_loses_angular_momentum_too() {
     }
 }
 
-/// Along the run of section 3.5 the angular momentum decays as e^{−kt} up to O(h²), as that of the continuous system does
-/// (dJ/dt = −kJ: isotropic drag, central potential). Positive control: without drag it stays.
+/// Along the run of section 3.5 the angular momentum decays as e^{−kt} up to O(h²), as that of the continuous
+/// system does (dJ/dt = −kJ: isotropic drag, central potential). Positive control: without drag it stays.
 #[test]
 fn along_the_run_of_the_paper_it_decays() {
     let final_share = |k: f64, h: f64| {

@@ -1,4 +1,5 @@
-//! J is kept iff the defect vanishes, also where neither ξ(L_d) nor f_d(ξ) does: Noether's theorem asks for the sum alone.
+//! J is kept iff the defect vanishes, also where neither ξ(L_d) nor f_d(ξ) does: Noether's theorem asks for
+//! the sum alone.
 
 use dalembert::noether::Generator;
 use dalembert::{Discretise, Midpoint, State, rayleigh_system, samples};

@@ -1,6 +1,6 @@
-//! Friction of the radial motion alone, R = ½ k(r) ṙ², keeps the angular momentum of a central potential: exactly in
-//! polar coordinates (R_d then depends on the radii alone) and as a midpoint force; the midpoint R_d of R(q, v) in
-//! Cartesian coordinates loses it at order h³ a step, through ∂R/∂q.
+//! Friction of the radial motion alone, R = ½ k(r) ṙ², keeps the angular momentum of a central potential:
+//! exactly in polar coordinates (R_d then depends on the radii alone) and as a midpoint force; the midpoint
+//! R_d of R(q, v) in Cartesian coordinates loses it at order h³ a step, through ∂R/∂q.
 
 use dalembert::nalgebra::vector;
 use dalembert::noether::Generator;

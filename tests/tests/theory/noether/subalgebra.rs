@@ -1,4 +1,5 @@
-//! 𝔤_{f_d} of the paper's theorem, with its dimension, its elements and its closure, against subalgebras known by hand.
+//! 𝔤_{f_d} of the paper's theorem, with its dimension, its elements and its closure, against subalgebras
+//! known by hand.
 
 use dalembert::nalgebra::matrix;
 use dalembert::noether::{Generator, Subalgebra, SubalgebraError};
@@ -115,8 +116,8 @@ fn rigid_motions_of_the_plane_across_the_drag() {
     assert_eq!((report.conserved.dimension(), report.invariant.dimension()), (1, 3), "{report}");
 }
 
-/// A metric on ℝ³ invariant under ∂x, ∂y + x ∂z and ∂z, and a force along dz − x dy, which does no work along the first
-/// two although they do not leave it invariant.
+/// A metric on ℝ³ invariant under ∂x, ∂y + x ∂z and ∂z, and a force along dz − x dy, which does no work along
+/// the first two although they do not leave it invariant.
 #[derive(Clone, Copy)]
 struct Heisenberg {
     k: f64,
@@ -153,7 +154,8 @@ fn what_keeps_j_need_not_be_closed() {
     assert!(report.conserved.closure.is_closed(), "{report}");
 }
 
-/// A central potential given as a force: f_d = −h dU(q̄) is closed, so that ι_ξ df_d = 0 although f_d varies along ξ.
+/// A central potential given as a force: f_d = −h dU(q̄) is closed, so that ι_ξ df_d = 0 although f_d varies
+/// along ξ.
 #[derive(Clone, Copy)]
 struct Attracted {
     off_centre: f64,

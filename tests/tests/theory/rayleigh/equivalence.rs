@@ -1,5 +1,5 @@
-//! (L_d + φ, R_d + χ) is equivalent to (L_d, R_d) for χ = ψ(q0) + φ1(q1) − φ0(q0) + ψ(q1); with the printed −φ1(q1)
-//! (section 3.3) the equations differ.
+//! (L_d + φ, R_d + χ) is equivalent to (L_d, R_d) for χ = ψ(q0) + φ1(q1) − φ0(q0) + ψ(q1); with the printed
+//! −φ1(q1) (section 3.3) the equations differ.
 
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::rayleigh::Comparison;
@@ -155,7 +155,8 @@ fn the_printed_gauge_changes_the_equations() {
     }
 }
 
-/// Re-gauging leaves trajectories as they are and moves momenta by −2 dψ; the printed version leaves the trajectory.
+/// Re-gauging leaves trajectories as they are and moves momenta by −2 dψ; the printed version leaves the
+/// trajectory.
 #[test]
 fn trajectories_are_unchanged_and_momenta_shift_by_a_gradient() {
     let system = Pendulums { r: 0.3 };

@@ -1,5 +1,5 @@
-//! For n > 1 a discrete force is Rayleigh iff three conditions hold; the one that the paper prints, D1 f⁺ = −D2 f⁻
-//! (section 3.4), is fulfilled by forces without any potential.
+//! For n > 1 a discrete force is Rayleigh iff three conditions hold; the one that the paper prints, D1 f⁺ =
+//! −D2 f⁻ (section 3.4), is fulfilled by forces without any potential.
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::rayleigh::{Potential, structure};
@@ -65,7 +65,8 @@ fn the_printed_condition_lets_a_force_without_potential_pass() {
     assert!(!recovery.exists() && !recovery.path_dependence.vanishes(), "{recovery}");
 }
 
-/// Friction that grows with q: as a midpoint force it has no potential, as a Rayleigh function it has one by construction.
+/// Friction that grows with q: as a midpoint force it has no potential, as a Rayleigh function it has one by
+/// construction.
 #[derive(Clone, Copy)]
 struct Rough {
     as_force: bool,
@@ -162,7 +163,8 @@ impl Covector for Turning {
     }
 }
 
-/// d(angle) = (−y, x)/r²: the conditions hold everywhere but at the origin, and yet it has no potential around it.
+/// d(angle) = (−y, x)/r²: the conditions hold everywhere but at the origin, and yet it has no potential
+/// around it.
 struct Vortex;
 
 impl Covector for Vortex {
@@ -191,7 +193,8 @@ fn the_mixed_condition_alone_is_not_enough() {
 fn around_a_hole_the_paths_tell() {
     let start = Segment::new(vector![1.0, 0.1], vector![0.0, 0.0]);
     let potential = Potential::new(&AtStart(Vortex), Midpoint, 0.1, start);
-    // Straight across above the origin, or along the edges by way of (−1, 0.1), (−1, −0.3): the same half-plane x < 0.
+    // Straight across above the origin, or along the edges by way of (−1, 0.1), (−1, −0.3): the same
+    // half-plane x < 0.
     let same_side = [Segment::new(vector![-1.0, 0.4], vector![0.2, 0.2])];
     let recovery = potential.check(&same_side).unwrap();
     assert!(recovery.exists(), "{recovery}");

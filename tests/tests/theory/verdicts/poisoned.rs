@@ -196,7 +196,8 @@ fn poisoned_samples_get_no_yes() {
     let mut tried = 0;
     for (name, segments) in poisoned() {
         let found = answers(&Wrong, &Wrong, &segments, H, ROUNDING);
-        // What the samples cannot show is not asked of them: far out and close to 0 one part of the system is all there is.
+        // What the samples cannot show is not asked of them: far out and close to 0 one part of the system is
+        // all there is.
         let degenerate = name.starts_with("all");
         let yes = yes(&found);
         assert!(

@@ -1,4 +1,5 @@
-//! Families with values and slopes that are not finite, or too large to say anything: Hamilton–Jacobi reports.
+//! Families with values and slopes that are not finite, or too large to say anything: Hamilton–Jacobi
+//! reports.
 
 use dalembert::ScalarField;
 use dalembert::hamilton_jacobi::{ConfigurationMap, Outcome, Residual, SolutionReport};
@@ -117,7 +118,8 @@ fn no_poisoned_family_is_a_solution() {
                 }
                 let reports = reports(&family, &maps, &samples(), RELATIVE);
                 for (which, report) in reports.iter().enumerate() {
-                    // Of γ_0 alone the slope is compared with nothing; maps are those of `check_solution` alone.
+                    // Of γ_0 alone the slope is compared with nothing; maps are those of `check_solution`
+                    // alone.
                     let concerned = match part {
                         0 => true,
                         1 => k > 0,
@@ -153,7 +155,8 @@ fn a_slope_that_leaves_nothing_of_the_section_says_nothing() {
             assert!(!report.is_solution(), "{bend}: {report}");
         }
     }
-    // Positive control: a slope of ordinary size that is wrong changes the tolerance, but no verdict on the sections themselves.
+    // Positive control: a slope of ordinary size that is wrong changes the tolerance, but no verdict on the
+    // sections themselves.
     let mut family = family();
     family[1].bend = Some(3.0);
     assert!(reports(&family, &maps(), &samples(), RELATIVE).iter().all(SolutionReport::is_solution));

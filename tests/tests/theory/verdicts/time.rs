@@ -73,7 +73,8 @@ fn a_force_that_grows_with_time_moves_by_a_sixth() {
 
 #[test]
 fn the_family_of_the_time_that_goes_on_is_the_solution() {
-    // p_{k+1} = p_k + h (t_k + h/2): γ_k = γ_0 + k h t0 + (kh)²/2; with the time held it is γ_0 + k h (t0 + h/2).
+    // p_{k+1} = p_k + h (t_k + h/2): γ_k = γ_0 + k h t0 + (kh)²/2; with the time held it is γ_0 + k h (t0 +
+    // h/2).
     let h = 0.5;
     let samples = [vector![0.3], vector![-0.8]];
     for t0 in [0.0, 0.7] {
