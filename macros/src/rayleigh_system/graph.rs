@@ -16,9 +16,11 @@ pub mod interpret;
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use proc_macro2::{Group, Ident, Literal, Span, TokenStream, TokenTree};
+use proc_macro2::{Ident, Literal, Span, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use syn::Expr;
+
+use super::syntax::regrouped;
 
 pub use operation::{Comparison, Function, Operation, PairFunction, Predicate};
 
@@ -369,11 +371,7 @@ fn with_own_self(tokens: TokenStream) -> TokenStream {
             TokenTree::Ident(word) if word == "self" => {
                 TokenTree::Ident(Ident::new("self", Span::call_site().located_at(word.span())))
             }
-            TokenTree::Group(group) => {
-                let mut own = Group::new(group.delimiter(), with_own_self(group.stream()));
-                own.set_span(group.span());
-                TokenTree::Group(own)
-            }
+            TokenTree::Group(group) => regrouped(&group, with_own_self(group.stream())),
             other => other,
         })
         .collect()

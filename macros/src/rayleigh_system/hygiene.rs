@@ -11,10 +11,11 @@
 
 use std::collections::HashSet;
 
-use proc_macro2::{Group, Ident, Literal, TokenStream, TokenTree};
+use proc_macro2::{Ident, Literal, TokenStream, TokenTree};
 use quote::quote;
 
 use super::parse::upper_camel_case;
+use super::syntax::regrouped;
 
 /// What a marked name ends in: nothing that says whether it is a type or a constant, and no name of Rust
 /// code.
@@ -198,12 +199,6 @@ fn is_member(before: &[TokenTree]) -> bool {
 
 fn is_punctuation(token: &TokenTree, mark: char) -> bool {
     matches!(token, TokenTree::Punct(punct) if punct.as_char() == mark)
-}
-
-fn regrouped(group: &Group, tokens: TokenStream) -> TokenTree {
-    let mut own = Group::new(group.delimiter(), tokens);
-    own.set_span(group.span());
-    TokenTree::Group(own)
 }
 
 /// Messages and documentation name what the user wrote.

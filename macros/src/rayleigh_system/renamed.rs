@@ -1,8 +1,10 @@
 //! The name of the runtime in the user's crate: `::dalembert`, unless the attribute says `crate = …`.
 
-use proc_macro2::{Group, TokenStream, TokenTree};
+use proc_macro2::{TokenStream, TokenTree};
 use quote::ToTokens;
 use syn::Path;
+
+use super::syntax::regrouped;
 
 /// The tokens with the path in place of `::dalembert`.
 pub fn runtime(tokens: TokenStream, path: &Path) -> TokenStream {
@@ -13,11 +15,7 @@ pub fn runtime(tokens: TokenStream, path: &Path) -> TokenStream {
                 renamed.truncate(renamed.len() - 2);
                 renamed.extend(path.to_token_stream());
             }
-            TokenTree::Group(group) => {
-                let mut own = Group::new(group.delimiter(), runtime(group.stream(), path));
-                own.set_span(group.span());
-                renamed.push(TokenTree::Group(own));
-            }
+            TokenTree::Group(group) => renamed.push(regrouped(&group, runtime(group.stream(), path))),
             other => renamed.push(other),
         }
     }

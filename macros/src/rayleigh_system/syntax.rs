@@ -1,7 +1,7 @@
 //! What an expression, a path or a type is by its form alone: literals, places of `self`, names of the
 //! standard library.
 
-use proc_macro2::Span;
+use proc_macro2::{Group, Span, TokenStream, TokenTree};
 use syn::parse::{Parse, ParseStream};
 use syn::{
     BinOp, Expr, ExprLit, Ident, Lit, Pat, Path, PathArguments, Token, Type, UnOp, parse_quote_spanned,
@@ -243,4 +243,11 @@ impl Parse for Matches {
         input.parse::<Option<Token![,]>>()?;
         Ok(Self { value, pattern, guard })
     }
+}
+
+/// A group of other tokens in the place of `group`.
+pub fn regrouped(group: &Group, tokens: TokenStream) -> TokenTree {
+    let mut own = Group::new(group.delimiter(), tokens);
+    own.set_span(group.span());
+    TokenTree::Group(own)
 }

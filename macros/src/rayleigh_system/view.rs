@@ -2,11 +2,12 @@
 //!
 //! The comment above each quotation shows what it expands to.
 
-use proc_macro2::{Group, Ident, TokenStream, TokenTree};
+use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 
 use super::expand::conditions;
 use super::model::{Home, Part, System};
+use super::syntax::regrouped;
 
 /// `DrivenArm` if the force takes an input, else `ArmAtTime`.
 pub fn name(system: &System<'_>) -> Ident {
@@ -55,9 +56,7 @@ pub fn seen_from_view(tokens: TokenStream, system: &Ident) -> TokenStream {
                 quote!(#name)
             }
             TokenTree::Group(group) => {
-                let mut seen = Group::new(group.delimiter(), seen_from_view(group.stream(), system));
-                seen.set_span(group.span());
-                TokenStream::from(TokenTree::Group(seen))
+                TokenStream::from(regrouped(&group, seen_from_view(group.stream(), system)))
             }
             other => TokenStream::from(other),
         })

@@ -7,7 +7,9 @@
 use nalgebra::SVector;
 
 use super::Methods;
+use super::random::Random;
 use super::scale::Scale;
+use super::shift::{along_the_motion, plus, shift};
 use super::tangent::{INNER, carried};
 use super::twin;
 use super::variation::Variation;
@@ -61,7 +63,7 @@ pub(super) struct Estimate<S, const N: usize> {
     /// What δ may be besides, at random: by rounding, by what δ itself may err by, and by steps that were
     /// not looked at. Where motions part it grows in directions in which δ may have no part.
     unsure: [State<S, N>; SAMPLES],
-    random: u64,
+    random: Random,
     /// The motion there, and its time.
     last: Option<(Variation<S, N>, f64)>,
     /// What rounding has made of the state, without growth.
@@ -89,7 +91,7 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
             is_coarse,
             error: none,
             unsure: [none; SAMPLES],
-            random: 0x2545_f491_4f6c_dd1d,
+            random: Random::new(0x2545_f491_4f6c_dd1d),
             last: None,
             rounding: 0.0,
             energy: None,
@@ -156,14 +158,7 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
 
     /// Makes δ less sure by so much of `of`, at random.
     fn err(&mut self, of: &State<S, N>, share: f64) {
-        let random = &mut self.random;
-        let mut next = || {
-            // Marsaglia's xorshift.
-            *random ^= *random << 13;
-            *random ^= *random >> 7;
-            *random ^= *random << 17;
-            S::constant(share * ((*random >> 11) as f64 / (1_u64 << 52) as f64 - 1.0))
-        };
+        let mut next = || S::constant(share * self.random.sign());
         for unsure in &mut self.unsure {
             unsure.q += of.q.map(|x| x * next());
             unsure.p += of.p.map(|x| x * next());
@@ -251,11 +246,12 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
                 self.err(&scale.of_size(made), 2.0);
             }
             let missing = now - variation.energy_of(&self.error);
-            self.error = plus(&self.error, &variation.of_energy(missing, scale));
+            self.error = plus(&self.error, &variation.of_energy(missing, scale), S::one());
         }
         if self.energy.is_some() {
-            let known =
-                |error: State<S, N>| plus(&error, &variation.of_energy(-variation.energy_of(&error), scale));
+            let known = |error: State<S, N>| {
+                plus(&error, &variation.of_energy(-variation.energy_of(&error), scale), S::one())
+            };
             self.unsure = self.unsure.map(known);
         }
         self.last = Some((variation, time));
@@ -323,11 +319,11 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
             errors[0] = self.error;
         } else if self.energy.is_some() {
             let kept = last.energy_of(&self.error);
-            errors[0] = plus(&errors[0], &to.of_energy(kept - to.energy_of(&errors[0]), scale));
+            errors[0] = plus(&errors[0], &to.of_energy(kept - to.energy_of(&errors[0]), scale), S::one());
         }
         [self.error, self.unsure[0], self.unsure[1]] = errors;
         let shift = if is_timed { S::zero() } else { shift(&self.error, &to.rate, scale) };
-        let across = plus(&self.error, &State { q: to.rate.q * -shift, p: to.rate.p * -shift });
+        let across = plus(&self.error, &to.rate, -shift);
         self.err(&across, UNSURE[1] * (angle / parts / ANGLE[1]).min(1.0));
         let growth = scale.norm(&self.error) / size;
         if growth.is_finite() {
@@ -353,10 +349,6 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
     }
 }
 
-fn plus<S: Scalar, const N: usize>(a: &State<S, N>, b: &State<S, N>) -> State<S, N> {
-    State { q: a.q + b.q, p: a.p + b.p }
-}
-
 /// What rounding makes of the state in some steps: of q and p by their own, and of p by the forces in the
 /// fastest mode.
 fn rounding<S: Scalar, const N: usize>(
@@ -372,29 +364,4 @@ fn rounding<S: Scalar, const N: usize>(
     let angle = at.fastest().widen() * time / since.steps.max(1.0);
     let of_force = S::EPSILON.widen() * state.q.amax().widen() * at.impedance() * angle * root(since.steps);
     State { q: each.q, p: each.p.add_scalar(S::constant(of_force)) }
-}
-
-/// What of an error is a shift in time; 0 at rest.
-fn shift<S: Scalar, const N: usize>(error: &State<S, N>, rate: &State<S, N>, scale: &Scale<S, N>) -> S {
-    let w = S::constant(scale.weight());
-    let length = rate.q.norm_squared() + rate.p.norm_squared() * w * w;
-    let shift = (error.q.dot(&rate.q) + error.p.dot(&rate.p) * w * w) / length;
-    if shift.is_finite() { shift } else { S::zero() }
-}
-
-/// What of errors is a shift in time stays one: f is carried to f exactly.
-fn along_the_motion<S: Scalar, const N: usize, const K: usize>(
-    errors: [State<S, N>; K],
-    from: &Variation<S, N>,
-    inner: Option<&[Variation<S, N>; 2]>,
-    to: &Variation<S, N>,
-    t: S,
-    scale: &Scale<S, N>,
-) -> [State<S, N>; K] {
-    let (f, g) = (&from.rate, &to.rate);
-    let shifts = errors.each_ref().map(|error| shift(error, f, scale));
-    let across: [State<S, N>; K] =
-        core::array::from_fn(|k| plus(&errors[k], &State { q: f.q * -shifts[k], p: f.p * -shifts[k] }));
-    let across = carried(across, from, inner, to, t);
-    core::array::from_fn(|k| plus(&across[k], &State { q: g.q * shifts[k], p: g.p * shifts[k] }))
 }

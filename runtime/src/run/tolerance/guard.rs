@@ -3,6 +3,7 @@
 use nalgebra::SVector;
 
 use super::estimate::{ANGLE, Estimate, Since};
+use super::random::Random;
 use super::scale::Scale;
 use super::unresolved::Unresolved;
 use super::{Breach, Choice, MethodStep, Methods};
@@ -99,7 +100,7 @@ where
     unresolved: Unresolved<L::Scalar, N>,
     /// The step after which the energy was asked for.
     energy: u64,
-    random: u64,
+    random: Random,
     breach: Option<Breach>,
     failed: bool,
 }
@@ -135,7 +136,7 @@ where
             stroke: 0.0,
             unresolved: Unresolved::new(),
             energy: 0,
-            random: 0x9e37_79b9_7f4a_7c15,
+            random: Random::new(0x9e37_79b9_7f4a_7c15),
             breach: None,
             failed: false,
         };
@@ -173,11 +174,7 @@ where
     /// The next look: at most [`STRIDE`] steps on, at no period.
     fn schedule_look(&mut self) {
         let stride = if self.choice.steps < FEW { 1 } else { STRIDE };
-        // Marsaglia's xorshift.
-        self.random ^= self.random << 13;
-        self.random ^= self.random >> 7;
-        self.random ^= self.random << 17;
-        let next = self.taken + 1 + (stride - 1) / 2 + self.random % stride;
+        let next = self.taken + 1 + (stride - 1) / 2 + self.random.draw() % stride;
         self.looks[1] = next.min(self.choice.steps);
     }
 

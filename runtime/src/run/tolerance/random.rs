@@ -1,0 +1,24 @@
+//! Marsaglia's xorshift (2003): where looks fall, and what an error may be besides.
+
+/// A sequence of numbers without a period that a motion could have.
+pub(super) struct Random(u64);
+
+impl Random {
+    /// From a seed that is not 0.
+    pub(super) const fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// The next one, of all 64 bits but 0.
+    pub(super) fn draw(&mut self) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0
+    }
+
+    /// The next one, between −1 and 1.
+    pub(super) fn sign(&mut self) -> f64 {
+        (self.draw() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}

@@ -1,0 +1,40 @@
+//! What of an error is a shift in time: the motion carries it exactly.
+
+use super::scale::Scale;
+use super::tangent::carried;
+use super::variation::Variation;
+use crate::numbers::Scalar;
+use crate::step::State;
+
+/// `a` and `share` times `b`.
+pub(super) fn plus<S: Scalar, const N: usize>(a: &State<S, N>, b: &State<S, N>, share: S) -> State<S, N> {
+    State { q: a.q + b.q * share, p: a.p + b.p * share }
+}
+
+/// What of an error is a shift in time; 0 at rest.
+pub(super) fn shift<S: Scalar, const N: usize>(
+    error: &State<S, N>,
+    rate: &State<S, N>,
+    scale: &Scale<S, N>,
+) -> S {
+    let w = S::constant(scale.weight());
+    let length = rate.q.norm_squared() + rate.p.norm_squared() * w * w;
+    let shift = (error.q.dot(&rate.q) + error.p.dot(&rate.p) * w * w) / length;
+    if shift.is_finite() { shift } else { S::zero() }
+}
+
+/// What of errors is a shift in time stays one: f is carried to f exactly.
+pub(super) fn along_the_motion<S: Scalar, const N: usize, const K: usize>(
+    errors: [State<S, N>; K],
+    from: &Variation<S, N>,
+    inner: Option<&[Variation<S, N>; 2]>,
+    to: &Variation<S, N>,
+    t: S,
+    scale: &Scale<S, N>,
+) -> [State<S, N>; K] {
+    let (f, g) = (&from.rate, &to.rate);
+    let shifts = errors.each_ref().map(|error| shift(error, f, scale));
+    let across: [State<S, N>; K] = core::array::from_fn(|k| plus(&errors[k], f, -shifts[k]));
+    let across = carried(across, from, inner, to, t);
+    core::array::from_fn(|k| plus(&across[k], g, shifts[k]))
+}
