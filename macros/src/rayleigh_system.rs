@@ -18,6 +18,8 @@ mod fallback;
 pub mod graph;
 pub mod hygiene;
 mod implement;
+mod imports;
+mod item;
 mod joint;
 pub mod lower;
 mod model;
@@ -35,25 +37,8 @@ use proc_macro2::TokenStream;
 use diagnostics::{Mistake, Report};
 use expand::Twins;
 use hygiene::Shared;
+pub use model::Runtime;
 use model::{Engine, Rules, Source};
-
-/// How the runtime beside the macro is built: the runtime exports the macro that fits.
-#[derive(Clone, Copy)]
-pub struct Runtime {
-    /// With the standard library, and num-dual.
-    pub has_std: bool,
-    /// With elementary functions of its own, not the standard library's.
-    pub is_portable: bool,
-}
-
-impl Runtime {
-    /// With the standard library and its functions.
-    pub const STD: Self = Self { has_std: true, is_portable: false };
-    /// With the standard library, but not its functions.
-    pub const PORTABLE: Self = Self { has_std: true, is_portable: true };
-    /// On `core` alone.
-    pub const CORE: Self = Self { has_std: false, is_portable: true };
-}
 
 /// The expansion of `#[rayleigh_system(attribute)] item`.
 pub fn rayleigh_system(runtime: Runtime, attribute: TokenStream, item: TokenStream) -> TokenStream {

@@ -7,9 +7,8 @@ use syn::parse::{Parse, ParseStream, Parser};
 use syn::punctuated::Punctuated;
 use syn::{Expr, Ident, Path, Token, bracketed, token};
 
-use super::Runtime;
 use super::diagnostics::{Mistake, Report};
-use super::model::{Engine, Rule, Rules};
+use super::model::{Engine, Rule, Rules, Runtime};
 
 /// One option, `name = value` or `name = [value, …]`.
 struct Setting {

@@ -7,7 +7,8 @@ use syn::{
 };
 
 use super::diagnostics::{Mistake, Report};
-use super::model::{Body, Degrees, Function, RayleighArguments, Rules, Source, System, Timed, simple_name};
+use super::model::{Body, Degrees, Function, RayleighArguments, Rules, Source, System, Timed};
+use super::syntax::simple_name;
 
 /// The system as far as its signatures tell, or nothing if not even N is known; every wrong one is reported.
 pub fn system<'a>(source: &'a Source, rules: Rules, report: &mut Report) -> Option<System<'a>> {

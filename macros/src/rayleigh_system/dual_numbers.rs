@@ -8,7 +8,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{quote, quote_spanned};
 
 use super::diagnostics::{Note, span_of};
-use super::expand::{conditions, lint_levels};
+use super::item::{conditions, lint_levels};
 use super::lower::Refusal;
 use super::model::System;
 

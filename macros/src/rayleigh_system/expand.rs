@@ -7,17 +7,19 @@ pub mod lowered;
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};
-use syn::{
-    AttrStyle, Attribute, FnArg, Ident, ImplItem, ImplItemFn, ItemImpl, Pat, Receiver, Type, parse_quote,
-};
+use syn::{FnArg, ImplItem, ImplItemFn, ItemImpl, Pat, Receiver, Type, parse_quote};
 
 use super::check::Field;
 use super::dual_numbers;
 use super::implement::{self, discrete, discrete_rayleigh};
+use super::imports::imported;
+use super::item;
+use super::item::{conditions, lints, parameters, quiet, structure};
 use super::lower::{Lowered, Refusal};
-use super::model::{Function, Part, RayleighArguments, Role, Rule, Source, System, simple_name};
+use super::model::{Function, Part, RayleighArguments, Source, System};
 use super::rewrite::{Twin, over};
 use super::structure::{Engine, Structure};
+use super::syntax::has_floats;
 use super::view;
 
 /// Where the functions over dual numbers come from.
@@ -43,7 +45,7 @@ pub fn system(
             (function_and_struct(system, function), twins_of_function(system, function, &twins[0]))
         }
         (Twins::Lowered(lowered), _) => {
-            (lowered::item(system, &lowered.functions, is_portable), lowered::twins(system, lowered))
+            (item::as_written(system, &lowered.functions, is_portable), lowered::twins(system, lowered))
         }
     };
     let imports = imports(system);
@@ -198,20 +200,6 @@ pub fn field(system: &System<'_>, twin: &Twin, function: &Function, kind: Field)
     }
 }
 
-/// No lint of style speaks of generated code, nor of the user's patterns a second time.
-pub fn quiet() -> TokenStream {
-    quote! {
-        #[allow(
-            clippy::all,
-            clippy::pedantic,
-            clippy::nursery,
-            nonstandard_style,
-            unused_variables,
-            unreachable_patterns
-        )]
-    }
-}
-
 /// The user's bodies over dual numbers: rustc checks them there, and there alone.
 fn quiet_twins() -> TokenStream {
     quote!(#[allow(clippy::pedantic, clippy::nursery)])
@@ -224,67 +212,6 @@ fn imports(system: &System<'_>) -> TokenStream {
         use ::dalembert::nalgebra::{SMatrix, SVector};
         use ::dalembert::generated::{#(#names,)* dual};
     }
-}
-
-/// The names of the runtime's traits and results among them.
-pub fn imported(system: &System<'_>) -> Vec<Ident> {
-    let mut names = vec!["Derivatives", "Direction", "Gradient", "Lagrangian", "Variations"];
-    let rules = &system.rules;
-    let is_forced = system.rayleigh.is_some() || system.has_force;
-    if system.rayleigh.is_some() {
-        names.push("Rayleigh");
-    }
-    if system.has_force {
-        names.push("Force");
-    }
-    if system.has_force || (rules.gauss && is_forced) {
-        names.push("CovectorDerivatives");
-    }
-    if rules.gauss {
-        names.push("ForcedLagrangian");
-    }
-    if !rules.of_displacement.is_empty() {
-        names.extend(["Discrete", "Momenta", "StepKernel"]);
-        if rules.of_displacement.iter().any(|rule| !rule.is_joint()) {
-            names.push("DisplacementRule");
-        }
-        if rules.of_displacement.iter().any(|rule| rule.is_joint()) {
-            names.push("JointRule");
-        }
-        let with_rayleigh = |rule: &Rule| match rule {
-            Rule::Fitted => system.degrees.literal() == Some(1),
-            rule => rule.is_joint(),
-        };
-        if rules.of_displacement.iter().any(with_rayleigh) {
-            names.push("JointRayleighRule");
-        }
-        if system.rayleigh.is_some() {
-            names.push("DiscreteRayleigh");
-        }
-        if is_forced {
-            names.extend(["DiscreteForce", "DiscreteForceDerivatives"]);
-        }
-    }
-    // What the runtime gives of every forced Lagrangian, Gauss rules need no name for.
-    let of_displacement = |name| (!rules.of_displacement.is_empty()).then_some(name);
-    if system.input.is_some() {
-        names.push("Driven");
-        names.extend(of_displacement("DiscreteDriven"));
-    }
-    if !system.parameters.is_empty() {
-        names.extend(["GradientBy", "Parameters"]);
-        names.extend(of_displacement("DiscreteParameters"));
-    }
-    if system.input.is_some() || !system.parameters.is_empty() {
-        names.extend(of_displacement("MomentaBy"));
-    }
-    if system.second {
-        names.extend(["Hessian", "SecondOrder"]);
-        names.extend(of_displacement("DiscreteSecondOrder"));
-    }
-    names.extend(rules.of_displacement.iter().map(|rule| rule.name()));
-    names.sort_unstable();
-    names.into_iter().map(|name| format_ident!("{name}")).collect()
 }
 
 /// The user's block, each differentiated function handing its work to the twin.
@@ -363,18 +290,6 @@ fn lifted_arguments<'p>(parameters: impl Iterator<Item = &'p mut FnArg>) -> Vec<
         .collect()
 }
 
-/// Whether a value of the type holds floating-point numbers; others are the same in both worlds.
-pub fn has_floats(ty: &Type) -> bool {
-    match ty {
-        Type::Array(array) => has_floats(&array.elem),
-        Type::Tuple(tuple) => tuple.elems.iter().any(has_floats),
-        Type::Reference(reference) => has_floats(&reference.elem),
-        Type::Paren(inner) => has_floats(&inner.elem),
-        Type::Group(inner) => has_floats(&inner.elem),
-        ty => simple_name(ty).is_some_and(|name| name == "f64" || name == "f32"),
-    }
-}
-
 /// Whether the function is L, R or f, and not a helper that they call.
 fn is_root(function: &ImplItemFn) -> bool {
     ["lagrangian", "rayleigh", "force"].iter().any(|root| function.sig.ident == root)
@@ -396,38 +311,6 @@ fn written(twin: &Twin, is_root: bool) -> TokenStream {
     }
 }
 
-/// Attributes that hold for a body wherever it stands.
-fn lints(attributes: &[Attribute]) -> impl Iterator<Item = Attribute> {
-    named(attributes, &["allow", "expect", "warn", "deny", "forbid", "cfg"])
-}
-
-/// Attributes of these names, as outer ones.
-fn named(attributes: &[Attribute], names: &[&str]) -> impl Iterator<Item = Attribute> {
-    let is_named = |attribute: &&Attribute| names.iter().any(|name| attribute.path().is_ident(name));
-    attributes
-        .iter()
-        .filter(is_named)
-        .map(|attribute| Attribute { style: AttrStyle::Outer, ..attribute.clone() })
-}
-
-/// What the user's item says of lints.
-pub fn lint_levels(source: &Source) -> Vec<Attribute> {
-    let attributes = match source {
-        Source::Block(block) => &block.item.attrs,
-        Source::Function(function) => &function.item.attrs,
-    };
-    named(attributes, &["allow", "warn", "deny", "forbid"]).collect()
-}
-
-/// The conditions under which the user's item exists at all.
-pub fn conditions(source: &Source) -> Vec<Attribute> {
-    let attributes = match source {
-        Source::Block(block) => &block.item.attrs,
-        Source::Function(function) => &function.item.attrs,
-    };
-    named(attributes, &["cfg"]).collect()
-}
-
 /// The user's function, callable as before, and the struct of its parameters.
 fn function_and_struct(system: &System<'_>, function: &Function) -> TokenStream {
     let name = &system.name;
@@ -445,31 +328,6 @@ fn function_and_struct(system: &System<'_>, function: &Function) -> TokenStream 
         #plain
 
         #structure
-    }
-}
-
-/// The struct of a free function's parameters.
-pub fn structure(system: &System<'_>, function: &Function) -> TokenStream {
-    let name = &system.name;
-    let visibility = function.visibility();
-    let function_name = &function.item.sig.ident;
-    let what = match function.role {
-        Role::System => "mechanical system",
-        Role::Field => "field",
-    };
-    let text = format!(" The {what} of [`{function_name}`], with its parameters.");
-    let fields = parameters(function).map(|(field, ty)| {
-        let text = format!(" Parameter `{field}` of [`{function_name}`].");
-        quote!(#[doc = #text] #visibility #field: #ty)
-    });
-    let body = if parameters(function).next().is_some() { quote!({ #(#fields),* }) } else { quote!(;) };
-    let conditions = conditions(system.source);
-    quote! {
-        #(#conditions)*
-        #[doc = #text]
-        #[derive(Clone, Copy, Debug, PartialEq)]
-        #[allow(dead_code)]
-        #visibility struct #name #body
     }
 }
 
@@ -505,15 +363,4 @@ fn twins_of_function(system: &System<'_>, function: &Function, twin: &Twin) -> T
             #rayleigh
         }
     }
-}
-
-/// Names and types of a free function's parameters after q and v.
-pub fn parameters(function: &Function) -> impl Iterator<Item = (&Ident, &Type)> {
-    function.item.sig.inputs.iter().skip(function.role.arguments()).filter_map(|parameter| match parameter {
-        FnArg::Typed(parameter) => match &*parameter.pat {
-            Pat::Ident(pattern) => Some((&pattern.ident, &*parameter.ty)),
-            _ => None,
-        },
-        FnArg::Receiver(_) => None,
-    })
 }

@@ -16,9 +16,11 @@ use syn::Ident;
 
 use super::differentiate::{Derivatives, Differentiation, Gradient};
 use super::emit::{StraightLine, straight_line};
-use super::expand;
 use super::graph::{Graph, MOST_OPERATIONS, Node, Operation};
 use super::implement::{self, Kernel};
+use super::imports::imported;
+use super::item;
+use super::item::are_bindings;
 use super::lower::{Length, Load, Lowered, Refusal};
 use super::model::{Home, Part, Rule, System};
 use super::structure::{self, Differentiated, Findings, Structure, Terms};
@@ -83,11 +85,11 @@ pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Resul
         system.rules.of_displacement.iter().map(|&rule| implement::discrete_rayleigh(system, rule)).collect()
     });
     let offered_methods = implement::offered_methods(system, is_explicit);
-    let item = expand::lowered::item(system, &functions, is_portable);
+    let item = item::as_written(system, &functions, is_portable);
     let bindings = are_bindings(&bindings);
     let view = view::definition(system);
     let imports = imports(system, code.calls_elementary, forced.as_ref());
-    let (conditions, quiet) = (expand::conditions(system.source), expand::quiet());
+    let (conditions, quiet) = (item::conditions(system.source), item::quiet());
     let (scalar, dimension) = (&system.scalar, system.degrees.times(1));
     Ok(quote! {
         #item
@@ -115,18 +117,6 @@ pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Resul
     })
 }
 
-/// Has rustc agree that names taken for bindings are none of constants: a constant has another type.
-pub fn are_bindings(names: &[Ident]) -> Option<TokenStream> {
-    (!names.is_empty()).then(|| {
-        quote! {
-            const _: fn() = || {
-                struct Binding;
-                #(let #names = Binding;)*
-            };
-        }
-    })
-}
-
 /// Whether a rule listed asks for derivatives of L along its directions: the kernels of the others have them
 /// folded in.
 fn has_variations(system: &System<'_>) -> bool {
@@ -141,7 +131,7 @@ fn delegates(system: &System<'_>) -> bool {
 
 /// What the expansion uses.
 fn imports(system: &System<'_>, calls_elementary: bool, forced: Option<&TokenStream>) -> TokenStream {
-    let mut names = expand::imported(system);
+    let mut names = imported(system);
     if !has_variations(system) && !delegates(system) {
         names.retain(|name| name != "Direction" && name != "Variations");
     }

@@ -7,8 +7,9 @@ use quote::{format_ident, quote};
 use syn::{FnArg, ImplItem, ImplItemFn, ReturnType, Signature, Type, parse_quote};
 
 use super::diagnostics::Report;
-use super::expand::parameters;
-use super::model::{Degrees, Role, Rule, Rules, Source, simple_name};
+use super::item::parameters;
+use super::model::{Degrees, Role, Rule, Rules, Source};
+use super::syntax::simple_name;
 
 /// The item as it came, beside the diagnostics.
 pub fn item_alone(item: TokenStream, report: Report) -> TokenStream {

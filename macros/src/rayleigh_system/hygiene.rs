@@ -14,7 +14,6 @@ use std::collections::HashSet;
 use proc_macro2::{Ident, Literal, TokenStream, TokenTree};
 use quote::quote;
 
-use super::parse::upper_camel_case;
 use super::syntax::regrouped;
 
 /// What a marked name ends in: nothing that says whether it is a type or a constant, and no name of Rust
@@ -208,4 +207,21 @@ fn unmarked(literal: &Literal) -> TokenTree {
     let mut own = own.unwrap_or_else(|| literal.clone());
     own.set_span(literal.span());
     TokenTree::Literal(own)
+}
+
+/// `damped_oscillator` → `DampedOscillator`.
+pub fn upper_camel_case(name: &Ident) -> Ident {
+    let camel: String = name
+        .to_string()
+        .trim_start_matches("r#")
+        .trim_end_matches(MARK)
+        .split('_')
+        .filter_map(|word| {
+            let mut letters = word.chars();
+            letters.next().map(|first| first.to_uppercase().chain(letters).collect::<String>())
+        })
+        .collect();
+    // A name without a leading letter makes no type name.
+    let camel = if camel.starts_with(char::is_alphabetic) { camel } else { format!("System{camel}") };
+    Ident::new(&camel, name.span())
 }

@@ -4,7 +4,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 
-use super::expand::parameters;
+use super::item::parameters;
 use super::model::{Home, Part, RayleighArguments, Rule, Source, System};
 use super::structure::{Engine, Structure};
 use super::view::{self, arguments, owner, subject};

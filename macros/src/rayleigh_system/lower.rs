@@ -31,6 +31,7 @@ use syn::{
 use super::diagnostics::{Mistake, Report, span_of};
 use super::graph::{Graph, Node, Operation};
 use super::model::{Part, RayleighArguments, Source, System};
+use super::syntax::simple_name;
 use integer::{Classes, IntegerType};
 pub use load::{Length, Load};
 use value::{Chosen, Closure, Truth, Value};
@@ -178,7 +179,7 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
             (lagrangian, rayleigh, force)
         }
         Source::Function(function) => {
-            let fields = super::expand::parameters(function)
+            let fields = super::item::parameters(function)
                 .map(|(name, _)| Value::Written(Written::leaf(quote!(self.#name))));
             let arguments = [q, v].into_iter().chain(fields).collect();
             let signature = &function.item.sig;
@@ -724,8 +725,7 @@ impl Lowering<'_> {
 
 /// Whether a floating-point number of the body can have this type.
 fn is_of_scalar(ty: &Type, scalar: &Ident) -> bool {
-    matches!(ty, Type::Infer(_) | Type::ImplTrait(_))
-        || super::model::simple_name(ty).is_some_and(|name| name == scalar)
+    matches!(ty, Type::Infer(_) | Type::ImplTrait(_)) || simple_name(ty).is_some_and(|name| name == scalar)
 }
 
 /// What surrounds a body that is called.

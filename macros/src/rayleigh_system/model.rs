@@ -2,7 +2,9 @@
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
-use syn::{Expr, ExprLit, Ident, ImplItem, ImplItemFn, ItemFn, Lit, Type, Visibility};
+use syn::{Expr, ExprLit, Ident, ImplItem, ImplItemFn, ItemFn, Lit, Visibility};
+
+use super::syntax::{is_integer, with_self_named};
 
 /// The rules of discretisation that the attribute lists.
 #[derive(Clone, Default)]
@@ -161,7 +163,7 @@ impl Degrees {
         if let Some(product) = self.literal().and_then(|n| n.checked_mul(factor)) {
             return Literal::usize_unsuffixed(product).into_token_stream();
         }
-        let length = super::rewrite::with_self_named(&self.length, &self.system);
+        let length = with_self_named(&self.length, &self.system);
         match (factor, &self.length) {
             (1, Expr::Path(_) | Expr::Block(_) | Expr::Lit(_)) => quote!({ #length }),
             // At the start of a block, `if a { b } else { c } + d` would end at its brace.
@@ -333,19 +335,20 @@ impl Function {
     }
 }
 
-/// Whether the type is a primitive integer.
-pub fn is_integer(ty: &Type) -> bool {
-    const INTEGERS: [&str; 12] =
-        ["i8", "i16", "i32", "i64", "i128", "isize", "u8", "u16", "u32", "u64", "u128", "usize"];
-    simple_name(ty).is_some_and(|name| INTEGERS.iter().any(|integer| name == integer))
+/// How the runtime beside the macro is built: the runtime exports the macro that fits.
+#[derive(Clone, Copy)]
+pub struct Runtime {
+    /// With the standard library, and num-dual.
+    pub has_std: bool,
+    /// With elementary functions of its own, not the standard library's.
+    pub is_portable: bool,
 }
 
-/// The name of a type that is one plain identifier.
-pub fn simple_name(ty: &Type) -> Option<&Ident> {
-    match ty {
-        Type::Path(path) if path.qself.is_none() => path.path.get_ident(),
-        Type::Group(group) => simple_name(&group.elem),
-        Type::Paren(paren) => simple_name(&paren.elem),
-        _ => None,
-    }
+impl Runtime {
+    /// With the standard library and its functions.
+    pub const STD: Self = Self { has_std: true, is_portable: false };
+    /// With the standard library, but not its functions.
+    pub const PORTABLE: Self = Self { has_std: true, is_portable: true };
+    /// On `core` alone.
+    pub const CORE: Self = Self { has_std: false, is_portable: true };
 }

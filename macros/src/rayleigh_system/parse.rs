@@ -1,11 +1,12 @@
 //! From tokens to the annotated item.
 
 use proc_macro2::TokenStream;
-use syn::{Ident, Item, ItemFn, ItemImpl};
+use syn::{Item, ItemFn, ItemImpl};
 
 use super::diagnostics::{Mistake, Report};
 use super::hygiene;
-use super::model::{Block, Function, Role, Source, simple_name};
+use super::model::{Block, Function, Role, Source};
+use super::syntax::simple_name;
 
 /// The annotated block or function, or nothing if it is neither.
 pub fn source(item: TokenStream, report: &mut Report) -> Option<Source> {
@@ -55,23 +56,6 @@ pub fn field(item: TokenStream, report: &mut Report) -> Option<Source> {
 }
 
 fn function(item: ItemFn, role: Role) -> Function {
-    let name = hygiene::marked(upper_camel_case(&item.sig.ident));
+    let name = hygiene::marked(hygiene::upper_camel_case(&item.sig.ident));
     Function { item, name, role }
-}
-
-/// `damped_oscillator` → `DampedOscillator`.
-pub fn upper_camel_case(name: &Ident) -> Ident {
-    let camel: String = name
-        .to_string()
-        .trim_start_matches("r#")
-        .trim_end_matches(hygiene::MARK)
-        .split('_')
-        .filter_map(|word| {
-            let mut letters = word.chars();
-            letters.next().map(|first| first.to_uppercase().chain(letters).collect::<String>())
-        })
-        .collect();
-    // A name without a leading letter makes no type name.
-    let camel = if camel.starts_with(char::is_alphabetic) { camel } else { format!("System{camel}") };
-    Ident::new(&camel, name.span())
 }

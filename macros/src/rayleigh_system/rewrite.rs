@@ -29,8 +29,7 @@ use syn::{
 
 use super::check::qualifiers;
 use super::diagnostics::{Mistake, Report, span_of};
-use super::expand::has_floats;
-use super::model::{Body, Source, System, is_integer, simple_name};
+use super::model::{Body, Source, System};
 use super::scope::bound_names;
 use super::syntax::Matches;
 use super::syntax::{
@@ -38,6 +37,7 @@ use super::syntax::{
     is_generic_of_std, is_of_other_float, is_place_of_self, is_plain, is_self, is_variant, real_type,
     takes_function,
 };
+use super::syntax::{has_floats, is_integer, simple_name};
 
 /// A function and what it becomes over `Real<D>`.
 pub struct Twin {
@@ -83,21 +83,6 @@ pub fn over_duals(system: &System<'_>, report: &mut Report) -> Vec<Twin> {
 /// The name of the differentiated twin.
 pub fn over(name: &Ident) -> Ident {
     format_ident!("{name}_over", span = name.span())
-}
-
-/// `Self` replaced by the name of the system: impl headers do not know it.
-pub fn with_self_named(length: &Expr, system: &Ident) -> Expr {
-    struct Named<'n>(&'n Ident);
-    impl VisitMut for Named<'_> {
-        fn visit_ident_mut(&mut self, ident: &mut Ident) {
-            if ident == "Self" {
-                *ident = Ident::new(&self.0.to_string(), ident.span());
-            }
-        }
-    }
-    let mut length = length.clone();
-    Named(system).visit_expr_mut(&mut length);
-    length
 }
 
 struct Rewritten {

@@ -3,11 +3,10 @@
 
 use proc_macro2::{Group, Span, TokenStream, TokenTree};
 use syn::parse::{Parse, ParseStream};
+use syn::visit_mut::VisitMut;
 use syn::{
     BinOp, Expr, ExprLit, Ident, Lit, Pat, Path, PathArguments, Token, Type, UnOp, parse_quote_spanned,
 };
-
-use super::model::is_integer;
 
 /// Parentheses that a function's argument does not need, and that would warn there.
 pub fn without_parentheses(expression: &Expr) -> &Expr {
@@ -250,4 +249,48 @@ pub fn regrouped(group: &Group, tokens: TokenStream) -> TokenTree {
     let mut own = Group::new(group.delimiter(), tokens);
     own.set_span(group.span());
     TokenTree::Group(own)
+}
+
+/// The name of a type that is one plain identifier.
+pub fn simple_name(ty: &Type) -> Option<&Ident> {
+    match ty {
+        Type::Path(path) if path.qself.is_none() => path.path.get_ident(),
+        Type::Group(group) => simple_name(&group.elem),
+        Type::Paren(paren) => simple_name(&paren.elem),
+        _ => None,
+    }
+}
+
+/// Whether the type is a primitive integer.
+pub fn is_integer(ty: &Type) -> bool {
+    const INTEGERS: [&str; 12] =
+        ["i8", "i16", "i32", "i64", "i128", "isize", "u8", "u16", "u32", "u64", "u128", "usize"];
+    simple_name(ty).is_some_and(|name| INTEGERS.iter().any(|integer| name == integer))
+}
+
+/// Whether a value of the type holds floating-point numbers; others are the same in both worlds.
+pub fn has_floats(ty: &Type) -> bool {
+    match ty {
+        Type::Array(array) => has_floats(&array.elem),
+        Type::Tuple(tuple) => tuple.elems.iter().any(has_floats),
+        Type::Reference(reference) => has_floats(&reference.elem),
+        Type::Paren(inner) => has_floats(&inner.elem),
+        Type::Group(inner) => has_floats(&inner.elem),
+        ty => simple_name(ty).is_some_and(|name| name == "f64" || name == "f32"),
+    }
+}
+
+/// `Self` replaced by the name of the system: impl headers do not know it.
+pub fn with_self_named(length: &Expr, system: &Ident) -> Expr {
+    struct Named<'n>(&'n Ident);
+    impl VisitMut for Named<'_> {
+        fn visit_ident_mut(&mut self, ident: &mut Ident) {
+            if ident == "Self" {
+                *ident = Ident::new(&self.0.to_string(), ident.span());
+            }
+        }
+    }
+    let mut length = length.clone();
+    Named(system).visit_expr_mut(&mut length);
+    length
 }

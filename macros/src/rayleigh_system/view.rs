@@ -5,7 +5,7 @@
 use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 
-use super::expand::conditions;
+use super::item::conditions;
 use super::model::{Home, Part, System};
 use super::syntax::regrouped;
 

@@ -1,5 +1,5 @@
 //! The runtime's floors: a module uses those below its own, none above; on one floor no modules use each
-//! other in a circle.
+//! other in a circle. Nor do files of the macros.
 //!
 //! `cargo test -p dalembert-tests --test project floors -- --nocapture` prints who uses whom.
 
@@ -11,27 +11,41 @@ use std::path::Path;
 use proc_macro2::{TokenStream, TokenTree};
 use syn::visit::{self, Visit};
 
-/// From the lowest up. What stands side by side does not use each other.
-const LEVELS: [&[&str]; 6] =
-    [&["numbers"], &["system"], &["step"], &["rules"], &["run", "derivative"], &["theory"]];
+/// A crate: how its files name its root, and its floors from the lowest up. What stands side by side does not
+/// use each other.
+struct Crate {
+    root: &'static [&'static str],
+    levels: &'static [&'static [&'static str]],
+}
+
+const RUNTIME: Crate = Crate {
+    root: &["crate", "dalembert"],
+    levels: &[&["numbers"], &["system"], &["step"], &["rules"], &["run", "derivative"], &["theory"]],
+};
+
+/// One floor: what is held is that its modules use each other in no circle.
+const MACROS: Crate = Crate { root: &["crate"], levels: &[&["rayleigh_system"]] };
+
+impl Crate {
+    fn level(&self, floor: &str) -> Option<usize> {
+        self.levels.iter().position(|floors| floors.contains(&floor))
+    }
+}
 
 /// A path that a file names: segments from the crate's root.
 type Segments = Vec<String>;
-
-fn level(floor: &str) -> Option<usize> {
-    LEVELS.iter().position(|floors| floors.contains(&floor))
-}
 
 /// Every path of a file that begins at `crate` or `super`, but for those of its tests.
 struct Paths {
     /// The module that is looked at, from the crate's root.
     module: Segments,
+    of: &'static Crate,
     found: Vec<Segments>,
 }
 
 impl Paths {
-    fn of(module: Segments, text: &str) -> Vec<Segments> {
-        let mut paths = Self { module, found: Vec::new() };
+    fn of(of: &'static Crate, module: Segments, text: &str) -> Vec<Segments> {
+        let mut paths = Self { module, of, found: Vec::new() };
         paths.visit_file(&syn::parse_file(text).expect("a source file"));
         paths.found
     }
@@ -39,7 +53,7 @@ impl Paths {
     /// The path as written; one that begins elsewhere, or ends at once, names nothing here.
     fn add(&mut self, written: &[String]) {
         let from_root = match written.first().map(String::as_str) {
-            Some("crate" | "dalembert") => written[1..].to_vec(),
+            Some(first) if self.of.root.contains(&first) => written[1..].to_vec(),
             Some("super") => {
                 let up = written.iter().take_while(|segment| *segment == "super").count();
                 let Some(depth) = self.module.len().checked_sub(up) else { return };
@@ -76,7 +90,8 @@ impl Paths {
                     }
                     written.push(ident.to_string());
                     let names: Segments = written.iter().filter(|part| *part != "::").cloned().collect();
-                    let root = names.len() == 2 && (names[0] == "super" || level(&names[1]).is_none());
+                    let root =
+                        names.len() == 2 && (names[0] == "super" || self.of.level(&names[1]).is_none());
                     if names.len() == 3 || root {
                         self.add(&names);
                     }
@@ -128,8 +143,8 @@ impl<'ast> Visit<'ast> for Paths {
 }
 
 /// Who uses whom.
-#[derive(Default)]
 struct Plan {
+    of: &'static Crate,
     /// For each module, as (floor, module): the modules of its floor that it uses, each with the file and
     /// path that say so.
     within: BTreeMap<(String, String), BTreeMap<String, String>>,
@@ -140,8 +155,8 @@ struct Plan {
 
 impl Plan {
     /// Of files given as their paths, `floor/module.rs` and below, and their texts.
-    fn of(files: &[(String, String)]) -> Self {
-        let mut plan = Self::default();
+    fn of(of: &'static Crate, files: &[(String, String)]) -> Self {
+        let mut plan = Self { of, within: BTreeMap::new(), between: BTreeMap::new(), refused: Vec::new() };
         let module_of =
             |path: &str| -> Segments { path.trim_end_matches(".rs").split('/').map(str::to_owned).collect() };
         // What a floor shows of its modules: name by name, as `pub use state::State` in its file.
@@ -156,7 +171,7 @@ impl Plan {
                         shown.insert((floor.clone(), module.clone()), module);
                     }
                     syn::Item::Use(item) => {
-                        let mut paths = Paths { module: Vec::new(), found: Vec::new() };
+                        let mut paths = Paths { module: Vec::new(), of, found: Vec::new() };
                         paths.add_tree(&["crate".into()], &item.tree);
                         for path in paths.found {
                             // What it shows of floors below is no module of its own.
@@ -174,14 +189,14 @@ impl Plan {
         for (path, text) in files {
             let module = module_of(path);
             let from = &module[0];
-            let Some(own) = level(from) else {
+            let Some(own) = of.level(from) else {
                 plan.refused.push(format!("{path}: stands on no floor"));
                 continue;
             };
-            for used in Paths::of(module.clone(), text) {
+            for used in Paths::of(of, module.clone(), text) {
                 let said = format!("{path}: crate::{}", used.join("::"));
                 let to = &used[0];
-                match level(to) {
+                match of.level(to) {
                     None => plan.refused.push(format!("{said} goes through the root: name the floor")),
                     Some(_) if to == from => plan.use_within(from, module.get(1), &used, &shown, said),
                     Some(other) if other < own => {
@@ -263,7 +278,7 @@ impl Plan {
     /// The floors, from the highest down.
     fn drawn(&self) -> String {
         let mut drawn = String::new();
-        for floor in LEVELS.iter().rev().copied().flatten().copied() {
+        for floor in self.of.levels.iter().rev().copied().flatten().copied() {
             writeln!(drawn, "{floor}").unwrap();
             for (_, (module, uses)) in
                 self.within.iter().map(|(key, uses)| (&key.0, (&key.1, uses))).filter(|(of, _)| *of == floor)
@@ -301,7 +316,7 @@ fn floors_use_what_is_below_them() {
     // The root itself shows what the floors have, to users and to generated code.
     files.retain(|(path, _)| path != "lib.rs" && path != "generated.rs");
     files.sort();
-    let plan = Plan::of(&files);
+    let plan = Plan::of(&RUNTIME, &files);
     println!("{}", plan.drawn());
     assert!(plan.refused.is_empty(), "{:#?}", plan.refused);
     // Not for want of looking.
@@ -309,10 +324,24 @@ fn floors_use_what_is_below_them() {
     assert!(plan.within[&("step".into(), "legendre".into())].contains_key("newton"));
 }
 
+#[test]
+fn files_of_the_macros_use_each_other_in_no_circle() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../macros/src");
+    let mut files = Vec::new();
+    read(&root, &root, &mut files);
+    files.retain(|(path, _)| path.starts_with("rayleigh_system"));
+    files.sort();
+    let plan = Plan::of(&MACROS, &files);
+    println!("{}", plan.drawn());
+    assert!(plan.refused.is_empty(), "{:#?}", plan.refused);
+    // Not for want of looking.
+    assert!(plan.within[&("rayleigh_system".into(), "lower".into())].contains_key("graph"));
+}
+
 /// What is refused of a tree of files.
 fn refused(files: &[(&str, &str)]) -> Vec<String> {
-    Plan::of(&files.iter().map(|&(path, text)| (path.to_owned(), text.to_owned())).collect::<Vec<_>>())
-        .refused
+    let files: Vec<_> = files.iter().map(|&(path, text)| (path.to_owned(), text.to_owned())).collect();
+    Plan::of(&RUNTIME, &files).refused
 }
 
 #[test]

@@ -2,34 +2,18 @@
 //! options and other values that no dual number stands for. The user's item stands as written.
 
 use proc_macro2::TokenStream;
-use quote::{ToTokens, format_ident, quote};
-use syn::Ident;
+use quote::{format_ident, quote};
 
 use super::super::emit::over_duals;
-use super::super::expanded::are_bindings;
 use super::super::graph::Node;
+use super::super::item::are_bindings;
 use super::super::lower::Lowered;
-use super::super::model::{Part, RayleighArguments, Source, System};
-use super::super::portable;
-use super::structure;
+use super::super::model::{Part, RayleighArguments, System};
 
 /// Whether the user's block has functions named as those over dual numbers.
 pub fn names_are_taken(system: &System<'_>) -> bool {
     let generated = ["lagrangian_over", "rayleigh_over", "force_over"];
     system.source.functions().any(|function| generated.iter().any(|name| function.sig.ident == name))
-}
-
-/// The user's item, with the struct of a free function.
-pub fn item(system: &System<'_>, functions: &[Ident], is_portable: bool) -> TokenStream {
-    match system.source {
-        Source::Block(block) if is_portable => portable::block(&block.item, functions).to_token_stream(),
-        Source::Block(block) => block.item.to_token_stream(),
-        Source::Function(function) => {
-            let structure = structure(system, function);
-            let item = if is_portable { &portable::function(&function.item) } else { &function.item };
-            quote!(#item #structure)
-        }
-    }
 }
 
 /// L, R and f over `Real<D>`.

@@ -10,7 +10,7 @@ use quote::ToTokens;
 use syn::{BinOp, Type};
 
 use super::super::diagnostics::span_of;
-use super::super::model::simple_name;
+use super::super::syntax::simple_name;
 use super::value::{Truth, Value};
 use super::{Lowering, Refusal, Result, one_line, refuse};
 

@@ -8,8 +8,8 @@ use syn::{
 };
 
 use super::super::graph::{Comparison, Operation};
-use super::super::model::simple_name;
 use super::super::syntax::is_plain;
+use super::super::syntax::simple_name;
 use super::integer::{Integer, IntegerType};
 use super::place::may_assign;
 use super::value::{Truth, Value};

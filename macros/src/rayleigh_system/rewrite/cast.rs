@@ -3,8 +3,8 @@
 use syn::{BinOp, Expr, ExprCast, UnOp, parse_quote_spanned, visit_mut};
 
 use super::super::diagnostics::{Mistake, span_of};
-use super::super::model::{is_integer, simple_name};
 use super::super::syntax::{is_arithmetic, is_constant_name, is_self, without_parentheses};
+use super::super::syntax::{is_integer, simple_name};
 use super::Rewriter;
 
 impl Rewriter<'_> {
