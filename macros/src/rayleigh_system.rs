@@ -53,7 +53,7 @@ pub fn rayleigh_system(runtime: Runtime, attribute: TokenStream, item: TokenStre
     }
 }
 
-/// The same with the options read.
+/// The expansion of a system whose options are read.
 fn system(
     runtime: Runtime,
     options: attribute::Options,
@@ -166,7 +166,7 @@ pub fn differentiable(runtime: Runtime, attribute: TokenStream, item: TokenStrea
     }
 }
 
-/// The same with the attribute read.
+/// The expansion of a field whose attribute is read.
 fn field(runtime: Runtime, item: TokenStream, mut report: Report) -> TokenStream {
     let Some(source) = parse::field(item.clone(), &mut report) else {
         return fallback::item_alone(item, report);

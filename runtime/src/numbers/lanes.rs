@@ -29,7 +29,7 @@ pub struct Mask<const S: usize>(pub [bool; S]);
 pub type LaneVector<T, const N: usize, const S: usize> = [Lanes<T, S>; N];
 
 impl<T: Scalar, const S: usize> Lanes<T, S> {
-    /// The same number in every lane.
+    /// One number in every lane.
     #[inline(always)]
     #[must_use]
     pub fn splat(value: T) -> Self {
@@ -165,7 +165,7 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
 }
 
 impl<const S: usize> Mask<S> {
-    /// The same truth value in every lane.
+    /// One truth value in every lane.
     #[inline(always)]
     #[must_use]
     pub fn splat(value: bool) -> Self {
@@ -229,7 +229,7 @@ pub(crate) fn write_lane<T: Scalar, const N: usize, const S: usize>(
     }
 }
 
-/// The same vector in every lane.
+/// One vector in every lane.
 #[inline(always)]
 pub(crate) fn splat<T: Scalar, const N: usize, const S: usize>(
     vector: &SVector<T, N>,

@@ -23,7 +23,7 @@ pub trait Scalar: RealField + Copy + Functions + Vectors + sealed::Sealed {
     /// The nearest scalar to an `f64` constant.
     fn constant(value: f64) -> Self;
 
-    /// The same number in `f64`, exact for both types.
+    /// This number in `f64`, exact for both types.
     fn widen(self) -> f64;
 }
 

@@ -88,7 +88,7 @@ where
         self.h
     }
 
-    /// The same system by the same rule with step size `h`.
+    /// This system by this rule with step size `h`.
     #[must_use]
     pub fn with_step(self, h: L::Scalar) -> Self {
         Self { h, ..self }

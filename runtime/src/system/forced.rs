@@ -74,7 +74,7 @@ pub trait ForcedLagrangian<const N: usize>: Lagrangian<N> {
         one_by_one(self, &Lanes::splat(nalgebra::zero()), q, v, momenta)
     }
 
-    /// The same with every stage at its own time, `elapsed` from now.
+    /// Evaluates the stages with each at its own time, `elapsed` from now.
     #[inline(always)]
     fn stages_in_time<const S: usize>(
         &self,

@@ -129,43 +129,43 @@ impl Structure {
         self.newton_matrices.iter().find(|matrix| matrix.rule == rule)
     }
 
-    /// The same, with derivatives by `engine`.
+    /// This structure, with derivatives by `engine`.
     #[must_use]
     pub const fn with_engine(self, engine: Engine) -> Self {
         Self { engine, ..self }
     }
 
-    /// The same, ∂²L/∂v² being constant.
+    /// This structure, of a system whose ∂²L/∂v² is constant.
     #[must_use]
     pub const fn with_constant_mass_matrix(self) -> Self {
         Self { constant_mass_matrix: true, ..self }
     }
 
-    /// The same, L being of degree 2.
+    /// This structure, of a system whose L is of degree 2.
     #[must_use]
     pub const fn with_quadratic_lagrangian(self) -> Self {
         Self { quadratic_lagrangian: true, ..self }
     }
 
-    /// The same, L being T(v) − V(q).
+    /// This structure, of a system whose L is T(v) − V(q).
     #[must_use]
     pub const fn with_separable_lagrangian(self) -> Self {
         Self { separable_lagrangian: true, ..self }
     }
 
-    /// The same, with the force of R of this kind.
+    /// This structure, with a force of R of this kind.
     #[must_use]
     pub const fn with_damping(self, damping: Damping) -> Self {
         Self { damping, ..self }
     }
 
-    /// The same, with these coordinates absent from L.
+    /// This structure, of a system whose L holds none of these coordinates.
     #[must_use]
     pub const fn with_cyclic(self, cyclic: &'static [CyclicCoordinate]) -> Self {
         Self { cyclic, ..self }
     }
 
-    /// The same, with these Newton matrices.
+    /// This structure, with these Newton matrices.
     #[must_use]
     pub const fn with_newton_matrices(self, newton_matrices: &'static [NewtonStructure]) -> Self {
         Self { newton_matrices, ..self }

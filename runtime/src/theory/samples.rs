@@ -46,7 +46,7 @@ impl<S: Scalar, const N: usize> Segment<S, N> {
         is_felt(&(self.q1 - self.q0))
     }
 
-    /// The same segment in `f64`.
+    /// This segment in `f64`.
     #[must_use]
     pub fn widen(&self) -> Segment<f64, N> {
         Segment { q0: self.q0.map(Scalar::widen), q1: self.q1.map(Scalar::widen) }
@@ -89,7 +89,7 @@ pub(crate) fn coordinates<S: fmt::Display, const N: usize>(
 /// `count` points spread evenly over the box from `low` to `high`: the additive sequence with the ratios g⁻¹,
 /// g⁻², …, g the positive root of x^{N+1} = x + 1 (the generalised golden ratio; Roberts, 2018).
 ///
-/// The same points each time: a verdict can be repeated.
+/// They are the same points each time, so that a verdict can be repeated.
 #[must_use]
 pub fn region<S: Scalar, const N: usize>(
     low: impl Into<SVector<S, N>>,

@@ -27,7 +27,7 @@ pub struct Charge {
 impl Charge {
     /// Parameters without accidental coincidences.
     pub const EXAMPLE: Self = Self { m: [1.4, 0.8, 2.2], b: 0.7, r: 0.15, kappa: 0.35, c: 0.25 };
-    /// The same without friction and force.
+    /// The example without friction and force.
     pub const FREE: Self = Self { r: 0.0, kappa: 0.0, c: 0.0, ..Self::EXAMPLE };
 }
 

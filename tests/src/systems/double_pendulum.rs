@@ -25,7 +25,7 @@ pub struct DoublePendulum {
 impl DoublePendulum {
     /// Parameters without accidental coincidences.
     pub const EXAMPLE: Self = Self { m: [1.3, 0.6], l: [0.9, 1.1], g: 2.3, r: [0.25, 0.15] };
-    /// The same without friction.
+    /// The example without friction.
     pub const FREE: Self = Self { r: [0.0, 0.0], ..Self::EXAMPLE };
 }
 

@@ -200,10 +200,9 @@ pub(super) fn in_units<T: Scalar, const N: usize, const S: usize>(
     if sum.is_finite() { largest.folded(|a, b| if a > b { a } else { b }) } else { sum }
 }
 
-/// What rounding does to the residuals at the stages: their changes when each coordinate of Q moves by the
-/// last place of its terms, and of V by its own, added up; measured over [`PLACES`] of them, since functions
-/// on the way may swallow one. Near an equilibrium, where large forces cancel, this is more than
-/// [`Problem::floor`] knows of.
+/// The rounding of the residuals at the stages, measured: each coordinate of Q is moved by [`PLACES`] last
+/// places of its terms, each of V by as many of its own, and the changes are added up. One place may vanish
+/// inside a function. Near an equilibrium, where large forces cancel, the sum exceeds [`Problem::floor`].
 #[cold]
 #[inline(never)]
 pub(super) fn rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(

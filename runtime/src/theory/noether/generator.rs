@@ -81,7 +81,7 @@ impl<S: Scalar, const N: usize> Generator<S, N> {
         generator
     }
 
-    /// The same generator under another name.
+    /// This generator under another name.
     #[must_use]
     pub fn named(mut self, name: impl Into<String>) -> Self {
         self.name = name.into();
