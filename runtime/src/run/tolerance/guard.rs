@@ -282,11 +282,16 @@ where
     fn is_struck(&mut self) -> bool {
         let Choice { system, methods, step_size, tolerance, evaluations_per_step, .. } = self.choice;
         let is_seldom =
-            self.choice.steps >= FEW && 2.0 > SHARE * evaluations_per_step * (1 + self.taken % 8) as f64;
+            self.choice.steps >= FEW && 4.0 > SHARE * evaluations_per_step * (1 + self.taken % 8) as f64;
         if !self.estimate.is_timed() || is_seldom {
             return false;
         }
-        let change = self.estimate.change_of_force(system, methods, self.time() - 0.5 * step_size);
+        // In the middle of the step, and where it ends: what strikes there is shared by two steps.
+        let change = [0.5, 0.0].map(|share| {
+            let time = self.time() - share * step_size;
+            self.estimate.change_of_force(system, methods, time)
+        });
+        let change = change[0].max(change[1]);
         let is_more = change > ROUGHER * self.stroke;
         self.stroke = self.stroke.max(change);
         is_more && change * step_size * self.scale.weight() > STROKE * tolerance
