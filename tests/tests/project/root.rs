@@ -47,20 +47,21 @@ fn leaves(tree: &UseTree, names: &mut BTreeSet<String>) {
     }
 }
 
-/// The words of all files under `directory` that are code, pages or messages, but for those under `without`.
-fn words(directory: &Path, without: &[&str], words: &mut BTreeSet<String>) {
-    for entry in fs::read_dir(directory).unwrap() {
-        let path = entry.unwrap().path();
-        if without.iter().any(|without| path.ends_with(without)) {
-            continue;
+/// The words of `path`, or of all files under it that are code, pages or messages, but for those under `without`.
+fn words(path: &Path, without: &[&str], words: &mut BTreeSet<String>) {
+    if without.iter().any(|without| path.ends_with(without)) {
+        return;
+    }
+    if path.is_dir() {
+        for entry in fs::read_dir(path).unwrap() {
+            self::words(&entry.unwrap().path(), without, words);
         }
-        let extension = path.extension().and_then(|extension| extension.to_str());
-        if path.is_dir() {
-            self::words(&path, without, words);
-        } else if matches!(extension, Some("rs" | "md" | "stderr")) {
-            let text = fs::read_to_string(&path).unwrap();
-            words.extend(text.split(|c: char| !c.is_alphanumeric() && c != '_').map(str::to_owned));
-        }
+    } else if matches!(
+        path.extension().and_then(|extension| extension.to_str()),
+        Some("rs" | "md" | "stderr")
+    ) {
+        let text = fs::read_to_string(path).unwrap();
+        words.extend(text.split(|c: char| !c.is_alphanumeric() && c != '_').map(str::to_owned));
     }
 }
 
@@ -95,13 +96,7 @@ fn nothing_is_public_that_nobody_names() {
     let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut of_users = BTreeSet::new();
     for part in ["README.md", "benches", "docs", "examples", "firmware", "macros", "report", "tests"] {
-        let path = project.join(part);
-        if path.is_dir() {
-            words(&path, &["target", "snapshots", "root.rs"], &mut of_users);
-        } else {
-            let text = fs::read_to_string(&path).unwrap();
-            of_users.extend(text.split(|c: char| !c.is_alphanumeric() && c != '_').map(str::to_owned));
-        }
+        words(&project.join(part), &["target", "snapshots", "root.rs"], &mut of_users);
     }
     let mut of_macros = BTreeSet::new();
     words(&project.join("macros/src"), &["tests"], &mut of_macros);

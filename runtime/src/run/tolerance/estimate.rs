@@ -9,8 +9,8 @@ use nalgebra::SVector;
 use super::Methods;
 use super::random::Random;
 use super::scale::Scale;
-use super::shift::{along_the_motion, plus, shift};
-use super::tangent::{INNER, carried};
+use super::shift::{along_the_motion, shift};
+use super::tangent::{INNER, carried, plus};
 use super::twin;
 use super::variation::Variation;
 use crate::numbers::Scalar;
@@ -111,7 +111,7 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
 
     /// Steps of size `h` over which a twin may carry the error at once.
     pub(super) fn twin_stride(&self, h: f64, most: u64) -> u64 {
-        self.last.map_or(1, |(last, _)| twin::stride(last.fastest().widen(), h, most))
+        self.last.map_or(1, |(last, _)| twin::stride(last.fastest.widen(), h, most))
     }
 
     /// Carries δ alone, from `state` on, by a twin of the motion.
@@ -127,7 +127,7 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         M: Methods<L, N>,
     {
         let Some((last, _)) = &self.last else { return };
-        let rate = last.fastest().widen();
+        let rate = last.fastest.widen();
         if scale.norm(&self.error) > 0.0
             && let Some((error, evaluations)) =
                 twin::carried((system, methods), state, &self.error, [elapsed, time, rate], scale)
@@ -173,7 +173,7 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
     {
         let Some((last, before)) = &self.last else { return 0.0 };
         self.evaluations += 2.0;
-        let length = (S::one() / last.fastest()).min(S::constant(time - before));
+        let length = (S::one() / last.fastest).min(S::constant(time - before));
         system.later(S::constant(time), |later| last.change_of_force(later, methods, length))
     }
 
@@ -191,14 +191,14 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
     {
         self.evaluations += 2.0;
         let (guess, length) = if let Some((last, before)) = &self.last {
-            (last.velocity_at(state), (S::one() / last.fastest()).min(S::constant(time - before)))
+            (last.velocity_at(state), (S::one() / last.fastest).min(S::constant(time - before)))
         } else {
             let guess = state.velocity(system).unwrap_or_else(|_| SVector::zeros());
             let mut length = S::one();
             // A time in which the motion changes: of the second try, by the first.
             for _ in 0..3 {
                 if let Some(first) = Variation::at(system, methods, state, &guess, length) {
-                    length = (S::one() / first.fastest().max(S::SMALLEST_NORMAL)).min(S::constant(1e6));
+                    length = (S::one() / first.fastest.max(S::SMALLEST_NORMAL)).min(S::constant(1e6));
                 } else {
                     length *= S::constant(1e-3);
                 }
@@ -245,14 +245,10 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
             if made > UNFORESEEN * since.foreseen + 4.0 * self.rounding {
                 self.err(&scale.of_size(made), 2.0);
             }
-            let missing = now - variation.energy_of(&self.error);
-            self.error = plus(&self.error, &variation.of_energy(missing, scale), S::one());
+            self.error = variation.with_energy(&self.error, now, scale);
         }
         if self.energy.is_some() {
-            let known = |error: State<S, N>| {
-                plus(&error, &variation.of_energy(-variation.energy_of(&error), scale), S::one())
-            };
-            self.unsure = self.unsure.map(known);
+            self.unsure = self.unsure.map(|error| variation.with_energy(&error, S::zero(), scale));
         }
         self.last = Some((variation, time));
     }
@@ -272,7 +268,7 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
     {
         let size = scale.norm(&self.error);
         let t = S::constant(time - before);
-        let length = (S::one() / last.fastest()).min(t);
+        let length = (S::one() / last.fastest).min(t);
         // Once around, J is what it was: what has been seen to change is forgotten by little.
         let (fastest, share) = last.change_to(to);
         self.share = share.max(REMEMBERED * self.share);
@@ -318,8 +314,7 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         if self.is_coarse {
             errors[0] = self.error;
         } else if self.energy.is_some() {
-            let kept = last.energy_of(&self.error);
-            errors[0] = plus(&errors[0], &to.of_energy(kept - to.energy_of(&errors[0]), scale), S::one());
+            errors[0] = to.with_energy(&errors[0], last.energy_of(&self.error), scale);
         }
         [self.error, self.unsure[0], self.unsure[1]] = errors;
         let shift = if is_timed { S::zero() } else { shift(&self.error, &to.rate, scale) };
@@ -361,7 +356,7 @@ fn rounding<S: Scalar, const N: usize>(
     let root = nalgebra::ComplexField::sqrt;
     let each =
         scale.of_size(S::EPSILON.widen() * scale.furthest.widen() * root(since.roundings * since.steps));
-    let angle = at.fastest().widen() * time / since.steps.max(1.0);
+    let angle = at.fastest.widen() * time / since.steps.max(1.0);
     let of_force = S::EPSILON.widen() * state.q.amax().widen() * at.impedance() * angle * root(since.steps);
     State { q: each.q, p: each.p.add_scalar(S::constant(of_force)) }
 }

@@ -167,7 +167,7 @@ where
             start.spent += 2.0;
             match Variation::at(system, methods, &state, &velocity, length) {
                 Some(variation) => {
-                    let fastest = variation.fastest();
+                    let fastest = variation.fastest;
                     start.fastest = fastest.widen().max(1.0 / time);
                     start.weight = variation.matrix.q_by_p.norm().widen() / start.fastest;
                     let next = L::Scalar::constant(1.0 / start.fastest);

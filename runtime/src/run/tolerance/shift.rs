@@ -1,15 +1,10 @@
 //! What of an error is a shift in time: the motion carries it exactly.
 
 use super::scale::Scale;
-use super::tangent::carried;
+use super::tangent::{carried, plus};
 use super::variation::Variation;
 use crate::numbers::Scalar;
 use crate::step::State;
-
-/// `a` and `share` times `b`.
-pub(super) fn plus<S: Scalar, const N: usize>(a: &State<S, N>, b: &State<S, N>, share: S) -> State<S, N> {
-    State { q: a.q + b.q * share, p: a.p + b.p * share }
-}
 
 /// What of an error is a shift in time; 0 at rest.
 pub(super) fn shift<S: Scalar, const N: usize>(

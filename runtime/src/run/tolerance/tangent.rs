@@ -18,6 +18,11 @@ pub(super) fn product<S: Scalar, const N: usize>(
     }
 }
 
+/// `a` and `share` times `b`.
+pub(super) fn plus<S: Scalar, const N: usize>(a: &State<S, N>, b: &State<S, N>, share: S) -> State<S, N> {
+    State { q: a.q + b.q * share, p: a.p + b.p * share }
+}
+
 /// Beyond so many substeps, of few coordinates and of many, the exponential is that of the matrix, by
 /// squaring.
 const SQUARED: [f64; 2] = [8.0, 32.0];

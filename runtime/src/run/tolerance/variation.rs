@@ -10,7 +10,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::Methods;
 use super::scale::Scale;
-use super::tangent::{norm, product, times};
+use super::tangent::{norm, plus, product, times};
 use crate::numbers::Scalar;
 use crate::step::{Linearization, PhaseMatrix, State};
 use crate::system::Lagrangian;
@@ -22,6 +22,8 @@ pub(super) struct Variation<S, const N: usize> {
     pub(super) rate: State<S, N>,
     /// J.
     pub(super) matrix: PhaseMatrix<S, N>,
+    /// The fastest rate at which an error changes: a norm of J that does not depend on the units of q and p.
+    pub(super) fastest: S,
     /// The state.
     at: State<S, N>,
     /// Whether a force acts here, so that the energy need not be kept.
@@ -66,7 +68,8 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
             }
             if missing.amax() <= S::constant(VELOCITY) * (state.p.amax() + rate.p.amax() * time) {
                 let is_forced = methods.is_forced(system, &q0, &q1, tau);
-                return Some(Self { rate: State { q: v, ..rate }, matrix, at: *state, is_forced });
+                let fastest = norm(&matrix);
+                return Some(Self { rate: State { q: v, ..rate }, matrix, fastest, at: *state, is_forced });
             }
         }
         None
@@ -77,16 +80,11 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
         self.rate.q + self.matrix.q_by_q * (state.q - self.at.q) + self.matrix.q_by_p * (state.p - self.at.p)
     }
 
-    /// The fastest rate at which an error changes: a norm of J that does not depend on the units of q and p.
-    pub(super) fn fastest(&self) -> S {
-        norm(&self.matrix)
-    }
-
     /// J δ over the fastest rate, or over the one at which the whole motion turns q into p where that is
     /// faster: what a quarter of a turn of the fastest mode makes of an error in it.
     pub(super) fn turned(&self, error: &State<S, N>, scale: &Scale<S, N>) -> State<S, N> {
         let State { q, p } = times(&self.matrix, error);
-        let rate = self.fastest().max(self.matrix.q_by_p.norm() / S::constant(scale.weight()));
+        let rate = self.fastest.max(self.matrix.q_by_p.norm() / S::constant(scale.weight()));
         State { q: q / rate, p: p / rate }
     }
 
@@ -94,7 +92,7 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
     /// with a time an error turns as one J does not tell.
     pub(super) fn change_to(&self, other: &Self) -> (f64, f64) {
         let [a, b] = [&self.matrix, &other.matrix];
-        let fastest = norm(a).max(norm(b));
+        let fastest = self.fastest.max(other.fastest);
         let share = |x: &SMatrix<S, N, N>, y: &SMatrix<S, N, N>, size: S| {
             let change = (x - y).norm();
             if change > S::zero() { change / size } else { S::zero() }
@@ -123,7 +121,7 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
     /// with time, or where it changes within t.
     pub(super) fn between(&self, other: &Self, t: S, s: S, is_timed: bool) -> State<S, N> {
         let number = S::constant;
-        let is_long = self.fastest().max(other.fastest()) * t > number(LONG);
+        let is_long = self.fastest.max(other.fastest) * t > number(LONG);
         let [a, b, c, d, e, f] = if is_timed || is_long {
             let r = S::one() - s;
             let [two, three] = [number(2.0), number(3.0)];
@@ -172,6 +170,11 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
     /// ∂H/∂y·δ = v·δp − ṗ·δq where no force acts.
     pub(super) fn energy_of(&self, error: &State<S, N>) -> S {
         self.rate.q.dot(&error.p) - self.rate.p.dot(&error.q)
+    }
+
+    /// `error` with so much `energy`, by the least change.
+    pub(super) fn with_energy(&self, error: &State<S, N>, energy: S, scale: &Scale<S, N>) -> State<S, N> {
+        plus(error, &self.of_energy(energy - self.energy_of(error), scale), S::one())
     }
 
     /// The least error with so much energy: along the gradient of H, with q and p weighed as in the fastest
