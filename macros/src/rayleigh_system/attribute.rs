@@ -8,7 +8,8 @@ use syn::punctuated::Punctuated;
 use syn::{Expr, Ident, Path, Token, bracketed, token};
 
 use super::diagnostics::{Mistake, Report};
-use super::model::{Engine, Rule, Rules, Runtime};
+use super::model::{Engine, Runtime};
+use super::rules::{GAUSS, Rule, Rules};
 
 /// One option, `name = value` or `name = [value, …]`.
 struct Setting {
@@ -50,11 +51,10 @@ fn list<T: Parse>(input: ParseStream) -> syn::Result<Vec<T>> {
 }
 
 /// What the attribute asks for.
+#[derive(Default)]
 pub struct Options {
     /// Midpoint unless said.
     pub rules: Rules,
-    /// Those of them that take L and R together, where they stand.
-    pub joint: Vec<(Ident, Rule)>,
     /// Whichever can, unless said.
     pub engine: Engine,
     /// Fields that the step is differentiated by.
@@ -67,14 +67,7 @@ pub struct Options {
 
 /// The options said, and defaults for the others.
 pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) -> Options {
-    let mut options = Options {
-        rules: Rules::default(),
-        joint: Vec::new(),
-        engine: Engine::Auto,
-        parameters: Vec::new(),
-        second: false,
-        runtime: None,
-    };
+    let mut options = Options::default();
     let settings = match Punctuated::<Setting, Token![,]>::parse_terminated.parse2(attribute) {
         Ok(settings) => settings,
         Err(error) => {
@@ -95,7 +88,7 @@ pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) ->
             Values::Path(path) => options.runtime = Some(path),
             Values::Words(words) if name == "rule" => {
                 says_rule = true;
-                rules(&name, words, &mut options, report);
+                rules(&name, words, &mut options.rules, report);
             }
             Values::Words(words) if name == "derivatives" => {
                 engine(&name, &words, runtime, &mut options.engine, report);
@@ -164,37 +157,29 @@ fn engine(name: &Ident, values: &[Ident], runtime: Runtime, engine: &mut Engine,
 }
 
 /// `rule = [midpoint, trapezoidal]`
-fn rules(name: &Ident, values: Vec<Ident>, options: &mut Options, report: &mut Report) {
-    if values.is_empty() {
+fn rules(name: &Ident, words: Vec<Ident>, rules: &mut Rules, report: &mut Report) {
+    if words.is_empty() {
         report.at(name, Mistake::NoRule);
     }
-    for value in values {
-        let rule = match value.to_string().as_str() {
-            "midpoint" => Rule::Midpoint,
-            "trapezoidal" => Rule::Trapezoidal,
-            "gauss" => {
-                if options.rules.gauss {
-                    report.at(&value, Mistake::RepeatedRule(value.to_string()));
-                }
-                options.rules.gauss = true;
-                continue;
-            }
-            "fitted" => Rule::Fitted,
-            "fitted_trapezoidal" => Rule::FittedTrapezoidal,
-            "one_sided" => Rule::OneSided,
-            other => {
-                report.at(&value, Mistake::UnknownRule(other.to_owned()));
-                continue;
-            }
-        };
-        if rule.is_joint() {
-            options.joint.push((value.clone(), rule));
-        }
-        let rules = &mut options.rules.of_displacement;
-        if rules.contains(&rule) {
-            report.at(&value, Mistake::RepeatedRule(value.to_string()));
+    for word in words {
+        let is_known = if word == GAUSS {
+            std::mem::replace(&mut rules.gauss, true)
         } else {
-            rules.push(rule);
+            let Some(rule) = Rule::named(&word.to_string()) else {
+                report.at(&word, Mistake::UnknownRule(word.to_string()));
+                continue;
+            };
+            if rule.joint().is_some() {
+                rules.joint.push((word.clone(), rule));
+            }
+            let is_known = rules.of_displacement.contains(&rule);
+            if !is_known {
+                rules.of_displacement.push(rule);
+            }
+            is_known
+        };
+        if is_known {
+            report.at(&word, Mistake::RepeatedRule(word.to_string()));
         }
     }
 }

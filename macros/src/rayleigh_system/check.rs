@@ -6,15 +6,16 @@ use syn::{
     Expr, ExprLit, FnArg, Ident, ImplItemFn, Lit, Pat, ReceiverKind, ReturnType, Safety, Signature, Type,
 };
 
+use super::attribute::Options;
 use super::diagnostics::{Mistake, Report};
-use super::model::{Body, Degrees, Function, RayleighArguments, Rules, Source, System, Timed};
+use super::model::{Body, Degrees, Function, RayleighArguments, Source, System, Timed};
 use super::syntax::simple_name;
 
 /// The system as far as its signatures tell, or nothing if not even N is known; every wrong one is reported.
-pub fn system<'a>(source: &'a Source, rules: Rules, report: &mut Report) -> Option<System<'a>> {
+pub fn system<'a>(source: &'a Source, options: &Options, report: &mut Report) -> Option<System<'a>> {
     match source {
-        Source::Block(_) => block(source, rules, report),
-        Source::Function(function) => free_function(source, function, rules, report),
+        Source::Block(_) => block(source, options, report),
+        Source::Function(function) => free_function(source, function, options, report),
     }
 }
 
@@ -24,7 +25,7 @@ struct Shape {
     degrees: Degrees,
 }
 
-fn block<'a>(source: &'a Source, rules: Rules, report: &mut Report) -> Option<System<'a>> {
+fn block<'a>(source: &'a Source, options: &Options, report: &mut Report) -> Option<System<'a>> {
     let named = |name: &str| source.functions().find(|function| function.sig.ident == name);
     let rayleigh = named("rayleigh");
     let Some(lagrangian) = named("lagrangian") else {
@@ -69,21 +70,22 @@ fn block<'a>(source: &'a Source, rules: Rules, report: &mut Report) -> Option<Sy
         name: source.name().clone(),
         degrees: shape.degrees,
         scalar: shape.scalar,
-        rules,
+        rules: options.rules.clone(),
+        engine: options.engine,
         bodies,
         rayleigh: arguments,
         has_force: force.is_some(),
         input: input.map(|length| Degrees { length, system: source.name().clone() }),
         timed,
-        parameters: Vec::new(),
-        second: false,
+        parameters: options.parameters.clone(),
+        second: options.second,
     })
 }
 
 fn free_function<'a>(
     source: &'a Source,
     function: &Function,
-    rules: Rules,
+    options: &Options,
     report: &mut Report,
 ) -> Option<System<'a>> {
     let before = report.count();
@@ -111,7 +113,7 @@ fn free_function<'a>(
             None
         }
     };
-    Some(function_system(source, function, shape, rules, rayleigh, report.count() == before))
+    Some(function_system(source, function, shape, options, rayleigh, report.count() == before))
 }
 
 /// What a field is: the number of its components.
@@ -152,7 +154,7 @@ pub fn field<'a>(source: &'a Source, report: &mut Report) -> Option<(System<'a>,
         }
     };
     let has_right_signature = report.count() == before;
-    Some((function_system(source, function, shape, Rules::default(), None, has_right_signature), field))
+    Some((function_system(source, function, shape, &Options::default(), None, has_right_signature), field))
 }
 
 /// Parameters that become fields cannot be references.
@@ -168,7 +170,7 @@ fn function_system<'a>(
     source: &'a Source,
     function: &Function,
     shape: Shape,
-    rules: Rules,
+    options: &Options,
     rayleigh: Option<RayleighArguments>,
     has_right_signature: bool,
 ) -> System<'a> {
@@ -184,14 +186,15 @@ fn function_system<'a>(
         name: function.name.clone(),
         degrees: shape.degrees,
         scalar: shape.scalar,
-        rules,
+        rules: options.rules.clone(),
+        engine: options.engine,
         bodies: vec![Body { function: body, has_right_signature }],
         rayleigh,
         has_force: false,
         input: None,
         timed: Timed::default(),
-        parameters: Vec::new(),
-        second: false,
+        parameters: options.parameters.clone(),
+        second: options.second,
     }
 }
 

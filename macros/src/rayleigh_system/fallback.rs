@@ -7,8 +7,8 @@ use quote::{format_ident, quote};
 use syn::{FnArg, ImplItem, ImplItemFn, ReturnType, Signature, Type, parse_quote};
 
 use super::diagnostics::Report;
-use super::item::parameters;
-use super::model::{Degrees, Role, Rule, Rules, Source};
+use super::model::{Degrees, Role, Source};
+use super::rules::{Rule, Rules};
 use super::syntax::simple_name;
 
 /// The item as it came, beside the diagnostics.
@@ -42,7 +42,7 @@ pub fn with_stubs(source: &Source, rules: &Rules, report: Report) -> TokenStream
                 item.block = parse_quote!({ ::core::unreachable!() });
             }
             let visibility = function.visibility();
-            let fields = parameters(function).filter(|(_, ty)| !matches!(ty, Type::Reference(_)));
+            let fields = function.fields().filter(|(_, ty)| !matches!(ty, Type::Reference(_)));
             let fields = fields.map(|(field, ty)| quote!(#visibility #field: #ty));
             let fields = quote!({ #(#fields),* });
             (quote!(#item #[allow(dead_code)] #visibility struct #name #fields), Some(&function.item.sig))
@@ -149,15 +149,15 @@ fn stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream, rules: &Rules
         .then(|| quote!(impl ::dalembert::generated::ForcedLagrangian<#n> for #name {}));
     let rules = if is_empty { &[Rule::Midpoint, Rule::Trapezoidal] } else { &rules.of_displacement[..] };
     // That the system offers methods: with which rule does not matter.
-    let offered = rules.iter().find(|rule| rule.is_self_adjoint()).map(|rule| {
-        let rule = format_ident!("{}", rule.name());
+    let offered = rules.iter().find(|rule| rule.entry().is_self_adjoint).map(|rule| {
+        let rule = rule.ident();
         quote! {
             impl ::dalembert::generated::OffersMethods<#n> for #name {
                 type Methods = ::dalembert::generated::#rule;
             }
         }
     });
-    let rules: Vec<_> = rules.iter().map(|rule| format_ident!("{}", rule.name())).collect();
+    let rules: Vec<_> = rules.iter().map(|rule| rule.ident()).collect();
     quote! {
         const _: () = {
             impl ::dalembert::generated::Lagrangian<#n> for #name {

@@ -35,6 +35,7 @@ impl Node {
 }
 
 /// Something the macro cannot see into: a field, a constant, the step size; written out where it is needed.
+#[derive(Clone)]
 pub struct Parameter {
     /// The user's tokens.
     pub tokens: TokenStream,
@@ -86,7 +87,7 @@ pub const MOST_EXPRESSIONS: usize = 100_000;
 pub const MOST_OPERATIONS: usize = 20_000;
 
 /// The expressions of one system.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Graph {
     operations: Vec<Operation>,
     depends: Vec<bool>,

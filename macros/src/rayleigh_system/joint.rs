@@ -1,18 +1,25 @@
 //! What the rules that take L and R together ask of a system, on the expressions of L and R as they are
 //! written.
 
+use super::diagnostics::{Mistake, Report};
 use super::differentiate::{Derivatives, Differentiation};
 use super::graph::{Graph, Node, Operation};
 use super::lower::Lowered;
-use super::model::{Engine, Rule, System};
+use super::model::{Engine, System};
+use super::rules::Joint;
 
-/// What the system lacks for `rule`, if anything. `lowered` is nothing where derivatives are not written out.
-pub fn lacks(
-    rule: Rule,
-    system: &System<'_>,
-    engine: Engine,
-    lowered: Option<&mut Lowered>,
-) -> Option<&'static str> {
+/// Reports what the system lacks for each such rule. `lowered` is nothing where derivatives are not written
+/// out.
+pub fn check(system: &System<'_>, lowered: Option<&Lowered>, report: &mut Report) {
+    for (word, rule) in &system.rules.joint {
+        if let Some(lacks) = rule.joint().and_then(|joint| lacks(joint, system, lowered)) {
+            report.at(word, Mistake::JointRule { rule: word.to_string(), lacks });
+        }
+    }
+}
+
+/// What the system lacks for `rule`, if anything.
+fn lacks(rule: Joint, system: &System<'_>, lowered: Option<&Lowered>) -> Option<&'static str> {
     if let Some(lacks) = asked_too_much(system) {
         return Some(lacks);
     }
@@ -22,7 +29,7 @@ pub fn lacks(
     if system.has_force {
         return Some("takes no general force");
     }
-    if engine == Engine::NumDual {
+    if system.engine == Engine::NumDual {
         return Some("needs to see L and R, which `derivatives = num_dual` leaves to the run");
     }
     let Some(Lowered { graph, lagrangian, rayleigh: Some(rayleigh), .. }) = lowered else {
@@ -30,19 +37,20 @@ pub fn lacks(
             "needs to see L and R, and these bodies cannot be written out (`derivatives = expanded` says why)",
         );
     };
-    let mut derivation = Differentiation::default();
-    let r = derivation.hessian(graph, *rayleigh, "r");
-    if r.gradient.keys().any(|&variable| is_coordinate(graph, variable)) {
+    // What is looked at here leaves no trace in what is written.
+    let (mut graph, mut derivation) = (graph.clone(), Differentiation::default());
+    let r = derivation.hessian(&mut graph, *rayleigh, "r");
+    if r.gradient.keys().any(|&variable| is_coordinate(&graph, variable)) {
         return Some("needs a Rayleigh function of v alone");
     }
-    if rule == Rule::OneSided {
+    if !rule.is_fitted {
         return None;
     }
     if r.hessian.values().any(|&entry| graph.depends(entry)) {
         return Some("needs linear damping, R = ½vᵀCv with constant C");
     }
-    let l = derivation.hessian(graph, *lagrangian, "l");
-    (!is_natural(graph, &l)).then_some("needs L = ½vᵀMv − V(q) with constant M")
+    let l = derivation.hessian(&mut graph, *lagrangian, "l");
+    (!is_natural(&graph, &l)).then_some("needs L = ½vᵀMv − V(q) with constant M")
 }
 
 /// What rules that take L and R together do not have: views of a system, and derivatives on request.

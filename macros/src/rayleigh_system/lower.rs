@@ -22,13 +22,13 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
+use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 use syn::{
     Block, Expr, ExprLit, FnArg, GenericParam, Ident, ImplItem, ImplItemFn, Lit, Pat, ReturnType, Type,
 };
 
-use super::diagnostics::{Mistake, Report, span_of};
+use super::diagnostics::span_of;
 use super::graph::{Graph, Node, Operation};
 use super::model::{Part, RayleighArguments, Source, System};
 use super::syntax::simple_name;
@@ -179,8 +179,7 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
             (lagrangian, rayleigh, force)
         }
         Source::Function(function) => {
-            let fields = super::item::parameters(function)
-                .map(|(name, _)| Value::Written(Written::leaf(quote!(self.#name))));
+            let fields = function.fields().map(|(name, _)| Value::Written(Written::leaf(quote!(self.#name))));
             let arguments = [q, v].into_iter().chain(fields).collect();
             let signature = &function.item.sig;
             let result = lowering.call(&signature.ident, signature, &function.item.block, arguments)?;
@@ -207,65 +206,6 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
     let bindings = lowering.bindings.into_values().collect();
     let (functions, heaviest) = (lowering.functions, lowering.heaviest);
     Ok(Lowered { graph: lowering.graph, n, m, lagrangian, rayleigh, force, functions, bindings, heaviest })
-}
-
-/// Reports parameters that nothing reads, and those that are read where no derivative reaches them.
-pub fn parameters(system: &System<'_>, lowered: &Lowered, report: &mut Report) {
-    let graph = &lowered.graph;
-    let force = lowered.force.iter().flatten().copied();
-    let roots = [lowered.lagrangian].into_iter().chain(lowered.rayleigh).chain(force);
-    let read: Vec<String> = graph
-        .reachable(roots)
-        .into_iter()
-        .filter_map(|node| match graph.operation(node) {
-            Operation::Parameter(index) => Some(graph.parameter(index).tokens.to_string()),
-            _ => None,
-        })
-        .collect();
-    for parameter in &system.parameters {
-        let root = first_word(parameter.to_token_stream());
-        let hides =
-            |tokens: &&TokenStream| !is_entry((*tokens).clone()) && reads_field((*tokens).clone(), &root);
-        if let Some(within) = graph.parameters().find(hides) {
-            let (parameter_text, within) =
-                (parameter.to_token_stream().to_string(), within.to_string().replace(" . ", "."));
-            report.at(parameter, Mistake::HiddenParameter { parameter: parameter_text, within });
-        } else if !read.contains(&quote!(self.#parameter).to_string()) {
-            report.at(parameter, Mistake::NoSuchParameter(parameter.to_token_stream().to_string()));
-        }
-    }
-}
-
-fn first_word(tokens: TokenStream) -> String {
-    tokens.into_iter().next().map(|word| word.to_string()).unwrap_or_default()
-}
-
-/// Whether the tokens are `self.c[0].1`: one entry, told by literals.
-fn is_entry(tokens: TokenStream) -> bool {
-    tokens.into_iter().all(|token| match token {
-        TokenTree::Ident(_) | TokenTree::Literal(_) => true,
-        TokenTree::Punct(punct) => punct.as_char() == '.',
-        TokenTree::Group(group) => {
-            let mut index = group.stream().into_iter();
-            group.delimiter() == Delimiter::Bracket
-                && matches!((index.next(), index.next()), (Some(TokenTree::Literal(_)), None))
-        }
-    })
-}
-
-/// Whether `self.field` stands anywhere among the tokens.
-fn reads_field(tokens: TokenStream, field: &str) -> bool {
-    let tokens: Vec<TokenTree> = tokens.into_iter().collect();
-    let here = tokens.windows(3).any(|three| match three {
-        [TokenTree::Ident(owner), TokenTree::Punct(_), TokenTree::Ident(name)] => {
-            owner == "self" && name == field
-        }
-        _ => false,
-    });
-    here || tokens.into_iter().any(|token| match token {
-        TokenTree::Group(group) => reads_field(group.stream(), field),
-        _ => false,
-    })
 }
 
 /// Whether the function has returned.

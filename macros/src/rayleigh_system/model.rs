@@ -2,98 +2,16 @@
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
-use syn::{Expr, ExprLit, Ident, ImplItem, ImplItemFn, ItemFn, Lit, Visibility};
+use syn::{Expr, ExprLit, FnArg, Ident, ImplItem, ImplItemFn, ItemFn, Lit, Pat, Type, Visibility};
 
+use super::rules::Rules;
 use super::syntax::{is_integer, with_self_named};
 
-/// The rules of discretisation that the attribute lists.
-#[derive(Clone, Default)]
-pub struct Rules {
-    /// Those that the system implements, term by term.
-    pub of_displacement: Vec<Rule>,
-    /// Those of Gauss, which the runtime implements for every forced Lagrangian.
-    pub gauss: bool,
-}
-
-/// A rule that sees a segment through its displacement alone.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Rule {
-    Midpoint,
-    Trapezoidal,
-    Fitted,
-    FittedTrapezoidal,
-    OneSided,
-}
-
-impl Rule {
-    /// The rule's type in the runtime.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Midpoint => "Midpoint",
-            Self::Trapezoidal => "Trapezoidal",
-            Self::Fitted => "Fitted",
-            Self::FittedTrapezoidal => "FittedTrapezoidal",
-            Self::OneSided => "OneSided",
-        }
-    }
-
-    /// Whether it takes L and R together, by the functions of the runtime's `JointRule`, instead of one term
-    /// for each.
-    pub fn is_joint(self) -> bool {
-        matches!(self, Self::Fitted | Self::FittedTrapezoidal | Self::OneSided)
-    }
-
-    /// Whether a step back is the step of −h, which compositions rest on.
-    pub fn is_self_adjoint(self) -> bool {
-        self != Self::OneSided
-    }
-
-    /// The formula of L_d, as documentation.
-    pub fn lagrangian(self) -> &'static str {
-        match self {
-            Self::Midpoint => " L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.",
-            Self::Trapezoidal => " L_d = (h/2) [L(q0, v̄) + L(q1, v̄)], with v̄ = (q1 − q0)/h.",
-            Self::Fitted => {
-                " L_d = (1/2h) dᵀ M Z coth(Z) d − h V(q̄), with d = q1 − q0, q̄ = (q0 + q1)/2 and Z = ½h M⁻¹C."
-            }
-            Self::FittedTrapezoidal => {
-                " L_d = (1/2h) dᵀ M Z coth(Z) d − (h/2) [V(q0) + V(q1)], with d = q1 − q0 and Z = ½h M⁻¹C."
-            }
-            Self::OneSided => " L_d = h L(q̄, v̄) + (h²/2) R(v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.",
-        }
-    }
-
-    /// The formula of R_d.
-    pub fn rayleigh(self) -> &'static str {
-        match self {
-            Self::Midpoint => " R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.",
-            Self::Trapezoidal => " R_d = (h²/4) [R(q0, v̄) + R(q1, v̄)], with v̄ = (q1 − q0)/h.",
-            Self::Fitted => " R_d = ¼ dᵀCd − h ℒ(z) V(q̄), with ℒ(z) = coth z − 1/z.",
-            Self::FittedTrapezoidal => " R_d = ¼ dᵀCd.",
-            Self::OneSided => " R_d = (h²/2) R(v̄).",
-        }
-    }
-
-    /// The formula of f_d, by the parts that the system has.
-    pub fn force(self, of_rayleigh: bool, general: bool) -> &'static str {
-        match (of_rayleigh, general, self) {
-            (_, _, Self::Fitted) => " f_d⁻, f_d⁺ = −½ C d ∓ (h/2) ℒ(Z)ᵀ ∇V(q̄), with ℒ(z) = coth z − 1/z.",
-            (_, _, Self::FittedTrapezoidal | Self::OneSided) => " f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d.",
-            (true, false, _) => " f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d.",
-            (true, true, Self::Midpoint) => " f_d⁻ = D1 R_d + (h/2) f(q̄, v̄), f_d⁺ = −D2 R_d + (h/2) f(q̄, v̄).",
-            (true, true, Self::Trapezoidal) => {
-                " f_d⁻ = D1 R_d + (h/2) f(q0, v̄), f_d⁺ = −D2 R_d + (h/2) f(q1, v̄)."
-            }
-            (false, _, Self::Midpoint) => " f_d⁻ = f_d⁺ = (h/2) f(q̄, v̄).",
-            (false, _, Self::Trapezoidal) => " f_d⁻ = (h/2) f(q0, v̄), f_d⁺ = (h/2) f(q1, v̄).",
-        }
-    }
-}
-
 /// Who makes the derivatives.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, Default, PartialEq, Eq, Debug)]
 pub enum Engine {
     /// Written out where every body can be lowered, num-dual otherwise.
+    #[default]
     Auto,
     /// Written out by the macro.
     Expanded,
@@ -185,6 +103,8 @@ pub struct System<'a> {
     /// `f64` or `f32`.
     pub scalar: Ident,
     pub rules: Rules,
+    /// Who is asked for the derivatives.
+    pub engine: Engine,
     /// L, R and f.
     pub bodies: Vec<Body>,
     pub rayleigh: Option<RayleighArguments>,
@@ -265,6 +185,13 @@ impl System<'_> {
         Literal::usize_unsuffixed(self.parameters.len())
     }
 
+    /// Those of L, R and f that there are.
+    pub fn parts(&self) -> impl Iterator<Item = Part> + use<> {
+        let rayleigh = self.rayleigh.map(|_| Part::Rayleigh);
+        let force = self.has_force.then_some(Part::Force);
+        [Part::Lagrangian].into_iter().chain(rayleigh).chain(force)
+    }
+
     /// Where L_d, f_d and the step stand.
     pub fn home(&self) -> Home {
         if self.has_view() { Home::View } else { Home::System }
@@ -332,6 +259,17 @@ impl Source {
 impl Function {
     pub fn visibility(&self) -> &Visibility {
         &self.item.vis
+    }
+
+    /// Names and types of the parameters that become fields of the struct.
+    pub fn fields(&self) -> impl Iterator<Item = (&Ident, &Type)> {
+        self.item.sig.inputs.iter().skip(self.role.arguments()).filter_map(|parameter| match parameter {
+            FnArg::Typed(parameter) => match &*parameter.pat {
+                Pat::Ident(pattern) => Some((&pattern.ident, &*parameter.ty)),
+                _ => None,
+            },
+            FnArg::Receiver(_) => None,
+        })
     }
 }
 

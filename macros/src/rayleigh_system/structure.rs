@@ -16,7 +16,8 @@ pub use degree::Degrees;
 use super::differentiate::{Derivatives, Gradient};
 use super::graph::{Graph, Node, Operation};
 use super::lower::Refusal;
-use super::model::{Part, Rule, System};
+use super::model::{Part, System};
+use super::rules::{Pairs, Points, Rule};
 
 /// Who makes the derivatives, and why.
 pub enum Engine {
@@ -105,10 +106,10 @@ pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>)
         }
         Some(_) => Damping::Linear,
     };
-    let of_pairs = |of: &Derivatives, is_meant: fn(bool, bool) -> bool| -> Vec<(usize, usize, Node)> {
+    let of_pairs = |of: &Derivatives, meant: Pairs| -> Vec<(usize, usize, Node)> {
         let pairs = of.hessian.iter().filter_map(|(&(a, b), &entry)| {
             let ((i, a), (j, b)) = (variable(graph, a)?, variable(graph, b)?);
-            is_meant(a, b).then_some((i, j, entry))
+            meant.hold(a, b).then_some((i, j, entry))
         });
         pairs.collect()
     };
@@ -118,7 +119,7 @@ pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>)
             !graph.depends(entry) && !contains(graph, entry, |operation| graph.is_time(operation))
         })
     };
-    let mass = of_pairs(&lagrangian.derivatives, |a, b| a && b);
+    let mass = of_pairs(&lagrangian.derivatives, Pairs::Velocities);
 
     let cyclic = (0..n).filter_map(|index| {
         let is_own = |operation: Operation| operation == Operation::Coordinate(index);
@@ -131,25 +132,20 @@ pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>)
     });
 
     let newton = system.rules.of_displacement.iter().map(|&rule| {
-        // The pairs of variables whose second derivatives the rule's matrix holds.
-        let is_meant: fn(bool, bool) -> bool = match rule {
-            Rule::Midpoint | Rule::Fitted | Rule::OneSided => |_, _| true,
-            Rule::Trapezoidal => |a, b| a || b,
-            Rule::FittedTrapezoidal => |a, b| a && b,
-        };
-        let mut entries = of_pairs(&lagrangian.derivatives, is_meant);
+        let pairs = rule.entry().matrix;
+        let mut entries = of_pairs(&lagrangian.derivatives, pairs);
         if let Some(r) = rayleigh {
-            entries.extend(of_pairs(&r.derivatives, is_meant));
+            entries.extend(of_pairs(&r.derivatives, pairs));
         }
         for (i, (_, row)) in force.iter().enumerate() {
             entries.extend(row.iter().filter_map(|(&by, &entry)| {
                 let (j, is_velocity) = variable(graph, by)?;
-                is_meant(is_velocity, false).then_some((i, j, entry))
+                pairs.hold(is_velocity, false).then_some((i, j, entry))
             }));
         }
         // p0 holds ∂L/∂v at both ends, and ∂L/∂q and f where the trapezoidal rule sees q0 alone.
-        let is_affine = |entry: Node, by_velocity: bool| match rule {
-            Rule::Trapezoidal | Rule::FittedTrapezoidal if !by_velocity => degrees.in_velocity(entry) <= 1,
+        let is_affine = |entry: Node, by_velocity: bool| match rule.entry().points {
+            Points::Ends if !by_velocity => degrees.in_velocity(entry) <= 1,
             _ => degrees.joint(entry) <= 1,
         };
         let gradients = [Some(*lagrangian), *rayleigh].into_iter().flatten();
@@ -162,7 +158,7 @@ pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>)
             && force.iter().all(|&(component, _)| is_affine(component, false));
         let bandwidth = entries.iter().map(|&(i, j, _)| i.abs_diff(j)).max().unwrap_or(0);
         // A function of M⁻¹C is full, unless both are diagonal.
-        let is_fitted = matches!(rule, Rule::Fitted | Rule::FittedTrapezoidal);
+        let is_fitted = rule.joint().is_some_and(|joint| joint.is_fitted);
         let bandwidth = if is_fitted && bandwidth > 0 { n - 1 } else { bandwidth };
         // A force that is remembered from the last step has nothing but q and fields in it.
         let is_apart = |entry: Node, by_velocity: bool| {
@@ -176,7 +172,7 @@ pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>)
         // An explicit step hands the force at its end on to the next one, whose input and time are others.
         let is_explicit = constant
             && !system.has_view()
-            && rule == Rule::Trapezoidal
+            && rule.may_be_explicit()
             && momenta.clone().all(|(entry, by_velocity)| is_apart(entry, by_velocity))
             && rayleigh.is_none_or(|r| !contains(graph, r.root, |o| matches!(o, Operation::Coordinate(_))))
             && force.iter().all(|&(component, _)| is_apart(component, false));
@@ -244,7 +240,7 @@ impl Structure {
             });
             let cyclic = (!findings.cyclic.is_empty()).then(|| quote!(.with_cyclic(&[#(#cyclic),*])));
             let newton = findings.newton.iter().map(|&Newton { rule, constant, bandwidth, .. }| {
-                let (rule, bandwidth) = (rule.name(), Literal::usize_unsuffixed(bandwidth));
+                let (rule, bandwidth) = (rule.entry().name, Literal::usize_unsuffixed(bandwidth));
                 quote!(::dalembert::generated::NewtonStructure::new(#rule, #constant, #bandwidth))
             });
             quote! {

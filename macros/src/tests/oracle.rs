@@ -227,7 +227,7 @@ fn lowered(text: &str) -> Lowered {
     let options = attribute::options(Default::default(), Runtime::STD, &mut report);
     let source =
         parse::source(item.parse().expect("the text is made of tokens"), &mut report).expect("a block");
-    let system = check::system(&source, options.rules, &mut report).expect("a system");
+    let system = check::system(&source, &options, &mut report).expect("a system");
     lower::system(&system).unwrap_or_else(|refusal| panic!("{}: {text}", refusal.reason))
 }
 

@@ -63,7 +63,7 @@ fn sentences(findings: &Findings) -> Vec<String> {
 }
 
 fn newton_matrix(newton: &Newton, n: usize) -> String {
-    let rule = newton.rule.name();
+    let rule = newton.rule.entry().name;
     let shape = match newton.bandwidth {
         _ if n == 1 => String::new(),
         0 => " is diagonal and".to_owned(),

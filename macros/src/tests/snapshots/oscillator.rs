@@ -190,6 +190,22 @@ const _: () = {
         }
     }
     #[automatically_derived]
+    impl DiscreteRayleigh<Midpoint, 1> for Oscillator {
+        /// R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::discrete_rayleigh(self, q0, q1, h)
+        }
+        /// R_d with D1, D2, D11, D12, D22.
+        fn discrete_rayleigh_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 1> {
+            Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
+        }
+    }
+    #[automatically_derived]
     impl Discrete<Trapezoidal, 1> for Oscillator {
         type Matrix = SMatrix<f64, 1, 1>;
         type Memory = ::dalembert::generated::ExplicitMemory<f64, Self::Matrix, 1>;
@@ -281,22 +297,6 @@ const _: () = {
         #[inline]
         fn configuration_force(&self, q: &Vector) -> Vector {
             SVector::from([-(q[0] * self.k)])
-        }
-    }
-    #[automatically_derived]
-    impl DiscreteRayleigh<Midpoint, 1> for Oscillator {
-        /// R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
-        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Midpoint::discrete_rayleigh(self, q0, q1, h)
-        }
-        /// R_d with D1, D2, D11, D12, D22.
-        fn discrete_rayleigh_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> Derivatives<f64, 1> {
-            Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
         }
     }
     #[automatically_derived]

@@ -235,119 +235,6 @@ const _: () = {
         }
     }
     #[automatically_derived]
-    impl Discrete<Midpoint, 1> for DrivenJoint<'_> {
-        type Matrix = SMatrix<f64, 1, 1>;
-        type Memory = ::dalembert::generated::VelocityHistory<f64, 1>;
-        /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
-        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Midpoint::discrete_lagrangian(self, q0, q1, h)
-        }
-        /// L_d with D1, D2, D11, D12, D22.
-        fn discrete_lagrangian_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> Derivatives<f64, 1> {
-            Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
-        }
-        /// f_d⁻ = D1 R_d + (h/2) f(q̄, v̄), f_d⁺ = −D2 R_d + (h/2) f(q̄, v̄).
-        fn discrete_force(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> DiscreteForce<f64, 1> {
-            Midpoint::rayleigh_force(self, q0, q1, h)
-                + Midpoint::general_force(self, q0, q1, h)
-        }
-        /// f_d with its derivatives by q0 and q1.
-        fn discrete_force_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> DiscreteForceDerivatives<f64, 1> {
-            Midpoint::rayleigh_force_derivatives(self, q0, q1, h)
-                + Midpoint::general_force_derivatives(self, q0, q1, h)
-        }
-        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
-        #[inline]
-        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
-            let half = 0.5 * h;
-            let q = [q0[0] + half * v[0]];
-            let u = self.u;
-            let l = self.system.l;
-            let c_0 = self.system.c[0];
-            let (sin_q0, cos_q0) = q[0].sin_cos();
-            let v0_squared = v[0] * v[0];
-            let l_squared = l * l;
-            StepKernel {
-                p0: SVector::from([
-                    v[0] * l_squared
-                        - half * (u[0] * cos_q0 - l * sin_q0 - v0_squared * (c_0 * v[0])),
-                ]),
-                matrix: SMatrix::from([
-                    [
-                        l_squared
-                            + half
-                                * (v0_squared * (3.0 * c_0)
-                                    + half * (l * cos_q0 + u[0] * sin_q0)),
-                    ],
-                ]),
-            }
-        }
-        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
-        #[inline]
-        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
-            let half = 0.5 * h;
-            let q = [q0[0] + half * v[0]];
-            let u = self.u;
-            let l = self.system.l;
-            let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1 = v[0] * (l * l);
-            let t2 = half
-                * (u[0] * cos_q0 - l * sin_q0
-                    - v[0] * (v[0] * (self.system.c[0] * v[0])));
-            Momenta {
-                p0: SVector::from([t1 - t2]),
-                p1: SVector::from([t1 + t2]),
-            }
-        }
-        /// E_L on the segment.
-        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Midpoint::segment_energy(self, q0, q1, h)
-        }
-        fn verify_segment(
-            &self,
-            q0: &Vector,
-            v: &Vector,
-            h: f64,
-        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
-            Midpoint::verify_segment(self, q0, v, h)
-        }
-    }
-    #[automatically_derived]
-    impl DiscreteRayleigh<Midpoint, 1> for DrivenJoint<'_> {
-        /// R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
-        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-            Midpoint::discrete_rayleigh(self, q0, q1, h)
-        }
-        /// R_d with D1, D2, D11, D12, D22.
-        fn discrete_rayleigh_derivatives(
-            &self,
-            q0: &Vector,
-            q1: &Vector,
-            h: f64,
-        ) -> Derivatives<f64, 1> {
-            Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
-        }
-    }
-    #[automatically_derived]
-    impl ::dalembert::generated::OffersMethods<1> for DrivenJoint<'_> {
-        type Methods = Midpoint;
-    }
-    #[automatically_derived]
     impl Parameters<1, 2> for DrivenJoint<'_> {
         const PARAMETERS: [&'static str; 2] = ["l", "c[0]"];
         #[inline]
@@ -461,5 +348,118 @@ const _: () = {
         fn p0_by_input(&self, q0: &Vector, v: &Vector, h: f64) -> SMatrix<f64, 1, 1> {
             Midpoint::force_by_input(self, q0, v, h).p0
         }
+    }
+    #[automatically_derived]
+    impl Discrete<Midpoint, 1> for DrivenJoint<'_> {
+        type Matrix = SMatrix<f64, 1, 1>;
+        type Memory = ::dalembert::generated::VelocityHistory<f64, 1>;
+        /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::discrete_lagrangian(self, q0, q1, h)
+        }
+        /// L_d with D1, D2, D11, D12, D22.
+        fn discrete_lagrangian_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 1> {
+            Midpoint::discrete_lagrangian_derivatives(self, q0, q1, h)
+        }
+        /// f_d⁻ = D1 R_d + (h/2) f(q̄, v̄), f_d⁺ = −D2 R_d + (h/2) f(q̄, v̄).
+        fn discrete_force(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForce<f64, 1> {
+            Midpoint::rayleigh_force(self, q0, q1, h)
+                + Midpoint::general_force(self, q0, q1, h)
+        }
+        /// f_d with its derivatives by q0 and q1.
+        fn discrete_force_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForceDerivatives<f64, 1> {
+            Midpoint::rayleigh_force_derivatives(self, q0, q1, h)
+                + Midpoint::general_force_derivatives(self, q0, q1, h)
+        }
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        #[inline]
+        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0]];
+            let u = self.u;
+            let l = self.system.l;
+            let c_0 = self.system.c[0];
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            let v0_squared = v[0] * v[0];
+            let l_squared = l * l;
+            StepKernel {
+                p0: SVector::from([
+                    v[0] * l_squared
+                        - half * (u[0] * cos_q0 - l * sin_q0 - v0_squared * (c_0 * v[0])),
+                ]),
+                matrix: SMatrix::from([
+                    [
+                        l_squared
+                            + half
+                                * (v0_squared * (3.0 * c_0)
+                                    + half * (l * cos_q0 + u[0] * sin_q0)),
+                    ],
+                ]),
+            }
+        }
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        #[inline]
+        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0]];
+            let u = self.u;
+            let l = self.system.l;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            let t1 = v[0] * (l * l);
+            let t2 = half
+                * (u[0] * cos_q0 - l * sin_q0
+                    - v[0] * (v[0] * (self.system.c[0] * v[0])));
+            Momenta {
+                p0: SVector::from([t1 - t2]),
+                p1: SVector::from([t1 + t2]),
+            }
+        }
+        /// E_L on the segment.
+        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::segment_energy(self, q0, q1, h)
+        }
+        fn verify_segment(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            Midpoint::verify_segment(self, q0, v, h)
+        }
+    }
+    #[automatically_derived]
+    impl DiscreteRayleigh<Midpoint, 1> for DrivenJoint<'_> {
+        /// R_d = (h²/2) R(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
+        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Midpoint::discrete_rayleigh(self, q0, q1, h)
+        }
+        /// R_d with D1, D2, D11, D12, D22.
+        fn discrete_rayleigh_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 1> {
+            Midpoint::discrete_rayleigh_derivatives(self, q0, q1, h)
+        }
+    }
+    #[automatically_derived]
+    impl ::dalembert::generated::OffersMethods<1> for DrivenJoint<'_> {
+        type Methods = Midpoint;
     }
 };

@@ -5,9 +5,9 @@
 use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 
+use super::super::model::{Home, Part, System};
+use super::super::syntax::regrouped;
 use super::item::conditions;
-use super::model::{Home, Part, System};
-use super::syntax::regrouped;
 
 /// `DrivenArm` if the force takes an input, else `ArmAtTime`.
 pub fn name(system: &System<'_>) -> Ident {

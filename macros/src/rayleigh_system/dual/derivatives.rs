@@ -5,8 +5,8 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::super::model::{Part, RayleighArguments, System};
-use super::super::view::{arguments, owner};
+use super::super::model::{Degrees, Part, RayleighArguments, System};
+use super::super::write::view::{arguments, owner};
 
 /// Gradient, derivatives and variations of L or R.
 pub fn of_function(system: &System<'_>, part: Part, point: RayleighArguments) -> TokenStream {
@@ -76,11 +76,10 @@ pub fn of_force(system: &System<'_>) -> TokenStream {
     }
 }
 
-/// The derivative of f by the input; empty where there is none.
-pub fn by_input(system: &System<'_>) -> TokenStream {
-    let Some(m) = system.input.as_ref().map(|input| input.times(1)) else { return TokenStream::new() };
+/// The derivative of f by the input.
+pub fn by_input(system: &System<'_>, input: &Degrees) -> TokenStream {
     let scalar = &system.scalar;
-    let n = system.degrees.times(1);
+    let (n, m) = (system.degrees.times(1), input.times(1));
     let time = system.timed.force.then(|| quote!(, dual::lift(self.t)));
     quote! {
         fn force_by_input(&self, q: &Vector, v: &Vector) -> SMatrix<#scalar, #n, #m> {

@@ -7,10 +7,10 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{quote, quote_spanned};
 
-use super::diagnostics::{Note, span_of};
-use super::item::{conditions, lint_levels};
-use super::lower::Refusal;
-use super::model::System;
+use super::super::diagnostics::{Note, span_of};
+use super::super::lower::Refusal;
+use super::super::model::System;
+use super::super::write::item::{conditions, lint_levels};
 
 /// The most coordinates that a step by dual numbers has the stack for, on a thread of 2 MiB, the least of
 /// Rust's defaults.

@@ -17,142 +17,104 @@ use syn::Ident;
 use super::differentiate::{Derivatives, Differentiation, Gradient};
 use super::emit::{StraightLine, straight_line};
 use super::graph::{Graph, MOST_OPERATIONS, Node, Operation};
-use super::implement::{self, Kernel};
-use super::imports::imported;
-use super::item;
-use super::item::are_bindings;
 use super::lower::{Length, Load, Lowered, Refusal};
-use super::model::{Home, Part, Rule, System};
+use super::model::{Degrees, Home, Part, System};
+use super::rules::Points;
 use super::structure::{self, Differentiated, Findings, Structure, Terms};
-use super::view;
+use super::write::item::as_written;
+use super::write::{self, EngineFunctions, Kernel, view};
 
-/// The whole expansion, unless the derivatives are too long to be written out.
+/// The whole expansion: the user's item as it stands, and the system with its derivatives.
 ///
 /// `is_portable`: the elementary functions are the runtime's, in the user's bodies too.
-pub fn system(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Result<TokenStream, Refusal> {
-    let Lowered { graph, n, m, lagrangian, rayleigh, force, functions, bindings, heaviest } = lowered;
+pub fn system(system: &System<'_>, written: WrittenOut, is_portable: bool) -> TokenStream {
+    let item = as_written(system, &written.run, is_portable);
+    let view = view::definition(system);
+    let implementation = write::system(system, written.functions);
+    quote! {
+        #item
+
+        #view
+
+        #implementation
+    }
+}
+
+/// A system whose derivatives are written out.
+pub struct WrittenOut {
+    functions: EngineFunctions,
+    /// The user's functions that the bodies run.
+    run: Vec<Ident>,
+}
+
+/// The derivatives of what was lowered, unless they are too long to be written out.
+pub fn functions(
+    system: &System<'_>,
+    lowered: Lowered,
+    is_portable: bool,
+) -> std::result::Result<WrittenOut, Refusal> {
+    let Lowered { graph, n, m, lagrangian, rayleigh, force, functions: run, bindings, heaviest } = lowered;
     let written = graph.len();
-    let derivation = Differentiation::default();
-    let home = system.home_of(Part::Lagrangian);
     let mut code = Code {
         system,
         graph,
         written,
         n,
         m,
-        derivation,
-        home,
+        derivation: Differentiation::default(),
+        home: system.home_of(Part::Lagrangian),
         is_portable,
         calls_elementary: false,
         longest: 0,
     };
     let heaviest = heaviest.as_ref();
+    let force = force.as_deref();
     let of_lagrangian = code.function("lagrangian", "l", lagrangian);
     code.bounded(heaviest)?;
     code.home = system.home_of(Part::Rayleigh);
     let of_rayleigh = rayleigh.map(|root| code.function("rayleigh", "r", root));
     code.bounded(heaviest)?;
     code.home = system.home();
-    let of_force = force.as_ref().map(|components| code.force(components));
-    let by_input = force.as_ref().and_then(|components| implement::driven(system, code.by_input(components)));
+    let of_force = force.map(|components| code.force(components));
+    let by_input =
+        force.zip(system.input.as_ref()).map(|(components, input)| code.by_input(components, input));
     code.bounded(heaviest)?;
-    let on_request = code.on_request(lagrangian, rayleigh, force.as_deref());
+    let by_parameters = code.all_by_parameters(lagrangian, rayleigh, force);
+    let second_order = code.all_along(lagrangian, rayleigh, force);
     code.bounded(heaviest)?;
-    let findings = code.findings(lagrangian, rayleigh, force.as_deref());
-    let forced = system.rules.gauss.then(|| {
-        let stages = code.stages(lagrangian, rayleigh, force.as_deref());
-        implement::forced_lagrangian(system, stages)
-    });
+    let findings = code.findings(lagrangian, rayleigh, force);
+    let stages = if system.rules.gauss { code.stages(lagrangian, rayleigh, force) } else { None };
     code.bounded(heaviest)?;
-    let mut discrete = TokenStream::new();
-    let mut is_explicit = false;
+    let mut kernels = Vec::new();
     for newton in &findings.newton {
         // Rules that take L and R together bring their own kernel.
-        let kernel =
-            (!newton.rule.is_joint()).then(|| code.kernel(newton, lagrangian, rayleigh, force.as_deref()));
-        is_explicit |= kernel.as_ref().is_some_and(|kernel| kernel.explicit.is_some());
+        let is_own = newton.rule.joint().is_none();
+        kernels.push(is_own.then(|| code.kernel(newton, lagrangian, rayleigh, force)));
         code.bounded(heaviest)?;
-        discrete.extend(implement::discrete(system, newton.rule, true, kernel));
     }
-    let structure = Structure { engine: structure::Engine::Expanded, findings: Some(findings) };
-    let of_lagrangian = implement::lagrangian(system, &structure, of_lagrangian);
-    let of_rayleigh = system
-        .rayleigh
-        .zip(of_rayleigh)
-        .map(|(arguments, functions)| implement::rayleigh(system, arguments, functions));
-    let of_force = of_force.map(|functions| implement::force(system, functions));
-    let discrete_rayleigh: Option<TokenStream> = system.rayleigh.map(|_| {
-        system.rules.of_displacement.iter().map(|&rule| implement::discrete_rayleigh(system, rule)).collect()
-    });
-    let offered_methods = implement::offered_methods(system, is_explicit);
-    let item = item::as_written(system, &functions, is_portable);
-    let bindings = are_bindings(&bindings);
-    let view = view::definition(system);
-    let imports = imports(system, code.calls_elementary, forced.as_ref());
-    let (conditions, quiet) = (item::conditions(system.source), item::quiet());
-    let (scalar, dimension) = (&system.scalar, system.degrees.times(1));
-    Ok(quote! {
-        #item
-
-        #view
-
-        #(#conditions)*
-        #quiet
-        const _: () = {
-            #imports
-
-            type Vector = SVector<#scalar, #dimension>;
-
-            #of_lagrangian
-            #of_rayleigh
-            #of_force
-            #forced
-            #by_input
-            #discrete
-            #discrete_rayleigh
-            #offered_methods
-            #on_request
-            #bindings
-        };
-    })
+    let names = stages.as_ref().map(names_of_lanes).unwrap_or_default();
+    let functions = EngineFunctions {
+        structure: Structure { engine: structure::Engine::Expanded, findings: Some(findings) },
+        lagrangian: of_lagrangian,
+        rayleigh: of_rayleigh,
+        force: of_force,
+        by_input,
+        stages,
+        kernels,
+        by_parameters,
+        second_order,
+        names,
+        calls_elementary: code.calls_elementary,
+        bindings,
+    };
+    Ok(WrittenOut { functions, run })
 }
 
-/// Whether a rule listed asks for derivatives of L along its directions: the kernels of the others have them
-/// folded in.
-fn has_variations(system: &System<'_>) -> bool {
-    system.rules.of_displacement.contains(&Rule::OneSided)
-}
-
-/// Whether L or R of the view is that of the system.
-fn delegates(system: &System<'_>) -> bool {
-    let parts = [(Part::Lagrangian, true), (Part::Rayleigh, system.rayleigh.is_some())];
-    system.has_view() && parts.iter().any(|&(part, exists)| exists && system.home_of(part) == Home::System)
-}
-
-/// What the expansion uses.
-fn imports(system: &System<'_>, calls_elementary: bool, forced: Option<&TokenStream>) -> TokenStream {
-    let mut names = imported(system);
-    if !has_variations(system) && !delegates(system) {
-        names.retain(|name| name != "Direction" && name != "Variations");
-    }
-    if let Some(forced) = forced {
-        let text = forced.to_string();
-        let occurs =
-            |name: &str| text.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == name);
-        let of_lanes = ["LaneVector", "Lanes", "Mask", "Stages"].into_iter().filter(|name| occurs(name));
-        names.extend(of_lanes.map(|name| format_ident!("{name}")));
-        names.sort_unstable();
-    }
-    let elementary = calls_elementary.then(|| {
-        quote!(
-            use ::dalembert::generated::Elementary as _;
-        )
-    });
-    quote! {
-        use ::dalembert::nalgebra::{SMatrix, SVector};
-        use ::dalembert::generated::{#(#names),*};
-        #elementary
-    }
+/// The names of the runtime that code in lanes uses.
+fn names_of_lanes(stages: &TokenStream) -> Vec<&'static str> {
+    let text = stages.to_string();
+    let occurs = |name: &str| text.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == name);
+    ["LaneVector", "Lanes", "Mask", "Stages"].into_iter().filter(|name| occurs(name)).collect()
 }
 
 /// A system while its code is written.
@@ -247,8 +209,8 @@ impl Code<'_> {
             }
         };
 
-        let variations =
-            (function == "lagrangian" && has_variations(self.system)).then(|| self.variations(&second));
+        let variations = (function == "lagrangian" && self.system.rules.ask_for_variations())
+            .then(|| self.variations(&second));
         quote! {
             #gradient
 
@@ -283,37 +245,10 @@ impl Code<'_> {
         }
     }
 
-    /// Derivatives by parameters and second derivatives of the step, as far as the attribute asks for them.
-    fn on_request(
-        &mut self,
-        lagrangian: Node,
-        rayleigh: Option<Node>,
-        force: Option<&[Node]>,
-    ) -> TokenStream {
-        let parts = [(Part::Lagrangian, Some(lagrangian)), (Part::Rayleigh, rayleigh)];
-        let parts = parts.into_iter().filter_map(|(part, root)| root.map(|root| (part, root)));
-        let by_parameters = (!self.system.parameters.is_empty()).then(|| {
-            let mut functions: TokenStream =
-                parts.clone().map(|(part, root)| self.by_parameters(part, root)).collect();
-            functions.extend(force.map(|components| self.force_by_parameters(components)));
-            implement::by_parameters(self.system, functions)
-        });
-        let second = self.system.second.then(|| {
-            let mut functions: TokenStream =
-                parts.map(|(part, root)| self.along_vectors(part, root)).collect();
-            functions.extend(force.map(|components| self.force_along(components)));
-            implement::second_order(self.system, functions)
-        });
-        quote!(#by_parameters #second)
-    }
-
-    /// `force_by_input`; empty where there is no input.
-    fn by_input(&mut self, components: &[Node]) -> TokenStream {
-        let Some(m) = self.system.input.as_ref().map(|input| input.times(1)) else {
-            return TokenStream::new();
-        };
+    /// `force_by_input`
+    fn by_input(&mut self, components: &[Node], input: &Degrees) -> TokenStream {
         let scalar = &self.system.scalar;
-        let n = self.system.degrees.times(1);
+        let (n, m) = (self.system.degrees.times(1), input.times(1));
         let rows = self.rows(components);
         let mut outputs = Vec::new();
         for j in 0..self.m {

@@ -27,17 +27,17 @@ use syn::{
     Path, ReturnType, Stmt, Type, parse_quote, parse_quote_spanned,
 };
 
-use super::check::qualifiers;
-use super::diagnostics::{Mistake, Report, span_of};
-use super::model::{Body, Source, System};
-use super::scope::bound_names;
-use super::syntax::Matches;
-use super::syntax::{
+use super::super::check::qualifiers;
+use super::super::diagnostics::{Mistake, Report, span_of};
+use super::super::model::{Body, Source, System};
+use super::super::scope::bound_names;
+use super::super::syntax::Matches;
+use super::super::syntax::{
     METHODS, ROUNDING, is_assignment, is_constant_name, is_float_literal, is_function_of_std,
     is_generic_of_std, is_of_other_float, is_place_of_self, is_plain, is_self, is_variant, real_type,
     takes_function,
 };
-use super::syntax::{has_floats, is_integer, simple_name};
+use super::super::syntax::{has_floats, is_integer, simple_name};
 
 /// A function and what it becomes over `Real<D>`.
 pub struct Twin {

@@ -6,9 +6,9 @@ use quote::{format_ident, quote};
 
 use super::super::emit::over_duals;
 use super::super::graph::Node;
-use super::super::item::are_bindings;
 use super::super::lower::Lowered;
 use super::super::model::{Part, RayleighArguments, System};
+use super::super::write::item::{are_bindings, quiet};
 
 /// Whether the user's block has functions named as those over dual numbers.
 pub fn names_are_taken(system: &System<'_>) -> bool {
@@ -29,7 +29,7 @@ pub fn twins(system: &System<'_>, lowered: &Lowered) -> TokenStream {
     let quiet_bindings =
         bindings.map(|bindings| quote!(#[allow(unused_variables, nonstandard_style)] #bindings));
     // fn lagrangian_over<D: Dual<f64>>(&self, q: [Real<D>; 2], v: [Real<D>; 2]) -> Real<D>
-    let quiet = super::quiet();
+    let quiet = quiet();
     quote! {
         #quiet
         #[allow(dead_code)]

@@ -3,7 +3,7 @@
 use syn::visit::{self, Visit};
 use syn::{Expr, ImplItemFn, Local};
 
-use super::super::syntax::is_place_of_self;
+use crate::rayleigh_system::syntax::is_place_of_self;
 
 /// Whether a field goes into a local as it stands, as in `let law = self.law;`: a number or an array can be
 /// lifted, an enum or a struct cannot, and nothing here tells which it is.

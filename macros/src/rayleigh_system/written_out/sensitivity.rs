@@ -3,12 +3,41 @@
 
 use syn::Expr;
 
-use super::super::model::Part;
 use super::*;
 
 impl Code<'_> {
+    /// The functions of `Parameters`, if there are any.
+    pub(super) fn all_by_parameters(
+        &mut self,
+        lagrangian: Node,
+        rayleigh: Option<Node>,
+        force: Option<&[Node]>,
+    ) -> Option<TokenStream> {
+        (!self.system.parameters.is_empty()).then(|| {
+            let of_lagrangian = self.by_parameters(Part::Lagrangian, lagrangian);
+            let of_rayleigh = rayleigh.map(|root| self.by_parameters(Part::Rayleigh, root));
+            let of_force = force.map(|components| self.force_by_parameters(components));
+            quote!(#of_lagrangian #of_rayleigh #of_force)
+        })
+    }
+
+    /// The functions of `SecondOrder`, if they are asked for.
+    pub(super) fn all_along(
+        &mut self,
+        lagrangian: Node,
+        rayleigh: Option<Node>,
+        force: Option<&[Node]>,
+    ) -> Option<TokenStream> {
+        self.system.second.then(|| {
+            let of_lagrangian = self.along_vectors(Part::Lagrangian, lagrangian);
+            let of_rayleigh = rayleigh.map(|root| self.along_vectors(Part::Rayleigh, root));
+            let of_force = force.map(|components| self.force_along(components));
+            quote!(#of_lagrangian #of_rayleigh #of_force)
+        })
+    }
+
     /// `lagrangian_by_parameters`, `rayleigh_by_parameters`
-    pub(super) fn by_parameters(&mut self, part: Part, root: Node) -> TokenStream {
+    fn by_parameters(&mut self, part: Part, root: Node) -> TokenStream {
         let scalar = &self.system.scalar;
         let (n, count) = (self.system.degrees.times(1), self.system.parameters.len());
         let p = self.system.parameter_count();
@@ -34,7 +63,7 @@ impl Code<'_> {
     }
 
     /// `force_by_parameters`
-    pub(super) fn force_by_parameters(&mut self, components: &[Node]) -> TokenStream {
+    fn force_by_parameters(&mut self, components: &[Node]) -> TokenStream {
         let scalar = &self.system.scalar;
         let (n, p) = (self.system.degrees.times(1), self.system.parameter_count());
         let rows = self.rows(components);
@@ -74,7 +103,7 @@ impl Code<'_> {
     }
 
     /// `lagrangian_along`, `rayleigh_along`: the Hessian of a·∂f/∂q + b·∂f/∂v.
-    pub(super) fn along_vectors(&mut self, part: Part, root: Node) -> TokenStream {
+    fn along_vectors(&mut self, part: Part, root: Node) -> TokenStream {
         let scalar = &self.system.scalar;
         let (n, m) = (self.system.degrees.times(1), self.system.inputs());
         let function = format_ident!("{}_along", part.name());
@@ -114,7 +143,7 @@ impl Code<'_> {
     }
 
     /// `force_along`: the Hessian of a covector's product with f.
-    pub(super) fn force_along(&mut self, components: &[Node]) -> TokenStream {
+    fn force_along(&mut self, components: &[Node]) -> TokenStream {
         let scalar = &self.system.scalar;
         let (n, m) = (self.system.degrees.times(1), self.system.inputs());
         let mut sum = None;

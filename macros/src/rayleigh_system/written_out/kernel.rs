@@ -1,7 +1,7 @@
 //! The step's equation, fused: L, R and f with the rule's directions folded in, each shared expression once;
 //! in the form that the structure of its matrix allows.
 
-use super::implement::Memory;
+use super::super::write::Memory;
 use super::structure::Newton;
 use super::*;
 
@@ -42,13 +42,14 @@ impl Code<'_> {
             rayleigh.map(|root| self.derivation.hessian(&mut self.graph, root, "r")).unwrap_or_default();
         let rows = self.rows(&force);
         let parts = Parts { lagrangian, rayleigh, force, rows };
-        let Equation { p0, p1, matrix } = match newton.rule {
-            Rule::Midpoint | Rule::Fitted | Rule::OneSided => self.midpoint(&parts),
-            Rule::Trapezoidal | Rule::FittedTrapezoidal => self.trapezoidal(&parts),
+        let points = newton.rule.entry().points;
+        let Equation { p0, p1, matrix } = match points {
+            Points::Middle => self.midpoint(&parts),
+            Points::Ends => self.trapezoidal(&parts),
         };
-        let framed = |code: &Self, line: &StraightLine, result: TokenStream| match newton.rule {
-            Rule::Midpoint | Rule::Fitted | Rule::OneSided => code.at_midpoint(line, result),
-            Rule::Trapezoidal | Rule::FittedTrapezoidal => code.at_both_ends(line, result),
+        let framed = |code: &Self, line: &StraightLine, result: TokenStream| match points {
+            Points::Middle => code.at_midpoint(line, result),
+            Points::Ends => code.at_both_ends(line, result),
         };
 
         let diagonals = diagonals(self.n, newton.bandwidth);

@@ -3,10 +3,10 @@
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, quote};
-use syn::{AttrStyle, Attribute, FnArg, Ident, Pat, Type};
+use syn::{AttrStyle, Attribute, Ident};
 
-use super::model::{Function, Role, Source, System};
-use super::portable;
+use super::super::model::{Function, Role, Source, System};
+use super::super::portable;
 
 /// The user's item, with the struct of a free function.
 pub fn as_written(system: &System<'_>, functions: &[Ident], is_portable: bool) -> TokenStream {
@@ -31,11 +31,11 @@ pub fn structure(system: &System<'_>, function: &Function) -> TokenStream {
         Role::Field => "field",
     };
     let text = format!(" The {what} of [`{function_name}`], with its parameters.");
-    let fields = parameters(function).map(|(field, ty)| {
+    let fields = function.fields().map(|(field, ty)| {
         let text = format!(" Parameter `{field}` of [`{function_name}`].");
         quote!(#[doc = #text] #visibility #field: #ty)
     });
-    let body = if parameters(function).next().is_some() { quote!({ #(#fields),* }) } else { quote!(;) };
+    let body = if function.fields().next().is_some() { quote!({ #(#fields),* }) } else { quote!(;) };
     let conditions = conditions(system.source);
     quote! {
         #(#conditions)*
@@ -44,17 +44,6 @@ pub fn structure(system: &System<'_>, function: &Function) -> TokenStream {
         #[allow(dead_code)]
         #visibility struct #name #body
     }
-}
-
-/// Names and types of a free function's parameters after q and v.
-pub fn parameters(function: &Function) -> impl Iterator<Item = (&Ident, &Type)> {
-    function.item.sig.inputs.iter().skip(function.role.arguments()).filter_map(|parameter| match parameter {
-        FnArg::Typed(parameter) => match &*parameter.pat {
-            Pat::Ident(pattern) => Some((&pattern.ident, &*parameter.ty)),
-            _ => None,
-        },
-        FnArg::Receiver(_) => None,
-    })
 }
 
 /// The conditions under which the user's item exists at all.

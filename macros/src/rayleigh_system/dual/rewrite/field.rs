@@ -2,9 +2,9 @@
 
 use syn::{Expr, ExprField, Ident, Member, parse_quote_spanned};
 
-use super::super::diagnostics::{Mistake, span_of};
-use super::super::syntax::{identifier, is_self, without_parentheses};
 use super::{Field, Rewriter};
+use crate::rayleigh_system::diagnostics::{Mistake, span_of};
+use crate::rayleigh_system::syntax::{identifier, is_self, without_parentheses};
 
 impl Rewriter<'_> {
     /// What stands for `base.member`, where that is a field of the system.

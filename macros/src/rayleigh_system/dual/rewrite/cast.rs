@@ -2,10 +2,10 @@
 
 use syn::{BinOp, Expr, ExprCast, UnOp, parse_quote_spanned, visit_mut};
 
-use super::super::diagnostics::{Mistake, span_of};
-use super::super::syntax::{is_arithmetic, is_constant_name, is_self, without_parentheses};
-use super::super::syntax::{is_integer, simple_name};
 use super::Rewriter;
+use crate::rayleigh_system::diagnostics::{Mistake, span_of};
+use crate::rayleigh_system::syntax::{is_arithmetic, is_constant_name, is_self, without_parentheses};
+use crate::rayleigh_system::syntax::{is_integer, simple_name};
 
 impl Rewriter<'_> {
     /// | written | becomes |

@@ -4,9 +4,9 @@
 use proc_macro2::Span;
 use syn::{BinOp, Expr, ExprBinary, Ident, parse_quote_spanned};
 
-use super::super::diagnostics::span_of;
-use super::super::syntax::{METHODS, is_assignment, is_self, without_parentheses};
 use super::Rewriter;
+use crate::rayleigh_system::diagnostics::span_of;
+use crate::rayleigh_system::syntax::{METHODS, is_assignment, is_self, without_parentheses};
 
 impl Rewriter<'_> {
     /// The operator, whose operands are rewritten; it stays as it is where nothing can tell in which order

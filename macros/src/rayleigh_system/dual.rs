@@ -1,0 +1,104 @@
+//! The system by num-dual: its functions over dual numbers, and derivatives that evaluate them when the
+//! program runs.
+//!
+//! The comment above each quotation shows what it expands to.
+
+mod derivatives;
+mod expressions;
+mod field;
+mod notice;
+pub mod rewrite;
+mod twins;
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::lower::{Lowered, Refusal};
+use super::model::{Part, RayleighArguments, Source, System};
+use super::structure::{Engine, Structure};
+use super::write::item::{as_written, conditions};
+use super::write::{self, EngineFunctions, view};
+pub use expressions::names_are_taken;
+pub use field::field;
+use rewrite::Twin;
+
+/// Where the functions over dual numbers come from.
+pub enum Twins {
+    /// The user's bodies, rewritten.
+    Rewritten(Vec<Twin>),
+    /// The expressions that the bodies compute, where rewriting them would need more than numbers.
+    Lowered(Box<Lowered>),
+}
+
+/// The whole expansion: the user's item, its functions over dual numbers, and the system that they make.
+///
+/// `refusal`: why derivatives are not written out, where nobody asked for dual numbers.
+pub fn system(
+    system: &System<'_>,
+    twins: &Twins,
+    refusal: Option<Refusal>,
+    is_portable: bool,
+) -> TokenStream {
+    let (item, twins) = match (twins, system.source) {
+        (Twins::Rewritten(twins), Source::Block(block)) => (
+            twins::plain_block(system, &block.item, twins),
+            twins::twins_of_block(system, &block.item, twins),
+        ),
+        (Twins::Rewritten(twins), Source::Function(function)) => (
+            twins::function_and_struct(system, function),
+            twins::twins_of_function(system, function, &twins[0]),
+        ),
+        (Twins::Lowered(lowered), _) => {
+            (as_written(system, &lowered.functions, is_portable), expressions::twins(system, lowered))
+        }
+    };
+    let warning = refusal.as_ref().map(|refusal| notice::warning(system, refusal));
+    let bound = notice::bound(system);
+    let view = view::definition(system);
+    let (conditions, quiet_twins) = (conditions(system.source), quiet_twins());
+    let implementation = write::system(system, functions(system, refusal));
+    // Bodies stand apart from the implementations: the fewer names are imported beside a user's code, the
+    // fewer collide.
+    quote! {
+        #item
+
+        #warning
+
+        #bound
+
+        #view
+
+        #(#conditions)*
+        #quiet_twins
+        const _: () = {
+            use ::dalembert::generated::dual::{self, Dual, Real};
+            #twins
+        };
+
+        #implementation
+    }
+}
+
+/// What num-dual makes of the system.
+fn functions(system: &System<'_>, refusal: Option<Refusal>) -> EngineFunctions {
+    let both = RayleighArguments::ConfigurationAndVelocity;
+    EngineFunctions {
+        structure: Structure { engine: Engine::NumDual(refusal), findings: None },
+        lagrangian: derivatives::of_function(system, Part::Lagrangian, both),
+        rayleigh: system.rayleigh.map(|point| derivatives::of_function(system, Part::Rayleigh, point)),
+        force: system.has_force.then(|| derivatives::of_force(system)),
+        by_input: system.input.as_ref().map(|input| derivatives::by_input(system, input)),
+        stages: None,
+        kernels: system.rules.of_displacement.iter().map(|_| None).collect(),
+        by_parameters: None,
+        second_order: system.second.then(|| derivatives::along_vectors(system)),
+        names: vec!["Direction", "Variations", "dual"],
+        calls_elementary: false,
+        bindings: Vec::new(),
+    }
+}
+
+/// The user's bodies over dual numbers: rustc checks them there, and there alone.
+fn quiet_twins() -> TokenStream {
+    quote!(#[allow(clippy::pedantic, clippy::nursery)])
+}

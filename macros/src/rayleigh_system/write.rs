@@ -1,0 +1,108 @@
+//! The traits of the runtime, implemented for a system with the functions that either engine makes: each
+//! function below writes one `impl`, and the comment above each quotation shows what it expands to.
+
+mod continuous;
+mod discrete;
+mod imports;
+pub mod item;
+mod joint;
+mod on_request;
+pub mod view;
+
+use proc_macro2::TokenStream;
+use quote::quote;
+use syn::Ident;
+
+use super::model::System;
+use super::structure::{Engine, Structure};
+pub use discrete::{Kernel, Memory};
+
+/// What an engine makes of a system: the functions that the runtime's traits ask for.
+pub struct EngineFunctions {
+    /// What is known of the system.
+    pub structure: Structure,
+    /// Derivatives of L.
+    pub lagrangian: TokenStream,
+    /// Derivatives of R.
+    pub rayleigh: Option<TokenStream>,
+    /// Derivatives of f.
+    pub force: Option<TokenStream>,
+    /// The derivative of f by the input.
+    pub by_input: Option<TokenStream>,
+    /// The equations at the stages of Gauss rules, where they are not those that the runtime makes.
+    pub stages: Option<TokenStream>,
+    /// What each rule has of its own.
+    pub kernels: Vec<Option<Kernel>>,
+    /// Derivatives by parameters, if they are asked for.
+    pub by_parameters: Option<TokenStream>,
+    /// Second derivatives of the step, if they are asked for.
+    pub second_order: Option<TokenStream>,
+    /// Names of the runtime that the functions use.
+    pub names: Vec<&'static str>,
+    /// Whether they call the runtime's elementary functions.
+    pub calls_elementary: bool,
+    /// Names that rustc has to agree are bindings.
+    pub bindings: Vec<Ident>,
+}
+
+/// The system: every trait that it implements, in a scope of their own.
+pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
+    let is_expanded = matches!(functions.structure.engine, Engine::Expanded);
+    let is_explicit = functions.kernels.iter().flatten().any(|kernel| kernel.explicit.is_some());
+    let imports = imports::imports(system, &functions.names, functions.calls_elementary);
+    let lagrangian = continuous::lagrangian(system, &functions.structure, functions.lagrangian);
+    let rayleigh = system
+        .rayleigh
+        .zip(functions.rayleigh)
+        .map(|(arguments, derivatives)| continuous::rayleigh(system, arguments, derivatives));
+    let force = functions.force.map(|derivatives| continuous::force(system, derivatives));
+    let forced = system.rules.gauss.then(|| continuous::forced_lagrangian(system, functions.stages));
+    let driven = functions.by_input.and_then(|by_input| on_request::driven(system, by_input));
+    let by_parameters = functions.by_parameters.map(|functions| on_request::by_parameters(system, functions));
+    let second_order = functions.second_order.map(|functions| on_request::second_order(system, functions));
+    let rules = system.rules.of_displacement.iter().zip(functions.kernels);
+    let discrete = rules.map(|(&rule, kernel)| {
+        let discrete = discrete::discrete(system, rule, is_expanded, kernel);
+        let rayleigh = system.rayleigh.map(|_| discrete::discrete_rayleigh(system, rule));
+        quote!(#discrete #rayleigh)
+    });
+    let offered_methods = discrete::offered_methods(system, is_explicit);
+    let bindings = item::are_bindings(&functions.bindings);
+    let (conditions, quiet) = (item::conditions(system.source), item::quiet());
+    let (scalar, n) = (&system.scalar, system.degrees.times(1));
+    quote! {
+        #(#conditions)*
+        #quiet
+        const _: () = {
+            #imports
+
+            type Vector = SVector<#scalar, #n>;
+
+            #lagrangian
+            #rayleigh
+            #force
+            #forced
+            #driven
+            #by_parameters
+            #second_order
+            #(#discrete)*
+            #offered_methods
+            #bindings
+        };
+    }
+}
+
+/// `fn verify_segment`, by the nodes of the rule.
+fn verify_segment(system: &System<'_>, rule: &TokenStream) -> TokenStream {
+    let scalar = &system.scalar;
+    quote! {
+        fn verify_segment(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: #scalar,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            #rule::verify_segment(self, q0, v, h)
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! L, R and f as functions of time: `Lagrangian`, `Rayleigh`, `Force` and `ForcedLagrangian`.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+
+use super::super::model::{Home, Part, RayleighArguments, Source, System};
+use super::super::structure::{Engine, Structure};
+use super::view::{self, arguments, owner, subject};
+
+/// The plain value of L (0) or R (1) at the vectors q and v.
+fn value(system: &System<'_>, part: Part, point: RayleighArguments) -> TokenStream {
+    let function = part.name();
+    match system.source {
+        Source::Block(_) => {
+            let function = format_ident!("{function}");
+            let (owner, after) = (owner(system.home_of(part)), arguments(system, part));
+            match point {
+                RayleighArguments::Velocity => quote!(#owner.#function((*v).into() #(, #after)*)),
+                RayleighArguments::ConfigurationAndVelocity => {
+                    quote!(#owner.#function((*q).into(), (*v).into() #(, #after)*))
+                }
+            }
+        }
+        Source::Function(source) => {
+            let name = &source.item.sig.ident;
+            let fields = source.fields().map(|(field, _)| quote!(self.#field));
+            let index = match (system.rayleigh, function) {
+                (None, _) => None,
+                (Some(_), "lagrangian") => Some(quote!(.0)),
+                (Some(_), _) => Some(quote!(.1)),
+            };
+            quote!(#name((*q).into(), (*v).into(), #(#fields),*) #index)
+        }
+    }
+}
+
+/// `impl Lagrangian<2> for Ring`, with the derivatives of either engine.
+pub fn lagrangian(system: &System<'_>, structure: &Structure, derivatives: TokenStream) -> TokenStream {
+    let scalar = &system.scalar;
+    let n = system.degrees.times(1);
+    let home = system.home_of(Part::Lagrangian);
+    let subject = subject(system, home);
+    let later = if home == Home::View { view::later(system) } else { None };
+    let value = value(system, Part::Lagrangian, RayleighArguments::ConfigurationAndVelocity);
+    let is_expanded = matches!(structure.engine, Engine::Expanded);
+    let verification = is_expanded.then(|| verification(system, home));
+    let delegation = view::delegation(system, Part::Lagrangian, verification_of_view(system, is_expanded));
+    let (documentation, constant) = (structure.documentation(), structure.constant());
+    quote! {
+        #documentation
+        #[automatically_derived]
+        impl Lagrangian<#n> for #subject {
+            type Scalar = #scalar;
+
+            #constant
+
+            #[inline]
+            fn lagrangian(&self, q: &Vector, v: &Vector) -> #scalar {
+                #value
+            }
+
+            #derivatives
+
+            #verification
+
+            #later
+        }
+
+        #delegation
+    }
+}
+
+/// `fn verify_generated`: those of L, R and f that `home` has.
+fn verification(system: &System<'_>, home: Home) -> TokenStream {
+    let parts = system.parts().filter(|&part| home == Home::View || system.home_of(part) == home);
+    let functions: Vec<_> = parts.map(|part| format_ident!("{}", part.name())).collect();
+    let Some((last, others)) = functions.split_last() else { return TokenStream::new() };
+    // verification::lagrangian(self, q, v)?; verification::rayleigh(self, q, v)
+    quote! {
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            #(::dalembert::generated::verification::#others(self, q, v)?;)*
+            ::dalembert::generated::verification::#last(self, q, v)
+        }
+    }
+}
+
+/// That of the view, where the system itself has one of its own.
+fn verification_of_view(system: &System<'_>, is_expanded: bool) -> Option<TokenStream> {
+    (is_expanded && system.has_view()).then(|| verification(system, Home::View))
+}
+
+/// `impl Rayleigh<2> for Ring`, with the derivatives of either engine.
+pub fn rayleigh(system: &System<'_>, point: RayleighArguments, derivatives: TokenStream) -> TokenStream {
+    let scalar = &system.scalar;
+    let n = system.degrees.times(1);
+    let subject = subject(system, system.home_of(Part::Rayleigh));
+    let value = value(system, Part::Rayleigh, point);
+    let delegation = view::delegation(system, Part::Rayleigh, None);
+    let q = match point {
+        RayleighArguments::Velocity => quote!(_q),
+        RayleighArguments::ConfigurationAndVelocity => quote!(q),
+    };
+    quote! {
+        #[automatically_derived]
+        impl Rayleigh<#n> for #subject {
+            #[inline]
+            fn rayleigh(&self, #q: &Vector, v: &Vector) -> #scalar {
+                #value
+            }
+
+            #derivatives
+        }
+
+        #delegation
+    }
+}
+
+/// `impl Force<2> for Ring`, with the derivatives of either engine.
+pub fn force(system: &System<'_>, derivatives: TokenStream) -> TokenStream {
+    let n = system.degrees.times(1);
+    let home = system.home_of(Part::Force);
+    let (subject, owner, after) = (subject(system, home), owner(home), arguments(system, Part::Force));
+    quote! {
+        #[automatically_derived]
+        impl Force<#n> for #subject {
+            #[inline]
+            fn force(&self, q: &Vector, v: &Vector) -> Vector {
+                #owner.force((*q).into(), (*v).into() #(, #after)*).into()
+            }
+
+            #derivatives
+        }
+    }
+}
+
+/// `impl ForcedLagrangian<2> for Ring`: one term for each of R and f that the system has. The equations of
+/// motion at the stages are those that the runtime makes of it, unless an engine gives them.
+pub fn forced_lagrangian(system: &System<'_>, stages: Option<TokenStream>) -> TokenStream {
+    let scalar = &system.scalar;
+    let n = system.degrees.times(1);
+    let subject = subject(system, system.home());
+    let general = |derivatives: bool| {
+        system.has_force.then(|| match derivatives {
+            true => quote!(self.force_derivatives(q, v)),
+            false => quote!(Force::force(self, q, v)),
+        })
+    };
+    let of_rayleigh = |term: TokenStream| system.rayleigh.map(|_| term);
+    // −∂R/∂v + f
+    let values = [of_rayleigh(quote!(-self.rayleigh_gradient(q, v).d2)), general(false)];
+    let r = of_rayleigh(quote!(let r = self.rayleigh_derivatives(q, v);));
+    let derivatives = [
+        of_rayleigh(quote!(CovectorDerivatives { value: -r.d2, d1: -r.d12.transpose(), d2: -r.d22 })),
+        general(true),
+    ];
+    let (values, derivatives) = (values.iter().flatten(), derivatives.iter().flatten());
+    let is_forced = system.rayleigh.is_some() || system.has_force;
+    let formula = match (system.rayleigh.is_some(), system.has_force) {
+        (true, false) => " f_L = −∂R/∂v.",
+        (true, true) => " f_L = −∂R/∂v + f.",
+        (false, _) => " f_L = f.",
+    };
+    let force = is_forced.then(|| {
+        quote! {
+            const IS_FORCED: bool = true;
+
+            #[doc = #formula]
+            #[inline]
+            fn acting_force(&self, q: &Vector, v: &Vector) -> Vector {
+                #(#values)+*
+            }
+
+            /// f_L with its derivatives by q and v.
+            #[inline]
+            fn acting_force_derivatives(
+                &self,
+                q: &Vector,
+                v: &Vector,
+            ) -> CovectorDerivatives<#scalar, #n> {
+                #r
+                #(#derivatives)+*
+            }
+        }
+    });
+    let timed = system.timed.any().then(|| {
+        quote!(
+            const IS_TIMED: bool = true;
+        )
+    });
+    quote! {
+        #[automatically_derived]
+        impl ForcedLagrangian<#n> for #subject {
+            #timed
+            #force
+            #stages
+        }
+    }
+}

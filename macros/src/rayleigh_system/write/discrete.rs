@@ -1,0 +1,217 @@
+//! A system discretised by a rule: `Discrete`, `DiscreteRayleigh`, and the methods that an error can be asked
+//! of.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+use super::super::model::System;
+use super::super::rules::Rule;
+use super::joint;
+use super::verify_segment;
+use super::view::subject;
+
+/// What an engine makes of the step's equation: bodies of the functions that a step calls, L, R and f
+/// together, and what its structure allows.
+pub struct Kernel {
+    pub step_kernel: TokenStream,
+    pub momenta: TokenStream,
+    /// The diagonals of a banded Newton matrix.
+    pub diagonals: Option<usize>,
+    /// The step is one linear solve.
+    pub is_linear: bool,
+    pub memory: Memory,
+    /// The functions of an explicit step.
+    pub explicit: Option<TokenStream>,
+}
+
+/// What a run keeps from step to step.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Memory {
+    Velocities,
+    Matrix,
+    Explicit,
+}
+
+/// `impl Discrete<Midpoint, 2> for Ring`: one term for each of L, R and f that the system has, unless an
+/// engine gives the kernel's bodies.
+pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Option<Kernel>) -> TokenStream {
+    if let Some(shared) = rule.joint() {
+        return joint::discrete(system, rule, shared, is_expanded);
+    }
+    let scalar = &system.scalar;
+    let n = system.degrees.times(1);
+    let subject = subject(system, system.home());
+    let lagrangian = rule.entry().lagrangian;
+    let force = rule.force(system.rayleigh.is_some(), system.has_force);
+    let rule = rule.ident();
+    let terms = |of_rayleigh: &str, of_force: &str| {
+        let of_rayleigh = system.rayleigh.map(|_| format_ident!("{of_rayleigh}"));
+        let of_force = system.has_force.then(|| format_ident!("{of_force}"));
+        of_rayleigh.into_iter().chain(of_force)
+    };
+    let kernels = terms("rayleigh_kernel", "force_kernel");
+    let momenta = terms("rayleigh_momenta", "force_momenta");
+    let forces: Vec<_> = terms("rayleigh_force", "general_force").collect();
+    let force_derivatives = terms("rayleigh_force_derivatives", "general_force_derivatives");
+    // f_d⁻, f_d⁺: Midpoint::rayleigh_force(self, q0, q1, h)
+    let discrete_force = (!forces.is_empty()).then(|| {
+        quote! {
+            #[doc = #force]
+            fn discrete_force(&self, q0: &Vector, q1: &Vector, h: #scalar) -> DiscreteForce<#scalar, #n> {
+                #(#rule::#forces(self, q0, q1, h))+*
+            }
+
+            /// f_d with its derivatives by q0 and q1.
+            fn discrete_force_derivatives(
+                &self,
+                q0: &Vector,
+                q1: &Vector,
+                h: #scalar,
+            ) -> DiscreteForceDerivatives<#scalar, #n> {
+                #(#rule::#force_derivatives(self, q0, q1, h))+*
+            }
+        }
+    });
+    let Kernel { step_kernel, momenta, diagonals, is_linear, memory, explicit } = kernel.unwrap_or_else(|| Kernel {
+        step_kernel: quote!(#rule::lagrangian_kernel(self, q0, v, h) #(+ #rule::#kernels(self, q0, v, h))*),
+        momenta: quote!(#rule::lagrangian_momenta(self, q0, v, h) #(+ #rule::#momenta(self, q0, v, h))*),
+        diagonals: None,
+        is_linear: false,
+        memory: Memory::Velocities,
+        explicit: None,
+    });
+    let (matrix, kernel) = match diagonals {
+        None => (quote!(SMatrix<#scalar, #n, #n>), quote!(StepKernel<#scalar, #n>)),
+        Some(diagonals) => {
+            let diagonals = Literal::usize_unsuffixed(diagonals);
+            (
+                quote!(::dalembert::generated::Banded<#scalar, #n, #diagonals>),
+                quote!(StepKernel<#scalar, #n, Self::Matrix>),
+            )
+        }
+    };
+    let memory = match memory {
+        Memory::Velocities => quote!(::dalembert::generated::VelocityHistory<#scalar, #n>),
+        Memory::Matrix => quote!(::dalembert::generated::KeptMatrix<#scalar, Self::Matrix, #n>),
+        Memory::Explicit => quote!(::dalembert::generated::ExplicitMemory<#scalar, Self::Matrix, #n>),
+    };
+    let linear = is_linear.then(|| {
+        quote!(
+            const LINEAR: bool = true;
+        )
+    });
+    // impl Explicit<2> for Ring
+    let explicit = explicit.map(|functions| {
+        quote! {
+            #[automatically_derived]
+            impl ::dalembert::generated::Explicit<#n> for #subject {
+                #functions
+            }
+        }
+    });
+    let verification = is_expanded.then(|| verify_segment(system, &quote!(#rule)));
+    // p0 = −D1 L_d − f_d⁻: Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0,
+    // v, h)
+    quote! {
+        #[automatically_derived]
+        impl Discrete<#rule, #n> for #subject {
+            type Matrix = #matrix;
+            type Memory = #memory;
+            #linear
+
+            #[doc = #lagrangian]
+            fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
+                #rule::discrete_lagrangian(self, q0, q1, h)
+            }
+
+            /// L_d with D1, D2, D11, D12, D22.
+            fn discrete_lagrangian_derivatives(
+                &self,
+                q0: &Vector,
+                q1: &Vector,
+                h: #scalar,
+            ) -> Derivatives<#scalar, #n> {
+                #rule::discrete_lagrangian_derivatives(self, q0, q1, h)
+            }
+
+            #discrete_force
+
+            /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+            #[inline]
+            fn step_kernel(&self, q0: &Vector, v: &Vector, h: #scalar) -> #kernel {
+                #step_kernel
+            }
+
+            /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+            #[inline]
+            fn momenta(&self, q0: &Vector, v: &Vector, h: #scalar) -> Momenta<#scalar, #n> {
+                #momenta
+            }
+
+            /// E_L on the segment.
+            fn segment_energy(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
+                #rule::segment_energy(self, q0, q1, h)
+            }
+
+            #verification
+        }
+
+        #explicit
+    }
+}
+
+/// `impl OffersMethods<2> for Ring`: what an error can be asked of.
+pub fn offered_methods(system: &System<'_>, is_explicit: bool) -> Option<TokenStream> {
+    let mut rules = system.rules.of_displacement.iter();
+    let rule =
+        rules.find(|rule| if is_explicit { rule.may_be_explicit() } else { rule.entry().is_self_adjoint });
+    let rule = rule?.ident();
+    let mut methods = quote!(#rule);
+    if is_explicit {
+        methods = quote!(::dalembert::generated::WithSplittings<#methods>);
+    }
+    if system.rules.gauss {
+        methods = quote!(::dalembert::generated::WithGauss<#methods>);
+    }
+    let n = system.degrees.times(1);
+    let subject = subject(system, system.home());
+    Some(quote! {
+        #[automatically_derived]
+        impl ::dalembert::generated::OffersMethods<#n> for #subject {
+            type Methods = #methods;
+        }
+    })
+}
+
+/// `impl DiscreteRayleigh<Midpoint, 2> for Ring`; nothing where the rule's force has no R_d.
+pub fn discrete_rayleigh(system: &System<'_>, rule: Rule) -> TokenStream {
+    if !rule.has_discrete_rayleigh(system.degrees.literal()) {
+        return TokenStream::new();
+    }
+    let as_trait = rule.joint().map(|_| quote!(JointRayleighRule));
+    let scalar = &system.scalar;
+    let n = system.degrees.times(1);
+    let subject = subject(system, system.home());
+    let rayleigh = rule.entry().rayleigh;
+    let rule = rule.ident();
+    let functions = as_trait.map_or_else(|| quote!(#rule), |joint| quote!(<#rule as #joint>));
+    quote! {
+        #[automatically_derived]
+        impl DiscreteRayleigh<#rule, #n> for #subject {
+            #[doc = #rayleigh]
+            fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {
+                #functions::discrete_rayleigh(self, q0, q1, h)
+            }
+
+            /// R_d with D1, D2, D11, D12, D22.
+            fn discrete_rayleigh_derivatives(
+                &self,
+                q0: &Vector,
+                q1: &Vector,
+                h: #scalar,
+            ) -> Derivatives<#scalar, #n> {
+                #functions::discrete_rayleigh_derivatives(self, q0, q1, h)
+            }
+        }
+    }
+}

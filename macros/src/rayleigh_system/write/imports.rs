@@ -1,0 +1,93 @@
+//! The names of the runtime that an implementation uses.
+
+use proc_macro2::TokenStream;
+use quote::{format_ident, quote};
+use syn::Ident;
+
+use super::super::model::{Home, Part, System};
+
+/// What an implementation uses, with the names that its engine adds, and nothing else: an unused import would
+/// warn in the user's crate.
+pub fn imports(system: &System<'_>, of_engine: &[&'static str], calls_elementary: bool) -> TokenStream {
+    let mut names = of_traits(system);
+    names.extend(of_engine);
+    names.sort_unstable();
+    names.dedup();
+    let names: Vec<Ident> = names.into_iter().map(|name| format_ident!("{name}")).collect();
+    let elementary = calls_elementary.then(|| {
+        quote!(
+            use ::dalembert::generated::Elementary as _;
+        )
+    });
+    quote! {
+        use ::dalembert::nalgebra::{SMatrix, SVector};
+        use ::dalembert::generated::{#(#names),*};
+        #elementary
+    }
+}
+
+/// Traits and results.
+fn of_traits(system: &System<'_>) -> Vec<&'static str> {
+    let mut names = vec!["Derivatives", "Gradient", "Lagrangian"];
+    let rules = &system.rules;
+    if rules.ask_for_variations() || delegates(system) {
+        names.extend(["Direction", "Variations"]);
+    }
+    let is_forced = system.rayleigh.is_some() || system.has_force;
+    if system.rayleigh.is_some() {
+        names.push("Rayleigh");
+    }
+    if system.has_force {
+        names.push("Force");
+    }
+    if system.has_force || (rules.gauss && is_forced) {
+        names.push("CovectorDerivatives");
+    }
+    if rules.gauss {
+        names.push("ForcedLagrangian");
+    }
+    if !rules.of_displacement.is_empty() {
+        names.extend(["Discrete", "Momenta", "StepKernel"]);
+        if rules.of_displacement.iter().any(|rule| rule.joint().is_none()) {
+            names.push("DisplacementRule");
+        }
+        if !rules.joint.is_empty() {
+            names.push("JointRule");
+        }
+        let n = system.degrees.literal();
+        if rules.joint.iter().any(|(_, rule)| rule.has_discrete_rayleigh(n)) {
+            names.push("JointRayleighRule");
+        }
+        if system.rayleigh.is_some() {
+            names.push("DiscreteRayleigh");
+        }
+        if is_forced {
+            names.extend(["DiscreteForce", "DiscreteForceDerivatives"]);
+        }
+    }
+    // What the runtime gives of every forced Lagrangian, Gauss rules need no name for.
+    let of_displacement = |name| (!rules.of_displacement.is_empty()).then_some(name);
+    if system.input.is_some() {
+        names.push("Driven");
+        names.extend(of_displacement("DiscreteDriven"));
+    }
+    if !system.parameters.is_empty() {
+        names.extend(["GradientBy", "Parameters"]);
+        names.extend(of_displacement("DiscreteParameters"));
+    }
+    if system.input.is_some() || !system.parameters.is_empty() {
+        names.extend(of_displacement("MomentaBy"));
+    }
+    if system.second {
+        names.extend(["Hessian", "SecondOrder"]);
+        names.extend(of_displacement("DiscreteSecondOrder"));
+    }
+    names.extend(rules.of_displacement.iter().map(|rule| rule.entry().name));
+    names
+}
+
+/// Whether L or R of the view is that of the system.
+fn delegates(system: &System<'_>) -> bool {
+    let is_own = |part: Part| part != Part::Force && system.home_of(part) == Home::System;
+    system.has_view() && system.parts().any(is_own)
+}
