@@ -5,9 +5,12 @@ use std::rc::Rc;
 
 use dalembert::nalgebra::SVector;
 use dalembert::{Discrete, Discretise, Midpoint, State};
+use dalembert_scenes::{
+    Arm, DoublePendulum, FputChain8, FputChain32, PendulumChain16, Ring, SpringChain8, SpringChain16,
+    SpringChain32, num_dual,
+};
 
 use crate::by_hand::{self, ByHand};
-use crate::scenes::{expanded, num_dual, of_8, of_32};
 use crate::stripped;
 
 /// How a step's derivatives are made.
@@ -190,87 +193,79 @@ pub fn chains() -> [[Scene; 2]; 2] {
         let start = Start { q: displacements(), v: [0.0; N], h: 0.05 };
         Scene::new(name, N).with(Way::Generated, system, start)
     }
-    let [beta, drag] = FPUT;
     let [stiffness, hardening, friction] = SPRINGS;
-    let spring_chain_of_8 = of_8::SpringChain { m: masses(), stiffness, hardening, friction };
-    let spring_chain_of_32 = of_32::SpringChain { m: masses(), stiffness, hardening, friction };
+    let spring_chain_of_8 = SpringChain8 { m: masses(), stiffness, hardening, friction };
+    let spring_chain_of_32 = SpringChain32 { m: masses(), stiffness, hardening, friction };
     [
-        [
-            scene("FPUT chain of 8", of_8::FputChain { beta, drag }),
-            scene("FPUT chain of 32", of_32::FputChain { beta, drag }),
-        ],
+        [scene("FPUT chain of 8", FputChain8::MEASURED), scene("FPUT chain of 32", FputChain32::MEASURED)],
         [scene("spring chain of 8", spring_chain_of_8), scene("spring chain of 32", spring_chain_of_32)],
     ]
 }
-
-/// Strength of the quartic term and drag of the FPUT chain.
-const FPUT: [f64; 2] = [0.7, 1e-3];
 
 /// Stiffness, hardening and friction of the spring chain.
 const SPRINGS: [f64; 3] = [40.0, 8.0, 0.3];
 
 fn ring() -> Scene {
     let start = Start { q: [0.0, 1.15549918674982], v: [0.5, 0.0], h: 0.2 };
-    let k = 1e-3;
+    let generated = Ring::MEASURED;
     Scene::new("ring", 2)
-        .with(Way::ByHand, ByHand(by_hand::Ring::from(expanded::Ring { k })), start)
-        .with(Way::Generated, expanded::Ring { k }, start)
-        .with(Way::NumDual, num_dual::Ring { k }, start)
-        .with_stripped(&expanded::Ring { k }, start, move |q, p, steps| {
-            stripped::ring(k, start.h, q, p, steps)
+        .with(Way::ByHand, ByHand(by_hand::Ring::from(generated)), start)
+        .with(Way::Generated, generated, start)
+        .with(Way::NumDual, num_dual::Ring::MEASURED, start)
+        .with_stripped(&generated, start, move |q, p, steps| {
+            stripped::ring(generated.k, start.h, q, p, steps)
         })
 }
 
 fn double_pendulum() -> Scene {
     let start = Start { q: [0.8, -0.4], v: [0.0, 0.5], h: 0.01 };
-    let (m, l, g, c) = ([1.0, 0.7], [1.0, 0.8], 9.81, [0.05, 0.03]);
-    let generated = || expanded::DoublePendulum { m, l, g, c };
+    let generated @ DoublePendulum { m, l, g, c } = DoublePendulum::MEASURED;
     Scene::new("double pendulum", 2)
-        .with(Way::ByHand, ByHand(by_hand::DoublePendulum::from(generated())), start)
-        .with(Way::Generated, generated(), start)
-        .with(Way::NumDual, num_dual::DoublePendulum { m, l, g, c }, start)
-        .with_stripped(&generated(), start, move |q, p, steps| {
+        .with(Way::ByHand, ByHand(by_hand::DoublePendulum::from(generated)), start)
+        .with(Way::Generated, generated, start)
+        .with(Way::NumDual, num_dual::DoublePendulum::MEASURED, start)
+        .with_stripped(&generated, start, move |q, p, steps| {
             stripped::double_pendulum(m, l, g, c, start.h, q, p, steps)
         })
 }
 
 fn fput_chain() -> Scene {
     let start = Start { q: displacements(), v: [0.0; 8], h: 0.05 };
-    let [beta, drag] = FPUT;
+    let generated = FputChain8::MEASURED;
     Scene::new("FPUT chain", 8)
-        .with(Way::ByHand, ByHand(by_hand::FputChain::from(expanded::FputChain { beta, drag })), start)
-        .with(Way::Generated, expanded::FputChain { beta, drag }, start)
-        .with(Way::NumDual, num_dual::FputChain { beta, drag }, start)
+        .with(Way::ByHand, ByHand(by_hand::FputChain::from(generated)), start)
+        .with(Way::Generated, generated, start)
+        .with(Way::NumDual, num_dual::FputChain8::MEASURED, start)
 }
 
 fn spring_chain() -> Scene {
     let start = Start { q: displacements(), v: [0.0; 16], h: 0.05 };
     let (m, [stiffness, hardening, friction]) = (masses(), SPRINGS);
-    let generated = || expanded::SpringChain { m, stiffness, hardening, friction };
-    let by_hand = by_hand::SpringChain { generated: generated(), m, stiffness, hardening, friction };
+    let generated = SpringChain16 { m, stiffness, hardening, friction };
+    let by_hand = by_hand::SpringChain { generated, m, stiffness, hardening, friction };
     Scene::new("spring chain", 16)
         .with(Way::ByHand, ByHand(by_hand), start)
-        .with(Way::Generated, generated(), start)
-        .with(Way::NumDual, num_dual::SpringChain { m, stiffness, hardening, friction }, start)
+        .with(Way::Generated, generated, start)
+        .with(Way::NumDual, num_dual::SpringChain16 { m, stiffness, hardening, friction }, start)
 }
 
 fn pendulum_chain() -> Scene {
     let start = Start { q: displacements(), v: [0.0; 16], h: 0.005 };
     let (m, l, g, c) = (masses(), 0.25, 9.81, 0.02);
-    let generated = || expanded::PendulumChain { m, l, g, c };
+    let generated = PendulumChain16 { m, l, g, c };
     Scene::new("pendulum chain", 16)
-        .with(Way::ByHand, ByHand(by_hand::PendulumChain::from(generated())), start)
-        .with(Way::Generated, generated(), start)
-        .with(Way::NumDual, num_dual::PendulumChain { m, l, g, c }, start)
+        .with(Way::ByHand, ByHand(by_hand::PendulumChain::from(generated)), start)
+        .with(Way::Generated, generated, start)
+        .with(Way::NumDual, num_dual::PendulumChain16 { m, l, g, c }, start)
 }
 
 fn arm() -> Scene {
     let start = Start { q: [0.2, 0.9, -1.1], v: [1.5, 0.0, 0.4], h: 0.01 };
     let (base, m, l, payload, g, c) = (0.05, [2.0, 1.2], [0.4, 0.35], 0.5, 9.81, [0.02, 0.02, 0.01]);
-    let generated = || expanded::Arm { base, m, l, payload, g, c };
+    let generated = Arm { base, m, l, payload, g, c };
     Scene::new("arm", 3)
-        .with(Way::ByHand, ByHand(by_hand::Arm::from(generated())), start)
-        .with(Way::Generated, generated(), start)
+        .with(Way::ByHand, ByHand(by_hand::Arm::from(generated)), start)
+        .with(Way::Generated, generated, start)
         .with(Way::NumDual, num_dual::Arm { base, m, l, payload, g, c }, start)
 }
 
@@ -299,8 +294,8 @@ mod tests {
     fn another_system_is_noticed() {
         let start = Start { q: [0.0, 1.15549918674982], v: [0.5, 0.0], h: 0.2 };
         Scene::new("ring", 2)
-            .with(Way::ByHand, expanded::Ring { k: 1e-3 }, start)
-            .with(Way::Generated, expanded::Ring { k: 1e-3 + 1e-13 }, start)
+            .with(Way::ByHand, Ring { k: 1e-3 }, start)
+            .with(Way::Generated, Ring { k: 1e-3 + 1e-13 }, start)
             .assert_agreement();
     }
 }

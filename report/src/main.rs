@@ -27,7 +27,8 @@ use serde::de::DeserializeOwned;
 
 use peers::python::Python;
 use scenes::{
-    Chain2, Chain4, Chain8, Chain16, Chain32, DoublePendulum, HenonHeiles, Kepler, Pendulums, Ring,
+    DoublePendulum, FputChain2, FputChain4, FputChain8, FputChain16, FputChain32, HenonHeiles, Kepler,
+    Pendulums, Ring,
 };
 use study::Record;
 
@@ -124,17 +125,17 @@ fn scenes(
         )*};
     }
     measure! {
-        "ring": Ring { k: 1e-3 }, 2;
-        "double pendulum": DoublePendulum::EXAMPLE, 2;
-        "FPUT chain": Chain8::EXAMPLE, 8;
-        "Hénon–Heiles": HenonHeiles, 2;
+        "ring": Ring::MEASURED, 2;
+        "double pendulum": DoublePendulum::MEASURED, 2;
+        "FPUT chain": FputChain8::MEASURED, 8;
+        "Hénon–Heiles": HenonHeiles {}, 2;
         "Kepler": Kepler { k: 1e-4 }, 2;
         "seven pendulums": Pendulums::EXAMPLE, 7;
-        "FPUT chain, n = 2": Chain2::EXAMPLE, 2;
-        "FPUT chain, n = 4": Chain4::EXAMPLE, 4;
-        "FPUT chain, n = 8": Chain8::EXAMPLE, 8;
-        "FPUT chain, n = 16": Chain16::EXAMPLE, 16;
-        "FPUT chain, n = 32": Chain32::EXAMPLE, 32;
+        "FPUT chain, n = 2": FputChain2::MEASURED, 2;
+        "FPUT chain, n = 4": FputChain4::MEASURED, 4;
+        "FPUT chain, n = 8": FputChain8::MEASURED, 8;
+        "FPUT chain, n = 16": FputChain16::MEASURED, 16;
+        "FPUT chain, n = 32": FputChain32::MEASURED, 32;
     }
     Ok(())
 }

@@ -3,6 +3,9 @@
 
 use dalembert::system::ForcedLagrangian;
 use dalembert::{Discrete, Midpoint, Trapezoidal, rayleigh_system};
+pub use dalembert_scenes::{
+    DoublePendulum, FputChain2, FputChain4, FputChain8, FputChain16, FputChain32, HenonHeiles, Kepler, Ring,
+};
 
 use crate::ours::{Splittings, Steps};
 
@@ -17,24 +20,6 @@ pub trait Scene<const N: usize>:
     fn acceleration(&self, q: &[f64; N], v: &[f64; N]) -> [f64; N];
 }
 
-/// Particle in the potential s(s − 1)², s = |q|², with drag (Marsden and West 2001, example 3.2.3).
-#[derive(Clone, Copy)]
-pub struct Ring {
-    pub k: f64,
-}
-
-#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
-impl Ring {
-    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
-        let s = q[0] * q[0] + q[1] * q[1];
-        0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2)
-    }
-
-    fn rayleigh(&self, v: [f64; 2]) -> f64 {
-        0.5 * self.k * (v[0] * v[0] + v[1] * v[1])
-    }
-}
-
 impl Scene<2> for Ring {
     const SPLITTINGS: &'static [(&'static str, Steps<Self, 2>)] = Splittings::ALL;
 
@@ -43,37 +28,6 @@ impl Scene<2> for Ring {
         let s = q[0] * q[0] + q[1] * q[1];
         let slope = 2.0 * (s - 1.0) * (3.0 * s - 1.0);
         [-slope * q[0] - self.k * v[0], -slope * q[1] - self.k * v[1]]
-    }
-}
-
-/// Two point masses on rods, absolute angles, friction in both joints.
-#[derive(Clone, Copy)]
-pub struct DoublePendulum {
-    pub m: [f64; 2],
-    pub l: [f64; 2],
-    pub g: f64,
-    pub c: [f64; 2],
-}
-
-impl DoublePendulum {
-    pub const EXAMPLE: Self = Self { m: [1.0, 0.7], l: [1.0, 0.8], g: 9.81, c: [0.05, 0.03] };
-}
-
-#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
-impl DoublePendulum {
-    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
-        let [m1, m2] = self.m;
-        let [l1, l2] = self.l;
-        let kinetic = 0.5 * (m1 + m2) * l1 * l1 * v[0] * v[0]
-            + 0.5 * m2 * l2 * l2 * v[1] * v[1]
-            + m2 * l1 * l2 * (q[0] - q[1]).cos() * v[0] * v[1];
-        let potential = -(m1 + m2) * self.g * l1 * q[0].cos() - m2 * self.g * l2 * q[1].cos();
-        kinetic - potential
-    }
-
-    fn rayleigh(&self, v: [f64; 2]) -> f64 {
-        let relative = v[1] - v[0];
-        0.5 * self.c[0] * v[0] * v[0] + 0.5 * self.c[1] * relative * relative
     }
 }
 
@@ -95,41 +49,6 @@ impl Scene<2> for DoublePendulum {
 
 macro_rules! chains {
     ($($name:ident: $n:literal;)*) => {$(
-        /// The Fermi–Pasta–Ulam–Tsingou β-chain of this many masses between walls, with drag on each.
-        #[derive(Clone, Copy)]
-        pub struct $name {
-            pub beta: f64,
-            pub drag: f64,
-        }
-
-        #[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
-        impl $name {
-            fn lagrangian(&self, q: [f64; $n], v: [f64; $n]) -> f64 {
-                let mut l = 0.0;
-                for v in &v {
-                    l += 0.5 * v * v;
-                }
-                l -= Self::spring(self.beta, q[0]) + Self::spring(self.beta, q[$n - 1]);
-                for i in 1..$n {
-                    l -= Self::spring(self.beta, q[i] - q[i - 1]);
-                }
-                l
-            }
-
-            fn rayleigh(&self, v: [f64; $n]) -> f64 {
-                0.5 * self.drag * v.iter().map(|v| v * v).sum::<f64>()
-            }
-
-            fn spring(beta: f64, d: f64) -> f64 {
-                let square = d * d;
-                0.5 * square + 0.25 * beta * square * square
-            }
-        }
-
-        impl $name {
-            pub const EXAMPLE: Self = Self { beta: 0.7, drag: 1e-3 };
-        }
-
         impl Scene<$n> for $name {
             const SPLITTINGS: &'static [(&'static str, Steps<Self, $n>)] = Splittings::ALL;
 
@@ -148,24 +67,11 @@ macro_rules! chains {
     )*};
 }
 chains! {
-    Chain2: 2;
-    Chain4: 4;
-    Chain8: 8;
-    Chain16: 16;
-    Chain32: 32;
-}
-
-/// Hénon and Heiles' potential; no dissipation, so R is absent.
-#[derive(Clone, Copy)]
-pub struct HenonHeiles;
-
-#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
-impl HenonHeiles {
-    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
-        let [x, y] = q;
-        let potential = 0.5 * (x * x + y * y) + x * x * y - y * y * y / 3.0;
-        0.5 * (v[0] * v[0] + v[1] * v[1]) - potential
-    }
+    FputChain2: 2;
+    FputChain4: 4;
+    FputChain8: 8;
+    FputChain16: 16;
+    FputChain32: 32;
 }
 
 impl Scene<2> for HenonHeiles {
@@ -174,23 +80,6 @@ impl Scene<2> for HenonHeiles {
     #[inline]
     fn acceleration(&self, &[x, y]: &[f64; 2], _: &[f64; 2]) -> [f64; 2] {
         [-x - 2.0 * (x * y), -y - x * x + y * y]
-    }
-}
-
-/// Unit mass about a unit centre, with weak drag.
-#[derive(Clone, Copy)]
-pub struct Kepler {
-    pub k: f64,
-}
-
-#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
-impl Kepler {
-    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
-        0.5 * (v[0] * v[0] + v[1] * v[1]) + 1.0 / (q[0] * q[0] + q[1] * q[1]).sqrt()
-    }
-
-    fn rayleigh(&self, v: [f64; 2]) -> f64 {
-        0.5 * self.k * (v[0] * v[0] + v[1] * v[1])
     }
 }
 

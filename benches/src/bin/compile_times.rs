@@ -78,15 +78,15 @@ fn table() -> Result<(), String> {
 
 /// A program that steps the scene.
 fn program(scene: &str, name: &str, fields: &str, n: usize) -> String {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("src/scenes/{scene}.rs"));
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/src/{scene}.rs"));
     format!(
-        r#"use dalembert::{{Discretise, Midpoint, State, rayleigh_system}};
+        r#"use dalembert::{{Discretise, Midpoint, State}};
 
 #[macro_use]
 #[path = "{}"]
 mod scene;
 
-{scene}!(expanded, {n});
+{scene}!({name}: {n}, expanded, [midpoint]);
 
 const N: usize = {n};
 

@@ -8,13 +8,13 @@
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::run::KeptMatrix;
 use dalembert::step::{Momenta, StepKernel};
+use dalembert_scenes as scenes;
 
 use super::HandDerived;
-use crate::scenes::expanded;
 
 /// The arm, by hand.
 pub struct Arm {
-    generated: expanded::Arm,
+    generated: scenes::Arm,
     alpha: f64,
     delta: f64,
     gamma: f64,
@@ -22,8 +22,8 @@ pub struct Arm {
     weight: [f64; 2],
 }
 
-impl From<expanded::Arm> for Arm {
-    fn from(generated: expanded::Arm) -> Self {
+impl From<scenes::Arm> for Arm {
+    fn from(generated: scenes::Arm) -> Self {
         let ([m1, m2], [l1, l2], payload, g) = (generated.m, generated.l, generated.payload, generated.g);
         Self {
             alpha: l1 * l1 * (m1 / 3.0 + m2 + payload),
@@ -90,11 +90,11 @@ impl Arm {
 }
 
 impl HandDerived<3> for Arm {
-    type Generated = expanded::Arm;
+    type Generated = scenes::Arm;
     type Matrix = SMatrix<f64, 3, 3>;
     type Memory = KeptMatrix<f64, Self::Matrix, 3>;
 
-    fn generated(&self) -> &expanded::Arm {
+    fn generated(&self) -> &scenes::Arm {
         &self.generated
     }
 

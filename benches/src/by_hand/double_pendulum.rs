@@ -3,21 +3,21 @@
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::run::VelocityHistory;
 use dalembert::step::{Momenta, StepKernel};
+use dalembert_scenes as scenes;
 
 use super::HandDerived;
-use crate::scenes::expanded;
 
 /// The double pendulum, by hand.
 pub struct DoublePendulum {
-    generated: expanded::DoublePendulum,
+    generated: scenes::DoublePendulum,
     /// (m1 + m2) l1², m2 l2² and m2 l1 l2.
     inertia: [f64; 3],
     /// (m1 + m2) g l1 and m2 g l2.
     weight: [f64; 2],
 }
 
-impl From<expanded::DoublePendulum> for DoublePendulum {
-    fn from(generated: expanded::DoublePendulum) -> Self {
+impl From<scenes::DoublePendulum> for DoublePendulum {
+    fn from(generated: scenes::DoublePendulum) -> Self {
         let ([m1, m2], [l1, l2], g) = (generated.m, generated.l, generated.g);
         Self {
             inertia: [(m1 + m2) * l1 * l1, m2 * l2 * l2, m2 * l1 * l2],
@@ -30,11 +30,11 @@ impl From<expanded::DoublePendulum> for DoublePendulum {
 type Vector = SVector<f64, 2>;
 
 impl HandDerived<2> for DoublePendulum {
-    type Generated = expanded::DoublePendulum;
+    type Generated = scenes::DoublePendulum;
     type Matrix = SMatrix<f64, 2, 2>;
     type Memory = VelocityHistory<f64, 2>;
 
-    fn generated(&self) -> &expanded::DoublePendulum {
+    fn generated(&self) -> &scenes::DoublePendulum {
         &self.generated
     }
 

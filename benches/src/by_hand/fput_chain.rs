@@ -4,19 +4,19 @@
 use dalembert::nalgebra::SVector;
 use dalembert::run::KeptMatrix;
 use dalembert::step::{Banded, Momenta, StepKernel};
+use dalembert_scenes as scenes;
 
 use super::HandDerived;
-use crate::scenes::expanded;
 
 const N: usize = 8;
 
 /// The FPUT chain, by hand.
 pub struct FputChain {
-    generated: expanded::FputChain,
+    generated: scenes::FputChain8,
 }
 
-impl From<expanded::FputChain> for FputChain {
-    fn from(generated: expanded::FputChain) -> Self {
+impl From<scenes::FputChain8> for FputChain {
+    fn from(generated: scenes::FputChain8) -> Self {
         Self { generated }
     }
 }
@@ -39,17 +39,17 @@ impl FputChain {
 }
 
 impl HandDerived<N> for FputChain {
-    type Generated = expanded::FputChain;
+    type Generated = scenes::FputChain8;
     type Matrix = Banded<f64, N, 3>;
     type Memory = KeptMatrix<f64, Self::Matrix, N>;
 
-    fn generated(&self) -> &expanded::FputChain {
+    fn generated(&self) -> &scenes::FputChain8 {
         &self.generated
     }
 
     #[inline]
     fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, N, Self::Matrix> {
-        let expanded::FputChain { beta, drag } = self.generated;
+        let scenes::FputChain8 { beta, drag } = self.generated;
         let half = 0.5 * h;
         let square = half * half;
         let (mut force, mut stiffness) = ([0.0; N + 1], [0.0; N + 1]);
@@ -73,7 +73,7 @@ impl HandDerived<N> for FputChain {
 
     #[inline]
     fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, N> {
-        let expanded::FputChain { beta, drag } = self.generated;
+        let scenes::FputChain8 { beta, drag } = self.generated;
         let half = 0.5 * h;
         let force = Self::extensions(q0, v, half).map(|d| d + beta * d * d * d);
         let mut impulse = *v;

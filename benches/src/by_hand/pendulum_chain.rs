@@ -12,23 +12,23 @@
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::run::KeptMatrix;
 use dalembert::step::{Momenta, StepKernel};
+use dalembert_scenes as scenes;
 
 use super::HandDerived;
-use crate::scenes::expanded;
 
 const N: usize = 16;
 
 /// The pendulum chain, by hand.
 pub struct PendulumChain {
-    generated: expanded::PendulumChain,
+    generated: scenes::PendulumChain16,
     /// l² μᵢ.
     inertia: [f64; N],
     /// μᵢ g l.
     weight: [f64; N],
 }
 
-impl From<expanded::PendulumChain> for PendulumChain {
-    fn from(generated: expanded::PendulumChain) -> Self {
+impl From<scenes::PendulumChain16> for PendulumChain {
+    fn from(generated: scenes::PendulumChain16) -> Self {
         let mut mass = generated.m;
         for i in (1..N).rev() {
             mass[i - 1] += mass[i];
@@ -94,11 +94,11 @@ impl PendulumChain {
 }
 
 impl HandDerived<N> for PendulumChain {
-    type Generated = expanded::PendulumChain;
+    type Generated = scenes::PendulumChain16;
     type Matrix = SMatrix<f64, N, N>;
     type Memory = KeptMatrix<f64, Self::Matrix, N>;
 
-    fn generated(&self) -> &expanded::PendulumChain {
+    fn generated(&self) -> &scenes::PendulumChain16 {
         &self.generated
     }
 

@@ -3,17 +3,17 @@
 use dalembert::nalgebra::{SMatrix, SVector, matrix};
 use dalembert::run::VelocityHistory;
 use dalembert::step::{Momenta, StepKernel};
+use dalembert_scenes as scenes;
 
 use super::HandDerived;
-use crate::scenes::expanded;
 
 /// The ring, by hand.
 pub struct Ring {
-    generated: expanded::Ring,
+    generated: scenes::Ring,
 }
 
-impl From<expanded::Ring> for Ring {
-    fn from(generated: expanded::Ring) -> Self {
+impl From<scenes::Ring> for Ring {
+    fn from(generated: scenes::Ring) -> Self {
         Self { generated }
     }
 }
@@ -21,11 +21,11 @@ impl From<expanded::Ring> for Ring {
 type Vector = SVector<f64, 2>;
 
 impl HandDerived<2> for Ring {
-    type Generated = expanded::Ring;
+    type Generated = scenes::Ring;
     type Matrix = SMatrix<f64, 2, 2>;
     type Memory = VelocityHistory<f64, 2>;
 
-    fn generated(&self) -> &expanded::Ring {
+    fn generated(&self) -> &scenes::Ring {
         &self.generated
     }
 

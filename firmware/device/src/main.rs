@@ -14,7 +14,7 @@ use core::panic::PanicInfo;
 use core::ptr;
 
 use dalembert::{Discrete, Discretise, Elementary, Midpoint, State};
-use firmware_scenes::{STEPS, digest, double, single};
+use firmware_scenes::{STEPS, Stepped, digest, double, single};
 use report::Line;
 
 /// What an unused word of the stack holds.

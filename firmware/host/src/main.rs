@@ -9,7 +9,7 @@ use std::process::ExitCode;
 
 use ceilings::{Ceiling, ceiling, stack_ceiling};
 use dalembert::{Discrete, Discretise, Midpoint, State};
-use firmware_scenes::{STEPS, digest, double, single};
+use firmware_scenes::{STEPS, Stepped, digest, double, single};
 
 /// The digest of the scene's states, by the same elementary functions as on the device.
 fn expected<L, const N: usize>(system: &L, start: State<L::Scalar, N>, h: L::Scalar) -> u64

@@ -6,7 +6,7 @@
 pub mod language;
 mod scenes;
 
-pub use scenes::{double, single};
+pub use scenes::{Stepped, double, single};
 
 use dalembert::State;
 use dalembert::system::Scalar;

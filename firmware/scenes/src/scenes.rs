@@ -1,38 +1,28 @@
-//! A damped double pendulum and a cart-pole with friction, in `f64` and in `f32`.
+//! What the machines step: the double pendulum that all packages share, and a cart-pole with friction.
+
+use dalembert::{Discrete, Midpoint, State, StepError, rayleigh_system};
+
+/// A system as every machine steps it.
+pub trait Stepped: Discrete<Midpoint, 2> + Sized {
+    /// Step size in s.
+    const STEP: Self::Scalar;
+    /// With the parameters that it has on every machine, in SI units.
+    const SCENE: Self;
+
+    /// Where it starts.
+    ///
+    /// # Errors
+    /// None, with the masses of the scene.
+    fn start(&self) -> Result<State<Self::Scalar, 2>, StepError>;
+}
 
 macro_rules! scenes {
-    ($(#[$doc:meta])* $module:ident $float:ident) => {
+    ($(#[$doc:meta])* $module:ident $float:ident $double_pendulum:path) => {
         $(#[$doc])*
         pub mod $module {
-            use dalembert::{State, StepError, rayleigh_system};
+            use super::{State, StepError, Stepped, rayleigh_system};
 
-            /// Two pendulums of point masses, one hung from the other; angles from the vertical, friction in both joints.
-            pub struct DoublePendulum {
-                /// Masses in kg.
-                pub m: [$float; 2],
-                /// Lengths in m.
-                pub l: [$float; 2],
-                /// Acceleration of gravity in m/s².
-                pub g: $float,
-                /// Friction in the joints in N m s.
-                pub c: [$float; 2],
-            }
-
-            #[rayleigh_system(derivatives = expanded)]
-            impl DoublePendulum {
-                fn lagrangian(&self, q: [$float; 2], v: [$float; 2]) -> $float {
-                    let [m1, m2] = self.m;
-                    let [l1, l2] = self.l;
-                    let kinetic = 0.5 * (m1 + m2) * (l1 * v[0]).powi(2)
-                        + 0.5 * m2 * (l2 * v[1]).powi(2)
-                        + m2 * l1 * l2 * v[0] * v[1] * (q[0] - q[1]).cos();
-                    kinetic + self.g * ((m1 + m2) * l1 * q[0].cos() + m2 * l2 * q[1].cos())
-                }
-
-                fn rayleigh(&self, v: [$float; 2]) -> $float {
-                    0.5 * self.c[0] * v[0].powi(2) + 0.5 * self.c[1] * (v[1] - v[0]).powi(2)
-                }
-            }
+            pub use $double_pendulum;
 
             /// A pole hinged on a cart: q is the cart's position and the pole's angle from the upright; friction in both.
             pub struct CartPole {
@@ -64,32 +54,22 @@ macro_rules! scenes {
                 }
             }
 
-            impl DoublePendulum {
-                /// Step size in s.
-                pub const STEP: $float = 0.01;
-                /// The pendulum that all machines step.
-                pub const SCENE: Self = Self { m: [1.0, 0.5], l: [1.0, 0.75], g: 9.81, c: [0.05, 0.02] };
+            /// Swung out, the second arm turning.
+            impl Stepped for DoublePendulum {
+                const STEP: $float = 0.01;
+                const SCENE: Self = Self { m: [1.0, 0.5], l: [1.0, 0.75], g: 9.81, c: [0.05, 0.02] };
 
-                /// Swung out, the second arm turning.
-                ///
-                /// # Errors
-                /// None, with the masses of the scene.
-                pub fn start(&self) -> Result<State<$float, 2>, StepError> {
+                fn start(&self) -> Result<State<$float, 2>, StepError> {
                     State::from_velocity(self, [1.2, 2.0], [0.0, -1.5])
                 }
             }
 
-            impl CartPole {
-                /// Step size in s.
-                pub const STEP: $float = 0.01;
-                /// The cart that all machines step.
-                pub const SCENE: Self = Self { cart: 1.0, pole: 0.2, half_length: 0.4, g: 9.81, c: [0.3, 0.01] };
+            /// Near the upright, falling.
+            impl Stepped for CartPole {
+                const STEP: $float = 0.01;
+                const SCENE: Self = Self { cart: 1.0, pole: 0.2, half_length: 0.4, g: 9.81, c: [0.3, 0.01] };
 
-                /// Near the upright, falling.
-                ///
-                /// # Errors
-                /// None, with the masses of the scene.
-                pub fn start(&self) -> Result<State<$float, 2>, StepError> {
+                fn start(&self) -> Result<State<$float, 2>, StepError> {
                     State::from_velocity(self, [0.0, 0.1], [0.2, 0.0])
                 }
             }
@@ -99,9 +79,9 @@ macro_rules! scenes {
 
 scenes! {
     /// In `f64`.
-    double f64
+    double f64 dalembert_scenes::DoublePendulum
 }
 scenes! {
     /// In `f32`.
-    single f32
+    single f32 dalembert_scenes::single::DoublePendulum
 }

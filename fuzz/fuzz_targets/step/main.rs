@@ -11,14 +11,12 @@ mod systems;
 use std::sync::OnceLock;
 
 use dalembert::{Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, Trapezoidal};
+use dalembert_scenes::{DoublePendulum, Kepler, Oscillator, SpringChain8};
 use libfuzzer_sys::fuzz_target;
 
 use exercise::Exercise;
 use numbers::Bytes;
-use systems::{
-    ByDualNumbers, Cart, Chain, Counted, Coupled, Degenerate, DoublePendulum, Kepler, Oscillator,
-    Relativistic, Ring, Rubbing, Single,
-};
+use systems::{ByDualNumbers, Cart, Counted, Coupled, Degenerate, Relativistic, Ring, Rubbing, Single};
 
 /// Stepped by each of the rules; the promise on the residual is that of [`promise`] or, for several stages,
 /// of the report.
@@ -62,9 +60,9 @@ fn run(data: &[u8]) {
     by_rules!(exercise, choice:
         Oscillator { m: a, k: b, r: c }, 1, [Midpoint, Trapezoidal, Fitted, FittedTrapezoidal, OneSided], [Gauss::<1>, Gauss::<3>];
         Rubbing { m: a, r: b, e: c, c: d }, 1, [Midpoint, Trapezoidal, OneSided], [Gauss::<2>];
-        DoublePendulum { m: a, l: b, g: c, r: d }, 2, [Midpoint, Trapezoidal], [Gauss::<2>, Gauss::<4>];
+        DoublePendulum { m: [1.0, a], l: [1.0, b], g: c, c: [d; 2] }, 2, [Midpoint, Trapezoidal], [Gauss::<2>, Gauss::<4>];
         Ring { a, k: b }, 2, [Midpoint, Trapezoidal, Fitted, FittedTrapezoidal], [Gauss::<2>];
-        Chain { m: a, a: b, r: c }, 8, [Midpoint, Trapezoidal], [];
+        SpringChain8 { m: [a; 8], stiffness: 1.0, hardening: b, friction: c }, 8, [Midpoint, Trapezoidal], [];
         Coupled { m: a, a: b, r: c }, 3, [Midpoint], [Gauss::<2>];
         Kepler { k: a }, 2, [Midpoint, Trapezoidal], [Gauss::<3>];
         Relativistic { m: a, k: b }, 1, [Midpoint], [Gauss::<2>];

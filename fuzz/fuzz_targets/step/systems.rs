@@ -1,4 +1,4 @@
-//! Systems of every kind that the solver and the memories tell apart.
+//! Systems of every kind that the solver and the memories tell apart, beside those that all packages share.
 
 use std::cell::Cell;
 
@@ -9,46 +9,17 @@ use dalembert::step::{Momenta, StepKernel};
 use dalembert::system::Derivatives;
 use dalembert::{Discrete, Lagrangian, Midpoint, rayleigh_system};
 
-/// Everything linear: one solve, or explicit.
-#[rayleigh_system(rule = [midpoint, trapezoidal, gauss, fitted, fitted_trapezoidal, one_sided])]
-pub fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
-    (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
-}
-
 /// A pendulum with smoothed dry friction and cubic drag.
 #[rayleigh_system(rule = [midpoint, trapezoidal, gauss, one_sided])]
 pub fn rubbing(q: [f64; 1], v: [f64; 1], m: f64, r: f64, e: f64, c: f64) -> (f64, f64) {
     (0.5 * m * v[0] * v[0] + q[0].cos(), r * (v[0] * v[0] + e * e).sqrt() + c * v[0].abs().powi(3) / 3.0)
 }
 
-/// A mass matrix that depends on q.
-#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
-pub fn double_pendulum(q: [f64; 2], v: [f64; 2], m: f64, l: f64, g: f64, r: f64) -> (f64, f64) {
-    let kinetic = 0.5 * (1.0 + m) * v[0] * v[0]
-        + 0.5 * m * (l * v[1]).powi(2)
-        + m * l * v[0] * v[1] * (q[0] - q[1]).cos();
-    let lagrangian = kinetic + g * ((1.0 + m) * q[0].cos() + m * l * q[1].cos());
-    (lagrangian, 0.5 * r * (v[0] * v[0] + (v[1] - v[0]).powi(2)))
-}
-
-/// Explicit by the trapezoidal rule.
+/// The ring of any height: explicit by the trapezoidal rule.
 #[rayleigh_system(rule = [midpoint, trapezoidal, gauss, fitted, fitted_trapezoidal])]
 pub fn ring(q: [f64; 2], v: [f64; 2], a: f64, k: f64) -> (f64, f64) {
     let s = q[0] * q[0] + q[1] * q[1];
     (0.5 * (v[0] * v[0] + v[1] * v[1]) - a * s * (s - 1.0) * (s - 1.0), 0.5 * k * (v[0] * v[0] + v[1] * v[1]))
-}
-
-/// A banded matrix that depends on q.
-#[rayleigh_system(rule = [midpoint, trapezoidal])]
-pub fn chain(q: [f64; 8], v: [f64; 8], m: f64, a: f64, r: f64) -> (f64, f64) {
-    let mut lagrangian = 0.5 * m * v[0] * v[0] - 0.5 * q[0] * q[0];
-    let mut rayleigh = 0.5 * r * v[0] * v[0];
-    for i in 1..8 {
-        let d = q[i] - q[i - 1];
-        lagrangian += 0.5 * m * v[i] * v[i] - 0.5 * d * d - 0.25 * a * d * d * d * d;
-        rayleigh += 0.5 * r * (v[i] - v[i - 1]) * (v[i] - v[i - 1]);
-    }
-    (lagrangian, rayleigh)
 }
 
 /// A dense matrix that depends on q, kept from step to step.
@@ -57,13 +28,6 @@ pub fn coupled(q: [f64; 3], v: [f64; 3], m: f64, a: f64, r: f64) -> (f64, f64) {
     let sum = v[0] + v[1] + v[2];
     let kinetic = 0.5 * m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + 0.5 * (1.0 + q[0] * q[0]) * sum * sum;
     (kinetic - a * (q[0] * q[1] * q[2]).cos(), 0.5 * r * sum * sum)
-}
-
-/// A singular force.
-#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
-pub fn kepler(q: [f64; 2], v: [f64; 2], k: f64) -> (f64, f64) {
-    let distance = (q[0] * q[0] + q[1] * q[1]).sqrt();
-    (0.5 * (v[0] * v[0] + v[1] * v[1]) + 1.0 / distance, 0.5 * k * (v[0] * v[0] + v[1] * v[1]))
 }
 
 /// Not quadratic in v, with a domain, and a force without a derivative at 0.

@@ -1,16 +1,27 @@
-/// The Fermi–Pasta–Ulam–Tsingou β-chain of unit masses between walls, with drag.
+//! The β-chain of Fermi, Pasta, Ulam and Tsingou: n unit masses between walls, q₀ = qₙ₊₁ = 0, dᵢ = qᵢ₊₁ − qᵢ.
+//!
+//! ```text
+//! L = Σ ½vᵢ² − Σ (½dᵢ² + ¼βdᵢ⁴),   R = ½k Σ vᵢ²
+//! ```
+
 macro_rules! fput_chain {
-    ($engine:ident, $n:tt) => {
+    ($name:ident: $n:literal, $engine:ident, [$($rule:ident),*]) => {
         /// Springs of potential d²/2 + β d⁴/4.
-        pub struct FputChain {
+        #[derive(Clone, Copy, Debug)]
+        pub struct $name {
             /// Strength of the quartic term.
             pub beta: f64,
             /// Drag coefficient.
             pub drag: f64,
         }
 
-        #[rayleigh_system(derivatives = $engine)]
-        impl FputChain {
+        impl $name {
+            /// The springs and the drag at which speed is measured.
+            pub const MEASURED: Self = Self { beta: 0.7, drag: 1e-3 };
+        }
+
+        #[dalembert::rayleigh_system(rule = [$($rule),*], derivatives = $engine)]
+        impl $name {
             fn lagrangian(&self, q: [f64; $n], v: [f64; $n]) -> f64 {
                 let mut energy = 0.0;
                 for v in &v {

@@ -1,8 +1,15 @@
-/// A chain of masses hung from a wall, each on a hardening spring and a dashpot to the one before it.
+//! A chain of n masses hung from a wall, each on a hardening spring and a dashpot to the one before it: q₀ = 0,
+//! dᵢ = qᵢ − qᵢ₋₁.
+//!
+//! ```text
+//! L = Σ ½mᵢvᵢ² − Σ (½k dᵢ² + ¼κdᵢ⁴),   R = ½c Σ ḋᵢ²
+//! ```
+
 macro_rules! spring_chain {
-    ($engine:ident, $n:tt) => {
+    ($name:ident: $n:literal, $engine:ident, [$($rule:ident),*]) => {
         /// Masses mᵢ; springs of potential k d²/2 + κ d⁴/4 and dashpots of force c ḋ between neighbours.
-        pub struct SpringChain {
+        #[derive(Clone, Copy, Debug)]
+        pub struct $name {
             /// Masses.
             pub m: [f64; $n],
             /// Stiffness k.
@@ -13,8 +20,8 @@ macro_rules! spring_chain {
             pub friction: f64,
         }
 
-        #[rayleigh_system(derivatives = $engine)]
-        impl SpringChain {
+        #[dalembert::rayleigh_system(rule = [$($rule),*], derivatives = $engine)]
+        impl $name {
             fn lagrangian(&self, q: [f64; $n], v: [f64; $n]) -> f64 {
                 let (mut kinetic, mut potential) = (0.0, 0.0);
                 let mut before = 0.0;

@@ -1,9 +1,15 @@
-/// A planar chain of point masses on equal massless links, absolute angles from the vertical, with friction
-/// in every joint.
+//! A planar chain of n point masses on equal massless links, absolute angles from the vertical, with friction in
+//! every joint: xᵢ, yᵢ the masses' places, v₀ = 0.
+//!
+//! ```text
+//! L = Σ ½mᵢ(ẋᵢ² + ẏᵢ²) − mᵢ g yᵢ,   R = ½c Σ (vᵢ − vᵢ₋₁)²
+//! ```
+
 macro_rules! pendulum_chain {
-    ($engine:ident, $n:tt) => {
+    ($name:ident: $n:literal, $engine:ident, [$($rule:ident),*]) => {
         /// Every mass moves with all links above it: the mass matrix is full and depends on q.
-        pub struct PendulumChain {
+        #[derive(Clone, Copy, Debug)]
+        pub struct $name {
             /// Masses.
             pub m: [f64; $n],
             /// Length of a link.
@@ -14,8 +20,8 @@ macro_rules! pendulum_chain {
             pub c: f64,
         }
 
-        #[rayleigh_system(derivatives = $engine)]
-        impl PendulumChain {
+        #[dalembert::rayleigh_system(rule = [$($rule),*], derivatives = $engine)]
+        impl $name {
             fn lagrangian(&self, q: [f64; $n], v: [f64; $n]) -> f64 {
                 let (mut y, mut vx, mut vy) = (0.0, 0.0, 0.0);
                 let mut energy = 0.0;

@@ -1,9 +1,17 @@
-/// A spatial arm of three joints: yaw of the base, pitch of the shoulder, pitch of the elbow relative to the
-/// upper arm.
+//! A spatial arm of three joints: yaw of the base, pitch of the shoulder, pitch of the elbow relative to the
+//! upper arm.
+//!
+//! ```text
+//! L = ½J v₁² + Σ (m/6)(|a|² + a·b + |b|²) + ½M|tip|² − g Σ m z,   R = ½Σ cᵢvᵢ²
+//! ```
+//!
+//! a and b are the velocities of the ends of a rod, z the height of its middle; M is the payload.
+
 macro_rules! arm {
-    ($engine:ident) => {
+    ($name:ident: $engine:ident, [$($rule:ident),*]) => {
         /// Two uniform rods and a payload at the tip, on a turning base.
-        pub struct Arm {
+        #[derive(Clone, Copy, Debug)]
+        pub struct $name {
             /// Moment of inertia of the base.
             pub base: f64,
             /// Masses of the rods.
@@ -18,8 +26,8 @@ macro_rules! arm {
             pub c: [f64; 3],
         }
 
-        #[rayleigh_system(derivatives = $engine)]
-        impl Arm {
+        #[dalembert::rayleigh_system(rule = [$($rule),*], derivatives = $engine)]
+        impl $name {
             fn lagrangian(&self, q: [f64; 3], v: [f64; 3]) -> f64 {
                 let [shoulder, elbow] = self.l;
                 // In the turning vertical plane of the arm: radius, height and out of it.
