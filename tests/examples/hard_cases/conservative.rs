@@ -7,9 +7,10 @@ use dalembert::system::ForcedLagrangian;
 use dalembert::{Composition, Discrete, Discretise, Gauss, Midpoint, Splitting, State, Trapezoidal};
 use dalembert_examples::baseline::{self, Method};
 use dalembert_examples::picture::{Curve, Dash, Mark, Panel, colour, linear, logarithmic};
+use dalembert_scenes::{DoublePendulum, HenonHeiles, Kepler};
 use dalembert_tests::hard::{
-    Arm, Effort, FERMI, Fermi, HenonHeiles, Kepler, MathewsLakshmanan, Progress, SpringPendulum,
-    TwoPendulums, UniformField, drive, drive_composed,
+    Arm, Effort, FERMI, Fermi, MathewsLakshmanan, Progress, SpringPendulum, UniformField, drive,
+    drive_composed,
 };
 
 use crate::page::Case;
@@ -164,8 +165,8 @@ pub fn kepler() -> Result<Case> {
 
 /// A million steps of a chaotic double pendulum.
 pub fn double_pendulum() -> Result<Case> {
-    let system = TwoPendulums { r: 0.0 };
-    let start = system.high_energy();
+    let system = DoublePendulum::of_units(0.0);
+    let start = DoublePendulum::high_energy();
     let energy = start.energy(&system)?;
     let mut rows = Vec::new();
     /// The largest error within each 10 000 steps, against millions of steps.
@@ -177,11 +178,11 @@ pub fn double_pendulum() -> Result<Case> {
     const WINDOW: usize = 10_000;
     fn run<R: Copy>(rule: R, h: f64) -> Vec<(f64, f64)>
     where
-        TwoPendulums: Discrete<R, 2, Scalar = f64>,
+        DoublePendulum: Discrete<R, 2, Scalar = f64>,
     {
-        let system = TwoPendulums { r: 0.0 };
+        let system = DoublePendulum::of_units(0.0);
         let mut errors = Vec::new();
-        drive(&system, rule, h, system.high_energy(), [1_000_000, 1], |at| {
+        drive(&system, rule, h, DoublePendulum::high_energy(), [1_000_000, 1], |at| {
             errors.push(at.state.energy(&system).map_or(f64::NAN, |energy| energy - 7.0));
         });
         largest(errors.into_iter())
@@ -299,7 +300,7 @@ pub fn spring_pendulum() -> Result<Case> {
 
 /// The energy of escape.
 pub fn henon_heiles() -> Result<Case> {
-    let system = HenonHeiles { r: 0.0 };
+    let system = HenonHeiles {};
     let mut rows = Vec::new();
     for h in [0.1, 0.05, 0.02] {
         let start = HenonHeiles::start(1.0 / 6.0, -0.1, 0.1);

@@ -8,7 +8,8 @@ use dalembert::{
     Discrete, Discretise, Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, State, Trapezoidal,
 };
 use dalembert_examples::picture::{Curve, Dash, Mark, Panel, colour, linear};
-use dalembert_tests::hard::{Block, CubicDrag, DampedMass, Effort, Kepler, Progress, drive, drive_composed};
+use dalembert_scenes::Kepler;
+use dalembert_tests::hard::{Block, CubicDrag, DampedMass, Effort, Progress, drive, drive_composed};
 
 use crate::conservative::{ORDER_6, SPLITTING_6, outcome};
 use crate::page::Case;

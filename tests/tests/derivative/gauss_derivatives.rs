@@ -69,6 +69,7 @@ use dalembert::derivative::{LegendreDerivatives, StepHessian};
 use dalembert::nalgebra::{DMatrix, DVector, SMatrix, SVector, matrix, vector};
 use dalembert::step::{DiscreteDriven, DiscreteSecondOrder};
 use dalembert::{Discrete, Discretise, Gauss, Midpoint, State, StepError, rayleigh_system};
+use dalembert_scenes::Oscillator;
 
 /// The diagonal Padé approximant of exp(Z) of degree s: what Gauss collocation makes of z' = Z z.
 fn pade(s: usize, z: &DMatrix<f64>) -> DMatrix<f64> {
@@ -426,12 +427,6 @@ fn the_determinant_is_that_of_the_discrete_objects() {
     check::<2>();
     check::<3>();
     check::<4>();
-}
-
-/// m q̈ + r q̇ + k q = 0.
-#[rayleigh_system(rule = gauss)]
-fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
-    (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
 }
 
 /// Where the end does not move with p0, the step has its derivative, though its ends do not determine it: at

@@ -5,14 +5,8 @@ use dalembert::{
     Checkpoint, Composition, Discrete, Discretise, Gauss, Midpoint, Splitting, State, StepError, Trajectory,
     Trapezoidal, rayleigh_system,
 };
-use dalembert_tests::systems::{Chain, DoublePendulum};
-
-/// Explicit by the trapezoidal rule.
-#[rayleigh_system(rule = trapezoidal)]
-fn ring(q: [f64; 2], v: [f64; 2], k: f64) -> (f64, f64) {
-    let s = q[0] * q[0] + q[1] * q[1];
-    (0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2), 0.5 * k * (v[0] * v[0] + v[1] * v[1]))
-}
+use dalembert_scenes::{DoublePendulum, Ring};
+use dalembert_tests::systems::Chain;
 
 fn bits<const N: usize>(state: &State<f64, N>) -> Vec<u64> {
     state.q.iter().chain(&state.p).map(|entry| entry.to_bits()).collect()

@@ -6,6 +6,7 @@ use dalembert::nalgebra::{Matrix2, Matrix4, SMatrix, SVector, matrix, vector};
 use dalembert::run::Explicit;
 use dalembert::step::Quantity;
 use dalembert::{Splitting, State, StepError, rayleigh_system};
+use dalembert_scenes::Ring;
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::convergence::orders;
 use dalembert_tests::systems::Pendulum;
@@ -223,12 +224,6 @@ where
             - (moved(j, 2.0 * d) - moved(j, -2.0 * d)) / (12.0 * d)
     };
     Matrix4::from_columns(&[0, 1, 2, 3].map(column))
-}
-
-#[rayleigh_system(rule = trapezoidal)]
-fn ring(q: [f64; 2], v: [f64; 2], k: f64) -> (f64, f64) {
-    let s = q[0] * q[0] + q[1] * q[1];
-    (0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2), 0.5 * k * (v[0] * v[0] + v[1] * v[1]))
 }
 
 #[test]

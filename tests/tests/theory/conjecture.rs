@@ -13,11 +13,7 @@
 use dalembert::exact::{Exact, Existence, ExistenceVerdict};
 use dalembert::nalgebra::{Matrix2, vector};
 use dalembert::rayleigh_system;
-
-#[rayleigh_system]
-fn harmonic(q: [f64; 1], v: [f64; 1], m: f64, r: f64, k: f64) -> (f64, f64) {
-    (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
-}
+use dalembert_scenes::Oscillator;
 
 #[rayleigh_system]
 fn pendulum(q: [f64; 1], v: [f64; 1], m: f64, r: f64) -> (f64, f64) {
@@ -81,7 +77,7 @@ fn the_pendulum_violates_it_by_known_amounts() {
 fn it_holds_for_the_harmonic_oscillator() {
     // The paper's example, and the positive control of the others: the same tool says 0 where the closed form
     // says 0.
-    let system = Harmonic { m: 1.3, r: 0.3, k: 2.0 };
+    let system = Oscillator { m: 1.3, r: 0.3, k: 2.0 };
     for h in [0.1, 0.5, 1.0, 2.0] {
         let existence = Exact::rayleigh(&system).existence(vector![0.6], vector![1.1], h).unwrap();
         assert_eq!(existence.verdict(), ExistenceVerdict::Holds, "{existence}");

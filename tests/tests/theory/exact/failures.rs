@@ -4,15 +4,11 @@ use dalembert::exact::{Exact, ExactError};
 use dalembert::nalgebra::vector;
 use dalembert::step::Quantity;
 use dalembert::{State, rayleigh_system};
+use dalembert_tests::systems::Pendulum;
 
 #[rayleigh_system]
 fn massless(q: [f64; 2], v: [f64; 2]) -> f64 {
     0.5 * v[0] * v[0] - 0.5 * (q[0] * q[0] + q[1] * q[1])
-}
-
-#[rayleigh_system]
-fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
-    (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
 }
 
 /// Cubic drag, which accelerates backwards motion to infinite speed in finite time.
@@ -39,7 +35,7 @@ fn quartic(q: [f64; 1], v: [f64; 1]) -> f64 {
     0.5 * v[0] * v[0] - 0.25 * q[0].powi(4)
 }
 
-const PENDULUM: Pendulum = Pendulum { r: 0.1 };
+const PENDULUM: Pendulum = Pendulum::of_units(0.1);
 
 #[test]
 fn step_size_zero_or_not_finite() {
