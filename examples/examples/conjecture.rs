@@ -20,7 +20,8 @@ use std::path::PathBuf;
 use anyhow::{Context, Result};
 use dalembert::exact::{Exact, Existence};
 use dalembert::nalgebra::SVector;
-use dalembert::{Rayleigh, rayleigh_system};
+use dalembert::rayleigh_system;
+use dalembert::system::ActingForce;
 use dalembert_examples::picture::{self, Curve, Dash, Mark, Panel, RGBColor, colour, logarithmic};
 
 /// V = ½q².
@@ -55,13 +56,13 @@ struct Potential {
 }
 
 impl Potential {
-    fn of<L: Rayleigh<1, Scalar = f64>>(
+    fn of<L: ActingForce<1, Scalar = f64>>(
         name: &'static str,
         look: (RGBColor, Dash, Mark),
         third: fn(f64) -> f64,
         system: &L,
     ) -> Result<Self> {
-        let exact = Exact::rayleigh(system);
+        let exact = Exact::new(system);
         let found = step_sizes()
             .map(|h| exact.existence(SVector::from([Q0]), SVector::from([Q1]), h))
             .collect::<Result<_, _>>()

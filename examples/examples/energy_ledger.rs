@@ -79,7 +79,7 @@ impl Run {
         let mut course = vec![(0.0, 0.0, 0.0)];
         for (k, state) in states.take(STEPS).enumerate() {
             let state = state?;
-            let entry = EnergyLedger::of_rayleigh(&RING, &before, &state, H)?;
+            let entry = EnergyLedger::of(&RING, &before, &state, H)?;
             largest = largest.max(entry.remainder().abs());
             total += entry;
             course.push(((k + 1) as f64 * H, total.dissipated, total.remainder()));

@@ -14,7 +14,7 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use dalembert::step::Step;
-use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, Rayleigh, State, rayleigh_system};
+use dalembert::{Discretise, Lagrangian, Midpoint, Rayleigh, State, rayleigh_system};
 use dalembert_examples::baseline::{self, Method};
 use dalembert_examples::picture::{self, Axis, Curve, Dash, Panel, colour, linear, logarithmic};
 use indicatif::ProgressBar;
@@ -88,7 +88,8 @@ impl Motion {
         for state in states {
             let v = state.velocity(ring)?;
             let energy = ring.energy(&state.q, &v);
-            let segment_energy = previous.map_or(energy, |q0| ring.segment_energy(q0, &state.q, H));
+            let segment_energy =
+                previous.map_or(energy, |q0| ring.by(Midpoint, H).segment_energy(q0, &state.q));
             motion.energy.push(energy);
             motion.segment_energy.push(segment_energy);
             motion.angular_momentum.push(state.q.perp(&state.p));

@@ -174,10 +174,10 @@ fn the_discrete_objects_are_those_of_the_midpoint_rule() {
         let mut comparison = Comparison::of_terms(terms(&mean, &v));
 
         let lagrangian = h * (0.5 * v.norm_squared() - s * (s - 1.0).powi(2));
-        comparison.entries(&[ring.discrete_lagrangian(&q0, &q1, h)], &[lagrangian]);
+        comparison.entries(&[ring.by(Midpoint, h).discrete_lagrangian(&q0, &q1)], &[lagrangian]);
         let rayleigh = h * h / 2.0 * 0.5 * K * v.norm_squared();
-        comparison.entries(&[ring.discrete_rayleigh(&q0, &q1, h)], &[rayleigh]);
-        let momenta = ring.momenta(&q0, &v, h);
+        comparison.entries(&[ring.by(Midpoint, h).discrete_rayleigh(&q0, &q1)], &[rayleigh]);
+        let momenta = Discrete::<Midpoint, 2>::momenta(&ring, &q0, &v, h);
         comparison.entries(&momenta.p0, &(v + h / 2.0 * slope + K * h / 2.0 * v));
         comparison.entries(&momenta.p1, &(v - h / 2.0 * slope - K * h / 2.0 * v));
         assert!(comparison.worst <= 1.0, "{} units of rounding at q0 = {q0}, v = {v}", comparison.worst);

@@ -23,12 +23,12 @@ pub use crate::run::{
 };
 #[doc(no_inline)]
 pub use crate::step::{
-    BoundedStep, Discrete, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteParameters,
-    DiscreteRayleigh, DiscreteSecondOrder, Momenta, MomentaBy, State, Step, StepError, StepKernel,
+    Discrete, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteParameters, DiscreteRayleigh,
+    DiscreteSecondOrder, Momenta, MomentaBy, StepKernel,
 };
 #[doc(no_inline)]
 pub use crate::system::{
-    CyclicCoordinate, Damping, Driven, Engine, Force, ForcedLagrangian, GeneratedDiffers, GradientBy, Input,
-    Lagrangian, NewtonStructure, Parameters, Rayleigh, Refusal, ScalarField, SecondOrder, Stages, Structure,
-    VectorField,
+    ActingForce, CyclicCoordinate, Damping, Driven, Engine, Force, ForcedLagrangian, GeneratedDiffers,
+    GradientBy, Input, Lagrangian, NewtonStructure, Parameters, Rayleigh, Refusal, ScalarField, SecondOrder,
+    Stages, Structure, VectorField,
 };

@@ -1,5 +1,6 @@
 //! Rules of discretisation: how L, R and f become L_d, R_d and f_d. One file each.
 
+mod by_drift;
 mod damped_drift;
 mod displacement;
 mod fitted;
@@ -8,10 +9,11 @@ mod gauss;
 mod joint;
 mod midpoint;
 mod one_sided;
+mod quadrature;
 mod self_adjoint;
-mod solved_for_velocity;
 mod trapezoidal;
 
+pub use crate::step::SolvedForVelocity;
 pub(crate) use damped_drift::{ByDrift, DampedDrift, Drift, modes, require_positive_definite};
 pub use displacement::{DisplacementRule, Node};
 pub use fitted::Fitted;
@@ -20,6 +22,6 @@ pub use gauss::{Gauss, StageHistory};
 pub use joint::{JointRayleighRule, JointRule};
 pub use midpoint::Midpoint;
 pub use one_sided::OneSided;
+pub use quadrature::Quadrature;
 pub use self_adjoint::SelfAdjoint;
-pub use solved_for_velocity::SolvedForVelocity;
 pub use trapezoidal::Trapezoidal;

@@ -4,7 +4,6 @@
 //! Uses rules and all below.
 
 mod checkpoint;
-mod composed_trajectory;
 mod composition;
 mod discretise;
 mod memory;
@@ -14,11 +13,8 @@ mod trajectory;
 
 pub use checkpoint::Checkpoint;
 pub(crate) use checkpoint::Course;
-pub use composed_trajectory::{ComposedStep, ComposedTrajectory};
 pub use composition::Composition;
-pub(crate) use composition::Substeps;
 pub use discretise::Discretise;
 pub use memory::{DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, KeptMatrix, VelocityHistory};
-pub(crate) use splitting::Kicks;
 pub use splitting::Splitting;
-pub use trajectory::{Sample, Samples, Trajectory};
+pub use trajectory::{Run, Sample, Samples, Trajectory};

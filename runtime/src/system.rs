@@ -2,11 +2,13 @@
 //! of their form.
 //!
 //! `#[rayleigh_system]` implements what is here. A system written by hand implements [`Lagrangian`], and
-//! [`Rayleigh`] and [`Force`] where it has them; then [`Discrete`](crate::Discrete) with the data of
-//! [`step`](crate::step), or for Gauss rules [`ForcedLagrangian`] alone.
+//! [`Rayleigh`] and [`Force`] where it has them, and [`ActingForce`], which hands them on; then
+//! [`Discrete`](crate::Discrete) with the data of [`step`](crate::step), or for Gauss rules
+//! [`ForcedLagrangian`] alone.
 //!
 //! Uses numbers, of which those that it speaks in are shown here.
 
+mod acting_force;
 mod continuous;
 mod driven;
 mod error;
@@ -21,6 +23,7 @@ pub use crate::numbers::{
     CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, LaneVector, Lanes, Mask, Scalar,
     Variations,
 };
+pub use acting_force::ActingForce;
 pub use continuous::{Force, Lagrangian, Rayleigh};
 pub use driven::{Driven, Input};
 pub use error::{Function, GeneratedDiffers};

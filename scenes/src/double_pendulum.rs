@@ -1,12 +1,9 @@
 //! The plane double pendulum, angles from the vertical: a mass matrix that depends on q.
 //!
 //! ```text
-//! L = ½(m1 + m2) l1² v1² + ½m2 l2² v2² + m2 l1 l2 v1 v2 cos(q1 − q2)
-//!     + (m1 + m2) g l1 cos q1 + m2 g l2 cos q2
+//! L = ½(m1 + m2) l1² v1² + ½m2 l2² v2² + m2 l1 l2 v1 v2 cos(q1 − q2) + (m1 + m2) g l1 cos q1 + m2 g l2 cos q2
 //! R = ½c1 v1² + ½c2 (v2 − v1)²
 //! ```
-
-use dalembert::State;
 
 macro_rules! double_pendulum {
     ($name:ident: $float:ident, $engine:ident, [$($rule:ident),*]) => {
@@ -56,12 +53,5 @@ impl crate::DoublePendulum {
     #[must_use]
     pub const fn of_units(c: f64) -> Self {
         Self { m: [1.0; 2], l: [1.0; 2], g: 1.0, c: [c; 2] }
-    }
-
-    /// Of the pendulum [of units](Self::of_units) a state from which both arms turn over, E = 7: the upper one
-    /// level, the lower one hanging and thrown sideways at speed 4.
-    #[must_use]
-    pub fn high_energy() -> State<f64, 2> {
-        State { q: [core::f64::consts::FRAC_PI_2, 0.0].into(), p: [0.0, 4.0].into() }
     }
 }

@@ -1,32 +1,9 @@
-//! Kepler's problem in the plane, a unit mass about a unit centre.
-
-use dalembert::{Elementary, State, rayleigh_system};
+//! Kepler's problem in the plane with a unit mass about a unit centre.
 
 /// L = ½|v|² + 1/|q|, R = ½k|v|².
-#[rayleigh_system(rule = [midpoint, trapezoidal, gauss, fitted, fitted_trapezoidal])]
+#[dalembert::rayleigh_system(rule = [midpoint, trapezoidal, gauss, fitted, fitted_trapezoidal])]
 #[must_use]
 pub fn kepler(q: [f64; 2], v: [f64; 2], k: f64) -> (f64, f64) {
     let speed = v[0] * v[0] + v[1] * v[1];
     (0.5 * speed + 1.0 / (q[0] * q[0] + q[1] * q[1]).sqrt(), 0.5 * k * speed)
-}
-
-impl Kepler {
-    /// At the far end of the orbit with semi-major axis 1 and eccentricity e: the period is 2π, E = −½,
-    /// J = √(1 − e²).
-    #[must_use]
-    pub fn aphelion(e: f64) -> State<f64, 2> {
-        State { q: [1.0 + e, 0.0].into(), p: [0.0, Elementary::sqrt((1.0 - e) / (1.0 + e))].into() }
-    }
-
-    /// E = ½|p|² − 1/|q|.
-    #[must_use]
-    pub fn energy_of(state: &State<f64, 2>) -> f64 {
-        0.5 * state.p.norm_squared() - 1.0 / state.q.norm()
-    }
-
-    /// J = q × p; with drag J(t) = J(0) e^{−kt}.
-    #[must_use]
-    pub fn angular_momentum(state: &State<f64, 2>) -> f64 {
-        state.q.perp(&state.p)
-    }
 }

@@ -10,8 +10,13 @@
 
 use dalembert::hamilton_jacobi::ConfigurationMap;
 use dalembert::nalgebra::{SMatrix, SVector, vector};
-use dalembert::{Discretise, Midpoint, ScalarField, State};
-pub use dalembert_scenes::Oscillator;
+use dalembert::{Discretise, Midpoint, ScalarField, State, rayleigh_system};
+
+/// m q̈ + r q̇ + k q = 0.
+#[rayleigh_system]
+pub fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+    (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+}
 
 /// A point or covector of ℝ.
 pub type Vector = SVector<f64, 1>;

@@ -3,19 +3,23 @@
 //! `tests/rules/hard/` holds their quick versions; `cargo study hard_cases` runs the long
 //! ones and writes `docs/hard-cases.md`.
 
+mod chaotic;
 mod dissipative;
 mod drive;
 mod gyroscopic;
+mod kepler;
 mod scales;
 mod singular;
 mod stiff;
 
+pub use chaotic::{HenonHeiles, TwoPendulums, henon_heiles, two_pendulums};
 pub use dissipative::{
     Block, Cancelling, CubicDrag, DampedMass, Oscillator, Overflowing, VanDerPol, block, cancelling,
     cubic_drag, damped_mass, oscillator, overflowing, van_der_pol,
 };
 pub use drive::{Effort, Progress, drive, drive_composed};
 pub use gyroscopic::{UniformField, uniform_field};
+pub use kepler::{Kepler, kepler};
 pub use scales::{Scaled, UNITS};
 pub use singular::{
     Arm, Drag, FirstOrder, MathewsLakshmanan, Roots, arm, drag, first_order, mathews_lakshmanan, roots,

@@ -12,6 +12,6 @@ mod pendulum;
 pub use bead::Bead;
 pub use chain::{Chain, SITES};
 pub use charge::Charge;
-pub use dalembert_scenes::DoublePendulum;
+pub use double_pendulum::DoublePendulum;
 pub use follower::Follower;
 pub use pendulum::{FreePendulum, Pendulum, free_pendulum};

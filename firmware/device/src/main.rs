@@ -89,7 +89,7 @@ where
         start.q[0] = q;
         start.p[0] = S::constant(1e25);
         let instructions =
-            counter.instructions(|| _ = black_box(system.step(&start, S::constant(1e20), None)));
+            counter.instructions(|| _ = black_box(system.by(Midpoint, S::constant(1e20)).step(&start)));
         Line::new("failing").word(name).number(instructions).write();
     }
     succeeded

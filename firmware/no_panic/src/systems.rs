@@ -4,8 +4,8 @@
 use core::hint::black_box;
 
 use dalembert::{
-    Composition, Discrete, Discretise, Fitted, FittedTrapezoidal, Midpoint, OneSided, Splitting, State,
-    Trapezoidal, rayleigh_system,
+    Composition, Discretise, Fitted, FittedTrapezoidal, Midpoint, OneSided, Splitting, State, Trapezoidal,
+    rayleigh_system,
 };
 
 macro_rules! chains {
@@ -53,13 +53,12 @@ macro_rules! chains {
                     let Ok(start) = State::from_velocity(&system, black_box([0.1; $n]), black_box([0.2; $n])) else {
                         return 1;
                     };
-                    let midpoint = Discrete::<Midpoint, $n>::step(&system, &start, h, None);
-                    let trapezoidal = Discrete::<Trapezoidal, $n>::step(&system, &start, h, None);
+                    let midpoint = system.by(Midpoint, h).step(&start);
+                    let trapezoidal = system.by(Trapezoidal, h).step(&start);
                     let by_configurations = midpoint.and_then(|step| {
-                        let guess = Some(&step.velocity);
-                        Discrete::<Midpoint, $n>::step_configurations(&system, &start.q, &step.state.q, h, guess)
+                        system.by(Midpoint, h).near(&step.velocity).step_configurations(&start.q, &step.state.q)
                     });
-                    let bounded = Discrete::<Midpoint, $n>::step_within(&system, &start, h, None, 3);
+                    let bounded = system.by(Midpoint, h).step_within(&start, 3);
                     let mut trajectory = system.by(Midpoint, h).run(start);
                     let steps = trajectory.by_ref().take(3).filter(Result::is_err).count();
                     black_box(&bounded);
@@ -173,22 +172,21 @@ macro_rules! damped {
                     let Ok(start) = State::from_velocity(&system, black_box([0.1; $n]), black_box([0.2; $n])) else {
                         return 1;
                     };
-                    let guess = Some(start.p);
                     let single = [
-                        Discrete::<Fitted, $n>::step(&system, &start, h, guess.as_ref()),
-                        Discrete::<FittedTrapezoidal, $n>::step(&system, &start, h, None),
-                        Discrete::<OneSided, $n>::step(&system, &start, h, None),
+                        system.by(Fitted, h).near(&start.p).step(&start),
+                        system.by(FittedTrapezoidal, h).step(&start),
+                        system.by(OneSided, h).step(&start),
                     ];
-                    let bounded = Discrete::<Fitted, $n>::step_within(&system, &start, h, None, 3);
+                    let bounded = system.by(Fitted, h).step_within(&start, 3);
                     let mut fitted = system.by(Fitted, h).run(start);
                     let mut explicit = system.by(FittedTrapezoidal, h).run(start);
                     let steps = fitted.by_ref().take(3).chain(explicit.by_ref().take(3)).filter(Result::is_err).count();
                     black_box((&single, &bounded, fitted.state(), explicit.state()));
                     let mut verlet = system.by(Trapezoidal, h).run(start);
                     let steps = steps + verlet.by_ref().take(3).filter(Result::is_err).count();
-                    let mut split = Splitting::blanes_moan_6().trajectory(&system, h, start);
+                    let mut split = system.by(Splitting::blanes_moan_6(), h).run(start);
                     let steps = steps + split.by_ref().take(3).filter(Result::is_err).count();
-                    let mut composed = Composition::kahan_li_6(Trapezoidal).trajectory(&system, h, start);
+                    let mut composed = system.by(Composition::kahan_li_6(Trapezoidal), h).run(start);
                     let steps = steps + composed.by_ref().take(3).filter(Result::is_err).count();
                     black_box((verlet.state(), split.state(), composed.state()));
                     single.iter().filter(|step| step.is_err()).count() as i32

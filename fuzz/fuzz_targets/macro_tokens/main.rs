@@ -16,6 +16,9 @@ mod pipeline {
     pub mod rayleigh_system;
 }
 
+// Its files name one another from the root of their crate.
+use pipeline::rayleigh_system;
+
 use libfuzzer_sys::{Corpus, fuzz_mutator, fuzz_target};
 
 fuzz_target!(|data: &[u8]| -> Corpus {

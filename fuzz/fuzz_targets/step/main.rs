@@ -27,13 +27,14 @@ macro_rules! by_rules {
             $(
                 if left == 0 {
                     $exercise.composed::<_, $n>(&$system);
-                    return $exercise.by_rule::<_, _, $n>(&$system, $rule, true);
+                    return $exercise.by_rule::<_, _, $n>(&$system, $rule);
                 }
                 left -= 1;
             )*
             $(
                 if left == 0 {
-                    return $exercise.by_rule::<_, _, $n>(&$system, $stages, false);
+                    $exercise.by_any_rule::<_, _, $n>(&$system, $stages);
+                    return;
                 }
                 left -= 1;
             )*

@@ -168,7 +168,7 @@ impl Display for Mistake {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::UnknownOption => f.write_str("unknown option; write `rule = midpoint`, `trapezoidal` or `gauss`, a list `rule = [midpoint, trapezoidal]`, `derivatives = auto`, `expanded`, `num_dual`, `parameters = [m, k]`, `step_derivatives = second`, or `crate = path`"),
-            Self::UnknownRule(rule) => write!(f, "unknown rule `{rule}`; the rules are `midpoint`, `trapezoidal`, `gauss`, `fitted`, `fitted_trapezoidal` and `one_sided`"),
+            Self::UnknownRule(rule) => write!(f, "unknown rule `{rule}`; the rules are `midpoint`, `trapezoidal`, `gauss`, `fitted`, `fitted_trapezoidal` and `one_sided`; one of your own is not listed: `system.by(Quadrature(rule), h)` steps by it"),
             Self::RepeatedRule(rule) => write!(f, "rule `{rule}` is listed twice; remove one"),
             Self::JointRule { rule, lacks } => write!(f, "`rule = {rule}` {lacks}; use `midpoint`, `trapezoidal` or `gauss`"),
             Self::NoRule => f.write_str("no rule is listed; write at least one, or leave the option out for `midpoint`"),

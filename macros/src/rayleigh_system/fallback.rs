@@ -173,6 +173,7 @@ fn stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream, rules: &Rules
                 fn force(&self, _: #vector, _: #vector) -> ::dalembert::nalgebra::SVector<#scalar, #n> { ::core::unreachable!() }
                 fn force_derivatives(&self, _: #vector, _: #vector) -> ::dalembert::generated::CovectorDerivatives<#scalar, #n> { ::core::unreachable!() }
             }
+            impl ::dalembert::generated::ActingForce<#n> for #name {}
             #forced
             #offered
             #(

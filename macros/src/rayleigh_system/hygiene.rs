@@ -22,6 +22,7 @@ pub const MARK: &str = "__0__0__";
 
 /// Names that generated code brings into its scope, the module `dual` among them.
 pub const GENERATED: &[&str] = &[
+    "ActingForce",
     "CovectorDerivatives",
     "D",
     "Derivatives",

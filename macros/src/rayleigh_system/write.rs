@@ -56,6 +56,7 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
         .zip(functions.rayleigh)
         .map(|(arguments, derivatives)| continuous::rayleigh(system, arguments, derivatives));
     let force = functions.force.map(|derivatives| continuous::force(system, derivatives));
+    let acting = continuous::acting_force(system);
     let forced = system.rules.gauss.then(|| continuous::forced_lagrangian(system, functions.stages));
     let driven = functions.by_input.and_then(|by_input| on_request::driven(system, by_input));
     let by_parameters = functions.by_parameters.map(|functions| on_request::by_parameters(system, functions));
@@ -81,6 +82,7 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
             #lagrangian
             #rayleigh
             #force
+            #acting
             #forced
             #driven
             #by_parameters

@@ -2,12 +2,12 @@
 
 use nalgebra::SVector;
 
-use crate::step::{Discrete, Discretised, Linearization, State, StepError, StepWith};
+use crate::step::{Discrete, Discretised, Flow, Linearization, State, StepError, StepWith};
 
 /// Derivatives by the state.
-impl<L, R, const N: usize> Discretised<'_, L, R, N>
+impl<L, M, const N: usize> Discretised<'_, L, M, N>
 where
-    L: Discrete<R, N>,
+    L: Flow<M, N>,
 {
     /// The step with its derivative A = ∂(q1, p1)/∂(q0, p0).
     ///
@@ -36,7 +36,13 @@ where
     ) -> Result<StepWith<L::Scalar, N, Linearization<L::Scalar, N>>, StepError> {
         self.system.linearized_step(state, self.h, self.guess.as_ref())
     }
+}
 
+/// Derivatives on a segment.
+impl<L, R, const N: usize> Discretised<'_, L, R, N>
+where
+    L: Discrete<R, N>,
+{
     /// A of the step that leads from q0 to q1.
     ///
     /// By [`Gauss`](crate::Gauss) [`linearized_step`](Self::linearized_step) costs less: this solves for the

@@ -3,10 +3,7 @@ use nalgebra::SVector;
 use super::damped_drift::{ByDrift, DampedDrift};
 use super::{JointRayleighRule, JointRule};
 use crate::numbers::{CovectorDerivatives, Derivatives, Scalar};
-use crate::step::{
-    BoundedStep, DiscreteForce, DiscreteForceDerivatives, Momenta, State, Step, StepError, StepKernel,
-    newton::Equation,
-};
+use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel, newton::Equation};
 use crate::system::{Lagrangian, Rayleigh};
 
 /// The midpoint rule, exponentially fitted to linear damping: it does not ring, however stiff the damping.
@@ -33,7 +30,7 @@ use crate::system::{Lagrangian, Rayleigh};
 ///
 /// The functions of Z depend on h alone, and cost several times what is left of a step: a
 /// [`Trajectory`](crate::Trajectory) works them out once for each step size, a single
-/// [`Discrete::step`](crate::Discrete::step) once.
+/// [`step`](crate::Discretised::step) once.
 ///
 /// For one coordinate, and where C is a multiple of M, it is a Rayleigh system with R_d = ¼ dᵀCd − h ℒ(z)
 /// V(q̄); otherwise its force has no R_d.
@@ -54,38 +51,6 @@ fn at_rest<L: Lagrangian<N> + ?Sized, const N: usize>(
     q: &SVector<L::Scalar, N>,
 ) -> Derivatives<L::Scalar, N> {
     system.lagrangian_derivatives(q, &nalgebra::zero())
-}
-
-/// The step, with what depends on h alone worked out once.
-impl Fitted {
-    /// [`Discrete::step`](crate::Discrete::step).
-    ///
-    /// # Errors
-    /// A [`StepError`]; the state given is untouched.
-    #[inline]
-    pub fn step<L: Rayleigh<N>, const N: usize>(
-        system: &L,
-        state: &State<L::Scalar, N>,
-        h: L::Scalar,
-        guess: Option<&SVector<L::Scalar, N>>,
-    ) -> Result<Step<L::Scalar, N>, StepError> {
-        Self::step_by(&DampedDrift::of(system, &state.q, h), system, state, h, guess)
-    }
-
-    /// [`Discrete::step_within`](crate::Discrete::step_within).
-    ///
-    /// # Errors
-    /// [`StepError`] where not even one iteration can be made; the state given is untouched.
-    #[inline]
-    pub fn step_within<L: Rayleigh<N>, const N: usize>(
-        system: &L,
-        state: &State<L::Scalar, N>,
-        h: L::Scalar,
-        guess: Option<&SVector<L::Scalar, N>>,
-        iterations: u32,
-    ) -> Result<BoundedStep<L::Scalar, N>, StepError> {
-        Self::step_within_by(system, state, h, guess, iterations)
-    }
 }
 
 impl ByDrift for Fitted {

@@ -3,10 +3,7 @@ use nalgebra::SVector;
 use super::damped_drift::{ByDrift, DampedDrift};
 use super::{DisplacementRule, JointRayleighRule, JointRule, Trapezoidal};
 use crate::numbers::{CovectorDerivatives, Derivatives, Scalar};
-use crate::step::{
-    BoundedStep, DiscreteForce, DiscreteForceDerivatives, Momenta, State, Step, StepError, StepKernel,
-    newton::Equation,
-};
+use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel, newton::Equation};
 use crate::system::{GeneratedDiffers, Rayleigh};
 
 /// The trapezoidal rule, exponentially fitted to linear damping: explicit, and exact where there is no
@@ -31,38 +28,6 @@ use crate::system::{GeneratedDiffers, Rayleigh};
 /// step costs one gradient and one solve with factors that are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FittedTrapezoidal;
-
-/// The step, with what depends on h alone worked out once.
-impl FittedTrapezoidal {
-    /// [`Discrete::step`](crate::Discrete::step).
-    ///
-    /// # Errors
-    /// A [`StepError`]; the state given is untouched.
-    #[inline]
-    pub fn step<L: Rayleigh<N>, const N: usize>(
-        system: &L,
-        state: &State<L::Scalar, N>,
-        h: L::Scalar,
-        guess: Option<&SVector<L::Scalar, N>>,
-    ) -> Result<Step<L::Scalar, N>, StepError> {
-        Self::step_by(&DampedDrift::of(system, &state.q, h), system, state, h, guess)
-    }
-
-    /// [`Discrete::step_within`](crate::Discrete::step_within).
-    ///
-    /// # Errors
-    /// [`StepError`] where not even one iteration can be made; the state given is untouched.
-    #[inline]
-    pub fn step_within<L: Rayleigh<N>, const N: usize>(
-        system: &L,
-        state: &State<L::Scalar, N>,
-        h: L::Scalar,
-        guess: Option<&SVector<L::Scalar, N>>,
-        iterations: u32,
-    ) -> Result<BoundedStep<L::Scalar, N>, StepError> {
-        Self::step_within_by(system, state, h, guess, iterations)
-    }
-}
 
 impl ByDrift for FittedTrapezoidal {
     const EQUATION: Equation = Equation::Linear;

@@ -18,7 +18,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{Derivatives, Scalar, lanes::splat};
 use crate::step::{
-    Discrete, DiscreteForce, DiscreteForceDerivatives, EquationAt, LegendreDerivatives, Linearization,
+    Discrete, DiscreteForce, DiscreteForceDerivatives, EquationAt, Flow, LegendreDerivatives, Linearization,
     Momenta, Quantity, Report, State, StateBy, Step, StepError, StepKernel,
     newton::{ITERATIONS, along_h},
 };
@@ -59,8 +59,8 @@ const MAX_STAGES: usize = 8;
 /// A [`Trajectory`](crate::Trajectory) keeps the stages of the last step ([`StageHistory`]), extrapolates
 /// them to those of the next, and adds up q and p with compensation.
 ///
-/// The discrete objects solve for the stages between given end points. Where Newton's method finds none, they
-/// are NaN.
+/// The discrete objects solve for the stages between given end points, by Newton's method:
+/// [`segment`](crate::Discretised::segment) says where it finds none.
 ///
 /// Every stage sees its own time t0 + c_i h, and the input that is held. Derivatives of the step
 /// ([`Linearization`], [`StateBy`], [`StepHessian`](crate::derivative::StepHessian)) are exact, by the matrix
@@ -131,6 +131,10 @@ where
             .map_or(nan(), |segment| segment.lagrangian())
     }
 
+    fn require_segment(&self, q0: &SVector<T, N>, q1: &SVector<T, N>, h: T) -> Result<(), StepError> {
+        Segment::<'_, L, N, S>::between(self, q0, q1, h).map(|_| ())
+    }
+
     fn discrete_lagrangian_derivatives(
         &self,
         q0: &SVector<T, N>,
@@ -184,17 +188,6 @@ where
     /// Σ b_i E_L(Q_i, V_i).
     fn segment_energy(&self, q0: &SVector<T, N>, q1: &SVector<T, N>, h: T) -> T {
         Segment::<'_, L, N, S>::new(self, q0, &((q1 - q0) / h), h).map_or(nan(), |segment| segment.energy())
-    }
-
-    /// By collocation; `guess` serves all stages.
-    fn step(
-        &self,
-        state: &State<T, N>,
-        h: T,
-        guess: Option<&SVector<T, N>>,
-    ) -> Result<Step<T, N>, StepError> {
-        let (problem, solution) = solved::<_, _, N, S>(self, state, h, guess)?;
-        Ok(completed(&problem, &solution)?.0)
     }
 
     /// Where the segment has no solution that Newton's method finds, all is NaN.
@@ -266,6 +259,25 @@ where
             let elapsed = h * T::constant(node);
             self.later(elapsed, |system| system.verify_generated(&(q0 + v * elapsed), v))
         })
+    }
+}
+
+impl<T, L, const N: usize, const S: usize> Flow<Gauss<S>, N> for L
+where
+    T: Scalar,
+    L: ForcedLagrangian<N, Scalar = T>,
+{
+    type RunMemory = StageHistory<T, N, S>;
+
+    /// By collocation; `guess` serves all stages.
+    fn step(
+        &self,
+        state: &State<T, N>,
+        h: T,
+        guess: Option<&SVector<T, N>>,
+    ) -> Result<Step<T, N>, StepError> {
+        let (problem, solution) = solved::<_, _, N, S>(self, state, h, guess)?;
+        Ok(completed(&problem, &solution)?.0)
     }
 
     /// By the stages of the step itself.

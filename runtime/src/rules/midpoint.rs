@@ -1,4 +1,5 @@
 use super::{DisplacementRule, Node};
+use crate::step::SolvedForVelocity;
 
 /// The midpoint rule, order 2, self-adjoint.
 ///
@@ -30,3 +31,5 @@ pub struct Midpoint;
 impl DisplacementRule for Midpoint {
     const NODES: &'static [Node] = &[Node { position: 0.5, weight: 1.0 }];
 }
+
+impl SolvedForVelocity for Midpoint {}

@@ -2,7 +2,7 @@ use nalgebra::SVector;
 
 use super::{DisplacementRule, JointRayleighRule, JointRule, Midpoint};
 use crate::numbers::Derivatives;
-use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
+use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, SolvedForVelocity, StepKernel};
 use crate::system::Rayleigh;
 
 /// The midpoint rule with all of the damping at the start of the segment: L-stable for every convex R(v), of
@@ -21,6 +21,8 @@ use crate::system::Rayleigh;
 /// checks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OneSided;
+
+impl SolvedForVelocity for OneSided {}
 
 impl JointRule for OneSided {
     #[inline]

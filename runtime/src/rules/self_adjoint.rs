@@ -15,7 +15,7 @@ use super::{Fitted, FittedTrapezoidal, Gauss, Midpoint, Trapezoidal};
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not stated to be self-adjoint",
     label = "compositions raise the order of self-adjoint rules alone",
-    note = "where the step of −h undoes the step of h, as with nodes symmetric about ½, state it: `impl dalembert::SelfAdjoint for {Self} {{}}`"
+    note = "where the step of −h undoes the step of h, as with nodes symmetric about ½, state it: `impl dalembert::rules::SelfAdjoint for {Self} {{}}`"
 )]
 pub trait SelfAdjoint {}
 

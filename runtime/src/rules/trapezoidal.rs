@@ -1,4 +1,5 @@
 use super::{DisplacementRule, Node};
+use crate::step::SolvedForVelocity;
 
 /// The trapezoidal rule, order 2, self-adjoint.
 ///
@@ -23,3 +24,5 @@ impl DisplacementRule for Trapezoidal {
     const NODES: &'static [Node] =
         &[Node { position: 0.0, weight: 0.5 }, Node { position: 1.0, weight: 0.5 }];
 }
+
+impl SolvedForVelocity for Trapezoidal {}

@@ -2,10 +2,13 @@
 
 use core::array;
 
+use nalgebra::SVector;
+
 use crate::numbers::Scalar;
 use crate::rules::SelfAdjoint;
-use crate::run::{Checkpoint, ComposedStep, ComposedTrajectory};
-use crate::step::{Discrete, Memory, State, StepError};
+use crate::step::{
+    Flow, Linearization, Memory, PhaseMatrix, Report, State, StateBy, Step, StepError, StepWith,
+};
 
 /// A composition of S substeps γ₁h, …, γ_S h of rule `R`, symmetric (γᵢ = γ_{S+1−i}) and of high order.
 ///
@@ -46,7 +49,7 @@ use crate::step::{Discrete, Memory, State, StepError};
 /// order.
 ///
 /// ```
-/// use dalembert::{Composition, State, Trapezoidal, rayleigh_system};
+/// use dalembert::{Composition, Discretise, State, Trapezoidal, rayleigh_system};
 ///
 /// #[rayleigh_system(rule = trapezoidal)]
 /// fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
@@ -55,61 +58,56 @@ use crate::step::{Discrete, Memory, State, StepError};
 ///
 /// let system = Pendulum { r: 0.0 };
 /// let start = State::from_velocity(&system, [1.0], [0.0])?;
-/// let mut run = Composition::kahan_li_8(Trapezoidal).trajectory(&system, 0.2, start);
-/// let end = run.by_ref().take(5000).last().unwrap()?;
+/// let mut run = system.by(Composition::kahan_li_8(Trapezoidal), 0.2).run(start);
+/// let end = run.by_ref().take(5000).last().unwrap()?.state;
 /// assert!((end.energy(&system)? - start.energy(&system)?).abs() < 1e-10);
 /// assert_eq!(run.time(), 1000.0);
 /// # Ok::<(), dalembert::StepError>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Composition<R, const S: usize> {
     rule: R,
-    shares: [f64; S],
-    order: u32,
-}
-
-impl<R> Composition<R, 1> {
-    /// The rule itself.
-    pub(crate) const fn alone(rule: R) -> Self {
-        Self { rule, shares: [1.0], order: 2 }
-    }
 }
 
 impl<R: SelfAdjoint> Composition<R, 9> {
     /// Order 6 in 9 substeps of a self-adjoint `rule` of order 2 (Kahan and Li 1997).
     #[must_use]
-    #[expect(clippy::excessive_precision, reason = "the digits published")]
     pub const fn kahan_li_6(rule: R) -> Self {
-        let half = [
-            0.392_161_444_007_314_139_279_250_56,
-            0.332_599_136_789_359_438_599_748_64,
-            -0.706_246_172_557_639_359_809_964_82,
-            0.082_213_596_293_550_800_231_490_45,
-            0.798_543_990_934_829_963_398_950_35,
-        ];
-        Self { rule, shares: symmetric(&half), order: 6 }
+        Self { rule }
     }
 }
 
 impl<R: SelfAdjoint> Composition<R, 17> {
     /// Order 8 in 17 substeps of a self-adjoint `rule` of order 2 (Kahan and Li 1997).
     #[must_use]
-    #[expect(clippy::excessive_precision, reason = "the digits published")]
     pub const fn kahan_li_8(rule: R) -> Self {
-        let half = [
-            0.130_202_483_088_890_080_878_817_63,
-            0.561_162_981_775_108_384_561_964_41,
-            -0.389_474_962_644_847_286_408_078_60,
-            0.158_841_906_555_155_600_896_210_75,
-            -0.395_903_894_133_237_577_336_231_54,
-            0.184_539_640_978_315_707_091_832_54,
-            0.258_374_387_686_322_047_293_979_11,
-            0.295_011_723_609_310_298_870_966_24,
-            -0.605_508_533_830_034_511_698_921_08,
-        ];
-        Self { rule, shares: symmetric(&half), order: 8 }
+        Self { rule }
     }
 }
+
+/// γ₁ … γ₅ of order 6.
+#[expect(clippy::excessive_precision, reason = "the digits published")]
+const KAHAN_LI_6: [f64; 5] = [
+    0.392_161_444_007_314_139_279_250_56,
+    0.332_599_136_789_359_438_599_748_64,
+    -0.706_246_172_557_639_359_809_964_82,
+    0.082_213_596_293_550_800_231_490_45,
+    0.798_543_990_934_829_963_398_950_35,
+];
+
+/// γ₁ … γ₉ of order 8.
+#[expect(clippy::excessive_precision, reason = "the digits published")]
+const KAHAN_LI_8: [f64; 9] = [
+    0.130_202_483_088_890_080_878_817_63,
+    0.561_162_981_775_108_384_561_964_41,
+    -0.389_474_962_644_847_286_408_078_60,
+    0.158_841_906_555_155_600_896_210_75,
+    -0.395_903_894_133_237_577_336_231_54,
+    0.184_539_640_978_315_707_091_832_54,
+    0.258_374_387_686_322_047_293_979_11,
+    0.295_011_723_609_310_298_870_966_24,
+    -0.605_508_533_830_034_511_698_921_08,
+];
 
 /// γ₁ … γ_S from its first half and the middle.
 pub(crate) const fn symmetric<const S: usize>(half: &[f64]) -> [f64; S] {
@@ -123,41 +121,73 @@ pub(crate) const fn symmetric<const S: usize>(half: &[f64]) -> [f64; S] {
 }
 
 impl<R, const S: usize> Composition<R, S> {
+    /// The rule.
+    #[must_use]
+    pub const fn rule(&self) -> &R {
+        &self.rule
+    }
+
+    const SHARES: [f64; S] = match S {
+        9 => symmetric(&KAHAN_LI_6),
+        17 => symmetric(&KAHAN_LI_8),
+        _ => panic!("no such composition is made"),
+    };
+
     /// γ₁ … γ_S: the substeps as shares of the step. They sum to 1; some are negative.
     #[must_use]
-    pub const fn shares(&self) -> &[f64; S] {
-        &self.shares
+    pub const fn shares(&self) -> &'static [f64; S] {
+        &Self::SHARES
     }
 
     /// The order p: on a fixed interval the error falls as h^p.
     #[must_use]
     pub const fn order(&self) -> u32 {
-        self.order
+        if S == 9 { 6 } else { 8 }
     }
+}
 
-    /// The trajectory of `system` with step size `h` from `state`, at time 0.
-    pub fn trajectory<L, const N: usize>(
-        self,
-        system: &L,
+impl<L, R, const N: usize, const S: usize> Flow<Composition<R, S>, N> for L
+where
+    R: SelfAdjoint,
+    L: Flow<R, N>,
+{
+    type RunMemory = Substeps<L, R, N, S>;
+
+    /// `guess` is one for the first substep's.
+    #[inline]
+    fn step(
+        &self,
+        state: &State<L::Scalar, N>,
         h: L::Scalar,
-        state: State<L::Scalar, N>,
-    ) -> ComposedTrajectory<'_, L, Substeps<L, R, N, S>, N>
-    where
-        L: Discrete<R, N>,
-    {
-        self.resume(system, Checkpoint::new(h, state))
+        guess: Option<&SVector<L::Scalar, N>>,
+    ) -> Result<Step<L::Scalar, N>, StepError> {
+        let mut substeps = Substeps::<L, R, N, S>::default();
+        if let Some(velocity) = guess {
+            substeps.suggest(velocity, h);
+        }
+        substeps.advance(self, state, h)
     }
 
-    /// The run that `checkpoint` was taken of, by this same composition ([`ComposedTrajectory::checkpoint`]).
-    pub fn resume<L, const N: usize>(
-        self,
-        system: &L,
-        checkpoint: Checkpoint<L::Scalar, N>,
-    ) -> ComposedTrajectory<'_, L, Substeps<L, R, N, S>, N>
-    where
-        L: Discrete<R, N>,
-    {
-        ComposedTrajectory::new(system, Substeps::new(&self, checkpoint.step_size), checkpoint)
+    /// The product of the substeps' derivatives.
+    fn linearized_step(
+        &self,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+        guess: Option<&SVector<L::Scalar, N>>,
+    ) -> Result<StepWith<L::Scalar, N, Linearization<L::Scalar, N>>, StepError> {
+        let mut summary = Summary::new();
+        let (mut end, mut elapsed, mut guess) = (*state, L::Scalar::constant(0.0), guess.copied());
+        let mut a = PhaseMatrix::identity();
+        for share in Composition::<R, S>::SHARES {
+            let part = L::Scalar::constant(share) * h;
+            let (step, by) = self
+                .later(elapsed, |system| Flow::<R, N>::linearized_step(system, &end, part, guess.as_ref()))?;
+            summary.add(&step.report);
+            a = by.a * a;
+            (end, guess) = (step.state, Some(step.velocity));
+            elapsed += part;
+        }
+        Ok((summary.step(state, &end, h), Linearization { a, b: StateBy::zero() }))
     }
 }
 
@@ -167,64 +197,92 @@ impl<R, const S: usize> Composition<R, S> {
 /// the state between two substeps is handed on. Where L, R or f take the time, each substep sees its own.
 pub struct Substeps<L, R, const N: usize, const S: usize>
 where
-    L: Discrete<R, N>,
+    L: Flow<R, N>,
 {
-    sizes: [L::Scalar; S],
-    memories: [L::Memory; S],
+    memories: [L::RunMemory; S],
 }
 
-impl<L, R, const N: usize, const S: usize> Substeps<L, R, N, S>
+impl<L: Flow<R, N>, R, const N: usize, const S: usize> Default for Substeps<L, R, N, S> {
+    fn default() -> Self {
+        Self { memories: array::from_fn(|_| L::RunMemory::default()) }
+    }
+}
+
+impl<L, R, const N: usize, const S: usize> Memory<L, Composition<R, S>, N> for Substeps<L, R, N, S>
 where
-    L: Discrete<R, N>,
+    R: SelfAdjoint,
+    L: Flow<R, N>,
 {
-    pub(crate) fn new(composition: &Composition<R, S>, h: L::Scalar) -> Self {
-        Self {
-            sizes: composition.shares.map(|share| L::Scalar::constant(share) * h),
-            memories: array::from_fn(|_| L::Memory::default()),
+    #[inline]
+    fn advance(
+        &mut self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<Step<L::Scalar, N>, StepError> {
+        self.advance_later(system, 0.0, state, h)
+    }
+
+    fn suggest(&mut self, velocity: &SVector<L::Scalar, N>, h: L::Scalar) {
+        for (memory, share) in self.memories.iter_mut().zip(Composition::<R, S>::SHARES) {
+            memory.suggest(velocity, L::Scalar::constant(share) * h);
         }
     }
 
-    /// The step; `count` is told the iterations of every substep.
     #[inline]
-    pub(crate) fn advance_counted(
+    fn advance_later(
         &mut self,
         system: &L,
         mut elapsed: f64,
         state: &State<L::Scalar, N>,
-        mut count: impl FnMut(u32),
-    ) -> Result<State<L::Scalar, N>, StepError> {
-        let mut state = *state;
-        for (i, &h) in self.sizes.iter().enumerate() {
+        h: L::Scalar,
+    ) -> Result<Step<L::Scalar, N>, StepError> {
+        let mut summary = Summary::new();
+        let mut end = *state;
+        for (i, share) in Composition::<R, S>::SHARES.into_iter().enumerate() {
+            let part = L::Scalar::constant(share) * h;
             let (before, rest) = self.memories.split_at_mut(i);
             let Some((memory, after)) = rest.split_first_mut() else { break };
             // The substep before; of the first, the last of the step before.
             if let Some(previous) = before.last().or(after.last()) {
                 memory.follow(previous);
             }
-            let step = memory.advance_later(system, elapsed, &state, h)?;
-            count(step.report.iterations);
-            state = step.state;
-            elapsed += h.widen();
+            let step = memory.advance_later(system, elapsed, &end, part)?;
+            summary.add(&step.report);
+            end = step.state;
+            elapsed += part.widen();
         }
-        Ok(state)
+        Ok(summary.step(state, &end, h))
     }
 }
 
-impl<L, R, const N: usize, const S: usize> ComposedStep<L, N> for Substeps<L, R, N, S>
-where
-    L: Discrete<R, N>,
-{
+/// How the substeps of a step went: iterations added up, the residual that is worst in units of its floor.
+struct Summary<S> {
+    report: Report<S>,
+}
+
+impl<T: Scalar> Summary<T> {
     #[inline]
-    fn advance(
-        &mut self,
-        system: &L,
-        elapsed: f64,
-        state: &State<L::Scalar, N>,
-    ) -> Result<State<L::Scalar, N>, StepError> {
-        self.advance_counted(system, elapsed, state, |_| {})
+    fn new() -> Self {
+        let none = T::constant(0.0);
+        Self {
+            report: Report { iterations: 0, damped: 0, residual: none, floor: none, last_correction: none },
+        }
     }
 
-    fn forget(&mut self) {
-        self.memories = array::from_fn(|_| L::Memory::default());
+    #[inline]
+    fn add(&mut self, of: &Report<T>) {
+        let Report { iterations, damped, residual, floor, last_correction } = &mut self.report;
+        *iterations += of.iterations;
+        *damped += of.damped;
+        if of.residual * *floor >= *residual * of.floor {
+            (*residual, *floor) = (of.residual, of.floor);
+        }
+        *last_correction = of.last_correction;
+    }
+
+    #[inline]
+    fn step<const N: usize>(self, start: &State<T, N>, end: &State<T, N>, h: T) -> Step<T, N> {
+        Step { state: *end, velocity: (end.q - start.q) / h, report: self.report }
     }
 }

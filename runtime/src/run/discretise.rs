@@ -1,13 +1,16 @@
 //! What a run begins with: `system.by(rule, h)`, or `system.to_error(tolerance)`.
 
 use crate::run::tolerance::{OffersMethods, Request};
-use crate::step::{Discretised, RuleOf};
+use crate::step::{Discretised, MethodOf};
 use crate::system::Lagrangian;
 
 /// What makes a [`Discretised`] of every system.
 pub trait Discretise<const N: usize>: Lagrangian<N> + Sized {
-    /// This system discretised by `rule` with step size `h`: what is asked of a discrete system is asked of
+    /// This system discretised by `method` with step size `h`: what is asked of a discrete system is asked of
     /// the value returned.
+    ///
+    /// A method is a rule, a [`Composition`](crate::Composition) of one, or a
+    /// [`Splitting`](crate::Splitting).
     ///
     /// ```
     /// use dalembert::{Discretise, Midpoint, State, rayleigh_system};
@@ -23,11 +26,11 @@ pub trait Discretise<const N: usize>: Lagrangian<N> + Sized {
     /// # Ok::<(), dalembert::StepError>(())
     /// ```
     #[inline]
-    fn by<R>(&self, rule: R, h: Self::Scalar) -> Discretised<'_, Self, R, N>
+    fn by<M>(&self, method: M, h: Self::Scalar) -> Discretised<'_, Self, M, N>
     where
-        R: RuleOf<Self, N>,
+        M: MethodOf<Self, N>,
     {
-        let _ = rule;
+        let _ = method;
         Discretised::new(self, h)
     }
 
@@ -47,7 +50,7 @@ pub trait Discretise<const N: usize>: Lagrangian<N> + Sized {
     /// let pendulum = Pendulum { c: 0.1 };
     /// let start = State::from_velocity(&pendulum, [1.0], [0.0])?;
     /// let mut run = pendulum.to_error(1e-9).until(20.0).run(start)?;
-    /// let end = run.by_ref().last().unwrap()?;
+    /// let end = run.by_ref().last().unwrap()?.state;
     /// assert!(run.breach().is_none() && end.energy(&pendulum)? < start.energy(&pendulum)?);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

@@ -4,8 +4,11 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{NewtonMatrix, Scalar};
 use crate::rules::{Drift, modes, require_positive_definite};
-use crate::run::{Checkpoint, ComposedStep, ComposedTrajectory, Explicit, composition::symmetric};
-use crate::step::{Momenta, Quantity, State, StepError};
+use crate::run::{Explicit, composition::symmetric};
+use crate::step::{
+    Flow, Linearization, Memory, Momenta, PhaseMatrix, Quantity, Report, State, StateBy, Step, StepError,
+    StepWith,
+};
 
 /// A splitting of the motion into kicks by the potential and damped free motions between, S of them,
 /// symmetric and of high order: for L = ½vᵀMv − V(q) and R = ½vᵀCv with constant M, positive definite, and C,
@@ -47,7 +50,7 @@ use crate::step::{Momenta, Quantity, State, StepError};
 /// overflows over a drift backwards, of the state where it overflows; [`StepError::StepSize`].
 ///
 /// ```
-/// use dalembert::{Splitting, State, rayleigh_system};
+/// use dalembert::{Discretise, Splitting, State, rayleigh_system};
 ///
 /// #[rayleigh_system(rule = trapezoidal)]
 /// fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
@@ -56,28 +59,22 @@ use crate::step::{Momenta, Quantity, State, StepError};
 ///
 /// let system = Pendulum { r: 0.0 };
 /// let start = State::from_velocity(&system, [1.0], [0.0])?;
-/// let mut run = Splitting::blanes_moan_6().trajectory(&system, 0.5, start);
-/// let end = run.by_ref().take(2000).last().unwrap()?;
+/// let mut run = system.by(Splitting::blanes_moan_6(), 0.5).run(start);
+/// let end = run.by_ref().take(2000).last().unwrap()?.state;
 /// assert!((end.energy(&system)? - start.energy(&system)?).abs() < 1e-8);
 /// assert_eq!(run.time(), 1000.0);
 /// # Ok::<(), dalembert::StepError>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Splitting<const S: usize> {
-    drifts: [f64; S],
-    kicks: [f64; S],
-    order: u32,
+    made: (),
 }
 
 impl Splitting<6> {
     /// Order 4 with 6 gradients a step (Blanes and Moan 2002, SRKN₆ᵇ).
     #[must_use]
     pub const fn blanes_moan_4() -> Self {
-        let [a1, a2] = [0.245_298_957_184_271, 0.604_872_665_711_080];
-        let a3 = 0.5 - (a1 + a2);
-        let [b1, b2, b3] = [0.082_984_406_417_405_2, 0.396_309_801_498_368, -0.039_056_304_922_348_6];
-        let b4 = 1.0 - 2.0 * (b1 + b2 + b3);
-        Self { drifts: symmetric(&[a1, a2, a3]), kicks: [b1, b2, b3, b4, b3, b2], order: 4 }
+        Self { made: () }
     }
 }
 
@@ -85,91 +82,131 @@ impl Splitting<11> {
     /// Order 6 with 11 gradients a step (Blanes and Moan 2002, SRKN₁₁ᵇ).
     #[must_use]
     pub const fn blanes_moan_6() -> Self {
-        let [a1, a2, a3, a4, a5] = [
-            0.123_229_775_946_271,
-            0.290_553_797_799_558,
-            -0.127_049_212_625_417,
-            -0.246_331_761_062_075,
-            0.357_208_872_795_928,
-        ];
-        let a6 = 1.0 - 2.0 * (a1 + a2 + a3 + a4 + a5);
-        let [b1, b2, b3, b4, b5] = [
-            0.041_464_998_518_262_4,
-            0.198_128_671_918_067,
-            -0.040_006_192_104_153_3,
-            0.075_253_984_301_580_7,
-            -0.011_511_387_420_687_9,
-        ];
-        let b6 = 0.5 - (b1 + b2 + b3 + b4 + b5);
-        Self {
-            drifts: symmetric(&[a1, a2, a3, a4, a5, a6]),
-            kicks: [b1, b2, b3, b4, b5, b6, b6, b5, b4, b3, b2],
-            order: 6,
-        }
+        Self { made: () }
     }
 }
 
+/// a₁ … and b₁ …, the coefficients published; the last of each follows from the sums.
+type Published = (&'static [f64], &'static [f64]);
+
+const BLANES_MOAN_4: Published = {
+    const A: [f64; 2] = [0.245_298_957_184_271, 0.604_872_665_711_080];
+    const B: [f64; 3] = [0.082_984_406_417_405_2, 0.396_309_801_498_368, -0.039_056_304_922_348_6];
+    (&[A[0], A[1], 0.5 - (A[0] + A[1])], &[B[0], B[1], B[2], 1.0 - 2.0 * (B[0] + B[1] + B[2])])
+};
+
+const BLANES_MOAN_6: Published = {
+    const A: [f64; 5] = [
+        0.123_229_775_946_271,
+        0.290_553_797_799_558,
+        -0.127_049_212_625_417,
+        -0.246_331_761_062_075,
+        0.357_208_872_795_928,
+    ];
+    const B: [f64; 5] = [
+        0.041_464_998_518_262_4,
+        0.198_128_671_918_067,
+        -0.040_006_192_104_153_3,
+        0.075_253_984_301_580_7,
+        -0.011_511_387_420_687_9,
+    ];
+    (
+        &[A[0], A[1], A[2], A[3], A[4], 1.0 - 2.0 * (A[0] + A[1] + A[2] + A[3] + A[4])],
+        &[B[0], B[1], B[2], B[3], B[4], 0.5 - (B[0] + B[1] + B[2] + B[3] + B[4])],
+    )
+};
+
+/// b₁ … b_S of S + 1 kicks that read the same from either end.
+const fn kicks<const S: usize>(half: &[f64]) -> [f64; S] {
+    let mut kicks = [0.0; S];
+    let mut i = 0;
+    while i < S {
+        kicks[i] = half[if i < half.len() { i } else { S - i }];
+        i += 1;
+    }
+    kicks
+}
+
 impl<const S: usize> Splitting<S> {
+    const PUBLISHED: Published = match S {
+        6 => BLANES_MOAN_4,
+        11 => BLANES_MOAN_6,
+        _ => panic!("no such splitting is made"),
+    };
+
+    const DRIFTS: [f64; S] = symmetric(Self::PUBLISHED.0);
+    const KICKS: [f64; S] = kicks(Self::PUBLISHED.1);
+
     /// a₁ … a_S: the drifts as shares of the step. They sum to 1; some are negative.
     #[must_use]
-    pub const fn drifts(&self) -> &[f64; S] {
-        &self.drifts
+    pub const fn drifts(&self) -> &'static [f64; S] {
+        &Self::DRIFTS
     }
 
     /// b₁ … b_S: the kick before each drift. The one after the last is b₁ again, and with it they sum to 1.
     #[must_use]
-    pub const fn kicks(&self) -> &[f64; S] {
-        &self.kicks
+    pub const fn kicks(&self) -> &'static [f64; S] {
+        &Self::KICKS
     }
 
     /// The order p: on a fixed interval the error falls as h^p.
     #[must_use]
     pub const fn order(&self) -> u32 {
-        self.order
+        if S == 6 { 4 } else { 6 }
     }
+}
 
-    /// The trajectory of `system` with step size `h` from `state`, at time 0.
-    pub fn trajectory<L, const N: usize>(
-        self,
-        system: &L,
+impl<L, const N: usize, const S: usize> Flow<Splitting<S>, N> for L
+where
+    L: Explicit<N>,
+{
+    type RunMemory = Kicks<L::Scalar, N, S>;
+
+    /// No equation is solved: no guess serves.
+    #[inline]
+    fn step(
+        &self,
+        state: &State<L::Scalar, N>,
         h: L::Scalar,
-        state: State<L::Scalar, N>,
-    ) -> ComposedTrajectory<'_, L, Kicks<L::Scalar, N, S>, N>
-    where
-        L: Explicit<N>,
-    {
-        self.resume(system, Checkpoint::new(h, state))
+        _guess: Option<&SVector<L::Scalar, N>>,
+    ) -> Result<Step<L::Scalar, N>, StepError> {
+        Memory::<L, Splitting<S>, N>::advance(&mut Kicks::default(), self, state, h)
     }
 
-    /// The run that `checkpoint` was taken of, by this same splitting ([`ComposedTrajectory::checkpoint`]).
-    pub fn resume<L, const N: usize>(
-        self,
-        system: &L,
-        checkpoint: Checkpoint<L::Scalar, N>,
-    ) -> ComposedTrajectory<'_, L, Kicks<L::Scalar, N, S>, N>
-    where
-        L: Explicit<N>,
-    {
-        ComposedTrajectory::new(system, Kicks::new(self, checkpoint.step_size), checkpoint)
+    /// The product of the kicks' and drifts' derivatives.
+    fn linearized_step(
+        &self,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+        _guess: Option<&SVector<L::Scalar, N>>,
+    ) -> Result<StepWith<L::Scalar, N, Linearization<L::Scalar, N>>, StepError> {
+        let step = Flow::<Splitting<S>, N>::step(self, state, h, None)?;
+        let prepared = Prepared::<L::Scalar, N, S>::new(self, h)?;
+        Ok((step, Linearization { a: prepared.derivative(self, state)?, b: StateBy::zero() }))
     }
 }
 
 /// The kicks and drifts of a [`Splitting`].
 ///
-/// What the drifts do is worked out in the first step. The force at the end of a step is that at the start of
-/// the next.
+/// What the drifts do is worked out in the first step of a size. The force at the end of a step is that at the
+/// start of the next. It belongs to one system.
 #[derive(Clone, Copy, Debug)]
 pub struct Kicks<T, const N: usize, const S: usize> {
-    splitting: Splitting<S>,
-    h: T,
     prepared: Option<Prepared<T, N, S>>,
-    /// G − ∂R/∂v(0) at the end of the last step.
-    force: Option<SVector<T, N>>,
+    /// A configuration, and G − ∂R/∂v(0) there.
+    force: Option<(SVector<T, N>, SVector<T, N>)>,
+}
+
+impl<T, const N: usize, const S: usize> Default for Kicks<T, N, S> {
+    fn default() -> Self {
+        Self { prepared: None, force: None }
+    }
 }
 
 /// What depends on the step size alone.
 #[derive(Clone, Copy, Debug)]
 struct Prepared<T, const N: usize, const S: usize> {
+    h: T,
     /// bᵢh.
     kicks: [T; S],
     drifts: Drifts<T, N, S>,
@@ -189,32 +226,17 @@ enum Drifts<T, const N: usize, const S: usize> {
     Full([Drift<SMatrix<T, N, N>>; S]),
 }
 
-impl<T: Scalar, const N: usize, const S: usize> Kicks<T, N, S> {
-    pub(crate) fn new(splitting: Splitting<S>, h: T) -> Self {
-        Self { splitting, h, prepared: None, force: None }
-    }
-
-    /// Lets go of the force at the end of the last step.
-    pub(crate) fn forget_force(&mut self) {
-        self.force = None;
-    }
-}
-
 impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
     #[cold]
     #[inline(never)]
-    fn new<L: Explicit<N, Scalar = T>>(
-        system: &L,
-        splitting: &Splitting<S>,
-        h: T,
-    ) -> Result<Self, StepError> {
+    fn new<L: Explicit<N, Scalar = T>>(system: &L, h: T) -> Result<Self, StepError> {
         crate::step::require_step_size(h)?;
         let Momenta { p0, p1 } = system.velocity_momenta(&nalgebra::zero(), T::one() + T::one());
         let half = T::constant(0.5);
         let (mass, damping) = mass_and_damping(system);
         let is_diagonal =
             [mass, damping].iter().all(|matrix| *matrix == SMatrix::from_diagonal(&matrix.diagonal()));
-        let times = splitting.drifts.map(|share| T::constant(share) * h);
+        let times = Splitting::<S>::DRIFTS.map(|share| T::constant(share) * h);
         let drifts = if is_diagonal {
             let (mass, damping) = (mass.diagonal(), damping.diagonal());
             if let Some(column) = mass.iter().position(|&mass| mass <= T::zero()) {
@@ -227,7 +249,8 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
             Drifts::Full(once_each(&times, |time| Drift::of_modes(&modes, time))?)
         };
         Ok(Self {
-            kicks: splitting.kicks.map(|share| T::constant(share) * h),
+            h,
+            kicks: Splitting::<S>::KICKS.map(|share| T::constant(share) * h),
             drifts,
             is_damped: damping.iter().any(|entry| *entry != T::zero()),
             shift: (p0 + p1) * half,
@@ -238,7 +261,7 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
     /// The step with `drift` for the i-th drift of (q, p − ∂L/∂v(0)), from where the force is `force`; the
     /// force at its end.
     #[inline(always)]
-    fn step<L: Explicit<N, Scalar = T>, D>(
+    fn carried<L: Explicit<N, Scalar = T>, D>(
         &self,
         system: &L,
         state: &State<T, N>,
@@ -254,6 +277,45 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
         }
         let closing = self.kicks.first().map_or(T::zero(), |&kick| kick);
         (State { q, p: p + force * closing + self.shift }, force)
+    }
+
+    /// ∂(q1, p1)/∂(q0, p0) of the step from `state`.
+    fn derivative<L: Explicit<N, Scalar = T>>(
+        &self,
+        system: &L,
+        state: &State<T, N>,
+    ) -> Result<PhaseMatrix<T, N>, StepError> {
+        let rest = nalgebra::zero();
+        let identity = SMatrix::<T, N, N>::identity();
+        let (mut q, mut p) = (state.q, state.p - self.shift);
+        let mut a = PhaseMatrix::identity();
+        for i in 0..=S {
+            let slope =
+                system.lagrangian_derivatives(&q, &rest).d11 + system.general_force_derivatives(&q, &rest).d1;
+            let kick = self.kicks[i % S];
+            a.p_by_q += slope * a.q_by_q * kick;
+            a.p_by_p += slope * a.q_by_p * kick;
+            if i == S {
+                break;
+            }
+            p += (system.configuration_force(&q) - self.thrust) * kick;
+            let Drift { displacement, loss } = match &self.drifts {
+                Drifts::Full(drifts) => drifts[i],
+                Drifts::Diagonal(drifts) => Drift {
+                    displacement: SMatrix::from_diagonal(&drifts[i].displacement),
+                    loss: SMatrix::from_diagonal(&drifts[i].loss),
+                },
+            };
+            a.q_by_q += displacement * a.p_by_q;
+            a.q_by_p += displacement * a.p_by_p;
+            a.p_by_q = (identity + loss) * a.p_by_q;
+            a.p_by_p = (identity + loss) * a.p_by_p;
+            q += displacement * p;
+            p += loss * p;
+        }
+        let entries = [&a.q_by_q, &a.q_by_p, &a.p_by_q, &a.p_by_p];
+        entries.into_iter().try_for_each(|block| StepError::require_finite(block, Quantity::Derivatives))?;
+        Ok(a)
     }
 }
 
@@ -287,7 +349,7 @@ fn mass_and_damping<L: Explicit<N>, const N: usize>(
     (mass, damping)
 }
 
-impl<L, const N: usize, const S: usize> ComposedStep<L, N> for Kicks<L::Scalar, N, S>
+impl<L, const N: usize, const S: usize> Memory<L, Splitting<S>, N> for Kicks<L::Scalar, N, S>
 where
     L: Explicit<N>,
 {
@@ -295,47 +357,48 @@ where
     fn advance(
         &mut self,
         system: &L,
-        _elapsed: f64,
         state: &State<L::Scalar, N>,
-    ) -> Result<State<L::Scalar, N>, StepError> {
+        h: L::Scalar,
+    ) -> Result<Step<L::Scalar, N>, StepError> {
         let prepared = match &mut self.prepared {
-            Some(prepared) => prepared,
-            none => none.insert(Prepared::new(system, &self.splitting, self.h)?),
+            Some(prepared) if prepared.h == h => prepared,
+            other => other.insert(Prepared::new(system, h)?),
         };
         let force = match self.force {
-            Some(force) => force,
-            None => {
+            Some((q, force)) if q == state.q => force,
+            _ => {
                 state.require_finite()?;
                 system.configuration_force(&state.q) - prepared.thrust
             }
         };
         let (end, force) = match (&prepared.drifts, prepared.is_damped) {
-            (Drifts::Diagonal(drifts), true) => prepared.step(system, state, force, drifts, |drift, q, p| {
-                *q += drift.displacement.component_mul(p);
-                *p += drift.loss.component_mul(p);
-            }),
+            (Drifts::Diagonal(drifts), true) => {
+                prepared.carried(system, state, force, drifts, |drift, q, p| {
+                    *q += drift.displacement.component_mul(p);
+                    *p += drift.loss.component_mul(p);
+                })
+            }
             (Drifts::Diagonal(drifts), false) => {
-                prepared.step(system, state, force, drifts, |drift, q, p| {
+                prepared.carried(system, state, force, drifts, |drift, q, p| {
                     *q += drift.displacement.component_mul(p);
                 })
             }
-            (Drifts::Full(drifts), true) => prepared.step(system, state, force, drifts, |drift, q, p| {
+            (Drifts::Full(drifts), true) => prepared.carried(system, state, force, drifts, |drift, q, p| {
                 *q += drift.displacement * *p;
                 *p += drift.loss * *p;
             }),
-            (Drifts::Full(drifts), false) => prepared.step(system, state, force, drifts, |drift, q, p| {
+            (Drifts::Full(drifts), false) => prepared.carried(system, state, force, drifts, |drift, q, p| {
                 *q += drift.displacement * *p;
             }),
         };
         end.require_finite()?;
+        let velocity = (end.q - state.q) / h;
         if cfg!(debug_assertions) {
-            system.verify_segment(&state.q, &((end.q - state.q) / self.h), self.h)?;
+            system.verify_segment(&state.q, &velocity, h)?;
         }
-        self.force = Some(force);
-        Ok(end)
-    }
-
-    fn forget(&mut self) {
-        self.forget_force();
+        self.force = Some((end.q, force));
+        let none = L::Scalar::constant(0.0);
+        let report = Report { iterations: 0, damped: 0, residual: none, floor: none, last_correction: none };
+        Ok(Step { state: end, velocity, report })
     }
 }

@@ -19,13 +19,14 @@ use nalgebra::ComplexField;
 use crate::numbers::Scalar;
 use crate::step::{State, StepError, verify_start};
 use crate::system::Lagrangian;
-pub use guard::GuardedTrajectory;
+pub use guard::{GuardedCheckpoint, GuardedTrajectory};
 pub use methods::{MethodStep, Methods, Taken, WithGauss, WithSplittings};
 pub use request::{OffersMethods, Request, TimedRequest};
 
 /// A method of constant step: a self-adjoint rule of order 2, alone or composed, a splitting, or a Gauss
 /// method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Method {
     /// The rule alone, order 2.
@@ -46,6 +47,7 @@ pub enum Method {
 
 /// What the start says of one method.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Trial {
     /// The method.
@@ -63,7 +65,21 @@ pub struct Trial {
 pub struct Choice<'a, L: Lagrangian<N>, M, const N: usize> {
     system: &'a L,
     methods: M,
-    start: State<L::Scalar, N>,
+    chosen: Chosen<L::Scalar, N>,
+}
+
+/// What was chosen for a start, and what the start says of it.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(
+        serialize = "S: Scalar + serde::Serialize",
+        deserialize = "S: Scalar + serde::Deserialize<'de>"
+    ))
+)]
+struct Chosen<S, const N: usize> {
+    start: State<S, N>,
     method: Method,
     step_size: f64,
     steps: u64,
@@ -81,6 +97,7 @@ pub struct Choice<'a, L: Lagrangian<N>, M, const N: usize> {
 
 /// Where the error expected has passed the one asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Breach {
     /// The time.
@@ -108,6 +125,11 @@ pub enum ToleranceError {
     OutOfReach {
         /// The method that comes closest; `None` where no step could be taken.
         closest: Option<Trial>,
+    },
+    /// A run cannot be resumed by a system that does not offer its method.
+    NotOffered {
+        /// The method.
+        method: Method,
     },
     /// A step at the chosen size failed at the start, or the system is not that written.
     Step(StepError),
@@ -286,45 +308,50 @@ where
 {
     /// The method chosen: of those that reach the error, the one of least cost.
     pub fn method(&self) -> Method {
-        self.method
+        self.chosen.method
     }
 
     /// The step size, a whole fraction of the time.
     pub fn step_size(&self) -> f64 {
-        self.step_size
+        self.chosen.step_size
     }
 
     /// Steps over the whole time.
     pub fn steps(&self) -> u64 {
-        self.steps
+        self.chosen.steps
     }
 
     /// The error asked for.
     pub fn tolerance(&self) -> f64 {
-        self.tolerance
+        self.chosen.tolerance
     }
 
     /// The error expected at the end if the whole run is like its start.
     pub fn expected(&self) -> f64 {
-        self.expected
+        self.chosen.expected
     }
 
     /// What choosing has cost, in evaluations of the forces.
     pub fn evaluations(&self) -> f64 {
-        self.spent
+        self.chosen.spent
     }
 
     /// What was found of the methods that were tried, in the order of [`Method::ALL`].
     pub fn trials(&self) -> impl Iterator<Item = &Trial> {
-        self.trials.iter().flatten()
+        self.chosen.trials.iter().flatten()
     }
 
     /// The run of this choice, with its guard.
     pub fn trajectory(&self) -> GuardedTrajectory<'a, L, M, N> {
-        let step = |h: f64| self.methods.step(self.method, L::Scalar::constant(h));
-        match (step(self.step_size), step(0.5 * self.step_size)) {
-            (Some(step), Some(half)) => GuardedTrajectory::new(*self, step, half),
+        match self.fresh_steps() {
+            Some(steps) => GuardedTrajectory::new(*self, steps),
             _ => unreachable!("the method was tried before it was chosen"),
         }
+    }
+
+    /// Its step and a half one, before the first.
+    fn fresh_steps(&self) -> Option<[M::Step; 2]> {
+        let step = |h: f64| self.methods.step(self.chosen.method, L::Scalar::constant(h));
+        Some([step(self.chosen.step_size)?, step(0.5 * self.chosen.step_size)?])
     }
 }

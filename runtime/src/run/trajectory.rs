@@ -6,43 +6,48 @@ use nalgebra::SVector;
 
 use crate::numbers::Scalar;
 use crate::run::{Checkpoint, Course};
-use crate::step::{Discrete, Discretised, Memory, State, Step, StepError};
+use crate::step::{Discretised, Flow, Memory, State, Step, StepError};
 
 /// Runs.
-impl<'a, L, R, const N: usize> Discretised<'a, L, R, N>
+impl<'a, L, M, const N: usize> Discretised<'a, L, M, N>
 where
-    L: Discrete<R, N>,
+    L: Flow<M, N>,
 {
     /// The steps from `state`, one after the other: each is cheaper than [`step`](Self::step), by what is
-    /// known of those before.
+    /// known of those before. The first starts from the velocity of [`near`](Self::near), where one was given.
     #[must_use = "a run is an iterator: it takes a step when it is asked for the next"]
-    pub fn run(&self, state: State<L::Scalar, N>) -> Trajectory<'a, L, R, N> {
-        Trajectory::from_checkpoint(self.system, Checkpoint::new(self.h, state))
+    pub fn run(&self, state: State<L::Scalar, N>) -> Trajectory<'a, L, M, N> {
+        let mut run = Trajectory::from_checkpoint(self.system, Checkpoint::new(self.h, state));
+        if let Some(velocity) = &self.guess {
+            run.memory.suggest(velocity, self.h);
+        }
+        run
     }
 }
 
-/// The trajectory of a system from a state, one step at a time.
+/// The trajectory of a system from a state, one step at a time: by a rule, a
+/// [`Composition`](crate::Composition) or a [`Splitting`](crate::Splitting).
 ///
-/// An iterator over steps; it holds the present state and what the rule remembers of the steps before
+/// An iterator over steps; it holds the present state and what the method remembers of the steps before
 /// ([`Memory`]). After an error it ends, its state being the last good one; another step size
 /// ([`Trajectory::change_step_size`]) lets it go on.
 ///
 /// Where L, R or f take the time, each step sees its own: the time of the system given, `system.at_time(t)`,
 /// and what the trajectory has taken since.
-pub struct Trajectory<'a, L, R, const N: usize>
+pub struct Trajectory<'a, L, M, const N: usize>
 where
-    L: Discrete<R, N>,
+    L: Flow<M, N>,
 {
     system: &'a L,
-    rule: PhantomData<R>,
+    method: PhantomData<M>,
     at: Checkpoint<L::Scalar, N>,
-    memory: L::Memory,
+    memory: L::RunMemory,
     course: Course,
 }
 
-impl<'a, L, R, const N: usize> Trajectory<'a, L, R, N>
+impl<'a, L, M, const N: usize> Trajectory<'a, L, M, N>
 where
-    L: Discrete<R, N>,
+    L: Flow<M, N>,
 {
     /// The present state: that of the last step that succeeded.
     pub fn state(&self) -> &State<L::Scalar, N> {
@@ -67,11 +72,11 @@ where
 
     /// All that is needed to go on from here, in this process or another ([`Trajectory::resume`]).
     ///
-    /// The run forgets what its rule remembers of earlier steps, as one that is resumed has to: both go on
+    /// The run forgets what its method remembers of earlier steps, as one that is resumed has to: both go on
     /// bit by bit alike. A rule that adds up with compensation ([`Gauss`](crate::Gauss)) loses the rest
     /// at this one place, less than the last digit.
     pub fn checkpoint(&mut self) -> Checkpoint<L::Scalar, N> {
-        self.memory = L::Memory::default();
+        self.memory = L::RunMemory::default();
         self.at
     }
 
@@ -97,16 +102,17 @@ where
     /// assert_eq!(run.time(), resumed.time());
     /// # Ok::<(), dalembert::StepError>(())
     /// ```
-    pub fn resume(system: &'a L, _rule: R, checkpoint: Checkpoint<L::Scalar, N>) -> Self {
+    pub fn resume(system: &'a L, method: M, checkpoint: Checkpoint<L::Scalar, N>) -> Self {
+        let _ = method;
         Self::from_checkpoint(system, checkpoint)
     }
 
     pub(crate) fn from_checkpoint(system: &'a L, checkpoint: Checkpoint<L::Scalar, N>) -> Self {
         Self {
             system,
-            rule: PhantomData,
+            method: PhantomData,
             at: checkpoint,
-            memory: L::Memory::default(),
+            memory: L::RunMemory::default(),
             course: Course::Starting,
         }
     }
@@ -149,7 +155,7 @@ where
         let mut part = self.at.step_size;
         for halving in 1..=halvings.min(31) {
             part *= L::Scalar::constant(0.5);
-            let mut memory = L::Memory::default();
+            let mut memory = L::RunMemory::default();
             let (mut state, mut last) = (self.at.state, None);
             for taken in 0..1_u32 << halving {
                 let elapsed = start + f64::from(taken) * part.widen();
@@ -176,14 +182,14 @@ where
     /// Every `stride`-th step only, with what the steps between reported: long runs in constant memory.
     ///
     /// A stride of 0 counts as 1. An error on any step is returned at once.
-    pub fn sample_every(&mut self, stride: u64) -> Samples<'_, 'a, L, R, N> {
-        Samples { trajectory: self, stride: stride.max(1) }
+    pub fn sample_every(&mut self, stride: u64) -> Samples<'_, Self, N> {
+        Samples::new(self, stride)
     }
 }
 
-impl<L, R, const N: usize> Iterator for Trajectory<'_, L, R, N>
+impl<L, M, const N: usize> Iterator for Trajectory<'_, L, M, N>
 where
-    L: Discrete<R, N>,
+    L: Flow<M, N>,
 {
     type Item = Result<Step<L::Scalar, N>, StepError>;
 
@@ -230,44 +236,65 @@ pub struct Sample<S, const N: usize> {
     pub worst_residual: f64,
 }
 
-/// Iterator over every k-th state of a trajectory; see [`Trajectory::sample_every`].
-pub struct Samples<'t, 'a, L, R, const N: usize>
-where
-    L: Discrete<R, N>,
-{
-    trajectory: &'t mut Trajectory<'a, L, R, N>,
+/// A run of steps, whatever makes them: a [`Trajectory`], or one that carries its error along
+/// ([`GuardedTrajectory`](crate::tolerance::GuardedTrajectory)).
+pub trait Run<const N: usize>: Iterator<Item = Result<Step<<Self as Run<N>>::Scalar, N>, StepError>> {
+    /// `f64` or `f32`.
+    type Scalar: Scalar;
+
+    /// The present state: that of the last step that succeeded.
+    fn state(&self) -> &State<Self::Scalar, N>;
+
+    /// Its time.
+    fn time(&self) -> f64;
+}
+
+impl<L: Flow<M, N>, M, const N: usize> Run<N> for Trajectory<'_, L, M, N> {
+    type Scalar = L::Scalar;
+
+    fn state(&self) -> &State<L::Scalar, N> {
+        &self.at.state
+    }
+
+    fn time(&self) -> f64 {
+        self.at.time()
+    }
+}
+
+/// Iterator over every k-th state of a run; see [`Trajectory::sample_every`].
+pub struct Samples<'t, T, const N: usize> {
+    run: &'t mut T,
     stride: u64,
 }
 
-impl<L, R, const N: usize> Iterator for Samples<'_, '_, L, R, N>
-where
-    L: Discrete<R, N>,
-{
-    type Item = Result<Sample<L::Scalar, N>, StepError>;
+impl<'t, T, const N: usize> Samples<'t, T, N> {
+    pub(crate) fn new(run: &'t mut T, stride: u64) -> Self {
+        Self { run, stride: stride.max(1) }
+    }
+}
+
+impl<T: Run<N>, const N: usize> Iterator for Samples<'_, T, N> {
+    type Item = Result<Sample<T::Scalar, N>, StepError>;
 
     fn next(&mut self) -> Option<Self::Item> {
         let (mut iterations, mut damped, mut worst_residual) = (0, 0, 0.0_f64);
-        let mut previous = self.trajectory.at.state.q;
-        for _ in 0..self.stride {
-            previous = self.trajectory.at.state.q;
-            let report = match self.trajectory.next()? {
-                Ok(step) => step.report,
-                Err(error) => return Some(Err(error)),
+        let mut previous = self.run.state().q;
+        for taken in 0..self.stride {
+            let before = self.run.state().q;
+            let report = match self.run.next() {
+                Some(Ok(step)) => step.report,
+                Some(Err(error)) => return Some(Err(error)),
+                None if taken == 0 => return None,
+                None => break,
             };
+            previous = before;
             iterations += u64::from(report.iterations);
             damped += u64::from(report.damped > 0);
-            if report.residual > L::Scalar::constant(0.0) {
+            if report.residual > T::Scalar::constant(0.0) {
                 worst_residual = worst_residual.max((report.residual / report.floor).widen());
             }
         }
-        let trajectory = &*self.trajectory;
-        Some(Ok(Sample {
-            time: trajectory.time(),
-            state: trajectory.at.state,
-            previous,
-            iterations,
-            damped,
-            worst_residual,
-        }))
+        let (time, state) = (self.run.time(), *self.run.state());
+        Some(Ok(Sample { time, state, previous, iterations, damped, worst_residual }))
     }
 }

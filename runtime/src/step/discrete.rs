@@ -1,4 +1,4 @@
-//! The discrete system: L_d, f_d, the Legendre transforms and the flows.
+//! The discrete system: L_d, f_d, the Legendre transforms, and the equation of its step.
 //!
 //! Paper, section 3, with the signs and corrections of the crate documentation:
 //!
@@ -9,25 +9,25 @@
 
 use nalgebra::SVector;
 
-use crate::numbers::{Derivatives, NewtonMatrix, Scalar, determinant_sign};
+use crate::numbers::{Derivatives, NewtonMatrix, determinant_sign};
 use crate::step::{
-    BoundedStep, DiscreteForce, DiscreteForceDerivatives, EquationAt, LegendreDerivatives, Linearization,
-    Momenta, Quantity, State, Step, StepError, StepKernel, StepWith, newton::Equation, require_step_size,
-    step_by, step_within_by,
+    DiscreteForce, DiscreteForceDerivatives, EquationAt, Flow, LegendreDerivatives, Linearization, Memory,
+    Momenta, Quantity, State, Step, StepError, StepKernel,
 };
-use crate::system::{GeneratedDiffers, Lagrangian};
+use crate::system::GeneratedDiffers;
 
 /// A system discretised by rule `R`: L_d, f_d and what follows from them.
 ///
 /// The required functions are what `#[rayleigh_system]` writes; the provided ones hold for every system and
-/// rule.
+/// rule. How the step's equation is solved, [`Flow`] says: for a rule of one's own that is
+/// [`SolvedForVelocity`](crate::rules::SolvedForVelocity), the runtime does.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not discretised by `{R}`",
     label = "no discrete system by `{R}`",
     note = "if its force takes an input, write `system.driven(u)` where `system` stands; if L, R or f take the time, `system.at_time(t)`, with an input `system.driven(u, t)`",
     note = "otherwise list the rule in the attribute: `#[rayleigh_system(rule = [midpoint, trapezoidal])]`"
 )]
-pub trait Discrete<R, const N: usize>: Lagrangian<N> {
+pub trait Discrete<R, const N: usize>: Flow<R, N> {
     /// The form of the Newton matrix: `SMatrix<Scalar, N, N>`, or [`Banded`](crate::step::Banded).
     type Matrix: NewtonMatrix<Self::Scalar, N>;
 
@@ -163,71 +163,22 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         self.legendre_plus(q0, q1, h).p - self.later(h, |system| system.legendre_minus(q1, q2, h).p)
     }
 
-    /// The flow on T*Q: solves p0 = −D1 L_d − f_d⁻ for q1, then p1 = D2 L_d + f_d⁺.
-    ///
-    /// `guess` is a guess for v̄ = (q1 − q0)/h; a [`Trajectory`](crate::Trajectory) extrapolates one. Without
-    /// it Newton's method starts at the velocity of the state, and ∂²L/∂v² is checked to be invertible;
-    /// where that leads nowhere, it starts again at rest, away from it if rest is a singular point, and
-    /// at last follows the root from small step sizes. h may be negative. Neither allocates nor panics
-    /// (unless L, R or f do), and takes at most a fixed number of iterations.
+    /// Whether the rule has its discrete objects on the segment (`q0`, `q1`): by formula, always.
     ///
     /// # Errors
-    /// A [`StepError`]; the state given is untouched.
-    #[inline]
-    fn step(
+    /// Of a rule that solves for points within the segment, the [`StepError`] that says why it finds none; all
+    /// objects are NaN there.
+    fn require_segment(
         &self,
-        state: &State<Self::Scalar, N>,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
         h: Self::Scalar,
-        guess: Option<&SVector<Self::Scalar, N>>,
-    ) -> Result<Step<Self::Scalar, N>, StepError> {
-        let kind = if Self::LINEAR { Equation::Linear } else { Equation::General };
-        let equation = (
-            |q0: &_, v: &_, h| self.step_kernel(q0, v, h),
-            |q0: &_, v: &_, h| self.momenta(q0, v, h),
-            |q0: &_, v: &_| self.lagrangian_derivatives(q0, v).d22,
-        );
-        let step = step_by(self, kind, equation, state, h, guess);
-        if cfg!(debug_assertions)
-            && let Ok(step) = &step
-        {
-            self.verify_segment(&state.q, &step.velocity, h)?;
-        }
-        step
+    ) -> Result<(), StepError> {
+        let _ = (q0, q1, h);
+        Ok(())
     }
 
-    /// The step by at most `iterations` undamped Newton iterations, for a clock that does not wait: the work
-    /// is bounded, and what is returned is the best iterate, with the residual left and the last
-    /// correction in its report. Without a `guess` the velocity of the state is solved for first.
-    ///
-    /// # Errors
-    /// [`StepError`] where not even one iteration can be made; the state given is untouched.
-    fn step_within(
-        &self,
-        state: &State<Self::Scalar, N>,
-        h: Self::Scalar,
-        guess: Option<&SVector<Self::Scalar, N>>,
-        iterations: u32,
-    ) -> Result<BoundedStep<Self::Scalar, N>, StepError> {
-        let kind = if Self::LINEAR { Equation::Linear } else { Equation::General };
-        let bounded = step_within_by(
-            self,
-            kind,
-            |q0, v| self.step_kernel(q0, v, h),
-            |q0, v| self.momenta(q0, v, h),
-            state,
-            h,
-            guess,
-            iterations,
-        );
-        if cfg!(debug_assertions)
-            && let Ok(bounded) = &bounded
-        {
-            self.verify_segment(&state.q, &bounded.step.velocity, h)?;
-        }
-        bounded
-    }
-
-    /// Compares L, R and f as generated to those as written ([`Lagrangian::verify_generated`]) at the points
+    /// Compares L, R and f as generated to those as written ([`Lagrangian::verify_generated`](crate::Lagrangian::verify_generated)) at the points
     /// where the rule evaluates them on the segment from q0 with mean velocity `v`.
     ///
     /// With `debug_assertions` every step does so; without them the caller has to.
@@ -292,86 +243,5 @@ pub trait Discrete<R, const N: usize>: Lagrangian<N> {
         h: Self::Scalar,
     ) -> Result<Linearization<Self::Scalar, N>, StepError> {
         Linearization::from_legendre(&self.legendre_derivatives(q0, q1, h))
-    }
-
-    /// The step with its derivative by the state:
-    /// [`Discretised::linearized_step`](crate::Discretised::linearized_step).
-    ///
-    /// # Errors
-    /// Those of [`step`](Self::step) and of [`linearization`](Self::linearization).
-    fn linearized_step(
-        &self,
-        state: &State<Self::Scalar, N>,
-        h: Self::Scalar,
-        guess: Option<&SVector<Self::Scalar, N>>,
-    ) -> Result<StepWith<Self::Scalar, N, Linearization<Self::Scalar, N>>, StepError> {
-        let step = self.step(state, h, guess)?;
-        Ok((step, self.linearization(&state.q, &step.state.q, h)?))
-    }
-
-    /// The flow on Q×Q: (q0, q1) ↦ (q1, q2), with q2 = `state.q` of the step returned.
-    ///
-    /// Of a system at a time t, a view, (q0, q1) is the segment of t, and the step is taken at t + h.
-    ///
-    /// # Errors
-    /// Those of [`step`](Self::step).
-    #[inline]
-    fn step_configurations(
-        &self,
-        q0: &SVector<Self::Scalar, N>,
-        q1: &SVector<Self::Scalar, N>,
-        h: Self::Scalar,
-        guess: Option<&SVector<Self::Scalar, N>>,
-    ) -> Result<Step<Self::Scalar, N>, StepError>
-    where
-        Self: Sized,
-    {
-        require_step_size(h)?;
-        StepError::require_finite(q0, Quantity::Configuration)?;
-        let state = self.legendre_plus(q0, q1, h);
-        self.later(h, |system| system.step(&state, h, guess))
-    }
-}
-
-/// What a run keeps from step to step, and how the next step uses it.
-///
-/// [`Default`] is the memory before the first step. What is remembered makes a step cheaper; it never decides
-/// where the step leads, beyond rounding: a memory of other states or another step size does no harm.
-pub trait Memory<L: ?Sized, R, const N: usize>: Default
-where
-    L: Discrete<R, N>,
-{
-    /// The step of [`Discrete::step`] from `state`.
-    ///
-    /// # Errors
-    /// Those of [`Discrete::step`]; what is remembered is then as before.
-    fn advance(
-        &mut self,
-        system: &L,
-        state: &State<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> Result<Step<L::Scalar, N>, StepError>;
-
-    /// Takes over what is known of the state from which the next step starts, from the memory of the step
-    /// that ended there. In a composition that is the one of the substep before.
-    fn follow(&mut self, _previous: &Self) {}
-
-    /// The step from `state`, `elapsed` after the time of `system`: of the system as it is then
-    /// ([`Lagrangian::later`](crate::Lagrangian::later)).
-    ///
-    /// # Errors
-    /// Those of [`advance`](Self::advance).
-    #[inline]
-    fn advance_later(
-        &mut self,
-        system: &L,
-        elapsed: f64,
-        state: &State<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> Result<Step<L::Scalar, N>, StepError>
-    where
-        L: Sized,
-    {
-        system.later(L::Scalar::constant(elapsed), |system| self.advance(system, state, h))
     }
 }

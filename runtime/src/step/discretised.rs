@@ -7,7 +7,10 @@ use core::marker::PhantomData;
 use nalgebra::SVector;
 
 use crate::numbers::Derivatives;
-use crate::step::{Discrete, DiscreteForce, DiscreteRayleigh, LegendreDerivatives, State, Step, StepError};
+use crate::step::{
+    BoundedFlow, BoundedStep, ClosedForm, Discrete, DiscreteForce, DiscreteRayleigh, DiscreteSegment, Flow,
+    LegendreDerivatives, Quantity, State, Step, StepError, require_step_size,
+};
 use crate::system::Lagrangian;
 
 /// A system discretised by rule `R` with step size h: [`by`](crate::Discretise::by).
@@ -61,12 +64,12 @@ impl<L: Lagrangian<N>, R, const N: usize> fmt::Debug for Discretised<'_, L, R, N
     }
 }
 
-/// A rule by which `L` is discretised: `Midpoint`, if `L` lists `rule = midpoint`.
+/// A method by which `L` is stepped: `Midpoint`, if `L` lists `rule = midpoint`.
 ///
-/// That is [`Discrete`] seen from the rule, which [`by`](crate::Discretise::by) takes by value.
-pub trait RuleOf<L: ?Sized, const N: usize> {}
+/// That is [`Flow`] seen from the method, which [`by`](crate::Discretise::by) takes by value.
+pub trait MethodOf<L: ?Sized, const N: usize> {}
 
-impl<L: Discrete<R, N> + ?Sized, R, const N: usize> RuleOf<L, N> for R {}
+impl<L: Flow<M, N> + ?Sized, M, const N: usize> MethodOf<L, N> for M {}
 
 impl<'a, L, R, const N: usize> Discretised<'a, L, R, N>
 where
@@ -103,9 +106,9 @@ where
 }
 
 /// Steps.
-impl<L, R, const N: usize> Discretised<'_, L, R, N>
+impl<L, M, const N: usize> Discretised<'_, L, M, N>
 where
-    L: Discrete<R, N>,
+    L: Flow<M, N>,
 {
     /// The flow on T*Q: solves p0 = −D1 L_d − f_d⁻ for q1, then p1 = D2 L_d + f_d⁺.
     ///
@@ -123,6 +126,56 @@ where
         self.system.step(state, self.h, self.guess.as_ref())
     }
 
+    /// The step by at most `iterations` undamped Newton iterations, for a clock that does not wait: the work
+    /// is bounded, and what is returned is the best iterate, with the residual left and the last
+    /// correction in its report.
+    ///
+    /// # Errors
+    /// [`StepError`] where not even one iteration can be made; the state given is untouched.
+    pub fn step_within(
+        &self,
+        state: &State<L::Scalar, N>,
+        iterations: u32,
+    ) -> Result<BoundedStep<L::Scalar, N>, StepError>
+    where
+        L: BoundedFlow<M, N>,
+    {
+        self.system.step_within(state, self.h, self.guess.as_ref(), iterations)
+    }
+}
+
+/// Segments, and steps between configurations.
+impl<'a, L, R, const N: usize> Discretised<'a, L, R, N>
+where
+    L: Discrete<R, N>,
+{
+    /// The segment from q0 to q1, of which the discrete objects are asked.
+    ///
+    /// ```
+    /// use dalembert::{Discretise, Gauss, nalgebra::vector, rayleigh_system};
+    ///
+    /// #[rayleigh_system(rule = gauss)]
+    /// fn oscillator(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    ///     (0.5 * v[0] * v[0] - 0.5 * q[0] * q[0], 0.5 * r * v[0] * v[0])
+    /// }
+    /// let system = Oscillator { r: 0.0 };
+    /// let segment = system.by(Gauss::<4>, 1.0).segment(&vector![0.0], &vector![1.0])?;
+    /// // L_d of the exact motion sin t / sin 1: ½ cot 1.
+    /// assert!((segment.discrete_lagrangian()? - 0.5 / 1.0_f64.tan()).abs() < 1e-7);
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StepError::StepSize`], [`StepError::NonFinite`]; of rules that solve for points within it, the error
+    /// that says why there is none.
+    pub fn segment(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        q1: &SVector<L::Scalar, N>,
+    ) -> Result<DiscreteSegment<'a, L, R, N>, StepError> {
+        DiscreteSegment::between(self.system, q0, q1, self.h)
+    }
+
     /// The flow on Q×Q: (q0, q1) ↦ (q1, q2), with q2 = `state.q` of the step returned.
     ///
     /// Of a system at a time t, a view, (q0, q1) is the segment of t, and the step is taken at t + h.
@@ -134,17 +187,24 @@ where
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
     ) -> Result<Step<L::Scalar, N>, StepError> {
-        self.system.step_configurations(q0, q1, self.h, self.guess.as_ref())
+        require_step_size(self.h)?;
+        StepError::require_finite(q0, Quantity::Configuration)?;
+        let state = self.system.legendre_plus(q0, q1, self.h);
+        self.system.later(self.h, |system| system.step(&state, self.h, self.guess.as_ref()))
     }
 }
 
-/// The discrete objects on a segment (q0, q1), under the names of the theory.
+/// The discrete objects on a segment (q0, q1), under the names of the theory, of rules that have formulas for
+/// them. [`segment`](Self::segment) serves all rules.
 impl<L, R, const N: usize> Discretised<'_, L, R, N>
 where
     L: Discrete<R, N>,
 {
     /// L_d(q0, q1).
-    pub fn discrete_lagrangian(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar {
+    pub fn discrete_lagrangian(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar
+    where
+        R: ClosedForm,
+    {
         self.system.discrete_lagrangian(q0, q1, self.h)
     }
 
@@ -153,7 +213,10 @@ where
         &self,
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
-    ) -> Derivatives<L::Scalar, N> {
+    ) -> Derivatives<L::Scalar, N>
+    where
+        R: ClosedForm,
+    {
         self.system.discrete_lagrangian_derivatives(q0, q1, self.h)
     }
 
@@ -163,7 +226,10 @@ where
         &self,
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
-    ) -> DiscreteForce<L::Scalar, N> {
+    ) -> DiscreteForce<L::Scalar, N>
+    where
+        R: ClosedForm,
+    {
         self.system.discrete_force(q0, q1, self.h)
     }
 
@@ -172,16 +238,18 @@ where
         &self,
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
-    ) -> State<L::Scalar, N> {
+    ) -> State<L::Scalar, N>
+    where
+        R: ClosedForm,
+    {
         self.system.legendre_minus(q0, q1, self.h)
     }
 
     /// 𝔽⁺: (q0, q1) ↦ (q1, D2 L_d + f_d⁺).
-    pub fn legendre_plus(
-        &self,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-    ) -> State<L::Scalar, N> {
+    pub fn legendre_plus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> State<L::Scalar, N>
+    where
+        R: ClosedForm,
+    {
         self.system.legendre_plus(q0, q1, self.h)
     }
 
@@ -190,7 +258,10 @@ where
         &self,
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
-    ) -> LegendreDerivatives<L::Scalar, N> {
+    ) -> LegendreDerivatives<L::Scalar, N>
+    where
+        R: ClosedForm,
+    {
         self.system.legendre_derivatives(q0, q1, self.h)
     }
 
@@ -201,12 +272,18 @@ where
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
         q2: &SVector<L::Scalar, N>,
-    ) -> SVector<L::Scalar, N> {
+    ) -> SVector<L::Scalar, N>
+    where
+        R: ClosedForm,
+    {
         self.system.del_residual(q0, q1, q2, self.h)
     }
 
     /// Energy on the segment: E_L at the points and velocity that the rule sees.
-    pub fn segment_energy(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar {
+    pub fn segment_energy(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar
+    where
+        R: ClosedForm,
+    {
         self.system.segment_energy(q0, q1, self.h)
     }
 }
@@ -219,6 +296,7 @@ where
     /// R_d(q0, q1).
     pub fn discrete_rayleigh(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar
     where
+        R: ClosedForm,
         L: DiscreteRayleigh<R, N>,
     {
         self.system.discrete_rayleigh(q0, q1, self.h)
@@ -231,6 +309,7 @@ where
         q1: &SVector<L::Scalar, N>,
     ) -> Derivatives<L::Scalar, N>
     where
+        R: ClosedForm,
         L: DiscreteRayleigh<R, N>,
     {
         self.system.discrete_rayleigh_derivatives(q0, q1, self.h)
@@ -239,6 +318,7 @@ where
     /// L_d⁺ = L_d + R_d.
     pub fn modified_plus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar
     where
+        R: ClosedForm,
         L: DiscreteRayleigh<R, N>,
     {
         self.system.modified_plus(q0, q1, self.h)
@@ -247,6 +327,7 @@ where
     /// L_d⁻ = L_d − R_d.
     pub fn modified_minus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> L::Scalar
     where
+        R: ClosedForm,
         L: DiscreteRayleigh<R, N>,
     {
         self.system.modified_minus(q0, q1, self.h)

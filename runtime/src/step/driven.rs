@@ -44,7 +44,7 @@ pub trait DiscreteDriven<R, const N: usize, const M: usize>: Discrete<R, N> + Dr
     /// [`Discretised::linearized_step_with_input`](crate::Discretised::linearized_step_with_input).
     ///
     /// # Errors
-    /// Those of [`Discrete::linearized_step`].
+    /// Those of [`Flow::linearized_step`](crate::step::Flow::linearized_step).
     fn linearized_step_with_input(
         &self,
         state: &State<Self::Scalar, N>,

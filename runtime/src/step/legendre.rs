@@ -37,7 +37,7 @@ impl<S: Scalar, const N: usize> State<S, N> {
     /// away from it.
     ///
     /// # Errors
-    /// As [`Discrete::step`](crate::Discrete::step); [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is
+    /// As [`Discretised::step`](crate::Discretised::step); [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is
     /// singular everywhere, [`StepError::NoVelocity`] if no velocity in reach has this momentum.
     pub fn velocity<L: Lagrangian<N, Scalar = S> + ?Sized>(
         &self,

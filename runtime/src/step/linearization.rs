@@ -23,6 +23,8 @@
 //! what moves the momenta by P0 and P1 at fixed configurations moves q1 by −K01⁻¹ P0 and p1 by P1 − K11 K01⁻¹
 //! P0.
 
+use core::ops::Mul;
+
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{Derivatives, Scalar, derivatives::linear, linear};
@@ -46,6 +48,14 @@ pub struct LegendreDerivatives<S, const N: usize> {
 
 /// A matrix on T*Q = ℝ²ᴺ in its four blocks.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(
+        serialize = "S: Scalar + serde::Serialize",
+        deserialize = "S: Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub struct PhaseMatrix<S, const N: usize> {
     /// ∂q1/∂q0.
     pub q_by_q: SMatrix<S, N, N>,
@@ -55,6 +65,29 @@ pub struct PhaseMatrix<S, const N: usize> {
     pub p_by_q: SMatrix<S, N, N>,
     /// ∂p1/∂p0.
     pub p_by_p: SMatrix<S, N, N>,
+}
+
+impl<S: Scalar, const N: usize> PhaseMatrix<S, N> {
+    /// That of a state which stays as it is.
+    #[must_use]
+    pub fn identity() -> Self {
+        let (one, zero) = (SMatrix::identity(), nalgebra::zero());
+        Self { q_by_q: one, q_by_p: zero, p_by_q: zero, p_by_p: one }
+    }
+}
+
+/// The product: first `other`, then this.
+impl<S: Scalar, const N: usize> Mul for PhaseMatrix<S, N> {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        Self {
+            q_by_q: self.q_by_q * other.q_by_q + self.q_by_p * other.p_by_q,
+            q_by_p: self.q_by_q * other.q_by_p + self.q_by_p * other.p_by_p,
+            p_by_q: self.p_by_q * other.q_by_q + self.p_by_p * other.p_by_q,
+            p_by_p: self.p_by_q * other.q_by_p + self.p_by_p * other.p_by_p,
+        }
+    }
 }
 
 /// Derivatives of a state (q1, p1) by M quantities, such as inputs.

@@ -85,6 +85,6 @@ pub struct BoundedStep<S, const N: usize> {
     /// The step of the best iterate; its report has the residual that is left and the last correction.
     pub step: Step<S, N>,
     /// Whether the residual is at its round-off floor, so that the step is that of
-    /// [`Discrete::step`](crate::Discrete::step).
+    /// [`Discretised::step`](crate::Discretised::step).
     pub converged: bool,
 }

@@ -39,7 +39,7 @@ pub trait DiscreteParameters<R, const N: usize, const P: usize>: Discrete<R, N> 
     /// [`Discretised::step_by_parameters`](crate::Discretised::step_by_parameters).
     ///
     /// # Errors
-    /// Those of [`Discrete::linearized_step`].
+    /// Those of [`Flow::linearized_step`](crate::step::Flow::linearized_step).
     fn step_by_parameters(
         &self,
         state: &State<Self::Scalar, N>,

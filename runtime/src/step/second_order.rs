@@ -88,7 +88,7 @@ pub trait DiscreteSecondOrder<R, const N: usize, const M: usize>: Discrete<R, N>
     /// [`Discretised::step_with_hessian`](crate::Discretised::step_with_hessian).
     ///
     /// # Errors
-    /// Those of [`Discrete::linearized_step`].
+    /// Those of [`Flow::linearized_step`](crate::step::Flow::linearized_step).
     fn step_with_hessian(
         &self,
         state: &State<Self::Scalar, N>,

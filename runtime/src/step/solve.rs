@@ -10,7 +10,7 @@ use crate::step::{
 };
 use crate::system::Lagrangian;
 
-/// [`Discrete::step`] with the step's equation and both momenta as functions of (q0, v̄, h), and the mass that
+/// [`Flow::step`](crate::step::Flow::step) with the step's equation and both momenta as functions of (q0, v̄, h), and the mass that
 /// the velocity has in them.
 #[inline]
 pub(crate) fn step_by<L, M, const N: usize>(
@@ -77,7 +77,7 @@ fn first_guess<L: Lagrangian<N> + ?Sized, const N: usize>(
     }
 }
 
-/// [`Discrete::step_within`], likewise.
+/// [`BoundedFlow::step_within`](crate::step::BoundedFlow::step_within), likewise.
 #[expect(clippy::too_many_arguments, reason = "those of the step, and the number of iterations")]
 pub(crate) fn step_within_by<L, M, const N: usize>(
     system: &L,

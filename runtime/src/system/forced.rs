@@ -1,16 +1,16 @@
-//! A Lagrangian with the whole force that acts, as methods of several stages ask for it.
+//! The equations of motion at several stages at once.
 //!
 //! ```text
-//! d/dt ∂L/∂v = g,   g = ∂L/∂q + f_L,   f_L = −∂R/∂v + f
+//! d/dt ∂L/∂v = g,   g = ∂L/∂q + f_L
 //! ```
 
 use nalgebra::SVector;
 
 use crate::numbers::{
-    CovectorDerivatives, LaneVector, Lanes, NewtonMatrix, Scalar,
+    LaneVector, Lanes, NewtonMatrix, Scalar,
     lanes::{lane, splat, write_lane},
 };
-use crate::system::Lagrangian;
+use crate::system::ActingForce;
 
 /// The equations of motion at S stages at once.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,43 +24,16 @@ pub struct Stages<T, const N: usize, const S: usize> {
     pub correction: LaneVector<T, N, S>,
 }
 
-/// A Lagrangian L with the force f_L = −∂R/∂v + f that acts: the terms that the system has, summed.
+/// A Lagrangian L with the force f_L that acts, at all stages of a Gauss rule at once.
 ///
-/// `#[rayleigh_system(rule = gauss)]` writes it. By hand, a system without force needs nothing but the
-/// `impl`; one with force sets [`IS_FORCED`](Self::IS_FORCED) and gives f_L and its derivatives; one that
-/// changes with time, [`IS_TIMED`](Self::IS_TIMED).
+/// `#[rayleigh_system(rule = gauss)]` writes it; by hand the `impl` alone serves.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no step as it stands here",
     label = "no step",
     note = "if its force takes an input, write `system.driven(u)` where `system` stands; if L, R or f take the time, `system.at_time(t)`, with an input `system.driven(u, t)`",
     note = "otherwise list the rule in the attribute: `#[rayleigh_system(rule = [midpoint, gauss])]`"
 )]
-pub trait ForcedLagrangian<const N: usize>: Lagrangian<N> {
-    /// Whether there is a force. Without one, f_d and its derivatives are 0 and cost nothing.
-    const IS_FORCED: bool = false;
-
-    /// Whether L or the force changes with time, so that [`Lagrangian::later`] is another system. Without it
-    /// no stage asks.
-    const IS_TIMED: bool = false;
-
-    /// f_L(q, v), a covector at q.
-    fn acting_force(
-        &self,
-        _q: &SVector<Self::Scalar, N>,
-        _v: &SVector<Self::Scalar, N>,
-    ) -> SVector<Self::Scalar, N> {
-        nalgebra::zero()
-    }
-
-    /// f_L with ∂f_L/∂q and ∂f_L/∂v.
-    fn acting_force_derivatives(
-        &self,
-        _q: &SVector<Self::Scalar, N>,
-        _v: &SVector<Self::Scalar, N>,
-    ) -> CovectorDerivatives<Self::Scalar, N> {
-        CovectorDerivatives::zero()
-    }
-
+pub trait ForcedLagrangian<const N: usize>: ActingForce<N> {
     /// The equations of motion at all stages, now. `momenta` gives the stages' momenta from their rates g.
     fn stages<const S: usize>(
         &self,

@@ -2,11 +2,9 @@
 
 use core::ops::{Add, AddAssign};
 
-use nalgebra::SVector;
-
 use crate::numbers::Scalar;
 use crate::step::{State, StepError};
-use crate::system::{Force, Lagrangian, Rayleigh};
+use crate::system::{ActingForce, Lagrangian};
 
 /// Where energy went over one step, or, added up, over many.
 ///
@@ -39,7 +37,7 @@ use crate::system::{Force, Lagrangian, Rayleigh};
 /// let mut ledger = EnergyLedger::default();
 /// for step in system.by(Midpoint, 0.1).run(state).take(100) {
 ///     let next = step?.state;
-///     ledger += EnergyLedger::of_rayleigh(&system, &state, &next, 0.1)?;
+///     ledger += EnergyLedger::of(&system, &state, &next, 0.1)?;
 ///     state = next;
 /// }
 /// // L and R of second degree: the midpoint rule loses what friction takes, and nothing else.
@@ -57,49 +55,26 @@ pub struct EnergyLedger<S> {
 }
 
 impl<S: Scalar> EnergyLedger<S> {
-    /// Of a step without a general force.
+    /// Of a step of size `h`, whatever made it.
     ///
     /// # Errors
     /// Those of [`State::velocity`].
-    pub fn of_rayleigh<L: Rayleigh<N, Scalar = S>, const N: usize>(
+    pub fn of<L: ActingForce<N, Scalar = S>, const N: usize>(
         system: &L,
         from: &State<S, N>,
         to: &State<S, N>,
         h: S,
     ) -> Result<Self, StepError> {
-        let (change, dissipated) = (change(system, from, to, h)?, dissipated(system, from, to, h));
-        Ok(Self { change, dissipated, work: S::zero() })
-    }
-
-    /// Of a step without friction.
-    ///
-    /// # Errors
-    /// Those of [`State::velocity`].
-    pub fn of_force<L: Force<N, Scalar = S>, const N: usize>(
-        system: &L,
-        from: &State<S, N>,
-        to: &State<S, N>,
-        h: S,
-    ) -> Result<Self, StepError> {
-        let (change, work) = (change(system, from, to, h)?, work(system, from, to, h));
-        Ok(Self { change, dissipated: S::zero(), work })
-    }
-
-    /// Of a step with both.
-    ///
-    /// # Errors
-    /// Those of [`State::velocity`].
-    pub fn of_both<L, const N: usize>(
-        system: &L,
-        from: &State<S, N>,
-        to: &State<S, N>,
-        h: S,
-    ) -> Result<Self, StepError>
-    where
-        L: Rayleigh<N, Scalar = S> + Force<N>,
-    {
-        let (change, dissipated) = (change(system, from, to, h)?, dissipated(system, from, to, h));
-        Ok(Self { change, dissipated, work: work(system, from, to, h) })
+        let half = S::constant(0.5);
+        let (q, v) = ((from.q + to.q) * half, (to.q - from.q) / h);
+        let change = change(system, from, to, h)?;
+        // The system as it is in the middle of the step.
+        Ok(system.later(h * half, |system| {
+            let dissipated =
+                if L::HAS_RAYLEIGH { v.dot(&system.dissipation(&q, &v).d2) * h } else { S::zero() };
+            let work = if L::HAS_FORCE { v.dot(&system.general_force(&q, &v)) * h } else { S::zero() };
+            Self { change, dissipated, work }
+        }))
     }
 
     /// What the method did: change + dissipated − work.
@@ -107,39 +82,6 @@ impl<S: Scalar> EnergyLedger<S> {
     pub fn remainder(&self) -> S {
         self.change + self.dissipated - self.work
     }
-}
-
-/// `evaluate` of the system as it is in the middle of the step, of q̄ and v̄; times h.
-fn in_the_middle<S: Scalar, L: Lagrangian<N, Scalar = S>, const N: usize>(
-    system: &L,
-    from: &State<S, N>,
-    to: &State<S, N>,
-    h: S,
-    evaluate: impl FnOnce(&L, &SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
-) -> S {
-    let half = S::constant(0.5);
-    let (q, v) = ((from.q + to.q) * half, (to.q - from.q) / h);
-    v.dot(&system.later(h * half, |system| evaluate(system, &q, &v))) * h
-}
-
-/// h v̄·∂R/∂v.
-fn dissipated<S: Scalar, L: Rayleigh<N, Scalar = S>, const N: usize>(
-    system: &L,
-    from: &State<S, N>,
-    to: &State<S, N>,
-    h: S,
-) -> S {
-    in_the_middle(system, from, to, h, |system, q, v| system.rayleigh_gradient(q, v).d2)
-}
-
-/// h v̄·f.
-fn work<S: Scalar, L: Force<N, Scalar = S>, const N: usize>(
-    system: &L,
-    from: &State<S, N>,
-    to: &State<S, N>,
-    h: S,
-) -> S {
-    in_the_middle(system, from, to, h, |system, q, v| system.force(q, v))
 }
 
 /// E(q1, p1) − E(q0, p0).

@@ -34,7 +34,7 @@
 //! }
 //!
 //! let system = Oscillator { m: 1.0, k: 1.0, r: 0.5 };
-//! let segment = Exact::rayleigh(&system).segment(vector![0.3], vector![0.5], 0.7)?;
+//! let segment = Exact::new(&system).segment(vector![0.3], vector![0.5], 0.7)?;
 //!
 //! // Underdamped, a = r/2m and b = √(4km − r²)/2m: f_d^ex+ = (r/2)(b q0 sinh(ah)/(a sin bh) − q1).
 //! let (a, b) = (0.25, (4.0_f64 - 0.25).sqrt() / 2.0);
@@ -43,7 +43,6 @@
 //! # Ok::<(), dalembert::exact::ExactError>(())
 //! ```
 
-mod acting_force;
 mod boundary;
 mod collocation;
 mod error;
@@ -55,14 +54,11 @@ mod second;
 mod segment;
 mod work;
 
-use core::marker::PhantomData;
-
 use nalgebra::{SMatrix, SVector};
 
 use crate::step::{Quantity, State, StepError};
-use crate::system::{Force, Lagrangian, Rayleigh};
+use crate::system::ActingForce;
 
-pub use acting_force::{ActingForce, GeneralForce, RayleighAndGeneralForce, RayleighForce, Unforced};
 pub use error::ExactError;
 pub use existence::{Existence, ExistenceVerdict};
 pub use order::{Convergence, OrderReport, OrderSample};
@@ -75,60 +71,35 @@ use mesh::{Question, ROUNDING};
 use motion::{Dynamics, Family, Point};
 use work::Work;
 
-/// The exact discrete objects of a system, with the force that acts on it.
-///
-/// Each constructor names the force: [`unforced`](Exact::unforced), [`rayleigh`](Exact::rayleigh),
-/// [`general`](Exact::general), [`rayleigh_and_general`](Exact::rayleigh_and_general). Systems are in `f64`.
+/// The exact discrete objects of a system, with the force that acts on it. Systems are in `f64`.
 #[derive(Debug)]
-pub struct Exact<'a, L, F, const N: usize> {
+pub struct Exact<'a, L, const N: usize> {
     system: &'a L,
-    force: PhantomData<F>,
+    is_forced: bool,
 }
 
-impl<L, F, const N: usize> Clone for Exact<'_, L, F, N> {
+impl<L, const N: usize> Clone for Exact<'_, L, N> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<L, F, const N: usize> Copy for Exact<'_, L, F, N> {}
+impl<L, const N: usize> Copy for Exact<'_, L, N> {}
 
-impl<'a, L: Lagrangian<N, Scalar = f64>, const N: usize> Exact<'a, L, Unforced, N> {
+impl<'a, L, const N: usize> Exact<'a, L, N>
+where
+    L: ActingForce<N, Scalar = f64>,
+{
+    /// The objects of L with the force f_L = −∂R/∂v + f, as far as the system has R and f.
+    pub fn new(system: &'a L) -> Self {
+        Self { system, is_forced: true }
+    }
+
     /// The objects of L alone, whatever else the system has.
     pub fn unforced(system: &'a L) -> Self {
-        Self { system, force: PhantomData }
+        Self { system, is_forced: false }
     }
-}
 
-impl<'a, L: Rayleigh<N, Scalar = f64>, const N: usize> Exact<'a, L, RayleighForce, N> {
-    /// The objects of L with the force −∂R/∂v.
-    pub fn rayleigh(system: &'a L) -> Self {
-        Self { system, force: PhantomData }
-    }
-}
-
-impl<'a, L: Force<N, Scalar = f64>, const N: usize> Exact<'a, L, GeneralForce, N> {
-    /// The objects of L with the general force f.
-    pub fn general(system: &'a L) -> Self {
-        Self { system, force: PhantomData }
-    }
-}
-
-impl<'a, L, const N: usize> Exact<'a, L, RayleighAndGeneralForce, N>
-where
-    L: Rayleigh<N, Scalar = f64> + Force<N>,
-{
-    /// The objects of L with the force −∂R/∂v + f.
-    pub fn rayleigh_and_general(system: &'a L) -> Self {
-        Self { system, force: PhantomData }
-    }
-}
-
-impl<'a, L, F, const N: usize> Exact<'a, L, F, N>
-where
-    L: Lagrangian<N, Scalar = f64>,
-    F: ActingForce<L, N>,
-{
     /// Evaluations of L and f, with their derivatives, that one question may take. A segment in the tests
     /// takes some thousands.
     pub const EVALUATIONS: usize = Work::LIMIT;
@@ -258,8 +229,8 @@ where
 
     /// The motion, from the end that tells it well, and whether that is q1.
     fn shot(
-        forwards: &Boundary<'_, L, F, N>,
-        backwards: &Boundary<'_, L, F, N>,
+        forwards: &Boundary<'_, L, N>,
+        backwards: &Boundary<'_, L, N>,
         h: f64,
         guess: Option<SVector<f64, N>>,
         work: &Work,
@@ -302,11 +273,11 @@ where
         }
     }
 
-    fn dynamics<'b>(&self, origin: f64, work: &'b Work) -> Dynamics<'b, L, F, N>
+    fn dynamics<'b>(&self, origin: f64, work: &'b Work) -> Dynamics<'b, L, N>
     where
         'a: 'b,
     {
-        Dynamics { system: self.system, force: PhantomData, origin, work }
+        Dynamics { system: self.system, is_forced: self.is_forced, origin, work }
     }
 }
 

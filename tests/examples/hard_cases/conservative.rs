@@ -7,10 +7,9 @@ use dalembert::system::ForcedLagrangian;
 use dalembert::{Composition, Discrete, Discretise, Gauss, Midpoint, Splitting, State, Trapezoidal};
 use dalembert_examples::baseline::{self, Method};
 use dalembert_examples::picture::{Curve, Dash, Mark, Panel, colour, linear, logarithmic};
-use dalembert_scenes::{DoublePendulum, HenonHeiles, Kepler};
 use dalembert_tests::hard::{
-    Arm, Effort, FERMI, Fermi, MathewsLakshmanan, Progress, SpringPendulum, UniformField, drive,
-    drive_composed,
+    Arm, Effort, FERMI, Fermi, HenonHeiles, Kepler, MathewsLakshmanan, Progress, SpringPendulum,
+    TwoPendulums, UniformField, drive, drive_composed,
 };
 
 use crate::page::Case;
@@ -47,7 +46,7 @@ where
         ("Gauss, 3 stages", watched(&|look| drive(system, Gauss::<3>, h, start, count, look))),
         (
             "composition, order 6",
-            watched(&|look| drive_composed(ORDER_6.trajectory(system, h, start), steps, look)),
+            watched(&|look| drive_composed(system.by(ORDER_6, h).run(start), steps, look)),
         ),
     ]
     .map(|(name, (largest, effort))| (name, largest, effort))
@@ -165,8 +164,8 @@ pub fn kepler() -> Result<Case> {
 
 /// A million steps of a chaotic double pendulum.
 pub fn double_pendulum() -> Result<Case> {
-    let system = DoublePendulum::of_units(0.0);
-    let start = DoublePendulum::high_energy();
+    let system = TwoPendulums { r: 0.0 };
+    let start = system.high_energy();
     let energy = start.energy(&system)?;
     let mut rows = Vec::new();
     /// The largest error within each 10 000 steps, against millions of steps.
@@ -178,11 +177,11 @@ pub fn double_pendulum() -> Result<Case> {
     const WINDOW: usize = 10_000;
     fn run<R: Copy>(rule: R, h: f64) -> Vec<(f64, f64)>
     where
-        DoublePendulum: Discrete<R, 2, Scalar = f64>,
+        TwoPendulums: Discrete<R, 2, Scalar = f64>,
     {
-        let system = DoublePendulum::of_units(0.0);
+        let system = TwoPendulums { r: 0.0 };
         let mut errors = Vec::new();
-        drive(&system, rule, h, DoublePendulum::high_energy(), [1_000_000, 1], |at| {
+        drive(&system, rule, h, system.high_energy(), [1_000_000, 1], |at| {
             errors.push(at.state.energy(&system).map_or(f64::NAN, |energy| energy - 7.0));
         });
         largest(errors.into_iter())
@@ -300,7 +299,7 @@ pub fn spring_pendulum() -> Result<Case> {
 
 /// The energy of escape.
 pub fn henon_heiles() -> Result<Case> {
-    let system = HenonHeiles {};
+    let system = HenonHeiles { r: 0.0 };
     let mut rows = Vec::new();
     for h in [0.1, 0.05, 0.02] {
         let start = HenonHeiles::start(1.0 / 6.0, -0.1, 0.1);
@@ -312,7 +311,7 @@ pub fn henon_heiles() -> Result<Case> {
             row(name, worst, &effort);
         }
         let mut worst = 0.0_f64;
-        let run = SPLITTING_6.trajectory(&system, h, start);
+        let run = system.by(SPLITTING_6, h).run(start);
         let effort = drive_composed(run, 1_000_000, |at| worst = worst.max(error(&at)));
         row("splitting, order 6", worst, &effort);
     }
@@ -395,12 +394,10 @@ pub fn fermi() -> Result<Case> {
         if h > 0.005 {
             row("Gauss, 3 stages", &|look| drive(&system, Gauss::<3>, h, start, [steps, 1], look));
             row("composition, order 6", &|look| {
-                drive_composed(ORDER_6.trajectory(&system, h, start), steps, look)
+                drive_composed(system.by(ORDER_6, h).run(start), steps, look)
             });
         }
-        row("splitting, order 6", &|look| {
-            drive_composed(SPLITTING_6.trajectory(&system, h, start), steps, look)
-        });
+        row("splitting, order 6", &|look| drive_composed(system.by(SPLITTING_6, h).run(start), steps, look));
     }
     let exchange =
         |states: &mut dyn Iterator<Item = Result<State<f64, 6>>>, h: f64| -> Result<Vec<[f64; FERMI]>> {

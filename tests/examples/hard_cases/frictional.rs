@@ -8,8 +8,7 @@ use dalembert::{
     Discrete, Discretise, Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, State, Trapezoidal,
 };
 use dalembert_examples::picture::{Curve, Dash, Mark, Panel, colour, linear};
-use dalembert_scenes::Kepler;
-use dalembert_tests::hard::{Block, CubicDrag, DampedMass, Effort, Progress, drive, drive_composed};
+use dalembert_tests::hard::{Block, CubicDrag, DampedMass, Effort, Kepler, Progress, drive, drive_composed};
 
 use crate::conservative::{ORDER_6, SPLITTING_6, outcome};
 use crate::page::Case;
@@ -116,10 +115,10 @@ pub fn kepler_drag() -> Result<Case> {
             row("fitted, trapezoidal", &|look| drive(&system, FittedTrapezoidal, h, start, count, look));
             row("Gauss, 3 stages", &|look| drive(&system, Gauss::<3>, h, start, count, look));
             row("composition, order 6", &|look| {
-                drive_composed(ORDER_6.trajectory(&system, h, start), 10 * steps, look)
+                drive_composed(system.by(ORDER_6, h).run(start), 10 * steps, look)
             });
             row("splitting, order 6", &|look| {
-                drive_composed(SPLITTING_6.trajectory(&system, h, start), 10 * steps, look)
+                drive_composed(system.by(SPLITTING_6, h).run(start), 10 * steps, look)
             });
         }
     }

@@ -36,7 +36,7 @@ where
         for (count, error) in COUNTS.iter().zip(&mut errors) {
             while taken < *count {
                 if single {
-                    state = Discrete::<R, 1>::step(&system, &state, H, None)?.state;
+                    state = system.by(rule, H).step(&state)?.state;
                 } else {
                     state = trajectory.next().transpose()?.map_or(state, |step| step.state);
                 }

@@ -30,7 +30,7 @@ pub fn expressions(program: &Program, block: &str) -> Result<Expressions> {
     let options = attribute::options(Default::default(), Runtime::STD, &mut report);
     let tokens = block.parse().map_err(|_| "no tokens".to_owned())?;
     let source = parse::source(tokens, &mut report).ok_or("no block")?;
-    let system = check::system(&source, options.rules, &mut report).ok_or("no system")?;
+    let system = check::system(&source, &options, &mut report).ok_or("no system")?;
     let lowered = lower::system(&system).map_err(|refusal| refusal.reason)?;
     Ok(differentiated(program, lowered))
 }

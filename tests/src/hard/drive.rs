@@ -1,7 +1,7 @@
 //! Long runs that keep figures instead of states.
 
-use dalembert::run::{ComposedStep, ComposedTrajectory};
-use dalembert::{Discrete, Discretise, Lagrangian, State, StepError};
+use dalembert::step::Flow;
+use dalembert::{Discrete, Discretise, State, StepError, Trajectory};
 
 /// What a run took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -59,22 +59,21 @@ where
     effort
 }
 
-/// The same by a composition or a splitting, which keep no count of iterations.
-pub fn drive_composed<L, C, const N: usize>(
-    mut trajectory: ComposedTrajectory<'_, L, C, N>,
+/// The same by a composition or a splitting, every state of it, without a count of iterations.
+pub fn drive_composed<L, M, const N: usize>(
+    mut trajectory: Trajectory<'_, L, M, N>,
     steps: u64,
     mut look: impl FnMut(Progress<N>),
 ) -> Effort
 where
-    L: Lagrangian<N, Scalar = f64>,
-    C: ComposedStep<L, N>,
+    L: Flow<M, N, Scalar = f64>,
 {
     let mut effort = Effort::default();
     for _ in 0..steps {
         match trajectory.next() {
-            Some(Ok(state)) => {
+            Some(Ok(step)) => {
                 effort.steps += 1;
-                look(Progress { steps: effort.steps, time: trajectory.time(), state });
+                look(Progress { steps: effort.steps, time: trajectory.time(), state: step.state });
             }
             Some(Err(error)) => effort.stopped = Some(error),
             None => break,

@@ -4,17 +4,14 @@ use std::f64::consts::{PI, TAU};
 
 use dalembert::tolerance::{WithGauss, WithSplittings};
 use dalembert::{State, Trapezoidal};
-use dalembert_scenes::{DoublePendulum, FputChain6, HenonHeiles, Kepler, Oscillator};
 
 use super::Motion;
 use super::measured::Reference;
 use super::reference::{Phase, extrapolated};
-use super::systems::{Forced, Pair, Struck, TwoSprings};
+use super::systems::{
+    Chain, DoublePendulum, Forced, HenonHeiles, Kepler, LINKS, Oscillator, Pair, Pendulum, Struck, TwoSprings,
+};
 use crate::double_double::DoubleDouble;
-use crate::systems::Pendulum;
-
-/// Masses of the chain.
-const LINKS: usize = 6;
 
 /// All methods, of systems with explicit steps; those of others.
 const EXPLICIT: WithGauss<WithSplittings<Trapezoidal>> = WithGauss(WithSplittings(Trapezoidal));
@@ -147,7 +144,7 @@ fn pendulum_of(family: &'static str, r: f64, random: &mut Random) -> Motion {
         extrapolated(&acceleration, from, times, 2.0).into_iter().map(nearest).collect()
     });
     let what = format!("r {r:.3}, q {:.3}, p {:.3}, T {time:.2}", start.q[0], start.p[0]);
-    Motion::new(family, what, Pendulum::of_units(r), EXPLICIT, start, time, reference)
+    Motion::new(family, what, Pendulum { r }, EXPLICIT, start, time, reference)
 }
 
 fn pendulum(random: &mut Random) -> Motion {
@@ -189,7 +186,7 @@ fn kepler(random: &mut Random) -> Motion {
         extrapolated(&acceleration, from, times, 2.0).into_iter().map(nearest).collect()
     });
     let what = format!("e {e:.3}, from {from:.3}, T {time:.2}");
-    Motion::new("Kepler", what, Kepler { k: 0.0 }, EXPLICIT, start, time, reference)
+    Motion::new("Kepler", what, Kepler {}, EXPLICIT, start, time, reference)
 }
 
 fn pair(random: &mut Random) -> Motion {
@@ -360,7 +357,7 @@ fn double_pendulum_of(family: &'static str, size: f64, time: f64, random: &mut R
         states.into_iter().map(to_state).collect()
     });
     let what = format!("q {:.3} {:.3}, v {:.3} {:.3}, T {time:.2}", q[0], q[1], v[0], v[1]);
-    Motion::new(family, what, DoublePendulum::of_units(0.0), IMPLICIT, start, time, reference)
+    Motion::new(family, what, DoublePendulum {}, IMPLICIT, start, time, reference)
 }
 
 fn double_pendulum(random: &mut Random) -> Motion {
@@ -422,5 +419,5 @@ fn chain(random: &mut Random) -> Motion {
             .collect()
     });
     let what = format!("beta {beta:.2}, r {r:.3}, T {time:.2}");
-    Motion::new("chain of 6", what, FputChain6 { beta, drag: r }, EXPLICIT, start, time, reference)
+    Motion::new("chain of 6", what, Chain { beta, r }, EXPLICIT, start, time, reference)
 }

@@ -1,6 +1,7 @@
 //! What a choice promised and what it kept, against a reference.
 
 use dalembert::nalgebra::SVector;
+use dalembert::step::Step;
 use dalembert::tolerance::{Method, MethodStep, Methods, ToleranceError};
 use dalembert::{Lagrangian, State};
 
@@ -174,7 +175,7 @@ where
     let (mut times, mut states, mut failed) = (Vec::new(), Vec::new(), false);
     for k in 1..=steps {
         match run.next().expect("the run goes to its end") {
-            Ok(state) => {
+            Ok(Step { state, .. }) => {
                 weight.follow(&state);
                 // At no multiple of a number of steps.
                 if k == steps || (k * 7919) % stride == 0 {
@@ -240,7 +241,7 @@ where
                 match step.advance(system, h * k as f64, &state) {
                     Ok(taken) => {
                         cost += taken.evaluations;
-                        state = taken.state;
+                        state = taken.step.state;
                         weight.follow(&state);
                         if ((k + 1) * 16).is_multiple_of(steps) {
                             compared.push((state, ((k + 1) * 16 / steps) as usize - 1));

@@ -1,6 +1,24 @@
-//! The systems of the collection that it alone has.
+//! The systems of the collection.
 
 use dalembert::rayleigh_system;
+
+/// L = ½mv² − ½kq², R = ½rv².
+#[rayleigh_system(rule = [trapezoidal, gauss])]
+pub fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+    (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+}
+
+/// L = ½v² + cos q, R = ½rv².
+#[rayleigh_system(rule = [trapezoidal, gauss])]
+pub fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
+}
+
+/// L = ½|v|² + 1/|q|.
+#[rayleigh_system(rule = [trapezoidal, gauss])]
+pub fn kepler(q: [f64; 2], v: [f64; 2]) -> f64 {
+    0.5 * (v[0] * v[0] + v[1] * v[1]) + 1.0 / (q[0] * q[0] + q[1] * q[1]).sqrt()
+}
 
 /// Two oscillators of frequencies 1 and κ, along axes turned by an angle with cosine c and sine s.
 #[rayleigh_system(rule = [trapezoidal, gauss])]
@@ -56,4 +74,36 @@ impl Forced {
     fn force(&self, _q: [f64; 1], _v: [f64; 1], t: f64) -> [f64; 1] {
         [self.force * (self.frequency * t).cos()]
     }
+}
+
+/// Two equal links with masses at their ends, angles from the vertical.
+#[rayleigh_system(rule = [trapezoidal, gauss])]
+pub fn double_pendulum(q: [f64; 2], v: [f64; 2]) -> f64 {
+    v[0] * v[0] + 0.5 * v[1] * v[1] + v[0] * v[1] * (q[0] - q[1]).cos() + 2.0 * q[0].cos() + q[1].cos()
+}
+
+/// Hénon and Heiles.
+#[rayleigh_system(rule = [trapezoidal, gauss])]
+pub fn henon_heiles(q: [f64; 2], v: [f64; 2]) -> f64 {
+    0.5 * (v[0] * v[0] + v[1] * v[1]) - 0.5 * (q[0] * q[0] + q[1] * q[1]) - q[0] * q[0] * q[1]
+        + q[1].powi(3) / 3.0
+}
+
+/// Masses of the chain.
+pub const LINKS: usize = 6;
+
+/// Fermi, Pasta, Ulam and Tsingou's chain between walls, with damping.
+#[rayleigh_system(rule = [trapezoidal, gauss])]
+pub fn chain(q: [f64; 6], v: [f64; 6], beta: f64, r: f64) -> (f64, f64) {
+    let mut speed = 0.0;
+    let mut potential =
+        0.5 * q[0] * q[0] + 0.25 * beta * q[0].powi(4) + 0.5 * q[5] * q[5] + 0.25 * beta * q[5].powi(4);
+    for v in v {
+        speed += v * v;
+    }
+    for i in 0..5 {
+        let d = q[i + 1] - q[i];
+        potential += 0.5 * d * d + 0.25 * beta * d.powi(4);
+    }
+    (0.5 * speed - potential, 0.5 * r * speed)
 }

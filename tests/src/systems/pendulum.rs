@@ -20,11 +20,6 @@ pub struct Pendulum {
 impl Pendulum {
     /// Parameters without accidental coincidences.
     pub const EXAMPLE: Self = Self { m: 1.7, l: 0.8, g: 3.1, r: 0.6 };
-
-    /// Mass, length and gravity 1.
-    pub const fn of_units(r: f64) -> Self {
-        Self { m: 1.0, l: 1.0, g: 1.0, r }
-    }
 }
 
 #[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]

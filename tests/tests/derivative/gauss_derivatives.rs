@@ -69,7 +69,6 @@ use dalembert::derivative::{LegendreDerivatives, StepHessian};
 use dalembert::nalgebra::{DMatrix, DVector, SMatrix, SVector, matrix, vector};
 use dalembert::step::{DiscreteDriven, DiscreteSecondOrder};
 use dalembert::{Discrete, Discretise, Gauss, Midpoint, State, StepError, rayleigh_system};
-use dalembert_scenes::Oscillator;
 
 /// The diagonal Padé approximant of exp(Z) of degree s: what Gauss collocation makes of z' = Z z.
 fn pade(s: usize, z: &DMatrix<f64>) -> DMatrix<f64> {
@@ -339,7 +338,7 @@ fn of_step_is_of_the_segment_that_the_step_takes() {
         let (view, h) = (Swing.driven([0.7], 0.4), 0.3);
         let state = State { q: vector![0.5, -0.8], p: vector![0.9, 0.4] };
         let (step, a) = view.by(rule, h).linearized_step_with_input(&state).unwrap();
-        assert_eq!(step, view.step(&state, h, None).unwrap());
+        assert_eq!(step, view.by(rule, h).step(&state).unwrap());
         let q1 = step.state.q;
         let b = view.by(rule, h).linearization_with_input(&state.q, &q1).unwrap();
         close(a.a.assembled::<4>(), b.a.assembled::<4>());
@@ -367,7 +366,7 @@ fn second_derivatives_by_the_ends_are_those_of_the_first() {
     // Of a·p0 + b·p1, by (q0, q1, u).
     let slope = |q0: &SVector<f64, 2>, q1: &SVector<f64, 2>, u: f64| -> SVector<f64, 5> {
         let view = Swing.driven([u], 0.4);
-        let k = view.by(Rule {}, h).legendre_derivatives(q0, q1);
+        let k = view.by(Rule {}, h).segment(q0, q1).unwrap().legendre_derivatives().unwrap();
         let by_u = DiscreteDriven::<Rule, 2, 1>::momenta_by_input(&view, q0, &((q1 - q0) / h), h);
         let by_q0 = k.p0_by_q0.transpose() * a + k.p1_by_q0.transpose() * b;
         let by_q1 = k.p0_by_q1.transpose() * a + k.p1_by_q1.transpose() * b;
@@ -411,14 +410,14 @@ fn the_determinant_is_that_of_the_discrete_objects() {
         let (q0, q1) = (vector![0.5, -0.8], vector![0.8, -0.5]);
         let a = view.by(Gauss::<S>, h).linearization(&q0, &q1).unwrap().a;
         let k = LegendreDerivatives::from_terms(
-            &view.by(Gauss::<S>, h).discrete_lagrangian_derivatives(&q0, &q1),
+            &view.by(Gauss::<S>, h).segment(&q0, &q1).unwrap().discrete_lagrangian_derivatives().unwrap(),
             &Discrete::<Gauss<S>, 2>::discrete_force_derivatives(&view, &q0, &q1, h),
         );
         let expected = k.p1_by_q0.determinant() / (-k.p0_by_q1).determinant();
         let determinant = a.assembled::<4>().determinant();
         assert!((determinant - expected).abs() < 1e-10, "S = {S}: {determinant} {expected}");
         // The exact blocks are those of the differences.
-        let exact = view.by(Gauss::<S>, h).legendre_derivatives(&q0, &q1);
+        let exact = view.by(Gauss::<S>, h).segment(&q0, &q1).unwrap().legendre_derivatives().unwrap();
         assert!((exact.p1_by_q0 - k.p1_by_q0).amax() < 1e-9 && (exact.p1_by_q1 - k.p1_by_q1).amax() < 1e-9);
         // Positive control: friction, and a ratio upside down.
         assert!((determinant - 1.0).abs() > 0.05 && (determinant - 1.0 / expected).abs() > 0.05);
@@ -427,6 +426,12 @@ fn the_determinant_is_that_of_the_discrete_objects() {
     check::<2>();
     check::<3>();
     check::<4>();
+}
+
+/// m q̈ + r q̇ + k q = 0.
+#[rayleigh_system(rule = gauss)]
+fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+    (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
 }
 
 /// Where the end does not move with p0, the step has its derivative, though its ends do not determine it: at

@@ -49,6 +49,7 @@ mod num_dual {
 
 use dalembert::derivative::{PhaseMatrix, StepHessian};
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
+use dalembert::step::Flow;
 use dalembert::step::{DiscreteDriven, DiscreteParameters, DiscreteRayleigh, DiscreteSecondOrder};
 use dalembert::system::{Parameters, SecondOrder};
 use dalembert::{
@@ -73,7 +74,8 @@ where
 {
     let state = State { q: vector![z[0], z[1]], p: vector![z[2], z[3]] };
     let guess = (Q1 - Q0) / H;
-    let State { q, p } = cart.driven([z[4], z[5]], T).step(&state, H, Some(&guess)).unwrap().state;
+    let State { q, p } =
+        Flow::<R, 2>::step(&cart.driven([z[4], z[5]], T), &state, H, Some(&guess)).unwrap().state;
     vector![q[0], q[1], p[0], p[1]]
 }
 
@@ -331,7 +333,7 @@ fn the_linear_oscillator_in_closed_form() {
     let driven = system.driven([u]);
     let state = State { q: vector![0.6], p: vector![-0.9] };
     let (q, p) = (state.q[0], state.p[0]);
-    let q1 = driven.step(&state, h, None).unwrap().state.q;
+    let q1 = driven.by(Midpoint, h).step(&state).unwrap().state.q;
     let step = driven.by(Midpoint, h).linearization_with_input(&state.q, &q1).unwrap();
     // mathematics: q1 = (4hp + (4m − kh² + 2hr) q + 2h² u)/D and p1 = p − h(k q̄ + r v̄ − u).
     let d = 4.0 * m + h * h * k + 2.0 * h * r;
@@ -372,8 +374,20 @@ fn an_input_alone_leaves_the_step_symplectic() {
         assert!(r > 0.0 || defect < 1e-15);
         // det A = det(D1D2 L_d⁻)/det(D1D2 L_d⁺), the input's force having no derivative by q.
         let driven = system.driven([0.7]);
-        let plus = driven.modified_plus_derivatives(&vector![0.1], &vector![0.2], 0.2).d12[0];
-        let minus = driven.modified_minus_derivatives(&vector![0.1], &vector![0.2], 0.2).d12[0];
+        let plus = DiscreteRayleigh::<Midpoint, 1>::modified_plus_derivatives(
+            &driven,
+            &vector![0.1],
+            &vector![0.2],
+            0.2,
+        )
+        .d12[0];
+        let minus = DiscreteRayleigh::<Midpoint, 1>::modified_minus_derivatives(
+            &driven,
+            &vector![0.1],
+            &vector![0.2],
+            0.2,
+        )
+        .d12[0];
         assert!((a.determinant() - minus / plus).abs() < 1e-15);
     }
 }

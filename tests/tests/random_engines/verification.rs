@@ -6,10 +6,12 @@
 use dalembert::nalgebra::{Matrix1, SVector, Vector1, matrix, vector};
 use dalembert::rules::DisplacementRule;
 use dalembert::run::Explicit;
+use dalembert::step::Flow;
 use dalembert::step::{Momenta, StepKernel};
 use dalembert::system::verification;
 use dalembert::system::{
-    CovectorDerivatives, Derivatives, Engine, ForcedLagrangian, Function, GeneratedDiffers, Structure,
+    ActingForce, CovectorDerivatives, Derivatives, Engine, ForcedLagrangian, Function, GeneratedDiffers,
+    Structure,
 };
 use dalembert::tolerance::{Method, ToleranceError, WithGauss};
 use dalembert::{
@@ -86,17 +88,16 @@ impl Force<1> for Mutated {
     }
 }
 
-impl ForcedLagrangian<1> for Mutated {
-    const IS_FORCED: bool = true;
+impl ActingForce<1> for Mutated {
+    const HAS_FORCE: bool = true;
 
-    fn acting_force(&self, q: &Vector, v: &Vector) -> Vector {
-        self.force(q, v) - v * DAMPING
-    }
-
-    fn acting_force_derivatives(&self, q: &Vector, v: &Vector) -> CovectorDerivatives<f64, 1> {
-        CovectorDerivatives { value: self.acting_force(q, v), d1: matrix![-0.25], d2: matrix![-DAMPING] }
+    fn general_force_derivatives(&self, q: &Vector, v: &Vector) -> CovectorDerivatives<f64, 1> {
+        let value = self.force(q, v) - v * DAMPING;
+        CovectorDerivatives { value, d1: matrix![-0.25], d2: matrix![-DAMPING] }
     }
 }
+
+impl ForcedLagrangian<1> for Mutated {}
 
 macro_rules! discrete {
     ($($rule:ident $memory:ident),*) => {
@@ -191,12 +192,12 @@ fn at_a_start(system: &Mutated) -> Vec<Finding> {
         ("trajectory, Gauss", named(system.by(Gauss::<3>, H).run(START).next().unwrap())),
         ("resumed", named(Trajectory::resume(system, Midpoint, checkpoint).next().unwrap())),
         ("in parts", named(system.by(Midpoint, H).run(START).next_in_parts(3))),
+        ("composition", named(system.by(Composition::kahan_li_6(Midpoint), H).run(START).next().unwrap())),
+        ("splitting", named(system.by(Splitting::blanes_moan_4(), H).run(START).next().unwrap())),
         (
-            "composition",
-            named(Composition::kahan_li_6(Midpoint).trajectory(system, H, START).next().unwrap()),
+            "resumed splitting",
+            named(Trajectory::resume(system, Splitting::blanes_moan_6(), checkpoint).next().unwrap()),
         ),
-        ("splitting", named(Splitting::blanes_moan_4().trajectory(system, H, START).next().unwrap())),
-        ("resumed splitting", named(Splitting::blanes_moan_6().resume(system, checkpoint).next().unwrap())),
         ("samples", named(system.by(Midpoint, H).run(START).sample_every(5).next().unwrap())),
         (
             "for a tolerance, and so its runs",
@@ -210,14 +211,14 @@ fn at_a_start(system: &Mutated) -> Vec<Finding> {
 
 /// With `debug_assertions`.
 fn at_a_step(system: &Mutated) -> Vec<Finding> {
-    let midpoint = |guess| Discrete::<Midpoint, 1>::step(system, &START, H, guess);
+    let midpoint = |guess| Flow::<Midpoint, 1>::step(system, &START, H, guess);
     vec![
         ("midpoint", named(midpoint(None))),
         ("midpoint from a guess", named(midpoint(Some(&vector![0.3])))),
         ("trapezoidal", named(system.by(Trapezoidal, H).step(&START))),
         ("Gauss, 1 stage", named(system.by(Gauss::<1>, H).step(&START))),
         ("Gauss, 4 stages", named(system.by(Gauss::<4>, H).step(&START))),
-        ("linearised", named(Discrete::<Gauss<2>, 1>::linearized_step(system, &START, H, None))),
+        ("linearised", named(system.by(Gauss::<2>, H).linearized_step(&START))),
         ("within", named(system.by(Midpoint, H).step_within(&START, 3))),
         ("configurations", named(system.by(Midpoint, H).step_configurations(&START.q, &vector![0.51]))),
     ]
@@ -256,7 +257,7 @@ fn a_run_that_fails_at_its_start_stays_where_it_is() {
     // Another step size does not get past it.
     run.change_step_size(0.5 * H);
     assert!(run.next().unwrap().is_err());
-    let mut composed = Composition::kahan_li_6(Midpoint).trajectory(&system, H, START);
+    let mut composed = system.by(Composition::kahan_li_6(Midpoint), H).run(START);
     assert!(composed.next().unwrap().is_err() && composed.next().is_none());
     assert_eq!((*composed.state(), composed.time()), (START, 0.0));
 }

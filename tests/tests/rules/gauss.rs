@@ -3,7 +3,6 @@
 
 use dalembert::nalgebra::{DMatrix, DVector, SVector, vector};
 use dalembert::{Discrete, Discretise, Gauss, Midpoint, State, StepError, rayleigh_system};
-use dalembert_scenes::Ring;
 use dalembert_tests::by_hand::{ByHand, Continuous, Part, derivatives};
 use dalembert_tests::systems::{Bead, Chain, Charge, DoublePendulum, Follower, Pendulum};
 
@@ -195,11 +194,11 @@ fn one_stage_is_the_midpoint_rule() {
             let (q0, q1) = (start.q, midpoint.q);
             let l = |l: f64, m: f64| assert!((l - m).abs() < 1e-14 * (1.0 + m.abs()), "{l} {m}");
             l(
-                system.by(Gauss::<1>, h).discrete_lagrangian(&q0, &q1),
+                system.by(Gauss::<1>, h).segment(&q0, &q1).unwrap().discrete_lagrangian().unwrap(),
                 system.by(Midpoint, h).discrete_lagrangian(&q0, &q1),
             );
             l(
-                system.by(Gauss::<1>, h).segment_energy(&q0, &q1),
+                system.by(Gauss::<1>, h).segment(&q0, &q1).unwrap().energy().unwrap(),
                 system.by(Midpoint, h).segment_energy(&q0, &q1),
             );
         }
@@ -324,8 +323,12 @@ fn mistakes_have_names_and_leave_the_state() {
     assert_eq!(undisturbed.by_ref().take(2).last().unwrap().unwrap().state, after);
 }
 
-/// Without friction.
-const RING: Ring = Ring { k: 0.0 };
+/// The ring of Marsden and West, without friction.
+#[rayleigh_system(rule = gauss)]
+fn ring(q: [f64; 2], v: [f64; 2]) -> f64 {
+    let s = q[0] * q[0] + q[1] * q[1];
+    0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2)
+}
 
 /// Root mean square over orbits of the energy error after `steps` steps.
 fn energy_error(steps: usize, is_compensated: bool) -> f64 {
@@ -336,13 +339,13 @@ fn energy_error(steps: usize, is_compensated: bool) -> f64 {
             let start = State { q: vector![0.0, 1.15 - shift], p: vector![0.5 + 0.7 * shift, 0.3 * shift] };
             let mut state = start;
             if is_compensated {
-                state = RING.by(Gauss::<5>, h).run(start).take(steps).last().unwrap().unwrap().state;
+                state = Ring {}.by(Gauss::<5>, h).run(start).take(steps).last().unwrap().unwrap().state;
             } else {
                 for _ in 0..steps {
-                    state = RING.by(Gauss::<5>, h).step(&state).unwrap().state;
+                    state = Ring {}.by(Gauss::<5>, h).step(&state).unwrap().state;
                 }
             }
-            let energy = |state: &State<f64, 2>| state.energy(&RING).unwrap();
+            let energy = |state: &State<f64, 2>| state.energy(&Ring {}).unwrap();
             (energy(&state) - energy(&start)).powi(2)
         })
         .sum();

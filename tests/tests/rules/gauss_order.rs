@@ -3,7 +3,7 @@
 //! Reference: another method (Dormand–Prince 8(5,3)) on accelerations derived on paper.
 
 use dalembert::nalgebra::SVector;
-use dalembert::system::{CovectorDerivatives, Derivatives, ForcedLagrangian};
+use dalembert::system::{ActingForce, CovectorDerivatives, Derivatives, ForcedLagrangian};
 use dalembert::{Discrete, Discretise, Gauss, Lagrangian, State};
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::convergence::Convergence;
@@ -76,7 +76,7 @@ order_2s! {
     bead_with_mass_and_friction_that_depend_on_q: Bead::EXAMPLE, [0.8], [1.3], 2.0, 1 2 3 4;
     bead_for_long: Bead { r: 0.01, c: 0.02, ..Bead::EXAMPLE }, [0.3], [0.5], 20.0, 1 2 3 4 5 6;
     double_pendulum: DoublePendulum::EXAMPLE, [1.1, -0.6], [0.3, 1.2], 2.0, 1 2 3 4;
-    double_pendulum_for_long: DoublePendulum { c: [0.01, 0.02], ..DoublePendulum::EXAMPLE }, [0.5, -0.3], [0.2, 0.4], 20.0, 2 3 4 5;
+    double_pendulum_for_long: DoublePendulum { r: [0.01, 0.02], ..DoublePendulum::EXAMPLE }, [0.5, -0.3], [0.2, 0.4], 20.0, 2 3 4 5;
     charge_with_friction_and_general_force: Charge::EXAMPLE, [0.9, -0.4, 0.6], [0.2, 1.1, -0.7], 2.0, 1 2 3 4 5 6;
     follower_with_general_force_alone: Follower::EXAMPLE, [0.6, -0.9], [0.8, 0.5], 2.0, 1 2 3 4;
 }
@@ -99,14 +99,10 @@ impl Lagrangian<3> for Altered {
     }
 }
 
-impl ForcedLagrangian<3> for Altered {
-    const IS_FORCED: bool = true;
+impl ActingForce<3> for Altered {
+    const HAS_FORCE: bool = true;
 
-    fn acting_force(&self, q: &SVector<f64, 3>, v: &SVector<f64, 3>) -> SVector<f64, 3> {
-        Charge::EXAMPLE.acting_force(q, v) * (1.0 + self.share)
-    }
-
-    fn acting_force_derivatives(
+    fn general_force_derivatives(
         &self,
         q: &SVector<f64, 3>,
         v: &SVector<f64, 3>,
@@ -114,6 +110,8 @@ impl ForcedLagrangian<3> for Altered {
         Charge::EXAMPLE.acting_force_derivatives(q, v) * (1.0 + self.share)
     }
 }
+
+impl ForcedLagrangian<3> for Altered {}
 
 #[test]
 #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]

@@ -100,10 +100,11 @@ where
 {
     let (a, q1) = step_matrix::<L, N, M, S>(system, q, v);
     let q0 = SVector::from(q);
-    let l = system.by(Gauss::<S>, H).discrete_lagrangian_derivatives(&q0, &q1);
-    let f = Discrete::<Gauss<S>, N>::discrete_force_derivatives(system, &q0, &q1, H);
-    let value =
-        |q0: &SVector<f64, N>, q1: &SVector<f64, N>| system.by(Gauss::<S>, H).discrete_lagrangian(q0, q1);
+    let l = system.by(Gauss::<S>, H).segment(&q0, &q1).unwrap().discrete_lagrangian_derivatives().unwrap();
+    let f = system.by(Gauss::<S>, H).segment(&q0, &q1).unwrap().discrete_force_derivatives().unwrap();
+    let value = |q0: &SVector<f64, N>, q1: &SVector<f64, N>| {
+        system.by(Gauss::<S>, H).segment(q0, q1).unwrap().discrete_lagrangian().unwrap()
+    };
     let delta = 4e-3;
     for coordinate in 0..N {
         for (slope, at_end) in [(l.d1[coordinate], false), (l.d2[coordinate], true)] {
@@ -118,7 +119,7 @@ where
             assert!((slope - difference).abs() < 1e-9, "S = {S}: {slope} {difference}");
         }
     }
-    let k = system.by(Gauss::<S>, H).legendre_derivatives(&q0, &q1);
+    let k = system.by(Gauss::<S>, H).segment(&q0, &q1).unwrap().legendre_derivatives().unwrap();
     assert!((k.momenta.p0 + l.d1 + f.minus.value).amax() < 1e-12, "S = {S}");
     assert!((k.momenta.p1 - l.d2 - f.plus.value).amax() < 1e-12, "S = {S}");
     assert!(

@@ -4,6 +4,7 @@
 
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::rules::DisplacementRule;
+use dalembert::rules::SolvedForVelocity;
 use dalembert::run::VelocityHistory;
 use dalembert::step::{Momenta, StepKernel};
 use dalembert::system::Derivatives;
@@ -100,13 +101,14 @@ mod wrong {
     }
 
     /// The midpoint rule with R's share of p0 and of p1 multiplied by what `factors` gives.
-    trait Alteration: Copy {
+    trait Alteration: SolvedForVelocity + Copy {
         fn factors(h: f64) -> [f64; 2];
     }
 
     /// R_d = (h/2) R, as the paper prints it: 1/h times what it should be.
     #[derive(Clone, Copy)]
     struct Printed;
+    impl SolvedForVelocity for Printed {}
     impl Alteration for Printed {
         fn factors(h: f64) -> [f64; 2] {
             [1.0 / h, 1.0 / h]
@@ -116,6 +118,7 @@ mod wrong {
     /// The whole force at q0, none at q1: f_d⁺ = 0.
     #[derive(Clone, Copy)]
     struct OneSided;
+    impl SolvedForVelocity for OneSided {}
     impl Alteration for OneSided {
         fn factors(_: f64) -> [f64; 2] {
             [2.0, 0.0]
@@ -125,6 +128,7 @@ mod wrong {
     /// Nothing altered: shows that the alterations are what loses the order.
     #[derive(Clone, Copy)]
     struct Unaltered;
+    impl SolvedForVelocity for Unaltered {}
     impl Alteration for Unaltered {
         fn factors(_: f64) -> [f64; 2] {
             [1.0, 1.0]

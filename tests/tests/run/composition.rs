@@ -1,6 +1,7 @@
 //! Kahan and Li's compositions: the order conditions, the order measured, what negative substeps do to
 //! damping.
 
+use dalembert::rules::SelfAdjoint;
 use dalembert::{
     Composition, Discrete, Discretise, Midpoint, State, StepError, Trapezoidal, rayleigh_system,
 };
@@ -107,9 +108,10 @@ fn assert_order<L, R, const N: usize, const S: usize>(
     [q, v]: [[f64; N]; 2],
 ) where
     L: ByHand<N> + Discrete<R, N, Scalar = f64>,
-    R: Copy,
+    R: SelfAdjoint + Copy,
 {
-    let run = |h, start, steps| composition.trajectory(system, h, start).take(steps).last().unwrap().unwrap();
+    let run =
+        |h, start, steps| system.by(composition, h).run(start).take(steps).last().unwrap().unwrap().state;
     for (order, of) in orders(system, time, steps, [q, v], PLATEAU, run).into_iter().zip(["q", "p"]) {
         let expected = f64::from(composition.order());
         assert!((order - expected).abs() < 0.35, "order {order:.3} in {of}, not {expected}");
@@ -147,13 +149,17 @@ fn oscillator(q: [f64; 1], v: [f64; 1], k: f64, r: f64) -> (f64, f64) {
 }
 
 /// The larger of |p| and ω|q| after steps of size 1 from momentum 1, mass 1.
-fn left<R: Copy, const S: usize>(composition: Composition<R, S>, [k, r]: [f64; 2], steps: usize) -> f64
+fn left<R: SelfAdjoint + Copy, const S: usize>(
+    composition: Composition<R, S>,
+    [k, r]: [f64; 2],
+    steps: usize,
+) -> f64
 where
     Oscillator: Discrete<R, 1, Scalar = f64>,
 {
     let system = Oscillator { k, r };
     let start = State::from_velocity(&system, [0.0], [1.0]).unwrap();
-    let end = composition.trajectory(&system, 1.0, start).take(steps).last().unwrap().unwrap();
+    let end = system.by(composition, 1.0).run(start).take(steps).last().unwrap().unwrap().state;
     end.p[0].abs().max(end.q[0].abs() * k.sqrt())
 }
 
@@ -185,18 +191,22 @@ fn the_explicit_rule_is_stable_up_to_the_bound_and_not_beyond() {
 fn a_conservative_composition_undoes_itself_backwards() {
     let system = Pendulum { r: 0.0, ..Pendulum::EXAMPLE };
     let start = State::from_velocity(&system, [1.2], [0.4]).unwrap();
-    let there = Composition::kahan_li_8(Trapezoidal)
-        .trajectory(&system, 0.3, start)
+    let there = system
+        .by(Composition::kahan_li_8(Trapezoidal), 0.3)
+        .run(start)
         .take(50)
         .last()
         .unwrap()
-        .unwrap();
-    let back = Composition::kahan_li_8(Trapezoidal)
-        .trajectory(&system, -0.3, there)
+        .unwrap()
+        .state;
+    let back = system
+        .by(Composition::kahan_li_8(Trapezoidal), -0.3)
+        .run(there)
         .take(50)
         .last()
         .unwrap()
-        .unwrap();
+        .unwrap()
+        .state;
     assert!((there.q - start.q).amax() > 0.1);
     assert!((back.q - start.q).amax() < 1e-12 && (back.p - start.p).amax() < 1e-12);
 }
@@ -210,7 +220,7 @@ fn an_error_leaves_the_last_good_state_and_ends_the_run() {
     }
     let system = Wall {};
     let start = State::from_velocity(&system, [10.0], [-5.0]).unwrap();
-    let mut run = Composition::kahan_li_6(Trapezoidal).trajectory(&system, 0.5, start);
+    let mut run = system.by(Composition::kahan_li_6(Trapezoidal), 0.5).run(start);
     let error = run.by_ref().take(10).find_map(Result::err).expect("the mass meets the wall");
     assert!(matches!(error, StepError::NonFinite { .. } | StepError::NoRealSolution { .. }), "{error}");
     assert!(run.time() > 1.0 && run.state().q[0] > 0.0 && run.state().p[0].is_finite());

@@ -71,7 +71,7 @@ macro_rules! counted {
             type Memory = $memory;
 
             fn discrete_lagrangian(&self, q0: &SVector<f64, $n>, q1: &SVector<f64, $n>, h: f64) -> f64 {
-                $system.discrete_lagrangian(q0, q1, h)
+                Discrete::<Midpoint, $n>::discrete_lagrangian(&$system, q0, q1, h)
             }
 
             fn discrete_lagrangian_derivatives(
@@ -80,7 +80,7 @@ macro_rules! counted {
                 q1: &SVector<f64, $n>,
                 h: f64,
             ) -> Derivatives<f64, $n> {
-                $system.discrete_lagrangian_derivatives(q0, q1, h)
+                Discrete::<Midpoint, $n>::discrete_lagrangian_derivatives(&$system, q0, q1, h)
             }
 
             fn step_kernel(
@@ -90,16 +90,16 @@ macro_rules! counted {
                 h: f64,
             ) -> StepKernel<f64, $n, $matrix> {
                 self.equations.set(self.equations.get() + 1);
-                $system.step_kernel(q0, v, h)
+                Discrete::<Midpoint, $n>::step_kernel(&$system, q0, v, h)
             }
 
             fn momenta(&self, q0: &SVector<f64, $n>, v: &SVector<f64, $n>, h: f64) -> Momenta<f64, $n> {
                 self.momenta.set(self.momenta.get() + 1);
-                $system.momenta(q0, v, h)
+                Discrete::<Midpoint, $n>::momenta(&$system, q0, v, h)
             }
 
             fn segment_energy(&self, q0: &SVector<f64, $n>, q1: &SVector<f64, $n>, h: f64) -> f64 {
-                $system.segment_energy(q0, q1, h)
+                Discrete::<Midpoint, $n>::segment_energy(&$system, q0, q1, h)
             }
         }
 

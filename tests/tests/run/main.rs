@@ -3,6 +3,7 @@
 mod composition;
 mod kept;
 mod kept_matrix;
+mod one_run;
 mod saved_runs;
 mod splitting;
 mod tolerance;

@@ -1,12 +1,19 @@
 //! Runs saved as text and read again go on bit by bit, whatever their rule remembers: velocities, stages with
 //! compensated sums, a kept matrix, an explicit step's force, one memory for each substep of a composition.
 
+use dalembert::step::Flow;
 use dalembert::{
     Checkpoint, Composition, Discrete, Discretise, Gauss, Midpoint, Splitting, State, StepError, Trajectory,
     Trapezoidal, rayleigh_system,
 };
-use dalembert_scenes::{DoublePendulum, Ring};
-use dalembert_tests::systems::Chain;
+use dalembert_tests::systems::{Chain, DoublePendulum};
+
+/// Explicit by the trapezoidal rule.
+#[rayleigh_system(rule = trapezoidal)]
+fn ring(q: [f64; 2], v: [f64; 2], k: f64) -> (f64, f64) {
+    let s = q[0] * q[0] + q[1] * q[1];
+    (0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2), 0.5 * k * (v[0] * v[0] + v[1] * v[1]))
+}
 
 fn bits<const N: usize>(state: &State<f64, N>) -> Vec<u64> {
     state.q.iter().chain(&state.p).map(|entry| entry.to_bits()).collect()
@@ -26,7 +33,7 @@ fn as_text<const N: usize>(checkpoint: Checkpoint<f64, N>) -> Checkpoint<f64, N>
 
 /// The bits of 300 states: after 100 and 200 steps there is a checkpoint, from which another run goes on if
 /// `is_resumed`.
-fn by_rule<L, R: Copy, const N: usize>(system: &L, rule: R, h: f64, is_resumed: bool) -> Vec<Vec<u64>>
+fn by_method<L, R: Copy, const N: usize>(system: &L, rule: R, h: f64, is_resumed: bool) -> Vec<Vec<u64>>
 where
     L: Discrete<R, N, Scalar = f64>,
 {
@@ -49,9 +56,9 @@ fn every_rule_goes_on_bit_by_bit() {
     where
         L: Discrete<R, N, Scalar = f64>,
     {
-        assert!(by_rule(system, rule, h, true) == by_rule(system, rule, h, false));
+        assert!(by_method(system, rule, h, true) == by_method(system, rule, h, false));
         // The control: the bits are those of this step size.
-        assert!(by_rule(system, rule, h, true) != by_rule(system, rule, h.next_up(), false));
+        assert!(by_method(system, rule, h, true) != by_method(system, rule, h.next_up(), false));
     }
     check(&DoublePendulum::EXAMPLE, Midpoint, 0.07);
     check(&DoublePendulum::EXAMPLE, Gauss::<4>, 0.2);
@@ -79,13 +86,13 @@ fn forgetting_changes_no_more_than_rounding() {
 fn compositions_go_on_bit_by_bit() {
     fn states<const S: usize>(method: Composition<Trapezoidal, S>, is_resumed: bool) -> Vec<Vec<u64>> {
         let system = Ring { k: 1e-3 };
-        let mut run = method.trajectory(&system, 0.3, start());
+        let mut run = system.by(method, 0.3).run(start());
         let mut states = Vec::new();
         for _ in 0..3 {
-            states.extend(run.by_ref().take(50).map(|state| bits(&state.unwrap())));
+            states.extend(run.by_ref().take(50).map(|step| bits(&step.unwrap().state)));
             let checkpoint = run.checkpoint();
             if is_resumed {
-                run = method.resume(&system, as_text(checkpoint));
+                run = Trajectory::resume(&system, method, as_text(checkpoint));
             }
         }
         states.push(vec![run.time().to_bits()]);
@@ -287,19 +294,19 @@ fn is_right<const N: usize>(
 fn odd_checkpoints_end_in_a_typed_error_or_a_right_run() {
     let mut odd = Odd(20);
     let mut ends = Ends::default();
-    fn by_rule<L, R: Copy, const N: usize>(
+    fn by_method<L, M: Copy, const N: usize>(
         system: &L,
-        rule: R,
+        method: M,
         is_timed: bool,
         odd: &mut Odd,
         ends: &mut Ends,
     ) where
-        L: Discrete<R, N, Scalar = f64>,
+        L: Flow<M, N, Scalar = f64>,
     {
         for _ in 0..2_000 {
             let checkpoint = odd.checkpoint();
             let of = |checkpoint| {
-                let mut run = Trajectory::resume(system, rule, checkpoint);
+                let mut run = Trajectory::resume(system, method, checkpoint);
                 let states = some(&mut run.by_ref().map(|step| step.map(|step| step.state)));
                 (states, run.checkpoint())
             };
@@ -307,7 +314,7 @@ fn odd_checkpoints_end_in_a_typed_error_or_a_right_run() {
             let (fresh, _) = of(Checkpoint::new(checkpoint.step_size, checkpoint.state));
             is_right(&checkpoint, (&states, &end), (!is_timed).then_some(&fresh), ends);
             // In parts, and sampled.
-            let mut parted = Trajectory::resume(system, rule, checkpoint);
+            let mut parted = Trajectory::resume(system, method, checkpoint);
             match (parted.next_in_parts(3), states[0].as_ref()) {
                 (Ok(_), _) => {
                     assert_eq!(u128::from(parted.checkpoint().steps), u128::from(checkpoint.steps) + 1)
@@ -318,38 +325,22 @@ fn odd_checkpoints_end_in_a_typed_error_or_a_right_run() {
                 }
                 (Err(error), Ok(_)) => panic!("{error:?} of {checkpoint:?}"),
             }
-            let mut sampled = Trajectory::resume(system, rule, checkpoint);
+            let mut sampled = Trajectory::resume(system, method, checkpoint);
             let sample = sampled.sample_every(1).next().unwrap();
             assert_eq!(sample.is_ok(), states[0].is_ok());
         }
     }
-    by_rule(&DoublePendulum::EXAMPLE, Midpoint, false, &mut odd, &mut ends);
-    by_rule(&DoublePendulum::EXAMPLE, Gauss::<4>, false, &mut odd, &mut ends);
-    by_rule(&Chain::EXAMPLE, Midpoint, false, &mut odd, &mut ends);
-    by_rule(&Ring { k: 1e-3 }, Trapezoidal, false, &mut odd, &mut ends);
-    by_rule(&Pushed.at_time(0.0), Midpoint, true, &mut odd, &mut ends);
-    by_rule(&Pushed.at_time(0.0), Gauss::<2>, true, &mut odd, &mut ends);
-    macro_rules! by_method {
-        ($method:expr, $system:expr, $is_timed:expr) => {
-            for _ in 0..2_000 {
-                let checkpoint = odd.checkpoint();
-                let of = |checkpoint| {
-                    let mut run = $method.resume($system, checkpoint);
-                    let states = some(&mut run.by_ref());
-                    (states, run.checkpoint())
-                };
-                let (states, end) = of(checkpoint);
-                let (fresh, _) = of(Checkpoint::new(checkpoint.step_size, checkpoint.state));
-                is_right(&checkpoint, (&states, &end), (!$is_timed).then_some(&fresh), &mut ends);
-            }
-        };
-    }
-    by_method!(Composition::kahan_li_6(Trapezoidal), &Ring { k: 1e-3 }, false);
-    by_method!(Composition::kahan_li_8(Midpoint), &DoublePendulum::EXAMPLE, false);
-    let pushed = Pushed.at_time(0.0);
-    by_method!(Composition::kahan_li_6(Midpoint), &pushed, true);
-    by_method!(Splitting::blanes_moan_4(), &Ring { k: 1e-3 }, false);
-    by_method!(Splitting::blanes_moan_6(), &Ring { k: 0.0 }, false);
+    by_method(&DoublePendulum::EXAMPLE, Midpoint, false, &mut odd, &mut ends);
+    by_method(&DoublePendulum::EXAMPLE, Gauss::<4>, false, &mut odd, &mut ends);
+    by_method(&Chain::EXAMPLE, Midpoint, false, &mut odd, &mut ends);
+    by_method(&Ring { k: 1e-3 }, Trapezoidal, false, &mut odd, &mut ends);
+    by_method(&Pushed.at_time(0.0), Midpoint, true, &mut odd, &mut ends);
+    by_method(&Pushed.at_time(0.0), Gauss::<2>, true, &mut odd, &mut ends);
+    by_method(&Ring { k: 1e-3 }, Composition::kahan_li_6(Trapezoidal), false, &mut odd, &mut ends);
+    by_method(&DoublePendulum::EXAMPLE, Composition::kahan_li_8(Midpoint), false, &mut odd, &mut ends);
+    by_method(&Pushed.at_time(0.0), Composition::kahan_li_6(Midpoint), true, &mut odd, &mut ends);
+    by_method(&Ring { k: 1e-3 }, Splitting::blanes_moan_4(), false, &mut odd, &mut ends);
+    by_method(&Ring { k: 0.0 }, Splitting::blanes_moan_6(), false, &mut odd, &mut ends);
     println!("22 000 checkpoints: {ends:?}");
     let Ends { went_on, step_size, state, time } = ends;
     assert_eq!(went_on + step_size + state + time, 22_000);

@@ -5,8 +5,7 @@ use std::f64::consts::PI;
 use dalembert::nalgebra::{Matrix2, Matrix4, SMatrix, SVector, matrix, vector};
 use dalembert::run::Explicit;
 use dalembert::step::Quantity;
-use dalembert::{Splitting, State, StepError, rayleigh_system};
-use dalembert_scenes::Ring;
+use dalembert::{Discretise, Splitting, State, StepError, Trajectory, rayleigh_system};
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::convergence::orders;
 use dalembert_tests::systems::Pendulum;
@@ -22,7 +21,7 @@ fn end<L, const N: usize, const S: usize>(
 where
     L: Explicit<N, Scalar = f64>,
 {
-    splitting.trajectory(system, h, start).take(steps).last().unwrap().unwrap()
+    system.by(splitting, h).run(start).take(steps).last().unwrap().unwrap().state
 }
 
 fn assert_order<L, const N: usize, const S: usize>(
@@ -226,6 +225,12 @@ where
     Matrix4::from_columns(&[0, 1, 2, 3].map(column))
 }
 
+#[rayleigh_system(rule = trapezoidal)]
+fn ring(q: [f64; 2], v: [f64; 2], k: f64) -> (f64, f64) {
+    let s = q[0] * q[0] + q[1] * q[1];
+    (0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2), 0.5 * k * (v[0] * v[0] + v[1] * v[1]))
+}
+
 #[test]
 fn phase_space_contracts_as_by_the_motion() {
     let omega = matrix![0.0, 0.0, 1.0, 0.0; 0.0, 0.0, 0.0, 1.0; -1.0, 0.0, 0.0, 0.0; 0.0, -1.0, 0.0, 0.0];
@@ -303,8 +308,8 @@ fn oscillators_are_stable_up_to_the_bound_and_not_beyond() {
         let system = Oscillator { k: omega * omega, r };
         let start = State { q: vector![0.0], p: vector![1.0] };
         // Infinite where it has grown beyond all numbers.
-        let end = splitting.trajectory(&system, 1.0, start).take(5000).last().unwrap();
-        end.map_or(f64::INFINITY, |end| end.p[0].abs().max(end.q[0].abs() * omega))
+        let end = system.by(splitting, 1.0).run(start).take(5000).last().unwrap();
+        end.map_or(f64::INFINITY, |end| end.state.p[0].abs().max(end.state.q[0].abs() * omega))
     }
     let four = |omega| left(Splitting::blanes_moan_4(), omega, 0.0);
     assert!(four(3.163) < 30.0 && four(3.169) < 100.0 && four(5.02) < 100.0 && four(5.03) > 1e3);
@@ -330,7 +335,7 @@ fn what_cannot_be_stepped_has_a_name_and_leaves_the_state() {
     let start = State { q: vector![0.3], p: vector![1.0] };
     let error = |h, start| {
         let system = Oscillator { k: 1.0, r: 0.1 };
-        let mut run = Splitting::blanes_moan_4().trajectory(&system, h, start);
+        let mut run = system.by(Splitting::blanes_moan_4(), h).run(start);
         let error = run.next().unwrap().unwrap_err();
         assert!(run.next().is_none() && run.time() == 0.0);
         error
@@ -349,7 +354,7 @@ fn what_cannot_be_stepped_has_a_name_and_leaves_the_state() {
     for coupling in [0.0, 0.3] {
         let system = Hyperbolic { coupling };
         let start = State { q: vector![0.1, 0.2], p: vector![0.3, 0.4] };
-        let found = Splitting::blanes_moan_6().trajectory(&system, 0.1, start).next().unwrap();
+        let found = system.by(Splitting::blanes_moan_6(), 0.1).run(start).next().unwrap();
         assert_eq!(found, Err(StepError::MassNotPositiveDefinite { column: 1 }), "{coupling}");
     }
 
@@ -359,7 +364,7 @@ fn what_cannot_be_stepped_has_a_name_and_leaves_the_state() {
         0.5 * v[0] * v[0] - q[0].sqrt()
     }
     let start = State::from_velocity(&Wall {}, [10.0], [-5.0]).unwrap();
-    let mut run = Splitting::blanes_moan_6().trajectory(&Wall {}, 0.5, start);
+    let mut run = Wall {}.by(Splitting::blanes_moan_6(), 0.5).run(start);
     let error = run.by_ref().take(10).find_map(Result::err).expect("the mass meets the wall");
     assert!(matches!(error, StepError::NonFinite { .. }), "{error}");
     assert!(run.time() > 1.0 && run.state().q[0] > 0.0 && run.state().p[0].is_finite());
@@ -371,9 +376,9 @@ fn a_run_that_is_resumed_goes_on_bit_by_bit() {
     let system = Ring { k: 0.01 };
     let start = State { q: vector![1.1, 0.0], p: vector![0.2, 0.9] };
     let method = Splitting::blanes_moan_4();
-    let mut run = method.trajectory(&system, 0.1, start);
+    let mut run = system.by(method, 0.1).run(start);
     run.by_ref().take(50).for_each(|state| assert!(state.is_ok()));
-    let resumed = method.resume(&system, run.checkpoint());
+    let resumed = Trajectory::resume(&system, method, run.checkpoint());
     assert!(resumed.time() == run.time() && resumed.take(50).eq(run.take(50)));
 }
 
@@ -384,16 +389,12 @@ fn in_single_precision_too() {
         (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
     }
     let start = State { q: vector![1.1_f32], p: vector![-0.8] };
-    let found = Splitting::blanes_moan_6()
-        .trajectory(&Single { r: 0.4 }, 0.1, start)
-        .take(50)
-        .last()
-        .unwrap()
-        .unwrap();
+    let found =
+        Single { r: 0.4 }.by(Splitting::blanes_moan_6(), 0.1).run(start).take(50).last().unwrap().unwrap();
     let start = State { q: vector![1.1], p: vector![-0.8] };
     let exact = end(Splitting::blanes_moan_6(), &Swing { r: 0.4 }, 0.1, start, 50);
     assert!(
-        (f64::from(found.q[0]) - exact.q[0]).abs() < 2e-6
-            && (f64::from(found.p[0]) - exact.p[0]).abs() < 2e-6
+        (f64::from(found.state.q[0]) - exact.q[0]).abs() < 2e-6
+            && (f64::from(found.state.p[0]) - exact.p[0]).abs() < 2e-6
     );
 }

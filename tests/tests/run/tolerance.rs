@@ -24,7 +24,7 @@ where
     let start = State { q: q.into(), p: system.momentum(q, v) };
     let choice = Method::for_tolerance(system, methods, &start, time, tolerance).unwrap();
     let mut run = choice.trajectory();
-    let end = run.by_ref().last().unwrap().unwrap();
+    let end = run.by_ref().last().unwrap().unwrap().state;
     assert!((run.time() - time).abs() < 1e-9 * time, "the run ends at {}", run.time());
     let error = (end.q - SVector::from(q_end)).amax();
     assert!(error <= tolerance || run.breach().is_some(), "{error:e}\n{choice}");
@@ -66,7 +66,7 @@ fn the_whole_state_is_held_at_every_step_from_any_phase() {
         let mut run = choice.trajectory();
         while let Some(state) = run.next() {
             let (s, c) = run.time().sin_cos();
-            let state = state.unwrap();
+            let state = state.unwrap().state;
             let exact = [start.q[0] * c + start.p[0] * s, start.p[0] * c - start.q[0] * s];
             let error = (state.q[0] - exact[0]).abs().max((state.p[0] - exact[1]).abs());
             assert!(error <= 2.0 * tolerance, "{error:e} at {} of {choice}", run.time());
@@ -78,7 +78,7 @@ fn the_whole_state_is_held_at_every_step_from_any_phase() {
         let mut step = Methods::<Oscillator, 1>::step(among, choice.method(), h).unwrap();
         let (mut state, mut worst) = (start, 0.0_f64);
         for k in 1..=choice.steps() / 4 {
-            state = step.advance(&Oscillator {}, 0.0, &state).unwrap().state;
+            state = step.advance(&Oscillator {}, 0.0, &state).unwrap().step.state;
             let (s, c) = (h * k as f64).sin_cos();
             worst = worst.max((state.q[0] - start.q[0] * c - start.p[0] * s).abs());
         }

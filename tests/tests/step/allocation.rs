@@ -52,11 +52,12 @@ fn none_in_a_composition_or_a_splitting() {
     let system = Pendulum::EXAMPLE;
     let start = State::from_velocity(&system, [1.1], [0.4]).unwrap();
     assert_no_allocation(|| {
-        Composition::kahan_li_8(Midpoint)
-            .trajectory(&system, 0.1, start)
+        system
+            .by(Composition::kahan_li_8(Midpoint), 0.1)
+            .run(start)
             .take(50)
             .for_each(|s| assert!(s.is_ok()));
-        Splitting::blanes_moan_6().trajectory(&system, 0.1, start).take(50).for_each(|s| assert!(s.is_ok()));
+        system.by(Splitting::blanes_moan_6(), 0.1).run(start).take(50).for_each(|s| assert!(s.is_ok()));
     });
 }
 

@@ -5,8 +5,8 @@ mod branches;
 use dalembert::derivative::Certificate;
 use dalembert::nalgebra::vector;
 use dalembert::{Discrete, Discretise, Midpoint, State, StepError, rayleigh_system};
-use dalembert_scenes::DoublePendulum;
-use dalembert_tests::hard::{CubicDrag, DampedMass, SpringPendulum};
+use dalembert_tests::hard::{CubicDrag, DampedMass, SpringPendulum, TwoPendulums};
+use dalembert_tests::systems::DoublePendulum;
 
 /// Two masses that one spring holds together.
 #[rayleigh_system]
@@ -86,7 +86,7 @@ fn steps_of_bounded_work() {
 /// A real-time loop: two iterations a step, each from the last velocity, follow the motion.
 #[test]
 fn two_iterations_a_step_follow_the_motion() {
-    let system = DoublePendulum::of_units(0.1);
+    let system = TwoPendulums { r: 0.1 };
     let start = State { q: vector![0.8, -0.3], p: vector![0.2, 0.4] };
     let (mut state, mut guess) = (start, vector![0.0, 0.0]);
     for exact in system.by(Midpoint, 0.01).run(start).take(2_000) {

@@ -9,6 +9,7 @@
 //! prints −φ1(q1) in χ.
 
 use dalembert::nalgebra::{Matrix2, Vector2};
+use dalembert::rules::SolvedForVelocity;
 use dalembert::run::VelocityHistory;
 use dalembert::step::{DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, StepKernel};
 use dalembert::system::Derivatives;
@@ -103,7 +104,7 @@ impl<R> Lagrangian<2> for Regauged<R> {
     }
 }
 
-impl<R> Discrete<R, 2> for Regauged<R>
+impl<R: SolvedForVelocity> Discrete<R, 2> for Regauged<R>
 where
     DoublePendulum: DiscreteRayleigh<R, 2, Scalar = f64>,
 {
@@ -111,7 +112,7 @@ where
     type Memory = VelocityHistory<f64, 2>;
 
     fn discrete_lagrangian(&self, q0: &Vector2<f64>, q1: &Vector2<f64>, h: f64) -> f64 {
-        self.system.discrete_lagrangian(q0, q1, h) + self.phi(q0, q1).value
+        Discrete::<R, 2>::discrete_lagrangian(&self.system, q0, q1, h) + self.phi(q0, q1).value
     }
 
     fn discrete_lagrangian_derivatives(
@@ -120,7 +121,7 @@ where
         q1: &Vector2<f64>,
         h: f64,
     ) -> Derivatives<f64, 2> {
-        self.system.discrete_lagrangian_derivatives(q0, q1, h) + self.phi(q0, q1)
+        Discrete::<R, 2>::discrete_lagrangian_derivatives(&self.system, q0, q1, h) + self.phi(q0, q1)
     }
 
     fn discrete_force(&self, q0: &Vector2<f64>, q1: &Vector2<f64>, h: f64) -> DiscreteForce<f64, 2> {
@@ -134,7 +135,8 @@ where
         q1: &Vector2<f64>,
         h: f64,
     ) -> DiscreteForceDerivatives<f64, 2> {
-        let (mut force, chi) = (self.system.discrete_force_derivatives(q0, q1, h), self.chi(q0, q1));
+        let (mut force, chi) =
+            (Discrete::<R, 2>::discrete_force_derivatives(&self.system, q0, q1, h), self.chi(q0, q1));
         force.minus.value += chi.d1;
         force.minus.d1 += chi.d11;
         force.plus.value -= chi.d2;
@@ -162,8 +164,9 @@ where
 }
 
 /// Largest difference of the two motions over some steps in q, and in p once −2∇ψ is taken out.
-fn differences<R: Copy>(rule: R, sign: f64, steps: usize) -> [f64; 2]
+fn differences<R>(rule: R, sign: f64, steps: usize) -> [f64; 2]
 where
+    R: SolvedForVelocity + Copy,
     DoublePendulum: DiscreteRayleigh<R, 2, Scalar = f64>,
 {
     let (system, regauged) = (DoublePendulum::EXAMPLE, Regauged::<R>::new(sign));

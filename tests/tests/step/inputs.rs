@@ -462,8 +462,8 @@ fn a_composition_carries_the_time_on() {
     let (view, start, exact) = storm();
     let error = |steps: u32| {
         let h = 1.5 / f64::from(steps);
-        let run = Composition::kahan_li_6(Midpoint).trajectory(&view, h, start);
-        (run.take(steps as usize).last().unwrap().unwrap().q - exact).amax()
+        let run = view.by(Composition::kahan_li_6(Midpoint), h).run(start);
+        (run.take(steps as usize).last().unwrap().unwrap().state.q - exact).amax()
     };
     let (coarse, fine) = (error(6), error(12));
     let order = (coarse / fine).log2();
@@ -495,7 +495,7 @@ fn the_ledger_sees_the_time_within_a_step() {
         for k in 0..steps {
             let view = worn.at_time(0.4 + h * f64::from(k));
             let next = view.by(Midpoint, h).step(&state).unwrap().state;
-            ledger += EnergyLedger::of_rayleigh(&view, &state, &next, h).unwrap();
+            ledger += EnergyLedger::of(&view, &state, &next, h).unwrap();
             state = next;
         }
         ledger.remainder()

@@ -31,7 +31,7 @@ where
         assert_eq!(system.legendre_minus(&a.q, &b.q, H).q, a.q);
         assert_eq!(system.legendre_plus(&a.q, &b.q, H).q, b.q);
 
-        let on_configurations = system.step_configurations(&a.q, &b.q, H, None).unwrap().state;
+        let on_configurations = system.by(rule, H).step_configurations(&a.q, &b.q).unwrap().state;
         assert!((on_configurations.q - c.q).amax() <= tolerance);
         assert!((on_configurations.p - c.p).amax() <= tolerance);
 

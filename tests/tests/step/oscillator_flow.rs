@@ -7,8 +7,13 @@
 //! ```
 
 use dalembert::nalgebra::{Matrix2, vector};
-use dalembert::{Discretise, Midpoint, State};
-use dalembert_scenes::Oscillator;
+use dalembert::{Discretise, Midpoint, State, rayleigh_system};
+
+/// The damped oscillator m q̈ + r q̇ + k q = 0.
+#[rayleigh_system]
+fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+    (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+}
 
 /// The closed form, as a matrix that acts on (q, p).
 fn closed_form(Oscillator { m, k, r }: Oscillator, h: f64) -> Matrix2<f64> {

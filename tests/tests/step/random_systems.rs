@@ -281,9 +281,9 @@ fn reversal<R: Copy>(
 where
     Masses: Discrete<R, 2, Scalar = f64>,
 {
-    let there = system.step(&start, h, None).ok()?;
+    let there = system.by(rule, h).step(&start).ok()?;
     let turned = State { q: there.state.q, p: -there.state.p };
-    let back = system.step(&turned, h, None).ok()?;
+    let back = system.by(rule, h).step(&turned).ok()?;
     let a = system.by(rule, h).linearization(&turned.q, &back.state.q).ok()?.a;
     let (q, p) = (back.state.q - start.q, back.state.p + start.p);
     let bound = carried(&a.assembled::<4>(), &turned, &back, 64.0)
@@ -317,7 +317,7 @@ fn symplecticity<R: Copy>(system: &Masses, rule: R, start: State<f64, 2>, h: f64
 where
     Masses: Discrete<R, 2, Scalar = f64>,
 {
-    let step = system.step(&start, h, None).ok()?;
+    let step = system.by(rule, h).step(&start).ok()?;
     let a = system.by(rule, h).linearization(&start.q, &step.state.q).ok()?.a;
     let unit = system.m[0].max(system.m[1]) / h;
     let units = Vector4::new(1.0, 1.0, unit, unit);
@@ -332,7 +332,7 @@ fn determinant<R: Copy>(system: &Masses, rule: R, start: State<f64, 2>, h: f64) 
 where
     Masses: DiscreteRayleigh<R, 2, Scalar = f64>,
 {
-    let step = system.step(&start, h, None).ok()?;
+    let step = system.by(rule, h).step(&start).ok()?;
     let (q0, q1) = (&start.q, &step.state.q);
     let a = system.by(rule, h).linearization(q0, q1).ok()?.a.assembled::<4>();
     let minus = system.modified_minus_derivatives(q0, q1, h).d12;
@@ -371,7 +371,7 @@ fn remainder(system: &Masses, start: State<f64, 2>, h: f64) -> Result<(f64, f64)
     let (mut state, mut ledger, mut size) = (start, EnergyLedger::default(), 0.0);
     for _ in 0..10 {
         let Ok(step) = system_step(system, &state, h) else { break };
-        let entry = EnergyLedger::of_rayleigh(system, &state, &step.state, h);
+        let entry = EnergyLedger::of(system, &state, &step.state, h);
         let entry = entry.map_err(|error| TestCaseError::fail(error.to_string()))?;
         for at in [&state, &step.state] {
             let v = at.velocity(system).map_err(|error| TestCaseError::fail(error.to_string()))?;

@@ -5,7 +5,6 @@ use dalembert::run::VelocityHistory;
 use dalembert::step::{Momenta, Quantity, StepKernel};
 use dalembert::system::Derivatives;
 use dalembert::{Discrete, Discretise, Lagrangian, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
-use dalembert_scenes::Oscillator;
 use dalembert_tests::systems::{Bead, DoublePendulum, Pendulum};
 
 fn midpoint<S, const N: usize>(
@@ -82,6 +81,11 @@ mod refuses {
 
 /// A free mass.
 const FREE: Oscillator = Oscillator { m: 0.7, k: 0.0, r: 0.0 };
+
+#[rayleigh_system]
+fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+    (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+}
 
 /// ½v² + (1 − q)^a: not defined for q > 1. Slope at the wall: 0 for a > 1, infinite for a < 1.
 #[rayleigh_system]

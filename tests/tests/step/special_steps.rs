@@ -12,6 +12,14 @@ macro_rules! systems {
             (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
         }
 
+        /// Explicit by the trapezoidal rule, with a diagonal matrix.
+        #[rayleigh_system(rule = [midpoint, trapezoidal], derivatives = $engine)]
+        pub fn ring(q: [f64; 2], v: [f64; 2], k: f64) -> (f64, f64) {
+            let s = q[0] * q[0] + q[1] * q[1];
+            let r = 0.5 * k * (v[0] * v[0] + v[1] * v[1]);
+            (0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2), r)
+        }
+
         /// Explicit, with a dense matrix, a part of T that is linear in v, and a force.
         pub struct Coupled {
             pub m: f64,
@@ -118,16 +126,11 @@ macro_rules! systems {
 
 /// As their structure allows.
 mod special {
-    // Explicit by the trapezoidal rule, with a diagonal matrix.
-    pub use dalembert_scenes::Ring;
-
     systems!(expanded);
 }
 
 /// By Newton's method with dense matrices.
 mod general {
-    pub use dalembert_scenes::num_dual::Ring;
-
     systems!(num_dual);
 }
 

@@ -137,52 +137,42 @@ pub fn force(system: &System<'_>, derivatives: TokenStream) -> TokenStream {
     }
 }
 
-/// `impl ForcedLagrangian<2> for Ring`: one term for each of R and f that the system has. The equations of
-/// motion at the stages are those that the runtime makes of it, unless an engine gives them.
-pub fn forced_lagrangian(system: &System<'_>, stages: Option<TokenStream>) -> TokenStream {
+/// `impl ActingForce<2> for Ring`: R and f, as far as the system has them.
+pub fn acting_force(system: &System<'_>) -> TokenStream {
     let scalar = &system.scalar;
     let n = system.degrees.times(1);
     let subject = subject(system, system.home());
-    let general = |derivatives: bool| {
-        system.has_force.then(|| match derivatives {
-            true => quote!(self.force_derivatives(q, v)),
-            false => quote!(Force::force(self, q, v)),
-        })
-    };
-    let of_rayleigh = |term: TokenStream| system.rayleigh.map(|_| term);
-    // −∂R/∂v + f
-    let values = [of_rayleigh(quote!(-self.rayleigh_gradient(q, v).d2)), general(false)];
-    let r = of_rayleigh(quote!(let r = self.rayleigh_derivatives(q, v);));
-    let derivatives = [
-        of_rayleigh(quote!(CovectorDerivatives { value: -r.d2, d1: -r.d12.transpose(), d2: -r.d22 })),
-        general(true),
-    ];
-    let (values, derivatives) = (values.iter().flatten(), derivatives.iter().flatten());
-    let is_forced = system.rayleigh.is_some() || system.has_force;
-    let formula = match (system.rayleigh.is_some(), system.has_force) {
-        (true, false) => " f_L = −∂R/∂v.",
-        (true, true) => " f_L = −∂R/∂v + f.",
-        (false, _) => " f_L = f.",
-    };
-    let force = is_forced.then(|| {
+    let rayleigh = system.rayleigh.map(|_| {
         quote! {
-            const IS_FORCED: bool = true;
+            const HAS_RAYLEIGH: bool = true;
 
-            #[doc = #formula]
             #[inline]
-            fn acting_force(&self, q: &Vector, v: &Vector) -> Vector {
-                #(#values)+*
+            fn dissipation(&self, q: &Vector, v: &Vector) -> Gradient<#scalar, #n> {
+                self.rayleigh_gradient(q, v)
             }
 
-            /// f_L with its derivatives by q and v.
             #[inline]
-            fn acting_force_derivatives(
+            fn dissipation_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<#scalar, #n> {
+                self.rayleigh_derivatives(q, v)
+            }
+        }
+    });
+    let force = system.has_force.then(|| {
+        quote! {
+            const HAS_FORCE: bool = true;
+
+            #[inline]
+            fn general_force(&self, q: &Vector, v: &Vector) -> Vector {
+                Force::force(self, q, v)
+            }
+
+            #[inline]
+            fn general_force_derivatives(
                 &self,
                 q: &Vector,
                 v: &Vector,
             ) -> CovectorDerivatives<#scalar, #n> {
-                #r
-                #(#derivatives)+*
+                self.force_derivatives(q, v)
             }
         }
     });
@@ -193,9 +183,22 @@ pub fn forced_lagrangian(system: &System<'_>, stages: Option<TokenStream>) -> To
     });
     quote! {
         #[automatically_derived]
-        impl ForcedLagrangian<#n> for #subject {
-            #timed
+        impl ActingForce<#n> for #subject {
+            #rayleigh
             #force
+            #timed
+        }
+    }
+}
+
+/// `impl ForcedLagrangian<2> for Ring`. The equations of motion at the stages are those that the runtime makes
+/// of L and the acting force, unless an engine gives them.
+pub fn forced_lagrangian(system: &System<'_>, stages: Option<TokenStream>) -> TokenStream {
+    let n = system.degrees.times(1);
+    let subject = subject(system, system.home());
+    quote! {
+        #[automatically_derived]
+        impl ForcedLagrangian<#n> for #subject {
             #stages
         }
     }

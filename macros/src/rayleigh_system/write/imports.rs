@@ -28,7 +28,7 @@ pub fn imports(system: &System<'_>, of_engine: &[&'static str], calls_elementary
 
 /// Traits and results.
 fn of_traits(system: &System<'_>) -> Vec<&'static str> {
-    let mut names = vec!["Derivatives", "Gradient", "Lagrangian"];
+    let mut names = vec!["ActingForce", "Derivatives", "Gradient", "Lagrangian"];
     let rules = &system.rules;
     if rules.ask_for_variations() || delegates(system) {
         names.extend(["Direction", "Variations"]);
@@ -40,7 +40,7 @@ fn of_traits(system: &System<'_>) -> Vec<&'static str> {
     if system.has_force {
         names.push("Force");
     }
-    if system.has_force || (rules.gauss && is_forced) {
+    if system.has_force {
         names.push("CovectorDerivatives");
     }
     if rules.gauss {

@@ -21,32 +21,6 @@ pub fn discrete(system: &System<'_>, rule: Rule, joint: Joint, is_expanded: bool
     let memory = quote!(::dalembert::generated::#memory<#scalar, #n>);
     let rule = rule.ident();
     let verification = is_expanded.then(|| verify_segment(system, &quote!(<#rule as JointRule>)));
-    // What depends on h alone is worked out once for all evaluations of a step.
-    let steps = joint.is_fitted.then(|| {
-        quote! {
-            /// The flow on T*Q, (q0, p0) ↦ (q1, p1).
-            #[inline]
-            fn step(
-                &self,
-                state: &::dalembert::generated::State<#scalar, #n>,
-                h: #scalar,
-                guess: ::core::option::Option<&Vector>,
-            ) -> ::core::result::Result<::dalembert::generated::Step<#scalar, #n>, ::dalembert::generated::StepError> {
-                #rule::step(self, state, h, guess)
-            }
-
-            /// The same by at most `iterations` of Newton's.
-            fn step_within(
-                &self,
-                state: &::dalembert::generated::State<#scalar, #n>,
-                h: #scalar,
-                guess: ::core::option::Option<&Vector>,
-                iterations: u32,
-            ) -> ::core::result::Result<::dalembert::generated::BoundedStep<#scalar, #n>, ::dalembert::generated::StepError> {
-                #rule::step_within(self, state, h, guess, iterations)
-            }
-        }
-    });
     quote! {
         #[automatically_derived]
         impl Discrete<#rule, #n> for #name {
@@ -102,8 +76,6 @@ pub fn discrete(system: &System<'_>, rule: Rule, joint: Joint, is_expanded: bool
             }
 
             #verification
-
-            #steps
         }
     }
 }

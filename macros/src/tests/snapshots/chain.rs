@@ -23,8 +23,8 @@ impl Chain {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
-        Derivatives, Discrete, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
-        StepKernel,
+        ActingForce, Derivatives, Discrete, DisplacementRule, Gradient, Lagrangian,
+        Midpoint, Momenta, StepKernel,
     };
     type Vector = SVector<f64, 4>;
     /// Known at compile time:
@@ -138,6 +138,8 @@ const _: () = {
             ::dalembert::generated::verification::lagrangian(self, q, v)
         }
     }
+    #[automatically_derived]
+    impl ActingForce<4> for Chain {}
     #[automatically_derived]
     impl Discrete<Midpoint, 4> for Chain {
         type Matrix = ::dalembert::generated::Banded<f64, 4, 3>;

@@ -25,8 +25,9 @@ impl DoublePendulum {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
-        Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh,
-        DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta, Rayleigh, StepKernel,
+        ActingForce, Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives,
+        DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
+        Rayleigh, StepKernel,
     };
     type Vector = SVector<f64, 2>;
     /// Known at compile time:
@@ -154,6 +155,22 @@ const _: () = {
                 d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
                 d22: SMatrix::from([[c_0 + c_1, t1], [t1, c_1]]),
             }
+        }
+    }
+    #[automatically_derived]
+    impl ActingForce<2> for DoublePendulum {
+        const HAS_RAYLEIGH: bool = true;
+        #[inline]
+        fn dissipation(&self, q: &Vector, v: &Vector) -> Gradient<f64, 2> {
+            self.rayleigh_gradient(q, v)
+        }
+        #[inline]
+        fn dissipation_derivatives(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> Derivatives<f64, 2> {
+            self.rayleigh_derivatives(q, v)
         }
     }
     #[automatically_derived]

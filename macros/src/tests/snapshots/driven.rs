@@ -45,10 +45,10 @@ impl Arm {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
-        CovectorDerivatives, Derivatives, Direction, Discrete, DiscreteDriven,
-        DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, DisplacementRule,
-        Driven, Force, Gradient, Lagrangian, Midpoint, Momenta, MomentaBy, Rayleigh,
-        StepKernel, Variations,
+        ActingForce, CovectorDerivatives, Derivatives, Direction, Discrete,
+        DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh,
+        DisplacementRule, Driven, Force, Gradient, Lagrangian, Midpoint, Momenta,
+        MomentaBy, Rayleigh, StepKernel, Variations,
     };
     type Vector = SVector<f64, 1>;
     /// Known at compile time:
@@ -226,6 +226,36 @@ const _: () = {
                 d2: SMatrix::from([[0.0]]),
             }
         }
+    }
+    #[automatically_derived]
+    impl ActingForce<1> for DrivenArm<'_> {
+        const HAS_RAYLEIGH: bool = true;
+        #[inline]
+        fn dissipation(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            self.rayleigh_gradient(q, v)
+        }
+        #[inline]
+        fn dissipation_derivatives(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> Derivatives<f64, 1> {
+            self.rayleigh_derivatives(q, v)
+        }
+        const HAS_FORCE: bool = true;
+        #[inline]
+        fn general_force(&self, q: &Vector, v: &Vector) -> Vector {
+            Force::force(self, q, v)
+        }
+        #[inline]
+        fn general_force_derivatives(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> CovectorDerivatives<f64, 1> {
+            self.force_derivatives(q, v)
+        }
+        const IS_TIMED: bool = true;
     }
     #[automatically_derived]
     impl Driven<1, 1> for DrivenArm<'_> {

@@ -95,10 +95,10 @@ const _: () = {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
-        CovectorDerivatives, Derivatives, Direction, Discrete, DiscreteDriven,
-        DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, DisplacementRule,
-        Driven, Force, Gradient, Lagrangian, Midpoint, Momenta, MomentaBy, Rayleigh,
-        StepKernel, Variations, dual,
+        ActingForce, CovectorDerivatives, Derivatives, Direction, Discrete,
+        DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh,
+        DisplacementRule, Driven, Force, Gradient, Lagrangian, Midpoint, Momenta,
+        MomentaBy, Rayleigh, StepKernel, Variations, dual,
     };
     type Vector = SVector<f64, 1>;
     /// Known at compile time:
@@ -291,6 +291,36 @@ const _: () = {
                 },
             )
         }
+    }
+    #[automatically_derived]
+    impl ActingForce<1> for DrivenArm<'_> {
+        const HAS_RAYLEIGH: bool = true;
+        #[inline]
+        fn dissipation(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            self.rayleigh_gradient(q, v)
+        }
+        #[inline]
+        fn dissipation_derivatives(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> Derivatives<f64, 1> {
+            self.rayleigh_derivatives(q, v)
+        }
+        const HAS_FORCE: bool = true;
+        #[inline]
+        fn general_force(&self, q: &Vector, v: &Vector) -> Vector {
+            Force::force(self, q, v)
+        }
+        #[inline]
+        fn general_force_derivatives(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> CovectorDerivatives<f64, 1> {
+            self.force_derivatives(q, v)
+        }
+        const IS_TIMED: bool = true;
     }
     #[automatically_derived]
     impl Driven<1, 1> for DrivenArm<'_> {

@@ -18,9 +18,9 @@ impl Ring {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
-        Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh,
-        DisplacementRule, Gradient, Lagrangian, Momenta, Rayleigh, StepKernel,
-        Trapezoidal,
+        ActingForce, Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives,
+        DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Momenta, Rayleigh,
+        StepKernel, Trapezoidal,
     };
     type Vector = SVector<f64, 2>;
     /// Known at compile time:
@@ -116,6 +116,22 @@ const _: () = {
                 d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
                 d22: SMatrix::from([[k, 0.0], [0.0, k]]),
             }
+        }
+    }
+    #[automatically_derived]
+    impl ActingForce<2> for Ring {
+        const HAS_RAYLEIGH: bool = true;
+        #[inline]
+        fn dissipation(&self, q: &Vector, v: &Vector) -> Gradient<f64, 2> {
+            self.rayleigh_gradient(q, v)
+        }
+        #[inline]
+        fn dissipation_derivatives(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> Derivatives<f64, 2> {
+            self.rayleigh_derivatives(q, v)
         }
     }
     #[automatically_derived]

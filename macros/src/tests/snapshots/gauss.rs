@@ -28,8 +28,8 @@ impl Cart {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
-        CovectorDerivatives, Derivatives, Force, ForcedLagrangian, Gradient, Lagrangian,
-        LaneVector, Lanes, Rayleigh, Stages,
+        ActingForce, CovectorDerivatives, Derivatives, Force, ForcedLagrangian, Gradient,
+        Lagrangian, LaneVector, Lanes, Rayleigh, Stages,
     };
     type Vector = SVector<f64, 2>;
     /// Known at compile time:
@@ -159,27 +159,36 @@ const _: () = {
         }
     }
     #[automatically_derived]
-    impl ForcedLagrangian<2> for Cart {
-        const IS_FORCED: bool = true;
-        /// f_L = −∂R/∂v + f.
+    impl ActingForce<2> for Cart {
+        const HAS_RAYLEIGH: bool = true;
         #[inline]
-        fn acting_force(&self, q: &Vector, v: &Vector) -> Vector {
-            -self.rayleigh_gradient(q, v).d2 + Force::force(self, q, v)
+        fn dissipation(&self, q: &Vector, v: &Vector) -> Gradient<f64, 2> {
+            self.rayleigh_gradient(q, v)
         }
-        /// f_L with its derivatives by q and v.
         #[inline]
-        fn acting_force_derivatives(
+        fn dissipation_derivatives(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> Derivatives<f64, 2> {
+            self.rayleigh_derivatives(q, v)
+        }
+        const HAS_FORCE: bool = true;
+        #[inline]
+        fn general_force(&self, q: &Vector, v: &Vector) -> Vector {
+            Force::force(self, q, v)
+        }
+        #[inline]
+        fn general_force_derivatives(
             &self,
             q: &Vector,
             v: &Vector,
         ) -> CovectorDerivatives<f64, 2> {
-            let r = self.rayleigh_derivatives(q, v);
-            CovectorDerivatives {
-                value: -r.d2,
-                d1: -r.d12.transpose(),
-                d2: -r.d22,
-            } + self.force_derivatives(q, v)
+            self.force_derivatives(q, v)
         }
+    }
+    #[automatically_derived]
+    impl ForcedLagrangian<2> for Cart {
         /// G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages.
         #[inline]
         fn stages<const S: usize>(

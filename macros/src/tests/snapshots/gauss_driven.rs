@@ -43,9 +43,9 @@ impl Arm {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
-        CovectorDerivatives, Derivatives, Direction, Driven, Force, ForcedLagrangian,
-        Gradient, GradientBy, Hessian, Lagrangian, LaneVector, Lanes, Parameters,
-        SecondOrder, Stages, Variations,
+        ActingForce, CovectorDerivatives, Derivatives, Direction, Driven, Force,
+        ForcedLagrangian, Gradient, GradientBy, Hessian, Lagrangian, LaneVector, Lanes,
+        Parameters, SecondOrder, Stages, Variations,
     };
     type Vector = SVector<f64, 1>;
     /// Known at compile time:
@@ -166,23 +166,24 @@ const _: () = {
         }
     }
     #[automatically_derived]
-    impl ForcedLagrangian<1> for DrivenArm<'_> {
-        const IS_TIMED: bool = true;
-        const IS_FORCED: bool = true;
-        /// f_L = f.
+    impl ActingForce<1> for DrivenArm<'_> {
+        const HAS_FORCE: bool = true;
         #[inline]
-        fn acting_force(&self, q: &Vector, v: &Vector) -> Vector {
+        fn general_force(&self, q: &Vector, v: &Vector) -> Vector {
             Force::force(self, q, v)
         }
-        /// f_L with its derivatives by q and v.
         #[inline]
-        fn acting_force_derivatives(
+        fn general_force_derivatives(
             &self,
             q: &Vector,
             v: &Vector,
         ) -> CovectorDerivatives<f64, 1> {
             self.force_derivatives(q, v)
         }
+        const IS_TIMED: bool = true;
+    }
+    #[automatically_derived]
+    impl ForcedLagrangian<1> for DrivenArm<'_> {
         /// G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages, each at its own time.
         #[inline]
         fn stages_in_time<const S: usize>(

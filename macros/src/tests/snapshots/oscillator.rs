@@ -24,9 +24,9 @@ pub struct Oscillator {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
-        Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh,
-        DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta, Rayleigh, StepKernel,
-        Trapezoidal,
+        ActingForce, Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives,
+        DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
+        Rayleigh, StepKernel, Trapezoidal,
     };
     type Vector = SVector<f64, 1>;
     /// Known at compile time:
@@ -113,6 +113,22 @@ const _: () = {
                 d12: SMatrix::from([[0.0]]),
                 d22: SMatrix::from([[r]]),
             }
+        }
+    }
+    #[automatically_derived]
+    impl ActingForce<1> for Oscillator {
+        const HAS_RAYLEIGH: bool = true;
+        #[inline]
+        fn dissipation(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            self.rayleigh_gradient(q, v)
+        }
+        #[inline]
+        fn dissipation_derivatives(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> Derivatives<f64, 1> {
+            self.rayleigh_derivatives(q, v)
         }
     }
     #[automatically_derived]

@@ -82,9 +82,9 @@ const _: () = {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
-        Derivatives, Direction, Discrete, DiscreteForce, DiscreteForceDerivatives,
-        DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
-        Rayleigh, StepKernel, Variations, dual,
+        ActingForce, Derivatives, Direction, Discrete, DiscreteForce,
+        DiscreteForceDerivatives, DiscreteRayleigh, DisplacementRule, Gradient,
+        Lagrangian, Midpoint, Momenta, Rayleigh, StepKernel, Variations, dual,
     };
     type Vector = SVector<f64, 1>;
     /// Known at compile time:
@@ -168,6 +168,22 @@ const _: () = {
                 |q, v| self.rayleigh_over(q, v),
                 |q, v| self.rayleigh_over(q, v),
             )
+        }
+    }
+    #[automatically_derived]
+    impl ActingForce<1> for Oscillator {
+        const HAS_RAYLEIGH: bool = true;
+        #[inline]
+        fn dissipation(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            self.rayleigh_gradient(q, v)
+        }
+        #[inline]
+        fn dissipation_derivatives(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> Derivatives<f64, 1> {
+            self.rayleigh_derivatives(q, v)
         }
     }
     #[automatically_derived]

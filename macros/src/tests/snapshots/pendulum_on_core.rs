@@ -21,8 +21,8 @@ impl Pendulum {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
-        Derivatives, Discrete, DisplacementRule, Gradient, Lagrangian, Midpoint, Momenta,
-        StepKernel,
+        ActingForce, Derivatives, Discrete, DisplacementRule, Gradient, Lagrangian,
+        Midpoint, Momenta, StepKernel,
     };
     use ::dalembert::generated::Elementary as _;
     type Vector = SVector<f64, 1>;
@@ -77,6 +77,8 @@ const _: () = {
             ::dalembert::generated::verification::lagrangian(self, q, v)
         }
     }
+    #[automatically_derived]
+    impl ActingForce<1> for Pendulum {}
     #[automatically_derived]
     impl Discrete<Midpoint, 1> for Pendulum {
         type Matrix = SMatrix<f64, 1, 1>;

@@ -42,11 +42,11 @@ impl Joint {
 const _: () = {
     use ::dalembert::nalgebra::{SMatrix, SVector};
     use ::dalembert::generated::{
-        CovectorDerivatives, Derivatives, Direction, Discrete, DiscreteDriven,
-        DiscreteForce, DiscreteForceDerivatives, DiscreteParameters, DiscreteRayleigh,
-        DiscreteSecondOrder, DisplacementRule, Driven, Force, Gradient, GradientBy,
-        Hessian, Lagrangian, Midpoint, Momenta, MomentaBy, Parameters, Rayleigh,
-        SecondOrder, StepKernel, Variations,
+        ActingForce, CovectorDerivatives, Derivatives, Direction, Discrete,
+        DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteParameters,
+        DiscreteRayleigh, DiscreteSecondOrder, DisplacementRule, Driven, Force, Gradient,
+        GradientBy, Hessian, Lagrangian, Midpoint, Momenta, MomentaBy, Parameters,
+        Rayleigh, SecondOrder, StepKernel, Variations,
     };
     type Vector = SVector<f64, 1>;
     /// Known at compile time:
@@ -213,6 +213,35 @@ const _: () = {
                 d1: SMatrix::from([[-(u[0] * sin_q0)]]),
                 d2: SMatrix::from([[0.0]]),
             }
+        }
+    }
+    #[automatically_derived]
+    impl ActingForce<1> for DrivenJoint<'_> {
+        const HAS_RAYLEIGH: bool = true;
+        #[inline]
+        fn dissipation(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            self.rayleigh_gradient(q, v)
+        }
+        #[inline]
+        fn dissipation_derivatives(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> Derivatives<f64, 1> {
+            self.rayleigh_derivatives(q, v)
+        }
+        const HAS_FORCE: bool = true;
+        #[inline]
+        fn general_force(&self, q: &Vector, v: &Vector) -> Vector {
+            Force::force(self, q, v)
+        }
+        #[inline]
+        fn general_force_derivatives(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> CovectorDerivatives<f64, 1> {
+            self.force_derivatives(q, v)
         }
     }
     #[automatically_derived]

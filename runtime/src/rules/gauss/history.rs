@@ -28,6 +28,8 @@ pub struct StageHistory<T, const N: usize, const S: usize> {
     contracted: bool,
     q: Compensated<T, N>,
     p: Compensated<T, N>,
+    /// The velocity to start from before the first step.
+    suggested: Option<SVector<T, N>>,
 }
 
 impl<T: Scalar, const N: usize, const S: usize> Default for StageHistory<T, N, S> {
@@ -39,6 +41,7 @@ impl<T: Scalar, const N: usize, const S: usize> Default for StageHistory<T, N, S
             contracted: false,
             q: Compensated::new(zero),
             p: Compensated::new(zero),
+            suggested: None,
         }
     }
 }
@@ -120,10 +123,17 @@ where
         };
         let solution = match extrapolated {
             Some(solution) => solution,
-            None => solved_from(&problem, state)?,
+            None => {
+                let near = self.suggested.and_then(|v| fixed_point::solve(&problem, &v).ok());
+                near.map_or_else(|| solved_from(&problem, state), Ok)?
+            }
         };
         let (step, [q, p]) = completed(&problem, &solution)?;
-        *self = Self { v: solution.v, h, contracted: solution.contracted, q, p };
+        *self = Self { v: solution.v, h, contracted: solution.contracted, q, p, suggested: None };
         Ok(step)
+    }
+
+    fn suggest(&mut self, velocity: &SVector<T, N>, _h: T) {
+        self.suggested = Some(*velocity);
     }
 }

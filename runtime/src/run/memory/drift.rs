@@ -4,11 +4,10 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::VelocityHistory;
 use super::explicit::Prepared;
 use crate::numbers::{NewtonMatrix, Scalar};
 use crate::rules::{ByDrift, DampedDrift, Fitted, FittedTrapezoidal};
-use crate::step::{Discrete, Memory, Momenta, State, Step, StepError, or_without_guess};
+use crate::step::{Discrete, Memory, Momenta, State, Step, StepError, VelocityHistory, or_without_guess};
 use crate::system::Rayleigh;
 
 /// The functions of Z that [`Fitted`] asks for, and the latest mean velocities. It belongs to one system.
@@ -53,6 +52,10 @@ where
         }
         self.history.push(step.velocity, h);
         Ok(step)
+    }
+
+    fn suggest(&mut self, velocity: &SVector<L::Scalar, N>, h: L::Scalar) {
+        self.history.push(*velocity, h);
     }
 }
 

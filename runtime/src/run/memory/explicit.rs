@@ -12,9 +12,10 @@ use nalgebra::SVector;
 use crate::numbers::{Factored, NewtonMatrix, Scalar};
 use crate::rules::Trapezoidal;
 use crate::step::{
-    Discrete, Memory, Momenta, Report, State, Step, StepError,
+    Discrete, Flow, Memory, Momenta, Report, State, Step, StepError,
     newton::{estimated_floor, held_against},
 };
+use crate::system::ActingForce;
 
 /// A system that the trapezoidal rule steps explicitly: L = T(v) − V(q) with T quadratic, R quadratic in v,
 /// both with constant coefficients, and a force f(q).
@@ -23,7 +24,7 @@ use crate::step::{
     label = "the equations of `{Self}` are not known to be explicit",
     note = "list the rule, `#[rayleigh_system(rule = trapezoidal)]`; L has to be ½vᵀMv − V(q) with constant M, R quadratic in v with constant coefficients, a force a function of q alone, without input or time, and their derivatives written out: `derivatives = expanded` says what is in the way"
 )]
-pub trait Explicit<const N: usize>: Discrete<Trapezoidal, N> {
+pub trait Explicit<const N: usize>: Discrete<Trapezoidal, N> + ActingForce<N> {
     /// P = ∂²L/∂v² + (h/2) ∂²R/∂v², the Newton matrix.
     fn step_matrix(&self, h: Self::Scalar) -> Self::Matrix;
 
@@ -104,7 +105,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> ExplicitMemory<S, M, N> {
     where
         L: Explicit<N, Scalar = S, Matrix = M>,
     {
-        let step = system.step(state, h, None)?;
+        let step = Flow::<Trapezoidal, N>::step(system, state, h, None)?;
         if self.prepared.as_ref().is_none_or(|prepared| prepared.h != h) {
             let at_rest = system.velocity_momenta(&nalgebra::zero(), h).p0;
             self.prepared = Prepared::new(h, system.step_matrix(h), at_rest);

@@ -10,10 +10,9 @@
 
 use nalgebra::SVector;
 
-use super::VelocityHistory;
 use crate::numbers::{Factored, NewtonMatrix, Scalar};
 use crate::step::{
-    Discrete, Memory, Momenta, Report, State, Step, StepError,
+    Discrete, Memory, Momenta, Report, State, Step, StepError, VelocityHistory,
     newton::{AT_FLOOR, estimated_floor, finite_part, held_against, held_by_weights, is_sensible, weighted},
 };
 
@@ -113,6 +112,10 @@ where
             self.renew(system, state, step, h);
         }
         step
+    }
+
+    fn suggest(&mut self, velocity: &SVector<L::Scalar, N>, h: L::Scalar) {
+        self.history.push(*velocity, h);
     }
 }
 

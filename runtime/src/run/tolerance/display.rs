@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::{Breach, Choice, Method, ToleranceError, Trial};
+use super::{Breach, Choice, Chosen, Method, ToleranceError, Trial};
 use crate::system::Lagrangian;
 
 impl fmt::Display for Method {
@@ -28,7 +28,7 @@ impl fmt::Display for Trial {
 
 impl<L: Lagrangian<N>, M, const N: usize> fmt::Display for Choice<'_, L, M, N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { method, step_size, steps, tolerance, expected, trials, .. } = self;
+        let Chosen { method, step_size, steps, tolerance, expected, trials, .. } = &self.chosen;
         write!(
             f,
             "{method}, h = {step_size:.4e}, {steps} steps: error {expected:.1e} expected, {tolerance:.1e} asked for"
@@ -55,6 +55,9 @@ impl fmt::Display for ToleranceError {
                     Some(trial) => write!(f, "; the closest: {trial}"),
                     None => f.write_str("; none can take a step"),
                 }
+            }
+            Self::NotOffered { method } => {
+                write!(f, "the system does not offer the method of the run: {method}; list its rule")
             }
             Self::Step(error) => write!(f, "at the start: {error}"),
         }

@@ -57,6 +57,15 @@ pub(super) struct Since {
 }
 
 /// The error of a run so far.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(
+        serialize = "S: Scalar + serde::Serialize",
+        deserialize = "S: Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub(super) struct Estimate<S, const N: usize> {
     /// δ, the run less the motion, at the state last looked at.
     error: State<S, N>,

@@ -6,9 +6,10 @@ use super::estimate::{ANGLE, Estimate, Since};
 use super::random::Random;
 use super::scale::Scale;
 use super::unresolved::Unresolved;
-use super::{Breach, Choice, MethodStep, Methods};
+use super::{Breach, Choice, Chosen, MethodStep, Methods, OffersMethods, ToleranceError};
 use crate::numbers::Scalar;
-use crate::step::{State, StepError};
+use crate::run::{Run, Samples};
+use crate::step::{State, Step, StepError};
 use crate::system::Lagrangian;
 
 /// Steps between two looks at most.
@@ -42,7 +43,7 @@ const ROUGHER: f64 = 2.0;
 /// What of the tolerance a change of the force with time over one step has to come to before it is looked at.
 const STROKE: f64 = 0.05;
 
-/// The run of a [`Choice`] over its time: an iterator over states, that ends after the last step or an error.
+/// The run of a [`Choice`] over its time: an iterator over steps, that ends after the last step or an error.
 ///
 /// It carries an estimate of its error along, in q and p:
 ///
@@ -78,10 +79,41 @@ where
     choice: Choice<'a, L, M, N>,
     step: M::Step,
     half: M::Step,
-    state: State<L::Scalar, N>,
+    guard: Guard<L::Scalar, N>,
+    failed: bool,
+}
+
+/// A guarded run as it can be saved: [`GuardedTrajectory::checkpoint`]. With the feature `serde` it can be
+/// written and read.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(
+        serialize = "S: Scalar + serde::Serialize",
+        deserialize = "S: Scalar + serde::Deserialize<'de>"
+    ))
+)]
+pub struct GuardedCheckpoint<S, const N: usize> {
+    chosen: Chosen<S, N>,
+    guard: Guard<S, N>,
+}
+
+/// Where a guarded run stands, and what its guard knows.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(
+        serialize = "S: Scalar + serde::Serialize",
+        deserialize = "S: Scalar + serde::Deserialize<'de>"
+    ))
+)]
+struct Guard<S, const N: usize> {
+    state: State<S, N>,
     taken: u64,
-    scale: Scale<L::Scalar, N>,
-    estimate: Estimate<L::Scalar, N>,
+    scale: Scale<S, N>,
+    estimate: Estimate<S, N>,
     /// What a step cost on average.
     evaluations: f64,
     /// What the guard has cost.
@@ -89,20 +121,19 @@ where
     /// The step after which the motion was differentiated last, and is next, and was before.
     carried: [u64; 3],
     /// Where a twin has carried the error last, and after which step.
-    twin: (State<L::Scalar, N>, u64),
+    twin: (State<S, N>, u64),
     /// The step looked at last, and next; the size of its local error, and how rough the motion was.
     looks: [u64; 2],
     local: f64,
     roughness: f64,
-    recent: [SVector<L::Scalar, N>; 4],
+    recent: [SVector<S, N>; 4],
     /// The largest change of the force with time.
     stroke: f64,
-    unresolved: Unresolved<L::Scalar, N>,
+    unresolved: Unresolved<S, N>,
     /// The step after which the energy was asked for.
     energy: u64,
     random: Random,
     breach: Option<Breach>,
-    failed: bool,
 }
 
 impl<'a, L, M, const N: usize> GuardedTrajectory<'a, L, M, N>
@@ -110,18 +141,15 @@ where
     L: Lagrangian<N>,
     M: Methods<L, N>,
 {
-    pub(super) fn new(choice: Choice<'a, L, M, N>, step: M::Step, half: M::Step) -> Self {
-        let (start, scale) = (choice.start, Scale::new(&choice.start));
-        let local = choice.local;
-        let is_coarse = choice.steps >= FEW && N > RESOLVED && derivatives(N) > choice.evaluations_per_step;
-        let mut estimate = Estimate::new(choice.system, is_coarse);
+    pub(super) fn new(choice: Choice<'a, L, M, N>, [step, half]: [M::Step; 2]) -> Self {
+        let Choice { system, methods, chosen } = choice;
+        let (start, scale) = (chosen.start, Scale::new(&chosen.start));
+        let is_coarse = chosen.steps >= FEW && N > RESOLVED && derivatives(N) > chosen.evaluations_per_step;
+        let mut estimate = Estimate::new(system, is_coarse);
         let none = Since { steps: 0.0, roundings: 0.0, foreseen: 0.0, affordable: 0.0, is_energy: true };
-        estimate.carry(choice.system, choice.methods, &start, 0.0, &scale, &none);
-        let mut guarded = Self {
+        estimate.carry(system, methods, &start, 0.0, &scale, &none);
+        let guard = Guard {
             estimate,
-            choice,
-            step,
-            half,
             state: start,
             taken: 0,
             scale,
@@ -130,7 +158,7 @@ where
             carried: [0; 3],
             twin: (start, 0),
             looks: [0, 1],
-            local,
+            local: chosen.local,
             roughness: 0.0,
             recent: [start.q; 4],
             stroke: 0.0,
@@ -138,109 +166,169 @@ where
             energy: 0,
             random: Random::new(0x9e37_79b9_7f4a_7c15),
             breach: None,
-            failed: false,
         };
+        let mut guarded = Self { choice, step, half, guard, failed: false };
         guarded.schedule_derivatives();
         guarded
     }
 
+    /// All that is needed to go on from here, in this process or another ([`GuardedTrajectory::resume`]): the
+    /// run, and what its guard knows of its error.
+    ///
+    /// The run forgets what its method remembers of earlier steps, as one that is resumed has to: both go on
+    /// bit by bit alike.
+    ///
+    /// ```
+    /// use dalembert::tolerance::GuardedTrajectory;
+    /// use dalembert::{Discretise, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system(rule = [trapezoidal, gauss])]
+    /// fn pendulum(q: [f64; 1], v: [f64; 1]) -> f64 {
+    ///     0.5 * v[0] * v[0] + q[0].cos()
+    /// }
+    /// let start = State::from_velocity(&Pendulum {}, [1.0], [0.0])?;
+    /// let mut run = Pendulum {}.to_error(1e-9).until(100.0).run(start)?;
+    /// run.by_ref().take(20).for_each(|step| assert!(step.is_ok()));
+    /// let checkpoint = run.checkpoint();
+    /// let mut resumed = GuardedTrajectory::resume(&Pendulum {}, &checkpoint)?;
+    /// assert!(resumed.by_ref().eq(run.by_ref()) && resumed.expected() == run.expected());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn checkpoint(&mut self) -> GuardedCheckpoint<L::Scalar, N> {
+        if let Some(fresh) = self.choice.fresh_steps() {
+            [self.step, self.half] = fresh;
+        }
+        GuardedCheckpoint { chosen: self.choice.chosen, guard: self.guard }
+    }
+
+    /// The run that `checkpoint` was taken of.
+    ///
+    /// # Errors
+    /// [`ToleranceError::NotOffered`] where the system does not offer the method of the run.
+    pub fn resume(system: &'a L, checkpoint: &GuardedCheckpoint<L::Scalar, N>) -> Result<Self, ToleranceError>
+    where
+        L: OffersMethods<N, Methods = M>,
+        M: Default,
+    {
+        let GuardedCheckpoint { chosen, guard } = *checkpoint;
+        let choice = Choice { system, methods: M::default(), chosen };
+        let steps = choice.fresh_steps().ok_or(ToleranceError::NotOffered { method: chosen.method })?;
+        let [step, half] = steps;
+        Ok(Self { choice, step, half, guard, failed: false })
+    }
+
+    /// Every `stride`-th step only, with what the steps between reported: long runs in constant memory.
+    ///
+    /// A stride of 0 counts as 1; the last sample is of the last step, however many lie before it. An error on
+    /// any step is returned at once.
+    pub fn sample_every(&mut self, stride: u64) -> Samples<'_, Self, N> {
+        Samples::new(self, stride)
+    }
+
     /// The present state.
     pub fn state(&self) -> &State<L::Scalar, N> {
-        &self.state
+        &self.guard.state
     }
 
     /// The time, h × the number of steps taken.
     pub fn time(&self) -> f64 {
-        self.choice.step_size * self.taken as f64
+        self.choice.chosen.step_size * self.guard.taken as f64
     }
 
     /// The error expected of the state, in the norm of the promise
     /// ([`Method::for_tolerance`](super::Method::for_tolerance)).
     pub fn expected(&self) -> f64 {
-        let unseen = (self.taken - self.looks[0]) as f64;
-        self.estimate.size(&self.scale) + unseen * self.local
+        let unseen = (self.guard.taken - self.guard.looks[0]) as f64;
+        self.guard.estimate.size(&self.guard.scale) + unseen * self.guard.local
     }
 
     /// Where the error expected has first passed the tolerance; `None` while it has not.
     pub fn breach(&self) -> Option<&Breach> {
-        self.breach.as_ref()
+        self.guard.breach.as_ref()
     }
 
     /// What the steps taken have cost, in evaluations of the forces, and what the guard has cost beside them.
     pub fn evaluations(&self) -> (f64, f64) {
-        (self.evaluations * self.taken as f64, self.looked + self.estimate.evaluations)
+        (
+            self.guard.evaluations * self.guard.taken as f64,
+            self.guard.looked + self.guard.estimate.evaluations,
+        )
     }
 
     /// The next look: at most [`STRIDE`] steps on, at no period.
     fn schedule_look(&mut self) {
-        let stride = if self.choice.steps < FEW { 1 } else { STRIDE };
-        let next = self.taken + 1 + (stride - 1) / 2 + self.random.draw() % stride;
-        self.looks[1] = next.min(self.choice.steps);
+        let stride = if self.choice.chosen.steps < FEW { 1 } else { STRIDE };
+        let next = self.guard.taken + 1 + (stride - 1) / 2 + self.guard.random.draw() % stride;
+        self.guard.looks[1] = next.min(self.choice.chosen.steps);
     }
 
     /// What the derivatives may cost for each step.
     fn affordable(&self) -> f64 {
-        let share = if self.choice.steps < FEW || N <= RESOLVED { f64::INFINITY } else { SHARE };
-        share * self.choice.evaluations_per_step
+        let share = if self.choice.chosen.steps < FEW || N <= RESOLVED { f64::INFINITY } else { SHARE };
+        share * self.choice.chosen.evaluations_per_step
     }
 
     fn schedule_derivatives(&mut self) {
-        let angle = self.estimate.speed * self.choice.step_size;
+        let angle = self.guard.estimate.speed * self.choice.chosen.step_size;
         let resolved = if angle > 0.0 { ANGLE[1] / angle } else { f64::INFINITY };
         // Seldom where the step is long already; twice the last distance at most, as a period may look like
         // rest.
-        let last = (self.taken - self.carried[2]).max(1) as f64;
+        let last = (self.guard.taken - self.guard.carried[2]).max(1) as f64;
         let resolved = resolved.min(2.0 * last);
-        let (least, most) = if self.estimate.is_coarse() {
-            (derivatives(N) / (3.0 * SHARE * self.choice.evaluations_per_step), 4 * STRIDE)
+        let (least, most) = if self.guard.estimate.is_coarse() {
+            (derivatives(N) / (3.0 * SHARE * self.choice.chosen.evaluations_per_step), 4 * STRIDE)
         } else {
             (1.0, STRIDE)
         };
         let stride = resolved.max(least).clamp(1.0, most as f64);
-        self.carried[1] = self.taken + stride as u64;
+        self.guard.carried[1] = self.guard.taken + stride as u64;
     }
 
     /// The largest fourth difference of q.
     fn fourth_difference(&mut self) -> f64 {
-        let q = self.state.q;
-        let [a, b, c, d] = self.recent;
+        let q = self.guard.state.q;
+        let [a, b, c, d] = self.guard.recent;
         let (four, six) = (L::Scalar::constant(4.0), L::Scalar::constant(6.0));
         let difference = ((q + d) - (a + c) * four + b * six).amax();
-        self.recent = [q, a, b, c];
-        if self.taken >= 4 { difference.widen() } else { 0.0 }
+        self.guard.recent = [q, a, b, c];
+        if self.guard.taken >= 4 { difference.widen() } else { 0.0 }
     }
 
     /// Carries the error by a twin to the present state, where that is far enough or must be.
     fn carry_by_twin(&mut self, must: bool) {
-        let Choice { system, methods, step_size, .. } = self.choice;
-        let (from, taken) = self.twin;
-        let steps = self.taken - taken;
-        if must || steps >= self.estimate.twin_stride(step_size, STRIDE) {
+        let Choice { system, methods, chosen } = self.choice;
+        let Chosen { step_size, .. } = chosen;
+        let (from, taken) = self.guard.twin;
+        let steps = self.guard.taken - taken;
+        if must || steps >= self.guard.estimate.twin_stride(step_size, STRIDE) {
             let span = [step_size * taken as f64, step_size * steps as f64];
-            self.estimate.carry_by_twin(system, methods, &from, span, &self.scale);
-            self.twin = (self.state, self.taken);
+            self.guard.estimate.carry_by_twin(system, methods, &from, span, &self.guard.scale);
+            self.guard.twin = (self.guard.state, self.guard.taken);
         }
     }
 
     /// Carries the error on to the present state.
     fn carry(&mut self) {
-        let steps = (self.taken - self.carried[0]) as f64;
-        let Choice { system, methods, roundings, .. } = self.choice;
-        let is_energy = self.choice.steps < FEW || self.taken <= STRIDE || self.taken >= self.energy + ENERGY;
+        let steps = (self.guard.taken - self.guard.carried[0]) as f64;
+        let Choice { system, methods, chosen } = self.choice;
+        let Chosen { roundings, .. } = chosen;
+        let is_energy = self.choice.chosen.steps < FEW
+            || self.guard.taken <= STRIDE
+            || self.guard.taken >= self.guard.energy + ENERGY;
         if is_energy {
-            self.energy = self.taken;
+            self.guard.energy = self.guard.taken;
         }
         let since = Since {
             steps,
             roundings,
-            foreseen: (self.taken - self.looks[0]).max(1) as f64 * self.local,
+            foreseen: (self.guard.taken - self.guard.looks[0]).max(1) as f64 * self.guard.local,
             affordable: steps * self.affordable(),
             is_energy,
         };
         let time = self.time();
-        self.estimate.carry(system, methods, &self.state, time, &self.scale, &since);
-        self.carried[2] = self.carried[0];
-        self.carried[0] = self.taken;
+        self.guard.estimate.carry(system, methods, &self.guard.state, time, &self.guard.scale, &since);
+        self.guard.carried[2] = self.guard.carried[0];
+        self.guard.carried[0] = self.guard.taken;
         self.schedule_derivatives();
     }
 
@@ -248,61 +336,64 @@ where
     ///
     /// `unresolved` is what a Gauss method has left so.
     fn look(&mut self, before: &State<L::Scalar, N>, unresolved: Option<[f64; 2]>) {
-        let h = self.choice.step_size;
-        let elapsed = h * (self.taken - 1) as f64;
+        let h = self.choice.chosen.step_size;
+        let elapsed = h * (self.guard.taken - 1) as f64;
         self.half.forget();
         let halves = self.half.advance(self.choice.system, elapsed, before).and_then(|first| {
-            let second = self.half.advance(self.choice.system, elapsed + 0.5 * h, &first.state)?;
-            self.looked += first.evaluations + second.evaluations;
-            Ok(second.state)
+            let second = self.half.advance(self.choice.system, elapsed + 0.5 * h, &first.step.state)?;
+            self.guard.looked += first.evaluations + second.evaluations;
+            Ok(second.step.state)
         });
-        let steps = (self.taken - self.looks[0]) as f64;
+        let steps = (self.guard.taken - self.guard.looks[0]) as f64;
         let Ok(halves) = halves else {
             self.report(f64::INFINITY);
             return;
         };
-        let local = self.choice.method.local_error(&self.state, &halves);
-        let over_a_turn = self.estimate.over_a_turn(&local, &self.scale);
-        let size = self.scale.largest(&over_a_turn);
+        let local = self.choice.chosen.method.local_error(&self.guard.state, &halves);
+        let over_a_turn = self.guard.estimate.over_a_turn(&local, &self.guard.scale);
+        let size = self.guard.scale.largest(&over_a_turn);
         let unseen = match unresolved {
             Some(_) if size == 0.0 => 0.0,
-            Some(coefficients) => self.unresolved.look(coefficients, over_a_turn, &self.scale) / size,
+            Some(coefficients) => {
+                self.guard.unresolved.look(coefficients, over_a_turn, &self.guard.scale) / size
+            }
             // Those not looked at lie between the last one that was and this one.
-            None if size > 0.0 => 0.5 * (steps - 1.0) * (1.0 + (self.local / size).min(steps)),
+            None if size > 0.0 => 0.5 * (steps - 1.0) * (1.0 + (self.guard.local / size).min(steps)),
             None => steps - 1.0,
         };
-        self.estimate.add(&local, unseen);
-        self.local = size;
-        self.looks[0] = self.taken;
+        self.guard.estimate.add(&local, unseen);
+        self.guard.local = size;
+        self.guard.looks[0] = self.guard.taken;
         self.schedule_look();
     }
 
     /// Whether the force, where it changes with time, has done so within the last step as it did not before:
     /// between the nodes of the step.
     fn is_struck(&mut self) -> bool {
-        let Choice { system, methods, step_size, tolerance, evaluations_per_step, .. } = self.choice;
-        let is_seldom =
-            self.choice.steps >= FEW && 4.0 > SHARE * evaluations_per_step * (1 + self.taken % 8) as f64;
-        if !self.estimate.is_timed() || is_seldom {
+        let Choice { system, methods, chosen } = self.choice;
+        let Chosen { step_size, tolerance, evaluations_per_step, .. } = chosen;
+        let is_seldom = self.choice.chosen.steps >= FEW
+            && 4.0 > SHARE * evaluations_per_step * (1 + self.guard.taken % 8) as f64;
+        if !self.guard.estimate.is_timed() || is_seldom {
             return false;
         }
         // In the middle of the step, and where it ends: what strikes there is shared by two steps.
         let change = [0.5, 0.0].map(|share| {
             let time = self.time() - share * step_size;
-            self.estimate.change_of_force(system, methods, time)
+            self.guard.estimate.change_of_force(system, methods, time)
         });
         let change = change[0].max(change[1]);
-        let is_more = change > ROUGHER * self.stroke;
-        self.stroke = self.stroke.max(change);
-        is_more && change * step_size * self.scale.weight() > STROKE * tolerance
+        let is_more = change > ROUGHER * self.guard.stroke;
+        self.guard.stroke = self.guard.stroke.max(change);
+        is_more && change * step_size * self.guard.scale.weight() > STROKE * tolerance
     }
 
     fn report(&mut self, expected: f64) {
-        let tolerance = self.choice.tolerance;
-        if self.breach.is_none() && (expected.is_nan() || expected > REPORTED * tolerance) {
-            let share = (self.taken as f64 / self.choice.steps as f64) * (tolerance / expected);
+        let tolerance = self.choice.chosen.tolerance;
+        if self.guard.breach.is_none() && (expected.is_nan() || expected > REPORTED * tolerance) {
+            let share = (self.guard.taken as f64 / self.choice.chosen.steps as f64) * (tolerance / expected);
             let instead = tolerance * share.min(0.5);
-            self.breach = Some(Breach { time: self.time(), expected, tolerance, instead });
+            self.guard.breach = Some(Breach { time: self.time(), expected, tolerance, instead });
         }
     }
 }
@@ -312,13 +403,13 @@ where
     L: Lagrangian<N>,
     M: Methods<L, N>,
 {
-    type Item = Result<State<L::Scalar, N>, StepError>;
+    type Item = Result<Step<L::Scalar, N>, StepError>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        if self.failed || self.taken == self.choice.steps {
+        if self.failed || self.guard.taken == self.choice.chosen.steps {
             return None;
         }
-        let before = self.state;
+        let before = self.guard.state;
         let taken = match self.step.advance(self.choice.system, self.time(), &before) {
             Ok(taken) => taken,
             Err(error) => {
@@ -326,34 +417,51 @@ where
                 return Some(Err(error));
             }
         };
-        self.state = taken.state;
-        self.taken += 1;
-        self.evaluations += (taken.evaluations - self.evaluations) / self.taken as f64;
-        self.scale.follow(&before, &taken.state);
+        self.guard.state = taken.step.state;
+        self.guard.taken += 1;
+        self.guard.evaluations += (taken.evaluations - self.guard.evaluations) / self.guard.taken as f64;
+        self.guard.scale.follow(&before, &taken.step.state);
         let difference = self.fourth_difference();
         let roughness = taken.unresolved.map_or(difference, |[before, last]| before.max(last));
-        let is_rougher = roughness > ROUGHER * self.roughness && self.taken > 5;
-        let looks = self.is_struck() || is_rougher || self.taken >= self.looks[1];
-        if self.roughness == 0.0 && self.taken <= 5 {
-            self.roughness = roughness;
+        let is_rougher = roughness > ROUGHER * self.guard.roughness && self.guard.taken > 5;
+        let looks = self.is_struck() || is_rougher || self.guard.taken >= self.guard.looks[1];
+        if self.guard.roughness == 0.0 && self.guard.taken <= 5 {
+            self.guard.roughness = roughness;
         }
-        let carries = self.taken >= self.carried[1] || (looks && !self.estimate.is_coarse());
-        if self.estimate.is_coarse() {
+        let carries =
+            self.guard.taken >= self.guard.carried[1] || (looks && !self.guard.estimate.is_coarse());
+        if self.guard.estimate.is_coarse() {
             self.carry_by_twin(looks || carries);
         }
         if carries {
             self.carry();
         }
         if looks {
-            self.roughness = if is_rougher { roughness } else { self.roughness.max(roughness) };
+            self.guard.roughness = if is_rougher { roughness } else { self.guard.roughness.max(roughness) };
             self.look(&before, taken.unresolved);
         } else if let Some(unresolved) = taken.unresolved {
-            self.unresolved.pass(unresolved);
+            self.guard.unresolved.pass(unresolved);
         }
-        if looks || self.carried[0] == self.taken {
+        if looks || self.guard.carried[0] == self.guard.taken {
             let expected = self.expected();
             self.report(expected);
         }
-        Some(Ok(self.state))
+        Some(Ok(taken.step))
+    }
+}
+
+impl<'a, L, M, const N: usize> Run<N> for GuardedTrajectory<'a, L, M, N>
+where
+    L: Lagrangian<N> + 'a,
+    M: Methods<L, N>,
+{
+    type Scalar = L::Scalar;
+
+    fn state(&self) -> &State<L::Scalar, N> {
+        self.state()
+    }
+
+    fn time(&self) -> f64 {
+        self.time()
     }
 }

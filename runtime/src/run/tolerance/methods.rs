@@ -3,10 +3,9 @@
 use nalgebra::SVector;
 
 use super::Method;
-use crate::numbers::Scalar;
-use crate::rules::{Fitted, FittedTrapezoidal, Gauss, Midpoint, StageHistory, Trapezoidal};
-use crate::run::{ComposedStep, Composition, Explicit, Kicks, Splitting, Substeps};
-use crate::step::{Discrete, LegendreDerivatives, Memory, State, StepError};
+use crate::rules::{Fitted, FittedTrapezoidal, Gauss, Midpoint, SelfAdjoint, Trapezoidal};
+use crate::run::{Composition, Explicit, Splitting};
+use crate::step::{Discrete, Flow, LegendreDerivatives, Memory, State, Step, StepError};
 use crate::system::{ForcedLagrangian, Lagrangian};
 
 /// The methods that a system offers to [`Method::for_tolerance`]: a rule of order 2 stands for itself and its
@@ -44,8 +43,8 @@ pub trait Methods<L: Lagrangian<N>, const N: usize>: Copy {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Taken<S, const N: usize> {
-    /// Where it leads.
-    pub state: State<S, N>,
+    /// Where it leads, and how it went.
+    pub step: Step<S, N>,
     /// What it cost in evaluations of the forces: of an implicit step those of its iterations, all stages
     /// counted.
     pub evaluations: f64,
@@ -83,19 +82,45 @@ pub struct WithGauss<M>(pub M);
 
 /// A step by a rule, alone or composed.
 #[allow(clippy::large_enum_variant, reason = "no allocator")]
-pub enum Composed<L: Discrete<R, N>, R, const N: usize> {
+pub enum Composed<L: Discrete<R, N>, R: SelfAdjoint, const N: usize> {
     /// The rule alone.
-    Rule(Substeps<L, R, N, 1>),
+    Rule(OfSize<L, R, N>),
     /// Order 6.
-    KahanLi6(Substeps<L, R, N, 9>),
+    KahanLi6(OfSize<L, Composition<R, 9>, N>),
     /// Order 8.
-    KahanLi8(Substeps<L, R, N, 17>),
+    KahanLi8(OfSize<L, Composition<R, 17>, N>),
+}
+
+/// Steps by `M` of one size, with what they keep.
+pub struct OfSize<L: Flow<M, N>, M, const N: usize> {
+    h: L::Scalar,
+    memory: L::RunMemory,
+}
+
+impl<L: Flow<M, N>, M, const N: usize> OfSize<L, M, N> {
+    fn new(h: L::Scalar) -> Self {
+        Self { h, memory: Default::default() }
+    }
+
+    fn forget(&mut self) {
+        self.memory = Default::default();
+    }
+
+    #[inline]
+    fn advance(
+        &mut self,
+        system: &L,
+        elapsed: f64,
+        state: &State<L::Scalar, N>,
+    ) -> Result<Step<L::Scalar, N>, StepError> {
+        self.memory.advance_later(system, elapsed, state, self.h)
+    }
 }
 
 /// What a substep of a rule costs in evaluations for each iteration: the matrix, and the solution with it.
 const ITERATION: f64 = 3.0;
 
-impl<L: Discrete<R, N>, R, const N: usize> MethodStep<L, N> for Composed<L, R, N> {
+impl<L: Discrete<R, N>, R: SelfAdjoint, const N: usize> MethodStep<L, N> for Composed<L, R, N> {
     #[inline]
     fn advance(
         &mut self,
@@ -103,18 +128,20 @@ impl<L: Discrete<R, N>, R, const N: usize> MethodStep<L, N> for Composed<L, R, N
         elapsed: f64,
         state: &State<L::Scalar, N>,
     ) -> Result<Taken<L::Scalar, N>, StepError> {
-        let mut evaluations = 0.0;
-        // An explicit step is one iteration with its verdict: two evaluations' worth, of which one is made.
-        let mut count = |iterations: u32| {
-            evaluations +=
-                if iterations <= 1 && L::LINEAR { 2.0 } else { 1.0 + ITERATION * f64::from(iterations) };
+        let (step, substeps) = match self {
+            Self::Rule(step) => (step.advance(system, elapsed, state)?, 1.0),
+            Self::KahanLi6(step) => (step.advance(system, elapsed, state)?, 9.0),
+            Self::KahanLi8(step) => (step.advance(system, elapsed, state)?, 17.0),
         };
-        let state = match self {
-            Self::Rule(step) => step.advance_counted(system, elapsed, state, &mut count),
-            Self::KahanLi6(step) => step.advance_counted(system, elapsed, state, &mut count),
-            Self::KahanLi8(step) => step.advance_counted(system, elapsed, state, &mut count),
-        }?;
-        Ok(Taken { state, evaluations, unresolved: None })
+        let iterations = f64::from(step.report.iterations);
+        // An explicit step is one iteration with its verdict: two evaluations' worth, of which one is made.
+        let evaluations = if L::LINEAR {
+            let more = (iterations - substeps).max(0.0);
+            2.0 * substeps + (2.0 * ITERATION - 1.0) * more
+        } else {
+            substeps + ITERATION * iterations
+        };
+        Ok(Taken { step, evaluations, unresolved: None })
     }
 
     fn forget(&mut self) {
@@ -123,9 +150,9 @@ impl<L: Discrete<R, N>, R, const N: usize> MethodStep<L, N> for Composed<L, R, N
             return;
         }
         match self {
-            Self::Rule(step) => ComposedStep::forget(step),
-            Self::KahanLi6(step) => ComposedStep::forget(step),
-            Self::KahanLi8(step) => ComposedStep::forget(step),
+            Self::Rule(step) => step.forget(),
+            Self::KahanLi6(step) => step.forget(),
+            Self::KahanLi8(step) => step.forget(),
         }
     }
 }
@@ -141,9 +168,9 @@ macro_rules! rules {
 
             fn step(self, method: Method, h: L::Scalar) -> Option<Self::Step> {
                 match method {
-                    Method::Rule => Some(Composed::Rule(Substeps::new(&Composition::alone(self), h))),
-                    Method::KahanLi6 => Some(Composed::KahanLi6(Substeps::new(&Composition::kahan_li_6(self), h))),
-                    Method::KahanLi8 => Some(Composed::KahanLi8(Substeps::new(&Composition::kahan_li_8(self), h))),
+                    Method::Rule => Some(Composed::Rule(OfSize::new(h))),
+                    Method::KahanLi6 => Some(Composed::KahanLi6(OfSize::new(h))),
+                    Method::KahanLi8 => Some(Composed::KahanLi8(OfSize::new(h))),
                     _ => None,
                 }
             }
@@ -177,7 +204,7 @@ rules! { Midpoint Trapezoidal Fitted FittedTrapezoidal }
 /// What a wrapper adds to the methods of another: its steps, and which of them a method asks for.
 macro_rules! added {
     ($with:ident: $system:ident, $(#[$doc:meta])* $or:ident {
-        $($(#[$what:meta])* $method:ident($step:ty): $start:expr, $advance:expr, $forget:expr;)*
+        $($(#[$what:meta])* $method:ident($step:ty): $advance:expr, $forget:expr;)*
     }) => {
         $(#[$doc])*
         #[allow(clippy::large_enum_variant, reason = "no allocator")]
@@ -218,7 +245,7 @@ macro_rules! added {
 
             fn step(self, method: Method, h: L::Scalar) -> Option<Self::Step> {
                 match method {
-                    $(Method::$method => Some($or::$method($start(h))),)*
+                    $(Method::$method => Some($or::$method(OfSize::new(h))),)*
                     _ => self.0.step(method, h).map($or::Other),
                 }
             }
@@ -247,14 +274,15 @@ macro_rules! added {
 }
 
 /// S kicks and the drifts between them.
+#[inline]
 fn kicked<L: Explicit<N>, const N: usize, const S: usize>(
-    step: &mut Kicks<L::Scalar, N, S>,
+    step: &mut OfSize<L, Splitting<S>, N>,
     system: &L,
     elapsed: f64,
     state: &State<L::Scalar, N>,
 ) -> Result<Taken<L::Scalar, N>, StepError> {
-    let state = ComposedStep::<L, N>::advance(step, system, elapsed, state)?;
-    Ok(Taken { state, evaluations: S as f64, unresolved: None })
+    let step = step.advance(system, elapsed, state)?;
+    Ok(Taken { step, evaluations: S as f64, unresolved: None })
 }
 
 /// What the derivatives of a stage's forces cost in evaluations, and what its share of a matrix of n rows
@@ -262,58 +290,33 @@ fn kicked<L: Explicit<N>, const N: usize, const S: usize>(
 const DERIVATIVE: f64 = 2.0;
 const FACTORING: f64 = 1.0 / 60.0;
 
-/// A Gauss step with the stages of the last one.
-#[derive(Clone, Copy, Debug)]
-pub struct Stagewise<T, const N: usize, const S: usize> {
-    h: T,
-    history: StageHistory<T, N, S>,
-}
-
-impl<T: Scalar, const N: usize, const S: usize> Stagewise<T, N, S> {
-    fn new(h: T) -> Self {
-        Self { h, history: StageHistory::default() }
-    }
-
-    fn forget(&mut self) {
-        self.history = StageHistory::default();
-    }
-}
-
+#[inline]
 fn staged<L: ForcedLagrangian<N>, const N: usize, const S: usize>(
-    step: &mut Stagewise<L::Scalar, N, S>,
+    step: &mut OfSize<L, Gauss<S>, N>,
     system: &L,
     elapsed: f64,
     state: &State<L::Scalar, N>,
 ) -> Result<Taken<L::Scalar, N>, StepError> {
-    let memory: &mut StageHistory<L::Scalar, N, S> = &mut step.history;
-    let taken = Memory::<L, Gauss<S>, N>::advance_later(memory, system, elapsed, state, step.h)?;
+    let taken = step.advance(system, elapsed, state)?;
     let iterations = f64::from(taken.report.iterations);
     // By Newton's method all stages are differentiated before each iteration and after the last, and their
     // matrix is factored.
-    let by_stage = if step.history.is_by_newton() {
+    let by_stage = if step.memory.is_by_newton() {
         let entries = (S * N * S * N) as f64;
         DERIVATIVE + iterations * (DERIVATIVE + FACTORING * entries)
     } else {
         iterations
     };
-    Ok(Taken {
-        state: taken.state,
-        evaluations: S as f64 * by_stage,
-        unresolved: Some(step.history.unresolved()),
-    })
-}
-
-fn forget_force<T: Scalar, const N: usize, const S: usize>(step: &mut Kicks<T, N, S>) {
-    step.forget_force();
+    Ok(Taken { step: taken, evaluations: S as f64 * by_stage, unresolved: Some(step.memory.unresolved()) })
 }
 
 added! { WithSplittings: Explicit,
     /// A step by a splitting, or by a method of others.
     SplitOr {
         /// Order 4.
-        BlanesMoan4(Kicks<L::Scalar, N, 6>): |h| Kicks::new(Splitting::blanes_moan_4(), h), kicked, forget_force;
+        BlanesMoan4(OfSize<L, Splitting<6>, N>): kicked, keep;
         /// Order 6.
-        BlanesMoan6(Kicks<L::Scalar, N, 11>): |h| Kicks::new(Splitting::blanes_moan_6(), h), kicked, forget_force;
+        BlanesMoan6(OfSize<L, Splitting<11>, N>): kicked, keep;
     }
 }
 
@@ -321,8 +324,11 @@ added! { WithGauss: ForcedLagrangian,
     /// A step by a Gauss method, or by a method of others.
     GaussOr {
         /// Order 8.
-        Gauss4(Stagewise<L::Scalar, N, 4>): Stagewise::new, staged, Stagewise::forget;
+        Gauss4(OfSize<L, Gauss<4>, N>): staged, OfSize::forget;
         /// Order 16.
-        Gauss8(Stagewise<L::Scalar, N, 8>): Stagewise::new, staged, Stagewise::forget;
+        Gauss8(OfSize<L, Gauss<8>, N>): staged, OfSize::forget;
     }
 }
+
+/// A splitting keeps nothing of a state that its own step does not ask for.
+fn keep<L: Explicit<N>, const N: usize, const S: usize>(_: &mut OfSize<L, Splitting<S>, N>) {}

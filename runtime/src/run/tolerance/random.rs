@@ -1,6 +1,8 @@
 //! Marsaglia's xorshift (2003): where looks fall, and what an error may be besides.
 
 /// A sequence of numbers without a period that a motion could have.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(super) struct Random(u64);
 
 impl Random {

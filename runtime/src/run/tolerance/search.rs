@@ -4,7 +4,7 @@ use nalgebra::ComplexField;
 
 use super::scale::Scale;
 use super::variation::Variation;
-use super::{Choice, Method, MethodStep, Methods, ToleranceError, Trial};
+use super::{Choice, Chosen, Method, MethodStep, Methods, ToleranceError, Trial};
 use crate::numbers::Scalar;
 use crate::step::{State, StepError};
 use crate::system::Lagrangian;
@@ -130,9 +130,7 @@ where
         return Err(ToleranceError::OutOfReach { closest: Some(start.trial(&best)) });
     }
     let step_size = time / best.steps;
-    Ok(Choice {
-        system,
-        methods,
+    let chosen = Chosen {
         start: *state,
         method: best.method,
         step_size,
@@ -144,7 +142,8 @@ where
         roundings: best.method.roundings(),
         spent: start.spent,
         trials,
-    })
+    };
+    Ok(Choice { system, methods, chosen })
 }
 
 impl<'a, L, M, const N: usize> Start<'a, L, M, N>
@@ -222,9 +221,9 @@ where
         let system = self.system;
         let whole = whole.advance(system, elapsed, state).map_err(Some)?;
         let first = halves.advance(system, elapsed, state).map_err(Some)?;
-        let second = halves.advance(system, elapsed + half.widen(), &first.state).map_err(Some)?;
+        let second = halves.advance(system, elapsed + half.widen(), &first.step.state).map_err(Some)?;
         self.spent += whole.evaluations + first.evaluations + second.evaluations;
-        let local = self.norm(&method.local_error(&whole.state, &second.state));
+        let local = self.norm(&method.local_error(&whole.step.state, &second.step.state));
         Ok(Measured { local, evaluations: whole.evaluations })
     }
 
@@ -328,9 +327,9 @@ where
                     stopped = true;
                     break;
                 };
-                scale.follow(&state, &next.state);
+                scale.follow(&state, &next.step.state);
                 self.weight = self.weight.max(scale.weight());
-                state = next.state;
+                state = next.step.state;
                 taken += 1.0;
                 self.spent += next.evaluations;
                 evaluations += next.evaluations;

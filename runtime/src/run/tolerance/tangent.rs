@@ -6,18 +6,6 @@ use super::variation::Variation;
 use crate::numbers::Scalar;
 use crate::step::{PhaseMatrix, State};
 
-pub(super) fn product<S: Scalar, const N: usize>(
-    a: &PhaseMatrix<S, N>,
-    b: &PhaseMatrix<S, N>,
-) -> PhaseMatrix<S, N> {
-    PhaseMatrix {
-        q_by_q: a.q_by_q * b.q_by_q + a.q_by_p * b.p_by_q,
-        q_by_p: a.q_by_q * b.q_by_p + a.q_by_p * b.p_by_p,
-        p_by_q: a.p_by_q * b.q_by_q + a.p_by_p * b.p_by_q,
-        p_by_p: a.p_by_q * b.q_by_p + a.p_by_p * b.p_by_p,
-    }
-}
-
 /// `a` and `share` times `b`.
 pub(super) fn plus<S: Scalar, const N: usize>(a: &State<S, N>, b: &State<S, N>, share: S) -> State<S, N> {
     State { q: a.q + b.q * share, p: a.p + b.p * share }
@@ -92,7 +80,7 @@ fn magnus<S: Scalar, const N: usize>(nodes: [&PhaseMatrix<S, N>; 4], t: S) -> Ph
     let number = S::constant;
     let sum =
         |x: &PhaseMatrix<S, N>, y: &PhaseMatrix<S, N>, share: f64| weighted(S::one(), [x, y], number(share));
-    let commutator = |x: &PhaseMatrix<S, N>, y: &PhaseMatrix<S, N>| sum(&product(x, y), &product(y, x), -1.0);
+    let commutator = |x: &PhaseMatrix<S, N>, y: &PhaseMatrix<S, N>| sum(&(*x * *y), &(*y * *x), -1.0);
     let [a, b, c, d] = nodes;
     let (ends, inner) = (sum(a, d, 1.0), sum(b, c, 1.0));
     // The moments of J: of 1, of s, and of s² less 1/12 of that of 1.
@@ -119,10 +107,10 @@ fn exponential<S: Scalar, const N: usize>(omega: &PhaseMatrix<S, N>, size: f64) 
     let mut power = unit;
     for k in (1..=TERMS).rev() {
         let factor = S::constant(share / f64::from(k));
-        power = weighted(S::one(), [&unit, &product(omega, &power)], factor);
+        power = weighted(S::one(), [&unit, &(*omega * power)], factor);
     }
     for _ in 0..halvings {
-        power = product(&power, &power);
+        power = power * power;
     }
     power
 }

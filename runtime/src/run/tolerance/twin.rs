@@ -46,7 +46,7 @@ where
         for k in 0..parts as u32 {
             let taken = step.advance(system, elapsed + f64::from(k) * tau, &state).ok()?;
             evaluations += taken.evaluations;
-            state = taken.state;
+            state = taken.step.state;
         }
         Some(state)
     };

@@ -13,6 +13,15 @@ use crate::step::State;
 ///
 /// One of the two is even about the middle of a step, the other odd: of an oscillation they are a quarter of
 /// a turn apart. Weighed by the largest that they have been, the two together do not depend on its phase.
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(
+        serialize = "S: Scalar + serde::Serialize",
+        deserialize = "S: Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub(super) struct Unresolved<S, const N: usize> {
     /// The largest.
     largest: [f64; 2],

@@ -10,13 +10,21 @@ use nalgebra::{SMatrix, SVector};
 
 use super::Methods;
 use super::scale::Scale;
-use super::tangent::{norm, plus, product, times};
+use super::tangent::{norm, plus, times};
 use crate::numbers::Scalar;
 use crate::step::{Linearization, PhaseMatrix, State};
 use crate::system::Lagrangian;
 
 /// The motion at one state.
 #[derive(Clone, Copy, Debug)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(
+        serialize = "S: Scalar + serde::Serialize",
+        deserialize = "S: Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub(super) struct Variation<S, const N: usize> {
     /// f = (v, ṗ).
     pub(super) rate: State<S, N>,
@@ -195,7 +203,7 @@ fn generator<S: Scalar, const N: usize>(a: &PhaseMatrix<S, N>, tau: S) -> PhaseM
     let d =
         PhaseMatrix { q_by_q: a.q_by_q - unit, q_by_p: a.q_by_p, p_by_q: a.p_by_q, p_by_p: a.p_by_p - unit };
     let half = S::constant(0.5);
-    let square = product(&d, &d);
+    let square = d * d;
     let entry = |x: &SMatrix<S, N, N>, y: &SMatrix<S, N, N>| (x - y * half) / tau;
     PhaseMatrix {
         q_by_q: entry(&d.q_by_q, &square.q_by_q),

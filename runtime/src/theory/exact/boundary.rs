@@ -13,9 +13,9 @@ use nalgebra::{SMatrix, SVector};
 use super::collocation::unit_of;
 use super::mesh::Carried;
 use super::motion::{Dynamics, Family, Point};
-use super::{ActingForce, ExactError, WORST};
+use super::{ExactError, WORST};
 use crate::numbers::linear::inverse;
-use crate::system::Lagrangian;
+use crate::system::ActingForce;
 use crate::theory::verdict::largest;
 
 /// Points count as conjugate when the end determines the motion inside to less than half the digits, 1/√ε.
@@ -65,13 +65,13 @@ struct Trial<const N: usize> {
 }
 
 /// The boundary-value problem.
-pub(super) struct Boundary<'a, L, F, const N: usize> {
-    pub(super) dynamics: Dynamics<'a, L, F, N>,
+pub(super) struct Boundary<'a, L, const N: usize> {
+    pub(super) dynamics: Dynamics<'a, L, N>,
     pub(super) q0: SVector<f64, N>,
     pub(super) q1: SVector<f64, N>,
 }
 
-impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Boundary<'_, L, F, N> {
+impl<L: ActingForce<N, Scalar = f64>, const N: usize> Boundary<'_, L, N> {
     /// The motion from q0 to q1 by Newton's method from the straight line's velocity, or a guess.
     ///
     /// Where rounding is enlarged beyond `limit`, that is the error.

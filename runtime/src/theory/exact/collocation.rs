@@ -22,10 +22,9 @@ use std::sync::OnceLock;
 use gauss_quad::GaussLegendre;
 use nalgebra::{DMatrix, Dyn, LU, SMatrix, SVector};
 
-use super::ActingForce;
 use super::motion::{Dynamics, Local};
 use super::work::Breakdown;
-use crate::system::Lagrangian;
+use crate::system::ActingForce;
 
 /// Stages of a step.
 pub(super) const STAGES: usize = 8;
@@ -189,7 +188,7 @@ fn weighted<const N: usize>(
     row.iter().enumerate().fold(SVector::zeros(), |sum, (j, share)| sum + vector(j) * *share) * length
 }
 
-impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Dynamics<'_, L, F, N> {
+impl<L: ActingForce<N, Scalar = f64>, const N: usize> Dynamics<'_, L, N> {
     /// The step of `length` from `start`, `time` after the start of the segment.
     pub(super) fn step(&self, time: f64, start: &Phase<N>, length: f64) -> Result<Step<N>, Breakdown> {
         let Coefficients { nodes, matrix } = coefficients();

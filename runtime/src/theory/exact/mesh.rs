@@ -6,11 +6,11 @@
 
 use nalgebra::SVector;
 
+use super::ExactError;
 use super::collocation::{Phase, Step, Varied, unit_of};
 use super::motion::{Dynamics, Family, Point};
 use super::work::Breakdown;
-use super::{ActingForce, ExactError};
-use crate::system::Lagrangian;
+use crate::system::ActingForce;
 use crate::theory::verdict::largest;
 
 /// How far a step and its halves may differ, relative to the largest of the motion. At order 15 the halves
@@ -85,7 +85,7 @@ pub(super) struct Resolved<const N: usize> {
     pub(super) difference: f64,
 }
 
-impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Dynamics<'_, L, F, N> {
+impl<L: ActingForce<N, Scalar = f64>, const N: usize> Dynamics<'_, L, N> {
     /// Follows the motion until halving the steps changes nothing but rounding.
     pub(super) fn resolve(
         &self,

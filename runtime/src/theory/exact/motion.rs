@@ -8,34 +8,32 @@
 //! Neither asks for third derivatives of L, nor for derivatives by the time: ∂q(t)/∂q0 and ∂q(t)/∂q1 are
 //! exact to rounding, and where L, R or f takes the time, each evaluation is that of its own.
 
-use core::marker::PhantomData;
-
 use nalgebra::{SMatrix, SVector};
 
-use super::ActingForce;
 use super::work::{Breakdown, Work};
 use crate::numbers::{
     CovectorDerivatives, Derivatives,
     linear::{inverse, require_regular},
 };
-use crate::system::Lagrangian;
+use crate::system::ActingForce;
 
 /// A system with the force that acts on it.
-pub(super) struct Dynamics<'a, L, F, const N: usize> {
+pub(super) struct Dynamics<'a, L, const N: usize> {
     pub(super) system: &'a L,
-    pub(super) force: PhantomData<F>,
+    /// Whether its force acts.
+    pub(super) is_forced: bool,
     /// The time of the system at which the motion starts.
     pub(super) origin: f64,
     pub(super) work: &'a Work,
 }
 
-impl<L, F, const N: usize> Clone for Dynamics<'_, L, F, N> {
+impl<L, const N: usize> Clone for Dynamics<'_, L, N> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<L, F, const N: usize> Copy for Dynamics<'_, L, F, N> {}
+impl<L, const N: usize> Copy for Dynamics<'_, L, N> {}
 
 /// L and f with their derivatives at (q, v).
 #[derive(Clone, Copy)]
@@ -65,7 +63,7 @@ pub(super) struct Point<const N: usize> {
     pub(super) plus: Family<N>,
 }
 
-impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Dynamics<'_, L, F, N> {
+impl<L: ActingForce<N, Scalar = f64>, const N: usize> Dynamics<'_, L, N> {
     /// Everything that the equations need at (q, v), `time` after the start.
     pub(super) fn local(
         &self,
@@ -88,7 +86,12 @@ impl<L: Lagrangian<N, Scalar = f64>, F: ActingForce<L, N>, const N: usize> Dynam
     ) -> Result<(Derivatives<f64, N>, CovectorDerivatives<f64, N>), Breakdown> {
         self.work.spend()?;
         let (l, f) = self.system.later(self.origin + time, |system| {
-            (system.lagrangian_derivatives(q, v), F::derivatives(system, q, v))
+            let force = if self.is_forced {
+                system.acting_force_derivatives(q, v)
+            } else {
+                CovectorDerivatives::zero()
+            };
+            (system.lagrangian_derivatives(q, v), force)
         });
         let finite = |matrix: &SMatrix<f64, N, N>| matrix.iter().all(|entry| entry.is_finite());
         let all = l.value.is_finite()

@@ -16,10 +16,10 @@ use core::fmt;
 use nalgebra::{SMatrix, SVector};
 
 use super::work::Work;
-use super::{ActingForce, Exact, ExactError, Segment};
+use super::{Exact, ExactError, Segment};
 use crate::numbers::CovectorDerivatives;
 use crate::step::Discrete;
-use crate::system::Lagrangian;
+use crate::system::ActingForce;
 use crate::theory::verdict::largest;
 
 /// An error this many times the reference's own counts as round-off plateau.
@@ -80,10 +80,9 @@ pub struct OrderReport {
     pub p1: Convergence,
 }
 
-impl<L, F, const N: usize> Exact<'_, L, F, N>
+impl<L, const N: usize> Exact<'_, L, N>
 where
-    L: Lagrangian<N, Scalar = f64>,
-    F: ActingForce<L, N>,
+    L: ActingForce<N, Scalar = f64>,
 {
     /// Measures the order of rule `R` at q0 with mean velocity `v`, q1 = q0 + h v.
     ///

@@ -20,15 +20,15 @@ use core::cell::{Cell, RefCell};
 
 use nalgebra::{SMatrix, SVector};
 
+use super::ExactError;
 use super::collocation::{Source, unit_of};
 use super::mesh::{Question, Visitor};
 use super::motion::{Dynamics, Local, Point};
 use super::segment::Segment;
 use super::work::Breakdown;
-use super::{ActingForce, ExactError};
 use crate::numbers::{CovectorDerivatives, Derivatives};
 use crate::step::{DiscreteForce, DiscreteForceDerivatives};
-use crate::system::Lagrangian;
+use crate::system::ActingForce;
 use crate::theory::verdict::largest;
 
 /// Second derivatives of the exact discrete objects on a segment.
@@ -96,13 +96,12 @@ fn pairs<const N: usize>() -> impl Iterator<Item = (usize, usize)> {
 }
 
 /// Of a segment that was followed from q0 on, its motion being that of `dynamics`.
-pub(super) fn second_derivatives<L, F, const N: usize>(
-    dynamics: Dynamics<'_, L, F, N>,
+pub(super) fn second_derivatives<L, const N: usize>(
+    dynamics: Dynamics<'_, L, N>,
     segment: &Segment<N>,
 ) -> Result<SecondDerivatives<N>, ExactError>
 where
-    L: Lagrangian<N, Scalar = f64>,
-    F: ActingForce<L, N>,
+    L: ActingForce<N, Scalar = f64>,
 {
     let spacings = spacings(dynamics, segment)?;
     let halved: Vec<f64> = spacings.iter().map(|spacing| spacing / 2.0).collect();
@@ -152,14 +151,13 @@ impl<const N: usize> SecondDerivatives<N> {
 }
 
 /// D²L_d^ex and Df_d^ex with these spacings, and the relative error of the integration.
-fn carry<L, F, const N: usize>(
-    dynamics: Dynamics<'_, L, F, N>,
+fn carry<L, const N: usize>(
+    dynamics: Dynamics<'_, L, N>,
     segment: &Segment<N>,
     spacings: &[f64],
 ) -> Result<(Derivatives<f64, N>, DiscreteForceDerivatives<f64, N>, f64), ExactError>
 where
-    L: Lagrangian<N, Scalar = f64>,
-    F: ActingForce<L, N>,
+    L: ActingForce<N, Scalar = f64>,
 {
     let count = pairs::<N>().count();
     let own = 4 * N * N;
@@ -249,16 +247,15 @@ where
 }
 
 /// The derivatives of D²L and Df along (x, y), by central differences.
-fn bend<L, F, const N: usize>(
-    dynamics: Dynamics<'_, L, F, N>,
+fn bend<L, const N: usize>(
+    dynamics: Dynamics<'_, L, N>,
     time: f64,
     [q, v]: [&SVector<f64, N>; 2],
     [x, y]: [&SVector<f64, N>; 2],
     spacing: f64,
 ) -> Result<Bend<N>, Breakdown>
 where
-    L: Lagrangian<N, Scalar = f64>,
-    F: ActingForce<L, N>,
+    L: ActingForce<N, Scalar = f64>,
 {
     let mut sum = Bend { l: Derivatives::zero(), f: CovectorDerivatives::zero() };
     for (index, weight) in WEIGHTS.into_iter().enumerate() {
@@ -275,13 +272,12 @@ where
 /// motion.
 ///
 /// From narrow to wide the spread first falls, as rounding does, and then rises as truncation does.
-fn spacings<L, F, const N: usize>(
-    dynamics: Dynamics<'_, L, F, N>,
+fn spacings<L, const N: usize>(
+    dynamics: Dynamics<'_, L, N>,
     segment: &Segment<N>,
 ) -> Result<Vec<f64>, ExactError>
 where
-    L: Lagrangian<N, Scalar = f64>,
-    F: ActingForce<L, N>,
+    L: ActingForce<N, Scalar = f64>,
 {
     let mut points = Vec::with_capacity(segment.course.quarters.len());
     for (k, point) in segment.course.quarters.iter().enumerate() {

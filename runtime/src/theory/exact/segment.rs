@@ -4,13 +4,13 @@ use core::fmt;
 
 use nalgebra::{SMatrix, SVector};
 
+use super::ExactError;
 use super::boundary::{Boundary, Shot};
 use super::mesh::{Question, ROUNDING, Visitor};
 use super::motion::{Family, Point};
-use super::{ActingForce, ExactError};
 use crate::numbers::{CovectorDerivatives, Gradient};
 use crate::step::DiscreteForce;
-use crate::system::Lagrangian;
+use crate::system::ActingForce;
 use crate::theory::verdict::largest;
 
 /// The exact discrete objects at (q0, q1, h).
@@ -123,14 +123,13 @@ impl<const N: usize> fmt::Display for Segment<N> {
 }
 
 /// The integrals along the motion that `shot` found.
-pub(super) fn along<L, F, const N: usize>(
-    boundary: &Boundary<'_, L, F, N>,
+pub(super) fn along<L, const N: usize>(
+    boundary: &Boundary<'_, L, N>,
     h: f64,
     shot: &Shot<N>,
 ) -> Result<Segment<N>, ExactError>
 where
-    L: Lagrangian<N, Scalar = f64>,
-    F: ActingForce<L, N>,
+    L: ActingForce<N, Scalar = f64>,
 {
     let Boundary { dynamics, q0, q1 } = *boundary;
     let local = dynamics.local(0.0, &q0, &shot.v0).map_err(|breakdown| breakdown.at(0.0, dynamics.work))?;

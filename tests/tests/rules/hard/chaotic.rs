@@ -2,8 +2,7 @@
 
 use dalembert::{Discrete, Midpoint, State, Trapezoidal};
 use dalembert_examples::baseline::{self, Method};
-use dalembert_scenes::{DoublePendulum, HenonHeiles};
-use dalembert_tests::hard::drive;
+use dalembert_tests::hard::{HenonHeiles, TwoPendulums, drive};
 
 /// Largest energy error in the first and the second half of a run.
 fn halves<S, R, const N: usize>(system: &S, rule: R, h: f64, start: State<f64, N>, steps: u64) -> [f64; 2]
@@ -24,8 +23,8 @@ where
 #[test]
 #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn the_double_pendulum_at_high_energy_keeps_it() {
-    let system = DoublePendulum::of_units(0.0);
-    let start = DoublePendulum::high_energy();
+    let system = TwoPendulums { r: 0.0 };
+    let start = system.high_energy();
     assert!((start.energy(&system).unwrap() - 7.0).abs() < 1e-14);
     for h in [0.02, 0.01] {
         for [first, second] in
@@ -51,7 +50,7 @@ fn the_double_pendulum_at_high_energy_keeps_it() {
 #[test]
 #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn henon_heiles_at_the_energy_of_escape() {
-    let system = HenonHeiles {};
+    let system = HenonHeiles { r: 0.0 };
     let energy = 1.0 / 6.0 - 4e-4;
     let start = HenonHeiles::start(energy, -0.1, 0.1);
     assert!((HenonHeiles::energy_of(&start) - energy).abs() < 1e-15);
@@ -65,8 +64,8 @@ fn henon_heiles_at_the_energy_of_escape() {
 /// Its chaos: a change in the last place becomes one of order 1. The energy does not feel it.
 #[test]
 fn neighbouring_orbits_part() {
-    let system = DoublePendulum::of_units(0.0);
-    let start = DoublePendulum::high_energy();
+    let system = TwoPendulums { r: 0.0 };
+    let start = system.high_energy();
     let mut ends = Vec::new();
     for start in [start, State { q: start.q * (1.0 + f64::EPSILON), ..start }] {
         let mut end = start;

@@ -183,14 +183,14 @@ macro_rules! homogeneous {
                 };
                 close(&start.velocity(&system).unwrap_or_else(|error| panic!("{context}: {error}")), 0.0);
                 assert!(start.energy(&system).unwrap().is_finite());
-                let step = Discrete::<Midpoint, $n>::step(&system, &start, h, None);
+                let step = system.by(Midpoint, h).step(&start);
                 close(&step.unwrap_or_else(|error| panic!("midpoint {context}: {error}")).velocity, h);
-                let step = Discrete::<Trapezoidal, $n>::step(&system, &start, h, None);
+                let step = system.by(Trapezoidal, h).step(&start);
                 close(&step.unwrap_or_else(|error| panic!("trapezoidal {context}: {error}")).velocity, h);
                 // Under a force it leaves rest, and p = ∂L/∂v + (h/2)(∂R/∂v + g).
                 system.g = -0.7;
                 let pushed = p.map(|p| p + 0.5 * h * 0.7);
-                let step = Discrete::<Midpoint, $n>::step(&system, &start, h, None);
+                let step = system.by(Midpoint, h).step(&start);
                 let found = step.unwrap_or_else(|error| panic!("pushed {context}: {error}")).velocity;
                 let expected = SVector::from(system.velocity(pushed, h));
                 assert!(
@@ -266,7 +266,7 @@ fn what_has_no_first_step_has_a_name() {
         let state = State { q: [0.0, 0.0].into(), p: p.into() };
         let error = state.velocity(&Aligned).unwrap_err();
         assert!(matches!(error, StepError::DegenerateLagrangian { .. }), "{error}");
-        assert_eq!(Aligned.step(&state, 0.1, None).unwrap_err(), error);
+        assert_eq!(Aligned.by(Midpoint, 0.1).step(&state).unwrap_err(), error);
     }
     let _ = Aligned.lagrangian(&SVector::zeros(), &SVector::zeros());
 }

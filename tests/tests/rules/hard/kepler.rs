@@ -4,8 +4,7 @@ use std::f64::consts::TAU;
 
 use dalembert::{Discrete, Discretise, Midpoint, State, StepError, Trapezoidal};
 use dalembert_examples::baseline::{self, Method};
-use dalembert_scenes::{Kepler, kepler};
-use dalembert_tests::hard::drive;
+use dalembert_tests::hard::{Kepler, drive, kepler};
 
 const FREE: Kepler = Kepler { k: 0.0 };
 

@@ -10,10 +10,10 @@ use dalembert::{
     Composition, Discrete, Discretise, Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, Splitting,
     State, StepError, Trapezoidal,
 };
-use dalembert_scenes::{DoublePendulum, HenonHeiles, Kepler};
 use dalembert_tests::hard::{
-    Arm, Block, CubicDrag, DampedMass, Effort, Fermi, FirstOrder, MathewsLakshmanan, Oscillator, Progress,
-    Scaled, SpringPendulum, UNITS, UniformField, VanDerPol, drive, drive_composed,
+    Arm, Block, CubicDrag, DampedMass, Effort, Fermi, FirstOrder, HenonHeiles, Kepler, MathewsLakshmanan,
+    Oscillator, Progress, Scaled, SpringPendulum, TwoPendulums, UNITS, UniformField, VanDerPol, drive,
+    drive_composed,
 };
 
 /// The largest of what `measure` says of the states, and how the run went.
@@ -60,8 +60,8 @@ where
 {
     let (four, six) = (Splitting::blanes_moan_4(), Splitting::blanes_moan_6());
     [
-        watched(&measure, |look| drive_composed(four.trajectory(system, h, start), steps, look)),
-        watched(&measure, |look| drive_composed(six.trajectory(system, h, start), steps, look)),
+        watched(&measure, |look| drive_composed(system.by(four, h).run(start), steps, look)),
+        watched(&measure, |look| drive_composed(system.by(six, h).run(start), steps, look)),
     ]
 }
 
@@ -81,7 +81,7 @@ where
         by(system, Midpoint, h, start, steps, &measure),
         by(system, Trapezoidal, h, start, steps, &measure),
         by(system, Gauss::<3>, h, start, steps, &measure),
-        watched(&measure, |look| drive_composed(order_6.trajectory(system, h, start), steps, look)),
+        watched(&measure, |look| drive_composed(system.by(order_6, h).run(start), steps, look)),
     ]
 }
 
@@ -157,17 +157,17 @@ fn orbits_that_almost_collide_with_and_without_drag() {
 
 #[test]
 fn chaotic_motions() {
-    let system = DoublePendulum::of_units(0.0);
+    let system = TwoPendulums { r: 0.0 };
     let energy = |at: &Progress<2>| (at.state.energy(&system).unwrap() - 7.0).abs();
-    let runs = by_each(&system, 0.02, DoublePendulum::high_energy(), 10_000, energy);
+    let runs = by_each(&system, 0.02, system.high_energy(), 10_000, energy);
     assert_below("double pendulum", &runs, [0.1, 0.15, 1e-5, 1e-4]);
     // The trapezoidal rule leaves the well at these steps after some 40 000: a limit of the rule, not of the
     // solver.
     let start = HenonHeiles::start(1.0 / 6.0, -0.1, 0.1);
     let energy = |at: &Progress<2>| (HenonHeiles::energy_of(&at.state) - 1.0 / 6.0).abs();
-    let runs = by_each(&HenonHeiles {}, 0.05, start, 20_000, energy);
+    let runs = by_each(&HenonHeiles { r: 0.0 }, 0.05, start, 20_000, energy);
     assert_below("Hénon–Heiles", &runs, [1e-4, 5e-4, 1e-12, 1e-11]);
-    let runs = by_splittings(&HenonHeiles {}, 0.05, start, 20_000, energy);
+    let runs = by_splittings(&HenonHeiles { r: 0.0 }, 0.05, start, 20_000, energy);
     assert_below("Hénon–Heiles, splittings", &runs, [1e-9, 1e-12]);
 }
 
@@ -408,22 +408,22 @@ fn time_reverses() {
     let order_6 = Composition::kahan_li_6(Midpoint);
     let mut state = start;
     for h in [0.05, -0.05] {
-        state = order_6.trajectory(&system, h, state).take(500).last().unwrap().unwrap();
+        state = system.by(order_6, h).run(state).take(500).last().unwrap().unwrap().state;
     }
     assert!((state.q - start.q).amax() < 1e-11);
     // The control: a way back of another length.
-    let other = order_6.trajectory(&system, -0.05, state).take(499).last().unwrap().unwrap();
+    let other = system.by(order_6, -0.05).run(state).take(499).last().unwrap().unwrap().state;
     assert!((other.q - start.q).amax() > 1e-2);
 }
 
 /// From h = ±1e-12 to ±1e12: a step, or a named error that says what is wrong with it.
 #[test]
 fn steps_of_every_size_by_gauss_and_by_composition() {
-    let system = DoublePendulum::of_units(0.01);
+    let system = TwoPendulums { r: 0.01 };
     for exponent in -12..=12 {
         for sign in [1.0, -1.0] {
             let h = sign * 10.0_f64.powi(exponent);
-            let runs = by_each(&system, h, DoublePendulum::high_energy(), 20, |_| 0.0);
+            let runs = by_each(&system, h, system.high_energy(), 20, |_| 0.0);
             assert_named("sizes", &runs);
             assert!(exponent >= -1 || runs.iter().all(|run| run.stopped.is_none()), "{h:e}: {runs:?}");
         }
@@ -448,7 +448,7 @@ fn odd_values_by_the_other_rules() {
                     for p in ODD {
                         for h in ODD {
                             let state = State { q: vector![q], p: vector![p] };
-                            match system.step(&state, h, None) {
+                            match system.by(Midpoint, h).step(&state) {
                                 Ok(step) => {
                                     counts[0] += 1;
                                     assert!(q.is_finite() && p.is_finite() && h.is_finite() && h != 0.0);

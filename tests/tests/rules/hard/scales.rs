@@ -1,10 +1,10 @@
 //! Units, sizes of h, and time reversal.
 
 use dalembert::nalgebra::vector;
+use dalembert::step::Flow;
 use dalembert::step::Quantity;
 use dalembert::{Discrete, Discretise, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
-use dalembert_scenes::{DoublePendulum, HenonHeiles, Kepler};
-use dalembert_tests::hard::{Oscillator, Scaled, UNITS, drive};
+use dalembert_tests::hard::{HenonHeiles, Kepler, Oscillator, Scaled, TwoPendulums, UNITS, drive};
 
 fn same_motion<R: Copy>(rule: R)
 where
@@ -66,7 +66,7 @@ fn time_reverses_to_rounding_without_friction() {
         // The phase drifts by the roundings' energy times the time, twice: some (ht)² ε.
         assert!(back < 1e-11, "{back:e}");
     }
-    let system = HenonHeiles {};
+    let system = HenonHeiles { r: 0.0 };
     let back = there_and_back(&system, Midpoint, 0.05, HenonHeiles::start(1.0 / 12.0, 0.1, 0.0), 2_000);
     assert!(back < 1e-11, "{back:e}");
     let oscillator = Oscillator { m: 1.3, k: 0.7, r: 0.0, f: 0.0 };
@@ -82,7 +82,7 @@ fn time_reverses_to_rounding_without_friction() {
 /// same; a rule that is not self-adjoint would not return.
 #[test]
 fn and_with_friction_while_digits_last() {
-    let system = DoublePendulum::of_units(0.05);
+    let system = TwoPendulums { r: 0.05 };
     let start = State { q: vector![0.5, -0.3], p: vector![0.1, 0.2] };
     let back = there_and_back(&system, Midpoint, 0.02, start, 500);
     assert!(back < 1e-11, "{back:e}");
@@ -96,8 +96,8 @@ fn and_with_friction_while_digits_last() {
 /// trapezoidal rule keeps a bounded energy.
 #[test]
 fn steps_of_every_size() {
-    let system = DoublePendulum::of_units(0.01);
-    let start = DoublePendulum::high_energy();
+    let system = TwoPendulums { r: 0.01 };
+    let start = system.high_energy();
     for exponent in -12..=12 {
         for sign in [1.0, -1.0] {
             let h = sign * 10.0_f64.powi(exponent);
@@ -160,8 +160,8 @@ fn odd_values_in_every_argument() {
                         let state = State { q: vector![q], p: vector![p] };
                         for guess in [None, Some(vector![q]), Some(vector![p])] {
                             for step in [
-                                Discrete::<Midpoint, 1>::step(&system, &state, h, guess.as_ref()),
-                                Discrete::<Trapezoidal, 1>::step(&system, &state, h, guess.as_ref()),
+                                Flow::<Midpoint, 1>::step(&system, &state, h, guess.as_ref()),
+                                Flow::<Trapezoidal, 1>::step(&system, &state, h, guess.as_ref()),
                             ] {
                                 match step {
                                     Ok(step) => {

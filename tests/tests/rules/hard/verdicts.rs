@@ -5,6 +5,7 @@ use dalembert::nalgebra::SVector;
 use dalembert::rules::StageHistory;
 use dalembert::step::{Memory, Step};
 use dalembert::{Discretise, Fitted, Gauss, Midpoint, State, Trapezoidal};
+use dalembert_tests::hard::TwoPendulums;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
@@ -93,7 +94,7 @@ fn far_from_zero_steps_are_taken_and_solve_their_equations() {
         (0.02, [19922.654511939854, 27814.280558479204], [0.596438567851395, 3.0605127649630886]),
     ];
     for (h, q, p) in refused {
-        let step = dalembert_scenes::DoublePendulum::of_units(0.0).by(Trapezoidal, h).step(&state(q, p));
+        let step = TwoPendulums { r: 0.0 }.by(Trapezoidal, h).step(&state(q, p));
         let report = step.unwrap().report;
         assert!(report.residual <= 4.0 * report.floor && report.floor < 1e-11, "{report:?}");
     }

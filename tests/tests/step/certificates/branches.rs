@@ -8,9 +8,13 @@
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::system::ForcedLagrangian;
 use dalembert::{Discrete, Discretise, Gauss, Midpoint, State, Trapezoidal, rayleigh_system};
-use dalembert_scenes::Oscillator;
+
 use dalembert_tests::draws::Draws;
-use dalembert_tests::systems::Pendulum;
+
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
+fn oscillator(q: [f64; 1], v: [f64; 1], m: f64, k: f64, r: f64) -> (f64, f64) {
+    (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0], 0.5 * r * v[0] * v[0])
+}
 
 /// Two oscillators x = a q₀ + b q₁, y = c q₀ + d q₁ that do not know of each other.
 #[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
@@ -18,6 +22,11 @@ fn mixed(q: [f64; 2], v: [f64; 2], a: [f64; 4], k: [f64; 2], r: [f64; 2]) -> (f6
     let (x, y) = (a[0] * q[0] + a[1] * q[1], a[2] * q[0] + a[3] * q[1]);
     let (vx, vy) = (a[0] * v[0] + a[1] * v[1], a[2] * v[0] + a[3] * v[1]);
     (0.5 * (vx * vx + vy * vy) - 0.5 * (k[0] * x * x + k[1] * y * y), 0.5 * (r[0] * vx * vx + r[1] * vy * vy))
+}
+
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
+fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
 }
 
 #[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
@@ -207,7 +216,7 @@ fn what_small_steps_lead_to_is_on_the_branch() {
     for _ in 0..120 {
         let (h, r) = (draws.between(0.2, 6.0), draws.between(-0.3, 0.8));
         let (pendulum, state) = (
-            Pendulum::of_units(r),
+            Pendulum { r },
             State { q: vector![draws.between(-2.0, 2.0)], p: vector![draws.between(-1.0, 1.0)] },
         );
         follow(&pendulum, Midpoint, &state, h, &mut followed[0]);

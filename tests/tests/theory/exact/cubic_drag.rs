@@ -22,7 +22,7 @@ const DISPLACEMENTS: [f64; 4] = [0.2, 1.0, 2.5, -0.4];
 #[test]
 fn the_pair_is_the_exact_one() {
     let CubicDrag { m, r } = SYSTEM;
-    let exact = Exact::rayleigh(&SYSTEM);
+    let exact = Exact::new(&SYSTEM);
     for d in DISPLACEMENTS {
         for h in [0.1, 0.8] {
             let segment = exact.segment(vector![0.3], vector![0.3 + d], h).unwrap();
@@ -62,7 +62,7 @@ fn the_pair_is_the_exact_one() {
 
 #[test]
 fn its_force_is_rayleigh_though_not_linear() {
-    let exact = Exact::rayleigh(&SYSTEM);
+    let exact = Exact::new(&SYSTEM);
     let existence = exact.existence(vector![0.0], vector![1.0], 0.8).unwrap();
     assert_eq!(existence.verdict(), ExistenceVerdict::Holds, "{existence}");
     // Positive control: the two terms that cancel are far above what counts as 0.
@@ -76,7 +76,7 @@ fn the_midpoint_objects_are_not_the_exact_ones() {
     // Positive control of the first test: what it calls equal tells a rule of order 2 from the exact objects.
     let CubicDrag { m, r } = SYSTEM;
     let (d, h) = (0.2_f64, 0.8);
-    let segment = Exact::rayleigh(&SYSTEM).segment(vector![0.0], vector![d], h).unwrap();
+    let segment = Exact::new(&SYSTEM).segment(vector![0.0], vector![d], h).unwrap();
     let midpoint = 0.5 * m * d * d / h;
     let apart = (segment.lagrangian.value - midpoint).abs() / midpoint;
     // cosh u − 1 = u²/2 + u⁴/24 + …: relative difference u²/12.

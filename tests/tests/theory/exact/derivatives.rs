@@ -1,7 +1,7 @@
 //! Derivatives of the exact objects against central differences of order 8 of what they differentiate, on a
 //! system with q-dependent mass, q-dependent Rayleigh function and general force.
 
-use dalembert::exact::{Exact, RayleighAndGeneralForce, Segment};
+use dalembert::exact::{Exact, Segment};
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::rayleigh_system;
 
@@ -34,8 +34,8 @@ const H: f64 = 0.6;
 const Q0: SVector<f64, 2> = vector![0.3, -0.5];
 const Q1: SVector<f64, 2> = vector![0.7, 0.1];
 
-fn exact() -> Exact<'static, Arm, RayleighAndGeneralForce, 2> {
-    Exact::rayleigh_and_general(&SYSTEM)
+fn exact() -> Exact<'static, Arm, 2> {
+    Exact::new(&SYSTEM)
 }
 
 /// ∂g/∂q0 and ∂g/∂q1, columns by coordinate.

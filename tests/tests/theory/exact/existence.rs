@@ -42,7 +42,7 @@ impl Attraction {
 #[test]
 fn the_mixed_condition_does_not_suffice_for_two_degrees_of_freedom() {
     let system = Circulation { k: 1.2, kappa: 0.4 };
-    let exact = Exact::general(&system);
+    let exact = Exact::new(&system);
     let (q0, q1, h) = (vector![0.3, -0.2], vector![0.5, 0.4], 0.05);
     let existence = exact.existence(q0, q1, h).unwrap();
     // f_q is antisymmetric and f_v is 0: the integrands of the mixed condition cancel.
@@ -62,7 +62,7 @@ fn a_force_with_a_potential_fails_in_the_mixed_condition() {
     // Positive control: the other way round. With f = −dU, D2 f+ is symmetric, and D1 f+ = (D2 f−)ᵀ with the
     // wrong sign.
     let system = Attraction { k: 1.2 };
-    let existence = Exact::general(&system).existence(vector![0.3, -0.2], vector![0.5, 0.4], 0.05).unwrap();
+    let existence = Exact::new(&system).existence(vector![0.3, -0.2], vector![0.5, 0.4], 0.05).unwrap();
     assert_eq!(existence.verdict(), ExistenceVerdict::MixedFails, "{existence}");
     assert!(existence.plus.amax() <= existence.tolerance && existence.minus.amax() <= existence.tolerance);
 }

@@ -4,11 +4,15 @@ use dalembert::exact::{Exact, ExactError};
 use dalembert::nalgebra::vector;
 use dalembert::step::Quantity;
 use dalembert::{State, rayleigh_system};
-use dalembert_tests::systems::Pendulum;
 
 #[rayleigh_system]
 fn massless(q: [f64; 2], v: [f64; 2]) -> f64 {
     0.5 * v[0] * v[0] - 0.5 * (q[0] * q[0] + q[1] * q[1])
+}
+
+#[rayleigh_system]
+fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
 }
 
 /// Cubic drag, which accelerates backwards motion to infinite speed in finite time.
@@ -35,19 +39,19 @@ fn quartic(q: [f64; 1], v: [f64; 1]) -> f64 {
     0.5 * v[0] * v[0] - 0.25 * q[0].powi(4)
 }
 
-const PENDULUM: Pendulum = Pendulum::of_units(0.1);
+const PENDULUM: Pendulum = Pendulum { r: 0.1 };
 
 #[test]
 fn step_size_zero_or_not_finite() {
     for h in [0.0, f64::INFINITY, f64::NAN] {
-        let error = Exact::rayleigh(&PENDULUM).segment(vector![0.1], vector![0.2], h).unwrap_err();
+        let error = Exact::new(&PENDULUM).segment(vector![0.1], vector![0.2], h).unwrap_err();
         assert!(matches!(error, ExactError::StepSize { .. }), "{error}");
     }
 }
 
 #[test]
 fn points_that_are_not_finite() {
-    let error = Exact::rayleigh(&PENDULUM).segment(vector![0.1], vector![f64::NAN], 0.1).unwrap_err();
+    let error = Exact::new(&PENDULUM).segment(vector![0.1], vector![f64::NAN], 0.1).unwrap_err();
     assert_eq!(error, ExactError::NonFinite { quantity: Quantity::Configuration, index: 0 });
 }
 
@@ -102,7 +106,7 @@ fn the_step_size_where_a_motion_ceases_is_found() {
 fn points_too_far_apart_for_the_swing() {
     // Frequency near 1 in small swings: past half a period every motion from 0.3 to 0.9 has turned back or
     // gone round.
-    let exact = Exact::rayleigh(&PENDULUM);
+    let exact = Exact::new(&PENDULUM);
     let followed = exact.segment(vector![0.3], vector![0.9], 2.5).unwrap();
     assert!(followed.report.error() < 1e-12, "{}", followed.report);
     // The end's velocity has changed sign: it is not the straight line's motion any more, but the one grown
@@ -114,17 +118,17 @@ fn points_too_far_apart_for_the_swing() {
 fn a_motion_that_escapes() {
     let system = CubicDrag { r: 1.0 };
     // v = v0/(1 + r v0 t), infinite at t = 1 for v0 = −1.
-    let error = Exact::rayleigh(&system).flow(&State { q: vector![0.0], p: vector![-1.0] }, 2.0).unwrap_err();
+    let error = Exact::new(&system).flow(&State { q: vector![0.0], p: vector![-1.0] }, 2.0).unwrap_err();
     assert!(matches!(error, ExactError::MotionNotFinite { .. } | ExactError::Unresolved { .. }), "{error}");
     // Positive control: before that it moves by ln(1 − ½).
-    let state = Exact::rayleigh(&system).flow(&State { q: vector![0.0], p: vector![-1.0] }, 0.5).unwrap();
+    let state = Exact::new(&system).flow(&State { q: vector![0.0], p: vector![-1.0] }, 0.5).unwrap();
     assert!((state.q[0] - 0.5_f64.ln()).abs() < 1e-14, "{state:?}");
 }
 
 #[test]
 fn a_force_with_a_corner_has_no_second_derivatives() {
     // A motion that stands still: R″ jumps there.
-    let exact = Exact::rayleigh(&Corner);
+    let exact = Exact::new(&Corner);
     let segment = exact.segment(vector![0.2], vector![0.2], 0.5).unwrap();
     let error = exact.second_derivatives(&segment).unwrap_err();
     assert_eq!(error, ExactError::NotDifferentiable { index: 0 });

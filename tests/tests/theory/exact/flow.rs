@@ -73,7 +73,7 @@ fn motion(h: f64) -> [Vector4<f64>; 3] {
 
 #[test]
 fn points_of_the_motion_solve_the_discrete_equations() {
-    let exact = Exact::rayleigh_and_general(&SYSTEM);
+    let exact = Exact::new(&SYSTEM);
     for h in [0.1, 0.7] {
         let [y0, y1, y2] = motion(h);
         let first = exact.segment(configuration(&y0), configuration(&y1), h).unwrap();
@@ -90,7 +90,7 @@ fn points_of_the_motion_solve_the_discrete_equations() {
 
 #[test]
 fn the_legendre_transforms_give_the_momenta_of_the_motion() {
-    let exact = Exact::rayleigh_and_general(&SYSTEM);
+    let exact = Exact::new(&SYSTEM);
     for h in [0.1, 0.7] {
         let [y0, y1, _] = motion(h);
         let segment = exact.segment(configuration(&y0), configuration(&y1), h).unwrap();
@@ -98,15 +98,15 @@ fn the_legendre_transforms_give_the_momenta_of_the_motion() {
         let p1 = segment.lagrangian.d2 + segment.force.plus;
         assert!((p0 - momentum(&y0)).amax() < 2e-13 / h, "{h}: {p0}");
         assert!((p1 - momentum(&y1)).amax() < 2e-13 / h, "{h}: {p1}");
-        // Positive control: with the Rayleigh force alone the motion is another one.
-        let other = Exact::rayleigh(&SYSTEM).segment(configuration(&y0), configuration(&y1), h).unwrap();
+        // Positive control: without force the motion is another one.
+        let other = Exact::unforced(&SYSTEM).segment(configuration(&y0), configuration(&y1), h).unwrap();
         assert!((other.p0.value - momentum(&y0)).amax() > 1e-3);
     }
 }
 
 #[test]
 fn the_flow_is_that_of_the_equations_of_motion() {
-    let exact = Exact::rayleigh_and_general(&SYSTEM);
+    let exact = Exact::new(&SYSTEM);
     let [y0, y1, _] = motion(0.7);
     let start = State { q: configuration(&y0), p: momentum(&y0) };
     let end = exact.flow(&start, 0.7).unwrap();
@@ -120,7 +120,7 @@ fn the_flow_is_that_of_the_equations_of_motion() {
 #[test]
 fn a_segment_backwards_is_the_segment_with_opposite_sign() {
     // L_d(q1, q0, −h) = −L_d(q0, q1, h), f_d−(q1, q0, −h) = −f_d+(q0, q1, h).
-    let exact = Exact::rayleigh_and_general(&SYSTEM);
+    let exact = Exact::new(&SYSTEM);
     let (q0, q1, h) = (vector![1.1, 0.1], vector![1.2, 0.6], 0.5);
     let forwards = exact.segment(q0, q1, h).unwrap();
     let backwards = exact.segment(q1, q0, -h).unwrap();
@@ -142,7 +142,7 @@ fn unforced_curves_through_the_points_do_not_join() {
     let before = unforced.segment(points[0], points[1], h).unwrap();
     let after = unforced.segment(points[1], points[2], h).unwrap();
     assert!((before.v1 - after.v0).amax() > 0.1, "{before}\n{after}");
-    let forced = Exact::rayleigh_and_general(&SYSTEM);
+    let forced = Exact::new(&SYSTEM);
     let before = forced.segment(points[0], points[1], h).unwrap();
     let after = forced.segment(points[1], points[2], h).unwrap();
     assert!((before.v1 - after.v0).amax() < 1e-12, "{before}\n{after}");

@@ -4,12 +4,10 @@
 //! one-sided rectangle rule of order 1.
 
 use dalembert::exact::{Convergence, Exact};
-use dalembert::nalgebra::{SMatrix, SVector, vector};
+use dalembert::nalgebra::vector;
+use dalembert::rules::Quadrature;
 use dalembert::rules::{DisplacementRule, Node};
-use dalembert::run::VelocityHistory;
-use dalembert::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
-use dalembert::system::Derivatives;
-use dalembert::{Discrete, Discretise, Midpoint, Trapezoidal, rayleigh_system};
+use dalembert::{Discretise, Midpoint, Trapezoidal, rayleigh_system};
 
 #[rayleigh_system(rule = [midpoint, trapezoidal])]
 fn bead(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
@@ -43,46 +41,6 @@ impl DisplacementRule for Rectangle {
     const NODES: &'static [Node] = &[Node { position: 0.0, weight: 1.0 }];
 }
 
-type Vector = SVector<f64, 1>;
-
-impl Discrete<Rectangle, 1> for Pushed {
-    type Matrix = SMatrix<f64, 1, 1>;
-    type Memory = VelocityHistory<f64, 1>;
-
-    fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-        Rectangle::discrete_lagrangian(self, q0, q1, h)
-    }
-
-    fn discrete_lagrangian_derivatives(&self, q0: &Vector, q1: &Vector, h: f64) -> Derivatives<f64, 1> {
-        Rectangle::discrete_lagrangian_derivatives(self, q0, q1, h)
-    }
-
-    fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
-        Rectangle::lagrangian_kernel(self, q0, v, h) + Rectangle::force_kernel(self, q0, v, h)
-    }
-
-    fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
-        Rectangle::lagrangian_momenta(self, q0, v, h) + Rectangle::force_momenta(self, q0, v, h)
-    }
-
-    fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
-        Rectangle::segment_energy(self, q0, q1, h)
-    }
-
-    fn discrete_force(&self, q0: &Vector, q1: &Vector, h: f64) -> DiscreteForce<f64, 1> {
-        Rectangle::general_force(self, q0, q1, h)
-    }
-
-    fn discrete_force_derivatives(
-        &self,
-        q0: &Vector,
-        q1: &Vector,
-        h: f64,
-    ) -> DiscreteForceDerivatives<f64, 1> {
-        Rectangle::general_force_derivatives(self, q0, q1, h)
-    }
-}
-
 const BEAD: Bead = Bead { r: 0.4 };
 const PUSHED: Pushed = Pushed { r: 0.4 };
 
@@ -99,7 +57,7 @@ fn assert_slope(convergence: &Convergence, expected: f64, what: &str) {
 
 #[test]
 fn midpoint_and_trapezoidal_rule_have_order_two() {
-    let exact = Exact::rayleigh(&BEAD);
+    let exact = Exact::new(&BEAD);
     let midpoint = exact.order(Midpoint, vector![0.5], vector![0.9], &step_sizes()).unwrap();
     let trapezoidal = exact.order(Trapezoidal, vector![0.5], vector![0.9], &step_sizes()).unwrap();
     println!("{midpoint}\n{trapezoidal}");
@@ -116,8 +74,8 @@ fn midpoint_and_trapezoidal_rule_have_order_two() {
 #[test]
 fn a_one_sided_rule_has_order_one() {
     // Positive control: the measurement tells order 1 from order 2.
-    let exact = Exact::general(&PUSHED);
-    let report = exact.order(Rectangle, vector![0.5], vector![0.9], &step_sizes()).unwrap();
+    let exact = Exact::new(&PUSHED);
+    let report = exact.order(Quadrature(Rectangle), vector![0.5], vector![0.9], &step_sizes()).unwrap();
     assert_slope(&report.p0, 1.0, "p0");
     assert_slope(&report.p1, 1.0, "p1");
     assert_slope(&report.lagrangian, 2.0, "L_d");
@@ -128,7 +86,7 @@ fn a_one_sided_rule_has_order_one() {
 fn the_midpoint_force_is_off_by_a_twelfth() {
     // f_d^± − f_d^ex± = ∓(h²/12)(df/dt − f_v f/m) + O(h³), df/dt along the motion, m = 1: f_v bends ∂q(t)/∂q1
     // too.
-    let exact = Exact::general(&PUSHED);
+    let exact = Exact::new(&PUSHED);
     let (q0, v) = (0.5_f64, 0.3);
     for (h, tolerance) in [(0.02, 2e-2), (0.005, 5e-3)] {
         let q1 = q0 + h * v;
@@ -147,7 +105,7 @@ fn the_midpoint_force_is_off_by_a_twelfth() {
 
 #[test]
 fn the_plateau_is_left_out() {
-    let exact = Exact::rayleigh(&BEAD);
+    let exact = Exact::new(&BEAD);
     let report = exact.order(Midpoint, vector![0.5], vector![0.9], &step_sizes()).unwrap();
     assert!(report.lagrangian.cut > 0 && report.lagrangian.used >= 6, "{report}");
     // With the plateau the slope over the same step sizes is not 3.

@@ -86,7 +86,7 @@ fn assert_close(value: f64, expected: f64, size: f64, tolerance: f64, what: &str
 fn the_corrected_closed_forms_hold_to_rounding() {
     let system = UNDERDAMPED;
     for (q0, q1, h) in POINTS {
-        let segment = Exact::rayleigh(&system).segment(vector![q0], vector![q1], h).unwrap();
+        let segment = Exact::new(&system).segment(vector![q0], vector![q1], h).unwrap();
         let lagrangian = system.closed_lagrangian(q0, q1, h);
         let (a, b, c) = (system.a(), system.b(), system.coupling(h));
         let scale = system.m * b * (q0 * q0 + q1 * q1) / (b * h).sin().abs();
@@ -108,7 +108,7 @@ fn the_corrected_closed_forms_hold_to_rounding() {
 fn second_derivatives_are_those_of_the_closed_forms() {
     let system = UNDERDAMPED;
     for (q0, q1, h) in POINTS {
-        let exact = Exact::rayleigh(&system);
+        let exact = Exact::new(&system);
         let segment = exact.segment(vector![q0], vector![q1], h).unwrap();
         let second = exact.second_derivatives(&segment).unwrap();
         let (a, b, c) = (system.a(), system.b(), system.coupling(h));
@@ -133,7 +133,7 @@ fn the_printed_forms_hold_overdamped_only() {
     for (q0, q1, h) in POINTS {
         // Overdamped, b = √(r² − 4km)/2m: the printed hyperbolic functions are right.
         let system = OVERDAMPED;
-        let exact = Exact::rayleigh(&system);
+        let exact = Exact::new(&system);
         let segment = exact.segment(vector![q0], vector![q1], h).unwrap();
         let second = exact.second_derivatives(&segment).unwrap();
         let printed = system.printed_lagrangian(q0, q1, h);
@@ -144,7 +144,7 @@ fn the_printed_forms_hold_overdamped_only() {
 
         // With the printed b = √(4km − r²)/2m they are not.
         let system = UNDERDAMPED;
-        let exact = Exact::rayleigh(&system);
+        let exact = Exact::new(&system);
         let segment = exact.segment(vector![q0], vector![q1], h).unwrap();
         let second = exact.second_derivatives(&segment).unwrap();
         let scale = system.m * (q0 * q0 + q1 * q1) / h;
@@ -163,7 +163,7 @@ fn the_printed_forms_hold_overdamped_only() {
 fn half_a_period_apart_points_are_conjugate() {
     let system = UNDERDAMPED;
     let half_period = std::f64::consts::PI / system.b();
-    let exact = Exact::rayleigh(&system);
+    let exact = Exact::new(&system);
     let error = exact.segment(vector![0.4], vector![0.9], half_period).unwrap_err();
     let ExactError::ConjugatePoints { h, growth } = error else { panic!("{error}") };
     println!("{error}");

@@ -5,6 +5,7 @@ use std::cell::Cell;
 
 use dalembert::exact::{Exact, ExactError};
 use dalembert::nalgebra::{SMatrix, SVector, vector};
+use dalembert::system::ActingForce;
 use dalembert::system::Derivatives;
 use dalembert::{Lagrangian, Rayleigh, State, rayleigh_system};
 use dalembert_tests::draws::Draws;
@@ -56,6 +57,14 @@ impl Rayleigh<1> for Counted {
     }
 }
 
+impl ActingForce<1> for Counted {
+    const HAS_RAYLEIGH: bool = true;
+
+    fn dissipation_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+        self.rayleigh_derivatives(q, v)
+    }
+}
+
 impl Counted {
     fn new(m: f64, k: f64, r: f64) -> Self {
         Self { m, k, r, evaluations: Cell::new(0) }
@@ -65,7 +74,7 @@ impl Counted {
     fn evaluations(&self) -> usize {
         let count = self.evaluations.take();
         // The start of a motion asks once or twice beside what is counted.
-        assert!(count <= Exact::<Counted, dalembert::exact::RayleighForce, 1>::EVALUATIONS + 100, "{count}");
+        assert!(count <= Exact::<Counted, 1>::EVALUATIONS + 100, "{count}");
         count
     }
 
@@ -153,7 +162,7 @@ fn segments_of_random_damped_oscillators() {
     for draw in 0..400 {
         let (system, h) = oscillator(&mut draws);
         let (q0, q1) = (draws.between(-1.0, 1.0), draws.between(-1.0, 1.0));
-        let result = Exact::rayleigh(&system).segment([q0], [q1], h);
+        let result = Exact::new(&system).segment([q0], [q1], h);
         most = most.max(system.evaluations());
         let (a, square) = system.rates();
         let what =
@@ -202,7 +211,7 @@ fn flows_of_random_damped_oscillators() {
         let (system, h) = oscillator(&mut draws);
         let (q, v) = (draws.between(-1.0, 1.0), draws.between(-1.0, 1.0));
         let start = State { q: vector![q], p: vector![system.m * v] };
-        let result = Exact::rayleigh(&system).flow(&start, h);
+        let result = Exact::new(&system).flow(&start, h);
         most = most.max(system.evaluations());
         let flow = system.flow(h);
         let (q1, v1) = (flow[0][0] * q + flow[0][1] * v, flow[1][0] * q + flow[1][1] * v);
@@ -262,7 +271,7 @@ fn flows_of_random_cubic_drag() {
         let (v, h) = (draws.sign() * draws.scale(1e-2, 1e2), draws.sign() * draws.scale(1e-3, 1e2));
         let system = Cubic { m, r };
         let growth = r * v * h / m;
-        let result = Exact::rayleigh(&system).flow(&State { q: vector![0.3], p: vector![m * v] }, h);
+        let result = Exact::new(&system).flow(&State { q: vector![0.3], p: vector![m * v] }, h);
         let what = format!("{draw}: m = {m}, r = {r}, v = {v}, h = {h}");
         match result {
             Ok(end) => {
@@ -303,7 +312,7 @@ fn falls_with_drag_from_rest() {
         let terminal = (m * g / c).sqrt();
         let h = draws.scale(1e-2, 50.0) * terminal / g;
         let system = Falling { m, g, c };
-        let end = Exact::rayleigh(&system).flow(&State { q: vector![0.0], p: vector![0.0] }, h).unwrap();
+        let end = Exact::new(&system).flow(&State { q: vector![0.0], p: vector![0.0] }, h).unwrap();
         let x = g * h / terminal;
         let way = terminal * terminal / g * (x - std::f64::consts::LN_2 + (-2.0 * x).exp().ln_1p());
         assert!(
@@ -349,7 +358,7 @@ fn oscillators_forced_in_time() {
         let q1 = b * cos + c * sin + share * (w * (t0 + h)).cos();
         let v1 = omega * (c * cos - b * sin) - share * w * (w * (t0 + h)).sin();
         let view = system.at_time(t0);
-        let exact = Exact::general(&view);
+        let exact = Exact::new(&view);
         let end = exact.flow(&State { q: vector![q], p: vector![m * v] }, h).unwrap();
         let size = b.abs() + c.abs() + share.abs();
         let tolerance = 1e-14 * (1.0 + (omega + w) * (h.abs() + t0.abs())) * size;
@@ -397,18 +406,17 @@ fn a_mass_that_grows_with_time_damps() {
 #[test]
 fn motions_that_were_refused_or_took_long() {
     // Cubic drag from v = 2 over h = 10: q = ln 21.
-    let end =
-        Exact::rayleigh(&Cubic { m: 1.0, r: 1.0 }).flow(&State { q: vector![0.0], p: vector![2.0] }, 10.0);
+    let end = Exact::new(&Cubic { m: 1.0, r: 1.0 }).flow(&State { q: vector![0.0], p: vector![2.0] }, 10.0);
     assert!((end.unwrap().q[0] - 21.0_f64.ln()).abs() < 1e-14);
     // A stiff spring, 80 periods.
     let system = Counted::new(1.0, 1e4, 1.0);
-    let end = Exact::rayleigh(&system).flow(&State { q: vector![0.4], p: vector![0.3] }, 5.0).unwrap();
+    let end = Exact::new(&system).flow(&State { q: vector![0.4], p: vector![0.3] }, 5.0).unwrap();
     let flow = system.flow(5.0);
     assert!((end.q[0] - flow[0][0] * 0.4 - flow[0][1] * 0.3).abs() < 1e-13);
     // Damping that is stiff, seen backwards: told by the end.
     for h in [-0.1, -0.2, -0.3, -0.5, -5.0] {
         let system = Counted::new(1.0, 1.0, 1e3);
-        let segment = Exact::rayleigh(&system).segment([0.3], [0.5], h).unwrap();
+        let segment = Exact::new(&system).segment([0.3], [0.5], h).unwrap();
         let evaluations = system.evaluations();
         let [v0, v1] = system.ends(0.3, 0.5, h);
         assert!(
@@ -417,7 +425,7 @@ fn motions_that_were_refused_or_took_long() {
         println!("h = {h}: {evaluations} evaluations, {}", segment.report);
         // The flow has no other end to be told by.
         let start = State { q: vector![0.3], p: vector![0.2] };
-        let error = Exact::rayleigh(&system).flow(&start, h);
+        let error = Exact::new(&system).flow(&start, h);
         println!("{error:?}");
     }
 }
@@ -427,10 +435,10 @@ fn motions_that_were_refused_or_took_long() {
 fn work_is_bounded_and_said() {
     // 10⁷ periods.
     let system = Counted::new(1.0, 1.0, 0.0);
-    let error = Exact::rayleigh(&system).flow(&State { q: vector![0.3], p: vector![0.2] }, 6e7).unwrap_err();
+    let error = Exact::new(&system).flow(&State { q: vector![0.3], p: vector![0.2] }, 6e7).unwrap_err();
     assert!(matches!(error, ExactError::TooMuchWork { time, .. } if time > 0.0 && time < 6e7), "{error}");
     assert!(system.evaluations() > 1 << 19);
-    let error = Exact::rayleigh(&system).segment([0.3], [0.2], 6e7).unwrap_err();
+    let error = Exact::new(&system).segment([0.3], [0.2], 6e7).unwrap_err();
     assert!(matches!(error, ExactError::TooMuchWork { .. }), "{error}");
     system.evaluations();
 }

@@ -3,7 +3,6 @@
 use dalembert::exact::{Exact, ExistenceVerdict};
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::rayleigh_system;
-use dalembert_tests::systems::Pendulum;
 
 /// One system with its coordinates in units 1/s and s.
 #[rayleigh_system]
@@ -16,10 +15,15 @@ fn scaled(q: [f64; 2], v: [f64; 2], s: f64) -> (f64, f64) {
     )
 }
 
+#[rayleigh_system]
+fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
+}
+
 /// f_d+ and D1 f_d+, computed in units s and taken back to s = 1.
 fn force_plus(s: f64) -> (SVector<f64, 2>, SMatrix<f64, 2, 2>) {
     let system = Scaled { s };
-    let exact = Exact::rayleigh(&system);
+    let exact = Exact::new(&system);
     let segment = exact.segment(vector![0.2 * s, 0.3 / s], vector![0.5 * s, 0.1 / s], 0.7).unwrap();
     let second = exact.second_derivatives(&segment).unwrap();
     let unit = [s, 1.0 / s];
@@ -48,8 +52,7 @@ fn units_of_the_coordinates_do_not_matter() {
 fn small_motions_and_equilibria_are_resolved() {
     // The pendulum's third derivatives along motions this small are lost in rounding; what they contribute is
     // smaller still.
-    let system = Pendulum::of_units(0.3);
-    let exact = Exact::rayleigh(&system);
+    let exact = Exact::new(&Pendulum { r: 0.3 });
     for (q0, q1) in [(0.6e-9, 1.1e-9), (0.0, 1e-6), (0.0, 0.0)] {
         let existence = exact.existence(vector![q0], vector![q1], 0.7).unwrap();
         assert_eq!(existence.verdict(), ExistenceVerdict::Holds, "{existence}");

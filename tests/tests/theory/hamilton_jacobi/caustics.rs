@@ -5,7 +5,6 @@ use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::{Discretise, Midpoint, rayleigh_system};
 use dalembert_tests::damped_oscillator::{CompleteSolution, DAMPED, H};
 use dalembert_tests::draws::Draws;
-use dalembert_tests::systems::Pendulum;
 
 /// γ(q) = M q + l.
 struct Linear<const N: usize> {
@@ -227,7 +226,11 @@ fn random_fans_fold_where_each_of_their_directions_does() {
 /// A pendulum: neighbouring characteristics cross in the step that the frame says.
 #[test]
 fn neighbours_of_a_nonlinear_fan_cross_where_the_caustic_is() {
-    let system = Pendulum::of_units(0.1);
+    #[rayleigh_system]
+    fn pendulum(q: [f64; 1], v: [f64; 1], friction: f64) -> (f64, f64) {
+        (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * friction * v[0] * v[0])
+    }
+    let system = Pendulum { friction: 0.1 };
     let theory = system.by(Midpoint, 0.2).hamilton_jacobi();
     let section = Linear { matrix: SMatrix::zeros(), shift: vector![0.4] };
     let (width, steps) = (1e-6, 60);

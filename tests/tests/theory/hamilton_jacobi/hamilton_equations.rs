@@ -59,7 +59,7 @@ where
     L: Discrete<R, 2, Scalar = f64>,
 {
     let theory = system.by(rule, H).hamilton_jacobi();
-    let momenta = system.by(rule, H).legendre_derivatives(&Q0, &Q1).momenta;
+    let momenta = system.by(rule, H).segment(&Q0, &Q1).unwrap().legendre_derivatives().unwrap().momenta;
     let v = (Q1 - Q0) / H;
     let plus = |q0: &SVector<f64, 2>, p1: &SVector<f64, 2>| {
         theory.discrete_hamiltonian_plus(q0, p1, Some(&v)).unwrap()
@@ -100,7 +100,7 @@ fn missing_terms<R: Copy, L>(system: &L, rule: R) -> [SVector<f64, 2>; 2]
 where
     L: Discrete<R, 2, Scalar = f64>,
 {
-    let k = system.by(rule, H).legendre_derivatives(&Q0, &Q1);
+    let k = system.by(rule, H).segment(&Q0, &Q1).unwrap().legendre_derivatives().unwrap();
     let f = system.discrete_force(&Q0, &Q1, H);
     let q1_by_q0 = -k.p1_by_q1.try_inverse().unwrap() * k.p1_by_q0;
     let q0_by_q1 = -k.p0_by_q0.try_inverse().unwrap() * k.p0_by_q1;

@@ -73,7 +73,7 @@ where
     let mut state = State { q: vector![0.9, -0.4], p: vector![0.2, 0.6] };
     let mut q: Vec<SVector<f64, 2>> = vec![state.q];
     for _ in 0..25 {
-        state = Discrete::<R, 2>::step(&system, &state, 0.1, None).unwrap().state;
+        state = system.by(rule, 0.1).step(&state).unwrap().state;
         q.push(state.q);
     }
     let report = system.by(rule, 0.1).hamilton_jacobi().along_trajectory(&q).unwrap();

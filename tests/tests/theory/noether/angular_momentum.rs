@@ -4,9 +4,25 @@
 use dalembert::nalgebra::vector;
 use dalembert::noether::Generator;
 use dalembert::{Discrete, Discretise, Midpoint, State, Trapezoidal, rayleigh_system, samples};
-use dalembert_scenes::Ring;
 
-/// The ring in polar coordinates (r, θ).
+/// Example 3.2.3 of Marsden & West.
+#[derive(Clone, Copy)]
+struct Ring {
+    k: f64,
+}
+
+#[rayleigh_system(rule = [midpoint, trapezoidal])]
+impl Ring {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let s = q[0] * q[0] + q[1] * q[1];
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2)
+    }
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        0.5 * self.k * (v[0] * v[0] + v[1] * v[1])
+    }
+}
+
+/// The same in polar coordinates (r, θ).
 #[derive(Clone, Copy)]
 struct PolarRing {
     k: f64,

@@ -3,7 +3,7 @@
 
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::rayleigh::Resplit;
-use dalembert::{Discrete, Midpoint, Trapezoidal, rayleigh_system, samples};
+use dalembert::{Discrete, Discretise, Midpoint, Trapezoidal, rayleigh_system, samples};
 
 /// Friction that depends on q and a force that drives: not Rayleigh.
 #[derive(Clone, Copy)]
@@ -100,8 +100,8 @@ fn two_degrees_of_freedom_have_one_iff_two_blocks_are_symmetric() {
     assert!(report.exists() && !report.structure.is_rayleigh(), "{report}");
     let (q0, q1) = (vector![0.7, -0.4], vector![0.5, -0.1]);
     let (p0, p1) = momenta(&resplit, &q0, &q1);
-    assert!((p0 - friction.legendre_minus(&q0, &q1, h).p).amax() < 1e-10);
-    assert!((p1 - friction.legendre_plus(&q0, &q1, h).p).amax() < 1e-10);
+    assert!((p0 - friction.by(Midpoint, h).legendre_minus(&q0, &q1).p).amax() < 1e-10);
+    assert!((p1 - friction.by(Midpoint, h).legendre_plus(&q0, &q1).p).amax() < 1e-10);
 
     // Positive control: a gyroscopic force has none, and the momenta of the attempt are off by its share.
     let turning = Plane { gyroscopic: 0.5 };
@@ -109,5 +109,5 @@ fn two_degrees_of_freedom_have_one_iff_two_blocks_are_symmetric() {
     let report = resplit.check(&segments).unwrap();
     assert!(!report.exists() && !report.plus.vanishes() && !report.minus.vanishes(), "{report}");
     let (p0, _) = momenta(&resplit, &q0, &q1);
-    assert!((p0 - turning.legendre_minus(&q0, &q1, h).p).amax() > 1e-2);
+    assert!((p0 - turning.by(Midpoint, h).legendre_minus(&q0, &q1).p).amax() > 1e-2);
 }

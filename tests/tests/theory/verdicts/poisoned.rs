@@ -317,7 +317,7 @@ fn poisoned_runs_are_not_balanced() {
 #[test]
 fn a_wrong_rule_is_not_equal_to_rounding() {
     // The trapezoidal rule is none of the exact objects, also from rest, where its errors are 5e-3.
-    let exact = Exact::rayleigh_and_general(&Wrong);
+    let exact = Exact::new(&Wrong);
     for v in [[0.0, 0.0], [1e-200, 0.0], [5e-324, 0.0], [0.4, -0.3]] {
         for steps in [&[0.4, 0.2, 0.1][..], &[0.4, 0.4, -0.4], &[0.4], &[]] {
             let report = exact.order(Trapezoidal, vector![0.8, -0.6], SVector::from(v), steps).unwrap();
@@ -336,7 +336,7 @@ fn a_wrong_rule_is_not_equal_to_rounding() {
 
 #[test]
 fn no_exact_force_is_rayleigh_that_is_not() {
-    let exact = Exact::rayleigh_and_general(&Wrong);
+    let exact = Exact::new(&Wrong);
     let found = exact.existence([0.3, -0.2], [0.5, 0.1], 0.4).unwrap();
     assert_ne!(found.verdict(), ExistenceVerdict::Holds, "{found}");
     for (q0, q1, h) in [

@@ -1,0 +1,128 @@
+//! The flow of a discrete system: its step, and what a run of steps keeps.
+
+use nalgebra::SVector;
+
+use crate::numbers::Scalar;
+use crate::step::{BoundedStep, Linearization, State, Step, StepError, StepWith};
+use crate::system::Lagrangian;
+
+/// The flow of a system by the method `M`: (q0, p0) ↦ (q1, p1).
+///
+/// Rules have one, and what is made of their steps: a [`Composition`](crate::Composition), a
+/// [`Splitting`](crate::Splitting). [`by`](crate::Discretise::by) asks for it.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no step by `{M}`",
+    label = "no step by `{M}`",
+    note = "if its force takes an input, write `system.driven(u)` where `system` stands; if L, R or f take the time, `system.at_time(t)`, with an input `system.driven(u, t)`",
+    note = "otherwise list the rule in the attribute: `#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]`; one of your own, `impl dalembert::rules::DisplacementRule`, is stepped by `Quadrature(rule)`"
+)]
+pub trait Flow<M, const N: usize>: Lagrangian<N> {
+    /// What a run of steps keeps from one to the next.
+    type RunMemory: Memory<Self, M, N>;
+
+    /// The step of size `h` from `state`. `guess` is a guess for v̄ = (q1 − q0)/h.
+    ///
+    /// # Errors
+    /// A [`StepError`]; the state given is untouched.
+    fn step(
+        &self,
+        state: &State<Self::Scalar, N>,
+        h: Self::Scalar,
+        guess: Option<&SVector<Self::Scalar, N>>,
+    ) -> Result<Step<Self::Scalar, N>, StepError>;
+
+    /// The step with its derivative A = ∂(q1, p1)/∂(q0, p0).
+    ///
+    /// # Errors
+    /// Those of [`step`](Self::step); [`StepError::SingularNewtonMatrix`] where it has no derivative.
+    fn linearized_step(
+        &self,
+        state: &State<Self::Scalar, N>,
+        h: Self::Scalar,
+        guess: Option<&SVector<Self::Scalar, N>>,
+    ) -> Result<StepWith<Self::Scalar, N, Linearization<Self::Scalar, N>>, StepError>;
+}
+
+/// A flow whose step can be given a bounded number of iterations, each of them one evaluation of both sides
+/// of p0 = −D1 L_d − f_d⁻.
+///
+/// Gauss rules have none: each evaluation of their p0 solves for the stages within the segment.
+///
+/// ```compile_fail
+/// use dalembert::{Discretise, Gauss, State, rayleigh_system};
+/// #[rayleigh_system(rule = gauss)]
+/// fn free(q: [f64; 1], v: [f64; 1]) -> f64 {
+///     0.5 * v[0] * v[0] - 0.0 * q[0]
+/// }
+/// let start = State::from_velocity(&Free {}, [0.0], [1.0]).unwrap();
+/// let _ = Free {}.by(Gauss::<2>, 0.1).step_within(&start, 3);
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "the work of a step by `{M}` is not bounded by a number of iterations",
+    label = "`step_within` is for rules that are solved for v̄ itself",
+    note = "take `step`, whose iterations are bounded as well, or a rule such as `Midpoint`"
+)]
+pub trait BoundedFlow<M, const N: usize>: Flow<M, N> {
+    /// The step by at most `iterations` undamped Newton iterations: the best iterate, with the residual left
+    /// and the last correction in its report. Without a `guess` the velocity of the state is solved for
+    /// first.
+    ///
+    /// # Errors
+    /// [`StepError`] where not even one iteration can be made; the state given is untouched.
+    fn step_within(
+        &self,
+        state: &State<Self::Scalar, N>,
+        h: Self::Scalar,
+        guess: Option<&SVector<Self::Scalar, N>>,
+        iterations: u32,
+    ) -> Result<BoundedStep<Self::Scalar, N>, StepError>;
+}
+
+/// What a run keeps from step to step, and how the next step uses it.
+///
+/// [`Default`] is the memory before the first step. What is remembered makes a step cheaper; it never decides
+/// where the step leads, beyond rounding: a memory of other states or another step size does no harm.
+pub trait Memory<L: ?Sized, M, const N: usize>: Default
+where
+    L: Flow<M, N>,
+{
+    /// The step of [`Flow::step`] from `state`.
+    ///
+    /// # Errors
+    /// Those of [`Flow::step`]; what is remembered is then as before.
+    fn advance(
+        &mut self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<Step<L::Scalar, N>, StepError>;
+
+    /// Takes `velocity` for the mean velocity of the step before the first, of size `h`. Nothing where no
+    /// guess serves.
+    fn suggest(&mut self, velocity: &SVector<L::Scalar, N>, h: L::Scalar) {
+        let _ = (velocity, h);
+    }
+
+    /// Takes over what is known of the state from which the next step starts, from the memory of the step
+    /// that ended there. In a composition that is the one of the substep before.
+    fn follow(&mut self, _previous: &Self) {}
+
+    /// The step from `state`, `elapsed` after the time of `system`: of the system as it is then
+    /// ([`Lagrangian::later`](crate::Lagrangian::later)).
+    ///
+    /// # Errors
+    /// Those of [`advance`](Self::advance).
+    #[inline]
+    fn advance_later(
+        &mut self,
+        system: &L,
+        elapsed: f64,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<Step<L::Scalar, N>, StepError>
+    where
+        L: Sized,
+    {
+        system.later(L::Scalar::constant(elapsed), |system| self.advance(system, state, h))
+    }
+}

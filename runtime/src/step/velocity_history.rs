@@ -1,0 +1,75 @@
+//! The latest velocities of a run, and the guess that they make.
+
+use nalgebra::SVector;
+
+use crate::numbers::Scalar;
+use crate::step::{Flow, Memory, State, Step, StepError, or_without_guess};
+
+/// The latest four mean velocities: the next, extrapolated to order 3, is the guess for Newton's method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VelocityHistory<S, const N: usize> {
+    /// Newest first.
+    velocities: [SVector<S, N>; 4],
+    known: usize,
+    /// The step size that they belong to.
+    h: S,
+}
+
+impl<S: Scalar, const N: usize> Default for VelocityHistory<S, N> {
+    fn default() -> Self {
+        Self { velocities: [nalgebra::zero(); 4], known: 0, h: S::zero() }
+    }
+}
+
+impl<S: Scalar, const N: usize> VelocityHistory<S, N> {
+    #[inline]
+    pub(crate) fn push(&mut self, velocity: SVector<S, N>, h: S) {
+        let [a, b, c, _] = self.velocities;
+        self.velocities = [velocity, a, b, c];
+        // Velocities a step apart are known for one step size alone.
+        let known = if h == self.h { self.known } else { self.known.min(1) };
+        self.known = (known + 1).min(4);
+        self.h = h;
+    }
+
+    /// The polynomial through the known velocities, one step on.
+    #[inline]
+    pub(crate) fn extrapolation(&self, h: S) -> Option<SVector<S, N>> {
+        let [a, b, c, d] = &self.velocities;
+        let (two, three, four, six) =
+            (S::constant(2.0), S::constant(3.0), S::constant(4.0), S::constant(6.0));
+        // The polynomial needs equal steps; the latest velocity alone is a guess for any.
+        match if h == self.h { self.known } else { self.known.min(1) } {
+            0 => None,
+            1 => Some(*a),
+            2 => Some(a * two - b),
+            3 => Some((a - b) * three + c),
+            _ => Some((a + c) * four - b * six - d),
+        }
+    }
+}
+
+impl<L, R, const N: usize> Memory<L, R, N> for VelocityHistory<L::Scalar, N>
+where
+    L: Flow<R, N> + ?Sized,
+{
+    #[inline]
+    fn advance(
+        &mut self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<Step<L::Scalar, N>, StepError> {
+        let guess = self.extrapolation(h);
+        let found = system.step(state, h, guess.as_ref());
+        let step = or_without_guess(guess.is_some(), found, || system.step(state, h, None));
+        if let Ok(step) = &step {
+            self.push(step.velocity, h);
+        }
+        step
+    }
+
+    fn suggest(&mut self, velocity: &SVector<L::Scalar, N>, h: L::Scalar) {
+        self.push(*velocity, h);
+    }
+}

@@ -1,0 +1,111 @@
+//! The force that acts on a system, in one place: what it has of R and f.
+//!
+//! ```text
+//! f_L = −∂R/∂v + f
+//! ```
+
+use nalgebra::SVector;
+
+use crate::numbers::{CovectorDerivatives, Derivatives, Gradient};
+use crate::system::Lagrangian;
+
+/// The force f_L(q, v) = −∂R/∂v + f that acts on a system: of R and f the terms that it has.
+///
+/// `#[rayleigh_system]` writes it for every system. By hand, a system without force needs nothing but the
+/// `impl`; one with R sets [`HAS_RAYLEIGH`](Self::HAS_RAYLEIGH) and hands R on, one with f sets
+/// [`HAS_FORCE`](Self::HAS_FORCE) and hands f on; one that changes with time sets
+/// [`IS_TIMED`](Self::IS_TIMED).
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no force as it stands here",
+    label = "which force acts is not known",
+    note = "if its force takes an input, write `system.driven(u)` where `system` stands; if L, R or f take the time, `system.at_time(t)`, with an input `system.driven(u, t)`",
+    note = "a system written by hand states it: `impl dalembert::system::ActingForce<{N}> for {Self} {{}}` where there is none"
+)]
+pub trait ActingForce<const N: usize>: Lagrangian<N> {
+    /// Whether there is a Rayleigh function.
+    const HAS_RAYLEIGH: bool = false;
+
+    /// Whether there is a general force.
+    const HAS_FORCE: bool = false;
+
+    /// Whether there is a force. Without one, f_d and its derivatives are 0 and cost nothing.
+    const IS_FORCED: bool = Self::HAS_RAYLEIGH || Self::HAS_FORCE;
+
+    /// Whether L or the force changes with time, so that [`Lagrangian::later`] is another system. Without it
+    /// no stage asks.
+    const IS_TIMED: bool = false;
+
+    /// R with ∂R/∂q and ∂R/∂v; 0 where there is none.
+    #[inline]
+    fn dissipation(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> Gradient<Self::Scalar, N> {
+        self.dissipation_derivatives(q, v).gradient()
+    }
+
+    /// R with its first and second derivatives; 0 where there is none.
+    #[inline]
+    fn dissipation_derivatives(
+        &self,
+        _q: &SVector<Self::Scalar, N>,
+        _v: &SVector<Self::Scalar, N>,
+    ) -> Derivatives<Self::Scalar, N> {
+        Derivatives::zero()
+    }
+
+    /// f; 0 where there is none.
+    #[inline]
+    fn general_force(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> SVector<Self::Scalar, N> {
+        self.general_force_derivatives(q, v).value
+    }
+
+    /// f with ∂f/∂q and ∂f/∂v; 0 where there is none.
+    #[inline]
+    fn general_force_derivatives(
+        &self,
+        _q: &SVector<Self::Scalar, N>,
+        _v: &SVector<Self::Scalar, N>,
+    ) -> CovectorDerivatives<Self::Scalar, N> {
+        CovectorDerivatives::zero()
+    }
+
+    /// f_L(q, v), a covector at q.
+    #[inline]
+    fn acting_force(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> SVector<Self::Scalar, N> {
+        match (Self::HAS_RAYLEIGH, Self::HAS_FORCE) {
+            (true, true) => -self.dissipation(q, v).d2 + self.general_force(q, v),
+            (true, false) => -self.dissipation(q, v).d2,
+            (false, true) => self.general_force(q, v),
+            (false, false) => nalgebra::zero(),
+        }
+    }
+
+    /// f_L with ∂f_L/∂q and ∂f_L/∂v.
+    #[inline]
+    fn acting_force_derivatives(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> CovectorDerivatives<Self::Scalar, N> {
+        let of_rayleigh = || {
+            let r = self.dissipation_derivatives(q, v);
+            CovectorDerivatives { value: -r.d2, d1: -r.d12.transpose(), d2: -r.d22 }
+        };
+        match (Self::HAS_RAYLEIGH, Self::HAS_FORCE) {
+            (true, true) => of_rayleigh() + self.general_force_derivatives(q, v),
+            (true, false) => of_rayleigh(),
+            (false, true) => self.general_force_derivatives(q, v),
+            (false, false) => CovectorDerivatives::zero(),
+        }
+    }
+}
