@@ -257,9 +257,15 @@ enum Binding {
 struct Written {
     tokens: TokenStream,
     binding: Binding,
+    /// Whether it begins with a sign, and cannot take another.
+    is_signed: bool,
 }
 
 impl Written {
+    fn new(tokens: TokenStream, binding: Binding) -> Self {
+        Self { tokens, binding, is_signed: binding == Binding::Sign }
+    }
+
     /// The tokens as an operand of something that binds as tightly as `binding`.
     fn within(self, binding: Binding) -> TokenStream {
         let tokens = self.tokens;
@@ -294,7 +300,7 @@ impl Writer<'_> {
         if let Some((partner, angle)) = partner(self.graph, node, nodes) {
             let argument = self.called_on(angle, "sin_cos");
             let [own, its] = [node, partner].map(|node| {
-                let name = self.names.of(self.graph, node);
+                let name = self.names.of(self.graph, node, &self.locals);
                 self.locals[node.index()] = Some(name.clone());
                 name
             });
@@ -303,7 +309,7 @@ impl Writer<'_> {
             return quote!(let (#sine, #cosine) = #argument.sin_cos(););
         }
         let value = self.expression(node).tokens;
-        let name = self.names.of(self.graph, node);
+        let name = self.names.of(self.graph, node, &self.locals);
         self.locals[node.index()] = Some(name.clone());
         let is_lanes = self.is_lanes[node.index()];
         if is_lanes || self.typed[node.index()] || self.graph.operation(node).is_truth() {
@@ -316,7 +322,7 @@ impl Writer<'_> {
 
     fn expression(&self, node: Node) -> Written {
         if let Some(name) = &self.locals[node.index()] {
-            return Written { tokens: quote!(#name), binding: Binding::Atom };
+            return Written::new(quote!(#name), Binding::Atom);
         }
         let binary = |a: Node, symbol: TokenStream, b: Node, left: Binding, right: Binding| {
             let (a, b) = (self.expression(a).within(left), self.expression(b).within(right));
@@ -347,22 +353,19 @@ impl Writer<'_> {
                 (if is_lifted { quote!(D::lift(#operand)) } else { operand }, Binding::Atom)
             }
             Operation::Constant(bits) => self.constant(f64::from_bits(bits), false),
-            Operation::Add(a, b) => (binary(a, quote!(+), b, Binding::Sum, Binding::Product), Binding::Sum),
+            Operation::Add(a, b) => return self.nested(a, quote!(+), b, Binding::Sum),
             Operation::Subtract(a, b) => {
                 (binary(a, quote!(-), b, Binding::Sum, Binding::Product), Binding::Sum)
             }
             Operation::Multiply(a, b) => {
-                // Constants in front: `2.0 * x`.
-                let (a, b) = if self.graph.constant_value(b).is_some() { (b, a) } else { (a, b) };
-                (binary(a, quote!(*), b, Binding::Product, Binding::Sign), Binding::Product)
+                // What changes least in front: `2.0 * x`, `k * v[0]`.
+                let (a, b) = if self.changes(b) < self.changes(a) { (b, a) } else { (a, b) };
+                return self.nested(a, quote!(*), b, Binding::Product);
             }
             Operation::Divide(a, b) => {
                 (binary(a, quote!(/), b, Binding::Product, Binding::Sign), Binding::Product)
             }
-            Operation::Negate(a) => {
-                let a = self.expression(a).within(Binding::Atom);
-                (quote!(-#a), Binding::Sign)
-            }
+            Operation::Negate(a) => return self.negated(a),
             Operation::Function(function, x) => {
                 let (x, name) = (self.called_on(x, function.name()), format_ident!("{}", function.name()));
                 (quote!(#x.#name()), Binding::Atom)
@@ -422,7 +425,56 @@ impl Writer<'_> {
                 (quote!(#a || #b), Binding::Or)
             }
         };
-        Written { tokens, binding }
+        Written::new(tokens, binding)
+    }
+
+    /// A sum or product of the kind of `binding`, nested to the left: a + b + x for x + (a + b). The two are
+    /// equal to the last bit; not so the derivatives of dual numbers.
+    fn nested(&self, a: Node, symbol: TokenStream, b: Node, binding: Binding) -> Written {
+        let (mut first, mut second) = (self.expression(a), self.expression(b));
+        let may_follow = match binding {
+            // Computed later, a product of locals would keep them in registers for longer.
+            Binding::Sum => first.binding == Binding::Atom || self.is_of_variables(a),
+            _ => first.binding > binding && !first.is_signed && self.graph.constant_value(a).is_none(),
+        };
+        if !self.is_dual && second.binding == binding && may_follow {
+            (first, second) = (second, first);
+        }
+        let is_signed = first.is_signed && first.binding >= binding;
+        let tighter = if binding == Binding::Sum { Binding::Product } else { Binding::Sign };
+        let (first, second) = (first.within(binding), second.within(tighter));
+        Written { tokens: quote!(#first #symbol #second), binding, is_signed }
+    }
+
+    /// Whether it is a product of q, v, u and numbers alone.
+    fn is_of_variables(&self, node: Node) -> bool {
+        match self.graph.operation(node) {
+            Operation::Multiply(a, b) if self.locals[node.index()].is_none() => {
+                self.is_of_variables(a) && self.is_of_variables(b)
+            }
+            operation => operation.is_literal(),
+        }
+    }
+
+    /// 0 for a constant, 1 for what q, v and u leave as it is, 2 for the rest. Factors of dual numbers keep
+    /// their order, but for constants.
+    fn changes(&self, factor: Node) -> u8 {
+        match self.graph.constant_value(factor) {
+            Some(_) => 0,
+            None if self.is_dual => 1,
+            None => 1 + u8::from(self.graph.depends(factor)),
+        }
+    }
+
+    /// −a, the sign at the first factor of a product.
+    fn negated(&self, a: Node) -> Written {
+        let a = self.expression(a);
+        if a.binding == Binding::Product && !a.is_signed && !self.is_dual {
+            let tokens = a.tokens;
+            return Written { tokens: quote!(-#tokens), binding: Binding::Product, is_signed: true };
+        }
+        let a = a.within(Binding::Atom);
+        Written::new(quote!(-#a), Binding::Sign)
     }
 
     /// What the method of that name is called on: the number, or its elementary functions in the runtime.
@@ -443,7 +495,7 @@ impl Writer<'_> {
         match self.graph.constant_value(node) {
             Some(value) => {
                 let (tokens, binding) = self.constant(value, true);
-                Written { tokens, binding }.within(Binding::Atom)
+                Written::new(tokens, binding).within(Binding::Atom)
             }
             None => self.expression(node).within(Binding::Atom),
         }

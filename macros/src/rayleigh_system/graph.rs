@@ -17,7 +17,7 @@ pub mod interpret;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use proc_macro2::{Ident, Literal, Span, TokenStream, TokenTree};
-use quote::{format_ident, quote};
+use quote::{ToTokens, format_ident, quote};
 use syn::Expr;
 
 use super::syntax::regrouped;
@@ -75,6 +75,22 @@ impl Parameter {
     }
 }
 
+/// Where expressions are moved to.
+pub struct Point {
+    /// What is added to names there.
+    name: &'static str,
+    coordinates: Vec<Node>,
+    time: Option<Node>,
+    /// What has been moved there.
+    moved: HashMap<Node, Node>,
+}
+
+impl Point {
+    pub fn new(name: &'static str, coordinates: Vec<Node>, time: Option<Node>) -> Self {
+        Self { name, coordinates, time, moved: HashMap::new() }
+    }
+}
+
 /// The time, a local of functions whose bodies read it.
 const TIME: &str = "t";
 
@@ -102,6 +118,8 @@ pub struct Graph {
     without_zero: Vec<Node>,
     /// The name of the user's system.
     reserved: Option<String>,
+    /// Half the step size and the step size, where they occur.
+    step_size: Option<[Node; 2]>,
 }
 
 impl Graph {
@@ -259,6 +277,21 @@ impl Graph {
         self.placed(with_own_self(quote!(self.#expression)), false, true)
     }
 
+    /// `half`, of a step size `h`.
+    pub fn half_step(&mut self) -> Node {
+        let [half, whole] =
+            ["half", "h"].map(|name| self.written(format_ident!("{name}").into_token_stream()));
+        self.step_size = Some([half, whole]);
+        half
+    }
+
+    /// The step size, where `a` and `b` are 2 and half of it.
+    pub fn as_step_size(&self, a: Node, b: Node) -> Option<Node> {
+        let [half, whole] = self.step_size?;
+        let is_two = |node| self.constant_value(node) == Some(2.0);
+        ((a == half && is_two(b)) || (b == half && is_two(a))).then_some(whole)
+    }
+
     /// The time.
     pub fn time(&mut self) -> Node {
         let time = format_ident!("{TIME}");
@@ -307,38 +340,33 @@ impl Graph {
         if a == b { a } else { self.node(Operation::Select(condition, a, b)) }
     }
 
-    /// The expression with the coordinates replaced, and the time if it is given; names kept. `moved` holds
-    /// what was replaced before.
-    pub fn at(
-        &mut self,
-        root: Node,
-        configuration: &[Node],
-        time: Option<Node>,
-        moved: &mut HashMap<Node, Node>,
-    ) -> Node {
+    /// The expression with the coordinates replaced, and the time if it is given; names say where.
+    pub fn at(&mut self, root: Node, point: &mut Point) -> Node {
         let mut new = BTreeSet::new();
         let mut open = vec![root];
         while let Some(node) = open.pop() {
-            if !moved.contains_key(&node) && new.insert(node) {
+            if !point.moved.contains_key(&node) && new.insert(node) {
                 open.extend(self.operation(node).arguments());
             }
         }
         for node in new {
             let operation = self.operation(node);
             let replacement = match operation {
-                Operation::Coordinate(index) => configuration[index],
-                Operation::Parameter(index) if self.parameters[index].text == TIME => time.unwrap_or(node),
+                Operation::Coordinate(index) => point.coordinates[index],
+                Operation::Parameter(index) if self.parameters[index].text == TIME => {
+                    point.time.unwrap_or(node)
+                }
                 _ => {
-                    let replacement = self.node(operation.with_arguments(|argument| moved[&argument]));
+                    let replacement = self.node(operation.with_arguments(|argument| point.moved[&argument]));
                     if let Some(name) = self.names.get(&node).cloned() {
-                        self.give_name(replacement, &name);
+                        self.give_name(replacement, &format!("{name}_{}", point.name));
                     }
                     replacement
                 }
             };
-            moved.insert(node, replacement);
+            point.moved.insert(node, replacement);
         }
-        moved[&root]
+        point.moved[&root]
     }
 
     /// How many operations compute `roots`.

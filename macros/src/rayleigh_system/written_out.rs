@@ -258,14 +258,14 @@ impl Code<'_> {
             }
         }
         let line = self.code(&outputs);
-        let columns = line.outputs.chunks(self.n).map(|column| quote!([#(#column),*]));
+        let matrix = matrix(&line.outputs, self.n);
         let (q, v, statements) =
             (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
         quote! {
             #[inline]
             fn force_by_input(&self, #q: &Vector, #v: &Vector) -> SMatrix<#scalar, #n, #m> {
                 #statements
-                SMatrix::from([#(#columns),*])
+                #matrix
             }
         }
     }
@@ -363,11 +363,9 @@ impl Code<'_> {
             rest = after;
             match shape {
                 Shape::Scalar => own[0].clone(),
+                Shape::Vector if are_zeros(own) => quote!(SVector::zeros()),
                 Shape::Vector => quote!(SVector::from([#(#own),*])),
-                Shape::Matrix => {
-                    let columns = own.chunks(self.n).map(|column| quote!([#(#column),*]));
-                    quote!(SMatrix::from([#(#columns),*]))
-                }
+                Shape::Matrix => matrix(own, self.n),
             }
         })
     }
@@ -379,6 +377,20 @@ enum Shape {
     Scalar,
     Vector,
     Matrix,
+}
+
+/// The matrix of these entries, column by column.
+fn matrix(entries: &[TokenStream], rows: usize) -> TokenStream {
+    if are_zeros(entries) {
+        return quote!(SMatrix::zeros());
+    }
+    let columns = entries.chunks(rows).map(|column| quote!([#(#column),*]));
+    quote!(SMatrix::from([#(#columns),*]))
+}
+
+/// Whether all entries are the constant 0.
+fn are_zeros(entries: &[TokenStream]) -> bool {
+    entries.iter().all(|entry| entry.to_string() == "0.0")
 }
 
 /// A parameter of a function, marked where the body does not use it.

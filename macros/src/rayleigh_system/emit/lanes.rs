@@ -89,6 +89,6 @@ impl Writer<'_> {
             }
             _ => return None,
         };
-        Some(Written { tokens, binding })
+        Some(Written::new(tokens, binding))
     }
 }

@@ -23,9 +23,9 @@ impl Names {
         }
     }
 
-    /// A name for the node that nothing else in the function has.
-    pub fn of(&mut self, graph: &Graph, node: Node) -> Ident {
-        let name = match described(graph, node) {
+    /// A name for the node that nothing else in the function has; `locals` have theirs.
+    pub fn of(&mut self, graph: &Graph, node: Node, locals: &[Option<Ident>]) -> Ident {
+        let name = match described(graph, node, locals) {
             Some(name) => name,
             None => {
                 self.unnamed += 1;
@@ -45,21 +45,24 @@ impl Names {
 }
 
 /// The user's name, or one made of those of the arguments.
-fn described(graph: &Graph, node: Node) -> Option<String> {
+fn described(graph: &Graph, node: Node, locals: &[Option<Ident>]) -> Option<String> {
     if let Some(name) = graph.name(node)
         && !name.is_empty()
     {
         return Some(name.to_owned());
     }
     match graph.operation(node) {
-        Operation::Function(function, x) => Some(format!("{}_{}", function.name(), short(graph, x)?)),
-        Operation::Multiply(a, b) if a == b => Some(format!("{}_squared", short(graph, a)?)),
+        Operation::Function(function, x) => Some(format!("{}_{}", function.name(), short(graph, x, locals)?)),
+        Operation::Multiply(a, b) if a == b => Some(format!("{}_squared", short(graph, a, locals)?)),
         _ => None,
     }
 }
 
-/// The name of a variable or of a named expression.
-fn short(graph: &Graph, node: Node) -> Option<String> {
+/// The name of a variable, a local or a named expression.
+fn short(graph: &Graph, node: Node, locals: &[Option<Ident>]) -> Option<String> {
+    if let Some(local) = &locals[node.index()] {
+        return Some(local.to_string());
+    }
     match graph.operation(node) {
         Operation::Coordinate(index) => Some(format!("q{index}")),
         Operation::Velocity(index) => Some(format!("v{index}")),

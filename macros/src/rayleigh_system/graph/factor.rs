@@ -347,6 +347,9 @@ impl Factoring<'_> {
 
     fn multiplied(&mut self, product: Option<Node>, factor: Node) -> Node {
         let Some(product) = product else { return factor };
+        if let Some(step_size) = self.graph.as_step_size(product, factor) {
+            return step_size;
+        }
         let node = self.graph.node(Operation::Multiply(product, factor));
         self.products.insert(node);
         node

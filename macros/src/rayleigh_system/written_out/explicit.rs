@@ -9,7 +9,7 @@ impl Code<'_> {
     pub(super) fn explicit(&mut self, parts: &Parts, diagonals: Option<usize>) -> TokenStream {
         let scalar = &self.system.scalar;
         let n = self.system.degrees.times(1);
-        let half = self.graph.written(quote!(half));
+        let half = self.graph.half_step();
 
         let matrix = self.matrix(|code, i, j| {
             let second = [&parts.lagrangian, &parts.rayleigh].map(|of| code.second(of, (i, true), (j, true)));
@@ -17,7 +17,7 @@ impl Code<'_> {
             [second[0], drag].into_iter().flatten().reduce(|a, b| code.graph.plus(a, b))
         });
         let (line, matrix) = self.newton_matrix(&[], &matrix, diagonals);
-        let (h, statements) = (parameter("h", line.uses("half")), &line.statements);
+        let (h, statements) = (parameter("h", line.uses("half") || line.uses("h")), &line.statements);
         let let_half = |line: &StraightLine| line.uses("half").then(|| quote!(let half = 0.5 * h;));
         let prelude = let_half(&line);
         let step_matrix = quote! {
@@ -43,7 +43,8 @@ impl Code<'_> {
         }
         let line = self.code(&[p0, p1].concat());
         let [p0, p1] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
-        let (v, h) = (parameter("v", line.uses_velocities), parameter("h", line.uses("half")));
+        let (v, h) =
+            (parameter("v", line.uses_velocities), parameter("h", line.uses("half") || line.uses("h")));
         let (prelude, statements) = (let_half(&line), &line.statements);
         let velocity_momenta = quote! {
             #[inline]

@@ -13,7 +13,7 @@ use super::*;
 
 impl Code<'_> {
     pub(super) fn midpoint(&mut self, parts: &Parts) -> Equation {
-        let half = self.graph.written(quote!(half));
+        let half = self.graph.half_step();
         let (negative, one) = (self.graph.negated(half), self.graph.one());
         let minus = Along { first: Some(negative), second: Some(one) };
         let plus = Along { first: Some(half), second: Some(one) };
@@ -112,8 +112,11 @@ impl Code<'_> {
             let entries = index.map(|index| quote!(q0[#index] + half * v[#index]));
             quote!(let q = [#(#entries),*];)
         });
-        let unused =
-            unused([(q.is_some(), "q0"), (q.is_some() || line.uses_velocities, "v"), (half.is_some(), "h")]);
+        let unused = unused([
+            (q.is_some(), "q0"),
+            (q.is_some() || line.uses_velocities, "v"),
+            (half.is_some() || line.uses("h"), "h"),
+        ]);
         let statements = &line.statements;
         quote! {
             #unused

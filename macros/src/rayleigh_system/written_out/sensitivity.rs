@@ -46,11 +46,8 @@ impl Code<'_> {
         let outputs: Vec<Node> =
             [false, true].iter().flat_map(|&by| self.mixed_with_parameters(&of, by)).collect();
         let line = self.code(&outputs);
-        let [d1, d2] = [0, 1].map(|half| {
-            let columns = line.outputs.chunks(self.n).skip(half * count).take(count);
-            let columns = columns.map(|column| quote!([#(#column),*]));
-            quote!(SMatrix::from([#(#columns),*]))
-        });
+        let (by_q, by_v) = line.outputs.split_at(self.n * count);
+        let [d1, d2] = [by_q, by_v].map(|entries| matrix(entries, self.n));
         let (q, v, statements) =
             (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
         quote! {
@@ -75,14 +72,14 @@ impl Code<'_> {
             }
         }
         let line = self.code(&outputs);
-        let columns = line.outputs.chunks(self.n).map(|column| quote!([#(#column),*]));
+        let matrix = matrix(&line.outputs, self.n);
         let (q, v, statements) =
             (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
         quote! {
             #[inline]
             fn force_by_parameters(&self, #q: &Vector, #v: &Vector) -> SMatrix<#scalar, #n, #p> {
                 #statements
-                SMatrix::from([#(#columns),*])
+                #matrix
             }
         }
     }
@@ -175,11 +172,9 @@ impl Code<'_> {
             let columns: Vec<_> = line.outputs[squares..].chunks(2 * self.n + self.m).collect();
             let [d1u, d2u, duu] =
                 [0..self.n, self.n..2 * self.n, 2 * self.n..2 * self.n + self.m].map(|rows| {
-                    let columns = columns.iter().map(|column| {
-                        let column = &column[rows.clone()];
-                        quote!([#(#column),*])
-                    });
-                    quote!(SMatrix::from([#(#columns),*]))
+                    let entries: Vec<_> =
+                        columns.iter().flat_map(|column| column[rows.clone()].iter().cloned()).collect();
+                    matrix(&entries, rows.len())
                 });
             quote!(d1u: #d1u, d2u: #d2u, duu: #duu)
         });

@@ -6,30 +6,17 @@
 //! p1      = ⟨L_v⟩ − (h/2) ⟨R_v⟩ + (h/2) (L_q + f)(q1) − (h²/4) R_q(q1)
 //! ```
 
-use std::collections::HashMap;
-
+use super::super::graph::Point;
 use super::kernel::{Equation, Parts};
 use super::*;
 
-/// An end of the segment.
-struct End {
-    q: Vec<Node>,
-    /// The time there; that of the start has the name that the bodies know.
-    t: Option<Node>,
-    /// What has been moved there.
-    moved: HashMap<Node, Node>,
-}
-
 impl Code<'_> {
     pub(super) fn trapezoidal(&mut self, parts: &Parts) -> Equation {
-        let half = self.graph.written(quote!(half));
-        let [q0, q1] = ["q0", "q1"]
-            .map(|end| (0..self.n).map(|index| self.graph.entry(end, index)).collect::<Vec<Node>>());
+        let half = self.graph.half_step();
         let end_time = self.system.timed.any().then(|| self.graph.written(quote!(t_end)));
-        let (mut start, mut end) = (
-            End { q: q0, t: None, moved: HashMap::new() },
-            End { q: q1, t: end_time, moved: HashMap::new() },
-        );
+        // The time at the start has the name that the bodies know.
+        let [mut start, mut end] = [("q0", "start", None), ("q1", "end", end_time)]
+            .map(|(q, name, time)| Point::new(name, self.coordinates(q, name), time));
         let (mut p0, mut p1) = (Vec::new(), Vec::new());
         for index in 0..self.n {
             let (v, q) = (self.variable(index, true), self.variable(index, false));
@@ -43,10 +30,10 @@ impl Code<'_> {
             let share = by_q[1].map(|r_q| self.graph.times(half, r_q));
 
             // (h/2) (L_q + f ± (h/2) R_q) at one end.
-            let impulse = |code: &mut Self, end: &mut End, share: Option<Node>| {
+            let impulse = |code: &mut Self, end: &mut Point, share: Option<Node>| {
                 let terms = [force, share].into_iter().flatten();
                 let sum = terms.reduce(|a, b| code.graph.plus(a, b))?;
-                let sum = code.at(sum, end);
+                let sum = code.graph.at(sum, end);
                 Some(code.graph.times(half, sum))
             };
             let before = impulse(self, &mut start, share).map(|impulse| self.graph.negated(impulse));
@@ -63,8 +50,10 @@ impl Code<'_> {
             for (of, is_rayleigh) in [(&parts.lagrangian, false), (&parts.rayleigh, true)] {
                 let second =
                     code.second(of, (i, true), (j, true)).map(|entry| code.mean(entry, &mut start, &mut end));
-                let ahead = code.second(of, (i, true), (j, false)).map(|entry| code.at(entry, &mut end));
-                let behind = code.second(of, (i, false), (j, true)).map(|entry| code.at(entry, &mut start));
+                let ahead =
+                    code.second(of, (i, true), (j, false)).map(|entry| code.graph.at(entry, &mut end));
+                let behind =
+                    code.second(of, (i, false), (j, true)).map(|entry| code.graph.at(entry, &mut start));
                 let skew = match (ahead, behind) {
                     (Some(ahead), Some(behind)) if ahead == behind => None,
                     (Some(ahead), Some(behind)) => Some(code.graph.minus(ahead, behind)),
@@ -81,7 +70,7 @@ impl Code<'_> {
             }
             let variable = code.variable(j, true);
             if let Some(&by_v) = parts.rows.get(i).and_then(|row| row.get(&variable)) {
-                let by_v = code.at(by_v, &mut start);
+                let by_v = code.graph.at(by_v, &mut start);
                 let share = code.graph.times(half, by_v);
                 let share = code.graph.negated(share);
                 sum = Some(code.added(sum, share));
@@ -91,14 +80,19 @@ impl Code<'_> {
         Equation { p0, p1, matrix }
     }
 
-    /// The expression at one end.
-    fn at(&mut self, node: Node, end: &mut End) -> Node {
-        self.graph.at(node, &end.q, end.t, &mut end.moved)
+    /// `q0[0]`, … as what is named after the place there.
+    fn coordinates(&mut self, q: &str, place: &str) -> Vec<Node> {
+        let entry = |index| {
+            let entry = self.graph.entry(q, index);
+            self.graph.give_name(entry, &format!("q{index}_{place}"));
+            entry
+        };
+        (0..self.n).map(entry).collect()
     }
 
     /// The mean over both ends.
-    fn mean(&mut self, node: Node, start: &mut End, end: &mut End) -> Node {
-        let (a, b) = (self.at(node, start), self.at(node, end));
+    fn mean(&mut self, node: Node, start: &mut Point, end: &mut Point) -> Node {
+        let (a, b) = (self.graph.at(node, start), self.graph.at(node, end));
         if a == b {
             return a;
         }
@@ -119,7 +113,7 @@ impl Code<'_> {
         let unused = unused([
             (q1.is_some() || line.uses("q0"), "q0"),
             (q1.is_some() || line.uses_velocities, "v"),
-            (q1.is_some() || half.is_some() || t_end.is_some(), "h"),
+            (q1.is_some() || half.is_some() || t_end.is_some() || line.uses("h"), "h"),
         ]);
         let statements = &line.statements;
         quote! {

@@ -49,8 +49,8 @@ const _: () = {
         }
         #[inline]
         fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 4> {
-            let kinetic = v[3] * (0.5 * v[3])
-                + (v[2] * (0.5 * v[2]) + (v[0] * (0.5 * v[0]) + v[1] * (0.5 * v[1])));
+            let kinetic = 0.5 * v[0] * v[0] + 0.5 * v[1] * v[1] + 0.5 * v[2] * v[2]
+                + 0.5 * v[3] * v[3];
             let d = q[1] - q[0];
             let square = d * d;
             let beta = self.beta;
@@ -59,15 +59,15 @@ const _: () = {
             let square_2 = d_2 * d_2;
             let d_3 = q[3] - q[2];
             let square_3 = d_3 * d_3;
-            let springs = 0.5 * square_3 + square_3 * (t1 * square_3)
-                + (0.5 * square + square * (square * t1)
-                    + (0.5 * square_2 + square_2 * (t1 * square_2)));
+            let springs = 0.5 * square_3 + t1 * square_3 * square_3
+                + (0.5 * square + t1 * square * square
+                    + (0.5 * square_2 + t1 * square_2 * square_2));
             let t2 = 0.5 * beta;
-            let dl_dsquare = -(0.5 + square_3 * t2);
+            let dl_dsquare = -(0.5 + t2 * square_3);
             let dl_dd = 2.0 * d_3 * dl_dsquare;
-            let dl_dsquare_2 = -(0.5 + square_2 * t2);
+            let dl_dsquare_2 = -(0.5 + t2 * square_2);
             let dl_dd_2 = 2.0 * d_2 * dl_dsquare_2;
-            let dl_dsquare_3 = -(0.5 + square * t2);
+            let dl_dsquare_3 = -(0.5 + t2 * square);
             let dl_dd_3 = 2.0 * d * dl_dsquare_3;
             Gradient {
                 value: kinetic - springs,
@@ -77,8 +77,8 @@ const _: () = {
         }
         #[inline]
         fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 4> {
-            let kinetic = v[3] * (0.5 * v[3])
-                + (v[2] * (0.5 * v[2]) + (v[0] * (0.5 * v[0]) + v[1] * (0.5 * v[1])));
+            let kinetic = 0.5 * v[0] * v[0] + 0.5 * v[1] * v[1] + 0.5 * v[2] * v[2]
+                + 0.5 * v[3] * v[3];
             let d = q[1] - q[0];
             let square = d * d;
             let beta = self.beta;
@@ -87,24 +87,24 @@ const _: () = {
             let square_2 = d_2 * d_2;
             let d_3 = q[3] - q[2];
             let square_3 = d_3 * d_3;
-            let springs = 0.5 * square_3 + square_3 * (t1 * square_3)
-                + (0.5 * square + square * (square * t1)
-                    + (0.5 * square_2 + square_2 * (t1 * square_2)));
+            let springs = 0.5 * square_3 + t1 * square_3 * square_3
+                + (0.5 * square + t1 * square * square
+                    + (0.5 * square_2 + t1 * square_2 * square_2));
             let t2 = 2.0 * d_3;
             let t3 = 2.0 * d_2;
             let t4 = 2.0 * d;
             let t5 = 0.5 * beta;
-            let dl_dsquare = -(0.5 + square_3 * t5);
+            let dl_dsquare = -(0.5 + t5 * square_3);
             let dl_dd = t2 * dl_dsquare;
-            let dl_dsquare_2 = -(0.5 + square_2 * t5);
+            let dl_dsquare_2 = -(0.5 + t5 * square_2);
             let dl_dd_2 = t3 * dl_dsquare_2;
-            let dl_dsquare_3 = -(0.5 + square * t5);
+            let dl_dsquare_3 = -(0.5 + t5 * square);
             let dl_dd_3 = t4 * dl_dsquare_3;
-            let t6 = 2.0 * dl_dsquare - t2 * (beta * d_3);
+            let t6 = 2.0 * dl_dsquare - beta * d_3 * t2;
             let t7 = -t6;
-            let t8 = 2.0 * dl_dsquare_2 - t3 * (beta * d_2);
+            let t8 = 2.0 * dl_dsquare_2 - beta * d_2 * t3;
             let t9 = -t8;
-            let t10 = 2.0 * dl_dsquare_3 - t4 * (d * beta);
+            let t10 = 2.0 * dl_dsquare_3 - beta * d * t4;
             let t11 = -t10;
             Derivatives {
                 value: kinetic - springs,
@@ -116,12 +116,7 @@ const _: () = {
                     [0.0, t9, t6 + t8, t7],
                     [0.0, 0.0, t7, t6],
                 ]),
-                d12: SMatrix::from([
-                    [0.0, 0.0, 0.0, 0.0],
-                    [0.0, 0.0, 0.0, 0.0],
-                    [0.0, 0.0, 0.0, 0.0],
-                    [0.0, 0.0, 0.0, 0.0],
-                ]),
+                d12: SMatrix::zeros(),
                 d22: SMatrix::from([
                     [1.0, 0.0, 0.0, 0.0],
                     [0.0, 1.0, 0.0, 0.0],
@@ -183,31 +178,31 @@ const _: () = {
             let t2 = 2.0 * d_2;
             let t3 = 2.0 * d;
             let t4 = 0.5 * beta;
-            let dl_dsquare = -(0.5 + square_3 * t4);
+            let dl_dsquare = -(0.5 + t4 * square_3);
             let dl_dd = t1 * dl_dsquare;
-            let dl_dsquare_2 = -(0.5 + square_2 * t4);
+            let dl_dsquare_2 = -(0.5 + t4 * square_2);
             let dl_dd_2 = t2 * dl_dsquare_2;
-            let dl_dsquare_3 = -(0.5 + square * t4);
+            let dl_dsquare_3 = -(0.5 + t4 * square);
             let dl_dd_3 = t3 * dl_dsquare_3;
-            let t5 = 2.0 * dl_dsquare - t1 * (beta * d_3);
-            let t6 = 2.0 * dl_dsquare_2 - t2 * (beta * d_2);
-            let t7 = 2.0 * dl_dsquare_3 - t3 * (d * beta);
+            let t5 = 2.0 * dl_dsquare - beta * d_3 * t1;
+            let t6 = 2.0 * dl_dsquare_2 - beta * d_2 * t2;
+            let t7 = 2.0 * dl_dsquare_3 - beta * d * t3;
             let t8 = half * half;
-            let t9 = t7 * t8;
-            let t10 = t6 * t8;
-            let t11 = t5 * t8;
+            let t9 = t8 * t7;
+            let t10 = t8 * t6;
+            let t11 = t8 * t5;
             StepKernel {
                 p0: SVector::from([
-                    v[0] + dl_dd_3 * half,
-                    v[1] - (dl_dd_3 - dl_dd_2) * half,
-                    v[2] - (dl_dd_2 - dl_dd) * half,
-                    v[3] - dl_dd * half,
+                    v[0] + half * dl_dd_3,
+                    v[1] - half * (dl_dd_3 - dl_dd_2),
+                    v[2] - half * (dl_dd_2 - dl_dd),
+                    v[3] - half * dl_dd,
                 ]),
                 matrix: ::dalembert::generated::Banded {
                     rows: [
                         [0.0, 1.0 - t9, t9],
-                        [t9, 1.0 - (t6 + t7) * t8, t10],
-                        [t10, 1.0 - (t5 + t6) * t8, t11],
+                        [t9, 1.0 - t8 * (t6 + t7), t10],
+                        [t10, 1.0 - t8 * (t5 + t6), t11],
                         [t11, 1.0 - t11, 0.0],
                     ],
                 },
@@ -230,16 +225,16 @@ const _: () = {
             let d_3 = q[3] - q[2];
             let square_3 = d_3 * d_3;
             let t1 = 0.5 * self.beta;
-            let dl_dsquare = -(0.5 + square_3 * t1);
+            let dl_dsquare = -(0.5 + t1 * square_3);
             let dl_dd = 2.0 * d_3 * dl_dsquare;
-            let dl_dsquare_2 = -(0.5 + square_2 * t1);
+            let dl_dsquare_2 = -(0.5 + t1 * square_2);
             let dl_dd_2 = 2.0 * d_2 * dl_dsquare_2;
-            let dl_dsquare_3 = -(0.5 + square * t1);
+            let dl_dsquare_3 = -(0.5 + t1 * square);
             let dl_dd_3 = 2.0 * d * dl_dsquare_3;
-            let t2 = dl_dd_3 * half;
-            let t3 = (dl_dd_3 - dl_dd_2) * half;
-            let t4 = (dl_dd_2 - dl_dd) * half;
-            let t5 = dl_dd * half;
+            let t2 = half * dl_dd_3;
+            let t3 = half * (dl_dd_3 - dl_dd_2);
+            let t4 = half * (dl_dd_2 - dl_dd);
+            let t5 = half * dl_dd;
             Momenta {
                 p0: SVector::from([v[0] + t2, v[1] - t3, v[2] - t4, v[3] - t5]),
                 p1: SVector::from([v[0] - t2, v[1] + t3, v[2] + t4, v[3] + t5]),

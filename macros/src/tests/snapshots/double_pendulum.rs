@@ -54,25 +54,25 @@ const _: () = {
             let l1 = self.l[0];
             let l2 = self.l[1];
             let t2 = q[0] - q[1];
-            let (t4, t3) = t2.sin_cos();
-            let t5 = l2 * (m2 * l1);
-            let t6 = t3 * t5;
-            let t7 = v[0] * t6;
-            let kinetic = v[0] * (v[0] * (l1 * (0.5 * t1 * l1)))
-                + v[1] * (v[1] * (l2 * (0.5 * m2 * l2))) + v[1] * t7;
+            let (sin_t2, cos_t2) = t2.sin_cos();
+            let t3 = m2 * l1 * l2;
+            let t4 = t3 * cos_t2;
+            let t5 = v[0] * t4;
+            let kinetic = 0.5 * t1 * l1 * l1 * v[0] * v[0]
+                + 0.5 * m2 * l2 * l2 * v[1] * v[1] + v[1] * t5;
             let (sin_q0, cos_q0) = q[0].sin_cos();
             let g = self.g;
-            let t8 = l1 * (-t1 * g);
+            let t6 = -t1 * g * l1;
             let (sin_q1, cos_q1) = q[1].sin_cos();
-            let t9 = l2 * (m2 * g);
-            let potential = cos_q0 * t8 - cos_q1 * t9;
-            let t10 = t4 * (v[1] * (v[0] * t5));
+            let t7 = m2 * g * l2;
+            let potential = t6 * cos_q0 - t7 * cos_q1;
+            let t8 = t3 * v[0] * v[1] * sin_t2;
             Gradient {
                 value: kinetic - potential,
-                d1: SVector::from([t8 * sin_q0 - t10, t10 - t9 * sin_q1]),
+                d1: SVector::from([t6 * sin_q0 - t8, t8 - t7 * sin_q1]),
                 d2: SVector::from([
-                    v[1] * t6 + v[0] * (l1 * (t1 * l1)),
-                    t7 + v[1] * (l2 * (m2 * l2)),
+                    v[1] * t4 + t1 * l1 * l1 * v[0],
+                    t5 + m2 * l2 * l2 * v[1],
                 ]),
             }
         }
@@ -83,34 +83,34 @@ const _: () = {
             let l1 = self.l[0];
             let l2 = self.l[1];
             let t2 = q[0] - q[1];
-            let (t4, t3) = t2.sin_cos();
-            let t5 = l2 * (m2 * l1);
-            let t6 = t3 * t5;
-            let t7 = v[0] * t6;
-            let kinetic = v[0] * (v[0] * (l1 * (0.5 * t1 * l1)))
-                + v[1] * (v[1] * (l2 * (0.5 * m2 * l2))) + v[1] * t7;
+            let (sin_t2, cos_t2) = t2.sin_cos();
+            let t3 = m2 * l1 * l2;
+            let t4 = t3 * cos_t2;
+            let t5 = v[0] * t4;
+            let kinetic = 0.5 * t1 * l1 * l1 * v[0] * v[0]
+                + 0.5 * m2 * l2 * l2 * v[1] * v[1] + v[1] * t5;
             let (sin_q0, cos_q0) = q[0].sin_cos();
             let g = self.g;
-            let t8 = l1 * (-t1 * g);
-            let t9 = cos_q0 * t8;
+            let t6 = -t1 * g * l1;
+            let t7 = t6 * cos_q0;
             let (sin_q1, cos_q1) = q[1].sin_cos();
-            let t10 = l2 * (m2 * g);
-            let t11 = cos_q1 * t10;
-            let potential = t9 - t11;
-            let t12 = v[0] * v[1];
-            let t13 = t5 * t12 * t4;
-            let t14 = t4 * (v[1] * t5);
-            let t15 = t4 * (v[0] * t5);
-            let t16 = t6 * t12;
-            let t17 = l2 * (m2 * l2);
-            let t18 = l1 * (t1 * l1);
+            let t8 = m2 * g * l2;
+            let t9 = t8 * cos_q1;
+            let potential = t7 - t9;
+            let t10 = v[0] * v[1];
+            let t11 = t3 * t10 * sin_t2;
+            let t12 = t3 * v[1] * sin_t2;
+            let t13 = t3 * v[0] * sin_t2;
+            let t14 = t4 * t10;
+            let t15 = m2 * l2 * l2;
+            let t16 = t1 * l1 * l1;
             Derivatives {
                 value: kinetic - potential,
-                d1: SVector::from([t8 * sin_q0 - t13, t13 - t10 * sin_q1]),
-                d2: SVector::from([v[1] * t6 + v[0] * t18, t7 + v[1] * t17]),
-                d11: SMatrix::from([[t9 - t16, t16], [t16, -(t11 + t16)]]),
-                d12: SMatrix::from([[-t14, t14], [-t15, t15]]),
-                d22: SMatrix::from([[t18, t6], [t6, t17]]),
+                d1: SVector::from([t6 * sin_q0 - t11, t11 - t8 * sin_q1]),
+                d2: SVector::from([v[1] * t4 + t16 * v[0], t5 + t15 * v[1]]),
+                d11: SMatrix::from([[t7 - t14, t14], [t14, -(t9 + t14)]]),
+                d12: SMatrix::from([[-t12, t12], [-t13, t13]]),
+                d22: SMatrix::from([[t16, t4], [t4, t15]]),
             }
         }
         fn verify_generated(
@@ -133,11 +133,11 @@ const _: () = {
             let relative = v[1] - v[0];
             let c_0 = self.c[0];
             let c_1 = self.c[1];
-            let dr_drelative = relative * c_1;
+            let dr_drelative = c_1 * relative;
             Gradient {
-                value: v[0] * (v[0] * (0.5 * c_0)) + relative * (relative * (0.5 * c_1)),
-                d1: SVector::from([0.0, 0.0]),
-                d2: SVector::from([v[0] * c_0 - dr_drelative, dr_drelative]),
+                value: 0.5 * c_0 * v[0] * v[0] + 0.5 * c_1 * relative * relative,
+                d1: SVector::zeros(),
+                d2: SVector::from([c_0 * v[0] - dr_drelative, dr_drelative]),
             }
         }
         #[inline]
@@ -146,13 +146,13 @@ const _: () = {
             let c_0 = self.c[0];
             let c_1 = self.c[1];
             let t1 = -c_1;
-            let dr_drelative = relative * c_1;
+            let dr_drelative = c_1 * relative;
             Derivatives {
-                value: v[0] * (v[0] * (0.5 * c_0)) + relative * (relative * (0.5 * c_1)),
-                d1: SVector::from([0.0, 0.0]),
-                d2: SVector::from([v[0] * c_0 - dr_drelative, dr_drelative]),
-                d11: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
-                d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                value: 0.5 * c_0 * v[0] * v[0] + 0.5 * c_1 * relative * relative,
+                d1: SVector::zeros(),
+                d2: SVector::from([c_0 * v[0] - dr_drelative, dr_drelative]),
+                d11: SMatrix::zeros(),
+                d12: SMatrix::zeros(),
                 d22: SMatrix::from([[c_0 + c_1, t1], [t1, c_1]]),
             }
         }
@@ -218,42 +218,42 @@ const _: () = {
             let l1 = self.l[0];
             let l2 = self.l[1];
             let t2 = q[0] - q[1];
-            let (t4, t3) = t2.sin_cos();
-            let t5 = l2 * (m2 * l1);
-            let t6 = t3 * t5;
+            let (sin_t2, cos_t2) = t2.sin_cos();
+            let t3 = m2 * l1 * l2;
+            let t4 = t3 * cos_t2;
             let (sin_q0, cos_q0) = q[0].sin_cos();
             let g = self.g;
-            let t7 = l1 * (-t1 * g);
+            let t5 = -t1 * g * l1;
             let (sin_q1, cos_q1) = q[1].sin_cos();
-            let t8 = l2 * (m2 * g);
+            let t6 = m2 * g * l2;
             let relative = v[1] - v[0];
             let c_0 = self.c[0];
             let c_1 = self.c[1];
-            let t9 = v[0] * v[1];
-            let t10 = t5 * t9 * t4;
-            let t11 = t6 * t9;
-            let t12 = l2 * (m2 * l2);
-            let t13 = l1 * (t1 * l1);
-            let dr_drelative = relative * c_1;
-            let t14 = c_1 * half;
-            let t15 = t6 - t14;
-            let t16 = half * half;
-            let t17 = t11 * t16;
-            let t18 = t5 * half;
-            let t19 = t4 * (v[0] * t18);
-            let t20 = t4 * (v[1] * t18);
+            let t7 = v[0] * v[1];
+            let t8 = t3 * t7 * sin_t2;
+            let t9 = t4 * t7;
+            let t10 = m2 * l2 * l2;
+            let t11 = t1 * l1 * l1;
+            let dr_drelative = c_1 * relative;
+            let t12 = c_1 * half;
+            let t13 = t4 - t12;
+            let t14 = half * half;
+            let t15 = t14 * t9;
+            let t16 = t3 * half;
+            let t17 = t16 * v[0] * sin_t2;
+            let t18 = t16 * v[1] * sin_t2;
             StepKernel {
                 p0: SVector::from([
-                    v[1] * t6 + v[0] * t13
-                        - half * (dr_drelative + (t7 * sin_q0 - t10 - v[0] * c_0)),
-                    v[0] * t6 + v[1] * t12 - half * (t10 - t8 * sin_q1 - dr_drelative),
+                    v[1] * t4 + t11 * v[0]
+                        - half * (t5 * sin_q0 - t8 - c_0 * v[0] + dr_drelative),
+                    v[0] * t4 + t10 * v[1] - half * (t8 - t6 * sin_q1 - dr_drelative),
                 ]),
                 matrix: SMatrix::from([
                     [
-                        t13 + (c_0 + c_1) * half - (cos_q0 * t7 - t11) * t16,
-                        t15 - t19 - t20 - t17,
+                        t11 + (c_0 + c_1) * half - t14 * (t5 * cos_q0 - t9),
+                        t13 - t17 - t18 - t15,
                     ],
-                    [t20 + (t15 + t19) - t17, (cos_q1 * t8 + t11) * t16 + (t12 + t14)],
+                    [t13 + t17 + t18 - t15, t14 * (t6 * cos_q1 + t9) + (t10 + t12)],
                 ]),
             }
         }
@@ -266,23 +266,22 @@ const _: () = {
             let l1 = self.l[0];
             let l2 = self.l[1];
             let t1 = q[0] - q[1];
-            let (t3, t2) = t1.sin_cos();
-            let t4 = l2 * (m2 * l1);
-            let t5 = t2 * t4;
+            let (sin_t1, cos_t1) = t1.sin_cos();
+            let t2 = m2 * l1 * l2;
+            let t3 = t2 * cos_t1;
             let g = self.g;
             let relative = v[1] - v[0];
-            let t6 = t3 * (v[1] * (v[0] * t4));
-            let t7 = m2 * l2;
-            let t8 = v[0] * t5 + v[1] * (l2 * t7);
-            let t9 = (self.m[0] + m2) * l1;
-            let t10 = v[1] * t5 + v[0] * (l1 * t9);
-            let dr_drelative = relative * self.c[1];
-            let t11 = half
-                * (dr_drelative - q[0].sin() * (g * t9) - t6 - v[0] * self.c[0]);
-            let t12 = half * (t6 - q[1].sin() * (g * t7) - dr_drelative);
+            let t4 = t2 * v[0] * v[1] * sin_t1;
+            let t5 = m2 * l2;
+            let t6 = v[0] * t3 + l2 * t5 * v[1];
+            let t7 = (self.m[0] + m2) * l1;
+            let t8 = v[1] * t3 + l1 * t7 * v[0];
+            let dr_drelative = self.c[1] * relative;
+            let t9 = half * (dr_drelative - g * t7 * q[0].sin() - t4 - self.c[0] * v[0]);
+            let t10 = half * (t4 - g * t5 * q[1].sin() - dr_drelative);
             Momenta {
-                p0: SVector::from([t10 - t11, t8 - t12]),
-                p1: SVector::from([t10 + t11, t8 + t12]),
+                p0: SVector::from([t8 - t9, t6 - t10]),
+                p1: SVector::from([t8 + t9, t6 + t10]),
             }
         }
         /// E_L on the segment.

@@ -77,9 +77,9 @@ const _: () = {
             let m = self.m;
             let (sin_q0, cos_q0) = q[0].sin_cos();
             Gradient {
-                value: v[0] * (v[0] * (0.5 * m)) + cos_q0,
+                value: 0.5 * m * v[0] * v[0] + cos_q0,
                 d1: SVector::from([-sin_q0]),
-                d2: SVector::from([v[0] * m]),
+                d2: SVector::from([m * v[0]]),
             }
         }
         #[inline]
@@ -87,11 +87,11 @@ const _: () = {
             let m = self.m;
             let (sin_q0, cos_q0) = q[0].sin_cos();
             Derivatives {
-                value: v[0] * (v[0] * (0.5 * m)) + cos_q0,
+                value: 0.5 * m * v[0] * v[0] + cos_q0,
                 d1: SVector::from([-sin_q0]),
-                d2: SVector::from([v[0] * m]),
+                d2: SVector::from([m * v[0]]),
                 d11: SMatrix::from([[-cos_q0]]),
-                d12: SMatrix::from([[0.0]]),
+                d12: SMatrix::zeros(),
                 d22: SMatrix::from([[m]]),
             }
         }
@@ -161,20 +161,20 @@ const _: () = {
         fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 1> {
             let c = self.c;
             Gradient {
-                value: v[0] * (v[0] * (0.5 * c)),
-                d1: SVector::from([0.0]),
-                d2: SVector::from([v[0] * c]),
+                value: 0.5 * c * v[0] * v[0],
+                d1: SVector::zeros(),
+                d2: SVector::from([c * v[0]]),
             }
         }
         #[inline]
         fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
             let c = self.c;
             Derivatives {
-                value: v[0] * (v[0] * (0.5 * c)),
-                d1: SVector::from([0.0]),
-                d2: SVector::from([v[0] * c]),
-                d11: SMatrix::from([[0.0]]),
-                d12: SMatrix::from([[0.0]]),
+                value: 0.5 * c * v[0] * v[0],
+                d1: SVector::zeros(),
+                d2: SVector::from([c * v[0]]),
+                d11: SMatrix::zeros(),
+                d12: SMatrix::zeros(),
                 d22: SMatrix::from([[c]]),
             }
         }
@@ -219,11 +219,11 @@ const _: () = {
             let t = self.t;
             let u = self.u;
             let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1 = u[0] * self.system.gain;
+            let t1 = self.system.gain * u[0];
             CovectorDerivatives {
                 value: SVector::from([cos_q0 * t1 + (t * Arm::RATE).sin()]),
-                d1: SMatrix::from([[-(t1 * sin_q0)]]),
-                d2: SMatrix::from([[0.0]]),
+                d1: SMatrix::from([[-t1 * sin_q0]]),
+                d2: SMatrix::zeros(),
             }
         }
     }
@@ -261,7 +261,7 @@ const _: () = {
     impl Driven<1, 1> for DrivenArm<'_> {
         #[inline]
         fn force_by_input(&self, q: &Vector, _v: &Vector) -> SMatrix<f64, 1, 1> {
-            SMatrix::from([[q[0].cos() * self.system.gain]])
+            SMatrix::from([[self.system.gain * q[0].cos()]])
         }
     }
     #[automatically_derived]
@@ -323,12 +323,12 @@ const _: () = {
             let m = self.system.m;
             let (sin_q0, cos_q0) = q[0].sin_cos();
             let c = self.system.c;
-            let t1 = u[0] * self.system.gain;
+            let t1 = self.system.gain * u[0];
             StepKernel {
                 p0: SVector::from([
-                    v[0] * m
+                    m * v[0]
                         - half
-                            * (cos_q0 * t1 + (t * Arm::RATE).sin() - sin_q0 - v[0] * c),
+                            * (cos_q0 * t1 + (t * Arm::RATE).sin() - sin_q0 - c * v[0]),
                 ]),
                 matrix: SMatrix::from([[m + half * (c + half * (cos_q0 + t1 * sin_q0))]]),
             }
@@ -341,10 +341,10 @@ const _: () = {
             let t = self.t + half;
             let u = self.u;
             let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1 = v[0] * self.system.m;
+            let t1 = self.system.m * v[0];
             let t2 = half
-                * (cos_q0 * (u[0] * self.system.gain) + (t * Arm::RATE).sin() - sin_q0
-                    - v[0] * self.system.c);
+                * (self.system.gain * u[0] * cos_q0 + (t * Arm::RATE).sin() - sin_q0
+                    - self.system.c * v[0]);
             Momenta {
                 p0: SVector::from([t1 - t2]),
                 p1: SVector::from([t1 + t2]),

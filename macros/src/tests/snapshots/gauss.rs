@@ -50,51 +50,51 @@ const _: () = {
         fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 2> {
             let (sin_q1, cos_q1) = q[1].sin_cos();
             let l = self.l;
-            let reach = cos_q1 * l;
+            let reach = l * cos_q1;
             let m = self.m;
             let t1 = v[0] * reach;
             let l_squared = l * l;
-            let kinetic = v[0] * (v[0] * (0.5 * m)) + v[1] * t1
-                + v[1] * (v[1] * (0.5 * l_squared));
+            let kinetic = 0.5 * m * v[0] * v[0] + v[1] * t1
+                + 0.5 * l_squared * v[1] * v[1];
             let end = self.end;
             let t2 = q[0] > end;
             let k = self.k;
             let t3 = q[0] - end;
             let stop = if t2 { 0.5 * k * (t3 * t3) } else { 0.0 };
-            let t4 = if t2 { -(k * t3) } else { 0.0 };
+            let t4 = if t2 { -k * t3 } else { 0.0 };
             let dl_dreach = 1.0 + v[0] * v[1];
             Gradient {
                 value: reach + kinetic - stop,
-                d1: SVector::from([t4, -(l * dl_dreach * sin_q1)]),
-                d2: SVector::from([v[1] * reach + v[0] * m, t1 + v[1] * l_squared]),
+                d1: SVector::from([t4, -l * dl_dreach * sin_q1]),
+                d2: SVector::from([v[1] * reach + m * v[0], t1 + l_squared * v[1]]),
             }
         }
         #[inline]
         fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
             let (sin_q1, cos_q1) = q[1].sin_cos();
             let l = self.l;
-            let reach = cos_q1 * l;
+            let reach = l * cos_q1;
             let m = self.m;
             let t1 = v[0] * reach;
             let l_squared = l * l;
-            let kinetic = v[0] * (v[0] * (0.5 * m)) + v[1] * t1
-                + v[1] * (v[1] * (0.5 * l_squared));
+            let kinetic = 0.5 * m * v[0] * v[0] + v[1] * t1
+                + 0.5 * l_squared * v[1] * v[1];
             let end = self.end;
             let t2 = q[0] > end;
             let k = self.k;
             let t3 = q[0] - end;
             let stop = if t2 { 0.5 * k * (t3 * t3) } else { 0.0 };
-            let t4 = if t2 { -(k * t3) } else { 0.0 };
+            let t4 = if t2 { -k * t3 } else { 0.0 };
             let dl_dreach = 1.0 + v[0] * v[1];
             let t5 = if t2 { -k } else { 0.0 };
             Derivatives {
                 value: reach + kinetic - stop,
-                d1: SVector::from([t4, -(l * dl_dreach * sin_q1)]),
-                d2: SVector::from([v[1] * reach + v[0] * m, t1 + v[1] * l_squared]),
-                d11: SMatrix::from([[t5, 0.0], [0.0, -(reach * dl_dreach)]]),
+                d1: SVector::from([t4, -l * dl_dreach * sin_q1]),
+                d2: SVector::from([v[1] * reach + m * v[0], t1 + l_squared * v[1]]),
+                d11: SMatrix::from([[t5, 0.0], [0.0, -reach * dl_dreach]]),
                 d12: SMatrix::from([
-                    [0.0, -(sin_q1 * (v[1] * l))],
-                    [0.0, -(sin_q1 * (v[0] * l))],
+                    [0.0, -l * v[1] * sin_q1],
+                    [0.0, -l * v[0] * sin_q1],
                 ]),
                 d22: SMatrix::from([[m, reach], [reach, l_squared]]),
             }
@@ -119,20 +119,20 @@ const _: () = {
         fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 2> {
             let c = self.c;
             Gradient {
-                value: v[1] * (v[1] * (0.5 * c)),
-                d1: SVector::from([0.0, 0.0]),
-                d2: SVector::from([0.0, v[1] * c]),
+                value: 0.5 * c * v[1] * v[1],
+                d1: SVector::zeros(),
+                d2: SVector::from([0.0, c * v[1]]),
             }
         }
         #[inline]
         fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
             let c = self.c;
             Derivatives {
-                value: v[1] * (v[1] * (0.5 * c)),
-                d1: SVector::from([0.0, 0.0]),
-                d2: SVector::from([0.0, v[1] * c]),
-                d11: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
-                d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                value: 0.5 * c * v[1] * v[1],
+                d1: SVector::zeros(),
+                d2: SVector::from([0.0, c * v[1]]),
+                d11: SMatrix::zeros(),
+                d12: SMatrix::zeros(),
                 d22: SMatrix::from([[0.0, 0.0], [0.0, c]]),
             }
         }
@@ -153,8 +153,8 @@ const _: () = {
             let t1 = a.powf(q[0]);
             CovectorDerivatives {
                 value: SVector::from([t1, 0.0]),
-                d1: SMatrix::from([[t1 * a.ln(), 0.0], [0.0, 0.0]]),
-                d2: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                d1: SMatrix::from([[a.ln() * t1, 0.0], [0.0, 0.0]]),
+                d2: SMatrix::zeros(),
             }
         }
     }
@@ -199,29 +199,29 @@ const _: () = {
         ) -> Stages<f64, 2, S> {
             let (sin_q1, cos_q1) = q[1].sin_cos();
             let l = self.l;
-            let reach = cos_q1 * l;
+            let reach = l * cos_q1;
             let m = self.m;
-            let t1 = v[0] * (0.5 * m);
+            let t1 = 0.5 * m * v[0];
             let l_squared = l * l;
             let end = self.end;
             let t2 = Lanes::<f64, S>::splat(end)
                 .less(q[0])
-                .select(-(self.k * (q[0] - end)), Lanes::<f64, S>::splat(0.0));
+                .select(-self.k * (q[0] - end), Lanes::<f64, S>::splat(0.0));
             let dl_dreach = 1.0 + v[0] * v[1];
             let t3 = 1.0 / m;
-            let t4 = reach * t3;
+            let t4 = t3 * reach;
             let rate = [
                 Lanes::<f64, S>::splat(self.a).powf(q[0]) + t2,
-                -(l * dl_dreach * sin_q1 + 2.0 * (v[1] * (0.5 * self.c))),
+                -(l * dl_dreach * sin_q1 + 2.0 * (0.5 * self.c * v[1])),
             ];
             let p = momenta(&rate);
-            let residual0 = p[0] - (t1 + (t1 + v[1] * reach));
-            let residual1 = p[1] - (v[0] * reach + 2.0 * (v[1] * (0.5 * l_squared)));
+            let residual0 = p[0] - (t1 + v[1] * reach + t1);
+            let residual1 = p[1] - (v[0] * reach + 2.0 * (0.5 * l_squared * v[1]));
             let t5 = 1.0 / (l_squared - reach * t4) * (residual1 - residual0 * t4);
             Stages {
                 rate,
                 residual: [residual0, residual1],
-                correction: [residual0 * t3 - t4 * t5, t5],
+                correction: [t3 * residual0 - t4 * t5, t5],
             }
         }
     }

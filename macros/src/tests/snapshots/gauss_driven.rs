@@ -70,9 +70,9 @@ const _: () = {
             let m = self.m;
             let (sin_q0, cos_q0) = q[0].sin_cos();
             Gradient {
-                value: v[0] * (v[0] * (0.5 * m)) + cos_q0,
+                value: 0.5 * m * v[0] * v[0] + cos_q0,
                 d1: SVector::from([-sin_q0]),
-                d2: SVector::from([v[0] * m]),
+                d2: SVector::from([m * v[0]]),
             }
         }
         #[inline]
@@ -80,11 +80,11 @@ const _: () = {
             let m = self.m;
             let (sin_q0, cos_q0) = q[0].sin_cos();
             Derivatives {
-                value: v[0] * (v[0] * (0.5 * m)) + cos_q0,
+                value: 0.5 * m * v[0] * v[0] + cos_q0,
                 d1: SVector::from([-sin_q0]),
-                d2: SVector::from([v[0] * m]),
+                d2: SVector::from([m * v[0]]),
                 d11: SMatrix::from([[-cos_q0]]),
-                d12: SMatrix::from([[0.0]]),
+                d12: SMatrix::zeros(),
                 d22: SMatrix::from([[m]]),
             }
         }
@@ -160,7 +160,7 @@ const _: () = {
             let push = if u[0] > 0.0 { self.system.gain * u[0] } else { 0.0 };
             CovectorDerivatives {
                 value: SVector::from([cos_q0 * push - v[0] + (t * Arm::RATE).sin()]),
-                d1: SMatrix::from([[-(push * sin_q0)]]),
+                d1: SMatrix::from([[-push * sin_q0]]),
                 d2: SMatrix::from([[-1.0]]),
             }
         }
@@ -200,11 +200,11 @@ const _: () = {
             let push = if u[0] > 0.0 { self.system.gain * u[0] } else { 0.0 };
             let rate = [cos_q0 * push - v[0] + (t * Arm::RATE).sin() - sin_q0];
             let p = momenta(&rate);
-            let residual0 = p[0] - 2.0 * (v[0] * (0.5 * m));
+            let residual0 = p[0] - 2.0 * (0.5 * m * v[0]);
             Stages {
                 rate,
                 residual: [residual0],
-                correction: [residual0 * (1.0 / m)],
+                correction: [1.0 / m * residual0],
             }
         }
     }
@@ -227,8 +227,8 @@ const _: () = {
             _v: &Vector,
         ) -> GradientBy<f64, 1, 1> {
             GradientBy {
-                d1: SMatrix::from([[0.0]]),
-                d2: SMatrix::from([[0.0]]),
+                d1: SMatrix::zeros(),
+                d2: SMatrix::zeros(),
             }
         }
         #[inline]
@@ -249,9 +249,9 @@ const _: () = {
             _b: &Vector,
         ) -> Hessian<f64, 1, 1> {
             Hessian {
-                d11: SMatrix::from([[q[0].sin() * a[0]]]),
-                d12: SMatrix::from([[0.0]]),
-                d22: SMatrix::from([[0.0]]),
+                d11: SMatrix::from([[a[0] * q[0].sin()]]),
+                d12: SMatrix::zeros(),
+                d22: SMatrix::zeros(),
                 ..Hessian::zero()
             }
         }
@@ -267,15 +267,15 @@ const _: () = {
             let (sin_q0, cos_q0) = q[0].sin_cos();
             let t1 = u[0] > 0.0;
             let push = if t1 { gain * u[0] } else { 0.0 };
-            let d_dpush = cos_q0 * vector[0];
-            let t2 = if t1 { gain * vector[0] } else { 0.0 };
+            let d_dpush = vector[0] * cos_q0;
+            let t2 = if t1 { vector[0] * gain } else { 0.0 };
             Hessian {
-                d11: SMatrix::from([[-(push * d_dpush)]]),
-                d12: SMatrix::from([[0.0]]),
-                d22: SMatrix::from([[0.0]]),
-                d1u: SMatrix::from([[-(sin_q0 * t2)]]),
-                d2u: SMatrix::from([[0.0]]),
-                duu: SMatrix::from([[0.0]]),
+                d11: SMatrix::from([[-push * d_dpush]]),
+                d12: SMatrix::zeros(),
+                d22: SMatrix::zeros(),
+                d1u: SMatrix::from([[-sin_q0 * t2]]),
+                d2u: SMatrix::zeros(),
+                duu: SMatrix::zeros(),
             }
         }
         #[inline]

@@ -56,12 +56,12 @@ const _: () = {
         fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 2> {
             let d = q[1] - q[0];
             let k = self.k;
-            let t1 = d * k;
+            let t1 = k * d;
             let dl_dd = -t1;
             Gradient {
                 value: 0.5 * (v[0] * v[0] + v[1] * v[1])
                     - 0.5 * k * (q[0] * q[0] + d * d),
-                d1: SVector::from([t1 - q[0] * k, dl_dd]),
+                d1: SVector::from([t1 - k * q[0], dl_dd]),
                 d2: SVector::from([v[0], v[1]]),
             }
         }
@@ -69,15 +69,15 @@ const _: () = {
         fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
             let d = q[1] - q[0];
             let k = self.k;
-            let t1 = d * k;
+            let t1 = k * d;
             let dl_dd = -t1;
             Derivatives {
                 value: 0.5 * (v[0] * v[0] + v[1] * v[1])
                     - 0.5 * k * (q[0] * q[0] + d * d),
-                d1: SVector::from([t1 - q[0] * k, dl_dd]),
+                d1: SVector::from([t1 - k * q[0], dl_dd]),
                 d2: SVector::from([v[0], v[1]]),
-                d11: SMatrix::from([[-(2.0 * k), k], [k, -k]]),
-                d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                d11: SMatrix::from([[-2.0 * k, k], [k, -k]]),
+                d12: SMatrix::zeros(),
                 d22: SMatrix::from([[1.0, 0.0], [0.0, 1.0]]),
             }
         }
@@ -100,20 +100,20 @@ const _: () = {
         fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 2> {
             let c = self.c;
             Gradient {
-                value: v[1] * (v[1] * (0.5 * c)),
-                d1: SVector::from([0.0, 0.0]),
-                d2: SVector::from([0.0, v[1] * c]),
+                value: 0.5 * c * v[1] * v[1],
+                d1: SVector::zeros(),
+                d2: SVector::from([0.0, c * v[1]]),
             }
         }
         #[inline]
         fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
             let c = self.c;
             Derivatives {
-                value: v[1] * (v[1] * (0.5 * c)),
-                d1: SVector::from([0.0, 0.0]),
-                d2: SVector::from([0.0, v[1] * c]),
-                d11: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
-                d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                value: 0.5 * c * v[1] * v[1],
+                d1: SVector::zeros(),
+                d2: SVector::from([0.0, c * v[1]]),
+                d11: SMatrix::zeros(),
+                d12: SMatrix::zeros(),
                 d22: SMatrix::from([[0.0, 0.0], [0.0, c]]),
             }
         }
@@ -178,14 +178,14 @@ const _: () = {
             let d = q[1] - q[0];
             let k = self.k;
             let c = self.c;
-            let t1 = d * k;
+            let t1 = k * d;
             let t2 = half * half;
             let t3 = k * t2;
             let t4 = -t3;
             StepKernel {
                 p0: SVector::from([
-                    v[0] - (t1 - q[0] * k) * half,
-                    v[1] + half * (t1 + v[1] * c),
+                    v[0] - half * (t1 - k * q[0]),
+                    v[1] + half * (t1 + c * v[1]),
                 ]),
                 matrix: SMatrix::from([
                     [1.0 + 2.0 * k * t2, t4],
@@ -200,9 +200,9 @@ const _: () = {
             let q = [q0[0] + half * v[0], q0[1] + half * v[1]];
             let d = q[1] - q[0];
             let k = self.k;
-            let t1 = d * k;
-            let t2 = (t1 - q[0] * k) * half;
-            let t3 = half * (t1 + v[1] * self.c);
+            let t1 = k * d;
+            let t2 = half * (t1 - k * q[0]);
+            let t3 = half * (t1 + self.c * v[1]);
             Momenta {
                 p0: SVector::from([v[0] - t2, v[1] + t3]),
                 p1: SVector::from([v[0] + t2, v[1] - t3]),

@@ -60,9 +60,9 @@ const _: () = {
             let m = self.m;
             let k = self.k;
             Gradient {
-                value: v[0] * (v[0] * (0.5 * m)) - q[0] * (q[0] * (0.5 * k)),
-                d1: SVector::from([-(q[0] * k)]),
-                d2: SVector::from([v[0] * m]),
+                value: 0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0],
+                d1: SVector::from([-k * q[0]]),
+                d2: SVector::from([m * v[0]]),
             }
         }
         #[inline]
@@ -70,11 +70,11 @@ const _: () = {
             let m = self.m;
             let k = self.k;
             Derivatives {
-                value: v[0] * (v[0] * (0.5 * m)) - q[0] * (q[0] * (0.5 * k)),
-                d1: SVector::from([-(q[0] * k)]),
-                d2: SVector::from([v[0] * m]),
+                value: 0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0],
+                d1: SVector::from([-k * q[0]]),
+                d2: SVector::from([m * v[0]]),
                 d11: SMatrix::from([[-k]]),
-                d12: SMatrix::from([[0.0]]),
+                d12: SMatrix::zeros(),
                 d22: SMatrix::from([[m]]),
             }
         }
@@ -97,20 +97,20 @@ const _: () = {
         fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 1> {
             let r = self.r;
             Gradient {
-                value: v[0] * (v[0] * (0.5 * r)),
-                d1: SVector::from([0.0]),
-                d2: SVector::from([v[0] * r]),
+                value: 0.5 * r * v[0] * v[0],
+                d1: SVector::zeros(),
+                d2: SVector::from([r * v[0]]),
             }
         }
         #[inline]
         fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
             let r = self.r;
             Derivatives {
-                value: v[0] * (v[0] * (0.5 * r)),
-                d1: SVector::from([0.0]),
-                d2: SVector::from([v[0] * r]),
-                d11: SMatrix::from([[0.0]]),
-                d12: SMatrix::from([[0.0]]),
+                value: 0.5 * r * v[0] * v[0],
+                d1: SVector::zeros(),
+                d2: SVector::from([r * v[0]]),
+                d11: SMatrix::zeros(),
+                d12: SMatrix::zeros(),
                 d22: SMatrix::from([[r]]),
             }
         }
@@ -176,7 +176,7 @@ const _: () = {
             let k = self.k;
             let r = self.r;
             StepKernel {
-                p0: SVector::from([v[0] * m + half * (q[0] * k + v[0] * r)]),
+                p0: SVector::from([m * v[0] + half * (k * q[0] + r * v[0])]),
                 matrix: SMatrix::from([[m + half * (r + k * half)]]),
             }
         }
@@ -185,8 +185,8 @@ const _: () = {
         fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0]];
-            let t1 = v[0] * self.m;
-            let t2 = half * (q[0] * self.k + v[0] * self.r);
+            let t1 = self.m * v[0];
+            let t2 = half * (self.k * q[0] + self.r * v[0]);
             Momenta {
                 p0: SVector::from([t1 + t2]),
                 p1: SVector::from([t1 - t2]),
@@ -263,7 +263,7 @@ const _: () = {
             let half = 0.5 * h;
             let t1 = self.m + self.r * half;
             StepKernel {
-                p0: SVector::from([self.k * half * q0[0] + v[0] * t1]),
+                p0: SVector::from([self.k * half * q0[0] + t1 * v[0]]),
                 matrix: SMatrix::from([[t1]]),
             }
         }
@@ -272,11 +272,11 @@ const _: () = {
         fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
             let half = 0.5 * h;
             let q1 = [q0[0] + h * v[0]];
-            let t1 = v[0] * self.m;
+            let t1 = self.m * v[0];
             let t2 = self.k * half;
-            let t3 = v[0] * (self.r * half);
+            let t3 = self.r * half * v[0];
             Momenta {
-                p0: SVector::from([t3 + (t1 + t2 * q0[0])]),
+                p0: SVector::from([t1 + t2 * q0[0] + t3]),
                 p1: SVector::from([t1 - t3 - t2 * q1[0]]),
             }
         }
@@ -303,8 +303,8 @@ const _: () = {
         #[inline]
         fn velocity_momenta(&self, v: &Vector, h: f64) -> Momenta<f64, 1> {
             let half = 0.5 * h;
-            let t1 = v[0] * self.m;
-            let t2 = v[0] * (self.r * half);
+            let t1 = self.m * v[0];
+            let t2 = self.r * half * v[0];
             Momenta {
                 p0: SVector::from([t1 + t2]),
                 p1: SVector::from([t1 - t2]),
@@ -312,7 +312,7 @@ const _: () = {
         }
         #[inline]
         fn configuration_force(&self, q: &Vector) -> Vector {
-            SVector::from([-(q[0] * self.k)])
+            SVector::from([-self.k * q[0]])
         }
     }
     #[automatically_derived]

@@ -51,8 +51,8 @@ const _: () = {
             let (sin_q0, cos_q0) = q[0].elementary().sin_cos();
             let g = self.g;
             Gradient {
-                value: 0.5 * (v[0] * v[0]) - (1.0 - cos_q0) * g,
-                d1: SVector::from([-(g * sin_q0)]),
+                value: 0.5 * (v[0] * v[0]) - g * (1.0 - cos_q0),
+                d1: SVector::from([-g * sin_q0]),
                 d2: SVector::from([v[0]]),
             }
         }
@@ -61,11 +61,11 @@ const _: () = {
             let (sin_q0, cos_q0) = q[0].elementary().sin_cos();
             let g = self.g;
             Derivatives {
-                value: 0.5 * (v[0] * v[0]) - (1.0 - cos_q0) * g,
-                d1: SVector::from([-(g * sin_q0)]),
+                value: 0.5 * (v[0] * v[0]) - g * (1.0 - cos_q0),
+                d1: SVector::from([-g * sin_q0]),
                 d2: SVector::from([v[0]]),
-                d11: SMatrix::from([[-(cos_q0 * g)]]),
-                d12: SMatrix::from([[0.0]]),
+                d11: SMatrix::from([[-g * cos_q0]]),
+                d12: SMatrix::zeros(),
                 d22: SMatrix::from([[1.0]]),
             }
         }
@@ -104,8 +104,8 @@ const _: () = {
             let (sin_q0, cos_q0) = q[0].elementary().sin_cos();
             let t1 = self.g * half;
             StepKernel {
-                p0: SVector::from([v[0] + sin_q0 * t1]),
-                matrix: SMatrix::from([[1.0 + cos_q0 * (half * t1)]]),
+                p0: SVector::from([v[0] + t1 * sin_q0]),
+                matrix: SMatrix::from([[1.0 + half * t1 * cos_q0]]),
             }
         }
         /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
@@ -113,7 +113,7 @@ const _: () = {
         fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
             let half = 0.5 * h;
             let q = [q0[0] + half * v[0]];
-            let t1 = q[0].elementary().sin() * (self.g * half);
+            let t1 = self.g * half * q[0].elementary().sin();
             Momenta {
                 p0: SVector::from([v[0] + t1]),
                 p1: SVector::from([v[0] - t1]),

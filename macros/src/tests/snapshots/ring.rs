@@ -48,11 +48,11 @@ const _: () = {
         fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 2> {
             let s = q[0] * q[0] + q[1] * q[1];
             let t1 = s - 1.0;
-            let t2 = t1 * t1;
-            let t3 = t2 + t1 * (2.0 * s);
+            let t1_squared = t1 * t1;
+            let t2 = t1_squared + 2.0 * s * t1;
             Gradient {
-                value: 0.5 * (v[0] * v[0] + v[1] * v[1]) - s * t2,
-                d1: SVector::from([-(2.0 * q[0] * t3), -(2.0 * q[1] * t3)]),
+                value: 0.5 * (v[0] * v[0] + v[1] * v[1]) - s * t1_squared,
+                d1: SVector::from([-2.0 * q[0] * t2, -2.0 * q[1] * t2]),
                 d2: SVector::from([v[0], v[1]]),
             }
         }
@@ -60,24 +60,21 @@ const _: () = {
         fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
             let s = q[0] * q[0] + q[1] * q[1];
             let t1 = s - 1.0;
-            let t2 = t1 * t1;
-            let t3 = 2.0 * q[1];
-            let t4 = 2.0 * q[0];
-            let t5 = 2.0 * s;
-            let t6 = t5 + 4.0 * t1;
-            let t7 = t3 * t6;
-            let t8 = -(t4 * t7);
-            let t9 = t2 + t1 * t5;
-            let t10 = 2.0 * t9;
+            let t1_squared = t1 * t1;
+            let t2 = 2.0 * q[1];
+            let t3 = 2.0 * q[0];
+            let t4 = 2.0 * s;
+            let t5 = t4 + 4.0 * t1;
+            let t6 = t2 * t5;
+            let t7 = -t3 * t6;
+            let t8 = t1_squared + t1 * t4;
+            let t9 = 2.0 * t8;
             Derivatives {
-                value: 0.5 * (v[0] * v[0] + v[1] * v[1]) - s * t2,
-                d1: SVector::from([-(t4 * t9), -(t3 * t9)]),
+                value: 0.5 * (v[0] * v[0] + v[1] * v[1]) - s * t1_squared,
+                d1: SVector::from([-t3 * t8, -t2 * t8]),
                 d2: SVector::from([v[0], v[1]]),
-                d11: SMatrix::from([
-                    [-(t10 + t6 * (t4 * t4)), t8],
-                    [t8, -(t3 * t7 + t10)],
-                ]),
-                d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                d11: SMatrix::from([[-(t9 + t3 * t3 * t5), t7], [t7, -(t2 * t6 + t9)]]),
+                d12: SMatrix::zeros(),
                 d22: SMatrix::from([[1.0, 0.0], [0.0, 1.0]]),
             }
         }
@@ -100,20 +97,20 @@ const _: () = {
         fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 2> {
             let k = self.k;
             Gradient {
-                value: (v[0] * v[0] + v[1] * v[1]) * (0.5 * k),
-                d1: SVector::from([0.0, 0.0]),
-                d2: SVector::from([v[0] * k, v[1] * k]),
+                value: 0.5 * k * (v[0] * v[0] + v[1] * v[1]),
+                d1: SVector::zeros(),
+                d2: SVector::from([k * v[0], k * v[1]]),
             }
         }
         #[inline]
         fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 2> {
             let k = self.k;
             Derivatives {
-                value: (v[0] * v[0] + v[1] * v[1]) * (0.5 * k),
-                d1: SVector::from([0.0, 0.0]),
-                d2: SVector::from([v[0] * k, v[1] * k]),
-                d11: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
-                d12: SMatrix::from([[0.0, 0.0], [0.0, 0.0]]),
+                value: 0.5 * k * (v[0] * v[0] + v[1] * v[1]),
+                d1: SVector::zeros(),
+                d2: SVector::from([k * v[0], k * v[1]]),
+                d11: SMatrix::zeros(),
+                d12: SMatrix::zeros(),
                 d22: SMatrix::from([[k, 0.0], [0.0, k]]),
             }
         }
@@ -186,14 +183,14 @@ const _: () = {
             let t8 = half * half;
             let t9 = t1 * (t1 + t4);
             let t10 = 2.0 * t9;
-            let t11 = t6 * (t3 * t8);
+            let t11 = t8 * t3 * t6;
             StepKernel {
                 p0: SVector::from([
-                    v[0] + half * (v[0] * k + t3 * t9),
-                    v[1] + half * (v[1] * k + t2 * t9),
+                    v[0] + half * (k * v[0] + t3 * t9),
+                    v[1] + half * (k * v[1] + t2 * t9),
                 ]),
                 matrix: SMatrix::from([
-                    [t7 + t8 * (t5 * (t3 * t3) + t10), t11],
+                    [t7 + t8 * (t3 * t3 * t5 + t10), t11],
                     [t11, t7 + t8 * (t2 * t6 + t10)],
                 ]),
             }
@@ -207,8 +204,8 @@ const _: () = {
             let t1 = s - 1.0;
             let k = self.k;
             let t2 = t1 * (t1 + 2.0 * s);
-            let t3 = half * (v[0] * k + 2.0 * q[0] * t2);
-            let t4 = half * (v[1] * k + 2.0 * q[1] * t2);
+            let t3 = half * (k * v[0] + 2.0 * q[0] * t2);
+            let t4 = half * (k * v[1] + 2.0 * q[1] * t2);
             Momenta {
                 p0: SVector::from([v[0] + t3, v[1] + t4]),
                 p1: SVector::from([v[0] - t3, v[1] - t4]),

@@ -73,9 +73,9 @@ const _: () = {
             let l = self.l;
             let (sin_q0, cos_q0) = q[0].sin_cos();
             Gradient {
-                value: v[0] * (v[0] * (l * (0.5 * l))) + l * cos_q0,
-                d1: SVector::from([-(l * sin_q0)]),
-                d2: SVector::from([v[0] * (l * l)]),
+                value: 0.5 * l * l * v[0] * v[0] + l * cos_q0,
+                d1: SVector::from([-l * sin_q0]),
+                d2: SVector::from([l * l * v[0]]),
             }
         }
         #[inline]
@@ -85,11 +85,11 @@ const _: () = {
             let t1 = l * cos_q0;
             let l_squared = l * l;
             Derivatives {
-                value: v[0] * (v[0] * (l * (0.5 * l))) + t1,
-                d1: SVector::from([-(l * sin_q0)]),
+                value: 0.5 * l * l * v[0] * v[0] + t1,
+                d1: SVector::from([-l * sin_q0]),
                 d2: SVector::from([v[0] * l_squared]),
                 d11: SMatrix::from([[-t1]]),
-                d12: SMatrix::from([[0.0]]),
+                d12: SMatrix::zeros(),
                 d22: SMatrix::from([[l_squared]]),
             }
         }
@@ -151,8 +151,8 @@ const _: () = {
             let c_0 = self.c[0];
             Gradient {
                 value: 0.25 * c_0 * v[0].powi(4),
-                d1: SVector::from([0.0]),
-                d2: SVector::from([v[0] * (v[0] * (c_0 * v[0]))]),
+                d1: SVector::zeros(),
+                d2: SVector::from([c_0 * v[0] * v[0] * v[0]]),
             }
         }
         #[inline]
@@ -161,11 +161,11 @@ const _: () = {
             let v0_squared = v[0] * v[0];
             Derivatives {
                 value: 0.25 * c_0 * v[0].powi(4),
-                d1: SVector::from([0.0]),
-                d2: SVector::from([v0_squared * (c_0 * v[0])]),
-                d11: SMatrix::from([[0.0]]),
-                d12: SMatrix::from([[0.0]]),
-                d22: SMatrix::from([[v0_squared * (3.0 * c_0)]]),
+                d1: SVector::zeros(),
+                d2: SVector::from([c_0 * v[0] * v0_squared]),
+                d11: SMatrix::zeros(),
+                d12: SMatrix::zeros(),
+                d22: SMatrix::from([[3.0 * c_0 * v0_squared]]),
             }
         }
     }
@@ -210,8 +210,8 @@ const _: () = {
             let (sin_q0, cos_q0) = q[0].sin_cos();
             CovectorDerivatives {
                 value: SVector::from([u[0] * cos_q0]),
-                d1: SMatrix::from([[-(u[0] * sin_q0)]]),
-                d2: SMatrix::from([[0.0]]),
+                d1: SMatrix::from([[-u[0] * sin_q0]]),
+                d2: SMatrix::zeros(),
             }
         }
     }
@@ -274,7 +274,7 @@ const _: () = {
         ) -> GradientBy<f64, 1, 2> {
             GradientBy {
                 d1: SMatrix::from([[-q[0].sin()], [0.0]]),
-                d2: SMatrix::from([[v[0] * (2.0 * self.system.l)], [0.0]]),
+                d2: SMatrix::from([[2.0 * self.system.l * v[0]], [0.0]]),
             }
         }
         #[inline]
@@ -284,13 +284,13 @@ const _: () = {
             v: &Vector,
         ) -> GradientBy<f64, 1, 2> {
             GradientBy {
-                d1: SMatrix::from([[0.0], [0.0]]),
-                d2: SMatrix::from([[0.0], [v[0] * (v[0] * v[0])]]),
+                d1: SMatrix::zeros(),
+                d2: SMatrix::from([[0.0], [v[0] * v[0] * v[0]]]),
             }
         }
         #[inline]
         fn force_by_parameters(&self, _q: &Vector, _v: &Vector) -> SMatrix<f64, 1, 2> {
-            SMatrix::from([[0.0], [0.0]])
+            SMatrix::zeros()
         }
     }
     #[automatically_derived]
@@ -318,9 +318,9 @@ const _: () = {
             _b: &Vector,
         ) -> Hessian<f64, 1, 1> {
             Hessian {
-                d11: SMatrix::from([[q[0].sin() * (self.system.l * a[0])]]),
-                d12: SMatrix::from([[0.0]]),
-                d22: SMatrix::from([[0.0]]),
+                d11: SMatrix::from([[a[0] * self.system.l * q[0].sin()]]),
+                d12: SMatrix::zeros(),
+                d22: SMatrix::zeros(),
                 ..Hessian::zero()
             }
         }
@@ -333,9 +333,9 @@ const _: () = {
             b: &Vector,
         ) -> Hessian<f64, 1, 1> {
             Hessian {
-                d11: SMatrix::from([[0.0]]),
-                d12: SMatrix::from([[0.0]]),
-                d22: SMatrix::from([[v[0] * (self.system.c[0] * (6.0 * b[0]))]]),
+                d11: SMatrix::zeros(),
+                d12: SMatrix::zeros(),
+                d22: SMatrix::from([[6.0 * b[0] * self.system.c[0] * v[0]]]),
                 ..Hessian::zero()
             }
         }
@@ -349,12 +349,12 @@ const _: () = {
             let u = self.u;
             let (sin_q0, cos_q0) = q[0].sin_cos();
             Hessian {
-                d11: SMatrix::from([[-(cos_q0 * (u[0] * vector[0]))]]),
-                d12: SMatrix::from([[0.0]]),
-                d22: SMatrix::from([[0.0]]),
-                d1u: SMatrix::from([[-(sin_q0 * vector[0])]]),
-                d2u: SMatrix::from([[0.0]]),
-                duu: SMatrix::from([[0.0]]),
+                d11: SMatrix::from([[-vector[0] * u[0] * cos_q0]]),
+                d12: SMatrix::zeros(),
+                d22: SMatrix::zeros(),
+                d1u: SMatrix::from([[-vector[0] * sin_q0]]),
+                d2u: SMatrix::zeros(),
+                duu: SMatrix::zeros(),
             }
         }
     }
@@ -429,13 +429,13 @@ const _: () = {
             StepKernel {
                 p0: SVector::from([
                     v[0] * l_squared
-                        - half * (u[0] * cos_q0 - l * sin_q0 - v0_squared * (c_0 * v[0])),
+                        - half * (u[0] * cos_q0 - l * sin_q0 - c_0 * v[0] * v0_squared),
                 ]),
                 matrix: SMatrix::from([
                     [
                         l_squared
                             + half
-                                * (v0_squared * (3.0 * c_0)
+                                * (3.0 * c_0 * v0_squared
                                     + half * (l * cos_q0 + u[0] * sin_q0)),
                     ],
                 ]),
@@ -449,10 +449,9 @@ const _: () = {
             let u = self.u;
             let l = self.system.l;
             let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1 = v[0] * (l * l);
+            let t1 = l * l * v[0];
             let t2 = half
-                * (u[0] * cos_q0 - l * sin_q0
-                    - v[0] * (v[0] * (self.system.c[0] * v[0])));
+                * (u[0] * cos_q0 - l * sin_q0 - self.system.c[0] * v[0] * v[0] * v[0]);
             Momenta {
                 p0: SVector::from([t1 - t2]),
                 p1: SVector::from([t1 + t2]),
