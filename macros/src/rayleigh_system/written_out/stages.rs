@@ -65,6 +65,10 @@ impl Code<'_> {
         let corrections = self.solved(&of_lagrangian, &residuals)?;
 
         let outputs = [rates, residuals, corrections].concat();
+        if self.graph.is_full() {
+            return None;
+        }
+        let outputs = self.graph.factored(&outputs, self.written);
         // Lanes take both ways of a selection.
         if self.graph.is_conditional(outputs.iter().copied()) {
             return None;

@@ -201,27 +201,26 @@ const _: () = {
             let l = self.l;
             let reach = l * cos_q1;
             let m = self.m;
-            let t1 = 0.5 * m * v[0];
             let l_squared = l * l;
             let end = self.end;
-            let t2 = Lanes::<f64, S>::splat(end)
+            let t1 = Lanes::<f64, S>::splat(end)
                 .less(q[0])
                 .select(-self.k * (q[0] - end), Lanes::<f64, S>::splat(0.0));
             let dl_dreach = 1.0 + v[0] * v[1];
-            let t3 = 1.0 / m;
-            let t4 = t3 * reach;
+            let t2 = 1.0 / m;
+            let t3 = t2 * reach;
             let rate = [
-                Lanes::<f64, S>::splat(self.a).powf(q[0]) + t2,
-                -(l * dl_dreach * sin_q1 + 2.0 * (0.5 * self.c * v[1])),
+                Lanes::<f64, S>::splat(self.a).powf(q[0]) + t1,
+                -(l * dl_dreach * sin_q1 + self.c * v[1]),
             ];
             let p = momenta(&rate);
-            let residual0 = p[0] - (t1 + v[1] * reach + t1);
-            let residual1 = p[1] - (v[0] * reach + 2.0 * (0.5 * l_squared * v[1]));
-            let t5 = 1.0 / (l_squared - reach * t4) * (residual1 - residual0 * t4);
+            let residual0 = p[0] - m * v[0] - v[1] * reach;
+            let residual1 = p[1] - v[0] * reach - l_squared * v[1];
+            let t4 = 1.0 / (l_squared - reach * t3) * (residual1 - t3 * residual0);
             Stages {
                 rate,
                 residual: [residual0, residual1],
-                correction: [t3 * residual0 - t4 * t5, t5],
+                correction: [t2 * residual0 - t3 * t4, t4],
             }
         }
     }

@@ -200,7 +200,7 @@ const _: () = {
             let push = if u[0] > 0.0 { self.system.gain * u[0] } else { 0.0 };
             let rate = [cos_q0 * push - v[0] + (t * Arm::RATE).sin() - sin_q0];
             let p = momenta(&rate);
-            let residual0 = p[0] - 2.0 * (0.5 * m * v[0]);
+            let residual0 = p[0] - m * v[0];
             Stages {
                 rate,
                 residual: [residual0],
