@@ -12,10 +12,13 @@
 //! | `i as f64` | `D::number(i)` |
 //! | `i as usize`, `i % n` | `dual::integer::<_, usize>(i)`, `dual::remainder(i % n)`: for integers alone |
 
+mod call;
 mod cast;
 mod doubt;
 mod field;
 mod operand;
+mod path;
+mod signature;
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -23,21 +26,18 @@ use proc_macro2::{Span, TokenStream};
 use quote::{ToTokens, format_ident, quote};
 use syn::visit_mut::{self, VisitMut};
 use syn::{
-    Expr, ExprBinary, ExprCall, ExprField, ExprMethodCall, ExprPath, FnArg, Ident, ImplItemFn, Item, Pat,
-    Path, ReturnType, Stmt, Type, parse_quote, parse_quote_spanned,
+    Expr, ExprBinary, ExprField, FnArg, Ident, ImplItemFn, Item, Pat, ReturnType, Stmt, Type, parse_quote,
+    parse_quote_spanned,
 };
 
-use super::super::check::qualifiers;
 use super::super::diagnostics::{Mistake, Report, span_of};
-use super::super::model::{Body, Source, System};
+use super::super::model::{Body, System};
 use super::super::scope::bound_names;
-use super::super::syntax::Matches;
 use super::super::syntax::{
-    METHODS, ROUNDING, is_assignment, is_constant_name, is_float_literal, is_function_of_std,
-    is_generic_of_std, is_of_other_float, is_place_of_self, is_plain, is_self, is_variant, real_type,
-    takes_function,
+    Matches, is_assignment, is_float_literal, is_generic_of_std, is_integer, is_of_other_float,
+    is_place_of_self, is_plain, is_variant, real_type, simple_name,
 };
-use super::super::syntax::{has_floats, is_integer, simple_name};
+use signature::helper_signature;
 
 /// A function and what it becomes over `Real<D>`.
 pub struct Twin {
@@ -142,53 +142,6 @@ fn respanned(tokens: TokenStream, span: Span) -> TokenStream {
             token
         })
         .collect()
-}
-
-fn helper_signature(helper: &ImplItemFn, scalar: &Ident, report: &mut Report) {
-    qualifiers(&helper.sig, report);
-    for parameter in &helper.sig.inputs {
-        match parameter {
-            FnArg::Receiver(_) => {}
-            FnArg::Typed(parameter) => {
-                if !matches!(&*parameter.pat, Pat::Ident(_) | Pat::Wild(_)) {
-                    report.at(&parameter.pat, Mistake::ParameterPattern);
-                }
-                let value = match &*parameter.ty {
-                    Type::Reference(reference) if reference.mutability.is_none() => &reference.elem,
-                    ty => ty,
-                };
-                if matches!(&*parameter.ty, Type::Reference(reference) if reference.mutability.is_some()) {
-                    report.at(&parameter.ty, Mistake::ParameterChanged);
-                } else if matches!(value, Type::Slice(_)) {
-                    report.at(&parameter.ty, Mistake::ParameterSlice { scalar: scalar.to_string() });
-                } else if !is_value(value) {
-                    report.at(&parameter.ty, Mistake::ParameterType);
-                }
-            }
-        }
-    }
-    if let ReturnType::Type(_, ty) = &helper.sig.output {
-        match &**ty {
-            Type::Reference(_) => report.at(ty, Mistake::HelperReturnsReference),
-            ty if !is_value(ty) => report.at(ty, Mistake::ParameterType),
-            _ => {}
-        }
-    }
-}
-
-/// Numbers, bools, arrays and tuples of them: what `Lift` and `Lower` take across.
-fn is_value(ty: &Type) -> bool {
-    match ty {
-        Type::Array(array) => is_value(&array.elem),
-        Type::Tuple(tuple) => tuple.elems.iter().all(is_value),
-        Type::Paren(inner) => is_value(&inner.elem),
-        Type::Group(inner) => is_value(&inner.elem),
-        ty => {
-            is_integer(ty)
-                || simple_name(ty)
-                    .is_some_and(|name| ["f64", "f32", "bool"].iter().any(|known| name == known))
-        }
-    }
 }
 
 /// A field of the system, or of a struct within it: the local that holds it, and the user's tokens.
@@ -361,186 +314,5 @@ impl Rewriter<'_> {
             place if is_place_of_self(place) => self.report.at(place, Mistake::FieldAssignment),
             _ => {}
         }
-    }
-
-    fn method_call(&mut self, call: &mut ExprMethodCall) {
-        if is_self(&call.receiver) {
-            if self.is_function_of_block(&call.method) {
-                self.functions.push(call.method.clone());
-                let says_nothing = call.args.is_empty() || self.takes_no_float(&call.method);
-                call.method = over(&call.method);
-                if says_nothing {
-                    call.turbofish = Some(parse_quote!(::<D>));
-                }
-            } else {
-                self.report.at(&call.method, Mistake::OutsideMethod(call.method.to_string()));
-            }
-        } else {
-            if ROUNDING.iter().any(|rounding| call.method == rounding) {
-                self.report.at(&call.method, Mistake::Rounding(call.method.to_string()));
-            }
-            self.visit_expr_mut(&mut call.receiver);
-        }
-        if let Some(turbofish) = &mut call.turbofish
-            && !is_self(&call.receiver)
-        {
-            self.visit_angle_bracketed_generic_arguments_mut(turbofish);
-        }
-        for argument in &mut call.args {
-            // `.map(square)`: a name that is no local is a function handed on, which must be one of the
-            // block.
-            match argument {
-                Expr::Path(path) if takes_function(&call.method) && self.is_unknown(&path.path) => {
-                    self.called_path(path, false);
-                }
-                _ => self.visit_expr_mut(argument),
-            }
-        }
-    }
-
-    /// A plain name in small letters that is bound nowhere in the body.
-    fn is_unknown(&self, path: &Path) -> bool {
-        path.get_ident().is_some_and(|name| {
-            *name != "self" && !self.bound.contains(&name.to_string()) && !is_constant_name(name)
-        })
-    }
-
-    fn call(&mut self, call: &mut ExprCall) {
-        match &mut *call.func {
-            Expr::Path(path) => {
-                let without_arguments = call.args.is_empty();
-                if let Some(replacement) = self.called_path(path, without_arguments) {
-                    *call.func = replacement;
-                }
-            }
-            function => self.visit_expr_mut(function),
-        }
-        for argument in &mut call.args {
-            // `Self::height(self, q)` hands the system on; its fields are lifted there.
-            if !is_self(argument) {
-                self.visit_expr_mut(argument);
-            }
-        }
-    }
-
-    /// A path that is called.
-    fn called_path(&mut self, path: &mut ExprPath, without_arguments: bool) -> Option<Expr> {
-        if let Some(replacement) = self.function_of_block(&path.path, without_arguments) {
-            return Some(replacement);
-        }
-        if let Some(replacement) = self.function_of_scalar(&path.path) {
-            return Some(replacement);
-        }
-        let last = path.path.segments.last()?.ident.to_string();
-        let is_local = path.path.get_ident().is_some_and(|name| self.bound.contains(&name.to_string()));
-        if is_variant(&path.path) {
-            self.report.at(&path.path, Mistake::VariantByDuals);
-            return None;
-        }
-        let is_constructor = last.starts_with(char::is_uppercase);
-        if is_local || is_constructor || is_function_of_std(&path.path) {
-            visit_mut::visit_expr_path_mut(self, path);
-        } else if path.path.get_ident().is_some_and(|name| self.is_function_of_block(name)) {
-            let takes_self = self
-                .system
-                .source
-                .functions()
-                .any(|function| function.sig.ident == last && function.sig.receiver().is_some());
-            let call = if takes_self { format!("self.{last}(…)") } else { format!("Self::{last}(…)") };
-            self.report.at(&path.path, Mistake::WithoutSelf { name: last, call });
-        } else if path.path.get_ident().is_some() && METHODS.contains(&&*last) {
-            let scalar = self.system.scalar.to_string();
-            self.report.at(&path.path, Mistake::MethodAsFunction { method: last, scalar });
-        } else {
-            let segments: Vec<_> =
-                path.path.segments.iter().map(|segment| segment.ident.to_string()).collect();
-            let mistake = match self.system.source {
-                Source::Block(_) => Mistake::OutsideFunction { path: segments.join("::"), name: last },
-                Source::Function(_) => Mistake::OutsideOfFunction {
-                    path: segments.join("::"),
-                    name: last,
-                    scalar: self.system.scalar.to_string(),
-                },
-            };
-            self.report.at(&path.path, mistake);
-        }
-        None
-    }
-
-    /// A path that stands as a value: a local, a constant, or a function handed on.
-    fn path(&mut self, path: &mut ExprPath) -> Option<Expr> {
-        if path.path.is_ident("self") {
-            self.report.at(path, Mistake::BareSelf);
-            return None;
-        }
-        if path.path.get_ident().is_some_and(|name| self.bound.contains(&name.to_string())) {
-            return None;
-        }
-        if let Some(replacement) = self.function_of_block(&path.path, false) {
-            return Some(replacement);
-        }
-        let last = &path.path.segments.last()?.ident;
-        if is_constant_name(last) {
-            if self.system.source.integer_constants().any(|constant| constant == last) {
-                return None;
-            }
-            let span = span_of(path);
-            return Some(parse_quote_spanned!(span=> D::lift(#path)));
-        }
-        if path.path.segments.len() > 1 && is_variant(&path.path) {
-            self.report.at(path, Mistake::VariantByDuals);
-            return None;
-        }
-        // A misspelled local: rustc knows better which one was meant.
-        if path.path.get_ident().is_some() {
-            return None;
-        }
-        self.called_path(path, false)
-    }
-
-    /// `Self::square` → `Self::square_over`.
-    fn function_of_block(&mut self, path: &Path, without_arguments: bool) -> Option<Expr> {
-        let mut segments = path.segments.iter();
-        let (first, last) = (segments.next()?, segments.next()?);
-        let is_system = first.ident == "Self" || first.ident == self.system.name;
-        if segments.next().is_some() || !is_system || !self.is_function_of_block(&last.ident) {
-            return None;
-        }
-        self.functions.push(last.ident.clone());
-        let says_nothing = without_arguments || self.takes_no_float(&last.ident);
-        let name = over(&last.ident);
-        let first = &first.ident;
-        Some(if says_nothing { parse_quote!(#first::#name::<D>) } else { parse_quote!(#first::#name) })
-    }
-
-    /// `f64::sin` → `Real::<D>::sin`.
-    fn function_of_scalar(&mut self, path: &Path) -> Option<Expr> {
-        let mut segments = path.segments.iter().rev();
-        let (last, first) = (segments.next()?, segments.next()?);
-        // `core::primitive::f64::sin`, or no module at all.
-        let in_module = segments.next().is_some_and(|module| module.ident != "primitive");
-        if in_module || first.ident != self.system.scalar || is_constant_name(&last.ident) {
-            return None;
-        }
-        if ROUNDING.iter().chain(&["rem_euclid", "div_euclid"]).any(|rounding| last.ident == rounding) {
-            self.report.at(path, Mistake::Rounding(last.ident.to_string()));
-        }
-        let span = first.ident.span();
-        Some(parse_quote_spanned!(span=> Real::<D>::#last))
-    }
-
-    /// Whether the arguments of a function of the block leave open what numbers it works on.
-    fn takes_no_float(&self, name: &Ident) -> bool {
-        let function = self.system.source.functions().find(|function| function.sig.ident == *name);
-        function.is_some_and(|function| {
-            function.sig.inputs.iter().all(|parameter| match parameter {
-                FnArg::Typed(parameter) => !has_floats(&parameter.ty),
-                FnArg::Receiver(_) => true,
-            })
-        })
-    }
-
-    fn is_function_of_block(&self, name: &Ident) -> bool {
-        self.system.source.functions().any(|function| function.sig.ident == *name)
     }
 }

@@ -5,7 +5,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 use super::super::graph::{Comparison, Node, Operation};
-use super::{Binding, Writer, Written};
+use super::expression::{Binding, Writer, Written};
 
 impl Writer<'_> {
     /// The value, in lanes also where it is a number.

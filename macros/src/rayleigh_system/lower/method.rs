@@ -3,6 +3,7 @@
 use proc_macro2::Ident;
 use syn::{Expr, ExprMethodCall, ExprRange, RangeLimits, Type};
 
+use super::super::diagnostics::span_of;
 use super::super::differentiate::extremum;
 use super::super::graph::{Comparison, Function, Operation, PairFunction, Predicate};
 use super::super::syntax::{METHODS, ROUNDING};
@@ -94,7 +95,7 @@ impl Lowering<'_> {
         let value_of = self.expression(value)?;
         let is_closed = matches!(range.limits, RangeLimits::Closed(_));
         let mut holds = Truth::Known(true);
-        let span = super::span_of(range);
+        let span = span_of(range);
         let upper = if is_closed {
             syn::BinOp::Le(syn::Token![<=](span))
         } else {

@@ -33,21 +33,6 @@ impl Code<'_> {
         }
     }
 
-    /// The entries of an n×n matrix, column by column.
-    pub(super) fn matrix(
-        &mut self,
-        mut entry: impl FnMut(&mut Self, usize, usize) -> Option<Node>,
-    ) -> Vec<Node> {
-        let mut entries = Vec::new();
-        for j in 0..self.n {
-            for i in 0..self.n {
-                let entry = entry(self, i, j);
-                entries.push(self.or_zero(entry));
-            }
-        }
-        entries
-    }
-
     /// Entry i: first ∂f/∂qᵢ + second ∂f/∂vᵢ.
     pub(super) fn along(&mut self, gradient: &Gradient, along: Along) -> Vec<Node> {
         (0..self.n)
@@ -96,14 +81,6 @@ impl Code<'_> {
             sum = Some(self.added(sum, product));
         }
         sum
-    }
-
-    /// sum + term, where there is a sum already.
-    pub(super) fn added(&mut self, sum: Option<Node>, term: Node) -> Node {
-        match sum {
-            Some(sum) => self.graph.plus(sum, term),
-            None => term,
-        }
     }
 }
 

@@ -1,0 +1,70 @@
+//! Calls: of functions and methods that have twins, and of those of the standard library.
+
+use syn::visit_mut::VisitMut;
+use syn::{Expr, ExprCall, ExprMethodCall, Path, parse_quote};
+
+use super::{Rewriter, over};
+use crate::rayleigh_system::diagnostics::Mistake;
+use crate::rayleigh_system::syntax::{ROUNDING, is_constant_name, is_self, takes_function};
+
+impl Rewriter<'_> {
+    pub fn method_call(&mut self, call: &mut ExprMethodCall) {
+        if is_self(&call.receiver) {
+            if self.is_function_of_block(&call.method) {
+                self.functions.push(call.method.clone());
+                let says_nothing = call.args.is_empty() || self.takes_no_float(&call.method);
+                call.method = over(&call.method);
+                if says_nothing {
+                    call.turbofish = Some(parse_quote!(::<D>));
+                }
+            } else {
+                self.report.at(&call.method, Mistake::OutsideMethod(call.method.to_string()));
+            }
+        } else {
+            if ROUNDING.iter().any(|rounding| call.method == rounding) {
+                self.report.at(&call.method, Mistake::Rounding(call.method.to_string()));
+            }
+            self.visit_expr_mut(&mut call.receiver);
+        }
+        if let Some(turbofish) = &mut call.turbofish
+            && !is_self(&call.receiver)
+        {
+            self.visit_angle_bracketed_generic_arguments_mut(turbofish);
+        }
+        for argument in &mut call.args {
+            // `.map(square)`: a name that is no local is a function handed on, which must be one of the
+            // block.
+            match argument {
+                Expr::Path(path) if takes_function(&call.method) && self.is_unknown(&path.path) => {
+                    self.called_path(path, false);
+                }
+                _ => self.visit_expr_mut(argument),
+            }
+        }
+    }
+
+    /// A plain name in small letters that is bound nowhere in the body.
+    fn is_unknown(&self, path: &Path) -> bool {
+        path.get_ident().is_some_and(|name| {
+            *name != "self" && !self.bound.contains(&name.to_string()) && !is_constant_name(name)
+        })
+    }
+
+    pub fn call(&mut self, call: &mut ExprCall) {
+        match &mut *call.func {
+            Expr::Path(path) => {
+                let without_arguments = call.args.is_empty();
+                if let Some(replacement) = self.called_path(path, without_arguments) {
+                    *call.func = replacement;
+                }
+            }
+            function => self.visit_expr_mut(function),
+        }
+        for argument in &mut call.args {
+            // `Self::height(self, q)` hands the system on; its fields are lifted there.
+            if !is_self(argument) {
+                self.visit_expr_mut(argument);
+            }
+        }
+    }
+}

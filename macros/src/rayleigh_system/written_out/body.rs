@@ -1,0 +1,109 @@
+//! Bodies of functions: the code for their results, and the results in vectors and matrices.
+
+use super::*;
+
+impl Code<'_> {
+    /// The code for `outputs` at (q, v), and at the view's own input and time.
+    pub(super) fn code(&mut self, outputs: &[Node]) -> StraightLine {
+        self.code_taking(outputs, &[])
+    }
+
+    /// The same in a function with further parameters.
+    pub(super) fn code_taking(&mut self, outputs: &[Node], parameters: &[&str]) -> StraightLine {
+        let mut line = self.code_at_node(outputs, parameters);
+        if line.uses("t") {
+            let statements = &line.statements;
+            line.statements = quote!(let t = self.t; #statements);
+        }
+        line
+    }
+
+    /// The same, with the time left to the caller.
+    pub(super) fn code_at_node(&mut self, outputs: &[Node], parameters: &[&str]) -> StraightLine {
+        let mut taken = vec!["q", "v", "h", "half", "q0", "q1", "minus", "plus"];
+        // Without a view, u and t are free for the user's own names.
+        if self.home == Home::View {
+            taken.extend(["u", "t", "t_end"]);
+        }
+        taken.extend(parameters);
+        let outputs = if self.graph.is_full() {
+            vec![self.graph.constant(0.0); outputs.len()]
+        } else {
+            self.graph.factored(outputs, self.written)
+        };
+        let operations = self.graph.operations(outputs.iter().copied());
+        self.longest = self.longest.max(operations);
+        let outputs = if operations > MOST_OPERATIONS {
+            vec![self.graph.constant(0.0); outputs.len()]
+        } else {
+            outputs
+        };
+        let mut line = straight_line(&self.graph, &self.system.scalar, &outputs, &taken, self.is_portable);
+        if self.home == Home::View {
+            let seen = |tokens: TokenStream| view::seen_from_view(tokens, &self.system.name);
+            let statements = seen(line.statements);
+            let input = line.uses_inputs.then(|| quote!(let u = self.u;));
+            line.statements = quote!(#input #statements);
+            line.outputs = line.outputs.into_iter().map(seen).collect();
+        }
+        self.calls_elementary |= line.calls_elementary;
+        line
+    }
+
+    /// Splits outputs into scalars, vectors and matrices.
+    pub(super) fn parts<const K: usize>(
+        &self,
+        outputs: &[TokenStream],
+        shapes: [Shape; K],
+    ) -> [TokenStream; K] {
+        let mut rest = outputs;
+        shapes.map(|shape| {
+            let (own, after) = rest.split_at(match shape {
+                Shape::Scalar => 1,
+                Shape::Vector => self.n,
+                Shape::Matrix => self.n * self.n,
+            });
+            rest = after;
+            match shape {
+                Shape::Scalar => own[0].clone(),
+                Shape::Vector if are_zeros(own) => quote!(SVector::zeros()),
+                Shape::Vector => quote!(SVector::from([#(#own),*])),
+                Shape::Matrix => matrix(own, self.n),
+            }
+        })
+    }
+}
+
+/// The shape of an output.
+#[derive(Clone, Copy)]
+pub(super) enum Shape {
+    Scalar,
+    Vector,
+    Matrix,
+}
+
+/// The matrix of these entries, column by column.
+pub(super) fn matrix(entries: &[TokenStream], rows: usize) -> TokenStream {
+    if are_zeros(entries) {
+        return quote!(SMatrix::zeros());
+    }
+    let columns = entries.chunks(rows).map(|column| quote!([#(#column),*]));
+    quote!(SMatrix::from([#(#columns),*]))
+}
+
+/// Whether all entries are the constant 0.
+fn are_zeros(entries: &[TokenStream]) -> bool {
+    entries.iter().all(|entry| entry.to_string() == "0.0")
+}
+
+/// A parameter of a function, marked where the body does not use it.
+pub(super) fn parameter(name: &str, is_used: bool) -> Ident {
+    if is_used { format_ident!("{name}") } else { format_ident!("_{name}") }
+}
+
+/// `let _ = (q0, h);` for the parameters that a body does not read.
+pub(super) fn unused<const K: usize>(parameters: [(bool, &str); K]) -> Option<TokenStream> {
+    let unused: Vec<Ident> =
+        parameters.iter().filter(|(is_used, _)| !is_used).map(|(_, name)| format_ident!("{name}")).collect();
+    (!unused.is_empty()).then(|| quote!(let _ = (#(#unused),*);))
+}

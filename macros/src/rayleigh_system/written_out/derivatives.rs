@@ -1,0 +1,111 @@
+//! Gradients and second derivatives of L and R, derivatives of f.
+
+use super::*;
+
+impl Code<'_> {
+    /// Gradient and derivatives of L or R, and variations where they are asked for.
+    pub(super) fn function(&mut self, function: &str, symbol: &str, root: Node) -> TokenStream {
+        let scalar = &self.system.scalar;
+        let n = self.system.degrees.times(1);
+        let [gradient, derivatives] =
+            ["_gradient", "_derivatives"].map(|suffix| format_ident!("{function}{suffix}"));
+        let first = self.derivation.gradient(&mut self.graph, root);
+        let second = self.derivation.hessian(&mut self.graph, root, symbol);
+
+        let outputs = [vec![root], self.covector(&first, false), self.covector(&first, true)];
+        let line = self.code(&outputs.concat());
+        let [value_of, d1, d2] = self.parts(&line.outputs, [Shape::Scalar, Shape::Vector, Shape::Vector]);
+        let (q, v, statements) =
+            (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
+        let gradient = quote! {
+            #[inline]
+            fn #gradient(&self, #q: &Vector, #v: &Vector) -> Gradient<#scalar, #n> {
+                #statements
+                Gradient { value: #value_of, d1: #d1, d2: #d2 }
+            }
+        };
+
+        let outputs = [
+            vec![root],
+            self.covector(&second.gradient, false),
+            self.covector(&second.gradient, true),
+            self.block(&second, false, false),
+            self.block(&second, false, true),
+            self.block(&second, true, true),
+        ];
+        let line = self.code(&outputs.concat());
+        let [value_of, d1, d2, d11, d12, d22] = self.parts(
+            &line.outputs,
+            [Shape::Scalar, Shape::Vector, Shape::Vector, Shape::Matrix, Shape::Matrix, Shape::Matrix],
+        );
+        let (q, v, statements) =
+            (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
+        let derivatives = quote! {
+            #[inline]
+            fn #derivatives(&self, #q: &Vector, #v: &Vector) -> Derivatives<#scalar, #n> {
+                #statements
+                Derivatives { value: #value_of, d1: #d1, d2: #d2, d11: #d11, d12: #d12, d22: #d22 }
+            }
+        };
+
+        let variations = (function == "lagrangian" && self.system.rules.ask_for_variations())
+            .then(|| self.variations(&second));
+        quote! {
+            #gradient
+
+            #derivatives
+
+            #variations
+        }
+    }
+
+    /// Derivatives of f.
+    pub(super) fn force(&mut self, components: &[Node]) -> TokenStream {
+        let scalar = &self.system.scalar;
+        let n = self.system.degrees.times(1);
+        let rows = self.rows(components);
+        let by = |code: &mut Self, velocity| {
+            code.matrix(|code, i, j| {
+                let variable = code.variable(j, velocity);
+                rows[i].get(&variable).copied()
+            })
+        };
+        let outputs = [components.to_vec(), by(self, false), by(self, true)].concat();
+        let line = self.code(&outputs);
+        let [value, d1, d2] = self.parts(&line.outputs, [Shape::Vector, Shape::Matrix, Shape::Matrix]);
+        let (q, v, statements) =
+            (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
+        quote! {
+            #[inline]
+            fn force_derivatives(&self, #q: &Vector, #v: &Vector) -> CovectorDerivatives<#scalar, #n> {
+                #statements
+                CovectorDerivatives { value: #value, d1: #d1, d2: #d2 }
+            }
+        }
+    }
+
+    /// `force_by_input`
+    pub(super) fn by_input(&mut self, components: &[Node], input: &Degrees) -> TokenStream {
+        let scalar = &self.system.scalar;
+        let (n, m) = (self.system.degrees.times(1), input.times(1));
+        let rows = self.rows(components);
+        let mut outputs = Vec::new();
+        for j in 0..self.m {
+            let variable = self.graph.node(Operation::Input(j));
+            for row in &rows {
+                outputs.push(self.or_zero(row.get(&variable).copied()));
+            }
+        }
+        let line = self.code(&outputs);
+        let matrix = matrix(&line.outputs, self.n);
+        let (q, v, statements) =
+            (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
+        quote! {
+            #[inline]
+            fn force_by_input(&self, #q: &Vector, #v: &Vector) -> SMatrix<#scalar, #n, #m> {
+                #statements
+                #matrix
+            }
+        }
+    }
+}
