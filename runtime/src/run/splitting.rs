@@ -2,11 +2,11 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::numbers::{NewtonMatrix, Scalar};
+use crate::numbers::Scalar;
 use crate::rules::{Drift, modes, require_positive_definite};
 use crate::run::{Explicit, composition::symmetric};
 use crate::step::{
-    Flow, Linearization, Memory, Momenta, PhaseMatrix, Quantity, Report, State, StateBy, Step, StepError,
+    Flow, Linearization, Memory, PhaseMatrix, Quantity, Report, State, StateBy, Step, StepError,
     StepWith,
 };
 
@@ -231,9 +231,10 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
     #[inline(never)]
     fn new<L: Explicit<N, Scalar = T>>(system: &L, h: T) -> Result<Self, StepError> {
         crate::step::require_step_size(h)?;
-        let Momenta { p0, p1 } = system.velocity_momenta(&nalgebra::zero(), T::one() + T::one());
-        let half = T::constant(0.5);
-        let (mass, damping) = mass_and_damping(system);
+        let rest = nalgebra::zero();
+        let (l, r) =
+            (system.lagrangian_derivatives(&rest, &rest), system.dissipation_derivatives(&rest, &rest));
+        let (mass, damping) = (l.d22, r.d22);
         let is_diagonal =
             [mass, damping].iter().all(|matrix| *matrix == SMatrix::from_diagonal(&matrix.diagonal()));
         let times = Splitting::<S>::DRIFTS.map(|share| T::constant(share) * h);
@@ -253,8 +254,8 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
             kicks: Splitting::<S>::KICKS.map(|share| T::constant(share) * h),
             drifts,
             is_damped: damping.iter().any(|entry| *entry != T::zero()),
-            shift: (p0 + p1) * half,
-            thrust: (p0 - p1) * half,
+            shift: l.d2,
+            thrust: r.d2,
         })
     }
 
@@ -336,17 +337,6 @@ fn once_each<T: Scalar, const N: usize, const C: usize, const S: usize>(
         }
     }
     Ok(drifts)
-}
-
-/// M and C, of the Newton matrix P(h) = M + ½h C.
-fn mass_and_damping<L: Explicit<N>, const N: usize>(
-    system: &L,
-) -> (SMatrix<L::Scalar, N, N>, SMatrix<L::Scalar, N, N>) {
-    let mass = system.step_matrix(nalgebra::zero()).dense();
-    // At a step of 2⁸¹ M is below the rounding of ½h C, and factors that are powers of two round nothing.
-    let long = L::Scalar::constant((1_u128 << 81) as f64);
-    let damping = (system.step_matrix(long).dense() - mass) * (L::Scalar::constant(2.0) / long);
-    (mass, damping)
 }
 
 impl<L, const N: usize, const S: usize> Memory<L, Splitting<S>, N> for Kicks<L::Scalar, N, S>
