@@ -6,8 +6,7 @@ use crate::numbers::Scalar;
 use crate::rules::{Drift, modes, require_positive_definite};
 use crate::run::{Explicit, composition::symmetric};
 use crate::step::{
-    Flow, Linearization, Memory, PhaseMatrix, Quantity, Report, State, StateBy, Step, StepError,
-    StepWith,
+    Flow, Linearization, Memory, PhaseMatrix, Quantity, Report, State, StateBy, Step, StepError, StepWith,
 };
 
 /// A splitting of the motion into kicks by the potential and damped free motions between, S of them,

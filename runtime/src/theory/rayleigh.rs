@@ -8,6 +8,8 @@
 //!   iff φ = ψ(q0) + φ1(q1) + φ0(q0) − ψ(q1),  χ = ψ(q0) + φ1(q1) − φ0(q0) + ψ(q1)
 //! −D1 L_d⁺ = p0 and D2 L_d⁻ = p1 have a solution                                   Resplit
 //!   iff D1 f_d⁻ and D2 f_d⁺ are symmetric; always for n = 1
+//! p0 = −D1(L_d + R_d), p1 = D2(L_d − R_d) for some L_d, R_d, whatever made the step  RayleighStep
+//!   iff a bᵀ and bᵀd are symmetric; always for n = 1
 //! v·∂R/∂v ≥ 0                                                                      dissipation
 //! ```
 //!
@@ -49,6 +51,7 @@ mod comparison;
 mod dissipation;
 mod potential;
 mod quadrature;
+mod rayleigh_step;
 mod resplit;
 mod structure;
 
@@ -56,6 +59,7 @@ pub use comparison::{Comparison, Equivalence};
 pub use dissipation::{Dissipation, dissipation};
 pub use potential::{Potential, Recovery};
 pub use quadrature::Integral;
+pub use rayleigh_step::{Asymmetry, RayleighStep, RayleighStepError};
 pub use resplit::{Resplit, ResplitReport};
 pub use structure::{Condition, Structure, structure};
 

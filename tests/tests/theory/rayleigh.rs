@@ -4,4 +4,5 @@ mod dissipation;
 mod equivalence;
 mod potential;
 mod resplit;
+mod steps;
 mod structure;

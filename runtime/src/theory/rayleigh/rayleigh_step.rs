@@ -1,0 +1,222 @@
+//! Which steps have an R_d: by the step's derivative alone, whatever made the step.
+
+use core::fmt;
+
+use nalgebra::SMatrix;
+
+use crate::numbers::Scalar;
+use crate::step::{Discretised, Flow, PhaseMatrix, State, StepError, invert};
+use crate::theory::{
+    samples::Tolerance,
+    verdict::{excess, is_zero},
+};
+
+/// Whether a step is a Rayleigh step: [`rayleigh_step`](crate::Discretised::rayleigh_step).
+///
+/// A step Φ: (q0, p0) ↦ (q1, p1) with the derivative A, its blocks a = ∂q1/∂q0, b = ∂q1/∂p0 and d = ∂p1/∂p0, and
+/// det b ≠ 0, is a Rayleigh step if some L_d and R_d have
+///
+/// ```text
+/// p0 = −D1(L_d + R_d),   p1 = D2(L_d − R_d)
+/// ```
+///
+/// **Theorem.** Locally that is so if and only if a bᵀ and bᵀd are symmetric.
+///
+/// *Proof.* As functions of (q0, q1) the momenta have ∂p0/∂q0 = −b⁻¹a and ∂p1/∂q1 = d b⁻¹. A function with
+/// gradient −p0 in q0, at every q1, exists iff the first is symmetric, one with gradient p1 in q1 iff the second is:
+/// L_d⁺ and L_d⁻, and L_d, R_d = ½(L_d⁺ ± L_d⁻). Multiplied by b from the left and bᵀ from the right the first is
+/// −a bᵀ; by bᵀ and b the second is bᵀd. ∎
+///
+/// For n = 1 every step is one. For n ≥ 2 no family of methods on (q, p) of order above 2 gives Rayleigh steps for
+/// every damping: with C and K the matrices of damping and springs the exact motion has the asymmetries ∓(h⁴/12)
+/// (CM⁻¹K − KM⁻¹C) at its ends, and no error of the method cancels both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct RayleighStep {
+    /// How many derivatives were looked at.
+    pub samples: usize,
+    /// Of a bᵀ, that is of ∂p0/∂q0 at fixed q1.
+    pub at_start: Asymmetry,
+    /// Of bᵀd, that is of ∂p1/∂q1 at fixed q0.
+    pub at_end: Asymmetry,
+}
+
+/// The largest asymmetry of a matrix over some samples, in units of its tolerance; 0 for n = 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Asymmetry {
+    /// Entry (i, j) less entry (j, i).
+    pub value: f64,
+    /// i and j.
+    pub entry: (usize, usize),
+    /// The sample, from 0.
+    pub sample: usize,
+    /// What counts as zero there.
+    pub tolerance: Tolerance,
+}
+
+/// Why it cannot be said of a step whether it is a Rayleigh step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum RayleighStepError {
+    /// No sample was given.
+    NoSamples,
+    /// A step could not be taken or differentiated.
+    Step {
+        /// The sample, from 0.
+        sample: usize,
+        /// Why.
+        error: StepError,
+    },
+    /// An entry of A is not finite.
+    NonFinite {
+        /// The sample, from 0.
+        sample: usize,
+    },
+    /// det b = 0, b = ∂q1/∂p0: the step is not told by its ends, as the theorem asks.
+    Degenerate {
+        /// The sample, from 0.
+        sample: usize,
+    },
+}
+
+impl Asymmetry {
+    const NONE: Self =
+        Self { value: 0.0, entry: (0, 0), sample: 0, tolerance: Tolerance { relative: 0.0, scale: 0.0 } };
+
+    /// Whether it counts as zero.
+    #[must_use]
+    pub fn vanishes(&self) -> bool {
+        is_zero(self.value, self.tolerance.bound())
+    }
+
+    /// That of x yᵀ, if it is larger.
+    fn follow<S: Scalar, const N: usize>(
+        &mut self,
+        sample: usize,
+        (x, y): (&SMatrix<S, N, N>, &SMatrix<S, N, N>),
+        relative: f64,
+    ) {
+        let product = |i: usize, j: usize| (0..N).map(move |k| x[(i, k)].widen() * y[(j, k)].widen());
+        for i in 0..N {
+            for j in 0..i {
+                let value = product(i, j).sum::<f64>() - product(j, i).sum::<f64>();
+                let scale = product(i, j).chain(product(j, i)).map(f64::abs).sum();
+                let tolerance = Tolerance { relative, scale };
+                if excess(value, tolerance.bound()) >= excess(self.value, self.tolerance.bound()) {
+                    *self = Self { value, entry: (i, j), sample, tolerance };
+                }
+            }
+        }
+    }
+}
+
+impl RayleighStep {
+    /// Of steps with these derivatives, such as one written by hand. An asymmetry counts as zero within
+    /// `relative` of the terms it is the sum of, or 1024 ε unless said.
+    ///
+    /// # Errors
+    /// A [`RayleighStepError`] that says which hypothesis fails.
+    pub fn of<S: Scalar, const N: usize>(
+        derivatives: &[PhaseMatrix<S, N>],
+        relative: Option<f64>,
+    ) -> Result<Self, RayleighStepError> {
+        if derivatives.is_empty() {
+            return Err(RayleighStepError::NoSamples);
+        }
+        let relative = relative.unwrap_or_else(Tolerance::rounding::<S>);
+        let (mut at_start, mut at_end) = (Asymmetry::NONE, Asymmetry::NONE);
+        for (sample, derivative) in derivatives.iter().enumerate() {
+            let PhaseMatrix { q_by_q: a, q_by_p: b, p_by_q, p_by_p: d } = derivative;
+            if ![a, b, p_by_q, d].iter().all(|block| block.iter().all(|entry| entry.widen().is_finite())) {
+                return Err(RayleighStepError::NonFinite { sample });
+            }
+            invert(b).map_err(|_| RayleighStepError::Degenerate { sample })?;
+            at_start.follow(sample, (a, b), relative);
+            at_end.follow(sample, (&b.transpose(), &d.transpose()), relative);
+        }
+        Ok(Self { samples: derivatives.len(), at_start, at_end })
+    }
+
+    /// Whether there are L_d and R_d with p0 = −D1(L_d + R_d) and p1 = D2(L_d − R_d), in a simply connected
+    /// region like that sampled.
+    #[must_use]
+    pub fn is_rayleigh(&self) -> bool {
+        self.at_start.vanishes() && self.at_end.vanishes()
+    }
+}
+
+/// Rayleigh steps.
+impl<L, M, const N: usize> Discretised<'_, L, M, N>
+where
+    L: Flow<M, N>,
+{
+    /// Whether the step is a Rayleigh step, by its derivative at the `states`: of a rule, a composition or a
+    /// splitting alike. See [`RayleighStep`](crate::rayleigh::RayleighStep).
+    ///
+    /// ```
+    /// use dalembert::nalgebra::vector;
+    /// use dalembert::{Composition, Discretise, Midpoint, State, rayleigh_system};
+    ///
+    /// /// Friction of one coordinate, springs that couple it to the other: CK ≠ KC.
+    /// #[rayleigh_system]
+    /// fn pair(q: [f64; 2], v: [f64; 2], r: f64) -> (f64, f64) {
+    ///     let potential = q[0] * q[0] + q[0] * q[1] + q[1] * q[1];
+    ///     (0.5 * (v[0] * v[0] + v[1] * v[1] - potential), 0.5 * r * v[0] * v[0])
+    /// }
+    /// let pair = Pair { r: 0.5 };
+    /// let states = [State { q: vector![0.3, -0.2], p: vector![0.1, 0.4] }];
+    /// assert!(pair.by(Midpoint, 0.5).rayleigh_step(&states)?.is_rayleigh());
+    ///
+    /// let six = pair.by(Composition::kahan_li_6(Midpoint), 0.5).rayleigh_step(&states)?;
+    /// assert!(!six.is_rayleigh()); // no method of order above 2 is, for every damping
+    /// println!("{six}");
+    /// # Ok::<(), dalembert::rayleigh::RayleighStepError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A [`RayleighStepError`](crate::rayleigh::RayleighStepError) that says which hypothesis fails.
+    pub fn rayleigh_step(&self, states: &[State<L::Scalar, N>]) -> Result<RayleighStep, RayleighStepError> {
+        let mut derivatives = Vec::with_capacity(states.len());
+        for (sample, state) in states.iter().enumerate() {
+            let (_, by) =
+                self.linearized_step(state).map_err(|error| RayleighStepError::Step { sample, error })?;
+            derivatives.push(by.a);
+        }
+        RayleighStep::of(&derivatives, None)
+    }
+}
+
+impl fmt::Display for RayleighStep {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let verdict = if self.is_rayleigh() { "a Rayleigh step" } else { "no R_d for any L_d" };
+        writeln!(f, "{verdict}, by the derivative of {} steps", self.samples)?;
+        writeln!(f, "  a bᵀ is symmetric at the start   {}", self.at_start)?;
+        write!(f, "  bᵀd is symmetric at the end      {}", self.at_end)
+    }
+}
+
+impl fmt::Display for Asymmetry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let answer = if self.vanishes() { "yes" } else { "no" };
+        let (i, j) = self.entry;
+        write!(f, "{answer}: {:+.3e} in ({i}, {j}) of sample {}", self.value, self.sample)?;
+        write!(f, "; zero is {}", self.tolerance)
+    }
+}
+
+impl fmt::Display for RayleighStepError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoSamples => f.write_str("no step was given to look at"),
+            Self::Step { sample, error } => write!(f, "the step of sample {sample}: {error}"),
+            Self::NonFinite { sample } => write!(f, "the derivative of sample {sample} is not finite"),
+            Self::Degenerate { sample } => write!(
+                f,
+                "∂q1/∂p0 of sample {sample} is singular: its ends do not tell the step; take another h or state"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for RayleighStepError {}
