@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{NewtonMatrix, Scalar, linear};
 use crate::step::{
-    Momenta, Quantity, State, StepError, StepKernel, newton,
+    Quantity, State, StepError, StepKernel, newton,
     newton::{estimated_floor, held_against},
 };
 use crate::system::{Lagrangian, verification::around};
@@ -70,21 +70,14 @@ impl<S: Scalar, const N: usize> State<S, N> {
             let l = system.lagrangian_derivatives(q, v);
             StepKernel { p0: l.d2, matrix: l.d22 }
         };
-        let momenta = |q: &SVector<S, N>, v: &SVector<S, N>| {
-            let p = system.lagrangian_gradient(q, v).d2;
-            Momenta { p0: p, p1: p }
-        };
+        let momentum = |q: &SVector<S, N>, v: &SVector<S, N>| system.lagrangian_gradient(q, v).d2;
         let mass = |q: &SVector<S, N>, v: &SVector<S, N>| system.lagrangian_derivatives(q, v).d22;
-        let (rest, h) = (nalgebra::zero(), S::zero());
-        let solution = match error {
-            None => newton::solve(newton::Equation::General, &transform, &momenta, &mass, self, h, rest),
-            Some(error) => {
-                let (evaluate, finish, inertia) = (&transform, &momenta, &mass);
-                let of = newton::Equations { evaluate, finish, inertia, state: self, h };
-                newton::from_rest(&of, &rest, error)
-            }
+        let h = S::zero();
+        let velocity = match error {
+            None => newton::root(&transform, &momentum, &mass, self, h, nalgebra::zero()),
+            Some(error) => newton::root_from_rest(&transform, &momentum, &mass, self, h, error),
         };
-        solution.map(|solution| solution.unknown).map_err(|error| match error {
+        velocity.map_err(|error| match error {
             StepError::SingularNewtonMatrix { column, .. } => StepError::DegenerateLagrangian { column },
             StepError::NoRealSolution { residual, .. } => StepError::NoVelocity { residual },
             other => other,

@@ -30,8 +30,9 @@ pub(crate) use continuation::{ITERATIONS, StepEquations, along_h, at_length};
 pub(crate) use rounding::{
     AT_FLOOR, PLACES, SLOW, SMALL, estimated_floor, finite_part, held_against, held_by_weights, is_sensible,
 };
-pub(crate) use start::{from_rest, is_rest};
-pub(crate) use verdict::Equations;
+use start::from_rest;
+pub(crate) use start::is_rest;
+use verdict::Equations;
 
 /// A root, with both momenta there.
 pub(crate) struct Solution<S, const N: usize> {
@@ -52,30 +53,53 @@ pub(crate) enum Equation {
     General,
 }
 
-/// Solves p0(q, v) = p for v at the `state` (q, p).
+/// The v with `momentum`(q, v) = p at the `state` (q, p): an equation alone, at whose root no other momentum is
+/// asked for.
 ///
-/// `evaluate` gives p0 and the Newton matrix, `finish` both momenta, `inertia` the mass matrix, the metric
-/// that tells which of two velocities is longer; configurations on the way are q plus a share of `h` v, with
-/// h = 0 at q itself. The residual that the report states is the one that `finish` measured at the root.
+/// `evaluate` gives the momentum and the Newton matrix, `inertia` the mass matrix, the metric that tells which
+/// of two velocities is longer; configurations on the way are q plus a share of `h` v, with h = 0 at q itself.
 ///
 /// Functions by reference: with `F = &G` for one of them, calls of it would not be inlined where `F` is
 /// behind a pointer as well.
 #[inline]
-pub(crate) fn solve<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
-    kind: Equation,
+pub(crate) fn root<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
-    finish: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
+    momentum: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
     inertia: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, N>,
     state: &State<S, N>,
     h: S,
-    guess: SVector<S, N>,
-) -> Result<Solution<S, N>, StepError> {
-    match quick(kind, evaluate, finish, state, guess) {
-        Ok(solution) => Ok(solution),
-        Err(reached) => {
-            let of = Equations { evaluate, finish, inertia, state, h };
-            careful(&of, reached)
-        }
+    start: SVector<S, N>,
+) -> Result<SVector<S, N>, StepError> {
+    let finish = alone(momentum);
+    let solution = match quick(Equation::General, evaluate, &finish, state, start) {
+        Ok(solution) => solution,
+        Err(reached) => careful(&Equations { evaluate, finish: &finish, inertia, state, h }, reached)?,
+    };
+    Ok(solution.unknown)
+}
+
+/// [`root`] from rest or, where rest is a singular point, from away from it; `error` is what rest led to.
+#[cold]
+pub(crate) fn root_from_rest<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+    evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
+    momentum: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
+    inertia: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, N>,
+    state: &State<S, N>,
+    h: S,
+    error: StepError,
+) -> Result<SVector<S, N>, StepError> {
+    let of = Equations { evaluate, finish: &alone(momentum), inertia, state, h };
+    Ok(from_rest(&of, &nalgebra::zero(), error)?.unknown)
+}
+
+/// One momentum in the place of both.
+#[inline]
+fn alone<S: Scalar, const N: usize>(
+    momentum: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
+) -> impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N> {
+    move |q, v| {
+        let p = momentum(q, v);
+        Momenta { p0: p, p1: p }
     }
 }
 

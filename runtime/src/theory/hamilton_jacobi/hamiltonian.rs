@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::{HamiltonJacobi, HamiltonJacobiError, ImplicitEquation};
 use crate::numbers::Scalar;
-use crate::step::{Discrete, LegendreDerivatives, Momenta, State, StepError, StepKernel, invert, newton};
+use crate::step::{Discrete, LegendreDerivatives, State, StepError, StepKernel, invert, newton};
 
 /// A discrete Hamiltonian with its derivatives at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -165,8 +165,7 @@ where
                 Given::P1 => momenta.p1,
             }
         };
-        let solution = newton::solve(
-            newton::Equation::General,
+        let v = newton::root(
             &|known, v| {
                 let (q0, q1) = ends(known, v);
                 let k = self.legendre(&q0, &q1);
@@ -178,16 +177,13 @@ where
                 };
                 StepKernel { p0: momentum(known, v), matrix }
             },
-            &|known, v| {
-                let p = momentum(known, v);
-                Momenta { p0: p, p1: p }
-            },
+            &momentum,
             &|known, v| self.system.lagrangian_derivatives(known, v).d22,
             &State { q: *known, p: *p },
             h,
             guess.copied().unwrap_or_else(nalgebra::zero),
         )?;
-        let (q0, q1) = ends(known, &solution.unknown);
+        let (q0, q1) = ends(known, &v);
         Ok(match unknown {
             Unknown::Q0 => q0,
             Unknown::Q1 => q1,

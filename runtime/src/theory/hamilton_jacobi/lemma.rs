@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::{HamiltonJacobi, HamiltonJacobiError, ImplicitEquation, section};
 use crate::numbers::{NewtonMatrix, Scalar};
-use crate::step::{Discrete, Momenta, State, StepError, StepKernel, invert, newton};
+use crate::step::{Discrete, State, StepError, StepKernel, invert, newton};
 use crate::system::ScalarField;
 
 /// Both sides' difference in a definition of 𝓕^±, with the size of its terms.
@@ -87,20 +87,16 @@ where
             let l = self.system.discrete_lagrangian_derivatives(q, &x, h);
             StepKernel { p0: l.d2 - s1.gradient(&x), matrix: (l.d22 - s1.hessian(&x)) * h }
         };
-        let solution = newton::solve(
-            newton::Equation::General,
+        let v = newton::root(
             &difference,
-            &|q, v| {
-                let p = difference(q, v).p0;
-                Momenta { p0: p, p1: p }
-            },
+            &|q, v| difference(q, v).p0,
             &|q, v| self.system.lagrangian_derivatives(q, v).d22,
             &State { q: *q, p: nalgebra::zero() },
             h,
             guess.copied().unwrap_or_else(nalgebra::zero),
         )
         .map_err(ImplicitEquation::RightCharacteristic.at(0))?;
-        Ok(q + solution.unknown * h)
+        Ok(q + v * h)
     }
 
     /// x − (right side of the definition of 𝓕⁺).
