@@ -56,8 +56,6 @@ mod trajectory;
 mod unforced;
 mod virtual_work;
 
-use core::marker::PhantomData;
-
 use crate::numbers::Scalar;
 use crate::step::{Discrete, Discretised};
 use crate::theory::samples::at_segment;
@@ -79,7 +77,7 @@ pub use virtual_work::{CarriedGeneratingFunction, VirtualWork};
 /// Tolerance of the reports in units of the rounding of an equation's terms: some dozens of operations each.
 const ROUNDINGS: f64 = 256.0;
 
-/// The Hamilton–Jacobi theory of `system` by a rule, with step size h.
+/// The Hamilton–Jacobi theory of a discretised system.
 ///
 /// ```
 /// use dalembert::hamilton_jacobi::HamiltonJacobi;
@@ -104,20 +102,14 @@ pub struct HamiltonJacobi<'a, L, R, const N: usize>
 where
     L: Discrete<R, N>,
 {
-    system: &'a L,
-    rule: PhantomData<R>,
-    h: L::Scalar,
+    by: Discretised<'a, L, R, N>,
     relative: f64,
 }
 
-impl<'a, L, R, const N: usize> HamiltonJacobi<'a, L, R, N>
+impl<L, R, const N: usize> HamiltonJacobi<'_, L, R, N>
 where
     L: Discrete<R, N>,
 {
-    pub(crate) fn new(system: &'a L, h: L::Scalar) -> Self {
-        Self { system, rule: PhantomData, h, relative: ROUNDINGS * L::Scalar::EPSILON.widen() }
-    }
-
     /// The same with another relative tolerance, for candidates whose own values carry more than rounding
     /// errors.
     ///
@@ -130,16 +122,13 @@ where
 
     /// `evaluate` of the theory at the start of step k.
     fn at_step<T>(&self, k: usize, evaluate: impl FnOnce(&HamiltonJacobi<'_, L, R, N>) -> T) -> T {
-        at_segment(self.system, k, self.h, |system| evaluate(&self.of(system)))
+        at_segment(&self.by, k, |by| evaluate(&HamiltonJacobi { by: *by, relative: self.relative }))
     }
 
     /// `evaluate` of the theory a step earlier.
     fn a_step_before<T>(&self, evaluate: impl FnOnce(&HamiltonJacobi<'_, L, R, N>) -> T) -> T {
-        at_segment(self.system, 1, -self.h, |system| evaluate(&self.of(system)))
-    }
-
-    fn of<'b>(&self, system: &'b L) -> HamiltonJacobi<'b, L, R, N> {
-        HamiltonJacobi { system, rule: PhantomData, h: self.h, relative: self.relative }
+        let Self { by, relative } = *self;
+        by.system.later(-by.h, |system| evaluate(&HamiltonJacobi { by: by.of(system), relative }))
     }
 }
 
@@ -150,6 +139,6 @@ where
     /// The Hamilton–Jacobi equations of the discrete system, and its characteristics.
     #[must_use]
     pub fn hamilton_jacobi(&self) -> HamiltonJacobi<'a, L, R, N> {
-        HamiltonJacobi::new(self.system, self.h)
+        HamiltonJacobi { by: *self, relative: ROUNDINGS * L::Scalar::EPSILON.widen() }
     }
 }

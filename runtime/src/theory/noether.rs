@@ -47,8 +47,6 @@ mod rank;
 mod subalgebra;
 mod symmetry;
 
-use core::marker::PhantomData;
-
 use nalgebra::SVector;
 
 use crate::numbers::Scalar;
@@ -66,15 +64,13 @@ pub use rank::RankDecision;
 pub use subalgebra::{Subalgebra, SubalgebraError, Subspace};
 pub use symmetry::{Contribution, Symmetry};
 
-/// Momentum maps and their balance for a system, a rule and a step size.
+/// Momentum maps of a discretised system, and their balance.
 pub struct Noether<'a, L, R, const N: usize>
 where
     L: Discrete<R, N>,
 {
-    system: &'a L,
-    h: L::Scalar,
+    by: Discretised<'a, L, R, N>,
     tolerance: f64,
-    rule: PhantomData<R>,
 }
 
 /// The defect J⁺ − J⁻ = ξ(L_d) + f_d(ξ), split into its causes.
@@ -102,14 +98,10 @@ struct Terms {
     force_scale: f64,
 }
 
-impl<'a, L, R, const N: usize> Noether<'a, L, R, N>
+impl<L, R, const N: usize> Noether<'_, L, R, N>
 where
     L: Discrete<R, N>,
 {
-    pub(crate) fn new(system: &'a L, h: L::Scalar) -> Self {
-        Self { system, h, tolerance: Tolerance::rounding::<L::Scalar>(), rule: PhantomData }
-    }
-
     /// Counts as zero what is below `relative` times the size of the terms; 1024 ε unless said.
     ///
     /// Raise it where L, R or f lose digits inside, or are known to few digits themselves.
@@ -125,7 +117,7 @@ where
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
     ) -> L::Scalar {
-        self.system.legendre_minus(q0, q1, self.h).p.dot(&generator.vector(q0))
+        self.by.system.legendre_minus(q0, q1, self.by.h).p.dot(&generator.vector(q0))
     }
 
     /// J⁺(q0, q1) = ⟨p1, ξ(q1)⟩, p1 = D2 L_d + f_d⁺.
@@ -135,7 +127,7 @@ where
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
     ) -> L::Scalar {
-        self.system.legendre_plus(q0, q1, self.h).p.dot(&generator.vector(q1))
+        self.by.system.legendre_plus(q0, q1, self.by.h).p.dot(&generator.vector(q1))
     }
 
     /// ξ(L_d) and f_d(ξ) at (q0, q1).
@@ -145,12 +137,7 @@ where
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
     ) -> Defect<L::Scalar> {
-        defect_of(self.system, generator, q0, q1, self.h)
-    }
-
-    /// `evaluate` of the system at the start of the k-th segment.
-    fn at_segment<T>(&self, k: usize, evaluate: impl FnOnce(&L) -> T) -> T {
-        at_segment(self.system, k, self.h, evaluate)
+        defect_of(&self.by, generator, q0, q1)
     }
 
     /// The defect on the k-th segment, NaN where a product of its terms underflows.
@@ -161,11 +148,11 @@ where
         segment: &Segment<L::Scalar, N>,
     ) -> Terms {
         let Segment { q0, q1 } = segment;
-        let (l, f, defect) = self.at_segment(k, |system| {
+        let (l, f, defect) = at_segment(&self.by, k, |by| {
             (
-                system.discrete_lagrangian_derivatives(q0, q1, self.h),
-                system.discrete_force(q0, q1, self.h),
-                defect_of(system, generator, q0, q1, self.h),
+                by.system.discrete_lagrangian_derivatives(q0, q1, by.h),
+                by.system.discrete_force(q0, q1, by.h),
+                defect_of(by, generator, q0, q1),
             )
         });
         let (xi0, xi1) = (generator.vector(q0), generator.vector(q1));
@@ -179,14 +166,13 @@ where
 
 /// ξ(L_d) and f_d(ξ) of a system at its time.
 fn defect_of<L: Discrete<R, N>, R, const N: usize>(
-    system: &L,
+    by: &Discretised<'_, L, R, N>,
     generator: &impl VectorField<N, Scalar = L::Scalar>,
     q0: &SVector<L::Scalar, N>,
     q1: &SVector<L::Scalar, N>,
-    h: L::Scalar,
 ) -> Defect<L::Scalar> {
-    let l = system.discrete_lagrangian_derivatives(q0, q1, h);
-    let f = system.discrete_force(q0, q1, h);
+    let l = by.system.discrete_lagrangian_derivatives(q0, q1, by.h);
+    let f = by.system.discrete_force(q0, q1, by.h);
     let (xi0, xi1) = (generator.vector(q0), generator.vector(q1));
     Defect { lagrangian: l.d1.dot(&xi0) + l.d2.dot(&xi1), force: f.minus.dot(&xi0) + f.plus.dot(&xi1) }
 }
@@ -222,6 +208,6 @@ where
     /// Momentum maps, and what friction does to them.
     #[must_use]
     pub fn noether(&self) -> Noether<'a, L, R, N> {
-        Noether::new(self.system, self.h)
+        Noether { by: *self, tolerance: Tolerance::rounding::<L::Scalar>() }
     }
 }

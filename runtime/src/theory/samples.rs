@@ -16,6 +16,7 @@ use core::fmt;
 use nalgebra::SVector;
 
 use crate::numbers::Scalar;
+use crate::step::Discretised;
 use crate::system::Lagrangian;
 use crate::theory::verdict::{excess, is_zero};
 
@@ -161,15 +162,15 @@ pub(crate) fn is_felt<S: Scalar, const N: usize>(vector: &SVector<S, N>) -> bool
     vector.iter().any(|entry| *entry * *entry >= S::SMALLEST_NORMAL || !entry.is_finite())
 }
 
-/// `evaluate` of a system at the start of the k-th segment, k h after its own time.
-pub(crate) fn at_segment<L: Lagrangian<N>, T, const N: usize>(
-    system: &L,
+/// `evaluate` of a discretised system at the start of the k-th segment, k h after its own time.
+pub(crate) fn at_segment<L: Lagrangian<N>, R, T, const N: usize>(
+    by: &Discretised<'_, L, R, N>,
     k: usize,
-    h: L::Scalar,
-    evaluate: impl FnOnce(&L) -> T,
+    evaluate: impl FnOnce(&Discretised<'_, L, R, N>) -> T,
 ) -> T {
     // The time of a trajectory after k steps, bit by bit.
-    system.later(L::Scalar::constant(h.widen() * k as f64), evaluate)
+    let time = L::Scalar::constant(by.h.widen() * k as f64);
+    by.system.later(time, |system| evaluate(&by.of(system)))
 }
 
 /// Fails on a step size that no verdict can be given for: with one below the normal numbers, forces underflow

@@ -113,10 +113,11 @@ where
         let (mut plane, mut caustics) = (TangentPlane::new(&frame), Vec::new());
         for k in 0..steps {
             let (step, legendre) = self.at_step(k, |theory| {
-                let found = theory.system.step(&state, self.h, guess.as_ref());
-                let step =
-                    or_without_guess(guess.is_some(), found, || theory.system.step(&state, self.h, None))
-                        .map_err(ImplicitEquation::Step.at(k))?;
+                let found = theory.by.system.step(&state, self.by.h, guess.as_ref());
+                let step = or_without_guess(guess.is_some(), found, || {
+                    theory.by.system.step(&state, self.by.h, None)
+                })
+                .map_err(ImplicitEquation::Step.at(k))?;
                 Ok((step, theory.legendre(&state.q, &step.state.q)))
             })?;
             let linearization =
@@ -182,7 +183,7 @@ where
         let [from, to] = [&characteristic.states[k], &characteristic.states[k + 1]];
         let [before, after] = [&characteristic.frames[k], &characteristic.frames[k + 1]];
         let (f, legendre) = self.at_step(k, |theory| {
-            let f = theory.system.discrete_force_derivatives(&from.q, &to.q, self.h);
+            let f = theory.by.system.discrete_force_derivatives(&from.q, &to.q, self.by.h);
             (f, theory.legendre(&from.q, &to.q))
         });
         let work = before.q.tr_mul(&(f.minus.d1 * before.q + f.minus.d2 * after.q))

@@ -146,9 +146,9 @@ where
         q1: &SVector<S, N>,
     ) {
         let zero = SVector::zeros();
-        let v = (q1 - q0) / self.h;
+        let v = (q1 - q0) / self.by.h;
         let k = self.legendre(q0, q1);
-        let f = self.system.discrete_force(q0, q1, self.h);
+        let f = self.by.system.discrete_force(q0, q1, self.by.h);
         let size = MomentumMagnitudes::of(&k, q0, q1);
         let (p0, p1) = (k.momenta.p0, k.momenta.p1);
 
@@ -186,13 +186,13 @@ where
         L: DiscreteRayleigh<R, N>,
     {
         let zero = SVector::zeros();
-        let v = (q1 - q0) / self.h;
+        let v = (q1 - q0) / self.by.h;
         let k = self.legendre(q0, q1);
         let size = MomentumMagnitudes::of(&k, q0, q1);
         let (p0, p1) = (k.momenta.p0, k.momenta.p1);
-        let r = self.system.discrete_rayleigh_derivatives(q0, q1, self.h);
-        let plus = self.system.modified_plus_derivatives(q0, q1, self.h);
-        let minus = self.system.modified_minus_derivatives(q0, q1, self.h);
+        let r = self.by.system.discrete_rayleigh_derivatives(q0, q1, self.by.h);
+        let plus = self.by.system.modified_plus_derivatives(q0, q1, self.by.h);
+        let minus = self.by.system.modified_minus_derivatives(q0, q1, self.by.h);
 
         match self.discrete_hamiltonian_plus(q0, &p1, Some(&v)) {
             Ok(right) => {

@@ -47,7 +47,8 @@ where
     #[must_use]
     pub fn discrete_action(&self, configurations: &[SVector<S, N>]) -> S {
         configurations.windows(2).enumerate().fold(S::zero(), |sum, (k, pair)| {
-            sum + self.at_step(k, |theory| theory.system.discrete_lagrangian(&pair[0], &pair[1], self.h))
+            sum + self
+                .at_step(k, |theory| theory.by.system.discrete_lagrangian(&pair[0], &pair[1], self.by.h))
         })
     }
 
@@ -70,7 +71,7 @@ where
     ) -> Result<DiscreteHamiltonian<S, N>, HamiltonJacobiError> {
         let at = ImplicitEquation::RightHamiltonian.at(0);
         let q1 = self.solve(Unknown::Q1, Given::P1, q0, p1, guess).map_err(&at)?;
-        let l = self.system.discrete_lagrangian_derivatives(q0, &q1, self.h);
+        let l = self.by.system.discrete_lagrangian_derivatives(q0, &q1, self.by.h);
         let k = self.legendre(q0, &q1);
         let eliminated_by_p = invert(&k.p1_by_q1).map_err(&at)?;
         let eliminated_by_q = -(eliminated_by_p * k.p1_by_q0);
@@ -102,7 +103,7 @@ where
     ) -> Result<DiscreteHamiltonian<S, N>, HamiltonJacobiError> {
         let at = ImplicitEquation::LeftHamiltonian.at(0);
         let q0 = self.solve(Unknown::Q0, Given::P0, q1, p0, guess).map_err(&at)?;
-        let l = self.system.discrete_lagrangian_derivatives(&q0, q1, self.h);
+        let l = self.by.system.discrete_lagrangian_derivatives(&q0, q1, self.by.h);
         let k = self.legendre(&q0, q1);
         let eliminated_by_p = invert(&k.p0_by_q0).map_err(&at)?;
         let eliminated_by_q = -(eliminated_by_p * k.p0_by_q1);
@@ -125,7 +126,7 @@ where
         guess: Option<&SVector<S, N>>,
     ) -> Result<State<S, N>, HamiltonJacobiError> {
         let state = State { q: *q0, p: *p0 };
-        let taken = self.system.step(&state, self.h, guess).map_err(ImplicitEquation::Step.at(0))?;
+        let taken = self.by.system.step(&state, self.by.h, guess).map_err(ImplicitEquation::Step.at(0))?;
         Ok(taken.state)
     }
 
@@ -140,7 +141,7 @@ where
     }
 
     pub(super) fn legendre(&self, q0: &SVector<S, N>, q1: &SVector<S, N>) -> LegendreDerivatives<S, N> {
-        self.system.legendre_derivatives(q0, q1, self.h)
+        self.by.system.legendre_derivatives(q0, q1, self.by.h)
     }
 
     /// Solves one transform for one end of the segment, in v̄ as the step does.
@@ -152,14 +153,14 @@ where
         p: &SVector<S, N>,
         guess: Option<&SVector<S, N>>,
     ) -> Result<SVector<S, N>, StepError> {
-        let h = self.h;
+        let h = self.by.h;
         // The solver's p0 is whichever momentum is given, its q the known end.
         let ends = |known: &SVector<S, N>, v: &SVector<S, N>| match unknown {
             Unknown::Q0 => (known - v * h, *known),
             Unknown::Q1 => (*known, known + v * h),
         };
         let momentum = |known: &SVector<S, N>, v: &SVector<S, N>| {
-            let momenta = self.system.momenta(&ends(known, v).0, v, h);
+            let momenta = self.by.system.momenta(&ends(known, v).0, v, h);
             match given {
                 Given::P0 => momenta.p0,
                 Given::P1 => momenta.p1,
@@ -178,7 +179,7 @@ where
                 StepKernel { p0: momentum(known, v), matrix }
             },
             &momentum,
-            &|known, v| self.system.lagrangian_derivatives(known, v).d22,
+            &|known, v| self.by.system.lagrangian_derivatives(known, v).d22,
             &State { q: *known, p: *p },
             h,
             guess.copied().unwrap_or_else(nalgebra::zero),

@@ -40,7 +40,7 @@ where
     where
         F: ScalarField<N, Scalar = S>,
     {
-        let start = guess.map_or(*q, |v| q + v * self.h);
+        let start = guess.map_or(*q, |v| q + v * self.by.h);
         root(|x| self.lemma_definition_plus(s1, q, x), start, ImplicitEquation::LemmaFlowPlus)
     }
 
@@ -64,7 +64,7 @@ where
     where
         F: ScalarField<N, Scalar = S>,
     {
-        let start = guess.map_or(*q, |v| q + v * self.h);
+        let start = guess.map_or(*q, |v| q + v * self.by.h);
         root(|x| self.lemma_definition_minus(s0, q, x), start, ImplicitEquation::LemmaFlowMinus)
     }
 
@@ -81,16 +81,16 @@ where
     where
         F: ScalarField<N, Scalar = S>,
     {
-        let h = self.h;
+        let h = self.by.h;
         let difference = |q: &SVector<S, N>, v: &SVector<S, N>| {
             let x = q + v * h;
-            let l = self.system.discrete_lagrangian_derivatives(q, &x, h);
+            let l = self.by.system.discrete_lagrangian_derivatives(q, &x, h);
             StepKernel { p0: l.d2 - s1.gradient(&x), matrix: (l.d22 - s1.hessian(&x)) * h }
         };
         let v = newton::root(
             &difference,
             &|q, v| difference(q, v).p0,
-            &|q, v| self.system.lagrangian_derivatives(q, v).d22,
+            &|q, v| self.by.system.lagrangian_derivatives(q, v).d22,
             &State { q: *q, p: nalgebra::zero() },
             h,
             guess.copied().unwrap_or_else(nalgebra::zero),
@@ -109,9 +109,9 @@ where
     where
         F: ScalarField<N, Scalar = S>,
     {
-        let f = self.system.discrete_force_derivatives(q, x, self.h);
+        let f = self.by.system.discrete_force_derivatives(q, x, self.by.h);
         let p1 = s1.gradient(x) + f.plus.value;
-        let h_plus = self.discrete_hamiltonian_plus(q, &p1, Some(&((x - q) / self.h)))?;
+        let h_plus = self.discrete_hamiltonian_plus(q, &p1, Some(&((x - q) / self.by.h)))?;
         let by_x = invert(&(s1.hessian(x) + f.plus.d2)).map_err(ImplicitEquation::Derivative.at(0))?;
         let shift = by_x.tr_mul(&f.plus.value);
         let rounding = section::magnitude(s1, x) + f.plus.value.abs() + f.plus.d1.abs() * q.abs();
@@ -134,9 +134,9 @@ where
     where
         F: ScalarField<N, Scalar = S>,
     {
-        let f = self.system.discrete_force_derivatives(q, x, self.h);
+        let f = self.by.system.discrete_force_derivatives(q, x, self.by.h);
         let p0 = s0.gradient(q) - f.minus.value;
-        let h_minus = self.discrete_hamiltonian_minus(x, &p0, Some(&((x - q) / self.h)))?;
+        let h_minus = self.discrete_hamiltonian_minus(x, &p0, Some(&((x - q) / self.by.h)))?;
         let by_q = invert(&(s0.hessian(q) - f.minus.d1)).map_err(ImplicitEquation::Derivative.at(0))?;
         let shift = by_q.tr_mul(&f.minus.value);
         let rounding = section::magnitude(s0, q) + f.minus.value.abs() + f.minus.d2.abs() * x.abs();

@@ -39,7 +39,7 @@ where
     where
         F: ScalarField<N, Scalar = S>,
     {
-        let f = self.system.discrete_force(q0, q1, self.h);
+        let f = self.by.system.discrete_force(q0, q1, self.by.h);
         Momenta { p0: s0.gradient(q0) - f.minus, p1: s1.gradient(q1) + f.plus }
     }
 
@@ -59,7 +59,7 @@ where
         F: ScalarField<N, Scalar = S>,
     {
         let gamma = self.gamma(s0, s1, q0, q1);
-        let guess = (q1 - q0) / self.h;
+        let guess = (q1 - q0) / self.by.h;
         Ok(PairedFlow {
             minus: self.step(q0, &gamma.p0, Some(&guess))?,
             plus: self.at_step(1, |theory| theory.step(q1, &gamma.p1, Some(&guess)))?,
@@ -85,7 +85,7 @@ where
         F: ScalarField<N, Scalar = S>,
     {
         let p1 = self.gamma(s0, s1, q0, q1).p1;
-        let h_plus = self.discrete_hamiltonian_plus(q0, &p1, Some(&((q1 - q0) / self.h)))?;
+        let h_plus = self.discrete_hamiltonian_plus(q0, &p1, Some(&((q1 - q0) / self.by.h)))?;
         let (before, after) = (s0.value(q0), s1.value(q1));
         let reach = p1.abs().dot(&(q1.abs() + h_plus.eliminated.abs())) + h_plus.d1.abs().dot(&q0.abs());
         Ok(EquationValue {
@@ -113,7 +113,7 @@ where
         F: ScalarField<N, Scalar = S>,
     {
         let p0 = self.gamma(s0, s1, q0, q1).p0;
-        let h_minus = self.discrete_hamiltonian_minus(q1, &p0, Some(&((q1 - q0) / self.h)))?;
+        let h_minus = self.discrete_hamiltonian_minus(q1, &p0, Some(&((q1 - q0) / self.by.h)))?;
         let (before, after) = (s0.value(q0), s1.value(q1));
         let reach = p0.abs().dot(&(q0.abs() + h_minus.eliminated.abs())) + h_minus.d1.abs().dot(&q1.abs());
         Ok(EquationValue {
@@ -136,7 +136,7 @@ where
     where
         F: ScalarField<N, Scalar = S>,
     {
-        let l = self.system.discrete_lagrangian_derivatives(q0, q1, self.h);
+        let l = self.by.system.discrete_lagrangian_derivatives(q0, q1, self.by.h);
         let (before, after) = (s0.value(q0), s1.value(q1));
         EquationValue {
             value: after - before - l.value,
@@ -163,7 +163,7 @@ where
         F: ScalarField<N, Scalar = S>,
     {
         let gamma = self.gamma(s0, s1, q0, q1);
-        self.a_step_before(|theory| theory.backward_step(q0, &gamma.p0, Some(&((q1 - q0) / self.h))))
+        self.a_step_before(|theory| theory.backward_step(q0, &gamma.p0, Some(&((q1 - q0) / self.by.h))))
     }
 
     /// G_d(q_j, q_{j+1}) = S_j(q_j) + S_{j+1}(q_{j+1}) − R_d(q_j, q_{j+1}) of a Rayleigh system, so that γ =
@@ -178,6 +178,6 @@ where
         F: ScalarField<N, Scalar = S>,
         L: DiscreteRayleigh<R, N>,
     {
-        s0.value(q0) + s1.value(q1) - self.system.discrete_rayleigh(q0, q1, self.h)
+        s0.value(q0) + s1.value(q1) - self.by.system.discrete_rayleigh(q0, q1, self.by.h)
     }
 }

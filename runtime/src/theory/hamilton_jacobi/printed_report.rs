@@ -134,10 +134,11 @@ where
     ) where
         F: ScalarField<N, Scalar = S>,
     {
-        let (before, f_plus) =
-            self.at_step(j - 1, |theory| (theory.legendre(q0, q1), theory.system.force_plus(q0, q1, self.h)));
-        let (after, f_minus) =
-            self.at_step(j, |theory| (theory.legendre(q1, q2), theory.system.force_minus(q1, q2, self.h)));
+        let (before, f_plus) = self.at_step(j - 1, |theory| {
+            (theory.legendre(q0, q1), theory.by.system.force_plus(q0, q1, self.by.h))
+        });
+        let (after, f_minus) = self
+            .at_step(j, |theory| (theory.legendre(q1, q2), theory.by.system.force_minus(q1, q2, self.by.h)));
         let (size_before, size) =
             (MomentumMagnitudes::of(&before, q0, q1), MomentumMagnitudes::of(&after, q1, q2));
         let node = size_before.p1 + size.p0;
@@ -189,9 +190,10 @@ where
             }
             Err(error) => report.lemma_minus.failure(error.at_step(j)),
         }
-        let guess = (q2 - q1) / self.h;
-        let forced =
-            |x: &SVector<S, N>| self.at_step(j - 1, |theory| theory.system.del_residual(q0, q1, x, self.h));
+        let guess = (q2 - q1) / self.by.h;
+        let forced = |x: &SVector<S, N>| {
+            self.at_step(j - 1, |theory| theory.by.system.del_residual(q0, q1, x, self.by.h))
+        };
         match self.at_step(j, |theory| theory.lemma_flow_plus(s2, q1, Some(&guess))) {
             Ok(x) => {
                 report.lemma_plus_forced.vector(j, q1, &forced(&x), &node, &node);
@@ -227,8 +229,8 @@ where
         q1: &SVector<S, N>,
         q2: &SVector<S, N>,
     ) -> SVector<S, N> {
-        self.system.discrete_lagrangian_derivatives(q0, q1, self.h).d2
-            + self.at_step(1, |theory| theory.system.discrete_lagrangian_derivatives(q1, q2, self.h).d1)
+        self.by.system.discrete_lagrangian_derivatives(q0, q1, self.by.h).d2
+            + self.at_step(1, |theory| theory.by.system.discrete_lagrangian_derivatives(q1, q2, self.by.h).d1)
     }
 }
 

@@ -251,8 +251,8 @@ where
     {
         let (q1, df) = (&image.q1, &image.derivative);
         let k = self.legendre(q, q1);
-        let l = self.system.discrete_lagrangian_derivatives(q, q1, self.h);
-        let f = self.system.discrete_force_derivatives(q, q1, self.h);
+        let l = self.by.system.discrete_lagrangian_derivatives(q, q1, self.by.h);
+        let f = self.by.system.discrete_force_derivatives(q, q1, self.by.h);
         let size = MomentumMagnitudes::of(&k, q, q1);
         let (gamma0, gamma1) = (before.covector(q), after.covector(q1));
 
@@ -296,8 +296,8 @@ where
     {
         let q1 = &image.q1;
         let gamma1 = after.gradient(q1);
-        let work = after.value(q1) - before.value(q) - self.system.discrete_lagrangian(q, q1, self.h);
-        match self.discrete_hamiltonian_plus(q, &gamma1, Some(&((q1 - q) / self.h))) {
+        let work = after.value(q1) - before.value(q) - self.by.system.discrete_lagrangian(q, q1, self.by.h);
+        match self.discrete_hamiltonian_plus(q, &gamma1, Some(&((q1 - q) / self.by.h))) {
             Ok(h_plus) => {
                 let value = after.value(q1) - before.value(q) - gamma1.dot(q1) + h_plus.value - work;
                 let rounding = after.hessian(q1).abs() * image.spread;

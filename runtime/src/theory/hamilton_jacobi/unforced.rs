@@ -60,7 +60,7 @@ where
             for q in samples {
                 let first = self.at_step(k, |theory| theory.right_characteristic(&s[1], q, None));
                 let chain = first.and_then(|x| {
-                    let guess = (x - q) / self.h;
+                    let guess = (x - q) / self.by.h;
                     let y =
                         self.at_step(k + 1, |theory| theory.right_characteristic(&s[2], &x, Some(&guess)))?;
                     Ok((x, y))
@@ -78,9 +78,9 @@ where
                     (
                         theory.action_increment(&s[0], &s[1], q, &x),
                         theory.legendre(q, &x),
-                        theory.system.discrete_lagrangian_derivatives(q, &x, self.h),
+                        theory.by.system.discrete_lagrangian_derivatives(q, &x, self.by.h),
                         theory.unforced_residual(q, &x, &y),
-                        theory.system.del_residual(q, &x, &y, self.h),
+                        theory.by.system.del_residual(q, &x, &y, self.by.h),
                     )
                 });
                 let after = self.at_step(k + 1, |theory| theory.legendre(&x, &y));

@@ -51,7 +51,7 @@ where
         F: ScalarField<N, Scalar = S>,
     {
         let q1 = self.step(q, &s0.gradient(q), None)?.q;
-        let value = s1.value(&q1) - s0.value(q) - self.system.discrete_lagrangian(q, &q1, self.h);
+        let value = s1.value(&q1) - s0.value(q) - self.by.system.discrete_lagrangian(q, &q1, self.by.h);
         Ok(VirtualWork { q1, value })
     }
 
@@ -92,7 +92,7 @@ where
             let [from, to] = [characteristic.states[k].q, characteristic.states[k + 1].q];
             values.push(
                 values[k]
-                    + self.at_step(k, |theory| theory.system.discrete_lagrangian(&from, &to, self.h))
+                    + self.at_step(k, |theory| theory.by.system.discrete_lagrangian(&from, &to, self.by.h))
                     + *work,
             );
         }
@@ -132,7 +132,7 @@ where
     /// d(W_k ∘ c_k) = Q_kᵀ f_d⁻ + Q_{k+1}ᵀ f_d⁺, a covector on the labels.
     fn work_covector(&self, characteristic: &Characteristic<S, N>, k: usize) -> SVector<S, N> {
         let [from, to] = [&characteristic.states[k].q, &characteristic.states[k + 1].q];
-        let f = self.at_step(k, |theory| theory.system.discrete_force(from, to, self.h));
+        let f = self.at_step(k, |theory| theory.by.system.discrete_force(from, to, self.by.h));
         characteristic.frames[k].q.tr_mul(&f.minus) + characteristic.frames[k + 1].q.tr_mul(&f.plus)
     }
 }

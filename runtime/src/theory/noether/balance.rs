@@ -7,7 +7,10 @@ use super::{Defect, Generator, Noether, defect_of};
 use crate::numbers::Scalar;
 use crate::step::{Discrete, State, Step, StepError};
 use crate::system::VectorField;
-use crate::theory::verdict::{is_zero, tells};
+use crate::theory::{
+    samples::at_segment,
+    verdict::{is_zero, tells},
+};
 
 /// The account of a momentum map along a trajectory: J_N − J_0 = Σ ξ(L_d) + Σ f_d(ξ). See
 /// [`Noether::balance`].
@@ -120,8 +123,7 @@ where
         for step in steps {
             let step = step?;
             let k = balance.steps as usize;
-            let defect =
-                self.at_segment(k, |system| defect_of(system, generator, &at.q, &step.state.q, self.h));
+            let defect = at_segment(&self.by, k, |by| defect_of(by, generator, &at.q, &step.state.q));
             let next = momentum_map(&step.state);
             let off = (next - j - defect.total().widen()).abs();
             // A NaN must not hide behind a comparison.
@@ -150,10 +152,10 @@ where
         step: &Step<L::Scalar, N>,
     ) -> (f64, f64) {
         let q1 = &step.state.q;
-        let (l, f) = self.at_segment(k, |system| {
+        let (l, f) = at_segment(&self.by, k, |by| {
             (
-                system.discrete_lagrangian_derivatives(q0, q1, self.h),
-                system.discrete_force_derivatives(q0, q1, self.h),
+                by.system.discrete_lagrangian_derivatives(q0, q1, by.h),
+                by.system.discrete_force_derivatives(q0, q1, by.h),
             )
         });
         let (xi0, xi1) = (generator.vector(q0).abs(), generator.vector(q1).abs());

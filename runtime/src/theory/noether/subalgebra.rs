@@ -9,7 +9,7 @@ use crate::numbers::Scalar;
 use crate::step::Discrete;
 use crate::system::VectorField;
 use crate::theory::{
-    samples::{SampleError, Segment, require_informative, require_step_size},
+    samples::{SampleError, Segment, at_segment, require_informative, require_step_size},
     verdict::largest,
 };
 
@@ -122,7 +122,7 @@ where
         generators: &[Generator<L::Scalar, N>],
         segments: &[Segment<L::Scalar, N>],
     ) -> Result<Subalgebra, SubalgebraError> {
-        require_step_size(self.h)?;
+        require_step_size(self.by.h)?;
         require_informative(segments, |segment| {
             segment.moves() && generators.iter().any(|xi| moves_an_end(xi, segment))
         })?;
@@ -181,7 +181,7 @@ where
     fn row(&self, k: usize, xi: &Generator<L::Scalar, N>, segment: &Segment<L::Scalar, N>) -> Row {
         let Segment { q0, q1 } = segment;
         let terms = self.terms(k, xi, segment);
-        let f = self.at_segment(k, |system| system.discrete_force_derivatives(q0, q1, self.h));
+        let f = at_segment(&self.by, k, |by| by.system.discrete_force_derivatives(q0, q1, by.h));
         // Entry (a, b) of F, rows f⁻ then f⁺, columns q0 then q1.
         let jacobian = |a: usize, b: usize| {
             let covector = if a < N { &f.minus } else { &f.plus };

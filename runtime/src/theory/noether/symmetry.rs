@@ -5,7 +5,7 @@ use crate::numbers::Scalar;
 use crate::step::Discrete;
 use crate::system::VectorField;
 use crate::theory::{
-    samples::{SampleError, Segment, Tolerance, Worst, require_informative, require_step_size},
+    samples::{SampleError, Segment, Tolerance, Worst, at_segment, require_informative, require_step_size},
     verdict::scales,
 };
 
@@ -91,7 +91,7 @@ where
         generator: &Generator<L::Scalar, N>,
         segments: &[Segment<L::Scalar, N>],
     ) -> Result<Symmetry<N>, SampleError> {
-        require_step_size(self.h)?;
+        require_step_size(self.by.h)?;
         require_informative(segments, |segment| segment.moves() && moves_an_end(generator, segment))?;
         let terms: Vec<Terms> =
             segments.iter().enumerate().map(|(k, segment)| self.terms(k, generator, segment)).collect();
@@ -105,16 +105,16 @@ where
         };
         let identity = |k: usize| {
             let Segment { q0, q1 } = &segments[k];
-            let jump = self.at_segment(k, |system| {
+            let jump = at_segment(&self.by, k, |by| {
                 let (before, after) =
-                    (system.legendre_minus(q0, q1, self.h), system.legendre_plus(q0, q1, self.h));
+                    (by.system.legendre_minus(q0, q1, by.h), by.system.legendre_plus(q0, q1, by.h));
                 after.p.dot(&generator.vector(q1)) - before.p.dot(&generator.vector(q0))
             });
             jump.widen() - terms[k].defect.total()
         };
         Ok(Symmetry {
             generator: generator.name().to_owned(),
-            h: self.h.widen(),
+            h: self.by.h.widen(),
             samples: segments.len(),
             lagrangian: contribution(&|k| terms[k].defect.lagrangian, &of_lagrangian)?,
             force: contribution(&|k| terms[k].defect.force, &of_force)?,

@@ -1,12 +1,11 @@
 use core::fmt;
-use core::marker::PhantomData;
 
 use nalgebra::SVector;
 
-use super::quadrature::Quadrature;
+use super::quadrature::{along_line, between};
 use super::{Integral, Residual, rounding_note};
 use crate::numbers::Scalar;
-use crate::step::Discrete;
+use crate::step::{Discrete, DiscreteForce, Discretised};
 use crate::theory::{
     samples::{SampleError, Segment, Tolerance, at_segment, require_informative, require_step_size},
     verdict::scales,
@@ -34,12 +33,9 @@ where
     L: Discrete<R, N>,
     M: Discrete<T, N, Scalar = L::Scalar>,
 {
-    system: &'a L,
-    other: &'a M,
-    h: L::Scalar,
+    ours: Discretised<'a, L, R, N>,
+    theirs: Discretised<'a, M, T, N>,
     base: SVector<L::Scalar, N>,
-    quadrature: Quadrature,
-    rules: PhantomData<(R, T)>,
 }
 
 /// Whether two systems are equivalent, over a set of segments. See [`Comparison::check`].
@@ -89,33 +85,34 @@ where
         h: L::Scalar,
         base: impl Into<SVector<L::Scalar, N>>,
     ) -> Self {
-        Self { system, other, h, base: base.into(), quadrature: Quadrature::new(), rules: PhantomData }
+        Self { ours: Discretised::new(system, h), theirs: Discretised::new(other, h), base: base.into() }
     }
 
     /// ψ(q) − ψ(a).
     pub fn psi(&self, q: &SVector<L::Scalar, N>) -> Integral {
-        self.pair().psi(q)
+        let Self { ours, theirs, base } = self;
+        let difference = |s: &SVector<L::Scalar, N>| {
+            theirs.system.legendre_minus(s, base, theirs.h).p - ours.system.legendre_minus(s, base, ours.h).p
+        };
+        along_line(base, q, difference) * -0.5
     }
 
     /// φ0(q), a function of the earlier configuration alone.
     pub fn phi0(&self, q: &SVector<L::Scalar, N>) -> Integral {
-        self.pair().phi0(q)
+        (self.phi(q, &self.base) + self.chi(q, &self.base) * -1.0) * 0.5
     }
 
     /// φ1(q), a function of the later configuration alone.
     pub fn phi1(&self, q: &SVector<L::Scalar, N>) -> Integral {
-        self.pair().phi1(q)
-    }
-
-    fn pair(&self) -> Pair<'_, L, R, M, T, N> {
-        let Self { system, other, h, base, ref quadrature, rules } = *self;
-        Pair { system, other, h, base, quadrature, rules }
+        (self.phi(&self.base, q) + self.chi(&self.base, q)) * 0.5
     }
 
     /// `evaluate` of both systems at the start of the k-th segment.
-    fn at_segment<U>(&self, k: usize, evaluate: impl FnOnce(&Pair<'_, L, R, M, T, N>) -> U) -> U {
-        at_segment(self.system, k, self.h, |system| {
-            at_segment(self.other, k, self.h, |other| evaluate(&Pair { system, other, ..self.pair() }))
+    fn at_segment<U>(&self, k: usize, evaluate: impl FnOnce(&Comparison<'_, L, R, M, T, N>) -> U) -> U {
+        at_segment(&self.ours, k, |ours| {
+            at_segment(&self.theirs, k, |theirs| {
+                evaluate(&Comparison { ours: *ours, theirs: *theirs, base: self.base })
+            })
         })
     }
 
@@ -124,7 +121,7 @@ where
     /// # Errors
     /// [`SampleError`] if there is no segment, none that moves, or a value is not finite.
     pub fn check(&self, segments: &[Segment<L::Scalar, N>]) -> Result<Equivalence<N>, SampleError> {
-        require_step_size(self.h)?;
+        require_step_size(self.ours.h)?;
         require_informative(segments, Segment::moves)?;
         let relative = Tolerance::rounding::<L::Scalar>();
         let third = |index: usize| {
@@ -135,8 +132,8 @@ where
             .iter()
             .enumerate()
             .map(|(k, segment)| {
-                self.at_segment(k, |pair| pair.momentum_sizes(&segment.q0, &segment.q1))
-                    + self.at_segment(k + 1, |pair| pair.momentum_sizes(&segment.q1, &third(k)))
+                self.at_segment(k, |both| both.momentum_sizes(&segment.q0, &segment.q1))
+                    + self.at_segment(k + 1, |both| both.momentum_sizes(&segment.q1, &third(k)))
             })
             .collect();
         let scales: [Vec<f64>; N] =
@@ -145,11 +142,11 @@ where
         for (index, segment) in segments.iter().enumerate() {
             let Segment { q0, q1 } = segment;
             let at = segment.widen();
-            let (difference, [psi0, phi0, phi1, phi, chi]) = self.at_segment(index, |pair| {
-                let parts = [pair.psi(q0), pair.phi0(q0), pair.phi1(q1), pair.phi(q0, q1), pair.chi(q0, q1)];
-                (pair.difference(q0, q1, &third(index)), parts)
+            let (difference, [psi0, phi0, phi1, phi, chi]) = self.at_segment(index, |both| {
+                let parts = [both.psi(q0), both.phi0(q0), both.phi1(q1), both.phi(q0, q1), both.chi(q0, q1)];
+                (both.difference(q0, q1, &third(index)), parts)
             });
-            let psi1 = self.at_segment(index + 1, |pair| pair.psi(q1));
+            let psi1 = self.at_segment(index + 1, |both| both.psi(q1));
             for (entry, scales) in difference.iter().zip(&scales) {
                 let (entry, scale) = (entry.widen(), scales[index]);
                 if !(entry.is_finite() && scale.is_finite()) {
@@ -169,7 +166,7 @@ where
         }
         match (equations, lagrangian, rayleigh) {
             (Some(equations), Some(lagrangian), Some(rayleigh)) => Ok(Equivalence {
-                h: self.h.widen(),
+                h: self.ours.h.widen(),
                 samples: segments.len(),
                 equations,
                 lagrangian,
@@ -179,63 +176,22 @@ where
             _ => Err(SampleError::TooFew { given: 0, needed: 1 }),
         }
     }
-}
-
-/// Both systems at one time.
-struct Pair<'a, L, R, M, T, const N: usize>
-where
-    L: Discrete<R, N>,
-    M: Discrete<T, N, Scalar = L::Scalar>,
-{
-    system: &'a L,
-    other: &'a M,
-    h: L::Scalar,
-    base: SVector<L::Scalar, N>,
-    quadrature: &'a Quadrature,
-    rules: PhantomData<(R, T)>,
-}
-
-impl<L, R, M, T, const N: usize> Pair<'_, L, R, M, T, N>
-where
-    L: Discrete<R, N>,
-    M: Discrete<T, N, Scalar = L::Scalar>,
-{
-    fn psi(&self, q: &SVector<L::Scalar, N>) -> Integral {
-        let difference = |s: &SVector<L::Scalar, N>| {
-            self.other.legendre_minus(s, &self.base, self.h).p
-                - self.system.legendre_minus(s, &self.base, self.h).p
-        };
-        self.quadrature.along_line(&self.base, q, difference) * -0.5
-    }
-
-    fn phi0(&self, q: &SVector<L::Scalar, N>) -> Integral {
-        (self.phi(q, &self.base) + self.chi(q, &self.base) * -1.0) * 0.5
-    }
-
-    fn phi1(&self, q: &SVector<L::Scalar, N>) -> Integral {
-        (self.phi(&self.base, q) + self.chi(&self.base, q)) * 0.5
-    }
 
     /// φ = L̃_d − L_d.
     fn phi(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> Integral {
-        let (theirs, ours) =
-            (self.other.discrete_lagrangian(q0, q1, self.h), self.system.discrete_lagrangian(q0, q1, self.h));
+        let theirs = self.theirs.system.discrete_lagrangian(q0, q1, self.theirs.h);
+        let ours = self.ours.system.discrete_lagrangian(q0, q1, self.ours.h);
         let magnitude = theirs.widen().abs() + ours.widen().abs();
         Integral { value: (theirs - ours).widen(), error: L::Scalar::EPSILON.widen() * magnitude, magnitude }
     }
 
     /// χ = R̃_d − R_d, 0 at (a, a).
     fn chi(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> Integral {
-        let (d0, d1) = (q0 - self.base, q1 - self.base);
-        if d0.iter().chain(&d1).all(|entry| *entry == L::Scalar::constant(0.0)) {
-            return Integral::ZERO;
-        }
-        self.quadrature.integrate(L::Scalar::EPSILON.widen(), |s| {
-            let s = L::Scalar::constant(s);
-            let (q0, q1) = (self.base + d0 * s, self.base + d1 * s);
-            let theirs = self.other.discrete_force(&q0, &q1, self.h);
-            let ours = self.system.discrete_force(&q0, &q1, self.h);
-            ((theirs.minus - ours.minus).dot(&d0) - (theirs.plus - ours.plus).dot(&d1)).widen()
+        let (start, end) = (Segment { q0: self.base, q1: self.base }, Segment { q0: *q0, q1: *q1 });
+        between(&start, &end, |q0, q1| {
+            let theirs = self.theirs.system.discrete_force(q0, q1, self.theirs.h);
+            let ours = self.ours.system.discrete_force(q0, q1, self.ours.h);
+            DiscreteForce { minus: theirs.minus - ours.minus, plus: theirs.plus - ours.plus }
         })
     }
 
@@ -246,15 +202,17 @@ where
         q1: &SVector<L::Scalar, N>,
         q2: &SVector<L::Scalar, N>,
     ) -> SVector<L::Scalar, N> {
-        self.other.del_residual(q0, q1, q2, self.h) - self.system.del_residual(q0, q1, q2, self.h)
+        let Self { ours, theirs, .. } = self;
+        theirs.system.del_residual(q0, q1, q2, theirs.h) - ours.system.del_residual(q0, q1, q2, ours.h)
     }
 
     /// The sizes of all momenta on a segment, coordinate by coordinate: the terms of the equations.
     fn momentum_sizes(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> SVector<f64, N> {
-        let sizes = self.system.legendre_minus(q0, q1, self.h).p.abs()
-            + self.system.legendre_plus(q0, q1, self.h).p.abs()
-            + self.other.legendre_minus(q0, q1, self.h).p.abs()
-            + self.other.legendre_plus(q0, q1, self.h).p.abs();
+        let Self { ours, theirs, .. } = self;
+        let sizes = ours.system.legendre_minus(q0, q1, ours.h).p.abs()
+            + ours.system.legendre_plus(q0, q1, ours.h).p.abs()
+            + theirs.system.legendre_minus(q0, q1, theirs.h).p.abs()
+            + theirs.system.legendre_plus(q0, q1, theirs.h).p.abs();
         sizes.map(Scalar::widen)
     }
 }

@@ -1,13 +1,11 @@
 use core::fmt;
-use core::marker::PhantomData;
 
 use nalgebra::SVector;
 
-use super::quadrature::Quadrature;
+use super::quadrature::between;
 use super::structure::structure_of;
 use super::{Integral, Residual, Structure, rounding_note};
-use crate::numbers::Scalar;
-use crate::step::Discrete;
+use crate::step::{Discrete, Discretised};
 use crate::theory::{
     samples::{SampleError, Segment, Tolerance, at_segment},
     verdict::largest,
@@ -25,11 +23,8 @@ pub struct Potential<'a, L, R, const N: usize>
 where
     L: Discrete<R, N>,
 {
-    system: &'a L,
-    h: L::Scalar,
+    by: Discretised<'a, L, R, N>,
     base: Segment<L::Scalar, N>,
-    quadrature: Quadrature,
-    rule: PhantomData<R>,
 }
 
 /// The recovered R_d over a set of segments. See [`Potential::check`].
@@ -64,40 +59,12 @@ where
     ///
     /// Where R(q, 0) = 0, a base at rest (a, a) gives the R_d of the rule itself.
     pub fn new(system: &'a L, _rule: R, h: L::Scalar, base: Segment<L::Scalar, N>) -> Self {
-        Self { system, h, base, quadrature: Quadrature::new(), rule: PhantomData }
+        Self { by: Discretised::new(system, h), base }
     }
 
     /// R_d(q0, q1) along the straight line from the base.
     pub fn at(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> Integral {
-        let (start, end) = (self.base, Segment { q0: *q0, q1: *q1 });
-        self.along(self.system, &start, &end)
-    }
-
-    /// Of the system at one time.
-    fn along(&self, system: &L, start: &Segment<L::Scalar, N>, end: &Segment<L::Scalar, N>) -> Integral {
-        let (d0, d1) = (end.q0 - start.q0, end.q1 - start.q1);
-        if d0.iter().chain(&d1).all(|entry| *entry == L::Scalar::constant(0.0)) {
-            return Integral::ZERO;
-        }
-        self.quadrature.integrate(L::Scalar::EPSILON.widen(), |s| {
-            let s = L::Scalar::constant(s);
-            let f = system.discrete_force(&(start.q0 + d0 * s), &(start.q1 + d1 * s), self.h);
-            (f.minus.dot(&d0) - f.plus.dot(&d1)).widen()
-        })
-    }
-
-    /// From the base to `end` one coordinate after the other, those of q0 first.
-    fn along_edges(&self, system: &L, end: &Segment<L::Scalar, N>) -> Integral {
-        let mut corner = self.base;
-        (0..2 * N).fold(Integral::ZERO, |sum, axis| {
-            let from = corner;
-            if axis < N {
-                corner.q0[axis] = end.q0[axis];
-            } else {
-                corner.q1[axis - N] = end.q1[axis - N];
-            }
-            sum + self.along(system, &from, &corner)
-        })
+        along(&self.by, &self.base, &Segment { q0: *q0, q1: *q1 })
     }
 
     /// Recovers R_d at `segments`, along the straight path and along the edges of the box in Q×Q.
@@ -105,12 +72,12 @@ where
     /// # Errors
     /// [`SampleError`] if there is no segment, none that moves, or a force on a path is not finite.
     pub fn check(&self, segments: &[Segment<L::Scalar, N>]) -> Result<Recovery<N>, SampleError> {
-        let structure = structure_of::<L, R, N>(self.system, self.h, segments)?;
+        let structure = structure_of(&self.by, segments)?;
         let relative = Tolerance::rounding::<L::Scalar>();
         let (mut values, mut quadrature_error, mut path_dependence) = (Vec::new(), 0.0_f64, None);
         for (index, segment) in segments.iter().enumerate() {
-            let (straight, edges) = at_segment(self.system, index, self.h, |system| {
-                (self.along(system, &self.base, segment), self.along_edges(system, segment))
+            let (straight, edges) = at_segment(&self.by, index, |by| {
+                (along(by, &self.base, segment), along_edges(by, &self.base, segment))
             });
             let gap = straight + edges * -1.0;
             let tolerance = gap.error + relative * gap.magnitude;
@@ -124,6 +91,33 @@ where
         let path_dependence = path_dependence.ok_or(SampleError::TooFew { given: 0, needed: 1 })?;
         Ok(Recovery { structure, values, quadrature_error, path_dependence, tolerance: relative })
     }
+}
+
+/// R_d at `end` less R_d at `start`, along the straight line.
+fn along<L: Discrete<R, N>, R, const N: usize>(
+    by: &Discretised<'_, L, R, N>,
+    start: &Segment<L::Scalar, N>,
+    end: &Segment<L::Scalar, N>,
+) -> Integral {
+    between(start, end, |q0, q1| by.system.discrete_force(q0, q1, by.h))
+}
+
+/// The same one coordinate after the other, those of q0 first.
+fn along_edges<L: Discrete<R, N>, R, const N: usize>(
+    by: &Discretised<'_, L, R, N>,
+    start: &Segment<L::Scalar, N>,
+    end: &Segment<L::Scalar, N>,
+) -> Integral {
+    let mut corner = *start;
+    (0..2 * N).fold(Integral::ZERO, |sum, axis| {
+        let from = corner;
+        if axis < N {
+            corner.q0[axis] = end.q0[axis];
+        } else {
+            corner.q1[axis - N] = end.q1[axis - N];
+        }
+        sum + along(by, &from, &corner)
+    })
 }
 
 impl<const N: usize> fmt::Display for Recovery<N> {

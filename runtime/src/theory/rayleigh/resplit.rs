@@ -1,13 +1,12 @@
 use core::fmt;
-use core::marker::PhantomData;
 
 use nalgebra::SVector;
 
-use super::quadrature::Quadrature;
+use super::quadrature::{along_edges, along_line};
 use super::structure::structure_of;
 use super::{Integral, Residual, Structure, rounding_note};
 use crate::numbers::Scalar;
-use crate::step::Discrete;
+use crate::step::{Discrete, Discretised};
 use crate::theory::{
     samples::{SampleError, Segment, Tolerance, at_segment},
     verdict::largest,
@@ -27,11 +26,8 @@ pub struct Resplit<'a, L, R, const N: usize>
 where
     L: Discrete<R, N>,
 {
-    system: &'a L,
-    h: L::Scalar,
+    by: Discretised<'a, L, R, N>,
     base: SVector<L::Scalar, N>,
-    quadrature: Quadrature,
-    rule: PhantomData<R>,
 }
 
 /// Whether the re-split exists, over a set of segments. See [`Resplit::check`].
@@ -64,17 +60,17 @@ where
 {
     /// The re-split of `system` by `rule` with step size `h`; `base` is the point a.
     pub fn new(system: &'a L, _rule: R, h: L::Scalar, base: impl Into<SVector<L::Scalar, N>>) -> Self {
-        Self { system, h, base: base.into(), quadrature: Quadrature::new(), rule: PhantomData }
+        Self { by: Discretised::new(system, h), base: base.into() }
     }
 
     /// L_d⁺(q0, q1).
     pub fn modified_plus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> Integral {
-        self.lagrangian(q0, q1) + self.quadrature.along_line(&self.base, q0, self.at_start(self.system, q1))
+        self.lagrangian(q0, q1) + along_line(&self.base, q0, at_start(&self.by, q1))
     }
 
     /// L_d⁻(q0, q1).
     pub fn modified_minus(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> Integral {
-        self.lagrangian(q0, q1) + self.quadrature.along_line(&self.base, q1, self.at_end(self.system, q0))
+        self.lagrangian(q0, q1) + along_line(&self.base, q1, at_end(&self.by, q0))
     }
 
     /// L_d′ = ½(L_d⁺ + L_d⁻).
@@ -92,21 +88,15 @@ where
     /// # Errors
     /// [`SampleError`] if there is no segment, none that moves, or a force on a path is not finite.
     pub fn check(&self, segments: &[Segment<L::Scalar, N>]) -> Result<ResplitReport<N>, SampleError> {
-        let structure = structure_of::<L, R, N>(self.system, self.h, segments)?;
+        let structure = structure_of(&self.by, segments)?;
         let relative = Tolerance::rounding::<L::Scalar>();
         let (mut plus, mut minus, mut quadrature_error) = (None, None, 0.0_f64);
         for (index, segment) in segments.iter().enumerate() {
             let Segment { q0, q1 } = segment;
-            let (straight, edges) = at_segment(self.system, index, self.h, |system| {
-                let (at_start, at_end) = (self.at_start(system, q1), self.at_end(system, q0));
-                let straight = (
-                    self.quadrature.along_line(&self.base, q0, &at_start),
-                    self.quadrature.along_line(&self.base, q1, &at_end),
-                );
-                let edges = (
-                    self.quadrature.along_edges(&self.base, q0, &at_start),
-                    self.quadrature.along_edges(&self.base, q1, &at_end),
-                );
+            let (straight, edges) = at_segment(&self.by, index, |by| {
+                let (at_start, at_end) = (at_start(by, q1), at_end(by, q0));
+                let straight = (along_line(&self.base, q0, &at_start), along_line(&self.base, q1, &at_end));
+                let edges = (along_edges(&self.base, q0, &at_start), along_edges(&self.base, q1, &at_end));
                 (straight, edges)
             });
             let gaps = (straight.0 + edges.0 * -1.0, straight.1 + edges.1 * -1.0);
@@ -128,27 +118,25 @@ where
     }
 
     fn lagrangian(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> Integral {
-        let value = self.system.discrete_lagrangian(q0, q1, self.h).widen();
+        let value = self.by.system.discrete_lagrangian(q0, q1, self.by.h).widen();
         Integral { value, error: L::Scalar::EPSILON.widen() * value.abs(), magnitude: value.abs() }
     }
+}
 
-    /// s ↦ f_d⁻(s, q1).
-    fn at_start(
-        &self,
-        system: &L,
-        q1: &SVector<L::Scalar, N>,
-    ) -> impl Fn(&SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {
-        move |s| system.force_minus(s, q1, self.h)
-    }
+/// s ↦ f_d⁻(s, q1).
+fn at_start<L: Discrete<R, N>, R, const N: usize>(
+    by: &Discretised<'_, L, R, N>,
+    q1: &SVector<L::Scalar, N>,
+) -> impl Fn(&SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {
+    move |s| by.system.force_minus(s, q1, by.h)
+}
 
-    /// s ↦ f_d⁺(q0, s).
-    fn at_end(
-        &self,
-        system: &L,
-        q0: &SVector<L::Scalar, N>,
-    ) -> impl Fn(&SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {
-        move |s| system.force_plus(q0, s, self.h)
-    }
+/// s ↦ f_d⁺(q0, s).
+fn at_end<L: Discrete<R, N>, R, const N: usize>(
+    by: &Discretised<'_, L, R, N>,
+    q0: &SVector<L::Scalar, N>,
+) -> impl Fn(&SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {
+    move |s| by.system.force_plus(q0, s, by.h)
 }
 
 impl<const N: usize> fmt::Display for ResplitReport<N> {

@@ -1,7 +1,7 @@
 use core::fmt;
 
 use crate::numbers::Scalar;
-use crate::step::{Discrete, DiscreteForceDerivatives};
+use crate::step::{Discrete, DiscreteForceDerivatives, Discretised};
 use crate::theory::{
     samples::{SampleError, Segment, Tolerance, Worst, at_segment, require_informative, require_step_size},
     verdict::{excess, largest, scales},
@@ -74,25 +74,24 @@ pub fn structure<L, R, const N: usize>(
 where
     L: Discrete<R, N>,
 {
-    structure_of::<L, R, N>(system, h, segments)
+    structure_of(&Discretised::<L, R, N>::new(system, h), segments)
 }
 
-/// [`structure`] for a rule that only the type names.
+/// [`structure`] of a discretised system.
 pub(super) fn structure_of<L, R, const N: usize>(
-    system: &L,
-    h: L::Scalar,
+    by: &Discretised<'_, L, R, N>,
     segments: &[Segment<L::Scalar, N>],
 ) -> Result<Structure<N>, SampleError>
 where
     L: Discrete<R, N>,
 {
-    require_step_size(h)?;
+    require_step_size(by.h)?;
     require_informative(segments, Segment::moves)?;
     let hessians: Vec<_> = segments
         .iter()
         .enumerate()
         .map(|(k, Segment { q0, q1 })| {
-            at_segment(system, k, h, |system| system.discrete_force_derivatives(q0, q1, h))
+            at_segment(by, k, |by| by.system.discrete_force_derivatives(q0, q1, by.h))
         })
         .collect();
     // An asymmetry of derivatives that are not finite may still be 0.
@@ -119,7 +118,7 @@ where
         worst.ok_or(SampleError::TooFew { given: 0, needed: 1 })
     };
     Ok(Structure {
-        h: h.widen(),
+        h: by.h.widen(),
         samples: segments.len(),
         minus: condition(0, 0)?,
         plus: condition(1, 1)?,
