@@ -52,6 +52,7 @@ mod dissipation;
 mod potential;
 mod quadrature;
 mod rayleigh_step;
+mod residual;
 mod resplit;
 mod structure;
 
@@ -60,66 +61,6 @@ pub use dissipation::{Dissipation, dissipation};
 pub use potential::{Potential, Recovery};
 pub use quadrature::Integral;
 pub use rayleigh_step::{Asymmetry, RayleighStep, RayleighStepError};
+pub use residual::Residual;
 pub use resplit::{Resplit, ResplitReport};
 pub use structure::{Condition, Structure, structure};
-
-use core::fmt;
-
-use crate::theory::{
-    samples::{Segment, Tolerance, Worst},
-    verdict::{excess, is_zero, tells},
-};
-
-/// A quantity that has to vanish: its worst value over the samples, in units of what counts as zero there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Residual<const N: usize> {
-    /// The value furthest above its tolerance.
-    pub worst: Worst<N>,
-    /// What counts as zero for that value.
-    pub tolerance: f64,
-    /// The size of the terms that it is a sum of.
-    pub terms: f64,
-}
-
-impl<const N: usize> Residual<N> {
-    /// Whether it is zero to rounding at every sample. A tolerance that the quadrature's error brings up to
-    /// the size of the terms says nothing.
-    #[must_use]
-    pub fn vanishes(&self) -> bool {
-        is_zero(self.worst.value, self.tolerance) && tells(self.tolerance, self.terms)
-    }
-
-    /// Keeps the entry that is worse in units of its tolerance; what a tolerance says nothing of is worst.
-    fn keep_worse(worst: &mut Option<Self>, value: f64, tolerance: f64, terms: f64, at: Segment<f64, N>) {
-        let new = Self { worst: Worst { value, at }, tolerance, terms };
-        let units = |residual: &Self| {
-            if tells(residual.tolerance, residual.terms) {
-                excess(residual.worst.value, residual.tolerance)
-            } else {
-                f64::INFINITY
-            }
-        };
-        if worst.as_ref().is_none_or(|known| units(&new) > units(known)) {
-            *worst = Some(new);
-        }
-    }
-}
-
-impl<const N: usize> fmt::Display for Residual<N> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:+.2e}, zero below {:.1e}", self.worst.value, self.tolerance)?;
-        if !self.vanishes() {
-            write!(f, ", at {}", self.worst.at)?;
-        }
-        Ok(())
-    }
-}
-
-/// Relative size of what counts as rounding, for reports.
-fn rounding_note(f: &mut fmt::Formatter<'_>, relative: f64) -> fmt::Result {
-    write!(
-        f,
-        "  tolerances: {relative:.1e} ({} ε) of the terms, and the quadrature's error",
-        Tolerance::ROUNDINGS
-    )
-}

@@ -1,5 +1,5 @@
 //! Where the checkers look: segments (q0, q1) of Q×Q, points of a region, and the worst of what was found
-//! there.
+//! there ([`Finding`]).
 //!
 //! A checker's verdict is about the points that it was given. Points of a region, spread evenly by [`region`]
 //! and [`segments`], speak for the region; those of one trajectory ([`Segment::along`]) for that trajectory
@@ -18,7 +18,7 @@ use nalgebra::SVector;
 use crate::numbers::Scalar;
 use crate::step::Discretised;
 use crate::system::Lagrangian;
-use crate::theory::verdict::{excess, is_zero};
+pub use crate::theory::verdict::{Finding, Tolerance};
 
 /// A segment (q0, q1), a point of Q×Q.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -198,84 +198,24 @@ pub(crate) fn require_informative<S: Scalar, const N: usize>(
     }
 }
 
-/// The value of a quantity that is furthest above its tolerance over the samples, and where it is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Worst<const N: usize> {
-    /// The value furthest above its tolerance.
-    pub value: f64,
-    /// The segment where it is taken.
-    pub at: Segment<f64, N>,
-}
-
-impl<const N: usize> Worst<N> {
-    /// The value furthest above its tolerance, `relative` × its scale, with that tolerance. All have to be
-    /// finite.
-    pub(crate) fn of<S: Scalar>(
-        segments: &[Segment<S, N>],
-        relative: f64,
-        scales: &[f64],
-        mut value: impl FnMut(usize) -> f64,
-    ) -> Result<(Self, Tolerance), SampleError> {
-        let mut worst: Option<(Self, Tolerance)> = None;
-        for (index, (segment, &scale)) in segments.iter().zip(scales).enumerate() {
-            let value = value(index);
-            let tolerance = Tolerance { relative, scale };
-            if !(value.is_finite() && scale.is_finite()) {
-                return Err(SampleError::NonFinite { index });
-            }
-            let excess = excess(value, tolerance.bound());
-            if worst.is_none_or(|(worst, of)| excess > self::excess(worst.value, of.bound())) {
-                worst = Some((Self { value, at: segment.widen() }, tolerance));
-            }
+/// The value of a quantity that is furthest above its tolerance over the samples, `relative` × its scale. All
+/// have to be finite.
+pub(crate) fn worst<S: Scalar, const N: usize>(
+    segments: &[Segment<S, N>],
+    relative: f64,
+    scales: &[f64],
+    mut value: impl FnMut(usize) -> f64,
+) -> Result<Finding<Segment<f64, N>>, SampleError> {
+    let mut worst = None;
+    for (index, (segment, &scale)) in segments.iter().zip(scales).enumerate() {
+        let value = value(index);
+        if !(value.is_finite() && scale.is_finite()) {
+            return Err(SampleError::NonFinite { index });
         }
-        worst.ok_or(SampleError::TooFew { given: 0, needed: 1 })
+        let finding = Finding::relative(value, Tolerance { relative, scale }, segment.widen());
+        finding.keep_if_worse(&mut worst, Finding::excess);
     }
-}
-
-impl<const N: usize> fmt::Display for Worst<N> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:+.3e} at {}", self.value, self.at)
-    }
-}
-
-/// What counts as zero: `relative` × `scale`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tolerance {
-    /// Rounding allowed, relative to the terms that the quantity is a sum of.
-    pub relative: f64,
-    /// Size of those terms: what the quantity could be if nothing cancelled.
-    pub scale: f64,
-}
-
-impl Tolerance {
-    /// Rounding that a checker allows unless told otherwise, in units of ε: a derivative of L or R takes some
-    /// hundreds of roundings.
-    pub(crate) const ROUNDINGS: f64 = 1024.0;
-
-    /// The default for the scalar type `S`.
-    #[must_use]
-    pub fn rounding<S: Scalar>() -> f64 {
-        Self::ROUNDINGS * S::EPSILON.widen()
-    }
-
-    /// The largest magnitude that counts as zero.
-    #[must_use]
-    pub fn bound(&self) -> f64 {
-        self.relative * self.scale
-    }
-
-    /// Whether `value` counts as zero: it and the bound are finite, and the bound is less than the size of
-    /// the terms, which the value cannot exceed.
-    #[must_use]
-    pub fn covers(&self, value: f64) -> bool {
-        (0.0..1.0).contains(&self.relative) && is_zero(value, self.bound())
-    }
-}
-
-impl fmt::Display for Tolerance {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:.1e} = {:.1e} × {:.3e}, the size of the terms", self.bound(), self.relative, self.scale)
-    }
+    worst.ok_or(SampleError::TooFew { given: 0, needed: 1 })
 }
 
 /// Why the samples given cannot be judged.
@@ -344,14 +284,14 @@ mod tests {
     fn a_value_that_is_not_finite_is_named() {
         let segments = segments::<f64, 1>([0.0], [1.0], [0.1], 3);
         let of = |scales: &[f64], value: f64| {
-            Worst::of(&segments, 1e-3, scales, |index| if index == 1 { value } else { 1.0 })
+            worst(&segments, 1e-3, scales, |index| if index == 1 { value } else { 1.0 })
         };
         for poison in [f64::NAN, f64::INFINITY] {
             assert_eq!(of(&[1.0; 3], poison), Err(SampleError::NonFinite { index: 1 }));
             assert_eq!(of(&[1.0, 1.0, poison], 1.0), Err(SampleError::NonFinite { index: 2 }));
         }
-        assert_eq!(of(&[1.0; 3], 2.0).unwrap().0.value, 2.0);
+        assert_eq!(of(&[1.0; 3], 2.0).unwrap().value, 2.0);
         // The furthest above its own tolerance, not the largest.
-        assert_eq!(of(&[10.0, 1e9, 1.0], 2.0).unwrap().0.at, segments[2]);
+        assert_eq!(of(&[10.0, 1e9, 1.0], 2.0).unwrap().at, segments[2]);
     }
 }

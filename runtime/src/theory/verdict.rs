@@ -1,9 +1,108 @@
-//! What counts as zero: one rule for every verdict of every checker.
+//! What counts as zero, and what was found of it: one rule for every verdict of every checker.
 //!
 //! A quantity counts as zero if it is finite, is held against a finite tolerance, and is within it. What is
 //! NaN or infinite on either side proves nothing, and no checker says yes to it. Samples at which nothing
 //! could have been found prove nothing either
 //! ([`SampleError::Uninformative`](crate::samples::SampleError::Uninformative)).
+
+use core::fmt;
+
+use crate::numbers::Scalar;
+
+/// What a checker found of a quantity that has to vanish: the value furthest above its tolerance, and where.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Finding<P> {
+    /// That value.
+    pub value: f64,
+    /// What counts as zero there.
+    pub tolerance: f64,
+    /// The size of the terms that it is a sum of.
+    pub terms: f64,
+    /// The place.
+    pub at: P,
+    /// Whether the tolerance leaves something of the terms.
+    tells: bool,
+}
+
+impl<P> Finding<P> {
+    /// A value held against a share of its terms, which has to be less than all of them.
+    pub fn relative(value: f64, tolerance: Tolerance, at: P) -> Self {
+        let tells = (0.0..1.0).contains(&tolerance.relative);
+        Self { value, tolerance: tolerance.bound(), terms: tolerance.scale, at, tells }
+    }
+
+    /// A value held against a bound on its errors, which has to leave a digit of the `terms`.
+    pub fn bounded(value: f64, tolerance: f64, terms: f64, at: P) -> Self {
+        Self { value, tolerance, terms, at, tells: tells(tolerance, terms) }
+    }
+
+    /// Whether the value is zero to rounding. What is NaN or infinite is not, nor is anything beside a tolerance
+    /// that the terms cannot exceed: it says nothing.
+    #[must_use]
+    pub fn vanishes(&self) -> bool {
+        self.tells && is_zero(self.value, self.tolerance)
+    }
+
+    /// |value| in units of its tolerance.
+    pub(crate) fn excess(&self) -> f64 {
+        excess(self.value, self.tolerance)
+    }
+
+    /// The same, and infinite beside a tolerance that says nothing.
+    pub(crate) fn excess_or_silence(&self) -> f64 {
+        if self.tells { self.excess() } else { f64::INFINITY }
+    }
+
+    /// Puts this in the place of what is less bad by `measure`.
+    pub(crate) fn keep_if_worse(self, worst: &mut Option<Self>, measure: impl Fn(&Self) -> f64) {
+        if worst.as_ref().is_none_or(|known| measure(&self) > measure(known)) {
+            *worst = Some(self);
+        }
+    }
+}
+
+impl<P: fmt::Display> fmt::Display for Finding<P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:+.2e}, zero below {:.1e}", self.value, self.tolerance)?;
+        if !self.vanishes() {
+            write!(f, ", at {}", self.at)?;
+        }
+        Ok(())
+    }
+}
+
+/// What counts as zero: `relative` × `scale`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Rounding allowed, relative to the terms that the quantity is a sum of.
+    pub relative: f64,
+    /// Size of those terms: what the quantity could be if nothing cancelled.
+    pub scale: f64,
+}
+
+impl Tolerance {
+    /// Rounding that a checker allows unless told otherwise, in units of ε: a derivative of L or R takes some
+    /// hundreds of roundings.
+    pub(super) const ROUNDINGS: f64 = 1024.0;
+
+    /// The default for the scalar type `S`.
+    #[must_use]
+    pub fn rounding<S: Scalar>() -> f64 {
+        Self::ROUNDINGS * S::EPSILON.widen()
+    }
+
+    /// The largest magnitude that counts as zero.
+    #[must_use]
+    pub fn bound(&self) -> f64 {
+        self.relative * self.scale
+    }
+}
+
+impl fmt::Display for Tolerance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:.1e} = {:.1e} × {:.3e}, the size of the terms", self.bound(), self.relative, self.scale)
+    }
+}
 
 /// Whether `value` counts as zero.
 pub(crate) fn is_zero(value: f64, tolerance: f64) -> bool {

@@ -20,7 +20,7 @@ use nalgebra::SMatrix;
 
 use super::second::SecondDerivatives;
 use super::segment::Segment;
-use crate::theory::verdict::{is_zero, largest, tells};
+use crate::theory::verdict::{Finding, largest};
 
 /// How far the exact discrete force is from being Rayleigh at (q0, q1, h).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,7 +62,7 @@ impl<const N: usize> Existence<N> {
     }
 
     fn holds(&self, obstruction: &SMatrix<f64, N, N>) -> bool {
-        is_zero(size(obstruction), self.tolerance) && tells(self.tolerance, self.terms)
+        Finding::bounded(size(obstruction), self.tolerance, self.terms, ()).vanishes()
     }
 
     /// Which conditions hold.

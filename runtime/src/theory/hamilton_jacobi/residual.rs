@@ -7,7 +7,7 @@ use nalgebra::{SMatrix, SVector};
 use super::HamiltonJacobiError;
 use crate::numbers::Scalar;
 use crate::step::LegendreDerivatives;
-use crate::theory::verdict::{excess, is_zero, largest, tells};
+use crate::theory::verdict::{Finding, is_zero, largest, tells};
 
 /// Residual of an equation, where it is worst among the places where it was evaluated.
 ///
@@ -101,7 +101,8 @@ pub(super) fn tolerance_line(f: &mut fmt::Formatter<'_>, relative: f64) -> fmt::
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Worst<const N: usize> {
     relative: f64,
-    worst: Option<Residual<N>>,
+    /// The step and q.
+    worst: Option<Finding<(usize, SVector<f64, N>)>>,
     places: usize,
     telling: usize,
     silent: usize,
@@ -202,20 +203,21 @@ impl<const N: usize> Worst<N> {
 
     fn consider<S: Scalar>(&mut self, step: usize, q: &SVector<S, N>, size: f64, magnitude: f64) {
         let tolerance = self.relative * magnitude;
-        if self.worst.is_none_or(|worst| excess(size, tolerance) > excess(worst.size, worst.tolerance)) {
-            let q = q.map(|entry| entry.widen());
-            self.worst = Some(Residual { size, tolerance, step, q, places: 0, telling: 0, silent: 0 });
-        }
+        let at = (step, q.map(|entry| entry.widen()));
+        Finding::bounded(size, tolerance, magnitude, at).keep_if_worse(&mut self.worst, Finding::excess);
     }
 
     pub(super) fn outcome(self) -> Outcome<N> {
         match (self.failed, self.worst) {
             (Some(error), _) => Err(error),
-            (None, Some(worst)) => Ok(Residual {
+            (None, Some(Finding { value: size, tolerance, at: (step, q), .. })) => Ok(Residual {
+                size,
+                tolerance,
+                step,
+                q,
                 places: self.places,
                 telling: self.telling,
                 silent: self.silent + self.is_silent(),
-                ..worst
             }),
             (None, None) => Err(HamiltonJacobiError::TooFewPoints { needed: 1, found: 0 }),
         }

@@ -7,10 +7,7 @@ use super::{Defect, Generator, Noether, defect_of};
 use crate::numbers::Scalar;
 use crate::step::{Discrete, State, Step, StepError};
 use crate::system::VectorField;
-use crate::theory::{
-    samples::at_segment,
-    verdict::{is_zero, tells},
-};
+use crate::theory::{samples::at_segment, verdict::Finding};
 
 /// The account of a momentum map along a trajectory: J_N − J_0 = Σ ξ(L_d) + Σ f_d(ξ). See
 /// [`Noether::balance`].
@@ -48,8 +45,8 @@ impl Balance {
     #[must_use]
     pub fn is_balanced(&self) -> bool {
         // A step that goes astray and comes back leaves the sum as it is.
-        let all = is_zero(self.residual(), self.tolerance) && is_zero(self.worst_step.0, self.tolerance);
-        self.steps > 0 && all && tells(self.tolerance, self.terms)
+        let vanishes = |value| Finding::bounded(value, self.tolerance, self.terms, ()).vanishes();
+        self.steps > 0 && vanishes(self.residual()) && vanishes(self.worst_step.0)
     }
 }
 

@@ -5,27 +5,12 @@ use crate::numbers::Scalar;
 use crate::step::Discrete;
 use crate::system::VectorField;
 use crate::theory::{
-    samples::{SampleError, Segment, Tolerance, Worst, at_segment, require_informative, require_step_size},
-    verdict::scales,
+    samples::{SampleError, Segment, at_segment, require_informative, require_step_size, worst},
+    verdict::{Finding, scales},
 };
 
-/// One of the quantities of Noether's theorem over the samples: the value furthest above its tolerance, and
-/// whether that counts as zero.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contribution<const N: usize> {
-    /// That value and its segment.
-    pub worst: Worst<N>,
-    /// What counts as zero there.
-    pub tolerance: Tolerance,
-}
-
-impl<const N: usize> Contribution<N> {
-    /// Whether it is zero to rounding at every sample.
-    #[must_use]
-    pub fn vanishes(&self) -> bool {
-        self.tolerance.covers(self.worst.value)
-    }
-}
+/// One of the quantities of Noether's theorem over the samples.
+pub type Contribution<const N: usize> = Finding<Segment<f64, N>>;
 
 /// What a generator does to L_d, to the force and to J, over a set of segments. See [`Noether::symmetry`].
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +31,8 @@ pub struct Symmetry<const N: usize> {
     /// (J⁺ − J⁻) − (ξ(L_d) + f_d(ξ)), an identity: where it fails, the system's momenta do not belong to its
     /// L_d and f_d.
     pub identity: Contribution<N>,
+    /// Rounding allowed, relative to the terms.
+    pub tolerance: f64,
 }
 
 impl<const N: usize> Symmetry<N> {
@@ -99,10 +86,8 @@ where
         let of_lagrangian = sizes(|terms| terms.lagrangian_scale);
         let of_force = sizes(|terms| terms.force_scale);
         let of_both = sizes(|terms| terms.lagrangian_scale + terms.force_scale);
-        let contribution = |value: &dyn Fn(usize) -> f64, scales: &[f64]| {
-            Worst::of(segments, self.tolerance, scales, value)
-                .map(|(worst, tolerance)| Contribution { worst, tolerance })
-        };
+        let contribution =
+            |value: &dyn Fn(usize) -> f64, scales: &[f64]| worst(segments, self.tolerance, scales, value);
         let identity = |k: usize| {
             let Segment { q0, q1 } = &segments[k];
             let jump = at_segment(&self.by, k, |by| {
@@ -120,6 +105,7 @@ where
             force: contribution(&|k| terms[k].defect.force, &of_force)?,
             defect: contribution(&|k| terms[k].defect.total(), &of_both)?,
             identity: contribution(&identity, &of_both)?,
+            tolerance: self.tolerance,
         })
     }
 }
@@ -148,24 +134,23 @@ impl<const N: usize> fmt::Display for Symmetry<N> {
             writeln!(
                 f,
                 "  {name:<8}{:>12.3e}   zero below {:.1e}   {verdict}",
-                contribution.worst.value,
-                contribution.tolerance.bound()
+                contribution.value, contribution.tolerance
             )?;
             if !contribution.vanishes() {
-                writeln!(f, "          there: {}", contribution.worst.at)?;
+                writeln!(f, "          there: {}", contribution.at)?;
             }
         }
         write!(
             f,
             "  tolerance: {:.1e} × the terms' size ({:.2e} of L_d, {:.2e} of f_d), the rounding of their derivatives",
-            self.defect.tolerance.relative, self.lagrangian.tolerance.scale, self.force.tolerance.scale
+            self.tolerance, self.lagrangian.terms, self.force.terms
         )?;
         if !self.is_consistent() {
             write!(
                 f,
-                "\n  INCONSISTENT SYSTEM: J⁺ − J⁻ differs from ξ(L_d) + f_d(ξ) by {}; its momenta are not those of its \
+                "\n  INCONSISTENT SYSTEM: J⁺ − J⁻ differs from ξ(L_d) + f_d(ξ) by {:+.3e} at {}; its momenta are not those of its \
                  L_d and f_d",
-                self.identity.worst
+                self.identity.value, self.identity.at
             )?;
         }
         Ok(())

@@ -3,7 +3,8 @@ use core::fmt;
 use nalgebra::SVector;
 
 use super::quadrature::{along_line, between};
-use super::{Integral, Residual, rounding_note};
+use super::residual::{keep_worse, keep_worse_gap, rounding_note};
+use super::{Integral, Residual};
 use crate::numbers::Scalar;
 use crate::step::{Discrete, DiscreteForce, Discretised};
 use crate::theory::{
@@ -152,16 +153,12 @@ where
                 if !(entry.is_finite() && scale.is_finite()) {
                     return Err(SampleError::NonFinite { index });
                 }
-                Residual::keep_worse(&mut equations, entry, relative * scale, scale, at);
+                keep_worse(&mut equations, entry, relative * scale, scale, at);
             }
             let phi = phi + (psi0 + phi1 + phi0 + psi1 * -1.0) * -1.0;
             let chi = chi + (psi0 + phi1 + phi0 * -1.0 + psi1) * -1.0;
             for (worst, gap) in [(&mut lagrangian, phi), (&mut rayleigh, chi)] {
-                let tolerance = gap.error + relative * gap.magnitude;
-                if !(gap.value.is_finite() && tolerance.is_finite()) {
-                    return Err(SampleError::NonFinite { index });
-                }
-                Residual::keep_worse(worst, gap.value, tolerance, gap.magnitude, at);
+                keep_worse_gap(worst, gap, relative, index, at)?;
             }
         }
         match (equations, lagrangian, rayleigh) {

@@ -3,8 +3,9 @@ use core::fmt;
 use nalgebra::SVector;
 
 use super::quadrature::between;
+use super::residual::{keep_worse_gap, rounding_note};
 use super::structure::structure_of;
-use super::{Integral, Residual, Structure, rounding_note};
+use super::{Integral, Residual, Structure};
 use crate::step::{Discrete, Discretised};
 use crate::theory::{
     samples::{SampleError, Segment, Tolerance, at_segment},
@@ -80,11 +81,7 @@ where
                 (along(by, &self.base, segment), along_edges(by, &self.base, segment))
             });
             let gap = straight + edges * -1.0;
-            let tolerance = gap.error + relative * gap.magnitude;
-            if !(gap.value.is_finite() && tolerance.is_finite()) {
-                return Err(SampleError::NonFinite { index });
-            }
-            Residual::keep_worse(&mut path_dependence, gap.value, tolerance, gap.magnitude, segment.widen());
+            keep_worse_gap(&mut path_dependence, gap, relative, index, segment.widen())?;
             quadrature_error = largest([quadrature_error, straight.error]);
             values.push(straight.value);
         }

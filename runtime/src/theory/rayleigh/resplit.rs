@@ -3,8 +3,9 @@ use core::fmt;
 use nalgebra::SVector;
 
 use super::quadrature::{along_edges, along_line};
+use super::residual::{keep_worse_gap, rounding_note};
 use super::structure::structure_of;
-use super::{Integral, Residual, Structure, rounding_note};
+use super::{Integral, Residual, Structure};
 use crate::numbers::Scalar;
 use crate::step::{Discrete, Discretised};
 use crate::theory::{
@@ -101,11 +102,7 @@ where
             });
             let gaps = (straight.0 + edges.0 * -1.0, straight.1 + edges.1 * -1.0);
             for (worst, gap) in [(&mut plus, gaps.0), (&mut minus, gaps.1)] {
-                let tolerance = gap.error + relative * gap.magnitude;
-                if !(gap.value.is_finite() && tolerance.is_finite()) {
-                    return Err(SampleError::NonFinite { index });
-                }
-                Residual::keep_worse(worst, gap.value, tolerance, gap.magnitude, segment.widen());
+                keep_worse_gap(worst, gap, relative, index, segment.widen())?;
             }
             quadrature_error = largest([quadrature_error, straight.0.error, straight.1.error]);
         }

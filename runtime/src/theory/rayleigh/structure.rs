@@ -3,26 +3,24 @@ use core::fmt;
 use crate::numbers::Scalar;
 use crate::step::{Discrete, DiscreteForceDerivatives, Discretised};
 use crate::theory::{
-    samples::{SampleError, Segment, Tolerance, Worst, at_segment, require_informative, require_step_size},
-    verdict::{excess, largest, scales},
+    samples::{SampleError, Segment, Tolerance, at_segment, require_informative, require_step_size, worst},
+    verdict::{Finding, largest, scales},
 };
 
 /// One of the three conditions, over the samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Condition<const N: usize> {
     /// The asymmetry furthest above its tolerance.
-    pub worst: Worst<N>,
+    pub worst: Finding<Segment<f64, N>>,
     /// Its row and column.
     pub entry: (usize, usize),
-    /// What counts as zero for that entry.
-    pub tolerance: Tolerance,
 }
 
 impl<const N: usize> Condition<N> {
     /// Whether the condition is fulfilled to rounding at every sample.
     #[must_use]
     pub fn holds(&self) -> bool {
-        self.tolerance.covers(self.worst.value)
+        self.worst.vanishes()
     }
 }
 
@@ -40,6 +38,8 @@ pub struct Structure<const N: usize> {
     pub plus: Condition<N>,
     /// D1 f_d⁺ + (D2 f_d⁻)ᵀ, the condition that the paper prints.
     pub mixed: Condition<N>,
+    /// Rounding allowed, relative to the terms.
+    pub tolerance: f64,
 }
 
 impl<const N: usize> Structure<N> {
@@ -108,10 +108,8 @@ where
             for j in 0..N {
                 let (a, b) = (rows * N + i, columns * N + j);
                 let candidate = compare(segments, &hessians, a, b)?;
-                let ratio =
-                    |condition: &Condition<N>| excess(condition.worst.value, condition.tolerance.bound());
-                if worst.is_none_or(|worst| ratio(&candidate) > ratio(&worst)) {
-                    worst = Some(Condition { entry: (i, j), ..candidate });
+                if worst.is_none_or(|known| candidate.excess() > known.worst.excess()) {
+                    worst = Some(Condition { worst: candidate, entry: (i, j) });
                 }
             }
         }
@@ -123,6 +121,7 @@ where
         minus: condition(0, 0)?,
         plus: condition(1, 1)?,
         mixed: condition(1, 0)?,
+        tolerance: Tolerance::rounding::<L::Scalar>(),
     })
 }
 
@@ -138,17 +137,16 @@ fn compare<S: Scalar, const N: usize>(
     hessians: &[DiscreteForceDerivatives<S, N>],
     a: usize,
     b: usize,
-) -> Result<Condition<N>, SampleError> {
+) -> Result<Finding<Segment<f64, N>>, SampleError> {
     let size = |f: &DiscreteForceDerivatives<S, N>| {
         // Roots first: a product of entries may overflow.
         let diagonal = entry(f, a, a).abs().sqrt() * entry(f, b, b).abs().sqrt();
         entry(f, a, b).abs() + entry(f, b, a).abs() + diagonal
     };
     let sizes: Vec<f64> = hessians.iter().map(size).collect();
-    let (worst, tolerance) = Worst::of(segments, Tolerance::rounding::<S>(), &scales(&sizes), |index| {
+    worst(segments, Tolerance::rounding::<S>(), &scales(&sizes), |index| {
         entry(&hessians[index], b, a) - entry(&hessians[index], a, b)
-    })?;
-    Ok(Condition { worst, entry: (a % N, b % N), tolerance })
+    })
 }
 
 impl<const N: usize> fmt::Display for Structure<N> {
@@ -169,7 +167,8 @@ impl<const N: usize> fmt::Display for Structure<N> {
             write!(
                 f,
                 "\n  {name} {verdict}: {:+.2e} in entry ({i}, {j}), zero below {}",
-                condition.worst.value, condition.tolerance
+                condition.worst.value,
+                Tolerance { relative: self.tolerance, scale: condition.worst.terms }
             )?;
             if !condition.holds() {
                 write!(f, "\n      at {}", condition.worst.at)?;

@@ -4,18 +4,18 @@
 //!
 //! | module | verdict |
 //! |---|---|
-//! | `samples` | `Tolerance::covers` |
-//! | `noether` | `Symmetry::{is_symmetry_of_lagrangian, force_does_work, is_conserved, is_consistent}`, `Contribution::vanishes`, `Balance::is_balanced`, `Subalgebra::premise_holds`, `Subspace::dimension`, `Closure::is_closed`, `RankDecision::is_clear` |
-//! | `rayleigh` | `Structure::{is_rayleigh, allows_resplit}`, `Condition::holds`, `Residual::vanishes`, `Recovery::exists`, `ResplitReport::exists`, `Equivalence::{has_same_equations, is_gauge}`, `Dissipation::is_dissipative` |
+//! | `samples` | `Finding::vanishes` |
+//! | `noether` | `Symmetry::{is_symmetry_of_lagrangian, force_does_work, is_conserved, is_consistent}`, `Balance::is_balanced`, `Subalgebra::premise_holds`, `Subspace::dimension`, `Closure::is_closed`, `RankDecision::is_clear` |
+//! | `rayleigh` | `Structure::{is_rayleigh, allows_resplit}`, `Condition::holds`, `Recovery::exists`, `ResplitReport::exists`, `Equivalence::{has_same_equations, is_gauge}`, `Dissipation::is_dissipative` |
 //! | `hamilton_jacobi` | `Residual::holds` in every report, `SolutionReport::is_solution`, "no caustic" |
 //! | `exact` | `Existence::verdict`, "equal to rounding" of `Convergence` |
 //! | | `Certificate::on_the_branch_of_the_flow` |
 
 use dalembert::exact::{Exact, ExactError, ExistenceVerdict};
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::noether::{Contribution, Generator};
-use dalembert::rayleigh::{Comparison, Condition, Potential, Residual, Resplit, dissipation, structure};
-use dalembert::samples::{Segment, TangentPoint, Tolerance, Worst, segments, tangent_points};
+use dalembert::noether::Generator;
+use dalembert::rayleigh::{Comparison, Condition, Potential, Resplit, dissipation, structure};
+use dalembert::samples::{Finding, Segment, TangentPoint, Tolerance, segments, tangent_points};
 use dalembert::step::Step;
 use dalembert::{Discrete, Discretise, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
 
@@ -243,22 +243,17 @@ fn figures_that_are_not_finite_are_no_verdict() {
     for poison in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for other in [0.0, 1e-20, 1.0, f64::MAX, f64::INFINITY, f64::NAN] {
             for (value, scale) in [(poison, other), (other, poison)] {
-                let tolerance = Tolerance { relative: 1e-10, scale };
-                let worst = Worst { value, at };
-                assert!(!tolerance.covers(value), "{value} {scale}");
-                assert!(!Condition { worst, entry: (0, 0), tolerance }.holds());
-                assert!(!Contribution { worst, tolerance }.vanishes());
-                assert!(!Residual { worst, tolerance: scale, terms: 1.0 }.vanishes());
+                let worst = Finding::relative(value, Tolerance { relative: 1e-10, scale }, at);
+                assert!(!worst.vanishes(), "{value} {scale}");
+                assert!(!Condition { worst, entry: (0, 0) }.holds());
+                assert!(!Finding::bounded(value, scale, 1.0, at).vanishes());
             }
-            assert!(
-                !Residual { worst: Worst { value: 0.0, at }, tolerance: 1.0, terms: poison }.vanishes()
-                    || poison == f64::INFINITY
-            );
+            assert!(!Finding::bounded(0.0, 1.0, poison, at).vanishes() || poison == f64::INFINITY);
         }
-        assert!(!Tolerance { relative: poison, scale: 1.0 }.covers(0.0));
+        assert!(!Finding::relative(0.0, Tolerance { relative: poison, scale: 1.0 }, at).vanishes());
     }
-    assert!(Tolerance { relative: 1e-10, scale: 1.0 }.covers(1e-11));
-    assert!(Residual { worst: Worst { value: 1e-11, at }, tolerance: 1e-10, terms: 1.0 }.vanishes());
+    assert!(Finding::relative(1e-11, Tolerance { relative: 1e-10, scale: 1.0 }, at).vanishes());
+    assert!(Finding::bounded(1e-11, 1e-10, 1.0, at).vanishes());
 }
 
 /// Steps of one system, judged by another.
