@@ -19,7 +19,7 @@
 //! | L_d^ex, D1 L_d^ex, D2 L_d^ex, f_d^ex±, p0, p1, ∂p/∂q | second derivatives of L, first of f: no differences | 1e-14 |
 //! | D11, D12, D22 of L_d^ex; D1, D2 of f_d^ex± | third derivatives of L by differences of the second ones | 1e-12 |
 //!
-//! Each result states its own error estimates: [`Segment::report`], [`SecondDerivatives::force_error`]. What
+//! Each result states its own error estimates: [`ExactSegment::report`], [`SecondDerivatives::force_error`]. What
 //! would be wrong by more than [`Exact::WORST`] is an error, and so is a question that takes more than
 //! [`Exact::EVALUATIONS`] evaluations of L and f.
 //!
@@ -63,7 +63,7 @@ pub use error::ExactError;
 pub use existence::{Existence, ExistenceVerdict};
 pub use order::{Convergence, OrderReport, OrderSample};
 pub use second::SecondDerivatives;
-pub use segment::{Segment, SegmentReport};
+pub use segment::{ExactSegment, SegmentReport};
 
 use boundary::{Boundary, Shot, conditioning};
 use collocation::unit_of;
@@ -126,7 +126,7 @@ where
         q0: impl Into<SVector<f64, N>>,
         q1: impl Into<SVector<f64, N>>,
         h: f64,
-    ) -> Result<Segment<N>, ExactError> {
+    ) -> Result<ExactSegment<N>, ExactError> {
         self.solve(q0.into(), q1.into(), h, None)
     }
 
@@ -140,7 +140,7 @@ where
         q1: impl Into<SVector<f64, N>>,
         h: f64,
         v0: impl Into<SVector<f64, N>>,
-    ) -> Result<Segment<N>, ExactError> {
+    ) -> Result<ExactSegment<N>, ExactError> {
         self.solve(q0.into(), q1.into(), h, Some(v0.into()))
     }
 
@@ -149,7 +149,7 @@ where
     /// # Errors
     /// [`ExactError::NotDifferentiable`] where third derivatives of L cannot be had by differences of the
     /// second ones; otherwise as [`segment`](Self::segment).
-    pub fn second_derivatives(&self, segment: &Segment<N>) -> Result<SecondDerivatives<N>, ExactError> {
+    pub fn second_derivatives(&self, segment: &ExactSegment<N>) -> Result<SecondDerivatives<N>, ExactError> {
         let work = Work::new();
         if segment.course.reversed {
             let turned = segment.reversed();
@@ -205,7 +205,7 @@ where
         q1: SVector<f64, N>,
         h: f64,
         guess: Option<SVector<f64, N>>,
-    ) -> Result<Segment<N>, ExactError> {
+    ) -> Result<ExactSegment<N>, ExactError> {
         require_step_size(h)?;
         for (vector, quantity) in [(q0, Quantity::Configuration), (q1, Quantity::Configuration)]
             .into_iter()

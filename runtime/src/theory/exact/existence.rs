@@ -19,7 +19,7 @@ use core::fmt;
 use nalgebra::SMatrix;
 
 use super::second::SecondDerivatives;
-use super::segment::Segment;
+use super::segment::ExactSegment;
 use crate::theory::verdict::{Finding, largest};
 
 /// How far the exact discrete force is from being Rayleigh at (q0, q1, h).
@@ -100,7 +100,7 @@ fn size<const N: usize>(matrix: &SMatrix<f64, N, N>) -> f64 {
     largest(matrix.iter().copied())
 }
 
-pub(super) fn of<const N: usize>(segment: &Segment<N>, second: &SecondDerivatives<N>) -> Existence<N> {
+pub(super) fn of<const N: usize>(segment: &ExactSegment<N>, second: &SecondDerivatives<N>) -> Existence<N> {
     let force = &second.force;
     Existence {
         mixed: force.plus.d1 + force.minus.d2.transpose(),

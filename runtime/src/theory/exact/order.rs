@@ -16,7 +16,7 @@ use core::fmt;
 use nalgebra::{SMatrix, SVector};
 
 use super::work::Work;
-use super::{Exact, ExactError, Segment};
+use super::{Exact, ExactError, ExactSegment};
 use crate::numbers::CovectorDerivatives;
 use crate::step::Discrete;
 use crate::system::ActingForce;
@@ -122,7 +122,10 @@ where
     }
 
     /// f at the start of the motion, with its derivatives.
-    fn acting_derivatives(&self, segment: &Segment<N>) -> Result<CovectorDerivatives<f64, N>, ExactError> {
+    fn acting_derivatives(
+        &self,
+        segment: &ExactSegment<N>,
+    ) -> Result<CovectorDerivatives<f64, N>, ExactError> {
         let work = Work::new();
         let local = self.dynamics(0.0, &work).local(0.0, &segment.q0, &segment.v0);
         local.map(|local| local.f).map_err(|breakdown| breakdown.at(0.0, &work))

@@ -24,7 +24,7 @@ use super::ExactError;
 use super::collocation::{Source, unit_of};
 use super::mesh::{Question, Visitor};
 use super::motion::{Dynamics, Local, Point};
-use super::segment::Segment;
+use super::segment::ExactSegment;
 use super::work::Breakdown;
 use crate::numbers::{CovectorDerivatives, Derivatives};
 use crate::step::{DiscreteForce, DiscreteForceDerivatives};
@@ -98,7 +98,7 @@ fn pairs<const N: usize>() -> impl Iterator<Item = (usize, usize)> {
 /// Of a segment that was followed from q0 on, its motion being that of `dynamics`.
 pub(super) fn second_derivatives<L, const N: usize>(
     dynamics: Dynamics<'_, L, N>,
-    segment: &Segment<N>,
+    segment: &ExactSegment<N>,
 ) -> Result<SecondDerivatives<N>, ExactError>
 where
     L: ActingForce<N, Scalar = f64>,
@@ -127,7 +127,7 @@ where
 }
 
 impl<const N: usize> SecondDerivatives<N> {
-    /// Those of the segment from q1 back to q0; see [`Segment::reversed`].
+    /// Those of the segment from q1 back to q0; see [`ExactSegment::reversed`].
     pub(super) fn reversed(self) -> Self {
         let Derivatives { value, d1, d2, d11, d12, d22 } = self.lagrangian;
         let turned =
@@ -153,7 +153,7 @@ impl<const N: usize> SecondDerivatives<N> {
 /// D²L_d^ex and Df_d^ex with these spacings, and the relative error of the integration.
 fn carry<L, const N: usize>(
     dynamics: Dynamics<'_, L, N>,
-    segment: &Segment<N>,
+    segment: &ExactSegment<N>,
     spacings: &[f64],
 ) -> Result<(Derivatives<f64, N>, DiscreteForceDerivatives<f64, N>, f64), ExactError>
 where
@@ -274,7 +274,7 @@ where
 /// From narrow to wide the spread first falls, as rounding does, and then rises as truncation does.
 fn spacings<L, const N: usize>(
     dynamics: Dynamics<'_, L, N>,
-    segment: &Segment<N>,
+    segment: &ExactSegment<N>,
 ) -> Result<Vec<f64>, ExactError>
 where
     L: ActingForce<N, Scalar = f64>,

@@ -16,7 +16,7 @@ use crate::theory::verdict::largest;
 /// The exact discrete objects at (q0, q1, h).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Segment<const N: usize> {
+pub struct ExactSegment<const N: usize> {
     /// q(0).
     pub q0: SVector<f64, N>,
     /// q(h).
@@ -104,7 +104,7 @@ impl fmt::Display for SegmentReport {
     }
 }
 
-impl<const N: usize> fmt::Display for Segment<N> {
+impl<const N: usize> fmt::Display for ExactSegment<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let row = |vector: &SVector<f64, N>| {
             let entries: Vec<_> = vector.iter().map(|entry| format!("{entry:.15e}")).collect();
@@ -127,7 +127,7 @@ pub(super) fn along<L, const N: usize>(
     boundary: &Boundary<'_, L, N>,
     h: f64,
     shot: &Shot<N>,
-) -> Result<Segment<N>, ExactError>
+) -> Result<ExactSegment<N>, ExactError>
 where
     L: ActingForce<N, Scalar = f64>,
 {
@@ -188,7 +188,7 @@ where
         relative(of((lagrangian.d1 + force.minus + p0.value).as_slice()), size),
         relative(of((lagrangian.d2 + force.plus - p1.value).as_slice()), size),
     ]);
-    Ok(Segment {
+    Ok(ExactSegment {
         q0,
         q1,
         h,
@@ -212,7 +212,7 @@ where
     })
 }
 
-impl<const N: usize> Segment<N> {
+impl<const N: usize> ExactSegment<N> {
     /// The segment from q1 back to q0, its time running backwards: L_d changes its sign, and both ends change
     /// places.
     pub(super) fn reversed(self) -> Self {

@@ -1,7 +1,7 @@
 //! Derivatives of the exact objects against central differences of order 8 of what they differentiate, on a
 //! system with q-dependent mass, q-dependent Rayleigh function and general force.
 
-use dalembert::exact::{Exact, Segment};
+use dalembert::exact::{Exact, ExactSegment};
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::rayleigh_system;
 
@@ -39,7 +39,7 @@ fn exact() -> Exact<'static, Arm, 2> {
 }
 
 /// ∂g/∂q0 and ∂g/∂q1, columns by coordinate.
-fn differences(g: impl Fn(&Segment<2>) -> SVector<f64, 2>) -> (SMatrix<f64, 2, 2>, SMatrix<f64, 2, 2>) {
+fn differences(g: impl Fn(&ExactSegment<2>) -> SVector<f64, 2>) -> (SMatrix<f64, 2, 2>, SMatrix<f64, 2, 2>) {
     let spacing = 0.02;
     let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
     let at = |index: usize, shift: f64| {
