@@ -114,3 +114,39 @@ fn nothing_is_public_that_nobody_names() {
     let named = BTreeSet::from(["Midpoint", "Trapezoidal"].map(String::from));
     assert_eq!(missing(&names, &named), ["NamedByNobody"]);
 }
+
+/// The types that a source declares for all.
+fn types(source: &str) -> impl Iterator<Item = String> {
+    source.lines().filter_map(|line| {
+        let rest = line.strip_prefix("pub ")?;
+        let kind = ["struct ", "enum ", "trait ", "type "].into_iter().find(|kind| rest.starts_with(kind))?;
+        Some(rest[kind.len()..].split(|c: char| !c.is_alphanumeric() && c != '_').next()?.to_owned())
+    })
+}
+
+/// A name is one thing, in whatever module it stands.
+#[test]
+fn no_two_types_share_a_name() {
+    fn collect(folder: &Path, of: &mut BTreeMap<String, Vec<String>>) {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                collect(&path, of);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                for name in types(&fs::read_to_string(&path).unwrap()) {
+                    of.entry(name).or_default().push(path.display().to_string());
+                }
+            }
+        }
+    }
+    let mut declared = BTreeMap::new();
+    collect(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime/src"), &mut declared);
+    println!("{} types", declared.len());
+    assert!(declared.contains_key("ExactSegment") && declared.contains_key("Trajectory"));
+    declared.retain(|_, places| places.len() > 1);
+    assert!(declared.is_empty(), "{declared:#?}");
+
+    let source =
+        "pub struct Segment<T>(T);\npub(crate) enum Inner {}\n    pub type Item = u8;\npub trait Segment {}";
+    assert_eq!(types(source).collect::<Vec<_>>(), ["Segment", "Segment"]);
+}

@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use super::quadrature::{along_line, between};
 use super::residual::{keep_worse, keep_worse_gap, rounding_note};
-use super::{Integral, Residual};
+use super::{Integral, SegmentFinding};
 use crate::numbers::Scalar;
 use crate::step::{Discrete, DiscreteForce, Discretised};
 use crate::theory::{
@@ -48,11 +48,11 @@ pub struct Equivalence<const N: usize> {
     /// Number of segments looked at.
     pub samples: usize,
     /// Difference of the forced discrete Euler–Lagrange equations.
-    pub equations: Residual<N>,
+    pub equations: SegmentFinding<N>,
     /// φ less its expression by ψ, φ0 and φ1.
-    pub lagrangian: Residual<N>,
+    pub lagrangian: SegmentFinding<N>,
     /// χ less its expression by ψ, φ0 and φ1.
-    pub rayleigh: Residual<N>,
+    pub rayleigh: SegmentFinding<N>,
     /// Rounding allowed, relative to the terms.
     pub tolerance: f64,
 }

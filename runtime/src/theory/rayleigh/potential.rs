@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use super::quadrature::between;
 use super::residual::{keep_worse_gap, rounding_note};
 use super::structure::structure_of;
-use super::{Integral, Residual, Structure};
+use super::{Integral, RayleighStructure, SegmentFinding};
 use crate::step::{Discrete, Discretised};
 use crate::theory::{
     samples::{SampleError, Segment, Tolerance, at_segment},
@@ -33,13 +33,13 @@ where
 #[non_exhaustive]
 pub struct Recovery<const N: usize> {
     /// The conditions on the derivatives of f_d.
-    pub structure: Structure<N>,
+    pub structure: RayleighStructure<N>,
     /// R_d at each segment.
     pub values: Vec<f64>,
     /// Largest error estimate of the quadrature.
     pub quadrature_error: f64,
     /// R_d along the straight path less R_d along the edges of the box: 0 for every potential.
-    pub path_dependence: Residual<N>,
+    pub path_dependence: SegmentFinding<N>,
     /// Rounding allowed, relative to ∫ |integrand|.
     pub tolerance: f64,
 }

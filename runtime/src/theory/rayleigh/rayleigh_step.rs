@@ -6,10 +6,7 @@ use nalgebra::SMatrix;
 
 use crate::numbers::Scalar;
 use crate::step::{Discretised, Flow, PhaseMatrix, State, StepError, invert};
-use crate::theory::{
-    samples::Tolerance,
-    verdict::{excess, is_zero},
-};
+use crate::theory::verdict::{Finding, Tolerance};
 
 /// Whether a step is a Rayleigh step: [`rayleigh_step`](crate::Discretised::rayleigh_step).
 ///
@@ -42,17 +39,15 @@ pub struct RayleighStep {
 }
 
 /// The largest asymmetry of a matrix over some samples, in units of its tolerance; 0 for n = 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct Asymmetry {
-    /// Entry (i, j) less entry (j, i).
-    pub value: f64,
-    /// i and j.
+pub type Asymmetry = Finding<Entry>;
+
+/// An entry of a matrix at a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// Row and column: the asymmetry is entry (i, j) less entry (j, i).
     pub entry: (usize, usize),
     /// The sample, from 0.
     pub sample: usize,
-    /// What counts as zero there.
-    pub tolerance: Tolerance,
 }
 
 /// Why it cannot be said of a step whether it is a Rayleigh step.
@@ -80,35 +75,28 @@ pub enum RayleighStepError {
     },
 }
 
-impl Asymmetry {
-    const NONE: Self =
-        Self { value: 0.0, entry: (0, 0), sample: 0, tolerance: Tolerance { relative: 0.0, scale: 0.0 } };
-
-    /// Whether it counts as zero.
-    #[must_use]
-    pub fn vanishes(&self) -> bool {
-        is_zero(self.value, self.tolerance.bound())
-    }
-
-    /// That of x yᵀ, if it is larger.
-    fn follow<S: Scalar, const N: usize>(
-        &mut self,
-        sample: usize,
-        (x, y): (&SMatrix<S, N, N>, &SMatrix<S, N, N>),
-        relative: f64,
-    ) {
-        let product = |i: usize, j: usize| (0..N).map(move |k| x[(i, k)].widen() * y[(j, k)].widen());
-        for i in 0..N {
-            for j in 0..i {
-                let value = product(i, j).sum::<f64>() - product(j, i).sum::<f64>();
-                let scale = product(i, j).chain(product(j, i)).map(f64::abs).sum();
-                let tolerance = Tolerance { relative, scale };
-                if excess(value, tolerance.bound()) >= excess(self.value, self.tolerance.bound()) {
-                    *self = Self { value, entry: (i, j), sample, tolerance };
-                }
-            }
+/// The asymmetry of x yᵀ that is worst, of a sample.
+fn asymmetry<S: Scalar, const N: usize>(
+    sample: usize,
+    (x, y): (&SMatrix<S, N, N>, &SMatrix<S, N, N>),
+    relative: f64,
+) -> Asymmetry {
+    let product = |i: usize, j: usize| (0..N).map(move |k| x[(i, k)].widen() * y[(j, k)].widen());
+    let found = |i: usize, j: usize| {
+        let value = product(i, j).sum::<f64>() - product(j, i).sum::<f64>();
+        let scale = product(i, j).chain(product(j, i)).map(f64::abs).sum();
+        Finding::relative(value, Tolerance { relative, scale }, Entry { entry: (i, j), sample })
+    };
+    // None for n = 1.
+    let mut worst = None;
+    for i in 0..N {
+        for j in 0..i {
+            found(i, j).keep_if_worse(&mut worst, Finding::excess);
         }
     }
+    worst.unwrap_or_else(|| {
+        Finding::relative(0.0, Tolerance { relative, scale: 1.0 }, Entry { entry: (0, 0), sample })
+    })
 }
 
 impl RayleighStep {
@@ -121,21 +109,22 @@ impl RayleighStep {
         derivatives: &[PhaseMatrix<S, N>],
         relative: Option<f64>,
     ) -> Result<Self, RayleighStepError> {
-        if derivatives.is_empty() {
-            return Err(RayleighStepError::NoSamples);
-        }
         let relative = relative.unwrap_or_else(Tolerance::rounding::<S>);
-        let (mut at_start, mut at_end) = (Asymmetry::NONE, Asymmetry::NONE);
+        let (mut at_start, mut at_end) = (None, None);
         for (sample, derivative) in derivatives.iter().enumerate() {
             let PhaseMatrix { q_by_q: a, q_by_p: b, p_by_q, p_by_p: d } = derivative;
             if ![a, b, p_by_q, d].iter().all(|block| block.iter().all(|entry| entry.widen().is_finite())) {
                 return Err(RayleighStepError::NonFinite { sample });
             }
             invert(b).map_err(|_| RayleighStepError::Degenerate { sample })?;
-            at_start.follow(sample, (a, b), relative);
-            at_end.follow(sample, (&b.transpose(), &d.transpose()), relative);
+            asymmetry(sample, (a, b), relative).keep_if_worse(&mut at_start, Finding::excess);
+            let transposed = (&b.transpose(), &d.transpose());
+            asymmetry(sample, transposed, relative).keep_if_worse(&mut at_end, Finding::excess);
         }
-        Ok(Self { samples: derivatives.len(), at_start, at_end })
+        match (at_start, at_end) {
+            (Some(at_start), Some(at_end)) => Ok(Self { samples: derivatives.len(), at_start, at_end }),
+            _ => Err(RayleighStepError::NoSamples),
+        }
     }
 
     /// Whether there are L_d and R_d with p0 = −D1(L_d + R_d) and p1 = D2(L_d − R_d), in a simply connected
@@ -191,17 +180,16 @@ impl fmt::Display for RayleighStep {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let verdict = if self.is_rayleigh() { "a Rayleigh step" } else { "no R_d for any L_d" };
         writeln!(f, "{verdict}, by the derivative of {} steps", self.samples)?;
-        writeln!(f, "  a bᵀ is symmetric at the start   {}", self.at_start)?;
-        write!(f, "  bᵀd is symmetric at the end      {}", self.at_end)
+        let answer = |finding: &Asymmetry| if finding.vanishes() { "yes" } else { "no" };
+        writeln!(f, "  a bᵀ is symmetric at the start   {}: {}", answer(&self.at_start), self.at_start)?;
+        write!(f, "  bᵀd is symmetric at the end      {}: {}", answer(&self.at_end), self.at_end)
     }
 }
 
-impl fmt::Display for Asymmetry {
+impl fmt::Display for Entry {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let answer = if self.vanishes() { "yes" } else { "no" };
         let (i, j) = self.entry;
-        write!(f, "{answer}: {:+.3e} in ({i}, {j}) of sample {}", self.value, self.sample)?;
-        write!(f, "; zero is {}", self.tolerance)
+        write!(f, "({i}, {j}) of sample {}", self.sample)
     }
 }
 

@@ -10,22 +10,23 @@ use crate::theory::{
 
 /// A quantity that has to vanish, over the samples. A tolerance that the quadrature's error brings up to the
 /// size of the terms says nothing.
-pub type Residual<const N: usize> = Finding<Segment<f64, N>>;
+pub type SegmentFinding<const N: usize> = Finding<Segment<f64, N>>;
 
 /// Keeps the value that is worse in units of its tolerance; what a tolerance says nothing of is worst.
 pub(super) fn keep_worse<const N: usize>(
-    worst: &mut Option<Residual<N>>,
+    worst: &mut Option<SegmentFinding<N>>,
     value: f64,
     tolerance: f64,
     terms: f64,
     at: Segment<f64, N>,
 ) {
-    Residual::bounded(value, tolerance, terms, at).keep_if_worse(worst, Residual::excess_or_silence);
+    SegmentFinding::bounded(value, tolerance, terms, at)
+        .keep_if_worse(worst, SegmentFinding::excess_or_silence);
 }
 
 /// The same of a `gap` between integrals, at the sample `index`.
 pub(super) fn keep_worse_gap<const N: usize>(
-    worst: &mut Option<Residual<N>>,
+    worst: &mut Option<SegmentFinding<N>>,
     gap: Integral,
     relative: f64,
     index: usize,

@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use super::quadrature::{along_edges, along_line};
 use super::residual::{keep_worse_gap, rounding_note};
 use super::structure::structure_of;
-use super::{Integral, Residual, Structure};
+use super::{Integral, RayleighStructure, SegmentFinding};
 use crate::numbers::Scalar;
 use crate::step::{Discrete, Discretised};
 use crate::theory::{
@@ -36,11 +36,11 @@ where
 #[non_exhaustive]
 pub struct ResplitReport<const N: usize> {
     /// The conditions on the derivatives of f_d; the first two decide.
-    pub structure: Structure<N>,
+    pub structure: RayleighStructure<N>,
     /// ∫ f_d⁻·ds along the straight line less that along coordinate edges.
-    pub plus: Residual<N>,
+    pub plus: SegmentFinding<N>,
     /// ∫ f_d⁺·ds along the straight line less that along coordinate edges.
-    pub minus: Residual<N>,
+    pub minus: SegmentFinding<N>,
     /// Largest error estimate of the quadrature.
     pub quadrature_error: f64,
     /// Rounding allowed, relative to ∫ |integrand|.

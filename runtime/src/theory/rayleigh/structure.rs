@@ -27,7 +27,7 @@ impl<const N: usize> Condition<N> {
 /// Whether f_d is Rayleigh, over a set of segments. See [`structure`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Structure<const N: usize> {
+pub struct RayleighStructure<const N: usize> {
     /// The step size.
     pub h: f64,
     /// Number of segments looked at.
@@ -42,7 +42,7 @@ pub struct Structure<const N: usize> {
     pub tolerance: f64,
 }
 
-impl<const N: usize> Structure<N> {
+impl<const N: usize> RayleighStructure<N> {
     /// Whether f_d⁻ = D1 R_d and f_d⁺ = −D2 R_d for a function R_d, in a simply connected region like that
     /// sampled.
     #[must_use]
@@ -70,7 +70,7 @@ pub fn structure<L, R, const N: usize>(
     _rule: R,
     h: L::Scalar,
     segments: &[Segment<L::Scalar, N>],
-) -> Result<Structure<N>, SampleError>
+) -> Result<RayleighStructure<N>, SampleError>
 where
     L: Discrete<R, N>,
 {
@@ -81,7 +81,7 @@ where
 pub(super) fn structure_of<L, R, const N: usize>(
     by: &Discretised<'_, L, R, N>,
     segments: &[Segment<L::Scalar, N>],
-) -> Result<Structure<N>, SampleError>
+) -> Result<RayleighStructure<N>, SampleError>
 where
     L: Discrete<R, N>,
 {
@@ -115,7 +115,7 @@ where
         }
         worst.ok_or(SampleError::TooFew { given: 0, needed: 1 })
     };
-    Ok(Structure {
+    Ok(RayleighStructure {
         h: by.h.widen(),
         samples: segments.len(),
         minus: condition(0, 0)?,
@@ -149,7 +149,7 @@ fn compare<S: Scalar, const N: usize>(
     })
 }
 
-impl<const N: usize> fmt::Display for Structure<N> {
+impl<const N: usize> fmt::Display for RayleighStructure<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let verdict = match (self.is_rayleigh(), self.allows_resplit()) {
             (true, _) => "f_d is Rayleigh",
