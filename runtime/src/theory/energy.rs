@@ -3,7 +3,7 @@
 use core::ops::{Add, AddAssign};
 
 use crate::numbers::Scalar;
-use crate::step::{State, StepError};
+use crate::step::{Discretised, State, StepError};
 use crate::system::{ActingForce, Lagrangian};
 
 /// Where energy went over one step, or, added up, over many.
@@ -26,18 +26,19 @@ use crate::system::{ActingForce, Lagrangian};
 /// bring.
 ///
 /// ```
-/// use dalembert::{Discretise, EnergyLedger, Midpoint, State, Trajectory, rayleigh_system};
+/// use dalembert::{Discretise, EnergyLedger, Midpoint, State, rayleigh_system};
 ///
 /// #[rayleigh_system]
 /// fn oscillator(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
 ///     (0.5 * v[0] * v[0] - 0.5 * q[0] * q[0], 0.5 * r * v[0] * v[0])
 /// }
 /// let system = Oscillator { r: 0.1 };
+/// let by = system.by(Midpoint, 0.1);
 /// let mut state = State::from_velocity(&system, [1.0], [0.0])?;
 /// let mut ledger = EnergyLedger::default();
-/// for step in system.by(Midpoint, 0.1).run(state).take(100) {
+/// for step in by.run(state).take(100) {
 ///     let next = step?.state;
-///     ledger += EnergyLedger::of(&system, &state, &next, 0.1)?;
+///     ledger += by.ledger(&state, &next)?;
 ///     state = next;
 /// }
 /// // L and R of second degree: the midpoint rule loses what friction takes, and nothing else.
@@ -92,6 +93,24 @@ fn change<S: Scalar, L: Lagrangian<N, Scalar = S>, const N: usize>(
     h: S,
 ) -> Result<S, StepError> {
     Ok(system.later(h, |system| to.energy(system))? - from.energy(system)?)
+}
+
+/// The energy of a step.
+impl<L, M, const N: usize> Discretised<'_, L, M, N>
+where
+    L: ActingForce<N>,
+{
+    /// Where the energy of the step from `from` to `to` went: [`EnergyLedger`].
+    ///
+    /// # Errors
+    /// Those of [`State::velocity`].
+    pub fn ledger(
+        &self,
+        from: &State<L::Scalar, N>,
+        to: &State<L::Scalar, N>,
+    ) -> Result<EnergyLedger<L::Scalar>, StepError> {
+        EnergyLedger::of(self.system(), from, to, self.step_size())
+    }
 }
 
 impl<S: Scalar> Add for EnergyLedger<S> {

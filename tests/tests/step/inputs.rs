@@ -494,8 +494,9 @@ fn the_ledger_sees_the_time_within_a_step() {
         let (mut ledger, mut state) = (EnergyLedger::default(), start);
         for k in 0..steps {
             let view = worn.at_time(0.4 + h * f64::from(k));
-            let next = view.by(Midpoint, h).step(&state).unwrap().state;
-            ledger += EnergyLedger::of(&view, &state, &next, h).unwrap();
+            let by = view.by(Midpoint, h);
+            let next = by.step(&state).unwrap().state;
+            ledger += by.ledger(&state, &next).unwrap();
             state = next;
         }
         ledger.remainder()
