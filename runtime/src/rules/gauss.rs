@@ -6,10 +6,12 @@ mod coefficients;
 mod curvature;
 mod double_double;
 mod fixed_point;
+mod force;
 mod history;
 mod linearised;
 mod newton;
 mod problem;
+mod rounding;
 mod segment;
 mod sensitivity;
 mod tangent;
@@ -27,9 +29,6 @@ use coefficients::Coefficients;
 pub use history::StageHistory;
 use problem::{Compensated, Problem, Solution};
 use segment::Segment;
-
-/// The most stages that there are coefficients for.
-const MAX_STAGES: usize = 8;
 
 /// The Gauss–Galerkin rule of S stages, 1 ≤ S ≤ 8: order 2S, self-adjoint, A-stable; S = 1 is
 /// [`Midpoint`](crate::Midpoint).
@@ -141,7 +140,7 @@ where
         q1: &SVector<T, N>,
         h: T,
     ) -> Derivatives<T, N> {
-        let force = segment::force_derivatives::<_, L, N, S>(self, q0, q1, h);
+        let force = force::force_derivatives::<_, L, N, S>(self, q0, q1, h);
         let solved = Segment::<'_, L, N, S>::new(self, q0, &((q1 - q0) / h), h);
         solved
             .and_then(|segment| Ok(segment.lagrangian_derivatives(&segment.variations()?, &force)))
@@ -156,7 +155,7 @@ where
     }
 
     fn discrete_force(&self, q0: &SVector<T, N>, q1: &SVector<T, N>, h: T) -> DiscreteForce<T, N> {
-        segment::force::<_, L, N, S>(self, q0, q1, h)
+        force::force::<_, L, N, S>(self, q0, q1, h)
     }
 
     fn discrete_force_derivatives(
@@ -165,7 +164,7 @@ where
         q1: &SVector<T, N>,
         h: T,
     ) -> DiscreteForceDerivatives<T, N> {
-        segment::force_derivatives::<_, L, N, S>(self, q0, q1, h)
+        force::force_derivatives::<_, L, N, S>(self, q0, q1, h)
     }
 
     fn step_kernel(&self, q0: &SVector<T, N>, v: &SVector<T, N>, h: T) -> StepKernel<T, N> {

@@ -4,6 +4,7 @@ mod display;
 mod estimate;
 mod guard;
 mod methods;
+mod phase;
 mod random;
 mod request;
 mod scale;

@@ -44,6 +44,7 @@
 mod caustics;
 mod characteristics;
 mod error;
+mod frame;
 mod hamilton_equations;
 mod hamiltonian;
 mod lemma;
@@ -61,8 +62,9 @@ use crate::step::{Discrete, Discretised};
 use crate::theory::samples::at_segment;
 
 pub use caustics::Caustic;
-pub use characteristics::{Characteristic, CharacteristicsReport, Frame};
+pub use characteristics::{Characteristic, CharacteristicsReport};
 pub use error::{HamiltonJacobiError, ImplicitEquation};
+pub use frame::Frame;
 pub use hamilton_equations::{HamiltonEquationsReport, PrintedAndCorrected};
 pub use hamiltonian::DiscreteHamiltonian;
 pub use printed::{EquationValue, PairedFlow};

@@ -29,8 +29,11 @@ pub(crate) struct Coefficients<const S: usize> {
     pub(crate) extrapolation: [[f64; S]; S],
 }
 
+/// The most stages that there are coefficients for.
+const MAX_STAGES: usize = 8;
+
 /// Polynomials kept: P_0 to P_{s+1}.
-const POLYNOMIALS: usize = super::MAX_STAGES + 2;
+const POLYNOMIALS: usize = MAX_STAGES + 2;
 
 /// P_0, …, P_{POLYNOMIALS−1} at x, by (k + 1) P_{k+1} = (2k + 1) x P_k − k P_{k−1}.
 const fn legendre(x: Double) -> [Double; POLYNOMIALS] {
@@ -86,7 +89,7 @@ const fn roots<const S: usize>() -> [Double; S] {
 impl<const S: usize> Coefficients<S> {
     /// The method of S stages.
     pub(crate) const fn new() -> Self {
-        assert!(0 < S && S <= super::MAX_STAGES, "Gauss<S> is there for 1 to 8 stages");
+        assert!(0 < S && S <= MAX_STAGES, "Gauss<S> is there for 1 to 8 stages");
         let half = Double::new(0.5);
         let roots = roots::<S>();
         let mut all =

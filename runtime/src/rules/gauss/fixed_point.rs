@@ -11,12 +11,10 @@ use core::cmp::Ordering;
 use nalgebra::SVector;
 
 use super::newton;
-use super::problem::{Problem, Solution, in_units, in_units_of, reciprocals, rounding};
+use super::problem::{Problem, Solution, in_units, reciprocals};
+use super::rounding::{at_rounding, worst};
 use crate::numbers::{LaneVector, Scalar, lanes::splat};
-use crate::step::{
-    Report, StepError,
-    newton::{AT_FLOOR, finite_part, is_sensible},
-};
+use crate::step::{Report, StepError, newton::AT_FLOOR};
 use crate::system::{ForcedLagrangian, Stages};
 
 /// More iterations than Newton's method would be worth.
@@ -180,65 +178,4 @@ fn report<T: Scalar, const N: usize, const S: usize>(
     let (residual, floor) = worst(&stages.residual, floor);
     let last_correction = stages.correction.iter().fold(T::zero(), |largest, c| largest.max(c.amax()));
     Report { iterations, damped: 0, residual: residual * remaining, floor, last_correction }
-}
-
-/// The residual that is largest in units of its floor, and this floor.
-#[inline(always)]
-pub(super) fn worst<T: Scalar, const N: usize, const S: usize>(
-    residual: &LaneVector<T, N, S>,
-    floor: &SVector<T, N>,
-) -> (T, T) {
-    let mut worst = (residual[0].amax(), floor[0]);
-    for a in 1..N {
-        let other = (residual[a].amax(), floor[a]);
-        if other.0 * worst.1 > worst.0 * other.1 {
-            worst = other;
-        }
-    }
-    worst
-}
-
-/// The floor with the rounding of cancelling forces, if that explains a residual that no longer falls.
-#[cold]
-#[inline(never)]
-pub(super) fn at_rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
-    problem: &Problem<'_, L, N, S>,
-    v: &LaneVector<T, N, S>,
-    residual: &LaneVector<T, N, S>,
-    floor: SVector<T, N>,
-) -> Option<SVector<T, N>> {
-    // Far above what any sensible floor explains, none is measured.
-    let least = SVector::from_fn(|a, _| residual[a].amax() * T::constant(1.0 / AT_FLOOR));
-    if !is_decided(problem, v, &least) {
-        return None;
-    }
-    let measured = floor + rounding(problem, v);
-    let is_explained = in_units_of(residual, &measured) <= T::constant(AT_FLOOR);
-    (is_explained && is_decided(problem, v, &measured)).then_some(measured)
-}
-
-/// Whether the `floor` at the stages is small beside what their equations are made of: |p0| + |h| max |G|
-/// there and at rest, and forces at rest that cancel.
-#[cold]
-#[inline(never)]
-pub(super) fn is_decided<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
-    problem: &Problem<'_, L, N, S>,
-    v: &LaneVector<T, N, S>,
-    floor: &SVector<T, N>,
-) -> bool {
-    let momentum = finite_part(&problem.p0.value);
-    if is_sensible(floor, &momentum) {
-        return true;
-    }
-    let rest = splat(&SVector::zeros());
-    let size = |v: &LaneVector<T, N, S>| {
-        let stages = problem.stages(v);
-        let momenta = problem.momenta(&stages.rate);
-        SVector::<T, N>::from_fn(|a, _| momenta[a].amax())
-    };
-    let terms = momentum + finite_part(&size(&rest)) + finite_part(&size(v));
-    is_sensible(floor, &terms) || {
-        let at_rest = rounding(problem, &rest) * (T::one() / T::EPSILON);
-        is_sensible(floor, &(terms + finite_part(&at_rest)))
-    }
 }

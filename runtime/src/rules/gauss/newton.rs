@@ -8,9 +8,9 @@
 
 use nalgebra::SVector;
 
-use super::fixed_point::{at_rounding, is_decided, worst};
 use super::linearised::{Factored, Local, StageVector, locals, non_finite};
 use super::problem::{Problem, Solution, in_units_of};
+use super::rounding::{at_rounding, is_decided, worst};
 use crate::numbers::{
     LaneVector, Scalar,
     lanes::{splat, write_lane},

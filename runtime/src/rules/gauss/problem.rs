@@ -11,7 +11,7 @@ use nalgebra::SVector;
 use super::Gauss;
 use super::coefficients::Coefficients;
 use crate::numbers::{LaneVector, Lanes, Scalar, lanes::lane};
-use crate::step::{Report, newton::PLACES};
+use crate::step::Report;
 use crate::system::{ForcedLagrangian, GeneratedDiffers, Stages};
 
 /// A vector as an unevaluated sum, so that adding many small steps loses nothing.
@@ -117,7 +117,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
 
     /// The same with configurations of their own.
     #[inline(always)]
-    fn stages_at(&self, q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>) -> Stages<T, N, S> {
+    pub(super) fn stages_at(&self, q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>) -> Stages<T, N, S> {
         let elapsed = Lanes(array::from_fn(|i| self.elapsed(i)));
         self.system.stages_in_time(&elapsed, q, v, |rate| self.momenta(rate))
     }
@@ -198,44 +198,4 @@ pub(super) fn in_units<T: Scalar, const N: usize, const S: usize>(
     }
     let sum = sum.folded(|a, b| a + b);
     if sum.is_finite() { largest.folded(|a, b| if a > b { a } else { b }) } else { sum }
-}
-
-/// The rounding of the residuals at the stages, measured: each coordinate of Q is moved by [`PLACES`] last
-/// places of its terms, each of V by as many of its own, and the changes are added up. One place may vanish
-/// inside a function. Near an equilibrium, where large forces cancel, the sum exceeds [`Problem::floor`].
-#[cold]
-#[inline(never)]
-pub(super) fn rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
-    problem: &Problem<'_, L, N, S>,
-    v: &LaneVector<T, N, S>,
-) -> SVector<T, N> {
-    let q = problem.configurations(v);
-    let residual = |q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>| problem.stages_at(q, v).residual;
-    let value = residual(&q, v);
-    let mut sum: SVector<T, N> = nalgebra::zero();
-    let mut add = |q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>| {
-        let moved = residual(q, v);
-        for a in 0..N {
-            sum[a] += (moved[a] - value[a]).amax();
-        }
-    };
-    let places = T::constant(PLACES);
-    let unit = T::EPSILON * places;
-    // All stages alike, then the halves of the step apart: a force that changes sign within it must not
-    // cancel.
-    for opposed in [unit, -unit] {
-        let unit = Lanes::<T, S>(array::from_fn(|i| if 2 * i < S { unit } else { opposed }));
-        for a in 0..N {
-            let speed = v[a].amax();
-            // Q is a sum: its rounding is that of its terms, however small it is itself.
-            let size = problem.q0.value[a].abs() + (problem.h * speed).abs();
-            let mut moved = q;
-            moved[a] = moved[a] + unit * size;
-            add(&moved, v);
-            let mut moved = *v;
-            moved[a] = moved[a] + unit * v[a].abs();
-            add(&q, &moved);
-        }
-    }
-    sum / places
 }

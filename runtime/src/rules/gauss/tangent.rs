@@ -15,10 +15,9 @@ use core::array;
 
 use nalgebra::SMatrix;
 
-use super::linearised::{Factored, StageColumns, locals, non_finite};
+use super::linearised::{Factored, Local, StageColumns};
 use super::problem::Problem;
-use super::segment::Segment;
-use crate::numbers::{LaneVector, Scalar};
+use crate::numbers::Scalar;
 use crate::step::{PhaseMatrix, Quantity, StateBy, StepError};
 use crate::system::ForcedLagrangian;
 
@@ -38,6 +37,32 @@ impl<T: Scalar, const N: usize, const S: usize, const K: usize> Source<T, N, S, 
     pub(super) fn none() -> Self {
         let zero = SMatrix::zeros();
         Self { q0: zero, p0: zero, momentum: [zero; S], rate: [zero; S] }
+    }
+
+    /// How the step follows what moves, with the equations of its stages linearised.
+    pub(super) fn tangent<L: ForcedLagrangian<N, Scalar = T>>(
+        &self,
+        problem: &Problem<'_, L, N, S>,
+        locals: &[Local<T, N>; S],
+        factored: &Factored<T, N, S>,
+    ) -> Result<Tangent<T, N, S, K>, StepError> {
+        let source = self;
+        let rate: StageColumns<T, N, S, K> =
+            array::from_fn(|j| source.rate[j] + locals[j].rate_by_q * source.q0);
+        let v = factored.solve(&array::from_fn(|i| {
+            let own = source.p0 - source.momentum[i] - locals[i].momentum_by_q * source.q0;
+            (0..S).fold(own, |sum, j| sum + rate[j] * problem.share(i, j))
+        }));
+        let q: StageColumns<T, N, S, K> =
+            array::from_fn(|i| (0..S).fold(source.q0, |sum, j| sum + v[j] * problem.share(i, j)));
+        let mut end = StateBy { q: source.q0, p: source.p0 };
+        for (i, local) in locals.iter().enumerate() {
+            end.q += v[i] * problem.steps[i];
+            end.p += (local.rate_by_q * q[i] + local.rate_by_v * v[i] + source.rate[i]) * problem.steps[i];
+        }
+        StepError::require_finite(&end.q, Quantity::Derivatives)?;
+        StepError::require_finite(&end.p, Quantity::Derivatives)?;
+        Ok(Tangent { q, v, end })
     }
 }
 
@@ -80,52 +105,5 @@ impl<T: Scalar, const N: usize, const S: usize> ByState<T, N, S> {
     /// A.
     pub(super) fn matrix(&self) -> PhaseMatrix<T, N> {
         PhaseMatrix { q_by_q: self.q.end.q, q_by_p: self.p.end.q, p_by_q: self.q.end.p, p_by_p: self.p.end.p }
-    }
-}
-
-impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize> Segment<'a, L, N, S> {
-    /// The step whose stages have the velocities `v`.
-    pub(super) fn of_stages(
-        problem: Problem<'a, L, N, S>,
-        v: LaneVector<T, N, S>,
-    ) -> Result<Self, StepError> {
-        let locals = locals(&problem, &v);
-        if let Some(index) = non_finite(&locals) {
-            return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
-        }
-        let factored = Factored::new(&problem, &locals)
-            .map_err(|singular| StepError::SingularNewtonMatrix { iteration: 0, column: singular.column })?;
-        Ok(Self { problem, v, locals, factored })
-    }
-
-    /// How the step follows what `source` moves.
-    pub(super) fn tangent<const K: usize>(
-        &self,
-        source: &Source<T, N, S, K>,
-    ) -> Result<Tangent<T, N, S, K>, StepError> {
-        let Self { problem, locals, .. } = self;
-        let rate: StageColumns<T, N, S, K> =
-            array::from_fn(|j| source.rate[j] + locals[j].rate_by_q * source.q0);
-        let v = self.factored.solve(&array::from_fn(|i| {
-            let own = source.p0 - source.momentum[i] - locals[i].momentum_by_q * source.q0;
-            (0..S).fold(own, |sum, j| sum + rate[j] * problem.share(i, j))
-        }));
-        let q: StageColumns<T, N, S, K> =
-            array::from_fn(|i| (0..S).fold(source.q0, |sum, j| sum + v[j] * problem.share(i, j)));
-        let mut end = StateBy { q: source.q0, p: source.p0 };
-        for (i, local) in locals.iter().enumerate() {
-            end.q += v[i] * problem.steps[i];
-            end.p += (local.rate_by_q * q[i] + local.rate_by_v * v[i] + source.rate[i]) * problem.steps[i];
-        }
-        StepError::require_finite(&end.q, Quantity::Derivatives)?;
-        StepError::require_finite(&end.p, Quantity::Derivatives)?;
-        Ok(Tangent { q, v, end })
-    }
-
-    /// How the step follows q0 and p0.
-    pub(super) fn by_state(&self) -> Result<ByState<T, N, S>, StepError> {
-        let by_q = Source { q0: SMatrix::identity(), ..Source::none() };
-        let by_p = Source { p0: SMatrix::identity(), ..Source::none() };
-        Ok(ByState { q: self.tangent(&by_q)?, p: self.tangent(&by_p)? })
     }
 }

@@ -7,10 +7,11 @@
 use nalgebra::SVector;
 
 use super::Methods;
+use super::phase::plus;
 use super::random::Random;
 use super::scale::Scale;
 use super::shift::{along_the_motion, shift};
-use super::tangent::{INNER, carried, plus};
+use super::tangent::{INNER, carried};
 use super::twin;
 use super::variation::Variation;
 use crate::numbers::Scalar;

@@ -1,7 +1,8 @@
 //! What of an error is a shift in time: the motion carries it exactly.
 
+use super::phase::plus;
 use super::scale::Scale;
-use super::tangent::{carried, plus};
+use super::tangent::carried;
 use super::variation::Variation;
 use crate::numbers::Scalar;
 use crate::step::State;

@@ -2,14 +2,10 @@
 
 use nalgebra::SMatrix;
 
+use super::phase::{norm, times};
 use super::variation::Variation;
 use crate::numbers::Scalar;
 use crate::step::{PhaseMatrix, State};
-
-/// `a` and `share` times `b`.
-pub(super) fn plus<S: Scalar, const N: usize>(a: &State<S, N>, b: &State<S, N>, share: S) -> State<S, N> {
-    State { q: a.q + b.q * share, p: a.p + b.p * share }
-}
 
 /// Beyond so many substeps, of few coordinates and of many, the exponential is that of the matrix, by
 /// squaring.
@@ -115,10 +111,6 @@ fn exponential<S: Scalar, const N: usize>(omega: &PhaseMatrix<S, N>, size: f64) 
     power
 }
 
-pub(super) fn times<S: Scalar, const N: usize>(a: &PhaseMatrix<S, N>, x: &State<S, N>) -> State<S, N> {
-    State { q: a.q_by_q * x.q + a.q_by_p * x.p, p: a.p_by_q * x.q + a.p_by_p * x.p }
-}
-
 /// `factor` (a + `share` b).
 fn weighted<S: Scalar, const N: usize>(
     factor: S,
@@ -131,9 +123,4 @@ fn weighted<S: Scalar, const N: usize>(
         p_by_q: (a.p_by_q + b.p_by_q * share) * factor,
         p_by_p: (a.p_by_p + b.p_by_p * share) * factor,
     }
-}
-
-/// A norm that does not depend on the units of q and p.
-pub(super) fn norm<S: Scalar, const N: usize>(a: &PhaseMatrix<S, N>) -> S {
-    (a.q_by_p.norm() * a.p_by_q.norm()).sqrt() + a.q_by_q.norm().max(a.p_by_p.norm())
 }

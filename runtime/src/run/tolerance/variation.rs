@@ -9,8 +9,8 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::Methods;
+use super::phase::{norm, plus, times};
 use super::scale::Scale;
-use super::tangent::{norm, plus, times};
 use crate::numbers::Scalar;
 use crate::step::{Linearization, PhaseMatrix, State};
 use crate::system::Lagrangian;

@@ -1,0 +1,111 @@
+//! Whether rounding explains what is left of the stages' residuals: for every solver of their equations.
+
+use core::array;
+
+use nalgebra::SVector;
+
+use super::problem::{Problem, in_units_of};
+use crate::numbers::{LaneVector, Lanes, Scalar, lanes::splat};
+use crate::step::newton::{AT_FLOOR, PLACES, finite_part, is_sensible};
+use crate::system::ForcedLagrangian;
+
+/// The residual that is largest in units of its floor, and this floor.
+#[inline(always)]
+pub(super) fn worst<T: Scalar, const N: usize, const S: usize>(
+    residual: &LaneVector<T, N, S>,
+    floor: &SVector<T, N>,
+) -> (T, T) {
+    let mut worst = (residual[0].amax(), floor[0]);
+    for a in 1..N {
+        let other = (residual[a].amax(), floor[a]);
+        if other.0 * worst.1 > worst.0 * other.1 {
+            worst = other;
+        }
+    }
+    worst
+}
+
+/// The floor with the rounding of cancelling forces, if that explains a residual that no longer falls.
+#[cold]
+#[inline(never)]
+pub(super) fn at_rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    v: &LaneVector<T, N, S>,
+    residual: &LaneVector<T, N, S>,
+    floor: SVector<T, N>,
+) -> Option<SVector<T, N>> {
+    // Far above what any sensible floor explains, none is measured.
+    let least = SVector::from_fn(|a, _| residual[a].amax() * T::constant(1.0 / AT_FLOOR));
+    if !is_decided(problem, v, &least) {
+        return None;
+    }
+    let measured = floor + rounding(problem, v);
+    let is_explained = in_units_of(residual, &measured) <= T::constant(AT_FLOOR);
+    (is_explained && is_decided(problem, v, &measured)).then_some(measured)
+}
+
+/// Whether the `floor` at the stages is small beside what their equations are made of: |p0| + |h| max |G|
+/// there and at rest, and forces at rest that cancel.
+#[cold]
+#[inline(never)]
+pub(super) fn is_decided<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    v: &LaneVector<T, N, S>,
+    floor: &SVector<T, N>,
+) -> bool {
+    let momentum = finite_part(&problem.p0.value);
+    if is_sensible(floor, &momentum) {
+        return true;
+    }
+    let rest = splat(&SVector::zeros());
+    let size = |v: &LaneVector<T, N, S>| {
+        let stages = problem.stages(v);
+        let momenta = problem.momenta(&stages.rate);
+        SVector::<T, N>::from_fn(|a, _| momenta[a].amax())
+    };
+    let terms = momentum + finite_part(&size(&rest)) + finite_part(&size(v));
+    is_sensible(floor, &terms) || {
+        let at_rest = rounding(problem, &rest) * (T::one() / T::EPSILON);
+        is_sensible(floor, &(terms + finite_part(&at_rest)))
+    }
+}
+
+/// The rounding of the residuals at the stages, measured: each coordinate of Q is moved by [`PLACES`] last
+/// places of its terms, each of V by as many of its own, and the changes are added up. One place may vanish
+/// inside a function. Near an equilibrium, where large forces cancel, the sum exceeds [`Problem::floor`].
+#[cold]
+#[inline(never)]
+fn rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    v: &LaneVector<T, N, S>,
+) -> SVector<T, N> {
+    let q = problem.configurations(v);
+    let residual = |q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>| problem.stages_at(q, v).residual;
+    let value = residual(&q, v);
+    let mut sum: SVector<T, N> = nalgebra::zero();
+    let mut add = |q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>| {
+        let moved = residual(q, v);
+        for a in 0..N {
+            sum[a] += (moved[a] - value[a]).amax();
+        }
+    };
+    let places = T::constant(PLACES);
+    let unit = T::EPSILON * places;
+    // All stages alike, then the halves of the step apart: a force that changes sign within it must not
+    // cancel.
+    for opposed in [unit, -unit] {
+        let unit = Lanes::<T, S>(array::from_fn(|i| if 2 * i < S { unit } else { opposed }));
+        for a in 0..N {
+            let speed = v[a].amax();
+            // Q is a sum: its rounding is that of its terms, however small it is itself.
+            let size = problem.q0.value[a].abs() + (problem.h * speed).abs();
+            let mut moved = q;
+            moved[a] = moved[a] + unit * size;
+            add(&moved, v);
+            let mut moved = *v;
+            moved[a] = moved[a] + unit * v[a].abs();
+            add(&q, &moved);
+        }
+    }
+    sum / places
+}
