@@ -57,6 +57,8 @@ mod trajectory;
 mod unforced;
 mod virtual_work;
 
+use nalgebra::SVector;
+
 use crate::numbers::Scalar;
 use crate::step::{Discrete, Discretised};
 use crate::theory::samples::at_segment;
@@ -120,6 +122,11 @@ where
     #[must_use]
     pub fn with_tolerance(self, relative: f64) -> Self {
         Self { relative, ..self }
+    }
+
+    /// v̄ = (q1 − q0)/h, the guess of whatever is solved on a segment known to be near.
+    fn mean_velocity(&self, q0: &SVector<L::Scalar, N>, q1: &SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {
+        (q1 - q0) / self.by.h
     }
 
     /// `evaluate` of the theory at the start of step k.

@@ -146,7 +146,7 @@ where
         q1: &SVector<S, N>,
     ) {
         let zero = SVector::zeros();
-        let v = (q1 - q0) / self.by.h;
+        let v = self.mean_velocity(q0, q1);
         let k = self.legendre(q0, q1);
         let f = self.by.system.discrete_force(q0, q1, self.by.h);
         let size = MomentumMagnitudes::of(&k, q0, q1);
@@ -186,7 +186,7 @@ where
         L: DiscreteRayleigh<R, N>,
     {
         let zero = SVector::zeros();
-        let v = (q1 - q0) / self.by.h;
+        let v = self.mean_velocity(q0, q1);
         let k = self.legendre(q0, q1);
         let size = MomentumMagnitudes::of(&k, q0, q1);
         let (p0, p1) = (k.momenta.p0, k.momenta.p1);

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::{HamiltonJacobi, HamiltonJacobiError, ImplicitEquation, section};
+use super::{DiscreteHamiltonian, HamiltonJacobi, HamiltonJacobiError, ImplicitEquation, section};
 use crate::numbers::{NewtonMatrix, Scalar};
 use crate::step::{Discrete, State, StepError, StepKernel, invert, newton};
 use crate::system::ScalarField;
@@ -31,17 +31,13 @@ where
     ///
     /// # Errors
     /// [`HamiltonJacobiError::Implicit`] where the definition, or H_d⁺ in it, has no solution in reach.
-    pub fn lemma_flow_plus<F>(
+    pub fn lemma_flow_plus<F: ScalarField<N, Scalar = S>>(
         &self,
         s1: &F,
         q: &SVector<S, N>,
         guess: Option<&SVector<S, N>>,
-    ) -> Result<SVector<S, N>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
-        let start = guess.map_or(*q, |v| q + v * self.by.h);
-        root(|x| self.lemma_definition_plus(s1, q, x), start, ImplicitEquation::LemmaFlowPlus)
+    ) -> Result<SVector<S, N>, HamiltonJacobiError> {
+        root(|x| self.lemma_definition_plus(s1, q, x), self.start(q, guess), ImplicitEquation::LemmaFlowPlus)
     }
 
     /// The lemma's 𝓕⁻(q_{k−1}, q_k), the solution x of its printed definition:
@@ -55,32 +51,33 @@ where
     ///
     /// # Errors
     /// [`HamiltonJacobiError::Implicit`] where the definition, or H_d⁻ in it, has no solution in reach.
-    pub fn lemma_flow_minus<F>(
+    pub fn lemma_flow_minus<F: ScalarField<N, Scalar = S>>(
         &self,
         s0: &F,
         q: &SVector<S, N>,
         guess: Option<&SVector<S, N>>,
-    ) -> Result<SVector<S, N>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
-        let start = guess.map_or(*q, |v| q + v * self.by.h);
-        root(|x| self.lemma_definition_minus(s0, q, x), start, ImplicitEquation::LemmaFlowMinus)
+    ) -> Result<SVector<S, N>, HamiltonJacobiError> {
+        root(
+            |x| self.lemma_definition_minus(s0, q, x),
+            self.start(q, guess),
+            ImplicitEquation::LemmaFlowMinus,
+        )
+    }
+
+    fn start(&self, q: &SVector<S, N>, guess: Option<&SVector<S, N>>) -> SVector<S, N> {
+        guess.map_or(*q, |v| q + v * self.by.h)
     }
 
     /// The point x with γ⁺(q, x) = 𝔽⁺(q, x), that is DS_{k+1}(x) = D2 L_d(q, x): the force drops out.
     ///
     /// # Errors
     /// [`HamiltonJacobiError::Implicit`] where it has no solution in reach of q + h `guess`.
-    pub fn right_characteristic<F>(
+    pub fn right_characteristic<F: ScalarField<N, Scalar = S>>(
         &self,
         s1: &F,
         q: &SVector<S, N>,
         guess: Option<&SVector<S, N>>,
-    ) -> Result<SVector<S, N>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
+    ) -> Result<SVector<S, N>, HamiltonJacobiError> {
         let h = self.by.h;
         let difference = |q: &SVector<S, N>, v: &SVector<S, N>| {
             let x = q + v * h;
@@ -100,54 +97,53 @@ where
     }
 
     /// x − (right side of the definition of 𝓕⁺).
-    pub(super) fn lemma_definition_plus<F>(
+    pub(super) fn lemma_definition_plus<F: ScalarField<N, Scalar = S>>(
         &self,
         s1: &F,
         q: &SVector<S, N>,
         x: &SVector<S, N>,
-    ) -> Result<Definition<S, N>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
+    ) -> Result<Definition<S, N>, HamiltonJacobiError> {
         let f = self.by.system.discrete_force_derivatives(q, x, self.by.h);
         let p1 = s1.gradient(x) + f.plus.value;
-        let h_plus = self.discrete_hamiltonian_plus(q, &p1, Some(&((x - q) / self.by.h)))?;
+        let h_plus = self.discrete_hamiltonian_plus(q, &p1, Some(&self.mean_velocity(q, x)))?;
         let by_x = invert(&(s1.hessian(x) + f.plus.d2)).map_err(ImplicitEquation::Derivative.at(0))?;
         let shift = by_x.tr_mul(&f.plus.value);
         let rounding = section::magnitude(s1, x) + f.plus.value.abs() + f.plus.d1.abs() * q.abs();
-        Ok(Definition {
-            residual: x - h_plus.d2 + shift,
-            magnitude: x.abs()
-                + h_plus.d2.abs()
-                + shift.abs()
-                + (h_plus.eliminated_by_p.abs() + by_x.abs().transpose()) * rounding,
-        })
+        let residual = x - h_plus.d2 + shift;
+        Ok(Definition { residual, magnitude: magnitude(x, &h_plus, &by_x, &shift, &rounding) })
     }
 
     /// q − (right side of the definition of 𝓕⁻).
-    pub(super) fn lemma_definition_minus<F>(
+    pub(super) fn lemma_definition_minus<F: ScalarField<N, Scalar = S>>(
         &self,
         s0: &F,
         q: &SVector<S, N>,
         x: &SVector<S, N>,
-    ) -> Result<Definition<S, N>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
+    ) -> Result<Definition<S, N>, HamiltonJacobiError> {
         let f = self.by.system.discrete_force_derivatives(q, x, self.by.h);
         let p0 = s0.gradient(q) - f.minus.value;
-        let h_minus = self.discrete_hamiltonian_minus(x, &p0, Some(&((x - q) / self.by.h)))?;
+        let h_minus = self.discrete_hamiltonian_minus(x, &p0, Some(&self.mean_velocity(q, x)))?;
         let by_q = invert(&(s0.hessian(q) - f.minus.d1)).map_err(ImplicitEquation::Derivative.at(0))?;
         let shift = by_q.tr_mul(&f.minus.value);
         let rounding = section::magnitude(s0, q) + f.minus.value.abs() + f.minus.d2.abs() * x.abs();
-        Ok(Definition {
-            residual: q - shift + h_minus.d2,
-            magnitude: q.abs()
-                + h_minus.d2.abs()
-                + shift.abs()
-                + (h_minus.eliminated_by_p.abs() + by_q.abs().transpose()) * rounding,
-        })
+        let residual = q - shift + h_minus.d2;
+        Ok(Definition { residual, magnitude: magnitude(q, &h_minus, &by_q, &shift, &rounding) })
     }
+}
+
+/// The size of the terms of a definition, with the `rounding` of the momentum that H_d^± and the `shift` by the
+/// force are taken at; `slope` is that of the shift.
+fn magnitude<S: Scalar, const N: usize>(
+    at: &SVector<S, N>,
+    hamiltonian: &DiscreteHamiltonian<S, N>,
+    slope: &SMatrix<S, N, N>,
+    shift: &SVector<S, N>,
+    rounding: &SVector<S, N>,
+) -> SVector<S, N> {
+    at.abs()
+        + hamiltonian.d2.abs()
+        + shift.abs()
+        + (hamiltonian.eliminated_by_p.abs() + slope.abs().transpose()) * rounding
 }
 
 /// Newton's method needs a few iterations where it converges at all.

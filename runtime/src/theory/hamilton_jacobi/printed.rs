@@ -35,10 +35,13 @@ where
 {
     /// γ = Φ⁻¹(γ⁻, γ⁺) as printed: γ⁻ = DS_j(q_j) − f_d⁻ (`p0`) and γ⁺ = DS_{j+1}(q_{j+1}) + f_d⁺ (`p1`).
     #[must_use]
-    pub fn gamma<F>(&self, s0: &F, s1: &F, q0: &SVector<S, N>, q1: &SVector<S, N>) -> Momenta<S, N>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
+    pub fn gamma<F: ScalarField<N, Scalar = S>>(
+        &self,
+        s0: &F,
+        s1: &F,
+        q0: &SVector<S, N>,
+        q1: &SVector<S, N>,
+    ) -> Momenta<S, N> {
         let f = self.by.system.discrete_force(q0, q1, self.by.h);
         Momenta { p0: s0.gradient(q0) - f.minus, p1: s1.gradient(q1) + f.plus }
     }
@@ -48,18 +51,15 @@ where
     ///
     /// # Errors
     /// [`HamiltonJacobiError::Implicit`] if the step from one of the momenta has no solution.
-    pub fn paired_flow<F>(
+    pub fn paired_flow<F: ScalarField<N, Scalar = S>>(
         &self,
         s0: &F,
         s1: &F,
         q0: &SVector<S, N>,
         q1: &SVector<S, N>,
-    ) -> Result<PairedFlow<S, N>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
+    ) -> Result<PairedFlow<S, N>, HamiltonJacobiError> {
         let gamma = self.gamma(s0, s1, q0, q1);
-        let guess = (q1 - q0) / self.by.h;
+        let guess = self.mean_velocity(q0, q1);
         Ok(PairedFlow {
             minus: self.step(q0, &gamma.p0, Some(&guess))?,
             plus: self.at_step(1, |theory| theory.step(q1, &gamma.p1, Some(&guess)))?,
@@ -74,23 +74,20 @@ where
     ///
     /// # Errors
     /// Those of [`discrete_hamiltonian_plus`](Self::discrete_hamiltonian_plus).
-    pub fn right_equation<F>(
+    pub fn right_equation<F: ScalarField<N, Scalar = S>>(
         &self,
         s0: &F,
         s1: &F,
         q0: &SVector<S, N>,
         q1: &SVector<S, N>,
-    ) -> Result<EquationValue<S>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
+    ) -> Result<EquationValue<S>, HamiltonJacobiError> {
         let p1 = self.gamma(s0, s1, q0, q1).p1;
-        let h_plus = self.discrete_hamiltonian_plus(q0, &p1, Some(&((q1 - q0) / self.by.h)))?;
-        let (before, after) = (s0.value(q0), s1.value(q1));
+        let h_plus = self.discrete_hamiltonian_plus(q0, &p1, Some(&self.mean_velocity(q0, q1)))?;
+        let EquationValue { value, magnitude } = increment(s0, s1, q0, q1);
         let reach = p1.abs().dot(&(q1.abs() + h_plus.eliminated.abs())) + h_plus.d1.abs().dot(&q0.abs());
         Ok(EquationValue {
-            value: after - before - p1.dot(q1) + h_plus.value,
-            magnitude: after.abs() + before.abs() + reach + h_plus.value.abs(),
+            value: value - p1.dot(q1) + h_plus.value,
+            magnitude: magnitude + reach + h_plus.value.abs(),
         })
     }
 
@@ -102,23 +99,20 @@ where
     ///
     /// # Errors
     /// Those of [`discrete_hamiltonian_minus`](Self::discrete_hamiltonian_minus).
-    pub fn left_equation<F>(
+    pub fn left_equation<F: ScalarField<N, Scalar = S>>(
         &self,
         s0: &F,
         s1: &F,
         q0: &SVector<S, N>,
         q1: &SVector<S, N>,
-    ) -> Result<EquationValue<S>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
+    ) -> Result<EquationValue<S>, HamiltonJacobiError> {
         let p0 = self.gamma(s0, s1, q0, q1).p0;
-        let h_minus = self.discrete_hamiltonian_minus(q1, &p0, Some(&((q1 - q0) / self.by.h)))?;
-        let (before, after) = (s0.value(q0), s1.value(q1));
+        let h_minus = self.discrete_hamiltonian_minus(q1, &p0, Some(&self.mean_velocity(q0, q1)))?;
+        let EquationValue { value, magnitude } = increment(s0, s1, q0, q1);
         let reach = p0.abs().dot(&(q0.abs() + h_minus.eliminated.abs())) + h_minus.d1.abs().dot(&q1.abs());
         Ok(EquationValue {
-            value: after - before + p0.dot(q0) + h_minus.value,
-            magnitude: after.abs() + before.abs() + reach + h_minus.value.abs(),
+            value: value + p0.dot(q0) + h_minus.value,
+            magnitude: magnitude + reach + h_minus.value.abs(),
         })
     }
 
@@ -126,25 +120,18 @@ where
     /// eliminated from H_d^±. It holds no γ at all, so that along one trajectory it is the recursion that
     /// defines the discrete action.
     #[must_use]
-    pub fn action_increment<F>(
+    pub fn action_increment<F: ScalarField<N, Scalar = S>>(
         &self,
         s0: &F,
         s1: &F,
         q0: &SVector<S, N>,
         q1: &SVector<S, N>,
-    ) -> EquationValue<S>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
+    ) -> EquationValue<S> {
         let l = self.by.system.discrete_lagrangian_derivatives(q0, q1, self.by.h);
-        let (before, after) = (s0.value(q0), s1.value(q1));
+        let EquationValue { value, magnitude } = increment(s0, s1, q0, q1);
         EquationValue {
-            value: after - before - l.value,
-            magnitude: after.abs()
-                + before.abs()
-                + l.value.abs()
-                + l.d1.abs().dot(&q0.abs())
-                + l.d2.abs().dot(&q1.abs()),
+            value: value - l.value,
+            magnitude: magnitude + l.value.abs() + l.d1.abs().dot(&q0.abs()) + l.d2.abs().dot(&q1.abs()),
         }
     }
 
@@ -152,18 +139,15 @@ where
     ///
     /// # Errors
     /// [`HamiltonJacobiError::Implicit`] if 𝔽⁺(q_{j−1}, q_j) = (q_j, γ⁻) has no solution in reach.
-    pub fn backward_flow<F>(
+    pub fn backward_flow<F: ScalarField<N, Scalar = S>>(
         &self,
         s0: &F,
         s1: &F,
         q0: &SVector<S, N>,
         q1: &SVector<S, N>,
-    ) -> Result<SVector<S, N>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
+    ) -> Result<SVector<S, N>, HamiltonJacobiError> {
         let gamma = self.gamma(s0, s1, q0, q1);
-        self.a_step_before(|theory| theory.backward_step(q0, &gamma.p0, Some(&((q1 - q0) / self.by.h))))
+        self.a_step_before(|theory| theory.backward_step(q0, &gamma.p0, Some(&self.mean_velocity(q0, q1))))
     }
 
     /// G_d(q_j, q_{j+1}) = S_j(q_j) + S_{j+1}(q_{j+1}) − R_d(q_j, q_{j+1}) of a Rayleigh system, so that γ =
@@ -180,4 +164,15 @@ where
     {
         s0.value(q0) + s1.value(q1) - self.by.system.discrete_rayleigh(q0, q1, self.by.h)
     }
+}
+
+/// S_{j+1}(q_{j+1}) − S_j(q_j), what every equation starts with.
+fn increment<S: Scalar, F: ScalarField<N, Scalar = S>, const N: usize>(
+    s0: &F,
+    s1: &F,
+    q0: &SVector<S, N>,
+    q1: &SVector<S, N>,
+) -> EquationValue<S> {
+    let (before, after) = (s0.value(q0), s1.value(q1));
+    EquationValue { value: after - before, magnitude: after.abs() + before.abs() }
 }

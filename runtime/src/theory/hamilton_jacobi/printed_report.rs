@@ -68,14 +68,11 @@ where
     /// [`HamiltonJacobiError::TooFewPoints`] for fewer than three configurations,
     /// [`HamiltonJacobiError::FamilyLength`] if there are fewer functions than configurations. What
     /// cannot be evaluated is an error in its own field.
-    pub fn as_printed<F>(
+    pub fn as_printed<F: ScalarField<N, Scalar = S>>(
         &self,
         family: &[F],
         configurations: &[SVector<S, N>],
-    ) -> Result<PrintedReport<N>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
+    ) -> Result<PrintedReport<N>, HamiltonJacobiError> {
         require_lengths(family.len(), configurations.len(), 3)?;
         let mut report = Gathering::new(self.relative);
         for (j, pair) in configurations.windows(2).enumerate() {
@@ -190,7 +187,7 @@ where
             }
             Err(error) => report.lemma_minus.failure(error.at_step(j)),
         }
-        let guess = (q2 - q1) / self.by.h;
+        let guess = self.mean_velocity(q1, q2);
         let forced = |x: &SVector<S, N>| {
             self.at_step(j - 1, |theory| theory.by.system.del_residual(q0, q1, x, self.by.h))
         };

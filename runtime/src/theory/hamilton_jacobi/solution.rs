@@ -170,14 +170,11 @@ where
     ///
     /// # Errors
     /// Those of [`check_sections`](Self::check_sections).
-    pub fn check_generating_functions<F>(
+    pub fn check_generating_functions<F: ScalarField<N, Scalar = S>>(
         &self,
         family: &[F],
         samples: &[SVector<S, N>],
-    ) -> Result<SolutionReport<N>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
+    ) -> Result<SolutionReport<N>, HamiltonJacobiError> {
         let mut report = Gathering::new(self.relative);
         self.for_every_place(family.len(), 2, samples, |theory, k, q| {
             match theory.image_by_minus(k, &family[k], q) {
@@ -297,7 +294,7 @@ where
         let q1 = &image.q1;
         let gamma1 = after.gradient(q1);
         let work = after.value(q1) - before.value(q) - self.by.system.discrete_lagrangian(q, q1, self.by.h);
-        match self.discrete_hamiltonian_plus(q, &gamma1, Some(&((q1 - q) / self.by.h))) {
+        match self.discrete_hamiltonian_plus(q, &gamma1, Some(&self.mean_velocity(q, q1))) {
             Ok(h_plus) => {
                 let value = after.value(q1) - before.value(q) - gamma1.dot(q1) + h_plus.value - work;
                 let rounding = after.hessian(q1).abs() * image.spread;

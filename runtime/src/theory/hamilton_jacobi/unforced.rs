@@ -42,14 +42,11 @@ where
     /// # Errors
     /// [`HamiltonJacobiError::FamilyLength`] for fewer than three functions,
     /// [`HamiltonJacobiError::TooFewPoints`] without samples.
-    pub fn right_equation_everywhere<F>(
+    pub fn right_equation_everywhere<F: ScalarField<N, Scalar = S>>(
         &self,
         family: &[F],
         samples: &[SVector<S, N>],
-    ) -> Result<RightEquationReport<N>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
+    ) -> Result<RightEquationReport<N>, HamiltonJacobiError> {
         if samples.is_empty() {
             return Err(HamiltonJacobiError::TooFewPoints { needed: 1, found: 0 });
         }
@@ -60,7 +57,7 @@ where
             for q in samples {
                 let first = self.at_step(k, |theory| theory.right_characteristic(&s[1], q, None));
                 let chain = first.and_then(|x| {
-                    let guess = (x - q) / self.by.h;
+                    let guess = self.mean_velocity(q, &x);
                     let y =
                         self.at_step(k + 1, |theory| theory.right_characteristic(&s[2], &x, Some(&guess)))?;
                     Ok((x, y))

@@ -41,15 +41,12 @@ where
     ///
     /// # Errors
     /// [`HamiltonJacobiError::Implicit`] if the step from (q, dS_k(q)) has no solution.
-    pub fn virtual_work<F>(
+    pub fn virtual_work<F: ScalarField<N, Scalar = S>>(
         &self,
         s0: &F,
         s1: &F,
         q: &SVector<S, N>,
-    ) -> Result<VirtualWork<S, N>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
+    ) -> Result<VirtualWork<S, N>, HamiltonJacobiError> {
         let q1 = self.step(q, &s0.gradient(q), None)?.q;
         let value = s1.value(&q1) - s0.value(q) - self.by.system.discrete_lagrangian(q, &q1, self.by.h);
         Ok(VirtualWork { q1, value })
@@ -71,17 +68,14 @@ where
     ///
     /// # Errors
     /// Those of [`carry`](Self::carry), for any of the characteristics.
-    pub fn carried_generating_function<F>(
+    pub fn carried_generating_function<F: ScalarField<N, Scalar = S>>(
         &self,
         s0: &F,
         reference: &SVector<S, N>,
         label: &SVector<S, N>,
         steps: usize,
         nodes: NonZeroUsize,
-    ) -> Result<CarriedGeneratingFunction<S, N>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
+    ) -> Result<CarriedGeneratingFunction<S, N>, HamiltonJacobiError> {
         let characteristic = self.carry(s0, label, steps)?;
         let virtual_work = self.work_between(s0, reference, label, steps, nodes)?;
         let half = NonZeroUsize::MIN.saturating_add(nodes.get() / 2);
@@ -105,17 +99,14 @@ where
     }
 
     /// ∫ (Q_kᵀ f_d⁻ + Q_{k+1}ᵀ f_d⁺)·dx over the labels from `reference` to `label`, for every k.
-    fn work_between<F>(
+    fn work_between<F: ScalarField<N, Scalar = S>>(
         &self,
         s0: &F,
         reference: &SVector<S, N>,
         label: &SVector<S, N>,
         steps: usize,
         nodes: NonZeroUsize,
-    ) -> Result<Vec<S>, HamiltonJacobiError>
-    where
-        F: ScalarField<N, Scalar = S>,
-    {
+    ) -> Result<Vec<S>, HamiltonJacobiError> {
         let across = label - reference;
         let mut work = vec![S::zero(); steps];
         for (node, weight) in GaussLegendre::new(nodes).iter() {
