@@ -67,6 +67,11 @@ impl<L: Lagrangian<N>, R, const N: usize> fmt::Debug for Discretised<'_, L, R, N
 /// A method by which `L` is stepped: `Midpoint`, if `L` lists `rule = midpoint`.
 ///
 /// That is [`Flow`] seen from the method, which [`by`](crate::Discretise::by) takes by value.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no method by which `{L}` is stepped",
+    label = "no rule, composition or splitting of `{L}`",
+    note = "rules of the attribute are listed there; one of your own by nodes and weights, `impl DisplacementRule`, is `Quadrature(rule)`"
+)]
 pub trait MethodOf<L: ?Sized, const N: usize> {}
 
 impl<L: Flow<M, N> + ?Sized, M, const N: usize> MethodOf<L, N> for M {}

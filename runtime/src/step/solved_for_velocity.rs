@@ -11,6 +11,12 @@ use crate::step::{
 /// [`momenta`](Discrete::momenta) that its systems have.
 ///
 /// A rule of one's own states it.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` steps no system as it stands",
+    label = "how its step is solved is not known",
+    note = "nodes and weights of your own, `impl DisplacementRule`, step every system as `Quadrature(rule)`",
+    note = "a rule whose systems implement `Discrete` states it: `impl dalembert::rules::SolvedForVelocity for {Self} {{}}`"
+)]
 pub trait SolvedForVelocity {}
 
 /// A rule whose discrete objects are formulas in (q0, q1): nothing within a segment has to be solved for.
