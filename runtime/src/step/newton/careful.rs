@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use super::rounding::{SLOW, estimated_floor, in_units_of, worst};
-use super::verdict::{stagnated, verified};
+use super::verdict::{Iterate, stagnated, verified};
 use super::{Equations, Reached, Solution, largest};
 use crate::numbers::{NewtonMatrix, Scalar, Singular};
 use crate::step::{Quantity, State, StepError, StepKernel};
@@ -15,18 +15,6 @@ pub(super) const MAX_ITERATIONS: u32 = 100;
 /// Once the step has been shortened below this share, a singular matrix is reported instead of stepped
 /// around.
 const SHORTEST: f64 = 1e-3;
-
-/// An iterate, the Newton step from it, and the measure of its residual.
-pub(super) struct Iterate<S, M, const N: usize> {
-    pub(super) v: SVector<S, N>,
-    pub(super) residual: SVector<S, N>,
-    pub(super) matrix: M,
-    /// The full Newton step leads to v − correction.
-    pub(super) correction: SVector<S, N>,
-    pub(super) floor: SVector<S, N>,
-    /// max |residualᵢ|/floorᵢ.
-    pub(super) size: S,
-}
 
 /// The damped method, and the verdicts.
 #[cold]

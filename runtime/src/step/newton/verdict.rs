@@ -4,7 +4,6 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::Solution;
-use super::careful::Iterate;
 use super::rounding::{AT_FLOOR, estimated_floor, finite_part, held_against, is_sensible, rounding, scatter};
 use crate::numbers::{NewtonMatrix, Scalar};
 use crate::step::{Momenta, Report, State, StepKernel};
@@ -42,6 +41,18 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Equations<'_, S, M, N> {
         let measured = rounding(|q, v| (self.finish)(q, v).p0, &self.state.q, &nalgebra::zero());
         finite_part(&(measured * (S::one() / S::EPSILON)))
     }
+}
+
+/// An iterate, the Newton step from it, and the measure of its residual.
+pub(super) struct Iterate<S, M, const N: usize> {
+    pub(super) v: SVector<S, N>,
+    pub(super) residual: SVector<S, N>,
+    pub(super) matrix: M,
+    /// The full Newton step leads to v − correction.
+    pub(super) correction: SVector<S, N>,
+    pub(super) floor: SVector<S, N>,
+    /// max |residualᵢ|/floorᵢ.
+    pub(super) size: S,
 }
 
 /// The solution at `v`, where the Newton matrix is `matrix`; nothing if it is none. With `may_round`, the
