@@ -13,6 +13,7 @@ extern crate self as dalembert;
 
 pub mod derivative;
 pub mod generated;
+pub mod nalgebra;
 mod numbers;
 pub mod rules;
 pub mod run;
@@ -278,7 +279,6 @@ pub use attributes::rayleigh_system;
 /// assert_eq!(Generating { s: 2.0 }.gradient(&vector![3.0]), vector![6.0]);
 /// ```
 pub use attributes::differentiable;
-pub use nalgebra;
 
 pub use numbers::Elementary;
 #[doc(inline)]

@@ -3,6 +3,7 @@
 
 #[cfg(test)]
 mod tests {
+    use mechanics::nalgebra::{Matrix2, matrix, vector};
     use mechanics::{Discretise, Gauss, Midpoint, State, differentiable, rayleigh_system};
 
     struct Pendulum {
@@ -84,5 +85,14 @@ mod tests {
         use mechanics::VectorField;
         let jacobian = Rotation { rate: 0.7 }.jacobian(&[0.2, 0.5].into());
         assert_eq!(jacobian, mechanics::nalgebra::Matrix2::new(0.0, -0.7, 0.7, 0.0));
+    }
+
+    /// nalgebra's own macros name a crate that this one does not depend on.
+    #[test]
+    fn vectors_and_matrices_are_written_without_nalgebra() {
+        const M: Matrix2<f64> = matrix![1.0, 2.0; 3.0, 4.0];
+        let start = State { q: vector![0.3], p: vector![-0.1] };
+        let step = Oscillator { k: 1.0 }.by(Midpoint, 0.1).near(&vector![-0.1]).step(&start).unwrap();
+        assert!(step.state.q[0] < 0.3 && M[(0, 1)] == 2.0 && (M * vector![1.0, 0.0])[1] == 3.0);
     }
 }

@@ -179,7 +179,7 @@ where
 impl fmt::Display for RayleighStep {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let verdict = if self.is_rayleigh() { "a Rayleigh step" } else { "no R_d for any L_d" };
-        writeln!(f, "{verdict}, by the derivative of {} steps", self.samples)?;
+        writeln!(f, "{verdict}, by its derivative at states: {}", self.samples)?;
         let answer = |finding: &Asymmetry| if finding.vanishes() { "yes" } else { "no" };
         writeln!(f, "  a bᵀ is symmetric at the start   {}: {}", answer(&self.at_start), self.at_start)?;
         write!(f, "  bᵀd is symmetric at the end      {}: {}", answer(&self.at_end), self.at_end)
