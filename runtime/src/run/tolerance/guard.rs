@@ -84,7 +84,7 @@ where
 }
 
 /// A guarded run as it can be saved: [`GuardedTrajectory::checkpoint`]. With the feature `serde` it can be
-/// written and read.
+/// written and read, in a format that holds infinite numbers where an expected error is one (JSON does not).
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(
     feature = "serde",

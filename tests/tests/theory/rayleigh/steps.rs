@@ -2,7 +2,7 @@
 
 use dalembert::derivative::{LegendreDerivatives, Linearization, PhaseMatrix};
 use dalembert::exact::Exact;
-use dalembert::nalgebra::{Matrix2, Matrix3, vector};
+use dalembert::nalgebra::{Matrix2, Matrix3, Matrix4, vector};
 use dalembert::rayleigh::{RayleighStep, RayleighStepError};
 use dalembert::step::{Flow, Momenta};
 use dalembert::{
@@ -196,6 +196,36 @@ fn fitted_rules_and_one_coordinate() {
     let six = Single {}.by(Composition::kahan_li_6(Gauss::<2>), 0.3).rayleigh_step(&state).unwrap();
     assert!(six.is_rayleigh() && six.at_start.value == 0.0);
     assert!(Single {}.energy(&state[0].q, &vector![0.4]).is_finite());
+}
+
+/// C = 2aM: AᵀΩA = cΩ, c = (1 − ah)/(1 + ah) by the trapezoidal rule, e^{−2ah} by splittings, for a nonlinear V. By the
+/// midpoint rule there is no such c unless V is quadratic.
+#[test]
+fn proportional_to_mass_damping_makes_steps_conformally_symplectic() {
+    fn defect<M>(system: &Pair, method: M, h: f64, c: f64) -> f64
+    where
+        Pair: Flow<M, 2, Scalar = f64>,
+    {
+        let mut omega = Matrix4::<f64>::zeros();
+        for i in 0..2 {
+            (omega[(i, i + 2)], omega[(i + 2, i)]) = (1.0, -1.0);
+        }
+        let state = State { q: vector![0.3, -0.4], p: vector![0.1, 0.2] };
+        let a: Matrix4<f64> = system.by(method, h).linearized_step(&state).unwrap().1.a.assembled();
+        (a.transpose() * omega * a - omega * c).amax()
+    }
+    let (a, h, m) = (0.35, 0.3, [1.0, 1.7]);
+    let system = Pair { m, c: [2.0 * a * m[0], 0.0, 2.0 * a * m[1]], k: [2.0, -0.7, 1.0], quartic: 1.5 };
+    let (rational, exact) = ((1.0 - a * h) / (1.0 + a * h), (-2.0 * a * h).exp());
+    assert!(defect(&system, Trapezoidal, h, rational) < 1e-14);
+    assert!(defect(&system, Splitting::blanes_moan_6(), h, exact) < 1e-13);
+    assert!(defect(&system, FittedTrapezoidal, h, exact) < 1e-14);
+    // The control: the other rule's constant, and the midpoint rule.
+    assert!(defect(&system, Trapezoidal, h, exact) > 1e-4);
+    let best = (0..400)
+        .map(|k| defect(&system, Midpoint, h, 0.7 + 0.001 * f64::from(k)))
+        .fold(f64::INFINITY, f64::min);
+    assert!(best > 1e-4, "{best}");
 }
 
 /// A step written by hand, and what is wrong with some.
