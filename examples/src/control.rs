@@ -179,7 +179,8 @@ impl<const X: usize, const M: usize> Plan<X, M> {
     /// cost. Nothing if none does.
     ///
     /// # Errors
-    /// Those of [`Discretised::step`](dalembert::Discretised::step) along the plan itself; a trial that cannot be stepped is a share too long.
+    /// Those of [`Discretised::step`](dalembert::Discretised::step) along the plan itself; a trial that
+    /// cannot be stepped is a share too long.
     pub fn improved(
         &self,
         problem: &impl Problem<X, M>,

@@ -166,8 +166,8 @@ pub trait Discrete<R, const N: usize>: Flow<R, N> {
     /// Whether the rule has its discrete objects on the segment (`q0`, `q1`): by formula, always.
     ///
     /// # Errors
-    /// Of a rule that solves for points within the segment, the [`StepError`] that says why it finds none; all
-    /// objects are NaN there.
+    /// Of a rule that solves for points within the segment, the [`StepError`] that says why it finds none;
+    /// all objects are NaN there.
     fn require_segment(
         &self,
         q0: &SVector<Self::Scalar, N>,
@@ -178,7 +178,8 @@ pub trait Discrete<R, const N: usize>: Flow<R, N> {
         Ok(())
     }
 
-    /// Compares L, R and f as generated to those as written ([`Lagrangian::verify_generated`](crate::Lagrangian::verify_generated)) at the points
+    /// Compares L, R and f as generated to those as written
+    /// ([`Lagrangian::verify_generated`](crate::Lagrangian::verify_generated)) at the points
     /// where the rule evaluates them on the segment from q0 with mean velocity `v`.
     ///
     /// With `debug_assertions` every step does so; without them the caller has to.

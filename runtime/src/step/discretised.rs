@@ -102,14 +102,14 @@ where
         Self { h, ..self }
     }
 
-    /// The same of another system, such as this one at another time.
+    /// This rule and h with another system, such as this one at another time.
     #[cfg(feature = "theory")]
     pub(crate) fn of<'b>(&self, system: &'b L) -> Discretised<'b, L, R, N> {
         Discretised { system, h: self.h, guess: self.guess, rule: PhantomData }
     }
 
-    /// The same for steps whose mean velocity v̄ = (q1 − q0)/h is near `velocity`, such as that of the step
-    /// before: Newton's method starts there, and not at the velocity of the state.
+    /// Steps whose mean velocity v̄ = (q1 − q0)/h is near `velocity`, such as that of the step before: Newton's
+    /// method starts there, and not at the velocity of the state.
     #[must_use]
     pub fn near(self, velocity: &SVector<L::Scalar, N>) -> Self {
         Self { guess: Some(*velocity), ..self }

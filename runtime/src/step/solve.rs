@@ -10,8 +10,8 @@ use crate::step::{
 };
 use crate::system::Lagrangian;
 
-/// [`Flow::step`](crate::step::Flow::step) with the step's equation and both momenta as functions of (q0, v̄, h), and the mass that
-/// the velocity has in them.
+/// [`Flow::step`](crate::step::Flow::step) with the step's equation and both momenta as functions of (q0, v̄,
+/// h), and the mass that the velocity has in them.
 #[inline]
 pub(crate) fn step_by<L, M, const N: usize>(
     system: &L,

@@ -48,7 +48,7 @@ impl<P> Finding<P> {
         excess(self.value, self.tolerance)
     }
 
-    /// The same, and infinite beside a tolerance that says nothing.
+    /// |value| in units of its tolerance, infinite beside a tolerance that says nothing.
     pub(crate) fn excess_or_silence(&self) -> f64 {
         if self.tells { self.excess() } else { f64::INFINITY }
     }

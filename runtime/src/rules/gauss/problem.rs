@@ -115,7 +115,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         self.stages_at(&self.configurations(v), v)
     }
 
-    /// The same with configurations of their own.
+    /// The stages' equations at configurations of their own.
     #[inline(always)]
     pub(super) fn stages_at(&self, q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>) -> Stages<T, N, S> {
         let elapsed = Lanes(array::from_fn(|i| self.elapsed(i)));

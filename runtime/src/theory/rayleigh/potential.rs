@@ -99,7 +99,7 @@ fn along<L: Discrete<R, N>, R, const N: usize>(
     between(start, end, |q0, q1| by.system.discrete_force(q0, q1, by.h))
 }
 
-/// The same one coordinate after the other, those of q0 first.
+/// That integral, one coordinate after the other, those of q0 first.
 fn along_edges<L: Discrete<R, N>, R, const N: usize>(
     by: &Discretised<'_, L, R, N>,
     start: &Segment<L::Scalar, N>,

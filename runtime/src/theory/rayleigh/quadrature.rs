@@ -121,7 +121,7 @@ pub(super) fn along_line<S: Scalar, const N: usize>(
     integrate(S::EPSILON.widen(), |s| theta(&(start + direction * S::constant(s))).dot(&direction).widen())
 }
 
-/// The same along the edges of the box between them, one coordinate after the other.
+/// An integral along the edges of the box between them, one coordinate after the other.
 pub(super) fn along_edges<S: Scalar, const N: usize>(
     start: &SVector<S, N>,
     end: &SVector<S, N>,

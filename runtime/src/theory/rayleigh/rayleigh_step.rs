@@ -10,8 +10,8 @@ use crate::theory::verdict::{Finding, Tolerance};
 
 /// Whether a step is a Rayleigh step: [`rayleigh_step`](crate::Discretised::rayleigh_step).
 ///
-/// A step Φ: (q0, p0) ↦ (q1, p1) with the derivative A, its blocks a = ∂q1/∂q0, b = ∂q1/∂p0 and d = ∂p1/∂p0, and
-/// det b ≠ 0, is a Rayleigh step if some L_d and R_d have
+/// A step Φ: (q0, p0) ↦ (q1, p1) with the derivative A, its blocks a = ∂q1/∂q0, b = ∂q1/∂p0 and d = ∂p1/∂p0,
+/// and det b ≠ 0, is a Rayleigh step if some L_d and R_d have
 ///
 /// ```text
 /// p0 = −D1(L_d + R_d),   p1 = D2(L_d − R_d)
@@ -20,13 +20,13 @@ use crate::theory::verdict::{Finding, Tolerance};
 /// **Theorem.** Locally that is so if and only if a bᵀ and bᵀd are symmetric.
 ///
 /// *Proof.* As functions of (q0, q1) the momenta have ∂p0/∂q0 = −b⁻¹a and ∂p1/∂q1 = d b⁻¹. A function with
-/// gradient −p0 in q0, at every q1, exists iff the first is symmetric, one with gradient p1 in q1 iff the second is:
-/// L_d⁺ and L_d⁻, and L_d, R_d = ½(L_d⁺ ± L_d⁻). Multiplied by b from the left and bᵀ from the right the first is
-/// −a bᵀ; by bᵀ and b the second is bᵀd. ∎
+/// gradient −p0 in q0, at every q1, exists iff the first is symmetric, one with gradient p1 in q1 iff the
+/// second is: L_d⁺ and L_d⁻, and L_d, R_d = ½(L_d⁺ ± L_d⁻). Multiplied by b from the left and bᵀ from the
+/// right the first is −a bᵀ; by bᵀ and b the second is bᵀd. ∎
 ///
-/// For n = 1 every step is one. For n ≥ 2 no family of methods on (q, p) of order above 2 gives Rayleigh steps for
-/// every damping: with C and K the matrices of damping and springs the exact motion has the asymmetries ∓(h⁴/12)
-/// (CM⁻¹K − KM⁻¹C) at its ends, and no error of the method cancels both.
+/// For n = 1 every step is one. For n ≥ 2 no family of methods on (q, p) of order above 2 gives Rayleigh
+/// steps for every damping: with C and K the matrices of damping and springs the exact motion has the
+/// asymmetries ∓(h⁴/12) (CM⁻¹K − KM⁻¹C) at its ends, and no error of the method cancels both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RayleighStep {

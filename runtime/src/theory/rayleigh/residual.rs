@@ -24,7 +24,7 @@ pub(super) fn keep_worse<const N: usize>(
         .keep_if_worse(worst, SegmentFinding::excess_or_silence);
 }
 
-/// The same of a `gap` between integrals, at the sample `index`.
+/// Keeps a `gap` between integrals that is worse, at the sample `index`.
 pub(super) fn keep_worse_gap<const N: usize>(
     worst: &mut Option<SegmentFinding<N>>,
     gap: Integral,
