@@ -359,9 +359,8 @@ fn from_singular<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, 
     if *v == rest && force == rest {
         let residual =
             |v: &SVector<T, N>| problem.stages(&splat(v)).residual.map(|stages| stages.amax()).into();
-        let (v, none) = (splat(&rest), T::zero());
-        let floor = T::SMALLEST_NORMAL;
-        let report = Report { iterations: 0, damped: 0, residual: none, floor, last_correction: none };
+        let v = splat(&rest);
+        let report = Report { floor: T::SMALLEST_NORMAL, ..Report::of_no_equation() };
         let is_rest = crate::step::newton::is_rest(&residual, &state.p);
         return is_rest.then_some(Solution { v, rate: v, report, contracted: false });
     }

@@ -121,12 +121,6 @@ pub(crate) const fn symmetric<const S: usize>(half: &[f64]) -> [f64; S] {
 }
 
 impl<R, const S: usize> Composition<R, S> {
-    /// The rule.
-    #[must_use]
-    pub const fn rule(&self) -> &R {
-        &self.rule
-    }
-
     const SHARES: [f64; S] = match S {
         9 => symmetric(&KAHAN_LI_6),
         17 => symmetric(&KAHAN_LI_8),
@@ -264,10 +258,7 @@ struct Summary<S> {
 impl<T: Scalar> Summary<T> {
     #[inline]
     fn new() -> Self {
-        let none = T::constant(0.0);
-        Self {
-            report: Report { iterations: 0, damped: 0, residual: none, floor: none, last_correction: none },
-        }
+        Self { report: Report::of_no_equation() }
     }
 
     #[inline]

@@ -179,8 +179,9 @@ where
         h: L::Scalar,
         _guess: Option<&SVector<L::Scalar, N>>,
     ) -> Result<StepWith<L::Scalar, N, Linearization<L::Scalar, N>>, StepError> {
-        let step = Flow::<Splitting<S>, N>::step(self, state, h, None)?;
         let prepared = Prepared::<L::Scalar, N, S>::new(self, h)?;
+        let mut kicks = Kicks { prepared: Some(prepared), force: None };
+        let step = Memory::<L, Splitting<S>, N>::advance(&mut kicks, self, state, h)?;
         Ok((step, Linearization { a: prepared.derivative(self, state)?, b: StateBy::zero() }))
     }
 }
@@ -386,8 +387,6 @@ where
             system.verify_segment(&state.q, &velocity, h)?;
         }
         self.force = Some((end.q, force));
-        let none = L::Scalar::constant(0.0);
-        let report = Report { iterations: 0, damped: 0, residual: none, floor: none, last_correction: none };
-        Ok(Step { state: end, velocity, report })
+        Ok(Step { state: end, velocity, report: Report::of_no_equation() })
     }
 }

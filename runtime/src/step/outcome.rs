@@ -36,6 +36,15 @@ pub struct Report<S> {
     pub last_correction: S,
 }
 
+impl<S: Scalar> Report<S> {
+    /// Of a step for which no equation was solved.
+    #[inline]
+    pub(crate) fn of_no_equation() -> Self {
+        let none = S::zero();
+        Self { iterations: 0, damped: 0, residual: none, floor: none, last_correction: none }
+    }
+}
+
 /// A step taken: the new state, the mean velocity over the segment, and how the solver fared.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Step<S, const N: usize> {

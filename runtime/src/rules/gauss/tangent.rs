@@ -46,19 +46,17 @@ impl<T: Scalar, const N: usize, const S: usize, const K: usize> Source<T, N, S, 
         locals: &[Local<T, N>; S],
         factored: &Factored<T, N, S>,
     ) -> Result<Tangent<T, N, S, K>, StepError> {
-        let source = self;
-        let rate: StageColumns<T, N, S, K> =
-            array::from_fn(|j| source.rate[j] + locals[j].rate_by_q * source.q0);
+        let rate: StageColumns<T, N, S, K> = array::from_fn(|j| self.rate[j] + locals[j].rate_by_q * self.q0);
         let v = factored.solve(&array::from_fn(|i| {
-            let own = source.p0 - source.momentum[i] - locals[i].momentum_by_q * source.q0;
+            let own = self.p0 - self.momentum[i] - locals[i].momentum_by_q * self.q0;
             (0..S).fold(own, |sum, j| sum + rate[j] * problem.share(i, j))
         }));
         let q: StageColumns<T, N, S, K> =
-            array::from_fn(|i| (0..S).fold(source.q0, |sum, j| sum + v[j] * problem.share(i, j)));
-        let mut end = StateBy { q: source.q0, p: source.p0 };
+            array::from_fn(|i| (0..S).fold(self.q0, |sum, j| sum + v[j] * problem.share(i, j)));
+        let mut end = StateBy { q: self.q0, p: self.p0 };
         for (i, local) in locals.iter().enumerate() {
             end.q += v[i] * problem.steps[i];
-            end.p += (local.rate_by_q * q[i] + local.rate_by_v * v[i] + source.rate[i]) * problem.steps[i];
+            end.p += (local.rate_by_q * q[i] + local.rate_by_v * v[i] + self.rate[i]) * problem.steps[i];
         }
         StepError::require_finite(&end.q, Quantity::Derivatives)?;
         StepError::require_finite(&end.p, Quantity::Derivatives)?;
