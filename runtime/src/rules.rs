@@ -5,6 +5,7 @@ mod damped_drift;
 mod displacement;
 mod fitted;
 mod fitted_trapezoidal;
+mod force_work;
 mod gauss;
 mod joint;
 mod midpoint;

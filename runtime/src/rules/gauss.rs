@@ -7,6 +7,7 @@ mod curvature;
 mod double_double;
 mod fixed_point;
 mod force;
+mod force_work;
 mod history;
 mod linearised;
 mod newton;

@@ -7,7 +7,8 @@ use nalgebra::SVector;
 use crate::numbers::Scalar;
 use crate::rules::SelfAdjoint;
 use crate::step::{
-    Flow, Linearization, Memory, PhaseMatrix, Report, State, StateBy, Step, StepError, StepWith,
+    EnergyExchange, Flow, ForceWork, Linearization, Memory, PhaseMatrix, Report, State, StateBy, Step,
+    StepError, StepWith,
 };
 
 /// A composition of S substeps γ₁h, …, γ_S h of rule `R`, symmetric (γᵢ = γ_{S+1−i}) and of high order.
@@ -182,6 +183,37 @@ where
             elapsed += part;
         }
         Ok((summary.step(state, &end, h), Linearization { a, b: StateBy::zero() }))
+    }
+}
+
+/// The sum over the substeps. One backwards gives back what friction would have taken on the way.
+impl<L, R, const N: usize, const S: usize> ForceWork<Composition<R, S>, N> for L
+where
+    R: SelfAdjoint,
+    L: ForceWork<R, N>,
+{
+    fn energy_exchange(
+        &self,
+        from: &State<L::Scalar, N>,
+        _to: &State<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<EnergyExchange<L::Scalar>, StepError> {
+        if !L::IS_FORCED {
+            return Ok(EnergyExchange::zero());
+        }
+        let (mut at, mut elapsed, mut guess) = (*from, L::Scalar::constant(0.0), None);
+        let mut sum = EnergyExchange::zero();
+        for share in Composition::<R, S>::SHARES {
+            let part = L::Scalar::constant(share) * h;
+            let (step, exchange) = self.later(elapsed, |system| {
+                let step = Flow::<R, N>::step(system, &at, part, guess.as_ref())?;
+                ForceWork::<R, N>::energy_exchange(system, &at, &step.state, part).map(|of| (step, of))
+            })?;
+            sum = sum + exchange;
+            (at, guess) = (step.state, Some(step.velocity));
+            elapsed += part;
+        }
+        Ok(sum)
     }
 }
 

@@ -1,5 +1,7 @@
 //! High order from kicks and exact drifts: Runge–Kutta–Nyström splittings.
 
+mod force_work;
+
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::Scalar;
@@ -280,6 +282,17 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
         (State { q, p: p + force * closing + self.shift }, force)
     }
 
+    /// The matrices of the i-th drift.
+    fn drift(&self, i: usize) -> Drift<SMatrix<T, N, N>> {
+        match &self.drifts {
+            Drifts::Full(drifts) => drifts[i],
+            Drifts::Diagonal(drifts) => Drift {
+                displacement: SMatrix::from_diagonal(&drifts[i].displacement),
+                loss: SMatrix::from_diagonal(&drifts[i].loss),
+            },
+        }
+    }
+
     /// ∂(q1, p1)/∂(q0, p0) of the step from `state`.
     fn derivative<L: Explicit<N, Scalar = T>>(
         &self,
@@ -300,13 +313,7 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
                 break;
             }
             p += (system.configuration_force(&q) - self.thrust) * kick;
-            let Drift { displacement, loss } = match &self.drifts {
-                Drifts::Full(drifts) => drifts[i],
-                Drifts::Diagonal(drifts) => Drift {
-                    displacement: SMatrix::from_diagonal(&drifts[i].displacement),
-                    loss: SMatrix::from_diagonal(&drifts[i].loss),
-                },
-            };
+            let Drift { displacement, loss } = self.drift(i);
             a.q_by_q += displacement * a.p_by_q;
             a.q_by_p += displacement * a.p_by_p;
             a.p_by_q = (identity + loss) * a.p_by_q;

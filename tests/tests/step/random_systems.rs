@@ -371,7 +371,7 @@ fn remainder(system: &Masses, start: State<f64, 2>, h: f64) -> Result<(f64, f64)
     let (mut state, mut ledger, mut size) = (start, EnergyLedger::default(), 0.0);
     for _ in 0..10 {
         let Ok(step) = system_step(system, &state, h) else { break };
-        let entry = EnergyLedger::of(system, &state, &step.state, h);
+        let entry = system.by(Midpoint, h).ledger(&state, &step.state);
         let entry = entry.map_err(|error| TestCaseError::fail(error.to_string()))?;
         for at in [&state, &step.state] {
             let v = at.velocity(system).map_err(|error| TestCaseError::fail(error.to_string()))?;

@@ -1,0 +1,61 @@
+//! What forces do over a step: friction in the drifts, exactly, a general force in the kicks.
+
+use nalgebra::SVector;
+
+use super::{Drift, Prepared, Splitting};
+use crate::numbers::{NewtonMatrix, Scalar};
+use crate::run::Explicit;
+use crate::step::{EnergyExchange, ForceWork, State, StepError};
+
+/// ```text
+/// dissipated = Σ [½ pᵀM⁻¹p before a drift − ½ pᵀM⁻¹p after it] + (q1 − q0)·∂R/∂v(0)
+/// work       = Σ bᵢh f(qᵢ)·M⁻¹(p before + p after a kick)/2
+/// ```
+///
+/// with p less ∂L/∂v(0). A drift backwards gives back what friction would have taken on the way.
+impl<L, const N: usize, const S: usize> ForceWork<Splitting<S>, N> for L
+where
+    L: Explicit<N>,
+{
+    fn energy_exchange(
+        &self,
+        from: &State<L::Scalar, N>,
+        to: &State<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Result<EnergyExchange<L::Scalar>, StepError> {
+        if !L::IS_FORCED {
+            return Ok(EnergyExchange::zero());
+        }
+        let prepared = Prepared::<L::Scalar, N, S>::new(self, h)?;
+        let rest: SVector<L::Scalar, N> = nalgebra::zero();
+        let mass = self.lagrangian_derivatives(&rest, &rest).d22;
+        let half = L::Scalar::constant(0.5);
+        // What an impulse Δp takes from or brings to ½ pᵀM⁻¹p of which it is a part: Δp·M⁻¹(p + Δp/2).
+        let along = |impulse: &SVector<L::Scalar, N>, middle: &SVector<L::Scalar, N>| {
+            let v = mass.solve(middle);
+            v.map(|v| impulse.dot(&v))
+                .map_err(|singular| StepError::MassNotPositiveDefinite { column: singular.column })
+        };
+        let mut exchange =
+            EnergyExchange { dissipated: (to.q - from.q).dot(&prepared.thrust), ..EnergyExchange::zero() };
+        let (mut q, mut p) = (from.q, from.p - prepared.shift);
+        for i in 0..=S {
+            let kick = prepared.kicks[i % S];
+            let impulse = (self.configuration_force(&q) - prepared.thrust) * kick;
+            if L::HAS_FORCE {
+                let force = self.general_force(&q, &rest) * kick;
+                exchange.work += along(&force, &(p + impulse * half))?;
+            }
+            p += impulse;
+            if i == S {
+                break;
+            }
+            let Drift { displacement, loss } = prepared.drift(i);
+            let lost = loss * p;
+            exchange.dissipated -= along(&lost, &(p + lost * half))?;
+            q += displacement * p;
+            p += lost;
+        }
+        Ok(exchange)
+    }
+}

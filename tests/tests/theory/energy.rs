@@ -1,0 +1,370 @@
+//! The energy ledger: each method's own account of what forces did, against an integration beside it.
+
+use dalembert::nalgebra::{SVector, vector};
+use dalembert::rules::{DisplacementRule, Node, Quadrature};
+use dalembert::step::{Discretised, ForceWork, Quantity};
+use dalembert::{
+    Composition, Discretise, EnergyLedger, Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, Splitting,
+    State, StepError, Trapezoidal, rayleigh_system,
+};
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
+
+/// A damped pendulum of unit mass and length.
+#[rayleigh_system(rule = [midpoint, gauss])]
+fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
+}
+
+/// Σ of the ledger over `steps` steps.
+fn account<L, M, const N: usize>(
+    by: Discretised<'_, L, M, N>,
+    start: State<f64, N>,
+    steps: usize,
+) -> EnergyLedger<f64>
+where
+    L: ForceWork<M, N, Scalar = f64>,
+{
+    let (mut sum, mut state) = (EnergyLedger::default(), start);
+    for _ in 0..steps {
+        let next = by.step(&state).unwrap().state;
+        sum += by.ledger(&state, &next).unwrap();
+        state = next;
+    }
+    sum
+}
+
+#[test]
+fn a_gauss_rule_loses_what_friction_takes() {
+    let system = Pendulum { r: 0.3 };
+    let start = State::from_velocity(&system, [1.0], [0.0]).unwrap();
+    let by = system.by(Gauss::<4>, 0.1);
+    let own = account(by, start, 100);
+    assert!(own.dissipated > 0.3 && own.remainder().abs() < 1e-9, "{own:?}");
+    assert!(account(system.by(Midpoint, 0.1), start, 100).remainder().abs() > 1e-6);
+
+    // The control: the drag at the mean velocities, r h v̄² a step, is low by r h³q̈²/12.
+    let (mut low, mut predicted, mut state) = (0.0, 0.0, start);
+    for _ in 0..100 {
+        let next = by.step(&state).unwrap().state;
+        let d = next.q[0] - state.q[0];
+        low += 0.3 * d * d / 0.1;
+        let middle = by.with_step(0.05).step(&state).unwrap().state;
+        predicted -= 0.3 * 1e-3 * (middle.q[0].sin() + 0.3 * middle.p[0]).powi(2) / 12.0;
+        state = next;
+    }
+    let missed = low - own.dissipated;
+    assert!(missed < -1e-4 && (missed / predicted - 1.0).abs() < 0.01, "{missed:e} {predicted:e}");
+}
+
+/// Two bodies, a nonlinear spring between, linear damping with cross terms, a force that depends on q and on v.
+#[derive(Clone, Copy, Debug)]
+struct Bodies {
+    m: [f64; 2],
+    k: [f64; 2],
+    c: [f64; 3],
+    cubic: f64,
+    swirl: f64,
+    pump: f64,
+}
+
+impl Bodies {
+    fn any(random: &mut StdRng) -> Self {
+        let mut from = |low: f64, high: f64| random.random_range(low..high);
+        let c = [from(0.1, 0.5), from(-0.1, 0.1), from(0.1, 0.5)];
+        Self {
+            m: [from(0.5, 2.0), from(0.5, 2.0)],
+            k: [from(0.5, 1.5), from(0.2, 1.0)],
+            c,
+            cubic: from(0.05, 0.2),
+            swirl: from(0.1, 0.4),
+            pump: from(0.05, 0.2),
+        }
+    }
+
+    /// −∇V, ∂R/∂v, f, by hand; of `model` 0: linear drag alone, 1: f(q) as well, 2: all.
+    fn forces(&self, model: usize, q: [f64; 2], v: [f64; 2]) -> [[f64; 2]; 3] {
+        let d = self.k[1] * (q[0] - q[1]).powi(3);
+        let [a, b, c] = self.c;
+        let mut drag = [a * v[0] + b * v[1], b * v[0] + c * v[1]];
+        let mut force = [0.0; 2];
+        if model > 0 {
+            force = [-self.swirl * q[1], self.swirl * q[0]];
+        }
+        if model > 1 {
+            drag[0] += self.cubic * v[0].powi(3);
+            force[1] += self.pump * v[0];
+        }
+        [[-self.k[0] * q[0] - d, -self.k[0] * q[1] + d], drag, force]
+    }
+
+    /// dissipated and work over the time T, by the classical Runge–Kutta method for all of (q, v, ∫ v·∂R/∂v, ∫ v·f).
+    fn exact(&self, model: usize, start: &State<f64, 2>, time: f64) -> [f64; 2] {
+        const STEPS: usize = 4000;
+        let rate = |y: &SVector<f64, 6>| {
+            let (q, v) = ([y[0], y[1]], [y[2], y[3]]);
+            let [spring, drag, force] = self.forces(model, q, v);
+            let a = |i: usize| (spring[i] - drag[i] + force[i]) / self.m[i];
+            let along = |f: [f64; 2]| v[0] * f[0] + v[1] * f[1];
+            SVector::from([v[0], v[1], a(0), a(1), along(drag), along(force)])
+        };
+        let h = time / STEPS as f64;
+        let v = [start.p[0] / self.m[0], start.p[1] / self.m[1]];
+        let mut y = SVector::from([start.q[0], start.q[1], v[0], v[1], 0.0, 0.0]);
+        for _ in 0..STEPS {
+            let k1 = rate(&y);
+            let k2 = rate(&(y + k1 * (h / 2.0)));
+            let k3 = rate(&(y + k2 * (h / 2.0)));
+            let k4 = rate(&(y + k3 * h));
+            y += (k1 + k2 * 2.0 + k3 * 2.0 + k4) * (h / 6.0);
+        }
+        [y[4], y[5]]
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Damped(Bodies);
+
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss, fitted, fitted_trapezoidal, one_sided])]
+impl Damped {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let d = q[0] - q[1];
+        0.5 * (self.0.m[0] * v[0] * v[0] + self.0.m[1] * v[1] * v[1])
+            - 0.5 * self.0.k[0] * (q[0] * q[0] + q[1] * q[1])
+            - 0.25 * self.0.k[1] * d * d * d * d
+    }
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        let [a, b, c] = self.0.c;
+        0.5 * (a * v[0] * v[0] + 2.0 * b * v[0] * v[1] + c * v[1] * v[1])
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Stirred(Bodies);
+
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
+impl Stirred {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let d = q[0] - q[1];
+        0.5 * (self.0.m[0] * v[0] * v[0] + self.0.m[1] * v[1] * v[1])
+            - 0.5 * self.0.k[0] * (q[0] * q[0] + q[1] * q[1])
+            - 0.25 * self.0.k[1] * d * d * d * d
+    }
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        let [a, b, c] = self.0.c;
+        0.5 * (a * v[0] * v[0] + 2.0 * b * v[0] * v[1] + c * v[1] * v[1])
+    }
+    fn force(&self, q: [f64; 2], _v: [f64; 2]) -> [f64; 2] {
+        [-self.0.swirl * q[1], self.0.swirl * q[0]]
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Pumped(Bodies);
+
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
+impl Pumped {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let d = q[0] - q[1];
+        0.5 * (self.0.m[0] * v[0] * v[0] + self.0.m[1] * v[1] * v[1])
+            - 0.5 * self.0.k[0] * (q[0] * q[0] + q[1] * q[1])
+            - 0.25 * self.0.k[1] * d * d * d * d
+    }
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        let [a, b, c] = self.0.c;
+        0.5 * (a * v[0] * v[0] + 2.0 * b * v[0] * v[1] + c * v[1] * v[1]) + 0.25 * self.0.cubic * v[0].powi(4)
+    }
+    fn force(&self, q: [f64; 2], v: [f64; 2]) -> [f64; 2] {
+        [-self.0.swirl * q[1], self.0.swirl * q[0] + self.0.pump * v[0]]
+    }
+}
+
+/// Simpson's rule, of one's own.
+#[derive(Clone, Copy)]
+struct Simpson;
+
+impl DisplacementRule for Simpson {
+    const NODES: &'static [Node] = &[
+        Node { position: 0.0, weight: 1.0 / 6.0 },
+        Node { position: 0.5, weight: 2.0 / 3.0 },
+        Node { position: 1.0, weight: 1.0 / 6.0 },
+    ];
+}
+
+const TIME: f64 = 2.0;
+
+/// Dissipated and work by `method` fall to those of the motion as h^`order`, and so does the remainder.
+fn assert_order<L, M>(
+    name: &str,
+    system: &L,
+    method: M,
+    (exact, start): ([f64; 2], State<f64, 2>),
+    order: i32,
+    steps: usize,
+) where
+    L: Discretise<2> + ForceWork<M, 2, Scalar = f64>,
+    M: Copy,
+{
+    let missed = |steps: usize| {
+        let sum = account(system.by(method, TIME / steps as f64), start, steps);
+        [sum.dissipated - exact[0], sum.work - exact[1], sum.remainder()].map(f64::abs)
+    };
+    let (wide, narrow) = (missed(steps), missed(2 * steps));
+    for (what, (wide, narrow)) in ["dissipated", "work", "remainder"].iter().zip(wide.into_iter().zip(narrow))
+    {
+        // Errors may cancel at one step size; below 1e-11 the reference is no better.
+        let bound = wide.max(1e-2 * (TIME / steps as f64).powi(order)) * 0.5_f64.powi(order) * 1.5 + 1e-11;
+        assert!(narrow <= bound, "{name}, {what}: {wide:e} at {steps} steps, {narrow:e} at twice as many");
+    }
+    // No sum of zeros: what friction takes is there.
+    assert!(exact[0] > 1e-3 && wide[0] < 0.2 * exact[0], "{name}: {wide:?} of {exact:?}");
+}
+
+#[test]
+fn every_method_takes_account_to_its_order() {
+    let mut random = StdRng::seed_from_u64(20);
+    for _ in 0..5 {
+        let bodies = Bodies::any(&mut random);
+        let start = State {
+            q: vector![random.random_range(-1.0..1.0), random.random_range(-1.0..1.0)],
+            p: vector![random.random_range(-1.0..1.0), random.random_range(-1.0..1.0)],
+        };
+        let reference = |model| (bodies.exact(model, &start, TIME), start);
+        let (damped, stirred, pumped) = (Damped(bodies), Stirred(bodies), Pumped(bodies));
+        macro_rules! orders {
+            ($($system:ident, $model:literal: $($method:expr => $order:literal in $steps:literal),+;)*) => {$($(
+                let name = concat!(stringify!($system), " by ", stringify!($method));
+                assert_order(name, &$system, $method, reference($model), $order, $steps);
+            )+)*};
+        }
+        orders! {
+            damped, 0: Midpoint => 2 in 40, Trapezoidal => 2 in 40, Fitted => 2 in 40, FittedTrapezoidal => 2 in 40,
+                OneSided => 1 in 80, Quadrature(Simpson) => 2 in 40, Gauss::<2> => 4 in 10, Gauss::<3> => 6 in 6,
+                Splitting::blanes_moan_4() => 4 in 6, Splitting::blanes_moan_6() => 6 in 4,
+                Composition::kahan_li_6(Midpoint) => 6 in 10, Composition::kahan_li_6(FittedTrapezoidal) => 6 in 10,
+                Composition::kahan_li_8(Trapezoidal) => 8 in 8;
+            stirred, 1: Midpoint => 2 in 40, Trapezoidal => 2 in 40, Gauss::<2> => 4 in 10,
+                Splitting::blanes_moan_4() => 4 in 6, Splitting::blanes_moan_6() => 6 in 4;
+            pumped, 2: Midpoint => 2 in 40, Trapezoidal => 2 in 40, Quadrature(Simpson) => 2 in 40,
+                Gauss::<2> => 4 in 10, Gauss::<3> => 6 in 6, Composition::kahan_li_6(Midpoint) => 6 in 10;
+        }
+    }
+}
+
+/// L of second degree: what the midpoint and the Gauss rules do to the energy is what forces do, whatever they are.
+#[rayleigh_system(rule = [midpoint, gauss])]
+fn buffer(q: [f64; 1], v: [f64; 1], k: f64, dry: f64) -> (f64, f64) {
+    (
+        0.5 * v[0] * v[0] - 0.5 * k * q[0] * q[0] - 0.3 * q[0],
+        dry * (v[0] * v[0] + 0.1).sqrt() + 0.2 * v[0].powi(4),
+    )
+}
+
+#[test]
+fn nothing_remains_where_energy_is_of_second_degree() {
+    let system = Buffer { k: 1.7, dry: 0.2 };
+    let start = State::from_velocity(&system, [1.0], [0.4]).unwrap();
+    macro_rules! nothing_remains {
+        ($($method:expr),+) => {$(
+            let sum = account(system.by($method, 0.4), start, 50);
+            assert!(sum.dissipated > 0.5 && sum.remainder().abs() < 1e-13, "{}: {sum:?}", stringify!($method));
+        )+};
+    }
+    nothing_remains!(
+        Midpoint,
+        Gauss::<1>,
+        Gauss::<2>,
+        Gauss::<5>,
+        Gauss::<8>,
+        Composition::kahan_li_6(Midpoint)
+    );
+}
+
+/// Damping however stiff, a constant force, and friction with a term of first degree.
+#[rayleigh_system(rule = [trapezoidal, fitted, fitted_trapezoidal])]
+fn sled(q: [f64; 2], v: [f64; 2], r: f64, g: f64, s: f64) -> (f64, f64) {
+    let (a, b) = (v[0], v[1]);
+    (
+        0.5 * (a * a + 0.6 * a * b + 2.0 * b * b) + g * (q[0] - q[1]),
+        0.5 * r * (a * a + a * b + 2.0 * b * b) + s * a,
+    )
+}
+
+#[test]
+fn a_drift_takes_what_it_takes_exactly() {
+    for r in [1e-6, 0.3, 3.0, 300.0] {
+        let free = Sled { r, g: 0.0, s: 0.0 };
+        let start = State::from_velocity(&free, [0.0, 0.0], [1.0, -0.4]).unwrap();
+        let kinetic = start.energy(&free).unwrap();
+        macro_rules! nothing_remains {
+            ($system:expr, $($method:expr),+) => {$(
+                let sum = account($system.by($method, 0.2), start, 10);
+                let size = kinetic + sum.dissipated.abs() + sum.change.abs();
+                assert!(sum.remainder().abs() < 1e-13 * size, "{}, r = {r}: {sum:?}", stringify!($method));
+            )+};
+        }
+        nothing_remains!(free, Fitted, FittedTrapezoidal, Splitting::blanes_moan_4());
+        if r < 100.0 {
+            nothing_remains!(free, Splitting::blanes_moan_6());
+        }
+        // Under a constant force the fitted midpoint rule is exact too, up to its terminal velocity.
+        nothing_remains!(Sled { r, g: 0.7, s: 0.0 }, Fitted);
+        nothing_remains!(Sled { r, g: 0.7, s: 0.2 }, Fitted);
+        nothing_remains!(Sled { r, g: 0.0, s: 0.0 }, Fitted);
+    }
+}
+
+/// Of steps that are exact to rounding, what the account from the ends alone leaves is its own: h⁴.
+#[test]
+fn from_the_ends_alone_the_account_is_of_order_4() {
+    let mut random = StdRng::seed_from_u64(3);
+    let system = Pumped(Bodies::any(&mut random));
+    let start = State { q: vector![0.8, -0.3], p: vector![0.2, 0.9] };
+    let remainder = |steps: usize| {
+        let h = TIME / steps as f64;
+        let (mut sum, mut state) = (EnergyLedger::default(), start);
+        for _ in 0..steps {
+            let next = system.by(Gauss::<8>, h).step(&state).unwrap().state;
+            sum += EnergyLedger::of(&system, &state, &next, h).unwrap();
+            state = next;
+        }
+        sum.remainder()
+    };
+    let order = (remainder(16) / remainder(32)).log2();
+    assert!((order - 4.0).abs() < 0.2, "{order}");
+}
+
+#[test]
+fn bad_input_has_a_name() {
+    let system = Pendulum { r: 0.3 };
+    let start = State::from_velocity(&system, [1.0], [0.0]).unwrap();
+    let end = system.by(Midpoint, 0.1).step(&start).unwrap().state;
+    let nan = State { p: vector![f64::NAN], ..end };
+    let far = State { q: vector![1e308], p: vector![1e308] };
+    assert!(matches!(system.by(Midpoint, 0.0).ledger(&start, &end), Err(StepError::StepSize { .. })));
+    assert!(matches!(EnergyLedger::of(&system, &start, &end, f64::NAN), Err(StepError::StepSize { .. })));
+    for of in [&nan, &far] {
+        let ledgers = [
+            system.by(Midpoint, 0.1).ledger(&start, of),
+            system.by(Gauss::<2>, 0.1).ledger(&start, of),
+            system.by(Gauss::<2>, 0.1).ledger(of, &end),
+            EnergyLedger::of(&system, &start, of, 0.1),
+        ];
+        for ledger in ledgers {
+            assert!(
+                matches!(ledger, Err(StepError::NonFinite { quantity, .. }) if quantity != Quantity::Velocity),
+                "{ledger:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_reference_is_right_where_there_is_a_closed_form() {
+    // One body of mass 1 that nothing but linear drag acts on loses ½(1 − e^{−2ct}).
+    let bodies =
+        Bodies { m: [1.0, 1.0], k: [0.0, 0.0], c: [0.3, 0.0, 0.2], cubic: 0.0, swirl: 0.0, pump: 0.0 };
+    let start = State { q: vector![0.0, 0.0], p: vector![1.0, 0.0] };
+    let [dissipated, work] = bodies.exact(0, &start, TIME);
+    assert!((dissipated - 0.5 * (1.0 - (-0.6 * TIME).exp())).abs() < 1e-13 && work == 0.0);
+}
