@@ -2,6 +2,7 @@
 //!
 //! Uses numbers and systems. What rules there are, it does not know.
 
+mod defect;
 mod discrete;
 mod discrete_force;
 mod discrete_rayleigh;
@@ -25,6 +26,8 @@ mod state;
 mod velocity_history;
 
 pub use crate::numbers::{Banded, NewtonMatrix, Singular};
+pub use defect::Defect;
+pub(crate) use defect::Pairing;
 pub use discrete::Discrete;
 pub use discrete_force::{DiscreteForce, DiscreteForceDerivatives};
 pub use discrete_rayleigh::DiscreteRayleigh;

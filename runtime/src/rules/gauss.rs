@@ -4,6 +4,7 @@
 
 mod coefficients;
 mod curvature;
+mod defect;
 mod double_double;
 mod fixed_point;
 mod force;
@@ -21,11 +22,11 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{Derivatives, Scalar, lanes::splat};
 use crate::step::{
-    Discrete, DiscreteForce, DiscreteForceDerivatives, EquationAt, Flow, LegendreDerivatives, Linearization,
-    Momenta, Quantity, Report, State, StateBy, Step, StepError, StepKernel,
+    Defect, Discrete, DiscreteForce, DiscreteForceDerivatives, EquationAt, Flow, LegendreDerivatives,
+    Linearization, Momenta, Quantity, Report, State, StateBy, Step, StepError, StepKernel,
     newton::{ITERATIONS, along_h},
 };
-use crate::system::{ForcedLagrangian, GeneratedDiffers};
+use crate::system::{ForcedLagrangian, GeneratedDiffers, VectorField};
 use coefficients::Coefficients;
 pub use history::StageHistory;
 use problem::{Compensated, Problem, Solution};
@@ -167,6 +168,35 @@ where
         h: T,
     ) -> DiscreteForceDerivatives<T, N> {
         force::force_derivatives::<_, L, N, S>(self, q0, q1, h)
+    }
+
+    const HAS_INTERIOR_POINTS: bool = true;
+
+    fn defect(
+        &self,
+        xi: &dyn VectorField<N, Scalar = T>,
+        q0: &SVector<T, N>,
+        q1: &SVector<T, N>,
+        h: T,
+    ) -> (Defect<T>, Defect<T>) {
+        defect::at_the_stages::<_, _, N, S>(self, xi, (q0, q1), h).unwrap_or_else(|_| {
+            let none = Defect { lagrangian: nan(), force: nan(), interior: nan() };
+            (none, none)
+        })
+    }
+
+    fn force_contraction(
+        &self,
+        xi: &dyn VectorField<N, Scalar = T>,
+        q0: &SVector<T, N>,
+        q1: &SVector<T, N>,
+        h: T,
+        component: &mut dyn FnMut(T, T),
+    ) {
+        match Segment::<'_, L, N, S>::new(self, q0, &((q1 - q0) / h), h) {
+            Ok(segment) => defect::force_contraction(&segment, xi, component),
+            Err(_) => (0..2 * N * S).for_each(|_| component(nan(), nan())),
+        }
     }
 
     fn step_kernel(&self, q0: &SVector<T, N>, v: &SVector<T, N>, h: T) -> StepKernel<T, N> {

@@ -10,11 +10,12 @@
 use nalgebra::SVector;
 
 use crate::numbers::{Derivatives, NewtonMatrix, determinant_sign};
+use crate::step::defect;
 use crate::step::{
-    DiscreteForce, DiscreteForceDerivatives, EquationAt, Flow, LegendreDerivatives, Linearization, Memory,
-    Momenta, Quantity, State, Step, StepError, StepKernel,
+    Defect, DiscreteForce, DiscreteForceDerivatives, EquationAt, Flow, LegendreDerivatives, Linearization,
+    Memory, Momenta, Quantity, State, Step, StepError, StepKernel,
 };
-use crate::system::GeneratedDiffers;
+use crate::system::{GeneratedDiffers, VectorField};
 
 /// A system discretised by rule `R`: L_d, f_d and what follows from them.
 ///
@@ -99,6 +100,36 @@ pub trait Discrete<R, const N: usize>: Flow<R, N> {
         _h: Self::Scalar,
     ) -> DiscreteForceDerivatives<Self::Scalar, N> {
         DiscreteForceDerivatives::zero()
+    }
+
+    /// Whether the rule has points between q0 and q1, eliminated by the forced equations.
+    const HAS_INTERIOR_POINTS: bool = false;
+
+    /// What `xi` does to the segment, and the sizes of the terms that each part is the sum of: NaN where one
+    /// is lost to underflow.
+    fn defect(
+        &self,
+        xi: &dyn VectorField<N, Scalar = Self::Scalar>,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> (Defect<Self::Scalar>, Defect<Self::Scalar>) {
+        let l = self.discrete_lagrangian_derivatives(q0, q1, h);
+        defect::at_the_ends(&l, &self.discrete_force(q0, q1, h), [&xi.vector(q0), &xi.vector(q1)])
+    }
+
+    /// Whether `xi` carries the force into itself: the components of ι_ξ df_d, with the sizes of their terms,
+    /// handed to `component` one by one; at each stage those of ι_ξ df_L where the rule has interior points.
+    fn force_contraction(
+        &self,
+        xi: &dyn VectorField<N, Scalar = Self::Scalar>,
+        q0: &SVector<Self::Scalar, N>,
+        q1: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+        component: &mut dyn FnMut(Self::Scalar, Self::Scalar),
+    ) {
+        let f = self.discrete_force_derivatives(q0, q1, h);
+        defect::contraction(&f, [&xi.vector(q0), &xi.vector(q1)], component);
     }
 
     /// f_d⁻(q0, q1), a covector at q0.

@@ -15,6 +15,17 @@
 //! J is conserved iff the defect vanishes: a symmetry of L_d on which the force does no work, or the two
 //! cancelling.
 //!
+//! **Rules with interior points**, [`Gauss`](crate::Gauss): the forced equations eliminate those points, so that
+//! ξ(L_d) and f_d(ξ) mix what L and the force do; only their sum is J⁺ − J⁻. There the causes are taken at the
+//! stages,
+//!
+//! ```text
+//! J⁺ − J⁻ = h Σ bᵢ ξ(L)(Qᵢ, Vᵢ) + h Σ bᵢ f_L·ξ(Qᵢ)               ξ affine, ξ(q) = A q + b
+//! ```
+//!
+//! with ξ(L) = ∂L/∂q·ξ + ∂L/∂v·Dξ v: a symmetry of L on which the force does no work keeps J to rounding. Of
+//! other ξ a third part is left, [`Defect::interior`], of the rule's order.
+//!
 //! Beware of how a force is discretised. A force that does no work along ξ, f(q, v)·ξ(q) = 0, does none along
 //! it in the midpoint rule either when ξ is affine; the same force taken from a Rayleigh function R(q, v)
 //! does, to order h³ a step, through ∂R/∂q: f_d(ξ) = D1 R_d·ξ(q0) − D2 R_d·ξ(q1) does not vanish for an
@@ -57,6 +68,7 @@ use crate::theory::{
     verdict::largest,
 };
 
+pub use crate::step::Defect;
 pub use balance::Balance;
 pub use closure::Closure;
 pub use generator::{Generator, bracket};
@@ -73,29 +85,11 @@ where
     tolerance: f64,
 }
 
-/// The defect J⁺ − J⁻ = ξ(L_d) + f_d(ξ), split into its causes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Defect<S> {
-    /// ξ(L_d): how far L_d is from invariant.
-    pub lagrangian: S,
-    /// f_d(ξ): the work of the discrete force along ξ.
-    pub force: S,
-}
-
-impl<S: Scalar> Defect<S> {
-    /// ξ(L_d) + f_d(ξ).
-    #[must_use]
-    pub fn total(&self) -> S {
-        self.lagrangian + self.force
-    }
-}
-
 /// One row of the checkers: the defect and the size of the terms that it is a sum of.
 #[derive(Clone, Copy)]
 struct Terms {
     defect: Defect<f64>,
-    lagrangian_scale: f64,
-    force_scale: f64,
+    size: Defect<f64>,
 }
 
 impl<L, R, const N: usize> Noether<'_, L, R, N>
@@ -130,14 +124,14 @@ where
         self.by.system.legendre_plus(q0, q1, self.by.h).p.dot(&generator.vector(q1))
     }
 
-    /// ξ(L_d) and f_d(ξ) at (q0, q1).
+    /// J⁺ − J⁻ of the segment (q0, q1), by its causes.
     pub fn defect(
         &self,
         generator: &impl VectorField<N, Scalar = L::Scalar>,
         q0: &SVector<L::Scalar, N>,
         q1: &SVector<L::Scalar, N>,
     ) -> Defect<L::Scalar> {
-        defect_of(&self.by, generator, q0, q1)
+        self.by.system.defect(generator, q0, q1, self.by.h).0
     }
 
     /// The defect on the k-th segment, NaN where a product of its terms underflows.
@@ -145,51 +139,15 @@ where
         &self,
         k: usize,
         generator: &impl VectorField<N, Scalar = L::Scalar>,
-        segment: &Segment<L::Scalar, N>,
+        Segment { q0, q1 }: &Segment<L::Scalar, N>,
     ) -> Terms {
-        let Segment { q0, q1 } = segment;
-        let (l, f, defect) = at_segment(&self.by, k, |by| {
-            (
-                by.system.discrete_lagrangian_derivatives(q0, q1, by.h),
-                by.system.discrete_force(q0, q1, by.h),
-                defect_of(by, generator, q0, q1),
-            )
-        });
-        let (xi0, xi1) = (generator.vector(q0), generator.vector(q1));
-        Terms {
-            defect: Defect { lagrangian: defect.lagrangian.widen(), force: defect.force.widen() },
-            lagrangian_scale: size_of(&[(&l.d1, &xi0), (&l.d2, &xi1)]),
-            force_scale: size_of(&[(&f.minus, &xi0), (&f.plus, &xi1)]),
-        }
+        let (defect, size) = at_segment(&self.by, k, |by| by.system.defect(generator, q0, q1, by.h));
+        Terms { defect: widened(&defect), size: widened(&size) }
     }
 }
 
-/// ξ(L_d) and f_d(ξ) of a system at its time.
-fn defect_of<L: Discrete<R, N>, R, const N: usize>(
-    by: &Discretised<'_, L, R, N>,
-    generator: &impl VectorField<N, Scalar = L::Scalar>,
-    q0: &SVector<L::Scalar, N>,
-    q1: &SVector<L::Scalar, N>,
-) -> Defect<L::Scalar> {
-    let l = by.system.discrete_lagrangian_derivatives(q0, q1, by.h);
-    let f = by.system.discrete_force(q0, q1, by.h);
-    let (xi0, xi1) = (generator.vector(q0), generator.vector(q1));
-    Defect { lagrangian: l.d1.dot(&xi0) + l.d2.dot(&xi1), force: f.minus.dot(&xi0) + f.plus.dot(&xi1) }
-}
-
-/// Σ|aᵢ||bᵢ|; NaN where a product is lost to underflow, since nothing can be said of its value then.
-fn size_of<S: Scalar, const N: usize>(products: &[(&SVector<S, N>, &SVector<S, N>)]) -> f64 {
-    let mut sum = S::zero();
-    for (a, b) in products {
-        for (a, b) in a.iter().zip(b.iter()) {
-            let product = a.abs() * b.abs();
-            if product < S::SMALLEST_NORMAL && *a != S::zero() && *b != S::zero() {
-                return f64::NAN;
-            }
-            sum += product;
-        }
-    }
-    sum.widen()
+fn widened<S: Scalar>(of: &Defect<S>) -> Defect<f64> {
+    Defect { lagrangian: of.lagrangian.widen(), force: of.force.widen(), interior: of.interior.widen() }
 }
 
 /// Whether ξ moves an end of the segment.

@@ -2,7 +2,7 @@
 
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::rules::{DisplacementRule, Node, Quadrature};
-use dalembert::step::{Discretised, ForceWork, Quantity};
+use dalembert::step::{Discretised, EnergyExchange, ForceWork, Quantity};
 use dalembert::{
     Composition, Discretise, EnergyLedger, Fitted, FittedTrapezoidal, Gauss, Midpoint, OneSided, Splitting,
     State, StepError, Trapezoidal, rayleigh_system,
@@ -312,6 +312,26 @@ fn a_drift_takes_what_it_takes_exactly() {
         nothing_remains!(Sled { r, g: 0.7, s: 0.2 }, Fitted);
         nothing_remains!(Sled { r, g: 0.0, s: 0.0 }, Fitted);
     }
+}
+
+#[test]
+fn a_composition_adds_up_its_substeps() {
+    let system = Pendulum { r: 0.3 };
+    let composition = Composition::kahan_li_6(Midpoint);
+    let start = State::from_velocity(&system, [1.0], [0.0]).unwrap();
+    let by = system.by(composition, 0.5);
+    let whole = by.ledger(&start, &by.step(&start).unwrap().state).unwrap();
+    let (mut sum, mut state) = (EnergyExchange::zero(), start);
+    for share in composition.shares() {
+        let part = system.by(Midpoint, 0.5 * share);
+        let next = part.step(&state).unwrap().state;
+        let entry = part.ledger(&state, &next).unwrap();
+        // Backwards, friction gives back.
+        assert_eq!(entry.dissipated > 0.0, *share > 0.0);
+        sum = sum + EnergyExchange { dissipated: entry.dissipated, work: entry.work };
+        state = next;
+    }
+    assert!((sum.dissipated - whole.dissipated).abs() < 1e-14 && whole.dissipated > 1e-3 && sum.work == 0.0);
 }
 
 /// Of steps that are exact to rounding, what the account from the ends alone leaves is its own: h⁴.

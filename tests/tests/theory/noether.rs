@@ -4,6 +4,7 @@ mod angular_momentum;
 mod balance;
 mod cancellation;
 mod identity;
+mod interior_points;
 mod radial_friction;
 mod subalgebra;
 mod translation;

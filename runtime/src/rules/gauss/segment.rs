@@ -222,7 +222,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     }
 
     /// h Σ b_i (∂L/∂q·DQ_i + ∂L/∂v·DV_i).
-    fn slope(&self, by: &Tangent<T, N, S, N>) -> SVector<T, N> {
+    pub(super) fn slope(&self, by: &Tangent<T, N, S, N>) -> SVector<T, N> {
         (0..S).fold(SVector::zeros(), |sum, i| {
             let local = &self.locals[i];
             sum + (by.q[i].tr_mul(&local.slope) + by.v[i].tr_mul(&local.momentum)) * self.problem.steps[i]

@@ -3,7 +3,7 @@ use core::ops::Add;
 
 use nalgebra::SVector;
 
-use super::{Defect, Generator, Noether, defect_of};
+use super::{Defect, Generator, Noether};
 use crate::numbers::Scalar;
 use crate::step::{Discrete, State, Step, StepError};
 use crate::system::VectorField;
@@ -22,7 +22,7 @@ pub struct Balance {
     pub start: f64,
     /// J at the end, ⟨p_N, ξ(q_N)⟩.
     pub end: f64,
-    /// Σ ξ(L_d) and Σ f_d(ξ) over the segments.
+    /// Σ ξ(L_d) and Σ f_d(ξ) over the segments; at the stages of rules with interior points.
     pub accumulated: Defect<f64>,
     /// Largest |J_{k+1} − J_k − defect| of one step, and the number of that step, from 0.
     pub worst_step: (f64, u64),
@@ -63,6 +63,7 @@ impl Add for Balance {
             accumulated: Defect {
                 lagrangian: self.accumulated.lagrangian + next.accumulated.lagrangian,
                 force: self.accumulated.force + next.accumulated.force,
+                interior: self.accumulated.interior + next.accumulated.interior,
             },
             // A NaN must not hide behind a comparison.
             worst_step: if later.0 > self.worst_step.0 || later.0.is_nan() { later } else { self.worst_step },
@@ -93,7 +94,7 @@ where
     /// ```
     ///
     /// what the solver left, the rounding of each term, and what rounding the configurations themselves does
-    /// to it.
+    /// to it. Of a rule with interior points pᵢ and ∂pᵢ stand for the terms of L_d and f_d.
     ///
     /// # Errors
     /// The first error among `steps`.
@@ -111,16 +112,17 @@ where
             steps: 0,
             start: j,
             end: j,
-            accumulated: Defect { lagrangian: 0.0, force: 0.0 },
+            accumulated: Defect { lagrangian: 0.0, force: 0.0, interior: 0.0 },
             worst_step: (0.0, 0),
             tolerance: ROUNDINGS * L::Scalar::EPSILON.widen() * j.abs(),
             terms: j.abs(),
         };
-        let (mut lagrangian, mut force) = (Sum::default(), Sum::default());
+        let (mut lagrangian, mut force, mut interior) = (Sum::default(), Sum::default(), Sum::default());
         for step in steps {
             let step = step?;
             let k = balance.steps as usize;
-            let defect = at_segment(&self.by, k, |by| defect_of(by, generator, &at.q, &step.state.q));
+            let defect =
+                at_segment(&self.by, k, |by| by.system.defect(generator, &at.q, &step.state.q, by.h).0);
             let next = momentum_map(&step.state);
             let off = (next - j - defect.total().widen()).abs();
             // A NaN must not hide behind a comparison.
@@ -129,6 +131,7 @@ where
             }
             lagrangian.add(defect.lagrangian.widen());
             force.add(defect.force.widen());
+            interior.add(defect.interior.widen());
             let (tolerance, terms) = self.rounding_of_step(k, generator, &at.q, &step);
             balance.tolerance += tolerance;
             balance.terms += terms;
@@ -136,7 +139,8 @@ where
             (at, j) = (step.state, next);
         }
         balance.end = j;
-        balance.accumulated = Defect { lagrangian: lagrangian.value(), force: force.value() };
+        balance.accumulated =
+            Defect { lagrangian: lagrangian.value(), force: force.value(), interior: interior.value() };
         Ok(balance)
     }
 
@@ -149,22 +153,30 @@ where
         step: &Step<L::Scalar, N>,
     ) -> (f64, f64) {
         let q1 = &step.state.q;
-        let (l, f) = at_segment(&self.by, k, |by| {
-            (
-                by.system.discrete_lagrangian_derivatives(q0, q1, by.h),
-                by.system.discrete_force_derivatives(q0, q1, by.h),
-            )
-        });
         let (xi0, xi1) = (generator.vector(q0).abs(), generator.vector(q1).abs());
         let (size0, size1) = (q0.abs(), q1.abs());
-        let at_q0 = l.d1.abs()
-            + f.minus.value.abs()
-            + (l.d11.abs() + f.minus.d1.abs()) * size0
-            + (l.d12.abs() + f.minus.d2.abs()) * size1;
-        let at_q1 = l.d2.abs()
-            + f.plus.value.abs()
-            + (l.d12.transpose().abs() + f.plus.d1.abs()) * size0
-            + (l.d22.abs() + f.plus.d2.abs()) * size1;
+        let (at_q0, at_q1) = at_segment(&self.by, k, |by| {
+            if L::HAS_INTERIOR_POINTS {
+                // Of its derivatives the sums alone are exact, and cheap.
+                let of = by.system.legendre_derivatives(q0, q1, by.h);
+                return (
+                    of.momenta.p0.abs() + of.p0_by_q0.abs() * size0 + of.p0_by_q1.abs() * size1,
+                    of.momenta.p1.abs() + of.p1_by_q0.abs() * size0 + of.p1_by_q1.abs() * size1,
+                );
+            }
+            let l = by.system.discrete_lagrangian_derivatives(q0, q1, by.h);
+            let f = by.system.discrete_force_derivatives(q0, q1, by.h);
+            (
+                l.d1.abs()
+                    + f.minus.value.abs()
+                    + (l.d11.abs() + f.minus.d1.abs()) * size0
+                    + (l.d12.abs() + f.minus.d2.abs()) * size1,
+                l.d2.abs()
+                    + f.plus.value.abs()
+                    + (l.d12.transpose().abs() + f.plus.d1.abs()) * size0
+                    + (l.d22.abs() + f.plus.d2.abs()) * size1,
+            )
+        });
         let rounding = ROUNDINGS * L::Scalar::EPSILON.widen();
         let terms = (at_q0.dot(&xi0) + at_q1.dot(&xi1)).widen();
         (terms * rounding + (step.report.residual * xi0.sum()).widen(), terms)
@@ -197,6 +209,9 @@ impl fmt::Display for Balance {
         writeln!(f, "  J_0               {:>18.10e}", self.start)?;
         writeln!(f, "  + Σ ξ(L_d)        {:>18.10e}", self.accumulated.lagrangian)?;
         writeln!(f, "  + Σ f_d(ξ)        {:>18.10e}", self.accumulated.force)?;
+        if self.accumulated.interior != 0.0 {
+            writeln!(f, "  + interior points {:>18.10e}", self.accumulated.interior)?;
+        }
         writeln!(f, "  − J_N             {:>18.10e}", -self.end)?;
         write!(
             f,

@@ -4,10 +4,9 @@ use nalgebra::{DMatrix, SVector};
 
 use super::closure::Fields;
 use super::rank::{Conditions, null_space};
-use super::{Closure, Generator, Noether, RankDecision, moves_an_end};
+use super::{Closure, Generator, Noether, RankDecision, Terms, moves_an_end};
 use crate::numbers::Scalar;
 use crate::step::Discrete;
-use crate::system::VectorField;
 use crate::theory::{
     samples::{SampleError, Segment, at_segment, require_informative, require_step_size},
     verdict::largest,
@@ -99,7 +98,8 @@ impl core::error::Error for SubalgebraError {}
 struct Row {
     lagrangian: (f64, f64),
     force: (f64, f64),
-    /// ι_ξ df_d, component by component: N at q0, then N at q1.
+    total: (f64, f64),
+    /// ι_ξ df_d, component by component: N at q0, then N at q1; at stages, where the rule has them.
     contraction: Vec<(f64, f64)>,
 }
 
@@ -110,7 +110,8 @@ where
     /// The largest subspaces of the span of `generators` that keep L_d, J and f_d, judged on `segments`.
     ///
     /// Every condition is linear in ξ and becomes rows of a matrix, one a segment (2N for ι_ξ df_d = (F −
-    /// Fᵀ)(ξ(q0), ξ(q1)), F = ∂(f_d⁻, f_d⁺)/∂(q0, q1)); the subspace is its null space, its dimension a
+    /// Fᵀ)(ξ(q0), ξ(q1)), F = ∂(f_d⁻, f_d⁺)/∂(q0, q1); 2N for each stage of a rule with interior points, where
+    /// all are taken at the stages: [`Defect`](super::Defect)); the subspace is its null space, its dimension a
     /// [`RankDecision`]. Brackets [ξ, η] = Dη ξ − Dξ η are taken at the ends of the segments and fitted
     /// by the span.
     ///
@@ -151,9 +152,9 @@ where
             };
             Conditions { values: matrix(|(value, _)| value), sizes: matrix(|(_, size)| size) }
         };
-        let sum = |row: &Row| (row.lagrangian.0 + row.force.0, row.lagrangian.1 + row.force.1);
+        let components = rows.first().and_then(|row| row.first()).map_or(0, |row| row.contraction.len());
         let contractions: Vec<_> =
-            (0..2 * N).map(|component| block(&|row| row.contraction[component])).collect();
+            (0..components).map(|component| block(&|row| row.contraction[component])).collect();
         // Norms of entries that could be squared are not sure to be finite.
         let size = |block: &Conditions| largest(block.sizes.iter().copied());
         let most = largest(contractions.iter().map(size));
@@ -173,33 +174,24 @@ where
             samples: segments.len(),
             closure: fields.closure(&all, self.tolerance + independence.uncertainty()),
             lagrangian: subspace(&[block(&|row| row.lagrangian)]),
-            conserved: subspace(&[block(&sum)]),
+            conserved: subspace(&[block(&|row| row.total)]),
             invariant: subspace(&invariance),
         })
     }
 
     fn row(&self, k: usize, xi: &Generator<L::Scalar, N>, segment: &Segment<L::Scalar, N>) -> Row {
-        let Segment { q0, q1 } = segment;
-        let terms = self.terms(k, xi, segment);
-        let f = at_segment(&self.by, k, |by| by.system.discrete_force_derivatives(q0, q1, by.h));
-        // Entry (a, b) of F, rows f⁻ then f⁺, columns q0 then q1.
-        let jacobian = |a: usize, b: usize| {
-            let covector = if a < N { &f.minus } else { &f.plus };
-            let block = if b < N { &covector.d1 } else { &covector.d2 };
-            block[(a % N, b % N)].widen()
-        };
-        let (xi0, xi1) = (xi.vector(q0), xi.vector(q1));
-        let lifted = |b: usize| if b < N { xi0[b].widen() } else { xi1[b - N].widen() };
-        let contraction = (0..2 * N).map(|a| {
-            (0..2 * N).fold((0.0, 0.0), |(value, size), b| {
-                let (ab, ba, xi) = (jacobian(a, b), jacobian(b, a), lifted(b));
-                (value + (ab - ba) * xi, size + (ab.abs() + ba.abs()) * xi.abs())
-            })
+        let Terms { defect, size } = self.terms(k, xi, segment);
+        let mut contraction = Vec::new();
+        at_segment(&self.by, k, |by| {
+            let mut component =
+                |value: L::Scalar, size: L::Scalar| contraction.push((value.widen(), size.widen()));
+            by.system.force_contraction(xi, &segment.q0, &segment.q1, by.h, &mut component);
         });
         Row {
-            lagrangian: (terms.defect.lagrangian, terms.lagrangian_scale),
-            force: (terms.defect.force, terms.force_scale),
-            contraction: contraction.collect(),
+            lagrangian: (defect.lagrangian, size.lagrangian),
+            force: (defect.force, size.force),
+            total: (defect.total(), size.total()),
+            contraction,
         }
     }
 }
@@ -219,6 +211,7 @@ fn require_finite(rows: &[Vec<Row>], fields: &Fields) -> Result<(), SampleError>
     let finite = |row: &Row| {
         row.lagrangian.1.is_finite()
             && row.force.1.is_finite()
+            && row.total.1.is_finite()
             && row.contraction.iter().all(|(_, size)| size.is_finite())
     };
     let rows = rows.iter().position(|row| !row.iter().all(finite));

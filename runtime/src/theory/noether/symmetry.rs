@@ -22,11 +22,15 @@ pub struct Symmetry<const N: usize> {
     pub h: f64,
     /// Number of segments looked at.
     pub samples: usize,
-    /// ξ(L_d).
+    /// Whether the causes are taken at the stages, as those of rules with interior points are: [`Defect`](super::Defect).
+    pub at_stages: bool,
+    /// ξ(L_d), or ξ(L) at the stages.
     pub lagrangian: Contribution<N>,
-    /// f_d(ξ).
+    /// f_d(ξ), or f_L·ξ at the stages.
     pub force: Contribution<N>,
-    /// The defect ξ(L_d) + f_d(ξ).
+    /// What interior points add; 0 where there are none.
+    pub interior: Contribution<N>,
+    /// The defect, the sum of the three.
     pub defect: Contribution<N>,
     /// (J⁺ − J⁻) − (ξ(L_d) + f_d(ξ)), an identity: where it fails, the system's momenta do not belong to its
     /// L_d and f_d.
@@ -36,13 +40,13 @@ pub struct Symmetry<const N: usize> {
 }
 
 impl<const N: usize> Symmetry<N> {
-    /// Whether ξ is a symmetry of L_d.
+    /// Whether ξ is a symmetry of L_d, or of L at the stages.
     #[must_use]
     pub fn is_symmetry_of_lagrangian(&self) -> bool {
         self.lagrangian.vanishes()
     }
 
-    /// Whether the discrete force does work along ξ.
+    /// Whether the discrete force does work along ξ, or the force at the stages.
     #[must_use]
     pub fn force_does_work(&self) -> bool {
         !self.force.vanishes()
@@ -83,9 +87,9 @@ where
         let terms: Vec<Terms> =
             segments.iter().enumerate().map(|(k, segment)| self.terms(k, generator, segment)).collect();
         let sizes = |scale: fn(&Terms) -> f64| scales(&terms.iter().map(scale).collect::<Vec<_>>());
-        let of_lagrangian = sizes(|terms| terms.lagrangian_scale);
-        let of_force = sizes(|terms| terms.force_scale);
-        let of_both = sizes(|terms| terms.lagrangian_scale + terms.force_scale);
+        let of_lagrangian = sizes(|terms| terms.size.lagrangian);
+        let of_force = sizes(|terms| terms.size.force);
+        let of_all = sizes(|terms| terms.size.total());
         let contribution =
             |value: &dyn Fn(usize) -> f64, scales: &[f64]| worst(segments, self.tolerance, scales, value);
         let identity = |k: usize| {
@@ -101,10 +105,12 @@ where
             generator: generator.name().to_owned(),
             h: self.by.h.widen(),
             samples: segments.len(),
+            at_stages: L::HAS_INTERIOR_POINTS,
             lagrangian: contribution(&|k| terms[k].defect.lagrangian, &of_lagrangian)?,
             force: contribution(&|k| terms[k].defect.force, &of_force)?,
-            defect: contribution(&|k| terms[k].defect.total(), &of_both)?,
-            identity: contribution(&identity, &of_both)?,
+            interior: contribution(&|k| terms[k].defect.interior, &of_all)?,
+            defect: contribution(&|k| terms[k].defect.total(), &of_all)?,
+            identity: contribution(&identity, &of_all)?,
             tolerance: self.tolerance,
         })
     }
@@ -112,16 +118,16 @@ where
 
 impl<const N: usize> fmt::Display for Symmetry<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let verdict = |yes, affirmative, negative| if yes { affirmative } else { negative };
+        let verdict =
+            |yes, affirmative: &str, negative: &str| if yes { affirmative } else { negative }.to_owned();
         writeln!(f, "{}: {} segments, h = {}", self.generator, self.samples, self.h)?;
-        for (name, contribution, verdict) in [
+        let (of_lagrangian, of_force, lagrangian) =
+            if self.at_stages { ("h Σ bξ(L)", "h Σ bf·ξ", "L") } else { ("ξ(L_d)", "f_d(ξ)", "L_d") };
+        let symmetry = verdict(self.is_symmetry_of_lagrangian(), "symmetry of", "no symmetry of");
+        let rows = [
+            (of_lagrangian, &self.lagrangian, format!("{symmetry} {lagrangian}")),
             (
-                "ξ(L_d)",
-                &self.lagrangian,
-                verdict(self.is_symmetry_of_lagrangian(), "symmetry of L_d", "no symmetry of L_d"),
-            ),
-            (
-                "f_d(ξ)",
+                of_force,
                 &self.force,
                 verdict(
                     self.force_does_work(),
@@ -129,11 +135,19 @@ impl<const N: usize> fmt::Display for Symmetry<N> {
                     "the force does no work along it",
                 ),
             ),
+            (
+                "interior",
+                &self.interior,
+                verdict(self.interior.vanishes(), "the rule adds nothing", "added by the rule"),
+            ),
             ("defect", &self.defect, verdict(self.is_conserved(), "J is conserved", "J is not conserved")),
-        ] {
+        ];
+        for (name, contribution, verdict) in
+            rows.into_iter().filter(|(name, ..)| self.at_stages || *name != "interior")
+        {
             writeln!(
                 f,
-                "  {name:<8}{:>12.3e}   zero below {:.1e}   {verdict}",
+                "  {name:<10}{:>12.3e}   zero below {:.1e}   {verdict}",
                 contribution.value, contribution.tolerance
             )?;
             if !contribution.vanishes() {
@@ -142,7 +156,7 @@ impl<const N: usize> fmt::Display for Symmetry<N> {
         }
         write!(
             f,
-            "  tolerance: {:.1e} × the terms' size ({:.2e} of L_d, {:.2e} of f_d), the rounding of their derivatives",
+            "  tolerance: {:.1e} × the terms' size ({:.2e} of {lagrangian}, {:.2e} of the force), the rounding of their derivatives",
             self.tolerance, self.lagrangian.terms, self.force.terms
         )?;
         if !self.is_consistent() {
