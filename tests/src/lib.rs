@@ -1,14 +1,17 @@
 //! What the tests share. Each claim is one file of a folder of `tests/`, and each folder one program.
 
 pub mod by_hand;
+#[cfg(feature = "all-claims")]
 pub mod convergence;
 pub mod damped_oscillator;
 pub mod documented;
 pub mod double_double;
 pub mod draws;
+#[cfg(feature = "all-claims")]
 pub mod hard;
 #[cfg(feature = "studies")]
 pub mod motions;
+#[cfg(feature = "all-claims")]
 pub mod reference;
 pub mod sections;
 pub mod systems;

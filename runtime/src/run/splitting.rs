@@ -23,9 +23,10 @@ use crate::step::{
 /// step = B(b₁h) A(a₁h) B(b₂h) … A(a_S h) B(b₁h),                  aᵢ = a_{S+1−i},  Σ aᵢ = Σ bᵢ = 1
 /// ```
 ///
-/// A is linear and B adds to p a function of q alone, so that `[B,[B,[B,A]]] = 0`, with damping as without:
-/// fewer conditions have to hold than for fields of any kind, which leaves freedom to make the error small.
-/// The coefficients are those of S. Blanes and P. C. Moan (Practical symplectic partitioned Runge–Kutta and
+/// B lowers the degree in p of a field by one, A raises it by one at most, with damping as without; so brackets
+/// with two B more than A are 0, `[B,[B,[B,A]]]` and its brackets with A and B among those of degree 5. Without
+/// damping these are all that vanish up to there, and a symmetric step of order 6 looks no further: the
+/// conditions of its order are those without damping, fewer than for fields of any kind. The coefficients are those of S. Blanes and P. C. Moan (Practical symplectic partitioned Runge–Kutta and
 /// Runge–Kutta–Nyström methods, J. Comput. Appl. Math. 142, 2002, 313–330). A step costs S gradients and no
 /// equation is solved.
 ///

@@ -1,4 +1,4 @@
-//! `docs/corrections.md` names tests; each of them exists.
+//! `docs/corrections.md` and `docs/theory.md` name tests; each of them exists.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -23,7 +23,7 @@ fn tests() -> (BTreeSet<String>, BTreeSet<String>) {
 }
 
 /// The names in `page` that are neither a file nor a function among the tests: what stands between
-/// back-quotes and reads like a sentence of four words or more, or like a path to a test.
+/// back-quotes and reads like a sentence of four words or more, or is a part of a path.
 fn missing(page: &str) -> Vec<String> {
     let (files, functions) = tests();
     let exists = |name: &str| files.contains(name) || functions.contains(name);
@@ -31,35 +31,35 @@ fn missing(page: &str) -> Vec<String> {
         .skip(1)
         .step_by(2)
         .flat_map(|quoted| {
+            let path = quoted.contains("::");
             let quoted = quoted.trim_start_matches("tests/tests/").trim_end_matches(".rs");
-            quoted
-                .split("::")
-                .flat_map(|part| part.split('/'))
-                .filter(|part| !part.contains('…'))
+            let parts = quoted.split("::").flat_map(|part| part.split('/'));
+            parts
+                .filter(|part| part.chars().all(|letter| letter.is_ascii_lowercase() || letter == '_'))
+                .filter(|part| path || part.matches('_').count() >= 3)
                 .map(str::to_owned)
                 .collect::<Vec<_>>()
-        })
-        .filter(|name| {
-            let letters = name.chars().all(|letter| letter.is_ascii_lowercase() || letter == '_');
-            letters && name.matches('_').count() >= 3
         })
         .filter(|name| !exists(name))
         .collect()
 }
 
 #[test]
-fn every_test_that_the_page_names_exists() {
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/corrections.md");
-    let page = fs::read_to_string(page).unwrap();
-    assert!(page.matches("the_").count() > 30, "the page names its tests");
-    let missing: Vec<_> =
-        missing(&page).into_iter().filter(|name| !LABELS.contains(&name.as_str())).collect();
-    assert_eq!(missing, Vec::<String>::new());
+fn every_test_that_the_pages_name_exists() {
+    for (page, names) in [("corrections.md", 30), ("theory.md", 5)] {
+        let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs").join(page);
+        let page = fs::read_to_string(page).unwrap();
+        assert!(page.matches("the_").count() > names, "the page names its tests");
+        let missing: Vec<_> =
+            missing(&page).into_iter().filter(|name| !LABELS.contains(&name.as_str())).collect();
+        assert_eq!(missing, Vec::<String>::new());
+    }
 }
 
 #[test]
 fn a_name_that_does_not_exist_is_seen() {
     assert_eq!(missing("Test: `the_moon_is_a_cheese`."), ["the_moon_is_a_cheese"]);
+    assert_eq!(missing("`project::cheese`"), ["project", "cheese"]);
     assert!(
         missing("Test: `tests/tests/project/corrections_page.rs`: `a_name_that_does_not_exist_is_seen`.")
             .is_empty()

@@ -10,7 +10,6 @@ mod gauss_solver;
 mod inputs;
 mod legendre;
 mod oscillator_flow;
-mod polar_example;
 mod random_systems;
 mod solver;
 mod special_steps;

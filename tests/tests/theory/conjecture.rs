@@ -46,6 +46,15 @@ fn proportional_springs(q: [f64; 2], v: [f64; 2], c: f64) -> (f64, f64) {
     (kinetic - potential, c * kinetic)
 }
 
+/// Friction c(v0 + v1)²/2, of s = q0 + q1 alone; V = cos(d) + ½ks² + bend s⁴, d = q0 − q1. In (s, d) masses are equal.
+#[rayleigh_system]
+fn damped_sum(q: [f64; 2], v: [f64; 2], k: f64, c: f64, bend: f64) -> (f64, f64) {
+    let (s, d) = (q[0] + q[1], q[0] - q[1]);
+    let sum = v[0] + v[1];
+    let potential = d.cos() + 0.5 * k * s * s + bend * s.powi(4);
+    (0.5 * (v[0] * v[0] + v[1] * v[1]) - potential, 0.5 * c * sum * sum)
+}
+
 fn obstruction(existence: &Existence<1>) -> f64 {
     existence.mixed[(0, 0)]
 }
@@ -167,4 +176,20 @@ fn proportional_damping_keeps_it_for_a_quadratic_potential() {
         .unwrap();
     assert_eq!(existence.verdict(), ExistenceVerdict::Holds, "{existence}");
     assert!(existence.largest() < 1e-12, "{existence}");
+}
+
+/// CM⁻¹V″ symmetric and V'''(M⁻¹Cu, ·, ·) = 0: where no friction acts V is as it will.
+#[test]
+fn it_holds_where_friction_acts_on_a_linear_part_with_classical_modes() {
+    let ends = (vector![0.3, -0.2], vector![0.5, 0.4]);
+    let of = |bend: f64| {
+        let system = DampedSum { k: 1.7, c: 0.6, bend };
+        Exact::new(&system).existence(ends.0, ends.1, 0.5).unwrap()
+    };
+    let held = of(0.0);
+    assert_eq!(held.verdict(), ExistenceVerdict::Holds, "{held}");
+    assert!(held.largest() < 1e-12, "{held}");
+    // Control: CM⁻¹V″ stays symmetric, V''' does not vanish along the friction: the mixed condition alone fails.
+    let bent = of(0.3);
+    assert!(bent.mixed.amax() > 1e-4 && bent.plus.amax() < 1e-12 && bent.minus.amax() < 1e-12, "{bent}");
 }

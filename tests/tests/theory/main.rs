@@ -5,5 +5,6 @@ mod energy;
 mod exact;
 mod hamilton_jacobi;
 mod noether;
+mod principle;
 mod rayleigh;
 mod verdicts;

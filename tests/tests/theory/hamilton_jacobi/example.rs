@@ -88,3 +88,67 @@ fn the_examples_minus_transform_has_m_over_h() {
         (end.p[0] + (h * h * k * p + 4.0 * h * k * m * q + 2.0 * h * p * r - 4.0 * m * p) / d).abs() < 1e-15
     );
 }
+
+/// 𝓕⁻ in closed form, right as printed: it is π ∘ F_d^H ∘ γ⁺ of the printed γ⁺ and F_d^H, and the flow on Q×Q.
+#[test]
+fn the_examples_closed_form_of_the_flow_is_right() {
+    for (m, k, r, h) in [(1.0, 1.0, 0.5, 0.25), (0.7, 2.3, 1.1, 0.4), (2.1, 0.4, 0.0, 0.9)] {
+        let system = Oscillator { m, k, r };
+        let d = h * h * k + 2.0 * h * r + 4.0 * m;
+        let printed = |q0: f64, q1: f64, r: f64| {
+            (-h * h * k * (q0 + 2.0 * q1) + 2.0 * h * q0 * r - 4.0 * m * (q0 - 2.0 * q1)) / d
+        };
+        for (q0, q1) in [(0.3, 0.5), (-1.2, 0.7), (0.9, 0.2)] {
+            let step = system.by(Midpoint, h).step_configurations(&vector![q0], &vector![q1]).unwrap();
+            assert!((printed(q0, q1, r) - step.state.q[0]).abs() < 1e-14);
+            let gamma_plus = m / h * (q1 - q0) - 0.25 * k * h * (q0 + q1) - r * (q1 - q0) / 2.0;
+            let flow = (-h * h * k * q1 + 4.0 * h * gamma_plus + 2.0 * h * q1 * r + 4.0 * m * q1) / d;
+            assert!((printed(q0, q1, r) - flow).abs() < 1e-14);
+            // Controls: friction of the other sign in the numerator; 𝔽⁻ as printed, with m − r, gives no such flow.
+            assert!(r == 0.0 || (printed(q0, q1, -r) - step.state.q[0]).abs() > 1e-2);
+            let by_printed_minus = {
+                // (q1, γ⁺) = 𝔽⁻(q1, q2) solved for q2.
+                let (mass, spring, drag) = ((m - r) / h, 0.25 * k * h, 0.5 * r);
+                (gamma_plus + (mass - spring + drag) * q1) / (mass + spring + drag)
+            };
+            assert!(r == 0.0 || (by_printed_minus - step.state.q[0]).abs() > 1e-2);
+        }
+    }
+}
+
+/// G_d = S_d^j + S_d^{j+1} − R_d counts the terms k ≤ j − 2 twice, as it does the term k = j − 1; the printed first
+/// sum has no factor 2. γ^±, derivatives by q_j and q_{j+1}, do not see it.
+#[test]
+fn the_examples_generating_function_lacks_a_factor_two() {
+    let q = trajectory(&DAMPED, H, 0.2, 0.9, 9);
+    let plain: Vec<f64> = q.iter().map(|q| q[0]).collect();
+    let theory = DAMPED.by(Midpoint, H).hamilton_jacobi();
+    // L_d(q_k, q_{k+1}), and G_d with the given factor of its first sum, the index put right.
+    let l = |q: &[f64], k: usize| {
+        let (a, b) = (q[k], q[k + 1]);
+        0.5 * H * DAMPED.m * ((b - a) / H).powi(2) - 0.5 * H * DAMPED.k * (0.5 * (a + b)).powi(2)
+    };
+    let g = |q: &[f64], j: usize, factor: f64| {
+        let first: f64 = (0..j - 1).map(|k| factor * l(q, k)).sum();
+        first + 2.0 * l(q, j - 1) + l(q, j) - DAMPED.r * (0.5 * (q[j + 1] - q[j])).powi(2)
+    };
+    for j in 2..8 {
+        let difference = q[j + 1][0] - q[j][0];
+        let definition = theory.discrete_action(&q[..=j]) + theory.discrete_action(&q[..=j + 1])
+            - DAMPED.r * difference * difference / 4.0;
+        assert!((g(&plain, j, 2.0) - definition).abs() < 1e-14);
+        let missing: f64 = (0..j - 1).map(|k| l(&plain, k)).sum();
+        assert!((g(&plain, j, 1.0) + missing - definition).abs() < 1e-14 && missing.abs() > 1e-3);
+        // By q_j and q_{j+1} both vary alike.
+        for at in [j, j + 1] {
+            let vary = |factor: f64| {
+                let mut moved = plain.clone();
+                moved[at] += 0.5;
+                let up = g(&moved, j, factor);
+                moved[at] -= 1.0;
+                up - g(&moved, j, factor)
+            };
+            assert!((vary(1.0) - vary(2.0)).abs() < 1e-13 && vary(2.0).abs() > 1e-3);
+        }
+    }
+}

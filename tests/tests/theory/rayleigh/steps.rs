@@ -199,7 +199,7 @@ fn fitted_rules_and_one_coordinate() {
 }
 
 /// C = 2aM: AᵀΩA = cΩ, c = (1 − ah)/(1 + ah) by the trapezoidal rule, e^{−2ah} by splittings, for a nonlinear V. By the
-/// midpoint rule there is no such c unless V is quadratic.
+/// midpoint rule there is no such c unless V″ is a multiple of M.
 #[test]
 fn proportional_to_mass_damping_makes_steps_conformally_symplectic() {
     fn defect<M>(system: &Pair, method: M, h: f64, c: f64) -> f64
