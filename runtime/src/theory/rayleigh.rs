@@ -10,6 +10,8 @@
 //!   iff D1 f_d⁻ and D2 f_d⁺ are symmetric; always for n = 1
 //! p0 = −D1(L_d + R_d), p1 = D2(L_d − R_d) for some L_d, R_d, whatever made the step  RayleighStep
 //!   iff a bᵀ and bᵀd are symmetric; always for n = 1
+//! AᵀΩA = cΩ, the step multiplies the symplectic form by a constant                  ConformalStep
+//!   iff R_d = κL_d + α(q0) + β(q1), c = (1 − κ)/(1 + κ)                            Proportion
 //! v·∂R/∂v ≥ 0                                                                      dissipation
 //! ```
 //!
@@ -48,17 +50,21 @@
 //! ```
 
 mod comparison;
+mod conformal_step;
 mod dissipation;
 mod potential;
-mod quadrature;
+mod proportion;
+pub(super) mod quadrature;
 mod rayleigh_step;
 mod residual;
 mod resplit;
 mod structure;
 
 pub use comparison::{Comparison, Equivalence};
+pub use conformal_step::{ConformalStep, ConformalStepError};
 pub use dissipation::{Dissipation, dissipation};
 pub use potential::{Potential, Recovery};
+pub use proportion::{Proportion, ProportionError, ProportionalSplit};
 pub use quadrature::Integral;
 pub use rayleigh_step::{Asymmetry, Entry, RayleighStep, RayleighStepError};
 pub use residual::SegmentFinding;

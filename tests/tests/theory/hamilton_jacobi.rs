@@ -2,6 +2,7 @@
 
 mod caustics;
 mod closedness;
+mod conformal;
 mod constants;
 mod corrected;
 mod example;

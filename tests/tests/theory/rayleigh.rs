@@ -1,6 +1,7 @@
 //! The Rayleigh structure of forced discrete systems.
 
 mod classical_damping;
+mod conformal;
 mod dissipation;
 mod equivalence;
 mod potential;

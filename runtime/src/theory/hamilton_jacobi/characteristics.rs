@@ -8,7 +8,7 @@ use super::caustics::TangentPlane;
 use super::residual::{Outcome, Worst, line, tolerance_line};
 use super::{Caustic, Frame, HamiltonJacobi, HamiltonJacobiError, ImplicitEquation, Section};
 use crate::numbers::Scalar;
-use crate::step::{Discrete, Linearization, Quantity, State, StepError, or_without_guess};
+use crate::step::{Discrete, Linearization, PhaseMatrix, Quantity, State, StepError, or_without_guess};
 
 /// One characteristic: the trajectory of (x, γ_0(x)), with the tangent frame along it.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +24,69 @@ pub struct Characteristic<S, const N: usize> {
     /// One that is less than √ε of a step from a node counts as on it, and zeros closer than that to each
     /// other as one caustic of higher multiplicity.
     pub caustics: Vec<Caustic<N>>,
+}
+
+/// A characteristic on its way.
+pub(super) struct Carrier<S, const N: usize> {
+    pub(super) characteristic: Characteristic<S, N>,
+    frame: Frame<S, N>,
+    state: State<S, N>,
+    plane: TangentPlane<S, N>,
+}
+
+impl<S: Scalar, const N: usize> Carrier<S, N> {
+    /// At k = 0, on `section` over `label`.
+    pub(super) fn new<G>(section: &G, label: &SVector<S, N>) -> Result<Self, HamiltonJacobiError>
+    where
+        G: Section<N, Scalar = S>,
+    {
+        let state = State { q: *label, p: section.covector(label) };
+        let frame = Frame { q: SMatrix::identity(), p: section.jacobian(label) };
+        state.require_finite().map_err(ImplicitEquation::Step.at(0))?;
+        require_finite(&frame, 0)?;
+        let characteristic =
+            Characteristic { label: *label, states: vec![state], frames: vec![frame], caustics: Vec::new() };
+        Ok(Self { characteristic, frame, state, plane: TangentPlane::new(&frame) })
+    }
+
+    /// Where it is.
+    pub(super) fn state(&self) -> &State<S, N> {
+        &self.state
+    }
+
+    /// Takes the step to `state`, whose derivative is `a`.
+    pub(super) fn advance(
+        &mut self,
+        a: &PhaseMatrix<S, N>,
+        state: State<S, N>,
+    ) -> Result<(), HamiltonJacobiError> {
+        let Characteristic { label, states, frames, caustics } = &mut self.characteristic;
+        let step = states.len() - 1;
+        let frame = self.frame.carried(a);
+        require_finite(&frame, step)?;
+        let [from, to] = [self.state.q, state.q].map(|q| q.map(Scalar::widen));
+        for (fraction, multiplicity) in self.plane.carry(a) {
+            let q = from * (1.0 - fraction) + to * fraction;
+            caustics.push(Caustic { label: label.map(Scalar::widen), step, fraction, q, multiplicity });
+        }
+        (self.state, self.frame) = (state, frame);
+        states.push(state);
+        frames.push(frame);
+        Ok(())
+    }
+}
+
+fn require_finite<S: Scalar, const N: usize>(
+    frame: &Frame<S, N>,
+    step: usize,
+) -> Result<(), HamiltonJacobiError> {
+    match frame.first_non_finite() {
+        Some(index) => {
+            let cause = StepError::NonFinite { quantity: Quantity::Derivatives, index };
+            Err(ImplicitEquation::Derivative.at(step)(cause))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Closedness and caustics of a carried section.
@@ -63,17 +126,10 @@ where
     where
         G: Section<N, Scalar = S>,
     {
-        let mut state = State { q: *label, p: section.covector(label) };
-        let mut frame = Frame { q: SMatrix::identity(), p: section.jacobian(label) };
-        state.require_finite().map_err(ImplicitEquation::Step.at(0))?;
-        if let Some(index) = frame.first_non_finite() {
-            let cause = StepError::NonFinite { quantity: Quantity::Derivatives, index };
-            return Err(ImplicitEquation::Derivative.at(0)(cause));
-        }
+        let mut carried = Carrier::new(section, label)?;
         let mut guess = None;
-        let (mut states, mut frames) = (vec![state], vec![frame]);
-        let (mut plane, mut caustics) = (TangentPlane::new(&frame), Vec::new());
         for k in 0..steps {
+            let state = *carried.state();
             let (step, legendre) = self.at_step(k, |theory| {
                 let found = theory.by.system.step(&state, self.by.h, guess.as_ref());
                 let step = or_without_guess(guess.is_some(), found, || {
@@ -84,28 +140,10 @@ where
             })?;
             let linearization =
                 Linearization::from_legendre(&legendre).map_err(ImplicitEquation::Derivative.at(k))?;
-            frame = frame.carried(&linearization.a);
-            if let Some(index) = frame.first_non_finite() {
-                let cause = StepError::NonFinite { quantity: Quantity::Derivatives, index };
-                return Err(ImplicitEquation::Derivative.at(k)(cause));
-            }
-            for (fraction, multiplicity) in plane.carry(&linearization.a) {
-                let [from, to] = [state.q, step.state.q].map(|q| q.map(Scalar::widen));
-                let q = from * (1.0 - fraction) + to * fraction;
-                caustics.push(Caustic {
-                    label: label.map(Scalar::widen),
-                    step: k,
-                    fraction,
-                    q,
-                    multiplicity,
-                });
-            }
-            state = step.state;
+            carried.advance(&linearization.a, step.state)?;
             guess = Some(step.velocity);
-            states.push(state);
-            frames.push(frame);
         }
-        Ok(Characteristic { label: *label, states, frames, caustics })
+        Ok(carried.characteristic)
     }
 
     /// Closedness and caustics of carried characteristics.

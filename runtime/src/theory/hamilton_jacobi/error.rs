@@ -3,6 +3,7 @@
 use core::fmt;
 
 use crate::step::StepError;
+use crate::theory::rayleigh::{ConformalStep, ConformalStepError};
 
 /// Why a Hamilton–Jacobi object could not be evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +31,31 @@ pub enum HamiltonJacobiError {
         needed: usize,
         /// Members given.
         found: usize,
+    },
+    /// The states given do not tell whether the step is conformally symplectic.
+    States(ConformalStepError),
+    /// The step is not conformally symplectic: no G, and for n ≥ 2 not every section stays closed.
+    NotConformal {
+        /// The step k of a characteristic; `None` at the states given.
+        step: Option<usize>,
+        /// By how much, and where.
+        report: ConformalStep,
+    },
+    /// c = 0: the step forgets momenta, and c^{−k} is none.
+    VanishingFactor,
+    /// det ∂²S_0/∂q∂λ = 0 at the label: the parameters and their constants do not tell the motions apart.
+    DegenerateFamily,
+    /// det Q_k = 0: at a caustic S_k has no derivative by q.
+    Caustic {
+        /// The step k.
+        step: usize,
+    },
+    /// No label was found whose characteristic is where it is asked for.
+    NoLabel {
+        /// The step k.
+        step: usize,
+        /// The last correction of the label.
+        distance: f64,
     },
 }
 
@@ -99,6 +125,30 @@ impl fmt::Display for HamiltonJacobiError {
             Self::FamilyLength { needed, found } => {
                 write!(f, "{found} members of the family given, {needed} needed: one for each k")
             }
+            Self::States(error) => error.fmt(f),
+            Self::NotConformal { step: Some(k), report } => {
+                let ConformalStep { factor, defect, .. } = report;
+                write!(
+                    f,
+                    "AᵀΩA = cΩ with c = {factor:.6} fails at step {k} by {:.2e}; the theory needs one c for all",
+                    defect.value
+                )
+            }
+            Self::NotConformal { step: None, report } => {
+                write!(f, "the theory needs a step with AᵀΩA = cΩ, such as Trapezoidal with C = 2aM: {report}")
+            }
+            Self::VanishingFactor => f.write_str("AᵀΩA = 0: the step forgets momenta; take another h"),
+            Self::DegenerateFamily => f.write_str(
+                "det ∂²S_0/∂q∂λ = 0 at the label: this family does not integrate the motion; take one whose λ moves \
+                 ∂S_0/∂q in every direction",
+            ),
+            Self::Caustic { step } => {
+                write!(f, "det Q_k = 0 at k = {step}, a caustic: S_k has no derivative by q there")
+            }
+            Self::NoLabel { step, distance } => write!(
+                f,
+                "no characteristic was found that is there at k = {step} (last correction {distance:.1e}); start nearer"
+            ),
         }
     }
 }
@@ -107,6 +157,7 @@ impl core::error::Error for HamiltonJacobiError {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
         match self {
             Self::Implicit { cause, .. } => Some(cause),
+            Self::States(error) => Some(error),
             _ => None,
         }
     }

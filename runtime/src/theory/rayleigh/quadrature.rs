@@ -63,16 +63,25 @@ const ROUNDINGS: f64 = 64.0;
 /// halved until the differences add up to rounding. `epsilon` is that of the scalar type in which g is
 /// evaluated.
 fn integrate(epsilon: f64, g: impl Fn(f64) -> f64) -> Integral {
+    integrate_sum(epsilon, |s| {
+        let value = g(s);
+        (value, value.abs())
+    })
+}
+
+/// The same of a g that is a sum whose terms may cancel: its value, and the size of the terms, whose rounding it
+/// has.
+pub(in crate::theory) fn integrate_sum(epsilon: f64, g: impl Fn(f64) -> (f64, f64)) -> Integral {
     // The error of each part is the difference of the two rules.
     let on = |a: f64, b: f64| {
         let mut magnitude = 0.0;
         let value = FINE.integrate(a, b, |s| {
-            let value = g(s);
-            magnitude += value.abs();
+            let (value, terms) = g(s);
+            magnitude += terms;
             value
         });
-        let error = (value - COARSE.integrate(a, b, &g)).abs();
-        // The mean of |g| over the nodes says enough of its size.
+        let error = (value - COARSE.integrate(a, b, |s| g(s).0)).abs();
+        // The mean over the nodes says enough of the terms' size.
         (a, b, Integral { value, error, magnitude: magnitude * (b - a) / FINE_NODES.get() as f64 })
     };
     let mut parts = vec![on(0.0, 1.0)];

@@ -8,6 +8,7 @@
 //! | `noether` | `Symmetry::{is_symmetry_of_lagrangian, force_does_work, is_conserved, is_consistent}`, `Balance::is_balanced`, `Subalgebra::premise_holds`, `Subspace::dimension`, `Closure::is_closed`, `RankDecision::is_clear` |
 //! | `rayleigh` | `RayleighStructure::{is_rayleigh, allows_resplit}`, `Condition::holds`, `Recovery::exists`, `ResplitReport::exists`, `Equivalence::{has_same_equations, is_gauge}`, `Dissipation::is_dissipative` |
 //! | `hamilton_jacobi` | `Residual::holds` in every report, `SolutionReport::is_solution`, "no caustic" |
+//! | | `ConformalStep::is_conformal`, `Proportion::is_constant`: in `rayleigh::conformal` |
 //! | `exact` | `Existence::verdict`, "equal to rounding" of `Convergence` |
 //! | | `Certificate::on_the_branch_of_the_flow` |
 
