@@ -37,12 +37,12 @@
 //! characteristic, and [`HamiltonJacobi::characteristics_report`] its closedness defect Q_kᵀP_k − P_kᵀQ_k and
 //! its caustics det Q_k = 0.
 //!
-//! For n = 1 W_k exists for every S_k. For n ≥ 2 it does not: the right side of dW_k has to be closed, and that
-//! of **every** S_0 is so only if the step is conformally symplectic, AᵀΩA = cΩ.
+//! For n = 1 W_k exists for every S_k. For n ≥ 2 it does not: the right side of dW_k has to be closed, and
+//! that of **every** S_0 is so only if the step is conformally symplectic, AᵀΩA = cΩ.
 //!
-//! **Theorem.** For a regular pair (L_d, R_d), n ≥ 2, on connected regions, these are equivalent: (i) every closed
-//! section γ_0 = dS_0 stays closed; (ii) AᵀΩA = cΩ; (iii) D1D2R_d = κ D1D2L_d, κ constant. Then c = (1 − κ)/(1 +
-//! κ), R_d = κL_d + α(q0) + β(q1), and
+//! **Theorem.** For a regular pair (L_d, R_d), n ≥ 2, on connected regions, these are equivalent: (i) every
+//! closed section γ_0 = dS_0 stays closed; (ii) AᵀΩA = cΩ; (iii) D1D2R_d = κ D1D2L_d, κ constant. Then
+//! c = (1 − κ)/(1 + κ), R_d = κL_d + α(q0) + β(q1), and
 //!
 //! ```text
 //! S_{k+1}(F_k(q)) = c S_k(q) + G(q, F_k(q)),     G = (1 − κ)L_d + cα(q0) − β(q1)
@@ -50,8 +50,9 @@
 //! ```
 //!
 //! [`ConformalStep`](crate::rayleigh::ConformalStep) tells (ii) of any step,
-//! [`Proportion`](crate::rayleigh::Proportion) (iii) of a pair, [`ConformalHamiltonJacobi`] carries S_k and finds
-//! the motion from its derivatives by λ. For n = 1 (i) is empty: (ii) and (iii), still equivalent, give the rest.
+//! [`Proportion`](crate::rayleigh::Proportion) (iii) of a pair, [`ConformalHamiltonJacobi`] carries S_k and
+//! finds the motion from its derivatives by λ. For n = 1 (i) is empty: (ii) and (iii), still equivalent, give
+//! the rest.
 //!
 //! Of a system at a time t0, a view, step k and its segment (q_k, q_{k+1}) are those of t0 + k h, in every
 //! check of a sequence.

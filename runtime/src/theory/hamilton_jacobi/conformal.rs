@@ -23,8 +23,8 @@ use crate::theory::samples::at_segment;
 /// S_{k+1}(F_k(q)) = c S_k(q) + G(q, F_k(q))
 /// ```
 ///
-/// *Proof.* With p0 = dS_k(q) the differential of the right side along q ↦ (q, F_k(q)) is c p0 + D1G + DF_kᵀ D2G
-/// = DF_kᵀ p1. ∎
+/// *Proof.* With p0 = dS_k(q) the differential of the right side along q ↦ (q, F_k(q)) is c p0 + D1G + DF_kᵀ
+/// D2G = DF_kᵀ p1. ∎
 ///
 /// **How G is found.** As a function of the state, by quadrature along the straight line in T*Q from a
 /// reference state, where it is set to 0:
@@ -190,8 +190,8 @@ where
         }
     }
 
-    /// Carries S_0 = `s0` along the characteristic from `label` over `steps` steps: the values S_k(c_k), which go
-    /// on through caustics as functions of the label.
+    /// Carries S_0 = `s0` along the characteristic from `label` over `steps` steps: the values S_k(c_k),
+    /// which go on through caustics as functions of the label.
     ///
     /// # Errors
     /// [`HamiltonJacobiError::Implicit`] with the step that has no solution or no finite derivative;
@@ -211,12 +211,12 @@ where
         Ok(ConformalCharacteristic { characteristic, values, quadrature_error })
     }
 
-    /// The characteristic that reaches `q` after `steps` steps, found from the label `near` by Newton's method:
-    /// its [`value`](ConformalCharacteristic::value) is S_K(q), on the branch through that label.
+    /// The characteristic that reaches `q` after `steps` steps, found from the label `near` by Newton's
+    /// method: its [`value`](ConformalCharacteristic::value) is S_K(q), on the branch through that label.
     ///
     /// # Errors
-    /// [`HamiltonJacobiError::Caustic`] where det Q_K = 0 on the way, [`HamiltonJacobiError::NoLabel`] if none is
-    /// found, and those of [`carry`](Self::carry).
+    /// [`HamiltonJacobiError::Caustic`] where det Q_K = 0 on the way, [`HamiltonJacobiError::NoLabel`] if
+    /// none is found, and those of [`carry`](Self::carry).
     pub fn through<F>(
         &self,
         s0: &F,
@@ -230,8 +230,8 @@ where
         self.carry(s0, &self.label_of(s0, steps, q, near)?, steps)
     }
 
-    /// The label of the characteristic that is at `q` after `steps` steps, and S_K there, G of step k set to 0 at
-    /// the k-th of the `references`: near ones make short lines, and S_K another only by a constant.
+    /// The label of the characteristic that is at `q` after `steps` steps, and S_K there, G of step k set to
+    /// 0 at the k-th of the `references`: near ones make short lines, and S_K another only by a constant.
     pub(super) fn value_near<F>(
         &self,
         s0: &F,

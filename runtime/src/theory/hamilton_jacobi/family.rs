@@ -113,15 +113,15 @@ struct Measured<const N: usize> {
 /// c^{−k} ∂S_k/∂λ(q_k; λ) = b,     p_k = ∂S_k/∂q(q_k; λ)
 /// ```
 ///
-/// gives the motion without another step.
+/// gives the motion: from the functions S_k alone, whatever they were found by.
 ///
-/// *Proof.* Differentiating S_{k+1}(F_k(q; λ); λ) = c S_k(q; λ) + G(q, F_k(q; λ)) by λ at fixed q, the terms with
-/// ∂F_k/∂λ cancel, since ∂S_{k+1}/∂q = D2G there. And Q_kᵀ ∂²S_k/∂q∂λ = c^k ∂²S_0/∂q∂λ: what is regular stays so,
-/// outside caustics. ∎
+/// *Proof.* Differentiating S_{k+1}(F_k(q; λ); λ) = c S_k(q; λ) + G(q, F_k(q; λ)) by λ at fixed q, the terms
+/// with ∂F_k/∂λ cancel, since ∂S_{k+1}/∂q = D2G there. And Q_kᵀ ∂²S_k/∂q∂λ = c^k ∂²S_0/∂q∂λ: what is regular
+/// stays so, outside caustics. ∎
 ///
-/// ∂S_k/∂λ at fixed q is measured here, by central differences of order 8 of the values of S_k, each at its own
-/// label: nothing of the theorem is put in. `width` is the spacing of λ to begin with; it is halved until the
-/// value settles, as near a caustic it does late. A twentieth of the λ is a good one.
+/// ∂S_k/∂λ at fixed q is measured here, by central differences of order 8 of the values of S_k, each at its
+/// own label: nothing of the theorem is put in. `width` is the spacing of λ to begin with; it is halved until
+/// the value settles, as near a caustic it does late. A twentieth of the λ is a good one.
 impl<S, L, M, const N: usize> ConformalHamiltonJacobi<'_, L, M, N>
 where
     S: Scalar,
@@ -130,8 +130,8 @@ where
     /// c^{−k} ∂S_k/∂λ along the trajectory from `label`, k = 0 … `steps`.
     ///
     /// # Errors
-    /// [`HamiltonJacobiError::DegenerateFamily`], [`HamiltonJacobiError::Caustic`] if det Q_k = 0 at a node, and
-    /// those of [`through`](Self::through), for any of the labels.
+    /// [`HamiltonJacobiError::DegenerateFamily`], [`HamiltonJacobiError::Caustic`] if det Q_k = 0 at a node,
+    /// and those of [`through`](Self::through), for any of the labels.
     pub fn jacobi_constants<F>(
         &self,
         family: &F,
@@ -157,15 +157,15 @@ where
     }
 
     /// The state after `steps` steps of the motion with the parameters `lambda` and the constants `b` =
-    /// c^{−k} ∂S_k/∂λ: the equation is solved for q_k by Newton's method along characteristics, from the one with
-    /// the label `near`.
+    /// c^{−k} ∂S_k/∂λ: the equation is solved for q_k by Newton's method along characteristics, from the one
+    /// with the label `near`.
     ///
     /// The equation is one for q_k; it is solved for the label that q_k is a function of, so that
     /// caustics before step k do no harm.
     ///
     /// # Errors
-    /// Those of [`jacobi_constants`](Self::jacobi_constants); [`HamiltonJacobiError::NoLabel`] if no state has
-    /// these constants near by.
+    /// Those of [`jacobi_constants`](Self::jacobi_constants); [`HamiltonJacobiError::NoLabel`] if no state
+    /// has these constants near by.
     pub fn integrate<F>(
         &self,
         family: &F,
@@ -188,8 +188,8 @@ where
         Ok(self.path(&member, &label, steps)?.0[steps])
     }
 
-    /// c^{−k} ∂S_k/∂λ at the last of the `states` that begin at its label, from differences with spacings `width`,
-    /// half of it, …: the one that the last halving changed least.
+    /// c^{−k} ∂S_k/∂λ at the last of the `states` that begin at its label, from differences with spacings
+    /// `width`, half of it, …: the one that the last halving changed least.
     fn scaled_by_parameters<F>(
         &self,
         family: &F,

@@ -14,7 +14,8 @@ use crate::theory::verdict::{Finding, Tolerance};
 /// AᵀΩA = cΩ,     Ω = [[0, I], [−I, 0]]
 /// ```
 ///
-/// with one c at all samples. In the blocks a, b, c′, d of A that is: aᵀc′ and bᵀd symmetric, aᵀd − c′ᵀb = cI.
+/// with one c at all samples. In the blocks a, b, c′, d of A that is: aᵀc′ and bᵀd symmetric, aᵀd − c′ᵀb =
+/// cI.
 ///
 /// For n ≥ 2 a factor that is a function on a connected region is a constant, since d(cΩ) = dc ∧ Ω = 0. For n
 /// = 1 AᵀΩA = det A Ω whatever A is: there only the constancy of det A over the samples is looked at, so that
@@ -107,8 +108,8 @@ impl<S: Scalar, const N: usize> PulledBack<'_, S, N> {
 }
 
 impl ConformalStep {
-    /// Of steps with these derivatives, such as one written by hand. A defect counts as zero within `relative`
-    /// of the terms it is the sum of, or 1024 ε unless said.
+    /// Of steps with these derivatives, such as one written by hand. A defect counts as zero within
+    /// `relative` of the terms it is the sum of, or 1024 ε unless said.
     ///
     /// # Errors
     /// A [`ConformalStepError`].

@@ -11,7 +11,8 @@ use crate::theory::samples::{
 };
 use crate::theory::verdict::{Finding, largest};
 
-/// Whether R_d is a multiple of L_d up to functions of one end: [`proportion`](crate::Discretised::proportion).
+/// Whether R_d is a multiple of L_d up to functions of one end:
+/// [`proportion`](crate::Discretised::proportion).
 ///
 /// ```text
 /// D1D2R_d = κ D1D2L_d,  κ constant     iff, on a product of regions,     R_d = κL_d + α(q0) + β(q1)
@@ -28,8 +29,8 @@ use crate::theory::verdict::{Finding, largest};
 ///
 /// so that the second is c times the first iff D1D2(L_d − R_d) = c D1D2(L_d + R_d). ∎
 ///
-/// For n = 1 some function κ(q0, q1) always exists: there only its constancy over the segments is looked at, so
-/// that two at least are needed.
+/// For n = 1 some function κ(q0, q1) always exists: there only its constancy over the segments is looked at,
+/// so that two at least are needed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Proportion<const N: usize> {
@@ -87,11 +88,11 @@ impl From<SampleError> for ProportionError {
 /// G = (1 − κ)L_d + cα(q0) − β(q1),     p1 = D2G,   c p0 = −D1G,     c = (1 − κ)/(1 + κ)
 /// ```
 ///
-/// No quadrature: α and β are determined up to a constant, which is set by α(a) = ρ(a, a), β(a) = 0. Far from a,
-/// at distances ≫ h|v|, the kinetic terms of ρ cancel and leave their rounding.
+/// No quadrature: α and β are determined up to a constant, which is set by α(a) = ρ(a, a), β(a) = 0. Far from
+/// a, at distances ≫ h|v|, the kinetic terms of ρ cancel and leave their rounding.
 ///
-/// *Proof of p1 = D2G.* p1 = D2(L_d − R_d) = D2((1 − κ)L_d − β), and c p0 = −c D1(L_d + R_d) = −D1((1 − κ)L_d +
-/// cα). ∎
+/// *Proof.* p1 = D2(L_d − R_d) = D2((1 − κ)L_d − β), and c p0 = −c D1(L_d + R_d), which is −D1((1 − κ)L_d +
+/// cα) since c(1 + κ) = 1 − κ. ∎
 #[derive(Debug)]
 pub struct ProportionalSplit<'a, L, R, const N: usize>
 where
@@ -202,8 +203,8 @@ where
         Ok(Proportion { samples: segments.len(), kappa, defect, entry })
     }
 
-    /// α, β and G of a pair with this `proportion`, from the `base` point a; `None` where κ is not constant, or
-    /// −1.
+    /// α, β and G of a pair with this `proportion`, from the `base` point a; `None` where κ is not constant,
+    /// or −1.
     ///
     /// ```
     /// use dalembert::nalgebra::vector;

@@ -151,8 +151,8 @@ fn the_family_integrates_the_motion_in_two_dimensions() {
     check("Blanes–Moan 6", Splitting::blanes_moan_6(), exact, 2, &[2]);
 }
 
-/// S_k by the closed form G = (1 − κ)L_d + cκ(h/2)V(q0) − κ(h/2)V(q1), written out here, and by quadrature: the
-/// same differences between labels. p = ∂S_k/∂q by differences of order 8.
+/// S_k by the closed form G = (1 − κ)L_d + cκ(h/2)V(q0) − κ(h/2)V(q1), written out here, and by quadrature:
+/// the same differences between labels. p = ∂S_k/∂q by differences of order 8.
 #[test]
 fn the_carried_values_are_those_of_the_closed_form() {
     let theory = theory(Trapezoidal);
@@ -192,7 +192,8 @@ fn the_carried_values_are_those_of_the_closed_form() {
     }
 }
 
-/// Characteristics, frames and caustics are those of the theory of pairs (L_d, f_d), and sections stay closed.
+/// Characteristics, frames and caustics are those of the theory of pairs (L_d, f_d), and sections stay
+/// closed.
 #[test]
 fn caustics_are_reported_as_of_every_carried_section() {
     let wave = Wave(vector![-0.6, -0.4]);

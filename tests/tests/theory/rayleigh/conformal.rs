@@ -1,5 +1,5 @@
-//! Steps that multiply the symplectic form by a constant: the equivalence of three statements on random systems,
-//! α, β and G of a pair, and order above 2 with an R_d.
+//! Steps that multiply the symplectic form by a constant: the equivalence of three statements on random
+//! systems, α, β and G of a pair, and order above 2 with an R_d.
 
 use dalembert::derivative::PhaseMatrix;
 use dalembert::hamilton_jacobi::Frame;
@@ -185,9 +185,9 @@ fn all(class: Class, pair: &Pair, a: f64, h: f64) -> Vec<Found> {
     ]
 }
 
-/// (i) closed sections stay closed, (ii) AᵀΩA = cΩ, (iii) D1D2R_d = κ D1D2L_d: all or none, over random systems
-/// and all methods, with c = (1 − κ)/(1 + κ) and the closed forms. The exact motion has them for C = 2aM, so that a
-/// method of order 6 which has not misses by little.
+/// (i) closed sections stay closed, (ii) AᵀΩA = cΩ, (iii) D1D2R_d = κ D1D2L_d: all or none, over random
+/// systems and all methods, with c = (1 − κ)/(1 + κ) and the closed forms. The exact motion has them for C =
+/// 2aM, so that a method of order 6 which has not misses by little.
 #[test]
 fn closed_sections_conformal_steps_and_proportional_pairs_are_the_same() {
     let mut random = StdRng::seed_from_u64(21);
@@ -266,8 +266,8 @@ fn one_coordinate_by_the_midpoint_rule() {
     );
 }
 
-/// R_d = κL_d + α(q0) + β(q1), p1 = D2G and c p0 = −D1G by differences of order 8, for C = 2aM. A pair that is not
-/// proportional has no split.
+/// R_d = κL_d + α(q0) + β(q1), p1 = D2G and c p0 = −D1G by differences of order 8, for C = 2aM. A pair that
+/// is not proportional has no split.
 #[test]
 fn the_split_gives_back_r_d_and_generates_the_step() {
     fn check<R: Copy>(pair: &Pair, rule: R, h: f64)
@@ -308,8 +308,8 @@ fn the_split_gives_back_r_d_and_generates_the_step() {
     assert!(by.proportional_split(&none, [0.0, 0.0]).is_none(), "{none}");
 }
 
-/// Order 6 and an R_d: for C = 2aM and a nonlinear V, the splitting has R_d = tanh(ah) L_d up to functions of one
-/// end. L_d^± are integrated from the step's momenta alone, at fixed q1 and at fixed q0.
+/// Order 6 and an R_d: for C = 2aM and a nonlinear V, the splitting has R_d = tanh(ah) L_d up to functions of
+/// one end. L_d^± are integrated from the step's momenta alone, at fixed q1 and at fixed q0.
 #[test]
 fn the_splitting_of_order_6_has_tanh_ah_times_l_d() {
     let mut random = StdRng::seed_from_u64(4);
@@ -345,8 +345,8 @@ fn the_splitting_of_order_6_has_tanh_ah_times_l_d() {
         let boole = |i: usize| 7.0 * (at(i) + at(i + 4)) + 32.0 * (at(i + 1) + at(i + 3)) + 12.0 * at(i + 2);
         (0..cells).map(|cell| boole(4 * cell)).sum::<f64>() / (90 * cells) as f64
     };
-    // Over the rectangle between a and b in Q×Q the mixed difference of L⁺ is that of ∫ −p0·dq0 at both q1, and of
-    // L⁻ that of ∫ p1·dq1 at both q0.
+    // Over the rectangle between a and b in Q×Q the mixed difference of L⁺ is that of ∫ −p0·dq0 at both q1,
+    // and of L⁻ that of ∫ p1·dq1 at both q0.
     let (a0, b0, a1, b1) = (vector![0.1, 0.2], vector![0.4, -0.1], vector![0.3, 0.1], vector![0.0, 0.5]);
     let plus_along = |q1: Vector2<f64>| integral(&|s| -momenta(&(a0 + (b0 - a0) * s), &q1).0.dot(&(b0 - a0)));
     let minus_along = |q0: Vector2<f64>| integral(&|s| momenta(&q0, &(a1 + (b1 - a1) * s)).1.dot(&(b1 - a1)));
