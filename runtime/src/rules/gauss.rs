@@ -53,11 +53,11 @@ use segment::Segment;
 /// ```
 ///
 /// L need not be quadratic in v. The stages come from a fixed-point iteration where it contracts, which is
-/// measured, and from Newton's method elsewhere (large steps, stiff forces). Without force the rule is symplectic
-/// and keeps the momentum maps of affine generators, ξ(q) = Aq + b, such as translations and rotations; of others to
-/// its order. With friction its step has an R_d for n = 1, and for linear systems with CM⁻¹K = KM⁻¹C; for S ≥ 2 in
-/// general for no others, not even for a nonlinear V with C = 2aM, where the exact motion has one
-/// ([`rayleigh_step`](crate::Discretised::rayleigh_step)).
+/// measured, and from Newton's method elsewhere (large steps, stiff forces). Without force the rule is
+/// symplectic and keeps the momentum maps of affine generators, ξ(q) = Aq + b, such as translations and
+/// rotations; of others to its order. With friction its step has an R_d for n = 1, and for linear systems
+/// with CM⁻¹K = KM⁻¹C; for S ≥ 2 in general for no others, not even for a nonlinear V with C = 2aM, where the
+/// exact motion has one ([`rayleigh_step`](crate::Discretised::rayleigh_step)).
 ///
 /// A [`Trajectory`](crate::Trajectory) keeps the stages of the last step ([`StageHistory`]), extrapolates
 /// them to those of the next, and adds up q and p with compensation.

@@ -5,8 +5,8 @@ use crate::numbers::Derivatives;
 use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, SolvedForVelocity, StepKernel};
 use crate::system::Rayleigh;
 
-/// The midpoint rule with all of the damping at the start of the segment: L-stable for every convex R(v), of
-/// order 1.
+/// The midpoint rule with all of the damping at the start of the segment: L-stable in the damping for every
+/// convex R(v) (stiff springs it follows as the midpoint rule does), of order 1.
 ///
 /// ```text
 /// L_d = h L(q̄, v̄) + (h²/2) R(v̄),   R_d = (h²/2) R(v̄)

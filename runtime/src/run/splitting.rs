@@ -23,12 +23,12 @@ use crate::step::{
 /// step = B(b₁h) A(a₁h) B(b₂h) … A(a_S h) B(b₁h),                  aᵢ = a_{S+1−i},  Σ aᵢ = Σ bᵢ = 1
 /// ```
 ///
-/// B lowers the degree in p of a field by one, A raises it by one at most, with damping as without; so brackets
-/// with two B more than A are 0, `[B,[B,[B,A]]]` and its brackets with A and B among those of degree 5. Without
-/// damping these are all that vanish up to there, and a symmetric step of order 6 looks no further: the
-/// conditions of its order are those without damping, fewer than for fields of any kind. The coefficients are those of S. Blanes and P. C. Moan (Practical symplectic partitioned Runge–Kutta and
-/// Runge–Kutta–Nyström methods, J. Comput. Appl. Math. 142, 2002, 313–330). A step costs S gradients and no
-/// equation is solved.
+/// B lowers the degree in p of a field by one, A raises it by one at most, with damping as without. So
+/// brackets with two B more than A are 0: `[B,[B,[B,A]]]`, and of five letters those that A and B make with
+/// it. Without damping no others of up to five vanish, and a symmetric step of order 6 looks no further: the
+/// conditions of its order are those without damping, fewer than for fields of any kind. The coefficients are
+/// those of S. Blanes and P. C. Moan (Practical symplectic partitioned Runge–Kutta and Runge–Kutta–Nyström
+/// methods, J. Comput. Appl. Math. 142, 2002, 313–330). A step costs S gradients and no equation is solved.
 ///
 /// **Structure.** Each kick with the drift after it is the flow of a discrete Lagrangian system with force.
 /// Self-adjoint. Symplectic where C = 0. The determinant of the step is e^{−h tr M⁻¹C}, that of the flow, for
@@ -191,8 +191,8 @@ where
 
 /// The kicks and drifts of a [`Splitting`].
 ///
-/// What the drifts do is worked out in the first step of a size. The force at the end of a step is that at the
-/// start of the next. It belongs to one system.
+/// What the drifts do is worked out in the first step of a size. The force at the end of a step is that at
+/// the start of the next. It belongs to one system.
 #[derive(Clone, Copy, Debug)]
 pub struct Kicks<T, const N: usize, const S: usize> {
     prepared: Option<Prepared<T, N, S>>,

@@ -25,8 +25,8 @@ use crate::theory::verdict::{Finding, Tolerance};
 /// right the first is −a bᵀ; by bᵀ and b the second is bᵀd. ∎
 ///
 /// For n = 1 every step is one. For n ≥ 2 no family of methods on (q, p) of order above 2 gives Rayleigh
-/// steps for every damping: with C and K the matrices of damping and springs and M = I the exact motion has the
-/// asymmetries ∓(h⁴/12) (CK − KC) at its ends, and no error of the method cancels both.
+/// steps for every damping: with C and K the matrices of damping and springs and M = I the exact motion has
+/// the asymmetries ∓(h⁴/12) (CK − KC) at its ends, and no error of the method cancels both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RayleighStep {

@@ -89,7 +89,8 @@ fn the_examples_minus_transform_has_m_over_h() {
     );
 }
 
-/// 𝓕⁻ in closed form, right as printed: it is π ∘ F_d^H ∘ γ⁺ of the printed γ⁺ and F_d^H, and the flow on Q×Q.
+/// 𝓕⁻ in closed form, right as printed: it is π ∘ F_d^H ∘ γ⁺ of the printed γ⁺ and F_d^H, and the flow on
+/// Q×Q.
 #[test]
 fn the_examples_closed_form_of_the_flow_is_right() {
     for (m, k, r, h) in [(1.0, 1.0, 0.5, 0.25), (0.7, 2.3, 1.1, 0.4), (2.1, 0.4, 0.0, 0.9)] {
@@ -104,7 +105,8 @@ fn the_examples_closed_form_of_the_flow_is_right() {
             let gamma_plus = m / h * (q1 - q0) - 0.25 * k * h * (q0 + q1) - r * (q1 - q0) / 2.0;
             let flow = (-h * h * k * q1 + 4.0 * h * gamma_plus + 2.0 * h * q1 * r + 4.0 * m * q1) / d;
             assert!((printed(q0, q1, r) - flow).abs() < 1e-14);
-            // Controls: friction of the other sign in the numerator; 𝔽⁻ as printed, with m − r, gives no such flow.
+            // Controls: friction of the other sign in the numerator; 𝔽⁻ as printed, with m − r, gives no such
+            // flow.
             assert!(r == 0.0 || (printed(q0, q1, -r) - step.state.q[0]).abs() > 1e-2);
             let by_printed_minus = {
                 // (q1, γ⁺) = 𝔽⁻(q1, q2) solved for q2.
@@ -116,8 +118,8 @@ fn the_examples_closed_form_of_the_flow_is_right() {
     }
 }
 
-/// G_d = S_d^j + S_d^{j+1} − R_d counts the terms k ≤ j − 2 twice, as it does the term k = j − 1; the printed first
-/// sum has no factor 2. γ^±, derivatives by q_j and q_{j+1}, do not see it.
+/// G_d = S_d^j + S_d^{j+1} − R_d counts the terms k ≤ j − 2 twice, as it does the term k = j − 1; the printed
+/// first sum has no factor 2. γ^±, derivatives by q_j and q_{j+1}, do not see it.
 #[test]
 fn the_examples_generating_function_lacks_a_factor_two() {
     let q = trajectory(&DAMPED, H, 0.2, 0.9, 9);

@@ -149,8 +149,9 @@ fn a_rotation_by_any_angle_maps_the_discrete_objects() {
     }
 }
 
-/// An element of 𝔤_{f_d} leaves f_d as a whole, a one-form on Q×Q, where it is: friction along the axis alone is of
-/// every rotation about it, by whatever angle, and keeps its momentum. About another axis neither holds.
+/// An element of 𝔤_{f_d} leaves f_d as a whole, a one-form on Q×Q, where it is: friction along the axis alone
+/// is of every rotation about it, by whatever angle, and keeps its momentum. About another axis neither
+/// holds.
 #[test]
 fn the_group_of_the_subalgebra_keeps_the_force() {
     let axial = Particle { m: 1.3, k: 0.4, r: [0.0, 0.0], tilt: 0.7, slope: 0.0 };

@@ -1,7 +1,8 @@
-//! The paper's example with R_d = F(r1, r2, θ1 + θ2), D3F ≠ 0 (section 3.6, example 3): J = r̄²(θ2 − θ1)/h − D3F is
-//! a constant of the motion, r̄²(θ2 − θ1)/h alone is not.
+//! The paper's example with R_d = F(r1, r2, θ1 + θ2), D3F ≠ 0 (section 3.6, example 3): J = r̄²(θ2 − θ1)/h −
+//! D3F is a constant of the motion, r̄²(θ2 − θ1)/h alone is not.
 //!
-//! The midpoint R_d of a friction of the radial motion that depends on the angle, R = ½ κ(θ) ṙ², is of this form.
+//! The midpoint R_d of a friction of the radial motion that depends on the angle, R = ½ κ(θ) ṙ², is of this
+//! form.
 
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::noether::Generator;

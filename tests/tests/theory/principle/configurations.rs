@@ -1,5 +1,10 @@
-//! δ Σ L_d(q_k, q_{k+1}) + Σ [f_d⁻·δq_k + f_d⁺·δq_{k+1}] = Σ DEL(q_{k−1}, q_k, q_{k+1})·δq_k + p_N·δq_N − p_0·δq_0
-//! (paper, section 3.1), by finite variations: of L_d and f_d their values alone are used on the left.
+//! The discrete Lagrange–d'Alembert principle (paper, section 3.1) by finite variations: of L_d and f_d values
+//! alone are used on the left of
+//!
+//! ```text
+//! δ Σ L_d(q_k, q_{k+1}) + Σ [f_d⁻·δq_k + f_d⁺·δq_{k+1}]
+//!     = Σ DEL(q_{k−1}, q_k, q_{k+1})·δq_k + p_N·δq_N − p_0·δq_0
+//! ```
 
 use dalembert::nalgebra::SVector;
 use dalembert::{
@@ -105,8 +110,8 @@ fn moved(q: &Points, delta: &Points, s: f64) -> Points {
     std::array::from_fn(|k| q[k] + delta[k] * s)
 }
 
-/// The left side of the principle and the work of the force alone, from values of L_d and f_d; (f⁻, f⁺) may be
-/// changed before they do work.
+/// The left side of the principle and the work of the force alone, from values of L_d and f_d; (f⁻, f⁺) may
+/// be changed before they do work.
 fn principle<R: Copy, L>(
     system: &L,
     rule: R,
@@ -197,8 +202,8 @@ fn finite_variations_of_the_action_give_the_discrete_equations() {
     }
 }
 
-/// The forces belong to their ends: f_d⁻ to δq_k, f_d⁺ to δq_{k+1}. Control of the same check: exchanged, they
-/// do other work, by every rule whose two differ.
+/// The forces belong to their ends: f_d⁻ to δq_k, f_d⁺ to δq_{k+1}. Control of the same check: exchanged,
+/// they do other work, by every rule whose two differ.
 #[test]
 fn exchanged_forces_are_seen() {
     let mut draws = Draws::new(32);

@@ -1,6 +1,7 @@
-//! The action in terms of H_d⁺ and the principle in phase space (paper, section 3.2, equation (3) and the display
-//! after it). With p_{k+1} tied to (q_k, q_{k+1}) by 𝔽⁺ it is the principle on configurations. With q_k and p_{k+1}
-//! free the force f_d⁺ has to work along the variation of what H_d⁺ eliminates, q_{k+1}(q_k, p_{k+1}):
+//! The action in terms of H_d⁺ and the principle in phase space (paper, section 3.2, equation (3) and the
+//! display after it). With p_{k+1} tied to (q_k, q_{k+1}) by 𝔽⁺ it is the principle on configurations. With
+//! q_k and p_{k+1} free the force f_d⁺ has to work along the variation of what H_d⁺ eliminates, q_{k+1}(q_k,
+//! p_{k+1}):
 //!
 //! ```text
 //! δ Σ [p_{k+1}·q_{k+1} − H_d⁺(q_k, p_{k+1})] + Σ [f_d⁻·δq_k + f_d⁺·δ(q_{k+1}(q_k, p_{k+1}))] = 0

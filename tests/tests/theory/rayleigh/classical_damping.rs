@@ -1,6 +1,6 @@
-//! C M⁻¹V″(q) symmetric for all q: the system is a product of systems with C = 2aM each, and the exact motion has an
-//! R_d for every h, nonlinear or not. So have rules whose steps are then conformally symplectic; Gauss rules of two
-//! stages and more, and compositions of the midpoint rule, only where V is quadratic.
+//! C M⁻¹V″(q) symmetric for all q: the system is a product of systems with C = 2aM each, and the exact motion
+//! has an R_d for every h, nonlinear or not. So have rules whose steps are then conformally symplectic; Gauss
+//! rules of two stages and more, and compositions of the midpoint rule, only where V is quadratic.
 
 use dalembert::derivative::{LegendreDerivatives, Linearization};
 use dalembert::exact::Exact;
@@ -12,8 +12,8 @@ use dalembert::{
     rayleigh_system,
 };
 
-/// Two coordinates damped alike, and one by itself: M = diag(m), C = diag(2a₁m₁, 2a₁m₂, 2a₂m₃). `bond` couples the
-/// two to the third, so that CM⁻¹V″ is symmetric no more.
+/// Two coordinates damped alike, and one by itself: M = diag(m), C = diag(2a₁m₁, 2a₁m₂, 2a₂m₃). `bond`
+/// couples the two to the third, so that CM⁻¹V″ is symmetric no more.
 #[derive(Clone, Copy, Debug)]
 struct Product {
     m: [f64; 3],
@@ -88,7 +88,8 @@ fn gauss_rules_have_one_only_where_the_potential_is_quadratic() {
         assert!(!of(&PRODUCT, Composition::kahan_li_6(Midpoint), h).is_rayleigh());
         assert!(of(&PRODUCT, Gauss::<1>, h).is_rayleigh());
     }
-    // What is missing is of the method's own error: it falls faster than the h⁴ of the exact motion of `BOUND`.
+    // What is missing is of the method's own error: it falls faster than the h⁴ of the exact motion of
+    // `BOUND`.
     let asymmetry = |system: &Product, h: f64| of(system, Gauss::<2>, h).at_start.value.abs();
     let fall = |system: &Product| (asymmetry(system, 0.1) / asymmetry(system, 0.05)).log2();
     assert!(fall(&PRODUCT) > 5.5 && (fall(&BOUND) - 4.0).abs() < 0.3, "{} {}", fall(&PRODUCT), fall(&BOUND));

@@ -1,5 +1,6 @@
-//! Linear systems M q̈ + C q̇ + K q = 0 with symmetric M, C, K: BA is symmetric, B = [[C, I], [I, 0]], for every method but
-//! the fitted rule. Its block b = ∂q1/∂p0 is reciprocity; together they make the modified system a Rayleigh system.
+//! Linear systems M q̈ + C q̇ + K q = 0 with symmetric M, C, K: BA is symmetric, B = [[C, I], [I, 0]], for
+//! every method but the fitted rule. Its block b = ∂q1/∂p0 is reciprocity; together they make the modified
+//! system a Rayleigh system.
 
 use dalembert::nalgebra::{Matrix4, vector};
 use dalembert::step::Flow;
