@@ -15,6 +15,8 @@
 //! v·∂R/∂v ≥ 0                                                                      dissipation
 //! ```
 //!
+//! [`modified`] has the Rayleigh system on whose motion a run lies.
+//!
 //! Of a system at a time t0, a view, the k-th segment is judged at t0 + k h.
 //!
 //! The first condition has three parts (the paper prints the last alone, which is enough for n = 1), and χ
@@ -52,6 +54,7 @@
 mod comparison;
 mod conformal_step;
 mod dissipation;
+pub mod modified;
 mod potential;
 mod proportion;
 pub(super) mod quadrature;

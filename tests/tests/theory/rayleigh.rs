@@ -4,6 +4,8 @@ mod classical_damping;
 mod conformal;
 mod dissipation;
 mod equivalence;
+mod modified_linear;
+mod modified_midpoint;
 mod potential;
 mod reciprocity;
 mod resplit;

@@ -1,0 +1,291 @@
+//! The system on whose motion the steps of a linear system lie, from log A.
+
+use core::fmt;
+
+use nalgebra::{SMatrix, SVector};
+
+use super::branch::require_principal;
+use super::logarithm::{eigenvalues, logarithm};
+use super::scaled::{assembled, blocks, require_finite, rescaled, scales, widened};
+use crate::numbers::Scalar;
+use crate::rules::modes;
+use crate::step::{Discretised, Flow, PhaseMatrix, State, invert};
+use crate::theory::rayleigh::modified::ModifiedLinearSystemError;
+use crate::theory::rayleigh::{Asymmetry, Entry};
+use crate::theory::verdict::{Finding, Tolerance};
+
+/// The modified system of a linear step: the q of its run lie on a motion of M̃q̈ + C̃q̇ + K̃q = 0, exactly.
+///
+/// **From A alone.** With log A/h = [[a, b], [c, d]] the states of the run are those of ż = (log A/h) z at t
+/// = kh, so that p = b⁻¹(q̇ − aq). Put into ṗ = cq + dp this is
+///
+/// ```text
+/// M̃ = b⁻¹,   C̃ = −b⁻¹a − db⁻¹,   K̃ = db⁻¹a − c
+/// ```
+///
+/// with M̃ in the units of p/q̇. Where all three are symmetric the modified system has L̃ = ½vᵀM̃v − ½qᵀK̃q
+/// and R̃ = ½vᵀC̃v; an antisymmetric part of C̃ is a gyroscopic force, of K̃ a circulatory one.
+///
+/// **Theorem.** With the derivatives K00 = ∂p0/∂q0, K01 = ∂p0/∂q1, K10, K11 of the momenta the run satisfies
+/// K10 q₀ + (K11 − K00) q₁ − K01 q₂ = 0. Its three matrices are symmetric if and only if M̃, C̃ and K̃ are.
+///
+/// *Proof.* Let B = [[β, I], [I, 0]] with a symmetric β. If BA is symmetric, then BAᵏ = (Aᵀ)ᵏB is and B log
+/// A, since log A is a polynomial in A; if B log A is, so is BA, since A = exp log A. The first means that
+/// b_A = K01⁻¹ and K00ᵀb_A K00 + K10 are symmetric and β = −(K00ᵀ + K11), with A = [[−b_A K00, b_A], [K10 −
+/// K11 b_A K00, K11 b_A]]: that K01, K10 and K11 − K00 = −β − (K00 + K00ᵀ) are. The second means that b and
+/// βa + c are symmetric and d = aᵀ − βb: that M̃, C̃ = β − b⁻¹a − aᵀb⁻¹ and K̃ = aᵀb⁻¹a − βa − c are. ∎
+///
+/// Of Mq̈ + Cq̇ + Kq = 0 with symmetric matrices and p = Mq̇, let X be the field on (q, p). With β = C the
+/// matrix BX is [[−K, 0], [0, M⁻¹]], and BA symmetric for every A = f(hX): the midpoint rule, Gauss rules,
+/// their compositions. The kicks and drifts of a splitting have such fields each, [[0, 0], [−K, 0]] and [[0,
+/// M⁻¹], [0, −CM⁻¹]], and if SᵀB = BS and TᵀB = BT then (STS)ᵀB = B(STS): the trapezoidal rules and the
+/// splittings, which read the same from either end. The one-sided rule has symmetric K00, K01, K10 and K11.
+/// The fitted midpoint rule has its R_d, and a modified Rayleigh function, where C is a multiple of M.
+///
+/// M̃ is fixed by the momentum of the run. (Multiplied by some other matrix from the left, the equations may
+/// be symmetric even where these are not: for n = 2 such a matrix exists always, with an indefinite mass in
+/// general.)
+///
+/// Conservative: modified Lagrangians of variational integrators are due to M. Vermeeren (Modified equations
+/// for variational integrators, Numer. Math. 137, 2017). With a Rayleigh function we found no earlier
+/// statement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ModifiedLinearSystem<const N: usize> {
+    /// log A/h, the field of the motion on (q, p).
+    pub field: PhaseMatrix<f64, N>,
+    /// M̃.
+    pub mass: SMatrix<f64, N, N>,
+    /// C̃.
+    pub damping: SMatrix<f64, N, N>,
+    /// K̃.
+    pub stiffness: SMatrix<f64, N, N>,
+    /// Of M̃; where it is worst.
+    pub of_mass: Asymmetry,
+    /// Of C̃: the gyroscopic force.
+    pub of_damping: Asymmetry,
+    /// Of K̃: the circulatory force.
+    pub of_stiffness: Asymmetry,
+    /// The least eigenvalue of C̃ beside what rounding makes of a 0.
+    least_damping: (f64, f64),
+}
+
+/// The asymmetry of a bilinear form that is worst, in (x, x) coordinates, as it is in (q, q) ones.
+fn asymmetry<const N: usize>(
+    form: &SMatrix<f64, N, N>,
+    s: &SVector<f64, N>,
+    (relative, size): (f64, f64),
+) -> Asymmetry {
+    let mut worst = None;
+    for i in 0..N {
+        for j in 0..i {
+            let unit = 1.0 / (s[i] * s[j]);
+            let tolerance = Tolerance { relative, scale: size * unit };
+            let value = (form[(i, j)] - form[(j, i)]) * unit;
+            let at = Entry { entry: (i, j), sample: 0 };
+            Finding::relative(value, tolerance, at).keep_if_worse(&mut worst, Finding::excess);
+        }
+    }
+    worst.unwrap_or_else(|| {
+        let at = Entry { entry: (0, 0), sample: 0 };
+        Finding::relative(0.0, Tolerance { relative, scale: 1.0 }, at)
+    })
+}
+
+impl<const N: usize> ModifiedLinearSystem<N> {
+    /// Of the step of size `h` with this derivative, such as one written by hand, by the principal logarithm:
+    /// with eigenvalues turned by less than π a step. An asymmetry counts as zero within `relative` of the
+    /// terms it is the sum of, or 1024 ε unless said.
+    ///
+    /// At an equilibrium of a system that is not linear this is the modified system of the linearised steps.
+    ///
+    /// # Errors
+    /// A [`ModifiedLinearSystemError`] that says which hypothesis fails.
+    pub fn of<S: Scalar>(
+        derivative: &PhaseMatrix<S, N>,
+        h: f64,
+        relative: Option<f64>,
+    ) -> Result<Self, ModifiedLinearSystemError> {
+        let relative = relative.unwrap_or_else(Tolerance::rounding::<S>);
+        if !h.is_finite() || h == 0.0 {
+            return Err(ModifiedLinearSystemError::StepSize { h });
+        }
+        let a = widened(derivative);
+        require_finite(&a, 0)?;
+        let s = scales(&a);
+        let x = blocks::<N>(&logarithm(&assembled(&rescaled(&a, &s.map(f64::recip))))?);
+        let PhaseMatrix { q_by_q: a, q_by_p: b, p_by_q: c, p_by_p: d } = &x;
+        let m = invert(b).map_err(|_| ModifiedLinearSystemError::Degenerate)?;
+        // In units of h; ṗ of y.
+        let (damping, stiffness) = (-(m * a + d * m), d * m * a - c);
+        // An error of 1 in each entry of the logarithm moves the three by these.
+        let [of_a, of_d, of_m] = [a, d, &m].map(|block| block.norm());
+        let size_of_mass = of_m * of_m;
+        let size_of_damping = 2.0 * of_m + (of_a + of_d) * size_of_mass;
+        let size_of_stiffness = 1.0 + (of_a + of_d) * of_m + of_a * of_d * size_of_mass;
+        let symmetric = (damping + damping.transpose()) * 0.5;
+        let (.., eigenvalues) = modes(&SMatrix::identity(), &symmetric);
+        let to_form = |form: &SMatrix<f64, N, N>, unit: f64| {
+            form.map_with_location(|i, j, entry| entry * unit / (s[i] * s[j]))
+        };
+        let in_time = |size: f64, power: i32| size * h.powi(power);
+        let found = |form: &SMatrix<f64, N, N>, size: f64, power: i32| {
+            asymmetry(&(form * h.powi(power)), &s, (relative, in_time(size, power).abs()))
+        };
+        let field = rescaled(&x, &s);
+        Ok(Self {
+            field: PhaseMatrix {
+                q_by_q: field.q_by_q / h,
+                q_by_p: field.q_by_p / h,
+                p_by_q: field.p_by_q / h,
+                p_by_p: field.p_by_p / h,
+            },
+            mass: to_form(&m, h),
+            damping: to_form(&damping, 1.0),
+            stiffness: to_form(&stiffness, 1.0 / h),
+            of_mass: found(&m, size_of_mass, 1),
+            of_damping: found(&damping, size_of_damping, 0),
+            of_stiffness: found(&stiffness, size_of_stiffness, -1),
+            least_damping: (eigenvalues.min(), relative * size_of_damping),
+        })
+    }
+
+    /// Whether the modified system is a Rayleigh system: M̃, C̃ and K̃ are symmetric, to rounding.
+    #[must_use]
+    pub fn is_rayleigh(&self) -> bool {
+        self.of_mass.vanishes() && self.of_damping.vanishes() && self.of_stiffness.vanishes()
+    }
+
+    /// Whether R̃ = ½vᵀC̃v ≥ 0 for every v, to rounding.
+    ///
+    /// **Theorem.** By the midpoint rule R̃ ≥ 0 wherever M > 0, C ≥ 0 and log A is defined: for every h at
+    /// which no mode rings.
+    ///
+    /// *Proof.* Let Z(s) = Ms² + Cs + K, so that Z(s)⁻¹ is the block q by p of (s − X)⁻¹, and Z̃ likewise of
+    /// log A/h = f(X), f(z) = (2/h) artanh(hz/2). By Cauchy's formula for 1/(iω − f(z)), 0 < ω < π/h, the
+    /// contour drawn from the spectrum to the pole iω₀ = (2i/h) tan(hω/2) and the cuts |x| ≥ 2/h of f,
+    ///
+    /// ```text
+    /// Z̃(iω)⁻¹ = (1 + h²ω₀²/4) Z(iω₀)⁻¹ + ∫_{2/h}^∞ ρ(x) Z(x)⁻¹ + ρ̄(x) Z(−x)⁻¹ dx,
+    /// ρ = (1/h)/(π²/h² + u² − ω² − 2iωu),   u = (2/h) arcoth(hx/2)
+    /// ```
+    ///
+    /// Im ρ > 0. On the cuts Z(±x) > 0: it is for large x, and singular nowhere there, where A would have a
+    /// negative eigenvalue. Z(x) ≥ Z(−x), so that Z(x)⁻¹ ≤ Z(−x)⁻¹, and Im Z(iω₀)⁻¹ ≤ 0: hence Im Z̃(iω)⁻¹ ≤
+    /// 0, and ωC̃ = Im Z̃(iω) ≥ 0. ∎
+    ///
+    /// By the trapezoidal rules the same was found of every system drawn. By Gauss rules of order 4 and above
+    /// R̃ has either sign, however small the step, where friction acts on some coordinates only; where C > 0
+    /// it is positive for small h by every method.
+    #[must_use]
+    pub fn is_dissipative(&self) -> bool {
+        let (least, rounding) = self.least_damping;
+        least >= -rounding
+    }
+
+    /// q̇ of the motion at a state of the run: aq + bp. It differs from that of [`State::velocity`], at the
+    /// same q.
+    ///
+    /// q and p are measured from the equilibrium.
+    #[must_use]
+    pub fn velocity(&self, state: &State<f64, N>) -> SVector<f64, N> {
+        self.field.q_by_q * state.q + self.field.q_by_p * state.p
+    }
+
+    /// Ẽ = ½vᵀM̃v + ½qᵀK̃q, which falls at the rate 2R̃ along the motion, if this is a Rayleigh system.
+    #[must_use]
+    pub fn energy(&self, q: &SVector<f64, N>, v: &SVector<f64, N>) -> f64 {
+        0.5 * (v.dot(&(self.mass * v)) + q.dot(&(self.stiffness * q)))
+    }
+
+    /// R̃ = ½vᵀC̃v.
+    #[must_use]
+    pub fn rayleigh(&self, v: &SVector<f64, N>) -> f64 {
+        0.5 * v.dot(&(self.damping * v))
+    }
+}
+
+/// Modified systems of linear steps.
+impl<L, M, const N: usize> Discretised<'_, L, M, N>
+where
+    L: Flow<M, N>,
+{
+    /// The modified system of a linear system by this method, from its derivative alone: of a rule, a
+    /// composition or a splitting alike. See
+    /// [`ModifiedLinearSystem`](crate::rayleigh::modified::ModifiedLinearSystem).
+    ///
+    /// The derivatives at the `states`, two of them or more, have to be one matrix: that the system is
+    /// linear, up to a constant force. The logarithm is the one that the step size leads to from 0; where
+    /// that is not the principal one the step is refused.
+    ///
+    /// ```
+    /// use dalembert::nalgebra::vector;
+    /// use dalembert::{Composition, Discretise, Midpoint, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system]
+    /// fn pair(q: [f64; 2], v: [f64; 2], r: f64) -> (f64, f64) {
+    ///     let potential = q[0] * q[0] + q[0] * q[1] + q[1] * q[1];
+    ///     (0.5 * (v[0] * v[0] + v[1] * v[1] - potential), 0.5 * r * v[0] * v[0] + 0.1 * v[1] * v[1])
+    /// }
+    /// let pair = Pair { r: 0.5 };
+    /// let states = [[0.3, -0.2], [0.1, 0.4]].map(|q| State { q: q.into(), p: vector![0.1, 0.0] });
+    /// let six = pair.by(Composition::kahan_li_6(Midpoint), 0.5).modified_linear_system(&states)?;
+    /// assert!(six.is_rayleigh() && six.is_dissipative());
+    /// assert!((six.damping[(0, 0)] - 0.5).abs() < 1e-4);
+    /// println!("{six}");
+    /// # Ok::<(), dalembert::rayleigh::modified::ModifiedLinearSystemError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A [`ModifiedLinearSystemError`](crate::rayleigh::modified::ModifiedLinearSystemError) that says which
+    /// hypothesis fails.
+    pub fn modified_linear_system(
+        &self,
+        states: &[State<L::Scalar, N>],
+    ) -> Result<ModifiedLinearSystem<N>, ModifiedLinearSystemError> {
+        let [first, others @ ..] = states else { return Err(ModifiedLinearSystemError::TooFewStates) };
+        if others.is_empty() {
+            return Err(ModifiedLinearSystemError::TooFewStates);
+        }
+        let derivative = |sample: usize, state: &State<L::Scalar, N>, share: f64| {
+            let by = self.with_step(self.step_size() * L::Scalar::constant(share));
+            match by.linearized_step(state) {
+                Ok((_, by)) => Ok(by.a),
+                Err(error) => Err(ModifiedLinearSystemError::Step { sample, error }),
+            }
+        };
+        let a = derivative(0, first, 1.0)?;
+        let wide = widened(&a);
+        require_finite(&wide, 0)?;
+        let s = scales(&wide).map(f64::recip);
+        let whole = |a: &PhaseMatrix<f64, N>| assembled(&rescaled(a, &s));
+        let size = whole(&wide).amax();
+        for (sample, state) in (1..).zip(others) {
+            let other = widened(&derivative(sample, state, 1.0)?);
+            require_finite(&other, sample)?;
+            let difference = (whole(&other) - whole(&wide)).amax() / size;
+            if difference > Tolerance::rounding::<L::Scalar>() {
+                return Err(ModifiedLinearSystemError::NotLinear { sample, difference });
+            }
+        }
+        let modified = ModifiedLinearSystem::of(&a, self.step_size().widen(), None)?;
+        require_principal(|share| eigenvalues(&whole(&widened(&derivative(0, first, share)?))))?;
+        Ok(modified)
+    }
+}
+
+impl<const N: usize> fmt::Display for ModifiedLinearSystem<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let answer = |yes: bool| if yes { "yes" } else { "no" };
+        let verdict = if self.is_rayleigh() { "a Rayleigh system" } else { "not a Rayleigh system" };
+        writeln!(f, "the modified system is {verdict}")?;
+        for (name, found) in [
+            ("M̃ is symmetric", &self.of_mass),
+            ("C̃ is symmetric", &self.of_damping),
+            ("K̃ is symmetric", &self.of_stiffness),
+        ] {
+            writeln!(f, "  {name}: {}: {found}", answer(found.vanishes()))?;
+        }
+        write!(f, "  R̃ ≥ 0: {}", answer(self.is_dissipative()))
+    }
+}
