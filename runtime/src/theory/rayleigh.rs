@@ -15,7 +15,7 @@
 //! v·∂R/∂v ≥ 0                                                                      dissipation
 //! ```
 //!
-//! [`modified`] has the Rayleigh system on whose motion a run lies.
+//! [`modified`] has the Rayleigh system on whose motion a run lies, [`routh`] the reduction by a cyclic coordinate.
 //!
 //! Of a system at a time t0, a view, the k-th segment is judged at t0 + k h.
 //!
@@ -61,6 +61,7 @@ pub(super) mod quadrature;
 mod rayleigh_step;
 mod residual;
 mod resplit;
+pub mod routh;
 mod structure;
 
 pub use comparison::{Comparison, Equivalence};

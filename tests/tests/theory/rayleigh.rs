@@ -9,5 +9,6 @@ mod modified_midpoint;
 mod potential;
 mod reciprocity;
 mod resplit;
+mod routh;
 mod steps;
 mod structure;
