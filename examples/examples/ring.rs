@@ -1,6 +1,7 @@
 //! A particle in a ring potential with weak drag, over 10 000 steps: energy and angular momentum by the
 //! variational midpoint rule, by the classical Runge–Kutta method at the same step size, and by an accurate
-//! reference.
+//! reference. And the modified energy Ẽ of the midpoint rule, which falls as the modified friction takes it,
+//! beside E, which does not.
 //!
 //! Marsden and West, Discrete mechanics and variational integrators (2001), example 3.2.3. All quantities are
 //! dimensionless.
@@ -42,6 +43,9 @@ pub const H: f64 = 0.2;
 /// The number of steps: T = 2000.
 pub const STEPS: usize = 10_000;
 
+/// The steps that the picture of lost energies shows.
+const SHOWN: usize = 200;
+
 fn main() -> Result<()> {
     let ring = Ring { k: 1e-3 };
     let start = start(&ring)?;
@@ -56,9 +60,11 @@ fn main() -> Result<()> {
 
     print_energy(&midpoint, &runge_kutta, &reference);
     print_balance(&midpoint, &runge_kutta, &reference);
+    let [plain, modified] = energies(&ring, start, H, STEPS)?;
+    print_modified(&ring, start, &plain, &modified)?;
     print_angular_momentum(&ring, &midpoint, &runge_kutta, &reference);
     print_quality(&solver, &reference, &looser);
-    println!("\nPicture: {}", draw(&midpoint, &runge_kutta, &reference)?.display());
+    println!("\nPicture: {}", draw(&midpoint, &runge_kutta, &reference, &plain, &modified)?.display());
     Ok(())
 }
 
@@ -139,6 +145,64 @@ pub fn variational_midpoint(
     Ok((Motion::of(ring, &states)?, solver))
 }
 
+/// An energy along the run of the midpoint rule, and the friction that takes it.
+#[derive(Default)]
+pub struct Balance {
+    /// E or Ẽ at the nodes.
+    pub energy: Vec<f64>,
+    /// What friction takes in unit time, 2R or 2R̃.
+    pub loss: Vec<f64>,
+}
+
+impl Balance {
+    /// ∫ loss dt up to each node, of the cubics through four nodes: its error is of fourth order.
+    pub fn taken(&self, h: f64) -> Vec<f64> {
+        let (loss, last) = (&self.loss, self.loss.len() - 1);
+        let mut taken = vec![0.0];
+        for k in 0..last {
+            let weights = |from: usize, w: [f64; 4]| -> f64 {
+                loss[from..].iter().zip(w).map(|(loss, weight)| loss * weight).sum()
+            };
+            let sum = match k {
+                0 => weights(0, [9.0, 19.0, -5.0, 1.0]),
+                k if k + 1 == last => weights(last - 3, [1.0, -5.0, 19.0, 9.0]),
+                k => weights(k - 1, [-1.0, 13.0, 13.0, -1.0]),
+            };
+            taken.push(taken[k] + h / 24.0 * sum);
+        }
+        taken
+    }
+
+    /// energy + ∫ loss dt − energy(0) at each node: what friction leaves unexplained.
+    pub fn remainder(&self, h: f64) -> Vec<f64> {
+        let explained = self.taken(h);
+        self.energy.iter().zip(explained).map(|(energy, taken)| energy + taken - self.energy[0]).collect()
+    }
+
+    /// The largest of them.
+    pub fn worst(&self, h: f64) -> f64 {
+        self.remainder(h).iter().fold(0.0, |worst: f64, left| worst.max(left.abs()))
+    }
+}
+
+/// E with R, and Ẽ with R̃, along the run of the midpoint rule with step size `h`.
+pub fn energies(ring: &Ring, start: State<f64, 2>, h: f64, steps: usize) -> Result<[Balance; 2]> {
+    let by = ring.by(Midpoint, h);
+    let modified_system = by.modified_system()?;
+    let [mut plain, mut modified] = [Balance::default(), Balance::default()];
+    let run = by.run(start).take(steps).map(|step| step.map(|step| step.state));
+    for state in once(Ok(start)).chain(run) {
+        let state = state?;
+        let v = state.velocity(ring)?;
+        plain.energy.push(ring.energy(&state.q, &v));
+        plain.loss.push(2.0 * ring.rayleigh(v.into()));
+        let v = modified_system.velocity(&state)?;
+        modified.energy.push(modified_system.energy(&state.q, &v));
+        modified.loss.push(2.0 * modified_system.rayleigh(&state.q, &v));
+    }
+    Ok([plain, modified])
+}
+
 /// The motion by a method that knows nothing of L and R but the equations of motion.
 pub fn standard_method(
     ring: &Ring,
@@ -185,6 +249,21 @@ fn print_balance(midpoint: &Motion, runge_kutta: &Motion, reference: &Motion) {
     }
 }
 
+fn print_modified(ring: &Ring, start: State<f64, 2>, plain: &Balance, modified: &Balance) -> Result<()> {
+    println!(
+        "\nE with R, and the modified Ẽ with R̃, along the midpoint rule's run: what friction leaves unexplained"
+    );
+    println!("        T      h   of E, at most   of Ẽ, at most");
+    println!("{:9} {H:6} {:15.1e} {:15.1e}", time(STEPS), plain.worst(H), modified.worst(H));
+    for (h, steps) in [(0.2, 100), (0.1, 200), (0.05, 400), (0.025, 800)] {
+        let [plain, modified] = energies(ring, start, h, steps)?;
+        println!("{:9} {h:6} {:15.1e} {:15.1e}", h * steps as f64, plain.worst(h), modified.worst(h));
+    }
+    let largest = ring.by(Midpoint, H).modified_system()?.largest_step(&start.q)?;
+    println!("R̃ ≥ 0 at the start for h ≤ {largest:.3}, by the terms of h².");
+    Ok(())
+}
+
 fn print_angular_momentum(ring: &Ring, midpoint: &Motion, runge_kutta: &Motion, reference: &Motion) {
     println!("\nAngular momentum; errors are against the exact J(t) = J(0) exp(−k t).");
     println!("     t      exact   midpoint     error       RK4     error  reference's error");
@@ -217,8 +296,14 @@ fn difference(a: &[f64], b: &[f64]) -> impl Iterator<Item = f64> {
     a.iter().zip(b).map(|(a, b)| a - b)
 }
 
-/// Energy and angular momentum above, their errors below.
-fn draw(midpoint: &Motion, runge_kutta: &Motion, reference: &Motion) -> Result<PathBuf> {
+/// Energy and angular momentum above, their errors in the middle, the modified energy below.
+fn draw(
+    midpoint: &Motion,
+    runge_kutta: &Motion,
+    reference: &Motion,
+    plain: &Balance,
+    modified: &Balance,
+) -> Result<PathBuf> {
     let against_time = |values: &mut dyn Iterator<Item = f64>| -> Vec<_> {
         values.enumerate().map(|(k, value)| (time(k), value)).collect()
     };
@@ -248,6 +333,23 @@ fn draw(midpoint: &Motion, runge_kutta: &Motion, reference: &Motion) -> Result<P
         ];
         Panel::new(title, axis, y, curves)
     };
+    let lines = |values: Vec<f64>, steps: usize| against_time(&mut values.into_iter().take(steps + 1));
+    let lost = |balance: &Balance| balance.energy.iter().map(|energy| balance.energy[0] - energy).collect();
+    // The largest of every 50 steps, without the band below it.
+    let largest = |balance: &Balance| -> Vec<_> {
+        let left = balance.remainder(H);
+        let of = |steps: &[f64]| steps.iter().fold(0.0, |most: f64, left| most.max(left.abs()));
+        (1..).step_by(50).map(|k| time(k + 25)).zip(left[1..].chunks_exact(50).map(of)).collect()
+    };
+    let losses = vec![
+        Curve::line("E(0) − E", colour::FOURTH, 2, lines(lost(plain), SHOWN)),
+        Curve::line("Ẽ(0) − Ẽ", colour::VARIATIONAL, 6, lines(lost(modified), SHOWN)),
+        Curve::line("∫ 2R̃ dt", colour::REFERENCE, 2, lines(modified.taken(H), SHOWN)).dashed(Dash::Dashed),
+    ];
+    let unexplained = vec![
+        Curve::line("of E, by 2R", colour::FOURTH, 2, largest(plain)).dashed(Dash::Dashed),
+        Curve::line("of Ẽ, by 2R̃", colour::VARIATIONAL, 2, largest(modified)),
+    ];
     let panels = [
         panel(
             "Energy: the midpoint rule loses what friction takes",
@@ -271,6 +373,18 @@ fn draw(midpoint: &Motion, runge_kutta: &Motion, reference: &Motion) -> Result<P
             logarithmic("|J − reference| (dimensionless)").with_floor(1e-6).from_to(1e-6, 1.0),
             |motion| &motion.angular_momentum,
         ),
+        Panel::new(
+            "The midpoint rule's run: Ẽ falls as its friction takes it",
+            axis,
+            linear("lost since t = 0 (dimensionless)"),
+            losses,
+        ),
+        Panel::new(
+            "Largest part that friction leaves unexplained, h = 0.2",
+            axis,
+            logarithmic("|energy + ∫ friction dt − energy(0)|").from_to(1e-5, 1e-1),
+            unexplained,
+        ),
     ];
-    picture::write("ring", [1600, 1200], 2, &panels)
+    picture::write("ring", [1600, 1800], 2, &panels)
 }

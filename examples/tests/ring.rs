@@ -79,3 +79,20 @@ fn the_midpoint_follows_the_energy_and_runge_kutta_does_not() {
     // The trapezoidal sum itself, on the reference.
     assert!(by_itself(&reference).abs() < 1e-6);
 }
+
+/// E is lost as friction takes it to O(h²), Ẽ to O(h⁴), and R̃ takes energy at every node.
+#[test]
+fn the_modified_energy_is_lost_as_friction_takes_it() {
+    let worst = [(0.1, 200), (0.05, 400), (0.025, 800)].map(|(h, steps)| {
+        let balances = ring::energies(&RING, start(&RING).unwrap(), h, steps).unwrap();
+        assert!(balances[1].loss.iter().all(|&loss| loss > 0.0));
+        balances.map(|balance| balance.worst(h))
+    });
+    for halving in worst.windows(2) {
+        let [plain, modified] = [0, 1].map(|of| (halving[0][of] / halving[1][of]).log2());
+        assert!((plain - 2.0).abs() < 0.1 && (modified - 4.0).abs() < 0.1, "{plain} {modified}");
+    }
+    // At the scene's own step the run does not add to it: that of T = 40 is that of T = 20.
+    let of = |steps| ring::energies(&RING, start(&RING).unwrap(), H, steps).unwrap()[1].worst(H);
+    assert_eq!(of(200), of(100));
+}
