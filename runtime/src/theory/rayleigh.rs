@@ -15,7 +15,8 @@
 //! v·∂R/∂v ≥ 0                                                                      dissipation
 //! ```
 //!
-//! [`modified`] has the Rayleigh system on whose motion a run lies, [`routh`] the reduction by a cyclic coordinate.
+//! [`modified`] has the Rayleigh system on whose motion a run lies, [`routh`] the reduction by a cyclic
+//! coordinate.
 //!
 //! Of a system at a time t0, a view, the k-th segment is judged at t0 + k h.
 //!
