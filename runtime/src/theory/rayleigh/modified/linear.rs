@@ -158,8 +158,8 @@ impl<const N: usize> ModifiedLinearSystem<N> {
 
     /// Whether R̃ = ½vᵀC̃v ≥ 0 for every v, to rounding.
     ///
-    /// **Theorem.** By the midpoint rule R̃ ≥ 0 wherever M > 0, C ≥ 0 and log A is defined: for every h at
-    /// which no mode rings.
+    /// **Theorem.** By the midpoint rule and by both trapezoidal rules R̃ ≥ 0 wherever M > 0, C ≥ 0 and log A
+    /// is defined: for every h at which no mode rings.
     ///
     /// *Proof.* Let Z(s) = Ms² + Cs + K, so that Z(s)⁻¹ is the block q by p of (s − X)⁻¹, and Z̃ likewise of
     /// log A/h = f(X), f(z) = (2/h) artanh(hz/2). By Cauchy's formula for 1/(iω − f(z)), 0 < ω < π/h, the
@@ -172,11 +172,16 @@ impl<const N: usize> ModifiedLinearSystem<N> {
     ///
     /// Im ρ > 0. On the cuts Z(±x) > 0: it is for large x, and singular nowhere there, where A would have a
     /// negative eigenvalue. Z(x) ≥ Z(−x), so that Z(x)⁻¹ ≤ Z(−x)⁻¹, and Im Z(iω₀)⁻¹ ≤ 0: hence Im Z̃(iω)⁻¹ ≤
-    /// 0, and ωC̃ = Im Z̃(iω) ≥ 0. ∎
+    /// 0, and ωC̃ = Im Z̃(iω) ≥ 0.
     ///
-    /// By the trapezoidal rules the same was found of every system drawn. By Gauss rules of order 4 and above
-    /// R̃ has either sign, however small the step, where friction acts on some coordinates only; where C > 0
-    /// it is positive for small h by every method.
+    /// The trapezoidal rule's M(q₋ − 2q + q₊)/h² + C(q₊ − q₋)/2h + Kq = 0 is the midpoint rule's equation
+    /// with M′ = M − (h²/4)K in the place of M, and its p that rule's up to a matrix times q, which leaves Z̃
+    /// as it is. M′ ≥ 0: Z(2/h) = (4/h²)(M + hC/2) > 0 with M′, and Z is singular nowhere beyond. For the
+    /// fitted one take MZ coth Z for M. ∎
+    ///
+    /// By Gauss rules of order 4 and above R̃ has either sign, however small the step, where friction acts on
+    /// some coordinates only; where C > 0 it is positive for small h by every method. We found no earlier
+    /// statement.
     #[must_use]
     pub fn is_dissipative(&self) -> bool {
         let (least, rounding) = self.least_damping;

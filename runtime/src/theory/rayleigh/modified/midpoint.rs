@@ -225,8 +225,8 @@ impl<'a, L: ActingForce<N>, const N: usize> ModifiedSystem<'a, L, N> {
     /// friction acts on some coordinates only, cⱼ = 0, and V″ couples them to others.
     ///
     /// A criterion for h, of the terms up to h²: within it friction takes energy at every velocity, by these
-    /// formulas. Beyond it they say nothing; R̃ to all orders can be positive still
-    /// ([`ModifiedLinearSystem::is_dissipative`](crate::rayleigh::modified::ModifiedLinearSystem::is_dissipative)).
+    /// formulas. Beyond it they say nothing: of linear systems R̃ to all orders is ≥ 0 at every h without
+    /// ringing ([`is_dissipative`](crate::rayleigh::modified::ModifiedLinearSystem::is_dissipative)).
     ///
     /// # Errors
     /// [`ModifiedSystemError::NotDissipative`] where R itself is not ≥ 0; [`ModifiedSystemError::NonFinite`]
