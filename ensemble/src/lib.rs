@@ -1,0 +1,61 @@
+//! Ensembles: many trajectories of systems that `#[rayleigh_system]` generates, in parallel, each of them bit
+//! by bit the one that `system.by(method, h).run(start)` makes.
+//!
+//! A **member** is a system and a start, a function of its number and of nothing else. So any member can be
+//! computed anywhere, alone or among others, once or again, and is the same.
+//!
+//! ```
+//! use dalembert::{Splitting, State, rayleigh_system};
+//! use dalembert_ensemble::Ensemble;
+//! use rand::{RngExt, SeedableRng};
+//! use rand_chacha::ChaCha8Rng;
+//!
+//! #[rayleigh_system(rule = trapezoidal)]
+//! fn ring(q: [f64; 2], v: [f64; 2], r: f64) -> (f64, f64) {
+//!     let s = q[0] * q[0] + q[1] * q[1];
+//!     let speed = v[0] * v[0] + v[1] * v[1];
+//!     (0.5 * speed - s * (s - 1.0) * (s - 1.0), 0.5 * r * speed)
+//! }
+//!
+//! let members = |number| {
+//!     // One stream of random numbers for each member.
+//!     let mut random = ChaCha8Rng::seed_from_u64(1);
+//!     random.set_stream(number);
+//!     let system = Ring { r: random.random_range(0.01..0.1) };
+//!     let start = State::from_velocity(&system, [0.0, 1.2], [random.random_range(-0.5..0.5), 0.0])?;
+//!     Ok((system, start))
+//! };
+//! let ensemble = Ensemble::new(members).by(Splitting::blanes_moan_6(), 0.1).steps(100);
+//!
+//! let ends = ensemble.ends(0..1000)?;
+//! assert!(ends.iter().all(Result::is_ok));
+//!
+//! // Member 700, alone, and as a trajectory.
+//! assert_eq!(ensemble.ends(700..701)?[0], ends[700]);
+//! let (system, start) = members(700)?;
+//! let mut run = dalembert::Discretise::by(&system, Splitting::blanes_moan_6(), 0.1).run(start);
+//! assert_eq!(run.nth(99).unwrap()?.state, ends[700].unwrap().state);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! **What is kept** is said each time: the [`ends`](Study::ends), a reduction to numbers of one's own
+//! ([`reduce`](Study::reduce)), or files (feature `parquet`: `parts`). Nothing else is: memory does not grow
+//! with the number of members, but for what is asked to be kept of each.
+//!
+//! **A member that fails** stands in the result as a [`Failure`], with its error and its last good state; the
+//! others go on.
+//!
+//! **Threads** are rayon's: all cores, or those of the pool that a study is run in
+//! (`ThreadPool::install`). How many there are changes no bit.
+
+mod member;
+#[cfg(feature = "parquet")]
+pub mod parts;
+mod progress;
+mod stepping;
+mod study;
+
+pub use member::{End, Failure, MemberError, Record};
+pub use progress::{Cancelled, Progress};
+pub use stepping::{OneByOne, Plan, Slot, Stepping, ToError};
+pub use study::{Ends, Ensemble, Outcome, Study};

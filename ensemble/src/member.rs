@@ -1,0 +1,95 @@
+//! What is told of one member.
+
+use core::fmt;
+
+use dalembert::tolerance::{Breach, ToleranceError};
+use dalembert::{Lagrangian, State, StepError};
+
+/// A member at a time: what a reduction sees.
+#[derive(Clone, Copy, Debug)]
+pub struct Record<'m, L: Lagrangian<N>, const N: usize> {
+    /// Its number.
+    pub number: u64,
+    /// Its system.
+    pub system: &'m L,
+    /// Steps taken.
+    pub steps: u64,
+    /// The time of the state, from 0 at the start.
+    pub time: f64,
+    /// The state.
+    pub state: State<L::Scalar, N>,
+}
+
+/// A member at the end of its run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct End<S, const N: usize> {
+    /// Its number.
+    pub number: u64,
+    /// The time.
+    pub time: f64,
+    /// The state.
+    pub state: State<S, N>,
+}
+
+/// Why a member is not what was asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum MemberError {
+    /// A step failed, or the making of the start.
+    Step(StepError),
+    /// No method was chosen for the error asked for.
+    Tolerance(ToleranceError),
+    /// The error expected has passed the one asked for on the way; the end was reached.
+    Breach(Breach),
+}
+
+impl fmt::Display for MemberError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Step(error) => error.fmt(f),
+            Self::Tolerance(error) => error.fmt(f),
+            Self::Breach(Breach { time, expected, tolerance, instead, .. }) => write!(
+                f,
+                "the error expected passed the {tolerance:e} asked for at t = {time}: {expected:e}; ask for \
+                 {instead:e}"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for MemberError {}
+
+impl From<StepError> for MemberError {
+    fn from(error: StepError) -> Self {
+        Self::Step(error)
+    }
+}
+
+impl From<ToleranceError> for MemberError {
+    fn from(error: ToleranceError) -> Self {
+        Self::Tolerance(error)
+    }
+}
+
+/// A member that is not what was asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Failure<S, const N: usize> {
+    /// Its number.
+    pub number: u64,
+    /// Why.
+    pub error: MemberError,
+    /// Its last good state, `None` where it has no start.
+    pub last: Option<End<S, N>>,
+}
+
+impl<S, const N: usize> fmt::Display for Failure<S, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { number, error, last } = self;
+        match last {
+            Some(End { time, .. }) => write!(f, "member {number}, at t = {time}: {error}"),
+            None => write!(f, "member {number} has no start: {error}"),
+        }
+    }
+}
+
+impl<S: fmt::Debug, const N: usize> core::error::Error for Failure<S, N> {}

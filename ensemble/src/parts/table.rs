@@ -1,0 +1,87 @@
+//! The rows of a part, column by column.
+
+use dalembert::nalgebra::SVector;
+use dalembert::system::Scalar;
+use dalembert::{Lagrangian, State};
+
+/// A column's name, and its value of a system.
+pub(super) type Column<'s, L> = (String, Box<dyn Fn(&L) -> f64 + Sync + 's>);
+
+/// One row.
+#[derive(Clone, Debug)]
+pub(super) struct Row<const N: usize> {
+    pub(super) number: u64,
+    /// Of no columns where there is no system.
+    pub(super) fields: Vec<f64>,
+    pub(super) time: Option<f64>,
+    pub(super) state: Option<[SVector<f64, N>; 2]>,
+    pub(super) energy: Option<f64>,
+    pub(super) error: Option<String>,
+}
+
+impl<const N: usize> Row<N> {
+    pub(super) fn of<L: Lagrangian<N>>(
+        number: u64,
+        system: &L,
+        columns: &[Column<'_, L>],
+        time: f64,
+        state: &State<L::Scalar, N>,
+    ) -> Self {
+        let widened = |vector: &SVector<L::Scalar, N>| vector.map(Scalar::widen);
+        Self {
+            number,
+            fields: columns.iter().map(|(_, value)| value(system)).collect(),
+            time: Some(time),
+            state: Some([widened(&state.q), widened(&state.p)]),
+            energy: state.energy(system).ok().map(Scalar::widen),
+            error: None,
+        }
+    }
+
+    pub(super) fn without_start(number: u64) -> Self {
+        Self { number, fields: Vec::new(), time: None, state: None, energy: None, error: None }
+    }
+}
+
+/// Numbers that may be missing: the values that there are, and 1 or 0 for each row.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Numbers {
+    pub(super) name: String,
+    pub(super) values: Vec<f64>,
+    pub(super) present: Vec<i16>,
+}
+
+impl Numbers {
+    fn push(&mut self, value: Option<f64>) {
+        self.present.push(i16::from(value.is_some()));
+        self.values.extend(value);
+    }
+}
+
+/// All rows.
+pub(super) struct Table {
+    pub(super) members: Vec<i64>,
+    /// The fields, t, q, p, energy.
+    pub(super) numbers: Vec<Numbers>,
+    pub(super) errors: Vec<Option<String>>,
+    fields: usize,
+}
+
+impl Table {
+    pub(super) fn new(fields: &[&str], coordinates: usize) -> Self {
+        let of = |symbol: char| (0..coordinates).map(move |i| format!("{symbol}{i}"));
+        let names = fields.iter().map(|name| (*name).to_owned());
+        let names = names.chain(["t".to_owned()]).chain(of('q')).chain(of('p')).chain(["energy".to_owned()]);
+        let numbers = names.map(|name| Numbers { name, ..Numbers::default() }).collect();
+        Self { members: Vec::new(), numbers, errors: Vec::new(), fields: fields.len() }
+    }
+
+    pub(super) fn push<const N: usize>(&mut self, row: Row<N>) {
+        self.members.push(row.number.cast_signed());
+        let fields = (0..self.fields).map(|i| row.fields.get(i).copied());
+        let coordinates = (0..2 * N).map(|i| row.state.as_ref().map(|state| state[i / N][i % N]));
+        let values = fields.chain([row.time]).chain(coordinates).chain([row.energy]);
+        self.numbers.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
+        self.errors.push(row.error);
+    }
+}

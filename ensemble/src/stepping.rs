@@ -1,0 +1,160 @@
+//! How the members of a chunk are stepped.
+
+use core::any::type_name;
+use core::fmt;
+
+use dalembert::step::{Flow, MethodOf};
+use dalembert::tolerance::{Methods, OffersMethods};
+use dalembert::{Discretise, Lagrangian, State, StepError};
+
+use crate::member::{End, Failure, MemberError, Record};
+
+/// A member while it is stepped, and what is kept of it.
+#[derive(Clone, Debug)]
+pub struct Slot<L: Lagrangian<N>, V, const N: usize> {
+    /// Its number.
+    pub number: u64,
+    /// Its system and start, or why there is none.
+    pub start: Result<(L, State<L::Scalar, N>), StepError>,
+    /// What is kept of it.
+    pub value: V,
+    /// Why it is not what was asked for.
+    pub failure: Option<Failure<L::Scalar, N>>,
+}
+
+/// How the members of a chunk are stepped.
+pub trait Stepping<L: Lagrangian<N>, const N: usize>: Sync {
+    /// Steps all of `members`; `observe` sees the records of each in the order of time.
+    fn advance<V>(&self, members: &mut [Slot<L, V, N>], observe: &impl Fn(&mut V, &Record<'_, L, N>));
+
+    /// How the members are stepped, in words: that two studies are the same.
+    fn description(&self) -> String;
+}
+
+/// One member after the other: the run of each that has a start, and its failure.
+fn one_by_one<L: Lagrangian<N>, V, const N: usize>(
+    members: &mut [Slot<L, V, N>],
+    run: impl Fn(u64, &L, &State<L::Scalar, N>, &mut V) -> Result<(), Failure<L::Scalar, N>>,
+) {
+    for Slot { number, start, value, failure } in members {
+        let done = match start {
+            Ok((system, start)) => run(*number, system, start, value),
+            Err(error) => Err(Failure { number: *number, error: (*error).into(), last: None }),
+        };
+        *failure = done.err();
+    }
+}
+
+/// Steps of one size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan<S> {
+    /// The step size.
+    pub h: S,
+    /// The number of steps.
+    pub steps: u64,
+    /// Steps from one record to the next, the first at the start; `None`: the end alone is recorded.
+    pub every: Option<u64>,
+}
+
+/// Each member by its own [`Trajectory`](dalembert::Trajectory).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OneByOne<M, S> {
+    pub(crate) method: M,
+    pub(crate) plan: Plan<S>,
+}
+
+impl<L, M, const N: usize> Stepping<L, N> for OneByOne<M, L::Scalar>
+where
+    L: Flow<M, N>,
+    M: Copy + Sync + MethodOf<L, N>,
+{
+    fn advance<V>(&self, members: &mut [Slot<L, V, N>], observe: &impl Fn(&mut V, &Record<'_, L, N>)) {
+        one_by_one(members, |number, system, start, value| {
+            self.plan.run(self.method, number, system, start, |record| observe(value, record))
+        });
+    }
+
+    fn description(&self) -> String {
+        self.plan.description::<M>()
+    }
+}
+
+impl<S: Copy + fmt::Debug> Plan<S> {
+    pub(crate) fn description<M>(&self) -> String {
+        let Self { h, steps, every } = self;
+        format!("{}, h = {h:?}, {steps} steps, every {every:?}", type_name::<M>())
+    }
+
+    /// The trajectory of one member.
+    pub(crate) fn run<L, M, const N: usize>(
+        &self,
+        method: M,
+        number: u64,
+        system: &L,
+        start: &State<S, N>,
+        mut observe: impl FnMut(&Record<'_, L, N>),
+    ) -> Result<(), Failure<S, N>>
+    where
+        L: Flow<M, N, Scalar = S>,
+        M: MethodOf<L, N>,
+    {
+        let mut run = system.by(method, self.h).run(*start);
+        if self.every.is_some() || self.steps == 0 {
+            observe(&Record { number, system, steps: 0, time: 0.0, state: *start });
+        }
+        let stride = self.every.unwrap_or(self.steps).max(1);
+        let mut steps = 0;
+        while steps < self.steps {
+            for _ in 0..stride.min(self.steps - steps) {
+                // A trajectory ends after an error alone.
+                if let Some(Err(error)) = run.next() {
+                    let last = Some(End { number, time: run.time(), state: *run.state() });
+                    return Err(Failure { number, error: error.into(), last });
+                }
+                steps += 1;
+            }
+            observe(&Record { number, system, steps, time: run.time(), state: *run.state() });
+        }
+        Ok(())
+    }
+}
+
+/// Each member by the method and step size chosen for it, to an error asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToError {
+    pub(crate) tolerance: f64,
+    pub(crate) time: f64,
+}
+
+impl<L, const N: usize> Stepping<L, N> for ToError
+where
+    L: OffersMethods<N>,
+    L::Methods: Methods<L, N>,
+{
+    fn advance<V>(&self, members: &mut [Slot<L, V, N>], observe: &impl Fn(&mut V, &Record<'_, L, N>)) {
+        one_by_one(members, |number, system, start, value| {
+            let failed = |error: MemberError, last| Failure { number, error, last };
+            let mut run = system
+                .to_error(self.tolerance)
+                .until(self.time)
+                .run(*start)
+                .map_err(|error| failed(error.into(), Some(End { number, time: 0.0, state: *start })))?;
+            let mut steps = 0;
+            while let Some(step) = run.next() {
+                let last = |time| Some(End { number, time, state: *run.state() });
+                step.map_err(|error| failed(error.into(), last(run.time())))?;
+                steps += 1;
+            }
+            let (time, state) = (run.time(), *run.state());
+            observe(value, &Record { number, system, steps, time, state });
+            match run.breach() {
+                Some(breach) => Err(failed(MemberError::Breach(*breach), Some(End { number, time, state }))),
+                None => Ok(()),
+            }
+        });
+    }
+
+    fn description(&self) -> String {
+        format!("to the error {:?} until {:?}", self.tolerance, self.time)
+    }
+}

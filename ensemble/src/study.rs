@@ -1,0 +1,232 @@
+//! An ensemble, and what is made of it.
+
+use core::marker::PhantomData;
+use core::ops::{ControlFlow, Range};
+
+use dalembert::step::{Flow, MethodOf};
+use dalembert::tolerance::OffersMethods;
+use dalembert::{Lagrangian, State, StepError};
+use rayon::prelude::*;
+
+use crate::member::{End, Failure, Record};
+use crate::progress::{Cancelled, Progress};
+use crate::stepping::{OneByOne, Plan, Slot, Stepping, ToError};
+
+/// Members that one thread takes at a time.
+const CHUNK: u64 = 256;
+
+/// Chunks for each thread between two additions to the total: what bounds the memory.
+const CHUNKS_PER_THREAD: usize = 16;
+
+/// Members, each a function of its number.
+///
+/// The function makes the system and the start of a member, or says by a [`StepError`] why there is none.
+#[derive(Clone, Copy, Debug)]
+pub struct Ensemble<F> {
+    members: F,
+}
+
+impl<F> Ensemble<F> {
+    /// The ensemble whose member of each number `members` makes.
+    pub fn new<L, const N: usize>(members: F) -> Self
+    where
+        F: Fn(u64) -> Result<(L, State<L::Scalar, N>), StepError> + Sync,
+        L: Lagrangian<N>,
+    {
+        Self { members }
+    }
+
+    /// All members by `method`, with step size `h`.
+    pub fn by<'f, M, L, const N: usize>(
+        self,
+        method: M,
+        h: L::Scalar,
+    ) -> Study<'f, F, OneByOne<M, L::Scalar>, L, N>
+    where
+        F: Fn(u64) -> Result<(L, State<L::Scalar, N>), StepError> + Sync,
+        L: Flow<M, N>,
+        M: MethodOf<L, N>,
+    {
+        Study::new(self.members, OneByOne { method, plan: Plan { h, steps: 0, every: None } })
+    }
+
+    /// All members to the error `tolerance`, in units of q, until `time`: each by the method and step size
+    /// that are chosen for it, with its guard ([`to_error`](dalembert::Discretise::to_error)). The end alone
+    /// is recorded. A member whose guard says that its error has passed the one asked for is a [`Failure`].
+    pub fn to_error<'f, L, const N: usize>(self, tolerance: f64, time: f64) -> Study<'f, F, ToError, L, N>
+    where
+        F: Fn(u64) -> Result<(L, State<L::Scalar, N>), StepError> + Sync,
+        L: OffersMethods<N>,
+    {
+        Study::new(self.members, ToError { tolerance, time })
+    }
+}
+
+type Callback<'f> = Box<dyn Fn(Progress) -> ControlFlow<()> + Sync + 'f>;
+
+/// An ensemble by a method: what is asked for is asked of it.
+#[must_use = "a study does nothing until its ends or a reduction are asked for"]
+pub struct Study<'f, F, M, L: Lagrangian<N>, const N: usize> {
+    pub(crate) members: F,
+    pub(crate) stepping: M,
+    progress: Option<Callback<'f>>,
+    of: PhantomData<fn() -> L>,
+}
+
+/// The state of each member at the end, or why it did not get there.
+pub type Ends<S, const N: usize> = Vec<Result<End<S, N>, Failure<S, N>>>;
+
+/// What became of a member, and what was kept of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome<V, S, const N: usize> {
+    /// Its number.
+    pub number: u64,
+    /// What was kept of it, up to its failure if it failed.
+    pub value: V,
+    /// Why it is not what was asked for.
+    pub failure: Option<Failure<S, N>>,
+}
+
+impl<F, M, L: Lagrangian<N>, const N: usize> Study<'_, F, M, L, N> {
+    fn new(members: F, stepping: M) -> Self {
+        Self { members, stepping, progress: None, of: PhantomData }
+    }
+}
+
+impl<F, M, L: Lagrangian<N>, const N: usize> Study<'_, F, OneByOne<M, L::Scalar>, L, N> {
+    /// Every member takes this many steps.
+    pub fn steps(mut self, steps: u64) -> Self {
+        self.stepping.plan.steps = steps;
+        self
+    }
+
+    /// Records at the start, after every `stride`-th step and at the end; otherwise at the end alone. A
+    /// stride of 0 counts as 1.
+    pub fn every(mut self, stride: u64) -> Self {
+        self.stepping.plan.every = Some(stride.max(1));
+        self
+    }
+}
+
+impl<'f, F, M, L, const N: usize> Study<'f, F, M, L, N>
+where
+    F: Fn(u64) -> Result<(L, State<L::Scalar, N>), StepError> + Sync,
+    L: Lagrangian<N> + Send,
+    M: Stepping<L, N>,
+{
+    /// Calls `progress` from time to time, on the thread that asked for the result; `ControlFlow::Break`
+    /// cancels.
+    pub fn on_progress(mut self, progress: impl Fn(Progress) -> ControlFlow<()> + Sync + 'f) -> Self {
+        self.progress = Some(Box::new(progress));
+        self
+    }
+
+    /// The state of each member at the end, or why it did not get there, in the order of numbers.
+    ///
+    /// # Errors
+    /// [`Cancelled`], with the ends so far.
+    pub fn ends(&self, numbers: Range<u64>) -> Result<Ends<L::Scalar, N>, Cancelled<Ends<L::Scalar, N>>> {
+        let observe = |end: &mut Option<End<L::Scalar, N>>, record: &Record<'_, L, N>| {
+            *end = Some(End { number: record.number, time: record.time, state: record.state });
+        };
+        self.reduce(
+            numbers,
+            |_| None,
+            observe,
+            Vec::new(),
+            |ends, outcome| {
+                ends.push(match (outcome.failure, outcome.value) {
+                    (Some(failure), _) => Err(failure),
+                    (None, Some(end)) => Ok(end),
+                    (None, None) => unreachable!("a member that does not fail has an end"),
+                });
+            },
+        )
+    }
+
+    /// Reduces all members to one `total`.
+    ///
+    /// Of each member a value is kept: made by `value` of its number, changed by `observe` at each record.
+    /// `add` then adds the values to the total, on the calling thread and in the order of numbers, so that
+    /// the total is the same bits however many threads there are. The values of 4096 members a thread are
+    /// held at a time.
+    ///
+    /// ```
+    /// use dalembert::{Midpoint, State, rayleigh_system};
+    /// use dalembert_ensemble::Ensemble;
+    ///
+    /// #[rayleigh_system]
+    /// fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    ///     (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
+    /// }
+    /// // The largest angle that each of 100 pendulums reaches, and the mean over all.
+    /// let study = Ensemble::new(|number| {
+    ///     let system = Pendulum { r: 0.01 * number as f64 };
+    ///     let start = State::from_velocity(&system, [0.0], [1.0])?;
+    ///     Ok((system, start))
+    /// })
+    /// .by(Midpoint, 0.1)
+    /// .steps(50)
+    /// .every(1);
+    /// let sum = study.reduce(
+    ///     0..100,
+    ///     |_| 0.0_f64,
+    ///     |largest, record| *largest = largest.max(record.state.q[0]),
+    ///     0.0,
+    ///     |sum, outcome| *sum += outcome.value,
+    /// )?;
+    /// assert!((0.5..1.1).contains(&(sum / 100.0)));
+    /// # Ok::<(), dalembert_ensemble::Cancelled<f64>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Cancelled`], with the total so far.
+    pub fn reduce<V: Send, A>(
+        &self,
+        numbers: Range<u64>,
+        value: impl Fn(u64) -> V + Sync,
+        observe: impl Fn(&mut V, &Record<'_, L, N>) + Sync,
+        mut total: A,
+        mut add: impl FnMut(&mut A, Outcome<V, L::Scalar, N>),
+    ) -> Result<A, Cancelled<A>> {
+        let mut progress =
+            Progress { done: 0, failed: 0, members: numbers.end.saturating_sub(numbers.start) };
+        let window = CHUNK * (CHUNKS_PER_THREAD * rayon::current_num_threads()) as u64;
+        let mut first = numbers.start;
+        while first < numbers.end {
+            if self.is_cancelled(progress) {
+                return Err(Cancelled { total, progress });
+            }
+            let end = numbers.end.min(first.saturating_add(window));
+            let chunk = |first: u64| {
+                let numbers = first..end.min(first.saturating_add(CHUNK));
+                let mut slots: Vec<Slot<L, V, N>> = numbers
+                    .map(|number| Slot {
+                        number,
+                        start: (self.members)(number),
+                        value: value(number),
+                        failure: None,
+                    })
+                    .collect();
+                self.stepping.advance(&mut slots, &observe);
+                let outcome = |Slot { number, value, failure, .. }| Outcome { number, value, failure };
+                slots.into_iter().map(outcome).collect::<Vec<_>>()
+            };
+            let chunks: Vec<u64> = (first..end).step_by(CHUNK as usize).collect();
+            let outcomes: Vec<_> = chunks.into_par_iter().map(chunk).collect();
+            for outcome in outcomes.into_iter().flatten() {
+                progress.done += 1;
+                progress.failed += u64::from(outcome.failure.is_some());
+                add(&mut total, outcome);
+            }
+            first = end;
+        }
+        // All is done: there is nothing left to cancel.
+        self.is_cancelled(progress);
+        Ok(total)
+    }
+
+    fn is_cancelled(&self, progress: Progress) -> bool {
+        self.progress.as_ref().is_some_and(|callback| callback(progress).is_break())
+    }
+}

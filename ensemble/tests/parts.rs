@@ -1,0 +1,184 @@
+//! Parts are there whole or not at all, and are the same bits whatever happened on the way.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::thread;
+use std::time::Instant;
+
+use dalembert::{Midpoint, State, StepError, rayleigh_system};
+use dalembert_ensemble::Ensemble;
+use dalembert_ensemble::parts::{PartsError, Written};
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::RowAccessor;
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
+
+#[rayleigh_system]
+fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
+}
+
+fn member(number: u64) -> Result<(Pendulum, State<f64, 1>), StepError> {
+    if number == 11 {
+        return Err(StepError::StepSize { h: 0.0 });
+    }
+    let system = Pendulum { r: 1e-3 * number as f64 };
+    let speed = if number == 13 { f64::NAN } else { 1.0 };
+    let start = State { q: [0.0].into(), p: [speed].into() };
+    Ok((system, start))
+}
+
+/// A folder of this test, empty.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&folder);
+    folder
+}
+
+fn bytes(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let entry =
+        |entry: fs::DirEntry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap());
+    fs::read_dir(folder).unwrap().map(|found| entry(found.unwrap())).collect()
+}
+
+macro_rules! study {
+    () => {
+        Ensemble::new(member).by(Midpoint, 0.1).steps(10)
+    };
+}
+
+#[test]
+fn what_is_there_is_done_and_the_bits_are_the_same() {
+    let (whole, parted) = (folder("whole"), folder("parted"));
+    let study = study!();
+    let of = |folder: &Path| study.parts(folder).members_per_part(100).column("r", |of| of.r);
+    assert_eq!(of(&whole).write(0..450).unwrap(), Written { written: 5, found: 0, failed: 2 });
+    // From two places, one of which lost a part.
+    of(&parted).write(300..450).unwrap();
+    of(&parted).write(0..300).unwrap();
+    fs::remove_file(parted.join("members-000000000100-000000000200.parquet")).unwrap();
+    assert_eq!(of(&parted).write(0..450).unwrap(), Written { written: 1, found: 4, failed: 0 });
+    assert_eq!(bytes(&whole), bytes(&parted));
+    assert_eq!(bytes(&whole).len(), 5);
+}
+
+#[test]
+fn rows_are_the_members() {
+    let folder = folder("rows");
+    study!().every(4).parts(&folder).members_per_part(20).column("r", |of| of.r).write(0..20).unwrap();
+    let path = folder.join("members-000000000000-000000000020.parquet");
+    let reader = SerializedFileReader::new(fs::File::open(path).unwrap()).unwrap();
+    let names: Vec<_> = reader
+        .metadata()
+        .file_metadata()
+        .schema()
+        .get_fields()
+        .iter()
+        .map(|of| of.name().to_owned())
+        .collect();
+    assert_eq!(names, ["member", "r", "t", "q0", "p0", "energy", "error"]);
+    let rows: Vec<_> = reader.get_row_iter(None).unwrap().map(Result::unwrap).collect();
+    // Steps 0, 4, 8 and 10 of 18 members, one row of each that fails.
+    assert_eq!(rows.len(), 18 * 4 + 2);
+    for row in &rows {
+        let number = row.get_ulong(0).unwrap();
+        match number {
+            11 => {
+                assert!(row.get_double(1).is_err() && row.get_double(2).is_err() && row.get_string(6).is_ok())
+            }
+            13 => {
+                assert!(row.get_double(3).unwrap() == 0.0 && row.get_string(6).unwrap().contains("momentum"))
+            }
+            _ => {
+                assert!(row.get_string(6).is_err());
+                let (system, start) = member(number).unwrap();
+                let steps = (row.get_double(2).unwrap() * 10.0).round() as usize;
+                let mut run = dalembert::Discretise::by(&system, Midpoint, 0.1).run(start);
+                let state = run.by_ref().take(steps).last().map_or(start, |step| step.unwrap().state);
+                assert_eq!(row.get_double(1).unwrap(), system.r);
+                assert_eq!(
+                    (row.get_double(2).unwrap(), row.get_double(3).unwrap()),
+                    (run.time(), state.q[0])
+                );
+                assert_eq!(row.get_double(5).unwrap(), state.energy(&system).unwrap());
+            }
+        }
+    }
+}
+
+#[test]
+fn what_does_not_belong_together_is_refused() {
+    let folder = folder("refused");
+    study!().parts(&folder).members_per_part(100).metadata("seed", 1).write(0..200).unwrap();
+    let there = bytes(&folder);
+
+    let other_steps = Ensemble::new(member).by(Midpoint, 0.1).steps(11);
+    let error =
+        other_steps.parts(&folder).members_per_part(100).metadata("seed", 1).write(0..200).unwrap_err();
+    assert!(matches!(&error, PartsError::AnotherStudy { key, .. } if key == "dalembert.method"), "{error}");
+    let error = study!().parts(&folder).members_per_part(100).metadata("seed", 2).write(0..200).unwrap_err();
+    assert!(matches!(&error, PartsError::AnotherStudy { key, .. } if key == "seed"), "{error}");
+    let error = study!().parts(&folder).members_per_part(50).metadata("seed", 1).write(100..200).unwrap_err();
+    assert!(matches!(&error, PartsError::Overlap { .. }), "{error}");
+    let error = study!().parts(&folder).members_per_part(100).write(150..200).unwrap_err();
+    assert!(matches!(&error, PartsError::Unaligned { start: 150, members: 100 }), "{error}");
+    // Nothing of what was there has changed.
+    assert_eq!(bytes(&folder), there);
+
+    fs::write(folder.join("members-000000000200-000000000300.parquet"), "no part").unwrap();
+    let error = study!().parts(&folder).members_per_part(100).metadata("seed", 1).write(0..300).unwrap_err();
+    assert!(
+        matches!(&error, PartsError::Parquet { .. }) && error.to_string().contains("may be removed"),
+        "{error}"
+    );
+    let file = folder.join("members-000000000000-000000000100.parquet");
+    assert!(matches!(study!().parts(&file).write(0..10), Err(PartsError::Io { .. })));
+}
+
+/// Set for the process that is killed: its folder.
+const CHILD: &str = "DALEMBERT_TEST_PARTS";
+
+fn long(folder: &Path) -> Written {
+    let study = Ensemble::new(member).by(Midpoint, 0.1).steps(120);
+    study.parts(folder).members_per_part(50).write(0..2000).unwrap()
+}
+
+/// No test of its own: what `killed_at_random_moments_…` starts and kills.
+#[test]
+fn child() {
+    if let Some(folder) = std::env::var_os(CHILD) {
+        long(Path::new(&folder));
+    }
+}
+
+#[test]
+fn killed_at_random_moments_it_ends_with_the_same_bits() {
+    let (whole, killed) = (folder("never_killed"), folder("killed"));
+    let started = Instant::now();
+    long(&whole);
+    let time = started.elapsed();
+    let mut random = StdRng::seed_from_u64(8);
+    let (mut kills, mut parts) = (0, Vec::new());
+    for _ in 0..20 {
+        let mut process = Command::new(std::env::current_exe().unwrap())
+            .args(["--exact", "child"])
+            .env(CHILD, &killed)
+            .stdout(Stdio::null())
+            .spawn()
+            .unwrap();
+        thread::sleep(time.mul_f64(random.random_range(0.02..0.3)));
+        kills += u32::from(process.try_wait().unwrap().is_none());
+        process.kill().unwrap();
+        process.wait().unwrap();
+        parts.push(fs::read_dir(&killed).map_or(0, Iterator::count));
+    }
+    let written = long(&killed);
+    assert_eq!(bytes(&killed), bytes(&whole));
+    // It was killed on the way, not before or after.
+    assert!(
+        kills >= 3 && parts.iter().any(|&there| there > 0 && there < 40),
+        "{kills} {parts:?} {written:?}"
+    );
+}
