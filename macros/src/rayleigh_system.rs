@@ -17,6 +17,7 @@ mod fallback;
 pub mod graph;
 pub mod hygiene;
 mod joint;
+mod lanes;
 pub mod lower;
 mod model;
 mod parameters;

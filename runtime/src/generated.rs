@@ -8,7 +8,7 @@ pub use crate::system::verification;
 #[doc(no_inline)]
 pub use crate::numbers::{
     Banded, CovectorDerivatives, Derivatives, Direction, Elementary, Gradient, Hessian, LaneVector, Lanes,
-    Mask, Variations,
+    Mask, MemberVector, Members, Variations,
 };
 #[doc(no_inline)]
 pub use crate::rules::{
@@ -19,7 +19,7 @@ pub use crate::rules::{
 pub use crate::run::tolerance::{OffersMethods, WithGauss, WithSplittings};
 #[doc(no_inline)]
 pub use crate::run::{
-    DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, KeptMatrix, VelocityHistory,
+    DriftMemory, Explicit, ExplicitDriftMemory, ExplicitInLanes, ExplicitMemory, KeptMatrix, VelocityHistory,
 };
 #[doc(no_inline)]
 pub use crate::step::{

@@ -10,6 +10,7 @@ pub mod dual;
 mod elementary;
 pub(crate) mod lanes;
 pub(crate) mod linear;
+pub(crate) mod members;
 mod scalar;
 
 pub(crate) use arrays::{Functions, Vectors};
@@ -18,4 +19,5 @@ pub use elementary::Elementary;
 pub use lanes::{LaneVector, Lanes, Mask};
 pub(crate) use linear::determinant_sign;
 pub use linear::{Banded, Factored, NewtonMatrix, Singular};
+pub use members::{MemberVector, Members};
 pub use scalar::Scalar;

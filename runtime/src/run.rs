@@ -6,6 +6,7 @@
 mod checkpoint;
 mod composition;
 mod discretise;
+mod lanes;
 mod memory;
 mod splitting;
 pub mod tolerance;
@@ -15,6 +16,7 @@ pub use checkpoint::Checkpoint;
 pub(crate) use checkpoint::Course;
 pub use composition::Composition;
 pub use discretise::Discretise;
+pub use lanes::{ExplicitInLanes, InLanes, LaneRuns};
 pub use memory::{DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, KeptMatrix, VelocityHistory};
 pub use splitting::Splitting;
 pub use trajectory::{Run, Sample, Samples, Trajectory};

@@ -1,5 +1,5 @@
 //! The options of the attribute: `rule = midpoint`, `rule = [midpoint, trapezoidal]`, `derivatives =
-//! expanded`, `parameters = [m, c[0]]`, `step_derivatives = second`, `crate = mechanics`.
+//! expanded`, `parameters = [m, c[0]]`, `step_derivatives = second`, `lanes = explicit`, `crate = mechanics`.
 
 use proc_macro2::TokenStream;
 use syn::ext::IdentExt;
@@ -61,6 +61,8 @@ pub struct Options {
     pub parameters: Vec<Expr>,
     /// Whether the step is differentiated twice.
     pub second: bool,
+    /// `explicit`, where steps of several members at once are asked for.
+    pub lanes: Option<Ident>,
     /// The runtime, where the user's crate has another name for it.
     pub runtime: Option<Path>,
 }
@@ -96,6 +98,7 @@ pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) ->
             Values::Words(words) if name == "step_derivatives" => {
                 order(&name, &words, &mut options.second, report);
             }
+            Values::Words(words) if name == "lanes" => lanes(&name, &words, &mut options.lanes, report),
             Values::Words(_) => report.at(&name, Mistake::UnknownOption),
         }
     }
@@ -131,6 +134,15 @@ fn order(name: &Ident, values: &[Ident], second: &mut bool, report: &mut Report)
         [value] if value == "second" => *second = true,
         [value] => report.at(value, Mistake::UnknownOrder),
         _ => report.at(name, Mistake::UnknownOrder),
+    }
+}
+
+/// `lanes = explicit`
+fn lanes(name: &Ident, values: &[Ident], lanes: &mut Option<Ident>, report: &mut Report) {
+    match values {
+        [value] if value == "explicit" => *lanes = Some(value.clone()),
+        [value] => report.at(value, Mistake::UnknownLanes),
+        _ => report.at(name, Mistake::UnknownLanes),
     }
 }
 

@@ -77,6 +77,7 @@ fn block<'a>(source: &'a Source, options: &Options, report: &mut Report) -> Opti
         timed,
         parameters: options.parameters.clone(),
         second: options.second,
+        lanes: options.lanes.clone(),
     })
 }
 
@@ -193,5 +194,6 @@ fn function_system<'a>(
         timed: Timed::default(),
         parameters: options.parameters.clone(),
         second: options.second,
+        lanes: options.lanes.clone(),
     }
 }

@@ -6,7 +6,7 @@ use super::dual::{self, Twins};
 use super::lower::{self, Refusal};
 use super::model::{Engine, Runtime, System};
 use super::written_out::{self, WrittenOut};
-use super::{joint, parameters};
+use super::{joint, lanes, parameters};
 
 /// Bodies of at most as many expressions are lowered where rewriting them is doubtful: what stands in loops
 /// and calls is then written out once for each.
@@ -29,10 +29,16 @@ pub fn engine(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Dec
         rewrite::over_duals(system, report);
         return Decision::Refused;
     }
+    lanes::check(system, report);
+    if !report.is_empty() {
+        return Decision::Refused;
+    }
     match system.engine {
         Engine::NumDual => by_duals(system, report),
-        // Parameters are differentiated by nothing else.
-        Engine::Auto if system.parameters.is_empty() => by_either(system, runtime, report),
+        // Nothing else differentiates by parameters, or writes code on lanes.
+        Engine::Auto if system.parameters.is_empty() && system.lanes.is_none() => {
+            by_either(system, runtime, report)
+        }
         Engine::Auto | Engine::Expanded => written_out(system, runtime, report),
     }
 }
@@ -60,7 +66,8 @@ fn by_either(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Deci
 fn written_out(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Decision {
     expansion(system, runtime, report).unwrap_or_else(|refusal| {
         // Advice that the system could not follow is none.
-        let by_duals = !refusal.is_final && system.parameters.is_empty() && runtime.has_std && {
+        let asks_for_code = !system.parameters.is_empty() || system.lanes.is_some();
+        let by_duals = !refusal.is_final && !asks_for_code && runtime.has_std && {
             let mut mistakes = Report::default();
             rewrite::over_duals(system, &mut mistakes);
             mistakes.is_empty()
@@ -82,6 +89,10 @@ fn expansion(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Resu
         return Ok(Decision::Refused);
     }
     let written = written_out::functions(system, lowered?, runtime.is_portable)?;
+    lanes::check_written(system, written.findings(), written.is_in_lanes(), report);
+    if !report.is_empty() {
+        return Ok(Decision::Refused);
+    }
     Ok(Decision::WrittenOut(Box::new(written)))
 }
 

@@ -38,8 +38,21 @@ pub struct StraightLine {
     pub uses_inputs: bool,
     /// Whether one of the runtime's elementary functions is called.
     pub calls_elementary: bool,
+    /// What the code on members reads of their systems.
+    pub fields: Vec<Field>,
     /// The first word of each parameter that occurs.
     parameters: Vec<String>,
+}
+
+/// Something that code on members reads of the system of each, before it runs.
+#[derive(Clone)]
+pub struct Field {
+    /// The local that holds it.
+    pub name: Ident,
+    /// How it is read of `self`.
+    pub tokens: TokenStream,
+    /// Whether it is a truth value, not a number.
+    pub is_truth: bool,
 }
 
 impl StraightLine {
@@ -75,6 +88,8 @@ enum Kind<'l> {
     Numbers,
     /// Lanes, some of them late.
     Lanes(&'l [Node]),
+    /// Numbers of several members, and what is read of their systems.
+    Members,
     Duals,
 }
 
@@ -91,6 +106,17 @@ pub fn in_lanes(
     written(graph, scalar, outputs, taken, is_portable, Kind::Lanes(late))
 }
 
+/// The code for `outputs` where q, v and what is read of `self` are those of several members at once.
+pub fn on_members(
+    graph: &Graph,
+    scalar: &Ident,
+    outputs: &[Node],
+    taken: &[&str],
+    is_portable: bool,
+) -> StraightLine {
+    written(graph, scalar, outputs, taken, is_portable, Kind::Members)
+}
+
 fn written(
     graph: &Graph,
     scalar: &Ident,
@@ -99,8 +125,12 @@ fn written(
     is_portable: bool,
     kind: Kind<'_>,
 ) -> StraightLine {
-    let late = if let Kind::Lanes(late) = kind { Some(late) } else { None };
     let is_dual = matches!(kind, Kind::Duals);
+    let (late, lanes) = match kind {
+        Kind::Lanes(late) => (Some(late), number_of_stages(graph)),
+        Kind::Members => (Some(&[][..]), number_of_members(graph)),
+        Kind::Numbers | Kind::Duals => (None, number_of_stages(graph)),
+    };
     let nodes = graph.reachable(outputs.iter().copied());
     let mut uses = vec![0_u32; graph.len()];
     for &node in &nodes {
@@ -120,7 +150,8 @@ fn written(
         is_portable,
         calls_elementary: Cell::new(false),
         is_lanes: vec![false; graph.len()],
-        stages: number_of_stages(graph),
+        lanes: format_ident!("{}", if matches!(kind, Kind::Members) { "Members" } else { "Lanes" }),
+        stages: lanes,
         is_dual,
         is_condition: conditions(graph, &nodes),
     };
@@ -133,6 +164,20 @@ fn written(
     let (mut statements, mut later) = (TokenStream::new(), TokenStream::new());
     let (mut uses_coordinates, mut uses_velocities, mut uses_inputs) = (false, false, false);
     let mut parameters = Vec::new();
+    let mut fields = Vec::new();
+    if matches!(kind, Kind::Members) {
+        for &node in &nodes {
+            if let Operation::Parameter(index) = graph.operation(node)
+                && graph.parameter(index).reads_self()
+            {
+                let name = writer.names.of(graph, node, &writer.locals);
+                writer.locals[node.index()] = Some(name.clone());
+                writer.is_lanes[node.index()] = true;
+                let tokens = graph.parameter(index).tokens.clone();
+                fields.push(Field { name, tokens, is_truth: writer.is_condition[node.index()] });
+            }
+        }
+    }
     for &node in &nodes {
         let operation = graph.operation(node);
         writer.typed[node.index()] = match operation {
@@ -149,7 +194,7 @@ fn written(
             is_late[node.index()] =
                 late.contains(&node) || operation.arguments().any(|argument| is_late[argument.index()]);
             // Inputs and what derivatives are taken by on request are numbers.
-            writer.is_lanes[node.index()] = is_late[node.index()]
+            writer.is_lanes[node.index()] |= is_late[node.index()]
                 || matches!(operation, Operation::Coordinate(_) | Operation::Velocity(_))
                 || graph.is_time(operation)
                 || operation.arguments().any(|argument| writer.is_lanes[argument.index()]);
@@ -200,6 +245,7 @@ fn written(
         uses_velocities,
         uses_inputs,
         calls_elementary,
+        fields,
         parameters,
     }
 }
@@ -222,9 +268,18 @@ fn conditions(graph: &Graph, nodes: &[Node]) -> Vec<bool> {
     is_condition
 }
 
-/// The name of the number of lanes: not that of a constant of the user's, nor the system's.
+/// The name of the number of stages: not that of a constant of the user's, nor the system's.
 pub fn number_of_stages(graph: &Graph) -> Ident {
-    let mut name = "S".to_owned();
+    number_named("S", graph)
+}
+
+/// The name of the number of members.
+pub fn number_of_members(graph: &Graph) -> Ident {
+    number_named("W", graph)
+}
+
+fn number_named(name: &str, graph: &Graph) -> Ident {
+    let mut name = name.to_owned();
     while graph.mentions(&name) || graph.is_reserved(&name) {
         name.push('_');
     }

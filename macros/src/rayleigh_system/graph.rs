@@ -68,6 +68,11 @@ impl Parameter {
         self.is_block && !self.stays
     }
 
+    /// Whether it is read of the system, not a constant.
+    pub fn reads_self(&self) -> bool {
+        mentions(&self.text, "self")
+    }
+
     /// The tokens as an operand.
     pub fn operand(&self) -> TokenStream {
         let tokens = &self.tokens;
@@ -148,8 +153,7 @@ impl Graph {
 
     /// Whether a parameter is written with this word.
     pub fn mentions(&self, word: &str) -> bool {
-        let is_name = |c: char| c.is_alphanumeric() || c == '_';
-        self.parameters.iter().any(|known| known.text.split(|c| !is_name(c)).any(|other| other == word))
+        self.parameters.iter().any(|known| mentions(&known.text, word))
     }
 
     /// Keeps a name from what is generated.
@@ -389,6 +393,12 @@ impl Graph {
         reached.sort_unstable();
         reached
     }
+}
+
+/// Whether a text is written with this word.
+fn mentions(text: &str, word: &str) -> bool {
+    let is_name = |c: char| c.is_alphanumeric() || c == '_';
+    text.split(|c| !is_name(c)).any(|other| other == word)
 }
 
 /// The tokens with `self` that of the generated function: the user's is another variable where a

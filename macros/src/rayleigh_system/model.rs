@@ -117,6 +117,8 @@ pub struct System<'a> {
     pub parameters: Vec<Expr>,
     /// Whether the step is differentiated twice.
     pub second: bool,
+    /// `explicit`, where steps of several members at once are asked for.
+    pub lanes: Option<Ident>,
 }
 
 /// L, R or f.

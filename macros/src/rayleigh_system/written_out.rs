@@ -7,6 +7,7 @@ mod derivatives;
 mod directions;
 mod entries;
 mod explicit;
+mod in_lanes;
 mod kernel;
 mod midpoint;
 mod sensitivity;
@@ -51,6 +52,18 @@ pub struct WrittenOut {
     run: Vec<Ident>,
 }
 
+impl WrittenOut {
+    /// What the expressions show.
+    pub fn findings(&self) -> Option<&Findings> {
+        self.functions.structure.findings.as_ref()
+    }
+
+    /// Whether steps of several members at once are written.
+    pub fn is_in_lanes(&self) -> bool {
+        self.functions.kernels.iter().flatten().any(|kernel| kernel.in_lanes.is_some())
+    }
+}
+
 /// The derivatives of what was lowered, unless they are too long to be written out.
 pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Result<WrittenOut, Refusal> {
     let Lowered { graph, n, m, lagrangian, rayleigh, force, functions: run, bindings, heaviest } = lowered;
@@ -92,7 +105,8 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
         kernels.push(is_own.then(|| code.kernel(newton, lagrangian, rayleigh, force)));
         code.bounded(heaviest)?;
     }
-    let names = stages.as_ref().map(names_of_lanes).unwrap_or_default();
+    let in_lanes = kernels.iter().flatten().filter_map(|kernel| kernel.in_lanes.as_ref());
+    let names = names_of_lanes(stages.iter().chain(in_lanes));
     let functions = EngineFunctions {
         structure: Structure { engine: structure::Engine::Expanded, findings: Some(findings) },
         lagrangian: of_lagrangian,
@@ -111,10 +125,14 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
 }
 
 /// The names of the runtime that code in lanes uses.
-fn names_of_lanes(stages: &TokenStream) -> Vec<&'static str> {
-    let text = stages.to_string();
-    let occurs = |name: &str| text.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == name);
-    ["LaneVector", "Lanes", "Mask", "Stages"].into_iter().filter(|name| occurs(name)).collect()
+fn names_of_lanes<'c>(code: impl Iterator<Item = &'c TokenStream>) -> Vec<&'static str> {
+    let text: Vec<String> = code.map(TokenStream::to_string).collect();
+    let occurs = |name: &str| {
+        let mut words = text.iter().flat_map(|text| text.split(|c: char| !c.is_alphanumeric() && c != '_'));
+        words.any(|word| word == name)
+    };
+    let names = ["LaneVector", "Lanes", "Mask", "MemberVector", "Members", "Stages"];
+    names.into_iter().filter(|name| occurs(name)).collect()
 }
 
 /// A system while its code is written.

@@ -258,6 +258,27 @@ fn explicit_ring() {
     assert_snapshot("explicit_ring.rs", &formatted(expansion));
 }
 
+/// Beside its own force, that of several members at once, with their fields and branches.
+#[test]
+fn bead_in_lanes() {
+    let expansion = rayleigh_system(
+        Runtime::STD,
+        quote!(rule = trapezoidal, lanes = explicit),
+        quote! {
+            impl Bead {
+                fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+                    let push = if self.has_wall && q[0] > Self::WALL { self.k * (q[0] - Self::WALL) } else { 0.0 };
+                    0.5 * self.m * v[0] * v[0] + self.m * self.g * q[0].cos() - push * push
+                }
+                fn rayleigh(&self, v: [f64; 1]) -> f64 {
+                    0.5 * self.r * v[0] * v[0]
+                }
+            }
+        },
+    );
+    assert_snapshot("bead_in_lanes.rs", &formatted(expansion));
+}
+
 /// What is known is said to whoever reads the documentation.
 #[test]
 fn findings_are_documented() {

@@ -187,24 +187,33 @@ impl<const S: usize> Mask<S> {
 impl<const S: usize> Not for Mask<S> {
     type Output = Self;
     #[inline(always)]
-    fn not(self) -> Self {
-        Self(self.0.map(|lane| !lane))
+    fn not(mut self) -> Self {
+        for i in 0..S {
+            self.0[i] = !self.0[i];
+        }
+        self
     }
 }
 
 impl<const S: usize> BitAnd for Mask<S> {
     type Output = Self;
     #[inline(always)]
-    fn bitand(self, other: Self) -> Self {
-        Self(array::from_fn(|i| self.0[i] & other.0[i]))
+    fn bitand(mut self, other: Self) -> Self {
+        for i in 0..S {
+            self.0[i] &= other.0[i];
+        }
+        self
     }
 }
 
 impl<const S: usize> BitOr for Mask<S> {
     type Output = Self;
     #[inline(always)]
-    fn bitor(self, other: Self) -> Self {
-        Self(array::from_fn(|i| self.0[i] | other.0[i]))
+    fn bitor(mut self, other: Self) -> Self {
+        for i in 0..S {
+            self.0[i] |= other.0[i];
+        }
+        self
     }
 }
 

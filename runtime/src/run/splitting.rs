@@ -1,6 +1,7 @@
 //! High order from kicks and exact drifts: Runge–Kutta–Nyström splittings.
 
 mod force_work;
+mod lanes;
 
 use nalgebra::{SMatrix, SVector};
 

@@ -3,6 +3,7 @@
 mod composition;
 mod kept;
 mod kept_matrix;
+mod lanes;
 mod one_run;
 mod saved_runs;
 mod splitting;

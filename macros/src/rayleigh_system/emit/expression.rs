@@ -65,6 +65,8 @@ pub struct Writer<'g> {
     pub calls_elementary: Cell<bool>,
     /// Whether the value is lanes; nothing is in code on numbers.
     pub is_lanes: Vec<bool>,
+    /// The type of lanes.
+    pub lanes: Ident,
     /// The number of lanes.
     pub stages: Ident,
     /// Whether numbers are `Real<D>`.

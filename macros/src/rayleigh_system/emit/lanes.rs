@@ -14,8 +14,8 @@ impl Writer<'_> {
         if self.is_lanes[node.index()] {
             written.tokens
         } else {
-            let (scalar, stages, value) = (self.scalar, &self.stages, written.tokens);
-            quote!(Lanes::<#scalar, #stages>::splat(#value))
+            let (lanes, scalar, stages, value) = (&self.lanes, self.scalar, &self.stages, written.tokens);
+            quote!(#lanes::<#scalar, #stages>::splat(#value))
         }
     }
 
@@ -58,8 +58,12 @@ impl Writer<'_> {
             Operation::Select(condition, a, b) => {
                 let (a, b) = (self.lanes(a), self.lanes(b));
                 if self.is_lanes[condition.index()] {
-                    let condition = self.mask(condition);
-                    (quote!(#condition.select(#a, #b)), Binding::Atom)
+                    let (lanes, condition) = (&self.lanes, self.mask(condition));
+                    if lanes == "Members" {
+                        (quote!(Members::select(#condition, #a, #b)), Binding::Atom)
+                    } else {
+                        (quote!(#condition.select(#a, #b)), Binding::Atom)
+                    }
                 } else {
                     let condition = self.expression(condition).tokens;
                     (quote!(if #condition { #a } else { #b }), Binding::Or)

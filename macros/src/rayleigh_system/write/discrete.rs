@@ -22,6 +22,8 @@ pub struct Kernel {
     pub memory: Memory,
     /// The functions of an explicit step.
     pub explicit: Option<TokenStream>,
+    /// Those of several members at once.
+    pub in_lanes: Option<TokenStream>,
 }
 
 /// What a run keeps from step to step.
@@ -72,13 +74,14 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
             }
         }
     });
-    let Kernel { step_kernel, momenta, diagonals, is_linear, memory, explicit } = kernel.unwrap_or_else(|| Kernel {
+    let Kernel { step_kernel, momenta, diagonals, is_linear, memory, explicit, in_lanes } = kernel.unwrap_or_else(|| Kernel {
         step_kernel: quote!(#rule::lagrangian_kernel(self, q0, v, h) #(+ #rule::#kernels(self, q0, v, h))*),
         momenta: quote!(#rule::lagrangian_momenta(self, q0, v, h) #(+ #rule::#momenta(self, q0, v, h))*),
         diagonals: None,
         is_linear: false,
         memory: Memory::Velocities,
         explicit: None,
+        in_lanes: None,
     });
     let (matrix, kernel) = match diagonals {
         None => (quote!(SMatrix<#scalar, #n, #n>), quote!(StepKernel<#scalar, #n>)),
@@ -105,6 +108,15 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
         quote! {
             #[automatically_derived]
             impl ::dalembert::generated::Explicit<#n> for #subject {
+                #functions
+            }
+        }
+    });
+    // impl ExplicitInLanes<2> for Ring
+    let in_lanes = in_lanes.map(|functions| {
+        quote! {
+            #[automatically_derived]
+            impl ::dalembert::generated::ExplicitInLanes<#n> for #subject {
                 #functions
             }
         }
@@ -157,6 +169,8 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
         }
 
         #explicit
+
+        #in_lanes
     }
 }
 

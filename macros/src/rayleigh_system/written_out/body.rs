@@ -20,25 +20,19 @@ impl Code<'_> {
 
     /// The same, with the time left to the caller.
     pub(super) fn code_at_node(&mut self, outputs: &[Node], parameters: &[&str]) -> StraightLine {
+        let outputs = self.shortened(outputs);
+        self.code_as_it_stands(&outputs, parameters)
+    }
+
+    /// The same, of what has been shortened.
+    pub(super) fn code_as_it_stands(&mut self, outputs: &[Node], parameters: &[&str]) -> StraightLine {
         let mut taken = vec!["q", "v", "h", "half", "q0", "q1", "minus", "plus"];
         // Without a view, u and t are free for the user's own names.
         if self.home == Home::View {
             taken.extend(["u", "t", "t_end"]);
         }
         taken.extend(parameters);
-        let outputs = if self.graph.is_full() {
-            vec![self.graph.constant(0.0); outputs.len()]
-        } else {
-            self.graph.factored(outputs, self.written)
-        };
-        let operations = self.graph.operations(outputs.iter().copied());
-        self.longest = self.longest.max(operations);
-        let outputs = if operations > MOST_OPERATIONS {
-            vec![self.graph.constant(0.0); outputs.len()]
-        } else {
-            outputs
-        };
-        let mut line = straight_line(&self.graph, &self.system.scalar, &outputs, &taken, self.is_portable);
+        let mut line = straight_line(&self.graph, &self.system.scalar, outputs, &taken, self.is_portable);
         if self.home == Home::View {
             let seen = |tokens: TokenStream| view::seen_from_view(tokens, &self.system.name);
             let statements = seen(line.statements);
@@ -48,6 +42,18 @@ impl Code<'_> {
         }
         self.calls_elementary |= line.calls_elementary;
         line
+    }
+
+    /// What `outputs` compute, in few operations; zeros where it is too long to be written.
+    pub(super) fn shortened(&mut self, outputs: &[Node]) -> Vec<Node> {
+        let zeros = |graph: &mut Graph| vec![graph.constant(0.0); outputs.len()];
+        if self.graph.is_full() {
+            return zeros(&mut self.graph);
+        }
+        let shortened = self.graph.factored(outputs, self.written);
+        let operations = self.graph.operations(shortened.iter().copied());
+        self.longest = self.longest.max(operations);
+        if operations > MOST_OPERATIONS { zeros(&mut self.graph) } else { shortened }
     }
 
     /// Splits outputs into scalars, vectors and matrices.

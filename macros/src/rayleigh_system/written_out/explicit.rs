@@ -5,8 +5,12 @@ use super::kernel::Parts;
 use super::*;
 
 impl Code<'_> {
-    /// The functions of `Explicit`.
-    pub(super) fn explicit(&mut self, parts: &Parts, diagonals: Option<usize>) -> TokenStream {
+    /// The functions of `Explicit`, and those of `ExplicitInLanes` where they are asked for.
+    pub(super) fn explicit(
+        &mut self,
+        parts: &Parts,
+        diagonals: Option<usize>,
+    ) -> (TokenStream, Option<TokenStream>) {
         let scalar = &self.system.scalar;
         let n = self.system.degrees.times(1);
         let half = self.graph.half_step();
@@ -55,10 +59,12 @@ impl Code<'_> {
             }
         };
 
-        let line = self.code(&force);
+        let force = self.shortened(&force);
+        let in_lanes = if self.system.lanes.is_some() { self.explicit_in_lanes(&force) } else { None };
+        let line = self.code_as_it_stands(&force, &[]);
         let [force] = self.parts(&line.outputs, [Shape::Vector]);
         let (q, statements) = (parameter("q", line.uses_coordinates), &line.statements);
-        quote! {
+        let functions = quote! {
             #step_matrix
 
             #velocity_momenta
@@ -68,6 +74,7 @@ impl Code<'_> {
                 #statements
                 #force
             }
-        }
+        };
+        (functions, in_lanes)
     }
 }

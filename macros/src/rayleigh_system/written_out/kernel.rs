@@ -61,13 +61,21 @@ impl Code<'_> {
         let [p0, p1] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
         let momenta = framed(self, &line, quote!(Momenta { p0: #p0, p1: #p1 }));
 
-        let explicit = newton.is_explicit.then(|| self.explicit(&parts, diagonals));
+        let (explicit, in_lanes) = newton.is_explicit.then(|| self.explicit(&parts, diagonals)).unzip();
         let memory = match () {
             () if newton.is_explicit => Memory::Explicit,
             () if newton.constant || self.n >= KEPT_FROM => Memory::Matrix,
             () => Memory::Velocities,
         };
-        Kernel { step_kernel, momenta, diagonals, is_linear: newton.constant, memory, explicit }
+        Kernel {
+            step_kernel,
+            momenta,
+            diagonals,
+            is_linear: newton.constant,
+            memory,
+            explicit,
+            in_lanes: in_lanes.flatten(),
+        }
     }
 
     /// The code of `before` and of a matrix, given column by column, in the form that its diagonals allow.

@@ -1,0 +1,308 @@
+impl Bead {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        let push = if self.has_wall && q[0] > Self::WALL {
+            self.k * (q[0] - Self::WALL)
+        } else {
+            0.0
+        };
+        0.5 * self.m * v[0] * v[0] + self.m * self.g * q[0].cos() - push * push
+    }
+    fn rayleigh(&self, v: [f64; 1]) -> f64 {
+        0.5 * self.r * v[0] * v[0]
+    }
+}
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    nonstandard_style,
+    unused_variables,
+    unreachable_patterns
+)]
+const _: () = {
+    use ::dalembert::nalgebra::{SMatrix, SVector};
+    use ::dalembert::generated::{
+        ActingForce, Derivatives, Discrete, DiscreteForce, DiscreteForceDerivatives,
+        DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Mask, MemberVector,
+        Members, Momenta, Rayleigh, StepKernel, Trapezoidal,
+    };
+    type Vector = SVector<f64, 1>;
+    /// Known at compile time:
+    /// - Derivatives are written out.
+    /// - L = T(v) − V(q).
+    /// - The mass matrix ∂²L/∂v² is constant.
+    /// - The damping force −∂R/∂v is linear in v with constant coefficients.
+    /// - By the rule `Trapezoidal` the Newton matrix is constant: a step is one linear solve.
+    #[automatically_derived]
+    impl Lagrangian<1> for Bead {
+        type Scalar = f64;
+        const STRUCTURE: ::dalembert::generated::Structure = ::dalembert::generated::Structure::UNKNOWN
+            .with_engine(::dalembert::generated::Engine::Expanded)
+            .with_constant_mass_matrix()
+            .with_separable_lagrangian()
+            .with_damping(::dalembert::generated::Damping::Linear)
+            .with_newton_matrices(
+                &[::dalembert::generated::NewtonStructure::new("Trapezoidal", true, 0)],
+            );
+        #[inline]
+        fn lagrangian(&self, q: &Vector, v: &Vector) -> f64 {
+            self.lagrangian((*q).into(), (*v).into())
+        }
+        #[inline]
+        fn lagrangian_gradient(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            let wall = Self::WALL;
+            let t1 = self.has_wall && q[0] > wall;
+            let k = self.k;
+            let push = if t1 { k * (q[0] - wall) } else { 0.0 };
+            let m = self.m;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            let t2 = m * self.g;
+            let t3 = if t1 { -2.0 * k * push } else { 0.0 };
+            Gradient {
+                value: 0.5 * m * v[0] * v[0] + t2 * cos_q0 - push * push,
+                d1: SVector::from([t3 - t2 * sin_q0]),
+                d2: SVector::from([m * v[0]]),
+            }
+        }
+        #[inline]
+        fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            let wall = Self::WALL;
+            let t1 = self.has_wall && q[0] > wall;
+            let k = self.k;
+            let push = if t1 { k * (q[0] - wall) } else { 0.0 };
+            let m = self.m;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            let t2 = m * self.g;
+            let t3 = t2 * cos_q0;
+            let t4 = 2.0 * k;
+            let t5 = if t1 { -k * t4 } else { 0.0 };
+            let t6 = if t1 { -t4 * push } else { 0.0 };
+            Derivatives {
+                value: 0.5 * m * v[0] * v[0] + t3 - push * push,
+                d1: SVector::from([t6 - t2 * sin_q0]),
+                d2: SVector::from([m * v[0]]),
+                d11: SMatrix::from([[t5 - t3]]),
+                d12: SMatrix::zeros(),
+                d22: SMatrix::from([[m]]),
+            }
+        }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh(self, q, v)
+        }
+    }
+    #[automatically_derived]
+    impl Rayleigh<1> for Bead {
+        #[inline]
+        fn rayleigh(&self, _q: &Vector, v: &Vector) -> f64 {
+            self.rayleigh((*v).into())
+        }
+        #[inline]
+        fn rayleigh_gradient(&self, _q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            let r = self.r;
+            Gradient {
+                value: 0.5 * r * v[0] * v[0],
+                d1: SVector::zeros(),
+                d2: SVector::from([r * v[0]]),
+            }
+        }
+        #[inline]
+        fn rayleigh_derivatives(&self, _q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
+            let r = self.r;
+            Derivatives {
+                value: 0.5 * r * v[0] * v[0],
+                d1: SVector::zeros(),
+                d2: SVector::from([r * v[0]]),
+                d11: SMatrix::zeros(),
+                d12: SMatrix::zeros(),
+                d22: SMatrix::from([[r]]),
+            }
+        }
+    }
+    #[automatically_derived]
+    impl ActingForce<1> for Bead {
+        const HAS_RAYLEIGH: bool = true;
+        #[inline]
+        fn dissipation(&self, q: &Vector, v: &Vector) -> Gradient<f64, 1> {
+            self.rayleigh_gradient(q, v)
+        }
+        #[inline]
+        fn dissipation_derivatives(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> Derivatives<f64, 1> {
+            self.rayleigh_derivatives(q, v)
+        }
+    }
+    #[automatically_derived]
+    impl Discrete<Trapezoidal, 1> for Bead {
+        type Matrix = SMatrix<f64, 1, 1>;
+        type Memory = ::dalembert::generated::ExplicitMemory<f64, Self::Matrix, 1>;
+        const LINEAR: bool = true;
+        /// L_d = (h/2) [L(q0, v̄) + L(q1, v̄)], with v̄ = (q1 − q0)/h.
+        fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Trapezoidal::discrete_lagrangian(self, q0, q1, h)
+        }
+        /// L_d with D1, D2, D11, D12, D22.
+        fn discrete_lagrangian_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 1> {
+            Trapezoidal::discrete_lagrangian_derivatives(self, q0, q1, h)
+        }
+        /// f_d⁻ = D1 R_d, f_d⁺ = −D2 R_d.
+        fn discrete_force(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForce<f64, 1> {
+            Trapezoidal::rayleigh_force(self, q0, q1, h)
+        }
+        /// f_d with its derivatives by q0 and q1.
+        fn discrete_force_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> DiscreteForceDerivatives<f64, 1> {
+            Trapezoidal::rayleigh_force_derivatives(self, q0, q1, h)
+        }
+        /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
+        #[inline]
+        fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
+            let half = 0.5 * h;
+            let wall = Self::WALL;
+            let k = self.k;
+            let m = self.m;
+            let t1 = self.has_wall && q0[0] > wall;
+            let push_start = if t1 { k * (q0[0] - wall) } else { 0.0 };
+            let t2 = m + self.r * half;
+            let t3 = if t1 { -2.0 * k * push_start } else { 0.0 };
+            StepKernel {
+                p0: SVector::from([t2 * v[0] - half * (t3 - m * self.g * q0[0].sin())]),
+                matrix: SMatrix::from([[t2]]),
+            }
+        }
+        /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
+        #[inline]
+        fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
+            let half = 0.5 * h;
+            let q1 = [q0[0] + h * v[0]];
+            let t1 = self.has_wall;
+            let wall = Self::WALL;
+            let k = self.k;
+            let m = self.m;
+            let t2 = m * self.g;
+            let t3 = 2.0 * k;
+            let t4 = m * v[0];
+            let t5 = t1 && q0[0] > wall;
+            let push_start = if t5 { k * (q0[0] - wall) } else { 0.0 };
+            let t6 = t1 && q1[0] > wall;
+            let push_end = if t6 { k * (q1[0] - wall) } else { 0.0 };
+            let t7 = if t5 { -t3 * push_start } else { 0.0 };
+            let t8 = self.r * half * v[0];
+            let t9 = if t6 { -t3 * push_end } else { 0.0 };
+            Momenta {
+                p0: SVector::from([t4 + t8 - half * (t7 - t2 * q0[0].sin())]),
+                p1: SVector::from([t4 + half * (t9 - t2 * q1[0].sin()) - t8]),
+            }
+        }
+        /// E_L on the segment.
+        fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Trapezoidal::segment_energy(self, q0, q1, h)
+        }
+        fn verify_segment(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            Trapezoidal::verify_segment(self, q0, v, h)
+        }
+    }
+    #[automatically_derived]
+    impl ::dalembert::generated::Explicit<1> for Bead {
+        #[inline]
+        fn step_matrix(&self, h: f64) -> <Self as Discrete<Trapezoidal, 1>>::Matrix {
+            let half = 0.5 * h;
+            SMatrix::from([[self.m + self.r * half]])
+        }
+        #[inline]
+        fn velocity_momenta(&self, v: &Vector, h: f64) -> Momenta<f64, 1> {
+            let half = 0.5 * h;
+            let t1 = self.m * v[0];
+            let t2 = self.r * half * v[0];
+            Momenta {
+                p0: SVector::from([t1 + t2]),
+                p1: SVector::from([t1 - t2]),
+            }
+        }
+        #[inline]
+        fn configuration_force(&self, q: &Vector) -> Vector {
+            let wall = Self::WALL;
+            let t1 = self.has_wall && q[0] > wall;
+            let k = self.k;
+            let push = if t1 { k * (q[0] - wall) } else { 0.0 };
+            let t2 = if t1 { -2.0 * k * push } else { 0.0 };
+            SVector::from([t2 - self.m * self.g * q[0].sin()])
+        }
+    }
+    #[automatically_derived]
+    impl ::dalembert::generated::ExplicitInLanes<1> for Bead {
+        type Fields<const W: usize> = ([Members<f64, W>; 3], [Mask<W>; 1]);
+        fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W> {
+            (
+                [
+                    Members(systems.map(|system| system.k)),
+                    Members(systems.map(|system| system.m)),
+                    Members(systems.map(|system| system.g)),
+                ],
+                [Mask(systems.map(|system| system.has_wall))],
+            )
+        }
+        #[inline(always)]
+        fn configuration_force_in_lanes<const W: usize>(
+            fields: &Self::Fields<W>,
+            q: &MemberVector<f64, 1, W>,
+        ) -> MemberVector<f64, 1, W> {
+            let ([k, m, g], [t1]) = *fields;
+            let wall = Self::WALL;
+            let t2 = t1 & Members::<f64, W>::splat(wall).less(q[0]);
+            let push = Members::select(
+                t2,
+                k * (q[0] - wall),
+                Members::<f64, W>::splat(0.0),
+            );
+            let t3 = Members::select(t2, -2.0 * k * push, Members::<f64, W>::splat(0.0));
+            [t3 - m * g * q[0].sin()]
+        }
+    }
+    #[automatically_derived]
+    impl DiscreteRayleigh<Trapezoidal, 1> for Bead {
+        /// R_d = (h²/4) [R(q0, v̄) + R(q1, v̄)], with v̄ = (q1 − q0)/h.
+        fn discrete_rayleigh(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
+            Trapezoidal::discrete_rayleigh(self, q0, q1, h)
+        }
+        /// R_d with D1, D2, D11, D12, D22.
+        fn discrete_rayleigh_derivatives(
+            &self,
+            q0: &Vector,
+            q1: &Vector,
+            h: f64,
+        ) -> Derivatives<f64, 1> {
+            Trapezoidal::discrete_rayleigh_derivatives(self, q0, q1, h)
+        }
+    }
+    #[automatically_derived]
+    impl ::dalembert::generated::OffersMethods<1> for Bead {
+        type Methods = ::dalembert::generated::WithSplittings<Trapezoidal>;
+    }
+};

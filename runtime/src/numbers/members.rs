@@ -1,0 +1,143 @@
+//! Numbers side by side, one for each of several runs: what is computed of one is computed of all at once,
+//! with the very roundings that it has alone.
+//!
+//! Unlike [`Lanes`](crate::generated::Lanes), which hold the stages of one step, these have neither vector
+//! types nor functions of their own: arrays, loops over them, and the functions of numbers. The compiler
+//! turns the loops into the widest instructions of the function that they are inlined into, so that a caller
+//! compiled for several instruction sets chooses when it runs. Nothing on the way may stay a call: hence
+//! `inline(always)`, and no iterator or closure that might.
+
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
+
+mod functions;
+mod operators;
+
+use nalgebra::SVector;
+
+use crate::numbers::{Mask, Scalar};
+
+/// One number of each of W members. Operators and functions act on each of them as on a number alone, to the
+/// last bit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(transparent)]
+pub struct Members<T, const W: usize>(pub [T; W]);
+
+/// A vector of N coordinates of each of W members.
+pub type MemberVector<T, const N: usize, const W: usize> = [Members<T, W>; N];
+
+impl<T: Scalar, const W: usize> Members<T, W> {
+    /// One number for every member.
+    #[inline(always)]
+    #[must_use]
+    pub fn splat(value: T) -> Self {
+        Self([value; W])
+    }
+
+    /// Member by member, `a` where the condition holds and `b` where it does not.
+    #[inline(always)]
+    #[must_use]
+    pub fn select(condition: Mask<W>, a: Self, b: Self) -> Self {
+        let mut selected = b;
+        for i in 0..W {
+            selected.0[i] = if condition.0[i] { a.0[i] } else { b.0[i] };
+        }
+        selected
+    }
+
+    /// self < other.
+    #[inline(always)]
+    #[must_use]
+    pub fn less(self, other: Self) -> Mask<W> {
+        let mut mask = Mask([false; W]);
+        for i in 0..W {
+            mask.0[i] = self.0[i] < other.0[i];
+        }
+        mask
+    }
+
+    /// self ≤ other.
+    #[inline(always)]
+    #[must_use]
+    pub fn less_or_equal(self, other: Self) -> Mask<W> {
+        let mut mask = Mask([false; W]);
+        for i in 0..W {
+            mask.0[i] = self.0[i] <= other.0[i];
+        }
+        mask
+    }
+
+    /// self = other.
+    #[inline(always)]
+    #[must_use]
+    pub fn equal(self, other: Self) -> Mask<W> {
+        let mut mask = Mask([false; W]);
+        for i in 0..W {
+            mask.0[i] = self.0[i] == other.0[i];
+        }
+        mask
+    }
+
+    /// Which members are NaN.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_nan(self) -> Mask<W> {
+        !self.equal(self)
+    }
+
+    /// Which members are finite.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_finite(self) -> Mask<W> {
+        let mut mask = Mask([false; W]);
+        for i in 0..W {
+            mask.0[i] = self.0[i].is_finite();
+        }
+        mask
+    }
+
+    /// Which members are infinite.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_infinite(self) -> Mask<W> {
+        !(self.is_finite() | self.is_nan())
+    }
+
+    /// Which members have the sign bit set.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_sign_negative(self) -> Mask<W> {
+        let mut mask = Mask([false; W]);
+        for i in 0..W {
+            mask.0[i] = self.0[i].is_sign_negative();
+        }
+        mask
+    }
+
+    /// Which members do not have the sign bit set.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_sign_positive(self) -> Mask<W> {
+        !self.is_sign_negative()
+    }
+}
+
+/// The vector of one member; 0 where there is no such member.
+pub(crate) fn member<T: Scalar, const N: usize, const W: usize>(
+    members: &MemberVector<T, N, W>,
+    index: usize,
+) -> SVector<T, N> {
+    SVector::from_fn(|a, _| members.get(a).and_then(|of| of.0.get(index)).copied().unwrap_or_else(T::zero))
+}
+
+/// Writes the vector of one member, if there is such a member.
+pub(crate) fn write_member<T: Scalar, const N: usize, const W: usize>(
+    members: &mut MemberVector<T, N, W>,
+    index: usize,
+    vector: &SVector<T, N>,
+) {
+    for (members, entry) in members.iter_mut().zip(vector.iter()) {
+        if let Some(member) = members.0.get_mut(index) {
+            *member = *entry;
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! `+`, `-`, `*`, `/` of members with members and with numbers.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::Members;
+use crate::numbers::Scalar;
+
+impl<T: Scalar, const W: usize> Neg for Members<T, W> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(mut self) -> Self {
+        for i in 0..W {
+            self.0[i] = -self.0[i];
+        }
+        self
+    }
+}
+
+macro_rules! operators {
+    ($($trait:ident $method:ident $operator:tt $assigning:tt)*) => {$(
+        impl<T: Scalar, const W: usize> $trait for Members<T, W> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(mut self, other: Self) -> Self {
+                for i in 0..W {
+                    self.0[i] $assigning other.0[i];
+                }
+                self
+            }
+        }
+
+        impl<T: Scalar, const W: usize> $trait<T> for Members<T, W> {
+            type Output = Self;
+            #[inline(always)]
+            fn $method(mut self, other: T) -> Self {
+                for i in 0..W {
+                    self.0[i] $assigning other;
+                }
+                self
+            }
+        }
+
+        operators!(@number $trait $method $operator f64 f32);
+    )*};
+    (@number $trait:ident $method:ident $operator:tt $($scalar:ident)*) => {$(
+        impl<const W: usize> $trait<Members<$scalar, W>> for $scalar {
+            type Output = Members<$scalar, W>;
+            #[inline(always)]
+            fn $method(self, other: Members<$scalar, W>) -> Members<$scalar, W> {
+                Members::splat(self) $operator other
+            }
+        }
+    )*};
+}
+
+operators! {
+    Add add + +=
+    Sub sub - -=
+    Mul mul * *=
+    Div div / /=
+}

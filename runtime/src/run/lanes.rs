@@ -1,0 +1,136 @@
+//! W runs at once: each member a system of its own from a state of its own, all by one method and step size.
+//!
+//! What is computed of one member is computed of all, in plain arrays and loops ([`Members`]): as fast as the
+//! instructions allow that the caller is compiled for, and bit by bit what each member's own run computes.
+
+use core::marker::PhantomData;
+
+use crate::numbers::{Elementary, MemberVector};
+use crate::run::{Checkpoint, Course, Explicit};
+use crate::step::{Flow, State};
+use crate::system::Lagrangian;
+
+/// An explicit system whose force is known of several members at once: what `lanes = explicit` generates.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not stepped in lanes",
+    label = "the force of `{Self}` is not written for several members at once",
+    note = "add `lanes = explicit` to the attribute: `#[rayleigh_system(rule = trapezoidal, lanes = explicit)]`"
+)]
+pub trait ExplicitInLanes<const N: usize>: Explicit<N, Scalar: Elementary> {
+    /// What the force reads of each of W systems.
+    type Fields<const W: usize>: Copy + core::fmt::Debug;
+
+    /// What the force reads, gathered.
+    fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W>;
+
+    /// [`configuration_force`](Explicit::configuration_force) of each member, to the last bit.
+    fn configuration_force_in_lanes<const W: usize>(
+        fields: &Self::Fields<W>,
+        q: &MemberVector<Self::Scalar, N, W>,
+    ) -> MemberVector<Self::Scalar, N, W>;
+}
+
+/// A system that method `M` steps in lanes.
+pub trait InLanes<M, const N: usize>: Flow<M, N> {
+    /// W members on their way: their states, and all that a step asks for.
+    type Lanes<const W: usize>: Copy + core::fmt::Debug;
+
+    /// The members at their starts. One that no run can start from, or whose method cannot be prepared, has no
+    /// state.
+    fn in_lanes<const W: usize>(
+        systems: [&Self; W],
+        starts: &[State<Self::Scalar, N>; W],
+        h: Self::Scalar,
+    ) -> Self::Lanes<W>;
+
+    /// All members on by this many steps: those of [`in_lanes`](Self::in_lanes), with its systems.
+    fn advance_in_lanes<const W: usize>(lanes: &mut Self::Lanes<W>, systems: [&Self; W], steps: u64);
+
+    /// The state of one member; nothing where its own run has to tell what became of it.
+    fn state_of_lane<const W: usize>(lanes: &Self::Lanes<W>, lane: usize) -> Option<State<Self::Scalar, N>>;
+}
+
+/// W runs at once, by method `M` with one step size.
+///
+/// A member that fails leaves the others as they are, and has no state from then on: its own run,
+/// `system.by(method, h).run(start)`, says why.
+///
+/// ```
+/// use dalembert::run::LaneRuns;
+/// use dalembert::{Discretise, Splitting, State, rayleigh_system};
+///
+/// #[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+/// fn pendulum(q: [f64; 1], v: [f64; 1], length: f64, r: f64) -> (f64, f64) {
+///     (0.5 * length * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
+/// }
+///
+/// let pendulums = [1.0, 1.1, 1.2, 1.3].map(|length| Pendulum { length, r: 0.1 });
+/// let systems = pendulums.each_ref();
+/// let start = State { q: [1.0].into(), p: [0.0].into() };
+/// let mut runs = LaneRuns::new(Splitting::blanes_moan_6(), systems, &[start; 4], 0.5);
+/// runs.advance(1000);
+/// for (lane, system) in systems.into_iter().enumerate() {
+///     let alone = system.by(Splitting::blanes_moan_6(), 0.5).run(start).nth(999).unwrap()?.state;
+///     assert_eq!(runs.state(lane), Some(alone));
+/// }
+/// # Ok::<(), dalembert::StepError>(())
+/// ```
+pub struct LaneRuns<'a, L, M, const N: usize, const W: usize>
+where
+    L: InLanes<M, N>,
+{
+    systems: [&'a L; W],
+    lanes: L::Lanes<W>,
+    method: PhantomData<M>,
+}
+
+impl<'a, L, M, const N: usize, const W: usize> LaneRuns<'a, L, M, N, W>
+where
+    L: InLanes<M, N>,
+{
+    /// One run for each system, from the state of the same index.
+    ///
+    /// The value is large, some W (2N + 2·S) numbers for a [`Splitting`](crate::Splitting) of S drifts, N
+    /// times as many where M or C is not diagonal: how many lanes pay depends on the registers of the
+    /// machine and, for long chains, on its caches.
+    #[must_use]
+    pub fn new(method: M, systems: [&'a L; W], starts: &[State<L::Scalar, N>; W], h: L::Scalar) -> Self {
+        let _ = method;
+        Self { systems, lanes: L::in_lanes(systems, starts, h), method: PhantomData }
+    }
+
+    /// All runs on by this many steps: bit by bit the same, at once or in parts.
+    ///
+    /// Inlined into its caller, so that it is compiled for the caller's instruction set.
+    #[inline(always)]
+    pub fn advance(&mut self, steps: u64) {
+        L::advance_in_lanes(&mut self.lanes, self.systems, steps);
+    }
+
+    /// The state of the run in this lane: that of the scalar run after as many steps, to the last bit. Nothing
+    /// if that run would have ended with an error by now, or if there is no such lane.
+    #[must_use]
+    pub fn state(&self, lane: usize) -> Option<State<L::Scalar, N>> {
+        if lane < W { L::state_of_lane(&self.lanes, lane) } else { None }
+    }
+}
+
+impl<L: InLanes<M, N>, M, const N: usize, const W: usize> Clone for LaneRuns<'_, L, M, N, W> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<L: InLanes<M, N>, M, const N: usize, const W: usize> Copy for LaneRuns<'_, L, M, N, W> {}
+
+/// Whether a run from `start` begins, and its clock needs no watching.
+pub(crate) fn begins<L: Lagrangian<N>, const N: usize>(
+    system: &L,
+    start: &State<L::Scalar, N>,
+    h: L::Scalar,
+) -> bool {
+    let mut course = Course::Starting;
+    start.require_finite().is_ok()
+        && course.require(system, &Checkpoint::new(h, *start)).is_ok()
+        && course == Course::Open
+}

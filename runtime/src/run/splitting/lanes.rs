@@ -1,0 +1,280 @@
+//! Splittings of several members at once: the operations of each member's own run, in their order.
+
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
+
+use nalgebra::SMatrix;
+
+use super::{Drifts, Prepared, Splitting};
+use crate::numbers::members::{member, write_member};
+use crate::numbers::{Mask, MemberVector, Members, Scalar};
+use crate::rules::Drift;
+use crate::run::lanes::begins;
+use crate::run::{ExplicitInLanes, InLanes};
+use crate::step::State;
+
+/// W members on their way by a [`Splitting`].
+#[derive(Clone, Copy, Debug)]
+pub struct KicksInLanes<T, F, const N: usize, const S: usize, const W: usize> {
+    drifts: DriftsInLanes<T, N, S, W>,
+    kicked: Kicked<T, F, N, S, W>,
+}
+
+/// The members, and what they have besides their drifts.
+#[derive(Clone, Copy, Debug)]
+struct Kicked<T, F, const N: usize, const S: usize, const W: usize> {
+    /// Whose runs have begun.
+    has_begun: Mask<W>,
+    fields: F,
+    q: MemberVector<T, N, W>,
+    p: MemberVector<T, N, W>,
+    /// G − ∂R/∂v(0) at q.
+    force: MemberVector<T, N, W>,
+    /// bᵢh.
+    kicks: [T; S],
+    /// ∂L/∂v at v = 0.
+    shift: MemberVector<T, N, W>,
+    /// ∂R/∂v at v = 0.
+    thrust: MemberVector<T, N, W>,
+}
+
+/// The drifts of all members: the first half and the middle, with which the others are the same.
+#[derive(Clone, Copy, Debug)]
+enum DriftsInLanes<T, const N: usize, const S: usize, const W: usize> {
+    /// M and C of every member are diagonal, and no member is damped.
+    Undamped([Drift<MemberVector<T, N, W>>; S]),
+    /// M and C of every member are diagonal.
+    Diagonal([Drift<MemberVector<T, N, W>>; S]),
+    Full(FullDrifts<T, N, S, W>),
+}
+
+/// Matrices, row by row.
+#[derive(Clone, Copy, Debug)]
+struct FullDrifts<T, const N: usize, const S: usize, const W: usize> {
+    drifts: [Drift<[MemberVector<T, N, W>; N]>; S],
+    /// Whose matrices are diagonal: what is beside the diagonal then adds nothing, not even a sign to a zero.
+    is_diagonal: Mask<W>,
+    is_damped: Mask<W>,
+}
+
+/// What one drift does to (q, p − ∂L/∂v(0)).
+trait Drifting<T, const N: usize, const W: usize> {
+    /// The i-th of the first half.
+    fn drift(&self, i: usize, q: &mut MemberVector<T, N, W>, p: &mut MemberVector<T, N, W>);
+}
+
+/// Drifts of the form [`DriftsInLanes::Undamped`].
+struct Undamped<'d, T, const N: usize, const S: usize, const W: usize>(&'d [Drift<MemberVector<T, N, W>>; S]);
+
+impl<T: Scalar, const N: usize, const S: usize, const W: usize> Drifting<T, N, W>
+    for Undamped<'_, T, N, S, W>
+{
+    #[inline(always)]
+    fn drift(&self, i: usize, q: &mut MemberVector<T, N, W>, p: &mut MemberVector<T, N, W>) {
+        let drift = &self.0[i];
+        for a in 0..N {
+            q[a] = q[a] + drift.displacement[a] * p[a];
+        }
+    }
+}
+
+/// Drifts of the form [`DriftsInLanes::Diagonal`].
+struct Diagonal<'d, T, const N: usize, const S: usize, const W: usize>(&'d [Drift<MemberVector<T, N, W>>; S]);
+
+impl<T: Scalar, const N: usize, const S: usize, const W: usize> Drifting<T, N, W>
+    for Diagonal<'_, T, N, S, W>
+{
+    #[inline(always)]
+    fn drift(&self, i: usize, q: &mut MemberVector<T, N, W>, p: &mut MemberVector<T, N, W>) {
+        let drift = &self.0[i];
+        for a in 0..N {
+            q[a] = q[a] + drift.displacement[a] * p[a];
+            p[a] = p[a] + drift.loss[a] * p[a];
+        }
+    }
+}
+
+impl<T: Scalar, const N: usize, const S: usize, const W: usize> Drifting<T, N, W>
+    for &FullDrifts<T, N, S, W>
+{
+    #[inline(always)]
+    fn drift(&self, i: usize, q: &mut MemberVector<T, N, W>, p: &mut MemberVector<T, N, W>) {
+        let drift = &self.drifts[i];
+        let before = *p;
+        for a in 0..N {
+            q[a] = q[a] + self.product(&drift.displacement[a], &before, a);
+            let lost = before[a] + self.product(&drift.loss[a], &before, a);
+            p[a] = Members::select(self.is_damped, lost, before[a]);
+        }
+    }
+}
+
+impl<T: Scalar, const N: usize, const S: usize, const W: usize> FullDrifts<T, N, S, W> {
+    /// The a-th row times p, column by column as matrices are multiplied.
+    #[inline(always)]
+    fn product(&self, row: &MemberVector<T, N, W>, p: &MemberVector<T, N, W>, a: usize) -> Members<T, W> {
+        let mut sum = row[0] * p[0];
+        for b in 1..N {
+            sum = row[b] * p[b] + sum;
+        }
+        Members::select(self.is_diagonal, row[a] * p[a], sum)
+    }
+}
+
+impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> Kicked<T, F, N, S, W> {
+    /// As many steps, with the force −∇V(q) + f(q) of all members.
+    #[inline(always)]
+    fn carry<L, D>(&mut self, steps: u64, drifts: D)
+    where
+        L: ExplicitInLanes<N, Scalar = T, Fields<W> = F>,
+        D: Drifting<T, N, W>,
+    {
+        // Locals, so that they stay in registers.
+        let (fields, shift, thrust) = (&self.fields, &self.shift, &self.thrust);
+        let (mut q, mut p, mut force) = (self.q, self.p, self.force);
+        for _ in 0..steps {
+            p = difference(&p, shift);
+            for i in 0..S {
+                for a in 0..N {
+                    p[a] = p[a] + force[a] * self.kicks[i];
+                }
+                drifts.drift(if i < S - i { i } else { S - 1 - i }, &mut q, &mut p);
+                force = difference(&L::configuration_force_in_lanes(fields, &q), thrust);
+            }
+            for a in 0..N {
+                p[a] = p[a] + force[a] * self.kicks[0] + shift[a];
+            }
+        }
+        (self.q, self.p, self.force) = (q, p, force);
+    }
+
+    /// The member in this lane, at its start.
+    fn begin(&mut self, lane: usize, start: &State<T, N>, prepared: &Prepared<T, N, S>) {
+        if let Some(has_begun) = self.has_begun.0.get_mut(lane) {
+            *has_begun = true;
+        }
+        write_member(&mut self.q, lane, &start.q);
+        write_member(&mut self.p, lane, &start.p);
+        write_member(&mut self.shift, lane, &prepared.shift);
+        write_member(&mut self.thrust, lane, &prepared.thrust);
+    }
+}
+
+#[inline(always)]
+fn difference<T: Scalar, const N: usize, const W: usize>(
+    a: &MemberVector<T, N, W>,
+    b: &MemberVector<T, N, W>,
+) -> MemberVector<T, N, W> {
+    let mut difference = *a;
+    for i in 0..N {
+        difference[i] = a[i] - b[i];
+    }
+    difference
+}
+
+/// The drifts of all members that have begun, in the form that serves all.
+fn drifts_in_lanes<T: Scalar, const N: usize, const S: usize, const W: usize>(
+    prepared: &[Option<Prepared<T, N, S>>; W],
+) -> DriftsInLanes<T, N, S, W> {
+    let zero = [Members::splat(T::zero()); N];
+    let is_diagonal = |of: &Prepared<T, N, S>| matches!(of.drifts, Drifts::Diagonal(_));
+    if !prepared.iter().flatten().all(is_diagonal) {
+        let none = Drift { displacement: [zero; N], loss: [zero; N] };
+        let mut full =
+            FullDrifts { drifts: [none; S], is_diagonal: Mask::splat(true), is_damped: Mask::splat(false) };
+        for (lane, of) in prepared.iter().enumerate() {
+            let Some(of) = of else { continue };
+            full.is_diagonal.0[lane] = is_diagonal(of);
+            full.is_damped.0[lane] = of.is_damped;
+            for i in 0..S {
+                let Drift { displacement, loss } = of.drift(i);
+                write_rows(&mut full.drifts[i].displacement, lane, &displacement);
+                write_rows(&mut full.drifts[i].loss, lane, &loss);
+            }
+        }
+        return DriftsInLanes::Full(full);
+    }
+    let mut drifts = [Drift { displacement: zero, loss: zero }; S];
+    for (lane, of) in prepared.iter().enumerate() {
+        let Some(of) = of else { continue };
+        let Drifts::Diagonal(of_member) = &of.drifts else { continue };
+        for (drift, of_member) in drifts.iter_mut().zip(of_member) {
+            write_member(&mut drift.displacement, lane, &of_member.displacement);
+            // Without damping the loss stays 0 with the sign that leaves every p as it is, −0 too.
+            if of.is_damped {
+                write_member(&mut drift.loss, lane, &of_member.loss);
+            }
+        }
+    }
+    if prepared.iter().flatten().any(|of| of.is_damped) {
+        DriftsInLanes::Diagonal(drifts)
+    } else {
+        DriftsInLanes::Undamped(drifts)
+    }
+}
+
+/// Writes the matrix of one member.
+fn write_rows<T: Scalar, const N: usize, const W: usize>(
+    rows: &mut [MemberVector<T, N, W>; N],
+    lane: usize,
+    matrix: &SMatrix<T, N, N>,
+) {
+    for (a, row) in rows.iter_mut().enumerate() {
+        write_member(row, lane, &matrix.row(a).transpose());
+    }
+}
+
+impl<L, const N: usize, const S: usize> InLanes<Splitting<S>, N> for L
+where
+    L: ExplicitInLanes<N>,
+{
+    type Lanes<const W: usize> = KicksInLanes<L::Scalar, L::Fields<W>, N, S, W>;
+
+    fn in_lanes<const W: usize>(
+        systems: [&Self; W],
+        starts: &[State<L::Scalar, N>; W],
+        h: L::Scalar,
+    ) -> Self::Lanes<W> {
+        let mut prepared = [None; W];
+        for ((prepared, system), start) in prepared.iter_mut().zip(systems).zip(starts) {
+            if begins(system, start, h) {
+                *prepared = Prepared::new(system, h).ok();
+            }
+        }
+        let zero = [Members::splat(L::Scalar::constant(0.0)); N];
+        let mut kicked = Kicked {
+            has_begun: Mask::splat(false),
+            fields: L::fields(systems),
+            q: zero,
+            p: zero,
+            force: zero,
+            kicks: Splitting::<S>::KICKS.map(|share| L::Scalar::constant(share) * h),
+            shift: zero,
+            thrust: zero,
+        };
+        for (lane, (start, prepared)) in starts.iter().zip(&prepared).enumerate() {
+            if let Some(prepared) = prepared {
+                kicked.begin(lane, start, prepared);
+            }
+        }
+        let force = L::configuration_force_in_lanes(&kicked.fields, &kicked.q);
+        kicked.force = difference(&force, &kicked.thrust);
+        KicksInLanes { drifts: drifts_in_lanes(&prepared), kicked }
+    }
+
+    #[inline(always)]
+    fn advance_in_lanes<const W: usize>(lanes: &mut Self::Lanes<W>, _systems: [&Self; W], steps: u64) {
+        let KicksInLanes { drifts, kicked } = lanes;
+        match drifts {
+            DriftsInLanes::Undamped(drifts) => kicked.carry::<L, _>(steps, Undamped(drifts)),
+            DriftsInLanes::Diagonal(drifts) => kicked.carry::<L, _>(steps, Diagonal(drifts)),
+            DriftsInLanes::Full(drifts) => kicked.carry::<L, _>(steps, &*drifts),
+        }
+    }
+
+    fn state_of_lane<const W: usize>(lanes: &Self::Lanes<W>, lane: usize) -> Option<State<L::Scalar, N>> {
+        let of = &lanes.kicked;
+        let state = State { q: member(&of.q, lane), p: member(&of.p, lane) };
+        let has_begun = of.has_begun.0.get(lane).is_some_and(|&has_begun| has_begun);
+        (has_begun && state.require_finite().is_ok()).then_some(state)
+    }
+}

@@ -1,0 +1,429 @@
+//! Runs in lanes: every member's state is bit by bit that of its own run, whatever runs beside it, in
+//! however many lanes, at once or in parts; and a member that fails has none.
+
+use std::fmt::Debug;
+
+use dalembert::nalgebra::{SMatrix, SVector, vector};
+use dalembert::run::{InLanes, LaneRuns};
+use dalembert::{Discretise, Splitting, State, StepError, rayleigh_system};
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
+
+/// The ring potential of the examples.
+#[derive(Clone, Debug)]
+struct Ring {
+    k: f64,
+    height: f64,
+}
+
+#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+impl Ring {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let s = q[0] * q[0] + q[1] * q[1];
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - self.height * s * (s - 1.0).powi(2)
+    }
+
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        0.5 * self.k * (v[0] * v[0] + v[1] * v[1])
+    }
+}
+
+/// No field at all.
+#[derive(Clone, Debug)]
+struct HenonHeiles;
+
+#[rayleigh_system(rule = [midpoint, trapezoidal], lanes = explicit)]
+impl HenonHeiles {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let potential = 0.5 * (q[0] * q[0] + q[1] * q[1]) + q[0] * q[0] * q[1] - q[1].powi(3) / 3.0;
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - potential
+    }
+}
+
+/// Masses of their own, a tilted floor, friction that pushes at rest: nothing of the matrices is 1 or 0.
+#[derive(Clone, Debug)]
+struct Pendulums {
+    m: [f64; 2],
+    g: f64,
+    spring: f64,
+    /// Of ∂L/∂v at rest.
+    drift: f64,
+    /// Of ∂R/∂v at rest.
+    thrust: f64,
+    r: f64,
+}
+
+#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+impl Pendulums {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let mut l = self.drift * v[0];
+        for i in 0..2 {
+            l += 0.5 * self.m[i] * v[i] * v[i] + self.m[i] * self.g * q[i].cos();
+        }
+        l - self.spring * (1.0 - (q[0] - q[1]).cos() * (0.1 * q[0].sin()).exp())
+    }
+
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        0.5 * self.r * (v[0] * v[0] + 2.0 * v[1] * v[1]) + self.thrust * v[1]
+    }
+}
+
+/// Six masses, each coupled to every other by inertia and friction.
+#[derive(Clone, Debug)]
+struct Coupled {
+    mass: [[f64; 6]; 6],
+    damping: [[f64; 6]; 6],
+    spring: f64,
+}
+
+#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+impl Coupled {
+    fn lagrangian(&self, q: [f64; 6], v: [f64; 6]) -> f64 {
+        let mut l = 0.0;
+        for i in 0..6 {
+            for j in 0..6 {
+                l += 0.5 * self.mass[i][j] * v[i] * v[j];
+            }
+        }
+        for i in 0..5 {
+            let d = q[i + 1] - q[i];
+            l -= self.spring * (0.5 * d * d + 0.25 * d.powi(4));
+        }
+        l - 0.5 * q[0] * q[0]
+    }
+
+    fn rayleigh(&self, v: [f64; 6]) -> f64 {
+        let mut r = 0.0;
+        for i in 0..6 {
+            for j in 0..6 {
+                r += 0.5 * self.damping[i][j] * v[i] * v[j];
+            }
+        }
+        r
+    }
+}
+
+/// A wall, a ramp, and fields that are no numbers.
+#[derive(Clone, Debug)]
+struct Branchy {
+    floor: Floor,
+    has_wall: bool,
+    teeth: u32,
+    wind: Option<f64>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Floor {
+    Flat,
+    Ramp(f64),
+}
+
+#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+impl Branchy {
+    const STIFFNESS: f64 = 3.0;
+
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        let mut potential = match self.floor {
+            Floor::Flat => 0.0,
+            Floor::Ramp(slope) => slope * q[0],
+        };
+        if self.has_wall && q[0] > 1.0 {
+            potential += Self::STIFFNESS * (q[0] - 1.0).powi(2);
+        } else if q[0].abs() < 0.3 || q[0] < -1.5 {
+            potential += 0.1 * (3.0 * q[0]).sin() - 0.7 * q[0].min(-1.6);
+        }
+        0.5 * v[0] * v[0] - potential - 0.2 * q[0].powi(4) + (f64::from(self.teeth) * q[0]).cos()
+    }
+
+    fn force(&self, q: [f64; 1], _v: [f64; 1]) -> [f64; 1] {
+        [if q[0].is_sign_negative() { self.wind.unwrap_or(0.0) } else { -0.1 }]
+    }
+}
+
+/// In single precision.
+#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+fn single(q: [f32; 1], v: [f32; 1], m: f32, k: f32, r: f32) -> (f32, f32) {
+    (0.5 * m * v[0] * v[0] - 0.5 * k * q[0] * q[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
+}
+
+/// The bits of a state: −0 is not 0.
+fn bits<const N: usize>(state: &State<f64, N>) -> Vec<u64> {
+    state.q.iter().chain(&state.p).map(|entry| entry.to_bits()).collect()
+}
+
+/// The state after so many steps, alone.
+fn alone<L, M, const N: usize>(
+    method: M,
+    system: &L,
+    start: State<f64, N>,
+    h: f64,
+    steps: u64,
+) -> Result<State<f64, N>, StepError>
+where
+    L: InLanes<M, N, Scalar = f64>,
+{
+    let mut run = system.by(method, h).run(start);
+    for _ in 0..steps {
+        if let Some(Err(error)) = run.next() {
+            return Err(error);
+        }
+    }
+    Ok(*run.state())
+}
+
+/// Members in W lanes beside each alone, after 1, 3 and more steps; how many members had an end.
+fn agree<L, M, const N: usize, const W: usize>(method: M, members: &[(L, State<f64, N>)], h: f64) -> usize
+where
+    L: InLanes<M, N, Scalar = f64> + Debug,
+    M: Copy,
+{
+    let mut ends = 0;
+    for chunk in members.chunks(W) {
+        // The last chunk is filled with its first member.
+        let member = |lane: usize| chunk.get(lane).unwrap_or(&chunk[0]);
+        let systems: [&L; W] = std::array::from_fn(|lane| &member(lane).0);
+        let starts: [State<f64, N>; W] = std::array::from_fn(|lane| member(lane).1);
+        let mut runs = LaneRuns::new(method, systems, &starts, h);
+        let mut at_once = runs;
+        at_once.advance(21);
+        let mut steps = 0;
+        for more in [0, 1, 2, 18] {
+            runs.advance(more);
+            steps += more;
+            for lane in 0..W {
+                match (runs.state(lane), alone(method, systems[lane], starts[lane], h, steps)) {
+                    (Some(in_lanes), Ok(alone)) => {
+                        assert_eq!(
+                            bits(&in_lanes),
+                            bits(&alone),
+                            "{:?}, lane {lane}, h = {h}",
+                            systems[lane]
+                        );
+                    }
+                    // At its start no run has failed yet; it does in its first step.
+                    (None, Ok(_)) => {
+                        let next = alone(method, systems[lane], starts[lane], h, 1);
+                        assert!(steps == 0 && next.is_err(), "lane {lane} has no state, its run has");
+                    }
+                    (None, Err(_)) => {}
+                    (Some(_), Err(error)) => panic!("lane {lane} has a state; its run: {error}"),
+                }
+            }
+        }
+        for lane in 0..W {
+            assert_eq!(runs.state(lane).map(|of| bits(&of)), at_once.state(lane).map(|of| bits(&of)));
+            ends += usize::from(lane < chunk.len() && runs.state(lane).is_some());
+        }
+        assert_eq!(runs.state(W), None);
+    }
+    ends
+}
+
+/// In every number of lanes.
+fn agree_in_all<L, M, const N: usize>(method: M, members: &[(L, State<f64, N>)], h: f64) -> usize
+where
+    L: InLanes<M, N, Scalar = f64> + Debug,
+    M: Copy,
+{
+    let ends = [
+        agree::<L, M, N, 1>(method, members, h),
+        agree::<L, M, N, 2>(method, members, h),
+        agree::<L, M, N, 3>(method, members, h),
+        agree::<L, M, N, 8>(method, members, h),
+        agree::<L, M, N, 16>(method, members, h),
+        agree::<L, M, N, 32>(method, members, h),
+    ];
+    assert_eq!(ends, [ends[0]; 6]);
+    ends[0]
+}
+
+fn start<const N: usize>(random: &mut StdRng) -> State<f64, N> {
+    let mut entry = |_, _| random.random_range(-1.2..1.2);
+    State { q: SVector::from_fn(&mut entry), p: SVector::from_fn(&mut entry) }
+}
+
+/// So many members, of fields and states at random.
+fn members<L, const N: usize>(
+    count: usize,
+    seed: u64,
+    system: impl Fn(&mut StdRng) -> L,
+) -> Vec<(L, State<f64, N>)> {
+    let mut random = StdRng::seed_from_u64(seed);
+    (0..count).map(|_| (system(&mut random), start(&mut random))).collect()
+}
+
+/// 0 for a third of the members, −0 for some.
+fn damping(random: &mut StdRng) -> f64 {
+    match random.random_range(0..9) {
+        0..2 => 0.0,
+        2 => -0.0,
+        _ => random.random_range(1e-3..0.8),
+    }
+}
+
+#[test]
+fn rings_are_bit_by_bit_their_own_runs() {
+    let ring = |random: &mut StdRng| Ring { k: damping(random), height: random.random_range(0.5..2.0) };
+    let mut all = members(37, 1, ring);
+    // At rest on the axes, zeros of either sign.
+    all[3].1 = State { q: vector![0.0, -0.0], p: vector![-0.0, 0.0] };
+    all[4].1 = State { q: vector![-0.0, 1.0], p: vector![-0.0, -0.0] };
+    assert_eq!(agree_in_all(Splitting::blanes_moan_6(), &all, 0.09), 37);
+    assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_moan_4(), &all, 0.02), 37);
+    assert_eq!(agree::<_, _, 2, 16>(Splitting::blanes_moan_4(), &all, -0.05), 37);
+    // Undamped ones alone take a way of their own.
+    let undamped: Vec<_> = all.into_iter().filter(|(ring, _)| ring.k == 0.0).collect();
+    assert!(undamped.len() > 5);
+    assert_eq!(agree::<_, _, 2, 4>(Splitting::blanes_moan_6(), &undamped, 0.1), undamped.len());
+}
+
+#[test]
+fn members_without_fields_and_in_other_functions() {
+    let mut all = members(19, 2, |_| HenonHeiles);
+    // Half of them stay near the bottom; of the others some escape, and overflow.
+    for (_, state) in &mut all[..10] {
+        (state.q, state.p) = (state.q * 0.2, state.p * 0.2);
+    }
+    let ends = agree_in_all(Splitting::blanes_moan_6(), &all, 0.4);
+    assert!((10..19).contains(&ends), "{ends}");
+    let pendulums = |random: &mut StdRng| Pendulums {
+        m: [random.random_range(0.5..2.0), random.random_range(0.5..2.0)],
+        g: random.random_range(0.0..9.81),
+        spring: random.random_range(0.0..3.0),
+        drift: if random.random() { 0.0 } else { random.random_range(-1.0..1.0) },
+        thrust: if random.random() { 0.0 } else { random.random_range(-0.1..0.1) },
+        r: damping(random),
+    };
+    let all = members(35, 3, pendulums);
+    assert_eq!(agree_in_all(Splitting::blanes_moan_6(), &all, 0.1), 35);
+    assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_moan_4(), &all, 0.03), 35);
+}
+
+#[test]
+fn full_matrices_beside_diagonal_ones() {
+    let coupled = |random: &mut StdRng| {
+        let (is_diagonal, r) = (random.random_range(0..4) == 0, damping(random));
+        let mut symmetric = |scale: f64| {
+            let w = SMatrix::<f64, 6, 6>::from_fn(|_, _| random.random_range(-1.0..1.0));
+            let full = (w * w.transpose() + SMatrix::identity()) * scale;
+            let full = (full + full.transpose()) * 0.5;
+            let kept = if is_diagonal { SMatrix::from_diagonal(&full.diagonal()) } else { full };
+            std::array::from_fn(|i| std::array::from_fn(|j| kept[(i, j)]))
+        };
+        let (mass, damping) = (symmetric(1.0), symmetric(r));
+        Coupled { mass, damping, spring: random.random_range(0.5..2.0) }
+    };
+    let mut all = members(11, 4, coupled);
+    all[2].1 = State { q: SVector::zeros(), p: -SVector::<f64, 6>::zeros() };
+    let is_diagonal = |of: &Coupled| of.mass[0][1] == 0.0;
+    let diagonal = all.iter().filter(|(of, _)| is_diagonal(of)).count();
+    assert!((2..9).contains(&diagonal), "{diagonal} of 11 are diagonal");
+    assert_eq!(agree::<_, _, 6, 1>(Splitting::blanes_moan_6(), &all, 0.1), 11);
+    assert_eq!(agree::<_, _, 6, 3>(Splitting::blanes_moan_4(), &all, 0.1), 11);
+    assert_eq!(agree::<_, _, 6, 8>(Splitting::blanes_moan_6(), &all, 0.2), 11);
+}
+
+#[test]
+fn every_member_takes_its_own_branches() {
+    let branchy = |random: &mut StdRng| Branchy {
+        floor: if random.random() { Floor::Flat } else { Floor::Ramp(random.random_range(-1.0..1.0)) },
+        has_wall: random.random(),
+        teeth: random.random_range(0..4),
+        wind: random.random::<bool>().then(|| random.random_range(-0.3..0.3)),
+    };
+    let mut all = members(41, 5, branchy);
+    for (of, (_, state)) in all.iter_mut().enumerate() {
+        state.q *= 2.0;
+        if of % 7 == 0 {
+            state.q[0] = -0.0;
+        }
+    }
+    assert_eq!(agree_in_all(Splitting::blanes_moan_6(), &all, 0.15), 41);
+    assert_eq!(agree::<_, _, 1, 8>(Splitting::blanes_moan_4(), &all, 0.05), 41);
+}
+
+#[test]
+fn single_precision_agrees_too() {
+    let mut random = StdRng::seed_from_u64(6);
+    let systems: [Single; 8] = std::array::from_fn(|_| Single {
+        m: random.random_range(0.5..2.0),
+        k: random.random_range(0.0..2.0),
+        r: damping(&mut random) as f32,
+    });
+    let starts: [State<f32, 1>; 8] = std::array::from_fn(|_| State {
+        q: vector![random.random_range(-2.0..2.0)],
+        p: vector![random.random_range(-2.0..2.0)],
+    });
+    let mut runs = LaneRuns::new(Splitting::blanes_moan_4(), systems.each_ref(), &starts, 0.1);
+    runs.advance(50);
+    for lane in 0..8 {
+        let alone = systems[lane].by(Splitting::blanes_moan_4(), 0.1).run(starts[lane]).nth(49);
+        let (alone, in_lanes) = (alone.unwrap().unwrap().state, runs.state(lane).unwrap());
+        assert_eq!(
+            (alone.q[0].to_bits(), alone.p[0].to_bits()),
+            (in_lanes.q[0].to_bits(), in_lanes.p[0].to_bits())
+        );
+    }
+}
+
+#[test]
+fn members_that_fail_leave_the_others_as_they_are() {
+    let good = State { q: vector![0.1, 1.1], p: vector![0.5, 0.0] };
+    let ring = |k| Ring { k, height: 1.0 };
+    let far = State { q: vector![1e80, 0.0], ..good };
+    let none = State { q: vector![f64::NAN, 0.0], ..good };
+    let endless = State { p: vector![0.0, f64::INFINITY], ..good };
+    let late = State { p: vector![4e3, 0.0], ..good };
+    // Damping that overflows over a drift backwards, and none at all.
+    let all = [
+        (ring(0.1), good),
+        (ring(0.1), none),
+        (ring(0.0), far),
+        (ring(f64::NAN), good),
+        (ring(0.0), good),
+        (ring(1e9), good),
+        (ring(0.2), endless),
+        (ring(0.2), good),
+        (ring(0.0), late),
+    ];
+    assert_eq!(agree_in_all(Splitting::blanes_moan_6(), &all, 0.09), 3);
+    let systems: [&Ring; 9] = std::array::from_fn(|lane| &all[lane].0);
+    let starts = std::array::from_fn(|lane| all[lane].1);
+    let mut runs = LaneRuns::new(Splitting::blanes_moan_6(), systems, &starts, 0.09);
+    runs.advance(10);
+    let has_state: [bool; 9] = std::array::from_fn(|lane| runs.state(lane).is_some());
+    assert_eq!(has_state, [true, false, false, false, true, false, false, true, false]);
+    // No step at all, by a step size that is none.
+    for h in [0.0, f64::NAN, f64::INFINITY] {
+        let runs = LaneRuns::new(Splitting::blanes_moan_6(), systems, &starts, h);
+        assert!((0..9).all(|lane| runs.state(lane).is_none()), "h = {h}");
+    }
+}
+
+#[test]
+fn masses_that_are_none_have_no_state() {
+    let mut all = members(6, 7, |random| Pendulums {
+        m: [1.0, random.random_range(0.5..2.0)],
+        g: 9.81,
+        spring: 1.0,
+        drift: 0.0,
+        thrust: 0.0,
+        r: 0.1,
+    });
+    all[1].0.m[1] = -1.0;
+    all[4].0.m[0] = 0.0;
+    assert_eq!(agree_in_all(Splitting::blanes_moan_6(), &all, 0.05), 4);
+}
+
+/// The control: another order of the same operations, or another sine, is seen by the bits.
+#[test]
+fn bits_see_another_rounding() {
+    let ring = Ring { k: 0.1, height: 1.3 };
+    let start = State { q: vector![0.1, 1.1], p: vector![0.5, 0.0] };
+    let mut runs = LaneRuns::new(Splitting::blanes_moan_6(), [&ring; 2], &[start; 2], 0.09);
+    runs.advance(21);
+    let other = Ring { height: f64::from_bits(1.3_f64.to_bits() + 1), ..ring.clone() };
+    let other = alone(Splitting::blanes_moan_6(), &other, start, 0.09, 21).unwrap();
+    assert_ne!(bits(&runs.state(0).unwrap()), bits(&other));
+    assert!((runs.state(0).unwrap().q - other.q).amax() < 1e-12);
+}

@@ -1,0 +1,93 @@
+//! What `lanes = explicit` asks of a system is said at the word.
+
+use dalembert::rayleigh_system;
+
+#[rayleigh_system(rule = trapezoidal, lanes = gauss)]
+fn unknown(q: [f64; 1], v: [f64; 1]) -> f64 {
+    0.5 * v[0] * v[0] - q[0] * q[0]
+}
+
+#[rayleigh_system(lanes = explicit)]
+fn by_midpoint(q: [f64; 1], v: [f64; 1]) -> f64 {
+    0.5 * v[0] * v[0] - q[0] * q[0]
+}
+
+#[rayleigh_system(rule = trapezoidal, lanes = explicit, derivatives = num_dual)]
+fn by_duals(q: [f64; 1], v: [f64; 1]) -> f64 {
+    0.5 * v[0] * v[0] - q[0] * q[0]
+}
+
+#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+fn mass(q: [f64; 1], v: [f64; 1]) -> f64 {
+    0.5 * (1.0 + q[0] * q[0]) * v[0] * v[0]
+}
+
+#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+fn quadratic_drag(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    (0.5 * v[0] * v[0] - q[0] * q[0], r * v[0].powi(3))
+}
+
+#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+fn gyroscopic(q: [f64; 2], v: [f64; 2]) -> f64 {
+    0.5 * (v[0] * v[0] + v[1] * v[1]) + q[0] * v[1]
+}
+
+struct Pushed;
+
+#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+impl Pushed {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * v[0] * v[0] - q[0]
+    }
+
+    fn force(&self, q: [f64; 1], v: [f64; 1]) -> [f64; 1] {
+        [-q[0] * v[0]]
+    }
+}
+
+struct Driven;
+
+#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+impl Driven {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * v[0] * v[0] - q[0]
+    }
+
+    fn force(&self, _q: [f64; 1], _v: [f64; 1], u: [f64; 1]) -> [f64; 1] {
+        u
+    }
+}
+
+struct Table {
+    stiffness: [f64; 3],
+    row: usize,
+}
+
+#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+impl Table {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        let k = if q[0] > 0.0 { self.stiffness[self.row] } else { 1.0 };
+        0.5 * v[0] * v[0] - k * q[0] * q[0]
+    }
+}
+
+#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+fn rounded(q: [f64; 1], v: [f64; 1]) -> f64 {
+    0.5 * v[0] * v[0] - q[0].floor()
+}
+
+struct Plain;
+
+#[rayleigh_system(rule = trapezoidal)]
+impl Plain {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * v[0] * v[0] - q[0] * q[0]
+    }
+}
+
+fn main() {
+    use dalembert::nalgebra::vector;
+    use dalembert::{Splitting, State, run::LaneRuns};
+    let start = State { q: vector![0.0], p: vector![1.0] };
+    let _ = LaneRuns::new(Splitting::blanes_moan_6(), [&Plain], &[start], 0.1);
+}
