@@ -112,7 +112,8 @@ where
         self
     }
 
-    /// Something else that tells this study from others, such as the seed: it stands in every part, and a part
+    /// Something else that tells this study from others, such as the seed, or what
+    /// [`stop_when`](Study::stop_when) waits for: it stands in every part, and a part
     /// with another is refused.
     pub fn metadata(mut self, key: impl Into<String>, value: impl ToString) -> Self {
         self.metadata.push((key.into(), value.to_string()));
@@ -208,6 +209,7 @@ where
             ("dalembert.system", core::any::type_name::<L>().to_owned()),
             ("dalembert.structure", format!("{:?}", L::STRUCTURE)),
             ("dalembert.method", self.study.stepping.description()),
+            ("dalembert.stops_when_arrived", self.study.arrival.is_some().to_string()),
             ("dalembert.columns", columns.join(", ")),
         ];
         let own = own.map(|(key, value)| (key.to_owned(), value));

@@ -2,6 +2,7 @@
 
 use core::any::type_name;
 use core::fmt;
+use core::ops::ControlFlow;
 
 use dalembert::step::{Flow, MethodOf};
 use dalembert::tolerance::{Methods, OffersMethods};
@@ -24,8 +25,13 @@ pub struct Slot<L: Lagrangian<N>, V, const N: usize> {
 
 /// How the members of a chunk are stepped.
 pub trait Stepping<L: Lagrangian<N>, const N: usize>: Sync {
-    /// Steps all of `members`; `observe` sees the records of each in the order of time.
-    fn advance<V>(&self, members: &mut [Slot<L, V, N>], observe: &impl Fn(&mut V, &Record<'_, L, N>));
+    /// Steps all of `members`; `observe` sees the records of each in the order of time, and says whether it
+    /// goes on.
+    fn advance<V>(
+        &self,
+        members: &mut [Slot<L, V, N>],
+        observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
+    );
 
     /// How the members are stepped, in words: that two studies are the same.
     fn description(&self) -> String;
@@ -68,7 +74,11 @@ where
     L: Flow<M, N>,
     M: Copy + Sync + MethodOf<L, N>,
 {
-    fn advance<V>(&self, members: &mut [Slot<L, V, N>], observe: &impl Fn(&mut V, &Record<'_, L, N>)) {
+    fn advance<V>(
+        &self,
+        members: &mut [Slot<L, V, N>],
+        observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
+    ) {
         one_by_one(members, |number, system, start, value| {
             self.plan.run(self.method, number, system, start, |record| observe(value, record))
         });
@@ -92,15 +102,16 @@ impl<S: Copy + fmt::Debug> Plan<S> {
         number: u64,
         system: &L,
         start: &State<S, N>,
-        mut observe: impl FnMut(&Record<'_, L, N>),
+        mut observe: impl FnMut(&Record<'_, L, N>) -> ControlFlow<()>,
     ) -> Result<(), Failure<S, N>>
     where
         L: Flow<M, N, Scalar = S>,
         M: MethodOf<L, N>,
     {
         let mut run = system.by(method, self.h).run(*start);
-        if self.every.is_some() || self.steps == 0 {
-            observe(&Record { number, system, steps: 0, time: 0.0, state: *start });
+        let start = Record { number, system, steps: 0, time: 0.0, state: *start };
+        if (self.every.is_some() || self.steps == 0) && observe(&start).is_break() {
+            return Ok(());
         }
         let stride = self.every.unwrap_or(self.steps).max(1);
         let mut steps = 0;
@@ -113,7 +124,10 @@ impl<S: Copy + fmt::Debug> Plan<S> {
                 }
                 steps += 1;
             }
-            observe(&Record { number, system, steps, time: run.time(), state: *run.state() });
+            let record = Record { number, system, steps, time: run.time(), state: *run.state() };
+            if observe(&record).is_break() {
+                break;
+            }
         }
         Ok(())
     }
@@ -131,7 +145,11 @@ where
     L: OffersMethods<N>,
     L::Methods: Methods<L, N>,
 {
-    fn advance<V>(&self, members: &mut [Slot<L, V, N>], observe: &impl Fn(&mut V, &Record<'_, L, N>)) {
+    fn advance<V>(
+        &self,
+        members: &mut [Slot<L, V, N>],
+        observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
+    ) {
         one_by_one(members, |number, system, start, value| {
             let failed = |error: MemberError, last| Failure { number, error, last };
             let mut run = system
@@ -146,7 +164,8 @@ where
                 steps += 1;
             }
             let (time, state) = (run.time(), *run.state());
-            observe(value, &Record { number, system, steps, time, state });
+            // The end is the only record: nothing is left to be stopped.
+            let _ = observe(value, &Record { number, system, steps, time, state });
             match run.breach() {
                 Some(breach) => Err(failed(MemberError::Breach(*breach), Some(End { number, time, state }))),
                 None => Ok(()),

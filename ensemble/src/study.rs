@@ -64,12 +64,16 @@ impl<F> Ensemble<F> {
 
 type Callback<'f> = Box<dyn Fn(Progress) -> ControlFlow<()> + Sync + 'f>;
 
+/// Whether a member has arrived.
+type Arrival<'f, L, const N: usize> = Box<dyn Fn(&Record<'_, L, N>) -> bool + Sync + 'f>;
+
 /// An ensemble by a method: what is asked for is asked of it.
 #[must_use = "a study does nothing until its ends or a reduction are asked for"]
 pub struct Study<'f, F, M, L: Lagrangian<N>, const N: usize> {
     pub(crate) members: F,
     pub(crate) stepping: M,
     progress: Option<Callback<'f>>,
+    pub(crate) arrival: Option<Arrival<'f, L, N>>,
     of: PhantomData<fn() -> L>,
 }
 
@@ -89,7 +93,7 @@ pub struct Outcome<V, S, const N: usize> {
 
 impl<F, M, L: Lagrangian<N>, const N: usize> Study<'_, F, M, L, N> {
     fn new(members: F, stepping: M) -> Self {
-        Self { members, stepping, progress: None, of: PhantomData }
+        Self { members, stepping, progress: None, arrival: None, of: PhantomData }
     }
 }
 
@@ -118,6 +122,31 @@ where
     /// cancels.
     pub fn on_progress(mut self, progress: impl Fn(Progress) -> ControlFlow<()> + Sync + 'f) -> Self {
         self.progress = Some(Box::new(progress));
+        self
+    }
+
+    /// Ends a member at the first record for which `has_arrived`: its last.
+    ///
+    /// ```
+    /// use dalembert::{Midpoint, State, rayleigh_system};
+    /// use dalembert_ensemble::Ensemble;
+    ///
+    /// #[rayleigh_system]
+    /// fn falling(q: [f64; 1], v: [f64; 1]) -> f64 {
+    ///     0.5 * v[0] * v[0] - q[0]
+    /// }
+    /// let study = Ensemble::new(|number| Ok((Falling {}, State { q: [number as f64].into(), p: [0.0].into() })))
+    ///     .by(Midpoint, 0.5)
+    ///     .steps(100)
+    ///     .every(1)
+    ///     .stop_when(|record| record.state.q[0] < 0.0);
+    /// // From the height 8 at t = 4, from 32 at t = 8: the next records are below.
+    /// let ends = study.ends(0..40)?;
+    /// assert_eq!((ends[8].unwrap().time, ends[32].unwrap().time), (4.5, 8.5));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn stop_when(mut self, has_arrived: impl Fn(&Record<'_, L, N>) -> bool + Sync + 'f) -> Self {
+        self.arrival = Some(Box::new(has_arrived));
         self
     }
 
@@ -191,6 +220,11 @@ where
     ) -> Result<A, Cancelled<A>> {
         let mut progress =
             Progress { done: 0, failed: 0, members: numbers.end.saturating_sub(numbers.start) };
+        let observe = |value: &mut V, record: &Record<'_, L, N>| {
+            observe(value, record);
+            let has_arrived = self.arrival.as_ref().is_some_and(|has_arrived| has_arrived(record));
+            if has_arrived { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
         let window = CHUNK * (CHUNKS_PER_THREAD * rayon::current_num_threads()) as u64;
         let mut first = numbers.start;
         while first < numbers.end {
