@@ -4,14 +4,20 @@
 //! cargo run --release --example hamilton_jacobi
 //! ```
 //!
-//! Above, the damped oscillator m q̈ + r q̇ + k q = 0 by the midpoint rule, whose complete solution S_k = ½ s_k
-//! q² + λ_k q is known in closed form: all characteristics pass through one point. Below, a damped pendulum
-//! released at rest: the caustic is a curve with a cusp, and the carried section folds over. Prints what
-//! holds of the paper's equations as printed and of the corrected ones.
+//! In the first row, the damped oscillator m q̈ + r q̇ + k q = 0 by the midpoint rule, whose complete
+//! solution S_k = ½ s_k q² + λ_k q is known in closed form: all characteristics pass through one point. In
+//! the second, a damped pendulum released at rest: the caustic is a curve with a cusp, and the carried
+//! section folds over. Prints what holds of the paper's equations as printed and of the corrected ones.
+//!
+//! In the third row, two dimensions: a plane wave S_0 = λ·q passes a hollow under friction C = 2aM. The
+//! trapezoidal rule is conformally symplectic there, so that S_k is carried by S_{k+1}∘F_k = cS_k + G; its
+//! level sets, the wave fronts, have cusps on the caustic. Prints Jacobi's constants c^{−k} ∂S_k/∂λ.
 
 use anyhow::Result;
-use dalembert::hamilton_jacobi::{Caustic, Characteristic};
-use dalembert::{Discretise, Midpoint, ScalarField, rayleigh_system};
+use dalembert::hamilton_jacobi::{
+    Caustic, Characteristic, ConformalHamiltonJacobi, FamilyMember, GeneratingFamily, HamiltonJacobi,
+};
+use dalembert::{Discretise, Midpoint, ScalarField, State, Trapezoidal, rayleigh_system};
 use dalembert_examples::picture::{self, Curve, Dash, Mark, Panel, colour, linear};
 use nalgebra::{SMatrix, SVector, vector};
 
@@ -68,6 +74,66 @@ fn complete_solution(system: &Oscillator, h: f64, phase: f64, lambda: f64, steps
         .collect()
 }
 
+/// Friction C = 2aM on a plane with a hollow.
+#[rayleigh_system(rule = trapezoidal)]
+fn hollow(q: [f64; 2], v: [f64; 2], a: f64) -> (f64, f64) {
+    let kinetic = 0.5 * (v[0] * v[0] + v[1] * v[1]);
+    let potential = -(-2.0 * ((q[0] - 1.0) * (q[0] - 1.0) + q[1] * q[1])).exp();
+    (kinetic - potential, 2.0 * a * kinetic)
+}
+
+/// S_0 = λ·q: plane waves.
+struct PlaneWaves;
+
+impl GeneratingFamily<2> for PlaneWaves {
+    type Scalar = f64;
+
+    fn value(&self, q: &SVector<f64, 2>, lambda: &SVector<f64, 2>) -> f64 {
+        lambda.dot(q)
+    }
+
+    fn gradient(&self, _q: &SVector<f64, 2>, lambda: &SVector<f64, 2>) -> SVector<f64, 2> {
+        *lambda
+    }
+
+    fn hessian(&self, _q: &SVector<f64, 2>, _lambda: &SVector<f64, 2>) -> SMatrix<f64, 2, 2> {
+        SMatrix::zeros()
+    }
+
+    fn by_parameters(&self, q: &SVector<f64, 2>, _lambda: &SVector<f64, 2>) -> SVector<f64, 2> {
+        *q
+    }
+
+    fn mixed(&self, _q: &SVector<f64, 2>, _lambda: &SVector<f64, 2>) -> SMatrix<f64, 2, 2> {
+        SMatrix::identity()
+    }
+}
+
+type Waves<'a> = ConformalHamiltonJacobi<'a, Hollow, Trapezoidal, 2>;
+
+const LAMBDA: SVector<f64, 2> = vector![1.5, 0.0];
+
+/// Points of the level set of S_k that passes through the middle characteristic: for each height y the label
+/// (x, y) with that value, by Newton's method, as dS_k∘c_k = p_kᵀ Q_k.
+fn front(waves: &Waves<'_>, k: usize, heights: &[f64]) -> Result<Vec<(f64, f64)>> {
+    let wave = FamilyMember { family: &PlaneWaves, lambda: LAMBDA };
+    let level = waves.carry(&wave, &vector![0.0, 0.0], k)?.value();
+    let mut label = vector![0.0, 0.0];
+    let at = |&y: &f64| {
+        label[1] = y;
+        loop {
+            let carried = waves.carry(&wave, &label, k)?;
+            let slope = carried.characteristic.frames[k].q.tr_mul(&carried.end().p)[0];
+            let miss = level - carried.value();
+            if miss.abs() < 1e-9 {
+                return Ok((carried.end().q[0], carried.end().q[1]));
+            }
+            label[0] += miss / slope;
+        }
+    };
+    heights.iter().map(at).collect()
+}
+
 /// `count` numbers from `from` to `to`.
 fn spread(from: f64, to: f64, count: usize) -> Vec<f64> {
     (0..count).map(|i| from + (to - from) * i as f64 / (count - 1) as f64).collect()
@@ -99,6 +165,21 @@ fn main() -> Result<()> {
     println!("{}", swing.characteristics_report(&swing_fan));
     let dense = spread(-2.9, 2.9, 401).into_iter().map(swing_carry).collect::<Result<Vec<_>, _>>()?;
 
+    let plane = Hollow { a: 0.1 };
+    let states = [State { q: vector![0.0, 0.0], p: LAMBDA }];
+    let waves = plane.by(Trapezoidal, 0.1).conformal_hamilton_jacobi(&states)?;
+    let constants = waves.jacobi_constants(&PlaneWaves, &LAMBDA, &vector![0.0, 0.4], 12, 0.01)?;
+    println!("Plane wave past a hollow, C = 2aM, a = h = 1/10: c = {:.15}", waves.factor());
+    println!(
+        "  c^−k ∂S_k/∂λ along one trajectory, k = 0 … 12: off by {:.1e}, with an error of {:.1e}\n",
+        constants.drift(),
+        constants.difference_error
+    );
+
+    let past = ([("k = 0", 0), ("k = 8", 8), ("k = 16", 16), ("k = 22", 22), ("k = 28", 28)], 0, 30);
+    let behind = ([("k = 11", 11), ("k = 13", 13), ("k = 15", 15), ("k = 17", 17), ("k = 19", 19)], 10, 20);
+    let theory = plane.by(Trapezoidal, 0.1).hamilton_jacobi();
+
     // Lines of the sections in closed form, over the range that the fan covers at that time.
     let lines = [("t = 0", 0), ("t = 1", 4), ("t = 2", 8), ("t = 2.25", 9), ("t = 3.5", 14)];
     let carried = lines.map(|(_, k)| section_points(&fan, k));
@@ -113,13 +194,15 @@ fn main() -> Result<()> {
         .map(|(label, k)| (label, section_points(&dense, k)));
     let path = picture::write(
         "hamilton_jacobi",
-        [1600, 1300],
+        [1600, 2000],
         2,
         &[
             fan_panel("Damped oscillator: all characteristics meet", h, &fan, &caustics(&fan)),
             section_panel("Its sections: carried points on closed-form lines", lines, carried),
             fan_panel("Damped pendulum from rest: a caustic with a cusp", 0.1, &swing_fan, &caustics(&dense)),
             section_panel("Its sections fold over beyond the caustic", folds, Default::default()),
+            wave_panel("A plane wave past a hollow: fronts S_k = const", &waves, &theory, 1.5, past)?,
+            wave_panel("Behind the focus: their cusps run along the caustic", &waves, &theory, 0.7, behind)?,
         ],
     )?;
     println!("picture: {}", path.display());
@@ -183,4 +266,43 @@ fn section_panel<'a>(
         curves.push(Curve::marks("", colour, mark, carried));
     }
     Panel::new(title, linear("configuration q (dimensionless)"), linear("momentum p (dimensionless)"), curves)
+}
+
+/// The fronts at `ks`, over characteristics from a line of labels or without, and the caustic.
+fn wave_panel<'a>(
+    title: &'a str,
+    waves: &Waves<'_>,
+    theory: &HamiltonJacobi<'_, Hollow, Trapezoidal, 2>,
+    reach: f64,
+    (fronts, from, steps): ([(&'a str, usize); 5], usize, usize),
+) -> Result<Panel<'a>> {
+    let wave = FamilyMember { family: &PlaneWaves, lambda: LAMBDA };
+    let fan = |count: usize, steps: usize| {
+        let carry = |y: f64| theory.carry(&wave, &vector![0.0, y], steps);
+        spread(-reach, reach, count).into_iter().map(carry).collect::<Result<Vec<_>, _>>()
+    };
+    let mut curves = Vec::new();
+    for (index, characteristic) in fan(41, steps)?.iter().enumerate() {
+        let label = if index == 0 { "characteristics" } else { "" };
+        let states = characteristic.states.iter().skip(from);
+        let points = states.map(|state| (state.q[0], state.q[1])).collect();
+        curves.push(Curve::line(label, colour::GREY, 1, points));
+    }
+    let styles = [
+        (colour::REFERENCE, Dash::Solid),
+        (colour::FOURTH, Dash::Solid),
+        (colour::EULER, Dash::Dashed),
+        (colour::VARIATIONAL, Dash::Solid),
+        (colour::REFERENCE, Dash::DashDotted),
+    ];
+    for ((label, k), (colour, dash)) in fronts.into_iter().zip(styles) {
+        let points = front(waves, k, &spread(-reach, reach, 241))?;
+        curves.push(Curve::line(label, colour, 3, points).dashed(dash));
+    }
+    let dense = fan(1601, steps)?;
+    let caustic = dense.iter().flat_map(|characteristic| &characteristic.caustics);
+    let points = caustic.map(|caustic| (caustic.q[0], caustic.q[1])).collect();
+    curves.push(Curve::marks("caustic, det Q = 0", colour::RUNGE_KUTTA, Mark::Dot, points));
+    let (x, y) = (linear("q₀ (dimensionless)"), linear("q₁ (dimensionless)"));
+    Ok(Panel::new(title, x, y, curves).to_equal_scale())
 }

@@ -85,7 +85,7 @@ pub use caustics::Caustic;
 pub use characteristics::{Characteristic, CharacteristicsReport};
 pub use conformal::{ConformalCharacteristic, ConformalHamiltonJacobi};
 pub use error::{HamiltonJacobiError, ImplicitEquation};
-pub use family::{GeneratingFamily, JacobiConstants};
+pub use family::{FamilyMember, GeneratingFamily, JacobiConstants};
 pub use frame::Frame;
 pub use hamilton_equations::{HamiltonEquationsReport, PrintedAndCorrected};
 pub use hamiltonian::DiscreteHamiltonian;

@@ -260,30 +260,31 @@ where
         F: ScalarField<N, Scalar = S>,
     {
         newton(steps, near, |label| {
-            let (states, frame) = self.path(s0, label, steps)?;
+            let (states, derivative) = self.path(s0, label, steps)?;
+            let frame = Frame { q: SMatrix::identity(), p: s0.hessian(label) }.carried(&derivative);
             let label_by_q = invert(&frame.q).map_err(|_| HamiltonJacobiError::Caustic { step: steps })?;
             Ok((label_by_q * (q - states[steps].q), size(&states)))
         })
     }
 
-    /// The states of a characteristic and its last frame, caustics unlooked for.
+    /// The states of a characteristic, caustics unlooked for, and the derivative of the last by the first.
     pub(super) fn path<G>(
         &self,
         section: &G,
         label: &SVector<S, N>,
         steps: usize,
-    ) -> Result<(Vec<State<S, N>>, Frame<S, N>), HamiltonJacobiError>
+    ) -> Result<(Vec<State<S, N>>, PhaseMatrix<S, N>), HamiltonJacobiError>
     where
         G: Section<N, Scalar = S>,
     {
         let mut states = vec![State { q: *label, p: section.covector(label) }];
-        let mut frame = Frame { q: SMatrix::identity(), p: section.jacobian(label) };
+        let mut derivative = PhaseMatrix::identity();
         for k in 0..steps {
             let (state, a) = self.step(k, &states[k])?;
-            frame = frame.carried(&a);
+            derivative = a * derivative;
             states.push(state);
         }
-        Ok((states, frame))
+        Ok((states, derivative))
     }
 
     /// The characteristic alone, without S_k.

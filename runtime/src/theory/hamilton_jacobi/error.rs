@@ -50,6 +50,13 @@ pub enum HamiltonJacobiError {
         /// The step k.
         step: usize,
     },
+    /// Differences of S_k by λ do not settle: a caustic is too near for them.
+    Unsettled {
+        /// The step k.
+        step: usize,
+        /// What the best halving of their spacing still changed.
+        error: f64,
+    },
     /// No label was found whose characteristic is where it is asked for.
     NoLabel {
         /// The step k.
@@ -145,6 +152,10 @@ impl fmt::Display for HamiltonJacobiError {
             Self::Caustic { step } => {
                 write!(f, "det Q_k = 0 at k = {step}, a caustic: S_k has no derivative by q there")
             }
+            Self::Unsettled { step, error } => write!(
+                f,
+                "∂S_k/∂λ at k = {step} does not settle ({error:.1e}): a caustic is near; take a smaller width of λ"
+            ),
             Self::NoLabel { step, distance } => write!(
                 f,
                 "no characteristic was found that is there at k = {step} (last correction {distance:.1e}); start nearer"

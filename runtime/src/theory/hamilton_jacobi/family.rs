@@ -3,9 +3,9 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::conformal::{newton, size};
-use super::{Characteristic, ConformalHamiltonJacobi, HamiltonJacobiError};
-use crate::numbers::Scalar;
-use crate::step::{Flow, State, invert};
+use super::{Characteristic, ConformalHamiltonJacobi, Frame, HamiltonJacobiError};
+use crate::numbers::{Scalar, determinant_sign};
+use crate::step::{Flow, PhaseMatrix, State, invert};
 use crate::system::ScalarField;
 use crate::theory::verdict::largest;
 
@@ -46,13 +46,18 @@ pub trait GeneratingFamily<const N: usize> {
     ) -> SMatrix<Self::Scalar, N, N>;
 }
 
-/// S(·; λ), one member of a family.
-struct Member<'a, F, S, const N: usize> {
-    family: &'a F,
-    lambda: SVector<S, N>,
+/// S(·; λ), one member of a family: a function of q.
+#[derive(Clone, Copy, Debug)]
+pub struct FamilyMember<'a, F, S, const N: usize> {
+    /// S.
+    pub family: &'a F,
+    /// λ.
+    pub lambda: SVector<S, N>,
 }
 
-impl<S: Scalar, F: GeneratingFamily<N, Scalar = S>, const N: usize> ScalarField<N> for Member<'_, F, S, N> {
+impl<S: Scalar, F: GeneratingFamily<N, Scalar = S>, const N: usize> ScalarField<N>
+    for FamilyMember<'_, F, S, N>
+{
     type Scalar = S;
 
     fn value(&self, q: &SVector<S, N>) -> S {
@@ -131,6 +136,7 @@ where
     ///
     /// # Errors
     /// [`HamiltonJacobiError::DegenerateFamily`], [`HamiltonJacobiError::Caustic`] if det Q_k = 0 at a node,
+    /// [`HamiltonJacobiError::Unsettled`] if it nearly is,
     /// and those of [`through`](Self::through), for any of the labels.
     pub fn jacobi_constants<F>(
         &self,
@@ -144,12 +150,11 @@ where
         F: GeneratingFamily<N, Scalar = S>,
     {
         require_regular(family, label, lambda)?;
-        let characteristic = self.characteristic(&Member { family, lambda: *lambda }, label, steps)?;
+        let characteristic = self.characteristic(&FamilyMember { family, lambda: *lambda }, label, steps)?;
         let mut values = vec![family.by_parameters(label, lambda).map(Scalar::widen)];
         let mut difference_error = 0.0;
         for k in 1..=steps {
-            invert(&characteristic.frames[k].q).map_err(|_| HamiltonJacobiError::Caustic { step: k })?;
-            let found = self.scaled_by_parameters(family, lambda, &characteristic.states[..=k], width)?;
+            let found = self.scaled_by_parameters(family, lambda, (label, k), width)?;
             values.push(found.value);
             difference_error = largest([difference_error, found.error]);
         }
@@ -177,52 +182,60 @@ where
     where
         F: GeneratingFamily<N, Scalar = S>,
     {
-        let member = Member { family, lambda: *lambda };
+        let member = FamilyMember { family, lambda: *lambda };
         let label = newton(steps, near, |label| {
             let by_label = require_regular(family, label, lambda)?;
-            let (states, _) = self.path(&member, label, steps)?;
-            let found = self.scaled_by_parameters(family, lambda, &states, width)?;
+            let found = self.scaled_by_parameters(family, lambda, (label, steps), width)?;
             let miss = b - found.value.map(S::constant);
-            Ok((by_label * miss, size(&states)))
+            Ok((by_label * miss, size(&self.path(&member, label, steps)?.0)))
         })?;
         Ok(self.path(&member, &label, steps)?.0[steps])
     }
 
-    /// c^{−k} ∂S_k/∂λ at the last of the `states` that begin at its label, from differences with spacings
-    /// `width`, half of it, …: the one that the last halving changed least.
+    /// c^{−k} ∂S_k/∂λ at c_k from `label`, from differences with spacings `width`, half of it, …: the one
+    /// that the last halving changed least.
     fn scaled_by_parameters<F>(
         &self,
         family: &F,
         lambda: &SVector<S, N>,
-        states: &[State<S, N>],
+        (label, k): (&SVector<S, N>, usize),
         mut width: S,
     ) -> Result<Measured<N>, HamiltonJacobiError>
     where
         F: GeneratingFamily<N, Scalar = S>,
     {
-        let mut best = self.difference(family, lambda, states, width);
-        let mut last = best;
+        let (states, derivative) = self.path(&FamilyMember { family, lambda: *lambda }, label, k)?;
+        let path = Path::new(family, lambda, states, &derivative)?;
+        // What is found across a caustic belongs to another branch, and settles on nothing.
+        let settles =
+            |found: &Measured<N>| found.error <= S::EPSILON.sqrt().widen() * (1.0 + found.value.amax());
+        let mut best: Option<Measured<N>> = None;
+        let mut last = self.difference(family, lambda, &path, width);
         for _ in 0..HALVINGS {
             width *= S::constant(0.5);
-            let next = self.difference(family, lambda, states, width);
-            let found = match (last, next) {
-                (Ok(last), Ok(next)) => {
-                    Ok(Measured { error: largest((next.value - last.value).iter().copied()), ..next })
+            let next = self.difference(family, lambda, &path, width);
+            if let (Ok(last), Ok(next)) = (last, next) {
+                let error = largest((next.value - last.value).iter().copied());
+                let found = Measured { error, ..next };
+                match best {
+                    Some(known) if settles(&known) && error >= known.error => break,
+                    Some(known) if error >= known.error => {}
+                    _ => best = Some(found),
                 }
-                // Too wide a difference reaches labels beyond a caustic.
-                _ => next,
-            };
-            match (best, found) {
-                (Ok(known), Ok(found)) if found.error >= known.error => break,
-                (Ok(_), Err(_)) => break,
-                _ => best = found,
-            }
-            if found.is_ok_and(|found| found.error <= found.rounding) {
-                break;
+                if error <= found.rounding {
+                    break;
+                }
             }
             last = next;
         }
-        best
+        match (best, last) {
+            (Some(best), _) if settles(&best) => Ok(best),
+            (None, Err(error)) => Err(error),
+            (best, _) => Err(HamiltonJacobiError::Unsettled {
+                step: k,
+                error: best.map_or(f64::INFINITY, |best| best.error),
+            }),
+        }
     }
 
     /// c^{−k} ∂S_k/∂λ with one spacing; its error is not known.
@@ -230,26 +243,30 @@ where
         &self,
         family: &F,
         lambda: &SVector<S, N>,
-        states: &[State<S, N>],
+        path: &Path<S, N>,
         width: S,
     ) -> Result<Measured<N>, HamiltonJacobiError>
     where
         F: GeneratingFamily<N, Scalar = S>,
     {
-        let k = states.len() - 1;
-        let (label, q) = (&states[0].q, &states[k].q);
+        let k = path.states.len() - 1;
+        let q = &path.states[k].q;
         let scale = 1.0 / (width.widen() * self.factor().powi(k as i32));
         let (mut value, mut size) = (SVector::zeros(), 0.0_f64);
         for j in 0..N {
             for side in [1.0, -1.0] {
                 // Each label from the last one on its side.
-                let mut near = *label;
+                let mut near = path.states[0].q;
                 for (m, weight) in WEIGHTS.iter().enumerate() {
                     let mut lambda = *lambda;
                     lambda[j] += width * S::constant(side * (m + 1) as f64);
-                    let member = Member { family, lambda };
-                    let (label, reached) = self.value_near(&member, &states[..k], q, &near)?;
-                    near = label;
+                    let member = FamilyMember { family, lambda };
+                    let (found, reached) = self.value_near(&member, &path.states[..k], q, &near)?;
+                    let frame = frame(&member, &found, &self.path(&member, &found, k)?.1);
+                    if !path.is_on_its_branch(&found, &(lambda - path.lambda), &frame) {
+                        return Err(HamiltonJacobiError::Caustic { step: k });
+                    }
+                    near = found;
                     value[j] += scale * side * weight * reached;
                     size = size.max(reached.abs());
                 }
@@ -258,6 +275,51 @@ where
         let rounding = ROUNDINGS * S::EPSILON.widen() * size * scale.abs();
         Ok(Measured { value, error: f64::INFINITY, rounding })
     }
+}
+
+/// A characteristic, and how its label has to move with λ for q_k to stay.
+struct Path<S, const N: usize> {
+    lambda: SVector<S, N>,
+    states: Vec<State<S, N>>,
+    frame: Frame<S, N>,
+    /// ∂x/∂λ at fixed q_k.
+    label_by_parameters: SMatrix<S, N, N>,
+}
+
+impl<S: Scalar, const N: usize> Path<S, N> {
+    fn new<F: GeneratingFamily<N, Scalar = S>>(
+        family: &F,
+        lambda: &SVector<S, N>,
+        states: Vec<State<S, N>>,
+        derivative: &PhaseMatrix<S, N>,
+    ) -> Result<Self, HamiltonJacobiError> {
+        let label = &states[0].q;
+        let frame = frame(&FamilyMember { family, lambda: *lambda }, label, derivative);
+        let by_parameters = derivative.q_by_p * family.mixed(label, lambda);
+        let label_by_q =
+            invert(&frame.q).map_err(|_| HamiltonJacobiError::Caustic { step: states.len() - 1 })?;
+        Ok(Self { lambda: *lambda, states, frame, label_by_parameters: -(label_by_q * by_parameters) })
+    }
+
+    /// Whether `label`, found for λ + `across`, is where this path's goes: as far as its first derivative
+    /// says to half, and on the same side of the nearest caustic.
+    fn is_on_its_branch(&self, label: &SVector<S, N>, across: &SVector<S, N>, frame: &Frame<S, N>) -> bool {
+        let moved = label - self.states[0].q;
+        let expected = self.label_by_parameters * across;
+        let bound = self.label_by_parameters.amax() * across.amax() * S::constant(0.5);
+        let rounding = S::EPSILON.sqrt() * size(&self.states);
+        (moved - expected).amax() <= bound + rounding
+            && determinant_sign(frame.q) == determinant_sign(self.frame.q)
+    }
+}
+
+/// (Q_k, P_k) of the characteristic from `label`.
+fn frame<S: Scalar, F: ScalarField<N, Scalar = S>, const N: usize>(
+    section: &F,
+    label: &SVector<S, N>,
+    derivative: &PhaseMatrix<S, N>,
+) -> Frame<S, N> {
+    Frame { q: SMatrix::identity(), p: section.hessian(label) }.carried(derivative)
 }
 
 /// (∂²S_0/∂λ∂q)⁻¹.

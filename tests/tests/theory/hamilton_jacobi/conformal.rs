@@ -271,13 +271,46 @@ fn the_theory_follows_the_time_of_a_view() {
     let start = carried.characteristic.states[0];
     let end = by.run(start).take(6).last().unwrap().unwrap().state;
     assert!((carried.end().q - end.q).amax() < 1e-15);
-    let constants = theory.jacobi_constants(&Waves { span: 1.0 }, &LAMBDA, &LABEL, 6, WIDTH).unwrap();
+    let constants = theory.jacobi_constants(&Waves { span: 1.0 }, &LAMBDA, &LABEL, 3, WIDTH).unwrap();
     assert!(constants.drift() < 1e-12, "{}", constants.drift());
     // The control: at another time it is another motion.
     let other = Shaken.at_time(0.0);
     assert!(
         (other.by(Trapezoidal, H).run(start).take(6).last().unwrap().unwrap().state.q - end.q).amax() > 1e-3
     );
+}
+
+/// The drift of Jacobi's constants of plane waves behind a hollow, which focuses them.
+fn drift_near_a_caustic(width: f64) -> Result<f64, HamiltonJacobiError> {
+    #[rayleigh_system(rule = trapezoidal)]
+    fn hollow(q: [f64; 2], v: [f64; 2], a: f64) -> (f64, f64) {
+        let kinetic = 0.5 * (v[0] * v[0] + v[1] * v[1]);
+        (kinetic + (-2.0 * ((q[0] - 1.0) * (q[0] - 1.0) + q[1] * q[1])).exp(), 2.0 * a * kinetic)
+    }
+    struct Plane;
+    impl GeneratingFamily<2> for Plane {
+        type Scalar = f64;
+        fn value(&self, q: &Vector2<f64>, lambda: &Vector2<f64>) -> f64 {
+            lambda.dot(q)
+        }
+        fn gradient(&self, _q: &Vector2<f64>, lambda: &Vector2<f64>) -> Vector2<f64> {
+            *lambda
+        }
+        fn hessian(&self, _q: &Vector2<f64>, _lambda: &Vector2<f64>) -> Matrix2<f64> {
+            Matrix2::zeros()
+        }
+        fn by_parameters(&self, q: &Vector2<f64>, _lambda: &Vector2<f64>) -> Vector2<f64> {
+            *q
+        }
+        fn mixed(&self, _q: &Vector2<f64>, _lambda: &Vector2<f64>) -> Matrix2<f64> {
+            Matrix2::identity()
+        }
+    }
+    let hollow = Hollow { a: 0.1 };
+    let lambda = vector![1.5, 0.0];
+    let states = [State { q: vector![0.0, 0.0], p: lambda }];
+    let theory = hollow.by(Trapezoidal, 0.4).conformal_hamilton_jacobi(&states)?;
+    Ok(theory.jacobi_constants(&Plane, &lambda, &vector![0.0, 0.4], 3, width)?.drift())
 }
 
 #[test]
@@ -334,6 +367,24 @@ fn hypotheses_that_fail_have_names() {
     assert_eq!(carried.characteristic.caustics[0].multiplicity, 2);
     let error = stiff.through(&Converging, 1, &LABEL, &LABEL).unwrap_err();
     assert_eq!(error, HamiltonJacobiError::Caustic { step: 1 });
+
+    // Spacings so wide that S_k is another branch: an error, or the right value once halved, no other.
+    let drifts = [0.02, 3.0, 200.0].map(drift_near_a_caustic);
+    for drift in drifts {
+        match drift {
+            Ok(drift) => assert!(drift < 1e-10, "{drift:e}"),
+            Err(error) => assert!(
+                matches!(
+                    error,
+                    HamiltonJacobiError::Unsettled { .. }
+                        | HamiltonJacobiError::Caustic { .. }
+                        | HamiltonJacobiError::NoLabel { .. }
+                ),
+                "{error}"
+            ),
+        }
+    }
+    assert!(drifts[0].is_ok() && drifts[2].is_err(), "{drifts:?}");
 
     // ah = 1: no momentum is left after a step, c = 0.
     let mass = Free { a: 2.0 };
