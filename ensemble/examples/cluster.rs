@@ -20,7 +20,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 /// A satellite with drag; the semi-major axis of the orbit is 1, its period 2π.
-#[rayleigh_system(rule = trapezoidal)]
+#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
 fn satellite(q: [f64; 2], v: [f64; 2], r: f64) -> (f64, f64) {
     let speed = v[0] * v[0] + v[1] * v[1];
     (0.5 * speed + 1.0 / (q[0] * q[0] + q[1] * q[1]).sqrt(), 0.5 * r * speed)

@@ -45,9 +45,14 @@
 //! **A member that fails** stands in the result as a [`Failure`], with its error and its last good state; the
 //! others go on.
 //!
+//! **Lanes.** A system whose attribute says `lanes = explicit` is stepped many members at a time by
+//! [`in_lanes`](Study::in_lanes), in the widest instructions of the machine, chosen when the program runs.
+//! Products and sums are rounded as they are alone: that changes no bit either.
+//!
 //! **Threads** are rayon's: all cores, or those of the pool that a study is run in
 //! (`ThreadPool::install`). How many there are changes no bit.
 
+mod lanes;
 mod member;
 #[cfg(feature = "parquet")]
 pub mod parts;
@@ -55,6 +60,7 @@ mod progress;
 mod stepping;
 mod study;
 
+pub use lanes::InLanes;
 pub use member::{End, Failure, MemberError, Record};
 pub use progress::{Cancelled, Progress};
 pub use stepping::{OneByOne, Plan, Slot, Stepping, ToError};

@@ -1,0 +1,90 @@
+//! In lanes, members are what they are one by one: states, records, failures, and those that have arrived.
+
+use dalembert::{Splitting, State, StepError, rayleigh_system};
+use dalembert_ensemble::{Ensemble, Outcome, Record};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// Hénon and Heiles' potential with drag: above the energy 1/6 there are three ways out, to infinity.
+#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+fn henon_heiles(q: [f64; 2], v: [f64; 2], depth: f64, r: f64) -> (f64, f64) {
+    let (x, y) = (q[0], q[1]);
+    let speed = v[0] * v[0] + v[1] * v[1];
+    (0.5 * speed - 0.5 * (x * x + y * y) - depth * (x * x * y - y * y * y / 3.0), 0.5 * r * speed)
+}
+
+fn member(number: u64) -> Result<(HenonHeiles, State<f64, 2>), StepError> {
+    let mut random = ChaCha8Rng::seed_from_u64(6);
+    random.set_stream(number);
+    let mut any = |size: f64| random.random_range(-size..size);
+    let r = if number.is_multiple_of(3) { 0.0 } else { any(0.05) + 0.05 };
+    let system = HenonHeiles { depth: 1.0 + any(0.2), r };
+    let speed = match number % 41 {
+        7 => return Err(StepError::StepSize { h: 0.0 }),
+        12 => f64::NAN,
+        _ => any(0.8),
+    };
+    Ok((system, State { q: [any(0.4), any(0.4)].into(), p: [speed, any(0.8)].into() }))
+}
+
+/// Every record of every member, by its bits, and how it ended.
+fn records(
+    steps: u64,
+    every: Option<u64>,
+    stops: bool,
+    in_lanes: bool,
+    members: u64,
+) -> Vec<(u64, Vec<[u64; 6]>, String)> {
+    let mut study = Ensemble::new(member).by(Splitting::blanes_moan_6(), 0.2).steps(steps);
+    if let Some(stride) = every {
+        study = study.every(stride);
+    }
+    let observe = |kept: &mut Vec<[u64; 6]>, record: &Record<'_, HenonHeiles, 2>| {
+        let State { q, p } = record.state;
+        kept.push([
+            record.steps,
+            record.time.to_bits(),
+            q[0].to_bits(),
+            q[1].to_bits(),
+            p[0].to_bits(),
+            p[1].to_bits(),
+        ]);
+    };
+    let add = |all: &mut Vec<_>, Outcome { number, value, failure }: Outcome<_, f64, 2>| {
+        all.push((number, value, format!("{failure:?}")));
+    };
+    let has_left = move |record: &Record<'_, HenonHeiles, 2>| stops && record.state.q.norm() > 2.0;
+    let study = study.stop_when(has_left);
+    if in_lanes {
+        study.in_lanes().reduce(0..members, |_| Vec::new(), observe, Vec::new(), add).unwrap()
+    } else {
+        study.reduce(0..members, |_| Vec::new(), observe, Vec::new(), add).unwrap()
+    }
+}
+
+#[test]
+fn lanes_change_no_bit_of_any_member() {
+    let (mut compared, mut failed, mut arrived) = (0, 0, 0);
+    for (steps, every, stops, members) in [
+        (60, None, false, 700),
+        (60, Some(7), true, 300),
+        (150, Some(1), true, 70),
+        (0, None, false, 40),
+        (5, Some(9), false, 1),
+    ] {
+        let (lanes, alone) =
+            (records(steps, every, stops, true, members), records(steps, every, stops, false, members));
+        for (lane, alone) in lanes.iter().zip(&alone) {
+            assert_eq!(lane, alone);
+        }
+        assert_eq!(lanes.len() as u64, members);
+        compared += lanes.len();
+        failed += alone.iter().filter(|(_, _, failure)| failure != "None").count();
+        arrived += alone
+            .iter()
+            .filter(|(_, kept, failure)| failure == "None" && kept.last().is_some_and(|last| last[0] < steps))
+            .count();
+    }
+    // Starts that are none, numbers that are none, motions to infinity, members that have left: all were there.
+    assert!(compared == 1111 && failed > 100 && arrived > 50, "{compared} {failed} {arrived}");
+}
