@@ -140,6 +140,34 @@ impl Branchy {
     }
 }
 
+/// More coordinates than are unrolled.
+#[derive(Clone, Debug)]
+struct Chain {
+    k: f64,
+    r: f64,
+}
+
+#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+impl Chain {
+    fn lagrangian(&self, q: [f64; 18], v: [f64; 18]) -> f64 {
+        let (mut l, mut before) = (0.0, 0.0);
+        for i in 0..18 {
+            let d = q[i] - before;
+            l += 0.5 * v[i] * v[i] - self.k * (0.5 * d * d + 0.25 * d.powi(4));
+            before = q[i];
+        }
+        l
+    }
+
+    fn rayleigh(&self, v: [f64; 18]) -> f64 {
+        let mut r = 0.0;
+        for i in 0..18 {
+            r += 0.5 * self.r * v[i] * v[i];
+        }
+        r
+    }
+}
+
 /// In single precision.
 #[rayleigh_system(rule = trapezoidal, lanes = explicit)]
 fn single(q: [f32; 1], v: [f32; 1], m: f32, k: f32, r: f32) -> (f32, f32) {
@@ -297,6 +325,14 @@ fn members_without_fields_and_in_other_functions() {
     let all = members(35, 3, pendulums);
     assert_eq!(agree_in_all(Splitting::blanes_moan_6(), &all, 0.1), 35);
     assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_moan_4(), &all, 0.03), 35);
+}
+
+#[test]
+fn chains_longer_than_what_is_unrolled() {
+    let chain = |random: &mut StdRng| Chain { k: random.random_range(0.5..2.0), r: damping(random) };
+    let all = members(11, 8, chain);
+    assert_eq!(agree::<_, _, 18, 8>(Splitting::blanes_moan_6(), &all, 0.2), 11);
+    assert_eq!(agree::<_, _, 18, 3>(Splitting::blanes_moan_4(), &all, 0.1), 11);
 }
 
 #[test]

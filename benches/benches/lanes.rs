@@ -1,0 +1,166 @@
+//! Many runs at once against one after the other, bit by bit the same: microseconds a trajectory, by the
+//! number of lanes, in the instruction set that everything is compiled for and in the widest that the machine
+//! has, chosen when it runs.
+//!
+//! `cargo bench -p dalembert-benches --bench lanes`
+
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
+
+use std::hint::black_box;
+
+use dalembert::nalgebra::{SVector, vector};
+use dalembert::run::{ExplicitInLanes, InLanes, LaneRuns};
+use dalembert::{Discretise, Splitting, State, rayleigh_system};
+use dalembert_benches::interleaved::medians_over;
+use multiversion::multiversion;
+
+/// A particle in V = s(s − 1)², s = |q|², with drag.
+struct Ring {
+    k: f64,
+}
+
+#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+impl Ring {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let s = q[0] * q[0] + q[1] * q[1];
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2)
+    }
+
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        0.5 * self.k * (v[0] * v[0] + v[1] * v[1])
+    }
+}
+
+/// A pendulum whose sine is the platform's, one member after the other.
+struct Pendulum {
+    k: f64,
+}
+
+#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+impl Pendulum {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * v[0] * v[0] + q[0].cos()
+    }
+
+    fn rayleigh(&self, v: [f64; 1]) -> f64 {
+        0.5 * self.k * v[0] * v[0]
+    }
+}
+
+/// Quartic springs between walls.
+struct Chain {
+    k: f64,
+}
+
+#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+impl Chain {
+    fn lagrangian(&self, q: [f64; 8], v: [f64; 8]) -> f64 {
+        let (mut l, mut before) = (0.0, 0.0);
+        for i in 0..8 {
+            let d = q[i] - before;
+            l += 0.5 * v[i] * v[i] - 0.5 * d * d - 0.25 * d.powi(4);
+            before = q[i];
+        }
+        l - 0.5 * before * before - 0.25 * before.powi(4)
+    }
+
+    fn rayleigh(&self, v: [f64; 8]) -> f64 {
+        let mut sum = 0.0;
+        for i in 0..8 {
+            sum += v[i] * v[i];
+        }
+        0.5 * self.k * sum
+    }
+}
+
+/// Compiled for several instruction sets.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx2+fma",
+    "x86_64+avx2+fma",
+    "aarch64+neon"
+))]
+fn advance_versioned<L, M, const N: usize, const W: usize>(runs: &mut LaneRuns<'_, L, M, N, W>, steps: u64)
+where
+    L: InLanes<M, N>,
+{
+    runs.advance(steps);
+}
+
+#[inline(never)]
+fn advance_as_compiled<L, M, const N: usize, const W: usize>(runs: &mut LaneRuns<'_, L, M, N, W>, steps: u64)
+where
+    L: InLanes<M, N>,
+{
+    runs.advance(steps);
+}
+
+/// Gathers W members, runs them to the end and looks at the ends.
+fn in_lanes<L, const N: usize, const W: usize>(
+    advance: fn(&mut LaneRuns<'_, L, Splitting<11>, N, W>, u64),
+    system: &L,
+    start: State<f64, N>,
+    [h, steps]: [f64; 2],
+) -> [Option<State<f64, N>>; W]
+where
+    L: ExplicitInLanes<N, Scalar = f64>,
+{
+    let (systems, starts) = (black_box([system; W]), black_box([start; W]));
+    let mut runs = LaneRuns::new(Splitting::blanes_moan_6(), systems, &starts, h);
+    advance(&mut runs, steps as u64);
+    std::array::from_fn(|lane| runs.state(lane))
+}
+
+fn row<L, const N: usize>(name: &str, system: &L, start: State<f64, N>, [time, steps]: [f64; 2])
+where
+    L: ExplicitInLanes<N, Scalar = f64>,
+{
+    let of = [time / steps, steps];
+    let alone = || {
+        let (system, start) = (black_box(system), black_box(start));
+        let mut run = system.by(Splitting::blanes_moan_6(), of[0]).run(start);
+        run.by_ref().take(steps as usize).for_each(|step| assert!(step.is_ok()));
+        *run.state()
+    };
+    let end = alone();
+    let bits = |state: State<f64, N>| state.q.iter().chain(&state.p).map(|x| x.to_bits()).collect::<Vec<_>>();
+    macro_rules! candidates {
+        ($($advance:ident $width:literal),*) => {{
+            $(
+                for state in in_lanes::<L, N, $width>($advance, system, start, of) {
+                    assert_eq!(state.map(bits), Some(bits(end)), "{name}, {} lanes", $width);
+                }
+            )*
+            let mut candidates: Vec<(f64, Box<dyn Fn(usize)>)> =
+                vec![(1.0, Box::new(|runs| (0..runs).for_each(|_| { black_box(alone()); })))];
+            $(candidates.push((f64::from($width), Box::new(|runs| {
+                for _ in 0..runs {
+                    black_box(in_lanes::<L, N, $width>($advance, system, start, of));
+                }
+            })));)*
+            candidates
+        }};
+    }
+    let candidates = candidates! {
+        advance_as_compiled 8, advance_as_compiled 16, advance_as_compiled 32,
+        advance_versioned 8, advance_versioned 16, advance_versioned 24, advance_versioned 32
+    };
+    let functions: Vec<&dyn Fn(usize)> = candidates.iter().map(|(_, function)| &**function).collect();
+    let times = medians_over(&functions, &vec![1; functions.len()]);
+    let times: Vec<f64> =
+        times.iter().zip(&candidates).map(|(time, (lanes, _))| time / lanes * 1e6).collect();
+    let best = times.iter().copied().fold(f64::INFINITY, f64::min);
+    let cells: Vec<String> = times.iter().map(|time| format!("{time:.1}")).collect();
+    println!("| {name} | {N} | {} | {:.3} |", cells.join(" | "), best / times[0]);
+}
+
+fn main() {
+    println!("Microseconds a trajectory, Blanes and Moan's splitting of order 6.\n");
+    println!("| scene | n | alone | 8 | 16 | 32 | 8, versioned | 16 | 24 | 32 | best / alone |");
+    println!("|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|");
+    let start = State { q: vector![0.1, 1.1], p: vector![0.5, 0.0] };
+    row("ring", &Ring { k: 1e-3 }, start, [100.0, 1132.0]);
+    row("ring, undamped", &Ring { k: 0.0 }, start, [100.0, 1132.0]);
+    row("pendulum", &Pendulum { k: 1e-3 }, State { q: vector![1.0], p: vector![0.0] }, [100.0, 300.0]);
+    let p = SVector::from_fn(|i, _| if i == 0 { 1.0 } else { 0.0 });
+    row("chain", &Chain { k: 1e-3 }, State { q: SVector::zeros(), p }, [100.0, 400.0]);
+}
