@@ -45,7 +45,7 @@ fn member(number: u64) -> Result<(Satellite, State<f64, 2>), StepError> {
 
 fn main() -> Result<()> {
     let (numbers, folder) = arguments()?;
-    let study = Ensemble::new(member).by(Splitting::blanes_moan_6(), H).steps(STEPS).on_progress(
+    let study = Ensemble::new(member).by(Splitting::blanes_moan_6(), H).steps(STEPS).in_lanes().on_progress(
         |Progress { done, failed, members }| {
             eprint!("\r{done} of {members} members of this part, {failed} failed ");
             ControlFlow::Continue(())
