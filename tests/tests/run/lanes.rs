@@ -161,8 +161,8 @@ impl Chain {
 
     fn rayleigh(&self, v: [f64; 18]) -> f64 {
         let mut r = 0.0;
-        for i in 0..18 {
-            r += 0.5 * self.r * v[i] * v[i];
+        for v in v {
+            r += 0.5 * self.r * v * v;
         }
         r
     }
