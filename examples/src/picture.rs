@@ -1,10 +1,11 @@
-//! The pictures of the scenes: panels of curves in one style, as SVG.
+//! The pictures of the scenes: panels of curves, bands and pixels in one style, as SVG.
 //!
 //! Every panel has its legend above its axes, off the data. Curves differ in dashes or marks as well as in
 //! colour. Text stays text in the file, in whatever sans-serif font the viewer has: no font is needed to draw
 //! it.
 
 mod axis;
+mod raster;
 mod svg;
 
 use std::env;
@@ -16,13 +17,14 @@ use plotters::chart::{ChartBuilder, ChartContext};
 use plotters::coord::Shift;
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
-use plotters::element::{Circle, EmptyElement, PathElement, Text, TriangleMarker};
+use plotters::element::{Circle, EmptyElement, PathElement, Polygon, Rectangle, Text, TriangleMarker};
 pub use plotters::style::RGBColor;
 use plotters::style::{BLACK, Color, ShapeStyle, TRANSPARENT, WHITE};
 
 use crate::results;
 use axis::Ticks;
 pub use axis::{Axis, linear, logarithmic};
+pub use raster::Raster;
 
 /// Colours that readers with any colour vision tell apart (Okabe and Ito, 2008).
 pub mod colour {
@@ -42,6 +44,8 @@ pub mod colour {
     pub const FIFTH: RGBColor = RGBColor(230, 159, 0);
     /// A sixth, light.
     pub const SIXTH: RGBColor = RGBColor(86, 180, 233);
+    /// A seventh, lighter: for areas.
+    pub const SEVENTH: RGBColor = RGBColor(240, 228, 66);
     /// What stands in the background.
     pub const GREY: RGBColor = RGBColor(120, 120, 120);
 }
@@ -75,6 +79,8 @@ pub enum Mark {
     Square,
     /// A diagonal cross.
     Cross,
+    /// A filled square: what stands for an area in the legend.
+    Block,
 }
 
 /// Points drawn in one way.
@@ -84,18 +90,27 @@ pub struct Curve<'a> {
     colour: RGBColor,
     line: Option<(u32, Dash)>,
     mark: Option<(Mark, usize)>,
+    is_area: bool,
     points: Vec<(f64, f64)>,
 }
 
 impl<'a> Curve<'a> {
     /// A line through `points`, `width` pixels wide. Without a label it has no entry in the legend.
     pub fn line(label: &'a str, colour: RGBColor, width: u32, points: Vec<(f64, f64)>) -> Self {
-        Self { label, colour, line: Some((width, Dash::Solid)), mark: None, points }
+        Self { label, colour, line: Some((width, Dash::Solid)), mark: None, is_area: false, points }
     }
 
     /// A mark at each of `points`.
     pub fn marks(label: &'a str, colour: RGBColor, mark: Mark, points: Vec<(f64, f64)>) -> Self {
-        Self { label, colour, line: None, mark: Some((mark, 1)), points }
+        Self { label, colour, line: None, mark: Some((mark, 1)), is_area: false, points }
+    }
+
+    /// The area between two lines over the same x: at each of `points` x, and y from and to.
+    pub fn band(label: &'a str, colour: RGBColor, points: &[(f64, [f64; 2])]) -> Self {
+        let below = points.iter().map(|&(x, [from, _])| (x, from));
+        let above = points.iter().rev().map(|&(x, [_, to])| (x, to));
+        let points = below.chain(above).collect();
+        Self { label, colour, line: None, mark: Some((Mark::Block, 1)), is_area: true, points }
     }
 
     /// The line broken.
@@ -127,13 +142,27 @@ pub struct Panel<'a> {
     x: Axis<'a>,
     y: Axis<'a>,
     is_equal: bool,
+    raster: Option<Raster>,
     curves: Vec<Curve<'a>>,
 }
 
 impl<'a> Panel<'a> {
     /// The panel of `curves`, whose legend has their order.
     pub fn new(title: &'a str, x: Axis<'a>, y: Axis<'a>, curves: Vec<Curve<'a>>) -> Self {
-        Self { title, x, y, is_equal: false, curves }
+        Self { title, x, y, is_equal: false, raster: None, curves }
+    }
+
+    /// The panel of `raster`, whose `classes` are called so in the legend and have these colours.
+    pub fn of_raster(
+        title: &'a str,
+        x: Axis<'a>,
+        y: Axis<'a>,
+        raster: Raster,
+        classes: &[(&'a str, RGBColor)],
+    ) -> Self {
+        let entry = |&(label, colour): &(&'a str, _)| Curve::marks(label, colour, Mark::Block, Vec::new());
+        let curves = classes.iter().map(entry).collect();
+        Self { title, x, y, is_equal: false, raster: Some(raster), curves }
     }
 
     /// Both axes to the same scale.
@@ -196,6 +225,11 @@ macro_rules! with_shape {
                     PathElement::new([(far, far), (near, near), (0, 0), (near, far), (far, near)], open);
                 $draw;
             }
+            Mark::Block => {
+                let $shape =
+                    Rectangle::new([(3 * far / 2, 3 * far / 2), (3 * near / 2, 3 * near / 2)], filled);
+                $draw;
+            }
         }
     }};
 }
@@ -206,13 +240,24 @@ macro_rules! with_shape {
 /// # Errors
 /// The file cannot be written; then the picture is where the error says ([`results::save`]).
 pub fn write(name: &str, size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -> Result<PathBuf> {
+    write_to(env::args_os().nth(1).map(PathBuf::from), name, size, columns, panels)
+}
+
+/// The same for a scene whose command line says more: to `path` or else to `target/<name>.svg`.
+///
+/// # Errors
+/// As [`write`].
+pub fn write_to(
+    path: Option<PathBuf>,
+    name: &str,
+    size: [u32; 2],
+    columns: usize,
+    panels: &[Panel<'_>],
+) -> Result<PathBuf> {
     let svg = svg(size, columns, panels)?;
-    let path = match env::args_os().nth(1) {
-        Some(path) => PathBuf::from(path),
-        None => {
-            Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("target").join(name).with_extension("svg")
-        }
-    };
+    let path = path.unwrap_or_else(|| {
+        Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("target").join(name).with_extension("svg")
+    });
     results::save(&path, &svg)?;
     Ok(path)
 }
@@ -239,7 +284,11 @@ pub fn svg(size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -> Result<Strin
         }
         root.present()?;
     }
-    Ok(svg::finished(svg, size, PIXEL as u32))
+    let images = panels.iter().filter_map(|panel| {
+        let colours: Vec<_> = panel.curves.iter().map(|class| class.colour).collect();
+        panel.raster.as_ref().map(|raster| raster.address(&colours))
+    });
+    Ok(svg::finished(svg, size, PIXEL as u32, &images.collect::<Result<Vec<_>>>()?))
 }
 
 /// How wide a text is, in pixels, for all that is known without a font. (plotters writes sizes that are
@@ -296,7 +345,10 @@ fn draw<'a>(
             text(&head, curve.label, (left + SAMPLE, middle - TEXT / 2 - 1), TEXT)?;
         }
     }
-    let values = |axis: fn(&(f64, f64)) -> f64| panel.curves.iter().flat_map(|curve| &curve.points).map(axis);
+    let corners = panel.raster.iter().flat_map(|raster| [0, 1].map(|k| (raster.x[k], raster.y[k])));
+    let points: Vec<_> =
+        panel.curves.iter().flat_map(|curve| &curve.points).copied().chain(corners).collect();
+    let values = |axis: fn(&(f64, f64)) -> f64| points.iter().map(axis);
     let (mut x, mut y) = (panel.x.ticks(values(|p| p.0), 0.02, 8), panel.y.ticks(values(|p| p.1), 0.05, 8));
     if panel.is_equal {
         axis::equalise(&mut x, &mut y, f64::from(across) / f64::from(up));
@@ -324,6 +376,9 @@ fn draw<'a>(
         .axis_style(BLACK.stroke_width(PIXEL as u32))
         .set_all_tick_mark_size(5 * PIXEL)
         .draw()?;
+    if let Some(Raster { x: [left, right], y: [below, above], .. }) = panel.raster {
+        chart.draw_series([Rectangle::new([(left, above), (right, below)], svg::image())])?;
+    }
     for curve in &panel.curves {
         let points = curve.points.iter().map(|&(at, value)| (panel.x.place(at), panel.y.place(value)));
         let points: Vec<_> = points.filter(|point| point.0.is_finite() && point.1.is_finite()).collect();
@@ -331,7 +386,9 @@ fn draw<'a>(
             let style = svg::stroke(curve.colour, width, dash, PIXEL);
             chart.draw_series([PathElement::new(thinned(&points, pixel), style)])?;
         }
-        if let Some((mark, stride)) = curve.mark {
+        if curve.is_area {
+            chart.draw_series([Polygon::new(points, curve.colour.filled())])?;
+        } else if let Some((mark, stride)) = curve.mark {
             marks(&mut chart, mark, curve.colour, points.into_iter().step_by(stride))?;
         }
     }
