@@ -82,7 +82,7 @@ fn arguments() -> Result<(usize, Option<PathBuf>)> {
                 columns = text.parse().context("--columns takes a number of pixels, such as 400")?;
                 ensure!((2..=20_000).contains(&columns), "--columns takes 2 to 20000 pixels, not {columns}");
             }
-            Arg::Value(path) => picture = Some(PathBuf::from(path)),
+            Arg::Value(path) if picture.is_none() => picture = Some(PathBuf::from(path)),
             other => return Err(other.unexpected().into()),
         }
     }

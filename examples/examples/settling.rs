@@ -127,7 +127,7 @@ fn arguments() -> Result<(u64, Option<PathBuf>)> {
                 members = text.parse().context("--members takes a number, such as 100000")?;
                 ensure!(members > 0, "--members takes a number above 0");
             }
-            Arg::Value(path) => picture = Some(PathBuf::from(path)),
+            Arg::Value(path) if picture.is_none() => picture = Some(PathBuf::from(path)),
             other => return Err(other.unexpected().into()),
         }
     }

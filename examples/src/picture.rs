@@ -5,6 +5,7 @@
 //! it.
 
 mod axis;
+mod panel;
 mod raster;
 mod svg;
 
@@ -24,6 +25,7 @@ use plotters::style::{BLACK, Color, ShapeStyle, TRANSPARENT, WHITE};
 use crate::results;
 use axis::Ticks;
 pub use axis::{Axis, linear, logarithmic};
+pub use panel::{Curve, Dash, Mark, Panel};
 pub use raster::Raster;
 
 /// Colours that readers with any colour vision tell apart (Okabe and Ito, 2008).
@@ -48,129 +50,6 @@ pub mod colour {
     pub const SEVENTH: RGBColor = RGBColor(240, 228, 66);
     /// What stands in the background.
     pub const GREY: RGBColor = RGBColor(120, 120, 120);
-}
-
-/// The pattern of a line.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Dash {
-    /// Unbroken.
-    #[default]
-    Solid,
-    /// Long dashes.
-    Dashed,
-    /// Dots.
-    Dotted,
-    /// Dashes and dots in turn.
-    DashDotted,
-}
-
-/// The shape of a mark.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mark {
-    /// A small dot, for thousands of points.
-    Dot,
-    /// A disc.
-    Disc,
-    /// An open circle.
-    Circle,
-    /// A triangle.
-    Triangle,
-    /// An open square.
-    Square,
-    /// A diagonal cross.
-    Cross,
-    /// A filled square: what stands for an area in the legend.
-    Block,
-}
-
-/// Points drawn in one way.
-#[derive(Clone, Debug)]
-pub struct Curve<'a> {
-    label: &'a str,
-    colour: RGBColor,
-    line: Option<(u32, Dash)>,
-    mark: Option<(Mark, usize)>,
-    is_area: bool,
-    points: Vec<(f64, f64)>,
-}
-
-impl<'a> Curve<'a> {
-    /// A line through `points`, `width` pixels wide. Without a label it has no entry in the legend.
-    pub fn line(label: &'a str, colour: RGBColor, width: u32, points: Vec<(f64, f64)>) -> Self {
-        Self { label, colour, line: Some((width, Dash::Solid)), mark: None, is_area: false, points }
-    }
-
-    /// A mark at each of `points`.
-    pub fn marks(label: &'a str, colour: RGBColor, mark: Mark, points: Vec<(f64, f64)>) -> Self {
-        Self { label, colour, line: None, mark: Some((mark, 1)), is_area: false, points }
-    }
-
-    /// The area between two lines over the same x: at each of `points` x, and y from and to.
-    pub fn band(label: &'a str, colour: RGBColor, points: &[(f64, [f64; 2])]) -> Self {
-        let below = points.iter().map(|&(x, [from, _])| (x, from));
-        let above = points.iter().rev().map(|&(x, [_, to])| (x, to));
-        let points = below.chain(above).collect();
-        Self { label, colour, line: None, mark: Some((Mark::Block, 1)), is_area: true, points }
-    }
-
-    /// The line broken.
-    #[must_use]
-    pub fn dashed(mut self, dash: Dash) -> Self {
-        self.line = self.line.map(|(width, _)| (width, dash));
-        self
-    }
-
-    /// A mark at every `stride`-th point as well.
-    #[must_use]
-    pub fn marked(mut self, mark: Mark, stride: usize) -> Self {
-        self.mark = Some((mark, stride.max(1)));
-        self
-    }
-
-    /// Its marks at every `stride`-th point alone.
-    #[must_use]
-    pub fn marked_rarely(mut self, stride: usize) -> Self {
-        self.mark = self.mark.map(|(mark, _)| (mark, stride.max(1)));
-        self
-    }
-}
-
-/// A pair of axes that show all of the curves, the first at the bottom.
-#[derive(Clone, Debug)]
-pub struct Panel<'a> {
-    title: &'a str,
-    x: Axis<'a>,
-    y: Axis<'a>,
-    is_equal: bool,
-    raster: Option<Raster>,
-    curves: Vec<Curve<'a>>,
-}
-
-impl<'a> Panel<'a> {
-    /// The panel of `curves`, whose legend has their order.
-    pub fn new(title: &'a str, x: Axis<'a>, y: Axis<'a>, curves: Vec<Curve<'a>>) -> Self {
-        Self { title, x, y, is_equal: false, raster: None, curves }
-    }
-
-    /// The panel of `raster`, whose `classes` are called so in the legend and have these colours.
-    pub fn of_raster(
-        title: &'a str,
-        x: Axis<'a>,
-        y: Axis<'a>,
-        raster: Raster,
-        classes: &[(&'a str, RGBColor)],
-    ) -> Self {
-        let entry = |&(label, colour): &(&'a str, _)| Curve::marks(label, colour, Mark::Block, Vec::new());
-        let curves = classes.iter().map(entry).collect();
-        Self { title, x, y, is_equal: false, raster: Some(raster), curves }
-    }
-
-    /// Both axes to the same scale.
-    #[must_use]
-    pub fn to_equal_scale(mut self) -> Self {
-        self.is_equal = true;
-        self
-    }
 }
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
@@ -246,7 +125,7 @@ pub fn write(name: &str, size: [u32; 2], columns: usize, panels: &[Panel<'_>]) -
 /// The same for a scene whose command line says more: to `path` or else to `target/<name>.svg`.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn write_to(
     path: Option<PathBuf>,
     name: &str,
