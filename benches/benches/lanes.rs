@@ -9,8 +9,8 @@
 use std::hint::black_box;
 
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::run::{ExplicitInLanes, InLanes, LaneRuns};
-use dalembert::{Discretise, Splitting, State, rayleigh_system};
+use dalembert::run::{InLanes, LaneRuns};
+use dalembert::{Composition, Discretise, Splitting, State, Trapezoidal, rayleigh_system};
 use dalembert_benches::interleaved::medians_over;
 use multiversion::multiversion;
 
@@ -95,29 +95,31 @@ where
 }
 
 /// Gathers W members, runs them to the end and looks at the ends.
-fn in_lanes<L, const N: usize, const W: usize>(
-    advance: fn(&mut LaneRuns<'_, L, Splitting<11>, N, W>, u64),
+fn in_lanes<L, M, const N: usize, const W: usize>(
+    advance: fn(&mut LaneRuns<'_, L, M, N, W>, u64),
+    method: M,
     system: &L,
     start: State<f64, N>,
     [h, steps]: [f64; 2],
 ) -> [Option<State<f64, N>>; W]
 where
-    L: ExplicitInLanes<N, Scalar = f64>,
+    L: InLanes<M, N, Scalar = f64>,
 {
     let (systems, starts) = (black_box([system; W]), black_box([start; W]));
-    let mut runs = LaneRuns::new(Splitting::blanes_moan_6(), systems, &starts, h);
+    let mut runs = LaneRuns::new(method, systems, &starts, h);
     advance(&mut runs, steps as u64);
     std::array::from_fn(|lane| runs.state(lane))
 }
 
-fn row<L, const N: usize>(name: &str, system: &L, start: State<f64, N>, [time, steps]: [f64; 2])
+fn row<L, M, const N: usize>(name: &str, method: M, system: &L, start: State<f64, N>, [time, steps]: [f64; 2])
 where
-    L: ExplicitInLanes<N, Scalar = f64>,
+    L: InLanes<M, N, Scalar = f64>,
+    M: Copy,
 {
     let of = [time / steps, steps];
     let alone = || {
         let (system, start) = (black_box(system), black_box(start));
-        let mut run = system.by(Splitting::blanes_moan_6(), of[0]).run(start);
+        let mut run = system.by(method, of[0]).run(start);
         run.by_ref().take(steps as usize).for_each(|step| assert!(step.is_ok()));
         *run.state()
     };
@@ -126,7 +128,7 @@ where
     macro_rules! candidates {
         ($($advance:ident $width:literal),*) => {{
             $(
-                for state in in_lanes::<L, N, $width>($advance, system, start, of) {
+                for state in in_lanes::<L, M, N, $width>($advance, method, system, start, of) {
                     assert_eq!(state.map(bits), Some(bits(end)), "{name}, {} lanes", $width);
                 }
             )*
@@ -134,7 +136,7 @@ where
                 vec![(1.0, Box::new(|runs| (0..runs).for_each(|_| { black_box(alone()); })))];
             $(candidates.push((f64::from($width), Box::new(|runs| {
                 for _ in 0..runs {
-                    black_box(in_lanes::<L, N, $width>($advance, system, start, of));
+                    black_box(in_lanes::<L, M, N, $width>($advance, method, system, start, of));
                 }
             })));)*
             candidates
@@ -154,13 +156,25 @@ where
 }
 
 fn main() {
-    println!("Microseconds a trajectory, Blanes and Moan's splitting of order 6.\n");
+    println!("Microseconds a trajectory.\n");
     println!("| scene | n | alone | 8 | 16 | 32 | 8, versioned | 16 | 24 | 32 | best / alone |");
     println!("|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|");
-    let start = State { q: vector![0.1, 1.1], p: vector![0.5, 0.0] };
-    row("ring", &Ring { k: 1e-3 }, start, [100.0, 1132.0]);
-    row("ring, undamped", &Ring { k: 0.0 }, start, [100.0, 1132.0]);
-    row("pendulum", &Pendulum { k: 1e-3 }, State { q: vector![1.0], p: vector![0.0] }, [100.0, 300.0]);
+    let ring = State { q: vector![0.1, 1.1], p: vector![0.5, 0.0] };
+    let of = [100.0, 1132.0];
+    row("ring, Blanes–Moan 6", Splitting::blanes_moan_6(), &Ring { k: 1e-3 }, ring, of);
+    row("ring without drag, Blanes–Moan 6", Splitting::blanes_moan_6(), &Ring { k: 0.0 }, ring, of);
+    row("ring, Störmer–Verlet", Trapezoidal, &Ring { k: 1e-3 }, ring, [100.0, 10_000.0]);
+    row("ring, Kahan–Li 8", Composition::kahan_li_8(Trapezoidal), &Ring { k: 1e-3 }, ring, of);
+    let pendulum = State { q: vector![1.0], p: vector![0.0] };
+    row(
+        "pendulum, Blanes–Moan 6",
+        Splitting::blanes_moan_6(),
+        &Pendulum { k: 1e-3 },
+        pendulum,
+        [100.0, 300.0],
+    );
     let p = SVector::from_fn(|i, _| if i == 0 { 1.0 } else { 0.0 });
-    row("chain", &Chain { k: 1e-3 }, State { q: SVector::zeros(), p }, [100.0, 400.0]);
+    let chain = State { q: SVector::zeros(), p };
+    row("chain, Blanes–Moan 6", Splitting::blanes_moan_6(), &Chain { k: 1e-3 }, chain, [100.0, 400.0]);
+    row("chain, Störmer–Verlet", Trapezoidal, &Chain { k: 1e-3 }, chain, [100.0, 4000.0]);
 }

@@ -47,6 +47,7 @@ pub struct StraightLine {
 /// Something that code on members reads of the system of each, before it runs.
 #[derive(Clone)]
 pub struct Field {
+    pub node: Node,
     /// The local that holds it.
     pub name: Ident,
     /// How it is read of `self`.
@@ -174,7 +175,7 @@ fn written(
                 writer.locals[node.index()] = Some(name.clone());
                 writer.is_lanes[node.index()] = true;
                 let tokens = graph.parameter(index).tokens.clone();
-                fields.push(Field { name, tokens, is_truth: writer.is_condition[node.index()] });
+                fields.push(Field { node, name, tokens, is_truth: writer.is_condition[node.index()] });
             }
         }
     }

@@ -10,9 +10,11 @@ use crate::numbers::Scalar;
 mod banded;
 mod dense;
 mod determinant;
+mod of_members;
 
 pub use banded::Banded;
 pub(crate) use determinant::determinant_sign;
+pub use of_members::MatricesOfMembers;
 
 /// A matrix that has no solution to working precision: the column whose pivot is lost to rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +34,9 @@ mod sealed {
 pub trait NewtonMatrix<S: Scalar, const N: usize>: Copy + core::fmt::Debug + sealed::Sealed {
     /// The matrix made ready to solve with, more than once.
     type Factored: Factored<S, N>;
+
+    /// W of them side by side, made ready.
+    type OfMembers<const W: usize>: MatricesOfMembers<S, N, W, Matrix = Self>;
 
     /// The matrix made ready; nothing if it is singular, or if its form has no room for the row exchanges
     /// that it needs: [`solve`](Self::solve) tells which.

@@ -122,7 +122,7 @@ pub(crate) const fn symmetric<const S: usize>(half: &[f64]) -> [f64; S] {
 }
 
 impl<R, const S: usize> Composition<R, S> {
-    const SHARES: [f64; S] = match S {
+    pub(crate) const SHARES: [f64; S] = match S {
         9 => symmetric(&KAHAN_LI_6),
         17 => symmetric(&KAHAN_LI_8),
         _ => panic!("no such composition is made"),

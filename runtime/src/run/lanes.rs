@@ -3,6 +3,8 @@
 //! What is computed of one member is computed of all, in plain arrays and loops ([`Members`]): as fast as the
 //! instructions allow that the caller is compiled for, and bit by bit what each member's own run computes.
 
+mod explicit;
+
 use core::marker::PhantomData;
 
 use crate::numbers::{Elementary, MemberVector};
@@ -22,6 +24,13 @@ pub trait ExplicitInLanes<const N: usize>: Explicit<N, Scalar: Elementary> {
 
     /// What the force reads, gathered.
     fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W>;
+
+    /// [`velocity_momenta`](Explicit::velocity_momenta) of each member, p0 and p1, to the last bit.
+    fn velocity_momenta_in_lanes<const W: usize>(
+        fields: &Self::Fields<W>,
+        v: &MemberVector<Self::Scalar, N, W>,
+        h: Self::Scalar,
+    ) -> [MemberVector<Self::Scalar, N, W>; 2];
 
     /// [`configuration_force`](Explicit::configuration_force) of each member, to the last bit.
     fn configuration_force_in_lanes<const W: usize>(
@@ -90,9 +99,9 @@ where
 {
     /// One run for each system, from the state of the same index.
     ///
-    /// The value is large, some W (2N + 2·S) numbers for a [`Splitting`](crate::Splitting) of S drifts, N
-    /// times as many where M or C is not diagonal: how many lanes pay depends on the registers of the
-    /// machine and, for long chains, on its caches.
+    /// The value is large: room for 2·N²·S·W numbers by a [`Splitting`](crate::Splitting) of S drifts, of which
+    /// N·S·W are used where M and C are diagonal. How many lanes pay depends on the registers of the machine and,
+    /// for many coordinates, on its caches.
     #[must_use]
     pub fn new(method: M, systems: [&'a L; W], starts: &[State<L::Scalar, N>; W], h: L::Scalar) -> Self {
         let _ = method;
@@ -108,7 +117,8 @@ where
     }
 
     /// The state of the run in this lane: that of the scalar run after as many steps, to the last bit. Nothing
-    /// if that run would have ended with an error by now, or if there is no such lane.
+    /// if that run would have ended with an error by now, if it alone can tell (an explicit step whose
+    /// rounding has to be measured, a matrix that has to be factored otherwise), or if there is no such lane.
     #[must_use]
     pub fn state(&self, lane: usize) -> Option<State<L::Scalar, N>> {
         if lane < W { L::state_of_lane(&self.lanes, lane) } else { None }

@@ -1,6 +1,7 @@
 //! An explicit step by the trapezoidal rule, in three functions: the matrix, what v̄ adds to the momenta, and
 //! the force.
 
+use super::in_lanes::ExplicitOutputs;
 use super::kernel::Parts;
 use super::*;
 
@@ -45,7 +46,8 @@ impl Code<'_> {
                 sums.push(self.or_zero(sum));
             }
         }
-        let line = self.code(&[p0, p1].concat());
+        let momenta = self.shortened(&[p0, p1].concat());
+        let line = self.code_as_it_stands(&momenta, &[]);
         let [p0, p1] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
         let (v, h) =
             (parameter("v", line.uses_velocities), parameter("h", line.uses("half") || line.uses("h")));
@@ -60,7 +62,9 @@ impl Code<'_> {
         };
 
         let force = self.shortened(&force);
-        let in_lanes = if self.system.lanes.is_some() { self.explicit_in_lanes(&force) } else { None };
+        let (p0, p1) = momenta.split_at(self.n);
+        let outputs = ExplicitOutputs { force: &force, p0, p1 };
+        let in_lanes = self.system.lanes.as_ref().and_then(|_| self.explicit_in_lanes(&outputs));
         let line = self.code_as_it_stands(&force, &[]);
         let [force] = self.parts(&line.outputs, [Shape::Vector]);
         let (q, statements) = (parameter("q", line.uses_coordinates), &line.statements);

@@ -1,60 +1,104 @@
-//! The force of an explicit system, of several members at once: the text of `configuration_force` on other
-//! numbers, so that every member's force is its own to the last bit.
+//! An explicit system of several members at once: the text of the functions of `Explicit` on other numbers, so
+//! that what every member gets is its own to the last bit.
 
 use super::super::emit::{Field, number_of_members, on_members};
 use super::super::syntax::regrouped;
 use super::*;
 use proc_macro2::TokenTree;
+use quote::ToTokens;
+
+/// What `ExplicitInLanes` asks for, as `Explicit` computes it.
+pub(super) struct ExplicitOutputs<'o> {
+    pub force: &'o [Node],
+    pub p0: &'o [Node],
+    pub p1: &'o [Node],
+}
 
 impl Code<'_> {
-    /// What `ExplicitInLanes` asks for, of the force as `configuration_force` computes it; nothing where a
-    /// field is read within a condition, since fields are read before.
-    pub(super) fn explicit_in_lanes(&mut self, force: &[Node]) -> Option<TokenStream> {
-        if self.graph.is_conditional(force.iter().copied()) {
+    /// The functions of `ExplicitInLanes`; nothing where a field is read within a condition, since fields are
+    /// read before.
+    pub(super) fn explicit_in_lanes(&mut self, outputs: &ExplicitOutputs<'_>) -> Option<TokenStream> {
+        let ExplicitOutputs { force, p0, p1 } = outputs;
+        let momenta = [*p0, *p1].concat();
+        if self.graph.is_conditional(force.iter().chain(&momenta).copied()) {
             return None;
         }
         let scalar = &self.system.scalar;
-        let line = on_members(&self.graph, scalar, force, &["q", "fields", "systems"], self.is_portable);
+        let taken = ["q", "v", "h", "half", "fields", "systems"];
+        let written = |outputs: &[Node]| on_members(&self.graph, scalar, outputs, &taken, self.is_portable);
+        let (force, momenta) = (written(force), written(&momenta));
+        let mut read: Vec<&Field> = force.fields.iter().chain(&momenta.fields).collect();
+        read.sort_by_key(|field| (field.is_truth, field.node));
+        read.dedup_by_key(|field| field.node);
+
         let (n, members) = (self.system.degrees.times(1), number_of_members(&self.graph));
-        let (numbers, truths): (Vec<&Field>, Vec<&Field>) =
-            line.fields.iter().partition(|field| !field.is_truth);
-        let read = |field: &&Field| {
-            let read = seen_from_member(field.tokens.clone());
-            quote!(systems.map(|system| #read))
-        };
-        let of_numbers = Group {
-            ty: quote!(Members<#scalar, #members>),
-            values: numbers.iter().map(read).map(|read| quote!(Members(#read))).collect(),
-            names: numbers.iter().map(|field| &field.name).collect(),
-        };
-        let of_truths = Group {
-            ty: quote!(Mask<#members>),
-            values: truths.iter().map(read).map(|read| quote!(Mask(#read))).collect(),
-            names: truths.iter().map(|field| &field.name).collect(),
-        };
+        let number = Group { ty: quote!(Members), argument: quote!(#scalar,), of_truths: false };
+        let truth = Group { ty: quote!(Mask), argument: TokenStream::new(), of_truths: true };
         let groups: Vec<Group> =
-            [of_numbers, of_truths].into_iter().filter(|group| !group.names.is_empty()).collect();
-        let ty = tuple(groups.iter().map(Group::array_type));
-        let values = tuple(groups.iter().map(Group::array));
-        let names = tuple(groups.iter().map(Group::pattern));
-        let taken_apart = (!groups.is_empty()).then(|| quote!(let #names = *fields;));
-        let (fields, systems) =
-            (parameter("fields", !groups.is_empty()), parameter("systems", !groups.is_empty()));
-        let (q, statements, outputs) =
-            (parameter("q", line.uses_coordinates), &line.statements, &line.outputs);
-        Some(quote! {
+            [number, truth].into_iter().filter(|group| group.fields(&read).next().is_some()).collect();
+        let ty = tuple(groups.iter().map(|group| {
+            let (ty, argument) = (&group.ty, &group.argument);
+            let length = Literal::usize_unsuffixed(group.fields(&read).count());
+            quote!([#ty<#argument #members>; #length])
+        }));
+        let values = tuple(groups.iter().map(|group| {
+            let ty = &group.ty;
+            let tokens = group.fields(&read).map(|field| seen_from_member(field.tokens.clone()));
+            quote!([#(#ty(systems.map(|system| #tokens))),*])
+        }));
+        // `let [k, _] = *fields;`
+        let taken_apart = |line: &StraightLine| {
+            let pattern = tuple(groups.iter().map(|group| {
+                let names = group.fields(&read).map(|field| {
+                    let own = line.fields.iter().find(|own| own.node == field.node);
+                    own.map_or_else(|| quote!(_), |own| own.name.to_token_stream())
+                });
+                quote!([#(#names),*])
+            }));
+            (!line.fields.is_empty()).then(|| quote!(let #pattern = *fields;))
+        };
+        let of_fields = |line: &StraightLine| parameter("fields", !line.fields.is_empty());
+        let systems = parameter("systems", !groups.is_empty());
+        let gathered = quote! {
             type Fields<const #members: usize> = #ty;
 
             fn fields<const #members: usize>(#systems: [&Self; #members]) -> Self::Fields<#members> {
                 #values
             }
+        };
+
+        let (fields, apart, statements) = (of_fields(&momenta), taken_apart(&momenta), &momenta.statements);
+        let half = momenta.uses("half").then(|| quote!(let half = 0.5 * h;));
+        let (v, h) =
+            (parameter("v", momenta.uses_velocities), parameter("h", half.is_some() || momenta.uses("h")));
+        let (p0, p1) = momenta.outputs.split_at(self.n);
+        let velocity_momenta = quote! {
+            #[inline(always)]
+            fn velocity_momenta_in_lanes<const #members: usize>(
+                #fields: &Self::Fields<#members>,
+                #v: &MemberVector<#scalar, #n, #members>,
+                #h: #scalar,
+            ) -> [MemberVector<#scalar, #n, #members>; 2] {
+                #apart
+                #half
+                #statements
+                [[#(#p0),*], [#(#p1),*]]
+            }
+        };
+
+        let (fields, apart, statements) = (of_fields(&force), taken_apart(&force), &force.statements);
+        let (q, outputs) = (parameter("q", force.uses_coordinates), &force.outputs);
+        Some(quote! {
+            #gathered
+
+            #velocity_momenta
 
             #[inline(always)]
             fn configuration_force_in_lanes<const #members: usize>(
                 #fields: &Self::Fields<#members>,
                 #q: &MemberVector<#scalar, #n, #members>,
             ) -> MemberVector<#scalar, #n, #members> {
-                #taken_apart
+                #apart
                 #statements
                 [#(#outputs),*]
             }
@@ -63,26 +107,15 @@ impl Code<'_> {
 }
 
 /// Fields of one type.
-struct Group<'l> {
+struct Group {
     ty: TokenStream,
-    values: Vec<TokenStream>,
-    names: Vec<&'l Ident>,
+    argument: TokenStream,
+    of_truths: bool,
 }
 
-impl Group<'_> {
-    fn array_type(&self) -> TokenStream {
-        let (ty, length) = (&self.ty, Literal::usize_unsuffixed(self.names.len()));
-        quote!([#ty; #length])
-    }
-
-    fn array(&self) -> TokenStream {
-        let values = &self.values;
-        quote!([#(#values),*])
-    }
-
-    fn pattern(&self) -> TokenStream {
-        let names = &self.names;
-        quote!([#(#names),*])
+impl Group {
+    fn fields<'f>(&self, read: &[&'f Field]) -> impl Iterator<Item = &'f Field> {
+        read.iter().copied().filter(|field| field.is_truth == self.of_truths)
     }
 }
 

@@ -257,23 +257,36 @@ const _: () = {
     }
     #[automatically_derived]
     impl ::dalembert::generated::ExplicitInLanes<1> for Bead {
-        type Fields<const W: usize> = ([Members<f64, W>; 3], [Mask<W>; 1]);
+        type Fields<const W: usize> = ([Members<f64, W>; 4], [Mask<W>; 1]);
         fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W> {
             (
                 [
                     Members(systems.map(|system| system.k)),
                     Members(systems.map(|system| system.m)),
                     Members(systems.map(|system| system.g)),
+                    Members(systems.map(|system| system.r)),
                 ],
                 [Mask(systems.map(|system| system.has_wall))],
             )
+        }
+        #[inline(always)]
+        fn velocity_momenta_in_lanes<const W: usize>(
+            fields: &Self::Fields<W>,
+            v: &MemberVector<f64, 1, W>,
+            h: f64,
+        ) -> [MemberVector<f64, 1, W>; 2] {
+            let ([_, m, _, r], [_]) = *fields;
+            let half = 0.5 * h;
+            let t1 = m * v[0];
+            let t2 = r * half * v[0];
+            [[t1 + t2], [t1 - t2]]
         }
         #[inline(always)]
         fn configuration_force_in_lanes<const W: usize>(
             fields: &Self::Fields<W>,
             q: &MemberVector<f64, 1, W>,
         ) -> MemberVector<f64, 1, W> {
-            let ([k, m, g], [t1]) = *fields;
+            let ([k, m, g, _], [t1]) = *fields;
             let wall = Self::WALL;
             let t2 = t1 & Members::<f64, W>::splat(wall).less(q[0]);
             let push = Members::select(

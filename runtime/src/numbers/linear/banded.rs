@@ -2,6 +2,7 @@
 
 use nalgebra::SVector;
 
+use super::of_members::BandedOfMembers;
 use super::{Factored, NewtonMatrix, Singular, dense};
 use crate::numbers::Scalar;
 
@@ -45,7 +46,7 @@ impl<S: Scalar, const N: usize, const W: usize> Banded<S, N, W> {
 /// diagonal: in solving, nothing waits for a product with one.
 #[derive(Clone, Copy, Debug)]
 pub struct FactoredBand<S, const N: usize, const W: usize> {
-    rows: [[S; W]; N],
+    pub(super) rows: [[S; W]; N],
 }
 
 impl<S: Scalar, const N: usize, const W: usize> Factored<S, N> for FactoredBand<S, N, W> {
@@ -79,6 +80,7 @@ impl<S: Scalar, const N: usize, const W: usize> Factored<S, N> for FactoredBand<
 
 impl<S: Scalar, const N: usize, const W: usize> NewtonMatrix<S, N> for Banded<S, N, W> {
     type Factored = FactoredBand<S, N, W>;
+    type OfMembers<const M: usize> = BandedOfMembers<S, N, W, M>;
 
     /// Nothing if a pivot is small beside its row: that calls for row exchanges.
     #[inline]

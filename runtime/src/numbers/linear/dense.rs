@@ -4,11 +4,13 @@ use core::array;
 
 use nalgebra::{SMatrix, SVector};
 
+use super::of_members::DenseOfMembers;
 use super::{Factored, NewtonMatrix, Singular};
 use crate::numbers::Scalar;
 
 impl<S: Scalar, const N: usize> NewtonMatrix<S, N> for SMatrix<S, N, N> {
     type Factored = FactoredDense<S, N>;
+    type OfMembers<const W: usize> = DenseOfMembers<S, N, W>;
 
     #[inline]
     fn factored(&self) -> Option<FactoredDense<S, N>> {
@@ -95,11 +97,11 @@ pub(super) fn eliminate<S: Scalar, const N: usize>(
 /// A matrix as the product of a lower triangle with diagonal 1 and an upper one, with its rows exchanged.
 #[derive(Clone, Copy, Debug)]
 pub struct FactoredDense<S, const N: usize> {
-    rows: [[S; N]; N],
+    pub(super) rows: [[S; N]; N],
     /// The row of the matrix that came to stand here.
-    order: [usize; N],
+    pub(super) order: [usize; N],
     /// Those of the pivots.
-    reciprocals: [S; N],
+    pub(super) reciprocals: [S; N],
 }
 
 impl<S: Scalar, const N: usize> Factored<S, N> for FactoredDense<S, N> {

@@ -5,32 +5,12 @@
 use nalgebra::SMatrix;
 
 use super::{Drifts, Prepared, Splitting};
-use crate::numbers::members::{member, write_member};
+use crate::numbers::members::{difference, each_coordinate, member, write_member};
 use crate::numbers::{Mask, MemberVector, Members, Scalar};
 use crate::rules::Drift;
 use crate::run::lanes::begins;
 use crate::run::{ExplicitInLanes, InLanes};
 use crate::step::State;
-
-/// The block for every coordinate, unrolled for the first 16.
-///
-/// Where a loop over coordinates remains and that over members does not, LLVM makes vectors of a coordinate's
-/// neighbours, gathered and scattered with AVX-512: 6 times as slow. The index of the others is kept from it.
-macro_rules! each_coordinate {
-    ($index:ident => $block:block) => {
-        each_coordinate!(@unrolled [0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15] $index $block);
-        for index in 16..N {
-            let $index = core::hint::black_box(index).min(N - 1);
-            $block
-        }
-    };
-    (@unrolled [$($known:literal)*] $index:ident $block:block) => {$(
-        if $known < N {
-            let $index = $known;
-            $block
-        }
-    )*};
-}
 
 /// W members on their way by a [`Splitting`].
 #[derive(Clone, Copy, Debug)]
@@ -177,18 +157,6 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> Kicked<
         write_member(&mut self.shift, lane, &prepared.shift);
         write_member(&mut self.thrust, lane, &prepared.thrust);
     }
-}
-
-#[inline(always)]
-fn difference<T: Scalar, const N: usize, const W: usize>(
-    a: &MemberVector<T, N, W>,
-    b: &MemberVector<T, N, W>,
-) -> MemberVector<T, N, W> {
-    let mut difference = *a;
-    each_coordinate!(i => {
-        difference[i] = a[i] - b[i];
-    });
-    difference
 }
 
 /// The drifts of all members that have begun, in the form that serves all.

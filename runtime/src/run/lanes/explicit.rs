@@ -1,0 +1,248 @@
+//! Explicit steps of several members at once, and their compositions: the operations of each member's own
+//! run, in their order.
+//!
+//! The first step is each member's own, as it is of a run. From then on a member whose residual is above its
+//! floor, where its own run would look closer, has no state.
+
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
+
+use super::begins;
+use crate::numbers::members::{difference, each_coordinate, member, write_member};
+use crate::numbers::{Mask, MatricesOfMembers, MemberVector, Members, NewtonMatrix, Scalar};
+use crate::rules::Trapezoidal;
+use crate::run::{Composition, ExplicitInLanes, InLanes};
+use crate::step::newton::AT_FLOOR;
+use crate::step::{Flow, State};
+
+/// W members on their way by explicit substeps, S in a step.
+#[derive(Clone, Copy, Debug)]
+pub struct ExplicitSteps<T, F, A, const N: usize, const S: usize, const W: usize> {
+    /// Whose states are those of their runs.
+    is_sound: Mask<W>,
+    has_stepped: bool,
+    fields: F,
+    q: MemberVector<T, N, W>,
+    p: MemberVector<T, N, W>,
+    /// G(q), from the end of the first step on.
+    force: MemberVector<T, N, W>,
+    /// The first half and the middle, with which the others are the same.
+    substeps: [Substep<T, A, N, W>; S],
+}
+
+/// What depends on the size of a substep alone.
+#[derive(Clone, Copy, Debug)]
+struct Substep<T, A, const N: usize, const W: usize> {
+    h: T,
+    /// P = ∂²L/∂v² + (h/2) ∂²R/∂v².
+    matrices: A,
+    /// ∂L/∂v + (h/2) ∂R/∂v at v̄ = 0.
+    at_rest: MemberVector<T, N, W>,
+}
+
+/// Those of a system.
+type Of<L, const N: usize, const S: usize, const W: usize> = ExplicitSteps<
+    <L as crate::system::Lagrangian<N>>::Scalar,
+    <L as ExplicitInLanes<N>>::Fields<W>,
+    <<L as crate::step::Discrete<Trapezoidal, N>>::Matrix as NewtonMatrix<
+        <L as crate::system::Lagrangian<N>>::Scalar,
+        N,
+    >>::OfMembers<W>,
+    N,
+    S,
+    W,
+>;
+
+/// The members at their starts.
+fn started<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
+    systems: [&L; W],
+    starts: &[State<L::Scalar, N>; W],
+    h: L::Scalar,
+    shares: &[f64; S],
+) -> Of<L, N, S, W> {
+    let zero = [Members::splat(L::Scalar::constant(0.0)); N];
+    let mut steps = Of::<L, N, S, W> {
+        is_sound: Mask::splat(false),
+        has_stepped: false,
+        fields: L::fields(systems),
+        q: zero,
+        p: zero,
+        force: zero,
+        substeps: shares.map(|share| Substep {
+            h: L::Scalar::constant(share) * h,
+            matrices: MatricesOfMembers::zero(),
+            at_rest: zero,
+        }),
+    };
+    for (lane, (system, start)) in systems.into_iter().zip(starts).enumerate() {
+        steps.is_sound.0[lane] = begins(system, start, h) && prepare(&mut steps, lane, system);
+        write_member(&mut steps.q, lane, &start.q);
+        write_member(&mut steps.p, lane, &start.p);
+    }
+    steps
+}
+
+/// Factors the matrices of one member; whether they can be.
+fn prepare<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
+    steps: &mut Of<L, N, S, W>,
+    lane: usize,
+    system: &L,
+) -> bool {
+    for substep in &mut steps.substeps {
+        let matrix = system.step_matrix(substep.h);
+        let Some(factored) = matrix.factored() else { return false };
+        substep.matrices.write(lane, &matrix, &factored);
+        let at_rest = system.velocity_momenta(&nalgebra::zero(), substep.h).p0;
+        write_member(&mut substep.at_rest, lane, &at_rest);
+    }
+    true
+}
+
+/// The first step, each member's own.
+#[cold]
+#[inline(never)]
+fn first_step<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
+    steps: &mut Of<L, N, S, W>,
+    systems: [&L; W],
+) {
+    for (lane, system) in systems.into_iter().enumerate() {
+        let mut state = State { q: member(&steps.q, lane), p: member(&steps.p, lane) };
+        for substep in &steps.substeps {
+            if !steps.is_sound.0[lane] {
+                break;
+            }
+            match Flow::<Trapezoidal, N>::step(system, &state, substep.h, None) {
+                Ok(step) => state = step.state,
+                Err(_) => steps.is_sound.0[lane] = false,
+            }
+        }
+        write_member(&mut steps.q, lane, &state.q);
+        write_member(&mut steps.p, lane, &state.p);
+    }
+    steps.force = L::configuration_force_in_lanes(&steps.fields, &steps.q);
+    steps.has_stepped = true;
+}
+
+#[inline(always)]
+fn advance<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
+    steps: &mut Of<L, N, S, W>,
+    systems: [&L; W],
+    mut count: u64,
+) {
+    if count > 0 && !steps.has_stepped {
+        first_step::<L, N, S, W>(steps, systems);
+        count -= 1;
+    }
+    // Locals, so that they stay in registers.
+    let (fields, substeps) = (&steps.fields, &steps.substeps);
+    let (mut q, mut p, mut force) = (steps.q, steps.p, steps.force);
+    let mut is_sound = steps.is_sound;
+    for _ in 0..count {
+        for i in 0..S {
+            let substep = &substeps[if i < S - i { i } else { S - 1 - i }];
+            is_sound = is_sound & substep.take::<L, _>(fields, &mut q, &mut p, &mut force);
+        }
+    }
+    (steps.q, steps.p, steps.force, steps.is_sound) = (q, p, force, is_sound);
+}
+
+impl<T: Scalar, A, const N: usize, const W: usize> Substep<T, A, N, W> {
+    /// Takes it; whose velocities solve its equation.
+    #[inline(always)]
+    fn take<L, F>(
+        &self,
+        fields: &F,
+        q: &mut MemberVector<T, N, W>,
+        p: &mut MemberVector<T, N, W>,
+        force: &mut MemberVector<T, N, W>,
+    ) -> Mask<W>
+    where
+        L: ExplicitInLanes<N, Scalar = T, Fields<W> = F>,
+        A: MatricesOfMembers<T, N, W>,
+    {
+        let half = self.h * T::constant(0.5);
+        let (mut kick, mut right) = (*force, *p);
+        each_coordinate!(i => {
+            kick[i] = force[i] * half;
+            right[i] = p[i] + kick[i];
+        });
+        let v = self.matrices.solve(&difference(&right, &self.at_rest));
+        each_coordinate!(i => {
+            q[i] = q[i] + v[i] * self.h;
+        });
+        *force = L::configuration_force_in_lanes(fields, q);
+        let [p0, p1] = L::velocity_momenta_in_lanes(fields, &v, self.h);
+
+        let unit = T::EPSILON * T::constant(4.0);
+        let mut scaled = v;
+        each_coordinate!(i => {
+            scaled[i] = v[i] * unit;
+        });
+        let magnitudes = self.matrices.magnitudes(&scaled);
+        let mut is_root = Mask::splat(true);
+        each_coordinate!(i => {
+            let floor = magnitudes[i] + (p[i].abs() * unit + T::SMALLEST_NORMAL);
+            let most = floor * T::constant(AT_FLOOR);
+            let residual = p0[i] - right[i];
+            is_root = is_root & residual.abs().less_or_equal(most) & most.is_finite();
+            p[i] = p[i] + (kick[i] + force[i] * half + (p1[i] - p0[i]));
+        });
+        is_root
+    }
+}
+
+fn state<T: Scalar, F, A, const N: usize, const S: usize, const W: usize>(
+    steps: &ExplicitSteps<T, F, A, N, S, W>,
+    lane: usize,
+) -> Option<State<T, N>> {
+    let state = State { q: member(&steps.q, lane), p: member(&steps.p, lane) };
+    let is_sound = steps.is_sound.0.get(lane).is_some_and(|&is_sound| is_sound);
+    (is_sound && state.require_finite().is_ok()).then_some(state)
+}
+
+impl<L, const N: usize> InLanes<Trapezoidal, N> for L
+where
+    L: ExplicitInLanes<N>,
+{
+    type Lanes<const W: usize> = Of<L, N, 1, W>;
+
+    fn in_lanes<const W: usize>(
+        systems: [&Self; W],
+        starts: &[State<L::Scalar, N>; W],
+        h: L::Scalar,
+    ) -> Self::Lanes<W> {
+        started(systems, starts, h, &[1.0])
+    }
+
+    #[inline(always)]
+    fn advance_in_lanes<const W: usize>(lanes: &mut Self::Lanes<W>, systems: [&Self; W], steps: u64) {
+        advance::<L, N, 1, W>(lanes, systems, steps);
+    }
+
+    fn state_of_lane<const W: usize>(lanes: &Self::Lanes<W>, lane: usize) -> Option<State<L::Scalar, N>> {
+        state(lanes, lane)
+    }
+}
+
+impl<L, const N: usize, const S: usize> InLanes<Composition<Trapezoidal, S>, N> for L
+where
+    L: ExplicitInLanes<N>,
+{
+    type Lanes<const W: usize> = Of<L, N, S, W>;
+
+    fn in_lanes<const W: usize>(
+        systems: [&Self; W],
+        starts: &[State<L::Scalar, N>; W],
+        h: L::Scalar,
+    ) -> Self::Lanes<W> {
+        started(systems, starts, h, &Composition::<Trapezoidal, S>::SHARES)
+    }
+
+    #[inline(always)]
+    fn advance_in_lanes<const W: usize>(lanes: &mut Self::Lanes<W>, systems: [&Self; W], steps: u64) {
+        advance::<L, N, S, W>(lanes, systems, steps);
+    }
+
+    fn state_of_lane<const W: usize>(lanes: &Self::Lanes<W>, lane: usize) -> Option<State<L::Scalar, N>> {
+        state(lanes, lane)
+    }
+}
