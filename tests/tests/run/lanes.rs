@@ -140,6 +140,44 @@ impl Branchy {
     }
 }
 
+/// Every function, comparison and question that a body may hold.
+#[derive(Clone, Debug)]
+struct Everything {
+    k: f64,
+    is_on: bool,
+}
+
+#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+impl Everything {
+    const IS_MEANT: bool = true;
+
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let x = 0.3 * q[0].sin();
+        let y = 1.5 + 0.5 * q[1].cos();
+        let roots =
+            y.sqrt() + y.cbrt() + y.recip() + y.powi(5) + y.powi(-3) + y.powf(self.k) + self.k.powf(x);
+        let exponentials = x.exp() + x.exp2() + x.exp_m1() + y.ln() + y.log2() + y.log10() + x.ln_1p();
+        let circular = x.tan() + x.asin() + x.acos() + x.atan() + x.atan2(y) + y.atan2(self.k);
+        let hyperbolic = x.sinh() + x.cosh() + x.tanh() + x.asinh() + (1.5 + y).acosh() + x.atanh();
+        let pieces = x.abs() + x.signum() * y + y.copysign(x) + x.min(0.1) + x.max(-0.1) + x.clamp(-0.2, 0.2);
+        let pairs = x.hypot(self.k) + x.mul_add(y, self.k) + y.log(3.0) + 2.0_f64.powf(x) + 0.5_f64.hypot(y);
+        let mut potential = 0.05 * (roots + exponentials + circular + hyperbolic + pieces + pairs);
+        if (x.is_nan() || y.is_infinite()) && !self.is_on {
+            potential += 1.0;
+        }
+        if x.is_finite() && (q[0].is_sign_positive() || q[1] != 0.5) && q[0] >= -2.0 {
+            potential += 0.1 * x * x;
+        }
+        if !(self.k > 1.0) || self.is_on && q[1].is_sign_negative() {
+            potential -= 0.2 * y;
+        }
+        if Self::IS_MEANT && self.k == 1.0 {
+            potential += x;
+        }
+        0.5 * (v[0] * v[0] + v[1] * v[1]) - potential - 0.5 * (q[0] * q[0] + q[1] * q[1])
+    }
+}
+
 /// More coordinates than are unrolled.
 #[derive(Clone, Debug)]
 struct Chain {
@@ -350,6 +388,18 @@ fn members_without_fields_and_in_other_functions() {
     let all = members(35, 3, pendulums);
     assert_eq!(agree_in_all(Splitting::blanes_moan_6(), &all, 0.1), 35);
     assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_moan_4(), &all, 0.03), 35);
+}
+
+#[test]
+fn every_function_is_that_of_numbers() {
+    let of = |random: &mut StdRng| Everything {
+        k: if random.random_range(0..5) == 0 { 1.0 } else { random.random_range(0.5..1.5) },
+        is_on: random.random(),
+    };
+    let mut all = members(27, 14, of);
+    all[0].1.q = vector![0.0, -0.0];
+    assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_moan_6(), &all, 0.3), 27);
+    assert_eq!(agree::<_, _, 2, 3>(Trapezoidal, &all, 0.05), 27);
 }
 
 #[test]
