@@ -168,7 +168,7 @@ impl Everything {
         if x.is_finite() && (q[0].is_sign_positive() || q[1] != 0.5) && q[0] >= -2.0 {
             potential += 0.1 * x * x;
         }
-        if !(self.k > 1.0) || self.is_on && q[1].is_sign_negative() {
+        if self.k <= 1.0 || (self.is_on && q[1].is_sign_negative()) {
             potential -= 0.2 * y;
         }
         if Self::IS_MEANT && self.k == 1.0 {
