@@ -1,13 +1,16 @@
 //! High order from kicks and exact drifts: Runge–Kutta–Nyström splittings.
 
+mod coefficients;
 mod force_work;
 mod lanes;
 
 use nalgebra::{SMatrix, SVector};
 
+use coefficients::Part;
+
 use crate::numbers::Scalar;
 use crate::rules::{Drift, modes, require_positive_definite};
-use crate::run::{Explicit, composition::symmetric};
+use crate::run::Explicit;
 use crate::step::{
     Flow, Linearization, Memory, PhaseMatrix, Quantity, Report, State, StateBy, Step, StepError, StepWith,
 };
@@ -21,15 +24,20 @@ use crate::step::{
 /// ```text
 /// A:  q̇ = v,  ṗ = −Cv,  p = Mv          q += M⁻¹ϕ(τCM⁻¹) τ p,  p ← exp(−τCM⁻¹) p,    ϕ(z) = (1 − e⁻ᶻ)/z
 /// B:  q̇ = 0,  ṗ = G(q) = −∇V(q) + f(q)  p += τ G(q)
-/// step = B(b₁h) A(a₁h) B(b₂h) … A(a_S h) B(b₁h),                  aᵢ = a_{S+1−i},  Σ aᵢ = Σ bᵢ = 1
+/// step = B(b₁h) A(a₁h) B(b₂h) … A(a_S h) B(b₁h)        of order 4 and 6,        Σ aᵢ = Σ bᵢ = 1
+///        A(a₁h) B(b₁h) A(a₂h) … B(b_S h) A(a₁h)        of order 8,    the same from either end
 /// ```
 ///
 /// B lowers the degree in p of a field by one, A raises it by one at most, with damping as without. So
-/// brackets with two B more than A are 0: `[B,[B,[B,A]]]`, and of five letters those that A and B make with
-/// it. Without damping no others of up to five vanish, and a symmetric step of order 6 looks no further: the
-/// conditions of its order are those without damping, fewer than for fields of any kind. The coefficients are
-/// those of S. Blanes and P. C. Moan (Practical symplectic partitioned Runge–Kutta and Runge–Kutta–Nyström
-/// methods, J. Comput. Appl. Math. 142, 2002, 313–330). A step costs S gradients and no equation is solved.
+/// brackets with two B more than A are 0, `[B,[B,[B,A]]]` first, and those with one more are forces of q
+/// alone, which commute. Without damping nothing else vanishes in brackets of up to eight letters (they span
+/// 2, 1, 2, 2, 4, 5, 10, 14 dimensions by R. I. McLachlan and B. Ryland, The algebraic entropy of classical
+/// mechanics, J. Math. Phys. 44, 2003, and there are as many conditions). So the conditions of these orders
+/// are those without damping, fewer than for fields of any kind: 8 of order 6, 18 of order 8. The coefficients
+/// are those of S. Blanes and P. C. Moan (Practical symplectic partitioned Runge–Kutta and Runge–Kutta–Nyström
+/// methods, J. Comput. Appl. Math. 142, 2002, 313–330) and of S. Blanes, F. Casas and A. Escorihuela-Tomàs
+/// (Runge–Kutta–Nyström symplectic splitting methods of order 8, Appl. Numer. Math. 2022, arXiv:2202.01541).
+/// A step costs S gradients and no equation is solved.
 ///
 /// **Structure.** Each kick with the drift after it is the flow of a discrete Lagrangian system with force.
 /// Self-adjoint. Symplectic where C = 0. The determinant of the step is e^{−h tr M⁻¹C}, that of the flow, for
@@ -44,8 +52,9 @@ use crate::step::{
 /// |---|---|---|
 /// | order 4 | hω < 5.026 | 3.1634 < hω < 3.1686, by 0.24 % a step at most |
 /// | order 6 | hω < 9.073 | 3.1414 < hω < 3.1424, 6.3478 < hω < 6.3493, by 0.07 % a step at most |
+/// | order 8 | hω < 5.962 | 3.1398 < hω < 3.1429, by 0.16 % a step at most |
 ///
-/// and decay up to hω = 5 and 9 with damping of 0.01 ≤ hr/m ≤ 10. Where damping is stiff the error falls more
+/// and decay up to hω = 5, 9 and 5.9 with damping of 0.01 ≤ hr/m ≤ 10. Where damping is stiff the error falls more
 /// slowly than the order says, as by all splittings; there [`Fitted`](crate::Fitted) and
 /// [`Gauss`](crate::Gauss) rules serve.
 ///
@@ -71,92 +80,6 @@ use crate::step::{
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Splitting<const S: usize> {
     made: (),
-}
-
-impl Splitting<6> {
-    /// Order 4 with 6 gradients a step (Blanes and Moan 2002, SRKN₆ᵇ).
-    #[must_use]
-    pub const fn blanes_moan_4() -> Self {
-        Self { made: () }
-    }
-}
-
-impl Splitting<11> {
-    /// Order 6 with 11 gradients a step (Blanes and Moan 2002, SRKN₁₁ᵇ).
-    #[must_use]
-    pub const fn blanes_moan_6() -> Self {
-        Self { made: () }
-    }
-}
-
-/// a₁ … and b₁ …, the coefficients published; the last of each follows from the sums.
-type Published = (&'static [f64], &'static [f64]);
-
-const BLANES_MOAN_4: Published = {
-    const A: [f64; 2] = [0.245_298_957_184_271, 0.604_872_665_711_080];
-    const B: [f64; 3] = [0.082_984_406_417_405_2, 0.396_309_801_498_368, -0.039_056_304_922_348_6];
-    (&[A[0], A[1], 0.5 - (A[0] + A[1])], &[B[0], B[1], B[2], 1.0 - 2.0 * (B[0] + B[1] + B[2])])
-};
-
-const BLANES_MOAN_6: Published = {
-    const A: [f64; 5] = [
-        0.123_229_775_946_271,
-        0.290_553_797_799_558,
-        -0.127_049_212_625_417,
-        -0.246_331_761_062_075,
-        0.357_208_872_795_928,
-    ];
-    const B: [f64; 5] = [
-        0.041_464_998_518_262_4,
-        0.198_128_671_918_067,
-        -0.040_006_192_104_153_3,
-        0.075_253_984_301_580_7,
-        -0.011_511_387_420_687_9,
-    ];
-    (
-        &[A[0], A[1], A[2], A[3], A[4], 1.0 - 2.0 * (A[0] + A[1] + A[2] + A[3] + A[4])],
-        &[B[0], B[1], B[2], B[3], B[4], 0.5 - (B[0] + B[1] + B[2] + B[3] + B[4])],
-    )
-};
-
-/// b₁ … b_S of S + 1 kicks that read the same from either end.
-const fn kicks<const S: usize>(half: &[f64]) -> [f64; S] {
-    let mut kicks = [0.0; S];
-    let mut i = 0;
-    while i < S {
-        kicks[i] = half[if i < half.len() { i } else { S - i }];
-        i += 1;
-    }
-    kicks
-}
-
-impl<const S: usize> Splitting<S> {
-    const PUBLISHED: Published = match S {
-        6 => BLANES_MOAN_4,
-        11 => BLANES_MOAN_6,
-        _ => panic!("no such splitting is made"),
-    };
-
-    const DRIFTS: [f64; S] = symmetric(Self::PUBLISHED.0);
-    const KICKS: [f64; S] = kicks(Self::PUBLISHED.1);
-
-    /// a₁ … a_S: the drifts as shares of the step. They sum to 1; some are negative.
-    #[must_use]
-    pub const fn drifts(&self) -> &'static [f64; S] {
-        &Self::DRIFTS
-    }
-
-    /// b₁ … b_S: the kick before each drift. The one after the last is b₁ again, and with it they sum to 1.
-    #[must_use]
-    pub const fn kicks(&self) -> &'static [f64; S] {
-        &Self::KICKS
-    }
-
-    /// The order p: on a fixed interval the error falls as h^p.
-    #[must_use]
-    pub const fn order(&self) -> u32 {
-        if S == 6 { 4 } else { 6 }
-    }
 }
 
 impl<L, const N: usize, const S: usize> Flow<Splitting<S>, N> for L
@@ -192,8 +115,8 @@ where
 
 /// The kicks and drifts of a [`Splitting`].
 ///
-/// What the drifts do is worked out in the first step of a size. The force at the end of a step is that at
-/// the start of the next. It belongs to one system.
+/// What the drifts do is worked out in the first step of a size. Where kicks come first, the force at the end
+/// of a step is that at the start of the next. It belongs to one system.
 #[derive(Clone, Copy, Debug)]
 pub struct Kicks<T, const N: usize, const S: usize> {
     prepared: Option<Prepared<T, N, S>>,
@@ -264,7 +187,7 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
     }
 
     /// The step with `drift` for the i-th drift of (q, p − ∂L/∂v(0)), from where the force is `force`; the
-    /// force at its end.
+    /// force at its end. One that drifts first asks for no force at its ends.
     #[inline(always)]
     fn carried<L: Explicit<N, Scalar = T>, D>(
         &self,
@@ -275,6 +198,16 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
         drift: impl Fn(&D, &mut SVector<T, N>, &mut SVector<T, N>),
     ) -> (State<T, N>, SVector<T, N>) {
         let (mut q, mut p) = (state.q, state.p - self.shift);
+        if Splitting::<S>::DRIFTS_FIRST {
+            if let Some((outer, inner)) = drifts.split_first() {
+                drift(outer, &mut q, &mut p);
+                for (&kick, of) in self.kicks.iter().zip(inner.iter().chain([outer])) {
+                    p += (system.configuration_force(&q) - self.thrust) * kick;
+                    drift(of, &mut q, &mut p);
+                }
+            }
+            return (State { q, p: p + self.shift }, force);
+        }
         for (&kick, of) in self.kicks.iter().zip(drifts) {
             p += force * kick;
             drift(of, &mut q, &mut p);
@@ -305,23 +238,26 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
         let identity = SMatrix::<T, N, N>::identity();
         let (mut q, mut p) = (state.q, state.p - self.shift);
         let mut a = PhaseMatrix::identity();
-        for i in 0..=S {
-            let slope =
-                system.lagrangian_derivatives(&q, &rest).d11 + system.general_force_derivatives(&q, &rest).d1;
-            let kick = self.kicks[i % S];
-            a.p_by_q += slope * a.q_by_q * kick;
-            a.p_by_p += slope * a.q_by_p * kick;
-            if i == S {
-                break;
+        for part in Splitting::<S>::parts() {
+            match part {
+                Part::Kick(i) => {
+                    let kick = self.kicks[i];
+                    let slope = system.lagrangian_derivatives(&q, &rest).d11
+                        + system.general_force_derivatives(&q, &rest).d1;
+                    a.p_by_q += slope * a.q_by_q * kick;
+                    a.p_by_p += slope * a.q_by_p * kick;
+                    p += (system.configuration_force(&q) - self.thrust) * kick;
+                }
+                Part::Drift(i) => {
+                    let Drift { displacement, loss } = self.drift(i);
+                    a.q_by_q += displacement * a.p_by_q;
+                    a.q_by_p += displacement * a.p_by_p;
+                    a.p_by_q = (identity + loss) * a.p_by_q;
+                    a.p_by_p = (identity + loss) * a.p_by_p;
+                    q += displacement * p;
+                    p += loss * p;
+                }
             }
-            p += (system.configuration_force(&q) - self.thrust) * kick;
-            let Drift { displacement, loss } = self.drift(i);
-            a.q_by_q += displacement * a.p_by_q;
-            a.q_by_p += displacement * a.p_by_p;
-            a.p_by_q = (identity + loss) * a.p_by_q;
-            a.p_by_p = (identity + loss) * a.p_by_p;
-            q += displacement * p;
-            p += loss * p;
         }
         let entries = [&a.q_by_q, &a.q_by_p, &a.p_by_q, &a.p_by_p];
         entries.into_iter().try_for_each(|block| StepError::require_finite(block, Quantity::Derivatives))?;
@@ -329,7 +265,7 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
     }
 }
 
-/// The drifts over times that read the same from either end, each of them once.
+/// The drifts of a step, each length of them once.
 fn once_each<T: Scalar, const N: usize, const C: usize, const S: usize>(
     times: &[T; S],
     drift: impl Fn(T) -> Drift<SMatrix<T, N, C>>,
@@ -341,7 +277,9 @@ fn once_each<T: Scalar, const N: usize, const C: usize, const S: usize>(
             StepError::require_finite(&of.displacement, Quantity::Derivatives)?;
             StepError::require_finite(&of.loss, Quantity::Derivatives)?;
         }
-        for (of, same) in second.iter_mut().rev().zip(first) {
+        // Of S + 1 drifts the last stands at the front.
+        let at_the_front = usize::from(Splitting::<S>::DRIFTS_FIRST);
+        for (of, same) in second.iter_mut().rev().zip(first.iter().skip(at_the_front)) {
             *of = *same;
         }
     }
@@ -367,7 +305,11 @@ where
             Some((q, force)) if q == state.q => force,
             _ => {
                 state.require_finite()?;
-                system.configuration_force(&state.q) - prepared.thrust
+                if Splitting::<S>::DRIFTS_FIRST {
+                    nalgebra::zero()
+                } else {
+                    system.configuration_force(&state.q) - prepared.thrust
+                }
             }
         };
         let (end, force) = match (&prepared.drifts, prepared.is_damped) {

@@ -360,12 +360,14 @@ fn rings_are_bit_by_bit_their_own_runs() {
     all[3].1 = State { q: vector![0.0, -0.0], p: vector![-0.0, 0.0] };
     all[4].1 = State { q: vector![-0.0, 1.0], p: vector![-0.0, -0.0] };
     assert_eq!(agree_in_all(Splitting::blanes_moan_6(), &all, 0.09), 37);
+    assert_eq!(agree_in_all(Splitting::blanes_casas_escorihuela_8(), &all, 0.09), 37);
     assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_moan_4(), &all, 0.02), 37);
     assert_eq!(agree::<_, _, 2, 16>(Splitting::blanes_moan_4(), &all, -0.05), 37);
     // Undamped ones alone take a way of their own.
     let undamped: Vec<_> = all.into_iter().filter(|(ring, _)| ring.k == 0.0).collect();
     assert!(undamped.len() > 5);
     assert_eq!(agree::<_, _, 2, 4>(Splitting::blanes_moan_6(), &undamped, 0.1), undamped.len());
+    assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_casas_escorihuela_8(), &undamped, 0.1), undamped.len());
 }
 
 #[test]
@@ -388,6 +390,7 @@ fn members_without_fields_and_in_other_functions() {
     let all = members(35, 3, pendulums);
     assert_eq!(agree_in_all(Splitting::blanes_moan_6(), &all, 0.1), 35);
     assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_moan_4(), &all, 0.03), 35);
+    assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_casas_escorihuela_8(), &all, 0.1), 35);
 }
 
 #[test]
@@ -432,6 +435,7 @@ fn full_matrices_beside_diagonal_ones() {
     assert_eq!(agree::<_, _, 6, 1>(Splitting::blanes_moan_6(), &all, 0.1), 11);
     assert_eq!(agree::<_, _, 6, 3>(Splitting::blanes_moan_4(), &all, 0.1), 11);
     assert_eq!(agree::<_, _, 6, 8>(Splitting::blanes_moan_6(), &all, 0.2), 11);
+    assert_eq!(agree::<_, _, 6, 4>(Splitting::blanes_casas_escorihuela_8(), &all, 0.2), 11);
 }
 
 #[test]

@@ -7,5 +7,6 @@ mod lanes;
 mod one_run;
 mod saved_runs;
 mod splitting;
+mod splitting_conditions;
 mod tolerance;
 mod trajectory;

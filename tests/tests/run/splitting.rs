@@ -1,4 +1,4 @@
-//! Blanes and Moan's splittings: the order, what free motion and damping keep, and where they are stable.
+//! The splittings of Blanes and his coauthors: the order, what free motion and damping keep, and where they are stable.
 
 use std::f64::consts::PI;
 
@@ -41,26 +41,37 @@ fn assert_order<L, const N: usize, const S: usize>(
 }
 
 #[test]
-fn the_order_is_four_and_six() {
+fn the_order_is_four_six_and_eight() {
     let system = Pendulum { r: 0.05, ..Pendulum::EXAMPLE };
     let swing = [[1.9], [-0.7]];
     assert_order(&system, Splitting::blanes_moan_4(), 6.0, [96, 128, 160, 192, 256, 320], swing);
     assert_order(&system, Splitting::blanes_moan_6(), 6.0, [24, 28, 32, 36, 40, 44], swing);
+    let eight = Splitting::blanes_casas_escorihuela_8();
+    assert_order(&system, eight, 6.0, [30, 32, 34, 36, 40, 44], swing);
 }
 
 /// The step written by hand for a pendulum with friction, from the coefficients.
-fn by_hand<const S: usize>(
-    [drifts, kicks]: [&[f64; S]; 2],
-    r: f64,
-    h: f64,
-    [mut q, mut p]: [f64; 2],
-) -> [f64; 2] {
+fn by_hand<const S: usize>([drifts, kicks]: [&[f64; S]; 2], r: f64, h: f64, mut state: [f64; 2]) -> [f64; 2] {
+    let kick = |[q, p]: &mut [f64; 2], share: f64| *p -= share * h * q.sin();
+    let drift = |[q, p]: &mut [f64; 2], share: f64| {
+        let loss = (-r * share * h).exp_m1();
+        (*q, *p) = (*q - loss / r * *p, *p + loss * *p);
+    };
     for i in 0..S {
-        p -= kicks[i] * h * q.sin();
-        let loss = (-r * drifts[i] * h).exp_m1();
-        (q, p) = (q - loss / r * p, p + loss * p);
+        if S == 19 {
+            drift(&mut state, drifts[i]);
+            kick(&mut state, kicks[i]);
+        } else {
+            kick(&mut state, kicks[i]);
+            drift(&mut state, drifts[i]);
+        }
     }
-    [q, p - kicks[0] * h * q.sin()]
+    if S == 19 {
+        drift(&mut state, drifts[0]);
+    } else {
+        kick(&mut state, kicks[0]);
+    }
+    state
 }
 
 #[rayleigh_system(rule = trapezoidal)]
@@ -93,13 +104,19 @@ fn the_step_is_the_product_of_its_kicks_and_drifts() {
         assert!((found - f64::from(splitting.order())).abs() < 0.5, "{found}");
         // Still symmetric and of sum 1, but of order 2.
         let mut drifts = *splitting.drifts();
-        for (i, change) in [(0, 1e-3), (1, -1e-3), (S - 1, 1e-3), (S - 2, -1e-3)] {
+        let changes = if S == 19 {
+            vec![(0, 1e-3), (1, -1e-3), (S - 1, -1e-3)]
+        } else {
+            vec![(0, 1e-3), (1, -1e-3), (S - 1, 1e-3), (S - 2, -1e-3)]
+        };
+        for (i, change) in changes {
             drifts[i] += change;
         }
         assert!((order([&drifts, splitting.kicks()]) - 2.0).abs() < 0.3);
     }
     check(Splitting::blanes_moan_4());
     check(Splitting::blanes_moan_6());
+    check(Splitting::blanes_casas_escorihuela_8());
 }
 
 /// Two coordinates with coupled masses and dampers, terms of first degree, and an anharmonic potential of
@@ -158,6 +175,7 @@ fn free_motion_is_exact() {
     }
     check(Splitting::blanes_moan_4());
     check(Splitting::blanes_moan_6());
+    check(Splitting::blanes_casas_escorihuela_8());
 }
 
 /// Terms of first degree in L and R, coupled masses, and a force that has no potential, to the order.
@@ -172,6 +190,8 @@ fn forces_of_every_kind_keep_the_order() {
     let [four, six] =
         [order(Splitting::blanes_moan_4(), &system, 40), order(Splitting::blanes_moan_6(), &system, 20)];
     assert!((four - 4.0).abs() < 0.3 && (six - 6.0).abs() < 0.4, "{four} {six}");
+    let eight = order(Splitting::blanes_casas_escorihuela_8(), &system, 20);
+    assert!((eight - 8.0).abs() < 0.4, "{eight}");
     // And to the motion: M v̇ = G − r − C v by hand, with steps of another method.
     let rate = |y: SVector<f64, 4>| {
         let (q, v) = ([y[0], y[1]], [y[2], y[3]]);
@@ -193,8 +213,12 @@ fn forces_of_every_kind_keep_the_order() {
         let d = rate(y + c * h);
         y += (a + (b + c) * 2.0 + d) * (h / 6.0);
     }
-    let found = end(Splitting::blanes_moan_6(), &system, 0.02, START, 200);
-    assert!((found.q - y.fixed_rows::<2>(0)).amax() < 1e-10, "{} {y}", found.q);
+    for found in [
+        end(Splitting::blanes_moan_6(), &system, 0.02, START, 200),
+        end(Splitting::blanes_casas_escorihuela_8(), &system, 0.02, START, 200),
+    ] {
+        assert!((found.q - y.fixed_rows::<2>(0)).amax() < 1e-10, "{} {y}", found.q);
+    }
 }
 
 /// ∂(q1, p1)/∂(q0, p0) by differences of order 4.
@@ -238,18 +262,23 @@ fn phase_space_contracts_as_by_the_motion() {
     // Any damping matrix, and a circulatory force: det = e^{−h tr M⁻¹C}.
     let system = Two { damping: [0.5, -0.2, 0.7], k: 1.0 };
     let trace = (M.try_inverse().unwrap() * matrix![0.5, -0.2; -0.2, 0.7]).trace();
-    let a = jacobian(Splitting::blanes_moan_6(), &system, h, &START);
-    assert!((a.determinant() - (-h * trace).exp()).abs() < 1e-10, "{:e}", a.determinant());
-    assert!(
-        (a.transpose() * omega * a - omega * (-h * trace / 2.0).exp()).amax() > 1e-2,
-        "but it is not conformal"
-    );
+    for a in [
+        jacobian(Splitting::blanes_moan_6(), &system, h, &START),
+        jacobian(Splitting::blanes_casas_escorihuela_8(), &system, h, &START),
+    ] {
+        assert!((a.determinant() - (-h * trace).exp()).abs() < 1e-10, "{:e}", a.determinant());
+        assert!(
+            (a.transpose() * omega * a - omega * (-h * trace / 2.0).exp()).amax() > 1e-2,
+            "but it is not conformal"
+        );
+    }
     // C = k M: conformally symplectic; k = 0: symplectic.
     for k in [0.8, 0.0] {
         let start = State { q: vector![0.9, 0.3], p: vector![-0.4, 0.7] };
         for a in [
             jacobian(Splitting::blanes_moan_4(), &Ring { k }, h, &start),
             jacobian(Splitting::blanes_moan_6(), &Ring { k }, h, &start),
+            jacobian(Splitting::blanes_casas_escorihuela_8(), &Ring { k }, h, &start),
         ] {
             let miss = (a.transpose() * omega * a - omega * (-k * h).exp()).amax();
             assert!(miss < 1e-8 && (a - Matrix4::identity()).amax() > 0.1, "{k}: {miss:e}");
@@ -265,6 +294,7 @@ fn an_angular_momentum_falls_as_it_does_along_the_motion() {
     for (end, steps) in [
         (end(Splitting::blanes_moan_4(), &system, h, start, 500), 500.0),
         (end(Splitting::blanes_moan_6(), &system, h, start, 500), 500.0),
+        (end(Splitting::blanes_casas_escorihuela_8(), &system, h, start, 500), 500.0),
     ] {
         let expected = j(&start) * (-0.01 * h * steps).exp();
         assert!((j(&end) / expected - 1.0).abs() < 1e-13, "{:e}", j(&end) / expected - 1.0);
@@ -274,10 +304,14 @@ fn an_angular_momentum_falls_as_it_does_along_the_motion() {
 #[test]
 fn a_step_back_undoes_a_step_with_damping_too() {
     let system = Two { damping: [0.5, -0.2, 0.7], k: 1.0 };
-    let there = end(Splitting::blanes_moan_6(), &system, 0.3, START, 20);
-    let back = end(Splitting::blanes_moan_6(), &system, -0.3, there, 20);
-    assert!((there.q - START.q).amax() > 0.1);
-    assert!((back.q - START.q).amax() < 1e-12 && (back.p - START.p).amax() < 1e-12);
+    fn check<const S: usize>(splitting: Splitting<S>, system: &Two) {
+        let there = end(splitting, system, 0.3, START, 20);
+        let back = end(splitting, system, -0.3, there, 20);
+        assert!((there.q - START.q).amax() > 0.1);
+        assert!((back.q - START.q).amax() < 1e-12 && (back.p - START.p).amax() < 1e-12);
+    }
+    check(Splitting::blanes_moan_6(), &system);
+    check(Splitting::blanes_casas_escorihuela_8(), &system);
 }
 
 /// Without damping momenta do not drift: free ones, with a mass matrix that has to be decomposed, and an
@@ -317,6 +351,10 @@ fn oscillators_are_stable_up_to_the_bound_and_not_beyond() {
     assert!(
         six(3.139) < 30.0 && six(3.143) < 100.0 && six(6.35) < 100.0 && six(9.07) < 100.0 && six(9.08) > 1e3
     );
+    let eight = |omega| left(Splitting::blanes_casas_escorihuela_8(), omega, 0.0);
+    assert!(eight(3.138) < 30.0 && eight(3.144) < 100.0 && eight(5.96) < 300.0 && eight(5.97) > 1e3);
+    // By 0.15 % a step: e^(5000 × 0.0015).
+    assert!((1e2..1e4).contains(&eight(3.1413)), "{:e}", eight(3.1413));
     // The resonances, whose growth is slow: e^(5000 × 0.0023), e^(5000 × 0.0004).
     assert!((1e4..1e6).contains(&four(3.166)), "{:e}", four(3.166));
     let resonant = PI + 4e-4;
@@ -325,7 +363,8 @@ fn oscillators_are_stable_up_to_the_bound_and_not_beyond() {
         for omega in [0.1, 0.5, 1.0, 2.0, 3.0, PI, 3.166, 4.0, 5.0] {
             let four = left(Splitting::blanes_moan_4(), omega, r);
             let six = left(Splitting::blanes_moan_6(), 1.8 * omega, r);
-            assert!(four < 1.0 && six < 1.0, "{omega} {r}: {four:e} {six:e}");
+            let eight = left(Splitting::blanes_casas_escorihuela_8(), 1.18 * omega, r);
+            assert!(four < 1.0 && six < 1.0 && eight < 1.0, "{omega} {r}: {four:e} {six:e} {eight:e}");
         }
     }
 }

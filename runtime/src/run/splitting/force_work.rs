@@ -2,6 +2,7 @@
 
 use nalgebra::SVector;
 
+use super::coefficients::Part;
 use super::{Drift, Prepared, Splitting};
 use crate::numbers::{NewtonMatrix, Scalar};
 use crate::run::Explicit;
@@ -39,22 +40,25 @@ where
         let mut exchange =
             EnergyExchange { dissipated: (to.q - from.q).dot(&prepared.thrust), ..EnergyExchange::zero() };
         let (mut q, mut p) = (from.q, from.p - prepared.shift);
-        for i in 0..=S {
-            let kick = prepared.kicks[i % S];
-            let impulse = (self.configuration_force(&q) - prepared.thrust) * kick;
-            if L::HAS_FORCE {
-                let force = self.general_force(&q, &rest) * kick;
-                exchange.work += along(&force, &(p + impulse * half))?;
+        for part in Splitting::<S>::parts() {
+            match part {
+                Part::Kick(i) => {
+                    let kick = prepared.kicks[i];
+                    let impulse = (self.configuration_force(&q) - prepared.thrust) * kick;
+                    if L::HAS_FORCE {
+                        let force = self.general_force(&q, &rest) * kick;
+                        exchange.work += along(&force, &(p + impulse * half))?;
+                    }
+                    p += impulse;
+                }
+                Part::Drift(i) => {
+                    let Drift { displacement, loss } = prepared.drift(i);
+                    let lost = loss * p;
+                    exchange.dissipated -= along(&lost, &(p + lost * half))?;
+                    q += displacement * p;
+                    p += lost;
+                }
             }
-            p += impulse;
-            if i == S {
-                break;
-            }
-            let Drift { displacement, loss } = prepared.drift(i);
-            let lost = loss * p;
-            exchange.dissipated -= along(&lost, &(p + lost * half))?;
-            q += displacement * p;
-            p += lost;
         }
         Ok(exchange)
     }

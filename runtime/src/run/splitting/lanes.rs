@@ -27,7 +27,7 @@ struct Kicked<T, F, const N: usize, const S: usize, const W: usize> {
     fields: F,
     q: MemberVector<T, N, W>,
     p: MemberVector<T, N, W>,
-    /// G − ∂R/∂v(0) at q.
+    /// G − ∂R/∂v(0) at q, where kicks come first.
     force: MemberVector<T, N, W>,
     /// bᵢh.
     kicks: [T; S],
@@ -133,6 +133,20 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> Kicked<
         let (mut q, mut p, mut force) = (self.q, self.p, self.force);
         for _ in 0..steps {
             p = difference(&p, shift);
+            if Splitting::<S>::DRIFTS_FIRST {
+                drifts.drift(0, &mut q, &mut p);
+                for i in 0..S {
+                    force = difference(&L::configuration_force_in_lanes(fields, &q), thrust);
+                    for a in 0..N {
+                        p[a] = p[a] + force[a] * self.kicks[i];
+                    }
+                    drifts.drift(if i < S - 1 - i { i + 1 } else { S - 1 - i }, &mut q, &mut p);
+                }
+                for a in 0..N {
+                    p[a] = p[a] + shift[a];
+                }
+                continue;
+            }
             for i in 0..S {
                 each_coordinate!(a => {
                     p[a] = p[a] + force[a] * self.kicks[i];
