@@ -44,6 +44,9 @@ impl<S: Explicit<N, Scalar = f64> + 'static, const N: usize> Splittings<S, N> {
         ("Blanes–Moan 6", |s, start, h, n| {
             run::<S, Splitting<11>, N>(s, Splitting::blanes_moan_6(), start, h, n)
         }),
+        ("Blanes–Casas–Escorihuela 8", |s, start, h, n| {
+            run::<S, Splitting<19>, N>(s, Splitting::blanes_casas_escorihuela_8(), start, h, n)
+        }),
     ];
 }
 

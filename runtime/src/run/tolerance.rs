@@ -40,6 +40,8 @@ pub enum Method {
     BlanesMoan4,
     /// [`Splitting::blanes_moan_6`](crate::Splitting::blanes_moan_6).
     BlanesMoan6,
+    /// [`Splitting::blanes_casas_escorihuela_8`](crate::Splitting::blanes_casas_escorihuela_8).
+    BlanesCasasEscorihuela8,
     /// [`Gauss<4>`](crate::Gauss), order 8.
     Gauss4,
     /// [`Gauss<8>`](crate::Gauss), order 16.
@@ -138,12 +140,13 @@ pub enum ToleranceError {
 
 impl Method {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Rule,
         Self::KahanLi6,
         Self::KahanLi8,
         Self::BlanesMoan4,
         Self::BlanesMoan6,
+        Self::BlanesCasasEscorihuela8,
         Self::Gauss4,
         Self::Gauss8,
     ];
@@ -155,7 +158,7 @@ impl Method {
             Self::Rule => 2,
             Self::BlanesMoan4 => 4,
             Self::KahanLi6 | Self::BlanesMoan6 => 6,
-            Self::KahanLi8 | Self::Gauss4 => 8,
+            Self::KahanLi8 | Self::BlanesCasasEscorihuela8 | Self::Gauss4 => 8,
             Self::Gauss8 => 16,
         }
     }
@@ -256,6 +259,7 @@ impl Method {
             Self::KahanLi8 => 17.0,
             Self::BlanesMoan4 => 6.0,
             Self::BlanesMoan6 => 11.0,
+            Self::BlanesCasasEscorihuela8 => 19.0,
         }
     }
 
@@ -267,6 +271,7 @@ impl Method {
             Self::KahanLi8 => (1e-4, 2.0),
             Self::BlanesMoan4 => (1e-4, 2.5),
             Self::BlanesMoan6 => (2e-6, 3.0),
+            Self::BlanesCasasEscorihuela8 => (5e-7, 3.0),
             Self::Gauss4 => (4e-8, 3.0),
             Self::Gauss8 => (2e-19, 5.0),
         };
@@ -283,6 +288,7 @@ impl Method {
             Self::KahanLi8 => 17.0 * substep,
             Self::BlanesMoan4 => 6.0,
             Self::BlanesMoan6 => 11.0,
+            Self::BlanesCasasEscorihuela8 => 19.0,
             Self::Gauss4 => 32.0 + 24.0 * angle,
             Self::Gauss8 => 64.0 + 48.0 * angle,
         }

@@ -96,6 +96,7 @@ fn every_method_is_differentiated() {
         off(&WELL, Composition::kahan_li_6(Gauss::<2>)),
         off(&WELL, Splitting::blanes_moan_4()),
         off(&WELL, Splitting::blanes_moan_6()),
+        off(&WELL, Splitting::blanes_casas_escorihuela_8()),
         off(&WELL, Quadrature(Simpson)),
     ] {
         assert!(off < 1e-9, "{off:e}");

@@ -286,6 +286,26 @@ fn phase_space_contracts_as_by_the_motion() {
     }
 }
 
+/// Where errors are small; and as a control that long steps are order 6's.
+#[test]
+fn order_8_has_the_smaller_error_for_the_same_gradients() {
+    let start = State { q: vector![1.1, 0.0], p: vector![0.2, 0.9] };
+    let system = Ring { k: 0.02 };
+    let fine = end(Splitting::blanes_casas_escorihuela_8(), &system, 0.01, start, 2000);
+    let errors = |gradients: usize| {
+        let of = |found: State<f64, 2>| (found.q - fine.q).amax();
+        let (six, eight) = (gradients / 11, gradients / 19);
+        [
+            of(end(Splitting::blanes_moan_6(), &system, 20.0 / six as f64, start, six)),
+            of(end(Splitting::blanes_casas_escorihuela_8(), &system, 20.0 / eight as f64, start, eight)),
+        ]
+    };
+    let [six, eight] = errors(11 * 19 * 25);
+    assert!(eight < 0.6 * six && six < 1e-10, "{six:e} {eight:e}");
+    let [six, eight] = errors(11 * 19 * 4);
+    assert!(six < eight, "{six:e} {eight:e}");
+}
+
 #[test]
 fn an_angular_momentum_falls_as_it_does_along_the_motion() {
     let (system, h) = (Ring { k: 0.01 }, 0.3);

@@ -1,9 +1,9 @@
 //! Order and step size from a requested error: kept or said not to be, explained, and watched over along the
 //! run.
 
-use dalembert::nalgebra::SVector;
+use dalembert::nalgebra::{SVector, vector};
 use dalembert::tolerance::{Method, MethodStep, Methods, ToleranceError, WithGauss, WithSplittings};
-use dalembert::{Lagrangian, State, Trapezoidal, rayleigh_system};
+use dalembert::{Discretise, Gauss, Lagrangian, State, Trapezoidal, rayleigh_system};
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::reference;
 use dalembert_tests::systems::{Chain, DoublePendulum, Pendulum};
@@ -125,19 +125,43 @@ fn gauss_methods_are_considered_where_they_are_offered() {
     assert_eq!(reached_among(&Pendulum::EXAMPLE, Trapezoidal, PENDULUM, 16.0, 1e-9).1, Method::KahanLi8);
 }
 
+fn is_splitting(method: Method) -> bool {
+    matches!(method, Method::BlanesMoan4 | Method::BlanesMoan6 | Method::BlanesCasasEscorihuela8)
+}
+
 #[test]
 fn splittings_are_considered_where_they_are_offered() {
     let among = WithGauss(WithSplittings(Trapezoidal));
     for (tolerance, is_split) in [(1e-3, true), (1e-5, true), (1e-6, true), (1e-11, false)] {
         let (error, method) = reached_among(&Pendulum::EXAMPLE, among, PENDULUM, 16.0, tolerance);
         assert!(error <= tolerance, "{method}: {error:e} for {tolerance:e}");
-        let found = matches!(method, Method::BlanesMoan4 | Method::BlanesMoan6);
-        assert_eq!(found, is_split, "{method} for {tolerance:e}");
+        assert_eq!(is_splitting(method), is_split, "{method} for {tolerance:e}");
         // Positive control: where they are not asked for, they are not chosen.
         let (_, method) =
             reached_among(&Pendulum::EXAMPLE, WithGauss(Trapezoidal), PENDULUM, 16.0, tolerance);
-        assert!(!matches!(method, Method::BlanesMoan4 | Method::BlanesMoan6));
+        assert!(!is_splitting(method));
     }
+}
+
+/// The attraction of a centre.
+#[rayleigh_system(rule = [trapezoidal, gauss])]
+fn planet(q: [f64; 2], v: [f64; 2]) -> f64 {
+    0.5 * (v[0] * v[0] + v[1] * v[1]) + 1.0 / (q[0] * q[0] + q[1] * q[1]).sqrt()
+}
+
+#[test]
+fn the_splitting_of_order_8_is_chosen_where_it_is_the_cheapest() {
+    let start = State { q: vector![0.5, 0.0], p: vector![0.0, 3.0_f64.sqrt()] };
+    let system = Planet {};
+    let choice = system.to_error(1e-7).until(100.0).choice(&start).unwrap();
+    assert_eq!(choice.method(), Method::BlanesCasasEscorihuela8, "{choice}");
+    let mut run = choice.trajectory();
+    let end = run.by_ref().last().unwrap().unwrap().state;
+    let exact = system.by(Gauss::<8>, 0.05).run(start).nth(1999).unwrap().unwrap().state;
+    assert!(run.breach().is_none() && (end.q - exact.q).amax() < 1e-7, "{choice}");
+    // Control: for a thousand times the error it is not.
+    let loose = system.to_error(1e-3).until(100.0).choice(&start).unwrap();
+    assert_ne!(loose.method(), Method::BlanesCasasEscorihuela8, "{loose}");
 }
 
 #[test]

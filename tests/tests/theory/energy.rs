@@ -241,10 +241,12 @@ fn every_method_takes_account_to_its_order() {
             damped, 0: Midpoint => 2 in 40, Trapezoidal => 2 in 40, Fitted => 2 in 40, FittedTrapezoidal => 2 in 40,
                 OneSided => 1 in 80, Quadrature(Simpson) => 2 in 40, Gauss::<2> => 4 in 10, Gauss::<3> => 6 in 6,
                 Splitting::blanes_moan_4() => 4 in 6, Splitting::blanes_moan_6() => 6 in 4,
+                Splitting::blanes_casas_escorihuela_8() => 8 in 4,
                 Composition::kahan_li_6(Midpoint) => 6 in 10, Composition::kahan_li_6(FittedTrapezoidal) => 6 in 10,
                 Composition::kahan_li_8(Trapezoidal) => 8 in 8;
             stirred, 1: Midpoint => 2 in 40, Trapezoidal => 2 in 40, Gauss::<2> => 4 in 10,
-                Splitting::blanes_moan_4() => 4 in 6, Splitting::blanes_moan_6() => 6 in 4;
+                Splitting::blanes_moan_4() => 4 in 6, Splitting::blanes_moan_6() => 6 in 4,
+                Splitting::blanes_casas_escorihuela_8() => 8 in 4;
             pumped, 2: Midpoint => 2 in 40, Trapezoidal => 2 in 40, Quadrature(Simpson) => 2 in 40,
                 Gauss::<2> => 4 in 10, Gauss::<3> => 6 in 6, Composition::kahan_li_6(Midpoint) => 6 in 10;
         }
@@ -305,7 +307,7 @@ fn a_drift_takes_what_it_takes_exactly() {
         }
         nothing_remains!(free, Fitted, FittedTrapezoidal, Splitting::blanes_moan_4());
         if r < 100.0 {
-            nothing_remains!(free, Splitting::blanes_moan_6());
+            nothing_remains!(free, Splitting::blanes_moan_6(), Splitting::blanes_casas_escorihuela_8());
         }
         // Under a constant force the fitted midpoint rule is exact too, up to its terminal velocity.
         nothing_remains!(Sled { r, g: 0.7, s: 0.0 }, Fitted);

@@ -20,11 +20,18 @@ impl Splitting<11> {
 }
 
 impl Splitting<19> {
-    /// Order 8 with 19 gradients a step (Blanes, Casas and Escorihuela-Tomàs 2022, A₁₉), for errors of 1e-10
-    /// and below.
+    /// Order 8 with 19 gradients a step (Blanes, Casas and Escorihuela-Tomàs 2022, A₁₉): 20 drifts with 19
+    /// kicks between them.
     ///
-    /// It drifts first: 20 drifts with 19 kicks between them. Where errors are above 1e-8, as for long steps,
-    /// order 6 costs less.
+    /// Gradients to an error of q at t = 100, as multiples of those of order 6 (a chain: of eight masses, at
+    /// t = 50). The composition of order 8 takes 1.3 to 1.9 times as many as this.
+    ///
+    /// | | 1e-6 | 1e-8 | 1e-9 | 1e-10 | 1e-11 | 1e-12 |
+    /// |---|---|---|---|---|---|---|
+    /// | (r² − 1)²r² | 1.60 | 1.09 | 1.01 | 0.86 | 0.80 | 0.74 |
+    /// | Hénon–Heiles | 1.38 | 1.18 | 1.09 | 1.01 | 0.87 | 0.80 |
+    /// | Kepler, e = ½ | 0.87 | 0.63 | 0.59 | 0.54 | 0.54 | |
+    /// | chain | 1.88 | 1.18 | 1.01 | 0.93 | 0.80 | 0.74 |
     #[must_use]
     pub const fn blanes_casas_escorihuela_8() -> Self {
         Self { made: () }
@@ -61,6 +68,7 @@ const BLANES_MOAN_6: Published = {
     )
 };
 
+#[expect(clippy::excessive_precision, reason = "the digits published")]
 const BLANES_CASAS_ESCORIHUELA_8: Published = {
     // The first two are the authors' choice, the others follow from the conditions.
     const A: [f64; 9] = [

@@ -13,6 +13,7 @@ impl fmt::Display for Method {
             Self::KahanLi8 => f.write_str("order 8 in 17 substeps"),
             Self::BlanesMoan4 => f.write_str("order 4, splitting with 6 kicks"),
             Self::BlanesMoan6 => f.write_str("order 6, splitting with 11 kicks"),
+            Self::BlanesCasasEscorihuela8 => f.write_str("order 8, splitting with 19 kicks"),
             Self::Gauss4 => f.write_str("order 8, Gauss with 4 stages"),
             Self::Gauss8 => f.write_str("order 16, Gauss with 8 stages"),
         }

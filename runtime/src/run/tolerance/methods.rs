@@ -317,6 +317,8 @@ added! { WithSplittings: Explicit,
         BlanesMoan4(OfSize<L, Splitting<6>, N>): kicked, keep;
         /// Order 6.
         BlanesMoan6(OfSize<L, Splitting<11>, N>): kicked, keep;
+        /// Order 8.
+        BlanesCasasEscorihuela8(OfSize<L, Splitting<19>, N>): kicked, keep;
     }
 }
 
