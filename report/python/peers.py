@@ -1,7 +1,7 @@
 """Times methods that have a Python interface, one run at a request, so that another program can take turns with it.
 
 Says which methods there are, then answers a line `method<TAB>scene<TAB>tolerance<TAB>repeats<TAB>samples` with `end`, the
-seconds of one trajectory and (q, v) at so many equal intervals, or with what went wrong. The time is this thread's processor time,
+seconds of one trajectory and (q, v) at so many equal intervals, of a batch of all its trajectories, or with what went wrong. The time is this thread's processor time,
 taken here, around the integration alone.
 """
 
@@ -68,7 +68,7 @@ def heyoka_methods(hy):
             states = []
             for time in times:
                 integrator.propagate_until(time)
-                states.append(integrator.state[:, 0].copy())
+                states.extend(integrator.state.T.copy())
         seconds = (thread_time() - begin) / repeats / BATCH
         if any(result[0] != hy.taylor_outcome.time_limit for result in integrator.propagate_res):
             raise RuntimeError("heyoka stopped early")

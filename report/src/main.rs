@@ -3,9 +3,10 @@
 //!
 //! `cargo speed-against-error` measures and writes `docs/speed-against-error.md`; `… page` writes the page
 //! again from the figures measured last, `… scenes` and `… long-run` measure one part again, `… scenes ring
-//! Kepler` these scenes. Peers with a Python interface are run where the interpreter that `PYTHON` names has
+//! Kepler` these scenes. `… ensembles`, of many trajectories, is a page of its own. Peers with a Python interface are run where the interpreter that `PYTHON` names has
 //! them.
 
+mod ensembles;
 mod figures;
 mod frontier;
 mod long_run;
@@ -39,10 +40,11 @@ fn main() -> Result<()> {
         None => measure(&folder, Some(&[]), true)?,
         Some("scenes") => measure(&folder, Some(&env::args().skip(2).collect::<Vec<_>>()), false)?,
         Some("long-run") => measure(&folder, None, true)?,
+        Some("ensembles") => return ensembles::write(&docs),
         Some("page") => {}
         Some(other) => {
             bail!(
-                "{other:?} is no part of the measurement: give `scenes` or `long-run` to measure these alone, `page` to measure nothing, or \
+                "{other:?} is no part of the measurement: give `scenes` or `long-run` to measure these alone, `ensembles` for many trajectories, `page` to measure nothing, or \
                  no argument to measure all"
             )
         }

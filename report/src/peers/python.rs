@@ -53,7 +53,7 @@ impl Python {
     }
 
     /// Seconds of one trajectory of the scene of that name, and (q, v) at the ends of so many equal
-    /// intervals.
+    /// intervals; of a batch of all its trajectories, the scene's own first.
     ///
     /// # Errors
     /// What the script says.
@@ -74,7 +74,8 @@ impl Python {
         let seconds = numbers.next().context("no time")??;
         let numbers: Vec<f64> = numbers.collect::<Result<_, _>>()?;
         let (states, rest) = numbers.as_chunks();
-        ensure!(rest.is_empty() && states.len() == samples, "{} numbers for {samples} states", numbers.len());
+        let is_whole = rest.is_empty() && !states.is_empty() && states.len().is_multiple_of(samples);
+        ensure!(is_whole, "{} numbers for {samples} states", numbers.len());
         Ok((seconds, states.to_vec()))
     }
 }

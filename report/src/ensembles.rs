@@ -1,0 +1,234 @@
+//! Many trajectories: ensembles in lanes beside heyoka's batch of eight, all lanes' errors; threads; the
+//! growth with the number of members.
+
+use std::fmt::Write;
+use std::path::Path;
+use std::time::Instant;
+
+use anyhow::{Context, Result, ensure};
+use dalembert::nalgebra::SVector;
+use dalembert::run::InLanes;
+use dalembert::step::MethodOf;
+use dalembert::{Discretise, Gauss, Lagrangian, Splitting, State};
+use dalembert_ensemble::Ensemble;
+use dalembert_examples::results;
+use dalembert_scenes::{FputChain8, HenonHeiles, Kepler, Ring};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+use crate::measure::{Candidate, interleaved, timed};
+use crate::peers::python::Python;
+use crate::reference;
+use crate::scenes::Scene;
+
+/// Errors to be reached.
+const LEVELS: [f64; 4] = [1e-6, 1e-8, 1e-10, 1e-12];
+/// Members of a run: those of one chunk, on the eight starts in turn.
+const MEMBERS: u64 = 256;
+const BATCH: &str = crate::page::BATCH;
+
+/// Measures and writes `docs/ensembles.md`.
+///
+/// # Errors
+/// heyoka is missing, a reference is not what it should be, or the page cannot be written.
+pub fn write(docs: &Path) -> Result<()> {
+    let python = Python::start()?;
+    ensure!(
+        python.methods.contains(&BATCH),
+        "heyoka is missing: name a Python interpreter that has it in PYTHON"
+    );
+    let mut page = include_str!("../ensembles.md").to_owned();
+    macro_rules! scenes {
+        ($($name:literal: $scene:expr, $n:literal;)*) => {$(
+            eprintln!("{}", $name);
+            rows::<_, $n, { 2 * $n }>($name, $scene, &python, &mut page)?;
+        )*};
+    }
+    scenes! {
+        "ring": Ring::MEASURED, 2;
+        "Hénon–Heiles": HenonHeiles {}, 2;
+        "Kepler": Kepler { k: 1e-4 }, 2;
+        "FPUT chain": FputChain8::MEASURED, 8;
+    }
+    page.push_str(include_str!("../ensembles_growth.md"));
+    growth(&mut page)?;
+    write!(page, "\n{}", crate::page::setting(Some(&python)))?;
+    results::save(&docs.join("ensembles.md"), &page)
+}
+
+/// Sets of eight ends.
+type Ends<const N: usize> = Vec<State<f64, N>>;
+
+/// A scene's rows: to each error the cheapest of ours and of heyoka's batch, whose worst lane counts.
+fn rows<S, const N: usize, const M: usize>(
+    name: &str,
+    scene: S,
+    python: &Python,
+    page: &mut String,
+) -> Result<()>
+where
+    S: Scene<N> + InLanes<Splitting<6>, N> + InLanes<Splitting<11>, N> + Send + Sync,
+{
+    let reference = reference::of(name)?;
+    let start = |lane: u64| -> Result<State<f64, N>> {
+        let mut q = SVector::<f64, N>::from_column_slice(&reference.start_q);
+        q[0] += 1e-3 * lane as f64;
+        Ok(State::from_velocity(&scene, q, SVector::<f64, N>::from_column_slice(&reference.start_v))?)
+    };
+    let starts: Ends<N> = (0..8).map(start).collect::<Result<_>>()?;
+    let exact = references(&scene, &starts, reference.time)?;
+    let known = SVector::<f64, N>::from_column_slice(&reference.end_q);
+    ensure!((exact[0].q - known).amax() < 2e-12, "{name}: {:e}", (exact[0].q - known).amax());
+    let worst = |ends: &Ends<N>| {
+        let errors = ends.iter().zip(exact.iter().cycle()).map(|(end, exact)| (end.q - exact.q).amax());
+        errors.fold(0.0, |worst: f64, error| if error > worst || error.is_nan() { error } else { worst })
+    };
+
+    let pool = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
+    let pool = pool.or_else(|_| ThreadPoolBuilder::new().num_threads(1).build())?;
+    let mut candidates: Vec<Candidate<'_, Ends<N>>> = Vec::new();
+    let counts = || (0..40).map(|k| (reference.time * 2_f64.powf(0.25 * f64::from(k))).ceil());
+    for steps in counts() {
+        candidates.extend(ours(
+            "Blanes–Moan 4",
+            Splitting::blanes_moan_4(),
+            scene,
+            &starts,
+            [reference.time, steps],
+            &pool,
+        ));
+        candidates.extend(ours(
+            "Blanes–Moan 6",
+            Splitting::blanes_moan_6(),
+            scene,
+            &starts,
+            [reference.time, steps],
+            &pool,
+        ));
+    }
+    candidates.retain_mut(|candidate| {
+        (candidate.run)(1).is_ok_and(|(seconds, ends)| seconds < 1e-3 && worst(&ends) < 1e-4)
+    });
+    for tolerance in (5..16).map(|k| 10_f64.powi(-k)).chain([f64::EPSILON]) {
+        let run = move |repeats| {
+            let (seconds, y) = python.run::<M>(BATCH, name, tolerance, repeats, 1)?;
+            let state = |y: [f64; M]| {
+                let (q, v) = y.split_at(N);
+                let [q, v] = [q, v].map(SVector::<f64, N>::from_column_slice);
+                Ok(State::from_velocity(&scene, q, v)?)
+            };
+            Ok((seconds, y.into_iter().map(state).collect::<Result<_>>()?))
+        };
+        candidates.push(Candidate { method: BATCH, setting: tolerance, run: Box::new(run) });
+    }
+    let measured = interleaved(candidates);
+    for level in LEVELS {
+        let cheapest = |is_ours: bool| {
+            let able =
+                measured.iter().filter(|one| (one.method != BATCH) == is_ours && worst(&one.end) <= level);
+            able.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
+        };
+        let (own, batch) = (cheapest(true), cheapest(false));
+        let cell = |of: Option<&crate::measure::Measured<Ends<N>>>| match of {
+            Some(of) => format!("{} {:.3} | {:.1e}", of.method, of.seconds * 1e6, worst(&of.end)),
+            None => "not reached | ".to_owned(),
+        };
+        let ratio = match (own, batch) {
+            (Some(own), Some(batch)) => format!("{:.2}", own.seconds / batch.seconds),
+            _ => String::new(),
+        };
+        writeln!(page, "| {name} | {level:.0e} | {} | {} | {ratio} |", cell(own), cell(batch))?;
+    }
+    Ok(())
+}
+
+/// The eight ends, by two step sizes of the Gauss rule of order 16 that agree.
+fn references<S: Scene<N>, const N: usize>(scene: &S, starts: &Ends<N>, time: f64) -> Result<Ends<N>> {
+    let ends = |h: f64| -> Result<Ends<N>> {
+        let steps = (time / h).ceil();
+        let end = |start: &State<f64, N>| -> Result<State<f64, N>> {
+            let mut run = scene.by(Gauss::<8>, time / steps).run(*start);
+            for step in run.by_ref().take(steps as usize) {
+                step?;
+            }
+            Ok(*run.state())
+        };
+        starts.iter().map(end).collect()
+    };
+    let (wide, narrow) = (ends(0.05)?, ends(0.04)?);
+    let apart = wide.iter().zip(&narrow).map(|(a, b)| (a.q - b.q).amax()).fold(0.0, f64::max);
+    ensure!(apart < 5e-13, "references differ by {apart:e}");
+    Ok(narrow)
+}
+
+/// Our run by so many steps.
+fn ours<'a, S, M, const N: usize>(
+    name: &'static str,
+    method: M,
+    scene: S,
+    starts: &'a Ends<N>,
+    [time, steps]: [f64; 2],
+    pool: &'a ThreadPool,
+) -> Option<Candidate<'a, Ends<N>>>
+where
+    S: Lagrangian<N, Scalar = f64> + InLanes<M, N> + Copy + Send + Sync + 'a,
+    M: MethodOf<S, N> + Copy + Send + Sync + 'a,
+{
+    let run = move || {
+        let member = |number: u64| Ok((scene, starts[(number % 8) as usize]));
+        let study = Ensemble::new(member).by(method, time / steps).steps(steps as u64).in_lanes();
+        pool.install(|| study.ends(0..MEMBERS)).ok().context("cancelled")
+    };
+    let ends = |ends: dalembert_ensemble::Ends<f64, N>| {
+        ends.into_iter().map(|end| Ok(end.map_err(|failure| anyhow::anyhow!("{failure}"))?.state)).collect()
+    };
+    let mut all = timed(run, ends);
+    let run = move |repeats| all(repeats).map(|(seconds, ends)| (seconds / MEMBERS as f64, ends));
+    Some(Candidate { method: name, setting: steps, run: Box::new(run) })
+}
+
+/// The ring by 800 steps: members from 1 to a million, one thread and two, wall time.
+fn growth(page: &mut String) -> Result<()> {
+    let pools = [1, 2].map(|threads| ThreadPoolBuilder::new().num_threads(threads).build());
+    let [one, two] = pools;
+    let (one, two) = (one?, two?);
+    let member = |number: u64| {
+        let ring = Ring { k: 1e-3 };
+        Ok((ring, State::from_velocity(&ring, [0.1, 1.1], [0.5, 1e-9 * number as f64])?))
+    };
+    let study = || Ensemble::new(member).by(Splitting::blanes_moan_6(), 0.125).steps(800).in_lanes();
+    for members in (0..=6).map(|k| 10_u64.pow(k)) {
+        let seconds = |pool: &ThreadPool| {
+            let repeats = (20_000 / members).clamp(1, 200);
+            let begin = Instant::now();
+            for _ in 0..repeats {
+                let sum = pool.install(|| {
+                    let add = |sum: &mut f64, outcome: dalembert_ensemble::Outcome<f64, f64, 2>| {
+                        *sum += outcome.value
+                    };
+                    study().reduce(0..members, |_| 0.0, |value, record| *value = record.state.q[0], 0.0, add)
+                });
+                std::hint::black_box(sum.ok());
+            }
+            begin.elapsed().as_secs_f64() / repeats as f64
+        };
+        let (alone, both) = (seconds(&one), seconds(&two));
+        writeln!(
+            page,
+            "| {members} | {:.2} | {:.2} | {:.2} | {} |",
+            alone / members as f64 * 1e6,
+            both / members as f64 * 1e6,
+            alone / both,
+            peak_memory()?
+        )?;
+    }
+    Ok(())
+}
+
+/// The most memory that this process has had, in MiB.
+fn peak_memory() -> Result<u64> {
+    let status =
+        std::fs::read_to_string("/proc/self/status").context("no /proc: memory is measured on Linux")?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).context("no VmHWM")?;
+    let kilobytes: u64 = line.trim().trim_end_matches(" kB").parse()?;
+    Ok(kilobytes / 1024)
+}
