@@ -33,19 +33,27 @@ where
     runs.advance(steps);
 }
 
+/// Most bytes of the runs of one group: they stand on the stack, of which a thread may have 2 MiB, and are to
+/// stay in the cache.
+const MOST_BYTES: usize = 256 * 1024;
+
 /// How many members at a time keep the registers full, as measured by
-/// `cargo bench -p dalembert-benches --bench lanes`.
-fn lanes() -> usize {
+/// `cargo bench -p dalembert-benches --bench lanes`; fewer where N or the method makes the runs large.
+fn lanes<L: LanesBy<M, N>, M, const N: usize>() -> usize {
     #[cfg(target_arch = "x86_64")]
-    {
-        if is_x86_feature_detected!("avx512f") {
-            return 32;
-        }
-        if is_x86_feature_detected!("avx2") {
-            return 16;
-        }
-    }
-    8
+    let widest = match (is_x86_feature_detected!("avx512f"), is_x86_feature_detected!("avx2")) {
+        (true, _) => 32,
+        (false, true) => 16,
+        (false, false) => 8,
+    };
+    #[cfg(not(target_arch = "x86_64"))]
+    let widest = 8;
+    let fitting = match () {
+        () if size_of::<LaneRuns<'_, L, M, N, 32>>() <= MOST_BYTES => 32,
+        () if size_of::<LaneRuns<'_, L, M, N, 16>>() <= MOST_BYTES => 16,
+        () => 8,
+    };
+    fitting.min(widest)
 }
 
 /// A member on its way.
@@ -89,7 +97,7 @@ where
                 Err(error) => *failure = Some(Failure { number, error: (*error).into(), last: None }),
             }
         }
-        match lanes() {
+        match lanes::<L, M, N>() {
             32 => all.chunks_mut(32).for_each(|group| self.advance_group::<L, V, N, 32>(group, observe)),
             16 => all.chunks_mut(16).for_each(|group| self.advance_group::<L, V, N, 16>(group, observe)),
             _ => all.chunks_mut(8).for_each(|group| self.advance_group::<L, V, N, 8>(group, observe)),

@@ -118,7 +118,8 @@ impl<'f, F, M, L, const N: usize> Study<'f, F, OneByOne<M, L::Scalar>, L, N>
 where
     L: LanesBy<M, N>,
 {
-    /// As many members at a time as the machine has lanes for: 32, 16 or 8, every field with its own value.
+    /// As many members at a time as the machine has lanes for: 32, 16 or 8, fewer of many coordinates; every
+    /// field has its own value.
     ///
     /// The same bits as one by one, many times faster where the force is arithmetic; elementary functions are
     /// taken member by member, since their bits are to be the platform's.

@@ -66,7 +66,12 @@ fn rows<S, const N: usize, const M: usize>(
     page: &mut String,
 ) -> Result<()>
 where
-    S: Scene<N> + InLanes<Splitting<6>, N> + InLanes<Splitting<11>, N> + Send + Sync,
+    S: Scene<N>
+        + InLanes<Splitting<6>, N>
+        + InLanes<Splitting<11>, N>
+        + InLanes<Splitting<19>, N>
+        + Send
+        + Sync,
 {
     let reference = reference::of(name)?;
     let start = |lane: u64| -> Result<State<f64, N>> {
@@ -88,22 +93,19 @@ where
     let mut candidates: Vec<Candidate<'_, Ends<N>>> = Vec::new();
     let counts = || (0..40).map(|k| (reference.time * 2_f64.powf(0.25 * f64::from(k))).ceil());
     for steps in counts() {
-        candidates.extend(ours(
-            "Blanes–Moan 4",
-            Splitting::blanes_moan_4(),
-            scene,
-            &starts,
-            [reference.time, steps],
-            &pool,
-        ));
-        candidates.extend(ours(
-            "Blanes–Moan 6",
-            Splitting::blanes_moan_6(),
-            scene,
-            &starts,
-            [reference.time, steps],
-            &pool,
-        ));
+        let of = [reference.time, steps];
+        candidates.extend([
+            ours("Blanes–Moan 4", Splitting::blanes_moan_4(), scene, &starts, of, &pool),
+            ours("Blanes–Moan 6", Splitting::blanes_moan_6(), scene, &starts, of, &pool),
+            ours(
+                "Blanes–Casas–Escorihuela 8",
+                Splitting::blanes_casas_escorihuela_8(),
+                scene,
+                &starts,
+                of,
+                &pool,
+            ),
+        ]);
     }
     candidates.retain_mut(|candidate| {
         (candidate.run)(1).is_ok_and(|(seconds, ends)| seconds < 1e-3 && worst(&ends) < 1e-4)
@@ -168,7 +170,7 @@ fn ours<'a, S, M, const N: usize>(
     starts: &'a Ends<N>,
     [time, steps]: [f64; 2],
     pool: &'a ThreadPool,
-) -> Option<Candidate<'a, Ends<N>>>
+) -> Candidate<'a, Ends<N>>
 where
     S: Lagrangian<N, Scalar = f64> + InLanes<M, N> + Copy + Send + Sync + 'a,
     M: MethodOf<S, N> + Copy + Send + Sync + 'a,
@@ -183,7 +185,7 @@ where
     };
     let mut all = timed(run, ends);
     let run = move |repeats| all(repeats).map(|(seconds, ends)| (seconds / MEMBERS as f64, ends));
-    Some(Candidate { method: name, setting: steps, run: Box::new(run) })
+    Candidate { method: name, setting: steps, run: Box::new(run) }
 }
 
 /// The ring by 800 steps: members from 1 to a million, one thread and two, wall time.
