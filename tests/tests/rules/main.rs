@@ -6,6 +6,7 @@ mod fitted_stiffness;
 mod fitted_structure;
 mod gauss;
 mod gauss_order;
+mod gauss_segments;
 mod gauss_structure;
 mod hard;
 mod order;

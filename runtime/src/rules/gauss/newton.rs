@@ -68,6 +68,35 @@ impl<T: Scalar, const N: usize, const S: usize> Iterate<T, N, S> {
         in_units_of(&self.residual, floor)
     }
 
+    /// Whether the matrix has grown since `last`, or is none.
+    #[cold]
+    pub(super) fn has_grown<L: ForcedLagrangian<N, Scalar = T>>(
+        &self,
+        problem: &Problem<'_, L, N, S>,
+        last: &Self,
+    ) -> bool {
+        let h = problem.h.abs();
+        let diagonal = |local: &Local<T, N>, a: usize| {
+            let terms = [local.mass[(a, a)], local.rate_by_v[(a, a)] * h, local.rate_by_q[(a, a)] * (h * h)];
+            terms.iter().fold(T::zero(), |sum, term| sum + term.abs())
+        };
+        let mut pairs = self.locals.iter().zip(&last.locals);
+        pairs.any(|(now, last)| (0..N).any(|a| diagonal(now, a) > diagonal(last, a) * T::constant(2.0)))
+            || self.non_finite().is_some()
+    }
+
+    /// Whether a Newton step is at most half as long as `other`, Σ |Mₐₐ| vₐ² here being the square of a
+    /// length.
+    #[cold]
+    pub(super) fn is_half_as_long(&self, step: &StageVector<T, N, S>, other: &StageVector<T, N, S>) -> bool {
+        let square = |step: &StageVector<T, N, S>| {
+            step.iter().zip(&self.locals).fold(T::zero(), |sum, (step, local)| {
+                (0..N).fold(sum, |sum, a| sum + local.mass[(a, a)].abs() * step[a] * step[a])
+            })
+        };
+        square(step) < square(other) * T::constant(0.25)
+    }
+
     pub(super) fn residuals(&self) -> StageVector<T, N, S> {
         core::array::from_fn(|i| crate::numbers::lanes::lane(&self.residual, i))
     }
@@ -207,24 +236,9 @@ fn nearer<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S
     last: &Iterate<T, N, S>,
     correction: &StageVector<T, N, S>,
 ) -> bool {
-    let h = problem.h.abs();
-    let diagonal = |local: &Local<T, N>, a: usize| {
-        let terms = [local.mass[(a, a)], local.rate_by_v[(a, a)] * h, local.rate_by_q[(a, a)] * (h * h)];
-        terms.iter().fold(T::zero(), |sum, term| sum + term.abs())
-    };
-    let has_grown = next
-        .locals
-        .iter()
-        .zip(&last.locals)
-        .any(|(next, last)| (0..N).any(|a| diagonal(next, a) > diagonal(last, a) * T::constant(2.0)));
-    if has_grown || next.non_finite().is_some() {
+    if next.has_grown(problem, last) {
         return false;
     }
     let Ok(factored) = Factored::new(problem, &next.locals) else { return false };
-    let square = |step: &StageVector<T, N, S>| {
-        step.iter().zip(&last.locals).fold(T::zero(), |sum, (step, local)| {
-            (0..N).fold(sum, |sum, a| sum + local.mass[(a, a)].abs() * step[a] * step[a])
-        })
-    };
-    square(&factored.solve(&next.residuals())) < square(correction) * T::constant(0.25)
+    last.is_half_as_long(&factored.solve(&next.residuals()), correction)
 }

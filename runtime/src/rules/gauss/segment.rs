@@ -13,7 +13,7 @@ use core::cmp::Ordering;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::linearised::{Factored, Local, locals, non_finite};
+use super::linearised::{Factored, Local, StageVector, locals, non_finite};
 use super::newton::Iterate;
 use super::problem::{Compensated, Problem};
 use super::rounding::{at_rounding, worst};
@@ -77,54 +77,49 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         // p0 such that the residuals, here ∂L/∂v − h Σ a_ij G_j, have the mean 0.
         problem.p0.value = problem.sum(&guess.residual) / h;
         let mut last = Iterate::new(&problem, guess.v);
+        let mut is_damped = false;
         for iteration in 0..MAX_ITERATIONS {
             if let Some(index) = last.non_finite() {
                 return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
             }
             let singular =
                 |singular: Singular| StepError::SingularNewtonMatrix { iteration, column: singular.column };
-            let factored = Factored::new(&problem, &last.locals).map_err(singular)?;
-            let y = factored.solve(&last.residuals());
-            let x = factored.solve(&[SMatrix::<T, N, N>::identity(); S]);
-            let of_y = y.iter().zip(&problem.steps).fold(SVector::zeros(), |sum, (y, &step)| sum + y * step);
-            let of_x = x.iter().zip(&problem.steps).fold(SMatrix::zeros(), |sum, (x, &step)| sum + x * step);
-            let dp = -of_x.solve(&of_y).map_err(singular)?;
+            let residual = worst(&last.residual, &last.floor).0.widen();
+            let none = StepError::NoRealSolution { iteration, residual };
+            let correction = Correction::of(&problem, &last)
+                .map_err(|found| if is_damped { none } else { singular(found) })?;
             let p0 = problem.p0.value;
             let mut share = one;
             let next = loop {
-                let mut v = last.v;
-                for i in 0..S {
-                    let change = (y[i] + x[i] * dp) * share;
-                    for a in 0..N {
-                        v[a].0[i] -= change[a];
+                problem.p0.value = p0 - correction.p0 * share;
+                let next = Iterate::new(&problem, correction.taken_from(&last.v, share));
+                // A coordinate that starts to move only now has no floor to speak of before.
+                let floor = last.floor.sup(&next.floor);
+                let (size, before) = (next.size_in(&floor), last.size_in(&floor));
+                if size < before || next.size <= one {
+                    break Some((next, size / before));
+                }
+                if share == one && size.is_finite() {
+                    let is_at_floor = last.size <= T::constant(AT_FLOOR);
+                    if !is_at_floor && correction.leads_nearer(&problem, &next, &last) {
+                        break Some((next, one));
+                    }
+                    problem.p0.value = p0;
+                    if is_solved(&problem, &last) {
+                        return Self::at(problem, last).map_err(singular);
                     }
                 }
-                problem.p0.value = p0 - dp * share;
-                let next = Iterate::new(&problem, v);
-                let size = next.size_in(&last.floor);
-                let is_lower = size < last.size;
-                if is_lower || next.size <= one || (share == one && is_solved(&problem, &last)) {
-                    break Some((next, is_lower, size / last.size));
-                }
-                share = crate::step::newton::shorter(share, last.size, size);
+                share = crate::step::newton::shorter(share, before, size);
                 if share < T::EPSILON.sqrt() {
                     break None;
                 }
             };
-            let Some((next, is_lower, contraction)) = next else {
-                let residual = worst(&last.residual, &last.floor).0.widen();
-                return Err(StepError::NoRealSolution { iteration, residual });
-            };
-            let has_stopped = !is_lower || contraction > T::constant(0.1);
-            let is_done = share == one && has_stopped && is_solved(&problem, &next);
-            if !is_lower {
-                problem.p0.value = p0;
-            } else {
-                last = next;
-            }
-            if is_done || last.size == T::zero() {
-                let factored = Factored::new(&problem, &last.locals).map_err(singular)?;
-                return Ok(Self { problem, v: last.v, locals: last.locals, factored });
+            let Some((next, contraction)) = next else { return Err(none) };
+            is_damped |= share < one;
+            let has_stopped = share == one && (contraction > T::constant(0.1) || next.size == T::zero());
+            last = next;
+            if has_stopped && is_solved(&problem, &last) {
+                return Self::at(problem, last).map_err(singular);
             }
         }
         let (residual, floor) = worst(&last.residual, &last.floor);
@@ -133,6 +128,15 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
             residual: residual.widen(),
             floor: floor.widen(),
         })
+    }
+
+    /// The segment whose stages are those of an iterate.
+    fn at(
+        problem: Problem<'a, L, N, S>,
+        Iterate { v, locals, .. }: Iterate<T, N, S>,
+    ) -> Result<Self, Singular> {
+        let factored = Factored::new(&problem, &locals)?;
+        Ok(Self { problem, v, locals, factored })
     }
 
     /// The step whose stages have the velocities `v`.
@@ -253,6 +257,55 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
             d12: -variations.p0_by_q1 - force.minus.d2,
             d22: variations.plus.end.p - force.plus.d2,
         }
+    }
+}
+
+/// Newton's step for the stages and p0, along which Σ b_i V_i stays: it is v̄ from the guess on.
+struct Correction<T, const N: usize, const S: usize> {
+    stages: StageVector<T, N, S>,
+    p0: SVector<T, N>,
+}
+
+impl<T: Scalar, const N: usize, const S: usize> Correction<T, N, S> {
+    fn of<L: ForcedLagrangian<N, Scalar = T>>(
+        problem: &Problem<'_, L, N, S>,
+        at: &Iterate<T, N, S>,
+    ) -> Result<Self, Singular> {
+        let factored = Factored::new(problem, &at.locals)?;
+        let y = factored.solve(&at.residuals());
+        let x = factored.solve(&[SMatrix::<T, N, N>::identity(); S]);
+        let of_y = y.iter().zip(&problem.steps).fold(SVector::zeros(), |sum, (y, &step)| sum + y * step);
+        let of_x = SMatrix::<T, N, N>::from_fn(|a, b| {
+            let terms = x.iter().zip(&problem.steps).map(|(x, &step)| x[(a, b)] * step);
+            let (sum, size) = terms.fold((T::zero(), T::zero()), |(sum, size), x| (sum + x, size + x.abs()));
+            // What rounding leaves of a sum is none: q0 and q1 are conjugate, and p0 is not told by them.
+            if sum.abs() > size * T::constant(4.0 * S as f64) * T::EPSILON { sum } else { T::zero() }
+        });
+        let p0 = -of_x.solve(&of_y)?;
+        Ok(Self { stages: core::array::from_fn(|i| y[i] + x[i] * p0), p0 })
+    }
+
+    /// The velocities after this share of it.
+    fn taken_from(&self, v: &LaneVector<T, N, S>, share: T) -> LaneVector<T, N, S> {
+        let mut next = *v;
+        for (i, change) in self.stages.iter().enumerate() {
+            for a in 0..N {
+                next[a].0[i] -= change[a] * share;
+            }
+        }
+        next
+    }
+
+    /// Whether `next`, where the residual is no lower, is nearer to the root than `last` all the same.
+    #[cold]
+    fn leads_nearer<L: ForcedLagrangian<N, Scalar = T>>(
+        &self,
+        problem: &Problem<'_, L, N, S>,
+        next: &Iterate<T, N, S>,
+        last: &Iterate<T, N, S>,
+    ) -> bool {
+        !next.has_grown(problem, last)
+            && Self::of(problem, next).is_ok_and(|after| last.is_half_as_long(&after.stages, &self.stages))
     }
 }
 

@@ -82,7 +82,10 @@ where
     Arm: Discrete<R, 3> + Flow<R, 3, Scalar = f64>,
 {
     let by = arm.by(rule, H);
-    let routh = by.routh::<2>(THETA, &samples()).unwrap();
+    // What is at rest says as much as another segment.
+    let mut samples = samples();
+    samples.insert(0, Segment::new([1.0, 0.0, 0.3], [1.0, 0.0, 0.3]));
+    let routh = by.routh::<2>(THETA, &samples).unwrap();
     let whole: Vec<_> = by.run(*start).take(20).map(|step| step.unwrap().state).collect();
     let reduced: Vec<_> = routh.run(start).take(20).map(|state| state.unwrap()).collect();
     assert_eq!(reduced.len(), 20);
