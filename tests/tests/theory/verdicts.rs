@@ -2,4 +2,6 @@
 
 mod poisoned;
 mod poisoned_sections;
+mod poisoned_steps;
+mod register;
 mod time;

@@ -1,16 +1,4 @@
 //! False claims on poisoned samples, step sizes, tolerances and runs: none gets a yes.
-//!
-//! The verdicts of public types that are tried here and in `poisoned_sections`, all there are:
-//!
-//! | module | verdict |
-//! |---|---|
-//! | `samples` | `Finding::vanishes` |
-//! | `noether` | `Symmetry::{is_symmetry_of_lagrangian, force_does_work, is_conserved, is_consistent}`, `Balance::is_balanced`, `Subalgebra::premise_holds`, `Subspace::dimension`, `Closure::is_closed`, `RankDecision::is_clear` |
-//! | `rayleigh` | `RayleighStructure::{is_rayleigh, allows_resplit}`, `Condition::holds`, `Recovery::exists`, `ResplitReport::exists`, `Equivalence::{has_same_equations, is_gauge}`, `Dissipation::is_dissipative` |
-//! | `hamilton_jacobi` | `Residual::holds` in every report, `SolutionReport::is_solution`, "no caustic" |
-//! | | `ConformalStep::is_conformal`, `Proportion::is_constant`: in `rayleigh::conformal` |
-//! | `exact` | `Existence::verdict`, "equal to rounding" of `Convergence` |
-//! | | `Certificate::on_the_branch_of_the_flow` |
 
 use dalembert::exact::{Exact, ExactError, ExistenceVerdict};
 use dalembert::nalgebra::{SVector, vector};
@@ -77,6 +65,7 @@ where
                 ("lagrangian.vanishes", found.lagrangian.vanishes()),
                 ("force.vanishes", found.force.vanishes()),
                 ("defect.vanishes", found.defect.vanishes()),
+                ("is_consistent", found.is_consistent() && found.is_conserved()),
                 ("J is conserved", found.to_string().contains("J is conserved")),
             ]);
         }

@@ -37,6 +37,10 @@ pub(super) fn largest_step<S: Scalar, const N: usize>(
         }
     }
     let (.., eigenvalues) = modes(&SMatrix::identity(), &form);
+    // The largest of NaNs is none of them; what overflows says nothing.
+    if eigenvalues.iter().any(|eigenvalue| !eigenvalue.is_finite()) {
+        return Err(ModifiedSystemError::NonFinite);
+    }
     let largest = eigenvalues.max();
     Ok(if largest > S::zero() { (S::constant(12.0) / largest).sqrt() } else { S::constant(f64::INFINITY) })
 }

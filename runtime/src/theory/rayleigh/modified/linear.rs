@@ -66,8 +66,8 @@ pub struct ModifiedLinearSystem<const N: usize> {
     pub of_damping: Asymmetry,
     /// Of K̃: the circulatory force.
     pub of_stiffness: Asymmetry,
-    /// The least eigenvalue of C̃ beside what rounding makes of a 0.
-    least_damping: (f64, f64),
+    /// The least eigenvalue of C̃, 0 where all are positive.
+    negative_damping: Finding<()>,
 }
 
 /// The asymmetry of a bilinear form that is worst, in (x, x) coordinates, as it is in (q, q) ones.
@@ -125,6 +125,7 @@ impl<const N: usize> ModifiedLinearSystem<N> {
         let size_of_stiffness = 1.0 + (of_a + of_d) * of_m + of_a * of_d * size_of_mass;
         let symmetric = (damping + damping.transpose()) * 0.5;
         let (.., eigenvalues) = modes(&SMatrix::identity(), &symmetric);
+        let least = eigenvalues.min();
         let to_form = |form: &SMatrix<f64, N, N>, unit: f64| {
             form.map_with_location(|i, j, entry| entry * unit / (s[i] * s[j]))
         };
@@ -146,7 +147,11 @@ impl<const N: usize> ModifiedLinearSystem<N> {
             of_mass: found(&m, size_of_mass, 1),
             of_damping: found(&damping, size_of_damping, 0),
             of_stiffness: found(&stiffness, size_of_stiffness, -1),
-            least_damping: (eigenvalues.min(), relative * size_of_damping),
+            negative_damping: Finding::relative(
+                if least > 0.0 { 0.0 } else { least },
+                Tolerance { relative, scale: size_of_damping },
+                (),
+            ),
         })
     }
 
@@ -184,8 +189,7 @@ impl<const N: usize> ModifiedLinearSystem<N> {
     /// statement.
     #[must_use]
     pub fn is_dissipative(&self) -> bool {
-        let (least, rounding) = self.least_damping;
-        least >= -rounding
+        self.negative_damping.vanishes()
     }
 
     /// q̇ of the motion at a state of the run: aq + bp. It differs from that of [`State::velocity`], at the

@@ -230,7 +230,7 @@ impl<'a, L: ActingForce<N>, const N: usize> ModifiedSystem<'a, L, N> {
     ///
     /// # Errors
     /// [`ModifiedSystemError::NotDissipative`] where R itself is not ≥ 0; [`ModifiedSystemError::NonFinite`]
-    /// where V″ is not finite.
+    /// where V″ is not finite, or overflows beside M and C.
     pub fn largest_step(&self, q: &SVector<L::Scalar, N>) -> Result<L::Scalar, ModifiedSystemError> {
         largest_step(&self.mass, &self.damping, &self.potential(q).1)
     }
