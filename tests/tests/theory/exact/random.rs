@@ -307,7 +307,7 @@ fn falling(q: [f64; 1], v: [f64; 1], m: f64, g: f64, c: f64) -> (f64, f64) {
 #[test]
 fn falls_with_drag_from_rest() {
     let mut draws = Draws::new(14);
-    for draw in 0..100 {
+    for draw in 0..if cfg!(debug_assertions) { 30 } else { 100 } {
         let (m, g, c) = (draws.scale(1e-2, 1e2), draws.scale(0.1, 1e2), draws.scale(1e-3, 1e2));
         let terminal = (m * g / c).sqrt();
         let h = draws.scale(1e-2, 50.0) * terminal / g;
@@ -387,7 +387,7 @@ impl Shrinking {
 #[test]
 fn a_mass_that_grows_with_time_damps() {
     let mut draws = Draws::new(16);
-    for draw in 0..150 {
+    for draw in 0..if cfg!(debug_assertions) { 40 } else { 150 } {
         let (k, c) = (draws.scale(1e-2, 10.0), draws.between(-1.0, 2.0));
         let (t0, h) = (draws.between(-2.0, 2.0), draws.sign() * draws.scale(1e-2, 4.0));
         let (q, v) = (draws.between(-1.0, 1.0), draws.between(-1.0, 1.0));
@@ -414,7 +414,8 @@ fn motions_that_were_refused_or_took_long() {
     let flow = system.flow(5.0);
     assert!((end.q[0] - flow[0][0] * 0.4 - flow[0][1] * 0.3).abs() < 1e-13);
     // Damping that is stiff, seen backwards: told by the end.
-    for h in [-0.1, -0.2, -0.3, -0.5, -5.0] {
+    let far: &[f64] = if cfg!(debug_assertions) { &[] } else { &[-0.3, -0.5, -5.0] };
+    for &h in [-0.1, -0.2].iter().chain(far) {
         let system = Counted::new(1.0, 1.0, 1e3);
         let segment = Exact::new(&system).segment([0.3], [0.5], h).unwrap();
         let evaluations = system.evaluations();

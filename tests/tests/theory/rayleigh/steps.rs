@@ -105,7 +105,8 @@ fn verdicts(system: &Pair, h: f64, states: &[State<f64, 2>]) -> Vec<(&'static st
 fn the_order_barrier() {
     let mut random = StdRng::seed_from_u64(9);
     let mut counts = [0; 2];
-    for case in 0..40 {
+    let systems = if cfg!(debug_assertions) { 12 } else { 40 };
+    for case in 0..systems {
         let mut draw = |range: std::ops::Range<f64>| random.random_range(range);
         let (m, k) = ([draw(0.5..2.0), draw(0.5..2.0)], [draw(1.0..3.0), draw(-0.8..0.8), draw(1.0..3.0)]);
         let c = match case % 4 {
@@ -140,7 +141,7 @@ fn the_order_barrier() {
             assert_eq!(verdict.is_rayleigh(), commute || order <= 2, "{name} of {system:?}\n{verdict}");
         }
     }
-    println!("40 systems, 13 methods: {} Rayleigh, {} not", counts[1], counts[0]);
+    println!("{systems} systems, 13 methods: {} Rayleigh, {} not", counts[1], counts[0]);
     // K a multiple of M: any damping.
     let isotropic = Pair { k: [1.5, 0.0, 1.5], ..APART };
     for (name, _, verdict) in verdicts(&isotropic, 0.3, &Pair::states(&mut random)) {
