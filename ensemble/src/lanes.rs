@@ -56,8 +56,8 @@ fn lanes<L: LanesBy<M, N>, M, const N: usize>() -> usize {
     fitting.min(widest)
 }
 
-/// A member on its way.
-struct Lane<'s, L: dalembert::Lagrangian<N>, V, const N: usize> {
+/// A member on its way, or waiting for a lane.
+struct OnItsWay<'s, L: dalembert::Lagrangian<N>, V, const N: usize> {
     number: u64,
     system: &'s L,
     start: State<L::Scalar, N>,
@@ -65,7 +65,8 @@ struct Lane<'s, L: dalembert::Lagrangian<N>, V, const N: usize> {
     failure: &'s mut Option<Failure<L::Scalar, N>>,
     /// Records that were observed.
     seen: u64,
-    is_on_its_way: bool,
+    /// Steps at its next record.
+    next: u64,
 }
 
 impl<L, M, const N: usize> Stepping<L, N> for InLanes<M, L::Scalar>
@@ -78,29 +79,25 @@ where
         members: &mut [Slot<L, V, N>],
         observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
     ) {
-        let mut all = Vec::with_capacity(members.len());
-        for Slot { number, start, value, failure } in members {
+        let Plan { steps, every, .. } = self.plan;
+        let next = if every.is_some() { 0 } else { steps };
+        let waiting = members.iter_mut().filter_map(|Slot { number, start, value, failure }| {
             let number = *number;
             match start {
                 Ok((system, start)) => {
-                    let (seen, is_on_its_way) = (0, true);
-                    all.push(Lane {
-                        number,
-                        system: &*system,
-                        start: *start,
-                        value,
-                        failure,
-                        seen,
-                        is_on_its_way,
-                    });
+                    let (system, start) = (&*system, *start);
+                    Some(OnItsWay { number, system, start, value, failure, seen: 0, next })
                 }
-                Err(error) => *failure = Some(Failure { number, error: (*error).into(), last: None }),
+                Err(error) => {
+                    *failure = Some(Failure { number, error: (*error).into(), last: None });
+                    None
+                }
             }
-        }
+        });
         match lanes::<L, M, N>() {
-            32 => all.chunks_mut(32).for_each(|group| self.advance_group::<L, V, N, 32>(group, observe)),
-            16 => all.chunks_mut(16).for_each(|group| self.advance_group::<L, V, N, 16>(group, observe)),
-            _ => all.chunks_mut(8).for_each(|group| self.advance_group::<L, V, N, 8>(group, observe)),
+            32 => self.advance_all::<L, V, N, 32>(waiting, observe),
+            16 => self.advance_all::<L, V, N, 16>(waiting, observe),
+            _ => self.advance_all::<L, V, N, 8>(waiting, observe),
         }
     }
 
@@ -110,51 +107,82 @@ where
 }
 
 impl<M: Copy, S: Scalar> InLanes<M, S> {
-    /// Up to W members; lanes without one run with the last.
-    fn advance_group<L, V, const N: usize, const W: usize>(
+    /// W members at a time; the lane of one that is done is given to the next that waits. Where none waits it
+    /// runs on unseen.
+    fn advance_all<'s, L, V: 's, const N: usize, const W: usize>(
         &self,
-        group: &mut [Lane<'_, L, V, N>],
+        mut waiting: impl Iterator<Item = OnItsWay<'s, L, V, N>>,
         observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
     ) where
+        L: LanesBy<M, N, Scalar = S> + 's,
+        M: MethodOf<L, N>,
+    {
+        let mut lanes: [Option<OnItsWay<'s, L, V, N>>; W] = array::from_fn(|_| waiting.next());
+        let Some(first) = &lanes[0] else { return };
+        let members: [_; W] = array::from_fn(|lane| lanes[lane].as_ref().unwrap_or(first));
+        let mut starts = members.map(|member| member.start);
+        let mut runs = LaneRuns::new(self.method, members.map(|member| member.system), &starts, self.plan.h);
+        // Steps until the next record of each lane; a lane without a member has none.
+        let until =
+            |lane: &Option<OnItsWay<'s, L, V, N>>| lane.as_ref().map_or(u64::MAX, |member| member.next);
+        let mut left: [u64; W] = array::from_fn(|lane| until(&lanes[lane]));
+        loop {
+            let mut arriving = [None; W];
+            for lane in 0..W {
+                if left[lane] > 0 {
+                    continue;
+                }
+                let Some(member) = &mut lanes[lane] else { continue };
+                if let ControlFlow::Continue(steps) = self.look(&runs, lane, member, observe) {
+                    left[lane] = steps;
+                    continue;
+                }
+                lanes[lane] = waiting.next();
+                left[lane] = until(&lanes[lane]);
+                if let Some(next) = &lanes[lane] {
+                    (arriving[lane], starts[lane]) = (Some(next.system), next.start);
+                }
+            }
+            if arriving.iter().any(Option::is_some) {
+                runs.refill(arriving, &starts);
+            }
+            let part = left.iter().fold(u64::MAX, |least, &left| least.min(left));
+            if part == u64::MAX {
+                return;
+            }
+            if part > 0 {
+                advance(&mut runs, part);
+                left.iter_mut().for_each(|left| *left -= if *left == u64::MAX { 0 } else { part });
+            }
+        }
+    }
+
+    /// Observes a member at a record; how many steps it is to the next, if it goes on.
+    fn look<L, V, const N: usize, const W: usize>(
+        &self,
+        runs: &LaneRuns<'_, L, M, N, W>,
+        lane: usize,
+        member: &mut OnItsWay<'_, L, V, N>,
+        observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
+    ) -> ControlFlow<(), u64>
+    where
         L: LanesBy<M, N, Scalar = S>,
         M: MethodOf<L, N>,
     {
-        let Some(last) = group.len().checked_sub(1) else { return };
-        let systems: [&L; W] = array::from_fn(|lane| group[lane.min(last)].system);
-        let starts: [State<S, N>; W] = array::from_fn(|lane| group[lane.min(last)].start);
-        let Plan { h, steps: all, every } = self.plan;
-        let mut runs = LaneRuns::new(self.method, systems, &starts, h);
-        let mut steps = 0;
-        let mut look = |runs: &LaneRuns<'_, L, M, N, W>, steps: u64| {
-            let time = if steps == 0 { 0.0 } else { h.widen() * steps as f64 };
-            for (lane, member) in group.iter_mut().enumerate().filter(|(_, member)| member.is_on_its_way) {
-                match runs.state(lane) {
-                    Some(state) => {
-                        let record =
-                            Record { number: member.number, system: member.system, steps, time, state };
-                        member.seen += 1;
-                        member.is_on_its_way = observe(member.value, &record).is_continue();
-                    }
-                    None => {
-                        member.is_on_its_way = false;
-                        *member.failure = self.alone(member, observe).err();
-                    }
-                }
-            }
-            group.iter().any(|member| member.is_on_its_way)
+        let Some(state) = runs.state(lane) else {
+            *member.failure = self.alone(member, observe).err();
+            return ControlFlow::Break(());
         };
-        if (every.is_some() || all == 0) && !look(&runs, 0) {
-            return;
+        let Plan { h, steps: all, every } = self.plan;
+        let OnItsWay { number, system, next: steps, .. } = *member;
+        let time = if steps == 0 { 0.0 } else { h.widen() * steps as f64 };
+        member.seen += 1;
+        let record = Record { number, system, steps, time, state };
+        if observe(member.value, &record).is_break() || steps == all {
+            return ControlFlow::Break(());
         }
-        let stride = every.unwrap_or(all).max(1);
-        while steps < all {
-            let part = stride.min(all - steps);
-            advance(&mut runs, part);
-            steps += part;
-            if !look(&runs, steps) {
-                break;
-            }
-        }
+        member.next = all.min(steps.saturating_add(every.unwrap_or(all).max(1)));
+        ControlFlow::Continue(member.next - steps)
     }
 
     /// What became of a member whose lane does not tell: by its own run, which is the same up to there. What was
@@ -162,7 +190,7 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
     #[cold]
     fn alone<L, V, const N: usize>(
         &self,
-        member: &mut Lane<'_, L, V, N>,
+        member: &mut OnItsWay<'_, L, V, N>,
         observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
     ) -> Result<(), Failure<S, N>>
     where

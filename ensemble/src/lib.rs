@@ -47,7 +47,8 @@
 //!
 //! **Lanes.** A system whose attribute says `lanes = explicit` is stepped many members at a time by
 //! [`in_lanes`](Study::in_lanes), in the widest instructions of the machine, chosen when the program runs.
-//! Products and sums are rounded as they are alone: that changes no bit either.
+//! Products and sums are rounded as they are alone: that changes no bit either. The lane of a member that is
+//! done is given to the next.
 //!
 //! **Threads** are rayon's: all cores, or those of the pool that a study is run in
 //! (`ThreadPool::install`). How many there are changes no bit.

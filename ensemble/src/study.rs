@@ -2,6 +2,7 @@
 
 use core::marker::PhantomData;
 use core::ops::{ControlFlow, Range};
+use std::time::{Duration, Instant};
 
 use dalembert::run::InLanes as LanesBy;
 use dalembert::step::{Flow, MethodOf};
@@ -14,11 +15,14 @@ use crate::member::{End, Failure, Record};
 use crate::progress::{Cancelled, Progress};
 use crate::stepping::{OneByOne, Plan, Slot, Stepping, ToError};
 
-/// Members that one thread takes at a time.
-const CHUNK: u64 = 256;
+/// Chunks for each thread between two additions to the total.
+const CHUNKS: u64 = 16;
 
-/// Chunks for each thread between two additions to the total: what bounds the memory.
-const CHUNKS_PER_THREAD: usize = 16;
+/// Members that a thread takes at a time: the least, and the most, which bounds the memory.
+const CHUNK: [u64; 2] = [64, 1024];
+
+/// Chunks that take less than this on the way from one addition to the next are followed by larger ones.
+const BRIEF: Duration = Duration::from_millis(200);
 
 /// Members, each a function of its number.
 ///
@@ -214,8 +218,8 @@ where
     ///
     /// Of each member a value is kept: made by `value` of its number, changed by `observe` at each record.
     /// `add` then adds the values to the total, on the calling thread and in the order of numbers, so that
-    /// the total is the same bits however many threads there are. The values of 4096 members a thread are
-    /// held at a time.
+    /// the total is the same bits however many threads there are. The values of 16 384 members a thread are
+    /// held at a time, at most.
     ///
     /// ```
     /// use dalembert::{Midpoint, State, rayleigh_system};
@@ -262,15 +266,17 @@ where
             let has_arrived = self.arrival.as_ref().is_some_and(|has_arrived| has_arrived(record));
             if has_arrived { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
-        let window = CHUNK * (CHUNKS_PER_THREAD * rayon::current_num_threads()) as u64;
+        let [mut size, largest] = CHUNK;
         let mut first = numbers.start;
         while first < numbers.end {
             if self.is_cancelled(progress) {
                 return Err(Cancelled { total, progress });
             }
+            let begin = Instant::now();
+            let window = size * CHUNKS * rayon::current_num_threads() as u64;
             let end = numbers.end.min(first.saturating_add(window));
             let chunk = |first: u64| {
-                let numbers = first..end.min(first.saturating_add(CHUNK));
+                let numbers = first..end.min(first.saturating_add(size));
                 let mut slots: Vec<Slot<L, V, N>> = numbers
                     .map(|number| Slot {
                         number,
@@ -283,7 +289,7 @@ where
                 let outcome = |Slot { number, value, failure, .. }| Outcome { number, value, failure };
                 slots.into_iter().map(outcome).collect::<Vec<_>>()
             };
-            let chunks: Vec<u64> = (first..end).step_by(CHUNK as usize).collect();
+            let chunks: Vec<u64> = (first..end).step_by(size as usize).collect();
             let outcomes: Vec<_> = chunks.into_par_iter().map(chunk).collect();
             for outcome in outcomes.into_iter().flatten() {
                 progress.done += 1;
@@ -291,6 +297,9 @@ where
                 add(&mut total, outcome);
             }
             first = end;
+            if begin.elapsed() < BRIEF {
+                size = largest.min(2 * size);
+            }
         }
         // All is done: there is nothing left to cancel.
         self.is_cancelled(progress);

@@ -88,3 +88,19 @@ fn lanes_change_no_bit_of_any_member() {
     // Starts that are none, numbers that are none, motions to infinity, members that have left: all were there.
     assert!(compared == 1111 && failed > 100 && arrived > 50, "{compared} {failed} {arrived}");
 }
+
+/// Members that leave early, with others in their lanes after them: the same on any number of threads.
+#[test]
+fn the_number_of_threads_changes_no_bit_of_members_in_lanes() {
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| records(120, Some(1), true, true, 700))
+    };
+    let one = on(1);
+    let steps: Vec<u64> = one.iter().filter_map(|(_, kept, _)| kept.last().map(|last| last[0])).collect();
+    assert!(steps.iter().any(|&steps| steps < 20) && steps.contains(&120));
+    for threads in [2, 3, 7] {
+        assert!(on(threads) == one, "{threads} threads");
+    }
+    assert!(records(120, Some(1), true, false, 700) == one, "one by one");
+}

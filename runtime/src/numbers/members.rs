@@ -157,6 +157,7 @@ pub(crate) fn difference<T: Scalar, const N: usize, const W: usize>(
 }
 
 /// The vector of one member; 0 where there is no such member.
+#[inline(always)]
 pub(crate) fn member<T: Scalar, const N: usize, const W: usize>(
     members: &MemberVector<T, N, W>,
     index: usize,

@@ -7,7 +7,8 @@ mod explicit;
 
 use core::marker::PhantomData;
 
-use crate::numbers::{Elementary, MemberVector};
+use crate::numbers::members::member;
+use crate::numbers::{Elementary, Mask, MemberVector, Scalar};
 use crate::run::{Checkpoint, Course, Explicit};
 use crate::step::{Flow, State};
 use crate::system::Lagrangian;
@@ -52,7 +53,16 @@ pub trait InLanes<M, const N: usize>: Flow<M, N> {
         h: Self::Scalar,
     ) -> Self::Lanes<W>;
 
-    /// All members on by this many steps: those of [`in_lanes`](Self::in_lanes), with its systems.
+    /// Members put into lanes at their starts, where there is one; the others stay as they are. `systems` are
+    /// those of all lanes from now on.
+    fn refill_lanes<const W: usize>(
+        lanes: &mut Self::Lanes<W>,
+        systems: [&Self; W],
+        starts: &[Option<State<Self::Scalar, N>>; W],
+        h: Self::Scalar,
+    );
+
+    /// All members on by this many steps: those that were put into the lanes, with their systems.
     fn advance_in_lanes<const W: usize>(lanes: &mut Self::Lanes<W>, systems: [&Self; W], steps: u64);
 
     /// The state of one member; nothing where its own run has to tell what became of it.
@@ -89,6 +99,7 @@ where
     L: InLanes<M, N>,
 {
     systems: [&'a L; W],
+    h: L::Scalar,
     lanes: L::Lanes<W>,
     method: PhantomData<M>,
 }
@@ -105,7 +116,43 @@ where
     #[must_use]
     pub fn new(method: M, systems: [&'a L; W], starts: &[State<L::Scalar, N>; W], h: L::Scalar) -> Self {
         let _ = method;
-        Self { systems, lanes: L::in_lanes(systems, starts, h), method: PhantomData }
+        Self { systems, h, lanes: L::in_lanes(systems, starts, h), method: PhantomData }
+    }
+
+    /// Other runs, from the states of the same index, in the lanes that have a system here, as they would be
+    /// in [`new`](Self::new); the runs in the other lanes go on.
+    ///
+    /// ```
+    /// use dalembert::run::LaneRuns;
+    /// use dalembert::{Discretise, Splitting, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+    /// fn pendulum(q: [f64; 1], v: [f64; 1], length: f64) -> f64 {
+    ///     0.5 * length * v[0] * v[0] + q[0].cos()
+    /// }
+    ///
+    /// let pendulums = [1.0, 1.1, 1.2].map(|length| Pendulum { length });
+    /// let start = State { q: [1.0].into(), p: [0.0].into() };
+    /// let mut runs = LaneRuns::new(Splitting::blanes_moan_6(), [&pendulums[0], &pendulums[1]], &[start; 2], 0.5);
+    /// runs.advance(10);
+    /// runs.refill([None, Some(&pendulums[2])], &[start; 2]);
+    /// runs.advance(20);
+    /// let alone = |k: usize, steps: usize| {
+    ///     pendulums[k].by(Splitting::blanes_moan_6(), 0.5).run(start).nth(steps - 1).unwrap().map(|step| step.state)
+    /// };
+    /// assert_eq!(runs.state(0), Some(alone(0, 30)?));
+    /// assert_eq!(runs.state(1), Some(alone(2, 20)?));
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    pub fn refill(&mut self, systems: [Option<&'a L>; W], starts: &[State<L::Scalar, N>; W]) {
+        let mut arriving = [None; W];
+        for (lane, system) in systems.into_iter().enumerate() {
+            if let Some(system) = system {
+                self.systems[lane] = system;
+                arriving[lane] = Some(starts[lane]);
+            }
+        }
+        L::refill_lanes(&mut self.lanes, self.systems, &arriving, self.h);
     }
 
     /// All runs on by this many steps: bit by bit the same, at once or in parts.
@@ -119,6 +166,7 @@ where
     /// The state of the run in this lane: that of the scalar run after as many steps, to the last bit. Nothing
     /// if that run would have ended with an error by now, if it alone can tell (an explicit step whose
     /// rounding has to be measured, a matrix that has to be factored otherwise), or if there is no such lane.
+    #[inline]
     #[must_use]
     pub fn state(&self, lane: usize) -> Option<State<L::Scalar, N>> {
         if lane < W { L::state_of_lane(&self.lanes, lane) } else { None }
@@ -143,4 +191,22 @@ pub(crate) fn begins<L: Lagrangian<N>, const N: usize>(
     start.require_finite().is_ok()
         && course.require(system, &Checkpoint::new(h, *start)).is_ok()
         && course == Course::Open
+}
+
+/// The state of the member in a lane, if it is sound and its numbers are finite.
+#[inline(always)]
+pub(crate) fn state_if_sound<T: Scalar, const N: usize, const W: usize>(
+    q: &MemberVector<T, N, W>,
+    p: &MemberVector<T, N, W>,
+    is_sound: Mask<W>,
+    lane: usize,
+) -> Option<State<T, N>> {
+    let state = State { q: member(q, lane), p: member(p, lane) };
+    // 0·x is 0 for every finite x and NaN for the others.
+    let mut poison = T::zero();
+    for entry in state.q.iter().chain(state.p.iter()) {
+        poison += *entry * T::zero();
+    }
+    let is_sound = is_sound.0.get(lane).is_some_and(|&is_sound| is_sound);
+    (is_sound && poison == T::zero()).then_some(state)
 }

@@ -588,6 +588,103 @@ fn explicit_members_that_fail_leave_the_others_as_they_are() {
     assert_eq!(agree::<_, _, 2, 8>(Composition::kahan_li_6(Trapezoidal), &all[..5], 0.0625), 1);
 }
 
+/// Members put into lanes at random moments, each until a step of its own; how many had an end.
+fn refilled<L, M, const N: usize, const W: usize>(
+    method: M,
+    members: &[(L, State<f64, N>)],
+    h: f64,
+    seed: u64,
+) -> usize
+where
+    L: InLanes<M, N, Scalar = f64> + Debug,
+    M: Copy,
+{
+    let mut random = StdRng::seed_from_u64(seed);
+    let mut waiting = members.iter().skip(W);
+    let mut lanes: [_; W] = std::array::from_fn(|lane| (&members[lane], 0, random.random_range(0..12)));
+    let (systems, starts) = (lanes.map(|(member, ..)| &member.0), lanes.map(|(member, ..)| member.1));
+    let mut runs = LaneRuns::new(method, systems, &starts, h);
+    let (mut ends, mut seen) = (0, 0);
+    while seen < members.len() {
+        let (mut arriving, mut from) = ([None; W], starts);
+        for (lane, (of, steps, end)) in lanes.iter_mut().enumerate() {
+            if steps < end {
+                continue;
+            }
+            let (system, start) = *of;
+            match alone(method, system, *start, h, *steps) {
+                Ok(alone) if runs.state(lane).is_some() => {
+                    assert_eq!(
+                        runs.state(lane).map(|of| bits(&of)),
+                        Some(bits(&alone)),
+                        "{system:?}, {steps}"
+                    );
+                    ends += 1;
+                }
+                // At its start no run has failed yet.
+                Ok(_) => assert!(*steps == 0 && alone(method, system, *start, h, 1).is_err(), "{system:?}"),
+                Err(error) => assert_eq!(runs.state(lane), None, "{system:?}: {error}"),
+            }
+            seen += 1;
+            // A lane without another member runs on.
+            (*steps, *end) = (0, u64::MAX);
+            if let Some(next) = waiting.next() {
+                (*of, *end) = (next, random.random_range(0..12));
+                (arriving[lane], from[lane]) = (Some(&next.0), next.1);
+            }
+        }
+        runs.refill(arriving, &from);
+        let part =
+            random.random_range(1..4).min(lanes.iter().map(|(_, steps, end)| end - steps).min().unwrap());
+        runs.advance(part);
+        lanes.iter_mut().for_each(|(_, steps, _)| *steps += part);
+    }
+    ends
+}
+
+#[test]
+fn members_in_lanes_that_others_have_left_are_their_own_runs() {
+    // Damped and undamped members, and some that fail: at their start, in their first step and later.
+    let ring = |random: &mut StdRng| Ring { k: damping(random), height: random.random_range(0.5..2.0) };
+    let mut all = members(150, 21, ring);
+    for (of, (ring, state)) in all.iter_mut().enumerate() {
+        match of % 17 {
+            3 => state.q[0] = f64::NAN,
+            5 => *state = State { q: vector![0.0, -0.0], p: vector![-0.0, 0.0] },
+            8 => ring.k = f64::NAN,
+            11 => state.q[0] = 1e80,
+            13 => state.p[0] = 4e3,
+            _ => {}
+        }
+    }
+    let ends = [
+        refilled::<_, _, 2, 1>(Splitting::blanes_moan_6(), &all, 0.09, 1),
+        refilled::<_, _, 2, 8>(Splitting::blanes_moan_6(), &all, 0.09, 2),
+        refilled::<_, _, 2, 32>(Splitting::blanes_moan_4(), &all, 0.03, 3),
+        refilled::<_, _, 2, 8>(Splitting::blanes_casas_escorihuela_8(), &all, 0.09, 4),
+        refilled::<_, _, 2, 8>(Trapezoidal, &all, 0.03, 5),
+        refilled::<_, _, 2, 3>(Composition::kahan_li_6(Trapezoidal), &all, 0.06, 6),
+    ];
+    assert!(ends.iter().all(|ends| (110..150).contains(ends)), "{ends:?}");
+
+    // The drifts take a wider form on the way: without damping, diagonal, full.
+    let mut random = StdRng::seed_from_u64(22);
+    let mut all = members(40, 23, |_| Coupled { mass: [[0.0; 6]; 6], damping: [[0.0; 6]; 6], spring: 1.0 });
+    for (of, (coupled, _)) in all.iter_mut().enumerate() {
+        for i in 0..6 {
+            coupled.mass[i][i] = random.random_range(1.0..2.0);
+            coupled.damping[i][i] = if of < 12 || of % 3 == 0 { 0.0 } else { random.random_range(0.0..0.5) };
+        }
+        if of > 24 && of % 2 == 0 {
+            (coupled.mass[0][3], coupled.mass[3][0]) = (0.2, 0.2);
+        }
+    }
+    all[9].1 = State { q: SVector::zeros(), p: -SVector::<f64, 6>::zeros() };
+    assert_eq!(refilled::<_, _, 6, 4>(Splitting::blanes_moan_6(), &all, 0.1, 7), 40);
+    assert_eq!(refilled::<_, _, 6, 3>(Splitting::blanes_casas_escorihuela_8(), &all, 0.1, 8), 40);
+    assert_eq!(refilled::<_, _, 6, 4>(Trapezoidal, &all, 0.05, 9), 40);
+}
+
 /// The control: another order of the same operations, or another sine, is seen by the bits.
 #[test]
 fn bits_see_another_rounding() {

@@ -6,7 +6,7 @@
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
 
-use super::begins;
+use super::{begins, state_if_sound};
 use crate::numbers::members::{difference, each_coordinate, member, write_member};
 use crate::numbers::{Mask, MatricesOfMembers, MemberVector, Members, NewtonMatrix, Scalar};
 use crate::rules::Trapezoidal;
@@ -19,7 +19,8 @@ use crate::step::{Flow, State};
 pub struct ExplicitSteps<T, F, A, const N: usize, const S: usize, const W: usize> {
     /// Whose states are those of their runs.
     is_sound: Mask<W>,
-    has_stepped: bool,
+    /// Who takes the first step next.
+    is_new: Mask<W>,
     fields: F,
     q: MemberVector<T, N, W>,
     p: MemberVector<T, N, W>,
@@ -62,7 +63,7 @@ fn started<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize
     let zero = [Members::splat(L::Scalar::constant(0.0)); N];
     let mut steps = Of::<L, N, S, W> {
         is_sound: Mask::splat(false),
-        has_stepped: false,
+        is_new: Mask::splat(false),
         fields: L::fields(systems),
         q: zero,
         p: zero,
@@ -74,11 +75,38 @@ fn started<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize
         }),
     };
     for (lane, (system, start)) in systems.into_iter().zip(starts).enumerate() {
-        steps.is_sound.0[lane] = begins(system, start, h) && prepare(&mut steps, lane, system);
-        write_member(&mut steps.q, lane, &start.q);
-        write_member(&mut steps.p, lane, &start.p);
+        put(&mut steps, lane, system, start, h);
     }
     steps
+}
+
+/// Puts a member into a lane, at its start.
+fn put<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
+    steps: &mut Of<L, N, S, W>,
+    lane: usize,
+    system: &L,
+    start: &State<L::Scalar, N>,
+    h: L::Scalar,
+) {
+    steps.is_sound.0[lane] = begins(system, start, h) && prepare(steps, lane, system);
+    steps.is_new.0[lane] = true;
+    write_member(&mut steps.q, lane, &start.q);
+    write_member(&mut steps.p, lane, &start.p);
+}
+
+/// Members put into the lanes that have a start.
+fn refill<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
+    steps: &mut Of<L, N, S, W>,
+    systems: [&L; W],
+    starts: &[Option<State<L::Scalar, N>>; W],
+    h: L::Scalar,
+) {
+    steps.fields = L::fields(systems);
+    for (lane, (system, start)) in systems.into_iter().zip(starts).enumerate() {
+        if let Some(start) = start {
+            put(steps, lane, system, start, h);
+        }
+    }
 }
 
 /// Factors the matrices of one member; whether they can be.
@@ -97,15 +125,23 @@ fn prepare<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize
     true
 }
 
-/// The first step, each member's own.
+/// Members where they are, and whose states are those of their runs.
+type Standing<T, const N: usize, const W: usize> = (MemberVector<T, N, W>, MemberVector<T, N, W>, Mask<W>);
+
+/// The first step of each member that is new, its own; `start` is where they stood before the others went on.
 #[cold]
 #[inline(never)]
-fn first_step<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
+fn first_steps<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
     steps: &mut Of<L, N, S, W>,
     systems: [&L; W],
+    (q, p, is_sound): &Standing<L::Scalar, N, W>,
 ) {
     for (lane, system) in systems.into_iter().enumerate() {
-        let mut state = State { q: member(&steps.q, lane), p: member(&steps.p, lane) };
+        if !steps.is_new.0[lane] {
+            continue;
+        }
+        let mut state = State { q: member(q, lane), p: member(p, lane) };
+        steps.is_sound.0[lane] = is_sound.0[lane];
         for substep in &steps.substeps {
             if !steps.is_sound.0[lane] {
                 break;
@@ -117,9 +153,9 @@ fn first_step<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: us
         }
         write_member(&mut steps.q, lane, &state.q);
         write_member(&mut steps.p, lane, &state.p);
+        write_member(&mut steps.force, lane, &system.configuration_force(&state.q));
+        steps.is_new.0[lane] = false;
     }
-    steps.force = L::configuration_force_in_lanes(&steps.fields, &steps.q);
-    steps.has_stepped = true;
 }
 
 #[inline(always)]
@@ -128,10 +164,23 @@ fn advance<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize
     systems: [&L; W],
     mut count: u64,
 ) {
-    if count > 0 && !steps.has_stepped {
-        first_step::<L, N, S, W>(steps, systems);
+    if count > 0 && steps.is_new.0.contains(&true) {
+        let start = (steps.q, steps.p, steps.is_sound);
+        if steps.is_new.0.contains(&false) {
+            carry::<L, N, S, W>(steps, 1);
+        }
+        first_steps::<L, N, S, W>(steps, systems, &start);
         count -= 1;
     }
+    carry::<L, N, S, W>(steps, count);
+}
+
+/// Steps of all members alike.
+#[inline(always)]
+fn carry<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
+    steps: &mut Of<L, N, S, W>,
+    count: u64,
+) {
     // Locals, so that they stay in registers.
     let (fields, substeps) = (&steps.fields, &steps.substeps);
     let (mut q, mut p, mut force) = (steps.q, steps.p, steps.force);
@@ -190,15 +239,6 @@ impl<T: Scalar, A, const N: usize, const W: usize> Substep<T, A, N, W> {
     }
 }
 
-fn state<T: Scalar, F, A, const N: usize, const S: usize, const W: usize>(
-    steps: &ExplicitSteps<T, F, A, N, S, W>,
-    lane: usize,
-) -> Option<State<T, N>> {
-    let state = State { q: member(&steps.q, lane), p: member(&steps.p, lane) };
-    let is_sound = steps.is_sound.0.get(lane).is_some_and(|&is_sound| is_sound);
-    (is_sound && state.require_finite().is_ok()).then_some(state)
-}
-
 impl<L, const N: usize> InLanes<Trapezoidal, N> for L
 where
     L: ExplicitInLanes<N>,
@@ -213,13 +253,23 @@ where
         started(systems, starts, h, &[1.0])
     }
 
+    fn refill_lanes<const W: usize>(
+        lanes: &mut Self::Lanes<W>,
+        systems: [&Self; W],
+        starts: &[Option<State<L::Scalar, N>>; W],
+        h: L::Scalar,
+    ) {
+        refill::<L, N, 1, W>(lanes, systems, starts, h);
+    }
+
     #[inline(always)]
     fn advance_in_lanes<const W: usize>(lanes: &mut Self::Lanes<W>, systems: [&Self; W], steps: u64) {
         advance::<L, N, 1, W>(lanes, systems, steps);
     }
 
+    #[inline]
     fn state_of_lane<const W: usize>(lanes: &Self::Lanes<W>, lane: usize) -> Option<State<L::Scalar, N>> {
-        state(lanes, lane)
+        state_if_sound(&lanes.q, &lanes.p, lanes.is_sound, lane)
     }
 }
 
@@ -237,12 +287,22 @@ where
         started(systems, starts, h, &Composition::<Trapezoidal, S>::SHARES)
     }
 
+    fn refill_lanes<const W: usize>(
+        lanes: &mut Self::Lanes<W>,
+        systems: [&Self; W],
+        starts: &[Option<State<L::Scalar, N>>; W],
+        h: L::Scalar,
+    ) {
+        refill::<L, N, S, W>(lanes, systems, starts, h);
+    }
+
     #[inline(always)]
     fn advance_in_lanes<const W: usize>(lanes: &mut Self::Lanes<W>, systems: [&Self; W], steps: u64) {
         advance::<L, N, S, W>(lanes, systems, steps);
     }
 
+    #[inline]
     fn state_of_lane<const W: usize>(lanes: &Self::Lanes<W>, lane: usize) -> Option<State<L::Scalar, N>> {
-        state(lanes, lane)
+        state_if_sound(&lanes.q, &lanes.p, lanes.is_sound, lane)
     }
 }

@@ -5,10 +5,10 @@
 use nalgebra::SMatrix;
 
 use super::{Drifts, Prepared, Splitting};
-use crate::numbers::members::{difference, each_coordinate, member, write_member};
+use crate::numbers::members::{difference, each_coordinate, write_member};
 use crate::numbers::{Mask, MemberVector, Members, Scalar};
 use crate::rules::Drift;
-use crate::run::lanes::begins;
+use crate::run::lanes::{begins, state_if_sound};
 use crate::run::{ExplicitInLanes, InLanes};
 use crate::step::State;
 
@@ -160,57 +160,89 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> Kicked<
         }
         (self.q, self.p, self.force) = (q, p, force);
     }
+}
 
-    /// The member in this lane, at its start.
-    fn begin(&mut self, lane: usize, start: &State<T, N>, prepared: &Prepared<T, N, S>) {
-        if let Some(has_begun) = self.has_begun.0.get_mut(lane) {
-            *has_begun = true;
+impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> KicksInLanes<T, F, N, S, W> {
+    /// Puts a member into a lane, at its start.
+    fn put<L>(&mut self, lane: usize, system: &L, start: &State<T, N>, h: T)
+    where
+        L: ExplicitInLanes<N, Scalar = T, Fields<W> = F>,
+    {
+        let prepared = if begins(system, start, h) { Prepared::new(system, h).ok() } else { None };
+        let of = &mut self.kicked;
+        of.has_begun.0[lane] = prepared.is_some();
+        let Some(prepared) = prepared else { return };
+        self.drifts.write(lane, &prepared);
+        write_member(&mut of.q, lane, &start.q);
+        write_member(&mut of.p, lane, &start.p);
+        write_member(&mut of.shift, lane, &prepared.shift);
+        write_member(&mut of.thrust, lane, &prepared.thrust);
+        if !Splitting::<S>::DRIFTS_FIRST {
+            let force = system.configuration_force(&start.q) - prepared.thrust;
+            write_member(&mut of.force, lane, &force);
         }
-        write_member(&mut self.q, lane, &start.q);
-        write_member(&mut self.p, lane, &start.p);
-        write_member(&mut self.shift, lane, &prepared.shift);
-        write_member(&mut self.thrust, lane, &prepared.thrust);
     }
 }
 
-/// The drifts of all members that have begun, in the form that serves all.
-fn drifts_in_lanes<T: Scalar, const N: usize, const S: usize, const W: usize>(
-    prepared: &[Option<Prepared<T, N, S>>; W],
-) -> DriftsInLanes<T, N, S, W> {
-    let zero = [Members::splat(T::zero()); N];
-    let is_diagonal = |of: &Prepared<T, N, S>| matches!(of.drifts, Drifts::Diagonal(_));
-    if !prepared.iter().flatten().all(is_diagonal) {
-        let none = Drift { displacement: [zero; N], loss: [zero; N] };
-        let mut full =
-            FullDrifts { drifts: [none; S], is_diagonal: Mask::splat(true), is_damped: Mask::splat(false) };
-        for (lane, of) in prepared.iter().enumerate() {
-            let Some(of) = of else { continue };
-            full.is_diagonal.0[lane] = is_diagonal(of);
-            full.is_damped.0[lane] = of.is_damped;
-            for i in 0..S {
-                let Drift { displacement, loss } = of.drift(i);
-                write_rows(&mut full.drifts[i].displacement, lane, &displacement);
-                write_rows(&mut full.drifts[i].loss, lane, &loss);
-            }
+impl<T: Scalar, const N: usize, const S: usize, const W: usize> DriftsInLanes<T, N, S, W> {
+    /// Writes those of one member, in a form that serves it and all others.
+    fn write(&mut self, lane: usize, of: &Prepared<T, N, S>) {
+        if let Drifts::Full(_) = of.drifts {
+            self.fill();
         }
-        return DriftsInLanes::Full(full);
-    }
-    let mut drifts = [Drift { displacement: zero, loss: zero }; S];
-    for (lane, of) in prepared.iter().enumerate() {
-        let Some(of) = of else { continue };
-        let Drifts::Diagonal(of_member) = &of.drifts else { continue };
-        for (drift, of_member) in drifts.iter_mut().zip(of_member) {
-            write_member(&mut drift.displacement, lane, &of_member.displacement);
-            // Without damping the loss stays 0 with the sign that leaves every p as it is, −0 too.
-            if of.is_damped {
-                write_member(&mut drift.loss, lane, &of_member.loss);
+        match self {
+            Self::Full(full) => full.write(lane, of),
+            Self::Undamped(drifts) if of.is_damped => {
+                let mut drifts = *drifts;
+                write_diagonals(&mut drifts, lane, of);
+                *self = Self::Diagonal(drifts);
             }
+            Self::Undamped(drifts) | Self::Diagonal(drifts) => write_diagonals(drifts, lane, of),
         }
     }
-    if prepared.iter().flatten().any(|of| of.is_damped) {
-        DriftsInLanes::Diagonal(drifts)
-    } else {
-        DriftsInLanes::Undamped(drifts)
+
+    /// Takes the form [`Full`](Self::Full).
+    fn fill(&mut self) {
+        let (Self::Undamped(diagonals) | Self::Diagonal(diagonals)) = *self else { return };
+        let zero = [[Members::splat(T::zero()); N]; N];
+        let mut drifts = [Drift { displacement: zero, loss: zero }; S];
+        for (drift, diagonal) in drifts.iter_mut().zip(&diagonals) {
+            for a in 0..N {
+                drift.displacement[a][a] = diagonal.displacement[a];
+                drift.loss[a][a] = diagonal.loss[a];
+            }
+        }
+        // A loss of 0 leaves every p as it is.
+        let (is_diagonal, is_damped) = (Mask::splat(true), Mask::splat(true));
+        *self = Self::Full(FullDrifts { drifts, is_diagonal, is_damped });
+    }
+}
+
+impl<T: Scalar, const N: usize, const S: usize, const W: usize> FullDrifts<T, N, S, W> {
+    /// Writes those of one member.
+    fn write(&mut self, lane: usize, of: &Prepared<T, N, S>) {
+        self.is_diagonal.0[lane] = matches!(of.drifts, Drifts::Diagonal(_));
+        self.is_damped.0[lane] = of.is_damped;
+        for (i, drift) in self.drifts.iter_mut().enumerate() {
+            let Drift { displacement, loss } = of.drift(i);
+            write_rows(&mut drift.displacement, lane, &displacement);
+            write_rows(&mut drift.loss, lane, &loss);
+        }
+    }
+}
+
+/// Writes the drifts of one member, which are diagonal.
+fn write_diagonals<T: Scalar, const N: usize, const S: usize, const W: usize>(
+    drifts: &mut [Drift<MemberVector<T, N, W>>; S],
+    lane: usize,
+    of: &Prepared<T, N, S>,
+) {
+    let Drifts::Diagonal(of_member) = &of.drifts else { return };
+    for (drift, of_member) in drifts.iter_mut().zip(of_member) {
+        write_member(&mut drift.displacement, lane, &of_member.displacement);
+        // Without damping the loss is 0 with the sign that leaves every p as it is, −0 too.
+        let loss = if of.is_damped { of_member.loss } else { nalgebra::zero() };
+        write_member(&mut drift.loss, lane, &loss);
     }
 }
 
@@ -236,31 +268,38 @@ where
         starts: &[State<L::Scalar, N>; W],
         h: L::Scalar,
     ) -> Self::Lanes<W> {
-        let mut prepared = [None; W];
-        for ((prepared, system), start) in prepared.iter_mut().zip(systems).zip(starts) {
-            if begins(system, start, h) {
-                *prepared = Prepared::new(system, h).ok();
-            }
-        }
         let zero = [Members::splat(L::Scalar::constant(0.0)); N];
-        let mut kicked = Kicked {
-            has_begun: Mask::splat(false),
-            fields: L::fields(systems),
-            q: zero,
-            p: zero,
-            force: zero,
-            kicks: Splitting::<S>::KICKS.map(|share| L::Scalar::constant(share) * h),
-            shift: zero,
-            thrust: zero,
+        let mut lanes = KicksInLanes {
+            drifts: DriftsInLanes::Undamped([Drift { displacement: zero, loss: zero }; S]),
+            kicked: Kicked {
+                has_begun: Mask::splat(false),
+                fields: L::fields(systems),
+                q: zero,
+                p: zero,
+                force: zero,
+                kicks: Splitting::<S>::KICKS.map(|share| L::Scalar::constant(share) * h),
+                shift: zero,
+                thrust: zero,
+            },
         };
-        for (lane, (start, prepared)) in starts.iter().zip(&prepared).enumerate() {
-            if let Some(prepared) = prepared {
-                kicked.begin(lane, start, prepared);
+        for (lane, (system, start)) in systems.into_iter().zip(starts).enumerate() {
+            lanes.put(lane, system, start, h);
+        }
+        lanes
+    }
+
+    fn refill_lanes<const W: usize>(
+        lanes: &mut Self::Lanes<W>,
+        systems: [&Self; W],
+        starts: &[Option<State<L::Scalar, N>>; W],
+        h: L::Scalar,
+    ) {
+        lanes.kicked.fields = L::fields(systems);
+        for (lane, (system, start)) in systems.into_iter().zip(starts).enumerate() {
+            if let Some(start) = start {
+                lanes.put(lane, system, start, h);
             }
         }
-        let force = L::configuration_force_in_lanes(&kicked.fields, &kicked.q);
-        kicked.force = difference(&force, &kicked.thrust);
-        KicksInLanes { drifts: drifts_in_lanes(&prepared), kicked }
     }
 
     #[inline(always)]
@@ -273,10 +312,9 @@ where
         }
     }
 
+    #[inline]
     fn state_of_lane<const W: usize>(lanes: &Self::Lanes<W>, lane: usize) -> Option<State<L::Scalar, N>> {
         let of = &lanes.kicked;
-        let state = State { q: member(&of.q, lane), p: member(&of.p, lane) };
-        let has_begun = of.has_begun.0.get(lane).is_some_and(|&has_begun| has_begun);
-        (has_begun && state.require_finite().is_ok()).then_some(state)
+        state_if_sound(&of.q, &of.p, of.has_begun, lane)
     }
 }
