@@ -50,6 +50,60 @@
 //! Products and sums are rounded as they are alone: that changes no bit either. The lane of a member that is
 //! done is given to the next.
 //!
+//! **Inputs and time.** A view is a member as well, in lanes too where it takes no time:
+//!
+//! ```
+//! use dalembert::{Splitting, State, rayleigh_system};
+//! use dalembert_ensemble::Ensemble;
+//! use rand::{RngExt, SeedableRng};
+//! use rand_chacha::ChaCha8Rng;
+//!
+//! struct Arm {
+//!     friction: f64,
+//! }
+//!
+//! #[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+//! impl Arm {
+//!     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+//!         0.5 * v[0] * v[0] + q[0].cos()
+//!     }
+//!
+//!     fn rayleigh(&self, v: [f64; 1]) -> f64 {
+//!         0.5 * self.friction * v[0] * v[0]
+//!     }
+//!
+//!     fn force(&self, _q: [f64; 1], _v: [f64; 1], torque: [f64; 1]) -> [f64; 1] {
+//!         torque
+//!     }
+//! }
+//!
+//! // One arm under 10 000 torques.
+//! let torque = |number| {
+//!     let mut random = ChaCha8Rng::seed_from_u64(1);
+//!     random.set_stream(number);
+//!     [random.random_range(-0.5..0.5)]
+//! };
+//! let (arm, rest) = (Arm { friction: 1.0 }, State { q: [0.0].into(), p: [0.0].into() });
+//! let study = Ensemble::new(|number| Ok((arm.driven(torque(number)), rest)))
+//!     .by(Splitting::blanes_moan_6(), 0.2)
+//!     .steps(200)
+//!     .in_lanes();
+//! for (number, end) in (0..).zip(study.ends(0..10_000)?) {
+//!     let [torque] = torque(number);
+//!     assert!((end.unwrap().state.q[0] - torque.asin()).abs() < 1e-6);
+//! }
+//!
+//! // Arms of their own as well: a view borrows its arm, so that they are made before.
+//! let arms: Vec<Arm> = (0..100).map(|k| Arm { friction: 0.5 + 0.01 * f64::from(k) }).collect();
+//! let study = Ensemble::new(|number| Ok((arms[number as usize].driven(torque(number)), rest)))
+//!     .by(Splitting::blanes_moan_6(), 0.2)
+//!     .steps(200);
+//! assert!(study.ends(0..100)?.iter().all(Result::is_ok));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! An input that is held through the whole run may as well be a field of the system.
+//!
 //! **Threads** are rayon's: all cores, or those of the pool that a study is run in
 //! (`ThreadPool::install`). How many there are changes no bit.
 

@@ -172,3 +172,60 @@ fn an_error_may_be_asked_for() {
         dalembert_ensemble::Failure { error: MemberError::Tolerance(_), last: Some(_), .. }
     )));
 }
+
+/// A cart that is pushed by an input and shaken in time.
+struct Cart {
+    m: f64,
+    r: f64,
+}
+
+#[rayleigh_system(rule = [midpoint, gauss])]
+impl Cart {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
+        0.5 * self.m * v[0] * v[0] + (1.0 + 0.2 * (3.0 * t).sin()) * q[0].cos()
+    }
+
+    fn rayleigh(&self, v: [f64; 1]) -> f64 {
+        0.5 * self.r * v[0] * v[0]
+    }
+
+    fn force(&self, _q: [f64; 1], _v: [f64; 1], u: [f64; 1], t: f64) -> [f64; 1] {
+        [u[0] * t.cos()]
+    }
+}
+
+#[test]
+fn members_may_be_driven_and_start_at_a_time_of_their_own() {
+    let number = |number: u64, size: f64| {
+        let mut random = ChaCha8Rng::seed_from_u64(9);
+        random.set_stream(number);
+        random.random_range(0.1..size)
+    };
+    let carts: Vec<Cart> =
+        (0..70).map(|member| Cart { m: 1.0 + number(member, 1.0), r: number(member, 0.5) }).collect();
+    let driven = |member: u64| carts[member as usize].driven([number(member, 2.0)], number(member, 7.0));
+    let start = State { q: vector![0.3], p: vector![-0.1] };
+    let ends = |threads| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let study = Ensemble::new(|member| Ok((driven(member), start))).by(Midpoint, 0.1).steps(30);
+        pool.install(|| study.ends(0..70)).unwrap()
+    };
+    let one = ends(1);
+    assert_eq!(one, ends(3));
+    for (member, end) in (0..).zip(&one) {
+        let view = driven(member);
+        let alone = view.by(Midpoint, 0.1).run(start).nth(29).unwrap().unwrap().state;
+        assert_eq!(end.unwrap().state, alone);
+        // Input and time are seen.
+        for other in [carts[member as usize].driven([0.0], 0.0), carts[member as usize].driven([3.0], 1.0)] {
+            let other = other.by(Midpoint, 0.1).run(start).nth(29).unwrap().unwrap().state;
+            assert!((other.q - alone.q).amax() > 1e-6);
+        }
+    }
+    // To an error, each by the method that serves it.
+    let near = Ensemble::new(|member| Ok((driven(member), start))).to_error(1e-8, 3.0).ends(0..5).unwrap();
+    for (member, end) in (0..).zip(&near) {
+        let exact = driven(member).by(Gauss::<8>, 0.05).run(start).nth(59).unwrap().unwrap().state;
+        assert!((end.unwrap().state.q - exact.q).amax() < 1e-8);
+    }
+}

@@ -53,8 +53,8 @@ impl Driven {
         0.5 * v[0] * v[0] - q[0]
     }
 
-    fn force(&self, _q: [f64; 1], _v: [f64; 1], u: [f64; 1]) -> [f64; 1] {
-        u
+    fn force(&self, _q: [f64; 1], _v: [f64; 1], u: [f64; 1], t: f64) -> [f64; 1] {
+        [u[0] * t]
     }
 }
 
@@ -90,4 +90,10 @@ fn main() {
     use dalembert::{Splitting, State, run::LaneRuns};
     let start = State { q: vector![0.0], p: vector![1.0] };
     let _ = LaneRuns::new(Splitting::blanes_moan_6(), [&Plain], &[start], 0.1);
+    // No second message where a first one has said what is wrong.
+    let _ = LaneRuns::new(Splitting::blanes_moan_6(), [&Mass {}], &[start], 0.1);
+    let _ = LaneRuns::new(dalembert::Trapezoidal, [&Rounded {}], &[start], 0.1);
+    let _ = LaneRuns::new(Splitting::blanes_moan_6(), [&ByMidpoint {}], &[start], 0.1);
+    let driven = Driven;
+    let _ = LaneRuns::new(Splitting::blanes_moan_6(), [&driven.driven([1.0], 0.0)], &[start], 0.1);
 }

@@ -12,8 +12,8 @@ mod names;
 
 use std::cell::Cell;
 
-use proc_macro2::TokenStream;
-use quote::format_ident;
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
 use syn::Ident;
 
 use super::graph::{Graph, Node, Operation};
@@ -168,13 +168,20 @@ fn written(
     let mut fields = Vec::new();
     if matches!(kind, Kind::Members) {
         for &node in &nodes {
-            if let Operation::Parameter(index) = graph.operation(node)
-                && graph.parameter(index).reads_self()
-            {
+            let tokens = match graph.operation(node) {
+                Operation::Parameter(index) if graph.parameter(index).reads_self() => {
+                    Some(graph.parameter(index).tokens.clone())
+                }
+                Operation::Input(index) => {
+                    let index = Literal::usize_unsuffixed(index);
+                    Some(quote!(self.u[#index]))
+                }
+                _ => None,
+            };
+            if let Some(tokens) = tokens {
                 let name = writer.names.of(graph, node, &writer.locals);
                 writer.locals[node.index()] = Some(name.clone());
                 writer.is_lanes[node.index()] = true;
-                let tokens = graph.parameter(index).tokens.clone();
                 fields.push(Field { node, name, tokens, is_truth: writer.is_condition[node.index()] });
             }
         }

@@ -18,7 +18,9 @@ pub fn item_alone(item: TokenStream, report: Report) -> TokenStream {
 }
 
 /// The item, the diagnostics and stubs, as far as the signature of L tells the number of degrees of freedom.
-pub fn with_stubs(source: &Source, rules: &Rules, report: Report) -> TokenStream {
+///
+/// `is_in_lanes`: explicit steps in lanes are asked for.
+pub fn with_stubs(source: &Source, rules: &Rules, is_in_lanes: bool, report: Report) -> TokenStream {
     let errors = report.to_tokens();
     let name = source.name();
     let (item, lagrangian) = match source {
@@ -50,11 +52,11 @@ pub fn with_stubs(source: &Source, rules: &Rules, report: Report) -> TokenStream
     };
     let view = view_stub(source);
     let is_field = matches!(source, Source::Function(function) if function.role == Role::Field);
-    let stubs = if is_field { field_stubs(source) } else { stubs_of(lagrangian, name, rules) };
+    let stubs = if is_field { field_stubs(source) } else { stubs_of(lagrangian, name, rules, is_in_lanes) };
     quote!(#item #errors #stubs #view)
 }
 
-/// `driven` or `at_time`, as far as the signatures tell: it gives the system itself, which has all stubs.
+/// `driven` or `at_time`, as far as the signatures tell, with the system for the view: it has all stubs.
 fn view_stub(source: &Source) -> Option<TokenStream> {
     let after = |name: &str, count: usize| {
         let function = source.functions().find(|function| function.sig.ident == name)?;
@@ -79,7 +81,7 @@ fn view_stub(source: &Source) -> Option<TokenStream> {
         quote! {
             #[allow(dead_code)]
             impl #name {
-                pub fn #function(&self, #(#arguments),*) -> &Self { self }
+                pub fn #function(&self, #(#arguments),*) -> Self { ::core::unreachable!() }
             }
         }
     })
@@ -115,8 +117,14 @@ fn field_stubs(source: &Source) -> Option<TokenStream> {
     })
 }
 
-fn stubs_of(lagrangian: Option<&Signature>, name: &syn::Ident, rules: &Rules) -> Option<TokenStream> {
-    lagrangian.and_then(|signature| shape(signature, name)).map(|(scalar, n)| stubs(name, &scalar, &n, rules))
+fn stubs_of(
+    lagrangian: Option<&Signature>,
+    name: &syn::Ident,
+    rules: &Rules,
+    is_in_lanes: bool,
+) -> Option<TokenStream> {
+    let (scalar, n) = shape(lagrangian?, name)?;
+    Some(stubs(name, &scalar, &n, rules, is_in_lanes))
 }
 
 /// Scalar and N, from the first array among the parameters.
@@ -141,7 +149,13 @@ fn shape(signature: &Signature, system: &syn::Ident) -> Option<(TokenStream, Tok
 ///
 /// Only for the rules listed, since with others beside them `system.step(…)` would be ambiguous; for all
 /// where the list is what is wrong.
-fn stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream, rules: &Rules) -> TokenStream {
+fn stubs(
+    name: &syn::Ident,
+    scalar: &TokenStream,
+    n: &TokenStream,
+    rules: &Rules,
+    is_in_lanes: bool,
+) -> TokenStream {
     let vector = quote!(&::dalembert::nalgebra::SVector<#scalar, #n>);
     let derivatives = quote!(::dalembert::generated::Derivatives<#scalar, #n>);
     let is_empty = rules.of_displacement.is_empty() && !rules.gauss;
@@ -157,7 +171,12 @@ fn stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream, rules: &Rules
             }
         }
     });
-    let rules: Vec<_> = rules.iter().map(|rule| rule.ident()).collect();
+    // The rule of explicit steps, where it is what is missing.
+    let explicit = [Rule::Trapezoidal];
+    let missing = explicit.iter().filter(|rule| is_in_lanes && !rules.contains(rule));
+    let rules: Vec<_> = rules.iter().chain(missing).map(|rule| rule.ident()).collect();
+    let explicit =
+        rules.iter().any(|rule| *rule == "Trapezoidal").then(|| explicit_stubs(name, scalar, n, is_in_lanes));
     quote! {
         const _: () = {
             impl ::dalembert::generated::Lagrangian<#n> for #name {
@@ -176,6 +195,7 @@ fn stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream, rules: &Rules
             impl ::dalembert::generated::ActingForce<#n> for #name {}
             #forced
             #offered
+            #explicit
             #(
                 impl ::dalembert::generated::Discrete<::dalembert::generated::#rules, #n> for #name {
                     type Matrix = ::dalembert::nalgebra::SMatrix<#scalar, #n, #n>;
@@ -192,5 +212,34 @@ fn stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream, rules: &Rules
                 }
             )*
         };
+    }
+}
+
+/// Stubs of explicit steps, and of those in lanes.
+fn explicit_stubs(
+    name: &syn::Ident,
+    scalar: &TokenStream,
+    n: &TokenStream,
+    is_in_lanes: bool,
+) -> TokenStream {
+    let vector = quote!(::dalembert::nalgebra::SVector<#scalar, #n>);
+    let members = quote!(::dalembert::generated::MemberVector<#scalar, #n, W>);
+    let in_lanes = is_in_lanes.then(|| {
+        quote! {
+            impl ::dalembert::generated::ExplicitInLanes<#n> for #name {
+                type Fields<const W: usize> = ();
+                fn fields<const W: usize>(_: [&Self; W]) {}
+                fn velocity_momenta_in_lanes<const W: usize>(_: &(), _: &#members, _: #scalar) -> [#members; 2] { ::core::unreachable!() }
+                fn configuration_force_in_lanes<const W: usize>(_: &(), _: &#members) -> #members { ::core::unreachable!() }
+            }
+        }
+    });
+    quote! {
+        impl ::dalembert::generated::Explicit<#n> for #name {
+            fn step_matrix(&self, _: #scalar) -> ::dalembert::nalgebra::SMatrix<#scalar, #n, #n> { ::core::unreachable!() }
+            fn velocity_momenta(&self, _: &#vector, _: #scalar) -> ::dalembert::generated::Momenta<#scalar, #n> { ::core::unreachable!() }
+            fn configuration_force(&self, _: &#vector) -> #vector { ::core::unreachable!() }
+        }
+        #in_lanes
     }
 }

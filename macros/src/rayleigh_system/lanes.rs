@@ -9,8 +9,8 @@ pub fn check(system: &System<'_>, report: &mut Report) {
     let Some(word) = &system.lanes else { return };
     let lacks = if system.engine == Engine::NumDual {
         "needs the derivatives written out, and `derivatives = num_dual` leaves them to the run"
-    } else if system.has_view() {
-        "takes neither input nor time: the force at the end of a step is that at the start of the next"
+    } else if system.timed.any() {
+        "takes no time: L, R and f have to be functions of q, v, the input and the fields"
     } else if !system.rules.of_displacement.iter().any(|rule| rule.may_be_explicit()) {
         "needs the rule whose steps are explicit; add `rule = trapezoidal`"
     } else {

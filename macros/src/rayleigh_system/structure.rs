@@ -160,18 +160,18 @@ pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>)
         // A function of M⁻¹C is full, unless both are diagonal.
         let is_fitted = rule.joint().is_some_and(|joint| joint.is_fitted);
         let bandwidth = if is_fitted && bandwidth > 0 { n - 1 } else { bandwidth };
-        // A force that is remembered from the last step has nothing but q and fields in it.
+        // The force at a point has nothing but q, the input and fields in it.
         let is_apart = |entry: Node, by_velocity: bool| {
             !contains(graph, entry, |operation| match operation {
                 Operation::Coordinate(_) => by_velocity,
                 Operation::Velocity(_) => !by_velocity,
-                Operation::Parameter(_) | Operation::Constant(_) => false,
+                Operation::Input(_) | Operation::Parameter(_) | Operation::Constant(_) => false,
                 other => other.arguments().next().is_none(),
             })
         };
-        // An explicit step hands the force at its end on to the next one, whose input and time are others.
+        // The clocks of splittings are not kept.
         let is_explicit = constant
-            && !system.has_view()
+            && !system.timed.any()
             && rule.may_be_explicit()
             && momenta.clone().all(|(entry, by_velocity)| is_apart(entry, by_velocity))
             && rayleigh.is_none_or(|r| !contains(graph, r.root, |o| matches!(o, Operation::Coordinate(_))))

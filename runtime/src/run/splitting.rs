@@ -17,7 +17,7 @@ use crate::step::{
 
 /// A splitting of the motion into kicks by the potential and damped free motions between, S of them,
 /// symmetric and of high order: for L = ½vᵀMv − V(q) and R = ½vᵀCv with constant M, positive definite, and C,
-/// and a force f(q).
+/// and a force f(q), or f(q, u) with an input held.
 ///
 /// **Derivation.** The motion's vector field is A + B, with flows that are known exactly:
 ///
@@ -116,7 +116,8 @@ where
 /// The kicks and drifts of a [`Splitting`].
 ///
 /// What the drifts do is worked out in the first step of a size. Where kicks come first, the force at the end
-/// of a step is that at the start of the next. It belongs to one system.
+/// of a step is that at the start of the next, unless an input is held, which may be another by then. It belongs
+/// to one system.
 #[derive(Clone, Copy, Debug)]
 pub struct Kicks<T, const N: usize, const S: usize> {
     prepared: Option<Prepared<T, N, S>>,
@@ -302,7 +303,7 @@ where
             other => other.insert(Prepared::new(system, h)?),
         };
         let force = match self.force {
-            Some((q, force)) if q == state.q => force,
+            Some((q, force)) if q == state.q && !L::IS_DRIVEN => force,
             _ => {
                 state.require_finite()?;
                 if Splitting::<S>::DRIFTS_FIRST {

@@ -1,8 +1,6 @@
 //! Runs in lanes: every member's state is bit by bit that of its own run, whatever runs beside it, in
 //! however many lanes, at once or in parts; and a member that fails has none.
 
-use std::fmt::Debug;
-
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::run::{InLanes, LaneRuns};
 use dalembert::{Composition, Discretise, Splitting, State, StepError, Trapezoidal, rayleigh_system};
@@ -231,6 +229,32 @@ impl Band {
     }
 }
 
+/// Pushed by an input, in a way of its own.
+#[derive(Clone, Debug)]
+struct Pushed {
+    m: f64,
+    r: f64,
+    is_blunt: bool,
+}
+
+#[rayleigh_system(rule = [midpoint, trapezoidal], lanes = explicit)]
+impl Pushed {
+    const GAIN: f64 = 0.7;
+
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        0.5 * self.m * v[0] * v[0] + 0.5 * v[1] * v[1] + self.m * q[0].cos() - 0.5 * (q[0] - q[1]).powi(2)
+    }
+
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        0.5 * self.r * (v[0] * v[0] + v[1] * v[1])
+    }
+
+    fn force(&self, q: [f64; 2], _v: [f64; 2], u: [f64; 2]) -> [f64; 2] {
+        let turned = if self.is_blunt { u[1].abs() } else { u[1] };
+        [Self::GAIN * u[0] - self.m * u[1] * q[1], turned * q[0].sin()]
+    }
+}
+
 /// In single precision.
 #[rayleigh_system(rule = trapezoidal, lanes = explicit)]
 fn single(q: [f32; 1], v: [f32; 1], m: f32, k: f32, r: f32) -> (f32, f32) {
@@ -265,7 +289,7 @@ where
 /// Members in W lanes beside each alone, after 1, 3 and more steps; how many members had an end.
 fn agree<L, M, const N: usize, const W: usize>(method: M, members: &[(L, State<f64, N>)], h: f64) -> usize
 where
-    L: InLanes<M, N, Scalar = f64> + Debug,
+    L: InLanes<M, N, Scalar = f64>,
     M: Copy,
 {
     let mut ends = 0;
@@ -284,12 +308,7 @@ where
             for lane in 0..W {
                 match (runs.state(lane), alone(method, systems[lane], starts[lane], h, steps)) {
                     (Some(in_lanes), Ok(alone)) => {
-                        assert_eq!(
-                            bits(&in_lanes),
-                            bits(&alone),
-                            "{:?}, lane {lane}, h = {h}",
-                            systems[lane]
-                        );
+                        assert_eq!(bits(&in_lanes), bits(&alone), "lane {lane}, h = {h}");
                     }
                     // At its start no run has failed yet; it does in its first step.
                     (None, Ok(_)) => {
@@ -313,7 +332,7 @@ where
 /// In every number of lanes.
 fn agree_in_all<L, M, const N: usize>(method: M, members: &[(L, State<f64, N>)], h: f64) -> usize
 where
-    L: InLanes<M, N, Scalar = f64> + Debug,
+    L: InLanes<M, N, Scalar = f64>,
     M: Copy,
 {
     let ends = [
@@ -458,6 +477,31 @@ fn every_member_takes_its_own_branches() {
 }
 
 #[test]
+fn members_are_driven_each_by_its_own_input() {
+    let pushed = |random: &mut StdRng| Pushed {
+        m: random.random_range(0.5..2.0),
+        r: damping(random),
+        is_blunt: random.random(),
+    };
+    let systems = members(41, 24, pushed);
+    let mut random = StdRng::seed_from_u64(25);
+    let mut input = || std::array::from_fn::<f64, 2, _>(|_| random.random_range(-1.0..1.0));
+    let mut driven: Vec<_> = systems.iter().map(|(system, start)| (system.driven(input()), *start)).collect();
+    // An input that is no number is that member's fault alone.
+    driven[7].0 = systems[7].0.driven([f64::NAN, 0.0]);
+    assert_eq!(agree_in_all(Splitting::blanes_moan_6(), &driven, 0.2), 40);
+    assert_eq!(agree_in_all(Trapezoidal, &driven, 0.05), 40);
+    assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_casas_escorihuela_8(), &driven, 0.2), 40);
+    assert_eq!(agree::<_, _, 2, 8>(Composition::kahan_li_6(Trapezoidal), &driven, 0.1), 40);
+    assert_eq!(refilled::<_, _, 2, 8>(Trapezoidal, &driven, 0.05, 10), 40);
+    assert_eq!(refilled::<_, _, 2, 4>(Splitting::blanes_moan_4(), &driven, 0.05, 11), 40);
+    // The input is seen.
+    let still = alone(Trapezoidal, &systems[0].0.driven([0.0, 0.0]), driven[0].1, 0.05, 20).unwrap();
+    let moved = alone(Trapezoidal, &driven[0].0, driven[0].1, 0.05, 20).unwrap();
+    assert!((still.q - moved.q).amax() > 1e-3);
+}
+
+#[test]
 fn single_precision_agrees_too() {
     let mut random = StdRng::seed_from_u64(6);
     let systems: [Single; 8] = std::array::from_fn(|_| Single {
@@ -596,7 +640,7 @@ fn refilled<L, M, const N: usize, const W: usize>(
     seed: u64,
 ) -> usize
 where
-    L: InLanes<M, N, Scalar = f64> + Debug,
+    L: InLanes<M, N, Scalar = f64>,
     M: Copy,
 {
     let mut random = StdRng::seed_from_u64(seed);
@@ -617,13 +661,13 @@ where
                     assert_eq!(
                         runs.state(lane).map(|of| bits(&of)),
                         Some(bits(&alone)),
-                        "{system:?}, {steps}"
+                        "lane {lane}, {steps}"
                     );
                     ends += 1;
                 }
                 // At its start no run has failed yet.
-                Ok(_) => assert!(*steps == 0 && alone(method, system, *start, h, 1).is_err(), "{system:?}"),
-                Err(error) => assert_eq!(runs.state(lane), None, "{system:?}: {error}"),
+                Ok(_) => assert!(*steps == 0 && alone(method, system, *start, h, 1).is_err(), "lane {lane}"),
+                Err(error) => assert_eq!(runs.state(lane), None, "lane {lane}: {error}"),
             }
             seen += 1;
             // A lane without another member runs on.

@@ -4,8 +4,10 @@ use std::f64::consts::PI;
 
 use dalembert::nalgebra::{Matrix2, Matrix4, SMatrix, SVector, matrix, vector};
 use dalembert::run::Explicit;
-use dalembert::step::Quantity;
-use dalembert::{Discretise, Splitting, State, StepError, Trajectory, rayleigh_system};
+use dalembert::step::{Flow, Memory, MethodOf, Quantity};
+use dalembert::{
+    Composition, Discretise, Splitting, State, StepError, Trajectory, Trapezoidal, rayleigh_system,
+};
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::convergence::orders;
 use dalembert_tests::systems::Pendulum;
@@ -456,4 +458,72 @@ fn in_single_precision_too() {
         (f64::from(found.state.q[0]) - exact.q[0]).abs() < 2e-6
             && (f64::from(found.state.p[0]) - exact.p[0]).abs() < 2e-6
     );
+}
+
+/// A pendulum that is pushed.
+struct Pushed {
+    r: f64,
+}
+
+#[rayleigh_system(rule = trapezoidal)]
+impl Pushed {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * v[0] * v[0] + q[0].cos()
+    }
+
+    fn rayleigh(&self, v: [f64; 1]) -> f64 {
+        0.5 * self.r * v[0] * v[0]
+    }
+
+    fn force(&self, q: [f64; 1], _v: [f64; 1], u: [f64; 1]) -> [f64; 1] {
+        [u[0] * (1.0 + 0.1 * q[0])]
+    }
+}
+
+#[test]
+fn a_held_input_acts_and_what_is_remembered_serves_the_next() {
+    // With an input held the force is a function of q: to the motion, with a cosine more in the potential.
+    let exact = |u: f64| {
+        let rate = |[q, v]: [f64; 2]| [v, -q.sin() - 0.3 * v + u * (1.0 + 0.1 * q)];
+        let (mut y, h) = ([0.4, 0.1], 1e-3);
+        let along = |y: [f64; 2], k: [f64; 2], s: f64| [y[0] + s * k[0], y[1] + s * k[1]];
+        for _ in 0..4000 {
+            let a = rate(y);
+            let b = rate(along(y, a, h / 2.0));
+            let c = rate(along(y, b, h / 2.0));
+            let d = rate(along(y, c, h));
+            y = [0, 1].map(|i| y[i] + h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]));
+        }
+        y
+    };
+    let (system, start) = (Pushed { r: 0.3 }, State { q: vector![0.4], p: vector![0.1] });
+    for u in [0.7, -0.4] {
+        let [q, v] = exact(u);
+        let view = system.driven([u]);
+        for end in [
+            end(Splitting::blanes_moan_6(), &view, 0.05, start, 80),
+            end(Splitting::blanes_casas_escorihuela_8(), &view, 0.05, start, 80),
+        ] {
+            assert!((end.q[0] - q).abs() < 1e-10 && (end.p[0] - v).abs() < 1e-10, "{end:?} {q} {v}");
+        }
+    }
+
+    // A memory that saw another input leads nowhere else.
+    fn check<'a, M>(method: M, system: &'a Pushed, start: State<f64, 1>)
+    where
+        DrivenPushed<'a>: Flow<M, 1, Scalar = f64>,
+        M: Copy + MethodOf<DrivenPushed<'a>, 1>,
+    {
+        let mut memory = <DrivenPushed<'a> as Flow<M, 1>>::RunMemory::default();
+        let (mut state, mut alone) = (start, start);
+        for k in 0..40 {
+            let view = system.driven([f64::from(k % 5) - 2.0]);
+            state = memory.advance(&view, &state, 0.1).unwrap().state;
+            alone = view.by(method, 0.1).step(&alone).unwrap().state;
+            assert!((state.q - alone.q).amax() < 1e-13 && (state.p - alone.p).amax() < 1e-13, "step {k}");
+        }
+    }
+    check(Trapezoidal, &system, start);
+    check(Splitting::blanes_moan_4(), &system, start);
+    check(Composition::kahan_li_6(Trapezoidal), &system, start);
 }

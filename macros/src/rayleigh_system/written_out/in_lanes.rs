@@ -25,7 +25,21 @@ impl Code<'_> {
         }
         let scalar = &self.system.scalar;
         let taken = ["q", "v", "h", "half", "fields", "systems"];
-        let written = |outputs: &[Node]| on_members(&self.graph, scalar, outputs, &taken, self.is_portable);
+        let written = |outputs: &[Node]| {
+            let mut line = on_members(&self.graph, scalar, outputs, &taken, self.is_portable);
+            if self.home == Home::View {
+                let seen = |tokens| view::seen_from_view(tokens, &self.system.name);
+                line.statements = seen(line.statements);
+                line.outputs = line.outputs.into_iter().map(seen).collect();
+                // The view itself holds the input.
+                let is_input =
+                    |field: &Field| matches!(self.graph.operation(field.node), Operation::Input(_));
+                for field in line.fields.iter_mut().filter(|field| !is_input(field)) {
+                    field.tokens = seen(field.tokens.clone());
+                }
+            }
+            line
+        };
         let (force, momenta) = (written(force), written(&momenta));
         let mut read: Vec<&Field> = force.fields.iter().chain(&momenta.fields).collect();
         read.sort_by_key(|field| (field.is_truth, field.node));

@@ -22,9 +22,13 @@ use crate::system::ActingForce;
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no explicit steps",
     label = "the equations of `{Self}` are not known to be explicit",
-    note = "list the rule, `#[rayleigh_system(rule = trapezoidal)]`; L has to be ½vᵀMv − V(q) with constant M, R quadratic in v with constant coefficients, a force a function of q alone, without input or time, and their derivatives written out: `derivatives = expanded` says what is in the way"
+    note = "list the rule, `#[rayleigh_system(rule = trapezoidal)]`; L has to be ½vᵀMv − V(q) with constant M, R quadratic in v with constant coefficients, a force a function of q alone, without time, and their derivatives written out: `derivatives = expanded` says what is in the way"
 )]
 pub trait Explicit<const N: usize>: Discrete<Trapezoidal, N> + ActingForce<N> {
+    /// Whether an input is held. The next step may be one of another input: the force at its start is then
+    /// evaluated anew.
+    const IS_DRIVEN: bool = false;
+
     /// P = ∂²L/∂v² + (h/2) ∂²R/∂v², the Newton matrix.
     fn step_matrix(&self, h: Self::Scalar) -> Self::Matrix;
 
@@ -70,10 +74,15 @@ where
         state: &State<L::Scalar, N>,
         h: L::Scalar,
     ) -> Result<Step<L::Scalar, N>, StepError> {
+        let force = match &self.force {
+            Some((q, force)) if *q == state.q => {
+                Some(if L::IS_DRIVEN { system.configuration_force(q) } else { *force })
+            }
+            _ => None,
+        };
         if let Some(prepared) = &self.prepared
             && prepared.h == h
-            && let Some((q, force)) = &self.force
-            && *q == state.q
+            && let Some(force) = &force
             && let Some((step, force)) = prepared.step(
                 |q| system.configuration_force(q),
                 |v| system.velocity_momenta(v, h),
