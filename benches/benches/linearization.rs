@@ -1,5 +1,5 @@
-//! The derivatives A and B of a step, and its second derivatives, against the step itself: times of
-//! interleaved runs and counted instructions, as the tables of `docs/performance.md`.
+//! The derivatives of a step by state, input and parameters, and its second derivatives, against the step
+//! itself: times of interleaved runs and counted instructions, as the tables of `docs/performance.md`.
 //!
 //! `cargo bench -p dalembert-benches --bench linearization`
 //!
@@ -9,9 +9,10 @@ use std::env;
 use std::hint::black_box;
 
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::step::{DiscreteDriven, DiscreteSecondOrder};
-use dalembert::system::{Driven, ForcedLagrangian};
-use dalembert::{Discretise, Discretised, Gauss, Midpoint, State, rayleigh_system};
+use dalembert::run::DrivenTrajectory;
+use dalembert::step::{DiscreteDriven, DiscreteParameters, DiscreteSecondOrder, Flow, Linearizable};
+use dalembert::system::{Driven, ForcedLagrangian, Parameters};
+use dalembert::{Discretise, Gauss, Midpoint, State, rayleigh_system};
 use dalembert_benches::instructions::{self, Part};
 use dalembert_benches::interleaved::medians;
 
@@ -20,7 +21,7 @@ struct Joint {
     c: f64,
 }
 
-#[rayleigh_system(rule = [midpoint, gauss], step_derivatives = second)]
+#[rayleigh_system(rule = [midpoint, gauss], parameters = [c], step_derivatives = second)]
 impl Joint {
     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
         0.5 * v[0] * v[0] + q[0].cos()
@@ -40,7 +41,7 @@ struct CartPole {
     c: [f64; 2],
 }
 
-#[rayleigh_system(rule = [midpoint, gauss], step_derivatives = second)]
+#[rayleigh_system(rule = [midpoint, gauss], parameters = [c[0], c[1]], step_derivatives = second)]
 impl CartPole {
     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
         0.65 * v[0] * v[0] + 0.15 * q[1].cos() * v[0] * v[1] + 0.0375 * v[1] * v[1] + 1.4715 * q[1].cos()
@@ -55,45 +56,59 @@ impl CartPole {
     }
 }
 
-/// Four links of unit mass and length in a plane, angles absolute, with a motor in each joint.
-struct Arm {
-    c: f64,
+/// Links of unit mass and length in a plane, angles absolute, with a motor in each joint.
+macro_rules! links {
+    ($name:ident, $n:literal) => {
+        struct $name {
+            c: f64,
+            g: f64,
+        }
+
+        #[rayleigh_system(rule = [midpoint, gauss], parameters = [c, g], step_derivatives = second)]
+        impl $name {
+            fn lagrangian(&self, q: [f64; $n], v: [f64; $n]) -> f64 {
+                let (mut x, mut y) = (0.0, 0.0);
+                let mut energy = 0.0;
+                let mut height = 0.0;
+                for i in 0..$n {
+                    x += v[i] * q[i].cos();
+                    y += v[i] * q[i].sin();
+                    height -= q[i].cos();
+                    energy += 0.5 * (x * x + y * y) - self.g * height;
+                }
+                energy
+            }
+
+            fn rayleigh(&self, v: [f64; $n]) -> f64 {
+                let mut sum = v[0] * v[0];
+                for i in 1..$n {
+                    sum += (v[i] - v[i - 1]) * (v[i] - v[i - 1]);
+                }
+                0.5 * self.c * sum
+            }
+
+            fn force(&self, _q: [f64; $n], _v: [f64; $n], u: [f64; $n]) -> [f64; $n] {
+                let mut torque = u;
+                for i in 1..$n {
+                    torque[i - 1] -= u[i];
+                }
+                torque
+            }
+        }
+    };
 }
 
-#[rayleigh_system(rule = [midpoint, gauss], step_derivatives = second)]
-impl Arm {
-    fn lagrangian(&self, q: [f64; 4], v: [f64; 4]) -> f64 {
-        let (mut x, mut y) = (0.0, 0.0);
-        let mut energy = 0.0;
-        let mut height = 0.0;
-        for i in 0..4 {
-            x += v[i] * q[i].cos();
-            y += v[i] * q[i].sin();
-            height -= q[i].cos();
-            energy += 0.5 * (x * x + y * y) - 9.81 * height;
-        }
-        energy
-    }
-
-    fn rayleigh(&self, v: [f64; 4]) -> f64 {
-        let mut sum = v[0] * v[0];
-        for i in 1..4 {
-            sum += (v[i] - v[i - 1]) * (v[i] - v[i - 1]);
-        }
-        0.5 * self.c * sum
-    }
-
-    fn force(&self, _q: [f64; 4], _v: [f64; 4], u: [f64; 4]) -> [f64; 4] {
-        [u[0] - u[1], u[1] - u[2], u[2] - u[3], u[3]]
-    }
-}
+links!(FourLinks, 4);
+links!(SevenLinks, 7);
 
 /// What is measured, in this order.
-const WAYS: [&str; 6] = [
+const WAYS: [&str; 8] = [
     "cold step",
-    "step with a guess",
     "step of a run",
-    "step with A, B",
+    "step with its input",
+    "with A",
+    "with A, B",
+    "with A, B, parameters",
     "A, B of the ends",
     "second derivatives of the ends",
 ];
@@ -136,107 +151,158 @@ fn counted(arguments: &[String]) {
 
 fn head(unit: &str) {
     println!(
-        "| scene | rule | cold step, {unit} | with a guess, {unit} | of a run, {unit} | step with A, B / of a run | A, B of the ends / of a run \
-         | A, B of the ends / cold | second derivatives / of a run |"
+        "| scene | rule | cold step, {unit} | of a run, {unit} | with its input, {unit} | with A / with its input | with A, B | with A, B, parameters \
+         | A, B of the ends | second derivatives of the ends |"
     );
-    println!("|---|---|--:|--:|--:|--:|--:|--:|--:|");
+    println!("|---|---|--:|--:|--:|--:|--:|--:|--:|--:|");
 }
 
-fn row(scene: &str, rule: &str, [cold, guessed, of_run, with_step, ends, second]: [f64; WAYS.len()]) {
+fn row(scene: &str, rule: &str, [cold, of_run, with_input, rest @ ..]: [f64; WAYS.len()]) {
+    let [a, b, all, ends, second] = rest.map(|way| way / with_input);
     println!(
-        "| {scene} | {rule} | {cold:.0} | {guessed:.0} | {of_run:.0} | {:.2} | {:.2} | {:.2} | {:.2} |",
-        with_step / of_run,
-        ends / of_run,
-        ends / cold,
-        second / of_run
+        "| {scene} | {rule} | {cold:.0} | {of_run:.0} | {with_input:.0} | {a:.2} | {b:.2} | {all:.2} | {ends:.2} | {second:.2} |"
     );
+}
+
+/// Inputs of a control loop, one after the other: each a tenth up and down in eight steps.
+fn inputs<const M: usize>(u: [f64; M]) -> [[f64; M]; 8] {
+    std::array::from_fn(|k| u.map(|u| u * (1.0 + 0.1 * (k as f64 * std::f64::consts::FRAC_PI_4).sin())))
 }
 
 fn scenes(visit: Visit<'_>) {
     let joint = Joint { c: 0.1 };
-    all("pendulum, n = 1", &joint.driven([0.3]), vector![0.8], vector![0.4], 0.02, visit);
+    let views = inputs([0.3]).map(|u| joint.driven(u));
+    all::<_, 1, 1, 1>("pendulum, n = 1", &views, vector![0.8], vector![0.4], 0.02, visit);
     let cart = CartPole { c: [0.1, 0.01] };
-    all("cart and pole, n = 2", &cart.driven([0.3]), vector![0.1, 2.8], vector![0.3, -0.4], 0.02, visit);
-    let arm = Arm { c: 0.1 };
+    let views = inputs([0.3]).map(|u| cart.driven(u));
+    all::<_, 2, 1, 2>("cart and pole, n = 2", &views, vector![0.1, 2.8], vector![0.3, -0.4], 0.02, visit);
+    let arm = FourLinks { c: 0.1, g: 9.81 };
+    let views = inputs([1.0, 0.5, 0.2, -0.1]).map(|u| arm.driven(u));
     let (q, v) = (vector![0.3, 0.5, -0.2, 1.0], vector![0.3, -0.4, 0.7, 0.2]);
-    all("four links, n = 4", &arm.driven([1.0, 0.5, 0.2, -0.1]), q, v, 0.01, visit);
+    all::<_, 4, 4, 2>("four links, n = 4", &views, q, v, 0.01, visit);
+    let arm = SevenLinks { c: 0.1, g: 9.81 };
+    let views = inputs([1.0, 0.5, 0.2, -0.1, 0.3, 0.1, -0.2]).map(|u| arm.driven(u));
+    let q = SVector::from([0.3, 0.5, -0.2, 1.0, 0.4, -0.1, 0.2]);
+    let v = SVector::from([0.3, -0.4, 0.7, 0.2, -0.3, 0.1, 0.5]);
+    let view = &views;
+    measure::<_, _, 7, 7, 2>(["seven links, n = 7", "midpoint"], Midpoint, view, (q, v), 0.01, visit);
 }
 
 /// By the midpoint rule, and with two and three stages.
-fn all<L, const N: usize, const M: usize>(
+fn all<L, const N: usize, const M: usize, const P: usize>(
     scene: &str,
-    system: &L,
+    views: &[L; 8],
     q: SVector<f64, N>,
     v: SVector<f64, N>,
     h: f64,
     visit: Visit<'_>,
 ) where
     L: DiscreteDriven<Midpoint, N, M, Scalar = f64>
+        + DiscreteParameters<Midpoint, N, P>
         + DiscreteSecondOrder<Midpoint, N, M>
+        + Linearizable<Midpoint, N>
         + ForcedLagrangian<N>
+        + Parameters<N, P>
         + Driven<N, M>,
 {
-    measure([scene, "midpoint"], Midpoint, system, (q, v), h, visit);
-    measure([scene, "Gauss, S = 2"], Gauss::<2>, system, (q, v), h, visit);
-    measure([scene, "Gauss, S = 3"], Gauss::<3>, system, (q, v), h, visit);
+    measure::<_, _, N, M, P>([scene, "midpoint"], Midpoint, views, (q, v), h, visit);
+    measure::<_, _, N, M, P>([scene, "Gauss, S = 2"], Gauss::<2>, views, (q, v), h, visit);
+    measure::<_, _, N, M, P>([scene, "Gauss, S = 3"], Gauss::<3>, views, (q, v), h, visit);
 }
 
-fn measure<R: Copy, L, const N: usize, const M: usize>(
+/// So many steps of runs of a hundred, each with its input, and what is asked of each.
+fn of_runs<R: Copy, L, const N: usize>(
+    (rule, h): (R, f64),
+    views: &[L; 8],
+    start: State<f64, N>,
+    times: usize,
+    mut take: impl FnMut(&mut DrivenTrajectory<L, R, N>, &L),
+) where
+    L: Flow<R, N, Scalar = f64>,
+{
+    let mut left = times;
+    while left > 0 {
+        // Not so far that the motion becomes another.
+        let some = left.min(100);
+        let mut run = views[0].by(rule, h).run_with_inputs(start);
+        for view in views.iter().cycle().take(some) {
+            take(&mut run, view);
+        }
+        left -= some;
+    }
+}
+
+fn measure<R: Copy, L, const N: usize, const M: usize, const P: usize>(
     [scene, name]: [&str; 2],
     rule: R,
-    system: &L,
+    views: &[L; 8],
     (q, v): (SVector<f64, N>, SVector<f64, N>),
     h: f64,
     visit: Visit<'_>,
 ) where
-    L: DiscreteDriven<R, N, M, Scalar = f64> + DiscreteSecondOrder<R, N, M>,
+    L: DiscreteDriven<R, N, M, Scalar = f64>
+        + DiscreteParameters<R, N, P>
+        + DiscreteSecondOrder<R, N, M>
+        + Linearizable<R, N>,
 {
+    let system = &views[0];
     let state = State::from_velocity(system, q, v).expect("the scene is regular");
     let by = system.by(rule, h);
     let first = by.step(&state).expect("the scene can be stepped");
-    // In a loop of control the last velocity is the guess.
-    let near = by.near(&first.velocity);
-    let next = near.step(&first.state).expect("the scene can be stepped");
+    let next = by.near(&first.velocity).step(&first.state).expect("the scene can be stepped");
     let covector = State { q: v, p: q };
-    let step = |by: &Discretised<L, R, N>, times| {
-        for _ in 0..times {
-            let _ = black_box(by.step(black_box(&first.state)));
-        }
-    };
     visit(
         scene,
         name,
         [
-            &|times| step(&by, times),
-            &|times| step(&near, times),
             &|times| {
-                // Not so far that the motion becomes another.
+                for _ in 0..times {
+                    let _ = black_box(by.step(black_box(&first.state)));
+                }
+            },
+            &|times| {
                 let mut left = times;
                 while left > 0 {
                     let some = left.min(100);
-                    let run = by.run(first.state);
-                    for step in run.take(some) {
+                    for step in by.run(first.state).take(some) {
                         let _ = black_box(step);
                     }
                     left -= some;
                 }
             },
             &|times| {
+                of_runs((rule, h), views, first.state, times, |run, view| {
+                    let _ = black_box(run.advance(view));
+                });
+            },
+            &|times| {
+                of_runs((rule, h), views, first.state, times, |run, view| {
+                    let Ok(taken) = run.advance_linearized(view) else { return };
+                    let _ = black_box(taken.by_state());
+                });
+            },
+            &|times| {
+                of_runs((rule, h), views, first.state, times, |run, view| {
+                    let Ok(taken) = run.advance_linearized(view) else { return };
+                    let _ = black_box((taken.by_state(), taken.by_input::<M>()));
+                });
+            },
+            &|times| {
+                of_runs((rule, h), views, first.state, times, |run, view| {
+                    let Ok(taken) = run.advance_linearized(view) else { return };
+                    let _ = black_box((taken.by_state(), taken.by_input::<M>(), taken.by_parameters::<P>()));
+                });
+            },
+            &|times| {
                 for _ in 0..times {
-                    let state = black_box(&first.state);
-                    let _ = black_box(near.linearized_step_with_input(state));
+                    let (q0, q1) = (black_box(&first.state.q), black_box(&next.state.q));
+                    let _ = black_box(by.linearization_with_input::<M>(q0, q1));
                 }
             },
             &|times| {
                 for _ in 0..times {
                     let (q0, q1) = (black_box(&first.state.q), black_box(&next.state.q));
-                    let _ = black_box(by.linearization_with_input(q0, q1));
-                }
-            },
-            &|times| {
-                for _ in 0..times {
-                    let (q0, q1) = (black_box(&first.state.q), black_box(&next.state.q));
-                    let _ = black_box(by.step_hessian(q0, q1, &covector));
+                    let _ = black_box(by.step_hessian::<M>(q0, q1, &covector));
                 }
             },
         ],

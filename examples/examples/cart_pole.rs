@@ -220,6 +220,7 @@ impl Run {
         let sensor = [1e-3, 2e-3, 2e-2, 2e-2].map(|deviation| Normal::new(0.0, deviation));
         let gust = Normal::new(0.0, 0.5)?;
         let mut state = State { q: vector![0.0, 0.0], p: vector![0.0, 0.0] };
+        let mut plant = PLANT.driven([0.0]).by(Trapezoidal, H / 10.0).run_with_inputs(state);
         let mut run = Self { states: vec![state], forces: Vec::new(), seconds: 0.0 };
         for k in 0..PERIODS {
             // Sensors give positions and velocities, each with its error.
@@ -240,10 +241,11 @@ impl Run {
             run.seconds += clock.elapsed().as_secs_f64();
             if let Some((_, push)) = PUSHES.iter().find(|(when, _)| *when == k) {
                 state.p[1] += push;
+                plant.correct(state);
             }
             let driven = PLANT.driven([u[0] + gust.sample(&mut random)]);
             for _ in 0..10 {
-                state = driven.by(Trapezoidal, H / 10.0).step(&state)?.state;
+                state = plant.advance(&driven)?.state;
             }
             run.states.push(state);
             run.forces.push(u[0]);

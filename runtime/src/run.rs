@@ -6,6 +6,7 @@
 mod checkpoint;
 mod composition;
 mod discretise;
+mod driven;
 mod lanes;
 mod memory;
 mod splitting;
@@ -16,6 +17,7 @@ pub use checkpoint::Checkpoint;
 pub(crate) use checkpoint::Course;
 pub use composition::Composition;
 pub use discretise::Discretise;
+pub use driven::DrivenTrajectory;
 pub use lanes::{ExplicitInLanes, InLanes, LaneRuns};
 pub use memory::{DriftMemory, Explicit, ExplicitDriftMemory, ExplicitMemory, KeptMatrix, VelocityHistory};
 pub use splitting::Splitting;

@@ -23,6 +23,7 @@ mod solve;
 mod solved_for_velocity;
 mod start;
 mod state;
+mod taken;
 mod velocity_history;
 
 pub use crate::numbers::{Banded, NewtonMatrix, Singular};
@@ -50,4 +51,5 @@ pub(crate) use solved_for_velocity::ClosedForm;
 pub use solved_for_velocity::SolvedForVelocity;
 pub(crate) use start::verify_start;
 pub use state::State;
+pub use taken::{Linearizable, StepTaken};
 pub use velocity_history::VelocityHistory;

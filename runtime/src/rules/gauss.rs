@@ -16,6 +16,7 @@ mod problem;
 mod rounding;
 mod segment;
 mod sensitivity;
+mod taken;
 mod tangent;
 
 use nalgebra::{SMatrix, SVector};

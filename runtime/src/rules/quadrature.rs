@@ -5,10 +5,10 @@ use nalgebra::{SMatrix, SVector};
 use super::{DisplacementRule, SelfAdjoint};
 use crate::numbers::{CovectorDerivatives, Derivatives, Gradient};
 use crate::step::{
-    Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, Momenta, SolvedForVelocity,
-    StepKernel, VelocityHistory,
+    Discrete, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteParameters, DiscreteRayleigh,
+    Momenta, MomentaBy, SolvedForVelocity, StepKernel, VelocityHistory,
 };
-use crate::system::{ActingForce, Force, GeneratedDiffers, Lagrangian, Rayleigh};
+use crate::system::{ActingForce, Driven, Force, GeneratedDiffers, Lagrangian, Parameters, Rayleigh};
 
 /// The rule of one's own `Q`, for every system: nodes and weights on the straight line from q0 to q1.
 ///
@@ -185,6 +185,43 @@ where
         h: L::Scalar,
     ) -> Derivatives<L::Scalar, N> {
         Q::discrete_rayleigh_derivatives(self, q0, q1, h)
+    }
+}
+
+impl<L, Q, const N: usize, const M: usize> DiscreteDriven<Quadrature<Q>, N, M> for L
+where
+    L: ActingForce<N> + Driven<N, M>,
+    Q: DisplacementRule,
+{
+    fn momenta_by_input(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> MomentaBy<L::Scalar, N, M> {
+        Q::force_by_input(self, q0, v, h)
+    }
+}
+
+impl<L, Q, const N: usize, const P: usize> DiscreteParameters<Quadrature<Q>, N, P> for L
+where
+    L: ActingForce<N> + Parameters<N, P>,
+    Q: DisplacementRule,
+{
+    fn momenta_by_parameters(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> MomentaBy<L::Scalar, N, P> {
+        let mut by = Q::lagrangian_by_parameters(self, q0, v, h);
+        if L::HAS_RAYLEIGH {
+            by = by + Q::rayleigh_by_parameters(self, q0, v, h);
+        }
+        if L::HAS_FORCE {
+            by = by + Q::force_by_parameters(self, q0, v, h);
+        }
+        by
     }
 }
 

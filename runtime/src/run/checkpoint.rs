@@ -110,8 +110,29 @@ impl Course {
         system: &L,
         at: &Checkpoint<L::Scalar, N>,
     ) -> Result<(), StepError> {
+        self.require_later(system, at.time(), at)
+    }
+
+    /// As [`require`](Self::require), of a `system` that has the time of this step.
+    #[inline]
+    pub(crate) fn require_now<L: Lagrangian<N>, const N: usize>(
+        &mut self,
+        system: &L,
+        at: &Checkpoint<L::Scalar, N>,
+    ) -> Result<(), StepError> {
+        if *self == Self::Open { Ok(()) } else { self.require_later(system, 0.0, at) }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn require_later<L: Lagrangian<N>, const N: usize>(
+        &mut self,
+        system: &L,
+        elapsed: f64,
+        at: &Checkpoint<L::Scalar, N>,
+    ) -> Result<(), StepError> {
         if *self == Self::Starting {
-            verify_start(system, at.time(), &at.state)?;
+            verify_start(system, elapsed, &at.state)?;
             *self = Self::of(at);
         }
         self.require_time(at)

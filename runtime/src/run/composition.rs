@@ -255,6 +255,14 @@ where
         }
     }
 
+    fn change_input(&mut self) {
+        self.memories.iter_mut().for_each(Memory::<L, R, N>::change_input);
+    }
+
+    fn change_state(&mut self) {
+        self.memories.iter_mut().for_each(Memory::<L, R, N>::change_state);
+    }
+
     #[inline]
     fn advance_later(
         &mut self,

@@ -303,7 +303,7 @@ where
             other => other.insert(Prepared::new(system, h)?),
         };
         let force = match self.force {
-            Some((q, force)) if q == state.q && !L::IS_DRIVEN => force,
+            Some((q, force)) if q == state.q => force,
             _ => {
                 state.require_finite()?;
                 if Splitting::<S>::DRIFTS_FIRST {
@@ -341,4 +341,11 @@ where
         self.force = Some((end.q, force));
         Ok(Step { state: end, velocity, report: Report::of_no_equation() })
     }
+
+    fn change_input(&mut self) {
+        self.force = None;
+    }
+
+    /// A force is kept for its configuration.
+    fn change_state(&mut self) {}
 }

@@ -145,38 +145,16 @@ where
     pub fn next_in_parts(&mut self, halvings: u32) -> Result<Parted<L::Scalar, N>, StepError> {
         self.course.require(self.system, &self.at)?;
         let start = self.time();
-        let error = match self.memory.advance_later(self.system, start, &self.at.state, self.at.step_size) {
-            Ok(step) => {
-                self.at.follow(&step.state);
-                return Ok(Parted { step, parts: 1 });
+        match in_parts(&mut self.memory, self.system, start, &self.at, halvings) {
+            Ok(parted) => {
+                self.at.follow(&parted.step.state);
+                Ok(parted)
             }
-            Err(error) => error,
-        };
-        let mut part = self.at.step_size;
-        for halving in 1..=halvings.min(31) {
-            part *= L::Scalar::constant(0.5);
-            let mut memory = L::RunMemory::default();
-            let (mut state, mut last) = (self.at.state, None);
-            for taken in 0..1_u32 << halving {
-                let elapsed = start + f64::from(taken) * part.widen();
-                match memory.advance_later(self.system, elapsed, &state, part) {
-                    Ok(step) => {
-                        state = step.state;
-                        last = Some(step);
-                    }
-                    Err(_) => {
-                        last = None;
-                        break;
-                    }
-                }
-            }
-            if let Some(step) = last {
-                self.at.follow(&state);
-                return Ok(Parted { step, parts: 1 << halving });
+            Err(error) => {
+                self.course = Course::Ended;
+                Err(error)
             }
         }
-        self.course = Course::Ended;
-        Err(error)
     }
 
     /// Every `stride`-th step only, with what the steps between reported: long runs in constant memory.
@@ -207,6 +185,49 @@ where
         }
         Some(step)
     }
+}
+
+/// The next step of the run at `at`, `start` after the time of `system`, in up to 2^`halvings` parts.
+///
+/// # Errors
+/// That of the whole step.
+pub(super) fn in_parts<L, M, const N: usize>(
+    memory: &mut L::RunMemory,
+    system: &L,
+    start: f64,
+    at: &Checkpoint<L::Scalar, N>,
+    halvings: u32,
+) -> Result<Parted<L::Scalar, N>, StepError>
+where
+    L: Flow<M, N>,
+{
+    let error = match memory.advance_later(system, start, &at.state, at.step_size) {
+        Ok(step) => return Ok(Parted { step, parts: 1 }),
+        Err(error) => error,
+    };
+    let mut part = at.step_size;
+    for halving in 1..=halvings.min(31) {
+        part *= L::Scalar::constant(0.5);
+        let mut memory = L::RunMemory::default();
+        let (mut state, mut last) = (at.state, None);
+        for taken in 0..1_u32 << halving {
+            let elapsed = start + f64::from(taken) * part.widen();
+            match memory.advance_later(system, elapsed, &state, part) {
+                Ok(step) => {
+                    state = step.state;
+                    last = Some(step);
+                }
+                Err(_) => {
+                    last = None;
+                    break;
+                }
+            }
+        }
+        if let Some(step) = last {
+            return Ok(Parted { step, parts: 1 << halving });
+        }
+    }
+    Err(error)
 }
 
 /// A step taken at once or in parts; see [`Trajectory::next_in_parts`].

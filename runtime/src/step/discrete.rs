@@ -36,7 +36,8 @@ pub trait Discrete<R, const N: usize>: Flow<R, N> {
     /// unless the rule has something better.
     type Memory: Memory<Self, R, N>;
 
-    /// Whether the step's equation is linear in v̄, so that one correction solves it.
+    /// Whether the step's equation is linear in v̄, so that one correction solves it, with a matrix that neither
+    /// the state nor an input changes.
     const LINEAR: bool = false;
 
     /// L_d(q0, q1, h).

@@ -107,6 +107,18 @@ where
     /// that ended there. In a composition that is the one of the substep before.
     fn follow(&mut self, _previous: &Self) {}
 
+    /// The next step is of a system with another input: what was remembered of forces no longer holds, and the
+    /// Newton matrix may have changed. A memory that does not say better forgets all.
+    fn change_input(&mut self) {
+        *self = Self::default();
+    }
+
+    /// The next step starts near where the last one ended, not there, as at a state corrected by a measurement.
+    /// A memory that does not say better forgets all.
+    fn change_state(&mut self) {
+        *self = Self::default();
+    }
+
     /// The step from `state`, `elapsed` after the time of `system`: of the system as it is then
     /// ([`Lagrangian::later`](crate::Lagrangian::later)).
     ///

@@ -28,7 +28,7 @@ use core::ops::Mul;
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{Derivatives, Scalar, derivatives::linear, linear};
-use crate::step::{DiscreteForceDerivatives, Momenta, MomentaBy, StepError};
+use crate::step::{DiscreteForceDerivatives, Momenta, MomentaBy, Quantity, StepError};
 use crate::system::Lagrangian;
 
 /// Both momenta of a segment with their derivatives by its two configurations; see the formulas above.
@@ -130,21 +130,40 @@ impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
     /// being held.
     ///
     /// # Errors
-    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular.
+    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular; [`StepError::NonFinite`] where a derivative is
+    /// no number.
     pub fn answer<const M: usize>(
         &self,
         momenta: &MomentaBy<S, N, M>,
     ) -> Result<StateBy<S, N, M>, StepError> {
-        Ok(self.answer_with(&invert(&self.p0_by_q1)?, momenta))
+        self.answer_with(&invert(&self.p0_by_q1)?, momenta)
     }
 
-    fn answer_with<const M: usize>(
+    /// As [`answer`](Self::answer), with K01⁻¹ at hand.
+    pub(crate) fn answer_with<const M: usize>(
         &self,
         q_by_p: &SMatrix<S, N, N>,
         momenta: &MomentaBy<S, N, M>,
-    ) -> StateBy<S, N, M> {
+    ) -> Result<StateBy<S, N, M>, StepError> {
         let q = -(q_by_p * momenta.p0);
-        StateBy { q, p: momenta.p1 + self.p1_by_q1 * q }
+        let p = momenta.p1 + self.p1_by_q1 * q;
+        StepError::require_finite(&q, Quantity::Derivatives)?;
+        StepError::require_finite(&p, Quantity::Derivatives)?;
+        Ok(StateBy { q, p })
+    }
+
+    /// A, with K01⁻¹ at hand.
+    pub(crate) fn step_matrix(&self, q_by_p: &SMatrix<S, N, N>) -> Result<PhaseMatrix<S, N>, StepError> {
+        let q_by_q = -(q_by_p * self.p0_by_q0);
+        let a = PhaseMatrix {
+            q_by_q,
+            q_by_p: *q_by_p,
+            p_by_q: self.p1_by_q0 + self.p1_by_q1 * q_by_q,
+            p_by_p: self.p1_by_q1 * q_by_p,
+        };
+        let blocks = [&a.q_by_q, &a.q_by_p, &a.p_by_q, &a.p_by_p];
+        blocks.into_iter().try_for_each(|block| StepError::require_finite(block, Quantity::Derivatives))?;
+        Ok(a)
     }
 }
 
@@ -152,7 +171,8 @@ impl<S: Scalar, const N: usize> Linearization<S, N> {
     /// The step matrix from the derivatives of both Legendre transforms.
     ///
     /// # Errors
-    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular.
+    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular; [`StepError::NonFinite`] where a derivative is
+    /// no number.
     pub fn from_legendre(k: &LegendreDerivatives<S, N>) -> Result<Self, StepError> {
         Self::with_input(k, &MomentaBy::zero())
     }
@@ -162,22 +182,14 @@ impl<S: Scalar, const N: usize, const M: usize> Linearization<S, N, M> {
     /// The derivatives of the step from those of both Legendre transforms, and of the momenta by the input.
     ///
     /// # Errors
-    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular.
+    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular; [`StepError::NonFinite`] where a derivative is
+    /// no number.
     pub fn with_input(
         k: &LegendreDerivatives<S, N>,
         by_input: &MomentaBy<S, N, M>,
     ) -> Result<Self, StepError> {
         let q_by_p = invert(&k.p0_by_q1)?;
-        let q_by_q = -(q_by_p * k.p0_by_q0);
-        Ok(Self {
-            a: PhaseMatrix {
-                q_by_q,
-                q_by_p,
-                p_by_q: k.p1_by_q0 + k.p1_by_q1 * q_by_q,
-                p_by_p: k.p1_by_q1 * q_by_p,
-            },
-            b: k.answer_with(&q_by_p, by_input),
-        })
+        Ok(Self { a: k.step_matrix(&q_by_p)?, b: k.answer_with(&q_by_p, by_input)? })
     }
 }
 

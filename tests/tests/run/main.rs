@@ -1,6 +1,7 @@
 //! Runs: memory, checkpoints, compositions, splittings, an error asked for.
 
 mod composition;
+mod driven;
 mod kept;
 mod kept_matrix;
 mod lanes;

@@ -68,14 +68,7 @@ impl Code<'_> {
         let line = self.code_as_it_stands(&force, &[]);
         let [force] = self.parts(&line.outputs, [Shape::Vector]);
         let (q, statements) = (parameter("q", line.uses_coordinates), &line.statements);
-        let is_driven = self.system.input.is_some().then(|| {
-            quote!(
-                const IS_DRIVEN: bool = true;
-            )
-        });
         let functions = quote! {
-            #is_driven
-
             #step_matrix
 
             #velocity_momenta

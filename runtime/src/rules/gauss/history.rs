@@ -21,7 +21,7 @@ use crate::system::ForcedLagrangian;
 #[derive(Clone, Copy, Debug)]
 pub struct StageHistory<T, const N: usize, const S: usize> {
     /// The velocities V_i of the last step.
-    v: LaneVector<T, N, S>,
+    pub(super) v: LaneVector<T, N, S>,
     /// Its step size; 0 before the first step.
     h: T,
     /// Whether it was solved without Newton's method; then the next may be too.
@@ -136,4 +136,7 @@ where
     fn suggest(&mut self, velocity: &SVector<T, N>, _h: T) {
         self.suggested = Some(*velocity);
     }
+
+    /// The polynomial of the velocities is but a guess, of any input.
+    fn change_input(&mut self) {}
 }

@@ -27,7 +27,7 @@ impl<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usi
     }
 
     /// How the step follows the input.
-    fn by_input<const M: usize>(&self) -> Result<Tangent<T, N, S, M>, StepError>
+    pub(super) fn by_input<const M: usize>(&self) -> Result<Tangent<T, N, S, M>, StepError>
     where
         L: Driven<N, M>,
     {
@@ -36,7 +36,7 @@ impl<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usi
     }
 
     /// How the step follows the parameters.
-    fn by_parameters<const P: usize>(&self) -> Result<Tangent<T, N, S, P>, StepError>
+    pub(super) fn by_parameters<const P: usize>(&self) -> Result<Tangent<T, N, S, P>, StepError>
     where
         L: Parameters<N, P>,
     {

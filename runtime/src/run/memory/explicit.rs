@@ -25,10 +25,6 @@ use crate::system::ActingForce;
     note = "list the rule, `#[rayleigh_system(rule = trapezoidal)]`; L has to be ½vᵀMv − V(q) with constant M, R quadratic in v with constant coefficients, a force a function of q alone, without time, and their derivatives written out: `derivatives = expanded` says what is in the way"
 )]
 pub trait Explicit<const N: usize>: Discrete<Trapezoidal, N> + ActingForce<N> {
-    /// Whether an input is held. The next step may be one of another input: the force at its start is then
-    /// evaluated anew.
-    const IS_DRIVEN: bool = false;
-
     /// P = ∂²L/∂v² + (h/2) ∂²R/∂v², the Newton matrix.
     fn step_matrix(&self, h: Self::Scalar) -> Self::Matrix;
 
@@ -45,6 +41,8 @@ pub struct ExplicitMemory<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> {
     prepared: Option<Prepared<S, M, N>>,
     /// A configuration, and G there.
     force: Option<(SVector<S, N>, SVector<S, N>)>,
+    /// Whether G has to be evaluated anew, where the next step starts.
+    is_another: bool,
 }
 
 /// What depends on the step size alone.
@@ -59,7 +57,7 @@ pub(super) struct Prepared<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> {
 
 impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Default for ExplicitMemory<S, M, N> {
     fn default() -> Self {
-        Self { prepared: None, force: None }
+        Self { prepared: None, force: None, is_another: false }
     }
 }
 
@@ -75,9 +73,8 @@ where
         h: L::Scalar,
     ) -> Result<Step<L::Scalar, N>, StepError> {
         let force = match &self.force {
-            Some((q, force)) if *q == state.q => {
-                Some(if L::IS_DRIVEN { system.configuration_force(q) } else { *force })
-            }
+            Some(_) if self.is_another => Some(system.configuration_force(&state.q)),
+            Some((q, force)) if *q == state.q => Some(*force),
             _ => None,
         };
         if let Some(prepared) = &self.prepared
@@ -94,6 +91,7 @@ where
                 system.verify_segment(&state.q, &step.velocity, h)?;
             }
             self.force = Some((step.state.q, force));
+            self.is_another = false;
             return Ok(step);
         }
         self.start(system, state, h)
@@ -102,7 +100,15 @@ where
     /// The force.
     #[inline]
     fn follow(&mut self, previous: &Self) {
-        self.force = previous.force;
+        (self.force, self.is_another) = (previous.force, previous.is_another);
+    }
+
+    fn change_input(&mut self) {
+        self.is_another = true;
+    }
+
+    fn change_state(&mut self) {
+        self.is_another = true;
     }
 }
 
@@ -120,6 +126,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> ExplicitMemory<S, M, N> {
             self.prepared = Prepared::new(h, system.step_matrix(h), at_rest);
         }
         self.force = Some((step.state.q, system.configuration_force(&step.state.q)));
+        self.is_another = false;
         Ok(step)
     }
 }

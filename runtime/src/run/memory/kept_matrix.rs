@@ -117,6 +117,13 @@ where
     fn suggest(&mut self, velocity: &SVector<L::Scalar, N>, h: L::Scalar) {
         self.history.push(*velocity, h);
     }
+
+    /// A matrix that is another's is given up where it does not serve; one of a linear equation holds no input.
+    fn change_input(&mut self) {
+        Memory::<L, R, N>::change_input(&mut self.history);
+    }
+
+    fn change_state(&mut self) {}
 }
 
 impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> KeptMatrix<S, M, N> {

@@ -1,0 +1,195 @@
+//! Runs whose input changes from step to step.
+
+use core::marker::PhantomData;
+
+use crate::run::trajectory::{Parted, in_parts};
+use crate::run::{Checkpoint, Course};
+use crate::step::{Discretised, Flow, Linearizable, Memory, State, Step, StepError, StepTaken};
+
+/// Runs with inputs.
+impl<L, M, const N: usize> Discretised<'_, L, M, N>
+where
+    L: Flow<M, N>,
+{
+    /// A run from `state` that is given its system, with the input held over the step, anew at each step. The
+    /// input held here says no more than of what kind the systems are.
+    pub fn run_with_inputs(&self, state: State<L::Scalar, N>) -> DrivenTrajectory<L, M, N> {
+        let mut run = DrivenTrajectory::new(self.h, state);
+        if let Some(velocity) = &self.guess {
+            Memory::<L, M, N>::suggest(&mut run.memory, velocity, self.h);
+        }
+        run
+    }
+}
+
+/// A run of steps with an input each: the model in a control loop, in an estimator or in optimal control.
+///
+/// It keeps what a [`Trajectory`](crate::Trajectory) keeps, the state, the clock and what the method remembers
+/// of earlier steps, and borrows no system: each step is given its own, `system.driven(u)`, and so may come from
+/// fields that have changed as well. Where L, R or f take the time, that is the view's, `system.driven(u, t)`,
+/// such as [`time`](Self::time). An error leaves the state as it was, and the next call tries again.
+///
+/// V is the type of the views, and only says of what kind they are: a struct that owns its machine has the field
+/// `model: DrivenTrajectory<DrivenCart<'static>, Midpoint, 1>`, made by [`new`](Self::new).
+///
+/// ```
+/// use dalembert::{Discretise, Midpoint, State, rayleigh_system};
+///
+/// struct Cart {
+///     m: f64,
+///     c: f64,
+/// }
+///
+/// #[rayleigh_system]
+/// impl Cart {
+///     fn lagrangian(&self, _q: [f64; 1], v: [f64; 1]) -> f64 {
+///         0.5 * self.m * v[0] * v[0]
+///     }
+///     fn rayleigh(&self, v: [f64; 1]) -> f64 {
+///         0.5 * self.c * v[0] * v[0]
+///     }
+///     fn force(&self, _q: [f64; 1], _v: [f64; 1], u: [f64; 1]) -> [f64; 1] {
+///         u
+///     }
+/// }
+///
+/// let cart = Cart { m: 2.0, c: 0.1 };
+/// let start = State::from_velocity(&cart, [1.0], [0.0])?;
+/// let mut run = cart.driven([0.0]).by(Midpoint, 0.01).run_with_inputs(start);
+/// for _ in 0..1500 {
+///     let State { q, p } = run.state();
+///     run.advance(&cart.driven([-2.0 * q[0] - p[0]]))?;
+/// }
+/// assert!(run.state().q[0].abs() < 1e-2 && (run.time() - 15.0).abs() < 1e-12);
+///
+/// // A step with A and B of its input; both come from one factorisation.
+/// let driven = cart.driven([0.3]);
+/// let taken = run.advance_linearized(&driven)?;
+/// let (a, b) = (taken.by_state()?, taken.by_input::<1>()?);
+/// assert!((a.p_by_p[0] - 0.9995).abs() < 1e-6 && (b.p[0] - 0.01).abs() < 1e-5);
+/// # Ok::<(), dalembert::StepError>(())
+/// ```
+pub struct DrivenTrajectory<V, M, const N: usize>
+where
+    V: Flow<M, N>,
+{
+    method: PhantomData<fn() -> M>,
+    at: Checkpoint<V::Scalar, N>,
+    memory: V::RunMemory,
+    course: Course,
+}
+
+impl<V, M, const N: usize> DrivenTrajectory<V, M, N>
+where
+    V: Flow<M, N>,
+{
+    /// A run from `state` at time 0 with step size `h`.
+    #[must_use]
+    pub fn new(h: V::Scalar, state: State<V::Scalar, N>) -> Self {
+        Self::resume(Checkpoint::new(h, state))
+    }
+
+    /// The run that `checkpoint` was taken of. One that no run can have left is refused by the first step.
+    #[must_use]
+    pub fn resume(checkpoint: Checkpoint<V::Scalar, N>) -> Self {
+        let (memory, course) = (V::RunMemory::default(), Course::Starting);
+        Self { method: PhantomData, at: checkpoint, memory, course }
+    }
+
+    /// The present state: that of the last step that succeeded, or the one [corrected](Self::correct).
+    pub fn state(&self) -> &State<V::Scalar, N> {
+        &self.at.state
+    }
+
+    /// The step size h.
+    pub fn step_size(&self) -> V::Scalar {
+        self.at.step_size
+    }
+
+    /// The time since the start, h × the number of steps taken (and what earlier step sizes took).
+    pub fn time(&self) -> f64 {
+        self.at.time()
+    }
+
+    /// Goes on with another step size from the present state.
+    pub fn change_step_size(&mut self, h: V::Scalar) {
+        self.at = Checkpoint { step_size: h, origin: self.time(), steps: 0, state: self.at.state };
+        self.course = Course::Starting;
+    }
+
+    /// Goes on from `state`, near the present one: what an estimator makes of it by a measurement. The guess for
+    /// the next step is kept. One that is far off is a new run's start.
+    pub fn correct(&mut self, state: State<V::Scalar, N>) {
+        self.at.state = state;
+        Memory::<V, M, N>::change_state(&mut self.memory);
+    }
+
+    /// All that is needed to go on from here; the run forgets what its method remembers, as one that is resumed
+    /// has to: both go on bit by bit alike.
+    pub fn checkpoint(&mut self) -> Checkpoint<V::Scalar, N> {
+        self.memory = V::RunMemory::default();
+        self.at
+    }
+
+    /// Takes the step of `system`, which holds the input of this step.
+    ///
+    /// # Errors
+    /// A [`StepError`]; the state is untouched.
+    #[inline]
+    pub fn advance<L>(&mut self, system: &L) -> Result<Step<V::Scalar, N>, StepError>
+    where
+        L: Flow<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
+        V::RunMemory: Memory<L, M, N>,
+    {
+        self.course.require_now(system, &self.at)?;
+        Memory::<L, M, N>::change_input(&mut self.memory);
+        let step = Memory::<L, M, N>::advance(&mut self.memory, system, &self.at.state, self.at.step_size)?;
+        self.at.follow(&step.state);
+        Ok(step)
+    }
+
+    /// As [`advance`](Self::advance), in 2, 4, … 2^`halvings` parts with the same input where the whole one fails.
+    ///
+    /// # Errors
+    /// The [`StepError`] of the whole step; the state is untouched.
+    pub fn advance_in_parts<L>(
+        &mut self,
+        system: &L,
+        halvings: u32,
+    ) -> Result<Parted<V::Scalar, N>, StepError>
+    where
+        L: Flow<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
+        V::RunMemory: Memory<L, M, N>,
+    {
+        self.course.require_now(system, &self.at)?;
+        Memory::<L, M, N>::change_input(&mut self.memory);
+        let parted = in_parts(&mut self.memory, system, 0.0, &self.at, halvings)?;
+        self.at.follow(&parted.step.state);
+        Ok(parted)
+    }
+
+    /// Takes the step of `system`, and linearises its equations there: A, B and derivatives by parameters, by
+    /// one factorisation.
+    ///
+    /// # Errors
+    /// Those of [`advance`](Self::advance), and [`StepError::SingularNewtonMatrix`] where the step has no derivative:
+    /// the state is then untouched, and [`advance`](Self::advance) takes the step.
+    #[inline]
+    pub fn advance_linearized<'a, L>(&mut self, system: &'a L) -> Result<StepTaken<'a, L, M, N>, StepError>
+    where
+        L: Linearizable<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
+        V::RunMemory: Memory<L, M, N>,
+    {
+        self.course.require_now(system, &self.at)?;
+        let Checkpoint { state, step_size: h, .. } = self.at;
+        Memory::<L, M, N>::change_input(&mut self.memory);
+        let step = Memory::<L, M, N>::advance(&mut self.memory, system, &state, h)?;
+        let taken = StepTaken::new(system, &self.memory, &state, step, h);
+        if taken.is_err() {
+            Memory::<L, M, N>::change_state(&mut self.memory);
+        } else {
+            self.at.follow(&step.state);
+        }
+        taken
+    }
+}
