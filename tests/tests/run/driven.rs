@@ -4,8 +4,10 @@
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::rules::{DisplacementRule, Node, Quadrature, SelfAdjoint};
 use dalembert::run::DrivenTrajectory;
-use dalembert::step::{Flow, Memory};
-use dalembert::{Composition, Discretise, Gauss, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
+use dalembert::step::Flow;
+use dalembert::{
+    Composition, Discretise, Gauss, Midpoint, Splitting, State, StepError, Trapezoidal, rayleigh_system,
+};
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 
 /// Links with motors: the mass depends on q.
