@@ -58,12 +58,21 @@ macro_rules! chains {
                     let ends = (&start.q, &step.state.q);
                     let mut trajectory = by.run(start);
                     let steps = trajectory.by_ref().take(3).filter(Result::is_err).count();
+                    let mut given = by.run_with_inputs(start);
+                    let advanced = given.advance(&system.driven([black_box(0.3)], 0.4)).is_ok();
+                    given.correct(start);
+                    let taken = given.advance_linearized(&view).is_ok_and(|taken| {
+                        black_box(taken.by_state()).is_ok()
+                            && black_box(taken.by_input::<1>()).is_ok()
+                            && black_box(taken.by_parameters::<2>()).is_ok()
+                    });
                     let of_step = by.linearized_step_with_input(&start);
                     let of_ends = by.linearization_with_input(ends.0, ends.1);
                     let by_parameters = by.state_by_parameters(ends.0, ends.1);
                     let second = by.step_with_hessian(&start, &start);
                     black_box((trajectory.state(), &of_step, &of_ends, &by_parameters, &second));
-                    i32::from(of_step.is_err())
+                    i32::from(!advanced || !taken)
+                        + i32::from(of_step.is_err())
                         + i32::from(of_ends.is_err())
                         + i32::from(by_parameters.is_err())
                         + i32::from(second.is_err())
