@@ -51,7 +51,7 @@ fn main() -> Result<()> {
     }
     let records: Vec<Record> = read(&folder.join("scenes.csv"))?;
     let setting = fs::read_to_string(folder.join("setting.md"))?;
-    let ours: Vec<&str> = ours::methods::<Ring, 2>().iter().map(|(name, _)| *name).collect();
+    let ours = ours::names::<Ring, 2>();
     let measured = page::Measured {
         records: &records,
         long: &read(&folder.join("long-run.csv"))?,

@@ -5,7 +5,8 @@ use std::marker::PhantomData;
 use anyhow::Result;
 use dalembert::run::Explicit;
 use dalembert::step::Flow;
-use dalembert::{Composition, Discretise, Gauss, Midpoint, Splitting, State, Trapezoidal};
+use dalembert::system::ForcedLagrangian;
+use dalembert::{Composition, Discretise, Gauss, Midpoint, Splitting, State, Trajectory, Trapezoidal};
 
 use crate::scenes::Scene;
 
@@ -30,6 +31,24 @@ pub fn methods<S: Scene<N>, const N: usize>() -> Vec<(&'static str, Steps<S, N>)
     ];
     methods.extend(S::SPLITTINGS);
     methods
+}
+
+/// A run of a number of steps of size h, with an error asked for at its end.
+pub type StepsTo<S, const N: usize> = fn(&S, &State<f64, N>, f64, u32, f64) -> Result<State<f64, N>>;
+
+/// Those that make use of an error asked for.
+pub fn to_an_error<S: Scene<N>, const N: usize>() -> Vec<(&'static str, StepsTo<S, N>)> {
+    vec![
+        ("Gauss, 4 stages, to an error", solved_for::<S, N, 4>),
+        ("Gauss, 6 stages, to an error", solved_for::<S, N, 6>),
+        ("Gauss, 8 stages, to an error", solved_for::<S, N, 8>),
+    ]
+}
+
+/// The names of all.
+pub fn names<S: Scene<N>, const N: usize>() -> Vec<&'static str> {
+    let to_rounding = methods::<S, N>().into_iter().map(|(name, _)| name);
+    to_rounding.chain(to_an_error::<S, N>().into_iter().map(|(name, _)| name)).collect()
 }
 
 /// What scenes add whose trapezoidal rule is explicit.
@@ -60,7 +79,26 @@ fn run<S, M, const N: usize>(
 where
     S: Flow<M, N, Scalar = f64>,
 {
-    let mut trajectory = scene.by(method, h).run(*start);
+    end(scene.by(method, h).run(*start), steps)
+}
+
+fn solved_for<S, const N: usize, const STAGES: usize>(
+    scene: &S,
+    start: &State<f64, N>,
+    h: f64,
+    steps: u32,
+    error: f64,
+) -> Result<State<f64, N>>
+where
+    S: ForcedLagrangian<N, Scalar = f64>,
+{
+    end(scene.by(Gauss::<STAGES>, h).run(*start).solved_for(error, h * f64::from(steps)), steps)
+}
+
+fn end<S: Flow<M, N, Scalar = f64>, M, const N: usize>(
+    mut trajectory: Trajectory<'_, S, M, N>,
+    steps: u32,
+) -> Result<State<f64, N>> {
     for step in trajectory.by_ref().take(steps as usize) {
         step?;
     }

@@ -52,11 +52,23 @@ pub fn scene<S: Scene<N>, const N: usize, const M: usize>(
 
     let error = |state: &State<f64, N>| (state.q - end.q).amax();
     let mut candidates: Vec<Candidate<'_, State<f64, N>>> = Vec::new();
+    // From steps of length 4 on.
+    let count = |k: i32| (time * 2_f64.sqrt().powi(k)).ceil();
     for (method, steps) in ours::methods::<S, N>() {
-        // From steps of length 4 on.
-        let count = |k: i32| (time * 2_f64.sqrt().powi(k)).ceil();
         candidates.extend(worth((-4..56).map(count), error, |setting| {
             let run = move || steps(scene, &start, time / setting, setting as u32);
+            Candidate { method, setting, run: timed(run, Ok) }
+        }));
+    }
+    for (method, steps) in ours::to_an_error::<S, N>() {
+        candidates.extend(worth((-4..56).map(count), error, |setting| {
+            let (h, n) = (time / setting, setting as u32);
+            // Asked for is the error that these steps have, as far as it is known here by the reference.
+            let solved = steps(scene, &start, h, n, 0.0);
+            let run = move || {
+                let asked = error(solved.as_ref().map_err(|error| anyhow::anyhow!("{error:#}"))?);
+                steps(scene, &start, h, n, asked)
+            };
             Candidate { method, setting, run: timed(run, Ok) }
         }));
     }

@@ -16,6 +16,7 @@ mod problem;
 mod rounding;
 mod segment;
 mod sensitivity;
+mod slack;
 mod taken;
 mod tangent;
 
@@ -32,6 +33,7 @@ use coefficients::Coefficients;
 pub use history::StageHistory;
 use problem::{Compensated, Problem, Solution};
 use segment::Segment;
+pub(crate) use slack::SLACK;
 
 /// The Gauss–Galerkin rule of S stages, 1 ≤ S ≤ 8: order 2S, self-adjoint, A-stable; S = 1 is
 /// [`Midpoint`](crate::Midpoint).

@@ -18,6 +18,7 @@ mod variation;
 use nalgebra::ComplexField;
 
 use crate::numbers::Scalar;
+use crate::rules::SLACK;
 use crate::step::{State, StepError, verify_start};
 use crate::system::Lagrangian;
 pub use guard::{GuardedCheckpoint, GuardedTrajectory};
@@ -138,6 +139,13 @@ pub enum ToleranceError {
     Step(StepError),
 }
 
+impl<S, const N: usize> Chosen<S, N> {
+    fn slack(&self) -> Option<f64> {
+        let is_left = matches!(self.method, Method::Gauss4 | Method::Gauss8);
+        is_left.then(|| SLACK * self.tolerance / self.steps as f64)
+    }
+}
+
 impl Method {
     /// All of them.
     pub const ALL: [Self; 8] = [
@@ -195,7 +203,10 @@ impl Method {
     /// tolerance. The state reached until then is good: [`Breach::instead`] is what to ask for from the
     /// start.
     ///
-    /// The step size stays constant along the run, so that the structure is kept.
+    /// The step size stays constant along the run, so that the structure is kept, but for what the sweeps of
+    /// Gauss methods leave: they end where all steps together move the end by a hundredth of the tolerance
+    /// ([`Choice::slack`], a hundredth of the tolerance over the number of steps). The local errors show it,
+    /// as the half steps are solved to rounding, so that choice and guard count it in.
     ///
     /// ```
     /// use dalembert::{Discretise, State, rayleigh_system};
@@ -333,6 +344,14 @@ where
         self.chosen.tolerance
     }
 
+    /// What the sweeps of one step may leave of its change, in units of q: of Gauss methods, whose stages
+    /// are solved no further than the error asks for
+    /// ([`Trajectory::solved_for`](crate::Trajectory::solved_for)). Nothing of methods that solve to
+    /// rounding, or have nothing to solve.
+    pub fn slack(&self) -> Option<f64> {
+        self.chosen.slack()
+    }
+
     /// The error expected at the end if the whole run is like its start.
     pub fn expected(&self) -> f64 {
         self.chosen.expected
@@ -357,8 +376,13 @@ where
     }
 
     /// Its step and a half one, before the first.
+    ///
+    /// What is left of the whole step's stages shows beside halves that are solved to rounding.
     fn fresh_steps(&self) -> Option<[M::Step; 2]> {
-        let step = |h: f64| self.methods.step(self.chosen.method, L::Scalar::constant(h));
-        Some([step(self.chosen.step_size)?, step(0.5 * self.chosen.step_size)?])
+        let Chosen { method, step_size, tolerance, steps, .. } = self.chosen;
+        let step = |h: f64| self.methods.step(method, L::Scalar::constant(h));
+        let [mut whole, half] = [step(step_size)?, step(0.5 * step_size)?];
+        whole.leave(tolerance, steps, 0.0);
+        Some([whole, half])
     }
 }

@@ -5,8 +5,10 @@ use core::marker::PhantomData;
 use nalgebra::SVector;
 
 use crate::numbers::Scalar;
+use crate::rules::Gauss;
 use crate::run::{Checkpoint, Course};
 use crate::step::{Discretised, Flow, Memory, State, Step, StepError};
+use crate::system::ForcedLagrangian;
 
 /// Runs.
 impl<'a, L, M, const N: usize> Discretised<'a, L, M, N>
@@ -228,6 +230,56 @@ where
         }
     }
     Err(error)
+}
+
+impl<L, const N: usize, const S: usize> Trajectory<'_, L, Gauss<S>, N>
+where
+    L: ForcedLagrangian<N>,
+{
+    /// Solves the stages no further than an error of `error`, in units of q, at the time `time` asks for:
+    /// what a step's sweeps leave unsolved is held below
+    ///
+    /// ```text
+    /// |δq| ≤ ε/(100 n),   w |δp| ≤ ε/(100 n)        ε the error, n the steps from here to `time`
+    /// w = max |Δq|/max |Δp|, over the steps so far and all coordinates
+    /// ```
+    ///
+    /// so that all steps together move the end by at most ε/100, times what the motion makes of an early
+    /// error: as much as of the method's own error in its steps. At large errors and long steps that halves
+    /// the sweeps.
+    ///
+    /// **It costs structure.** The energy errs by about ε/100 with time, as no symplectic step makes it;
+    /// momentum maps are kept to the same. So it is for an end and an error, not for long runs: steps after
+    /// `time` are solved to rounding again, as are the first step and those that Newton's method has to
+    /// solve. [`to_error`](crate::Discretise::to_error) chooses the step size, too, does the same, and its
+    /// guard sees what is left.
+    ///
+    /// The [`Report`](crate::step::Report) of a step solved so has for `residual` what is left of the
+    /// momenta, and for `floor` what might be. A [`checkpoint`](Self::checkpoint) ends it.
+    ///
+    /// ```
+    /// use dalembert::{Discretise, Gauss, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system(rule = gauss)]
+    /// fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    ///     (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
+    /// }
+    /// let system = Pendulum { r: 0.01 };
+    /// let start = State::from_velocity(&system, [1.0], [0.0])?;
+    /// let end = |run: &mut dyn Iterator<Item = Result<dalembert::step::Step<f64, 1>, _>>| run.nth(39).unwrap();
+    /// let method = system.by(Gauss::<6>, 0.5);
+    /// let (solved, loose) = (end(&mut method.run(start))?, end(&mut method.run(start).solved_for(1e-6, 20.0))?);
+    /// assert!((solved.state.q - loose.state.q).amax() < 1e-8);
+    /// assert!(loose.report.iterations < solved.report.iterations);
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    #[must_use = "the run given is consumed"]
+    pub fn solved_for(mut self, error: f64, time: f64) -> Self {
+        let steps = ((time - self.time()) / self.at.step_size.widen()).max(0.0);
+        // Nearly a whole number: the last step is one of them.
+        self.memory.leave(error, nalgebra::ComplexField::ceil(steps - 1e-6) as u64, 0.0);
+        self
+    }
 }
 
 /// A step taken at once or in parts; see [`Trajectory::next_in_parts`].

@@ -81,7 +81,9 @@ pub trait BoundedFlow<M, const N: usize>: Flow<M, N> {
 /// What a run keeps from step to step, and how the next step uses it.
 ///
 /// [`Default`] is the memory before the first step. What is remembered makes a step cheaper; it never decides
-/// where the step leads, beyond rounding: a memory of other states or another step size does no harm.
+/// where the step leads, beyond rounding, or what a run was told to leave unsolved
+/// ([`Trajectory::solved_for`](crate::Trajectory::solved_for)): a memory of other states or another step size
+/// does no harm.
 pub trait Memory<L: ?Sized, M, const N: usize>: Default
 where
     L: Flow<M, N>,

@@ -20,6 +20,11 @@ use crate::step::{Momenta, State, StepError, StepKernel};
 /// matrix J, plus, where forces cancel, what the last places of q and v̄ do to the residual, measured. The
 /// state returned then satisfies the rule's equations with q, v̄ and p changed by some units of their
 /// last places. Whatever does not is an error; no step is taken on a residual that merely stopped falling.
+///
+/// **But for runs with an error asked for**, [`to_error`](crate::Discretise::to_error) and
+/// [`Trajectory::solved_for`](crate::Trajectory::solved_for): steps of theirs by a Gauss rule may leave what
+/// that error allows. `floor` is that allowance then, and `residual` what is left, as the contraction
+/// measured foretells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Report<S> {

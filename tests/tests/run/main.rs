@@ -7,6 +7,7 @@ mod kept_matrix;
 mod lanes;
 mod one_run;
 mod saved_runs;
+mod slack;
 mod splitting;
 mod splitting_conditions;
 mod tolerance;

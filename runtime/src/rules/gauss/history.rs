@@ -4,7 +4,8 @@ use core::array;
 
 use nalgebra::SVector;
 
-use super::problem::{Compensated, Problem};
+use super::problem::{Compensated, Problem, Solution};
+use super::slack::{Allowance, Slack, Swept, sweep};
 use super::{Gauss, completed, fixed_point, solved_from};
 use crate::numbers::{
     LaneVector, Lanes, Scalar,
@@ -28,6 +29,8 @@ pub struct StageHistory<T, const N: usize, const S: usize> {
     contracted: bool,
     q: Compensated<T, N>,
     p: Compensated<T, N>,
+    /// What the stages may be left by; nothing where they are solved to rounding.
+    slack: Option<Slack<T>>,
     /// The velocity to start from before the first step.
     suggested: Option<SVector<T, N>>,
 }
@@ -41,6 +44,7 @@ impl<T: Scalar, const N: usize, const S: usize> Default for StageHistory<T, N, S
             contracted: false,
             q: Compensated::new(zero),
             p: Compensated::new(zero),
+            slack: None,
             suggested: None,
         }
     }
@@ -85,6 +89,17 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
         array::from_fn(|i| lane(&self.v, i))
     }
 
+    /// Solves the stages as far as an error of `error` after so many steps needs, and to rounding from there
+    /// on. `weight` is what an error of p counts beside one of q before the first step; 0 if not known.
+    pub(crate) fn leave(&mut self, error: f64, steps: u64, weight: f64) {
+        self.slack = Some(Slack::new(error, steps, weight));
+    }
+
+    /// Lets go of the last step, but not of what the steps to come may leave unsolved.
+    pub(crate) fn forget(&mut self) {
+        *self = Self { slack: self.slack, ..Self::default() };
+    }
+
     fn extrapolation(&self) -> LaneVector<T, N, S> {
         let columns = &Gauss::<S>::COEFFICIENTS.extrapolation;
         let mut extrapolated = self.v;
@@ -116,12 +131,15 @@ where
             (Compensated::new(state.q), Compensated::new(state.p))
         };
         let problem = Problem::<'_, L, N, S>::new(system, q0, p0, h);
-        let extrapolated = if goes_on && h == self.h && self.contracted {
-            fixed_point::iterate(&problem, &self.extrapolation())
-        } else {
-            None
+        let guess = (goes_on && h == self.h && self.contracted).then(|| self.extrapolation());
+        let swept = match self.slack.and_then(|slack| slack.allowance(h, &p0.value)) {
+            None => guess.and_then(|guess| fixed_point::iterate(&problem, &guess)),
+            Some(allowance) => match guess {
+                Some(guess) => within(&problem, &guess, &allowance),
+                None => within(&problem, &splat(&state.velocity(system)?), &allowance),
+            },
         };
-        let solution = match extrapolated {
+        let solution = match swept {
             Some(solution) => solution,
             None => {
                 let near = self.suggested.and_then(|v| fixed_point::solve(&problem, &v).ok());
@@ -129,7 +147,11 @@ where
             }
         };
         let (step, [q, p]) = completed(&problem, &solution)?;
-        *self = Self { v: solution.v, h, contracted: solution.contracted, q, p, suggested: None };
+        let mut slack = self.slack;
+        if let Some(slack) = &mut slack {
+            slack.follow(state, &step.state);
+        }
+        *self = Self { v: solution.v, h, contracted: solution.contracted, q, p, slack, suggested: None };
         Ok(step)
     }
 
@@ -139,4 +161,31 @@ where
 
     /// The polynomial of the velocities is but a guess, of any input.
     fn change_input(&mut self) {}
+}
+
+/// The stages from the velocities `guess`, solved as far as they have to be, if the sweeps contract.
+#[inline]
+fn within<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    guess: &LaneVector<T, N, S>,
+    allowance: &Allowance<T>,
+) -> Option<Solution<T, N, S>> {
+    match sweep(problem, guess, allowance) {
+        Swept::Within(solution) => Some(solution),
+        Swept::Slow(v, sweeps) => to_rounding(problem, &v, sweeps),
+        Swept::Lost => None,
+    }
+}
+
+/// The stages to rounding from velocities that so many sweeps have led to.
+#[cold]
+#[inline(never)]
+fn to_rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    v: &LaneVector<T, N, S>,
+    sweeps: u32,
+) -> Option<Solution<T, N, S>> {
+    let mut solution = fixed_point::iterate(problem, v)?;
+    solution.report.iterations += sweeps;
+    Some(solution)
 }

@@ -34,6 +34,9 @@ impl<L: Lagrangian<N>, M, const N: usize> fmt::Display for Choice<'_, L, M, N> {
             f,
             "{method}, h = {step_size:.4e}, {steps} steps: error {expected:.1e} expected, {tolerance:.1e} asked for"
         )?;
+        if let Some(slack) = self.chosen.slack() {
+            write!(f, ", stages solved to {slack:.1e} a step")?;
+        }
         trials.iter().flatten().try_for_each(|trial| write!(f, "\n  {trial}"))
     }
 }

@@ -68,6 +68,14 @@ pub trait MethodStep<L: Lagrangian<N>, const N: usize> {
 
     /// Lets go of the state that the last step led to, as a step from another has to.
     fn forget(&mut self);
+
+    /// From here on equations are solved no further than an error of `error` after so many steps asks for,
+    /// where a method has use for that; see
+    /// [`Trajectory::solved_for`](crate::Trajectory::solved_for). `weight` is what an error of p counts
+    /// beside one of q; 0 where it is not known.
+    fn leave(&mut self, error: f64, steps: u64, weight: f64) {
+        let _ = (error, steps, weight);
+    }
 }
 
 /// The methods of `M`, and splittings into kicks and drifts: for systems whose trapezoidal rule is
@@ -204,7 +212,7 @@ rules! { Midpoint Trapezoidal Fitted FittedTrapezoidal }
 /// What a wrapper adds to the methods of another: its steps, and which of them a method asks for.
 macro_rules! added {
     ($with:ident: $system:ident, $(#[$doc:meta])* $or:ident {
-        $($(#[$what:meta])* $method:ident($step:ty): $advance:expr, $forget:expr;)*
+        $($(#[$what:meta])* $method:ident($step:ty): $advance:expr, $forget:expr, $leave:expr;)*
     }) => {
         $(#[$doc])*
         #[allow(clippy::large_enum_variant, reason = "no allocator")]
@@ -232,6 +240,13 @@ macro_rules! added {
                 match self {
                     $(Self::$method(step) => $forget(step),)*
                     Self::Other(step) => step.forget(),
+                }
+            }
+
+            fn leave(&mut self, error: f64, steps: u64, weight: f64) {
+                match self {
+                    $(Self::$method(step) => $leave(step, error, steps, weight),)*
+                    Self::Other(step) => step.leave(error, steps, weight),
                 }
             }
         }
@@ -314,11 +329,11 @@ added! { WithSplittings: Explicit,
     /// A step by a splitting, or by a method of others.
     SplitOr {
         /// Order 4.
-        BlanesMoan4(OfSize<L, Splitting<6>, N>): kicked, keep;
+        BlanesMoan4(OfSize<L, Splitting<6>, N>): kicked, keep, solve_nothing;
         /// Order 6.
-        BlanesMoan6(OfSize<L, Splitting<11>, N>): kicked, keep;
+        BlanesMoan6(OfSize<L, Splitting<11>, N>): kicked, keep, solve_nothing;
         /// Order 8.
-        BlanesCasasEscorihuela8(OfSize<L, Splitting<19>, N>): kicked, keep;
+        BlanesCasasEscorihuela8(OfSize<L, Splitting<19>, N>): kicked, keep, solve_nothing;
     }
 }
 
@@ -326,11 +341,33 @@ added! { WithGauss: ForcedLagrangian,
     /// A step by a Gauss method, or by a method of others.
     GaussOr {
         /// Order 8.
-        Gauss4(OfSize<L, Gauss<4>, N>): staged, OfSize::forget;
+        Gauss4(OfSize<L, Gauss<4>, N>): staged, forget_stages, leave_stages;
         /// Order 16.
-        Gauss8(OfSize<L, Gauss<8>, N>): staged, OfSize::forget;
+        Gauss8(OfSize<L, Gauss<8>, N>): staged, forget_stages, leave_stages;
     }
 }
 
 /// A splitting keeps nothing of a state that its own step does not ask for.
 fn keep<L: Explicit<N>, const N: usize, const S: usize>(_: &mut OfSize<L, Splitting<S>, N>) {}
+
+/// A splitting solves no equations.
+fn solve_nothing<L: Explicit<N>, const N: usize, const S: usize>(
+    _: &mut OfSize<L, Splitting<S>, N>,
+    _: f64,
+    _: u64,
+    _: f64,
+) {
+}
+
+fn forget_stages<L: ForcedLagrangian<N>, const N: usize, const S: usize>(step: &mut OfSize<L, Gauss<S>, N>) {
+    step.memory.forget();
+}
+
+fn leave_stages<L: ForcedLagrangian<N>, const N: usize, const S: usize>(
+    step: &mut OfSize<L, Gauss<S>, N>,
+    error: f64,
+    steps: u64,
+    weight: f64,
+) {
+    step.memory.leave(error, steps, weight);
+}

@@ -1,0 +1,171 @@
+//! What sweeps may leave of the stages' change, where an error is asked for at an end.
+//!
+//! A share of 1/100 of that error is spread evenly over the steps: its part of one step is the slack. With
+//! sweeps whose residuals in momenta are r and whose corrections of velocities are c, a step errs by what the
+//! sweeps after the last would still change,
+//!
+//! ```text
+//! |δq1| ≤ h |Σ c|,   |δp1| ≤ |Σ r|,   sums over the sweeps not made, of the contraction measured
+//! ```
+//!
+//! and both stay below the slack, δp1 weighed by w = max |Δq|/max |Δp| over the steps so far. Lanes of many
+//! members take the same decisions: they are functions of numbers alone.
+
+use super::problem::{Problem, Solution};
+use crate::numbers::{LaneVector, Lanes, Scalar};
+use crate::step::{Report, State};
+use crate::system::{ForcedLagrangian, Stages};
+
+/// The share of the error asked for that unsolved stages may make.
+pub(crate) const SLACK: f64 = 0.01;
+
+/// More sweeps than a smaller slack would cost elsewhere.
+const MAX_SWEEPS: u32 = 60;
+
+/// Two sweeps that leave more of the residual than this are no contraction to rely on.
+const SLUGGISH: f64 = 0.5;
+
+/// Below so many roundings of a momentum the slack is no more than rounding.
+const ROUNDINGS: f64 = 64.0;
+
+/// What each of the next steps may leave unsolved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Slack<T> {
+    /// In units of q.
+    of_step: T,
+    /// The steps that it was meant for and that are still to come.
+    steps: u64,
+    /// The largest change of a coordinate and of a momentum over a step; before the first what stands for
+    /// them.
+    change: [T; 2],
+}
+
+impl<T: Scalar> Slack<T> {
+    /// For an error of `error` after so many steps, with what an error of p counts beside one of q at first;
+    /// 0 where that is not known.
+    pub(crate) fn new(error: f64, steps: u64, weight: f64) -> Self {
+        let of_step = SLACK * error / steps.max(1) as f64;
+        // So small that the first step's changes take their place.
+        let small = T::SMALLEST_NORMAL.sqrt();
+        Self { of_step: T::constant(of_step), steps, change: [T::constant(weight) * small, small] }
+    }
+
+    /// Takes in a step.
+    #[inline]
+    pub(crate) fn follow<const N: usize>(&mut self, from: &State<T, N>, to: &State<T, N>) {
+        self.steps = self.steps.saturating_sub(1);
+        self.change =
+            [self.change[0].max((to.q - from.q).amax()), self.change[1].max((to.p - from.p).amax())];
+    }
+
+    /// What the sweeps of the next step, of size `h` from the momentum `p`, may leave; nothing before the
+    /// first step has shown how q and p change, after the last, and where it were no more than rounding.
+    #[inline]
+    pub(crate) fn allowance<const N: usize>(
+        &self,
+        h: T,
+        p: &nalgebra::SVector<T, N>,
+    ) -> Option<Allowance<T>> {
+        let [q_change, p_change] = self.change;
+        let rounding = T::EPSILON * T::constant(ROUNDINGS) * p.amax() * q_change;
+        let is_known = self.steps > 0 && q_change > T::zero() && self.of_step * p_change > rounding;
+        is_known.then(|| Allowance {
+            per_correction: h.abs() / self.of_step,
+            per_residual: q_change / (p_change * self.of_step),
+            residual: self.of_step * p_change / q_change,
+        })
+    }
+}
+
+/// What the sweeps of one step may leave.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Allowance<T> {
+    /// By the units that follow corrections of V are measured in.
+    pub(crate) per_correction: T,
+    /// By the units that residuals of the momenta are measured in.
+    pub(crate) per_residual: T,
+    /// One such unit, of a momentum.
+    residual: T,
+}
+
+impl<T: Scalar> Allowance<T> {
+    /// The largest residual and correction in these units; not finite where one is not.
+    #[inline(always)]
+    fn size<const N: usize, const S: usize>(&self, stages: &Stages<T, N, S>) -> T {
+        let mut largest = Lanes::<T, S>::splat(T::zero());
+        let mut sum = largest;
+        for a in 0..N {
+            let residual = stages.residual[a].abs() * self.per_residual;
+            let correction = stages.correction[a].abs() * self.per_correction;
+            largest = largest.larger(residual.larger(correction));
+            // In the sum NaN and infinity stay.
+            sum = sum + (residual + correction);
+        }
+        let sum = sum.folded(|a, b| a + b);
+        if sum.is_finite() { largest.folded(|a, b| if a > b { a } else { b }) } else { sum }
+    }
+}
+
+/// What sweeps still to be made would change, in units of the present size, by the last three sizes, the
+/// present one last; infinite where they do not contract.
+///
+/// Where the mass depends on q, velocities follow momenta a sweep late, and every other sweep may take off
+/// less: of the last two contractions x and y the larger is expected of the next sweep, and x y of any two.
+#[inline(always)]
+pub(crate) fn remaining<T: Scalar>([before, last, now]: [T; 3]) -> T {
+    let (x, y) = (last / before, now / last);
+    let both = x * y;
+    let larger = if x > y { x } else { y };
+    if both < T::constant(SLUGGISH) && larger.is_finite() {
+        larger * (T::one() + larger) / (T::one() - both)
+    } else {
+        T::one() / T::zero()
+    }
+}
+
+/// How sweeps within an allowance ended.
+pub(super) enum Swept<T, const N: usize, const S: usize> {
+    /// What is left is within it.
+    Within(Solution<T, N, S>),
+    /// They no longer contract: to be solved from here to rounding, after so many sweeps.
+    Slow(LaneVector<T, N, S>, u32),
+    /// They lead nowhere.
+    Lost,
+}
+
+/// Sweeps from the velocities `guess` until what is left is within the allowance.
+#[inline]
+pub(super) fn sweep<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    guess: &LaneVector<T, N, S>,
+    allowance: &Allowance<T>,
+) -> Swept<T, N, S> {
+    let mut v = *guess;
+    let (mut before, mut last) = (T::zero(), T::zero());
+    for iterations in 1..=MAX_SWEEPS {
+        let stages = problem.stages(&v);
+        let size = allowance.size(&stages);
+        if !size.is_finite() {
+            return Swept::Lost;
+        }
+        for (v, &correction) in v.iter_mut().zip(&stages.correction) {
+            *v = *v + correction;
+        }
+        if iterations > 2 {
+            let share = remaining([before, last, size]);
+            if size * share <= T::one() {
+                let last_correction =
+                    stages.correction.iter().fold(T::zero(), |largest, c| largest.max(c.amax()));
+                let left = size * share * allowance.residual;
+                let floor = allowance.residual;
+                let report = Report { iterations, damped: 0, residual: left, floor, last_correction };
+                return Swept::Within(Solution { v, rate: stages.rate, report, contracted: true });
+            }
+            if !share.is_finite() {
+                return Swept::Slow(v, iterations);
+            }
+        }
+        (before, last) = (last, size);
+    }
+    Swept::Slow(v, MAX_SWEEPS)
+}
