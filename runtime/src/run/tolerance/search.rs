@@ -218,6 +218,7 @@ where
         let half = h * L::Scalar::constant(0.5);
         let mut whole = self.methods.step(method, h).ok_or(None)?;
         let mut halves = self.methods.step(method, half).ok_or(None)?;
+        whole.leave(self.tolerance, steps as u64, self.weight);
         let system = self.system;
         let whole = whole.advance(system, elapsed, state).map_err(Some)?;
         let first = halves.advance(system, elapsed, state).map_err(Some)?;
@@ -309,15 +310,21 @@ where
     }
 
     /// Looks at the first steps of the run, and shortens or lengthens the step by what they show.
+    ///
+    /// The start is one of the places looked at: what follows it may be smoother for a while, as from a
+    /// pericentre outwards, and alone it would ask for steps that the start does not bear. After the step has
+    /// changed, the error there is taken to have gone with its power.
     fn explore(&mut self, best: &mut Candidate) {
         let budget = (self.spent + EXPLORING * best.cost()).max(CHOOSING * best.cost());
         let p = f64::from(best.method.order());
+        let (at_start, of_steps) = (best.measured.local, best.steps);
         let mut remaining = 3;
         while remaining > 0 {
             remaining -= 1;
             let method = best.method;
             let h = self.time / best.steps;
             let Some(mut step) = self.methods.step(method, L::Scalar::constant(h)) else { return };
+            step.leave(self.tolerance, best.steps as u64, self.weight);
             let (mut state, mut sum, mut looks, mut taken) = (self.state, 0.0, 0.0, 0.0);
             let (mut evaluations, mut stopped) = (0.0, false);
             let mut scale = Scale::new(&state);
@@ -353,7 +360,8 @@ where
             if looks == 0.0 {
                 return;
             }
-            let mean = sum / looks;
+            let at_start = at_start * ComplexField::powf(of_steps / best.steps, p + 1.0);
+            let mean = (at_start + sum) / (1.0 + looks);
             best.measured.local = mean;
             if taken > 0.0 {
                 best.measured.evaluations = evaluations / taken;
