@@ -257,16 +257,18 @@ fn an_error_leaves_the_state_and_the_run_goes_on() {
     assert_eq!(run.time(), 0.1_f64.mul_add(3.0, 0.05));
 }
 
-/// An estimator corrects the state at each step: the steps are those from the corrected states.
+/// An estimator corrects the state at each step: the steps are those from the corrected states, and a Gauss
+/// rule's guess saves sweeps.
 #[test]
 fn a_corrected_run_goes_on_from_the_corrected_state() {
-    fn corrected<L, M: Copy>(view: &L, method: M)
+    fn corrected<L, M: Copy>(view: &L, method: M) -> [u32; 2]
     where
         L: Flow<M, 2, Scalar = f64>,
     {
         let mut random = StdRng::seed_from_u64(9);
         let start = State { q: vector![0.3, 0.9], p: vector![0.1, -0.4] };
         let mut run = view.by(method, 0.02).run_with_inputs(start);
+        let mut iterations = [0, 0];
         for _ in 0..100 {
             let State { q, p } = *run.state();
             let noise = [(); 4].map(|()| random.random_range(-1e-4..1e-4));
@@ -276,12 +278,15 @@ fn a_corrected_run_goes_on_from_the_corrected_state() {
             let cold = view.by(method, 0.02).step(&state).unwrap();
             let step = run.advance(view).unwrap();
             assert!((step.state.q - cold.state.q).amax().max((step.state.p - cold.state.p).amax()) < 1e-13);
+            iterations = [iterations[0] + step.report.iterations, iterations[1] + cold.report.iterations];
         }
+        iterations
     }
     let links = Links { c: 0.1, g: 3.0 };
     let view = links.driven([0.5, 0.1]);
     corrected(&view, Midpoint);
-    corrected(&view, Gauss::<4>);
+    let [kept, cold] = corrected(&view, Gauss::<4>);
+    assert!(kept + 100 < cold, "{kept} {cold}");
     corrected(&view, Composition::kahan_li_6(Midpoint));
     let pushed = Pushed { r: 0.1 };
     let view = pushed.driven([0.5, 0.1]);

@@ -33,6 +33,8 @@ pub struct StageHistory<T, const N: usize, const S: usize> {
     slack: Option<Slack<T>>,
     /// The velocity to start from before the first step.
     suggested: Option<SVector<T, N>>,
+    /// Whether the next step starts near the end of the last.
+    is_corrected: bool,
 }
 
 impl<T: Scalar, const N: usize, const S: usize> Default for StageHistory<T, N, S> {
@@ -46,6 +48,7 @@ impl<T: Scalar, const N: usize, const S: usize> Default for StageHistory<T, N, S
             p: Compensated::new(zero),
             slack: None,
             suggested: None,
+            is_corrected: false,
         }
     }
 }
@@ -112,6 +115,30 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
         }
         extrapolated
     }
+
+    /// The extrapolation, moved by what the velocity `v` at the start of the next step differs from that at the
+    /// end of the last.
+    #[cold]
+    #[inline(never)]
+    fn moved_extrapolation(&self, v: &SVector<T, N>) -> LaneVector<T, N, S> {
+        let coefficients = &Gauss::<S>::COEFFICIENTS;
+        // ℓ_j(1) = b_j Σ (2k + 1) P_k(2c_j − 1).
+        let at_end: [T; S] = array::from_fn(|j| {
+            let (x, mut p, mut sum) = (2.0 * coefficients.nodes[j] - 1.0, (0.0, 1.0), 0.0);
+            for k in 0..S {
+                let k = k as f64;
+                sum += (2.0 * k + 1.0) * p.1;
+                p = (p.1, ((2.0 * k + 1.0) * x * p.1 - k * p.0) / (k + 1.0));
+            }
+            T::constant(coefficients.weights[j] * sum)
+        });
+        let mut moved = self.extrapolation();
+        for a in 0..N {
+            let end = (0..S).fold(T::zero(), |end, j| end + at_end[j] * self.v[a].0[j]);
+            moved[a] = moved[a] + (v[a] - end);
+        }
+        moved
+    }
 }
 
 impl<T, L, const N: usize, const S: usize> Memory<L, Gauss<S>, N> for StageHistory<T, N, S>
@@ -131,7 +158,11 @@ where
             (Compensated::new(state.q), Compensated::new(state.p))
         };
         let problem = Problem::<'_, L, N, S>::new(system, q0, p0, h);
-        let guess = (goes_on && h == self.h && self.contracted).then(|| self.extrapolation());
+        let guess = match h == self.h && self.contracted {
+            true if goes_on => Some(self.extrapolation()),
+            true if self.is_corrected => Some(self.moved_extrapolation(&state.velocity(system)?)),
+            _ => None,
+        };
         let swept = match self.slack.and_then(|slack| slack.allowance(h, &p0.value)) {
             None => guess.and_then(|guess| fixed_point::iterate(&problem, &guess)),
             Some(allowance) => match guess {
@@ -151,7 +182,8 @@ where
         if let Some(slack) = &mut slack {
             slack.follow(state, &step.state);
         }
-        *self = Self { v: solution.v, h, contracted: solution.contracted, q, p, slack, suggested: None };
+        let (v, contracted) = (solution.v, solution.contracted);
+        *self = Self { v, h, contracted, q, p, slack, suggested: None, is_corrected: false };
         Ok(step)
     }
 
@@ -161,6 +193,10 @@ where
 
     /// The polynomial of the velocities is but a guess, of any input.
     fn change_input(&mut self) {}
+
+    fn change_state(&mut self) {
+        self.is_corrected = true;
+    }
 }
 
 /// The stages from the velocities `guess`, solved as far as they have to be, if the sweeps contract.
