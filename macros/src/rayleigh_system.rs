@@ -37,7 +37,7 @@ use decide::Decision;
 use diagnostics::{Mistake, Report};
 use hygiene::Shared;
 pub use model::Runtime;
-use model::Source;
+use model::{Lanes, Source};
 use rules::Rules;
 
 /// The expansion of `#[rayleigh_system(attribute)] item`.
@@ -65,12 +65,12 @@ fn system(
     };
     conditions::refuse(&source, &mut report);
     let Some(system) = check::system(&source, &options, &mut report) else {
-        return fallback::with_stubs(&source, &options.rules, options.lanes.is_some(), report);
+        return fallback::with_stubs(&source, &options.rules, &options.lanes, report);
     };
     match decide::engine(&system, runtime, &mut report) {
         Decision::WrittenOut(written) => written_out::system(&system, *written, runtime.is_portable),
         Decision::DualNumbers(twins, why) => dual::system(&system, &twins, why, runtime.is_portable),
-        Decision::Refused => fallback::with_stubs(&source, &options.rules, options.lanes.is_some(), report),
+        Decision::Refused => fallback::with_stubs(&source, &options.rules, &options.lanes, report),
     }
 }
 
@@ -93,7 +93,7 @@ fn field(runtime: Runtime, item: TokenStream, mut report: Report) -> TokenStream
     };
     conditions::refuse(&source, &mut report);
     let Some((system, field)) = check::field(&source, &mut report) else {
-        return fallback::with_stubs(&source, &Rules::default(), false, report);
+        return fallback::with_stubs(&source, &Rules::default(), &Lanes::default(), report);
     };
     let twins = dual::rewrite::over_duals(&system, &mut report);
     if !runtime.has_std {
@@ -101,6 +101,6 @@ fn field(runtime: Runtime, item: TokenStream, mut report: Report) -> TokenStream
     }
     match &source {
         Source::Function(function) if report.is_empty() => dual::field(&system, &twins[0], function, field),
-        _ => fallback::with_stubs(&source, &Rules::default(), false, report),
+        _ => fallback::with_stubs(&source, &Rules::default(), &Lanes::default(), report),
     }
 }

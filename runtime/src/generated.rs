@@ -28,7 +28,7 @@ pub use crate::step::{
 };
 #[doc(no_inline)]
 pub use crate::system::{
-    ActingForce, CyclicCoordinate, Damping, Driven, Engine, Force, ForcedLagrangian, GeneratedDiffers,
-    GradientBy, Input, Lagrangian, NewtonStructure, Parameters, Rayleigh, Refusal, ScalarField, SecondOrder,
-    Stages, Structure, VectorField,
+    ActingForce, CyclicCoordinate, Damping, Driven, Engine, Force, ForcedLagrangian, ForcedLagrangianInLanes,
+    GeneratedDiffers, GradientBy, Input, Lagrangian, NewtonStructure, Parameters, Rayleigh, Refusal,
+    ScalarField, SecondOrder, Stages, Structure, VectorField,
 };

@@ -19,5 +19,5 @@ pub use elementary::Elementary;
 pub use lanes::{LaneVector, Lanes, Mask};
 pub(crate) use linear::determinant_sign;
 pub use linear::{Banded, Factored, MatricesOfMembers, NewtonMatrix, Singular};
-pub use members::{MemberVector, Members};
+pub use members::{Blank, MemberVector, Members};
 pub use scalar::Scalar;

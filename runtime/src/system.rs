@@ -28,7 +28,7 @@ pub use continuous::{Force, Lagrangian, Rayleigh};
 pub use driven::{Driven, Input};
 pub use error::{Function, GeneratedDiffers};
 pub use fields::{ScalarField, VectorField};
-pub use forced::{ForcedLagrangian, Stages};
+pub use forced::{ForcedLagrangian, ForcedLagrangianInLanes, Stages};
 pub use parameters::{GradientBy, Parameters};
 pub use second_order::SecondOrder;
 pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};

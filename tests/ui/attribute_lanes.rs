@@ -1,8 +1,8 @@
-//! What `lanes = explicit` asks of a system is said at the word.
+//! What `lanes = explicit` and `lanes = gauss` ask of a system is said at the word.
 
 use dalembert::rayleigh_system;
 
-#[rayleigh_system(rule = trapezoidal, lanes = gauss)]
+#[rayleigh_system(rule = trapezoidal, lanes = implicit)]
 fn unknown(q: [f64; 1], v: [f64; 1]) -> f64 {
     0.5 * v[0] * v[0] - q[0] * q[0]
 }
@@ -76,9 +76,24 @@ fn rounded(q: [f64; 1], v: [f64; 1]) -> f64 {
     0.5 * v[0] * v[0] - q[0].floor()
 }
 
+#[rayleigh_system(rule = trapezoidal, lanes = [explicit, gauss, explicit])]
+fn twice(q: [f64; 1], v: [f64; 1]) -> f64 {
+    0.5 * v[0] * v[0] - q[0] * q[0]
+}
+
+#[rayleigh_system(rule = trapezoidal, lanes = [explicit, gauss])]
+fn without_gauss(q: [f64; 1], v: [f64; 1]) -> f64 {
+    0.5 * v[0] * v[0] - q[0] * q[0]
+}
+
+#[rayleigh_system(rule = gauss, lanes = gauss)]
+fn exchanged(q: [f64; 2], v: [f64; 2]) -> f64 {
+    v[0] * v[1] - q[0] * q[1]
+}
+
 struct Plain;
 
-#[rayleigh_system(rule = trapezoidal)]
+#[rayleigh_system(rule = [trapezoidal, gauss])]
 impl Plain {
     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
         0.5 * v[0] * v[0] - q[0] * q[0]
@@ -90,10 +105,12 @@ fn main() {
     use dalembert::{Splitting, State, run::LaneRuns};
     let start = State { q: vector![0.0], p: vector![1.0] };
     let _ = LaneRuns::new(Splitting::blanes_moan_6(), [&Plain], &[start], 0.1);
+    let _ = LaneRuns::new(dalembert::Gauss::<4>, [&Plain], &[start], 0.1);
     // No second message where a first one has said what is wrong.
     let _ = LaneRuns::new(Splitting::blanes_moan_6(), [&Mass {}], &[start], 0.1);
     let _ = LaneRuns::new(dalembert::Trapezoidal, [&Rounded {}], &[start], 0.1);
     let _ = LaneRuns::new(Splitting::blanes_moan_6(), [&ByMidpoint {}], &[start], 0.1);
+    let _ = LaneRuns::new(dalembert::Gauss::<4>, [&WithoutGauss {}], &[start], 0.1);
     let driven = Driven;
     let _ = LaneRuns::new(Splitting::blanes_moan_6(), [&driven.driven([1.0], 0.0)], &[start], 0.1);
 }

@@ -1,5 +1,5 @@
 //! The options of the attribute: `rule = midpoint`, `rule = [midpoint, trapezoidal]`, `derivatives =
-//! expanded`, `parameters = [m, c[0]]`, `step_derivatives = second`, `lanes = explicit`, `crate = mechanics`.
+//! expanded`, `parameters = [m, c[0]]`, `step_derivatives = second`, `lanes = [explicit, gauss]`, `crate = mechanics`.
 
 use proc_macro2::TokenStream;
 use syn::ext::IdentExt;
@@ -8,7 +8,7 @@ use syn::punctuated::Punctuated;
 use syn::{Expr, Ident, Path, Token, bracketed, token};
 
 use super::diagnostics::{Mistake, Report};
-use super::model::{Engine, Runtime};
+use super::model::{Engine, Lanes, Runtime};
 use super::rules::{GAUSS, Rule, Rules};
 
 /// One option, `name = value` or `name = [value, …]`.
@@ -61,8 +61,8 @@ pub struct Options {
     pub parameters: Vec<Expr>,
     /// Whether the step is differentiated twice.
     pub second: bool,
-    /// `explicit`, where steps of several members at once are asked for.
-    pub lanes: Option<Ident>,
+    /// Which steps of several members at once are asked for.
+    pub lanes: Lanes,
     /// The runtime, where the user's crate has another name for it.
     pub runtime: Option<Path>,
 }
@@ -98,7 +98,7 @@ pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) ->
             Values::Words(words) if name == "step_derivatives" => {
                 order(&name, &words, &mut options.second, report);
             }
-            Values::Words(words) if name == "lanes" => lanes(&name, &words, &mut options.lanes, report),
+            Values::Words(words) if name == "lanes" => lanes(&name, words, &mut options.lanes, report),
             Values::Words(_) => report.at(&name, Mistake::UnknownOption),
         }
     }
@@ -137,12 +137,24 @@ fn order(name: &Ident, values: &[Ident], second: &mut bool, report: &mut Report)
     }
 }
 
-/// `lanes = explicit`
-fn lanes(name: &Ident, values: &[Ident], lanes: &mut Option<Ident>, report: &mut Report) {
-    match values {
-        [value] if value == "explicit" => *lanes = Some(value.clone()),
-        [value] => report.at(value, Mistake::UnknownLanes),
-        _ => report.at(name, Mistake::UnknownLanes),
+/// `lanes = [explicit, gauss]`
+fn lanes(name: &Ident, words: Vec<Ident>, lanes: &mut Lanes, report: &mut Report) {
+    if words.is_empty() {
+        report.at(name, Mistake::UnknownLanes);
+    }
+    for word in words {
+        let option = match word.to_string().as_str() {
+            "explicit" => &mut lanes.explicit,
+            GAUSS => &mut lanes.gauss,
+            _ => {
+                report.at(&word, Mistake::UnknownLanes);
+                continue;
+            }
+        };
+        if option.is_some() {
+            report.at(&word, Mistake::RepeatedLanes(word.to_string()));
+        }
+        *option = Some(word);
     }
 }
 

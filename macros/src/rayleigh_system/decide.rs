@@ -36,7 +36,7 @@ pub fn engine(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Dec
     match system.engine {
         Engine::NumDual => by_duals(system, report),
         // Nothing else differentiates by parameters, or writes code on lanes.
-        Engine::Auto if system.parameters.is_empty() && system.lanes.is_none() => {
+        Engine::Auto if system.parameters.is_empty() && system.lanes.words().next().is_none() => {
             by_either(system, runtime, report)
         }
         Engine::Auto | Engine::Expanded => written_out(system, runtime, report),
@@ -66,7 +66,7 @@ fn by_either(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Deci
 fn written_out(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Decision {
     expansion(system, runtime, report).unwrap_or_else(|refusal| {
         // Advice that the system could not follow is none.
-        let asks_for_code = !system.parameters.is_empty() || system.lanes.is_some();
+        let asks_for_code = !system.parameters.is_empty() || system.lanes.words().next().is_some();
         let by_duals = !refusal.is_final && !asks_for_code && runtime.has_std && {
             let mut mistakes = Report::default();
             rewrite::over_duals(system, &mut mistakes);
@@ -89,7 +89,7 @@ fn expansion(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Resu
         return Ok(Decision::Refused);
     }
     let written = written_out::functions(system, lowered?, runtime.is_portable)?;
-    lanes::check_written(system, written.findings(), written.is_in_lanes(), report);
+    lanes::check_written(system, &written, report);
     if !report.is_empty() {
         return Ok(Decision::Refused);
     }

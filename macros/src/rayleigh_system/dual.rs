@@ -89,6 +89,7 @@ fn functions(system: &System<'_>, refusal: Option<Refusal>) -> EngineFunctions {
         force: system.has_force.then(|| derivatives::of_force(system)),
         by_input: system.input.as_ref().map(|input| derivatives::by_input(system, input)),
         stages: None,
+        stages_in_lanes: None,
         kernels: system.rules.of_displacement.iter().map(|_| None).collect(),
         by_parameters: None,
         second_order: system.second.then(|| derivatives::along_vectors(system)),

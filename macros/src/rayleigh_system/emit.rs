@@ -12,8 +12,8 @@ mod names;
 
 use std::cell::Cell;
 
-use proc_macro2::{Literal, TokenStream};
-use quote::{format_ident, quote};
+use proc_macro2::TokenStream;
+use quote::format_ident;
 use syn::Ident;
 
 use super::graph::{Graph, Node, Operation};
@@ -38,20 +38,19 @@ pub struct StraightLine {
     pub uses_inputs: bool,
     /// Whether one of the runtime's elementary functions is called.
     pub calls_elementary: bool,
-    /// What the code on members reads of their systems.
+    /// What the code on members knows of their systems before it runs.
     pub fields: Vec<Field>,
     /// The first word of each parameter that occurs.
     parameters: Vec<String>,
 }
 
-/// Something that code on members reads of the system of each, before it runs.
+/// Something that code on members has from before it runs: what is made of fields alone, or what other code
+/// on members hands over.
 #[derive(Clone)]
 pub struct Field {
     pub node: Node,
     /// The local that holds it.
     pub name: Ident,
-    /// How it is read of `self`.
-    pub tokens: TokenStream,
     /// Whether it is a truth value, not a number.
     pub is_truth: bool,
 }
@@ -77,6 +76,17 @@ pub fn straight_line(
     written(graph, scalar, outputs, taken, is_portable, Kind::Numbers)
 }
 
+/// The same with the functions that [`on_members`] has, so that both compute the same numbers.
+pub fn as_on_members(
+    graph: &Graph,
+    scalar: &Ident,
+    outputs: &[Node],
+    taken: &[&str],
+    is_portable: bool,
+) -> StraightLine {
+    written(graph, scalar, outputs, taken, is_portable, Kind::NumbersAsMembers)
+}
+
 /// The code for `outputs` over `Real<D>`, q, v, u and the time being such numbers; fields and constants are
 /// lifted.
 pub fn over_duals(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&str]) -> StraightLine {
@@ -87,10 +97,12 @@ pub fn over_duals(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&str
 #[derive(Clone, Copy)]
 enum Kind<'l> {
     Numbers,
+    /// Numbers, by the functions of members.
+    NumbersAsMembers,
     /// Lanes, some of them late.
     Lanes(&'l [Node]),
-    /// Numbers of several members, and what is read of their systems.
-    Members,
+    /// Numbers of several members, some of them handed over.
+    Members(&'l [Node]),
     Duals,
 }
 
@@ -107,15 +119,41 @@ pub fn in_lanes(
     written(graph, scalar, outputs, taken, is_portable, Kind::Lanes(late))
 }
 
-/// The code for `outputs` where q, v and what is read of `self` are those of several members at once.
+/// The code for `outputs` where q, v and what is made of fields alone are those of several members at once;
+/// and what is `handed` over, which is not computed again.
 pub fn on_members(
     graph: &Graph,
     scalar: &Ident,
     outputs: &[Node],
     taken: &[&str],
     is_portable: bool,
+    handed: &[Node],
 ) -> StraightLine {
-    written(graph, scalar, outputs, taken, is_portable, Kind::Members)
+    written(graph, scalar, outputs, taken, is_portable, Kind::Members(handed))
+}
+
+/// Which expressions neither change with q, v and t nor hold a parameter of the function, whose names are
+/// `taken`; and which of them read a field or the input, which is held.
+pub fn before_the_run(graph: &Graph, nodes: &[Node], taken: &[&str]) -> (Vec<bool>, Vec<bool>) {
+    let (mut is_constant, mut reads) = (vec![false; graph.len()], vec![false; graph.len()]);
+    for &node in nodes {
+        let operation = graph.operation(node);
+        let (own_constant, own_reads) = match operation {
+            Operation::Parameter(index) => {
+                let parameter = graph.parameter(index);
+                let first = parameter.tokens.clone().into_iter().next().map(|word| word.to_string());
+                let is_taken = first.is_some_and(|word| taken.contains(&word.as_str()));
+                (!is_taken && !graph.is_time(operation), parameter.reads_self())
+            }
+            Operation::Input(_) => (true, true),
+            Operation::Coordinate(_) | Operation::Velocity(_) => (false, false),
+            _ => (true, false),
+        };
+        is_constant[node.index()] =
+            own_constant && operation.arguments().all(|argument| is_constant[argument.index()]);
+        reads[node.index()] = own_reads || operation.arguments().any(|argument| reads[argument.index()]);
+    }
+    (is_constant, reads)
 }
 
 fn written(
@@ -129,12 +167,23 @@ fn written(
     let is_dual = matches!(kind, Kind::Duals);
     let (late, lanes) = match kind {
         Kind::Lanes(late) => (Some(late), number_of_stages(graph)),
-        Kind::Members => (Some(&[][..]), number_of_members(graph)),
-        Kind::Numbers | Kind::Duals => (None, number_of_stages(graph)),
+        Kind::Members(_) => (Some(&[][..]), number_of_members(graph)),
+        Kind::Numbers | Kind::NumbersAsMembers | Kind::Duals => (None, number_of_stages(graph)),
     };
-    let nodes = graph.reachable(outputs.iter().copied());
+    let mut nodes = graph.reachable(outputs.iter().copied());
+    let (is_constant, reads) = before_the_run(graph, &nodes, taken);
+    let is_known: Vec<bool> = match kind {
+        Kind::Members(handed) => {
+            let is_field = |node: &Node| is_constant[node.index()] && reads[node.index()];
+            graph.nodes().map(|node| is_field(&node) || handed.contains(&node)).collect()
+        }
+        _ => vec![false; graph.len()],
+    };
+    if matches!(kind, Kind::Members(_)) {
+        nodes = graph.reachable_before(outputs.iter().copied(), |node| is_known[node.index()]);
+    }
     let mut uses = vec![0_u32; graph.len()];
-    for &node in &nodes {
+    for &node in nodes.iter().filter(|node| !is_known[node.index()]) {
         for argument in graph.operation(node).arguments() {
             uses[argument.index()] += 1;
         }
@@ -151,9 +200,13 @@ fn written(
         is_portable,
         calls_elementary: Cell::new(false),
         is_lanes: vec![false; graph.len()],
-        lanes: format_ident!("{}", if matches!(kind, Kind::Members) { "Members" } else { "Lanes" }),
+        lanes: format_ident!("{}", if matches!(kind, Kind::Members(_)) { "Members" } else { "Lanes" }),
         stages: lanes,
         is_dual,
+        is_branch_free: match kind {
+            Kind::NumbersAsMembers => is_constant.iter().map(|is_constant| !is_constant).collect(),
+            _ => vec![false; graph.len()],
+        },
         is_condition: conditions(graph, &nodes),
     };
     let mut receives = vec![false; graph.len()];
@@ -166,27 +219,14 @@ fn written(
     let (mut uses_coordinates, mut uses_velocities, mut uses_inputs) = (false, false, false);
     let mut parameters = Vec::new();
     let mut fields = Vec::new();
-    if matches!(kind, Kind::Members) {
-        for &node in &nodes {
-            let tokens = match graph.operation(node) {
-                Operation::Parameter(index) if graph.parameter(index).reads_self() => {
-                    Some(graph.parameter(index).tokens.clone())
-                }
-                Operation::Input(index) => {
-                    let index = Literal::usize_unsuffixed(index);
-                    Some(quote!(self.u[#index]))
-                }
-                _ => None,
-            };
-            if let Some(tokens) = tokens {
-                let name = writer.names.of(graph, node, &writer.locals);
-                writer.locals[node.index()] = Some(name.clone());
-                writer.is_lanes[node.index()] = true;
-                fields.push(Field { node, name, tokens, is_truth: writer.is_condition[node.index()] });
-            }
-        }
+    for &node in nodes.iter().filter(|node| is_known[node.index()]) {
+        let name = writer.names.of(graph, node, &writer.locals);
+        writer.locals[node.index()] = Some(name.clone());
+        writer.is_lanes[node.index()] = true;
+        let is_truth = writer.is_condition[node.index()] || graph.operation(node).is_truth();
+        fields.push(Field { node, name, is_truth });
     }
-    for &node in &nodes {
+    for &node in nodes.iter().filter(|node| !is_known[node.index()]) {
         let operation = graph.operation(node);
         writer.typed[node.index()] = match operation {
             Operation::Constant(_) => is_dual,

@@ -7,7 +7,7 @@ use quote::{format_ident, quote};
 use syn::{FnArg, ImplItem, ImplItemFn, ReturnType, Signature, Type, parse_quote};
 
 use super::diagnostics::Report;
-use super::model::{Degrees, Role, Source};
+use super::model::{Degrees, Lanes, Role, Source};
 use super::rules::{Rule, Rules};
 use super::syntax::simple_name;
 
@@ -19,8 +19,8 @@ pub fn item_alone(item: TokenStream, report: Report) -> TokenStream {
 
 /// The item, the diagnostics and stubs, as far as the signature of L tells the number of degrees of freedom.
 ///
-/// `is_in_lanes`: explicit steps in lanes are asked for.
-pub fn with_stubs(source: &Source, rules: &Rules, is_in_lanes: bool, report: Report) -> TokenStream {
+/// Those in lanes too, where they are asked for.
+pub fn with_stubs(source: &Source, rules: &Rules, lanes: &Lanes, report: Report) -> TokenStream {
     let errors = report.to_tokens();
     let name = source.name();
     let (item, lagrangian) = match source {
@@ -52,7 +52,7 @@ pub fn with_stubs(source: &Source, rules: &Rules, is_in_lanes: bool, report: Rep
     };
     let view = view_stub(source);
     let is_field = matches!(source, Source::Function(function) if function.role == Role::Field);
-    let stubs = if is_field { field_stubs(source) } else { stubs_of(lagrangian, name, rules, is_in_lanes) };
+    let stubs = if is_field { field_stubs(source) } else { stubs_of(lagrangian, name, rules, lanes) };
     quote!(#item #errors #stubs #view)
 }
 
@@ -121,10 +121,10 @@ fn stubs_of(
     lagrangian: Option<&Signature>,
     name: &syn::Ident,
     rules: &Rules,
-    is_in_lanes: bool,
+    lanes: &Lanes,
 ) -> Option<TokenStream> {
     let (scalar, n) = shape(lagrangian?, name)?;
-    Some(stubs(name, &scalar, &n, rules, is_in_lanes))
+    Some(stubs(name, &scalar, &n, rules, lanes))
 }
 
 /// Scalar and N, from the first array among the parameters.
@@ -154,12 +154,12 @@ fn stubs(
     scalar: &TokenStream,
     n: &TokenStream,
     rules: &Rules,
-    is_in_lanes: bool,
+    lanes: &Lanes,
 ) -> TokenStream {
     let vector = quote!(&::dalembert::nalgebra::SVector<#scalar, #n>);
     let derivatives = quote!(::dalembert::generated::Derivatives<#scalar, #n>);
     let is_empty = rules.of_displacement.is_empty() && !rules.gauss;
-    let forced = (is_empty || rules.gauss)
+    let forced = (is_empty || rules.gauss || lanes.gauss.is_some())
         .then(|| quote!(impl ::dalembert::generated::ForcedLagrangian<#n> for #name {}));
     let rules = if is_empty { &[Rule::Midpoint, Rule::Trapezoidal] } else { &rules.of_displacement[..] };
     // That the system offers methods: with which rule does not matter.
@@ -171,7 +171,9 @@ fn stubs(
             }
         }
     });
+    let forced_in_lanes = lanes.gauss.is_some().then(|| gauss_stubs(name, scalar, n));
     // The rule of explicit steps, where it is what is missing.
+    let is_in_lanes = lanes.explicit.is_some();
     let explicit = [Rule::Trapezoidal];
     let missing = explicit.iter().filter(|rule| is_in_lanes && !rules.contains(rule));
     let rules: Vec<_> = rules.iter().chain(missing).map(|rule| rule.ident()).collect();
@@ -196,6 +198,7 @@ fn stubs(
             #forced
             #offered
             #explicit
+            #forced_in_lanes
             #(
                 impl ::dalembert::generated::Discrete<::dalembert::generated::#rules, #n> for #name {
                     type Matrix = ::dalembert::nalgebra::SMatrix<#scalar, #n, #n>;
@@ -241,5 +244,19 @@ fn explicit_stubs(
             fn configuration_force(&self, _: &#vector) -> #vector { ::core::unreachable!() }
         }
         #in_lanes
+    }
+}
+
+/// Stubs of Gauss steps in lanes.
+fn gauss_stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream) -> TokenStream {
+    let members = quote!(::dalembert::generated::MemberVector<#scalar, #n, W>);
+    quote! {
+        impl ::dalembert::generated::ForcedLagrangianInLanes<#n> for #name {
+            type Fields<const W: usize> = ();
+            type Kept<const W: usize> = ();
+            fn fields<const W: usize>(_: [&Self; W]) {}
+            fn rates_in_lanes<const W: usize>(_: &(), _: &#members, _: &#members) -> (#members, ()) { ::core::unreachable!() }
+            fn corrections_in_lanes<const W: usize>(_: &(), _: &(), _: &#members, _: &#members) -> [#members; 2] { ::core::unreachable!() }
+        }
     }
 }

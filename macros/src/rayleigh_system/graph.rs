@@ -381,12 +381,23 @@ impl Graph {
 
     /// Everything that `roots` need, arguments first.
     pub fn reachable(&self, roots: impl IntoIterator<Item = Node>) -> Vec<Node> {
+        self.reachable_before(roots, |_| false)
+    }
+
+    /// The same without what is behind those that are `known`.
+    pub fn reachable_before(
+        &self,
+        roots: impl IntoIterator<Item = Node>,
+        is_known: impl Fn(Node) -> bool,
+    ) -> Vec<Node> {
         let mut seen = vec![false; self.len()];
         let mut open: Vec<Node> = roots.into_iter().collect();
         let mut reached = Vec::new();
         while let Some(node) = open.pop() {
             if !std::mem::replace(&mut seen[node.index()], true) {
-                open.extend(self.operation(node).arguments());
+                if !is_known(node) {
+                    open.extend(self.operation(node).arguments());
+                }
                 reached.push(node);
             }
         }

@@ -50,6 +50,8 @@ pub const GENERATED: &[&str] = &[
     "LaneVector",
     "Lanes",
     "Mask",
+    "MemberVector",
+    "Members",
     "Midpoint",
     "Momenta",
     "MomentaBy",

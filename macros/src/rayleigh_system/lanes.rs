@@ -1,34 +1,58 @@
-//! What `lanes = explicit` asks of a system.
+//! What `lanes = explicit` and `lanes = gauss` ask of a system.
+
+use syn::Ident;
 
 use super::diagnostics::{Mistake, Report};
 use super::model::{Engine, System};
 use super::structure::{Damping, Findings};
+use super::written_out::WrittenOut;
+
+const TIMED: &str = "takes no time: L, R and f have to be functions of q, v, the input and the fields";
 
 /// Reports what can be told from the attribute and the signatures.
 pub fn check(system: &System<'_>, report: &mut Report) {
-    let Some(word) = &system.lanes else { return };
-    let lacks = if system.engine == Engine::NumDual {
-        "needs the derivatives written out, and `derivatives = num_dual` leaves them to the run"
-    } else if system.timed.any() {
-        "takes no time: L, R and f have to be functions of q, v, the input and the fields"
-    } else if !system.rules.of_displacement.iter().any(|rule| rule.may_be_explicit()) {
-        "needs the rule whose steps are explicit; add `rule = trapezoidal`"
-    } else {
+    for word in system.lanes.words() {
+        if system.engine == Engine::NumDual {
+            refuse(
+                word,
+                "needs the derivatives written out, and `derivatives = num_dual` leaves them to the run",
+                report,
+            );
+        }
+    }
+    if !report.is_empty() {
         return;
-    };
-    report.at(word, Mistake::Lanes { lacks });
+    }
+    if let Some(word) = &system.lanes.explicit {
+        if system.timed.any() {
+            refuse(word, TIMED, report);
+        } else if !system.rules.of_displacement.iter().any(|rule| rule.may_be_explicit()) {
+            refuse(word, "needs the rule whose steps are explicit; add `rule = trapezoidal`", report);
+        }
+    }
+    if let Some(word) = &system.lanes.gauss {
+        if system.timed.any() {
+            refuse(word, TIMED, report);
+        } else if !system.rules.gauss {
+            refuse(word, "needs the rules of Gauss; add `rule = gauss`", report);
+        }
+    }
 }
 
-/// Reports what the expressions show: why steps are not explicit, or the force is not for lanes.
-pub fn check_written(
-    system: &System<'_>,
-    findings: Option<&Findings>,
-    is_written: bool,
-    report: &mut Report,
-) {
-    if let (Some(word), Some(findings), false) = (&system.lanes, findings, is_written) {
-        report.at(word, Mistake::Lanes { lacks: why_implicit(findings) });
+/// Reports what the expressions show: why steps are not explicit, or the derivatives are not for lanes.
+pub fn check_written(system: &System<'_>, written: &WrittenOut, report: &mut Report) {
+    if let (Some(word), Some(findings), false) =
+        (&system.lanes.explicit, written.findings(), written.has_explicit_lanes())
+    {
+        refuse(word, why_implicit(findings), report);
     }
+    if let (Some(word), Some(lacks)) = (&system.lanes.gauss, written.lacks_gauss_lanes()) {
+        refuse(word, lacks, report);
+    }
+}
+
+fn refuse(word: &Ident, lacks: &'static str, report: &mut Report) {
+    report.at(word, Mistake::Lanes { word: word.to_string(), lacks });
 }
 
 fn why_implicit(findings: &Findings) -> &'static str {

@@ -117,8 +117,24 @@ pub struct System<'a> {
     pub parameters: Vec<Expr>,
     /// Whether the step is differentiated twice.
     pub second: bool,
-    /// `explicit`, where steps of several members at once are asked for.
-    pub lanes: Option<Ident>,
+    /// Which steps of several members at once are asked for.
+    pub lanes: Lanes,
+}
+
+/// The steps of several members at once that are asked for, each by its word.
+#[derive(Clone, Default)]
+pub struct Lanes {
+    /// Those of the trapezoidal rule where they are explicit, its compositions and the splittings.
+    pub explicit: Option<Ident>,
+    /// Those of the Gauss rules.
+    pub gauss: Option<Ident>,
+}
+
+impl Lanes {
+    /// The words, as they stand.
+    pub fn words(&self) -> impl Iterator<Item = &Ident> {
+        self.explicit.iter().chain(&self.gauss)
+    }
 }
 
 /// L, R or f.

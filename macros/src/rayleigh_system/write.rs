@@ -31,6 +31,8 @@ pub struct EngineFunctions {
     pub by_input: Option<TokenStream>,
     /// The equations at the stages of Gauss rules, where they are not those that the runtime makes.
     pub stages: Option<TokenStream>,
+    /// Those of several members at once.
+    pub stages_in_lanes: Option<TokenStream>,
     /// What each rule has of its own.
     pub kernels: Vec<Option<Kernel>>,
     /// Derivatives by parameters, if they are asked for.
@@ -57,7 +59,10 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
         .map(|(arguments, derivatives)| continuous::rayleigh(system, arguments, derivatives));
     let force = functions.force.map(|derivatives| continuous::force(system, derivatives));
     let acting = continuous::acting_force(system);
-    let forced = system.rules.gauss.then(|| continuous::forced_lagrangian(system, functions.stages));
+    let forced = system
+        .rules
+        .gauss
+        .then(|| continuous::forced_lagrangian(system, functions.stages, functions.stages_in_lanes));
     let driven = functions.by_input.and_then(|by_input| on_request::driven(system, by_input));
     let by_parameters = functions.by_parameters.map(|functions| on_request::by_parameters(system, functions));
     let second_order = functions.second_order.map(|functions| on_request::second_order(system, functions));

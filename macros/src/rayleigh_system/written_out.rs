@@ -50,6 +50,8 @@ pub struct WrittenOut {
     functions: EngineFunctions,
     /// The user's functions that the bodies run.
     run: Vec<Ident>,
+    /// Why `stages` are not written, if they were to be.
+    lacks_stages: Option<&'static str>,
 }
 
 impl WrittenOut {
@@ -58,9 +60,14 @@ impl WrittenOut {
         self.functions.structure.findings.as_ref()
     }
 
-    /// Whether steps of several members at once are written.
-    pub fn is_in_lanes(&self) -> bool {
+    /// Whether explicit steps of several members at once are written.
+    pub fn has_explicit_lanes(&self) -> bool {
         self.functions.kernels.iter().flatten().any(|kernel| kernel.in_lanes.is_some())
+    }
+
+    /// Why Gauss steps of several members at once are not written, if they are not.
+    pub fn lacks_gauss_lanes(&self) -> Option<&'static str> {
+        self.lacks_stages
     }
 }
 
@@ -96,7 +103,10 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
     let second_order = code.all_along(lagrangian, rayleigh, force);
     code.bounded(heaviest)?;
     let findings = code.findings(lagrangian, rayleigh, force);
-    let stages = if system.rules.gauss { code.stages(lagrangian, rayleigh, force) } else { None };
+    let stages = system.rules.gauss.then(|| code.stages(lagrangian, rayleigh, force)).transpose();
+    let (stages, lacks_stages) = stages.map_or_else(|lacks| (None, Some(lacks)), |stages| (stages, None));
+    let (stages, stages_in_lanes) = stages.map(|stages| (stages.function, stages.in_lanes)).unzip();
+    let stages_in_lanes = stages_in_lanes.flatten();
     code.bounded(heaviest)?;
     let mut kernels = Vec::new();
     for newton in &findings.newton {
@@ -106,7 +116,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
         code.bounded(heaviest)?;
     }
     let in_lanes = kernels.iter().flatten().filter_map(|kernel| kernel.in_lanes.as_ref());
-    let names = names_of_lanes(stages.iter().chain(in_lanes));
+    let names = names_of_lanes(stages.iter().chain(&stages_in_lanes).chain(in_lanes));
     let functions = EngineFunctions {
         structure: Structure { engine: structure::Engine::Expanded, findings: Some(findings) },
         lagrangian: of_lagrangian,
@@ -114,6 +124,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
         force: of_force,
         by_input,
         stages,
+        stages_in_lanes,
         kernels,
         by_parameters,
         second_order,
@@ -121,7 +132,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
         calls_elementary: code.calls_elementary,
         bindings,
     };
-    Ok(WrittenOut { functions, run })
+    Ok(WrittenOut { functions, run, lacks_stages })
 }
 
 /// The names of the runtime that code in lanes uses.

@@ -77,7 +77,9 @@ fn every_name_that_generated_code_brings_along_is_listed() {
         names(rayleigh_system(Runtime::STD, options, driven.clone()), false, &mut found);
     }
     let joint = quote!(rule = [fitted, fitted_trapezoidal, one_sided]);
-    names(rayleigh_system(Runtime::STD, joint, linear), false, &mut found);
+    names(rayleigh_system(Runtime::STD, joint, linear.clone()), false, &mut found);
+    let lanes = quote!(rule = [trapezoidal, gauss], lanes = [explicit, gauss]);
+    names(rayleigh_system(Runtime::STD, lanes, linear), false, &mut found);
     for field in [
         quote!(
             fn f(q: [f64; 1]) -> [f64; 1] {

@@ -161,6 +161,12 @@ fn gauss() {
     };
     let expansion = rayleigh_system(Runtime::STD, quote!(rule = gauss), item.clone());
     assert_snapshot("gauss.rs", &formatted(expansion));
+    // In lanes: the same for several members, one stage at a time, in two functions.
+    let expansion =
+        formatted(rayleigh_system(Runtime::STD, quote!(rule = gauss, lanes = gauss), item.clone()));
+    let start =
+        expansion.find("impl ::dalembert::generated::ForcedLagrangianInLanes").expect("it is written");
+    assert_snapshot("cart_in_lanes.rs", &expansion[start..]);
     // Nothing of it without the rule.
     let other = formatted(rayleigh_system(Runtime::STD, quote!(rule = midpoint), item));
     for word in ["Lanes", "Stages", "ForcedLagrangian", "acting_force"] {

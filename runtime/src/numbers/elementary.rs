@@ -103,6 +103,13 @@ macro_rules! elementary {
             fn elementary(self) -> Chosen<Self> {
                 Chosen(self)
             }
+
+            /// The number with sine, cosine and exponential in the form that several numbers at once have.
+            #[doc(hidden)]
+            #[inline(always)]
+            fn branch_free(self) -> BranchFree<Self> {
+                BranchFree(self)
+            }
         }
 
         impl<S: Elementary> Chosen<S> {
@@ -139,6 +146,43 @@ macro_rules! arguments {
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct Chosen<S>(S);
+
+/// What `x.sin()` of a force becomes that lanes of members share to the last bit: `x.branch_free().sin()`.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub struct BranchFree<S>(S);
+
+impl<S: Scalar> BranchFree<S> {
+    /// Sine and cosine.
+    #[inline(always)]
+    #[must_use]
+    pub fn sin_cos(self) -> (S, S) {
+        let ([sine], [cosine]) = S::sines_and_cosines([self.0]);
+        (sine, cosine)
+    }
+
+    /// Sine.
+    #[inline(always)]
+    #[must_use]
+    pub fn sin(self) -> S {
+        self.sin_cos().0
+    }
+
+    /// Cosine.
+    #[inline(always)]
+    #[must_use]
+    pub fn cos(self) -> S {
+        self.sin_cos().1
+    }
+
+    /// eˣ.
+    #[inline(always)]
+    #[must_use]
+    pub fn exp(self) -> S {
+        let [exponential] = S::exponentials([self.0]);
+        exponential
+    }
+}
 
 functions!(elementary!());
 

@@ -172,6 +172,19 @@ impl<const S: usize> Mask<S> {
         Self([value; S])
     }
 
+    /// K truth values of each lane.
+    #[inline]
+    #[must_use]
+    pub fn of_each<const K: usize>(truths: [[bool; K]; S]) -> [Self; K] {
+        let mut all = [Self::splat(false); K];
+        for (lane, truths) in truths.into_iter().enumerate() {
+            for (all, truth) in all.iter_mut().zip(truths) {
+                all.0[lane] = truth;
+            }
+        }
+        all
+    }
+
     /// Lane by lane, `a` where it holds and `b` where it does not.
     #[inline(always)]
     #[must_use]

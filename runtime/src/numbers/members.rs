@@ -2,7 +2,7 @@
 //! with the very roundings that it has alone.
 //!
 //! Unlike [`Lanes`](crate::generated::Lanes), which hold the stages of one step, these have neither vector
-//! types nor functions of their own: arrays, loops over them, and the functions of numbers. The compiler
+//! types nor functions of their own: arrays, loops over them, and functions of numbers. The compiler
 //! turns the loops into the widest instructions of the function that they are inlined into, so that a caller
 //! compiled for several instruction sets chooses when it runs. Nothing on the way may stay a call: hence
 //! `inline(always)`, and no iterator or closure that might.
@@ -36,13 +36,68 @@ macro_rules! each_coordinate {
     )*};
 }
 
-pub(crate) use each_coordinate;
+/// The block for every stage, S ≤ 8 of them, unrolled.
+macro_rules! each_stage {
+    ($index:ident => $block:block) => {
+        $crate::numbers::members::each_stage!(@unrolled [0 1 2 3 4 5 6 7] $index $block);
+    };
+    (@unrolled [$($known:literal)*] $index:ident $block:block) => {$(
+        if $known < S {
+            let $index = $known;
+            $block
+        }
+    )*};
+}
+
+/// The block for every stage, one after the other: of blocks that are long. LLVM does not see that the index
+/// counts, and makes no vectors of stages.
+macro_rules! stage_by_stage {
+    ($index:ident => $block:block) => {
+        for index in 0..S {
+            let $index = core::hint::black_box(index).min(S - 1);
+            $block
+        }
+    };
+}
+
+pub(crate) use {each_coordinate, each_stage, stage_by_stage};
 
 /// One number of each of W members. Operators and functions act on each of them as on a number alone, to the
-/// last bit.
+/// last bit. Aligned to lines of the cache, so that no vector stands across two.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(transparent)]
+#[repr(align(64))]
 pub struct Members<T, const W: usize>(pub [T; W]);
+
+/// Values of members that arrays can be made of before there are any.
+pub trait Blank: Copy {
+    /// 0, or false, of every member.
+    fn blank() -> Self;
+}
+
+impl Blank for () {
+    fn blank() -> Self {}
+}
+
+impl<T: Scalar, const W: usize, const K: usize> Blank for [Members<T, W>; K] {
+    #[inline(always)]
+    fn blank() -> Self {
+        [Members::splat(T::zero()); K]
+    }
+}
+
+impl<const W: usize, const K: usize> Blank for [Mask<W>; K] {
+    #[inline(always)]
+    fn blank() -> Self {
+        [Mask::splat(false); K]
+    }
+}
+
+impl<A: Blank, B: Blank> Blank for (A, B) {
+    #[inline(always)]
+    fn blank() -> Self {
+        (A::blank(), B::blank())
+    }
+}
 
 /// A vector of N coordinates of each of W members.
 pub type MemberVector<T, const N: usize, const W: usize> = [Members<T, W>; N];
@@ -53,6 +108,44 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     #[must_use]
     pub fn splat(value: T) -> Self {
         Self([value; W])
+    }
+
+    /// K numbers of each member.
+    #[inline]
+    #[must_use]
+    pub fn of_each<const K: usize>(numbers: [[T; K]; W]) -> [Self; K] {
+        let mut all = [Self::splat(T::zero()); K];
+        for (member, numbers) in numbers.into_iter().enumerate() {
+            for (all, number) in all.iter_mut().zip(numbers) {
+                all.0[member] = number;
+            }
+        }
+        all
+    }
+
+    /// self × factor + term, rounded once where the target of the build has an instruction for it, as that of
+    /// [`Lanes`](crate::generated::Lanes): not where a function is compiled for more than the build is.
+    #[inline(always)]
+    pub(crate) fn times_plus(self, factor: T, term: Self) -> Self {
+        let mut result = term;
+        for i in 0..W {
+            result.0[i] = if cfg!(target_feature = "fma") {
+                nalgebra::ComplexField::mul_add(self.0[i], factor, term.0[i])
+            } else {
+                self.0[i] * factor + term.0[i]
+            };
+        }
+        result
+    }
+
+    /// Member by member, the larger; where one is NaN, either.
+    #[inline(always)]
+    pub(crate) fn larger(self, other: Self) -> Self {
+        let mut larger = other;
+        for i in 0..W {
+            larger.0[i] = if self.0[i] > other.0[i] { self.0[i] } else { other.0[i] };
+        }
+        larger
     }
 
     /// Member by member, `a` where the condition holds and `b` where it does not.

@@ -10,6 +10,7 @@ mod fixed_point;
 mod force;
 mod force_work;
 mod history;
+mod in_lanes;
 mod linearised;
 mod newton;
 mod problem;
@@ -31,6 +32,7 @@ use crate::step::{
 use crate::system::{ForcedLagrangian, GeneratedDiffers, VectorField};
 use coefficients::Coefficients;
 pub use history::StageHistory;
+pub use in_lanes::StagesInLanes;
 use problem::{Compensated, Problem, Solution};
 use segment::Segment;
 pub(crate) use slack::SLACK;

@@ -4,6 +4,7 @@
 //! instructions allow that the caller is compiled for, and bit by bit what each member's own run computes.
 
 mod explicit;
+mod gauss;
 
 use core::marker::PhantomData;
 

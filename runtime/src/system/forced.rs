@@ -7,7 +7,7 @@
 use nalgebra::SVector;
 
 use crate::numbers::{
-    LaneVector, Lanes, NewtonMatrix, Scalar,
+    Blank, Elementary, LaneVector, Lanes, MemberVector, NewtonMatrix, Scalar,
     lanes::{lane, splat, write_lane},
 };
 use crate::system::ActingForce;
@@ -61,6 +61,41 @@ pub trait ForcedLagrangian<const N: usize>: ActingForce<N> {
     {
         if Self::IS_TIMED { one_by_one(self, elapsed, q, v, momenta) } else { self.stages(q, v, momenta) }
     }
+}
+
+/// A system whose equations of motion are known of several members at once: what `lanes = gauss` generates.
+///
+/// One stage at a time, in two functions, between which the momenta of all stages follow from the rates.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not stepped in lanes by Gauss rules",
+    label = "the equations of `{Self}` are not written for several members at once",
+    note = "add `lanes = gauss` to the attribute: `#[rayleigh_system(rule = gauss, lanes = gauss)]`"
+)]
+pub trait ForcedLagrangianInLanes<const N: usize>: ForcedLagrangian<N, Scalar: Elementary> {
+    /// What the equations know of each of W systems before the run.
+    type Fields<const W: usize>: Copy + core::fmt::Debug;
+
+    /// What corrections need of rates.
+    type Kept<const W: usize>: Blank;
+
+    /// What is known of the systems, gathered.
+    fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W>;
+
+    /// g = ∂L/∂q + f_L of each member at one stage, and what its correction needs: as in
+    /// [`stages`](ForcedLagrangian::stages), to the last bit.
+    fn rates_in_lanes<const W: usize>(
+        fields: &Self::Fields<W>,
+        q: &MemberVector<Self::Scalar, N, W>,
+        v: &MemberVector<Self::Scalar, N, W>,
+    ) -> (MemberVector<Self::Scalar, N, W>, Self::Kept<W>);
+
+    /// p − ∂L/∂v and (∂²L/∂v²)⁻¹ (p − ∂L/∂v) of each member at the stage that `kept` is of, to the last bit.
+    fn corrections_in_lanes<const W: usize>(
+        fields: &Self::Fields<W>,
+        kept: &Self::Kept<W>,
+        v: &MemberVector<Self::Scalar, N, W>,
+        p: &MemberVector<Self::Scalar, N, W>,
+    ) -> [MemberVector<Self::Scalar, N, W>; 2];
 }
 
 /// The stages one after the other.

@@ -262,7 +262,7 @@ fn single(q: [f32; 1], v: [f32; 1], m: f32, k: f32, r: f32) -> (f32, f32) {
 }
 
 /// The bits of a state: −0 is not 0.
-fn bits<const N: usize>(state: &State<f64, N>) -> Vec<u64> {
+pub fn bits<const N: usize>(state: &State<f64, N>) -> Vec<u64> {
     state.q.iter().chain(&state.p).map(|entry| entry.to_bits()).collect()
 }
 
@@ -287,7 +287,7 @@ where
 }
 
 /// Members in W lanes beside each alone, after 1, 3 and more steps; how many members had an end.
-fn agree<L, M, const N: usize, const W: usize>(method: M, members: &[(L, State<f64, N>)], h: f64) -> usize
+pub fn agree<L, M, const N: usize, const W: usize>(method: M, members: &[(L, State<f64, N>)], h: f64) -> usize
 where
     L: InLanes<M, N, Scalar = f64>,
     M: Copy,
@@ -330,7 +330,7 @@ where
 }
 
 /// In every number of lanes.
-fn agree_in_all<L, M, const N: usize>(method: M, members: &[(L, State<f64, N>)], h: f64) -> usize
+pub fn agree_in_all<L, M, const N: usize>(method: M, members: &[(L, State<f64, N>)], h: f64) -> usize
 where
     L: InLanes<M, N, Scalar = f64>,
     M: Copy,
@@ -347,13 +347,13 @@ where
     ends[0]
 }
 
-fn start<const N: usize>(random: &mut StdRng) -> State<f64, N> {
+pub fn start<const N: usize>(random: &mut StdRng) -> State<f64, N> {
     let mut entry = |_, _| random.random_range(-1.2..1.2);
     State { q: SVector::from_fn(&mut entry), p: SVector::from_fn(&mut entry) }
 }
 
 /// So many members, of fields and states at random.
-fn members<L, const N: usize>(
+pub fn members<L, const N: usize>(
     count: usize,
     seed: u64,
     system: impl Fn(&mut StdRng) -> L,
@@ -363,7 +363,7 @@ fn members<L, const N: usize>(
 }
 
 /// 0 for a third of the members, −0 for some.
-fn damping(random: &mut StdRng) -> f64 {
+pub fn damping(random: &mut StdRng) -> f64 {
     match random.random_range(0..9) {
         0..2 => 0.0,
         2 => -0.0,

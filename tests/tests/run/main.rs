@@ -2,6 +2,7 @@
 
 mod composition;
 mod driven;
+mod gauss_lanes;
 mod kept;
 mod kept_matrix;
 mod lanes;

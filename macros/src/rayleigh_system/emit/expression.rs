@@ -73,6 +73,8 @@ pub struct Writer<'g> {
     pub is_dual: bool,
     /// Which fields are truth values.
     pub is_condition: Vec<bool>,
+    /// Of which numbers sine, cosine and exponential are those of members.
+    pub is_branch_free: Vec<bool>,
 }
 
 impl Writer<'_> {
@@ -264,7 +266,10 @@ impl Writer<'_> {
         let receiver = self.receiver(node);
         // Lanes bring their own.
         let is_number = !self.is_lanes[node.index()];
-        if is_number && self.is_portable && portable::is_elementary(method) {
+        if self.is_branch_free[node.index()] && ["sin", "cos", "sin_cos", "exp"].contains(&method) {
+            self.calls_elementary.set(true);
+            quote!(#receiver.branch_free())
+        } else if is_number && self.is_portable && portable::is_elementary(method) {
             self.calls_elementary.set(true);
             quote!(#receiver.elementary())
         } else {

@@ -32,7 +32,13 @@ impl Code<'_> {
             taken.extend(["u", "t", "t_end"]);
         }
         taken.extend(parameters);
-        let mut line = straight_line(&self.graph, &self.system.scalar, outputs, &taken, self.is_portable);
+        let line = straight_line(&self.graph, &self.system.scalar, outputs, &taken, self.is_portable);
+        self.calls_elementary |= line.calls_elementary;
+        self.seen(line)
+    }
+
+    /// The line as it stands on a view, where there is one.
+    pub(super) fn seen(&self, mut line: StraightLine) -> StraightLine {
         if self.home == Home::View {
             let seen = |tokens: TokenStream| view::seen_from_view(tokens, &self.system.name);
             let statements = seen(line.statements);
@@ -40,7 +46,6 @@ impl Code<'_> {
             line.statements = quote!(#input #statements);
             line.outputs = line.outputs.into_iter().map(seen).collect();
         }
-        self.calls_elementary |= line.calls_elementary;
         line
     }
 

@@ -1,7 +1,8 @@
 //! An explicit step by the trapezoidal rule, in three functions: the matrix, what v̄ adds to the momenta, and
 //! the force.
 
-use super::in_lanes::ExplicitOutputs;
+use super::super::emit::as_on_members;
+use super::in_lanes::{ExplicitOutputs, TAKEN};
 use super::kernel::Parts;
 use super::*;
 
@@ -47,7 +48,7 @@ impl Code<'_> {
             }
         }
         let momenta = self.shortened(&[p0, p1].concat());
-        let line = self.code_as_it_stands(&momenta, &[]);
+        let line = self.explicit_code(&momenta);
         let [p0, p1] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
         let (v, h) =
             (parameter("v", line.uses_velocities), parameter("h", line.uses("half") || line.uses("h")));
@@ -64,8 +65,8 @@ impl Code<'_> {
         let force = self.shortened(&force);
         let (p0, p1) = momenta.split_at(self.n);
         let outputs = ExplicitOutputs { force: &force, p0, p1 };
-        let in_lanes = self.system.lanes.as_ref().and_then(|_| self.explicit_in_lanes(&outputs));
-        let line = self.code_as_it_stands(&force, &[]);
+        let in_lanes = self.system.lanes.explicit.as_ref().and_then(|_| self.explicit_in_lanes(&outputs));
+        let line = self.explicit_code(&force);
         let [force] = self.parts(&line.outputs, [Shape::Vector]);
         let (q, statements) = (parameter("q", line.uses_coordinates), &line.statements);
         let functions = quote! {
@@ -80,5 +81,14 @@ impl Code<'_> {
             }
         };
         (functions, in_lanes)
+    }
+    /// The code for `outputs`, which members compute too where they are stepped in lanes.
+    fn explicit_code(&mut self, outputs: &[Node]) -> StraightLine {
+        if self.system.lanes.explicit.is_none() {
+            return self.code_as_it_stands(outputs, &[]);
+        }
+        let line = as_on_members(&self.graph, &self.system.scalar, outputs, &TAKEN, self.is_portable);
+        self.calls_elementary |= line.calls_elementary;
+        self.seen(line)
     }
 }

@@ -1,135 +1,134 @@
-//! An explicit system of several members at once: the text of the functions of `Explicit` on other numbers, so
-//! that what every member gets is its own to the last bit.
+//! Several members at once: the text of a system's functions on other numbers, so that what every member gets
+//! is its own to the last bit.
+//!
+//! What is made of fields alone is computed of each system by itself, before the run and by the functions of
+//! numbers, as it is where one system runs alone.
 
-use super::super::emit::{Field, number_of_members, on_members};
-use super::super::syntax::regrouped;
-use super::*;
+mod explicit;
+mod stages;
+
 use proc_macro2::TokenTree;
 use quote::ToTokens;
 
-/// What `ExplicitInLanes` asks for, as `Explicit` computes it.
-pub(super) struct ExplicitOutputs<'o> {
-    pub force: &'o [Node],
-    pub p0: &'o [Node],
-    pub p1: &'o [Node],
+use super::super::emit::{Field, number_of_members, on_members, straight_line};
+use super::super::syntax::regrouped;
+use super::*;
+pub(super) use explicit::{ExplicitOutputs, TAKEN};
+
+/// Numbers and truth values of members, in one value that functions hand on: `([Members<f64, W>; 3], [Mask<W>;
+/// 1])`.
+struct OfMembers {
+    scalar: Ident,
+    /// W.
+    members: Ident,
+    numbers: Vec<Node>,
+    truths: Vec<Node>,
+}
+
+impl OfMembers {
+    fn new(code: &Code<'_>, fields: impl IntoIterator<Item = (Node, bool)>) -> Self {
+        let mut all: Vec<(Node, bool)> = fields.into_iter().collect();
+        all.sort_unstable();
+        all.dedup();
+        let of =
+            |truths: bool| all.iter().filter(move |(_, is_truth)| *is_truth == truths).map(|(node, _)| *node);
+        Self {
+            scalar: code.system.scalar.clone(),
+            members: number_of_members(&code.graph),
+            numbers: of(false).collect(),
+            truths: of(true).collect(),
+        }
+    }
+
+    /// What several lines know of their systems.
+    fn fields_of<'l>(code: &Code<'_>, lines: impl IntoIterator<Item = &'l StraightLine>) -> Self {
+        let fields = lines.into_iter().flat_map(|line| &line.fields);
+        Self::new(code, fields.map(|field| (field.node, field.is_truth)))
+    }
+
+    fn is_empty(&self) -> bool {
+        self.numbers.is_empty() && self.truths.is_empty()
+    }
+
+    fn groups(&self) -> impl Iterator<Item = (&[Node], &'static str)> {
+        [(&self.numbers[..], "Members"), (&self.truths[..], "Mask")]
+            .into_iter()
+            .filter(|(nodes, _)| !nodes.is_empty())
+    }
+
+    /// The type, with the number of members as parameter.
+    fn ty(&self) -> TokenStream {
+        let (scalar, members) = (&self.scalar, &self.members);
+        tuple(self.groups().map(|(nodes, ty)| {
+            let length = Literal::usize_unsuffixed(nodes.len());
+            if ty == "Mask" {
+                quote!([Mask<#members>; #length])
+            } else {
+                quote!([Members<#scalar, #members>; #length])
+            }
+        }))
+    }
+
+    /// The value made of one for each node.
+    fn value(&self, of: impl Fn(Node) -> TokenStream) -> TokenStream {
+        tuple(self.groups().map(|(nodes, _)| {
+            let values = nodes.iter().map(|&node| of(node));
+            quote!([#(#values),*])
+        }))
+    }
+
+    /// `let [k, _] = *fields;`, the names being those of the line; nothing where it uses none.
+    fn taken_apart(&self, name: &str, line: &StraightLine) -> Option<TokenStream> {
+        let own = |node: Node| line.fields.iter().find(|field| field.node == node);
+        let is_used = [&self.numbers, &self.truths].into_iter().flatten().any(|&node| own(node).is_some());
+        let name = format_ident!("{name}");
+        is_used.then(|| {
+            let pattern =
+                self.value(|node| own(node).map_or_else(|| quote!(_), |own| own.name.to_token_stream()));
+            quote!(let #pattern = *#name;)
+        })
+    }
 }
 
 impl Code<'_> {
-    /// The functions of `ExplicitInLanes`; nothing where a field is read within a condition, since fields are
-    /// read before.
-    pub(super) fn explicit_in_lanes(&mut self, outputs: &ExplicitOutputs<'_>) -> Option<TokenStream> {
-        let ExplicitOutputs { force, p0, p1 } = outputs;
-        let momenta = [*p0, *p1].concat();
-        if self.graph.is_conditional(force.iter().chain(&momenta).copied()) {
-            return None;
-        }
-        let scalar = &self.system.scalar;
-        let taken = ["q", "v", "h", "half", "fields", "systems"];
-        let written = |outputs: &[Node]| {
-            let mut line = on_members(&self.graph, scalar, outputs, &taken, self.is_portable);
-            if self.home == Home::View {
-                let seen = |tokens| view::seen_from_view(tokens, &self.system.name);
-                line.statements = seen(line.statements);
-                line.outputs = line.outputs.into_iter().map(seen).collect();
-                // The view itself holds the input.
-                let is_input =
-                    |field: &Field| matches!(self.graph.operation(field.node), Operation::Input(_));
-                for field in line.fields.iter_mut().filter(|field| !is_input(field)) {
-                    field.tokens = seen(field.tokens.clone());
-                }
-            }
-            line
-        };
-        let (force, momenta) = (written(force), written(&momenta));
-        let mut read: Vec<&Field> = force.fields.iter().chain(&momenta.fields).collect();
-        read.sort_by_key(|field| (field.is_truth, field.node));
-        read.dedup_by_key(|field| field.node);
+    /// The code on members for `outputs`, in a function with parameters of these names.
+    fn on_members(&mut self, outputs: &[Node], taken: &[&str], handed: &[Node]) -> StraightLine {
+        let line = on_members(&self.graph, &self.system.scalar, outputs, taken, self.is_portable, handed);
+        let mut line = self.seen(line);
+        line.fields.sort_by_key(|field| (field.is_truth, field.node));
+        self.calls_elementary |= line.calls_elementary;
+        line
+    }
 
-        let (n, members) = (self.system.degrees.times(1), number_of_members(&self.graph));
-        let number = Group { ty: quote!(Members), argument: quote!(#scalar,), of_truths: false };
-        let truth = Group { ty: quote!(Mask), argument: TokenStream::new(), of_truths: true };
-        let groups: Vec<Group> =
-            [number, truth].into_iter().filter(|group| group.fields(&read).next().is_some()).collect();
-        let ty = tuple(groups.iter().map(|group| {
-            let (ty, argument) = (&group.ty, &group.argument);
-            let length = Literal::usize_unsuffixed(group.fields(&read).count());
-            quote!([#ty<#argument #members>; #length])
-        }));
-        let values = tuple(groups.iter().map(|group| {
-            let ty = &group.ty;
-            let tokens = group.fields(&read).map(|field| seen_from_member(field.tokens.clone()));
-            quote!([#(#ty(systems.map(|system| #tokens))),*])
-        }));
-        // `let [k, _] = *fields;`
-        let taken_apart = |line: &StraightLine| {
-            let pattern = tuple(groups.iter().map(|group| {
-                let names = group.fields(&read).map(|field| {
-                    let own = line.fields.iter().find(|own| own.node == field.node);
-                    own.map_or_else(|| quote!(_), |own| own.name.to_token_stream())
-                });
-                quote!([#(#names),*])
-            }));
-            (!line.fields.is_empty()).then(|| quote!(let #pattern = *fields;))
+    /// `type Fields` and the function that fills it.
+    fn gathered(&mut self, fields: &OfMembers) -> TokenStream {
+        let (ty, members) = (fields.ty(), &fields.members);
+        let mut of_each = |(nodes, group): (&[Node], &str)| {
+            let line = straight_line(
+                &self.graph,
+                &self.system.scalar,
+                nodes,
+                &["systems", "system"],
+                self.is_portable,
+            );
+            self.calls_elementary |= line.calls_elementary;
+            let line = self.seen(line);
+            let group = format_ident!("{group}");
+            let outputs = line.outputs.into_iter().map(seen_from_member);
+            let statements = seen_from_member(line.statements);
+            let outputs = quote!([#(#outputs),*]);
+            let outputs = if statements.is_empty() { outputs } else { quote!({ #statements #outputs }) };
+            quote!(#group::of_each(systems.map(|system| #outputs)))
         };
-        let of_fields = |line: &StraightLine| parameter("fields", !line.fields.is_empty());
-        let systems = parameter("systems", !groups.is_empty());
-        let gathered = quote! {
+        let values = tuple(fields.groups().map(&mut of_each));
+        let systems = parameter("systems", !fields.is_empty());
+        quote! {
             type Fields<const #members: usize> = #ty;
 
             fn fields<const #members: usize>(#systems: [&Self; #members]) -> Self::Fields<#members> {
                 #values
             }
-        };
-
-        let (fields, apart, statements) = (of_fields(&momenta), taken_apart(&momenta), &momenta.statements);
-        let half = momenta.uses("half").then(|| quote!(let half = 0.5 * h;));
-        let (v, h) =
-            (parameter("v", momenta.uses_velocities), parameter("h", half.is_some() || momenta.uses("h")));
-        let (p0, p1) = momenta.outputs.split_at(self.n);
-        let velocity_momenta = quote! {
-            #[inline(always)]
-            fn velocity_momenta_in_lanes<const #members: usize>(
-                #fields: &Self::Fields<#members>,
-                #v: &MemberVector<#scalar, #n, #members>,
-                #h: #scalar,
-            ) -> [MemberVector<#scalar, #n, #members>; 2] {
-                #apart
-                #half
-                #statements
-                [[#(#p0),*], [#(#p1),*]]
-            }
-        };
-
-        let (fields, apart, statements) = (of_fields(&force), taken_apart(&force), &force.statements);
-        let (q, outputs) = (parameter("q", force.uses_coordinates), &force.outputs);
-        Some(quote! {
-            #gathered
-
-            #velocity_momenta
-
-            #[inline(always)]
-            fn configuration_force_in_lanes<const #members: usize>(
-                #fields: &Self::Fields<#members>,
-                #q: &MemberVector<#scalar, #n, #members>,
-            ) -> MemberVector<#scalar, #n, #members> {
-                #apart
-                #statements
-                [#(#outputs),*]
-            }
-        })
-    }
-}
-
-/// Fields of one type.
-struct Group {
-    ty: TokenStream,
-    argument: TokenStream,
-    of_truths: bool,
-}
-
-impl Group {
-    fn fields<'f>(&self, read: &[&'f Field]) -> impl Iterator<Item = &'f Field> {
-        read.iter().copied().filter(|field| field.is_truth == self.of_truths)
+        }
     }
 }
 

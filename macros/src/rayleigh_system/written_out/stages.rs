@@ -12,20 +12,31 @@
 
 use std::collections::BTreeSet;
 
-use super::super::emit::{in_lanes, number_of_stages};
+use super::super::emit::{self, number_of_stages};
 use super::*;
+
+/// `stages`, and the functions of several members at once where they are asked for.
+pub(super) struct StagesWritten {
+    pub(super) function: TokenStream,
+    pub(super) in_lanes: Option<TokenStream>,
+}
+
+const NOT_FACTORED: &str =
+    "needs ∂²L/∂v² factored without exchanges, and a pivot is 0 by structure, or the matrix is too large";
+
+const CONDITIONAL: &str = "reads all fields before the run, and a body reads one within a condition, where it may panic; read it before the condition";
 
 /// Longer factorisations are left to the runtime.
 const MAX_PRODUCTS: usize = 4000;
 
 impl Code<'_> {
-    /// `stages`; nothing where the mass matrix has a 0 by structure for a pivot, or too many entries.
+    /// `stages`, or what is in the way.
     pub(super) fn stages(
         &mut self,
         lagrangian: Node,
         rayleigh: Option<Node>,
         force: Option<&[Node]>,
-    ) -> Option<TokenStream> {
+    ) -> Result<StagesWritten, &'static str> {
         let of_lagrangian = self.derivation.hessian(&mut self.graph, lagrangian, "l");
         let of_rayleigh =
             rayleigh.map(|root| self.derivation.gradient(&mut self.graph, root)).unwrap_or_default();
@@ -62,22 +73,24 @@ impl Code<'_> {
                 residual
             })
             .collect();
-        let corrections = self.solved(&of_lagrangian, &residuals)?;
+        let corrections = self.solved(&of_lagrangian, &residuals).ok_or(NOT_FACTORED)?;
 
         let outputs = [rates, residuals, corrections].concat();
         if self.graph.is_full() {
-            return None;
+            return Err(NOT_FACTORED);
         }
         let outputs = self.graph.factored(&outputs, self.written);
         // Lanes take both ways of a selection.
         if self.graph.is_conditional(outputs.iter().copied()) {
-            return None;
+            return Err(CONDITIONAL);
         }
+        let in_lanes = self.system.lanes.gauss.as_ref().map(|_| self.stages_in_lanes(&outputs, &late));
         let mut taken = vec!["q", "v", "p", "rate", "momenta"];
         if self.home == Home::View {
             taken.extend(["u", "t", "elapsed"]);
         }
-        let mut line = in_lanes(&self.graph, &self.system.scalar, &outputs, &taken, self.is_portable, &late);
+        let mut line =
+            emit::in_lanes(&self.graph, &self.system.scalar, &outputs, &taken, self.is_portable, &late);
         if self.home == Home::View {
             let seen = |tokens: TokenStream| view::seen_from_view(tokens, &self.system.name);
             let input = line.uses_inputs.then(|| quote!(let u = self.u;));
@@ -100,7 +113,7 @@ impl Code<'_> {
         } else {
             (format_ident!("stages"), " G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages.", None)
         };
-        Some(quote! {
+        let function = quote! {
             #[doc = #text]
             #[inline]
             fn #function<const #stages: usize>(
@@ -116,7 +129,8 @@ impl Code<'_> {
                 #later
                 Stages { rate, residual: [#(#residuals),*], correction: [#(#corrections),*] }
             }
-        })
+        };
+        Ok(StagesWritten { function, in_lanes })
     }
 
     /// M⁻¹ `right`, M = ∂²L/∂v².

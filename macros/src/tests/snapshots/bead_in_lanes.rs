@@ -26,6 +26,7 @@ const _: () = {
         DiscreteRayleigh, DisplacementRule, Gradient, Lagrangian, Mask, MemberVector,
         Members, Momenta, Rayleigh, StepKernel, Trapezoidal,
     };
+    use ::dalembert::generated::Elementary as _;
     type Vector = SVector<f64, 1>;
     /// Known at compile time:
     /// - Derivatives are written out.
@@ -252,21 +253,23 @@ const _: () = {
             let k = self.k;
             let push = if t1 { k * (q[0] - wall) } else { 0.0 };
             let t2 = if t1 { -2.0 * k * push } else { 0.0 };
-            SVector::from([t2 - self.m * self.g * q[0].sin()])
+            SVector::from([t2 - self.m * self.g * q[0].branch_free().sin()])
         }
     }
     #[automatically_derived]
     impl ::dalembert::generated::ExplicitInLanes<1> for Bead {
-        type Fields<const W: usize> = ([Members<f64, W>; 4], [Mask<W>; 1]);
+        type Fields<const W: usize> = ([Members<f64, W>; 5], [Mask<W>; 1]);
         fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W> {
             (
-                [
-                    Members(systems.map(|system| system.k)),
-                    Members(systems.map(|system| system.m)),
-                    Members(systems.map(|system| system.g)),
-                    Members(systems.map(|system| system.r)),
-                ],
-                [Mask(systems.map(|system| system.has_wall))],
+                Members::of_each(
+                    systems
+                        .map(|system| {
+                            let k = system.k;
+                            let m = system.m;
+                            [k, m, m * system.g, system.r, 2.0 * k]
+                        }),
+                ),
+                Mask::of_each(systems.map(|system| [system.has_wall])),
             )
         }
         #[inline(always)]
@@ -275,7 +278,7 @@ const _: () = {
             v: &MemberVector<f64, 1, W>,
             h: f64,
         ) -> [MemberVector<f64, 1, W>; 2] {
-            let ([_, m, _, r], [_]) = *fields;
+            let ([_, m, _, r, _], [_]) = *fields;
             let half = 0.5 * h;
             let t1 = m * v[0];
             let t2 = r * half * v[0];
@@ -286,16 +289,16 @@ const _: () = {
             fields: &Self::Fields<W>,
             q: &MemberVector<f64, 1, W>,
         ) -> MemberVector<f64, 1, W> {
-            let ([k, m, g, _], [t1]) = *fields;
+            let ([k, _, t2, _, t3], [t1]) = *fields;
             let wall = Self::WALL;
-            let t2 = t1 & Members::<f64, W>::splat(wall).less(q[0]);
+            let t4 = t1 & Members::<f64, W>::splat(wall).less(q[0]);
             let push = Members::select(
-                t2,
+                t4,
                 k * (q[0] - wall),
                 Members::<f64, W>::splat(0.0),
             );
-            let t3 = Members::select(t2, -2.0 * k * push, Members::<f64, W>::splat(0.0));
-            [t3 - m * g * q[0].sin()]
+            let t5 = Members::select(t4, -t3 * push, Members::<f64, W>::splat(0.0));
+            [t5 - t2 * q[0].sin()]
         }
     }
     #[automatically_derived]

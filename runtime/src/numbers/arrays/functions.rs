@@ -3,7 +3,7 @@
 //! Branch-free, so that they run in vector instructions: reduction by three parts of π/2
 //! or two of ln 2 and the polynomials of fdlibm (Sun Microsystems, 1993; `k_sin.c`, `k_cos.c`, `e_exp.c`),
 //! within 1.5 units in the last place. Arguments beyond their range go one by one through the functions of
-//! numbers.
+//! numbers. So every lane has the bits that it has alone, whatever stands beside it and however many.
 
 /// Functions that have a branch-free form.
 pub trait Functions: Sized {
@@ -95,41 +95,60 @@ fn all_within<const S: usize>(x: &[f64; S], limit: f64) -> bool {
     within
 }
 
+/// Puts the platform's values where the angle is out of range.
 #[cold]
 #[inline(never)]
-fn sines_and_cosines_one_by_one<const S: usize>(x: &[f64; S]) -> ([f64; S], [f64; S]) {
-    let pairs = x.map(nalgebra::ComplexField::sin_cos);
-    (pairs.map(|pair| pair.0), pairs.map(|pair| pair.1))
+fn beyond_largest_angle<const S: usize>(x: &[f64; S], values: &mut [[f64; S]; 2]) {
+    let [sines, cosines] = values;
+    for ((x, sine), cosine) in x.iter().zip(sines).zip(cosines) {
+        let is_within = x.abs() <= LARGEST_ANGLE;
+        if !is_within {
+            (*sine, *cosine) = nalgebra::ComplexField::sin_cos(*x);
+        }
+    }
 }
 
+/// Puts the platform's values where the exponent is out of range.
 #[cold]
 #[inline(never)]
-fn exponentials_one_by_one<const S: usize>(x: &[f64; S]) -> [f64; S] {
-    x.map(nalgebra::ComplexField::exp)
+fn beyond_largest_exponent<const S: usize>(x: &[f64; S], values: &mut [f64; S]) {
+    for (x, value) in x.iter().zip(values) {
+        let is_within = x.abs() <= LARGEST_EXPONENT;
+        if !is_within {
+            *value = nalgebra::ComplexField::exp(*x);
+        }
+    }
 }
 
+#[allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
 impl Functions for f64 {
     #[inline(always)]
     fn sines_and_cosines<const S: usize>(x: [Self; S]) -> ([Self; S], [Self; S]) {
-        if !all_within(&x, LARGEST_ANGLE) {
-            return sines_and_cosines_one_by_one(&x);
-        }
         let (mut sines, mut cosines) = (x, x);
-        for (sine, cosine) in sines.iter_mut().zip(&mut cosines) {
-            (*sine, *cosine) = sine_and_cosine(*sine);
+        for i in 0..S {
+            (sines[i], cosines[i]) = sine_and_cosine(x[i]);
+        }
+        if !all_within(&x, LARGEST_ANGLE) {
+            // Copies: what a call is given the address of would be kept in memory.
+            let (x, mut values) = (x, [sines, cosines]);
+            beyond_largest_angle(&x, &mut values);
+            [sines, cosines] = values;
         }
         (sines, cosines)
     }
 
     #[inline(always)]
-    fn exponentials<const S: usize>(mut x: [Self; S]) -> [Self; S] {
+    fn exponentials<const S: usize>(x: [Self; S]) -> [Self; S] {
+        let mut exponentials = x;
+        for i in 0..S {
+            exponentials[i] = exponential(x[i]);
+        }
         if !all_within(&x, LARGEST_EXPONENT) {
-            return exponentials_one_by_one(&x);
+            let (x, mut values) = (x, exponentials);
+            beyond_largest_exponent(&x, &mut values);
+            exponentials = values;
         }
-        for lane in &mut x {
-            *lane = exponential(*lane);
-        }
-        x
+        exponentials
     }
 }
 
@@ -186,6 +205,27 @@ mod tests {
         let x = 355.0_f64;
         let k = (x * core::f64::consts::FRAC_2_PI).round();
         assert!(units((x - k * core::f64::consts::FRAC_PI_2).sin().abs(), x.sin().abs()) > 1e6);
+    }
+
+    /// Neither neighbours nor their number change a bit; out of range it is the platform's function.
+    #[test]
+    fn lanes_are_what_they_are_alone() {
+        let all = [0.3, 1e9, -2.0, f64::INFINITY, f64::NAN, 800.0, -0.0, 1e6];
+        let (sines, cosines) = f64::sines_and_cosines(all);
+        let exponentials = f64::exponentials(all);
+        for (i, &x) in all.iter().enumerate() {
+            let ([sine], [cosine]) = f64::sines_and_cosines([x]);
+            let [exponential] = f64::exponentials([x]);
+            let bits = |of: [f64; 3]| of.map(|x| if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() });
+            let alone = bits([sine, cosine, exponential]);
+            assert_eq!(bits([sines[i], cosines[i], exponentials[i]]), alone, "{x}");
+            let platform = bits([x.sin(), x.cos(), x.exp()]);
+            assert!(x.abs() <= LARGEST_ANGLE || alone[..2] == platform[..2]);
+            assert!(x.abs() <= LARGEST_EXPONENT || alone[2] == platform[2]);
+        }
+        // The control: in range it is another function, in the last place.
+        let mut angles = arguments(1e3);
+        assert!(angles.any(|x| sine_and_cosine(x).0 != x.sin()));
     }
 
     #[test]

@@ -2,18 +2,18 @@
 //! through those of numbers.
 
 use super::Lanes;
-use crate::numbers::Scalar;
+use crate::numbers::{Elementary, Scalar};
 
 /// Functions that go lane by lane.
 macro_rules! one_by_one {
     ($($(#[$doc:meta])* $name:ident)*) => {
-        impl<T: Scalar, const S: usize> Lanes<T, S> {
+        impl<T: Elementary, const S: usize> Lanes<T, S> {
             $(
                 $(#[$doc])*
                 #[inline(always)]
                 #[must_use]
                 pub fn $name(self) -> Self {
-                    self.map(nalgebra::ComplexField::$name)
+                    self.map(Elementary::$name)
                 }
             )*
         }
@@ -21,8 +21,6 @@ macro_rules! one_by_one {
 }
 
 one_by_one! {
-    /// 1/x.
-    recip
     /// 2ˣ.
     exp2
     /// eˣ − 1.
@@ -110,39 +108,48 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
         self.is_nan().select(self, Self::splat(T::one()).copysign(self))
     }
 
+    /// The absolute value of the one with the sign of the other.
+    #[inline(always)]
+    #[must_use]
+    pub fn copysign(self, sign: Self) -> Self {
+        self.zip(sign, nalgebra::RealField::copysign)
+    }
+
+    /// 1/x.
+    #[inline(always)]
+    #[must_use]
+    pub fn recip(self) -> Self {
+        Self::splat(T::one()) / self
+    }
+}
+
+impl<T: Elementary, const S: usize> Lanes<T, S> {
     /// xⁿ.
     #[inline(always)]
     #[must_use]
     pub fn powi(self, n: i32) -> Self {
-        self.map(|lane| nalgebra::ComplexField::powi(lane, n))
+        self.map(|lane| Elementary::powi(lane, n))
     }
 
     /// x^y.
     #[inline(always)]
     #[must_use]
     pub fn powf(self, exponent: Self) -> Self {
-        self.zip(exponent, nalgebra::ComplexField::powf)
+        self.zip(exponent, Elementary::powf)
     }
 
     /// The angle of (x, y), y.atan2(x).
     #[inline(always)]
     #[must_use]
     pub fn atan2(self, x: Self) -> Self {
-        self.zip(x, nalgebra::RealField::atan2)
+        self.zip(x, Elementary::atan2)
     }
 
     /// √(x² + y²).
     #[inline(always)]
     #[must_use]
     pub fn hypot(self, other: Self) -> Self {
-        self.zip(other, nalgebra::ComplexField::hypot)
-    }
-
-    /// The absolute value of the one with the sign of the other.
-    #[inline(always)]
-    #[must_use]
-    pub fn copysign(self, sign: Self) -> Self {
-        self.zip(sign, nalgebra::RealField::copysign)
+        self.zip(other, Elementary::hypot)
     }
 
     /// x a + b, rounded once.
@@ -151,7 +158,7 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
     pub fn mul_add(self, a: Self, b: Self) -> Self {
         let mut result = self;
         for i in 0..S {
-            result.0[i] = nalgebra::ComplexField::mul_add(self.0[i], a.0[i], b.0[i]);
+            result.0[i] = Elementary::mul_add(self.0[i], a.0[i], b.0[i]);
         }
         result
     }

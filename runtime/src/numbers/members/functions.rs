@@ -1,4 +1,6 @@
-//! Elementary functions of members: those of numbers, one by one, so that they are rounded alike.
+//! Elementary functions of members: sine, cosine and exponential by the branch-free form that
+//! [`branch_free`](crate::numbers::Elementary::branch_free) gives of one number, the others one by one through those of
+//! numbers; so they are rounded alike.
 
 use super::Members;
 use crate::numbers::{Elementary, Scalar};
@@ -46,8 +48,6 @@ of_one! {
     sqrt
     /// The cube root.
     cbrt
-    /// eˣ.
-    exp
     /// 2ˣ.
     exp2
     /// eˣ − 1.
@@ -60,10 +60,6 @@ of_one! {
     log10
     /// ln(1 + x).
     ln_1p
-    /// The sine.
-    sin
-    /// The cosine.
-    cos
     /// The tangent.
     tan
     /// The inverse sine.
@@ -100,11 +96,29 @@ impl<T: Elementary, const W: usize> Members<T, W> {
     #[inline(always)]
     #[must_use]
     pub fn sin_cos(self) -> (Self, Self) {
-        let (mut sine, mut cosine) = (self, self);
-        for i in 0..W {
-            (sine.0[i], cosine.0[i]) = Elementary::sin_cos(self.0[i]);
-        }
-        (sine, cosine)
+        let (sines, cosines) = T::sines_and_cosines(self.0);
+        (Self(sines), Self(cosines))
+    }
+
+    /// The sine.
+    #[inline(always)]
+    #[must_use]
+    pub fn sin(self) -> Self {
+        self.sin_cos().0
+    }
+
+    /// The cosine.
+    #[inline(always)]
+    #[must_use]
+    pub fn cos(self) -> Self {
+        self.sin_cos().1
+    }
+
+    /// eˣ.
+    #[inline(always)]
+    #[must_use]
+    pub fn exp(self) -> Self {
+        Self(T::exponentials(self.0))
     }
 
     /// xⁿ.
@@ -186,21 +200,25 @@ mod tests {
     #[test]
     fn functions_are_those_of_numbers_to_the_last_bit() {
         same! {
-            sqrt() cbrt() exp() exp2() exp_m1() ln() log2() log10() ln_1p() sin() cos() tan() asin() acos() atan()
+            sqrt() cbrt() exp2() exp_m1() ln() log2() log10() ln_1p() tan() asin() acos() atan()
             sinh() cosh() tanh() asinh() acosh() atanh() powf(1.7) atan2(-0.3) hypot(0.7) mul_add(0.1, 0.3)
         }
         let (sines, cosines) = Members(X).sin_cos();
-        assert_eq!(sines.0.map(bits), X.map(|x| bits(Elementary::sin(x))));
-        assert_eq!(cosines.0.map(bits), X.map(|x| bits(Elementary::cos(x))));
+        assert_eq!(sines.0.map(bits), X.map(|x| bits(x.branch_free().sin())));
+        assert_eq!(cosines.0.map(bits), X.map(|x| bits(x.branch_free().cos())));
+        assert_eq!(Members(X).sin().0.map(bits), X.map(|x| bits(x.branch_free().sin_cos().0)));
+        assert_eq!(Members(X).cos().0.map(bits), X.map(|x| bits(x.branch_free().sin_cos().1)));
+        assert_eq!(Members(X).exp().0.map(bits), X.map(|x| bits(x.branch_free().exp())));
         assert_eq!(Members(X).powi(5).0.map(bits), X.map(|x| bits(Elementary::powi(x, 5))));
         assert_eq!(Members(X).recip().0.map(bits), X.map(|x| bits(x.recip())));
         assert_eq!(Members(X).abs().0.map(bits), X.map(|x| bits(x.abs())));
         assert_eq!(Members(X).signum().0.map(bits), X.map(|x| bits(x.signum())));
-        // The control: lanes have a sine of their own, which differs somewhere in the last place.
+        // The control: the platform's sine differs somewhere in the last place.
         let (mut x, mut differ) = (0.0, 0);
         for _ in 0..1000 {
             x += 0.37;
-            differ += usize::from(crate::numbers::Lanes([x; 2]).sin().0[0] != Elementary::sin(x));
+            differ += usize::from(Members([x; 2]).sin().0[0] != Elementary::sin(x));
+            assert_eq!(Members([x; 2]).sin().0, crate::numbers::Lanes([x; 2]).sin().0);
         }
         assert!(differ > 0);
     }

@@ -18,22 +18,22 @@ use crate::step::{Report, StepError, newton::AT_FLOOR};
 use crate::system::{ForcedLagrangian, Stages};
 
 /// More iterations than Newton's method would be worth.
-const MAX_ITERATIONS: u32 = 60;
+pub(super) const MAX_ITERATIONS: u32 = 60;
 
 /// If two iterations do not halve the residual, Newton's method is cheaper.
-const SLUGGISH: f64 = 0.5;
+pub(super) const SLUGGISH: f64 = 0.5;
 
 /// The residual that the last correction may leave, in floors: with the contraction measured, what is left of
 /// it.
-const AT_REST: f64 = 1.0 / 64.0;
+pub(super) const AT_REST: f64 = 1.0 / 64.0;
 
 /// After one iteration, only a residual of at most this many floors is taken to shrink in the next as much as
 /// it has.
-const NEAR: f64 = 1024.0;
+pub(super) const NEAR: f64 = 1024.0;
 
 /// If the floor has risen or fallen by this factor, sizes measured with the old floor are not comparable with
 /// new ones.
-const CHANGED: f64 = 8.0;
+pub(super) const CHANGED: f64 = 8.0;
 
 /// Solves for the stages from the one velocity `guess`.
 #[inline]

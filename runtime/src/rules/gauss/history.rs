@@ -9,7 +9,7 @@ use super::slack::{Allowance, Slack, Swept, sweep};
 use super::{Gauss, completed, fixed_point, solved_from};
 use crate::numbers::{
     LaneVector, Lanes, Scalar,
-    lanes::{lane, splat},
+    lanes::{lane, splat, write_lane},
 };
 use crate::step::{Memory, Quantity, State, Step, StepError};
 use crate::system::ForcedLagrangian;
@@ -84,6 +84,26 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
     /// Whether the last step was solved by the matrix of all stages, as the fixed point did not contract.
     pub(crate) fn is_by_newton(&self) -> bool {
         !self.contracted
+    }
+
+    /// What a run remembers of a step with velocities `v` that led to `ends`, q and p.
+    pub(super) fn of_step(
+        v: &[SVector<T, N>; S],
+        h: T,
+        contracted: bool,
+        ends: [Compensated<T, N>; 2],
+    ) -> Self {
+        let [q, p] = ends;
+        let mut history = Self { h, contracted, q, p, ..Self::default() };
+        for (i, v) in v.iter().enumerate() {
+            write_lane(&mut history.v, i, v);
+        }
+        history
+    }
+
+    /// q and p at the end of the last step.
+    pub(super) fn ends(&self) -> [Compensated<T, N>; 2] {
+        [self.q, self.p]
     }
 
     /// V_i, the velocities at the stages of the last step: at q0 + h Σ a_ij V_j its equations of motion hold.

@@ -52,6 +52,18 @@ pub(super) struct Problem<'a, L: ForcedLagrangian<N>, const N: usize, const S: u
     pub(super) steps: [L::Scalar; S],
 }
 
+/// h b_j, which sum to h.
+#[inline]
+pub(super) fn steps<T: Scalar, const S: usize>(h: T) -> [T; S] {
+    let mut steps = array::from_fn(|j| T::constant(Gauss::<S>::COEFFICIENTS.weights[j]) * h);
+    if S > 2 {
+        let inner = steps[1..S - 1].iter().fold(T::zero(), |sum, &step| sum + step);
+        steps[0] = (h - inner) * T::constant(0.5);
+        steps[S - 1] = steps[0];
+    }
+    steps
+}
+
 /// The stages of a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Solution<T, const N: usize, const S: usize> {
@@ -68,13 +80,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     pub(super) const COEFFICIENTS: &'static Coefficients<S> = &Gauss::<S>::COEFFICIENTS;
 
     pub(super) fn new(system: &'a L, q0: Compensated<T, N>, p0: Compensated<T, N>, h: T) -> Self {
-        let mut steps = array::from_fn(|j| T::constant(Self::COEFFICIENTS.weights[j]) * h);
-        if S > 2 {
-            let inner = steps[1..S - 1].iter().fold(T::zero(), |sum, &step| sum + step);
-            steps[0] = (h - inner) * T::constant(0.5);
-            steps[S - 1] = steps[0];
-        }
-        Self { system, q0, p0, h, steps }
+        Self { system, q0, p0, h, steps: steps(h) }
     }
 
     /// start + Σ_j μ_ij (h b_j x_j) at every stage i.

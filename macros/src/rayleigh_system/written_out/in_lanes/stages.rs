@@ -1,0 +1,108 @@
+//! A stage of a Gauss rule of several members, in two functions: the rates, and what the momenta that they
+//! lead to leave and correct. What the second needs of the first is handed over.
+
+use super::super::super::emit::before_the_run;
+use super::*;
+
+/// The names of parameters.
+const TAKEN: [&str; 6] = ["q", "v", "p", "kept", "fields", "systems"];
+
+impl Code<'_> {
+    /// The functions of `ForcedLagrangianInLanes`, of what `stages` computes: rates, residuals and corrections,
+    /// the last two from the momenta `late`.
+    pub(in super::super) fn stages_in_lanes(&mut self, outputs: &[Node], late: &[Node]) -> TokenStream {
+        let (rates, rest) = outputs.split_at(self.n);
+        let handed = self.handed(rest, late);
+        let corrections = self.on_members(rest, &TAKEN, &handed);
+        let first = [rates, &handed].concat();
+        let line = self.on_members(&first, &TAKEN, &[]);
+
+        let is_handed = |field: &&Field| handed.contains(&field.node);
+        let kept = corrections.fields.iter().filter(is_handed).map(|field| (field.node, field.is_truth));
+        let kept = OfMembers::new(self, kept);
+        let of_corrections = corrections.fields.iter().filter(|field| !is_handed(field));
+        let fields = line.fields.iter().chain(of_corrections).map(|field| (field.node, field.is_truth));
+        let fields = OfMembers::new(self, fields);
+        let gathered = self.gathered(&fields);
+
+        let (scalar, n, members) = (&self.system.scalar, self.system.degrees.times(1), &fields.members);
+        let (of_rates, of_kept) = line.outputs.split_at(self.n);
+        let handed_over = kept.value(|node| {
+            let place = handed.iter().position(|&other| other == node);
+            place.map_or_else(TokenStream::new, |place| of_kept[place].clone())
+        });
+        let apart = fields.taken_apart("fields", &line);
+        let of_fields = parameter("fields", apart.is_some());
+        let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
+        let (statements, kept_ty) = (&line.statements, kept.ty());
+        let rates = quote! {
+            #[inline(always)]
+            fn rates_in_lanes<const #members: usize>(
+                #of_fields: &Self::Fields<#members>,
+                #q: &MemberVector<#scalar, #n, #members>,
+                #v: &MemberVector<#scalar, #n, #members>,
+            ) -> (MemberVector<#scalar, #n, #members>, Self::Kept<#members>) {
+                #apart
+                #statements
+                ([#(#of_rates),*], #handed_over)
+            }
+        };
+
+        let (apart, kept_apart) =
+            (fields.taken_apart("fields", &corrections), kept.taken_apart("kept", &corrections));
+        let (of_fields, of_kept) =
+            (parameter("fields", apart.is_some()), parameter("kept", !kept.is_empty()));
+        let (v, p) = (parameter("v", corrections.uses_velocities), parameter("p", corrections.uses("p")));
+        let (residuals, of_velocities) = corrections.outputs.split_at(self.n);
+        let statements = &corrections.statements;
+        quote! {
+            #gathered
+
+            type Kept<const #members: usize> = #kept_ty;
+
+            #rates
+
+            #[inline(always)]
+            fn corrections_in_lanes<const #members: usize>(
+                #of_fields: &Self::Fields<#members>,
+                #of_kept: &Self::Kept<#members>,
+                #v: &MemberVector<#scalar, #n, #members>,
+                #p: &MemberVector<#scalar, #n, #members>,
+            ) -> [MemberVector<#scalar, #n, #members>; 2] {
+                #apart
+                #kept_apart
+                #statements
+                [[#(#residuals),*], [#(#of_velocities),*]]
+            }
+        }
+    }
+
+    /// What `outputs` need that the momenta `late` do not change, but for velocities, what is known before the
+    /// run, and what is one operation of those: sooner computed again than stored.
+    fn handed(&self, outputs: &[Node], late: &[Node]) -> Vec<Node> {
+        let nodes = self.graph.reachable(outputs.iter().copied());
+        let (is_constant, _) = before_the_run(&self.graph, &nodes, &TAKEN);
+        let mut is_late = vec![false; self.graph.len()];
+        let mut needed = outputs.to_vec();
+        for &node in &nodes {
+            let operation = self.graph.operation(node);
+            is_late[node.index()] =
+                late.contains(&node) || operation.arguments().any(|argument| is_late[argument.index()]);
+            if is_late[node.index()] {
+                needed.extend(operation.arguments());
+            }
+        }
+        let is_at_hand = |node: Node| {
+            is_constant[node.index()] || matches!(self.graph.operation(node), Operation::Velocity(_))
+        };
+        needed.retain(|&node| {
+            let operation = self.graph.operation(node);
+            let is_product = matches!(operation, Operation::Multiply(..) | Operation::Negate(_));
+            let is_short = is_product && operation.arguments().all(is_at_hand);
+            !is_late[node.index()] && !is_at_hand(node) && !is_short
+        });
+        needed.sort_unstable();
+        needed.dedup();
+        needed
+    }
+}

@@ -1,0 +1,50 @@
+impl ::dalembert::generated::ForcedLagrangianInLanes<2> for Cart {
+        type Fields<const W: usize> = [Members<f64, W>; 8];
+        fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W> {
+            Members::of_each(
+                systems
+                    .map(|system| {
+                        let l = system.l;
+                        let m = system.m;
+                        [l, m, l * l, system.end, system.k, system.c, system.a, 1.0 / m]
+                    }),
+            )
+        }
+        type Kept<const W: usize> = [Members<f64, W>; 4];
+        #[inline(always)]
+        fn rates_in_lanes<const W: usize>(
+            fields: &Self::Fields<W>,
+            q: &MemberVector<f64, 2, W>,
+            v: &MemberVector<f64, 2, W>,
+        ) -> (MemberVector<f64, 2, W>, Self::Kept<W>) {
+            let [l, _, l_squared, end, k, c, a, t1] = *fields;
+            let (sin_q1, cos_q1) = q[1].sin_cos();
+            let reach = l * cos_q1;
+            let t2 = Members::select(
+                end.less(q[0]),
+                -k * (q[0] - end),
+                Members::<f64, W>::splat(0.0),
+            );
+            let dl_dreach = 1.0 + v[0] * v[1];
+            let t3 = t1 * reach;
+            (
+                [a.powf(q[0]) + t2, -(l * dl_dreach * sin_q1 + c * v[1])],
+                [v[0] * reach, v[1] * reach, t3, 1.0 / (l_squared - reach * t3)],
+            )
+        }
+        #[inline(always)]
+        fn corrections_in_lanes<const W: usize>(
+            fields: &Self::Fields<W>,
+            kept: &Self::Kept<W>,
+            v: &MemberVector<f64, 2, W>,
+            p: &MemberVector<f64, 2, W>,
+        ) -> [MemberVector<f64, 2, W>; 2] {
+            let [_, m, l_squared, _, _, _, _, t3] = *fields;
+            let [t1, t2, t4, t5] = *kept;
+            let residual0 = p[0] - m * v[0] - t2;
+            let residual1 = p[1] - t1 - l_squared * v[1];
+            let t6 = t5 * (residual1 - t4 * residual0);
+            [[residual0, residual1], [t3 * residual0 - t4 * t6, t6]]
+        }
+    }
+};

@@ -1,0 +1,436 @@
+//! Steps by a Gauss rule of several members at once: the operations of each member's own run, in their order.
+//!
+//! Stage by stage, each over all members; sweeps are made of all until the last member is solved. A step that
+//! leaves the usual path (the first of a run, sweeps that do not contract, floors that rise or fall, rounding
+//! that has to be measured, Newton's method, numbers that are none) the member takes alone, by the functions
+//! of its own run, and comes back to the others.
+
+#![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
+
+use super::Gauss;
+use super::coefficients::Coefficients;
+use super::fixed_point::{AT_REST, CHANGED, MAX_ITERATIONS, NEAR, SLUGGISH};
+use super::history::StageHistory;
+use super::problem::{Compensated, steps};
+use crate::numbers::members::{each_coordinate, each_stage, member, stage_by_stage, write_member};
+use crate::numbers::{Blank, Mask, MemberVector, Members, Scalar};
+use crate::step::{Memory, State, newton::AT_FLOOR};
+use crate::system::ForcedLagrangianInLanes;
+
+/// W members on their way by a Gauss rule.
+#[derive(Clone, Copy, Debug)]
+pub struct StagesInLanes<T, F, const N: usize, const S: usize, const W: usize> {
+    /// Whose states are those of their runs.
+    is_sound: Mask<W>,
+    /// Who has not stepped yet.
+    is_new: Mask<W>,
+    /// Whose last step was solved by the fixed point.
+    has_contracted: Mask<W>,
+    fields: F,
+    h: T,
+    /// The velocities V_i of the last step.
+    v: [MemberVector<T, N, W>; S],
+    q: CompensatedMembers<T, N, W>,
+    p: CompensatedMembers<T, N, W>,
+    /// Steps that a member has taken alone.
+    alone: u64,
+}
+
+/// [`Compensated`] of each member.
+#[derive(Clone, Copy, Debug)]
+struct CompensatedMembers<T, const N: usize, const W: usize> {
+    value: MemberVector<T, N, W>,
+    rest: MemberVector<T, N, W>,
+}
+
+impl<T: Scalar, const N: usize, const W: usize> CompensatedMembers<T, N, W> {
+    fn zero() -> Self {
+        let zero = [Members::splat(T::zero()); N];
+        Self { value: zero, rest: zero }
+    }
+
+    fn member(&self, lane: usize) -> Compensated<T, N> {
+        Compensated { value: member(&self.value, lane), rest: member(&self.rest, lane) }
+    }
+
+    fn write(&mut self, lane: usize, of: &Compensated<T, N>) {
+        write_member(&mut self.value, lane, &of.value);
+        write_member(&mut self.rest, lane, &of.rest);
+    }
+
+    /// [`Compensated::plus`] of each.
+    #[inline(always)]
+    fn plus(&self, change: &MemberVector<T, N, W>) -> Self {
+        let mut sum = *self;
+        each_coordinate!(a => {
+            let (value, change) = (self.value[a], change[a] + self.rest[a]);
+            let total = value + change;
+            let share = total - value;
+            sum.value[a] = total;
+            sum.rest[a] = (value - (total - share)) + (change - share);
+        });
+        sum
+    }
+
+    /// Where the condition holds, those of `other`.
+    #[inline(always)]
+    fn replace(&mut self, condition: Mask<W>, other: &Self) {
+        each_coordinate!(a => {
+            self.value[a] = Members::select(condition, other.value[a], self.value[a]);
+            self.rest[a] = Members::select(condition, other.rest[a], self.rest[a]);
+        });
+    }
+}
+
+/// The stages of a step, of those that were solved.
+struct Solved<T, const N: usize, const S: usize, const W: usize> {
+    is_solved: Mask<W>,
+    v: [MemberVector<T, N, W>; S],
+    rate: [MemberVector<T, N, W>; S],
+}
+
+impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesInLanes<T, F, N, S, W> {
+    const COEFFICIENTS: &'static Coefficients<S> = &Gauss::<S>::COEFFICIENTS;
+
+    /// No member yet.
+    pub(crate) fn new(fields: F, h: T) -> Self {
+        Self {
+            is_sound: Mask::splat(false),
+            is_new: Mask::splat(false),
+            has_contracted: Mask::splat(false),
+            fields,
+            h,
+            v: [[Members::splat(T::zero()); N]; S],
+            q: CompensatedMembers::zero(),
+            p: CompensatedMembers::zero(),
+            alone: 0,
+        }
+    }
+
+    /// How many steps members have taken alone.
+    pub(crate) fn steps_alone(&self) -> u64 {
+        self.alone
+    }
+
+    /// The fields of other systems, some of whose members are new.
+    pub(crate) fn gather(&mut self, fields: F) {
+        self.fields = fields;
+    }
+
+    /// Puts a member into a lane, at its start; `begins`: whether a run does.
+    pub(crate) fn put(&mut self, lane: usize, start: &State<T, N>, begins: bool) {
+        self.is_sound.0[lane] = begins;
+        self.is_new.0[lane] = true;
+        self.has_contracted.0[lane] = false;
+        self.q.write(lane, &Compensated::new(start.q));
+        self.p.write(lane, &Compensated::new(start.p));
+    }
+
+    /// Where members are, and whose states are those of their runs.
+    pub(crate) fn standing(&self) -> (&MemberVector<T, N, W>, &MemberVector<T, N, W>, Mask<W>) {
+        (&self.q.value, &self.p.value, self.is_sound)
+    }
+
+    /// All members on by so many steps.
+    #[inline(always)]
+    pub(crate) fn advance<L>(&mut self, systems: [&L; W], count: u64)
+    where
+        L: ForcedLagrangianInLanes<N, Scalar = T, Fields<W> = F>,
+    {
+        let steps = steps::<T, S>(self.h);
+        for _ in 0..count {
+            let together = self.is_sound & self.has_contracted;
+            let mut is_alone = self.is_sound;
+            if together.0.contains(&true) {
+                let solved = self.solve::<L>(&steps, together);
+                is_alone = is_alone & !self.follow(&steps, &solved);
+            }
+            if is_alone.0.contains(&true) {
+                self.step_alone(systems, is_alone);
+            }
+        }
+    }
+
+    /// The step that was solved for; who has taken it.
+    #[inline(always)]
+    fn follow(&mut self, steps: &[T; S], solved: &Solved<T, N, S, W>) -> Mask<W> {
+        let zero = [Members::splat(T::zero()); N];
+        let (mut displacement, mut impulse) = (zero, zero);
+        stage_by_stage!(j => {
+            each_coordinate!(a => {
+                displacement[a] = displacement[a] + solved.v[j][a] * steps[j];
+                impulse[a] = impulse[a] + solved.rate[j][a] * steps[j];
+            });
+        });
+        let (q, p) = (self.q.plus(&displacement), self.p.plus(&impulse));
+        let mut has_stepped = solved.is_solved;
+        each_coordinate!(a => {
+            let velocity = displacement[a] / self.h;
+            let is_finite = q.value[a].is_finite() & p.value[a].is_finite() & velocity.is_finite();
+            has_stepped = has_stepped & is_finite;
+        });
+        self.q.replace(has_stepped, &q);
+        self.p.replace(has_stepped, &p);
+        stage_by_stage!(j => {
+            each_coordinate!(a => {
+                self.v[j][a] = Members::select(has_stepped, solved.v[j][a], self.v[j][a]);
+            });
+        });
+        has_stepped
+    }
+
+    /// The velocities of the last step, one step on.
+    #[inline(always)]
+    fn extrapolation(&self) -> [MemberVector<T, N, W>; S] {
+        let columns = &Self::COEFFICIENTS.extrapolation;
+        let mut extrapolated = self.v;
+        stage_by_stage!(i => {
+            each_coordinate!(a => {
+                let mut sums = [Members::splat(T::zero()); 2];
+                each_stage!(j => {
+                    sums[j % 2] = self.v[j][a].times_plus(T::constant(columns[j][i]), sums[j % 2]);
+                });
+                extrapolated[i][a] = sums[0] + sums[1];
+            });
+        });
+        extrapolated
+    }
+
+    /// start + Σ_j μ_ij (h b_j x_j) at the stage i, the `terms` being h b_j x_j.
+    #[inline(always)]
+    fn at_stage(
+        start: &CompensatedMembers<T, N, W>,
+        terms: &[MemberVector<T, N, W>; S],
+        i: usize,
+    ) -> MemberVector<T, N, W> {
+        let columns = &Self::COEFFICIENTS.shares;
+        let mut at = start.value;
+        each_coordinate!(a => {
+            let mut sums = [start.rest[a], Members::splat(T::zero())];
+            each_stage!(j => {
+                sums[j % 2] = terms[j][a].times_plus(T::constant(columns[j][i]), sums[j % 2]);
+            });
+            at[a] = (sums[0] + sums[1]) + start.value[a];
+        });
+        at
+    }
+
+    /// The stages of those who step together, as far as sweeps of the usual kind solve for them:
+    /// [`iterate`](super::fixed_point::iterate) of each.
+    #[inline(always)]
+    fn solve<L>(&self, steps: &[T; S], together: Mask<W>) -> Solved<T, N, S, W>
+    where
+        L: ForcedLagrangianInLanes<N, Scalar = T, Fields<W> = F>,
+    {
+        let constant = T::constant;
+        let fields = self.fields;
+        let mut v = self.extrapolation();
+        let mut solved = Solved { is_solved: Mask::splat(false), v, rate: v };
+        let mut is_open = together;
+        let zero = [Members::splat(T::zero()); N];
+        let (mut floor, mut per_floor) = (zero, zero);
+        let (mut before, mut last) = (Members::splat(T::one()), Members::splat(T::one()));
+        // h b_j V_j, h b_j G_j.
+        let (mut of_v, mut of_rate) = (v, v);
+        stage_by_stage!(j => {
+            each_coordinate!(a => {
+                of_v[j][a] = v[j][a] * steps[j];
+            });
+        });
+        let (mut rate, mut residuals) = (v, v);
+        let mut next = v;
+        let (mut v, mut next) = (&mut v, &mut next);
+        let mut kept = [L::Kept::<W>::blank(); S];
+        for iterations in 1..=MAX_ITERATIONS {
+            stage_by_stage!(i => {
+                let q = Self::at_stage(&self.q, &of_v, i);
+                (rate[i], kept[i]) = L::rates_in_lanes(&fields, &q, &v[i]);
+                each_coordinate!(a => {
+                    of_rate[i][a] = rate[i][a] * steps[i];
+                });
+            });
+            stage_by_stage!(i => {
+                let p = Self::at_stage(&self.p, &of_rate, i);
+                let [residual, correction] = L::corrections_in_lanes(&fields, &kept[i], &v[i], &p);
+                each_coordinate!(a => {
+                    residuals[i][a] = residual[a].abs();
+                    next[i][a] = v[i][a] + correction[a];
+                    of_v[i][a] = next[i][a] * steps[i];
+                });
+            });
+            // The largest residual of each coordinate, and the sum, in which NaN and infinity stay.
+            let (mut largest, mut sum) = (zero, Members::splat(T::zero()));
+            each_coordinate!(a => {
+                each_stage!(i => {
+                    largest[a] = largest[a].larger(residuals[i][a]);
+                    sum = sum + residuals[i][a];
+                });
+            });
+            if iterations == 1 {
+                floor = self.floor(&rate, &largest);
+                per_floor = reciprocals(&floor);
+            }
+            let mut size = in_units(&largest, &per_floor);
+            if iterations == 1 {
+                last = size;
+            } else {
+                let grows = is_open & !size.less(last);
+                if grows.0.contains(&true) {
+                    let now = self.floor(&rate, &largest);
+                    let mut has_risen = Mask::splat(false);
+                    each_coordinate!(a => {
+                        has_risen = has_risen | (floor[a] * constant(CHANGED)).less(now[a]);
+                        is_open = is_open & (!grows | now[a].is_finite());
+                    });
+                    let has_risen = grows & has_risen;
+                    each_coordinate!(a => {
+                        floor[a] = Members::select(has_risen, floor[a].larger(now[a]), floor[a]);
+                    });
+                    per_floor = reciprocals(&floor);
+                    size = in_units(&largest, &per_floor);
+                    before = Members::select(has_risen, size * constant(4.0), before);
+                    last = Members::select(has_risen, size, last);
+                }
+            }
+            // As many of these in a sum would still be finite.
+            is_open = is_open & ((sum + size) * constant(256.0)).is_finite();
+
+            let small = Members::splat(constant(AT_REST));
+            let mut is_at_rest = (size * size).less_or_equal(small * last);
+            is_at_rest = is_at_rest
+                & if iterations > 2 {
+                    (size * last).less_or_equal(small * before)
+                } else if !L::STRUCTURE.constant_mass_matrix {
+                    size.less_or_equal(small)
+                } else if N > 1 {
+                    size.less_or_equal(Members::splat(constant(NEAR)))
+                } else {
+                    Mask::splat(true)
+                };
+            let mut has_stopped = Mask::splat(false);
+            if iterations > 1 {
+                has_stopped = (last * constant(SLUGGISH)).less_or_equal(size);
+            }
+            let at_floor = size.less_or_equal(Members::splat(constant(AT_FLOOR)));
+            let mut is_done = is_open & (is_at_rest | (has_stopped & at_floor));
+            if iterations > 1 && is_done.0.contains(&true) {
+                let now = self.floor(&rate, &largest);
+                let mut has_fallen = Mask::splat(false);
+                each_coordinate!(a => {
+                    has_fallen = has_fallen | (now[a] * constant(CHANGED)).less(floor[a]);
+                });
+                let has_fallen = is_done & has_fallen;
+                is_done = is_done & !has_fallen;
+                each_coordinate!(a => {
+                    floor[a] = Members::select(has_fallen, now[a], floor[a]);
+                });
+                per_floor = reciprocals(&floor);
+                size = in_units(&largest, &per_floor);
+                before = Members::select(has_fallen, size * constant(4.0), before);
+                last = Members::select(has_fallen, size, last);
+            }
+            if iterations > 2 {
+                // Rounding has to be measured, or Newton's method takes over.
+                is_open = is_open & (is_done | size.less(before * constant(SLUGGISH)));
+            }
+            if is_done.0.contains(&true) {
+                stage_by_stage!(i => {
+                    each_coordinate!(a => {
+                        let end = Members::select(is_at_rest, next[i][a], v[i][a]);
+                        solved.v[i][a] = Members::select(is_done, end, solved.v[i][a]);
+                        solved.rate[i][a] = Members::select(is_done, rate[i][a], solved.rate[i][a]);
+                    });
+                });
+                solved.is_solved = solved.is_solved | is_done;
+                is_open = is_open & !is_done;
+            }
+            if !is_open.0.contains(&true) {
+                break;
+            }
+            core::mem::swap(&mut v, &mut next);
+            (before, last) = (last, size);
+        }
+        solved
+    }
+
+    /// [`Problem::floor`](super::problem::Problem::floor) of each, with the `largest` residual of each
+    /// coordinate.
+    #[inline(always)]
+    fn floor(
+        &self,
+        rate: &[MemberVector<T, N, W>; S],
+        largest: &MemberVector<T, N, W>,
+    ) -> MemberVector<T, N, W> {
+        let unit = T::EPSILON * T::constant(4.0);
+        let of_rate = (self.h * unit).abs();
+        let mut floor = *largest;
+        each_coordinate!(a => {
+            let mut largest_rate = rate[0][a].abs();
+            for i in 1..S {
+                largest_rate = largest_rate.larger(rate[i][a].abs());
+            }
+            let terms = self.p.value[a].abs() + largest[a];
+            // Not a number where the largest would not be that of a finite sum.
+            let poison = largest_rate * T::constant(256.0) * T::zero();
+            floor[a] = terms * unit + largest_rate * of_rate + T::SMALLEST_NORMAL + poison;
+        });
+        floor
+    }
+
+    /// The step of some members, by each member's own run.
+    #[cold]
+    #[inline(never)]
+    fn step_alone<L>(&mut self, systems: [&L; W], is_alone: Mask<W>)
+    where
+        L: ForcedLagrangianInLanes<N, Scalar = T, Fields<W> = F>,
+    {
+        for (lane, system) in systems.into_iter().enumerate().filter(|(lane, _)| is_alone.0[*lane]) {
+            self.alone += 1;
+            let mut history = StageHistory::<T, N, S>::default();
+            let (q, p) = (self.q.member(lane), self.p.member(lane));
+            let state = State { q: q.value, p: p.value };
+            if !self.is_new.0[lane] {
+                let v = core::array::from_fn(|j| member(&self.v[j], lane));
+                history = StageHistory::of_step(&v, self.h, self.has_contracted.0[lane], [q, p]);
+            }
+            let step = Memory::<L, Gauss<S>, N>::advance(&mut history, system, &state, self.h);
+            self.is_sound.0[lane] = step.is_ok();
+            self.is_new.0[lane] = false;
+            self.has_contracted.0[lane] = !history.is_by_newton();
+            let [q, p] = history.ends();
+            self.q.write(lane, &q);
+            self.p.write(lane, &p);
+            each_stage!(j => {
+                write_member(&mut self.v[j], lane, &history.velocities()[j]);
+            });
+        }
+    }
+}
+
+/// [`reciprocals`](super::problem::reciprocals) of each.
+#[inline(always)]
+fn reciprocals<T: Scalar, const N: usize, const W: usize>(
+    floor: &MemberVector<T, N, W>,
+) -> MemberVector<T, N, W> {
+    let mut reciprocals = *floor;
+    each_coordinate!(a => {
+        reciprocals[a] = Members::splat(T::one()) / floor[a] + floor[a] * T::zero();
+    });
+    reciprocals
+}
+
+/// [`in_units`](super::problem::in_units) of each, of the `largest` residual of each coordinate; not finite
+/// where a floor is none.
+#[inline(always)]
+fn in_units<T: Scalar, const N: usize, const W: usize>(
+    largest: &MemberVector<T, N, W>,
+    per_floor: &MemberVector<T, N, W>,
+) -> Members<T, W> {
+    let (mut size, mut poison) = (Members::splat(T::zero()), Members::splat(T::zero()));
+    each_coordinate!(a => {
+        let units = largest[a] * per_floor[a];
+        size = size.larger(units);
+        poison = poison + units * T::zero();
+    });
+    size + poison
+}
