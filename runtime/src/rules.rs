@@ -19,8 +19,8 @@ pub(crate) use damped_drift::{ByDrift, DampedDrift, Drift, modes, require_positi
 pub use displacement::{DisplacementRule, Node};
 pub use fitted::Fitted;
 pub use fitted_trapezoidal::FittedTrapezoidal;
-pub(crate) use gauss::{SLACK, StagesInLanes};
 pub use gauss::{Gauss, StageHistory};
+pub(crate) use gauss::{SLACK, StagesInLanes};
 pub use joint::{JointRayleighRule, JointRule};
 pub use midpoint::Midpoint;
 pub use one_sided::OneSided;

@@ -26,7 +26,7 @@ fn names(tokens: TokenStream, in_constant: bool, found: &mut BTreeSet<String>) {
                 );
             }
             TokenTree::Group(group) => {
-                let of_constant = index > 2 && word(index - 1) == "=" && word(index - 4) == "_";
+                let of_constant = index > 3 && word(index - 1) == "=" && word(index - 4) == "_";
                 names(group.stream(), in_constant || of_constant, found);
             }
             TokenTree::Ident(name) if in_constant => {
