@@ -40,7 +40,8 @@
 //!
 //! **What is kept** is said each time: the [`ends`](Study::ends), a reduction to numbers of one's own
 //! ([`reduce`](Study::reduce)), or files (feature `parquet`: `parts`). Nothing else is: memory does not grow
-//! with the number of members, but for what is asked to be kept of each.
+//! with the number of members, but for what is asked to be kept of each. A reduction holds at most 16 384
+//! members a thread, each with its system, start and value; files hold two parts besides.
 //!
 //! **A member that fails** stands in the result as a [`Failure`], with its error and its last good state; the
 //! others go on.

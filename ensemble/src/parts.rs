@@ -40,7 +40,9 @@ mod table;
 
 use std::fs;
 use std::ops::Range;
+use std::panic::resume_unwind;
 use std::path::{Path, PathBuf};
+use std::thread::{self, ScopedJoinHandle};
 
 use dalembert::{Lagrangian, State, StepError};
 
@@ -100,7 +102,7 @@ where
 {
     /// Part k holds the members from k × `members` on; 65 536 unless said, 0 counts as 1.
     ///
-    /// With records on the way ([`every`](Study::every)) a part is held in memory with all its rows.
+    /// Two parts are held in memory, each with all its rows: one is written while the next is computed.
     pub fn members_per_part(mut self, members: u64) -> Self {
         self.members = members.max(1);
         self
@@ -141,18 +143,30 @@ where
         file::require_apart(&self.folder, &planned)?;
         let metadata = self.described();
         let mut written = Written::default();
-        for part in planned {
-            let path = file::path(&self.folder, &part);
-            if path.try_exists().map_err(|source| PartsError::Io { path: path.clone(), source })? {
-                file::require_of_study(&path, &metadata)?;
-                written.found += 1;
-                continue;
-            }
-            let (table, failed) = self.computed(part).map_err(PartsError::Cancelled)?;
-            file::write(&path, &table, &metadata)?;
-            written.written += 1;
-            written.failed += failed;
-        }
+        // A part is written while the next is computed.
+        thread::scope(|scope| {
+            let mut writing: Option<ScopedJoinHandle<'_, Result<(), PartsError>>> = None;
+            let compute_all = || {
+                for part in planned {
+                    let path = file::path(&self.folder, &part);
+                    if path.try_exists().map_err(|source| PartsError::Io { path: path.clone(), source })? {
+                        file::require_of_study(&path, &metadata)?;
+                        written.found += 1;
+                        continue;
+                    }
+                    let (table, failed) = self.computed(part).map_err(PartsError::Cancelled)?;
+                    finished(writing.take())?;
+                    written.failed += failed;
+                    written.written += 1;
+                    let metadata = &metadata;
+                    writing = Some(scope.spawn(move || file::write(&path, &table, metadata)));
+                }
+                Ok(())
+            };
+            let computed = compute_all();
+            finished(writing)?;
+            computed
+        })?;
         Ok(written)
     }
 
@@ -215,4 +229,9 @@ where
         let own = own.map(|(key, value)| (key.to_owned(), value));
         own.into_iter().chain(self.metadata.iter().cloned()).collect()
     }
+}
+
+/// Waits until a part is there.
+fn finished(writing: Option<ScopedJoinHandle<'_, Result<(), PartsError>>>) -> Result<(), PartsError> {
+    writing.map_or(Ok(()), |writing| writing.join().unwrap_or_else(|panic| resume_unwind(panic)))
 }

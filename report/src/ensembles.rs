@@ -1,15 +1,16 @@
 //! Many trajectories: ensembles in lanes beside heyoka's batch of eight, all lanes' errors; threads; the
-//! growth with the number of members.
+//! growth with the number of members; what writing them costs.
 
 use std::fmt::Write;
 use std::path::Path;
 use std::time::Instant;
+use std::{env, fs};
 
 use anyhow::{Context, Result, ensure};
 use dalembert::nalgebra::SVector;
 use dalembert::run::InLanes;
 use dalembert::step::MethodOf;
-use dalembert::{Discretise, Gauss, Lagrangian, Splitting, State};
+use dalembert::{Discretise, Gauss, Lagrangian, Splitting, State, StepError};
 use dalembert_ensemble::Ensemble;
 use dalembert_examples::results;
 use dalembert_scenes::{FputChain8, HenonHeiles, Kepler, Ring};
@@ -24,6 +25,10 @@ use crate::scenes::Scene;
 const LEVELS: [f64; 4] = [1e-6, 1e-8, 1e-10, 1e-12];
 /// Members of a run: those of one chunk, on the eight starts in turn.
 const MEMBERS: u64 = 256;
+/// Members that are written.
+const MILLION: u64 = 1_000_000;
+/// How often two are measured in turns.
+const TURNS: usize = 3;
 const BATCH: &str = crate::page::BATCH;
 
 /// Measures and writes `docs/ensembles.md`.
@@ -188,32 +193,36 @@ where
     Candidate { method: name, setting: steps, run: Box::new(run) }
 }
 
-/// The ring by 800 steps: members from 1 to a million, one thread and two, wall time.
+/// A ring of its own for each member.
+fn member(number: u64) -> Result<(Ring, State<f64, 2>), StepError> {
+    let ring = Ring { k: 1e-3 };
+    Ok((ring, State::from_velocity(&ring, [0.1, 1.1], [0.5, 1e-9 * number as f64])?))
+}
+
+/// The ring by 800 steps: members from 1 to a million, one thread and two, wall time; then a million written.
 fn growth(page: &mut String) -> Result<()> {
-    let pools = [1, 2].map(|threads| ThreadPoolBuilder::new().num_threads(threads).build());
-    let [one, two] = pools;
-    let (one, two) = (one?, two?);
-    let member = |number: u64| {
-        let ring = Ring { k: 1e-3 };
-        Ok((ring, State::from_velocity(&ring, [0.1, 1.1], [0.5, 1e-9 * number as f64])?))
-    };
+    let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build();
+    let (one, two) = (pool(1)?, pool(2)?);
     let study = || Ensemble::new(member).by(Splitting::blanes_moan_6(), 0.125).steps(800).in_lanes();
+    let reduced = |members: u64| {
+        let add = |sum: &mut f64, outcome: dalembert_ensemble::Outcome<f64, f64, 2>| *sum += outcome.value;
+        study().reduce(0..members, |_| 0.0, |value, record| *value = record.state.q[0], 0.0, add)
+    };
     for members in (0..=6).map(|k| 10_u64.pow(k)) {
+        let repeats = (20_000 / members).clamp(1, 200);
         let seconds = |pool: &ThreadPool| {
-            let repeats = (20_000 / members).clamp(1, 200);
             let begin = Instant::now();
             for _ in 0..repeats {
-                let sum = pool.install(|| {
-                    let add = |sum: &mut f64, outcome: dalembert_ensemble::Outcome<f64, f64, 2>| {
-                        *sum += outcome.value
-                    };
-                    study().reduce(0..members, |_| 0.0, |value, record| *value = record.state.q[0], 0.0, add)
-                });
-                std::hint::black_box(sum.ok());
+                std::hint::black_box(pool.install(|| reduced(members)).ok());
             }
             begin.elapsed().as_secs_f64() / repeats as f64
         };
-        let (alone, both) = (seconds(&one), seconds(&two));
+        // In turns, the least of each: other work only adds.
+        let [mut alone, mut both] = [f64::INFINITY; 2];
+        for _ in 0..TURNS {
+            alone = alone.min(seconds(&one));
+            both = both.min(seconds(&two));
+        }
         writeln!(
             page,
             "| {members} | {:.2} | {:.2} | {:.2} | {} |",
@@ -222,6 +231,22 @@ fn growth(page: &mut String) -> Result<()> {
             alone / both,
             peak_memory()?
         )?;
+    }
+    page.push_str(include_str!("../ensembles_writing.md"));
+    for (threads, pool) in [(1, &one), (2, &two)] {
+        let folder = env::temp_dir().join(format!("dalembert-report-{}", std::process::id()));
+        let [mut computed, mut written] = [f64::INFINITY; 2];
+        for _ in 0..TURNS {
+            let begin = Instant::now();
+            std::hint::black_box(pool.install(|| reduced(MILLION)).ok());
+            computed = computed.min(begin.elapsed().as_secs_f64());
+            let begin = Instant::now();
+            pool.install(|| study().parts(&folder).column("k", |ring| ring.k).write(0..MILLION))?;
+            written = written.min(begin.elapsed().as_secs_f64());
+            fs::remove_dir_all(&folder)?;
+        }
+        let share = 100.0 * (written - computed) / computed;
+        writeln!(page, "| {threads} | {computed:.2} | {written:.2} | {share:.0} |")?;
     }
     Ok(())
 }

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use super::members;
 use super::point::{Point, points};
 use super::print;
 use super::syntax::Program;
@@ -20,6 +21,9 @@ pub struct Computed {
     pub gradients: Vec<Vec<f64>>,
     /// Hessians of L and R, row by row.
     pub hessians: Vec<Vec<f64>>,
+    /// Of each lane 0 where it is not what its member does alone, else 1, or 2 where a force acts; nothing where
+    /// a member panicked.
+    pub lanes: Option<Vec<f64>>,
 }
 
 /// What became of a batch.
@@ -161,7 +165,12 @@ fn crate_text(programs: &[Program], kept: &[usize], engine: &str) -> CrateText {
     let mut lines = Vec::new();
     for &index in kept {
         lines.push((text.lines().count() + 1, index));
-        text += &module(&programs[index], index, engine);
+        let program = &programs[index];
+        text += &if engine == members::LANES {
+            members::module(program, index)
+        } else {
+            module(program, index, engine)
+        };
     }
     text += "fn main() {\n    std::panic::set_hook(Box::new(|_| {}));\n";
     for index in kept {
@@ -240,6 +249,7 @@ fn read(printed: &str, programs: &[Program], outcome: &mut Outcome) -> Result<()
         let computed = outcome.computed.entry((index, point)).or_default();
         let (first, rest) = numbers.split_at(numbers.len().min(1));
         match tag.as_str() {
+            "lanes" => computed.lanes = (!numbers.is_empty()).then_some(numbers),
             "plain" => computed.plain = (!numbers.is_empty()).then_some(numbers),
             "gradient" => computed.values.push(("gradient", first.to_vec())),
             "derivatives" => {

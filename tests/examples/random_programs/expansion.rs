@@ -13,9 +13,9 @@ pub enum Reaction {
     Panicked(String),
 }
 
-pub fn of(block: &str, engine: &str, runtime: Runtime) -> Reaction {
+pub fn of(block: &str, options: &str, runtime: Runtime) -> Reaction {
     let expansion = catch_unwind(AssertUnwindSafe(|| {
-        let options = format!("derivatives = {engine}").parse().expect("options are tokens");
+        let options = options.parse().expect("options are tokens");
         let item = block.parse().expect("programs are tokens");
         rayleigh_system(runtime, options, item).to_string()
     }));

@@ -8,8 +8,8 @@
 //! cargo study random_programs -- page                       # docs/random-programs.md
 //! ```
 //!
-//! `compiled` may be followed by an engine: `expanded` unless said, `auto`, `num_dual`, or `portable` for the
-//! elementary functions of the runtime. `show <seed>` prints a program, `shrink <seed>` the smallest part of
+//! `compiled` may be followed by an engine: `expanded` unless said, `auto`, `num_dual`, `portable` for the
+//! elementary functions of the runtime, or `lanes`: the program as a force of several members at once. `show <seed>` prints a program, `shrink <seed>` the smallest part of
 //! it that fails.
 
 mod batch;
@@ -19,6 +19,7 @@ mod expected;
 mod generate;
 mod interpret;
 mod lowered;
+mod members;
 mod mistake;
 mod mutation;
 mod number;

@@ -8,12 +8,13 @@ use super::run::{folder, workspace};
 use super::tally::{Tally, general};
 
 /// The ways that programs are tried, as files of runs begin, and as the page says it.
-const WAYS: [(&str, &str); 5] = [
+const WAYS: [(&str, &str); 6] = [
     ("graph-", "lowered, the graph evaluated"),
     ("compiled-expanded-", "compiled by rustc, `derivatives = expanded`"),
     ("compiled-auto-", "compiled by rustc, `derivatives = auto`"),
     ("compiled-num_dual-", "compiled by rustc, `derivatives = num_dual`"),
     ("compiled-portable-", "compiled by rustc, elementary functions of the runtime (`libm`)"),
+    ("compiled-lanes-", "compiled by rustc, as a force of eight members in lanes, each beside its own run"),
 ];
 
 /// All counts of a way, and whether there are any.

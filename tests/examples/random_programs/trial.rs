@@ -6,6 +6,7 @@ use super::batch::Computed;
 use super::expansion::{self, Reaction};
 use super::expected::{self, Expected, Skipped};
 use super::lowered;
+use super::members;
 use super::point::points;
 use super::print;
 use super::rayleigh_system::Runtime;
@@ -37,7 +38,12 @@ pub fn expected(program: &Program) -> Option<Vec<Expected>> {
 
 /// Whether the macro takes the program; where it does not, that is the end of the trial.
 pub fn reaction(program: &Program, engine: &str, runtime: Runtime) -> Option<Trial> {
-    match expansion::of(&print::block(program), engine, runtime) {
+    let reaction = if engine == members::LANES {
+        expansion::of(&members::block(program), members::OPTIONS, runtime)
+    } else {
+        expansion::of(&print::block(program), &format!("derivatives = {engine}"), runtime)
+    };
+    match reaction {
         Reaction::Refused(reason) => Some(Trial::Refused(reason)),
         Reaction::Panicked(message) => Some(Trial::Failed(format!("panic: the macro panics: {message}"))),
         Reaction::Accepted if program.has_cfg => {
