@@ -21,7 +21,7 @@ pub struct Computed {
     pub gradients: Vec<Vec<f64>>,
     /// Hessians of L and R, row by row.
     pub hessians: Vec<Vec<f64>>,
-    /// Of each lane 0 where it is not what its member does alone, else 1, or 2 where a force acts; nothing where
+    /// Of each lane 0 where it is not what its member does alone, else 1, or 2 where it was moved; nothing where
     /// a member panicked.
     pub lanes: Option<Vec<f64>>,
 }
@@ -166,10 +166,9 @@ fn crate_text(programs: &[Program], kept: &[usize], engine: &str) -> CrateText {
     for &index in kept {
         lines.push((text.lines().count() + 1, index));
         let program = &programs[index];
-        text += &if engine == members::LANES {
-            members::module(program, index)
-        } else {
-            module(program, index, engine)
+        text += &match members::Way::named(engine) {
+            Some(way) => members::module(program, index, way),
+            None => module(program, index, engine),
         };
     }
     text += "fn main() {\n    std::panic::set_hook(Box::new(|_| {}));\n";

@@ -8,17 +8,47 @@ use super::print;
 use super::syntax::Program;
 use super::trial::Trial;
 
-/// The name of this way among the engines.
-pub const LANES: &str = "lanes";
+/// What a program is in lanes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// An explicit system: L and R of the program at (q, q) are the potential, f there is the force.
+    Explicit,
+    /// L, R and f of the program, as perturbations of a particle, by Gauss rules.
+    Gauss,
+}
 
-/// The options of the macro.
-pub const OPTIONS: &str = "rule = trapezoidal, lanes = explicit, derivatives = expanded";
+impl Way {
+    /// The one that an engine's name asks for.
+    pub fn named(engine: &str) -> Option<Self> {
+        match engine {
+            "lanes" => Some(Self::Explicit),
+            "gauss_lanes" => Some(Self::Gauss),
+            _ => None,
+        }
+    }
+
+    /// The options of the macro.
+    pub fn options(self) -> &'static str {
+        match self {
+            Self::Explicit => "rule = trapezoidal, lanes = explicit, derivatives = expanded",
+            Self::Gauss => "rule = gauss, lanes = gauss, derivatives = expanded",
+        }
+    }
+
+    /// What the harness calls.
+    fn function(self) -> &'static str {
+        match self {
+            Self::Explicit => "lanes",
+            Self::Gauss => "gauss_lanes",
+        }
+    }
+}
 
 /// Where the time is set.
 const TIME: &str = "0.25";
 
-/// The program's block with explicit steps: its L and R at (q, q) are the potential, its f there is the force.
-pub fn block(program: &Program) -> String {
+/// The program's block, its functions called by those that are stepped.
+pub fn block(program: &Program, way: Way) -> String {
     let (n, m) = (program.n, program.inputs);
     let scalar = if program.single { "f32" } else { "f64" };
     let mut text = print::block(program);
@@ -26,22 +56,37 @@ pub fn block(program: &Program) -> String {
         text = text.replace(&format!("pub fn {name}("), &format!("fn written_{name}("));
     }
     let time = program.timed.map(|is_timed| if is_timed { format!(", {TIME}") } else { String::new() });
-    let mut potential = format!("self.written_lagrangian(q, q{})", time[0]);
-    if let Some((of_both, _)) = &program.rayleigh {
+    // Where no velocity may occur, q stands for it.
+    let (v, share) = if way == Way::Explicit { ("q", "1.0") } else { ("v", "0.1") };
+    let rayleigh = program.rayleigh.as_ref().map(|(of_both, _)| {
         let q = if *of_both { "q, " } else { "" };
-        write!(potential, " + self.written_rayleigh({q}q{})", time[1]).expect("a string takes all");
+        format!("self.written_rayleigh({q}{v}{})", time[1])
+    });
+    let mut potential = format!("self.written_lagrangian(q, {v}{})", time[0]);
+    let mut own = String::new();
+    match (way, rayleigh) {
+        (Way::Explicit, Some(rayleigh)) => write!(potential, " + {rayleigh}").expect("a string takes all"),
+        (Way::Gauss, Some(rayleigh)) => write!(
+            own,
+            "pub fn rayleigh(&self, q: [{scalar}; {n}], v: [{scalar}; {n}]) -> {scalar} {{\n{share} * {rayleigh}\n}}\n"
+        )
+        .expect("a string takes all"),
+        (_, None) => {}
     }
-    let mut own = format!(
+    write!(
+        own,
         "pub fn lagrangian(&self, q: [{scalar}; {n}], v: [{scalar}; {n}]) -> {scalar} {{\n\
-         let mut kinetic = 0.0;\nfor i in 0..{n} {{ kinetic += 0.5 * v[i] * v[i]; }}\nkinetic - ({potential})\n}}\n"
-    );
+         let mut kinetic = 0.0;\nfor i in 0..{n} {{ kinetic += 0.5 * v[i] * v[i]; }}\n\
+         kinetic - {share} * ({potential})\n}}\n"
+    )
+    .expect("a string takes all");
     if program.force.is_some() {
         let (parameter, input) =
             if m > 0 { (format!(", u: [{scalar}; {m}]"), ", u") } else { (String::new(), "") };
         write!(
             own,
-            "pub fn force(&self, q: [{scalar}; {n}], _v: [{scalar}; {n}]{parameter}) -> [{scalar}; {n}] {{\n\
-             self.written_force(q, q{input}{})\n}}\n",
+            "pub fn force(&self, q: [{scalar}; {n}], v: [{scalar}; {n}]{parameter}) -> [{scalar}; {n}] {{\n\
+             self.written_force(q, {v}{input}{})\n}}\n",
             time[2]
         )
         .expect("a string takes all");
@@ -50,7 +95,8 @@ pub fn block(program: &Program) -> String {
 }
 
 /// The module of a program, whose members stand at its points, each with the input there.
-pub fn module(program: &Program, index: usize) -> String {
+pub fn module(program: &Program, index: usize, way: Way) -> String {
+    let (options, function) = (way.options(), way.function());
     let (n, m) = (program.n, program.inputs);
     let scalar = if program.single { "f32" } else { "f64" };
     let points: Vec<String> =
@@ -61,18 +107,18 @@ pub fn module(program: &Program, index: usize) -> String {
         "let systems = points.map(|_| &s);"
     };
     format!(
-        "mod p{index} {{\n{}#[dalembert::rayleigh_system({OPTIONS})]\n{}\
+        "mod p{index} {{\n{}#[dalembert::rayleigh_system({options})]\n{}\
          pub fn run() {{\nlet s = system();\n\
          let points: [([{scalar}; {n}], [{scalar}; {n}], [{scalar}; {m}]); {POINTS}] = [{}];\n{systems}\n\
-         crate::lanes({index}, systems, points.map(|(q, v, _)| (q.into(), v.into())));\n}}\n}}\n",
+         crate::{function}({index}, systems, points.map(|(q, v, _)| (q.into(), v.into())));\n}}\n}}\n",
         print::surroundings(program),
-        block(program),
+        block(program, way),
         points.join(", ")
     )
 }
 
-/// The trial of what lanes computed: of each, whether it is what its member does alone, and whether there was
-/// a force.
+/// The trial of what lanes computed: of each, whether it is what its member does alone, and whether it was
+/// moved.
 pub fn judged(program: &Program, computed: Option<&Computed>) -> Trial {
     let Some(lanes) = computed.and_then(|computed| computed.lanes.as_ref()) else {
         // The potential at (q, q) may panic where the program does not.

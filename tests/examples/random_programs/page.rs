@@ -8,13 +8,17 @@ use super::run::{folder, workspace};
 use super::tally::{Tally, general};
 
 /// The ways that programs are tried, as files of runs begin, and as the page says it.
-const WAYS: [(&str, &str); 6] = [
+const WAYS: [(&str, &str); 7] = [
     ("graph-", "lowered, the graph evaluated"),
     ("compiled-expanded-", "compiled by rustc, `derivatives = expanded`"),
     ("compiled-auto-", "compiled by rustc, `derivatives = auto`"),
     ("compiled-num_dual-", "compiled by rustc, `derivatives = num_dual`"),
     ("compiled-portable-", "compiled by rustc, elementary functions of the runtime (`libm`)"),
     ("compiled-lanes-", "compiled by rustc, as a force of eight members in lanes, each beside its own run"),
+    (
+        "compiled-gauss_lanes-",
+        "compiled by rustc, eight members by Gauss rules in lanes, each beside its own run",
+    ),
 ];
 
 /// All counts of a way, and whether there are any.

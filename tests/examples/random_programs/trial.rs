@@ -38,10 +38,9 @@ pub fn expected(program: &Program) -> Option<Vec<Expected>> {
 
 /// Whether the macro takes the program; where it does not, that is the end of the trial.
 pub fn reaction(program: &Program, engine: &str, runtime: Runtime) -> Option<Trial> {
-    let reaction = if engine == members::LANES {
-        expansion::of(&members::block(program), members::OPTIONS, runtime)
-    } else {
-        expansion::of(&print::block(program), &format!("derivatives = {engine}"), runtime)
+    let reaction = match members::Way::named(engine) {
+        Some(way) => expansion::of(&members::block(program, way), way.options(), runtime),
+        None => expansion::of(&print::block(program), &format!("derivatives = {engine}"), runtime),
     };
     match reaction {
         Reaction::Refused(reason) => Some(Trial::Refused(reason)),
