@@ -3,10 +3,12 @@
 //!
 //! Uses rules and all below.
 
+pub mod between;
 mod checkpoint;
 mod composition;
 mod discretise;
 mod driven;
+pub mod events;
 mod lanes;
 mod memory;
 mod splitting;

@@ -13,6 +13,7 @@ use crate::rules::{Drift, modes, require_positive_definite};
 use crate::run::Explicit;
 use crate::step::{
     Flow, Linearization, Memory, PhaseMatrix, Quantity, Report, State, StateBy, Step, StepError, StepWith,
+    invert,
 };
 
 /// A splitting of the motion into kicks by the potential and damped free motions between, S of them,
@@ -140,6 +141,8 @@ struct Prepared<T, const N: usize, const S: usize> {
     drifts: Drifts<T, N, S>,
     /// Without damping no drift changes p.
     is_damped: bool,
+    /// M⁻¹, if elimination finds it.
+    inverse_mass: Option<SMatrix<T, N, N>>,
     /// ∂L/∂v at v = 0.
     shift: SVector<T, N>,
     /// ∂R/∂v at v = 0.
@@ -182,6 +185,7 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
             kicks: Splitting::<S>::KICKS.map(|share| T::constant(share) * h),
             drifts,
             is_damped: damping.iter().any(|entry| *entry != T::zero()),
+            inverse_mass: invert(&mass).ok(),
             shift: l.d2,
             thrust: r.d2,
         })
@@ -348,4 +352,10 @@ where
 
     /// A force is kept for its configuration.
     fn change_state(&mut self) {}
+
+    #[inline]
+    fn velocity(&self, state: &State<L::Scalar, N>) -> Option<SVector<L::Scalar, N>> {
+        let prepared = self.prepared.as_ref()?;
+        Some(prepared.inverse_mass? * (state.p - prepared.shift))
+    }
 }

@@ -40,10 +40,10 @@ pub struct Trajectory<'a, L, M, const N: usize>
 where
     L: Flow<M, N>,
 {
-    system: &'a L,
+    pub(super) system: &'a L,
     method: PhantomData<M>,
     at: Checkpoint<L::Scalar, N>,
-    memory: L::RunMemory,
+    pub(super) memory: L::RunMemory,
     course: Course,
 }
 
@@ -69,6 +69,35 @@ where
     /// Goes on with another step size from the present state, also after an error.
     pub fn change_step_size(&mut self, h: L::Scalar) {
         self.at = Checkpoint { step_size: h, origin: self.time(), steps: 0, state: self.at.state };
+        self.course = Course::Starting;
+    }
+
+    /// Goes on from another state at the present time, after an impact for instance: what the method remembers
+    /// is forgotten. The steps that follow are counted from here.
+    ///
+    /// ```
+    /// use dalembert::{Discretise, Midpoint, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system]
+    /// fn pendulum(q: [f64; 1], v: [f64; 1]) -> f64 {
+    ///     0.5 * v[0] * v[0] + q[0].cos()
+    /// }
+    /// let mut run = Pendulum {}.by(Midpoint, 0.1).run(State::from_velocity(&Pendulum {}, [1.0], [0.0])?);
+    /// let state = run.nth(9).unwrap()?.state;
+    /// run.restart(State { q: state.q, p: -state.p });
+    /// let back = run.nth(9).unwrap()?.state;
+    /// // The midpoint rule undoes its steps.
+    /// assert!((back.q[0] - 1.0).abs() < 1e-14 && run.time() == 2.0);
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    pub fn restart(&mut self, state: State<L::Scalar, N>) {
+        self.restart_at(self.time(), state);
+    }
+
+    /// Goes on from another state at another time.
+    pub(super) fn restart_at(&mut self, time: f64, state: State<L::Scalar, N>) {
+        self.at = Checkpoint { state, step_size: self.at.step_size, origin: time, steps: 0 };
+        self.memory = L::RunMemory::default();
         self.course = Course::Starting;
     }
 

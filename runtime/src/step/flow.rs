@@ -121,6 +121,42 @@ where
         *self = Self::default();
     }
 
+    /// Shares of a step, ascending within (0, 1), at which the method itself knows q and v: those of
+    /// [`at_nodes`](Self::at_nodes). None, unless it solves for points between the ends.
+    const NODES: &'static [f64] = &[];
+
+    /// Calls `visit` with the index of each node, with q there, and with v: of the last step, which led from
+    /// `q0` by `h`.
+    #[inline(always)]
+    fn at_nodes(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+        visit: impl FnMut(usize, &SVector<L::Scalar, N>, &SVector<L::Scalar, N>),
+    ) {
+        let _ = (q0, h, visit);
+    }
+
+    /// (q, v) at a `share` of the last step, which led from `q0` by `h`, by the polynomial through its nodes;
+    /// `None` where it has none.
+    #[inline]
+    fn between(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+        share: f64,
+    ) -> Option<[SVector<L::Scalar, N>; 2]> {
+        let _ = (q0, h, share);
+        None
+    }
+
+    /// The velocity of `state`, where the method knows it without solving for it.
+    #[inline]
+    fn velocity(&self, state: &State<L::Scalar, N>) -> Option<SVector<L::Scalar, N>> {
+        let _ = state;
+        None
+    }
+
     /// The step from `state`, `elapsed` after the time of `system`: of the system as it is then
     /// ([`Lagrangian::later`](crate::Lagrangian::later)).
     ///

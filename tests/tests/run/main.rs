@@ -1,12 +1,15 @@
 //! Runs: memory, checkpoints, compositions, splittings, an error asked for.
 
+mod between;
 mod composition;
 mod driven;
+mod events;
 mod gauss_lanes;
 mod kept;
 mod kept_matrix;
 mod lanes;
 mod one_run;
+mod random_events;
 mod saved_runs;
 mod slack;
 mod splitting;

@@ -4,6 +4,7 @@ use core::array;
 
 use nalgebra::SVector;
 
+use super::coefficients::Coefficients;
 use super::problem::{Compensated, Problem, Solution};
 use super::slack::{Allowance, Slack, Swept, sweep};
 use super::{Gauss, completed, fixed_point, solved_from};
@@ -123,6 +124,60 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
         *self = Self { slack: self.slack, ..Self::default() };
     }
 
+    /// Q_i and V_i of the last step, from q0 by h.
+    #[inline(always)]
+    fn visit_stages(
+        &self,
+        q0: &SVector<T, N>,
+        h: T,
+        mut visit: impl FnMut(usize, &SVector<T, N>, &SVector<T, N>),
+    ) {
+        let Coefficients { weights, shares, .. } = &Gauss::<S>::COEFFICIENTS;
+        let steps = Lanes::constants(weights) * h;
+        let mut q = self.v;
+        for a in 0..N {
+            let terms = self.v[a] * steps;
+            let mut sums = [Lanes::splat(T::zero()); 2];
+            for j in 0..S {
+                sums[j % 2] = Lanes::constants(&shares[j]).times_plus(terms.0[j], sums[j % 2]);
+            }
+            q[a] = (sums[0] + sums[1]) + q0[a];
+        }
+        for i in 0..S {
+            visit(i, &lane(&q, i), &lane(&self.v, i));
+        }
+    }
+
+    /// (q, v) at a share τ of the last step: v = Σ ℓ_j(τ) V_j and q = q0 + h Σ V_j ∫ℓ_j, by the series in
+    /// Legendre polynomials that the coefficients come from.
+    fn polynomial(&self, q0: &SVector<T, N>, h: T, share: f64) -> [SVector<T, N>; 2] {
+        let Coefficients { nodes, weights, .. } = &Gauss::<S>::COEFFICIENTS;
+        let x = 2.0 * share - 1.0;
+        let [mut q, mut v] = [nalgebra::zero::<SVector<T, N>>(); 2];
+        for j in 0..S {
+            let at_node = 2.0 * nodes[j] - 1.0;
+            // P_{k−1}, P_k at the node and at x.
+            let (mut of_node, mut of_x) = ((0.0, 1.0), (0.0, 1.0));
+            let (mut value, mut integral) = (0.0, share);
+            for k in 0..S {
+                let degree = k as f64;
+                let next = |x: f64, (before, p): (f64, f64)| {
+                    (p, ((2.0 * degree + 1.0) * x * p - degree * before) / (degree + 1.0))
+                };
+                value += (2.0 * degree + 1.0) * of_node.1 * of_x.1;
+                let following = next(x, of_x);
+                if k > 0 {
+                    integral += 0.5 * of_node.1 * (following.1 - of_x.0);
+                }
+                (of_node, of_x) = (next(at_node, of_node), following);
+            }
+            let velocity: SVector<T, N> = lane(&self.v, j);
+            v += velocity * T::constant(weights[j] * value);
+            q += velocity * T::constant(weights[j] * integral);
+        }
+        [q0 + q * h, v]
+    }
+
     fn extrapolation(&self) -> LaneVector<T, N, S> {
         let columns = &Gauss::<S>::COEFFICIENTS.extrapolation;
         let mut extrapolated = self.v;
@@ -216,6 +271,17 @@ where
 
     fn change_state(&mut self) {
         self.is_corrected = true;
+    }
+
+    const NODES: &'static [f64] = &Gauss::<S>::NODES;
+
+    #[inline(always)]
+    fn at_nodes(&self, q0: &SVector<T, N>, h: T, visit: impl FnMut(usize, &SVector<T, N>, &SVector<T, N>)) {
+        self.visit_stages(q0, h, visit);
+    }
+
+    fn between(&self, q0: &SVector<T, N>, h: T, share: f64) -> Option<[SVector<T, N>; 2]> {
+        Some(self.polynomial(q0, h, share))
     }
 }
 

@@ -1,0 +1,95 @@
+//! A system at one moment.
+
+use core::fmt;
+
+use nalgebra::SVector;
+
+use crate::numbers::Scalar;
+use crate::step::State;
+use crate::system::Lagrangian;
+
+/// A system at one moment: q, and what is asked of it besides.
+#[derive(Clone, Copy)]
+pub struct Moment<'a, L, const N: usize>
+where
+    L: Lagrangian<N>,
+{
+    /// The time of the run.
+    pub time: f64,
+    /// Configuration.
+    pub q: SVector<L::Scalar, N>,
+    velocity: Option<SVector<L::Scalar, N>>,
+    momentum: Option<SVector<L::Scalar, N>>,
+    system: &'a L,
+}
+
+impl<'a, L, const N: usize> Moment<'a, L, N>
+where
+    L: Lagrangian<N>,
+{
+    #[inline(always)]
+    pub(super) fn interpolated(
+        system: &'a L,
+        time: f64,
+        q: SVector<L::Scalar, N>,
+        velocity: SVector<L::Scalar, N>,
+    ) -> Self {
+        Self { time, q, velocity: Some(velocity), momentum: None, system }
+    }
+
+    #[inline(always)]
+    pub(in crate::run) fn of(
+        system: &'a L,
+        time: f64,
+        state: &State<L::Scalar, N>,
+        velocity: Option<SVector<L::Scalar, N>>,
+    ) -> Self {
+        Self { time, q: state.q, velocity, momentum: Some(state.p), system }
+    }
+
+    /// The velocity v. Of a state it is solved for (NaN where there is none), of an interpolation it is known.
+    #[must_use]
+    #[inline]
+    pub fn velocity(&self) -> SVector<L::Scalar, N> {
+        match (self.velocity, self.momentum) {
+            (Some(velocity), _) => velocity,
+            (None, Some(p)) => {
+                let state = State { q: self.q, p };
+                let velocity = |system: &L| state.velocity(system);
+                let unknown = |_| SVector::repeat(L::Scalar::constant(f64::NAN));
+                self.system.later(L::Scalar::constant(self.time), velocity).unwrap_or_else(unknown)
+            }
+            (None, None) => SVector::repeat(L::Scalar::constant(f64::NAN)),
+        }
+    }
+
+    /// The momentum p. Of a state it is known, of an interpolation it is ∂L/∂v(q, v).
+    #[must_use]
+    #[inline]
+    pub fn momentum(&self) -> SVector<L::Scalar, N> {
+        match self.momentum {
+            Some(momentum) => momentum,
+            None => {
+                let v = self.velocity();
+                self.system.later(L::Scalar::constant(self.time), |system| {
+                    system.lagrangian_gradient(&self.q, &v).d2
+                })
+            }
+        }
+    }
+
+    /// Both as a state.
+    #[must_use]
+    pub fn state(&self) -> State<L::Scalar, N> {
+        State { q: self.q, p: self.momentum() }
+    }
+}
+
+impl<L: Lagrangian<N>, const N: usize> fmt::Debug for Moment<'_, L, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { time, q, velocity, momentum, .. } = self;
+        let mut shown = f.debug_struct("Moment");
+        shown.field("time", time).field("q", q).field("velocity", velocity).field("momentum", momentum);
+        shown.finish()
+    }
+}

@@ -1,0 +1,389 @@
+//! Events of runs by every method: when a function of the motion vanishes, to rounding, and what follows.
+
+mod error;
+mod event;
+mod nodes;
+mod on_step;
+mod roots;
+
+use nalgebra::SVector;
+
+use crate::numbers::Scalar;
+use crate::run::Trajectory;
+use crate::run::between::{Dense, Moment};
+use crate::step::{Flow, State, Step};
+pub use error::EventError;
+pub use event::{Event, EventDerivatives, EventGradient};
+use nodes::Nodes;
+use on_step::Found;
+pub use roots::Passage;
+use roots::ROOTS;
+
+/// Restarts without a step between that count as chattering.
+const RESTARTS: u32 = 256;
+
+/// Watching for events.
+impl<'a, L, M, const N: usize> Trajectory<'a, L, M, N>
+where
+    L: Flow<M, N>,
+{
+    /// Watches this run for the events that the functions `g` vanish: [`Watch`], an iterator over them.
+    ///
+    /// Without [`until`](Watch::until) it takes steps until there is an event, or the run ends.
+    ///
+    /// ```
+    /// use dalembert::run::events::Crossing;
+    /// use dalembert::{Discretise, Splitting, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system(rule = trapezoidal)]
+    /// fn oscillator(q: [f64; 1], v: [f64; 1]) -> f64 {
+    ///     0.5 * v[0] * v[0] - 0.5 * q[0] * q[0]
+    /// }
+    /// let start = State::from_velocity(&Oscillator {}, [1.0], [0.0])?;
+    /// let mut run = Oscillator {}.by(Splitting::blanes_casas_escorihuela_8(), 0.25).run(start);
+    /// let mut periods = 0.0;
+    /// for event in run.watch(|at| [at.q[0]]).crossing([Crossing::Rising]).until(100.0) {
+    ///     periods += 1.0;
+    ///     assert!((event?.time / (periods - 0.25) - std::f64::consts::TAU).abs() < 1e-8);
+    /// }
+    /// assert_eq!(periods, 16.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn watch<G, const K: usize>(&mut self, g: G) -> Watch<'_, 'a, L, M, G, N, K>
+    where
+        G: Fn(&Moment<'_, L, N>) -> [L::Scalar; K],
+    {
+        Watch {
+            dense: self.dense(),
+            g,
+            crossings: [Crossing::Either; K],
+            terminal: [false; K],
+            until: None,
+            present: None,
+            earlier: None,
+            velocity: None,
+            happened: [false; K],
+            found: [None; ROOTS],
+            next: 0,
+            step: None,
+            restarts: 0,
+            ended: false,
+        }
+    }
+}
+
+/// Which events count, by the direction in which the function passes 0 as the run goes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Crossing {
+    /// All, touching among them.
+    #[default]
+    Either,
+    /// Those from below.
+    Rising,
+    /// Those from above.
+    Falling,
+}
+
+/// A run that is watched for events: [`Trajectory::watch`].
+///
+/// **What is found.** Every root of g along the run, from after its start on. A step is asked at its ends and
+/// between, at the stages of a [`Gauss`](crate::Gauss) rule (of three stages at least) or, by other methods,
+/// on the cubic through both ends with their velocities. Where the polynomial through these values has no
+/// root, even with what it may be off by, there is none; where it does not say, true values are asked for, by
+/// partial steps. So two roots within a step are found as one is. Each is refined by partial steps to
+/// rounding. They come in the order of time, several at one time in that of their functions.
+///
+/// **What is not an event.** A start on the event: a run that begins where g is 0 to rounding. A root at the
+/// end of a step belongs to that step.
+///
+/// **The run** takes the same steps as unwatched, bit by bit, unless it ends at a [`terminal`](Self::terminal)
+/// event: there it stands at the event's time and state, its memory forgotten. [`restart`](Self::restart) goes
+/// on from there, from another state perhaps.
+///
+/// A pendulum against a stop, with restitution:
+///
+/// ```
+/// use dalembert::run::events::Crossing;
+/// use dalembert::{Discretise, Gauss, State, rayleigh_system};
+///
+/// #[rayleigh_system(rule = gauss)]
+/// fn pendulum(q: [f64; 1], v: [f64; 1]) -> f64 {
+///     0.5 * v[0] * v[0] + q[0].cos()
+/// }
+/// let start = State::from_velocity(&Pendulum {}, [1.0], [0.0])?;
+/// let mut run = Pendulum {}.by(Gauss::<8>, 0.25).run(start);
+/// let mut watch = run.watch(|at| [at.q[0] + 0.1]).crossing([Crossing::Falling]).terminal([true]);
+/// for _ in 0..10 {
+///     let impact = watch.next().unwrap()?;
+///     watch.restart(State { q: impact.state.q, p: impact.state.p * -0.9 });
+/// }
+/// // The kinetic energy at the stop falls by 0.81 at every impact.
+/// let left = 0.81_f64.powi(10) * (0.1_f64.cos() - 1.0_f64.cos());
+/// let now = run.state().energy(&Pendulum {})? + 0.1_f64.cos();
+/// assert!((now - left).abs() < 1e-13);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Watch<'t, 'a, L, M, G, const N: usize, const K: usize>
+where
+    L: Flow<M, N>,
+{
+    dense: Dense<'t, 'a, L, M, N>,
+    g: G,
+    crossings: [Crossing; K],
+    terminal: [bool; K],
+    until: Option<f64>,
+    /// The values at the end of the last step; `None` before the first.
+    present: Option<[L::Scalar; K]>,
+    /// Those at its start.
+    earlier: Option<[L::Scalar; K]>,
+    /// The velocity at its end, where it was asked for.
+    velocity: Option<SVector<L::Scalar, N>>,
+    /// Which events happened at the present state.
+    happened: [bool; K],
+    /// What was found in the last step, in order.
+    found: [Option<Found<L::Scalar, N>>; ROOTS],
+    /// Which of them comes next.
+    next: usize,
+    /// The last step, unless it was reported.
+    step: Option<Step<L::Scalar, N>>,
+    restarts: u32,
+    ended: bool,
+}
+
+/// What comes next in a run that is watched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Watched<S, const N: usize> {
+    /// An event of the step that follows.
+    Event(Event<S, N>),
+    /// A step of the run.
+    Step(Step<S, N>),
+}
+
+impl<'a, L, M, G, const N: usize, const K: usize> Watch<'_, 'a, L, M, G, N, K>
+where
+    L: Flow<M, N>,
+    G: Fn(&Moment<'_, L, N>) -> [L::Scalar; K],
+{
+    /// Counts of each function the events of one direction only.
+    #[must_use]
+    pub fn crossing(self, crossings: [Crossing; K]) -> Self {
+        Self { crossings, ..self }
+    }
+
+    /// Which events end the run.
+    #[must_use]
+    pub fn terminal(self, terminal: [bool; K]) -> Self {
+        Self { terminal, ..self }
+    }
+
+    /// Ends the iteration over events at this time: the run takes no step from there on.
+    #[must_use]
+    pub fn until(self, time: f64) -> Self {
+        Self { until: Some(time), ..self }
+    }
+
+    /// The run. Where events of its last step have not been asked for yet, it is ahead of them.
+    #[must_use]
+    pub fn run(&self) -> &Trajectory<'a, L, M, N> {
+        self.dense.run()
+    }
+
+    /// Goes on from another state at the present time of the run, that of a terminal event: an impact, a switch.
+    /// Events that happened there do not happen again at once.
+    pub fn restart(&mut self, state: State<L::Scalar, N>) {
+        let time = self.run().time();
+        if !self.ended {
+            self.happened = [false; K];
+        }
+        self.dense.restart_at(time, state);
+        (self.present, self.earlier, self.velocity) = (None, None, None);
+        (self.step, self.ended) = (None, false);
+        self.found = [None; ROOTS];
+        self.restarts = self.restarts.saturating_add(1);
+    }
+
+    /// What comes next, at most a step further: its events, and then the step itself. `None` where the run has
+    /// ended, by a terminal event for instance.
+    ///
+    /// # Errors
+    /// [`EventError`], after which the watch has ended.
+    #[inline]
+    pub fn advance(&mut self) -> Option<Result<Watched<L::Scalar, N>, EventError>> {
+        if let Some(found) = self.found.get(self.next).copied().flatten() {
+            return Some(self.report(&found).map(Watched::Event));
+        }
+        if let Some(step) = self.step.take() {
+            return Some(Ok(Watched::Step(step)));
+        }
+        if self.ended {
+            return None;
+        }
+        let taken = self.take();
+        match taken {
+            Some(Ok(true)) => self.step.take().map(|step| Ok(Watched::Step(step))),
+            Some(Ok(false)) => self.advance_to_found(),
+            Some(Err(error)) => {
+                self.ended = true;
+                Some(Err(error))
+            }
+            None => {
+                self.ended = true;
+                None
+            }
+        }
+    }
+
+    #[cold]
+    fn advance_to_found(&mut self) -> Option<Result<Watched<L::Scalar, N>, EventError>> {
+        match self.found.first().copied().flatten() {
+            Some(found) => Some(self.report(&found).map(Watched::Event)),
+            None => self.step.take().map(|step| Ok(Watched::Step(step))),
+        }
+    }
+
+    /// Takes a step, and says whether it is clear of events.
+    #[inline(always)]
+    fn take(&mut self) -> Option<Result<bool, EventError>> {
+        let before = match self.present {
+            Some(before) => before,
+            None => match self.begin() {
+                Ok(before) => before,
+                Err(error) => return Some(Err(error)),
+            },
+        };
+        let step = match self.dense.next()? {
+            Ok(step) => step,
+            Err(error) => return Some(Err(error.into())),
+        };
+        self.step = Some(step);
+        let start = self.dense.start()?;
+        let (time, state) = (self.dense.run().time(), self.dense.run().state());
+        let mut ends = [nalgebra::zero(); 2];
+        let mut velocity = None;
+        if !Dense::<L, M, N>::COLLOCATED {
+            let found = match self.velocity {
+                Some(before) => self.dense.velocity(time, state).map(|after| [before, after]),
+                None => self
+                    .dense
+                    .velocity(start.time, &start.state)
+                    .and_then(|before| self.dense.velocity(time, state).map(|after| [before, after])),
+            };
+            ends = match found {
+                Ok(ends) => ends,
+                Err(error) => return Some(Err(error.into())),
+            };
+            velocity = Some(ends[1]);
+        }
+        let after = (self.g)(&Moment::of(self.dense.system(), time, state, velocity));
+        // The cubic does not see how the velocity changes in the step, as the step before does.
+        let earlier = if Dense::<L, M, N>::COLLOCATED { Some(before) } else { self.earlier };
+        (self.earlier, self.present, self.velocity) = (Some(before), Some(after), velocity);
+        let (mut low, mut high) = (before, before);
+        let mut widen = |values: &[L::Scalar; K]| {
+            for ((low, high), &value) in low.iter_mut().zip(&mut high).zip(values) {
+                // Neither keeps a NaN out: the sum below does.
+                if value < *low {
+                    *low = value
+                }
+                if value > *high {
+                    *high = value
+                }
+            }
+        };
+        widen(&after);
+        if let Some(earlier) = &earlier {
+            widen(earlier);
+        }
+        let mut sum = L::Scalar::constant(0.0);
+        self.dense.at_nodes(start, &ends, |_, at| {
+            let values = (self.g)(at);
+            widen(&values);
+            for value in values {
+                sum += value * L::Scalar::constant(0.0);
+            }
+        });
+        for value in after {
+            sum += value * L::Scalar::constant(0.0);
+        }
+        // Away from 0 by more than a polynomial can leave the range of its values, and half a range besides.
+        let away = L::Scalar::constant(NodesOf::<L, M, N>::NODES.lebesgue + 1.0);
+        let is_clear = |(&low, &high): (&L::Scalar, &L::Scalar)| {
+            (low + high).widen().abs() > (away * (high - low)).widen()
+        };
+        if earlier.is_some() && sum == L::Scalar::constant(0.0) && low.iter().zip(&high).all(is_clear) {
+            if self.restarts > 0 {
+                self.restarts = 0;
+            }
+            return Some(Ok(true));
+        }
+        Some(self.locate(earlier.as_ref(), &before, &after, &ends))
+    }
+
+    /// Reports an event that was found, and ends the run there if it is terminal.
+    fn report(&mut self, found: &Found<L::Scalar, N>) -> Result<Event<L::Scalar, N>, EventError> {
+        self.next += 1;
+        let velocity = self.dense.velocity(found.time, &found.state)?;
+        let event = found.event(velocity);
+        if self.ended {
+            // At the same time as a terminal one.
+            self.mark(found.index);
+        } else if self.terminal.get(found.index).copied().unwrap_or(false) {
+            self.dense.restart_at(found.time, found.state);
+            self.ended = true;
+            (self.step, self.present) = (None, None);
+            self.happened = [false; K];
+            self.mark(found.index);
+            let width = 8.0 * L::Scalar::EPSILON.widen() * found.elapsed.widen().abs();
+            let later = |other: &Found<L::Scalar, N>| (other.elapsed - found.elapsed).widen().abs() > width;
+            for place in self.found.iter_mut().skip(self.next) {
+                if place.as_ref().is_some_and(later) {
+                    *place = None;
+                }
+            }
+        }
+        Ok(event)
+    }
+
+    fn mark(&mut self, index: usize) {
+        if let Some(happened) = self.happened.get_mut(index) {
+            *happened = true;
+        }
+    }
+}
+
+/// The nodes at which the steps of a method are looked at.
+struct NodesOf<'a, L, M, const N: usize>(core::marker::PhantomData<(&'a L, M)>);
+
+impl<L: Flow<M, N>, M, const N: usize> NodesOf<'_, L, M, N> {
+    const NODES: Nodes = Nodes::new(Dense::<L, M, N>::NODES);
+}
+
+impl<L, M, G, const N: usize, const K: usize> Iterator for Watch<'_, '_, L, M, G, N, K>
+where
+    L: Flow<M, N>,
+    G: Fn(&Moment<'_, L, N>) -> [L::Scalar; K],
+{
+    type Item = Result<Event<L::Scalar, N>, EventError>;
+
+    #[inline]
+    fn next(&mut self) -> Option<Self::Item> {
+        let backwards = self.run().step_size() < L::Scalar::constant(0.0);
+        let after = |time: f64, until: f64| if backwards { time < until } else { time > until };
+        loop {
+            if let Some(until) = self.until
+                && self.found.get(self.next).copied().flatten().is_none()
+                && !after(until, self.run().time())
+            {
+                return None;
+            }
+            match self.advance()? {
+                Ok(Watched::Step(_)) => {}
+                Ok(Watched::Event(event)) if self.until.is_some_and(|until| after(event.time, until)) => {
+                    return None;
+                }
+                Ok(Watched::Event(event)) => return Some(Ok(event)),
+                Err(error) => return Some(Err(error)),
+            }
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! What can go wrong while a run is watched.
+
+use core::fmt;
+
+use crate::step::StepError;
+
+/// Why a run could not be watched any further. The run itself stands at the end of its last step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum EventError {
+    /// The run's own step failed, or one within it.
+    Step(StepError),
+    /// An event function is NaN or infinite.
+    NotFinite {
+        /// Which one.
+        index: usize,
+        /// When.
+        time: f64,
+    },
+    /// More than 16 events lie in one step, or 256 restarts in none: they accumulate, or the function is noise
+    /// there.
+    Chattering {
+        /// The start of the step.
+        time: f64,
+    },
+    /// Several hundred steps within one step do not tell how often the function vanishes: it is not smooth, or
+    /// stays at 0 but for rounding.
+    Unresolved {
+        /// Which function.
+        index: usize,
+        /// The start of the step.
+        time: f64,
+    },
+    /// The function has no slope along the motion: the event's time has no derivative.
+    Tangent {
+        /// Which function.
+        index: usize,
+        /// The time of the event.
+        time: f64,
+    },
+}
+
+impl From<StepError> for EventError {
+    fn from(error: StepError) -> Self {
+        Self::Step(error)
+    }
+}
+
+impl fmt::Display for EventError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Step(error) => error.fmt(f),
+            Self::NotFinite { index, time } => write!(
+                f,
+                "event function {index} is NaN or infinite near the time {time}; give one that is defined along \
+                 the whole motion"
+            ),
+            Self::Chattering { time } => write!(
+                f,
+                "more events than can be told apart near the time {time}: go on with the constraint that they \
+                 lead to, or with shorter steps"
+            ),
+            Self::Unresolved { index, time } => write!(
+                f,
+                "event function {index} cannot be followed in the step from {time}: give a smooth one that does \
+                 not stay at 0, or shorten the step"
+            ),
+            Self::Tangent { index, time } => write!(
+                f,
+                "event function {index} has no slope along the motion at {time}: the time of the event has no \
+                 derivative there"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for EventError {
+    fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
+        if let Self::Step(error) = self { Some(error) } else { None }
+    }
+}

@@ -1,0 +1,293 @@
+//! The events of one step, where a glance does not rule them out.
+
+use nalgebra::SVector;
+
+use super::nodes::MOST;
+use super::roots::{Curve, Origin, ROOTS, Search};
+use super::{Crossing, Event, EventError, NodesOf, Passage, RESTARTS, Watch};
+use crate::numbers::Scalar;
+use crate::run::between::{Dense, Moment, Start};
+use crate::step::{Flow, State};
+
+/// Partial steps in one step at most, for all functions together.
+const PARTIAL_STEPS: u32 = 2000;
+
+/// An event that was found and has not been reported.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Found<S, const N: usize> {
+    pub(super) index: usize,
+    passage: Passage,
+    pub(super) time: f64,
+    pub(super) state: State<S, N>,
+    from: State<S, N>,
+    from_time: f64,
+    pub(super) elapsed: S,
+}
+
+impl<S: Scalar, const N: usize> Found<S, N> {
+    pub(super) fn event(&self, velocity: SVector<S, N>) -> Event<S, N> {
+        let Self { index, passage, time, state, from, from_time, elapsed } = *self;
+        Event { index, passage, time, state, velocity, from, from_time, elapsed }
+    }
+}
+
+impl<L, M, G, const N: usize, const K: usize> Watch<'_, '_, L, M, G, N, K>
+where
+    L: Flow<M, N>,
+    G: Fn(&Moment<'_, L, N>) -> [L::Scalar; K],
+{
+    /// The values at the start of the run, 0 where it starts on the event.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn begin(&mut self) -> Result<[L::Scalar; K], EventError> {
+        let (time, state) = (self.dense.run().time(), *self.dense.run().state());
+        if self.restarts > RESTARTS {
+            return Err(EventError::Chattering { time });
+        }
+        let velocity = self.dense.velocity(time, &state)?;
+        let h = self.dense.run().step_size();
+        let mut present = (self.g)(&Moment::of(self.dense.system(), time, &state, Some(velocity)));
+        let zero = L::Scalar::constant(0.0);
+        for (index, value) in present.iter_mut().enumerate() {
+            if !value.widen().is_finite() {
+                return Err(EventError::NotFinite { index, time });
+            }
+            let happened = self.happened.get(index).copied().unwrap_or(false);
+            let moves = State { q: velocity * h, p: state.p };
+            if happened
+                || value.widen().abs() <= rounding(&self.g, self.dense.system(), time, &state, &moves, index)
+            {
+                *value = zero;
+            }
+        }
+        self.happened = [false; K];
+        self.velocity = Some(velocity);
+        self.present = Some(present);
+        Ok(present)
+    }
+
+    /// Finds the events of the last step; whether there are none.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn locate(
+        &mut self,
+        earlier: Option<&[L::Scalar; K]>,
+        before: &[L::Scalar; K],
+        after: &[L::Scalar; K],
+        ends: &[SVector<L::Scalar, N>; 2],
+    ) -> Result<bool, EventError> {
+        let Some(&start) = self.dense.start() else { return Ok(true) };
+        let nodes = &NodesOf::<L, M, N>::NODES;
+        let mut between = [[0.0; MOST]; K];
+        self.dense.at_nodes(&start, ends, |i, at| {
+            for (row, value) in between.iter_mut().zip((self.g)(at)) {
+                if let Some(place) = row.get_mut(i + 1) {
+                    *place = value.widen();
+                }
+            }
+        });
+        self.found = [None; ROOTS];
+        self.next = 0;
+        let mut count = 0;
+        let mut left = PARTIAL_STEPS;
+        for (index, values) in between.iter_mut().enumerate() {
+            let [first, last] = [before[index].widen(), after[index].widen()];
+            values[0] = first;
+            if let Some(place) = values.get_mut(nodes.degree) {
+                *place = last;
+            }
+            if values.iter().any(|value| !value.is_finite()) {
+                return Err(EventError::NotFinite { index, time: start.time });
+            }
+            let mut curve = OnStep {
+                dense: &self.dense,
+                g: &self.g,
+                start,
+                index,
+                ends: [first, last],
+                is_restarted: self.restarts > 0 && first == 0.0,
+                left,
+                latest: None,
+            };
+            let epsilon = L::Scalar::EPSILON.widen();
+            let resolution = root_of_epsilon::<L::Scalar>();
+            let origin = if Dense::<L, M, N>::COLLOCATED {
+                Origin::Stages
+            } else {
+                // Over two steps a change of the slope moves the ends by eight times what it bends one step.
+                let range = earlier.map_or(f64::INFINITY, |earlier| {
+                    let values = [earlier[index].widen(), first, last];
+                    let low = values.iter().fold(f64::INFINITY, |low, value| low.min(*value));
+                    values.iter().fold(f64::NEG_INFINITY, |high, value| high.max(*value)) - low
+                });
+                Origin::Cubic(0.25 * range)
+            };
+            let roots =
+                Search { curve: &mut curve, epsilon, resolution, starts_there: first == 0.0, caution: 1.0 }
+                    .roots(nodes, values, origin)?;
+            for root in roots.iter() {
+                let counts = match self.crossings.get(index) {
+                    Some(Crossing::Rising) => root.passage == Passage::Rising,
+                    Some(Crossing::Falling) => root.passage == Passage::Falling,
+                    _ => true,
+                };
+                if counts {
+                    let At { time, elapsed, state } = curve.at(root.share)?;
+                    let found = Found {
+                        index,
+                        passage: root.passage,
+                        time,
+                        state,
+                        from: start.state,
+                        from_time: start.time,
+                        elapsed,
+                    };
+                    let place = self.found.get_mut(count);
+                    *place.ok_or(EventError::Chattering { time: start.time })? = Some(found);
+                    count += 1;
+                }
+            }
+            left = curve.left;
+        }
+        if let Some(found) = self.found.get_mut(..count) {
+            in_order(found);
+        }
+        if count == 0 {
+            self.restarts = 0;
+        }
+        Ok(count == 0)
+    }
+}
+
+fn root_of_epsilon<S: Scalar>() -> f64 {
+    S::EPSILON.sqrt().widen()
+}
+
+/// Sorts by time, what happens at one time as it stands.
+fn in_order<S: Scalar, const N: usize>(found: &mut [Option<Found<S, N>>]) {
+    let elapsed =
+        |found: &Option<Found<S, N>>| found.as_ref().map_or(0.0, |found| found.elapsed.widen().abs());
+    for end in 1..found.len() {
+        let mut at = end;
+        while at > 0 && elapsed(&found[at - 1]) > elapsed(&found[at]) {
+            found.swap(at - 1, at);
+            at -= 1;
+        }
+    }
+}
+
+/// What rounding of the state leaves of an event function: its changes when each coordinate moves by some last
+/// places, of itself and of what a step adds to it.
+fn rounding<L, G, S: Scalar, const N: usize, const K: usize>(
+    g: &G,
+    system: &L,
+    time: f64,
+    state: &State<S, N>,
+    moves: &State<S, N>,
+    index: usize,
+) -> f64
+where
+    L: crate::system::Lagrangian<N, Scalar = S>,
+    G: Fn(&Moment<'_, L, N>) -> [S; K],
+{
+    let value = |state: &State<S, N>| {
+        g(&Moment::of(system, time, state, None)).get(index).map_or(0.0, |value| value.widen())
+    };
+    let here = value(state);
+    let places = S::EPSILON * S::constant(4.0);
+    let mut sum = 0.0;
+    for i in 0..N {
+        let mut moved = *state;
+        moved.q[i] += places * (state.q[i].abs() + moves.q[i].abs());
+        sum += (value(&moved) - here).abs();
+        let mut moved = *state;
+        moved.p[i] += places * (state.p[i].abs() + moves.p[i].abs());
+        sum += (value(&moved) - here).abs();
+    }
+    sum
+}
+
+/// A time, how long it is after the start of the step, and the state then.
+struct At<S, const N: usize> {
+    time: f64,
+    elapsed: S,
+    state: State<S, N>,
+}
+
+/// An event function along a step of a run.
+struct OnStep<'s, 't, 'a, L, M, G, const N: usize>
+where
+    L: Flow<M, N>,
+{
+    dense: &'s Dense<'t, 'a, L, M, N>,
+    g: &'s G,
+    start: Start<L::Scalar, N>,
+    index: usize,
+    ends: [f64; 2],
+    is_restarted: bool,
+    /// Partial steps left.
+    left: u32,
+    /// The share asked for last, and the state there.
+    latest: Option<(f64, State<L::Scalar, N>)>,
+}
+
+impl<L, M, G, const N: usize, const K: usize> OnStep<'_, '_, '_, L, M, G, N>
+where
+    L: Flow<M, N>,
+    G: Fn(&Moment<'_, L, N>) -> [L::Scalar; K],
+{
+    /// What the run has at a share of the step.
+    fn at(&mut self, share: f64) -> Result<At<L::Scalar, N>, EventError> {
+        let h = self.dense.run().step_size();
+        let elapsed = L::Scalar::constant(share * h.widen());
+        if share == 1.0 || elapsed == h {
+            return Ok(At { time: self.dense.run().time(), elapsed: h, state: *self.dense.run().state() });
+        }
+        let time = self.start.time + elapsed.widen();
+        if let Some((latest, state)) = self.latest
+            && latest == share
+        {
+            return Ok(At { time, elapsed, state });
+        }
+        let (index, from) = (self.index, self.start.time);
+        self.left = self.left.checked_sub(1).ok_or(EventError::Unresolved { index, time: from })?;
+        let state = self.dense.partial(&self.start, elapsed)?;
+        self.latest = Some((share, state));
+        Ok(At { time, elapsed, state })
+    }
+}
+
+impl<L, M, G, const N: usize, const K: usize> Curve for OnStep<'_, '_, '_, L, M, G, N>
+where
+    L: Flow<M, N>,
+    G: Fn(&Moment<'_, L, N>) -> [L::Scalar; K],
+{
+    fn value(&mut self, share: f64) -> Result<f64, EventError> {
+        if share == 0.0 || share == 1.0 {
+            return Ok(self.ends[usize::from(share == 1.0)]);
+        }
+        let At { time, state, .. } = self.at(share)?;
+        let values = (self.g)(&Moment::of(self.dense.system(), time, &state, None));
+        let value = values.get(self.index).map_or(0.0, |value| value.widen());
+        if value.is_finite() { Ok(value) } else { Err(EventError::NotFinite { index: self.index, time }) }
+    }
+
+    fn is_restarted(&self) -> bool {
+        self.is_restarted
+    }
+
+    fn floor(&mut self, share: f64) -> Result<f64, EventError> {
+        let At { time, state, .. } = self.at(share)?;
+        let end = self.dense.run().state();
+        let moves = State { q: end.q - self.start.state.q, p: end.p - self.start.state.p };
+        Ok(rounding(self.g, self.dense.system(), time, &state, &moves, self.index))
+    }
+
+    fn unresolved(&self) -> EventError {
+        EventError::Unresolved { index: self.index, time: self.start.time }
+    }
+
+    fn too_many(&self) -> EventError {
+        EventError::Chattering { time: self.start.time }
+    }
+}

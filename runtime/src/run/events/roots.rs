@@ -1,0 +1,532 @@
+//! All roots of an event function on one step, isolated and refined.
+//!
+//! The polynomial through values on the step that cost nothing decides where it can: with its error it is held
+//! away from 0, or it is monotone there. A part where it cannot, near two roots or none, is asked for true
+//! values, by partial steps, at ten nodes of its own, and so on with ever shorter parts, until signs decide or
+//! a part is too short for them to.
+
+use super::EventError;
+use super::nodes::{Bernstein, MOST, Nodes};
+use crate::rules::Gauss;
+
+/// An event function along one step, by shares of it: the ends are those of the grid.
+pub(super) trait Curve {
+    /// The value, by a partial step; at 0 exactly 0 where the step starts on the event.
+    fn value(&mut self, share: f64) -> Result<f64, EventError>;
+
+    /// Whether the run was restarted at this event.
+    fn is_restarted(&self) -> bool;
+
+    /// What rounding leaves of the value.
+    fn floor(&mut self, share: f64) -> Result<f64, EventError>;
+
+    /// More roots than are kept of one step.
+    fn too_many(&self) -> EventError;
+
+    /// Polynomials do not tell.
+    fn unresolved(&self) -> EventError;
+}
+
+/// Where values come from, which says how far a polynomial through them may be trusted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Origin {
+    /// The cubic through (q, v) at both ends, which may be off by this, and more of a curve that it does not show:
+    /// then a partial step says.
+    Cubic(f64),
+    /// The stages of a Gauss rule.
+    Stages,
+    /// Partial steps.
+    Steps,
+}
+
+/// A root, and how the function passes it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Root {
+    pub(super) share: f64,
+    pub(super) passage: Passage,
+}
+
+/// How an event function passes 0, in the direction in which the run goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Passage {
+    /// From below.
+    Rising,
+    /// From above.
+    Falling,
+    /// It touches 0 and turns back, or passes twice so quickly that rounding does not tell: at two times that
+    /// differ by less than √ε of the step.
+    Touching,
+}
+
+/// Roots kept of one step.
+pub(super) const ROOTS: usize = 16;
+
+/// Roots in order.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Roots {
+    list: [Root; ROOTS],
+    count: usize,
+}
+
+impl Roots {
+    pub(super) fn new() -> Self {
+        Self { list: [Root { share: 0.0, passage: Passage::Touching }; ROOTS], count: 0 }
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = &Root> {
+        self.list.iter().take(self.count)
+    }
+
+    fn push(&mut self, root: Root, curve: &dyn Curve) -> Result<(), EventError> {
+        *self.list.get_mut(self.count).ok_or_else(|| curve.too_many())? = root;
+        self.count += 1;
+        Ok(())
+    }
+}
+
+/// The nodes of true values.
+const OWN: Nodes = Nodes::new(&Gauss::<8>::NODES);
+
+/// Parts that wait: each split leaves one, and shortens a part to five eighths at most, one at the start to
+/// half; they are √ε of the step long at least, ε at the start.
+const WAITING: usize = 64;
+
+/// A part of the step with the polynomial on it.
+#[derive(Clone, Copy)]
+struct Part {
+    from: f64,
+    to: f64,
+    polynomial: Bernstein,
+    /// How far the polynomial may be from the truth, and its slope by the share of the step.
+    error: f64,
+    slope_error: f64,
+    /// How long the part was whose values made it.
+    sampled: f64,
+    origin: Origin,
+}
+
+impl Part {
+    fn width(&self) -> f64 {
+        self.to - self.from
+    }
+
+    /// Whether it was itself asked for true values: then its ends are true.
+    fn is_true(&self) -> bool {
+        self.origin == Origin::Steps && self.width() > 0.99 * self.sampled
+    }
+
+    /// The parts before and after `share` of it.
+    fn split(&self, share: f64) -> [Self; 2] {
+        let middle = self.from + share * self.width();
+        let [left, right] = self.polynomial.split(share);
+        [Self { to: middle, polynomial: left, ..*self }, Self { from: middle, polynomial: right, ..*self }]
+    }
+}
+
+/// Neighbouring parts, each too short to be told more of than its signs.
+#[derive(Clone, Copy)]
+struct Cluster {
+    from: f64,
+    to: f64,
+    before: f64,
+    after: f64,
+    /// Whether one of them comes as near to 0 as can be told.
+    touches: bool,
+}
+
+/// What is known while a step is searched.
+pub(super) struct Search<'c> {
+    pub(super) curve: &'c mut dyn Curve,
+    /// Of the scalar.
+    pub(super) epsilon: f64,
+    /// Its root: below it an extremum is not told from its neighbourhood.
+    pub(super) resolution: f64,
+    /// Whether the step starts on the event.
+    pub(super) starts_there: bool,
+    /// By how much polynomials may be further off than they say.
+    pub(super) caution: f64,
+}
+
+impl Search<'_> {
+    /// The roots in (0, 1], from the `values` at `nodes` of the whole step, that the ends are among.
+    ///
+    /// A polynomial that proves wrong was trusted too far: then all are trusted less.
+    pub(super) fn roots(
+        &mut self,
+        nodes: &Nodes,
+        values: &[f64; MOST],
+        origin: Origin,
+    ) -> Result<Roots, EventError> {
+        if values.iter().all(|value| *value == 0.0) {
+            // It rests there.
+            return Ok(Roots::new());
+        }
+        for caution in [1.0, 16.0, 1024.0] {
+            self.caution = caution;
+            if let Some(roots) = self.trusting(nodes, values, origin)? {
+                return Ok(roots);
+            }
+        }
+        Err(self.curve.unresolved())
+    }
+
+    /// The roots, as far as polynomials are trusted now; `None` where one proves wrong.
+    fn trusting(
+        &mut self,
+        nodes: &Nodes,
+        values: &[f64; MOST],
+        origin: Origin,
+    ) -> Result<Option<Roots>, EventError> {
+        let mut roots = Roots::new();
+        let mut whole = self.part([0.0, 1.0], nodes, values, origin);
+        if let Origin::Cubic(_) = origin {
+            if matches!(self.judge(&whole), Verdict::Nothing) {
+                return Ok(Some(roots));
+            }
+            // No error of the cubic, in q or in v, by its degree or as the rule is of order 2, is small at both.
+            let mut off = 0.0_f64;
+            for share in [0.25, 0.7] {
+                off = off.max((self.curve.value(share)? - whole.polynomial.value(share)).abs());
+            }
+            let error = 4.0 * off + 0.25 * whole.polynomial.bend();
+            whole.error = self.caution * error + self.rounding(nodes, values);
+            whole.slope_error = 4.0 * whole.error;
+        }
+        let mut waiting = Waiting::of(whole);
+        let mut cluster = None;
+        while let Some(part) = waiting.pop() {
+            match self.judge(&part) {
+                Verdict::Nothing => self.close(&mut cluster, &mut roots)?,
+                Verdict::Crossing => {
+                    self.close(&mut cluster, &mut roots)?;
+                    match self.refine(&part)? {
+                        Some(root) => roots.push(root, self.curve)?,
+                        None => return Ok(None),
+                    }
+                }
+                Verdict::Split(share) => {
+                    let [left, right] = part.split(share);
+                    waiting.push(right, self.curve)?;
+                    waiting.push(left, self.curve)?;
+                }
+                Verdict::Unknown if self.is_short(&part)? => {
+                    self.gather(&mut cluster, &part, &mut roots)?;
+                }
+                Verdict::Unknown => {
+                    if !self.look(&mut waiting, &part)? {
+                        return Ok(None);
+                    }
+                }
+            }
+        }
+        self.close(&mut cluster, &mut roots)?;
+        Ok(Some(roots))
+    }
+
+    /// Whether a part is too short to be told more of than its signs, or all its values are rounding. After a
+    /// start on the event the slope of the function tells, as far as the share of the step has digits.
+    fn is_short(&mut self, part: &Part) -> Result<bool, EventError> {
+        let is_short = match self.starts_there {
+            true if part.from == 0.0 => part.to <= 4.0 * self.epsilon,
+            true => part.width() <= self.resolution * part.to,
+            false => part.width() <= self.resolution,
+        };
+        if is_short || !part.is_true() {
+            return Ok(is_short);
+        }
+        let [low, high] = part.polynomial.range();
+        Ok(low.abs().max(high) <= 2.0 * self.curve.floor(part.from + 0.5 * part.width())?)
+    }
+
+    fn rounding(&self, nodes: &Nodes, values: &[f64; MOST]) -> f64 {
+        let size = values.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
+        nodes.rounding(self.epsilon, size)
+    }
+
+    fn part(&self, [from, to]: [f64; 2], nodes: &Nodes, values: &[f64; MOST], origin: Origin) -> Part {
+        let polynomial = nodes.polynomial(values);
+        let [last, before, third] = nodes.tails(&polynomial).map(f64::abs);
+        let degree = nodes.degree as f64;
+        // By how much the slope may be off, in units of the value, on [0, 1].
+        let (error, steeper) = match origin {
+            Origin::Cubic(off) => (polynomial.bend() + off, 4.0),
+            // Beyond the last, each second coefficient is smaller by (z/n)², with 2z radians in a step.
+            Origin::Stages => (last + before + third * 4.0 / (degree * degree), 4.0 * degree),
+            Origin::Steps => (last + before, 4.0 * degree),
+        };
+        let error = self.caution * error + self.rounding(nodes, values);
+        let sampled = to - from;
+        Part { from, to, polynomial, error, slope_error: steeper * error / sampled, sampled, origin }
+    }
+
+    /// What the polynomial says of a part.
+    fn judge(&self, part: &Part) -> Verdict {
+        let Part { polynomial, error, .. } = part;
+        let [low, high] = polynomial.range();
+        if low > *error || high < -error {
+            return Verdict::Nothing;
+        }
+        let [least, largest] = polynomial.slopes();
+        let margin = part.slope_error * part.width();
+        if least > margin || largest < -margin {
+            return if crosses(polynomial.ends()) { Verdict::Crossing } else { Verdict::Nothing };
+        }
+        if low.abs().max(high) <= 2.0 * error || 64.0 * part.width() < part.sampled {
+            return Verdict::Unknown;
+        }
+        let clear = |&share: &f64| polynomial.value(share).abs() > *error;
+        let shares = if part.from == 0.0 { [0.5, 0.375, 0.4375] } else { [0.5, 0.375, 0.625] };
+        shares.into_iter().find(clear).map_or(Verdict::Unknown, Verdict::Split)
+    }
+
+    /// Asks for true values on a part; on both its halves, where it has them. Whether its polynomial is as near
+    /// to them as it says.
+    fn look(&mut self, waiting: &mut Waiting, part: &Part) -> Result<bool, EventError> {
+        if part.is_true() {
+            let middle = part.from + 0.5 * part.width();
+            let halves = [self.sampled(part.from, middle)?, self.sampled(middle, part.to)?];
+            for (half, _) in halves.into_iter().rev() {
+                waiting.push(half, self.curve)?;
+            }
+            return Ok(true);
+        }
+        let (looked, values) = self.sampled(part.from, part.to)?;
+        waiting.push(looked, self.curve)?;
+        let is_near =
+            |(value, share): (&f64, &f64)| (value - part.polynomial.value(*share)).abs() <= 2.0 * part.error;
+        Ok(values.iter().zip(&OWN.shares).all(is_near))
+    }
+
+    /// A part by true values.
+    fn sampled(&mut self, from: f64, to: f64) -> Result<(Part, [f64; MOST]), EventError> {
+        let mut values = [0.0; MOST];
+        for (value, share) in values.iter_mut().zip(OWN.shares) {
+            let at = if share == 1.0 { to } else { from + share * (to - from) };
+            *value = self.curve.value(at)?;
+        }
+        Ok((self.part([from, to], &OWN, &values, Origin::Steps), values))
+    }
+
+    /// Adds a part to the cluster that it continues.
+    fn gather(
+        &mut self,
+        cluster: &mut Option<Cluster>,
+        part: &Part,
+        roots: &mut Roots,
+    ) -> Result<(), EventError> {
+        let middle = part.from + 0.5 * part.width();
+        let [before, between, after] =
+            [self.curve.value(part.from)?, self.curve.value(middle)?, self.curve.value(part.to)?];
+        if cluster.as_ref().is_some_and(|cluster| cluster.to != part.from) {
+            self.close(cluster, roots)?;
+        }
+        let Part { from, to, .. } = *part;
+        // The parabola through them, as the place of an extremum is known to √ε only, its value to all digits.
+        let bend = before - 2.0 * between + after;
+        let vertex = between - (after - before) * (after - before) / (8.0 * bend);
+        let size = before.abs().max(between.abs()).max(after.abs());
+        let is_inside = (after - before).abs() <= 6.0 * bend.abs();
+        let touches = (is_inside && vertex.abs() <= 1e-3 * size)
+            || before.abs().min(between.abs()).min(after.abs()) <= self.curve.floor(middle)?;
+        let gathered = cluster.get_or_insert(Cluster { from, to, before, after, touches });
+        (gathered.to, gathered.after) = (to, after);
+        gathered.touches |= touches;
+        Ok(())
+    }
+
+    /// Decides on a cluster by the signs at its ends.
+    fn close(&mut self, cluster: &mut Option<Cluster>, roots: &mut Roots) -> Result<(), EventError> {
+        let Some(Cluster { from, to, before, after, touches }) = cluster.take() else { return Ok(()) };
+        if crosses([before, after]) {
+            let mut values = [before; MOST];
+            values[1] = after;
+            let line = Bernstein { degree: 1, beta: values };
+            let error = before.abs().max(after.abs());
+            let part = Part {
+                from,
+                to,
+                polynomial: line,
+                error,
+                slope_error: 0.0,
+                sampled: to - from,
+                origin: Origin::Steps,
+            };
+            return match self.refine(&part)? {
+                Some(root) => roots.push(root, self.curve),
+                None => Ok(()),
+            };
+        }
+        if from == 0.0 && before == 0.0 && self.curve.is_restarted() {
+            // It happens again at once.
+            return Err(self.curve.too_many());
+        }
+        // At the start it is the business of the step before.
+        if from > 0.0 && touches {
+            let middle = 0.5 * (from + to);
+            let last = match roots.iter().last() {
+                Some(Root { share, passage: Passage::Touching }) => Some(*share),
+                None if self.starts_there => Some(0.0),
+                _ => None,
+            };
+            if let Some(last) = last {
+                let between = 0.5 * (last + middle);
+                if self.curve.value(between)?.abs() <= 4.0 * self.curve.floor(between)? {
+                    // The same, parted by rounding.
+                    return Ok(());
+                }
+            }
+            return roots.push(Root { share: middle, passage: Passage::Touching }, self.curve);
+        }
+        Ok(())
+    }
+
+    /// The crossing on a part that has one, to rounding; `None` where the polynomial was wrong of it.
+    ///
+    /// From the polynomial's root by secants, within the bracket.
+    fn refine(&mut self, part: &Part) -> Result<Option<Root>, EventError> {
+        let [start, end] = part.polynomial.ends();
+        let rises = end > start;
+        let passage = if rises { Passage::Rising } else { Passage::Falling };
+        if end == 0.0 {
+            return Ok(Some(Root { share: part.to, passage }));
+        }
+        let verified = part.is_true();
+        let (mut low, mut high) = (part.from, part.to);
+        let (share, slope) = root(&part.polynomial);
+        let mut at = part.from + share * part.width();
+        let mut slope = slope / part.width();
+        let mut last: Option<(f64, f64)> = None;
+        let mut best = (f64::INFINITY, at);
+        let mut shortest = high - low;
+        for round in 0..ROUNDS {
+            let value = self.curve.value(at)?;
+            if round == 0 && !verified && value.abs() > 2.0 * part.error {
+                return Ok(None);
+            }
+            if value.abs() <= best.0 {
+                best = (value.abs(), at);
+            }
+            if value == 0.0 {
+                break;
+            }
+            if (value < 0.0) == rises {
+                low = at
+            } else {
+                high = at
+            }
+            let mut moved = f64::INFINITY;
+            if let Some((before, old)) = last {
+                moved = (at - before).abs();
+                if value != old {
+                    slope = (value - old) / (at - before);
+                }
+            }
+            last = Some((at, value));
+            let unit = self.epsilon * at.abs();
+            let mut next = at - value / slope;
+            let correction = (next - at).abs();
+            // Below rounding; or as small as noise, where it no longer shrinks.
+            let is_noise = value.abs() <= 1e-6 * start.abs().max(end.abs());
+            if correction <= unit || (is_noise && moved <= self.resolution && correction > 0.25 * moved) {
+                break;
+            }
+            let slow = round % 3 == 2 && high - low > 0.5 * shortest && correction > 0.5 * moved;
+            if !(next > low && next < high) || slow {
+                next = low + 0.5 * (high - low);
+                if next <= low || next >= high {
+                    break;
+                }
+            }
+            if round % 3 == 2 {
+                shortest = high - low;
+            }
+            at = next;
+        }
+        // The bracket of a polynomial was one in truth if the root is not at an end of its own.
+        let margin = 4.0 * self.epsilon * part.to;
+        let after_start = best.1 > part.from + margin || part.from == 0.0;
+        let before_end = best.1 < part.to - margin || part.to == 1.0;
+        let trusted = verified || (after_start && before_end);
+        Ok(trusted.then_some(Root { share: best.1, passage }))
+    }
+}
+
+/// Rounds of refinement at most: halving alone takes 52.
+const ROUNDS: u32 = 120;
+
+/// What is known of a part.
+enum Verdict {
+    /// No root.
+    Nothing,
+    /// One root.
+    Crossing,
+    /// More is known of the parts before and after this share.
+    Split(f64),
+    /// True values are needed.
+    Unknown,
+}
+
+/// Whether a function crosses 0 in a half-open interval, from after its start to its end.
+fn crosses([start, end]: [f64; 2]) -> bool {
+    (start < 0.0 && end >= 0.0) || (start > 0.0 && end <= 0.0)
+}
+
+/// The root of a monotone polynomial on [0, 1], and its slope there: Newton's method within a bracket.
+fn root(polynomial: &Bernstein) -> (f64, f64) {
+    let [start, end] = polynomial.ends();
+    let (mut low, mut high) = (0.0, 1.0);
+    let mut at = start / (start - end);
+    let mut slope = end - start;
+    for _ in 0..40 {
+        let [left, right] = polynomial.split(at);
+        let value = left.ends()[1];
+        let n = polynomial.degree as f64;
+        // Of the part after `at`; at its very end of the part before.
+        slope = if at < 0.5 {
+            n * (right.beta[1] - right.beta[0]) / (1.0 - at)
+        } else {
+            n * (value - left.beta[polynomial.degree - 1]) / at
+        };
+        if value == 0.0 {
+            break;
+        }
+        if (value < 0.0) == (end > start) {
+            low = at
+        } else {
+            high = at
+        }
+        let mut next = at - value / slope;
+        if !(next > low && next < high) {
+            next = 0.5 * (low + high);
+        }
+        let correction = (next - at).abs();
+        at = next;
+        if correction < 1e-12 * at {
+            break;
+        }
+    }
+    (at, slope)
+}
+
+/// Parts that wait, the next one last.
+struct Waiting {
+    parts: [Part; WAITING],
+    count: usize,
+}
+
+impl Waiting {
+    fn of(part: Part) -> Self {
+        Self { parts: [part; WAITING], count: 1 }
+    }
+
+    fn push(&mut self, part: Part, curve: &dyn Curve) -> Result<(), EventError> {
+        *self.parts.get_mut(self.count).ok_or_else(|| curve.too_many())? = part;
+        self.count += 1;
+        Ok(())
+    }
+
+    fn pop(&mut self) -> Option<Part> {
+        self.count = self.count.checked_sub(1)?;
+        self.parts.get(self.count).copied()
+    }
+}
