@@ -251,6 +251,34 @@ pub(crate) fn write_lane<T: Scalar, const N: usize, const S: usize>(
     }
 }
 
+/// The lanes in as many as vectors hold: those beyond the S are copies of the last.
+#[inline(always)]
+pub(crate) fn widened<T: Scalar, const N: usize, const S: usize, const W: usize>(
+    lanes: LaneVector<T, N, S>,
+) -> LaneVector<T, N, W> {
+    let mut wide = [Lanes::splat(T::zero()); N];
+    for a in 0..N {
+        for i in 0..W {
+            wide[a].0[i] = lanes[a].0[i.min(S - 1)];
+        }
+    }
+    wide
+}
+
+/// The first S of the lanes.
+#[inline(always)]
+pub(crate) fn narrowed<T: Scalar, const N: usize, const S: usize, const W: usize>(
+    lanes: LaneVector<T, N, W>,
+) -> LaneVector<T, N, S> {
+    let mut narrow = [Lanes::splat(T::zero()); N];
+    for a in 0..N {
+        for i in 0..S {
+            narrow[a].0[i] = lanes[a].0[i];
+        }
+    }
+    narrow
+}
+
 /// One vector in every lane.
 #[inline(always)]
 pub(crate) fn splat<T: Scalar, const N: usize, const S: usize>(

@@ -395,7 +395,7 @@ fn from_singular<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, 
     let rest = nalgebra::zero();
     if *v == rest && force == rest {
         let residual =
-            |v: &SVector<T, N>| problem.stages(&splat(v)).residual.map(|stages| stages.amax()).into();
+            |v: &SVector<T, N>| problem.stages::<S>(&splat(v)).residual.map(|stages| stages.amax()).into();
         let v = splat(&rest);
         let report = Report { floor: T::SMALLEST_NORMAL, ..Report::of_no_equation() };
         let is_rest = crate::step::newton::is_rest(&residual, &state.p);

@@ -1,10 +1,13 @@
 //! Large steps, stiff forces and what has no solution: where the fixed point of `Gauss<S>` gives way to
 //! Newton's method.
 
+use std::cell::Cell;
+
 use allocation_counter::measure;
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::step::Quantity;
-use dalembert::{Discrete, Discretise, Gauss, State, StepError, rayleigh_system};
+use dalembert::system::{ActingForce, Derivatives, ForcedLagrangian, LaneVector, Lanes, Stages};
+use dalembert::{Discrete, Discretise, Gauss, Lagrangian, State, StepError, rayleigh_system};
 use dalembert_tests::systems::DoublePendulum;
 
 /// m q̈ + c q̇ + k q = 0, and a weak cubic spring.
@@ -259,4 +262,94 @@ fn neither_a_step_nor_a_run_allocates() {
         Discrete::<Gauss<3>, 2>::momenta(&DoublePendulum::EXAMPLE, &start.q, &step.velocity, 0.1);
     });
     assert_eq!((count.count_total, count.bytes_total), (0, 0));
+}
+
+/// The double pendulum, lane by lane: what a lane holds can depend on no other.
+struct OneByOne {
+    /// The most lanes asked for, and whether those beyond the stages were copies of the last.
+    seen: Cell<(usize, bool)>,
+    stages: usize,
+}
+
+impl Lagrangian<2> for OneByOne {
+    type Scalar = f64;
+
+    fn lagrangian(&self, q: &SVector<f64, 2>, v: &SVector<f64, 2>) -> f64 {
+        Lagrangian::lagrangian(&DoublePendulum::EXAMPLE, q, v)
+    }
+
+    fn lagrangian_derivatives(&self, q: &SVector<f64, 2>, v: &SVector<f64, 2>) -> Derivatives<f64, 2> {
+        DoublePendulum::EXAMPLE.lagrangian_derivatives(q, v)
+    }
+}
+
+impl ActingForce<2> for OneByOne {
+    const HAS_RAYLEIGH: bool = true;
+
+    fn dissipation_derivatives(&self, q: &SVector<f64, 2>, v: &SVector<f64, 2>) -> Derivatives<f64, 2> {
+        DoublePendulum::EXAMPLE.dissipation_derivatives(q, v)
+    }
+}
+
+impl ForcedLagrangian<2> for OneByOne {
+    fn stages<const S: usize>(
+        &self,
+        q: &LaneVector<f64, 2, S>,
+        v: &LaneVector<f64, 2, S>,
+        momenta: impl FnOnce(&LaneVector<f64, 2, S>) -> LaneVector<f64, 2, S>,
+    ) -> Stages<f64, 2, S> {
+        let lane = |lanes: &LaneVector<f64, 2, S>, i: usize| [Lanes([lanes[0].0[i]]), Lanes([lanes[1].0[i]])];
+        let last = self.stages.min(S) - 1;
+        let are_copies = (last..S).all(|i| lane(q, i) == lane(q, last) && lane(v, i) == lane(v, last));
+        let (most, all) = self.seen.get();
+        self.seen.set((most.max(S), all && are_copies));
+        let at = |i: usize, p: LaneVector<f64, 2, 1>| {
+            DoublePendulum::EXAMPLE.stages::<1>(&lane(q, i), &lane(v, i), |_| p)
+        };
+        let none = [Lanes([0.0; S]); 2];
+        let mut all = Stages { rate: none, residual: none, correction: none };
+        for i in 0..S {
+            let rate = at(i, [Lanes([0.0]); 2]).rate;
+            all.rate.iter_mut().zip(rate).for_each(|(all, one)| all.0[i] = one.0[0]);
+        }
+        let p = momenta(&all.rate);
+        for i in 0..S {
+            let one = at(i, lane(&p, i));
+            for a in 0..2 {
+                all.residual[a].0[i] = one.residual[a].0[0];
+                all.correction[a].0[i] = one.correction[a].0[0];
+            }
+        }
+        all
+    }
+}
+
+fn lanes_do_not_mix<const S: usize>() {
+    let start = State::from_velocity(&DoublePendulum::EXAMPLE, [0.8, -0.4], [0.0, 0.5]).unwrap();
+    let alone = OneByOne { seen: Cell::new((0, true)), stages: S };
+    for h in [0.02, 0.2] {
+        for factor in [0.0, 1e-4] {
+            let time = h * 30.0;
+            let together = DoublePendulum::EXAMPLE.by(Gauss::<S>, h).run(start).solved_for(factor, time);
+            let alone = alone.by(Gauss::<S>, h).run(start).solved_for(factor, time);
+            for (one, other) in together.zip(alone).take(30) {
+                assert_eq!(one.unwrap().state, other.unwrap().state, "{S} {h}");
+            }
+        }
+    }
+    let (most, are_copies) = alone.seen.get();
+    // As many as vectors hold, and nothing of a stage's own in those beyond.
+    assert!(
+        are_copies && (S..=8).contains(&most) && most.is_multiple_of(if S > 1 { 2 } else { 1 }),
+        "{S} {most}"
+    );
+}
+
+#[test]
+fn stages_in_more_lanes_than_there_are_stages_are_the_same_bit_by_bit() {
+    lanes_do_not_mix::<3>();
+    lanes_do_not_mix::<4>();
+    lanes_do_not_mix::<5>();
+    lanes_do_not_mix::<6>();
+    lanes_do_not_mix::<7>();
 }

@@ -11,9 +11,12 @@ use core::cmp::Ordering;
 use nalgebra::SVector;
 
 use super::newton;
-use super::problem::{Problem, Solution, in_units, reciprocals};
+use super::problem::{Problem, Solution, in_units, in_width, reciprocals};
 use super::rounding::{at_rounding, worst};
-use crate::numbers::{LaneVector, Scalar, lanes::splat};
+use crate::numbers::{
+    LaneVector, Scalar,
+    lanes::{narrowed, splat, widened},
+};
 use crate::step::{Report, StepError, newton::AT_FLOOR};
 use crate::system::{ForcedLagrangian, Stages};
 
@@ -54,8 +57,20 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
     problem: &Problem<'_, L, N, S>,
     guess: &LaneVector<T, N, S>,
 ) -> Option<Solution<T, N, S>> {
+    in_width!(iterate_in::<T, L, N, S>(problem, guess))
+}
+
+#[inline]
+fn iterate_in<T, L, const N: usize, const S: usize, const W: usize>(
+    problem: &Problem<'_, L, N, S>,
+    guess: &LaneVector<T, N, S>,
+) -> Option<Solution<T, N, S>>
+where
+    T: Scalar,
+    L: ForcedLagrangian<N, Scalar = T>,
+{
     let constant = T::constant;
-    let mut v = *guess;
+    let mut v: LaneVector<T, N, W> = widened(*guess);
     let (mut floor, mut per_floor) = (SVector::<T, N>::zeros(), SVector::<T, N>::zeros());
     let (mut before, mut last) = (T::one(), T::one());
     let mut iterations = 0;
@@ -111,10 +126,10 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
             }
         }
         if !is_done && iterations > 2 && size >= before * constant(SLUGGISH) {
-            let (v, rate, residual) = (v, stages.rate, stages.residual);
+            let (v, rate, residual) = (v, stages.rate, narrowed(stages.residual));
             // Not that of the guess, which may be far out.
-            let now = problem.floor(&rate, &residual);
-            match at_rounding(problem, &v, &residual, now) {
+            let now = problem.floor(&rate, &stages.residual);
+            match at_rounding(problem, &narrowed(v), &residual, now) {
                 Some(measured) => (floor, is_done, is_at_rest) = (measured, true, false),
                 None => return None,
             }
@@ -129,7 +144,8 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
                 v = core::array::from_fn(|a| v[a] + stages.correction[a]);
             }
             let report = report(&stages, &floor, remaining, iterations);
-            return Some(Solution { v, rate: stages.rate, report, contracted: true });
+            let (v, rate) = (narrowed(v), narrowed(stages.rate));
+            return Some(Solution { v, rate, report, contracted: true });
         }
         for (v, &correction) in v.iter_mut().zip(&stages.correction) {
             *v = *v + correction;
@@ -143,10 +159,10 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
 /// then: sizes before say nothing of the contraction.
 #[cold]
 #[inline(never)]
-fn risen<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+fn risen<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize, const W: usize>(
     problem: &Problem<'_, L, N, S>,
-    rate: &LaneVector<T, N, S>,
-    residual: &LaneVector<T, N, S>,
+    rate: &LaneVector<T, N, W>,
+    residual: &LaneVector<T, N, W>,
     floor: SVector<T, N>,
 ) -> Option<SVector<T, N>> {
     let now = floor.sup(&problem.floor(rate, residual));
@@ -156,10 +172,10 @@ fn risen<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
 
 /// The floor now, if the one that the residual was held against is much higher in a coordinate.
 #[inline(always)]
-fn fallen<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+fn fallen<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize, const W: usize>(
     problem: &Problem<'_, L, N, S>,
-    rate: &LaneVector<T, N, S>,
-    residual: &LaneVector<T, N, S>,
+    rate: &LaneVector<T, N, W>,
+    residual: &LaneVector<T, N, W>,
     floor: &SVector<T, N>,
 ) -> Option<SVector<T, N>> {
     let now = problem.floor(rate, residual);

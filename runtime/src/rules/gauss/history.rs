@@ -238,12 +238,14 @@ where
             true if self.is_corrected => Some(self.moved_extrapolation(&state.velocity(system)?)),
             _ => None,
         };
-        let swept = match self.slack.and_then(|slack| slack.allowance(h, &p0.value)) {
-            None => guess.and_then(|guess| fixed_point::iterate(&problem, &guess)),
-            Some(allowance) => match guess {
-                Some(guess) => within(&problem, &guess, &allowance),
-                None => within(&problem, &splat(&state.velocity(system)?), &allowance),
-            },
+        let swept = if let Some(allowance) = self.slack.and_then(|slack| slack.allowance(h, &p0.value)) {
+            let guess = match guess {
+                Some(guess) => guess,
+                None => splat(&state.velocity(system)?),
+            };
+            within(&problem, &guess, &allowance)
+        } else {
+            guess.and_then(|guess| fixed_point::iterate(&problem, &guess))
         };
         let solution = match swept {
             Some(solution) => solution,
@@ -253,12 +255,11 @@ where
             }
         };
         let (step, [q, p]) = completed(&problem, &solution)?;
-        let mut slack = self.slack;
-        if let Some(slack) = &mut slack {
+        (self.v, self.h, self.contracted) = (solution.v, h, solution.contracted);
+        (self.q, self.p, self.suggested, self.is_corrected) = (q, p, None, false);
+        if let Some(slack) = &mut self.slack {
             slack.follow(state, &step.state);
         }
-        let (v, contracted) = (solution.v, solution.contracted);
-        *self = Self { v, h, contracted, q, p, slack, suggested: None, is_corrected: false };
         Ok(step)
     }
 
@@ -286,7 +287,9 @@ where
 }
 
 /// The stages from the velocities `guess`, solved as far as they have to be, if the sweeps contract.
-#[inline]
+///
+/// Apart, so that the loop of runs without slack is compiled as if there were none.
+#[inline(never)]
 fn within<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
     problem: &Problem<'_, L, N, S>,
     guess: &LaneVector<T, N, S>,

@@ -42,6 +42,59 @@ impl<T: Scalar, const N: usize> Compensated<T, N> {
     }
 }
 
+/// How many lanes the sweeps of S stages take: as many as vectors hold, where an S in between would be
+/// computed in parts. Lanes do not mix, so that numbers stay the same bit by bit.
+pub(super) const fn width(stages: usize) -> usize {
+    match stages {
+        3 => 4,
+        5 if cfg!(not(target_feature = "avx")) => 6,
+        5..=7 if cfg!(target_feature = "avx") => 8,
+        7 => 8,
+        _ => stages,
+    }
+}
+
+/// Calls a function of S stages with their [`width`] for its last parameter.
+macro_rules! in_width {
+    ($function:ident::<$scalar:ident, $system:ident, $n:ident, $s:ident>($($argument:expr),*)) => {
+        match $crate::rules::gauss::problem::width($s) {
+            4 => $function::<$scalar, $system, $n, $s, 4>($($argument),*),
+            6 => $function::<$scalar, $system, $n, $s, 6>($($argument),*),
+            8 => $function::<$scalar, $system, $n, $s, 8>($($argument),*),
+            _ => $function::<$scalar, $system, $n, $s, $s>($($argument),*),
+        }
+    };
+}
+pub(super) use in_width;
+
+/// The coefficients of S stages in W lanes.
+struct InLanes<const S: usize, const W: usize>;
+
+impl<const S: usize, const W: usize> InLanes<S, W> {
+    const NODES: [f64; W] = widened(&Gauss::<S>::COEFFICIENTS.nodes);
+
+    const SHARES: [[f64; W]; S] = {
+        let mut shares = [[0.0; W]; S];
+        let mut j = 0;
+        while j < S {
+            shares[j] = widened(&Gauss::<S>::COEFFICIENTS.shares[j]);
+            j += 1;
+        }
+        shares
+    };
+}
+
+/// The last lane stands for those beyond.
+const fn widened<const S: usize, const W: usize>(lanes: &[f64; S]) -> [f64; W] {
+    let mut wide = [0.0; W];
+    let mut i = 0;
+    while i < W {
+        wide[i] = lanes[if i < S { i } else { S - 1 }];
+        i += 1;
+    }
+    wide
+}
+
 /// One step from (q0, p0) with step size h.
 pub(super) struct Problem<'a, L: ForcedLagrangian<N>, const N: usize, const S: usize> {
     pub(super) system: &'a L,
@@ -83,18 +136,22 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         Self { system, q0, p0, h, steps: steps(h) }
     }
 
-    /// start + Σ_j μ_ij (h b_j x_j) at every stage i.
+    /// start + Σ_j μ_ij (h b_j x_j) at every stage i, in W ≥ S lanes.
     ///
     /// Loops, not `array::from_fn`, whose closures are calls; two sums, for each of which the other's
     /// products need not wait.
     #[inline(always)]
-    fn at_stages(&self, start: &Compensated<T, N>, x: &LaneVector<T, N, S>) -> LaneVector<T, N, S> {
-        let steps = Lanes(self.steps);
-        let columns = &Self::COEFFICIENTS.shares;
+    fn at_stages<const W: usize>(
+        &self,
+        start: &Compensated<T, N>,
+        x: &LaneVector<T, N, W>,
+    ) -> LaneVector<T, N, W> {
+        let steps = Lanes::<T, W>(array::from_fn(|i| self.steps[i.min(S - 1)]));
+        let columns = &InLanes::<S, W>::SHARES;
         let mut at = *x;
         for a in 0..N {
-            let terms = x[a] * steps;
             let mut sums = [Lanes::splat(start.rest[a]), Lanes::splat(T::zero())];
+            let terms = x[a] * steps;
             for j in 0..S {
                 sums[j % 2] = Lanes::constants(&columns[j]).times_plus(terms.0[j], sums[j % 2]);
             }
@@ -105,26 +162,30 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
 
     /// Q_i.
     #[inline(always)]
-    pub(super) fn configurations(&self, v: &LaneVector<T, N, S>) -> LaneVector<T, N, S> {
+    pub(super) fn configurations<const W: usize>(&self, v: &LaneVector<T, N, W>) -> LaneVector<T, N, W> {
         self.at_stages(&self.q0, v)
     }
 
     /// P_i.
     #[inline(always)]
-    pub(super) fn momenta(&self, rate: &LaneVector<T, N, S>) -> LaneVector<T, N, S> {
+    pub(super) fn momenta<const W: usize>(&self, rate: &LaneVector<T, N, W>) -> LaneVector<T, N, W> {
         self.at_stages(&self.p0, rate)
     }
 
     /// The equations of motion at the stages with velocities `v`.
     #[inline(always)]
-    pub(super) fn stages(&self, v: &LaneVector<T, N, S>) -> Stages<T, N, S> {
+    pub(super) fn stages<const W: usize>(&self, v: &LaneVector<T, N, W>) -> Stages<T, N, W> {
         self.stages_at(&self.configurations(v), v)
     }
 
     /// The stages' equations at configurations of their own.
     #[inline(always)]
-    pub(super) fn stages_at(&self, q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>) -> Stages<T, N, S> {
-        let elapsed = Lanes(array::from_fn(|i| self.elapsed(i)));
+    pub(super) fn stages_at<const W: usize>(
+        &self,
+        q: &LaneVector<T, N, W>,
+        v: &LaneVector<T, N, W>,
+    ) -> Stages<T, N, W> {
+        let elapsed = Lanes(array::from_fn(|i| T::constant(InLanes::<S, W>::NODES[i]) * self.h));
         self.system.stages_in_time(&elapsed, q, v, |rate| self.momenta(rate))
     }
 
@@ -163,7 +224,11 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     /// What rounding leaves of the momentum equations: 4ε (|p0| + |h| max |G_i| + max |P_i − ∂L/∂v|),
     /// coordinate by coordinate.
     #[inline(always)]
-    pub(super) fn floor(&self, rate: &LaneVector<T, N, S>, residual: &LaneVector<T, N, S>) -> SVector<T, N> {
+    pub(super) fn floor<const W: usize>(
+        &self,
+        rate: &LaneVector<T, N, W>,
+        residual: &LaneVector<T, N, W>,
+    ) -> SVector<T, N> {
         let unit = T::EPSILON * T::constant(4.0);
         SVector::from_fn(|a, _| {
             let terms = self.p0.value[a].abs() + residual[a].amax();

@@ -11,8 +11,11 @@
 //! and both stay below the slack, δp1 weighed by w = max |Δq|/max |Δp| over the steps so far. Lanes of many
 //! members take the same decisions: they are functions of numbers alone.
 
-use super::problem::{Problem, Solution};
-use crate::numbers::{LaneVector, Lanes, Scalar};
+use super::problem::{Problem, Solution, in_width};
+use crate::numbers::{
+    LaneVector, Lanes, Scalar,
+    lanes::{narrowed, widened},
+};
 use crate::step::{Report, State};
 use crate::system::{ForcedLagrangian, Stages};
 
@@ -140,7 +143,20 @@ pub(super) fn sweep<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
     guess: &LaneVector<T, N, S>,
     allowance: &Allowance<T>,
 ) -> Swept<T, N, S> {
-    let mut v = *guess;
+    in_width!(sweep_in::<T, L, N, S>(problem, guess, allowance))
+}
+
+#[inline]
+fn sweep_in<T, L, const N: usize, const S: usize, const W: usize>(
+    problem: &Problem<'_, L, N, S>,
+    guess: &LaneVector<T, N, S>,
+    allowance: &Allowance<T>,
+) -> Swept<T, N, S>
+where
+    T: Scalar,
+    L: ForcedLagrangian<N, Scalar = T>,
+{
+    let mut v: LaneVector<T, N, W> = widened(*guess);
     let (mut before, mut last) = (T::zero(), T::zero());
     for iterations in 1..=MAX_SWEEPS {
         let stages = problem.stages(&v);
@@ -159,13 +175,14 @@ pub(super) fn sweep<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
                 let left = size * share * allowance.residual;
                 let floor = allowance.residual;
                 let report = Report { iterations, damped: 0, residual: left, floor, last_correction };
-                return Swept::Within(Solution { v, rate: stages.rate, report, contracted: true });
+                let (v, rate) = (narrowed(v), narrowed(stages.rate));
+                return Swept::Within(Solution { v, rate, report, contracted: true });
             }
             if !share.is_finite() {
-                return Swept::Slow(v, iterations);
+                return Swept::Slow(narrowed(v), iterations);
             }
         }
         (before, last) = (last, size);
     }
-    Swept::Slow(v, MAX_SWEEPS)
+    Swept::Slow(narrowed(v), MAX_SWEEPS)
 }
