@@ -35,7 +35,7 @@ pub use history::StageHistory;
 pub use in_lanes::StagesInLanes;
 use problem::{Compensated, Problem, Solution};
 use segment::Segment;
-pub(crate) use slack::SLACK;
+pub(crate) use slack::{SLACK, steps_until};
 
 /// The Gauss–Galerkin rule of S stages, 1 ≤ S ≤ 8: order 2S, self-adjoint, A-stable; S = 1 is
 /// [`Midpoint`](crate::Midpoint).

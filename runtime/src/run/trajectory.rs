@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use nalgebra::SVector;
 
 use crate::numbers::Scalar;
-use crate::rules::Gauss;
+use crate::rules::{Gauss, steps_until};
 use crate::run::{Checkpoint, Course};
 use crate::step::{Discretised, Flow, Memory, State, Step, StepError};
 use crate::system::ForcedLagrangian;
@@ -304,9 +304,7 @@ where
     /// ```
     #[must_use = "the run given is consumed"]
     pub fn solved_for(mut self, error: f64, time: f64) -> Self {
-        let steps = ((time - self.time()) / self.at.step_size.widen()).max(0.0);
-        // Nearly a whole number: the last step is one of them.
-        self.memory.leave(error, nalgebra::ComplexField::ceil(steps - 1e-6) as u64, 0.0);
+        self.memory.leave(error, steps_until(time - self.time(), self.at.step_size.widen()), 0.0);
         self
     }
 }

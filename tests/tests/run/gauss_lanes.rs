@@ -326,3 +326,57 @@ fn inputs_and_lanes_given_to_others() {
         assert_eq!(end(&runs, lane), Some(alone(member, steps)), "lane {lane}");
     }
 }
+
+/// To an error asked for, and beyond the time that it was asked for; with members that are stiff, or put in
+/// later.
+#[test]
+fn solved_for_an_error() {
+    fn agrees<L, const N: usize, const S: usize>(all: &[(L, State<f64, N>)], h: f64, error: f64) -> f64
+    where
+        L: InLanes<Gauss<S>, N, Scalar = f64> + dalembert::system::ForcedLagrangianInLanes<N>,
+    {
+        let time = 20.0 * h;
+        let systems: [&L; 8] = std::array::from_fn(|lane| &all[lane].0);
+        let starts: [State<f64, N>; 8] = std::array::from_fn(|lane| all[lane].1);
+        let mut runs = LaneRuns::new(Gauss::<S>, systems, &starts, h).solved_for(error, time);
+        let end = |member: usize, steps: usize| {
+            let mut run = all[member].0.by(Gauss::<S>, h).run(all[member].1).solved_for(error, time);
+            run.nth(steps - 1)?.ok().map(|step| bits(&step.state))
+        };
+        for steps in [9, 20, 25] {
+            runs.advance(if steps == 9 {
+                9
+            } else if steps == 20 {
+                11
+            } else {
+                5
+            });
+            for lane in 0..8 {
+                assert_eq!(runs.state(lane).map(|state| bits(&state)), end(lane, steps), "lane {lane}");
+            }
+        }
+        let mut others = [None; 8];
+        (others[2], others[5]) = (Some(&all[8].0), Some(&all[9].0));
+        let starts = std::array::from_fn(|lane| all[if lane == 2 { 8 } else { 9 }].1);
+        runs.refill(others, &starts);
+        runs.advance(22);
+        for (lane, member, steps) in [(0, 0, 47), (2, 8, 22), (5, 9, 22), (7, 7, 47)] {
+            assert_eq!(runs.state(lane).map(|state| bits(&state)), end(member, steps), "lane {lane}");
+        }
+        runs.steps_alone() as f64 / (8.0 * 47.0)
+    }
+    let pendulums = members(10, 11, pendulums);
+    assert!(agrees::<_, 2, 4>(&pendulums, 0.1, 1e-4) < 0.2);
+    assert!(agrees::<_, 2, 6>(&pendulums, 0.2, 1e-8) < 0.2);
+    agrees::<_, 2, 8>(&pendulums, 0.3, 1e-13);
+    let spring = |random: &mut StdRng| {
+        let is_stiff = random.random_range(0..3) == 0;
+        Spring { k: if is_stiff { 1e6 } else { 1.0 }, r: damping(random) }
+    };
+    agrees::<_, 1, 3>(&members(10, 12, spring), 0.2, 1e-5);
+    // The control: what is left shows.
+    let (system, start) = &pendulums[0];
+    let end =
+        |error: f64| system.by(Gauss::<6>, 0.2).run(*start).solved_for(error, 4.0).nth(19).unwrap().unwrap();
+    assert_ne!(bits(&end(1e-5).state), bits(&end(1e-9).state));
+}

@@ -119,6 +119,16 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
         self.slack = Some(Slack::new(error, steps, weight));
     }
 
+    /// The same with what the steps to come may leave.
+    pub(super) fn with_slack(self, slack: Option<Slack<T>>) -> Self {
+        Self { slack, ..self }
+    }
+
+    /// What the steps to come may leave.
+    pub(super) fn slack(&self) -> Option<Slack<T>> {
+        self.slack
+    }
+
     /// Lets go of the last step, but not of what the steps to come may leave unsolved.
     pub(crate) fn forget(&mut self) {
         *self = Self { slack: self.slack, ..Self::default() };

@@ -12,6 +12,7 @@ use super::coefficients::Coefficients;
 use super::fixed_point::{AT_REST, CHANGED, MAX_ITERATIONS, NEAR, SLUGGISH};
 use super::history::StageHistory;
 use super::problem::{Compensated, steps};
+use super::slack::{MAX_SWEEPS, ROUNDINGS, Slack, remaining};
 use crate::numbers::members::{each_coordinate, each_stage, member, stage_by_stage, write_member};
 use crate::numbers::{Blank, Mask, MemberVector, Members, Scalar};
 use crate::step::{Memory, State, newton::AT_FLOOR};
@@ -34,6 +35,28 @@ pub struct StagesInLanes<T, F, const N: usize, const S: usize, const W: usize> {
     p: CompensatedMembers<T, N, W>,
     /// Steps that a member has taken alone.
     alone: u64,
+    /// What members start with; nothing where stages are solved to rounding.
+    slack: Option<Slack<T>>,
+    left: SlackOfMembers<T, W>,
+}
+
+// As many sweeps to an allowance as to rounding.
+const _: () = assert!(MAX_SWEEPS == MAX_ITERATIONS);
+
+/// What the next steps of each member may leave unsolved, [`Slack`].
+#[derive(Clone, Copy, Debug)]
+struct SlackOfMembers<T, const W: usize> {
+    steps: [u64; W],
+    change: [Members<T, W>; 2],
+}
+
+/// What the sweeps of one step may leave, [`Allowance`](super::slack::Allowance), of those whose stages are
+/// not solved to rounding.
+#[derive(Clone, Copy)]
+struct Allowances<T, const W: usize> {
+    are_known: Mask<W>,
+    per_correction: T,
+    per_residual: Members<T, W>,
 }
 
 /// [`Compensated`] of each member.
@@ -104,6 +127,44 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
             q: CompensatedMembers::zero(),
             p: CompensatedMembers::zero(),
             alone: 0,
+            slack: None,
+            left: SlackOfMembers { steps: [0; W], change: [Members::splat(T::zero()); 2] },
+        }
+    }
+
+    /// Solves the stages of all members, and of those who are put in later, as far as an error of `error` after
+    /// so many steps from their starts needs.
+    pub(crate) fn leave(&mut self, error: f64, steps: u64) {
+        let slack = Slack::new(error, steps, 0.0);
+        self.slack = Some(slack);
+        for lane in 0..W {
+            self.write_slack(lane, slack);
+        }
+    }
+
+    fn write_slack(&mut self, lane: usize, slack: Slack<T>) {
+        self.left.steps[lane] = slack.steps;
+        for (change, of_member) in self.left.change.iter_mut().zip(slack.change) {
+            change.0[lane] = of_member;
+        }
+    }
+
+    /// [`Slack::allowance`] of each.
+    #[inline(always)]
+    fn allowances(&self) -> Allowances<T, W> {
+        let of_step = self.slack.map_or_else(T::one, |slack| slack.of_step);
+        let [q_change, p_change] = self.left.change;
+        let mut largest = Members::splat(T::zero());
+        each_coordinate!(a => {
+            largest = largest.larger(self.p.value[a].abs());
+        });
+        let rounding = largest * (T::EPSILON * T::constant(ROUNDINGS)) * q_change;
+        let mut are_known = Mask(self.left.steps.map(|steps| steps > 0));
+        are_known = are_known & Members::splat(T::zero()).less(q_change) & rounding.less(p_change * of_step);
+        Allowances {
+            are_known,
+            per_correction: self.h.abs() / of_step,
+            per_residual: q_change / (p_change * of_step),
         }
     }
 
@@ -122,6 +183,9 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         self.is_sound.0[lane] = begins;
         self.is_new.0[lane] = true;
         self.has_contracted.0[lane] = false;
+        if let Some(slack) = self.slack {
+            self.write_slack(lane, slack);
+        }
         self.q.write(lane, &Compensated::new(start.q));
         self.p.write(lane, &Compensated::new(start.p));
     }
@@ -169,6 +233,21 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
             let is_finite = q.value[a].is_finite() & p.value[a].is_finite() & velocity.is_finite();
             has_stepped = has_stepped & is_finite;
         });
+        if self.slack.is_some() {
+            for (change, (to, from)) in
+                self.left.change.iter_mut().zip([(&q.value, &self.q.value), (&p.value, &self.p.value)])
+            {
+                let mut largest = *change;
+                each_coordinate!(a => {
+                    largest = largest.larger((to[a] - from[a]).abs());
+                });
+                *change = Members::select(has_stepped, largest, *change);
+            }
+            for lane in 0..W {
+                let taken = u64::from(has_stepped.0[lane]);
+                self.left.steps[lane] = self.left.steps[lane].saturating_sub(taken);
+            }
+        }
         self.q.replace(has_stepped, &q);
         self.p.replace(has_stepped, &p);
         stage_by_stage!(j => {
@@ -241,6 +320,11 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         let mut next = v;
         let (mut v, mut next) = (&mut v, &mut next);
         let mut kept = [L::Kept::<W>::blank(); S];
+        let allowances = self.allowances();
+        let is_loose = allowances.are_known & Mask::splat(self.slack.is_some());
+        let some_loose = is_loose.0.contains(&true);
+        let mut corrections = [Members::splat(T::zero()); S];
+        let (mut loose_before, mut loose_last) = (Members::splat(T::zero()), Members::splat(T::zero()));
         for iterations in 1..=MAX_ITERATIONS {
             stage_by_stage!(i => {
                 let q = Self::at_stage(&self.q, &of_v, i);
@@ -252,11 +336,15 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
             stage_by_stage!(i => {
                 let p = Self::at_stage(&self.p, &of_rate, i);
                 let [residual, correction] = L::corrections_in_lanes(&fields, &kept[i], &v[i], &p);
+                let (mut largest, mut poison) = (Members::splat(T::zero()), Members::splat(T::zero()));
                 each_coordinate!(a => {
+                    largest = largest.larger(correction[a].abs());
+                    poison = poison + correction[a] * T::zero();
                     residuals[i][a] = residual[a].abs();
                     next[i][a] = v[i][a] + correction[a];
                     of_v[i][a] = next[i][a] * steps[i];
                 });
+                corrections[i] = largest + poison;
             });
             // The largest residual of each coordinate, and the sum, in which NaN and infinity stay.
             let (mut largest, mut sum) = (zero, Members::splat(T::zero()));
@@ -274,7 +362,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
             if iterations == 1 {
                 last = size;
             } else {
-                let grows = is_open & !size.less(last);
+                let grows = is_open & !is_loose & !size.less(last);
                 if grows.0.contains(&true) {
                     let now = self.floor(&rate, &largest);
                     let mut has_risen = Mask::splat(false);
@@ -295,6 +383,32 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
             // As many of these in a sum would still be finite.
             is_open = is_open & ((sum + size) * constant(256.0)).is_finite();
 
+            // What is left, where an allowance says how much may be.
+            let (mut is_within, mut is_slow) = (Mask::splat(false), Mask::splat(false));
+            if some_loose {
+                let (mut loose, mut sum) = (Members::splat(T::zero()), Members::splat(T::zero()));
+                each_coordinate!(a => {
+                    let units = largest[a] * allowances.per_residual;
+                    loose = loose.larger(units);
+                    sum = sum + units;
+                });
+                each_stage!(i => {
+                    let units = corrections[i] * allowances.per_correction;
+                    loose = loose.larger(units);
+                    sum = sum + units;
+                });
+                is_open = is_open & (!is_loose | (sum * constant(256.0)).is_finite());
+                if iterations > 2 {
+                    let mut share = loose;
+                    for lane in 0..W {
+                        share.0[lane] = remaining([loose_before.0[lane], loose_last.0[lane], loose.0[lane]]);
+                    }
+                    is_within = is_loose & (loose * share).less_or_equal(Members::splat(T::one()));
+                    is_slow = is_loose & !is_within & !share.is_finite();
+                }
+                (loose_before, loose_last) = (loose_last, loose);
+            }
+
             let small = Members::splat(constant(AT_REST));
             let mut is_at_rest = (size * size).less_or_equal(small * last);
             is_at_rest = is_at_rest
@@ -312,7 +426,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
                 has_stopped = (last * constant(SLUGGISH)).less_or_equal(size);
             }
             let at_floor = size.less_or_equal(Members::splat(constant(AT_FLOOR)));
-            let mut is_done = is_open & (is_at_rest | (has_stopped & at_floor));
+            let mut is_done = is_open & !is_loose & (is_at_rest | (has_stopped & at_floor));
             if iterations > 1 && is_done.0.contains(&true) {
                 let now = self.floor(&rate, &largest);
                 let mut has_fallen = Mask::splat(false);
@@ -331,12 +445,15 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
             }
             if iterations > 2 {
                 // Rounding has to be measured, or Newton's method takes over.
-                is_open = is_open & (is_done | size.less(before * constant(SLUGGISH)));
+                is_open = is_open & (is_done | is_loose | size.less(before * constant(SLUGGISH)));
             }
+            is_open = is_open & !is_slow;
+            is_done = is_done | (is_open & is_within);
+            let is_moved = is_at_rest | is_loose;
             if is_done.0.contains(&true) {
                 stage_by_stage!(i => {
                     each_coordinate!(a => {
-                        let end = Members::select(is_at_rest, next[i][a], v[i][a]);
+                        let end = Members::select(is_moved, next[i][a], v[i][a]);
                         solved.v[i][a] = Members::select(is_done, end, solved.v[i][a]);
                         solved.rate[i][a] = Members::select(is_done, rate[i][a], solved.rate[i][a]);
                     });
@@ -393,10 +510,18 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
                 let v = core::array::from_fn(|j| member(&self.v[j], lane));
                 history = StageHistory::of_step(&v, self.h, self.has_contracted.0[lane], [q, p]);
             }
+            if let Some(slack) = self.slack {
+                let [q_change, p_change] = self.left.change;
+                let change = [q_change.0[lane], p_change.0[lane]];
+                history = history.with_slack(Some(Slack { steps: self.left.steps[lane], change, ..slack }));
+            }
             let step = Memory::<L, Gauss<S>, N>::advance(&mut history, system, &state, self.h);
             self.is_sound.0[lane] = step.is_ok();
             self.is_new.0[lane] = false;
             self.has_contracted.0[lane] = !history.is_by_newton();
+            if let Some(slack) = history.slack() {
+                self.write_slack(lane, slack);
+            }
             let [q, p] = history.ends();
             self.q.write(lane, &q);
             self.p.write(lane, &p);

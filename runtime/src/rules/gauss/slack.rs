@@ -23,24 +23,29 @@ use crate::system::{ForcedLagrangian, Stages};
 pub(crate) const SLACK: f64 = 0.01;
 
 /// More sweeps than a smaller slack would cost elsewhere.
-const MAX_SWEEPS: u32 = 60;
+pub(super) const MAX_SWEEPS: u32 = 60;
 
 /// Two sweeps that leave more of the residual than this are no contraction to rely on.
 const SLUGGISH: f64 = 0.5;
 
 /// Below so many roundings of a momentum the slack is no more than rounding.
-const ROUNDINGS: f64 = 64.0;
+pub(super) const ROUNDINGS: f64 = 64.0;
+
+/// How many steps of size `h` lead to `time`; where that is nearly a whole number, the last is one of them.
+pub(crate) fn steps_until(time: f64, h: f64) -> u64 {
+    nalgebra::ComplexField::ceil((time / h).max(0.0) - 1e-6) as u64
+}
 
 /// What each of the next steps may leave unsolved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Slack<T> {
     /// In units of q.
-    of_step: T,
+    pub(super) of_step: T,
     /// The steps that it was meant for and that are still to come.
-    steps: u64,
+    pub(super) steps: u64,
     /// The largest change of a coordinate and of a momentum over a step; before the first what stands for
     /// them.
-    change: [T; 2],
+    pub(super) change: [T; 2],
 }
 
 impl<T: Scalar> Slack<T> {
