@@ -1,6 +1,6 @@
-//! Elementary functions of members: sine, cosine and exponential by the branch-free form that
-//! [`branch_free`](crate::numbers::Elementary::branch_free) gives of one number, the others one by one through those of
-//! numbers; so they are rounded alike.
+//! Elementary functions of members: sine, cosine and exponential in the form that
+//! [`branch_free`](crate::numbers::Elementary::branch_free) gives of one number, the others one by one through
+//! those of numbers; so they are rounded alike.
 
 use super::Members;
 use crate::numbers::{Elementary, Scalar};
