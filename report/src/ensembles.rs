@@ -13,7 +13,7 @@ use dalembert::step::MethodOf;
 use dalembert::{Discretise, Gauss, Lagrangian, Splitting, State, StepError};
 use dalembert_ensemble::Ensemble;
 use dalembert_examples::results;
-use dalembert_scenes::{FputChain8, HenonHeiles, Kepler, Ring};
+use dalembert_scenes::{DoublePendulum, FputChain8, HenonHeiles, Kepler, Ring};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::measure::{Candidate, interleaved, timed};
@@ -43,16 +43,33 @@ pub fn write(docs: &Path) -> Result<()> {
     );
     let mut page = include_str!("../ensembles.md").to_owned();
     macro_rules! scenes {
-        ($($name:literal: $scene:expr, $n:literal;)*) => {$(
+        ($($name:literal: $scene:expr, $n:literal, [$($method:literal: $by:expr),*];)*) => {$(
             eprintln!("{}", $name);
-            rows::<_, $n, { 2 * $n }>($name, $scene, &python, &mut page)?;
+            rows::<_, $n, { 2 * $n }>($name, $scene, &python, &mut page, |run| {
+                vec![$(run.by($method, $by)),*]
+            })?;
         )*};
     }
     scenes! {
-        "ring": Ring::MEASURED, 2;
-        "Hénon–Heiles": HenonHeiles {}, 2;
-        "Kepler": Kepler { k: 1e-4 }, 2;
-        "FPUT chain": FputChain8::MEASURED, 8;
+        "ring": Ring::MEASURED, 2, [
+            "Blanes–Moan 4": Splitting::blanes_moan_4(), "Blanes–Moan 6": Splitting::blanes_moan_6(),
+            "Blanes–Casas–Escorihuela 8": Splitting::blanes_casas_escorihuela_8(), "Gauss, 8 stages": Gauss::<8>
+        ];
+        "double pendulum": DoublePendulum::MEASURED, 2, [
+            "Gauss, 4 stages": Gauss::<4>, "Gauss, 6 stages": Gauss::<6>, "Gauss, 8 stages": Gauss::<8>
+        ];
+        "Hénon–Heiles": HenonHeiles {}, 2, [
+            "Blanes–Moan 6": Splitting::blanes_moan_6(),
+            "Blanes–Casas–Escorihuela 8": Splitting::blanes_casas_escorihuela_8(), "Gauss, 8 stages": Gauss::<8>
+        ];
+        "Kepler": Kepler { k: 1e-4 }, 2, [
+            "Blanes–Moan 6": Splitting::blanes_moan_6(),
+            "Blanes–Casas–Escorihuela 8": Splitting::blanes_casas_escorihuela_8(), "Gauss, 8 stages": Gauss::<8>
+        ];
+        "FPUT chain": FputChain8::MEASURED, 8, [
+            "Blanes–Moan 4": Splitting::blanes_moan_4(), "Blanes–Moan 6": Splitting::blanes_moan_6(),
+            "Blanes–Casas–Escorihuela 8": Splitting::blanes_casas_escorihuela_8()
+        ];
     }
     page.push_str(include_str!("../ensembles_growth.md"));
     growth(&mut page)?;
@@ -69,14 +86,10 @@ fn rows<S, const N: usize, const M: usize>(
     scene: S,
     python: &Python,
     page: &mut String,
+    methods: impl for<'a> Fn(&Runs<'a, S, N>) -> Vec<Candidate<'a, Ends<N>>>,
 ) -> Result<()>
 where
-    S: Scene<N>
-        + InLanes<Splitting<6>, N>
-        + InLanes<Splitting<11>, N>
-        + InLanes<Splitting<19>, N>
-        + Send
-        + Sync,
+    S: Scene<N> + Send + Sync,
 {
     let reference = reference::of(name)?;
     let start = |lane: u64| -> Result<State<f64, N>> {
@@ -98,19 +111,13 @@ where
     let mut candidates: Vec<Candidate<'_, Ends<N>>> = Vec::new();
     let counts = || (0..40).map(|k| (reference.time * 2_f64.powf(0.25 * f64::from(k))).ceil());
     for steps in counts() {
-        let of = [reference.time, steps];
-        candidates.extend([
-            ours("Blanes–Moan 4", Splitting::blanes_moan_4(), scene, &starts, of, &pool),
-            ours("Blanes–Moan 6", Splitting::blanes_moan_6(), scene, &starts, of, &pool),
-            ours(
-                "Blanes–Casas–Escorihuela 8",
-                Splitting::blanes_casas_escorihuela_8(),
-                scene,
-                &starts,
-                of,
-                &pool,
-            ),
-        ]);
+        candidates.extend(methods(&Runs {
+            scene,
+            starts: &starts,
+            time: reference.time,
+            steps,
+            pool: &pool,
+        }));
     }
     candidates.retain_mut(|candidate| {
         (candidate.run)(1).is_ok_and(|(seconds, ends)| seconds < 1e-3 && worst(&ends) < 1e-4)
@@ -167,30 +174,40 @@ fn references<S: Scene<N>, const N: usize>(scene: &S, starts: &Ends<N>, time: f6
     Ok(narrow)
 }
 
-/// Our run by so many steps.
-fn ours<'a, S, M, const N: usize>(
-    name: &'static str,
-    method: M,
+/// Our runs by so many steps.
+struct Runs<'a, S, const N: usize> {
     scene: S,
     starts: &'a Ends<N>,
-    [time, steps]: [f64; 2],
+    time: f64,
+    steps: f64,
     pool: &'a ThreadPool,
-) -> Candidate<'a, Ends<N>>
+}
+
+impl<'a, S, const N: usize> Runs<'a, S, N>
 where
-    S: Lagrangian<N, Scalar = f64> + InLanes<M, N> + Copy + Send + Sync + 'a,
-    M: MethodOf<S, N> + Copy + Send + Sync + 'a,
+    S: Lagrangian<N, Scalar = f64> + Copy + Send + Sync + 'a,
 {
-    let run = move || {
-        let member = |number: u64| Ok((scene, starts[(number % 8) as usize]));
-        let study = Ensemble::new(member).by(method, time / steps).steps(steps as u64).in_lanes();
-        pool.install(|| study.ends(0..MEMBERS)).ok().context("cancelled")
-    };
-    let ends = |ends: dalembert_ensemble::Ends<f64, N>| {
-        ends.into_iter().map(|end| Ok(end.map_err(|failure| anyhow::anyhow!("{failure}"))?.state)).collect()
-    };
-    let mut all = timed(run, ends);
-    let run = move |repeats| all(repeats).map(|(seconds, ends)| (seconds / MEMBERS as f64, ends));
-    Candidate { method: name, setting: steps, run: Box::new(run) }
+    /// All members by one method.
+    fn by<M>(&self, name: &'static str, method: M) -> Candidate<'a, Ends<N>>
+    where
+        S: InLanes<M, N>,
+        M: MethodOf<S, N> + Copy + Send + Sync + 'a,
+    {
+        let Self { scene, starts, time, steps, pool } = *self;
+        let run = move || {
+            let member = |number: u64| Ok((scene, starts[(number % 8) as usize]));
+            let study = Ensemble::new(member).by(method, time / steps).steps(steps as u64).in_lanes();
+            pool.install(|| study.ends(0..MEMBERS)).ok().context("cancelled")
+        };
+        let ends = |ends: dalembert_ensemble::Ends<f64, N>| {
+            ends.into_iter()
+                .map(|end| Ok(end.map_err(|failure| anyhow::anyhow!("{failure}"))?.state))
+                .collect()
+        };
+        let mut all = timed(run, ends);
+        let run = move |repeats| all(repeats).map(|(seconds, ends)| (seconds / MEMBERS as f64, ends));
+        Candidate { method: name, setting: steps, run: Box::new(run) }
+    }
 }
 
 /// A ring of its own for each member.

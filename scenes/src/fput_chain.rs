@@ -5,7 +5,7 @@
 //! ```
 
 macro_rules! fput_chain {
-    ($name:ident: $n:literal, $engine:ident, [$($rule:ident),*] $(, lanes = $lanes:ident)?) => {
+    ($name:ident: $n:literal, $engine:ident, [$($rule:ident),*] $(, lanes = [$($lanes:ident),*])?) => {
         /// Springs of potential d²/2 + β d⁴/4.
         #[derive(Clone, Copy, Debug)]
         pub struct $name {
@@ -20,7 +20,7 @@ macro_rules! fput_chain {
             pub const MEASURED: Self = Self { beta: 0.7, drag: 1e-3 };
         }
 
-        #[dalembert::rayleigh_system(rule = [$($rule),*], derivatives = $engine $(, lanes = $lanes)?)]
+        #[dalembert::rayleigh_system(rule = [$($rule),*], derivatives = $engine $(, lanes = [$($lanes),*])?)]
         impl $name {
             fn lagrangian(&self, q: [f64; $n], v: [f64; $n]) -> f64 {
                 let mut energy = 0.0;

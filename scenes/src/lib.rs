@@ -26,12 +26,12 @@ pub use henon_heiles::{HenonHeiles, henon_heiles};
 pub use kepler::{Kepler, kepler};
 pub use oscillator::{Oscillator, oscillator};
 
-ring!(Ring: expanded, [midpoint, trapezoidal, gauss], lanes = explicit);
-double_pendulum!(DoublePendulum: f64, expanded, [midpoint, trapezoidal, gauss]);
+ring!(Ring: expanded, [midpoint, trapezoidal, gauss], lanes = [explicit, gauss]);
+double_pendulum!(DoublePendulum: f64, expanded, [midpoint, trapezoidal, gauss], lanes = [gauss]);
 fput_chain!(FputChain2: 2, expanded, [midpoint, trapezoidal, gauss]);
 fput_chain!(FputChain4: 4, expanded, [midpoint, trapezoidal, gauss]);
 fput_chain!(FputChain6: 6, expanded, [trapezoidal, gauss]);
-fput_chain!(FputChain8: 8, expanded, [midpoint, trapezoidal, gauss], lanes = explicit);
+fput_chain!(FputChain8: 8, expanded, [midpoint, trapezoidal, gauss], lanes = [explicit]);
 fput_chain!(FputChain16: 16, expanded, [midpoint, trapezoidal, gauss]);
 fput_chain!(FputChain32: 32, expanded, [midpoint, trapezoidal, gauss]);
 spring_chain!(SpringChain8: 8, expanded, [midpoint, trapezoidal]);

@@ -5,7 +5,7 @@
 //! ```
 
 macro_rules! ring {
-    ($name:ident: $engine:ident, [$($rule:ident),*] $(, lanes = $lanes:ident)?) => {
+    ($name:ident: $engine:ident, [$($rule:ident),*] $(, lanes = [$($lanes:ident),*])?) => {
         /// A particle in V = s(s − 1)², s = |q|², with drag.
         #[derive(Clone, Copy, Debug)]
         pub struct $name {
@@ -18,7 +18,7 @@ macro_rules! ring {
             pub const MEASURED: Self = Self { k: 1e-3 };
         }
 
-        #[dalembert::rayleigh_system(rule = [$($rule),*], derivatives = $engine $(, lanes = $lanes)?)]
+        #[dalembert::rayleigh_system(rule = [$($rule),*], derivatives = $engine $(, lanes = [$($lanes),*])?)]
         impl $name {
             fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
                 let s = q[0] * q[0] + q[1] * q[1];
