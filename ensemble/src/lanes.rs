@@ -53,7 +53,7 @@ fn lanes<L: LanesBy<M, N>, M, const N: usize>() -> usize {
         () if size_of::<LaneRuns<'_, L, M, N, 16>>() <= MOST_BYTES => 16,
         () => 8,
     };
-    fitting.min(widest)
+    fitting.min(widest).min(L::MOST_LANES)
 }
 
 /// A member on its way, or waiting for a lane.
@@ -122,6 +122,9 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
         let members: [_; W] = array::from_fn(|lane| lanes[lane].as_ref().unwrap_or(first));
         let mut starts = members.map(|member| member.start);
         let mut runs = LaneRuns::new(self.method, members.map(|member| member.system), &starts, self.plan.h);
+        if let Some(error) = self.plan.error {
+            runs = runs.solved_for(error, self.plan.time());
+        }
         // Steps until the next record of each lane; a lane without a member has none.
         let until =
             |lane: &Option<OnItsWay<'s, L, V, N>>| lane.as_ref().map_or(u64::MAX, |member| member.next);
@@ -173,7 +176,7 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
             *member.failure = self.alone(member, observe).err();
             return ControlFlow::Break(());
         };
-        let Plan { h, steps: all, every } = self.plan;
+        let Plan { h, steps: all, every, .. } = self.plan;
         let OnItsWay { number, system, next: steps, .. } = *member;
         let time = if steps == 0 { 0.0 } else { h.widen() * steps as f64 };
         member.seen += 1;

@@ -1,10 +1,10 @@
 //! How the members of a chunk are stepped.
 
 use core::any::type_name;
-use core::fmt;
 use core::ops::ControlFlow;
 
 use dalembert::step::{Flow, MethodOf};
+use dalembert::system::Scalar;
 use dalembert::tolerance::{Methods, OffersMethods};
 use dalembert::{Discretise, Lagrangian, State, StepError};
 
@@ -60,6 +60,8 @@ pub struct Plan<S> {
     pub steps: u64,
     /// Steps from one record to the next, the first at the start; `None`: the end alone is recorded.
     pub every: Option<u64>,
+    /// The error at the end for which equations are solved; `None`: to rounding.
+    pub error: Option<f64>,
 }
 
 /// Each member by its own [`Trajectory`](dalembert::Trajectory).
@@ -89,10 +91,16 @@ where
     }
 }
 
-impl<S: Copy + fmt::Debug> Plan<S> {
+impl<S: Scalar> Plan<S> {
     pub(crate) fn description<M>(&self) -> String {
-        let Self { h, steps, every } = self;
-        format!("{}, h = {h:?}, {steps} steps, every {every:?}", type_name::<M>())
+        let Self { h, steps, every, error } = self;
+        let solved = error.map_or_else(String::new, |error| format!(", solved for {error:?}"));
+        format!("{}, h = {h:?}, {steps} steps, every {every:?}{solved}", type_name::<M>())
+    }
+
+    /// The time of the last step.
+    pub(crate) fn time(&self) -> f64 {
+        self.h.widen() * self.steps as f64
     }
 
     /// The trajectory of one member.
@@ -109,6 +117,9 @@ impl<S: Copy + fmt::Debug> Plan<S> {
         M: MethodOf<L, N>,
     {
         let mut run = system.by(method, self.h).run(*start);
+        if let Some(error) = self.error {
+            run = run.solved_for(error, self.time());
+        }
         let start = Record { number, system, steps: 0, time: 0.0, state: *start };
         if (self.every.is_some() || self.steps == 0) && observe(&start).is_break() {
             return Ok(());

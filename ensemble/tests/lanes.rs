@@ -1,6 +1,6 @@
 //! In lanes, members are what they are one by one: states, records, failures, and those that have arrived.
 
-use dalembert::{Splitting, State, StepError, rayleigh_system};
+use dalembert::{Gauss, Splitting, State, StepError, rayleigh_system};
 use dalembert_ensemble::{Ensemble, Outcome, Record};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -103,4 +103,39 @@ fn the_number_of_threads_changes_no_bit_of_members_in_lanes() {
         assert!(on(threads) == one, "{threads} threads");
     }
     assert!(records(120, Some(1), true, false, 700) == one, "one by one");
+}
+
+/// Two links with friction, each member with lengths of its own: the mass depends on q.
+#[rayleigh_system(rule = gauss, lanes = gauss)]
+fn links(q: [f64; 2], v: [f64; 2], l: [f64; 2], r: f64) -> (f64, f64) {
+    let coupling = l[0] * l[1] * v[0] * v[1] * (q[0] - q[1]).cos();
+    let kinetic = (l[0] * v[0]).powi(2) + 0.5 * (l[1] * v[1]).powi(2) + coupling;
+    (kinetic + 9.81 * (2.0 * l[0] * q[0].cos() + l[1] * q[1].cos()), 0.5 * r * (v[1] - v[0]).powi(2))
+}
+
+/// Gauss rules, solved to rounding and for an error: the ends of all members, by their bits, and their failures.
+#[test]
+fn members_by_gauss_rules_are_their_own_runs() {
+    let member = |number: u64| {
+        let mut random = ChaCha8Rng::seed_from_u64(7);
+        random.set_stream(number);
+        let mut any = |range: core::ops::Range<f64>| random.random_range(range);
+        let links = Links { l: [any(0.5..1.5), any(0.5..1.5)], r: any(0.0..0.1) };
+        let speed = if number % 37 == 5 { f64::NAN } else { any(-2.0..2.0) };
+        Ok((links, State { q: [any(-2.0..2.0), any(-2.0..2.0)].into(), p: [speed, any(-2.0..2.0)].into() }))
+    };
+    let ends = |error: Option<f64>, in_lanes: bool| {
+        let mut study = Ensemble::new(member).by(Gauss::<4>, 0.1).steps(40);
+        if let Some(error) = error {
+            study = study.solved_for(error);
+        }
+        let ends = if in_lanes { study.in_lanes().ends(0..150) } else { study.ends(0..150) };
+        ends.unwrap().iter().map(|end| format!("{end:?}")).collect::<Vec<_>>()
+    };
+    for error in [None, Some(1e-5)] {
+        assert_eq!(ends(error, true), ends(error, false), "{error:?}");
+    }
+    // Positive controls: what is left unsolved is seen, and so are members that fail.
+    assert_ne!(ends(None, true), ends(Some(1e-5), true));
+    assert!(ends(None, true).iter().any(|end| end.starts_with("Err")));
 }

@@ -9,9 +9,8 @@ use std::{env, fs};
 use anyhow::{Context, Result, ensure};
 use dalembert::nalgebra::SVector;
 use dalembert::run::InLanes;
-use dalembert::step::MethodOf;
 use dalembert::{Discretise, Gauss, Lagrangian, Splitting, State, StepError};
-use dalembert_ensemble::Ensemble;
+use dalembert_ensemble::{Cancelled, Ensemble};
 use dalembert_examples::results;
 use dalembert_scenes::{DoublePendulum, FputChain8, HenonHeiles, Kepler, Ring};
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -45,8 +44,8 @@ pub fn write(docs: &Path) -> Result<()> {
     macro_rules! scenes {
         ($($name:literal: $scene:expr, $n:literal, [$($method:literal: $by:expr),*];)*) => {$(
             eprintln!("{}", $name);
-            rows::<_, $n, { 2 * $n }>($name, $scene, &python, &mut page, |run| {
-                vec![$(run.by($method, $by)),*]
+            rows::<_, $n, { 2 * $n }>($name, $scene, &python, &mut page, |runs| {
+                [$($by.candidates($method, runs)),*].into_iter().flatten().collect()
             })?;
         )*};
     }
@@ -108,7 +107,7 @@ where
 
     let pool = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
     let pool = pool.or_else(|_| ThreadPoolBuilder::new().num_threads(1).build())?;
-    let mut candidates: Vec<Candidate<'_, Ends<N>>> = Vec::new();
+    let mut candidates = Vec::new();
     let counts = || (0..40).map(|k| (reference.time * 2_f64.powf(0.25 * f64::from(k))).ceil());
     for steps in counts() {
         candidates.extend(methods(&Runs {
@@ -119,9 +118,7 @@ where
             pool: &pool,
         }));
     }
-    candidates.retain_mut(|candidate| {
-        (candidate.run)(1).is_ok_and(|(seconds, ends)| seconds < 1e-3 && worst(&ends) < 1e-4)
-    });
+    let mut candidates = worth(candidates, worst);
     for tolerance in (5..16).map(|k| 10_f64.powi(-k)).chain([f64::EPSILON]) {
         let run = move |repeats| {
             let (seconds, y) = python.run::<M>(BATCH, name, tolerance, repeats, 1)?;
@@ -187,18 +184,23 @@ impl<'a, S, const N: usize> Runs<'a, S, N>
 where
     S: Lagrangian<N, Scalar = f64> + Copy + Send + Sync + 'a,
 {
-    /// All members by one method.
-    fn by<M>(&self, name: &'static str, method: M) -> Candidate<'a, Ends<N>>
-    where
-        S: InLanes<M, N>,
-        M: MethodOf<S, N> + Copy + Send + Sync + 'a,
-    {
-        let Self { scene, starts, time, steps, pool } = *self;
-        let run = move || {
-            let member = |number: u64| Ok((scene, starts[(number % 8) as usize]));
-            let study = Ensemble::new(member).by(method, time / steps).steps(steps as u64).in_lanes();
-            pool.install(|| study.ends(0..MEMBERS)).ok().context("cancelled")
-        };
+    /// A member: one of the starts, in turn.
+    fn member(&self) -> impl Fn(u64) -> Result<(S, State<f64, N>), StepError> + Sync + use<'a, S, N> {
+        let Self { scene, starts, .. } = *self;
+        move |number| Ok((scene, starts[(number % 8) as usize]))
+    }
+
+    /// The candidate whose members a study of one thread takes.
+    fn measured(
+        &self,
+        name: &'static str,
+        study: impl Fn() -> Result<dalembert_ensemble::Ends<f64, N>, Cancelled<dalembert_ensemble::Ends<f64, N>>>
+        + Send
+        + Sync
+        + 'a,
+    ) -> Candidate<'a, Ends<N>> {
+        let pool = self.pool;
+        let run = move || pool.install(&study).ok().context("cancelled");
         let ends = |ends: dalembert_ensemble::Ends<f64, N>| {
             ends.into_iter()
                 .map(|end| Ok(end.map_err(|failure| anyhow::anyhow!("{failure}"))?.state))
@@ -206,8 +208,59 @@ where
         };
         let mut all = timed(run, ends);
         let run = move |repeats| all(repeats).map(|(seconds, ends)| (seconds / MEMBERS as f64, ends));
-        Candidate { method: name, setting: steps, run: Box::new(run) }
+        Candidate { method: name, setting: self.steps, run: Box::new(run) }
     }
+}
+
+/// A method in lanes, by so many steps.
+trait InLanesOf<'a, S, const N: usize> {
+    /// To rounding, or to each of the errors.
+    fn candidates(self, name: &'static str, runs: &Runs<'a, S, N>) -> Vec<Candidate<'a, Ends<N>>>;
+}
+
+impl<'a, S, const N: usize, const K: usize> InLanesOf<'a, S, N> for Splitting<K>
+where
+    S: InLanes<Self, N> + Lagrangian<N, Scalar = f64> + Copy + Send + Sync + 'a,
+{
+    fn candidates(self, name: &'static str, runs: &Runs<'a, S, N>) -> Vec<Candidate<'a, Ends<N>>> {
+        let (member, h, steps) = (runs.member(), runs.time / runs.steps, runs.steps as u64);
+        let study = move || Ensemble::new(&member).by(self, h).steps(steps).in_lanes().ends(0..MEMBERS);
+        vec![runs.measured(name, study)]
+    }
+}
+
+impl<'a, S, const N: usize, const K: usize> InLanesOf<'a, S, N> for Gauss<K>
+where
+    S: InLanes<Self, N> + Lagrangian<N, Scalar = f64> + Copy + Send + Sync + 'a,
+{
+    fn candidates(self, name: &'static str, runs: &Runs<'a, S, N>) -> Vec<Candidate<'a, Ends<N>>> {
+        let to_error = |error| {
+            let (member, h, steps) = (runs.member(), runs.time / runs.steps, runs.steps as u64);
+            let study = move || {
+                let study = Ensemble::new(&member).by(self, h).steps(steps).solved_for(error);
+                study.in_lanes().ends(0..MEMBERS)
+            };
+            runs.measured(name, study)
+        };
+        LEVELS.map(to_error).into()
+    }
+}
+
+/// Of the candidates those that may be the cheapest to an error.
+fn worth<E>(candidates: Vec<Candidate<'_, E>>, worst: impl Fn(&E) -> f64) -> Vec<Candidate<'_, E>> {
+    let tried = candidates.into_iter().filter_map(|mut candidate| {
+        let (seconds, end) = (candidate.run)(1).ok()?;
+        Some((candidate, seconds, worst(&end)))
+    });
+    let tried: Vec<_> = tried.collect();
+    let least = LEVELS.map(|level| {
+        let able = tried.iter().filter(|(_, _, error)| *error <= level);
+        able.fold(f64::INFINITY, |least: f64, (_, seconds, _)| least.min(*seconds))
+    });
+    let is_worth = |seconds: f64, error: f64| {
+        LEVELS.iter().zip(least).any(|(&level, least)| error <= level && seconds < 1.5 * least)
+    };
+    tried.into_iter().filter(|(_, seconds, error)| is_worth(*seconds, *error)).map(|(one, ..)| one).collect()
 }
 
 /// A ring of its own for each member.

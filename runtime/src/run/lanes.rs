@@ -10,6 +10,7 @@ use core::marker::PhantomData;
 
 use crate::numbers::members::member;
 use crate::numbers::{Elementary, Mask, MemberVector, Scalar};
+use crate::rules::steps_until;
 use crate::run::{Checkpoint, Course, Explicit};
 use crate::step::{Flow, State};
 use crate::system::Lagrangian;
@@ -46,6 +47,9 @@ pub trait InLanes<M, const N: usize>: Flow<M, N> {
     /// W members on their way: their states, and all that a step asks for.
     type Lanes<const W: usize>: Copy + core::fmt::Debug;
 
+    /// Above so many members at a time the steps of one cost no less, on any machine that was measured.
+    const MOST_LANES: usize = 32;
+
     /// The members at their starts. One that no run can start from, or whose method cannot be prepared, has no
     /// state.
     fn in_lanes<const W: usize>(
@@ -62,6 +66,11 @@ pub trait InLanes<M, const N: usize>: Flow<M, N> {
         starts: &[Option<State<Self::Scalar, N>>; W],
         h: Self::Scalar,
     );
+
+    /// From each member's start on, what [`Memory::leave_unsolved`](crate::step::Memory::leave_unsolved) says.
+    fn leave_unsolved<const W: usize>(lanes: &mut Self::Lanes<W>, error: f64, steps: u64) {
+        let _ = (lanes, error, steps);
+    }
 
     /// All members on by this many steps: those that were put into the lanes, with their systems.
     fn advance_in_lanes<const W: usize>(lanes: &mut Self::Lanes<W>, systems: [&Self; W], steps: u64);
@@ -154,6 +163,35 @@ where
             }
         }
         L::refill_lanes(&mut self.lanes, self.systems, &arriving, self.h);
+    }
+
+    /// Solves the stages of a Gauss rule no further than an error of `error` at the time `time` from each
+    /// member's start asks for, of those that are put into lanes later too:
+    /// [`Trajectory::solved_for`](crate::Trajectory::solved_for) of each, which says what it costs.
+    ///
+    /// ```
+    /// use dalembert::run::LaneRuns;
+    /// use dalembert::{Discretise, Gauss, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system(rule = gauss, lanes = gauss)]
+    /// fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
+    ///     (0.5 * v[0] * v[0] + q[0].cos(), 0.5 * r * v[0] * v[0])
+    /// }
+    ///
+    /// let pendulums = [0.0, 0.01, 0.02, 0.03].map(|r| Pendulum { r });
+    /// let start = State { q: [1.0].into(), p: [0.0].into() };
+    /// let mut runs = LaneRuns::new(Gauss::<6>, pendulums.each_ref(), &[start; 4], 0.5).solved_for(1e-6, 20.0);
+    /// runs.advance(40);
+    /// for (lane, pendulum) in pendulums.iter().enumerate() {
+    ///     let alone = pendulum.by(Gauss::<6>, 0.5).run(start).solved_for(1e-6, 20.0).nth(39).unwrap()?;
+    ///     assert_eq!(runs.state(lane), Some(alone.state));
+    /// }
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    #[must_use = "the runs given are consumed"]
+    pub fn solved_for(mut self, error: f64, time: f64) -> Self {
+        L::leave_unsolved(&mut self.lanes, error, steps_until(time, self.h.widen()));
+        self
     }
 
     /// All runs on by this many steps: bit by bit the same, at once or in parts.

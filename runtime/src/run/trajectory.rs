@@ -5,10 +5,9 @@ use core::marker::PhantomData;
 use nalgebra::SVector;
 
 use crate::numbers::Scalar;
-use crate::rules::{Gauss, steps_until};
+use crate::rules::steps_until;
 use crate::run::{Checkpoint, Course};
 use crate::step::{Discretised, Flow, Memory, State, Step, StepError};
-use crate::system::ForcedLagrangian;
 
 /// Runs.
 impl<'a, L, M, const N: usize> Discretised<'a, L, M, N>
@@ -261,12 +260,13 @@ where
     Err(error)
 }
 
-impl<L, const N: usize, const S: usize> Trajectory<'_, L, Gauss<S>, N>
+impl<L, M, const N: usize> Trajectory<'_, L, M, N>
 where
-    L: ForcedLagrangian<N>,
+    L: Flow<M, N>,
 {
-    /// Solves the stages no further than an error of `error`, in units of q, at the time `time` asks for:
-    /// what a step's sweeps leave unsolved is held below
+    /// Solves the stages of a [`Gauss`](crate::Gauss) rule no further than an error of `error`, in units of q, at
+    /// the time `time` asks for; other methods solve to rounding as ever. What a step's sweeps leave unsolved is
+    /// held below
     ///
     /// ```text
     /// |δq| ≤ ε/(100 n),   w |δp| ≤ ε/(100 n)        ε the error, n the steps from here to `time`
@@ -304,7 +304,7 @@ where
     /// ```
     #[must_use = "the run given is consumed"]
     pub fn solved_for(mut self, error: f64, time: f64) -> Self {
-        self.memory.leave(error, steps_until(time - self.time(), self.at.step_size.widen()), 0.0);
+        self.memory.leave_unsolved(error, steps_until(time - self.time(), self.at.step_size.widen()));
         self
     }
 }

@@ -157,6 +157,12 @@ where
         None
     }
 
+    /// From here on equations are solved no further than an error of `error` after so many steps asks for, where
+    /// the method has use for that: [`Trajectory::solved_for`](crate::Trajectory::solved_for).
+    fn leave_unsolved(&mut self, error: f64, steps: u64) {
+        let _ = (error, steps);
+    }
+
     /// The step from `state`, `elapsed` after the time of `system`: of the system as it is then
     /// ([`Lagrangian::later`](crate::Lagrangian::later)).
     ///

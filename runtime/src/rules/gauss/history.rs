@@ -284,6 +284,10 @@ where
         self.is_corrected = true;
     }
 
+    fn leave_unsolved(&mut self, error: f64, steps: u64) {
+        self.leave(error, steps, 0.0);
+    }
+
     const NODES: &'static [f64] = &Gauss::<S>::NODES;
 
     #[inline(always)]
