@@ -299,18 +299,18 @@ where
             let values = (self.g)(at);
             widen(&values);
             for value in values {
-                sum += value * L::Scalar::constant(0.0);
+                sum += value;
             }
         });
         for value in after {
-            sum += value * L::Scalar::constant(0.0);
+            sum += value;
         }
         // Away from 0 by more than a polynomial can leave the range of its values, and half a range besides.
         let away = L::Scalar::constant(NodesOf::<L, M, N>::NODES.lebesgue + 1.0);
         let is_clear = |(&low, &high): (&L::Scalar, &L::Scalar)| {
             (low + high).widen().abs() > (away * (high - low)).widen()
         };
-        if earlier.is_some() && sum == L::Scalar::constant(0.0) && low.iter().zip(&high).all(is_clear) {
+        if earlier.is_some() && sum.widen().is_finite() && low.iter().zip(&high).all(is_clear) {
             if self.restarts > 0 {
                 self.restarts = 0;
             }

@@ -400,7 +400,9 @@ impl Search<'_> {
         let mut shortest = high - low;
         for round in 0..ROUNDS {
             let value = self.curve.value(at)?;
-            if round == 0 && !verified && value.abs() > 2.0 * part.error {
+            // The secants mend what is off by little.
+            let allowed = (2.0 * part.error).max(1e-6 * start.abs().max(end.abs()));
+            if round == 0 && !verified && value.abs() > allowed {
                 return Ok(None);
             }
             if value.abs() <= best.0 {
