@@ -65,12 +65,15 @@ def henon_heiles(_, q, v):
     return [-x - 2.0 * (x * y), -y - x * x + y * y]
 
 
-def kepler(f, q, v):
-    """Unit mass about a unit centre, with drag."""
-    k = 1e-4
-    square = q[0] * q[0] + q[1] * q[1]
-    cube = square * f.sqrt(square)
-    return [-q[0] / cube - k * v[0], -q[1] / cube - k * v[1]]
+def kepler(k):
+    """Unit mass about a unit centre, with drag k."""
+
+    def acceleration(f, q, v):
+        square = q[0] * q[0] + q[1] * q[1]
+        cube = square * f.sqrt(square)
+        return [-q[0] / cube - k * v[0], -q[1] / cube - k * v[1]]
+
+    return acceleration
 
 
 def pendulums(f, q, v):
@@ -137,7 +140,10 @@ SCENES = {
     "double pendulum": Scene(double_pendulum, [0.8, -0.4], [0.0, 0.5], 20.0),
     "FPUT chain": Scene(chain, first_mode(8), [0.0] * 8, 100.0),
     "Hénon–Heiles": Scene(henon_heiles, [0.0, 0.1], [0.3, 0.1], 100.0),
-    "Kepler": Scene(kepler, [0.4, 0.0], [0.0, 2.0], 100.0),
+    "Kepler": Scene(kepler(1e-4), [0.4, 0.0], [0.0, 2.0], 100.0),
+    # From the far side of orbits of unit semi-major axis, in some ten rounds to the far side again.
+    "Kepler, e = 0.99": Scene(kepler(0.0), [1.99, 0.0], [0.0, 0.0708881205008336], 62.0),
+    "Kepler, e = 0.999": Scene(kepler(1e-4), [1.999, 0.0], [0.0, 0.02236627204212922], 62.0),
     "seven pendulums": Scene(pendulums, [0.6, 0.5, 0.4, 0.3, 0.2, 0.1, 0.0], [0.0] * 7, 10.0),
 }
 

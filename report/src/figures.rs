@@ -17,10 +17,11 @@ const PEER: RGBColor = RGBColor(90, 90, 90);
 
 /// What the figures show, more than which no eye tells apart: of this project's methods one of each kind, in
 /// colour; of the others the fastest of each kind.
-const SHOWN: [Look; 8] = [
+const SHOWN: [Look; 9] = [
     ("midpoint", colour::VARIATIONAL, Dash::Solid, Mark::Disc),
     ("Gauss, 4 stages", colour::FIFTH, Dash::Solid, Mark::Triangle),
     ("Gauss, 8 stages", colour::EULER, Dash::Solid, Mark::Square),
+    ("Gauss, 8 stages, in scaled time", colour::EULER, Dash::Dotted, Mark::Circle),
     ("Blanes–Moan 6", colour::RUNGE_KUTTA, Dash::Solid, Mark::Circle),
     ("ode_solvers Dop853", colour::REFERENCE, Dash::Dashed, Mark::Cross),
     ("diffsol tsit45", PEER, Dash::DashDotted, Mark::Triangle),
@@ -46,7 +47,7 @@ pub fn write(folder: &Path, measured: &Measured<'_>) -> Result<()> {
             let floored = logarithmic(&label).with_floor(FLOORS[0]).from_to(FLOORS[0], 1.0);
             Panel::new(scene, logarithmic("time of one trajectory (µs)"), floored, curves)
         });
-        let svg = picture::svg([1600, 2100], 2, &panels)?;
+        let svg = picture::svg([1600, 2800], 2, &panels)?;
         results::save(&folder.join(quantity).with_extension("svg"), &svg)?;
     }
     if measured.long.is_empty() {

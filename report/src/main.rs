@@ -28,8 +28,8 @@ use serde::de::DeserializeOwned;
 
 use peers::python::Python;
 use scenes::{
-    DoublePendulum, FputChain2, FputChain4, FputChain8, FputChain16, FputChain32, HenonHeiles, Kepler,
-    Pendulums, Ring,
+    DoublePendulum, EccentricKepler, FputChain2, FputChain4, FputChain8, FputChain16, FputChain32,
+    HenonHeiles, Kepler, Pendulums, Ring,
 };
 use study::Record;
 
@@ -132,6 +132,8 @@ fn scenes(
         "FPUT chain": FputChain8::MEASURED, 8;
         "Hénon–Heiles": HenonHeiles {}, 2;
         "Kepler": Kepler { k: 1e-4 }, 2;
+        "Kepler, e = 0.99": EccentricKepler { k: 0.0 }, 2;
+        "Kepler, e = 0.999": EccentricKepler { k: 1e-4 }, 2;
         "seven pendulums": Pendulums::EXAMPLE, 7;
         "FPUT chain, n = 2": FputChain2::MEASURED, 2;
         "FPUT chain, n = 4": FputChain4::MEASURED, 4;

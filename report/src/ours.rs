@@ -2,13 +2,13 @@
 
 use std::marker::PhantomData;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use dalembert::run::Explicit;
 use dalembert::step::Flow;
-use dalembert::system::ForcedLagrangian;
+use dalembert::system::{ForcedLagrangian, TimeScale};
 use dalembert::{Composition, Discretise, Gauss, Midpoint, Splitting, State, Trajectory, Trapezoidal};
 
-use crate::scenes::Scene;
+use crate::scenes::{EccentricKepler, Scene};
 
 /// A run of a number of steps of size h.
 pub type Steps<S, const N: usize> = fn(&S, &State<f64, N>, f64, u32) -> Result<State<f64, N>>;
@@ -29,7 +29,7 @@ pub fn methods<S: Scene<N>, const N: usize>() -> Vec<(&'static str, Steps<S, N>)
         ("Gauss, 6 stages", |s, start, h, n| run(s, Gauss::<6>, start, h, n)),
         ("Gauss, 8 stages", |s, start, h, n| run(s, Gauss::<8>, start, h, n)),
     ];
-    methods.extend(S::SPLITTINGS);
+    methods.extend(S::OTHERS);
     methods
 }
 
@@ -45,9 +45,10 @@ pub fn to_an_error<S: Scene<N>, const N: usize>() -> Vec<(&'static str, StepsTo<
     ]
 }
 
-/// The names of all.
+/// The names of all, those of an eccentric orbit among them.
 pub fn names<S: Scene<N>, const N: usize>() -> Vec<&'static str> {
-    let to_rounding = methods::<S, N>().into_iter().map(|(name, _)| name);
+    let scaled = EccentricKepler::OTHERS.iter().map(|(name, _)| *name);
+    let to_rounding = methods::<S, N>().into_iter().map(|(name, _)| name).chain(scaled);
     to_rounding.chain(to_an_error::<S, N>().into_iter().map(|(name, _)| name)).collect()
 }
 
@@ -67,6 +68,38 @@ impl<S: Explicit<N, Scalar = f64> + 'static, const N: usize> Splittings<S, N> {
             run::<S, Splitting<19>, N>(s, Splitting::blanes_casas_escorihuela_8(), start, h, n)
         }),
     ];
+}
+
+/// What scenes add that have a time scale.
+pub struct InScaledTime<S, const N: usize>(PhantomData<S>);
+
+impl<S, const N: usize> InScaledTime<S, N>
+where
+    S: ForcedLagrangian<N, Scalar = f64> + TimeScale<N> + 'static,
+{
+    /// By steps equal in τ, about as many as there would be of one size.
+    pub const ALL: &'static [(&'static str, Steps<S, N>)] = &[
+        ("Gauss, 4 stages, in scaled time", scaled::<S, N, 4>),
+        ("Gauss, 6 stages, in scaled time", scaled::<S, N, 6>),
+        ("Gauss, 8 stages, in scaled time", scaled::<S, N, 8>),
+    ];
+}
+
+fn scaled<S, const N: usize, const STAGES: usize>(
+    scene: &S,
+    start: &State<f64, N>,
+    h: f64,
+    steps: u32,
+) -> Result<State<f64, N>>
+where
+    S: ForcedLagrangian<N, Scalar = f64> + TimeScale<N>,
+{
+    // τ goes about twice as fast as t.
+    let (end, step) = (h * f64::from(steps), 2.0 * h);
+    let mut run = scene.by(Gauss::<STAGES>, step).run(*start).in_scaled_time();
+    // The last one by a part of the step that passes the end.
+    let sample = run.sample_at([end]).next().context("the run ends before")??;
+    Ok(sample.state)
 }
 
 fn run<S, M, const N: usize>(

@@ -11,8 +11,16 @@ use crate::study::Record;
 use crate::{figures, long_run};
 
 /// The scenes of the tables; the other chains are for the growth with n.
-pub const SCENES: [&str; 6] =
-    ["ring", "double pendulum", "FPUT chain", "Hénon–Heiles", "Kepler", "seven pendulums"];
+pub const SCENES: [&str; 8] = [
+    "ring",
+    "double pendulum",
+    "FPUT chain",
+    "Hénon–Heiles",
+    "Kepler",
+    "Kepler, e = 0.99",
+    "Kepler, e = 0.999",
+    "seven pendulums",
+];
 const LEVELS: [f64; 6] = [1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 const COORDINATES: [u32; 5] = [2, 4, 8, 16, 32];
 
@@ -115,7 +123,7 @@ fn text(measured: &Measured<'_>) -> Result<String> {
     aims(&mut page, measured)?;
     writeln!(
         page,
-        "\n## Figures\n\nEight of the methods, this project's in colour, others in black and grey; all are in the tables.\n"
+        "\n## Figures\n\nNine of the methods, this project's in colour, others in black and grey; all are in the tables.\n"
     )?;
     for (quantity, _) in QUANTITIES {
         writeln!(

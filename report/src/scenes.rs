@@ -4,24 +4,25 @@
 use dalembert::system::ForcedLagrangian;
 use dalembert::{Discrete, Midpoint, Trapezoidal, rayleigh_system};
 pub use dalembert_scenes::{
-    DoublePendulum, FputChain2, FputChain4, FputChain8, FputChain16, FputChain32, HenonHeiles, Kepler, Ring,
+    DoublePendulum, EccentricKepler, FputChain2, FputChain4, FputChain8, FputChain16, FputChain32,
+    HenonHeiles, Kepler, Ring,
 };
 
-use crate::ours::{Splittings, Steps};
+use crate::ours::{InScaledTime, Splittings, Steps};
 
 /// A system in both forms.
 pub trait Scene<const N: usize>:
     Discrete<Midpoint, N, Scalar = f64> + Discrete<Trapezoidal, N> + ForcedLagrangian<N> + Copy + 'static
 {
-    /// The methods for explicit systems, where it is one.
-    const SPLITTINGS: &'static [(&'static str, Steps<Self, N>)] = &[];
+    /// The methods that not every scene has.
+    const OTHERS: &'static [(&'static str, Steps<Self, N>)] = &[];
 
     /// q̈ as a function of (q, q̇).
     fn acceleration(&self, q: &[f64; N], v: &[f64; N]) -> [f64; N];
 }
 
 impl Scene<2> for Ring {
-    const SPLITTINGS: &'static [(&'static str, Steps<Self, 2>)] = Splittings::ALL;
+    const OTHERS: &'static [(&'static str, Steps<Self, 2>)] = Splittings::ALL;
 
     #[inline]
     fn acceleration(&self, q: &[f64; 2], v: &[f64; 2]) -> [f64; 2] {
@@ -50,7 +51,7 @@ impl Scene<2> for DoublePendulum {
 macro_rules! chains {
     ($($name:ident: $n:literal;)*) => {$(
         impl Scene<$n> for $name {
-            const SPLITTINGS: &'static [(&'static str, Steps<Self, $n>)] = Splittings::ALL;
+            const OTHERS: &'static [(&'static str, Steps<Self, $n>)] = Splittings::ALL;
 
             #[inline]
             fn acceleration(&self, q: &[f64; $n], v: &[f64; $n]) -> [f64; $n] {
@@ -75,7 +76,7 @@ chains! {
 }
 
 impl Scene<2> for HenonHeiles {
-    const SPLITTINGS: &'static [(&'static str, Steps<Self, 2>)] = Splittings::ALL;
+    const OTHERS: &'static [(&'static str, Steps<Self, 2>)] = Splittings::ALL;
 
     #[inline]
     fn acceleration(&self, &[x, y]: &[f64; 2], _: &[f64; 2]) -> [f64; 2] {
@@ -84,13 +85,22 @@ impl Scene<2> for HenonHeiles {
 }
 
 impl Scene<2> for Kepler {
-    const SPLITTINGS: &'static [(&'static str, Steps<Self, 2>)] = Splittings::ALL;
+    const OTHERS: &'static [(&'static str, Steps<Self, 2>)] = Splittings::ALL;
 
     #[inline]
     fn acceleration(&self, q: &[f64; 2], v: &[f64; 2]) -> [f64; 2] {
         let square = q[0] * q[0] + q[1] * q[1];
         let pull = 1.0 / (square * square.sqrt());
         [-pull * q[0] - self.k * v[0], -pull * q[1] - self.k * v[1]]
+    }
+}
+
+impl Scene<2> for EccentricKepler {
+    const OTHERS: &'static [(&'static str, Steps<Self, 2>)] = InScaledTime::ALL;
+
+    #[inline]
+    fn acceleration(&self, q: &[f64; 2], v: &[f64; 2]) -> [f64; 2] {
+        Kepler { k: self.k }.acceleration(q, v)
     }
 }
 

@@ -30,5 +30,5 @@ pub use crate::step::{
 pub use crate::system::{
     ActingForce, CyclicCoordinate, Damping, Driven, Engine, Force, ForcedLagrangian, ForcedLagrangianInLanes,
     GeneratedDiffers, GradientBy, Input, Lagrangian, NewtonStructure, Parameters, Rayleigh, Refusal,
-    ScalarField, SecondOrder, Stages, Structure, VectorField,
+    ScalarField, SecondOrder, Stages, Structure, TimeScale, VectorField,
 };

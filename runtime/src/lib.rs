@@ -76,11 +76,12 @@ mod attributes {
 /// | `fn lagrangian(&self, q: [f64; N], v: [f64; N]) -> f64` | L; its array type says N, a number or a constant |
 /// | `fn rayleigh(&self, v: [f64; N]) -> f64`, or `(&self, q, v)` | R, if there is dissipation: the force is −∂R/∂v |
 /// | `fn force(&self, q: [f64; N], v: [f64; N]) -> [f64; N]` | a general force, if there is one; `(&self, q, v, u: [f64; M])` with an input |
-/// | any other | a helper: differentiated if L, R or the force call it, untouched otherwise |
+/// | `fn time_scale(&self, q: [f64; N]) -> f64` | σ > 0, if steps are to follow the motion: [`in_scaled_time`](Trajectory::in_scaled_time) |
+/// | any other | a helper: differentiated if one of these calls it, untouched otherwise |
 ///
 /// `f32` in place of `f64` makes a system in single precision.
 ///
-/// Each may take a time `t: f64` after its other parameters.
+/// L, R and the force may take a time `t: f64` after their other parameters.
 ///
 /// # Inputs and time
 ///

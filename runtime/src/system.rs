@@ -17,6 +17,7 @@ mod forced;
 mod parameters;
 mod second_order;
 mod structure;
+mod time_scale;
 pub mod verification;
 
 pub use crate::numbers::{
@@ -32,3 +33,4 @@ pub use forced::{ForcedLagrangian, ForcedLagrangianInLanes, Stages};
 pub use parameters::{GradientBy, Parameters};
 pub use second_order::SecondOrder;
 pub use structure::{CyclicCoordinate, Damping, Engine, NewtonStructure, Refusal, Structure};
+pub use time_scale::TimeScale;

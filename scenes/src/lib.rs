@@ -23,7 +23,7 @@ mod ring;
 mod spring_chain;
 
 pub use henon_heiles::{HenonHeiles, henon_heiles};
-pub use kepler::{Kepler, kepler};
+pub use kepler::{EccentricKepler, Kepler, kepler};
 pub use oscillator::{Oscillator, oscillator};
 
 ring!(Ring: expanded, [midpoint, trapezoidal, gauss], lanes = [explicit, gauss]);

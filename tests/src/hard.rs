@@ -19,7 +19,7 @@ pub use dissipative::{
 };
 pub use drive::{Effort, Progress, drive, drive_composed};
 pub use gyroscopic::{UniformField, uniform_field};
-pub use kepler::{Kepler, kepler};
+pub use kepler::{EccentricKepler, Kepler, KeplerOfEnergy, kepler, kepler_of_energy};
 pub use scales::{Scaled, UNITS};
 pub use singular::{
     Arm, Drag, FirstOrder, MathewsLakshmanan, Roots, arm, drag, first_order, mathews_lakshmanan, roots,

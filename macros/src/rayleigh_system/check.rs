@@ -12,7 +12,8 @@ use super::model::{Body, Degrees, Function, RayleighArguments, Source, System, T
 use shape::{Shape, is, same_shape, shape_of};
 pub use signature::qualifiers;
 use signature::{
-    force_signature, lagrangian_signature, rayleigh_signature, result, result_tokens, typed_parameters,
+    force_signature, lagrangian_signature, rayleigh_signature, result, result_tokens, time_scale_signature,
+    typed_parameters,
 };
 
 /// The system as far as its signatures tell, or nothing if not even N is known; every wrong one is reported.
@@ -57,6 +58,12 @@ fn block<'a>(source: &'a Source, options: &Options, report: &mut Report) -> Opti
             arguments
         })
         .unwrap_or_default();
+    let time_scale = named("time_scale");
+    if let Some(time_scale) = time_scale {
+        let before = report.count();
+        time_scale_signature(&time_scale.sig, &shape, report);
+        keep(time_scale, before, report);
+    }
     let timed =
         Timed { lagrangian: of_lagrangian, rayleigh: of_rayleigh.unwrap_or_default(), force: of_force };
     let generated = if input.is_some() { Some("driven") } else { timed.any().then_some("at_time") };
@@ -73,6 +80,7 @@ fn block<'a>(source: &'a Source, options: &Options, report: &mut Report) -> Opti
         bodies,
         rayleigh: arguments,
         has_force: force.is_some(),
+        has_time_scale: time_scale.is_some(),
         input: input.map(|length| Degrees { length, system: source.name().clone() }),
         timed,
         parameters: options.parameters.clone(),
@@ -190,6 +198,7 @@ fn function_system<'a>(
         bodies: vec![Body { function: body, has_right_signature }],
         rayleigh,
         has_force: false,
+        has_time_scale: false,
         input: None,
         timed: Timed::default(),
         parameters: options.parameters.clone(),

@@ -87,6 +87,7 @@ fn functions(system: &System<'_>, refusal: Option<Refusal>) -> EngineFunctions {
         lagrangian: derivatives::of_function(system, Part::Lagrangian, both),
         rayleigh: system.rayleigh.map(|point| derivatives::of_function(system, Part::Rayleigh, point)),
         force: system.has_force.then(|| derivatives::of_force(system)),
+        time_scale: system.has_time_scale.then(|| derivatives::of_time_scale(system)),
         by_input: system.input.as_ref().map(|input| derivatives::by_input(system, input)),
         stages: None,
         stages_in_lanes: None,

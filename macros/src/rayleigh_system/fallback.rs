@@ -51,9 +51,10 @@ pub fn with_stubs(source: &Source, rules: &Rules, lanes: &Lanes, report: Report)
         }
     };
     let view = view_stub(source);
+    let time_scale = time_scale_stub(source, lagrangian);
     let is_field = matches!(source, Source::Function(function) if function.role == Role::Field);
     let stubs = if is_field { field_stubs(source) } else { stubs_of(lagrangian, name, rules, lanes) };
-    quote!(#item #errors #stubs #view)
+    quote!(#item #errors #stubs #time_scale #view)
 }
 
 /// `driven` or `at_time`, as far as the signatures tell, with the system for the view: it has all stubs.
@@ -84,6 +85,22 @@ fn view_stub(source: &Source) -> Option<TokenStream> {
                 pub fn #function(&self, #(#arguments),*) -> Self { ::core::unreachable!() }
             }
         }
+    })
+}
+
+/// That runs can follow σ, where there is one.
+fn time_scale_stub(source: &Source, lagrangian: Option<&Signature>) -> Option<TokenStream> {
+    source.functions().find(|function| function.sig.ident == "time_scale")?;
+    let name = source.name();
+    let (scalar, n) = shape(lagrangian?, name)?;
+    let vector = quote!(::dalembert::nalgebra::SVector<#scalar, #n>);
+    Some(quote! {
+        const _: () = {
+            impl ::dalembert::generated::TimeScale<#n> for #name {
+                fn time_scale(&self, _: &#vector) -> #scalar { ::core::unreachable!() }
+                fn time_scale_gradient(&self, _: &#vector) -> (#scalar, #vector) { ::core::unreachable!() }
+            }
+        };
     })
 }
 

@@ -55,6 +55,8 @@ pub struct Lowered {
     pub lagrangian: Node,
     pub rayleigh: Option<Node>,
     pub force: Option<Vec<Node>>,
+    /// σ, the time scale.
+    pub time_scale: Option<Node>,
     /// The functions of the block that were run.
     pub functions: Vec<Ident>,
     /// Names taken for bindings where a constant of that name would be one: rustc has to agree.
@@ -108,7 +110,7 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
     let t = system.timed.any().then(|| Value::Real(lowering.graph.time()));
     let timed = |part| t.clone().filter(|_| system.timed.of(part));
 
-    let (lagrangian, rayleigh, force) = match system.source {
+    let (lagrangian, rayleigh, force, time_scale) = match system.source {
         Source::Block(_) => {
             let arguments = [q.clone(), v.clone()].into_iter().chain(timed(Part::Lagrangian)).collect();
             let lagrangian = lowering.root("lagrangian", arguments)?;
@@ -121,12 +123,14 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
                 }
             };
             let force = if system.has_force {
-                let arguments = [q, v].into_iter().chain(u).chain(timed(Part::Force)).collect();
+                let arguments = [q.clone(), v].into_iter().chain(u).chain(timed(Part::Force)).collect();
                 Some(lowering.root("force", arguments)?)
             } else {
                 None
             };
-            (lagrangian, rayleigh, force)
+            let time_scale =
+                if system.has_time_scale { Some(lowering.root("time_scale", vec![q])?) } else { None };
+            (lagrangian, rayleigh, force, time_scale)
         }
         Source::Function(function) => {
             let fields = function.fields().map(|(name, _)| Value::Written(Written::leaf(quote!(self.#name))));
@@ -136,9 +140,9 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
             match (system.rayleigh, result) {
                 (Some(_), Value::Tuple(mut pair)) if pair.len() == 2 => {
                     let rayleigh = pair.pop();
-                    (pair.remove(0), rayleigh, None)
+                    (pair.remove(0), rayleigh, None, None)
                 }
-                (_, value) => (value, None, None),
+                (_, value) => (value, None, None, None),
             }
         }
     };
@@ -152,10 +156,22 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
         Some(_) => return refuse(at, "the force is not an array whose entries can be told apart"),
         None => None,
     };
+    let time_scale = time_scale.map(|value| lowering.scalar(at, value)).transpose()?;
     lowering.integers.settled()?;
     let bindings = lowering.bindings.into_values().collect();
     let (functions, heaviest) = (lowering.functions, lowering.heaviest);
-    Ok(Lowered { graph: lowering.graph, n, m, lagrangian, rayleigh, force, functions, bindings, heaviest })
+    Ok(Lowered {
+        graph: lowering.graph,
+        n,
+        m,
+        lagrangian,
+        rayleigh,
+        force,
+        time_scale,
+        functions,
+        bindings,
+        heaviest,
+    })
 }
 
 /// Whether the function has returned.

@@ -105,10 +105,12 @@ pub struct System<'a> {
     pub rules: Rules,
     /// Who is asked for the derivatives.
     pub engine: Engine,
-    /// L, R and f.
+    /// L, R, f and σ.
     pub bodies: Vec<Body>,
     pub rayleigh: Option<RayleighArguments>,
     pub has_force: bool,
+    /// Whether runs can follow a time scale σ(q).
+    pub has_time_scale: bool,
     /// The number of entries of the force's input u, if it takes one.
     pub input: Option<Degrees>,
     /// Which functions take the time t.

@@ -27,6 +27,8 @@ pub struct EngineFunctions {
     pub rayleigh: Option<TokenStream>,
     /// Derivatives of f.
     pub force: Option<TokenStream>,
+    /// σ and its gradient.
+    pub time_scale: Option<TokenStream>,
     /// The derivative of f by the input.
     pub by_input: Option<TokenStream>,
     /// The equations at the stages of Gauss rules, where they are not those that the runtime makes.
@@ -58,6 +60,7 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
         .zip(functions.rayleigh)
         .map(|(arguments, derivatives)| continuous::rayleigh(system, arguments, derivatives));
     let force = functions.force.map(|derivatives| continuous::force(system, derivatives));
+    let time_scale = functions.time_scale.map(|function| continuous::time_scale(system, function));
     let acting = continuous::acting_force(system);
     let forced = system
         .rules
@@ -87,6 +90,7 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
             #lagrangian
             #rayleigh
             #force
+            #time_scale
             #acting
             #forced
             #driven

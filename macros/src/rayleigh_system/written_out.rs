@@ -73,7 +73,8 @@ impl WrittenOut {
 
 /// The derivatives of what was lowered, unless they are too long to be written out.
 pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Result<WrittenOut, Refusal> {
-    let Lowered { graph, n, m, lagrangian, rayleigh, force, functions: run, bindings, heaviest } = lowered;
+    let Lowered { graph, n, m, lagrangian, rayleigh, force, time_scale, functions: run, bindings, heaviest } =
+        lowered;
     let written = graph.len();
     let mut code = Code {
         system,
@@ -96,6 +97,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
     code.bounded(heaviest)?;
     code.home = system.home();
     let of_force = force.map(|components| code.force(components));
+    let time_scale = time_scale.map(|root| code.time_scale(root));
     let by_input =
         force.zip(system.input.as_ref()).map(|(components, input)| code.by_input(components, input));
     code.bounded(heaviest)?;
@@ -122,6 +124,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
         lagrangian: of_lagrangian,
         rayleigh: of_rayleigh,
         force: of_force,
+        time_scale,
         by_input,
         stages,
         stages_in_lanes,

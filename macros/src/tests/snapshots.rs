@@ -48,6 +48,29 @@ fn ring() {
 }
 
 #[test]
+fn time_scale() {
+    let expansion = rayleigh_system(
+        Runtime::STD,
+        quote!(rule = gauss),
+        quote! {
+            impl Kepler {
+                fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+                    0.5 * (v[0] * v[0] + v[1] * v[1]) + 1.0 / Self::distance(q)
+                }
+                fn time_scale(&self, q: [f64; 2]) -> f64 {
+                    let r = Self::distance(q);
+                    r * r.sqrt()
+                }
+                fn distance(q: [f64; 2]) -> f64 {
+                    (q[0] * q[0] + q[1] * q[1]).sqrt()
+                }
+            }
+        },
+    );
+    assert_snapshot("time_scale.rs", &formatted(expansion));
+}
+
+#[test]
 fn double_pendulum() {
     let item = quote! {
         impl DoublePendulum {

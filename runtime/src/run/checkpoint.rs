@@ -76,31 +76,6 @@ impl Course {
         if is_none || resolves { Self::Open } else { Self::Watched }
     }
 
-    /// What stands in the way of the next step of the run at `at`: its end or, once, an error.
-    #[inline]
-    pub(crate) fn stop<L: Lagrangian<N>, const N: usize>(
-        &mut self,
-        system: &L,
-        at: &Checkpoint<L::Scalar, N>,
-    ) -> Option<Option<StepError>> {
-        if *self == Self::Open { None } else { self.stop_unless_open(system, at) }
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn stop_unless_open<L: Lagrangian<N>, const N: usize>(
-        &mut self,
-        system: &L,
-        at: &Checkpoint<L::Scalar, N>,
-    ) -> Option<Option<StepError>> {
-        if *self == Self::Ended {
-            return Some(None);
-        }
-        let error = self.require(system, at).err()?;
-        *self = Self::Ended;
-        Some(Some(error))
-    }
-
     /// Fails before the first step of a system that is not the one written, and where the clock does not tell
     /// the next step from none.
     #[cold]

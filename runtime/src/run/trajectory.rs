@@ -6,6 +6,7 @@ use nalgebra::SVector;
 
 use crate::numbers::Scalar;
 use crate::rules::steps_until;
+use crate::run::scaled_time::Pace;
 use crate::run::{Checkpoint, Course};
 use crate::step::{Discretised, Flow, Memory, State, Step, StepError};
 
@@ -41,9 +42,11 @@ where
 {
     pub(super) system: &'a L,
     method: PhantomData<M>,
-    at: Checkpoint<L::Scalar, N>,
+    pub(super) at: Checkpoint<L::Scalar, N>,
     pub(super) memory: L::RunMemory,
     course: Course,
+    /// How steps follow a time scale, if they do.
+    pub(super) pace: Option<Pace<L, N>>,
 }
 
 impl<'a, L, M, const N: usize> Trajectory<'a, L, M, N>
@@ -55,7 +58,7 @@ where
         &self.at.state
     }
 
-    /// The step size h.
+    /// The step size h, of the last step where steps follow the motion.
     pub fn step_size(&self) -> L::Scalar {
         self.at.step_size
     }
@@ -65,10 +68,14 @@ where
         self.at.time()
     }
 
-    /// Goes on with another step size from the present state, also after an error.
+    /// Goes on with another step size from the present state, also after an error. Where steps follow the motion
+    /// it is Δτ.
     pub fn change_step_size(&mut self, h: L::Scalar) {
         self.at = Checkpoint { step_size: h, origin: self.time(), steps: 0, state: self.at.state };
         self.course = Course::Starting;
+        if let Some(pace) = &mut self.pace {
+            pace.begin(h);
+        }
     }
 
     /// Goes on from another state at the present time, after an impact for instance: what the method remembers
@@ -98,6 +105,9 @@ where
         self.at = Checkpoint { state, step_size: self.at.step_size, origin: time, steps: 0 };
         self.memory = L::RunMemory::default();
         self.course = Course::Starting;
+        if let Some(pace) = &mut self.pace {
+            pace.begin_again();
+        }
     }
 
     /// All that is needed to go on from here, in this process or another ([`Trajectory::resume`]).
@@ -107,6 +117,9 @@ where
     /// at this one place, less than the last digit.
     pub fn checkpoint(&mut self) -> Checkpoint<L::Scalar, N> {
         self.memory = L::RunMemory::default();
+        if let Some(pace) = &mut self.pace {
+            pace.forget();
+        }
         self.at
     }
 
@@ -144,6 +157,7 @@ where
             at: checkpoint,
             memory: L::RunMemory::default(),
             course: Course::Starting,
+            pace: None,
         }
     }
 
@@ -173,7 +187,9 @@ where
     /// # Errors
     /// The [`StepError`] of the whole step.
     pub fn next_in_parts(&mut self, halvings: u32) -> Result<Parted<L::Scalar, N>, StepError> {
-        self.course.require(self.system, &self.at)?;
+        if self.course != Course::Open {
+            self.prepare()?;
+        }
         let start = self.time();
         match in_parts(&mut self.memory, self.system, start, &self.at, halvings) {
             Ok(parted) => {
@@ -181,9 +197,47 @@ where
                 Ok(parted)
             }
             Err(error) => {
+                self.take_back();
                 self.course = Course::Ended;
                 Err(error)
             }
+        }
+    }
+
+    /// What stands in the way of the next step: the end of the run or, once, an error.
+    #[cold]
+    #[inline(never)]
+    fn stop(&mut self) -> Option<Option<StepError>> {
+        if self.course == Course::Ended {
+            return Some(None);
+        }
+        let error = self.prepare().err()?;
+        self.course = Course::Ended;
+        Some(Some(error))
+    }
+
+    /// Makes sure of the next step, and of its size where it follows the motion.
+    #[cold]
+    #[inline(never)]
+    fn prepare(&mut self) -> Result<(), StepError> {
+        if let Some(pace) = &mut self.pace {
+            pace.next(self.system, &self.memory, &mut self.at)?;
+        }
+        if let Err(error) = self.course.require(self.system, &self.at) {
+            self.take_back();
+            return Err(error);
+        }
+        if self.pace.is_some() && self.course == Course::Open {
+            self.course = Course::Watched;
+        }
+        Ok(())
+    }
+
+    /// After a step that was prepared and not taken.
+    #[cold]
+    fn take_back(&mut self) {
+        if let Some(pace) = &mut self.pace {
+            pace.undo(&mut self.at);
         }
     }
 
@@ -203,7 +257,9 @@ where
 
     #[inline]
     fn next(&mut self) -> Option<Self::Item> {
-        if let Some(stop) = self.course.stop(self.system, &self.at) {
+        if self.course != Course::Open
+            && let Some(stop) = self.stop()
+        {
             return stop.map(Err);
         }
         let step = self.memory.advance_later(self.system, self.time(), &self.at.state, self.at.step_size);
@@ -211,7 +267,10 @@ where
             Ok(step) => {
                 self.at.follow(&step.state);
             }
-            Err(_) => self.course = Course::Ended,
+            Err(_) => {
+                self.take_back();
+                self.course = Course::Ended;
+            }
         }
         Some(step)
     }

@@ -42,6 +42,14 @@ pub enum StepError {
         /// The step size.
         h: f64,
     },
+    /// A run whose steps follow a time scale has no next step size: σ is not positive there, or grows by more in
+    /// a step than a step size can follow.
+    TimeScale {
+        /// σ at the state.
+        scale: f64,
+        /// The step size before.
+        h: f64,
+    },
     /// A value is NaN or infinite.
     NonFinite {
         /// Which value.
@@ -157,6 +165,15 @@ impl fmt::Display for StepError {
                 f,
                 "a step of {h} does not change the time {time} of the run; start a new run from its state, whose time begins at 0, \
                  with the system as it is at that time"
+            ),
+            Self::TimeScale { scale, h } if *scale > 0.0 && scale.is_finite() => write!(
+                f,
+                "the time scale grows faster than steps can follow: after a step of {h} at σ = {scale} there is no next step \
+                 size; give a smaller one at the start of the run"
+            ),
+            Self::TimeScale { scale, .. } => write!(
+                f,
+                "the time scale σ is {scale} at the state; it has to be positive and finite wherever the run comes"
             ),
             Self::NonFinite { quantity: Quantity::Derivatives, index } => write!(
                 f,

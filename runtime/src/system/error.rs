@@ -15,6 +15,8 @@ pub enum Function {
         /// Its coordinate.
         index: usize,
     },
+    /// σ, the time scale.
+    TimeScale,
 }
 
 /// The derivatives generated belong to another function than the one written: their values differ
@@ -35,6 +37,7 @@ impl fmt::Display for Function {
             Self::Lagrangian => f.write_str("L"),
             Self::Rayleigh => f.write_str("R"),
             Self::Force { index } => write!(f, "component {index} of f"),
+            Self::TimeScale => f.write_str("σ"),
         }
     }
 }

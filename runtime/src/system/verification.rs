@@ -20,7 +20,7 @@ use core::hint::black_box;
 use nalgebra::SVector;
 
 use crate::numbers::Scalar;
-use crate::system::{Engine, Force, Function, GeneratedDiffers, Lagrangian, Rayleigh};
+use crate::system::{Engine, Force, Function, GeneratedDiffers, Lagrangian, Rayleigh, TimeScale};
 
 /// Whether the same operations give the same bits.
 const IS_IEEE: bool = cfg!(not(all(target_arch = "x86", not(target_feature = "sse2"))));
@@ -75,6 +75,20 @@ pub fn force<L: Force<N>, const N: usize>(
         compare(Function::Force { index }, *generated, *written)?;
     }
     Ok(())
+}
+
+/// σ as generated against σ as written.
+///
+/// # Errors
+/// [`GeneratedDiffers`].
+#[cold]
+#[inline(never)]
+pub fn time_scale<L: TimeScale<N>, const N: usize>(
+    system: &L,
+    q: &SVector<L::Scalar, N>,
+) -> Result<(), GeneratedDiffers> {
+    let (system, q) = black_box((system, q));
+    compare(Function::TimeScale, system.time_scale_gradient(q).0, system.time_scale(q))
 }
 
 /// Fails unless the two values are equal, or both NaN.

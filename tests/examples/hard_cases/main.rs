@@ -14,6 +14,7 @@ mod frictional;
 mod held;
 mod long;
 mod page;
+mod scaled_time;
 mod text;
 
 use anyhow::{Result, ensure};
@@ -22,9 +23,10 @@ use page::Case;
 /// Name on the command line, and what makes the case.
 type Entry = (&'static str, fn() -> Result<Case>);
 
-const CASES: [Entry; 13] = [
+const CASES: [Entry; 14] = [
     ("kepler", conservative::kepler),
     ("kepler-drag", frictional::kepler_drag),
+    ("kepler-scaled", scaled_time::kepler),
     ("double-pendulum", conservative::double_pendulum),
     ("spring-pendulum", conservative::spring_pendulum),
     ("henon-heiles", conservative::henon_heiles),

@@ -25,3 +25,32 @@ impl Kepler {
         state.q.perp(&state.p)
     }
 }
+
+/// Kepler's problem in τ, dt = |q|^{3/2} dτ, on orbits of energy `e`: σ (L(q, w/σ) + E), w = dq/dτ, the same p.
+#[rayleigh_system(rule = gauss)]
+pub fn kepler_of_energy(q: [f64; 2], w: [f64; 2], e: f64) -> f64 {
+    let r = (q[0] * q[0] + q[1] * q[1]).sqrt();
+    let scale = r * r.sqrt();
+    0.5 * (w[0] * w[0] + w[1] * w[1]) / scale + scale * (1.0 / r + e)
+}
+
+/// The same with a time scale: of steps equal in τ, dt = |q|^{3/2} dτ, an orbit needs some 2√2 arsinh(π/δ)/Δτ, δ² =
+/// 2(1 − e): more than a circle by a logarithm.
+pub struct EccentricKepler {
+    /// Drag.
+    pub k: f64,
+}
+
+#[rayleigh_system(rule = [trapezoidal, gauss])]
+impl EccentricKepler {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        0.5 * (v[0] * v[0] + v[1] * v[1]) + 1.0 / (q[0] * q[0] + q[1] * q[1]).sqrt()
+    }
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        0.5 * self.k * (v[0] * v[0] + v[1] * v[1])
+    }
+    fn time_scale(&self, q: [f64; 2]) -> f64 {
+        let r = (q[0] * q[0] + q[1] * q[1]).sqrt();
+        r * r.sqrt()
+    }
+}

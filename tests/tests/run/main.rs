@@ -11,6 +11,7 @@ mod lanes;
 mod one_run;
 mod random_events;
 mod saved_runs;
+mod scaled_time;
 mod slack;
 mod splitting;
 mod splitting_conditions;

@@ -1,4 +1,4 @@
-//! The signatures of `lagrangian`, `rayleigh` and `force`.
+//! The signatures of `lagrangian`, `rayleigh`, `force` and `time_scale`.
 
 use proc_macro2::TokenStream;
 use quote::ToTokens;
@@ -45,6 +45,7 @@ const LAGRANGIAN: &str = "`(&self, q: [f64; N], v: [f64; N])`, and `t: f64` afte
 const RAYLEIGH: &str = "`(&self, v: [f64; N])` or `(&self, q: [f64; N], v: [f64; N])`, and `t: f64` after them if it depends on time";
 const FORCE: &str =
     "`(&self, q: [f64; N], v: [f64; N])`, and after them an input `u: [f64; M]`, a time `t: f64` or both";
+const TIME_SCALE: &str = "`(&self, q: [f64; N])` alone: steps follow the configuration";
 
 /// Whether the parameter after the others is a time; if not, says so.
 fn time(ty: &Type, shape: &Shape, report: &mut Report) -> bool {
@@ -158,6 +159,18 @@ pub fn force_signature(
         }
     }
     arguments
+}
+
+/// Says what is wrong with the signature of σ, if anything.
+pub fn time_scale_signature(signature: &Signature, shape: &Shape, report: &mut Report) {
+    const FUNCTION: &str = "time_scale";
+    qualifiers(signature, report);
+    receiver(signature, FUNCTION, report);
+    match typed_parameters(signature, report)[..] {
+        [(_, q)] => same_shape(q, "q", shape, report),
+        _ => report.at(&signature.ident, Mistake::Parameters { function: FUNCTION, expected: TIME_SCALE }),
+    }
+    scalar_result(signature, FUNCTION, shape, report);
 }
 
 /// What no differentiated function can be.

@@ -76,6 +76,18 @@ pub fn of_force(system: &System<'_>) -> TokenStream {
     }
 }
 
+/// σ and ∇σ.
+pub fn of_time_scale(system: &System<'_>) -> TokenStream {
+    let (scalar, owner) = (&system.scalar, owner(system.home()));
+    let closure = quote!(|q, _| #owner.time_scale_over(q));
+    quote! {
+        fn time_scale_gradient(&self, q: &Vector) -> (#scalar, Vector) {
+            let Gradient { value, d1, .. } = dual::gradient(q, q, #closure, #closure);
+            (value, d1)
+        }
+    }
+}
+
 /// The derivative of f by the input.
 pub fn by_input(system: &System<'_>, input: &Degrees) -> TokenStream {
     let scalar = &system.scalar;

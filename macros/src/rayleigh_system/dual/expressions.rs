@@ -12,7 +12,7 @@ use super::super::write::item::{are_bindings, quiet};
 
 /// Whether the user's block has functions named as those over dual numbers.
 pub fn names_are_taken(system: &System<'_>) -> bool {
-    let generated = ["lagrangian_over", "rayleigh_over", "force_over"];
+    let generated = ["lagrangian_over", "rayleigh_over", "force_over", "time_scale_over"];
     system.source.functions().any(|function| generated.iter().any(|name| function.sig.ident == name))
 }
 
@@ -25,6 +25,7 @@ pub fn twins(system: &System<'_>, lowered: &Lowered) -> TokenStream {
     let rayleigh =
         system.rayleigh.zip(lowered.rayleigh).map(|(point, root)| of(Part::Rayleigh, point, &[root]));
     let force = lowered.force.as_ref().map(|components| of(Part::Force, both, components));
+    let time_scale = lowered.time_scale.map(|root| time_scale(system, lowered, root));
     let bindings = are_bindings(&lowered.bindings);
     let quiet_bindings =
         bindings.map(|bindings| quote!(#[allow(unused_variables, nonstandard_style)] #bindings));
@@ -37,8 +38,25 @@ pub fn twins(system: &System<'_>, lowered: &Lowered) -> TokenStream {
             #lagrangian
             #rayleigh
             #force
+            #time_scale
         }
         #quiet_bindings
+    }
+}
+
+/// σ over `Real<D>`.
+fn time_scale(system: &System<'_>, lowered: &Lowered, root: Node) -> TokenStream {
+    let scalar = &system.scalar;
+    let n = system.degrees.times(1);
+    let line = over_duals(&lowered.graph, scalar, &[root], &["q", "v", "u", "t", "D"]);
+    let (statements, value) = (&line.statements, &line.outputs);
+    quote! {
+        /// `time_scale` over plain and dual numbers.
+        #[inline(always)]
+        fn time_scale_over<D: Dual<#scalar>>(&self, q: [Real<D>; #n]) -> Real<D> {
+            #statements
+            #(#value)*
+        }
     }
 }
 

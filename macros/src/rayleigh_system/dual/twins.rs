@@ -85,9 +85,9 @@ fn lifted_arguments<'p>(parameters: impl Iterator<Item = &'p mut FnArg>) -> Vec<
         .collect()
 }
 
-/// Whether the function is L, R or f, and not a helper that they call.
+/// Whether the function is L, R, f or σ, and not a helper that they call.
 fn is_root(function: &ImplItemFn) -> bool {
-    ["lagrangian", "rayleigh", "force"].iter().any(|root| function.sig.ident == root)
+    ["lagrangian", "rayleigh", "force", "time_scale"].iter().any(|root| function.sig.ident == root)
 }
 
 /// The function over `Real<D>`, with the lint levels that the user set for its body.

@@ -1,4 +1,4 @@
-//! L, R and f as functions of time: `Lagrangian`, `Rayleigh`, `Force` and `ForcedLagrangian`.
+//! L, R, f and σ as functions: `Lagrangian`, `Rayleigh`, `Force`, `TimeScale` and `ForcedLagrangian`.
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -74,6 +74,8 @@ pub fn lagrangian(system: &System<'_>, structure: &Structure, derivatives: Token
 fn verification(system: &System<'_>, home: Home) -> TokenStream {
     let parts = system.parts().filter(|&part| home == Home::View || system.home_of(part) == home);
     let functions: Vec<_> = parts.map(|part| format_ident!("{}", part.name())).collect();
+    let time_scale = (system.has_time_scale && home == system.home())
+        .then(|| quote!(::dalembert::generated::verification::time_scale(self, q)?;));
     let Some((last, others)) = functions.split_last() else { return TokenStream::new() };
     // verification::lagrangian(self, q, v)?; verification::rayleigh(self, q, v)
     quote! {
@@ -82,6 +84,7 @@ fn verification(system: &System<'_>, home: Home) -> TokenStream {
             q: &Vector,
             v: &Vector,
         ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            #time_scale
             #(::dalembert::generated::verification::#others(self, q, v)?;)*
             ::dalembert::generated::verification::#last(self, q, v)
         }
@@ -133,6 +136,23 @@ pub fn force(system: &System<'_>, derivatives: TokenStream) -> TokenStream {
             }
 
             #derivatives
+        }
+    }
+}
+
+/// `impl TimeScale<2> for Ring`, with the gradient of either engine.
+pub fn time_scale(system: &System<'_>, gradient: TokenStream) -> TokenStream {
+    let scalar = &system.scalar;
+    let n = system.degrees.times(1);
+    let (subject, owner) = (subject(system, system.home()), owner(system.home()));
+    quote! {
+        #[automatically_derived]
+        impl ::dalembert::generated::TimeScale<#n> for #subject {
+            fn time_scale(&self, q: &Vector) -> #scalar {
+                #owner.time_scale((*q).into())
+            }
+
+            #gradient
         }
     }
 }

@@ -84,6 +84,22 @@ impl Code<'_> {
         }
     }
 
+    /// σ and ∇σ.
+    pub(super) fn time_scale(&mut self, root: Node) -> TokenStream {
+        let scalar = &self.system.scalar;
+        let gradient = self.derivation.gradient(&mut self.graph, root);
+        let outputs = [vec![root], self.covector(&gradient, false)];
+        let line = self.code(&outputs.concat());
+        let [value, gradient] = self.parts(&line.outputs, [Shape::Scalar, Shape::Vector]);
+        let (q, statements) = (parameter("q", line.uses_coordinates), &line.statements);
+        quote! {
+            fn time_scale_gradient(&self, #q: &Vector) -> (#scalar, Vector) {
+                #statements
+                (#value, #gradient)
+            }
+        }
+    }
+
     /// `force_by_input`
     pub(super) fn by_input(&mut self, components: &[Node], input: &Degrees) -> TokenStream {
         let scalar = &self.system.scalar;

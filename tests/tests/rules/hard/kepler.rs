@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use dalembert::{Discrete, Discretise, Midpoint, State, StepError, Trapezoidal};
+use dalembert::{Discrete, Discretise, Gauss, Midpoint, State, StepError, Trapezoidal};
 use dalembert_examples::baseline::{self, Method};
-use dalembert_tests::hard::{Kepler, drive, kepler};
+use dalembert_tests::hard::{EccentricKepler, Kepler, drive, kepler};
 
 const FREE: Kepler = Kepler { k: 0.0 };
 
@@ -122,6 +122,52 @@ fn drag_takes_angular_momentum_as_it_should() {
         assert!(fine < 1e-4, "{fine:e}");
         assert!(((coarse / fine).log2() - 2.0).abs() < 0.1, "{coarse:e} {fine:e}");
     }
+}
+
+/// The largest error of E, and of J relatively, on so many orbits by steps that follow the motion, and their
+/// number.
+fn errors_in_scaled_time<const S: usize>(e: f64, step: f64, orbits: f64) -> (f64, f64, u32) {
+    let (start, system) = (Kepler::aphelion(e), EccentricKepler { k: 0.0 });
+    let j = Kepler::angular_momentum(&start);
+    let mut run = system.by(Gauss::<S>, step).run(start).in_scaled_time();
+    let (mut energy, mut momentum, mut steps) = (0.0_f64, 0.0_f64, 0);
+    while run.time() < orbits * TAU {
+        let state = run.next().unwrap().unwrap().state;
+        energy = energy.max((Kepler::energy_of(&state) + 0.5).abs());
+        momentum = momentum.max((Kepler::angular_momentum(&state) / j - 1.0).abs());
+        steps += 1;
+    }
+    (energy, momentum, steps)
+}
+
+/// At e = 0.99 and 0.999 J is kept to rounding at any Δτ, and E to what the rule leaves of a passage, however
+/// many there are.
+#[test]
+fn orbits_that_almost_collide_keep_momentum_and_energy() {
+    for (e, bound, rounding) in [(0.99, 5e-12, 4e-15), (0.999, 1e-10, 2e-14)] {
+        let (few, of_few, _) = errors_in_scaled_time::<8>(e, 0.3, 3.0);
+        let (many, of_many, steps) = errors_in_scaled_time::<8>(e, 0.3, 30.0);
+        assert!(many < bound && many < 1.3 * few + 1e-12, "{e}: {few:e} {many:e}");
+        assert!(of_few < rounding && of_many < 2.0 * rounding, "{e}: {of_few:e} {of_many:e}");
+        let (_, coarse, _) = errors_in_scaled_time::<3>(e, 0.6, 3.0);
+        assert!(coarse < 2.0 * rounding, "{e}: {coarse:e}");
+        // The control: as many steps of one size.
+        let start = Kepler::aphelion(e);
+        let h = 30.0 * TAU / f64::from(steps);
+        let mut lost = 0.0_f64;
+        for step in FREE.by(Gauss::<8>, h).run(start).take(steps as usize / 10) {
+            lost = lost.max(step.map_or(f64::INFINITY, |step| (Kepler::energy_of(&step.state) + 0.5).abs()));
+        }
+        assert!(lost > 1e-2, "{e}: {lost:e}");
+    }
+}
+
+/// Order 2S at Δτ → 0, here of the energy: the steps as a whole are of the method's order.
+#[test]
+fn the_order_is_that_of_the_method() {
+    let worst = |step: f64| errors_in_scaled_time::<2>(0.99, step, 1.0).0;
+    let order = (worst(0.05) / worst(0.025)).log2();
+    assert!((order - 4.0).abs() < 0.1, "{order}");
 }
 
 /// The free function and the energy of the state agree: what the other tests measure with.
