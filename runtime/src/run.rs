@@ -11,6 +11,7 @@ mod driven;
 pub mod events;
 mod lanes;
 mod memory;
+mod pace;
 mod scaled_time;
 mod splitting;
 pub mod tolerance;

@@ -6,7 +6,7 @@ use nalgebra::SVector;
 
 use crate::numbers::Scalar;
 use crate::rules::steps_until;
-use crate::run::scaled_time::Pace;
+use crate::run::pace::Pace;
 use crate::run::{Checkpoint, Course};
 use crate::step::{Discretised, Flow, Memory, State, Step, StepError};
 
