@@ -10,7 +10,7 @@ use std::hint::black_box;
 
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::run::{InLanes, LaneRuns};
-use dalembert::{Composition, Discretise, Gauss, Splitting, State, Trapezoidal, rayleigh_system};
+use dalembert::{Composition, Discretise, Gauss, Midpoint, Splitting, State, Trapezoidal, rayleigh_system};
 use dalembert_benches::interleaved::medians_over;
 use multiversion::multiversion;
 
@@ -19,7 +19,7 @@ struct Ring {
     k: f64,
 }
 
-#[rayleigh_system(rule = [trapezoidal, gauss], lanes = [explicit, gauss])]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss], lanes = [explicit, midpoint, gauss])]
 impl Ring {
     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
         let s = q[0] * q[0] + q[1] * q[1];
@@ -55,7 +55,7 @@ struct DoublePendulum {
     c: [f64; 2],
 }
 
-#[rayleigh_system(rule = gauss, lanes = gauss)]
+#[rayleigh_system(rule = [midpoint, gauss], lanes = [midpoint, gauss])]
 impl DoublePendulum {
     fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
         let total = self.m[0] + self.m[1];
@@ -76,7 +76,7 @@ struct Chain {
     k: f64,
 }
 
-#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+#[rayleigh_system(rule = [midpoint, trapezoidal], lanes = [explicit, midpoint])]
 impl Chain {
     fn lagrangian(&self, q: [f64; 8], v: [f64; 8]) -> f64 {
         let (mut l, mut before) = (0.0, 0.0);
@@ -204,6 +204,9 @@ fn main() {
     row("ring, Gauss 8", Gauss::<8>, &Ring { k: 1e-3 }, ring, [100.0, 220.0]);
     let pendulums = DoublePendulum { m: [1.0, 0.7], l: [1.0, 0.8], g: 9.81, c: [0.05, 0.03] };
     let start = State { q: vector![1.2, 0.5], p: vector![0.0, 0.0] };
+    row("ring, midpoint", Midpoint, &Ring { k: 1e-3 }, ring, [100.0, 2000.0]);
+    row("double pendulum, midpoint", Midpoint, &pendulums, start, [20.0, 2000.0]);
+    row("chain, midpoint", Midpoint, &Chain { k: 1e-3 }, chain, [100.0, 2000.0]);
     row("double pendulum, Gauss 4", Gauss::<4>, &pendulums, start, [20.0, 200.0]);
     row("double pendulum, Gauss 6", Gauss::<6>, &pendulums, start, [20.0, 120.0]);
     row("double pendulum, Gauss 8", Gauss::<8>, &pendulums, start, [20.0, 110.0]);

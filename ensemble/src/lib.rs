@@ -46,7 +46,7 @@
 //! **A member that fails** stands in the result as a [`Failure`], with its error and its last good state; the
 //! others go on.
 //!
-//! **Lanes.** A system whose attribute says `lanes = explicit`, or `lanes = gauss` for Gauss rules, is stepped
+//! **Lanes.** A system whose attribute says `lanes = explicit`, `lanes = midpoint`, or `lanes = gauss` for Gauss rules, is stepped
 //! many members at a time by [`in_lanes`](Study::in_lanes), in the widest instructions of the machine, chosen when the program runs.
 //! Products and sums are rounded as they are alone: that changes no bit either. The lane of a member that is
 //! done is given to the next.

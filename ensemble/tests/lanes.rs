@@ -1,6 +1,6 @@
 //! In lanes, members are what they are one by one: states, records, failures, and those that have arrived.
 
-use dalembert::{Gauss, Splitting, State, StepError, rayleigh_system};
+use dalembert::{Gauss, Midpoint, Splitting, State, StepError, rayleigh_system};
 use dalembert_ensemble::{Ensemble, Outcome, Record};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -106,11 +106,27 @@ fn the_number_of_threads_changes_no_bit_of_members_in_lanes() {
 }
 
 /// Two links with friction, each member with lengths of its own: the mass depends on q.
-#[rayleigh_system(rule = gauss, lanes = gauss)]
+#[rayleigh_system(rule = [midpoint, gauss], lanes = [midpoint, gauss])]
 fn links(q: [f64; 2], v: [f64; 2], l: [f64; 2], r: f64) -> (f64, f64) {
     let coupling = l[0] * l[1] * v[0] * v[1] * (q[0] - q[1]).cos();
     let kinetic = (l[0] * v[0]).powi(2) + 0.5 * (l[1] * v[1]).powi(2) + coupling;
     (kinetic + 9.81 * (2.0 * l[0] * q[0].cos() + l[1] * q[1].cos()), 0.5 * r * (v[1] - v[0]).powi(2))
+}
+
+/// By the midpoint rule: the ends of all members, by their bits, and their failures.
+#[test]
+fn members_by_the_midpoint_rule_are_their_own_runs() {
+    let member = |number: u64| {
+        let links = Links { l: [1.0, 0.5 + 1e-3 * number as f64], r: 0.1 };
+        let speed = if number % 37 == 5 { f64::NAN } else { 0.01 * number as f64 };
+        Ok((links, State { q: [1.0, 2.0].into(), p: [speed, 0.0].into() }))
+    };
+    let study = || Ensemble::new(member).by(Midpoint, 0.02).steps(100);
+    let text = |ends: Vec<_>| ends.iter().map(|end| format!("{end:?}")).collect::<Vec<_>>();
+    let (in_lanes, alone) = (study().in_lanes().ends(0..90).unwrap(), study().ends(0..90).unwrap());
+    let (in_lanes, alone) = (text(in_lanes), text(alone));
+    assert_eq!(in_lanes, alone);
+    assert_eq!(in_lanes.iter().filter(|end| end.starts_with("Err")).count(), 3);
 }
 
 /// Gauss rules, solved to rounding and for an error: the ends of all members, by their bits, and their failures.

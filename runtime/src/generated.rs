@@ -23,8 +23,8 @@ pub use crate::run::{
 };
 #[doc(no_inline)]
 pub use crate::step::{
-    Discrete, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteParameters, DiscreteRayleigh,
-    DiscreteSecondOrder, Momenta, MomentaBy, StepKernel,
+    Discrete, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteInLanes, DiscreteParameters,
+    DiscreteRayleigh, DiscreteSecondOrder, Momenta, MomentaBy, StepKernel,
 };
 #[doc(no_inline)]
 pub use crate::system::{

@@ -18,6 +18,6 @@ pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Hes
 pub use elementary::Elementary;
 pub use lanes::{LaneVector, Lanes, Mask};
 pub(crate) use linear::determinant_sign;
-pub use linear::{Banded, Factored, MatricesOfMembers, NewtonMatrix, Singular};
+pub use linear::{Banded, EntriesOfMembers, Factored, MatricesOfMembers, NewtonMatrix, Singular};
 pub use members::{Blank, MemberVector, Members};
 pub use scalar::Scalar;

@@ -137,7 +137,7 @@ fn order(name: &Ident, values: &[Ident], second: &mut bool, report: &mut Report)
     }
 }
 
-/// `lanes = [explicit, gauss]`
+/// `lanes = [explicit, midpoint, gauss]`
 fn lanes(name: &Ident, words: Vec<Ident>, lanes: &mut Lanes, report: &mut Report) {
     if words.is_empty() {
         report.at(name, Mistake::UnknownLanes);
@@ -145,6 +145,7 @@ fn lanes(name: &Ident, words: Vec<Ident>, lanes: &mut Lanes, report: &mut Report
     for word in words {
         let option = match word.to_string().as_str() {
             "explicit" => &mut lanes.explicit,
+            "midpoint" => &mut lanes.midpoint,
             GAUSS => &mut lanes.gauss,
             _ => {
                 report.at(&word, Mistake::UnknownLanes);

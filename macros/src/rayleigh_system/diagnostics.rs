@@ -170,7 +170,7 @@ impl Mistake {
 impl Display for Mistake {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::UnknownOption => f.write_str("unknown option; write `rule = midpoint`, `trapezoidal` or `gauss`, a list `rule = [midpoint, trapezoidal]`, `derivatives = auto`, `expanded`, `num_dual`, `parameters = [m, k]`, `step_derivatives = second`, `lanes = explicit`, `gauss`, or `crate = path`"),
+            Self::UnknownOption => f.write_str("unknown option; write `rule = midpoint`, `trapezoidal` or `gauss`, a list `rule = [midpoint, trapezoidal]`, `derivatives = auto`, `expanded`, `num_dual`, `parameters = [m, k]`, `step_derivatives = second`, `lanes = explicit`, `midpoint`, `gauss`, or `crate = path`"),
             Self::UnknownRule(rule) => write!(f, "unknown rule `{rule}`; the rules are `midpoint`, `trapezoidal`, `gauss`, `fitted`, `fitted_trapezoidal` and `one_sided`; one of your own is not listed: `system.by(Quadrature(rule), h)` steps by it"),
             Self::RepeatedRule(rule) => write!(f, "rule `{rule}` is listed twice; remove one"),
             Self::JointRule { rule, lacks } => write!(f, "`rule = {rule}` {lacks}; use `midpoint`, `trapezoidal` or `gauss`"),
@@ -178,7 +178,7 @@ impl Display for Mistake {
             Self::UnknownEngine(engine) if engine.is_empty() => f.write_str("write one of `derivatives = auto`, `expanded`, `num_dual`"),
             Self::UnknownEngine(engine) => write!(f, "unknown engine `{engine}`; write `derivatives = auto`, `expanded` or `num_dual`"),
             Self::UnknownOrder => f.write_str("write `step_derivatives = first` or `step_derivatives = second`"),
-            Self::UnknownLanes => f.write_str("write `lanes = explicit`, `lanes = gauss` or `lanes = [explicit, gauss]`, or leave the option out where members are not stepped in lanes"),
+            Self::UnknownLanes => f.write_str("write `lanes = explicit`, `lanes = midpoint`, `lanes = gauss` or a list, `lanes = [explicit, gauss]`, or leave the option out where members are not stepped in lanes"),
             Self::RepeatedLanes(word) => write!(f, "`{word}` is listed twice; remove one"),
             Self::Lanes { word, lacks } => write!(f, "`lanes = {word}` {lacks}; or leave the option out"),
             Self::NoParameters => f.write_str("no parameter is listed; write fields of the system, such as `parameters = [m, k]`, or leave the option out"),

@@ -189,10 +189,12 @@ fn stubs(
         }
     });
     let forced_in_lanes = lanes.gauss.is_some().then(|| gauss_stubs(name, scalar, n));
-    // The rule of explicit steps, where it is what is missing.
+    let midpoint_in_lanes = lanes.midpoint.is_some().then(|| midpoint_stubs(name, scalar, n));
+    // The rule of the lanes, where it is what is missing.
     let is_in_lanes = lanes.explicit.is_some();
-    let explicit = [Rule::Trapezoidal];
-    let missing = explicit.iter().filter(|rule| is_in_lanes && !rules.contains(rule));
+    let asked = [(Rule::Trapezoidal, is_in_lanes), (Rule::Midpoint, lanes.midpoint.is_some())];
+    let missing = asked.iter().filter(|(rule, is_asked)| *is_asked && !rules.contains(rule));
+    let missing = missing.map(|(rule, _)| rule);
     let rules: Vec<_> = rules.iter().chain(missing).map(|rule| rule.ident()).collect();
     let explicit =
         rules.iter().any(|rule| *rule == "Trapezoidal").then(|| explicit_stubs(name, scalar, n, is_in_lanes));
@@ -216,6 +218,7 @@ fn stubs(
             #offered
             #explicit
             #forced_in_lanes
+            #midpoint_in_lanes
             #(
                 impl ::dalembert::generated::Discrete<::dalembert::generated::#rules, #n> for #name {
                     type Matrix = ::dalembert::nalgebra::SMatrix<#scalar, #n, #n>;
@@ -261,6 +264,19 @@ fn explicit_stubs(
             fn configuration_force(&self, _: &#vector) -> #vector { ::core::unreachable!() }
         }
         #in_lanes
+    }
+}
+
+/// Stubs of midpoint steps in lanes.
+fn midpoint_stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream) -> TokenStream {
+    let members = quote!(::dalembert::generated::MemberVector<#scalar, #n, W>);
+    quote! {
+        impl ::dalembert::generated::DiscreteInLanes<::dalembert::generated::Midpoint, #n> for #name {
+            type Fields<const W: usize> = ();
+            fn fields<const W: usize>(_: [&Self; W]) {}
+            fn step_kernel_in_lanes<const W: usize>(_: &(), _: &#members, _: &#members, _: #scalar) -> (#members, [#members; #n]) { ::core::unreachable!() }
+            fn momenta_in_lanes<const W: usize>(_: &(), _: &#members, _: &#members, _: #scalar) -> [#members; 2] { ::core::unreachable!() }
+        }
     }
 }
 

@@ -1,11 +1,12 @@
-//! What `lanes = explicit` and `lanes = gauss` ask of a system.
+//! What `lanes = explicit`, `lanes = midpoint` and `lanes = gauss` ask of a system.
 
 use syn::Ident;
 
 use super::diagnostics::{Mistake, Report};
 use super::model::{Engine, System};
+use super::rules::Rule;
 use super::structure::{Damping, Findings};
-use super::written_out::WrittenOut;
+use super::written_out::{CONDITIONAL, WrittenOut};
 
 const TIMED: &str = "takes no time: L, R and f have to be functions of q, v, the input and the fields";
 
@@ -30,6 +31,13 @@ pub fn check(system: &System<'_>, report: &mut Report) {
             refuse(word, "needs the rule whose steps are explicit; add `rule = trapezoidal`", report);
         }
     }
+    if let Some(word) = &system.lanes.midpoint {
+        if system.timed.any() {
+            refuse(word, TIMED, report);
+        } else if !system.rules.of_displacement.contains(&Rule::Midpoint) {
+            refuse(word, "needs the midpoint rule; list it, `rule = midpoint`", report);
+        }
+    }
     if let Some(word) = &system.lanes.gauss {
         if system.timed.any() {
             refuse(word, TIMED, report);
@@ -45,6 +53,9 @@ pub fn check_written(system: &System<'_>, written: &WrittenOut, report: &mut Rep
         (&system.lanes.explicit, written.findings(), written.has_explicit_lanes())
     {
         refuse(word, why_implicit(findings), report);
+    }
+    if let (Some(word), false) = (&system.lanes.midpoint, written.has_midpoint_lanes()) {
+        refuse(word, CONDITIONAL, report);
     }
     if let (Some(word), Some(lacks)) = (&system.lanes.gauss, written.lacks_gauss_lanes()) {
         refuse(word, lacks, report);

@@ -128,6 +128,8 @@ pub struct System<'a> {
 pub struct Lanes {
     /// Those of the trapezoidal rule where they are explicit, its compositions and the splittings.
     pub explicit: Option<Ident>,
+    /// Those of the midpoint rule.
+    pub midpoint: Option<Ident>,
     /// Those of the Gauss rules.
     pub gauss: Option<Ident>,
 }
@@ -135,7 +137,7 @@ pub struct Lanes {
 impl Lanes {
     /// The words, as they stand.
     pub fn words(&self) -> impl Iterator<Item = &Ident> {
-        self.explicit.iter().chain(&self.gauss)
+        self.explicit.iter().chain(&self.midpoint).chain(&self.gauss)
     }
 }
 

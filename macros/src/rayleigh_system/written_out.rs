@@ -28,6 +28,7 @@ use super::structure::{self, Differentiated, Findings, Structure, Terms};
 use super::write::item::as_written;
 use super::write::{self, EngineFunctions, Kernel, view};
 use body::{Shape, matrix, parameter, unused};
+pub use stages::CONDITIONAL;
 
 /// The whole expansion: the user's item as it stands, and the system with its derivatives.
 ///
@@ -62,6 +63,11 @@ impl WrittenOut {
 
     /// Whether explicit steps of several members at once are written.
     pub fn has_explicit_lanes(&self) -> bool {
+        self.functions.kernels.iter().flatten().any(|kernel| kernel.explicit_in_lanes.is_some())
+    }
+
+    /// Whether midpoint steps of several members at once are written.
+    pub fn has_midpoint_lanes(&self) -> bool {
         self.functions.kernels.iter().flatten().any(|kernel| kernel.in_lanes.is_some())
     }
 
@@ -117,7 +123,8 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
         kernels.push(is_own.then(|| code.kernel(newton, lagrangian, rayleigh, force)));
         code.bounded(heaviest)?;
     }
-    let in_lanes = kernels.iter().flatten().filter_map(|kernel| kernel.in_lanes.as_ref());
+    let in_lanes =
+        kernels.iter().flatten().flat_map(|kernel| [&kernel.explicit_in_lanes, &kernel.in_lanes]).flatten();
     let names = names_of_lanes(stages.iter().chain(&stages_in_lanes).chain(in_lanes));
     let functions = EngineFunctions {
         structure: Structure { engine: structure::Engine::Expanded, findings: Some(findings) },

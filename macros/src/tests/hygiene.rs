@@ -78,7 +78,7 @@ fn every_name_that_generated_code_brings_along_is_listed() {
     }
     let joint = quote!(rule = [fitted, fitted_trapezoidal, one_sided]);
     names(rayleigh_system(Runtime::STD, joint, linear.clone()), false, &mut found);
-    let lanes = quote!(rule = [trapezoidal, gauss], lanes = [explicit, gauss]);
+    let lanes = quote!(rule = [midpoint, trapezoidal, gauss], lanes = [explicit, midpoint, gauss]);
     names(rayleigh_system(Runtime::STD, lanes, linear), false, &mut found);
     for field in [
         quote!(

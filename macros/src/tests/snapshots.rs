@@ -190,6 +190,12 @@ fn gauss() {
     let start =
         expansion.find("impl ::dalembert::generated::ForcedLagrangianInLanes").expect("it is written");
     assert_snapshot("cart_in_lanes.rs", &expansion[start..]);
+    // By the midpoint rule, its equation.
+    let expansion = formatted(rayleigh_system(Runtime::STD, quote!(lanes = midpoint), item.clone()));
+    let start = expansion.find("impl ::dalembert::generated::DiscreteInLanes").expect("it is written");
+    let implementation = &expansion[start..];
+    let end = implementation.find("#[automatically_derived]").expect("others follow");
+    assert_snapshot("cart_at_midpoint_in_lanes.rs", &implementation[..end]);
     // Nothing of it without the rule.
     let other = formatted(rayleigh_system(Runtime::STD, quote!(rule = midpoint), item));
     for word in ["Lanes", "Stages", "ForcedLagrangian", "acting_force"] {

@@ -14,7 +14,7 @@ mod of_members;
 
 pub use banded::Banded;
 pub(crate) use determinant::determinant_sign;
-pub use of_members::MatricesOfMembers;
+pub use of_members::{EntriesOfMembers, MatricesOfMembers};
 
 /// A matrix that has no solution to working precision: the column whose pivot is lost to rounding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

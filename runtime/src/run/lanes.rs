@@ -5,6 +5,7 @@
 
 mod explicit;
 mod gauss;
+mod midpoint;
 
 use core::marker::PhantomData;
 

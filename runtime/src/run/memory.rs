@@ -2,6 +2,7 @@
 
 mod drift;
 mod explicit;
+pub(crate) mod in_lanes;
 mod kept_matrix;
 
 pub use drift::{DriftMemory, ExplicitDriftMemory};

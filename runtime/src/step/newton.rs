@@ -42,7 +42,7 @@ pub(crate) struct Solution<S, const N: usize> {
 }
 
 /// The undamped method's iterations: from a guess this far off the careful one goes on.
-const QUICK_ITERATIONS: u32 = 8;
+pub(crate) const QUICK_ITERATIONS: u32 = 8;
 
 /// What is known of the equation p0(q, v) = p before it is solved.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -24,6 +24,16 @@ impl<S: Scalar, const N: usize> Default for VelocityHistory<S, N> {
 }
 
 impl<S: Scalar, const N: usize> VelocityHistory<S, N> {
+    /// The newest `known` of these, of steps of one size.
+    pub(crate) fn of(velocities: [SVector<S, N>; 4], known: usize, h: S) -> Self {
+        Self { velocities, known, h, has_inputs: false }
+    }
+
+    /// The latest velocities, and how many of them are known.
+    pub(crate) fn velocities(&self) -> (&[SVector<S, N>; 4], usize) {
+        (&self.velocities, self.known)
+    }
+
     #[inline]
     pub(crate) fn push(&mut self, velocity: SVector<S, N>, h: S) {
         let [a, b, c, _] = self.velocities;

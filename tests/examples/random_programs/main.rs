@@ -9,8 +9,8 @@
 //! ```
 //!
 //! `compiled` may be followed by an engine: `expanded` unless said, `auto`, `num_dual`, `portable` for the
-//! elementary functions of the runtime, or `lanes` and `gauss_lanes`: several
-//! members at once. `show <seed>` prints a program, `shrink <seed>` the smallest part of
+//! elementary functions of the runtime, or `lanes`, `midpoint_lanes` and `gauss_lanes`:
+//! several members at once. `show <seed>` prints a program, `shrink <seed>` the smallest part of
 //! it that fails.
 
 mod batch;

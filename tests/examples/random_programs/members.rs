@@ -15,6 +15,8 @@ pub enum Way {
     Explicit,
     /// L, R and f of the program, as perturbations of a particle, by Gauss rules.
     Gauss,
+    /// The same by the midpoint rule.
+    Midpoint,
 }
 
 impl Way {
@@ -23,6 +25,7 @@ impl Way {
         match engine {
             "lanes" => Some(Self::Explicit),
             "gauss_lanes" => Some(Self::Gauss),
+            "midpoint_lanes" => Some(Self::Midpoint),
             _ => None,
         }
     }
@@ -32,6 +35,7 @@ impl Way {
         match self {
             Self::Explicit => "rule = trapezoidal, lanes = explicit, derivatives = expanded",
             Self::Gauss => "rule = gauss, lanes = gauss, derivatives = expanded",
+            Self::Midpoint => "rule = midpoint, lanes = midpoint, derivatives = expanded",
         }
     }
 
@@ -40,6 +44,7 @@ impl Way {
         match self {
             Self::Explicit => "lanes",
             Self::Gauss => "gauss_lanes",
+            Self::Midpoint => "midpoint_lanes",
         }
     }
 }
@@ -66,7 +71,7 @@ pub fn block(program: &Program, way: Way) -> String {
     let mut own = String::new();
     match (way, rayleigh) {
         (Way::Explicit, Some(rayleigh)) => write!(potential, " + {rayleigh}").expect("a string takes all"),
-        (Way::Gauss, Some(rayleigh)) => write!(
+        (Way::Gauss | Way::Midpoint, Some(rayleigh)) => write!(
             own,
             "pub fn rayleigh(&self, q: [{scalar}; {n}], v: [{scalar}; {n}]) -> {scalar} {{\n{share} * {rayleigh}\n}}\n"
         )

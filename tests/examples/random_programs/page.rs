@@ -8,7 +8,7 @@ use super::run::{folder, workspace};
 use super::tally::{Tally, general};
 
 /// The ways that programs are tried, as files of runs begin, and as the page says it.
-const WAYS: [(&str, &str); 7] = [
+const WAYS: [(&str, &str); 8] = [
     ("graph-", "lowered, the graph evaluated"),
     ("compiled-expanded-", "compiled by rustc, `derivatives = expanded`"),
     ("compiled-auto-", "compiled by rustc, `derivatives = auto`"),
@@ -18,6 +18,10 @@ const WAYS: [(&str, &str); 7] = [
     (
         "compiled-gauss_lanes-",
         "compiled by rustc, eight members by Gauss rules in lanes, each beside its own run",
+    ),
+    (
+        "compiled-midpoint_lanes-",
+        "compiled by rustc, eight members by the midpoint rule in lanes, each beside its own run",
     ),
 ];
 

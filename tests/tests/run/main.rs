@@ -8,6 +8,7 @@ mod gauss_lanes;
 mod kept;
 mod kept_matrix;
 mod lanes;
+mod midpoint_lanes;
 mod one_run;
 mod random_events;
 mod saved_runs;

@@ -23,6 +23,8 @@ pub struct Kernel {
     /// The functions of an explicit step.
     pub explicit: Option<TokenStream>,
     /// Those of several members at once.
+    pub explicit_in_lanes: Option<TokenStream>,
+    /// The equation of several members at once.
     pub in_lanes: Option<TokenStream>,
 }
 
@@ -74,13 +76,14 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
             }
         }
     });
-    let Kernel { step_kernel, momenta, diagonals, is_linear, memory, explicit, in_lanes } = kernel.unwrap_or_else(|| Kernel {
+    let Kernel { step_kernel, momenta, diagonals, is_linear, memory, explicit, explicit_in_lanes, in_lanes } = kernel.unwrap_or_else(|| Kernel {
         step_kernel: quote!(#rule::lagrangian_kernel(self, q0, v, h) #(+ #rule::#kernels(self, q0, v, h))*),
         momenta: quote!(#rule::lagrangian_momenta(self, q0, v, h) #(+ #rule::#momenta(self, q0, v, h))*),
         diagonals: None,
         is_linear: false,
         memory: Memory::Velocities,
         explicit: None,
+        explicit_in_lanes: None,
         in_lanes: None,
     });
     let (matrix, kernel) = match diagonals {
@@ -113,10 +116,19 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
         }
     });
     // impl ExplicitInLanes<2> for Ring
-    let in_lanes = in_lanes.map(|functions| {
+    let explicit_in_lanes = explicit_in_lanes.map(|functions| {
         quote! {
             #[automatically_derived]
             impl ::dalembert::generated::ExplicitInLanes<#n> for #subject {
+                #functions
+            }
+        }
+    });
+    // impl DiscreteInLanes<Midpoint, 2> for Ring
+    let in_lanes = in_lanes.map(|functions| {
+        quote! {
+            #[automatically_derived]
+            impl ::dalembert::generated::DiscreteInLanes<#rule, #n> for #subject {
                 #functions
             }
         }
@@ -168,9 +180,11 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
             #verification
         }
 
+        #in_lanes
+
         #explicit
 
-        #in_lanes
+        #explicit_in_lanes
     }
 }
 

@@ -1,7 +1,6 @@
 //! An explicit step by the trapezoidal rule, in three functions: the matrix, what v̄ adds to the momenta, and
 //! the force.
 
-use super::super::emit::as_on_members;
 use super::in_lanes::{ExplicitOutputs, TAKEN};
 use super::kernel::Parts;
 use super::*;
@@ -22,7 +21,7 @@ impl Code<'_> {
             let drag = second[1].map(|drag| code.graph.times(half, drag));
             [second[0], drag].into_iter().flatten().reduce(|a, b| code.graph.plus(a, b))
         });
-        let (line, matrix) = self.newton_matrix(&[], &matrix, diagonals);
+        let (line, matrix) = self.newton_matrix(&matrix, diagonals);
         let (h, statements) = (parameter("h", line.uses("half") || line.uses("h")), &line.statements);
         let let_half = |line: &StraightLine| line.uses("half").then(|| quote!(let half = 0.5 * h;));
         let prelude = let_half(&line);
@@ -47,8 +46,9 @@ impl Code<'_> {
                 sums.push(self.or_zero(sum));
             }
         }
+        let is_in_lanes = self.system.lanes.explicit.is_some();
         let momenta = self.shortened(&[p0, p1].concat());
-        let line = self.explicit_code(&momenta);
+        let line = self.members_code(&momenta, &TAKEN, is_in_lanes);
         let [p0, p1] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
         let (v, h) =
             (parameter("v", line.uses_velocities), parameter("h", line.uses("half") || line.uses("h")));
@@ -65,8 +65,8 @@ impl Code<'_> {
         let force = self.shortened(&force);
         let (p0, p1) = momenta.split_at(self.n);
         let outputs = ExplicitOutputs { force: &force, p0, p1 };
-        let in_lanes = self.system.lanes.explicit.as_ref().and_then(|_| self.explicit_in_lanes(&outputs));
-        let line = self.explicit_code(&force);
+        let in_lanes = is_in_lanes.then(|| self.explicit_in_lanes(&outputs)).flatten();
+        let line = self.members_code(&force, &TAKEN, is_in_lanes);
         let [force] = self.parts(&line.outputs, [Shape::Vector]);
         let (q, statements) = (parameter("q", line.uses_coordinates), &line.statements);
         let functions = quote! {
@@ -81,14 +81,5 @@ impl Code<'_> {
             }
         };
         (functions, in_lanes)
-    }
-    /// The code for `outputs`, which members compute too where they are stepped in lanes.
-    fn explicit_code(&mut self, outputs: &[Node]) -> StraightLine {
-        if self.system.lanes.explicit.is_none() {
-            return self.code_as_it_stands(outputs, &[]);
-        }
-        let line = as_on_members(&self.graph, &self.system.scalar, outputs, &TAKEN, self.is_portable);
-        self.calls_elementary |= line.calls_elementary;
-        self.seen(line)
     }
 }

@@ -5,15 +5,17 @@
 //! numbers, as it is where one system runs alone.
 
 mod explicit;
+mod midpoint;
 mod stages;
 
 use proc_macro2::TokenTree;
 use quote::ToTokens;
 
-use super::super::emit::{Field, number_of_members, on_members, straight_line};
+use super::super::emit::{Field, as_on_members, number_of_members, on_members, straight_line};
 use super::super::syntax::regrouped;
 use super::*;
 pub(super) use explicit::{ExplicitOutputs, TAKEN};
+pub(super) use midpoint::{MidpointOutputs, TAKEN_AT_MIDPOINT};
 
 /// Numbers and truth values of members, in one value that functions hand on: `([Members<f64, W>; 3], [Mask<W>;
 /// 1])`.
@@ -98,6 +100,21 @@ impl Code<'_> {
         line.fields.sort_by_key(|field| (field.is_truth, field.node));
         self.calls_elementary |= line.calls_elementary;
         line
+    }
+
+    /// The code on numbers for `outputs`, which members compute too where they are stepped in lanes.
+    pub(super) fn members_code(
+        &mut self,
+        outputs: &[Node],
+        taken: &[&str],
+        is_in_lanes: bool,
+    ) -> StraightLine {
+        if !is_in_lanes {
+            return self.code_as_it_stands(outputs, &[]);
+        }
+        let line = as_on_members(&self.graph, &self.system.scalar, outputs, taken, self.is_portable);
+        self.calls_elementary |= line.calls_elementary;
+        self.seen(line)
     }
 
     /// `type Fields` and the function that fills it.

@@ -2,6 +2,7 @@
 //! in the form that the structure of its matrix allows.
 
 use super::super::write::Memory;
+use super::in_lanes::{MidpointOutputs, TAKEN_AT_MIDPOINT};
 use super::structure::Newton;
 use super::*;
 
@@ -53,15 +54,23 @@ impl Code<'_> {
         };
 
         let diagonals = diagonals(self.n, newton.bandwidth);
-        let (line, matrix) = self.newton_matrix(&p0, &matrix, diagonals);
+        let is_in_lanes = points == Points::Middle && self.system.lanes.midpoint.is_some();
+        let kernel = [&p0[..], &self.in_form(&matrix, diagonals)].concat();
+        let kernel = self.shortened(&kernel);
+        let line = self.members_code(&kernel, &TAKEN_AT_MIDPOINT, is_in_lanes);
+        let matrix = self.matrix_in_form(&line.outputs[self.n..], diagonals);
         let [value] = self.parts(&line.outputs[..self.n], [Shape::Vector]);
         let step_kernel = framed(self, &line, quote!(StepKernel { p0: #value, matrix: #matrix }));
 
-        let line = self.code_at_node(&[p0, p1].concat(), &[]);
+        let both = self.shortened(&[p0, p1].concat());
+        let line = self.members_code(&both, &TAKEN_AT_MIDPOINT, is_in_lanes);
         let [p0, p1] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
         let momenta = framed(self, &line, quote!(Momenta { p0: #p0, p1: #p1 }));
 
-        let (explicit, in_lanes) = newton.is_explicit.then(|| self.explicit(&parts, diagonals)).unzip();
+        let outputs = MidpointOutputs { kernel: &kernel, momenta: &both, diagonals };
+        let in_lanes = is_in_lanes.then(|| self.midpoint_in_lanes(&outputs)).flatten();
+        let (explicit, explicit_in_lanes) =
+            newton.is_explicit.then(|| self.explicit(&parts, diagonals)).unzip();
         let memory = match () {
             () if newton.is_explicit => Memory::Explicit,
             () if newton.constant || self.n >= KEPT_FROM => Memory::Matrix,
@@ -74,35 +83,42 @@ impl Code<'_> {
             is_linear: newton.constant,
             memory,
             explicit,
-            in_lanes: in_lanes.flatten(),
+            explicit_in_lanes: explicit_in_lanes.flatten(),
+            in_lanes,
         }
     }
 
-    /// The code of `before` and of a matrix, given column by column, in the form that its diagonals allow.
+    /// The code of a matrix, given column by column, in the form that its diagonals allow.
     pub(super) fn newton_matrix(
         &mut self,
-        before: &[Node],
         matrix: &[Node],
         diagonals: Option<usize>,
     ) -> (StraightLine, TokenStream) {
+        let entries = self.in_form(matrix, diagonals);
+        let line = self.code_at_node(&entries, &[]);
+        let matrix = self.matrix_in_form(&line.outputs, diagonals);
+        (line, matrix)
+    }
+
+    /// The entries of a matrix, given column by column, that its form keeps: of a band row by row.
+    fn in_form(&mut self, matrix: &[Node], diagonals: Option<usize>) -> Vec<Node> {
         let n = self.n;
-        let Some(diagonals) = diagonals else {
-            let line = self.code_at_node(&[before, matrix].concat(), &[]);
-            let [matrix] = self.parts(&line.outputs[before.len()..], [Shape::Matrix]);
-            return (line, matrix);
-        };
+        let Some(diagonals) = diagonals else { return matrix.to_vec() };
         let zero = self.graph.constant(0.0);
-        let band: Vec<Node> = (0..n)
+        (0..n)
             .flat_map(|row| {
                 (0..diagonals)
                     .map(move |k| (row, (row + k).checked_sub(diagonals / 2).filter(|&column| column < n)))
             })
             .map(|(row, column)| column.map_or(zero, |column| matrix[column * n + row]))
-            .collect();
-        let line = self.code_at_node(&[before, &band].concat(), &[]);
-        let rows = line.outputs[before.len()..].chunks(diagonals).map(|row| quote!([#(#row),*]));
-        let matrix = quote!(::dalembert::generated::Banded { rows: [#(#rows),*] });
-        (line, matrix)
+            .collect()
+    }
+
+    /// The matrix of the entries that its form keeps.
+    fn matrix_in_form(&self, entries: &[TokenStream], diagonals: Option<usize>) -> TokenStream {
+        let Some(diagonals) = diagonals else { return body::matrix(entries, self.n) };
+        let rows = entries.chunks(diagonals).map(|row| quote!([#(#row),*]));
+        quote!(::dalembert::generated::Banded { rows: [#(#rows),*] })
     }
 }
 

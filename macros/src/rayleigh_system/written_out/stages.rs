@@ -24,7 +24,7 @@ pub(super) struct StagesWritten {
 const NOT_FACTORED: &str =
     "needs ∂²L/∂v² factored without exchanges, and a pivot is 0 by structure, or the matrix is too large";
 
-const CONDITIONAL: &str = "reads all fields before the run, and a body reads one within a condition, where it may panic; read it before the condition";
+pub const CONDITIONAL: &str = "reads all fields before the run, and a body reads one within a condition, where it may panic; read it before the condition";
 
 /// Longer factorisations are left to the runtime.
 const MAX_PRODUCTS: usize = 4000;

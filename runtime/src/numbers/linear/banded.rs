@@ -26,7 +26,7 @@ pub struct Banded<S, const N: usize, const W: usize> {
 
 /// A pivot smaller than this share of its row's largest entry calls for row exchanges, which a band has no
 /// room for.
-const SMALL: f64 = 1e-3;
+pub(super) const SMALL: f64 = 1e-3;
 
 impl<S: Scalar, const N: usize, const W: usize> Banded<S, N, W> {
     /// Entries to either side of the diagonal.

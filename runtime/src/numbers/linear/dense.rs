@@ -83,7 +83,7 @@ fn closed_form<S: Scalar, const N: usize>(
 }
 
 /// A pivot this much smaller than its row is looked at more closely.
-const SUSPICIOUS: f64 = 1e-6;
+pub(super) const SUSPICIOUS: f64 = 1e-6;
 
 /// Elimination with row exchanges; pivots are chosen relative to their rows.
 #[inline]

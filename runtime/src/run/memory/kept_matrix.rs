@@ -12,22 +12,22 @@ use nalgebra::SVector;
 
 use crate::numbers::{Factored, NewtonMatrix, Scalar};
 use crate::step::{
-    Discrete, Memory, Momenta, Report, State, Step, StepError, VelocityHistory,
+    Discrete, KeptOf, Memory, MemoryInLanes, Momenta, Report, State, Step, StepError, VelocityHistory,
     newton::{AT_FLOOR, estimated_floor, finite_part, held_against, held_by_weights, is_sensible, weighted},
 };
 
 /// A correction must leave at most this share of the residual.
-const CONTRACTION: f64 = 0.1;
+pub(super) const CONTRACTION: f64 = 0.1;
 
 /// If the guess leaves more than this share of p0 as residual, the old matrix is not tried: the terms at the
 /// guess say nothing about rounding at the root.
-const CLOSE: f64 = 0.025;
+pub(super) const CLOSE: f64 = 0.025;
 
 /// Corrections before Newton's method takes over.
-const MOST: u32 = 5;
+pub(super) const MOST: u32 = 5;
 
 /// Where the equation is linear, a correction above this share of v̄ is followed by another.
-const SMALL: f64 = 1.0 / 64.0;
+pub(super) const SMALL: f64 = 1.0 / 64.0;
 
 /// Where a step takes more corrections than this, the matrix is renewed.
 const STALE: u32 = 3;
@@ -102,14 +102,14 @@ where
                 self.history.push(step.velocity, h);
                 self.served = self.served.saturating_add(1);
                 if step.report.iterations > STALE {
-                    self.renew(system, state, &step, h);
+                    self.renew(system, state, &step.velocity, h);
                 }
                 return Ok(step);
             }
         }
         let step = self.history.advance(system, state, h);
         if let Ok(step) = &step {
-            self.renew(system, state, step, h);
+            self.renew(system, state, &step.velocity, h);
         }
         step
     }
@@ -126,12 +126,49 @@ where
     fn change_state(&mut self) {}
 }
 
+impl<L, R, const N: usize> MemoryInLanes<L, R, N> for KeptMatrix<L::Scalar, L::Matrix, N>
+where
+    L: Discrete<R, N>,
+{
+    const KEEPS: bool = true;
+
+    fn history(&mut self) -> &mut VelocityHistory<L::Scalar, N> {
+        &mut self.history
+    }
+
+    fn is_by_newton(&self) -> bool {
+        self.pause > 0
+    }
+
+    fn kept(&self, h: L::Scalar) -> Option<KeptOf<'_, L, R, N>> {
+        let kept = self.kept.as_ref().filter(|kept| self.pause == 0 && kept.h == h);
+        kept.map(|Kept { matrix, factored, .. }| (matrix, factored))
+    }
+
+    fn has_paused(&mut self) {
+        self.pause -= 1;
+    }
+
+    fn has_served(
+        &mut self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+        (velocity, h): (SVector<L::Scalar, N>, L::Scalar),
+        corrections: u32,
+    ) {
+        self.served = self.served.saturating_add(1);
+        if corrections > STALE {
+            self.renew(system, state, &velocity, h);
+        }
+    }
+}
+
 impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> KeptMatrix<S, M, N> {
     /// Keeps the matrix at the end of the step; none if it cannot be factored, or if the last one was not
     /// worth it.
     #[cold]
     #[inline(never)]
-    fn renew<L, R>(&mut self, system: &L, state: &State<S, N>, step: &Step<S, N>, h: S)
+    fn renew<L, R>(&mut self, system: &L, state: &State<S, N>, velocity: &SVector<S, N>, h: S)
     where
         L: Discrete<R, N, Scalar = S, Matrix = M>,
     {
@@ -145,7 +182,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> KeptMatrix<S, M, N> {
             self.next_pause = shortest;
         }
         self.served = 0;
-        let matrix = system.step_kernel(&state.q, &step.velocity, h).matrix;
+        let matrix = system.step_kernel(&state.q, velocity, h).matrix;
         self.kept = matrix.factored().map(|factored| Kept { h, matrix, factored });
     }
 }

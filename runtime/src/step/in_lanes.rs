@@ -1,0 +1,111 @@
+//! Steps solved for v̄ of several members at once: the step's equation as data of all of them, and what a run's
+//! memory says of the next.
+
+pub(crate) mod newton;
+
+use crate::numbers::{Elementary, EntriesOfMembers, MemberVector, NewtonMatrix};
+use crate::step::{Discrete, Memory, State, VelocityHistory};
+
+/// A discrete system whose step's equation is known of several members at once: what `lanes = midpoint`
+/// generates.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not stepped in lanes by `{R}`",
+    label = "the step's equation of `{Self}` is not written for several members at once",
+    note = "add `lanes = midpoint` to the attribute: `#[rayleigh_system(rule = midpoint, lanes = midpoint)]`"
+)]
+pub trait DiscreteInLanes<R, const N: usize>:
+    Sized + Discrete<R, N, Scalar: Elementary, Memory: MemoryInLanes<Self, R, N>>
+{
+    /// What the equation knows of each of W systems before the run.
+    type Fields<const W: usize>: Copy + core::fmt::Debug;
+
+    /// What is known of the systems, gathered.
+    fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W>;
+
+    /// [`step_kernel`](Discrete::step_kernel) of each member, p0 and the entries of the matrix, to the last bit.
+    fn step_kernel_in_lanes<const W: usize>(
+        fields: &Self::Fields<W>,
+        q0: &MemberVector<Self::Scalar, N, W>,
+        v: &MemberVector<Self::Scalar, N, W>,
+        h: Self::Scalar,
+    ) -> KernelOfMembers<Self::Matrix, Self::Scalar, N, W>;
+
+    /// [`momenta`](Discrete::momenta) of each member, p0 and p1, to the last bit.
+    fn momenta_in_lanes<const W: usize>(
+        fields: &Self::Fields<W>,
+        q0: &MemberVector<Self::Scalar, N, W>,
+        v: &MemberVector<Self::Scalar, N, W>,
+        h: Self::Scalar,
+    ) -> [MemberVector<Self::Scalar, N, W>; 2];
+}
+
+/// p0 of each member, and the entries of its matrix.
+type KernelOfMembers<M, S, const N: usize, const W: usize> =
+    (MemberVector<S, N, W>, EntriesOfMembers<M, S, N, W>);
+
+/// A matrix that is kept, and its factors.
+pub(crate) type KeptOf<'m, L, R, const N: usize> = (
+    &'m <L as Discrete<R, N>>::Matrix,
+    &'m <<L as Discrete<R, N>>::Matrix as NewtonMatrix<<L as crate::system::Lagrangian<N>>::Scalar, N>>::Factored,
+);
+
+/// A memory of steps that are solved for v̄, of a member whose steps others take at the same time: the velocities
+/// are kept with theirs, all else here.
+pub trait MemoryInLanes<L, R, const N: usize>: Memory<L, R, N> + Copy + core::fmt::Debug
+where
+    L: Discrete<R, N>,
+{
+    /// Whether a matrix may be kept.
+    const KEEPS: bool;
+
+    /// The velocities.
+    fn history(&mut self) -> &mut VelocityHistory<L::Scalar, N>;
+
+    /// Whether the next step is by Newton's method, and no matrix of it is kept.
+    fn is_by_newton(&self) -> bool;
+
+    /// The matrix that the next step of this size is solved with.
+    fn kept(&self, h: L::Scalar) -> Option<KeptOf<'_, L, R, N>>;
+
+    /// A step by Newton's method has been taken.
+    fn has_paused(&mut self);
+
+    /// The step from `state` with this mean velocity has been taken by the matrix kept, in so many corrections.
+    fn has_served(
+        &mut self,
+        system: &L,
+        state: &State<L::Scalar, N>,
+        step: (nalgebra::SVector<L::Scalar, N>, L::Scalar),
+        corrections: u32,
+    );
+}
+
+impl<L, R, const N: usize> MemoryInLanes<L, R, N> for VelocityHistory<L::Scalar, N>
+where
+    L: Discrete<R, N>,
+{
+    const KEEPS: bool = false;
+
+    fn history(&mut self) -> &mut VelocityHistory<L::Scalar, N> {
+        self
+    }
+
+    fn is_by_newton(&self) -> bool {
+        true
+    }
+
+    fn kept(&self, _h: L::Scalar) -> Option<KeptOf<'_, L, R, N>> {
+        None
+    }
+
+    fn has_paused(&mut self) {}
+
+    fn has_served(
+        &mut self,
+        _system: &L,
+        _state: &State<L::Scalar, N>,
+        _step: (nalgebra::SVector<L::Scalar, N>, L::Scalar),
+        _corrections: u32,
+    ) {
+    }
+}
