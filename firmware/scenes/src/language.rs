@@ -1,5 +1,5 @@
-//! Every way in which a body may call an elementary function, in one system for each scalar type: the same
-//! source compiles with the standard library and without.
+//! Every way in which a body may call an elementary function, in one system for each scalar type, and systems
+//! whose members are stepped in lanes: the same source compiles with the standard library and without.
 
 macro_rules! every_way {
     ($(#[$doc:meta])* $name:ident $float:ident) => {
@@ -53,4 +53,36 @@ every_way! {
 every_way! {
     /// In `f32`.
     Single f32
+}
+
+macro_rules! in_lanes {
+    ($(#[$doc:meta])* $name:ident $float:ident) => {
+        $(#[$doc])*
+        pub struct $name {
+            /// A mass.
+            pub m: $float,
+        }
+
+        #[dalembert::rayleigh_system(rule = [midpoint, trapezoidal, gauss], lanes = [explicit, midpoint, gauss])]
+        impl $name {
+            /// L.
+            pub fn lagrangian(&self, q: [$float; 2], v: [$float; 2]) -> $float {
+                0.5 * self.m * (v[0] * v[0] + v[1] * v[1]) + q[0].cos() - q[1].exp()
+            }
+
+            /// R.
+            pub fn rayleigh(&self, v: [$float; 2]) -> $float {
+                0.5 * self.m * v[1] * v[1]
+            }
+        }
+    };
+}
+
+in_lanes! {
+    /// Members in `f64`.
+    DoubleMembers f64
+}
+in_lanes! {
+    /// Members in `f32`.
+    SingleMembers f32
 }

@@ -95,7 +95,26 @@ fn all_within<const S: usize>(x: &[f64; S], limit: f64) -> bool {
     within
 }
 
-/// Puts the platform's values where the angle is out of range.
+/// Sine and cosine of a number, those of [`Elementary`](crate::numbers::Elementary): the platform's, or libm's
+/// where there is no platform or every machine is to compute the same.
+fn of_any_angle(x: f64) -> (f64, f64) {
+    if cfg!(all(feature = "std", not(feature = "libm"))) {
+        nalgebra::ComplexField::sin_cos(x)
+    } else {
+        libm::sincos(x)
+    }
+}
+
+/// The exponential of a number, likewise.
+fn of_any_exponent(x: f64) -> f64 {
+    if cfg!(all(feature = "std", not(feature = "libm"))) {
+        nalgebra::ComplexField::exp(x)
+    } else {
+        libm::exp(x)
+    }
+}
+
+/// Puts the functions of numbers where the angle is out of range.
 #[cold]
 #[inline(never)]
 fn beyond_largest_angle<const S: usize>(x: &[f64; S], values: &mut [[f64; S]; 2]) {
@@ -103,19 +122,19 @@ fn beyond_largest_angle<const S: usize>(x: &[f64; S], values: &mut [[f64; S]; 2]
     for ((x, sine), cosine) in x.iter().zip(sines).zip(cosines) {
         let is_within = x.abs() <= LARGEST_ANGLE;
         if !is_within {
-            (*sine, *cosine) = nalgebra::ComplexField::sin_cos(*x);
+            (*sine, *cosine) = of_any_angle(*x);
         }
     }
 }
 
-/// Puts the platform's values where the exponent is out of range.
+/// Puts the functions of numbers where the exponent is out of range.
 #[cold]
 #[inline(never)]
 fn beyond_largest_exponent<const S: usize>(x: &[f64; S], values: &mut [f64; S]) {
     for (x, value) in x.iter().zip(values) {
         let is_within = x.abs() <= LARGEST_EXPONENT;
         if !is_within {
-            *value = nalgebra::ComplexField::exp(*x);
+            *value = of_any_exponent(*x);
         }
     }
 }
@@ -168,6 +187,7 @@ impl Functions for f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numbers::Elementary;
 
     /// Difference in units in the last place of the reference.
     fn units(value: f64, reference: f64) -> f64 {
@@ -207,7 +227,7 @@ mod tests {
         assert!(units((x - k * core::f64::consts::FRAC_PI_2).sin().abs(), x.sin().abs()) > 1e6);
     }
 
-    /// Neither neighbours nor their number change a bit; out of range it is the platform's function.
+    /// Neither neighbours nor their number change a bit; out of range it is the function of numbers.
     #[test]
     fn lanes_are_what_they_are_alone() {
         let all = [0.3, 1e9, -2.0, f64::INFINITY, f64::NAN, 800.0, -0.0, 1e6];
@@ -219,9 +239,9 @@ mod tests {
             let bits = |of: [f64; 3]| of.map(|x| if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() });
             let alone = bits([sine, cosine, exponential]);
             assert_eq!(bits([sines[i], cosines[i], exponentials[i]]), alone, "{x}");
-            let platform = bits([x.sin(), x.cos(), x.exp()]);
-            assert!(x.abs() <= LARGEST_ANGLE || alone[..2] == platform[..2]);
-            assert!(x.abs() <= LARGEST_EXPONENT || alone[2] == platform[2]);
+            let of_number = bits([Elementary::sin(x), Elementary::cos(x), Elementary::exp(x)]);
+            assert!(x.abs() <= LARGEST_ANGLE || alone[..2] == of_number[..2]);
+            assert!(x.abs() <= LARGEST_EXPONENT || alone[2] == of_number[2]);
         }
         // The control: in range it is another function, in the last place.
         let mut angles = arguments(1e3);
