@@ -345,6 +345,11 @@ where
     /// The [`Report`](crate::step::Report) of a step solved so has for `residual` what is left of the
     /// momenta, and for `floor` what might be. A [`checkpoint`](Self::checkpoint) ends it.
     ///
+    /// What is asked of such a step where it was taken is that of its stages as they were left: the state
+    /// between its ends ([`between`](crate::run::between)), and derivatives that take the stages from the memory
+    /// of the run ([`Linearizable::linearized`](crate::step::Linearizable::linearized)), off by about what is left
+    /// times the second derivatives. [`Discretised::linearized_step`] solves the stages to rounding first.
+    ///
     /// ```
     /// use dalembert::{Discretise, Gauss, State, rayleigh_system};
     ///

@@ -158,7 +158,8 @@ where
     }
 
     /// From here on equations are solved no further than an error of `error` after so many steps asks for, where
-    /// the method has use for that: [`Trajectory::solved_for`](crate::Trajectory::solved_for).
+    /// the method has use for that: [`Trajectory::solved_for`](crate::Trajectory::solved_for). Derivatives that are
+    /// taken with this memory are then those at what was left.
     fn leave_unsolved(&mut self, error: f64, steps: u64) {
         let _ = (error, steps);
     }
