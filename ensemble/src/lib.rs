@@ -51,7 +51,8 @@
 //! Products and sums are rounded as they are alone: that changes no bit either. The lane of a member that is
 //! done is given to the next.
 //!
-//! **Inputs and time.** A view is a member as well, in lanes too where it takes no time:
+//! **Inputs and time.** A view is a member as well, in lanes too where it takes no time, by the midpoint rule
+//! also where it does:
 //!
 //! ```
 //! use dalembert::{Splitting, State, rayleigh_system};

@@ -8,7 +8,7 @@ use super::rules::Rule;
 use super::structure::{Damping, Findings};
 use super::written_out::{CONDITIONAL, WrittenOut};
 
-const TIMED: &str = "takes no time: L, R and f have to be functions of q, v, the input and the fields";
+const TIMED: &str = "takes no time: L, R and f have to be functions of q, v, the input and the fields; by `lanes = midpoint` they may take it";
 
 /// Reports what can be told from the attribute and the signatures.
 pub fn check(system: &System<'_>, report: &mut Report) {
@@ -31,12 +31,10 @@ pub fn check(system: &System<'_>, report: &mut Report) {
             refuse(word, "needs the rule whose steps are explicit; add `rule = trapezoidal`", report);
         }
     }
-    if let Some(word) = &system.lanes.midpoint {
-        if system.timed.any() {
-            refuse(word, TIMED, report);
-        } else if !system.rules.of_displacement.contains(&Rule::Midpoint) {
-            refuse(word, "needs the midpoint rule; list it, `rule = midpoint`", report);
-        }
+    if let Some(word) = &system.lanes.midpoint
+        && !system.rules.of_displacement.contains(&Rule::Midpoint)
+    {
+        refuse(word, "needs the midpoint rule; list it, `rule = midpoint`", report);
     }
     if let Some(word) = &system.lanes.gauss {
         if system.timed.any() {

@@ -3,7 +3,7 @@
 
 pub(crate) mod newton;
 
-use crate::numbers::{Elementary, EntriesOfMembers, MemberVector, NewtonMatrix};
+use crate::numbers::{Elementary, EntriesOfMembers, MemberVector, Members, NewtonMatrix};
 use crate::step::{Discrete, Memory, State, VelocityHistory};
 
 /// A discrete system whose step's equation is known of several members at once: what `lanes = midpoint`
@@ -19,8 +19,21 @@ pub trait DiscreteInLanes<R, const N: usize>:
     /// What the equation knows of each of W systems before the run.
     type Fields<const W: usize>: Copy + core::fmt::Debug;
 
+    /// Whether L, R or f takes the time.
+    const IS_TIMED: bool = false;
+
     /// What is known of the systems, gathered.
     fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W>;
+
+    /// The same as long after each system's own time as `elapsed` says, [`later`](crate::Lagrangian::later) of each.
+    #[inline(always)]
+    fn later_in_lanes<const W: usize>(
+        fields: &Self::Fields<W>,
+        elapsed: &Members<Self::Scalar, W>,
+    ) -> Self::Fields<W> {
+        let _ = elapsed;
+        *fields
+    }
 
     /// [`step_kernel`](Discrete::step_kernel) of each member, p0 and the entries of the matrix, to the last bit.
     fn step_kernel_in_lanes<const W: usize>(
@@ -70,14 +83,15 @@ where
     /// A step by Newton's method has been taken.
     fn has_paused(&mut self);
 
-    /// The step from `state` with this mean velocity has been taken by the matrix kept, in so many corrections.
+    /// The step from `state` with this mean velocity has been taken by the matrix kept, in so many corrections;
+    /// whether another is kept from now on, or none.
     fn has_served(
         &mut self,
         system: &L,
         state: &State<L::Scalar, N>,
         step: (nalgebra::SVector<L::Scalar, N>, L::Scalar),
         corrections: u32,
-    );
+    ) -> bool;
 }
 
 impl<L, R, const N: usize> MemoryInLanes<L, R, N> for VelocityHistory<L::Scalar, N>
@@ -106,6 +120,7 @@ where
         _state: &State<L::Scalar, N>,
         _step: (nalgebra::SVector<L::Scalar, N>, L::Scalar),
         _corrections: u32,
-    ) {
+    ) -> bool {
+        false
     }
 }

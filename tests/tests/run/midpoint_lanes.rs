@@ -385,3 +385,84 @@ fn inputs_and_lanes_given_to_others() {
         assert_eq!(end(&runs, lane), Some(alone(member, steps)), "lane {lane}");
     }
 }
+
+/// The time of each member is its own: that of its view, and the steps since it was put into its lane. Inputs
+/// and locals of the body may go by the names that generated code has.
+#[test]
+fn every_member_has_a_time_of_its_own() {
+    #[derive(Clone, Debug)]
+    struct Pumped {
+        k: f64,
+    }
+
+    #[rayleigh_system(lanes = midpoint)]
+    impl Pumped {
+        fn lagrangian(&self, q: [f64; 2], v: [f64; 2], t: f64) -> f64 {
+            let now = 1.0 + 0.2 * (1.3 * t).sin();
+            0.5 * (v[0] * v[0] + now * v[1] * v[1]) + self.k * now * q[0].cos() - 0.5 * (q[0] - q[1]).powi(2)
+        }
+
+        fn rayleigh(&self, v: [f64; 2], time: f64) -> f64 {
+            0.05 * v[1] * v[1] * (1.0 + (-0.1 * time).exp())
+        }
+
+        fn force(&self, q: [f64; 2], _v: [f64; 2], push: [f64; 1], time: f64) -> [f64; 2] {
+            let u = push[0] * time.cos();
+            let t = u * q[1] + push[0];
+            [u, if time > 1.0 { t } else { -t }]
+        }
+    }
+
+    /// A chain whose matrix is kept, and depends on the time.
+    #[derive(Clone, Debug)]
+    struct Growing;
+
+    #[rayleigh_system(lanes = midpoint)]
+    impl Growing {
+        fn lagrangian(&self, q: [f64; 4], v: [f64; 4], t: f64) -> f64 {
+            let (mut l, mut before) = (0.0, 0.0);
+            for i in 0..4 {
+                let d = q[i] - before;
+                l += 0.5 * v[i] * v[i] - (1.0 + 4.0 * t * t) * (0.5 * d * d + 0.25 * d.powi(4));
+                before = q[i];
+            }
+            l
+        }
+    }
+
+    let mut random = StdRng::seed_from_u64(13);
+    let pumped: [Pumped; 6] = std::array::from_fn(|_| Pumped { k: random.random_range(0.5..2.0) });
+    let views = pumped
+        .each_ref()
+        .map(|system| system.driven([random.random_range(-1.0..1.0)], random.random_range(-3.0..3.0)));
+    let starts: [State<f64, 2>; 6] = std::array::from_fn(|_| crate::lanes::start(&mut random));
+    let alone = |member: usize, steps: usize| {
+        let mut run = views[member].by(Midpoint, 0.07).run(starts[member]);
+        bits(&run.nth(steps - 1).unwrap().unwrap().state)
+    };
+    let systems = [&views[0], &views[1], &views[2], &views[3]];
+    let mut runs = LaneRuns::new(Midpoint, systems, &[starts[0], starts[1], starts[2], starts[3]], 0.07);
+    runs.advance(17);
+    runs.refill(
+        [None, Some(&views[4]), None, Some(&views[5])],
+        &[starts[0], starts[4], starts[0], starts[5]],
+    );
+    runs.advance(1);
+    runs.advance(24);
+    for (lane, (member, steps)) in [(0, 42), (4, 25), (2, 42), (5, 25)].into_iter().enumerate() {
+        assert_eq!(runs.state(lane).map(|state| bits(&state)), Some(alone(member, steps)), "lane {lane}");
+    }
+    // Positive control: at another time it is another motion.
+    let later = pumped[0].driven([0.3], 1.0).by(Midpoint, 0.07).step(&starts[0]).unwrap();
+    assert_ne!(pumped[0].driven([0.3], 2.0).by(Midpoint, 0.07).step(&starts[0]).unwrap(), later);
+
+    let growing = [0.0, 0.5, -0.5, 1.0].map(|t| Growing.at_time(t));
+    let starts: [State<f64, 4>; 4] = std::array::from_fn(|_| crate::lanes::start(&mut random));
+    let mut runs = LaneRuns::new(Midpoint, growing.each_ref(), &starts, 0.02);
+    runs.advance(100);
+    for (lane, system) in growing.iter().enumerate() {
+        let alone = system.by(Midpoint, 0.02).run(starts[lane]).nth(99).unwrap().unwrap().state;
+        assert_eq!(runs.state(lane).map(|state| bits(&state)), Some(bits(&alone)), "lane {lane}");
+    }
+    assert!(runs.steps_alone() < 100, "{}", runs.steps_alone());
+}

@@ -81,25 +81,34 @@ impl OfMembers {
 
     /// `let [k, _] = *fields;`, the names being those of the line; nothing where it uses none.
     fn taken_apart(&self, name: &str, line: &StraightLine) -> Option<TokenStream> {
+        let name = format_ident!("{name}");
+        self.pattern(line).map(|pattern| quote!(let #pattern = *#name;))
+    }
+
+    /// The names of the line, in the places of their values; nothing where it uses none.
+    fn pattern(&self, line: &StraightLine) -> Option<TokenStream> {
         let own = |node: Node| line.fields.iter().find(|field| field.node == node);
         let is_used = [&self.numbers, &self.truths].into_iter().flatten().any(|&node| own(node).is_some());
-        let name = format_ident!("{name}");
-        is_used.then(|| {
-            let pattern =
-                self.value(|node| own(node).map_or_else(|| quote!(_), |own| own.name.to_token_stream()));
-            quote!(let #pattern = *#name;)
-        })
+        is_used
+            .then(|| self.value(|node| own(node).map_or_else(|| quote!(_), |own| own.name.to_token_stream())))
     }
 }
 
 impl Code<'_> {
     /// The code on members for `outputs`, in a function with parameters of these names.
     fn on_members(&mut self, outputs: &[Node], taken: &[&str], handed: &[Node]) -> StraightLine {
-        let line = on_members(&self.graph, &self.system.scalar, outputs, taken, self.is_portable, handed);
+        let taken = self.taken_with(taken);
+        let line = on_members(&self.graph, &self.system.scalar, outputs, &taken, self.is_portable, handed);
         let mut line = self.seen(line);
         line.fields.sort_by_key(|field| (field.is_truth, field.node));
         self.calls_elementary |= line.calls_elementary;
         line
+    }
+
+    /// The names of parameters, and what a view declares.
+    fn taken_with<'t>(&self, taken: &[&'t str]) -> Vec<&'t str> {
+        let of_view: &[&str] = if self.home == Home::View { &["u", "t", "now", "elapsed"] } else { &[] };
+        taken.iter().chain(of_view).copied().collect()
     }
 
     /// The code on numbers for `outputs`, which members compute too where they are stepped in lanes.
@@ -112,20 +121,23 @@ impl Code<'_> {
         if !is_in_lanes {
             return self.code_as_it_stands(outputs, &[]);
         }
-        let line = as_on_members(&self.graph, &self.system.scalar, outputs, taken, self.is_portable);
+        let taken = self.taken_with(taken);
+        let line = as_on_members(&self.graph, &self.system.scalar, outputs, &taken, self.is_portable);
         self.calls_elementary |= line.calls_elementary;
         self.seen(line)
     }
 
-    /// `type Fields` and the function that fills it.
+    /// `type Fields` and the function that fills it; where there is a time, that of the system and the present
+    /// one beside what is known.
     fn gathered(&mut self, fields: &OfMembers) -> TokenStream {
         let (ty, members) = (fields.ty(), &fields.members);
+        let (scalar, is_timed) = (self.system.scalar.clone(), self.system.timed.any());
         let mut of_each = |(nodes, group): (&[Node], &str)| {
             let line = straight_line(
                 &self.graph,
                 &self.system.scalar,
                 nodes,
-                &["systems", "system"],
+                &self.taken_with(&["systems", "system"]),
                 self.is_portable,
             );
             self.calls_elementary |= line.calls_elementary;
@@ -138,7 +150,28 @@ impl Code<'_> {
             quote!(#group::of_each(systems.map(|system| #outputs)))
         };
         let values = tuple(fields.groups().map(&mut of_each));
-        let systems = parameter("systems", !fields.is_empty());
+        let systems = parameter("systems", is_timed || !fields.is_empty());
+        if is_timed {
+            return quote! {
+                type Fields<const #members: usize> = (#ty, [Members<#scalar, #members>; 2]);
+
+                const IS_TIMED: bool = true;
+
+                fn fields<const #members: usize>(#systems: [&Self; #members]) -> Self::Fields<#members> {
+                    let t = Members(systems.map(|system| system.t));
+                    (#values, [t; 2])
+                }
+
+                #[inline(always)]
+                fn later_in_lanes<const #members: usize>(
+                    fields: &Self::Fields<#members>,
+                    elapsed: &Members<#scalar, #members>,
+                ) -> Self::Fields<#members> {
+                    let (known, [t, _]) = *fields;
+                    (known, [t, t + *elapsed])
+                }
+            };
+        }
         quote! {
             type Fields<const #members: usize> = #ty;
 

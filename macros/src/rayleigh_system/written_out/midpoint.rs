@@ -101,12 +101,17 @@ impl Code<'_> {
         total
     }
 
-    /// The code with h/2 and q̄ in front, as far as it reads them.
-    pub(super) fn at_midpoint(&self, line: &StraightLine, result: TokenStream) -> TokenStream {
+    /// The code with h/2 and q̄ in front, as far as it reads them; `now` is the time at the start of the step.
+    pub(super) fn at_midpoint(
+        &self,
+        line: &StraightLine,
+        now: &TokenStream,
+        result: TokenStream,
+    ) -> TokenStream {
         let uses_time = line.uses("t");
         let half =
             (line.uses_coordinates || line.uses("half") || uses_time).then(|| quote!(let half = 0.5 * h;));
-        let t = uses_time.then(|| quote!(let t = self.t + half;));
+        let t = uses_time.then(|| quote!(let t = #now + half;));
         let q = line.uses_coordinates.then(|| {
             let index = (0..self.n).map(Literal::usize_unsuffixed);
             let entries = index.map(|index| quote!(q0[#index] + half * v[#index]));

@@ -32,6 +32,8 @@ pub struct StepsInLanes<T, F, M, A, const N: usize, const W: usize> {
     /// The latest mean velocities, newest first, and how many of them are known.
     velocities: [MemberVector<T, N, W>; 4],
     known: [usize; W],
+    /// Steps since the start.
+    taken: [u64; W],
     /// All else that runs keep.
     memories: [M; W],
     matrices: A,
@@ -69,6 +71,7 @@ where
             p: zero,
             velocities: [zero; 4],
             known: [0; W],
+            taken: [0; W],
             memories: [M::default(); W],
             matrices: A::zero(),
             alone: 0,
@@ -81,9 +84,16 @@ where
         self.is_by_newton.0[lane] = false;
         self.is_by_matrix.0[lane] = false;
         self.known[lane] = 0;
+        self.taken[lane] = 0;
         self.memories[lane] = M::default();
         write_member(&mut self.q, lane, &start.q);
         write_member(&mut self.p, lane, &start.p);
+    }
+
+    /// The time since the start after so many steps, as that of [`Checkpoint::time`](crate::run::Checkpoint::time).
+    #[inline(always)]
+    fn elapsed(&self, taken: u64) -> T {
+        T::constant(if taken == 0 { 0.0 } else { self.h.widen() * taken as f64 })
     }
 
     /// [`VelocityHistory::extrapolation`] of each that has a velocity.
@@ -130,6 +140,7 @@ where
         for lane in 0..W {
             let known = (self.known[lane] + usize::from(has_stepped.0[lane])).min(4);
             self.known[lane] = known;
+            self.taken[lane] += u64::from(has_stepped.0[lane]);
         }
         has_stepped
     }
@@ -142,13 +153,17 @@ where
     L: DiscreteInLanes<Midpoint, N>,
 {
     for _ in 0..count {
+        let mut fields = steps.fields;
+        if L::IS_TIMED {
+            fields = L::later_in_lanes(&fields, &Members(steps.taken.map(|taken| steps.elapsed(taken))));
+        }
         let guess = steps.extrapolation();
         let mut is_alone = steps.is_sound;
         let by_newton = steps.is_sound & steps.is_by_newton;
         let by_matrix = steps.is_sound & steps.is_by_matrix;
         if by_newton.0.contains(&true) {
             let at = [&steps.q, &steps.p];
-            let roots = quick_in_lanes::<L, Midpoint, N, W>(&steps.fields, at, steps.h, &guess, by_newton);
+            let roots = quick_in_lanes::<L, Midpoint, N, W>(&fields, at, steps.h, &guess, by_newton);
             let has_stepped = steps.follow(&roots);
             is_alone = is_alone & !has_stepped;
             if L::Memory::KEEPS {
@@ -156,7 +171,7 @@ where
             }
         }
         if L::Memory::KEEPS && by_matrix.0.contains(&true) {
-            let (matrices, fields, at) = (&steps.matrices, &steps.fields, [&steps.q, &steps.p]);
+            let (matrices, fields, at) = (&steps.matrices, &fields, [&steps.q, &steps.p]);
             let (roots, corrections) = if L::LINEAR {
                 by_linear_matrices::<L, Midpoint, N, W>(matrices, fields, at, steps.h, &guess, by_matrix)
             } else {
@@ -202,8 +217,11 @@ fn serve<L, const N: usize, const W: usize>(
         if has_stepped.0[lane] {
             let state = State { q: member(before, lane), p: member(&steps.p, lane) };
             let step = (member(&steps.velocities[0], lane), steps.h);
-            steps.memories[lane].has_served(systems[lane], &state, step, corrections[lane]);
-            if corrections[lane] > 1 {
+            let elapsed = steps.elapsed(steps.taken[lane].saturating_sub(1));
+            let memory = &mut steps.memories[lane];
+            let is_another = systems[lane]
+                .later(elapsed, |system| memory.has_served(system, &state, step, corrections[lane]));
+            if is_another {
                 look_ahead::<L, N, W>(steps, lane);
             }
         }
@@ -235,9 +253,10 @@ where
         steps.alone += 1;
         let state = State { q: member(&steps.q, lane), p: member(&steps.p, lane) };
         let velocities = core::array::from_fn(|age| member(&steps.velocities[age], lane));
+        let (elapsed, h) = (steps.elapsed(steps.taken[lane]), steps.h);
         let memory = &mut steps.memories[lane];
-        *memory.history() = VelocityHistory::of(velocities, steps.known[lane], steps.h);
-        let Ok(step) = memory.advance(system, &state, steps.h) else {
+        *memory.history() = VelocityHistory::of(velocities, steps.known[lane], h);
+        let Ok(step) = system.later(elapsed, |system| memory.advance(system, &state, h)) else {
             steps.is_sound.0[lane] = false;
             continue;
         };
@@ -246,6 +265,7 @@ where
             write_member(all, lane, own);
         }
         steps.known[lane] = known;
+        steps.taken[lane] += 1;
         write_member(&mut steps.q, lane, &step.state.q);
         write_member(&mut steps.p, lane, &step.state.p);
         look_ahead::<L, N, W>(steps, lane);

@@ -155,11 +155,13 @@ where
         state: &State<L::Scalar, N>,
         (velocity, h): (SVector<L::Scalar, N>, L::Scalar),
         corrections: u32,
-    ) {
+    ) -> bool {
         self.served = self.served.saturating_add(1);
-        if corrections > STALE {
+        let is_stale = corrections > STALE;
+        if is_stale {
             self.renew(system, state, &velocity, h);
         }
+        is_stale
     }
 }
 

@@ -28,16 +28,25 @@ impl Code<'_> {
         let kernel = self.on_members(kernel, &TAKEN_AT_MIDPOINT, &[]);
         let momenta = self.on_members(momenta, &TAKEN_AT_MIDPOINT, &[]);
         let fields = OfMembers::fields_of(self, [&kernel, &momenta]);
+        let is_timed = self.system.timed.any();
         let gathered = self.gathered(&fields);
         let (scalar, n, members) = (&self.system.scalar, self.system.degrees.times(1), &fields.members);
         let width = diagonals
             .map_or_else(|| n.clone(), |diagonals| Literal::usize_unsuffixed(diagonals).to_token_stream());
 
         let function = |name: &str, line: &StraightLine, result: TokenStream, ty: TokenStream| {
-            let apart = fields.taken_apart("fields", line);
+            let (pattern, reads_time) = (fields.pattern(line), line.uses("t"));
+            let apart = (pattern.is_some() || reads_time).then(|| {
+                let known = pattern.unwrap_or_else(|| quote!(_));
+                match (is_timed, reads_time) {
+                    (false, _) => quote!(let #known = *fields;),
+                    (true, false) => quote!(let (#known, _) = *fields;),
+                    (true, true) => quote!(let (#known, [_, now]) = *fields;),
+                }
+            });
             let of_fields = parameter("fields", apart.is_some());
             let name = format_ident!("{name}");
-            let body = self.at_midpoint(line, result);
+            let body = self.at_midpoint(line, &quote!(now), result);
             quote! {
                 #[inline(always)]
                 fn #name<const #members: usize>(
