@@ -1,6 +1,6 @@
 """Times methods that have a Python interface, one run at a request, so that another program can take turns with it.
 
-Says which methods there are, then answers a line `method<TAB>scene<TAB>tolerance<TAB>repeats<TAB>samples` with `end`, the
+Says which methods there are, and which find events, then answers a line `method<TAB>scene<TAB>tolerance<TAB>repeats<TAB>samples` with `end`, the
 seconds of one trajectory and (q, v) at so many equal intervals, of a batch of all its trajectories, or with what went wrong. The time is this thread's processor time,
 taken here, around the integration alone.
 """
@@ -77,6 +77,49 @@ def heyoka_methods(hy):
     return {"heyoka": run_scalar, "heyoka, batch of 8": run_batch}
 
 
+def heyoka_events(hy):
+    """Crossings of q0 = 0 from below: of the last one its time, q1 and v1, and how many there were."""
+    import numpy as np
+
+    @cache
+    def integrator(name, tolerance, states):
+        y, rates, start = motion(hy, ALL[name])
+        found = []
+
+        def callback(at, time, _):
+            if states:
+                at.update_d_output(time)
+                found.append((time, *at.d_output[[1, 3]]))
+            else:
+                found.append(time)
+
+        event = hy.nt_event(y[0], callback=callback, direction=hy.event_direction.positive)
+        return hy.taylor_adaptive(rates, start, tol=tolerance, nt_events=[event]), found
+
+    def run(name, tolerance, repeats, states):
+        (taken, found), scene = integrator(name, tolerance, states), ALL[name]
+        start = np.array(scene.q + scene.v)
+        begin = thread_time()
+        for _ in range(repeats):
+            found.clear()
+            taken.time = 0.0
+            taken.state[:] = start
+            taken.propagate_until(scene.end + 0.5)
+        return (thread_time() - begin) / repeats, [after for after in found if (after[0] if states else after) > 1e-6]
+
+    def times(name, tolerance, repeats, _):
+        # y and v_y by a run that is not timed.
+        seconds, found = run(name, tolerance, repeats, False)
+        _, [*_, last] = run(name, tolerance, 1, True)
+        return seconds, [[found[-1], last[1], last[2], len(found)]]
+
+    def with_states(name, tolerance, repeats, _):
+        seconds, found = run(name, tolerance, repeats, True)
+        return seconds, [[*found[-1], len(found)]]
+
+    return {"heyoka, times alone": times, "heyoka, with states": with_states}
+
+
 def scipy_methods(hy):
     """SciPy's compiled DOP853, its right-hand side compiled by heyoka."""
     import numpy as np
@@ -129,6 +172,13 @@ def main():
     methods = available()
     for name in methods:
         print(f"method {name}")
+    if methods:
+        import heyoka
+
+        events = heyoka_events(heyoka)
+        for name in events:
+            print(f"events {name}")
+        methods |= events
     print("ready", flush=True)
     for line in sys.stdin:
         method, scene, tolerance, repeats, samples = line.rstrip("\n").split("\t")

@@ -150,6 +150,9 @@ SCENES = {
 # The cost of more coordinates: the same chain, longer.
 SCENES |= {f"FPUT chain, n = {n}": Scene(chain, first_mode(n), [0.0] * n, 50.0) for n in (2, 4, 8, 16, 32)}
 
+# The section x = 0 of Hénon and Heiles' problem: to the number next to its 157th crossing from below.
+SCENES |= {"section": Scene(henon_heiles, [0.0, 0.1], [0.3, 0.1], 995.5304064784201)}
+
 # The long run, whose energy is watched.
 LONG_RUN = Scene(ring(1e-5), [0.0, 1.15549918674982], [0.5, 0.0], 20000.0)
 LONG_RUN_SAMPLES = 200

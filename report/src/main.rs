@@ -3,7 +3,7 @@
 //!
 //! `cargo speed-against-error` measures and writes `docs/speed-against-error.md`; `… page` writes the page
 //! again from the figures measured last, `… scenes` and `… long-run` measure one part again, `… scenes ring
-//! Kepler` these scenes. `… ensembles`, of many trajectories, is a page of its own. Peers with a Python interface are run where the interpreter that `PYTHON` names has
+//! Kepler` these scenes; `… section` the crossings of a section. `… ensembles`, of many trajectories, is a page of its own. Peers with a Python interface are run where the interpreter that `PYTHON` names has
 //! them.
 
 mod ensembles;
@@ -16,6 +16,7 @@ mod page;
 mod peers;
 mod reference;
 mod scenes;
+mod section;
 mod study;
 
 use std::path::Path;
@@ -37,14 +38,18 @@ fn main() -> Result<()> {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("docs");
     let folder = docs.join("speed-against-error");
     match env::args().nth(1).as_deref() {
-        None => measure(&folder, Some(&[]), true)?,
+        None => {
+            measure(&folder, Some(&[]), true)?;
+            crossings(&folder)?;
+        }
+        Some("section") => crossings(&folder)?,
         Some("scenes") => measure(&folder, Some(&env::args().skip(2).collect::<Vec<_>>()), false)?,
         Some("long-run") => measure(&folder, None, true)?,
         Some("ensembles") => return ensembles::write(&docs),
         Some("page") => {}
         Some(other) => {
             bail!(
-                "{other:?} is no part of the measurement: give `scenes` or `long-run` to measure these alone, `ensembles` for many trajectories, `page` to measure nothing, or \
+                "{other:?} is no part of the measurement: give `scenes`, `long-run` or `section` to measure these alone, `ensembles` for many trajectories, `page` to measure nothing, or \
                  no argument to measure all"
             )
         }
@@ -56,6 +61,7 @@ fn main() -> Result<()> {
         records: &records,
         long: &read(&folder.join("long-run.csv"))?,
         samples: &read(&folder.join("long-run-samples.csv"))?,
+        crossings: &read(&folder.join("section.csv"))?,
         ours: &ours,
         setting: &setting,
         reading: include_str!("../reading.md"),
@@ -91,6 +97,13 @@ fn measure(folder: &Path, wanted: Option<&[String]>, long: bool) -> Result<()> {
         write(&folder.join("long-run-samples.csv"), &samples)?;
     }
     Ok(())
+}
+
+/// Measures the section.
+fn crossings(folder: &Path) -> Result<()> {
+    eprintln!("section");
+    let python = Python::start().inspect_err(|error| eprintln!("{error:#}")).ok();
+    write(&folder.join("section.csv"), &section::measure(python.as_ref())?)
 }
 
 /// The records of a file; none if there is no file, for a part not measured yet.

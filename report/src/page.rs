@@ -8,7 +8,7 @@ use dalembert_examples::results;
 
 use crate::frontier::{Point, points, time_to_reach};
 use crate::study::Record;
-use crate::{figures, long_run};
+use crate::{figures, long_run, section};
 
 /// The scenes of the tables; the other chains are for the growth with n.
 pub const SCENES: [&str; 8] = [
@@ -39,6 +39,7 @@ pub struct Measured<'a> {
     pub records: &'a [Record],
     pub long: &'a [long_run::Record],
     pub samples: &'a [long_run::Sample],
+    pub crossings: &'a [section::Record],
     pub ours: &'a [&'a str],
     /// What ran where, a line each.
     pub setting: &'a str,
@@ -145,6 +146,12 @@ fn text(measured: &Measured<'_>) -> Result<String> {
              ![Energy error along the long run, and its largest value over cost](speed-against-error/long-run.svg)\n"
         )?;
         long(&mut page, measured)?;
+    }
+    writeln!(page, "\n## A section\n")?;
+    if measured.crossings.is_empty() {
+        writeln!(page, "Not measured in this run: `cargo speed-against-error section`.")?;
+    } else {
+        section::table(&mut page, measured.crossings)?;
     }
     writeln!(page, "\n## Growth with n\n")?;
     growth(&mut page, measured)?;

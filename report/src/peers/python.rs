@@ -12,6 +12,8 @@ use anyhow::{Context, Result, bail, ensure};
 pub struct Python {
     process: RefCell<Process>,
     pub methods: Vec<&'static str>,
+    /// Those that find crossings.
+    pub events: Vec<&'static str>,
     pub missing: Vec<String>,
     pub versions: Vec<String>,
 }
@@ -38,18 +40,20 @@ impl Python {
         let input = child.stdin.take().context("no standard input")?;
         let output = BufReader::new(child.stdout.take().context("no standard output")?);
         let mut process = Process { child, input, output };
-        let (mut methods, mut missing, mut versions) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut methods, mut events) = (Vec::new(), Vec::new());
+        let (mut missing, mut versions) = (Vec::new(), Vec::new());
         loop {
             let line = process.line()?;
             match line.split_once(' ').unwrap_or((&line, "")) {
                 ("method", name) => methods.push(&*name.to_owned().leak()),
+                ("events", name) => events.push(&*name.to_owned().leak()),
                 ("missing", what) => missing.push(what.to_owned()),
                 ("version", what) => versions.push(what.to_owned()),
                 ("ready", "") => break,
                 _ => bail!("peers.py said {line:?}"),
             }
         }
-        Ok(Self { process: RefCell::new(process), methods, missing, versions })
+        Ok(Self { process: RefCell::new(process), methods, events, missing, versions })
     }
 
     /// Seconds of one trajectory of the scene of that name, and (q, v) at the ends of so many equal

@@ -1,5 +1,6 @@
 //! State at any time, of runs by every method: between the nodes of the grid, without leaving it.
 
+mod divisible;
 mod moment;
 mod times;
 
@@ -8,12 +9,14 @@ use nalgebra::SVector;
 use crate::numbers::Scalar;
 use crate::rules::Gauss;
 use crate::run::Trajectory;
-use crate::step::{Flow, Memory, State, Step, StepError};
+use crate::step::{Flow, State, Step, StepError};
+pub use divisible::{Divisible, Restartable};
+pub(in crate::run) use divisible::{beginning, velocity};
 pub use moment::Moment;
 pub use times::{SampledAt, TimeError};
 
 /// Looking between the steps.
-impl<'a, L, M, const N: usize> Trajectory<'a, L, M, N>
+impl<L, M, const N: usize> Trajectory<'_, L, M, N>
 where
     L: Flow<M, N>,
 {
@@ -39,8 +42,8 @@ where
     /// assert!((near.q[0] - 4.7_f64.cos()).abs() < 1e-8);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn dense(&mut self) -> Dense<'_, 'a, L, M, N> {
-        Dense { run: self, start: None }
+    pub fn dense(&mut self) -> Dense<'_, Self, N> {
+        Dense::of(self)
     }
 }
 
@@ -58,12 +61,9 @@ where
 /// Gauss rules of three stages and more have the collocation polynomial, v = Σ ℓ_j V_j and q = q0 + h Σ V_j ∫ℓ_j,
 /// the others the cubic through (q, v) at both ends. Where the run has structure to keep, the state between should be asked of
 /// [`state_at`](Self::state_at): a step keeps what steps keep, a polynomial does not.
-pub struct Dense<'t, 'a, L, M, const N: usize>
-where
-    L: Flow<M, N>,
-{
-    run: &'t mut Trajectory<'a, L, M, N>,
-    start: Option<Start<L::Scalar, N>>,
+pub struct Dense<'t, T: Divisible<N>, const N: usize> {
+    run: &'t mut T,
+    start: Option<Start<T::Scalar, N>>,
 }
 
 /// Where the last step began.
@@ -75,20 +75,31 @@ pub(super) struct Start<S, const N: usize> {
     pub(super) mean: SVector<S, N>,
 }
 
-impl<'a, L, M, const N: usize> Dense<'_, 'a, L, M, N>
-where
-    L: Flow<M, N>,
-{
+/// The nodes of the cubic.
+const OF_CUBIC: &[f64] = &Gauss::<2>::NODES;
+
+impl<'t, T: Divisible<N>, const N: usize> Dense<'t, T, N> {
+    pub(in crate::run) fn of(run: &'t mut T) -> Self {
+        Self { run, start: None }
+    }
+}
+
+impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
     /// Whether the method has a polynomial of its own that is better than the cubic through both ends.
-    pub(super) const COLLOCATED: bool = <L::RunMemory as Memory<L, M, N>>::NODES.len() > 2;
+    #[inline(always)]
+    pub(super) fn is_collocated(&self) -> bool {
+        self.run.nodes().len() > 2
+    }
 
     /// Shares of a step at which it is looked at between its ends.
-    pub(super) const NODES: &'static [f64] =
-        if Self::COLLOCATED { <L::RunMemory as Memory<L, M, N>>::NODES } else { &Gauss::<2>::NODES };
+    #[inline(always)]
+    pub(super) fn nodes(&self) -> &'static [f64] {
+        if self.is_collocated() { self.run.nodes() } else { OF_CUBIC }
+    }
 
     /// The run, at the end of the last step.
     #[must_use]
-    pub fn run(&self) -> &Trajectory<'a, L, M, N> {
+    pub fn run(&self) -> &T {
         self.run
     }
 
@@ -104,26 +115,22 @@ where
     /// # Errors
     /// [`TimeError::Outside`]; [`TimeError::Step`] where a shorter step has no solution although the whole one
     /// has.
-    pub fn state_at(&self, time: f64) -> Result<State<L::Scalar, N>, TimeError> {
+    pub fn state_at(&self, time: f64) -> Result<State<T::Scalar, N>, TimeError> {
         let start = self.start_before(time)?;
         if time == self.run.time() {
             return Ok(*self.run.state());
         }
-        Ok(self.partial(&start, L::Scalar::constant(time - start.time))?)
+        Ok(self.partial(&start, T::Scalar::constant(time - start.time))?)
     }
 
     /// (q, v) at a time of the last step, by a polynomial.
     ///
     /// # Errors
     /// [`TimeError::Outside`]; those of [`State::velocity`], as [`TimeError::Step`].
-    pub fn interpolated_at(&self, time: f64) -> Result<Moment<'a, L, N>, TimeError> {
+    pub fn interpolated_at(&self, time: f64) -> Result<Moment<'_, T::System, N>, TimeError> {
         let start = self.start_before(time)?;
         let share = (time - start.time) / self.run.step_size().widen();
-        let of_method = if Self::COLLOCATED {
-            self.run.memory.between(&start.state.q, self.run.step_size(), share)
-        } else {
-            None
-        };
+        let of_method = if self.is_collocated() { self.run.between(&start.state.q, share) } else { None };
         let [q, v] = match of_method {
             Some(at) => at,
             None => {
@@ -132,10 +139,10 @@ where
                 cubic(&start, self.run.step_size(), &[at_start, at_end], share)
             }
         };
-        Ok(Moment::interpolated(self.run.system, time, q, v))
+        Ok(Moment::interpolated(self.run.system(), [time, self.run.since()], q, v))
     }
 
-    fn start_before(&self, time: f64) -> Result<Start<L::Scalar, N>, TimeError> {
+    fn start_before(&self, time: f64) -> Result<Start<T::Scalar, N>, TimeError> {
         let now = self.run.time();
         match self.start {
             Some(start) if start.time.min(now) <= time && time <= start.time.max(now) => Ok(start),
@@ -144,31 +151,30 @@ where
     }
 
     /// The system.
-    pub(super) fn system(&self) -> &'a L {
-        self.run.system
+    pub(super) fn system(&self) -> &T::System {
+        self.run.system()
     }
 
-    pub(super) fn start(&self) -> Option<&Start<L::Scalar, N>> {
+    pub(super) fn start(&self) -> Option<&Start<T::Scalar, N>> {
         self.start.as_ref()
-    }
-
-    /// Leaves the grid: the run goes on from `state` at `time`.
-    pub(super) fn restart_at(&mut self, time: f64, state: State<L::Scalar, N>) {
-        self.run.restart_at(time, state);
-        self.start = None;
     }
 
     /// The state `elapsed` after the start of the last step.
     pub(super) fn partial(
         &self,
-        start: &Start<L::Scalar, N>,
-        elapsed: L::Scalar,
-    ) -> Result<State<L::Scalar, N>, StepError> {
-        if elapsed == L::Scalar::constant(0.0) {
+        start: &Start<T::Scalar, N>,
+        elapsed: T::Scalar,
+    ) -> Result<State<T::Scalar, N>, StepError> {
+        if elapsed == T::Scalar::constant(0.0) {
             return Ok(start.state);
         }
-        let step = |system: &L| system.step(&start.state, elapsed, Some(&start.mean));
-        self.run.system.later(L::Scalar::constant(start.time), step).map(|step| step.state)
+        self.run.beginning(start.time, &start.state, &start.mean, elapsed)
+    }
+
+    /// The time of the run at which the system has its own.
+    #[inline(always)]
+    pub(super) fn since(&self) -> f64 {
+        self.run.since()
     }
 
     /// The velocity of a state of the run.
@@ -176,34 +182,47 @@ where
     pub(super) fn velocity(
         &self,
         time: f64,
-        state: &State<L::Scalar, N>,
-    ) -> Result<SVector<L::Scalar, N>, StepError> {
-        match self.run.memory.velocity(state) {
-            Some(velocity) => Ok(velocity),
-            None => self.run.system.later(L::Scalar::constant(time), |system| state.velocity(system)),
+        state: &State<T::Scalar, N>,
+    ) -> Result<SVector<T::Scalar, N>, StepError> {
+        self.run.velocity(time, state)
+    }
+
+    /// Calls `visit` with moments on the chord of the last step, by its mean velocity.
+    #[inline(always)]
+    pub(super) fn at_chord(
+        &self,
+        start: &Start<T::Scalar, N>,
+        mut visit: impl FnMut(&Moment<'_, T::System, N>),
+    ) {
+        let (system, since, h) = (self.run.system(), self.run.since(), self.run.step_size());
+        for &share in OF_CUBIC {
+            let elapsed = h * T::Scalar::constant(share);
+            let time = start.time + elapsed.widen();
+            let q = start.state.q + start.mean * elapsed;
+            visit(&Moment::interpolated(system, [time, since], q, start.mean));
         }
     }
 
-    /// Calls `visit` with the last step's moments at [`NODES`](Self::NODES); `ends` are the velocities there,
+    /// Calls `visit` with the last step's moments at [`nodes`](Self::nodes); `ends` are the velocities there,
     /// asked for where the method has no polynomial.
     #[inline(always)]
     pub(super) fn at_nodes(
         &self,
-        start: &Start<L::Scalar, N>,
-        ends: &[SVector<L::Scalar, N>; 2],
-        mut visit: impl FnMut(usize, &Moment<'a, L, N>),
+        start: &Start<T::Scalar, N>,
+        ends: &[SVector<T::Scalar, N>; 2],
+        mut visit: impl FnMut(usize, &Moment<'_, T::System, N>),
     ) {
-        let (system, h) = (self.run.system, self.run.step_size());
+        let (system, since, h) = (self.run.system(), self.run.since(), self.run.step_size());
         let time = |share: f64| start.time + share * h.widen();
-        if Self::COLLOCATED {
-            self.run.memory.at_nodes(&start.state.q, h, |i, q, v| {
-                let share = Self::NODES.get(i).copied().unwrap_or(1.0);
-                visit(i, &Moment::interpolated(system, time(share), *q, *v));
+        if self.is_collocated() {
+            self.run.at_nodes(&start.state.q, |i, q, v| {
+                let share = self.nodes().get(i).copied().unwrap_or(1.0);
+                visit(i, &Moment::interpolated(system, [time(share), since], *q, *v));
             });
         } else {
-            for (i, &share) in Self::NODES.iter().enumerate() {
+            for (i, &share) in self.nodes().iter().enumerate() {
                 let [q, v] = cubic(start, h, ends, share);
-                visit(i, &Moment::interpolated(system, time(share), q, v));
+                visit(i, &Moment::interpolated(system, [time(share), since], q, v));
             }
         }
     }
@@ -227,11 +246,16 @@ fn cubic<S: Scalar, const N: usize>(
     [start.state.q + q * h, v]
 }
 
-impl<L, M, const N: usize> Iterator for Dense<'_, '_, L, M, N>
-where
-    L: Flow<M, N>,
-{
-    type Item = Result<Step<L::Scalar, N>, StepError>;
+impl<T: Restartable<N>, const N: usize> Dense<'_, T, N> {
+    /// Leaves the grid: the run goes on from `state` at `time`.
+    pub(super) fn restart_at(&mut self, time: f64, state: State<T::Scalar, N>) {
+        self.run.restart_at(time, state);
+        self.start = None;
+    }
+}
+
+impl<T: Divisible<N>, const N: usize> Iterator for Dense<'_, T, N> {
+    type Item = Result<Step<T::Scalar, N>, StepError>;
 
     #[inline]
     fn next(&mut self) -> Option<Self::Item> {

@@ -75,7 +75,7 @@ where
 {
     method: PhantomData<fn() -> M>,
     at: Checkpoint<V::Scalar, N>,
-    memory: V::RunMemory,
+    pub(super) memory: V::RunMemory,
     course: Course,
 }
 
@@ -122,6 +122,12 @@ where
     pub fn correct(&mut self, state: State<V::Scalar, N>) {
         self.at.state = state;
         Memory::<V, M, N>::change_state(&mut self.memory);
+    }
+
+    /// Goes on from another state at another time; what the method remembers is forgotten.
+    pub(super) fn restart_at(&mut self, time: f64, state: State<V::Scalar, N>) {
+        let at = Checkpoint { state, step_size: self.at.step_size, origin: time, steps: 0 };
+        *self = Self::resume(at);
     }
 
     /// All that is needed to go on from here; the run forgets what its method remembers, as one that is resumed

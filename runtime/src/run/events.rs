@@ -4,18 +4,20 @@ mod error;
 mod event;
 mod nodes;
 mod on_step;
+mod range;
 mod roots;
 
 use nalgebra::SVector;
 
 use crate::numbers::Scalar;
-use crate::run::Trajectory;
-use crate::run::between::{Dense, Moment};
+use crate::run::between::{Dense, Divisible, Moment, Restartable};
+use crate::run::{Run, Trajectory};
 use crate::step::{Flow, State, Step};
 pub use error::EventError;
 pub use event::{Event, EventDerivatives, EventGradient};
 use nodes::Nodes;
 use on_step::Found;
+use range::{BY_CHORD, Range};
 pub use roots::Passage;
 use roots::ROOTS;
 
@@ -23,7 +25,7 @@ use roots::ROOTS;
 const RESTARTS: u32 = 256;
 
 /// Watching for events.
-impl<'a, L, M, const N: usize> Trajectory<'a, L, M, N>
+impl<L, M, const N: usize> Trajectory<'_, L, M, N>
 where
     L: Flow<M, N>,
 {
@@ -49,26 +51,11 @@ where
     /// assert_eq!(periods, 16.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn watch<G, const K: usize>(&mut self, g: G) -> Watch<'_, 'a, L, M, G, N, K>
+    pub fn watch<G, const K: usize>(&mut self, g: G) -> Watch<'_, Self, G, N, K>
     where
         G: Fn(&Moment<'_, L, N>) -> [L::Scalar; K],
     {
-        Watch {
-            dense: self.dense(),
-            g,
-            crossings: [Crossing::Either; K],
-            terminal: [false; K],
-            until: None,
-            present: None,
-            earlier: None,
-            velocity: None,
-            happened: [false; K],
-            found: [None; ROOTS],
-            next: 0,
-            step: None,
-            restarts: 0,
-            ended: false,
-        }
+        Watch::of(self, g)
     }
 }
 
@@ -123,32 +110,34 @@ pub enum Crossing {
 /// assert!((now - left).abs() < 1e-13);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub struct Watch<'t, 'a, L, M, G, const N: usize, const K: usize>
-where
-    L: Flow<M, N>,
-{
-    dense: Dense<'t, 'a, L, M, N>,
+pub struct Watch<'t, T: Divisible<N>, G, const N: usize, const K: usize> {
+    dense: Dense<'t, T, N>,
     g: G,
     crossings: [Crossing; K],
     terminal: [bool; K],
+    /// How the run stops at a terminal event, where it can.
+    stop: Option<Stop<'t, T, N>>,
     until: Option<f64>,
     /// The values at the end of the last step; `None` before the first.
-    present: Option<[L::Scalar; K]>,
+    present: Option<[T::Scalar; K]>,
     /// Those at its start.
-    earlier: Option<[L::Scalar; K]>,
+    earlier: Option<[T::Scalar; K]>,
     /// The velocity at its end, where it was asked for.
-    velocity: Option<SVector<L::Scalar, N>>,
+    velocity: Option<SVector<T::Scalar, N>>,
     /// Which events happened at the present state.
     happened: [bool; K],
     /// What was found in the last step, in order.
-    found: [Option<Found<L::Scalar, N>>; ROOTS],
+    found: [Option<Found<T::Scalar, N>>; ROOTS],
     /// Which of them comes next.
     next: usize,
     /// The last step, unless it was reported.
-    step: Option<Step<L::Scalar, N>>,
+    step: Option<Step<T::Scalar, N>>,
     restarts: u32,
     ended: bool,
 }
+
+/// Leaves the grid.
+type Stop<'t, T, const N: usize> = fn(&mut Dense<'t, T, N>, f64, State<<T as Run<N>>::Scalar, N>);
 
 /// What comes next in a run that is watched.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -159,21 +148,35 @@ pub enum Watched<S, const N: usize> {
     Step(Step<S, N>),
 }
 
-impl<'a, L, M, G, const N: usize, const K: usize> Watch<'_, 'a, L, M, G, N, K>
+impl<'t, T, G, const N: usize, const K: usize> Watch<'t, T, G, N, K>
 where
-    L: Flow<M, N>,
-    G: Fn(&Moment<'_, L, N>) -> [L::Scalar; K],
+    T: Divisible<N>,
+    G: Fn(&Moment<'_, T::System, N>) -> [T::Scalar; K],
 {
+    pub(in crate::run) fn of(run: &'t mut T, g: G) -> Self {
+        Self {
+            dense: Dense::of(run),
+            g,
+            crossings: [Crossing::Either; K],
+            terminal: [false; K],
+            stop: None,
+            until: None,
+            present: None,
+            earlier: None,
+            velocity: None,
+            happened: [false; K],
+            found: [None; ROOTS],
+            next: 0,
+            step: None,
+            restarts: 0,
+            ended: false,
+        }
+    }
+
     /// Counts of each function the events of one direction only.
     #[must_use]
     pub fn crossing(self, crossings: [Crossing; K]) -> Self {
         Self { crossings, ..self }
-    }
-
-    /// Which events end the run.
-    #[must_use]
-    pub fn terminal(self, terminal: [bool; K]) -> Self {
-        Self { terminal, ..self }
     }
 
     /// Ends the iteration over events at this time: the run takes no step from there on.
@@ -184,22 +187,8 @@ where
 
     /// The run. Where events of its last step have not been asked for yet, it is ahead of them.
     #[must_use]
-    pub fn run(&self) -> &Trajectory<'a, L, M, N> {
+    pub fn run(&self) -> &T {
         self.dense.run()
-    }
-
-    /// Goes on from another state at the present time of the run, that of a terminal event: an impact, a switch.
-    /// Events that happened there do not happen again at once.
-    pub fn restart(&mut self, state: State<L::Scalar, N>) {
-        let time = self.run().time();
-        if !self.ended {
-            self.happened = [false; K];
-        }
-        self.dense.restart_at(time, state);
-        (self.present, self.earlier, self.velocity) = (None, None, None);
-        (self.step, self.ended) = (None, false);
-        self.found = [None; ROOTS];
-        self.restarts = self.restarts.saturating_add(1);
     }
 
     /// What comes next, at most a step further: its events, and then the step itself. `None` where the run has
@@ -208,7 +197,7 @@ where
     /// # Errors
     /// [`EventError`], after which the watch has ended.
     #[inline]
-    pub fn advance(&mut self) -> Option<Result<Watched<L::Scalar, N>, EventError>> {
+    pub fn advance(&mut self) -> Option<Result<Watched<T::Scalar, N>, EventError>> {
         if let Some(found) = self.found.get(self.next).copied().flatten() {
             return Some(self.report(&found).map(Watched::Event));
         }
@@ -234,7 +223,7 @@ where
     }
 
     #[cold]
-    fn advance_to_found(&mut self) -> Option<Result<Watched<L::Scalar, N>, EventError>> {
+    fn advance_to_found(&mut self) -> Option<Result<Watched<T::Scalar, N>, EventError>> {
         match self.found.first().copied().flatten() {
             Some(found) => Some(self.report(&found).map(Watched::Event)),
             None => self.step.take().map(|step| Ok(Watched::Step(step))),
@@ -258,9 +247,23 @@ where
         self.step = Some(step);
         let start = self.dense.start()?;
         let (time, state) = (self.dense.run().time(), self.dense.run().state());
+        let times = [time, self.dense.since()];
+        let lebesgue = Nodes::of(self.dense.nodes()).lebesgue;
         let mut ends = [nalgebra::zero(); 2];
         let mut velocity = None;
-        if !Dense::<L, M, N>::COLLOCATED {
+        if !self.dense.is_collocated() {
+            if let Some(earlier) = self.earlier {
+                let after = (self.g)(&Moment::of(self.dense.system(), times, state, None));
+                let mut range = Range::of(earlier);
+                range.widen(&before);
+                range.widen(&after);
+                self.dense.at_chord(start, |at| range.widen(&(self.g)(at)));
+                if range.is_clear(BY_CHORD * (lebesgue + 1.0)) {
+                    (self.earlier, self.present, self.velocity) = (Some(before), Some(after), None);
+                    self.restarts = 0;
+                    return Some(Ok(true));
+                }
+            }
             let found = match self.velocity {
                 Some(before) => self.dense.velocity(time, state).map(|after| [before, after]),
                 None => self
@@ -274,43 +277,18 @@ where
             };
             velocity = Some(ends[1]);
         }
-        let after = (self.g)(&Moment::of(self.dense.system(), time, state, velocity));
+        let after = (self.g)(&Moment::of(self.dense.system(), times, state, velocity));
         // The cubic does not see how the velocity changes in the step, as the step before does.
-        let earlier = if Dense::<L, M, N>::COLLOCATED { Some(before) } else { self.earlier };
+        let earlier = if self.dense.is_collocated() { Some(before) } else { self.earlier };
         (self.earlier, self.present, self.velocity) = (Some(before), Some(after), velocity);
-        let (mut low, mut high) = (before, before);
-        let mut widen = |values: &[L::Scalar; K]| {
-            for ((low, high), &value) in low.iter_mut().zip(&mut high).zip(values) {
-                // Neither keeps a NaN out: the sum below does.
-                if value < *low {
-                    *low = value
-                }
-                if value > *high {
-                    *high = value
-                }
-            }
-        };
-        widen(&after);
+        let mut range = Range::of(before);
+        range.widen(&after);
         if let Some(earlier) = &earlier {
-            widen(earlier);
+            range.widen(earlier);
         }
-        let mut sum = L::Scalar::constant(0.0);
-        self.dense.at_nodes(start, &ends, |_, at| {
-            let values = (self.g)(at);
-            widen(&values);
-            for value in values {
-                sum += value;
-            }
-        });
-        for value in after {
-            sum += value;
-        }
-        // Away from 0 by more than a polynomial can leave the range of its values, and half a range besides.
-        let away = L::Scalar::constant(NodesOf::<L, M, N>::NODES.lebesgue + 1.0);
-        let is_clear = |(&low, &high): (&L::Scalar, &L::Scalar)| {
-            (low + high).widen().abs() > (away * (high - low)).widen()
-        };
-        if earlier.is_some() && sum.widen().is_finite() && low.iter().zip(&high).all(is_clear) {
+        self.dense.at_nodes(start, &ends, |_, at| range.widen(&(self.g)(at)));
+        // By more than a polynomial can leave the range of its values, and half a range besides.
+        if earlier.is_some() && range.is_clear(lebesgue + 1.0) {
             if self.restarts > 0 {
                 self.restarts = 0;
             }
@@ -320,21 +298,23 @@ where
     }
 
     /// Reports an event that was found, and ends the run there if it is terminal.
-    fn report(&mut self, found: &Found<L::Scalar, N>) -> Result<Event<L::Scalar, N>, EventError> {
+    fn report(&mut self, found: &Found<T::Scalar, N>) -> Result<Event<T::Scalar, N>, EventError> {
         self.next += 1;
         let velocity = self.dense.velocity(found.time, &found.state)?;
         let event = found.event(velocity);
         if self.ended {
             // At the same time as a terminal one.
             self.mark(found.index);
-        } else if self.terminal.get(found.index).copied().unwrap_or(false) {
-            self.dense.restart_at(found.time, found.state);
+        } else if let Some(stop) = self.stop
+            && self.terminal.get(found.index).copied().unwrap_or(false)
+        {
+            stop(&mut self.dense, found.time, found.state);
             self.ended = true;
             (self.step, self.present) = (None, None);
             self.happened = [false; K];
             self.mark(found.index);
-            let width = 8.0 * L::Scalar::EPSILON.widen() * found.elapsed.widen().abs();
-            let later = |other: &Found<L::Scalar, N>| (other.elapsed - found.elapsed).widen().abs() > width;
+            let width = 8.0 * T::Scalar::EPSILON.widen() * found.elapsed.widen().abs();
+            let later = |other: &Found<T::Scalar, N>| (other.elapsed - found.elapsed).widen().abs() > width;
             for place in self.found.iter_mut().skip(self.next) {
                 if place.as_ref().is_some_and(later) {
                     *place = None;
@@ -351,23 +331,43 @@ where
     }
 }
 
-/// The nodes at which the steps of a method are looked at.
-struct NodesOf<'a, L, M, const N: usize>(core::marker::PhantomData<(&'a L, M)>);
+impl<'t, T, G, const N: usize, const K: usize> Watch<'t, T, G, N, K>
+where
+    T: Restartable<N>,
+    G: Fn(&Moment<'_, T::System, N>) -> [T::Scalar; K],
+{
+    /// Which events end the run.
+    #[must_use]
+    pub fn terminal(self, terminal: [bool; K]) -> Self {
+        let stop: Stop<'t, T, N> = |dense, time, state| dense.restart_at(time, state);
+        Self { terminal, stop: Some(stop), ..self }
+    }
 
-impl<L: Flow<M, N>, M, const N: usize> NodesOf<'_, L, M, N> {
-    const NODES: Nodes = Nodes::new(Dense::<L, M, N>::NODES);
+    /// Goes on from another state at the present time of the run, that of a terminal event: an impact, a switch.
+    /// Events that happened there do not happen again at once.
+    pub fn restart(&mut self, state: State<T::Scalar, N>) {
+        let time = self.run().time();
+        if !self.ended {
+            self.happened = [false; K];
+        }
+        self.dense.restart_at(time, state);
+        (self.present, self.earlier, self.velocity) = (None, None, None);
+        (self.step, self.ended) = (None, false);
+        self.found = [None; ROOTS];
+        self.restarts = self.restarts.saturating_add(1);
+    }
 }
 
-impl<L, M, G, const N: usize, const K: usize> Iterator for Watch<'_, '_, L, M, G, N, K>
+impl<T, G, const N: usize, const K: usize> Iterator for Watch<'_, T, G, N, K>
 where
-    L: Flow<M, N>,
-    G: Fn(&Moment<'_, L, N>) -> [L::Scalar; K],
+    T: Divisible<N>,
+    G: Fn(&Moment<'_, T::System, N>) -> [T::Scalar; K],
 {
-    type Item = Result<Event<L::Scalar, N>, EventError>;
+    type Item = Result<Event<T::Scalar, N>, EventError>;
 
     #[inline]
     fn next(&mut self) -> Option<Self::Item> {
-        let backwards = self.run().step_size() < L::Scalar::constant(0.0);
+        let backwards = self.run().step_size() < T::Scalar::constant(0.0);
         let after = |time: f64, until: f64| if backwards { time < until } else { time > until };
         loop {
             if let Some(until) = self.until

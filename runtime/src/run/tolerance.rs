@@ -1,5 +1,6 @@
 //! Order and step size from a requested error, and a guard that carries the error along the run.
 
+mod between;
 mod display;
 mod estimate;
 mod guard;
@@ -22,7 +23,7 @@ use crate::rules::SLACK;
 use crate::step::{State, StepError, verify_start};
 use crate::system::Lagrangian;
 pub use guard::{GuardedCheckpoint, GuardedTrajectory};
-pub use methods::{MethodStep, Methods, Taken, WithGauss, WithSplittings};
+pub use methods::{LastStep, MethodStep, Methods, Taken, WithGauss, WithSplittings};
 pub use request::{OffersMethods, Request, TimedRequest};
 
 /// A method of constant step: a self-adjoint rule of order 2, alone or composed, a splitting, or a Gauss

@@ -3,8 +3,11 @@
 use std::f64::consts::{PI, TAU};
 
 use dalembert::nalgebra::{SVector, Vector2, vector};
+use dalembert::run::between::{Divisible, Restartable};
 use dalembert::run::events::{Crossing, EventError, EventGradient, Passage, Watched};
+use dalembert::run::{HeldInput, Run};
 use dalembert::step::Flow;
+use dalembert::tolerance::{LastStep, Method, MethodStep, Methods, WithGauss, WithSplittings};
 use dalembert::{
     Composition, Discretise, EnergyLedger, Gauss, Midpoint, Splitting, State, StepError, Trapezoidal,
     rayleigh_system,
@@ -465,4 +468,131 @@ fn single_precision_has_events() {
     }
     check(Gauss::<4>, 0.25);
     check(Splitting::blanes_moan_6(), 0.25);
+}
+
+/// A guarded run has the events and the states between of its steps, by every method that it may choose; those of
+/// an oscillator are where they are to its error.
+#[test]
+fn guarded_runs_have_events_and_states_between() {
+    fn check<L, M>(system: &L, methods: M, tolerance: f64)
+    where
+        L: dalembert::Lagrangian<1, Scalar = f64>,
+        M: Methods<L, 1>,
+    {
+        let choice = Method::for_tolerance(system, methods, &UP, 40.0, tolerance).unwrap();
+        let mut run = choice.trajectory();
+        let mut quarters = 0.0;
+        for event in run.watch(|at| [at.q[0], at.momentum()[0]]) {
+            let event = event.unwrap();
+            quarters += 1.0;
+            assert!((event.time - quarters * 0.5 * PI).abs() < 3.0 * tolerance, "{choice}: {event}");
+        }
+        assert_eq!(quarters, 25.0, "{choice}");
+        let mut run = choice.trajectory();
+        for (k, sample) in run.sample_at((1..40).map(|k| 0.99 * f64::from(k))).enumerate() {
+            let sample = sample.unwrap();
+            let time = 0.99 * (k as f64 + 1.0);
+            assert!((sample.state.q[0] - time.cos()).abs() < 3.0 * tolerance, "{choice}: {sample}");
+        }
+        // The run is the same as unwatched.
+        let ends: Vec<_> = choice.trajectory().map(|step| step.unwrap().state).collect();
+        assert_eq!(run.state(), &ends[run_index(&run, &ends)], "{choice}");
+    }
+    fn run_index<T: Run<1, Scalar = f64>>(run: &T, ends: &[State<f64, 1>]) -> usize {
+        (run.time() / 40.0 * ends.len() as f64).round() as usize - 1
+    }
+    for tolerance in [1e-2_f64, 1e-4, 1e-7, 1e-11] {
+        check(&Oscillator {}, Midpoint, tolerance.max(1e-9));
+        check(&Oscillator {}, WithSplittings(Trapezoidal), tolerance);
+        check(&Oscillator {}, WithGauss(Trapezoidal), tolerance);
+    }
+}
+
+/// An input that is held: events and samples are those of a run by that input, one step or many; and the view's
+/// time goes on while it is.
+#[test]
+fn held_inputs_have_events_and_states_between() {
+    struct Pushed;
+
+    #[rayleigh_system(rule = [midpoint, gauss])]
+    impl Pushed {
+        fn lagrangian(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
+            0.5 * v[0] * v[0] + q[0] * (2.0 * t).cos()
+        }
+        fn force(&self, _q: [f64; 1], _v: [f64; 1], u: [f64; 1]) -> [f64; 1] {
+            u
+        }
+    }
+
+    // q̈ = u + cos 2t.
+    let exact = |t: f64, u: f64| 0.5 * u * t * t - 0.25 * (2.0 * t).cos();
+    let start = State { q: vector![-0.25], p: vector![0.0] };
+    let mut run = Pushed.driven([0.0], 0.0).by(Gauss::<6>, 0.25).run_with_inputs(start);
+    let push = Pushed.driven([0.5], 0.0);
+    let found = run.hold(&push).watch(|at| [at.q[0] - exact(7.3, 0.5)]).next().unwrap().unwrap();
+    assert!((found.time - 7.3).abs() < 1e-12, "{found}");
+    assert_eq!(run.time(), 7.5);
+    let (q, v) = (exact(7.5, 0.5), 0.5 * 7.5 + 0.5 * 15.0_f64.sin());
+    assert!((run.state().q[0] - q).abs() < 1e-12 && (run.state().p[0] - v).abs() < 1e-12);
+
+    // Another input from there on, by a view of that time; the phase of the cosine is right only by it.
+    let other = Pushed.driven([-0.25], 7.5);
+    let after = |t: f64| {
+        let s = t - 7.5;
+        let swing = -0.25 * ((2.0 * t).cos() - 15.0_f64.cos()) - 0.5 * 15.0_f64.sin() * s;
+        q + v * s - 0.125 * s * s + swing
+    };
+    let times = [7.6, 7.75, 8.0, 8.3, 9.9];
+    for sample in run.hold(&other).sample_at(times) {
+        let sample = sample.unwrap();
+        assert!((sample.state.q[0] - after(sample.time)).abs() < 1e-12, "{sample}");
+    }
+    assert_eq!(run.time(), 10.0);
+    // A stop: the run goes on from where it stands, by whatever input comes next.
+    let brake = Pushed.driven([-1.0], 10.0);
+    let crossing = {
+        let mut held: HeldInput<'_, '_, DrivenPushed<'_>, DrivenPushed<'_>, _, 1> = run.hold(&brake);
+        held.watch(|at| [at.velocity()[0]]).terminal([true]).next().unwrap().unwrap()
+    };
+    assert_eq!((run.time(), run.state()), (crossing.time, &crossing.state));
+    assert!(crossing.velocity[0].abs() < 1e-13);
+    let control = run.advance(&Pushed.driven([0.0], run.time())).unwrap();
+    assert!((control.state.q - crossing.state.q).norm() > 1e-3);
+}
+
+/// Which runs can be divided, and which restarted: the compiler says so of the others.
+#[test]
+fn runs_of_all_kinds_are_divisible() {
+    fn nodes<T: Divisible<1>>(run: &T) -> usize {
+        run.nodes().len()
+    }
+    fn restarted<T: Restartable<1, Scalar = f64>>(run: &mut T) -> f64 {
+        run.restart_at(3.0, UP);
+        run.time()
+    }
+    let mut plain = Oscillator {}.by(Gauss::<5>, 0.25).run(UP);
+    assert_eq!((nodes(&plain), restarted(&mut plain)), (5, 3.0));
+    let mut driven = Oscillator {}.by(Midpoint, 0.25).run_with_inputs(UP);
+    let mut held = driven.hold(&Oscillator {});
+    assert_eq!((nodes(&held), restarted(&mut held)), (0, 3.0));
+    for (method, expected) in [(Method::Gauss8, 8), (Method::Gauss4, 4), (Method::KahanLi6, 0)] {
+        let step = Methods::<Oscillator, 1>::step(WithGauss(Trapezoidal), method, 0.1).unwrap();
+        let last: &dyn LastStep<Oscillator, 1> = step.last();
+        assert_eq!(last.nodes().len(), expected);
+    }
+}
+
+/// What events and samples say.
+#[test]
+fn events_and_samples_say_what_they_are() {
+    let mut run = Oscillator {}.by(Gauss::<4>, 0.25).run(UP);
+    let event = run.watch(|at| [at.q[0]]).next().unwrap().unwrap();
+    assert_eq!(format!("{event:.3}"), "event 0, falling, at t = 1.571: q = (0.000), v = (-1.000)");
+    let mut run = Kepler {}.by(Trapezoidal, 0.5).run(State { q: vector![1.0, 0.0], p: vector![0.0, 1.0] });
+    let sample = run.sample_every(2).next().unwrap().unwrap();
+    let text = sample.to_string();
+    assert!(
+        text.starts_with("t = 1: q = (") && text.ends_with("iterations") && text.contains("), p = ("),
+        "{text}"
+    );
 }

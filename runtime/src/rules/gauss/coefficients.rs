@@ -27,6 +27,8 @@ pub(crate) struct Coefficients<const S: usize> {
     /// `extrapolation[j][i]` = ℓ_j(1 + c_i): the polynomial through the stages of one step at those of the
     /// next.
     pub(crate) extrapolation: [[f64; S]; S],
+    /// `legendre[k][j]` = (2k + 1) b_j P_k(x_j): the coefficients in P_k(2τ − 1) of the polynomial through the stages.
+    pub(crate) legendre: [[f64; S]; S],
 }
 
 /// The most stages that there are coefficients for.
@@ -92,8 +94,13 @@ impl<const S: usize> Coefficients<S> {
         assert!(0 < S && S <= MAX_STAGES, "Gauss<S> is there for 1 to 8 stages");
         let half = Double::new(0.5);
         let roots = roots::<S>();
-        let mut all =
-            Self { nodes: [0.0; S], weights: [0.0; S], shares: [[0.0; S]; S], extrapolation: [[0.0; S]; S] };
+        let mut all = Self {
+            nodes: [0.0; S],
+            weights: [0.0; S],
+            shares: [[0.0; S]; S],
+            extrapolation: [[0.0; S]; S],
+            legendre: [[0.0; S]; S],
+        };
         let mut j = 0;
         while j < S {
             let x = roots[j];
@@ -103,6 +110,11 @@ impl<const S: usize> Coefficients<S> {
             let weight = Double::new(1.0).over(Double::new(1.0).minus(x.times(x)).times(slope.times(slope)));
             all.nodes[j] = x.plus(Double::new(1.0)).times(half).high;
             all.weights[j] = weight.high;
+            let mut k = 0;
+            while k < S {
+                all.legendre[k][j] = at_j[k].times(weight).times(Double::new((2 * k + 1) as f64)).high;
+                k += 1;
+            }
             let mut i = 0;
             while i < S {
                 let at_i = legendre(roots[i]);

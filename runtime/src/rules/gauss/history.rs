@@ -188,6 +188,27 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
         [q0 + q * h, v]
     }
 
+    /// The velocities at the stages of a step that is the beginning of the last, its `share`: of the polynomial.
+    fn of_beginning(&self, share: T) -> LaneVector<T, N, S> {
+        let Coefficients { nodes, legendre, .. } = &Gauss::<S>::COEFFICIENTS;
+        let one = Lanes::splat(T::one());
+        let x = Lanes::constants(nodes) * (share + share) + (T::zero() - T::one());
+        // P_{k−1} and P_k at all stages.
+        let (mut before, mut p) = (Lanes::splat(T::zero()), one);
+        let mut v = splat(&SVector::zeros());
+        for (k, row) in legendre.iter().enumerate() {
+            for (v, of_step) in v.iter_mut().zip(&self.v) {
+                let terms = row.iter().zip(&of_step.0).map(|(&factor, &v)| T::constant(factor) * v);
+                let coefficient = terms.fold(T::zero(), |sum, term| sum + term);
+                *v = p.times_plus(coefficient, *v);
+            }
+            let k = k as f64;
+            let [along, back] = [(2.0 * k + 1.0) / (k + 1.0), k / (k + 1.0)].map(T::constant);
+            (before, p) = (p, (x * p) * along - before * back);
+        }
+        v
+    }
+
     fn extrapolation(&self) -> LaneVector<T, N, S> {
         let columns = &Gauss::<S>::COEFFICIENTS.extrapolation;
         let mut extrapolated = self.v;
@@ -293,6 +314,16 @@ where
     #[inline(always)]
     fn at_nodes(&self, q0: &SVector<T, N>, h: T, visit: impl FnMut(usize, &SVector<T, N>, &SVector<T, N>)) {
         self.visit_stages(q0, h, visit);
+    }
+
+    fn beginning(&self, system: &L, state: &State<T, N>, h: T, elapsed: T) -> Option<State<T, N>> {
+        if self.h != h || h == T::zero() || !self.contracted {
+            return None;
+        }
+        let [q, p] = [state.q, state.p].map(Compensated::new);
+        let problem = Problem::<'_, L, N, S>::new(system, q, p, elapsed);
+        let solution = fixed_point::iterate(&problem, &self.of_beginning(elapsed / h))?;
+        completed(&problem, &solution).ok().map(|(step, _)| step.state)
     }
 
     fn between(&self, q0: &SVector<T, N>, h: T, share: f64) -> Option<[SVector<T, N>; 2]> {

@@ -21,6 +21,8 @@ where
     velocity: Option<SVector<L::Scalar, N>>,
     momentum: Option<SVector<L::Scalar, N>>,
     system: &'a L,
+    /// The time of the run at which the system has its own time.
+    since: f64,
 }
 
 impl<'a, L, const N: usize> Moment<'a, L, N>
@@ -30,21 +32,21 @@ where
     #[inline(always)]
     pub(super) fn interpolated(
         system: &'a L,
-        time: f64,
+        [time, since]: [f64; 2],
         q: SVector<L::Scalar, N>,
         velocity: SVector<L::Scalar, N>,
     ) -> Self {
-        Self { time, q, velocity: Some(velocity), momentum: None, system }
+        Self { time, q, velocity: Some(velocity), momentum: None, system, since }
     }
 
     #[inline(always)]
     pub(in crate::run) fn of(
         system: &'a L,
-        time: f64,
+        [time, since]: [f64; 2],
         state: &State<L::Scalar, N>,
         velocity: Option<SVector<L::Scalar, N>>,
     ) -> Self {
-        Self { time, q: state.q, velocity, momentum: Some(state.p), system }
+        Self { time, q: state.q, velocity, momentum: Some(state.p), system, since }
     }
 
     /// The velocity v. Of a state it is solved for (NaN where there is none), of an interpolation it is known.
@@ -57,7 +59,9 @@ where
                 let state = State { q: self.q, p };
                 let velocity = |system: &L| state.velocity(system);
                 let unknown = |_| SVector::repeat(L::Scalar::constant(f64::NAN));
-                self.system.later(L::Scalar::constant(self.time), velocity).unwrap_or_else(unknown)
+                self.system
+                    .later(L::Scalar::constant(self.time - self.since), velocity)
+                    .unwrap_or_else(unknown)
             }
             (None, None) => SVector::repeat(L::Scalar::constant(f64::NAN)),
         }
@@ -71,7 +75,7 @@ where
             Some(momentum) => momentum,
             None => {
                 let v = self.velocity();
-                self.system.later(L::Scalar::constant(self.time), |system| {
+                self.system.later(L::Scalar::constant(self.time - self.since), |system| {
                     system.lagrangian_gradient(&self.q, &v).d2
                 })
             }

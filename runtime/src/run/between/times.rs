@@ -3,12 +3,12 @@
 use core::fmt;
 
 use crate::numbers::Scalar;
-use crate::run::between::Dense;
+use crate::run::between::{Dense, Divisible};
 use crate::run::{Sample, Trajectory};
 use crate::step::{Flow, StepError};
 
 /// Times beside the grid's.
-impl<'a, L, M, const N: usize> Trajectory<'a, L, M, N>
+impl<L, M, const N: usize> Trajectory<'_, L, M, N>
 where
     L: Flow<M, N>,
 {
@@ -30,12 +30,11 @@ where
     /// }
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn sample_at<I>(&mut self, times: I) -> SampledAt<'_, 'a, L, M, N, I::IntoIter>
+    pub fn sample_at<I>(&mut self, times: I) -> SampledAt<'_, Self, N, I::IntoIter>
     where
         I: IntoIterator<Item = f64>,
     {
-        let asked = self.time();
-        SampledAt { dense: self.dense(), times: times.into_iter(), asked, ended: false }
+        SampledAt::of(self, times)
     }
 }
 
@@ -44,24 +43,26 @@ where
 /// Each is [`Dense::state_at`] that time; on the grid it is the grid's own. The run stands at the end of the
 /// step that the last time lies in, bit by bit where it would stand without having been asked. Times follow
 /// the run, backwards where h < 0; one may be asked for twice. An error is the last item.
-pub struct SampledAt<'t, 'a, L, M, const N: usize, I>
-where
-    L: Flow<M, N>,
-{
-    dense: Dense<'t, 'a, L, M, N>,
+pub struct SampledAt<'t, T: Divisible<N>, const N: usize, I> {
+    dense: Dense<'t, T, N>,
     times: I,
     /// The time asked for last.
     asked: f64,
     ended: bool,
 }
 
-impl<L, M, const N: usize, I> SampledAt<'_, '_, L, M, N, I>
-where
-    L: Flow<M, N>,
-{
+impl<'t, T: Divisible<N>, const N: usize, I> SampledAt<'t, T, N, I> {
+    pub(in crate::run) fn of<A>(run: &'t mut T, times: A) -> Self
+    where
+        A: IntoIterator<Item = f64, IntoIter = I>,
+    {
+        let asked = run.time();
+        Self { dense: Dense::of(run), times: times.into_iter(), asked, ended: false }
+    }
+
     /// The sample at `time`; `None` where the run has ended before.
-    fn sample(&mut self, time: f64) -> Result<Option<Sample<L::Scalar, N>>, TimeError> {
-        let backwards = self.dense.run.step_size() < L::Scalar::constant(0.0);
+    fn sample(&mut self, time: f64) -> Result<Option<Sample<T::Scalar, N>>, TimeError> {
+        let backwards = self.dense.run.step_size() < T::Scalar::constant(0.0);
         let ahead = |time: f64, of: f64| if backwards { time < of } else { time > of };
         if !time.is_finite() || ahead(self.asked, time) {
             return Err(TimeError::NotSorted { time, after: self.asked });
@@ -75,7 +76,7 @@ where
             };
             iterations += u64::from(report.iterations);
             damped += u64::from(report.damped > 0);
-            if report.residual > L::Scalar::constant(0.0) {
+            if report.residual > T::Scalar::constant(0.0) {
                 worst_residual = worst_residual.max((report.residual / report.floor).widen());
             }
         }
@@ -88,12 +89,12 @@ where
     }
 }
 
-impl<L, M, const N: usize, I> Iterator for SampledAt<'_, '_, L, M, N, I>
+impl<T, const N: usize, I> Iterator for SampledAt<'_, T, N, I>
 where
-    L: Flow<M, N>,
+    T: Divisible<N>,
     I: Iterator<Item = f64>,
 {
-    type Item = Result<Sample<L::Scalar, N>, TimeError>;
+    type Item = Result<Sample<T::Scalar, N>, TimeError>;
 
     fn next(&mut self) -> Option<Self::Item> {
         if self.ended {

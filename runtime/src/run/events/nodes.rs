@@ -7,6 +7,8 @@
 //!
 //! The product of the factors has terms of one sign in every coefficient, so that T is exact to rounding.
 
+use crate::rules::Gauss;
+
 /// The most values that make a polynomial: at eight stages and both ends.
 pub(super) const MOST: usize = 10;
 
@@ -36,7 +38,24 @@ const fn binomial(n: usize, k: usize) -> f64 {
     value
 }
 
+/// Those of the cubic, and of the Gauss rules of three stages and more.
+static OF_STAGES: [Nodes; 7] = [
+    Nodes::new(&Gauss::<2>::NODES),
+    Nodes::new(&Gauss::<3>::NODES),
+    Nodes::new(&Gauss::<4>::NODES),
+    Nodes::new(&Gauss::<5>::NODES),
+    Nodes::new(&Gauss::<6>::NODES),
+    Nodes::new(&Gauss::<7>::NODES),
+    Nodes::new(&Gauss::<8>::NODES),
+];
+
 impl Nodes {
+    /// The nodes of the Gauss rule whose nodes `interior` are.
+    #[inline(always)]
+    pub(super) fn of(interior: &'static [f64]) -> &'static Self {
+        OF_STAGES.get(interior.len().wrapping_sub(2)).unwrap_or(&OF_STAGES[0])
+    }
+
     /// The nodes `interior`, ascending, at most eight, with both ends.
     pub(super) const fn new(interior: &[f64]) -> Self {
         assert!(interior.len() + 2 <= MOST, "polynomials have at most ten values");
@@ -213,13 +232,19 @@ impl Bernstein {
 
     /// The value at `share`.
     pub(super) fn value(&self, share: f64) -> f64 {
+        self.value_and_slope(share)[0]
+    }
+
+    /// The value and the slope at `share`.
+    pub(super) fn value_and_slope(&self, share: f64) -> [f64; 2] {
         let mut beta = self.beta;
-        for round in 1..=self.degree {
+        let rest = 1.0 - share;
+        for round in 1..self.degree {
             for i in 0..=self.degree - round {
-                beta[i] = (1.0 - share) * beta[i] + share * beta[i + 1];
+                beta[i] = rest * beta[i] + share * beta[i + 1];
             }
         }
-        beta[0]
+        [rest * beta[0] + share * beta[1], self.degree as f64 * (beta[1] - beta[0])]
     }
 
     /// The least and the largest coefficient.
@@ -249,7 +274,6 @@ impl Bernstein {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rules::Gauss;
 
     const NODES: [Nodes; 3] =
         [Nodes::new(&Gauss::<2>::NODES), Nodes::new(&Gauss::<5>::NODES), Nodes::new(&Gauss::<8>::NODES)];

@@ -2,12 +2,12 @@
 
 use nalgebra::SVector;
 
-use super::nodes::MOST;
+use super::nodes::{MOST, Nodes};
 use super::roots::{Curve, Origin, ROOTS, Search};
-use super::{Crossing, Event, EventError, NodesOf, Passage, RESTARTS, Watch};
+use super::{Crossing, Event, EventError, Passage, RESTARTS, Watch};
 use crate::numbers::Scalar;
-use crate::run::between::{Dense, Moment, Start};
-use crate::step::{Flow, State};
+use crate::run::between::{Dense, Divisible, Moment, Start};
+use crate::step::State;
 
 /// Partial steps in one step at most, for all functions together.
 const PARTIAL_STEPS: u32 = 2000;
@@ -31,23 +31,24 @@ impl<S: Scalar, const N: usize> Found<S, N> {
     }
 }
 
-impl<L, M, G, const N: usize, const K: usize> Watch<'_, '_, L, M, G, N, K>
+impl<T, G, const N: usize, const K: usize> Watch<'_, T, G, N, K>
 where
-    L: Flow<M, N>,
-    G: Fn(&Moment<'_, L, N>) -> [L::Scalar; K],
+    T: Divisible<N>,
+    G: Fn(&Moment<'_, T::System, N>) -> [T::Scalar; K],
 {
     /// The values at the start of the run, 0 where it starts on the event.
     #[cold]
     #[inline(never)]
-    pub(super) fn begin(&mut self) -> Result<[L::Scalar; K], EventError> {
+    pub(super) fn begin(&mut self) -> Result<[T::Scalar; K], EventError> {
         let (time, state) = (self.dense.run().time(), *self.dense.run().state());
         if self.restarts > RESTARTS {
             return Err(EventError::Chattering { time });
         }
         let velocity = self.dense.velocity(time, &state)?;
         let h = self.dense.run().step_size();
-        let mut present = (self.g)(&Moment::of(self.dense.system(), time, &state, Some(velocity)));
-        let zero = L::Scalar::constant(0.0);
+        let times = [time, self.dense.since()];
+        let mut present = (self.g)(&Moment::of(self.dense.system(), times, &state, Some(velocity)));
+        let zero = T::Scalar::constant(0.0);
         for (index, value) in present.iter_mut().enumerate() {
             if !value.widen().is_finite() {
                 return Err(EventError::NotFinite { index, time });
@@ -55,7 +56,7 @@ where
             let happened = self.happened.get(index).copied().unwrap_or(false);
             let moves = State { q: velocity * h, p: state.p };
             if happened
-                || value.widen().abs() <= rounding(&self.g, self.dense.system(), time, &state, &moves, index)
+                || value.widen().abs() <= rounding(&self.g, self.dense.system(), times, &state, &moves, index)
             {
                 *value = zero;
             }
@@ -71,13 +72,13 @@ where
     #[inline(never)]
     pub(super) fn locate(
         &mut self,
-        earlier: Option<&[L::Scalar; K]>,
-        before: &[L::Scalar; K],
-        after: &[L::Scalar; K],
-        ends: &[SVector<L::Scalar, N>; 2],
+        earlier: Option<&[T::Scalar; K]>,
+        before: &[T::Scalar; K],
+        after: &[T::Scalar; K],
+        ends: &[SVector<T::Scalar, N>; 2],
     ) -> Result<bool, EventError> {
         let Some(&start) = self.dense.start() else { return Ok(true) };
-        let nodes = &NodesOf::<L, M, N>::NODES;
+        let nodes = Nodes::of(self.dense.nodes());
         let mut between = [[0.0; MOST]; K];
         self.dense.at_nodes(&start, ends, |i, at| {
             for (row, value) in between.iter_mut().zip((self.g)(at)) {
@@ -109,9 +110,9 @@ where
                 left,
                 latest: None,
             };
-            let epsilon = L::Scalar::EPSILON.widen();
-            let resolution = root_of_epsilon::<L::Scalar>();
-            let origin = if Dense::<L, M, N>::COLLOCATED {
+            let epsilon = T::Scalar::EPSILON.widen();
+            let resolution = root_of_epsilon::<T::Scalar>();
+            let origin = if self.dense.is_collocated() {
                 Origin::Stages
             } else {
                 // Over two steps a change of the slope moves the ends by eight times what it bends one step.
@@ -122,14 +123,16 @@ where
                 });
                 Origin::Cubic(0.25 * range)
             };
+            let crossing = self.crossings.get(index).copied().unwrap_or_default();
+            let starts_there = first == 0.0;
             let roots =
-                Search { curve: &mut curve, epsilon, resolution, starts_there: first == 0.0, caution: 1.0 }
+                Search { curve: &mut curve, epsilon, resolution, crossing, starts_there, caution: 1.0 }
                     .roots(nodes, values, origin)?;
             for root in roots.iter() {
-                let counts = match self.crossings.get(index) {
-                    Some(Crossing::Rising) => root.passage == Passage::Rising,
-                    Some(Crossing::Falling) => root.passage == Passage::Falling,
-                    _ => true,
+                let counts = match crossing {
+                    Crossing::Rising => root.passage == Passage::Rising,
+                    Crossing::Falling => root.passage == Passage::Falling,
+                    Crossing::Either => true,
                 };
                 if counts {
                     let At { time, elapsed, state } = curve.at(root.share)?;
@@ -181,7 +184,7 @@ fn in_order<S: Scalar, const N: usize>(found: &mut [Option<Found<S, N>>]) {
 fn rounding<L, G, S: Scalar, const N: usize, const K: usize>(
     g: &G,
     system: &L,
-    time: f64,
+    times: [f64; 2],
     state: &State<S, N>,
     moves: &State<S, N>,
     index: usize,
@@ -191,7 +194,7 @@ where
     G: Fn(&Moment<'_, L, N>) -> [S; K],
 {
     let value = |state: &State<S, N>| {
-        g(&Moment::of(system, time, state, None)).get(index).map_or(0.0, |value| value.widen())
+        g(&Moment::of(system, times, state, None)).get(index).map_or(0.0, |value| value.widen())
     };
     let here = value(state);
     let places = S::EPSILON * S::constant(4.0);
@@ -215,31 +218,28 @@ struct At<S, const N: usize> {
 }
 
 /// An event function along a step of a run.
-struct OnStep<'s, 't, 'a, L, M, G, const N: usize>
-where
-    L: Flow<M, N>,
-{
-    dense: &'s Dense<'t, 'a, L, M, N>,
+struct OnStep<'s, 't, T: Divisible<N>, G, const N: usize> {
+    dense: &'s Dense<'t, T, N>,
     g: &'s G,
-    start: Start<L::Scalar, N>,
+    start: Start<T::Scalar, N>,
     index: usize,
     ends: [f64; 2],
     is_restarted: bool,
     /// Partial steps left.
     left: u32,
     /// The share asked for last, and the state there.
-    latest: Option<(f64, State<L::Scalar, N>)>,
+    latest: Option<(f64, State<T::Scalar, N>)>,
 }
 
-impl<L, M, G, const N: usize, const K: usize> OnStep<'_, '_, '_, L, M, G, N>
+impl<T, G, const N: usize, const K: usize> OnStep<'_, '_, T, G, N>
 where
-    L: Flow<M, N>,
-    G: Fn(&Moment<'_, L, N>) -> [L::Scalar; K],
+    T: Divisible<N>,
+    G: Fn(&Moment<'_, T::System, N>) -> [T::Scalar; K],
 {
     /// What the run has at a share of the step.
-    fn at(&mut self, share: f64) -> Result<At<L::Scalar, N>, EventError> {
+    fn at(&mut self, share: f64) -> Result<At<T::Scalar, N>, EventError> {
         let h = self.dense.run().step_size();
-        let elapsed = L::Scalar::constant(share * h.widen());
+        let elapsed = T::Scalar::constant(share * h.widen());
         if share == 1.0 || elapsed == h {
             return Ok(At { time: self.dense.run().time(), elapsed: h, state: *self.dense.run().state() });
         }
@@ -257,17 +257,18 @@ where
     }
 }
 
-impl<L, M, G, const N: usize, const K: usize> Curve for OnStep<'_, '_, '_, L, M, G, N>
+impl<T, G, const N: usize, const K: usize> Curve for OnStep<'_, '_, T, G, N>
 where
-    L: Flow<M, N>,
-    G: Fn(&Moment<'_, L, N>) -> [L::Scalar; K],
+    T: Divisible<N>,
+    G: Fn(&Moment<'_, T::System, N>) -> [T::Scalar; K],
 {
     fn value(&mut self, share: f64) -> Result<f64, EventError> {
         if share == 0.0 || share == 1.0 {
             return Ok(self.ends[usize::from(share == 1.0)]);
         }
         let At { time, state, .. } = self.at(share)?;
-        let values = (self.g)(&Moment::of(self.dense.system(), time, &state, None));
+        let times = [time, self.dense.since()];
+        let values = (self.g)(&Moment::of(self.dense.system(), times, &state, None));
         let value = values.get(self.index).map_or(0.0, |value| value.widen());
         if value.is_finite() { Ok(value) } else { Err(EventError::NotFinite { index: self.index, time }) }
     }
@@ -280,7 +281,8 @@ where
         let At { time, state, .. } = self.at(share)?;
         let end = self.dense.run().state();
         let moves = State { q: end.q - self.start.state.q, p: end.p - self.start.state.p };
-        Ok(rounding(self.g, self.dense.system(), time, &state, &moves, self.index))
+        let times = [time, self.dense.since()];
+        Ok(rounding(self.g, self.dense.system(), times, &state, &moves, self.index))
     }
 
     fn unresolved(&self) -> EventError {

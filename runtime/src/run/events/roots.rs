@@ -5,9 +5,13 @@
 //! values, by partial steps, at ten nodes of its own, and so on with ever shorter parts, until signs decide or
 //! a part is too short for them to.
 
-use super::EventError;
+mod part;
+
 use super::nodes::{Bernstein, MOST, Nodes};
+use super::{Crossing, EventError};
 use crate::rules::Gauss;
+pub(super) use part::Origin;
+use part::{Part, Verdict, Waiting, crosses, root};
 
 /// An event function along one step, by shares of it: the ends are those of the grid.
 pub(super) trait Curve {
@@ -25,18 +29,6 @@ pub(super) trait Curve {
 
     /// Polynomials do not tell.
     fn unresolved(&self) -> EventError;
-}
-
-/// Where values come from, which says how far a polynomial through them may be trusted.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Origin {
-    /// The cubic through (q, v) at both ends, which may be off by this, and more of a curve that it does not show:
-    /// then a partial step says.
-    Cubic(f64),
-    /// The stages of a Gauss rule.
-    Stages,
-    /// Partial steps.
-    Steps,
 }
 
 /// A root, and how the function passes it.
@@ -87,42 +79,6 @@ impl Roots {
 /// The nodes of true values.
 const OWN: Nodes = Nodes::new(&Gauss::<8>::NODES);
 
-/// Parts that wait: each split leaves one, and shortens a part to five eighths at most, one at the start to
-/// half; they are √ε of the step long at least, ε at the start.
-const WAITING: usize = 64;
-
-/// A part of the step with the polynomial on it.
-#[derive(Clone, Copy)]
-struct Part {
-    from: f64,
-    to: f64,
-    polynomial: Bernstein,
-    /// How far the polynomial may be from the truth, and its slope by the share of the step.
-    error: f64,
-    slope_error: f64,
-    /// How long the part was whose values made it.
-    sampled: f64,
-    origin: Origin,
-}
-
-impl Part {
-    fn width(&self) -> f64 {
-        self.to - self.from
-    }
-
-    /// Whether it was itself asked for true values: then its ends are true.
-    fn is_true(&self) -> bool {
-        self.origin == Origin::Steps && self.width() > 0.99 * self.sampled
-    }
-
-    /// The parts before and after `share` of it.
-    fn split(&self, share: f64) -> [Self; 2] {
-        let middle = self.from + share * self.width();
-        let [left, right] = self.polynomial.split(share);
-        [Self { to: middle, polynomial: left, ..*self }, Self { from: middle, polynomial: right, ..*self }]
-    }
-}
-
 /// Neighbouring parts, each too short to be told more of than its signs.
 #[derive(Clone, Copy)]
 struct Cluster {
@@ -141,6 +97,8 @@ pub(super) struct Search<'c> {
     pub(super) epsilon: f64,
     /// Its root: below it an extremum is not told from its neighbourhood.
     pub(super) resolution: f64,
+    /// Which crossings count: others are not refined.
+    pub(super) crossing: Crossing,
     /// Whether the step starts on the event.
     pub(super) starts_there: bool,
     /// By how much polynomials may be further off than they say.
@@ -179,10 +137,11 @@ impl Search<'_> {
     ) -> Result<Option<Roots>, EventError> {
         let mut roots = Roots::new();
         let mut whole = self.part([0.0, 1.0], nodes, values, origin);
+        let mut verdict = self.judge(&whole);
+        if matches!(verdict, Verdict::Nothing) {
+            return Ok(Some(roots));
+        }
         if let Origin::Cubic(_) = origin {
-            if matches!(self.judge(&whole), Verdict::Nothing) {
-                return Ok(Some(roots));
-            }
             // No error of the cubic, in q or in v, by its degree or as the rule is of order 2, is small at both.
             let mut off = 0.0_f64;
             for share in [0.25, 0.7] {
@@ -191,7 +150,17 @@ impl Search<'_> {
             let error = 4.0 * off + 0.25 * whole.polynomial.bend();
             whole.error = self.caution * error + self.rounding(nodes, values);
             whole.slope_error = 4.0 * whole.error;
+            verdict = self.judge(&whole);
         }
+        if matches!(verdict, Verdict::Crossing) {
+            return Ok(self.add(&whole, &mut roots)?.then_some(roots));
+        }
+        self.searched(whole, roots)
+    }
+
+    /// The same of a part of which more has to be known.
+    #[inline(never)]
+    fn searched(&mut self, whole: Part, mut roots: Roots) -> Result<Option<Roots>, EventError> {
         let mut waiting = Waiting::of(whole);
         let mut cluster = None;
         while let Some(part) = waiting.pop() {
@@ -199,9 +168,8 @@ impl Search<'_> {
                 Verdict::Nothing => self.close(&mut cluster, &mut roots)?,
                 Verdict::Crossing => {
                     self.close(&mut cluster, &mut roots)?;
-                    match self.refine(&part)? {
-                        Some(root) => roots.push(root, self.curve)?,
-                        None => return Ok(None),
+                    if !self.add(&part, &mut roots)? {
+                        return Ok(None);
                     }
                 }
                 Verdict::Split(share) => {
@@ -221,6 +189,18 @@ impl Search<'_> {
         }
         self.close(&mut cluster, &mut roots)?;
         Ok(Some(roots))
+    }
+
+    /// Adds the crossing on a part that has one, if it counts; whether the polynomial was right of it.
+    fn add(&mut self, part: &Part, roots: &mut Roots) -> Result<bool, EventError> {
+        let [start, end] = part.polynomial.ends();
+        if self.crossing == if end > start { Crossing::Falling } else { Crossing::Rising } {
+            return Ok(true);
+        }
+        match self.refine(part)? {
+            Some(root) => roots.push(root, self.curve).map(|()| true),
+            None => Ok(false),
+        }
     }
 
     /// Whether a part is too short to be told more of than its signs, or all its values are rounding. After a
@@ -408,7 +388,8 @@ impl Search<'_> {
             if value.abs() <= best.0 {
                 best = (value.abs(), at);
             }
-            if value == 0.0 {
+            // As far as rounding of the state tells.
+            if value == 0.0 || (round > 0 && value.abs() <= 0.25 * self.curve.floor(at)?) {
                 break;
             }
             if (value < 0.0) == rises {
@@ -455,80 +436,3 @@ impl Search<'_> {
 
 /// Rounds of refinement at most: halving alone takes 52.
 const ROUNDS: u32 = 120;
-
-/// What is known of a part.
-enum Verdict {
-    /// No root.
-    Nothing,
-    /// One root.
-    Crossing,
-    /// More is known of the parts before and after this share.
-    Split(f64),
-    /// True values are needed.
-    Unknown,
-}
-
-/// Whether a function crosses 0 in a half-open interval, from after its start to its end.
-fn crosses([start, end]: [f64; 2]) -> bool {
-    (start < 0.0 && end >= 0.0) || (start > 0.0 && end <= 0.0)
-}
-
-/// The root of a monotone polynomial on [0, 1], and its slope there: Newton's method within a bracket.
-fn root(polynomial: &Bernstein) -> (f64, f64) {
-    let [start, end] = polynomial.ends();
-    let (mut low, mut high) = (0.0, 1.0);
-    let mut at = start / (start - end);
-    let mut slope = end - start;
-    for _ in 0..40 {
-        let [left, right] = polynomial.split(at);
-        let value = left.ends()[1];
-        let n = polynomial.degree as f64;
-        // Of the part after `at`; at its very end of the part before.
-        slope = if at < 0.5 {
-            n * (right.beta[1] - right.beta[0]) / (1.0 - at)
-        } else {
-            n * (value - left.beta[polynomial.degree - 1]) / at
-        };
-        if value == 0.0 {
-            break;
-        }
-        if (value < 0.0) == (end > start) {
-            low = at
-        } else {
-            high = at
-        }
-        let mut next = at - value / slope;
-        if !(next > low && next < high) {
-            next = 0.5 * (low + high);
-        }
-        let correction = (next - at).abs();
-        at = next;
-        if correction < 1e-12 * at {
-            break;
-        }
-    }
-    (at, slope)
-}
-
-/// Parts that wait, the next one last.
-struct Waiting {
-    parts: [Part; WAITING],
-    count: usize,
-}
-
-impl Waiting {
-    fn of(part: Part) -> Self {
-        Self { parts: [part; WAITING], count: 1 }
-    }
-
-    fn push(&mut self, part: Part, curve: &dyn Curve) -> Result<(), EventError> {
-        *self.parts.get_mut(self.count).ok_or_else(|| curve.too_many())? = part;
-        self.count += 1;
-        Ok(())
-    }
-
-    fn pop(&mut self) -> Option<Part> {
-        self.count = self.count.checked_sub(1)?;
-        self.parts.get(self.count).copied()
-    }
-}

@@ -6,7 +6,7 @@ use super::estimate::{ANGLE, Estimate, Since};
 use super::random::Random;
 use super::scale::Scale;
 use super::unresolved::Unresolved;
-use super::{Breach, Choice, Chosen, MethodStep, Methods, OffersMethods, ToleranceError};
+use super::{Breach, Choice, Chosen, LastStep, MethodStep, Methods, OffersMethods, ToleranceError};
 use crate::numbers::Scalar;
 use crate::run::{Run, Samples};
 use crate::step::{State, Step, StepError};
@@ -76,7 +76,7 @@ where
     L: Lagrangian<N> + 'a,
     M: Methods<L, N>,
 {
-    choice: Choice<'a, L, M, N>,
+    pub(super) choice: Choice<'a, L, M, N>,
     step: M::Step,
     half: M::Step,
     guard: Guard<L::Scalar, N>,
@@ -245,6 +245,11 @@ where
     /// Where the error expected has first passed the tolerance; `None` while it has not.
     pub fn breach(&self) -> Option<&Breach> {
         self.guard.breach.as_ref()
+    }
+
+    /// The last step.
+    pub(super) fn last(&self) -> &dyn LastStep<L, N> {
+        self.step.last()
     }
 
     /// What the steps taken have cost, in evaluations of the forces, and what the guard has cost beside them.

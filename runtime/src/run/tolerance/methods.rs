@@ -3,7 +3,9 @@
 use nalgebra::SVector;
 
 use super::Method;
+use crate::numbers::Scalar;
 use crate::rules::{Fitted, FittedTrapezoidal, Gauss, Midpoint, SelfAdjoint, Trapezoidal};
+use crate::run::between::{beginning, velocity};
 use crate::run::{Composition, Explicit, Splitting};
 use crate::step::{Discrete, Flow, LegendreDerivatives, Memory, State, Step, StepError};
 use crate::system::{ForcedLagrangian, Lagrangian};
@@ -69,6 +71,9 @@ pub trait MethodStep<L: Lagrangian<N>, const N: usize> {
     /// Lets go of the state that the last step led to, as a step from another has to.
     fn forget(&mut self);
 
+    /// What is known of the last step, for those who look into it.
+    fn last(&self) -> &dyn LastStep<L, N>;
+
     /// From here on equations are solved no further than an error of `error` after so many steps asks for,
     /// where a method has use for that; see
     /// [`Trajectory::solved_for`](crate::Trajectory::solved_for). `weight` is what an error of p counts
@@ -76,6 +81,47 @@ pub trait MethodStep<L: Lagrangian<N>, const N: usize> {
     fn leave(&mut self, error: f64, steps: u64, weight: f64) {
         let _ = (error, steps, weight);
     }
+}
+
+/// What is called with the index of a node, with q there and with v.
+type Visit<'v, S, const N: usize> = dyn FnMut(usize, &SVector<S, N>, &SVector<S, N>) + 'v;
+
+/// The last step of a method as it can be looked into: what [`Memory`] has, of a method that is not known when the
+/// program is compiled.
+pub trait LastStep<L: Lagrangian<N>, const N: usize> {
+    /// Shares of the step at which the method itself knows q and v.
+    fn nodes(&self) -> &'static [f64];
+
+    /// Calls `visit` with q and v there; the step led from `q0`.
+    fn at_nodes(&self, q0: &SVector<L::Scalar, N>, visit: &mut Visit<'_, L::Scalar, N>);
+
+    /// (q, v) at a share of the step, by the method's own polynomial.
+    fn between(&self, q0: &SVector<L::Scalar, N>, share: f64) -> Option<[SVector<L::Scalar, N>; 2]>;
+
+    /// The velocity of a state of the run, `elapsed` after the time of `system`.
+    ///
+    /// # Errors
+    /// Those of [`State::velocity`].
+    fn velocity(
+        &self,
+        system: &L,
+        elapsed: f64,
+        state: &State<L::Scalar, N>,
+    ) -> Result<SVector<L::Scalar, N>, StepError>;
+
+    /// Where a step of size `size` leads from `state`, from which the last one was taken, `elapsed` after the time of
+    /// `system`; `mean` is its mean velocity.
+    ///
+    /// # Errors
+    /// Those of the step.
+    fn beginning(
+        &self,
+        system: &L,
+        elapsed: f64,
+        state: &State<L::Scalar, N>,
+        mean: &SVector<L::Scalar, N>,
+        size: L::Scalar,
+    ) -> Result<State<L::Scalar, N>, StepError>;
 }
 
 /// The methods of `M`, and splittings into kicks and drifts: for systems whose trapezoidal rule is
@@ -125,6 +171,40 @@ impl<L: Flow<M, N>, M, const N: usize> OfSize<L, M, N> {
     }
 }
 
+impl<L: Flow<M, N>, M, const N: usize> LastStep<L, N> for OfSize<L, M, N> {
+    fn nodes(&self) -> &'static [f64] {
+        <L::RunMemory as Memory<L, M, N>>::NODES
+    }
+
+    fn at_nodes(&self, q0: &SVector<L::Scalar, N>, visit: &mut Visit<'_, L::Scalar, N>) {
+        self.memory.at_nodes(q0, self.h, visit);
+    }
+
+    fn between(&self, q0: &SVector<L::Scalar, N>, share: f64) -> Option<[SVector<L::Scalar, N>; 2]> {
+        self.memory.between(q0, self.h, share)
+    }
+
+    fn velocity(
+        &self,
+        system: &L,
+        elapsed: f64,
+        state: &State<L::Scalar, N>,
+    ) -> Result<SVector<L::Scalar, N>, StepError> {
+        velocity(system, &self.memory, elapsed, state)
+    }
+
+    fn beginning(
+        &self,
+        system: &L,
+        elapsed: f64,
+        state: &State<L::Scalar, N>,
+        mean: &SVector<L::Scalar, N>,
+        size: L::Scalar,
+    ) -> Result<State<L::Scalar, N>, StepError> {
+        beginning(system, &self.memory, [elapsed, self.h.widen()], state, mean, size)
+    }
+}
+
 /// What a substep of a rule costs in evaluations for each iteration: the matrix, and the solution with it.
 const ITERATION: f64 = 3.0;
 
@@ -161,6 +241,14 @@ impl<L: Discrete<R, N>, R: SelfAdjoint, const N: usize> MethodStep<L, N> for Com
             Self::Rule(step) => step.forget(),
             Self::KahanLi6(step) => step.forget(),
             Self::KahanLi8(step) => step.forget(),
+        }
+    }
+
+    fn last(&self) -> &dyn LastStep<L, N> {
+        match self {
+            Self::Rule(step) => step,
+            Self::KahanLi6(step) => step,
+            Self::KahanLi8(step) => step,
         }
     }
 }
@@ -240,6 +328,13 @@ macro_rules! added {
                 match self {
                     $(Self::$method(step) => $forget(step),)*
                     Self::Other(step) => step.forget(),
+                }
+            }
+
+            fn last(&self) -> &dyn LastStep<L, N> {
+                match self {
+                    $(Self::$method(step) => step,)*
+                    Self::Other(step) => step.last(),
                 }
             }
 

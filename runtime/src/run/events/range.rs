@@ -1,0 +1,44 @@
+//! What the values of event functions on a step say at once.
+
+use crate::numbers::Scalar;
+
+/// By how much further from 0 values have to be that belong to the chord of a step: q and v are off there by what a step
+/// changes of v.
+pub(super) const BY_CHORD: f64 = 4.0;
+
+/// The range of the values of some functions.
+pub(super) struct Range<S, const K: usize> {
+    low: [S; K],
+    high: [S; K],
+    /// NaN or infinite as soon as a value is.
+    sum: S,
+}
+
+impl<S: Scalar, const K: usize> Range<S, K> {
+    #[inline(always)]
+    pub(super) fn of(values: [S; K]) -> Self {
+        Self { low: values, high: values, sum: S::constant(0.0) }
+    }
+
+    #[inline(always)]
+    pub(super) fn widen(&mut self, values: &[S; K]) {
+        for ((low, high), &value) in self.low.iter_mut().zip(&mut self.high).zip(values) {
+            // Neither keeps a NaN out: the sum does.
+            if value < *low {
+                *low = value
+            }
+            if value > *high {
+                *high = value
+            }
+            self.sum += value;
+        }
+    }
+
+    /// Whether all values are finite, and away from 0 by so many times half of their range.
+    #[inline(always)]
+    pub(super) fn is_clear(&self, away: f64) -> bool {
+        let away = S::constant(away);
+        let is_clear = |(&low, &high): (&S, &S)| (low + high).widen().abs() > (away * (high - low)).widen();
+        self.sum.widen().is_finite() && self.low.iter().zip(&self.high).all(is_clear)
+    }
+}

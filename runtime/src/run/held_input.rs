@@ -1,0 +1,190 @@
+//! A run with inputs while one of them is held.
+
+use nalgebra::SVector;
+
+use crate::numbers::Scalar;
+use crate::run::between::{Dense, Divisible, Moment, Restartable, SampledAt, beginning, velocity};
+use crate::run::events::Watch;
+use crate::run::{DrivenTrajectory, Run};
+use crate::step::{Flow, Memory, State, Step, StepError};
+
+/// Steps with one input.
+impl<V, M, const N: usize> DrivenTrajectory<V, M, N>
+where
+    V: Flow<M, N>,
+{
+    /// This run while it takes the steps of `system`, which holds one input: [`HeldInput`].
+    ///
+    /// ```
+    /// use dalembert::{Discretise, Gauss, State, rayleigh_system};
+    ///
+    /// struct Cart;
+    ///
+    /// #[rayleigh_system(rule = gauss)]
+    /// impl Cart {
+    ///     fn lagrangian(&self, _q: [f64; 1], v: [f64; 1]) -> f64 {
+    ///         0.5 * v[0] * v[0]
+    ///     }
+    ///     fn force(&self, _q: [f64; 1], _v: [f64; 1], u: [f64; 1]) -> [f64; 1] {
+    ///         u
+    ///     }
+    /// }
+    ///
+    /// let start = State::from_velocity(&Cart, [0.0], [0.0])?;
+    /// let mut run = Cart.driven([0.0]).by(Gauss::<3>, 0.1).run_with_inputs(start);
+    /// // Pushed until it is at 2, at t = 2, and braked until it rests, at t = 4.
+    /// let push = Cart.driven([1.0]);
+    /// let at = run.hold(&push).watch(|at| [at.q[0] - 2.0]).terminal([true]).next().unwrap()?;
+    /// assert!((at.time - 2.0).abs() < 1e-13);
+    /// let brake = Cart.driven([-1.0]);
+    /// let rest = run.hold(&brake).watch(|at| [at.momentum()[0]]).next().unwrap()?;
+    /// assert!((rest.time - 4.0).abs() < 1e-13 && (rest.state.q[0] - 4.0).abs() < 1e-13);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn hold<'r, 's, L>(&'r mut self, system: &'s L) -> HeldInput<'r, 's, L, V, M, N>
+    where
+        L: Flow<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
+        V::RunMemory: Memory<L, M, N>,
+    {
+        let since = self.time();
+        HeldInput { run: self, system, since }
+    }
+}
+
+/// A run with inputs while one of them is held, for one step or for several: [`DrivenTrajectory::hold`].
+///
+/// An iterator over steps, as a [`Trajectory`](crate::Trajectory) is: it can be looked into between them and watched
+/// for events, and it can be restarted at one. A view that has a time has it at the moment from which the
+/// input is held.
+pub struct HeldInput<'r, 's, L, V, M, const N: usize>
+where
+    V: Flow<M, N>,
+{
+    run: &'r mut DrivenTrajectory<V, M, N>,
+    system: &'s L,
+    since: f64,
+}
+
+impl<L, V, M, const N: usize> HeldInput<'_, '_, L, V, M, N>
+where
+    V: Flow<M, N>,
+    L: Flow<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
+    V::RunMemory: Memory<L, M, N>,
+{
+    /// This run as one that answers for all times of its last step: [`Dense`].
+    pub fn dense(&mut self) -> Dense<'_, Self, N> {
+        Dense::of(self)
+    }
+
+    /// The states at `times`, in the order of the run: [`SampledAt`].
+    pub fn sample_at<I>(&mut self, times: I) -> SampledAt<'_, Self, N, I::IntoIter>
+    where
+        I: IntoIterator<Item = f64>,
+    {
+        SampledAt::of(self, times)
+    }
+
+    /// Watches this run for the events that the functions `g` vanish: [`Watch`].
+    pub fn watch<G, const K: usize>(&mut self, g: G) -> Watch<'_, Self, G, N, K>
+    where
+        G: Fn(&Moment<'_, L, N>) -> [L::Scalar; K],
+    {
+        Watch::of(self, g)
+    }
+}
+
+impl<L, V, M, const N: usize> Iterator for HeldInput<'_, '_, L, V, M, N>
+where
+    V: Flow<M, N>,
+    L: Flow<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
+    V::RunMemory: Memory<L, M, N>,
+{
+    type Item = Result<Step<L::Scalar, N>, StepError>;
+
+    #[inline]
+    fn next(&mut self) -> Option<Self::Item> {
+        let elapsed = L::Scalar::constant(self.run.time() - self.since);
+        let run = &mut *self.run;
+        Some(self.system.later(elapsed, |system| run.advance(system)))
+    }
+}
+
+impl<L, V, M, const N: usize> Run<N> for HeldInput<'_, '_, L, V, M, N>
+where
+    V: Flow<M, N>,
+    L: Flow<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
+    V::RunMemory: Memory<L, M, N>,
+{
+    type Scalar = L::Scalar;
+
+    fn state(&self) -> &State<L::Scalar, N> {
+        self.run.state()
+    }
+
+    fn time(&self) -> f64 {
+        self.run.time()
+    }
+}
+
+impl<L, V, M, const N: usize> Divisible<N> for HeldInput<'_, '_, L, V, M, N>
+where
+    V: Flow<M, N>,
+    L: Flow<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
+    V::RunMemory: Memory<L, M, N>,
+{
+    type System = L;
+
+    fn system(&self) -> &L {
+        self.system
+    }
+
+    fn since(&self) -> f64 {
+        self.since
+    }
+
+    fn step_size(&self) -> L::Scalar {
+        self.run.step_size()
+    }
+
+    fn nodes(&self) -> &'static [f64] {
+        <V::RunMemory as Memory<L, M, N>>::NODES
+    }
+
+    fn at_nodes(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        visit: impl FnMut(usize, &SVector<L::Scalar, N>, &SVector<L::Scalar, N>),
+    ) {
+        Memory::<L, M, N>::at_nodes(&self.run.memory, q0, self.run.step_size(), visit);
+    }
+
+    fn between(&self, q0: &SVector<L::Scalar, N>, share: f64) -> Option<[SVector<L::Scalar, N>; 2]> {
+        Memory::<L, M, N>::between(&self.run.memory, q0, self.run.step_size(), share)
+    }
+
+    fn velocity(&self, time: f64, state: &State<L::Scalar, N>) -> Result<SVector<L::Scalar, N>, StepError> {
+        velocity::<L, M, N>(self.system, &self.run.memory, time - self.since, state)
+    }
+
+    fn beginning(
+        &self,
+        time: f64,
+        state: &State<L::Scalar, N>,
+        mean: &SVector<L::Scalar, N>,
+        elapsed: L::Scalar,
+    ) -> Result<State<L::Scalar, N>, StepError> {
+        let time = [time - self.since, self.run.step_size().widen()];
+        beginning::<L, M, N>(self.system, &self.run.memory, time, state, mean, elapsed)
+    }
+}
+
+impl<L, V, M, const N: usize> Restartable<N> for HeldInput<'_, '_, L, V, M, N>
+where
+    V: Flow<M, N>,
+    L: Flow<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
+    V::RunMemory: Memory<L, M, N>,
+{
+    fn restart_at(&mut self, time: f64, state: State<L::Scalar, N>) {
+        self.run.restart_at(time, state);
+    }
+}
