@@ -6,7 +6,7 @@
 
 use dalembert::nalgebra::{Vector4, vector};
 use dalembert::run::between::Moment;
-use dalembert::run::events::{Passage, Watched};
+use dalembert::run::events::{Crossing, Passage, Watched};
 use dalembert::step::Flow;
 use dalembert::{
     Composition, Discretise, Discretised, Gauss, Midpoint, Splitting, State, Trapezoidal, rayleigh_system,
@@ -74,6 +74,9 @@ fn trial<L: Flow<M, 2, Scalar = f64>, M>(by: Discretised<'_, L, M, 2>, draws: &m
     let offset = draws.sign() * size * draws.scale(1e-9, 0.5);
     let middle = centre + direction * draws.between(0.3, 2.0);
     let kind = draws.below(5);
+    let crossing = [Crossing::Either, Crossing::Rising, Crossing::Falling][draws.below(3)];
+    // Whether the step before is watched as well, whose values then tell of this one.
+    let since = draws.below(2);
     let g = |x: &Vector4<f64>, now: f64| {
         let from_centre = x - centre;
         match kind {
@@ -84,7 +87,7 @@ fn trial<L: Flow<M, 2, Scalar = f64>, M>(by: Discretised<'_, L, M, 2>, draws: &m
             _ => normal.dot(&from_centre) - offset + 0.3 * (now - time(share)) * direction[0],
         }
     };
-    let mut changes = Vec::new();
+    let (mut changes, mut all) = (Vec::new(), 0);
     let mut last: Option<(f64, f64)> = None;
     for point in 0..=POINTS {
         let now = if point == POINTS { to } else { time(f64::from(point) / f64::from(POINTS)) };
@@ -93,13 +96,25 @@ fn trial<L: Flow<M, 2, Scalar = f64>, M>(by: Discretised<'_, L, M, 2>, draws: &m
         if let Some((before, old)) = last
             && (old < 0.0) != (value < 0.0)
         {
-            changes.push((before.min(now), before.max(now)));
+            let counts = match crossing {
+                Crossing::Either => true,
+                Crossing::Rising => old < 0.0,
+                Crossing::Falling => old > 0.0,
+            };
+            all += 1;
+            if counts {
+                changes.push((before.min(now), before.max(now)));
+            }
         }
         last = Some((now, value));
     }
     let mut run = by.run(start);
-    run.by_ref().take(2).for_each(drop);
-    let mut watch = run.watch(|moment: &Moment<'_, L, 2>| [g(&at(&moment.state()), moment.time)]);
+    run.by_ref().take(2 - since).for_each(drop);
+    let mut watch =
+        run.watch(|moment: &Moment<'_, L, 2>| [g(&at(&moment.state()), moment.time)]).crossing([crossing]);
+    for _ in 0..since {
+        while let Watched::Event(_) = watch.advance().unwrap().unwrap() {}
+    }
     let mut found = Vec::new();
     while let Watched::Event(event) = watch.advance().unwrap().unwrap() {
         if event.passage != Passage::Touching {
@@ -108,9 +123,9 @@ fn trial<L: Flow<M, 2, Scalar = f64>, M>(by: Discretised<'_, L, M, 2>, draws: &m
     }
     tally.trials += 1;
     tally.seen += changes.len() as u64;
-    tally.within += if changes.len() > 1 { changes.len() as u64 } else { 0 };
+    tally.within += if all > 1 { changes.len() as u64 } else { 0 };
     // The ends show a change of the sign if there is an odd number.
-    tally.hidden_from_ends += changes.len() as u64 / 2 * 2;
+    tally.hidden_from_ends += if all % 2 == 0 { changes.len() as u64 } else { changes.len() as u64 / 2 * 2 };
     for (low, high) in changes {
         let margin = 1e-13 * (1.0 + high.abs());
         let is_there = |time: &f64| (low - margin..=high + margin).contains(time);
