@@ -1,12 +1,19 @@
 //! What each rule of discretisation promises, and hard cases.
 
 mod energy;
-mod fitted;
-mod fitted_stiffness;
-mod fitted_structure;
 mod gauss;
 mod gauss_order;
-mod gauss_segments;
 mod gauss_structure;
 mod hard;
+
+// None of these holds a test that is long unoptimised.
+#[cfg(not(feature = "only-long-tests"))]
+mod fitted;
+#[cfg(not(feature = "only-long-tests"))]
+mod fitted_stiffness;
+#[cfg(not(feature = "only-long-tests"))]
+mod fitted_structure;
+#[cfg(not(feature = "only-long-tests"))]
+mod gauss_segments;
+#[cfg(not(feature = "only-long-tests"))]
 mod order;
