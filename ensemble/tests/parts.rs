@@ -37,10 +37,13 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
+/// The parts. Killed between its writing and its renaming, one leaves a hidden file `.members-….parquet.…` beside
+/// them, which no reader of `*.parquet` sees.
 fn bytes(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entry =
         |entry: fs::DirEntry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap());
-    fs::read_dir(folder).unwrap().map(|found| entry(found.unwrap())).collect()
+    let all = fs::read_dir(folder).unwrap().map(|found| entry(found.unwrap()));
+    all.filter(|(name, _)| !name.starts_with('.')).collect()
 }
 
 macro_rules! study {
