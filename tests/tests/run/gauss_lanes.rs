@@ -179,7 +179,7 @@ fn pendulums_are_bit_by_bit_their_own_runs() {
     assert!(ends.iter().all(|&ends| ends > 14), "{ends:?}");
     // The control: they do step together, so that it is lanes that agree.
     let alone = [share_alone::<_, 2, 4>(&all, 0.1), share_alone::<_, 2, 8>(&all, 0.3)];
-    assert!(alone.iter().all(|&share| (0.01..0.2).contains(&share)), "{alone:?}");
+    assert!(alone.iter().all(|&share| share < 0.2), "{alone:?}");
 }
 
 #[test]
