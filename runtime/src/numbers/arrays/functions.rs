@@ -5,6 +5,8 @@
 //! within 1.5 units in the last place. Arguments beyond their range go one by one through the functions of
 //! numbers. So every lane has the bits that it has alone, whatever stands beside it and however many.
 
+use crate::numbers::Elementary;
+
 /// Functions that have a branch-free form.
 pub trait Functions: Sized {
     /// Sine and cosine of every lane.
@@ -138,7 +140,7 @@ fn beyond_largest_angle<const S: usize>(x: &[f64; S], values: &mut [[f64; S]; 2]
     for ((x, sine), cosine) in x.iter().zip(sines).zip(cosines) {
         let is_within = x.abs() <= LARGEST_ANGLE;
         if !is_within {
-            (*sine, *cosine) = of_any_angle(*x);
+            (*sine, *cosine) = Elementary::sin_cos(*x);
         }
     }
 }
@@ -150,7 +152,7 @@ fn beyond_largest_exponent<const S: usize>(x: &[f64; S], values: &mut [f64; S]) 
     for (x, value) in x.iter().zip(values) {
         let is_within = x.abs() <= LARGEST_EXPONENT;
         if !is_within {
-            *value = of_any_exponent(*x);
+            *value = Elementary::exp(*x);
         }
     }
 }
@@ -260,7 +262,6 @@ impl Functions for f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numbers::Elementary;
 
     /// Difference in units in the last place of the reference.
     fn units(value: f64, reference: f64) -> f64 {
