@@ -5,8 +5,6 @@
 //! within 1.5 units in the last place. Arguments beyond their range go one by one through the functions of
 //! numbers. So every lane has the bits that it has alone, whatever stands beside it and however many.
 
-use crate::numbers::Elementary;
-
 /// Functions that have a branch-free form.
 pub trait Functions: Sized {
     /// Sine and cosine of every lane.
@@ -132,6 +130,25 @@ fn some_above<const S: usize>(x: &[f64; S], limit: f64) -> bool {
     is_above
 }
 
+/// Sine and cosine of a number, those of [`Elementary`](crate::numbers::Elementary), which stands on this module:
+/// the platform's, or libm's where there is no platform or every machine is to compute the same.
+fn of_any_angle(x: f64) -> (f64, f64) {
+    if cfg!(all(feature = "std", not(feature = "libm"))) {
+        nalgebra::ComplexField::sin_cos(x)
+    } else {
+        libm::sincos(x)
+    }
+}
+
+/// The exponential of a number, likewise.
+fn of_any_exponent(x: f64) -> f64 {
+    if cfg!(all(feature = "std", not(feature = "libm"))) {
+        nalgebra::ComplexField::exp(x)
+    } else {
+        libm::exp(x)
+    }
+}
+
 /// Puts the functions of numbers where the angle is out of range.
 #[cold]
 #[inline(never)]
@@ -140,7 +157,7 @@ fn beyond_largest_angle<const S: usize>(x: &[f64; S], values: &mut [[f64; S]; 2]
     for ((x, sine), cosine) in x.iter().zip(sines).zip(cosines) {
         let is_within = x.abs() <= LARGEST_ANGLE;
         if !is_within {
-            (*sine, *cosine) = Elementary::sin_cos(*x);
+            (*sine, *cosine) = of_any_angle(*x);
         }
     }
 }
@@ -152,7 +169,7 @@ fn beyond_largest_exponent<const S: usize>(x: &[f64; S], values: &mut [f64; S]) 
     for (x, value) in x.iter().zip(values) {
         let is_within = x.abs() <= LARGEST_EXPONENT;
         if !is_within {
-            *value = Elementary::exp(*x);
+            *value = of_any_exponent(*x);
         }
     }
 }
@@ -262,6 +279,7 @@ impl Functions for f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numbers::Elementary;
 
     /// Difference in units in the last place of the reference.
     fn units(value: f64, reference: f64) -> f64 {
