@@ -9,7 +9,7 @@ mod discrete_rayleigh;
 mod discretised;
 mod driven;
 mod error;
-pub(crate) mod flow;
+mod flow;
 mod force_work;
 pub(crate) mod in_lanes;
 mod kernel;

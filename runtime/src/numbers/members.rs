@@ -68,9 +68,9 @@ pub(crate) use {each_coordinate, each_stage, stage_by_stage};
 #[repr(align(64))]
 pub struct Members<T, const W: usize>(pub [T; W]);
 
-/// Values that are there before anything is known of them.
+/// Values of members that arrays can be made of before there are any.
 pub trait Blank: Copy {
-    /// 0 or false, or what nothing starts from.
+    /// 0, or false, of every member.
     fn blank() -> Self;
 }
 
@@ -78,24 +78,17 @@ impl Blank for () {
     fn blank() -> Self {}
 }
 
-impl<T: Scalar, const W: usize> Blank for Members<T, W> {
+impl<T: Scalar, const W: usize, const K: usize> Blank for [Members<T, W>; K] {
     #[inline(always)]
     fn blank() -> Self {
-        Self::splat(T::zero())
+        [Members::splat(T::zero()); K]
     }
 }
 
-impl<const W: usize> Blank for Mask<W> {
+impl<const W: usize, const K: usize> Blank for [Mask<W>; K] {
     #[inline(always)]
     fn blank() -> Self {
-        Self::splat(false)
-    }
-}
-
-impl<A: Blank, const K: usize> Blank for [A; K] {
-    #[inline(always)]
-    fn blank() -> Self {
-        [A::blank(); K]
+        [Mask::splat(false); K]
     }
 }
 

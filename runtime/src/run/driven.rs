@@ -130,6 +130,13 @@ where
         *self = Self::resume(at);
     }
 
+    /// State, step size and clock as they are now. A run that is resumed from them solves its first steps without
+    /// a guess, so that it may differ from this one by rounding, which [`checkpoint`](Self::checkpoint) avoids.
+    #[must_use]
+    pub fn present(&self) -> Checkpoint<V::Scalar, N> {
+        self.at
+    }
+
     /// All that is needed to go on from here; the run forgets what its method remembers, as one that is resumed
     /// has to: both go on bit by bit alike.
     pub fn checkpoint(&mut self) -> Checkpoint<V::Scalar, N> {
