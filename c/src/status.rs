@@ -1,0 +1,122 @@
+//! How a call ended, as a number that C can read.
+
+use core::fmt;
+
+use dalembert::StepError;
+use dalembert::step::Quantity;
+
+macro_rules! statuses {
+    ($($(#[doc = $doc:literal])* $name:ident = $number:literal, $c:literal, $text:literal;)*) => {
+        /// How a call ended: 0 where it did what it says, else why it did nothing.
+        ///
+        /// In C `enum dalembert_status`; the numbers do not change from one version to the next.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[repr(C)]
+        #[must_use]
+        pub enum Status {
+            $($(#[doc = $doc])* $name = $number,)*
+        }
+
+        impl Status {
+            /// All of them.
+            pub const ALL: &'static [Self] = &[$(Self::$name),*];
+
+            /// Its name in C.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$name => $c,)*
+                }
+            }
+
+            /// What happened and what to do, in ASCII, ended by a zero byte.
+            pub(crate) const fn text_for_c(self) -> &'static str {
+                match self {
+                    $(Self::$name => concat!($text, "\0"),)*
+                }
+            }
+        }
+    };
+}
+
+statuses! {
+    /// The call did what it says.
+    Ok = 0, "DALEMBERT_OK", "done";
+    /// An address is NULL that must not be.
+    NullPointer = 1, "DALEMBERT_NULL_POINTER", "an address is NULL: pass the object that the header declares";
+    /// An address is no multiple of its type's alignment.
+    Misaligned = 2, "DALEMBERT_MISALIGNED", "an address is misaligned: declare the object by its type, do not cast bytes to it";
+    /// The memory is smaller than the system needs, or the header is of another build of the library.
+    WrongMemory = 3, "DALEMBERT_WRONG_MEMORY", "memory or parameters are not laid out as the library's: compile with the header that this library wrote";
+    /// The memory has not been initialised for this system, or has been overwritten.
+    NotInitialised = 4, "DALEMBERT_NOT_INITIALISED", "the memory holds no run of this system: call init first, and keep the memory as it is";
+    /// The step size is zero or not finite.
+    StepSize = 5, "DALEMBERT_STEP_SIZE", "the step size is zero or not finite: give a finite step size that is not 0";
+    /// The clock does not tell the step from none.
+    Time = 6, "DALEMBERT_TIME", "a step does not change the time: the run is too long for its step size, or the time is not finite; initialise a new run";
+    /// A configuration, a velocity or a momentum is NaN or infinite.
+    NotFinite = 7, "DALEMBERT_NOT_FINITE", "a configuration, velocity or momentum is NaN or infinite: look at the state and the input given; if they are finite, try a smaller step";
+    /// The input, or the time given, is NaN or infinite.
+    InputNotFinite = 8, "DALEMBERT_INPUT_NOT_FINITE", "the input or the time given is NaN or infinite: look at the controller";
+    /// A parameter is NaN.
+    ParameterNan = 9, "DALEMBERT_PARAMETER_NAN", "a parameter is NaN: fill in every field of the parameters";
+    /// L, R or f, or a derivative of theirs, is NaN or infinite.
+    DerivativesNotFinite = 10, "DALEMBERT_DERIVATIVES_NOT_FINITE", "a derivative of L, R or f is NaN or infinite: look at parameters, input and state";
+    /// The mass matrix is singular.
+    DegenerateLagrangian = 11, "DALEMBERT_DEGENERATE_LAGRANGIAN", "the mass matrix is singular: look at the masses among the parameters";
+    /// The mass matrix is not positive definite.
+    MassNotPositiveDefinite = 12, "DALEMBERT_MASS_NOT_POSITIVE_DEFINITE", "the mass matrix is not positive definite: look at the masses among the parameters";
+    /// No velocity in reach has the momentum given.
+    NoVelocity = 13, "DALEMBERT_NO_VELOCITY", "no velocity in reach has this momentum: look at the state given";
+    /// The Newton matrix is singular.
+    SingularNewtonMatrix = 14, "DALEMBERT_SINGULAR_NEWTON_MATRIX", "the equations of the step are singular: try a smaller step";
+    /// The step has no real solution in reach.
+    NoRealSolution = 15, "DALEMBERT_NO_REAL_SOLUTION", "the equations of the step have no solution in reach: try a smaller step";
+    /// Digits cancel in L, R or f.
+    LostPrecision = 16, "DALEMBERT_LOST_PRECISION", "digits cancel in L, R or f: shift or rescale the coordinates";
+    /// The iteration limit was reached.
+    NotConverged = 17, "DALEMBERT_NOT_CONVERGED", "the equations of the step were not solved within the iteration limit: try a smaller step";
+    /// Derivatives generated are of another function than the one written.
+    GeneratedDiffers = 18, "DALEMBERT_GENERATED_DIFFERS", "the derivatives generated are not those of L, R and f as written: report this as a mistake of the generator";
+    /// An error that this version has no number for.
+    Other = 19, "DALEMBERT_OTHER", "the step was not taken";
+}
+
+impl From<StepError> for Status {
+    fn from(error: StepError) -> Self {
+        match error {
+            StepError::StepSize { .. } => Self::StepSize,
+            StepError::Time { .. } => Self::Time,
+            StepError::NonFinite { quantity: Quantity::Derivatives, .. } => Self::DerivativesNotFinite,
+            StepError::NonFinite { .. } => Self::NotFinite,
+            StepError::DegenerateLagrangian { .. } => Self::DegenerateLagrangian,
+            StepError::MassNotPositiveDefinite { .. } => Self::MassNotPositiveDefinite,
+            StepError::NoVelocity { .. } => Self::NoVelocity,
+            StepError::SingularNewtonMatrix { .. } => Self::SingularNewtonMatrix,
+            StepError::NoRealSolution { .. } => Self::NoRealSolution,
+            StepError::LostPrecision { .. } => Self::LostPrecision,
+            StepError::NotConverged { .. } => Self::NotConverged,
+            StepError::GeneratedDiffers { .. } => Self::GeneratedDiffers,
+            _ => Self::Other,
+        }
+    }
+}
+
+impl From<Result<(), Status>> for Status {
+    fn from(ended: Result<(), Status>) -> Self {
+        ended.err().unwrap_or(Self::Ok)
+    }
+}
+
+impl fmt::Display for Status {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.text_for_c().trim_end_matches('\0'))
+    }
+}
+
+/// What the number `status` says, for C: `dalembert_text`.
+#[must_use]
+pub fn text(status: i32) -> *const core::ffi::c_char {
+    let known = Status::ALL.iter().find(|known| **known as i32 == status);
+    known.map_or("no status of this library\0", |known| known.text_for_c()).as_ptr().cast()
+}
