@@ -97,9 +97,7 @@ impl ActingForce<1> for Mutated {
     }
 }
 
-impl ForcedLagrangian<1> for Mutated {
-    type Anchors<const S: usize> = ();
-}
+impl ForcedLagrangian<1> for Mutated {}
 
 macro_rules! discrete {
     ($($rule:ident $memory:ident),*) => {

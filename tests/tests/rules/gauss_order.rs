@@ -111,9 +111,7 @@ impl ActingForce<3> for Altered {
     }
 }
 
-impl ForcedLagrangian<3> for Altered {
-    type Anchors<const S: usize> = ();
-}
+impl ForcedLagrangian<3> for Altered {}
 
 #[test]
 #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
