@@ -37,9 +37,9 @@ where
 /// stay in the cache.
 const MOST_BYTES: usize = 256 * 1024;
 
-/// How many members at a time keep the registers full, as measured by
-/// `cargo bench -p dalembert-benches --bench lanes`; fewer where N or the method makes the runs large.
-fn lanes<L: LanesBy<M, N>, M, const N: usize>() -> usize {
+/// How many members at a time keep the registers of the machine full, as measured by
+/// `cargo bench -p dalembert-benches --bench lanes`.
+fn widest() -> usize {
     #[cfg(target_arch = "x86_64")]
     let widest = match (is_x86_feature_detected!("avx512f"), is_x86_feature_detected!("avx2")) {
         (true, _) => 32,
@@ -48,12 +48,12 @@ fn lanes<L: LanesBy<M, N>, M, const N: usize>() -> usize {
     };
     #[cfg(not(target_arch = "x86_64"))]
     let widest = 8;
-    let fitting = match () {
-        () if size_of::<LaneRuns<'_, L, M, N, 32>>() <= MOST_BYTES => 32,
-        () if size_of::<LaneRuns<'_, L, M, N, 16>>() <= MOST_BYTES => 16,
-        () => 8,
-    };
-    fitting.min(widest).min(L::MOST_LANES)
+    widest
+}
+
+/// Whether the method takes W members at a time, and their runs stay small.
+const fn fits<L: LanesBy<M, N>, M, const N: usize, const W: usize>() -> bool {
+    W <= L::MOST_LANES && size_of::<LaneRuns<'_, L, M, N, W>>() <= MOST_BYTES
 }
 
 /// A member on its way, or waiting for a lane.
@@ -94,10 +94,14 @@ where
                 }
             }
         });
-        match lanes::<L, M, N>() {
-            32 => self.advance_all::<L, V, N, 32>(waiting, observe),
-            16 => self.advance_all::<L, V, N, 16>(waiting, observe),
-            _ => self.advance_all::<L, V, N, 8>(waiting, observe),
+        // Fewer where N or the method makes the runs large; known when compiled, so that what never runs is not.
+        let widest = widest();
+        if const { fits::<L, M, N, 32>() } && widest >= 32 {
+            self.advance_all::<L, V, N, 32>(waiting, observe);
+        } else if const { fits::<L, M, N, 16>() } && widest >= 16 {
+            self.advance_all::<L, V, N, 16>(waiting, observe);
+        } else {
+            self.advance_all::<L, V, N, 8>(waiting, observe);
         }
     }
 

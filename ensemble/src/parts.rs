@@ -141,6 +141,7 @@ where
             .map(|first| first..numbers.end.min(first.saturating_add(self.members)))
             .collect();
         file::require_apart(&self.folder, &planned)?;
+        file::remove_leftovers(&self.folder, &planned);
         let metadata = self.described();
         let mut written = Written::default();
         // A part is written while the next is computed.

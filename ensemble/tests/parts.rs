@@ -37,13 +37,11 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// The parts. Killed between its writing and its renaming, one leaves a hidden file `.members-….parquet.…` beside
-/// them, which no reader of `*.parquet` sees.
+/// All files.
 fn bytes(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entry =
         |entry: fs::DirEntry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap());
-    let all = fs::read_dir(folder).unwrap().map(|found| entry(found.unwrap()));
-    all.filter(|(name, _)| !name.starts_with('.')).collect()
+    fs::read_dir(folder).unwrap().map(|found| entry(found.unwrap())).collect()
 }
 
 macro_rules! study {
@@ -138,6 +136,23 @@ fn what_does_not_belong_together_is_refused() {
     );
     let file = folder.join("members-000000000000-000000000100.parquet");
     assert!(matches!(study!().parts(&file).write(0..10), Err(PartsError::Io { .. })));
+}
+
+#[test]
+fn what_a_kill_has_left_of_a_part_goes_when_the_part_is_computed() {
+    let folder = folder("leftovers");
+    fs::create_dir_all(&folder).unwrap();
+    let own = ".members-000000000000-000000000100.parquet.h3Kz9Q";
+    // Another process's part, and files of the user's.
+    let others = [".members-000000000200-000000000300.parquet.h3Kz9Q", ".notes.parquet.old", "notes.txt"];
+    for name in others.into_iter().chain([own]) {
+        fs::write(folder.join(name), "half").unwrap();
+    }
+    study!().parts(&folder).members_per_part(100).write(0..200).unwrap();
+    let there = bytes(&folder);
+    assert!(!there.contains_key(own));
+    assert!(others.iter().all(|&name| there.contains_key(name)));
+    assert_eq!(there.len(), others.len() + 2);
 }
 
 /// Set for the process that is killed: its folder.

@@ -7,8 +7,8 @@ pub use crate::system::verification;
 
 #[doc(no_inline)]
 pub use crate::numbers::{
-    Banded, CovectorDerivatives, Derivatives, Direction, Elementary, Gradient, Hessian, LaneVector, Lanes,
-    Mask, MemberVector, Members, Variations,
+    Angle, Banded, CovectorDerivatives, Derivatives, Direction, Elementary, Gradient, Hessian, LaneVector,
+    Lanes, Mask, MemberVector, Members, Reciprocal, Variations,
 };
 #[doc(no_inline)]
 pub use crate::rules::{

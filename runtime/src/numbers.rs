@@ -3,6 +3,7 @@
 //!
 //! The lowest floor: it uses nothing else of this crate.
 
+mod anchors;
 mod arrays;
 pub(crate) mod derivatives;
 #[cfg(feature = "std")]
@@ -13,6 +14,7 @@ pub(crate) mod linear;
 pub(crate) mod members;
 mod scalar;
 
+pub use anchors::{Angle, Reciprocal};
 pub(crate) use arrays::{Functions, Vectors};
 pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, Variations};
 pub use elementary::Elementary;

@@ -9,7 +9,7 @@ mod discrete_rayleigh;
 mod discretised;
 mod driven;
 mod error;
-mod flow;
+pub(crate) mod flow;
 mod force_work;
 pub(crate) mod in_lanes;
 mod kernel;

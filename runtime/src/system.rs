@@ -21,7 +21,7 @@ mod time_scale;
 pub mod verification;
 
 pub use crate::numbers::{
-    CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, LaneVector, Lanes, Mask, Scalar,
+    Blank, CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, LaneVector, Lanes, Mask, Scalar,
     Variations,
 };
 pub use acting_force::ActingForce;

@@ -47,6 +47,19 @@ pub(super) fn require_apart(folder: &Path, planned: &[Range<u64>]) -> Result<(),
     Ok(())
 }
 
+/// Removes what a process that was killed between writing one of these parts and renaming it has left. It does
+/// no harm if that fails.
+pub(super) fn remove_leftovers(folder: &Path, planned: &[Range<u64>]) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let hidden = name.to_str().and_then(|name| name.strip_prefix('.')?.rsplit_once('.'));
+        let of_part = hidden.and_then(|(of_part, _)| members(of_part));
+        if of_part.is_some_and(|part| planned.contains(&part)) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
 /// Fails where the part that is there is not one of the study with this metadata.
 pub(super) fn require_of_study(path: &Path, metadata: &[(String, String)]) -> Result<(), PartsError> {
     let file = File::open(path).map_err(|source| PartsError::Io { path: path.to_owned(), source })?;

@@ -40,6 +40,8 @@ pub struct StraightLine {
     pub calls_elementary: bool,
     /// What the code on members knows of their systems before it runs.
     pub fields: Vec<Field>,
+    /// How many angles and reciprocals start from those of the sweep before.
+    pub anchors: [usize; 2],
     /// The first word of each parameter that occurs.
     parameters: Vec<String>,
 }
@@ -93,6 +95,10 @@ pub fn over_duals(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&str
     written(graph, scalar, outputs, taken, false, Kind::Duals)
 }
 
+/// Code of sweeps: sine and cosine are `angles[0].sin_cos(q[0])`, and these reciprocals `reciprocals[0].of(x)`.
+#[derive(Clone, Copy)]
+pub struct Anchored<'l>(pub &'l [Node]);
+
 /// What the code computes with.
 #[derive(Clone, Copy)]
 enum Kind<'l> {
@@ -100,9 +106,9 @@ enum Kind<'l> {
     /// Numbers, by the functions of members.
     NumbersAsMembers,
     /// Lanes, some of them late.
-    Lanes(&'l [Node]),
+    Lanes(&'l [Node], Anchored<'l>),
     /// Numbers of several members, some of them handed over.
-    Members(&'l [Node]),
+    Members(&'l [Node], Option<Anchored<'l>>),
     Duals,
 }
 
@@ -115,8 +121,9 @@ pub fn in_lanes(
     taken: &[&str],
     is_portable: bool,
     late: &[Node],
+    anchored: Anchored<'_>,
 ) -> StraightLine {
-    written(graph, scalar, outputs, taken, is_portable, Kind::Lanes(late))
+    written(graph, scalar, outputs, taken, is_portable, Kind::Lanes(late, anchored))
 }
 
 /// The code for `outputs` where q, v and what is made of fields alone are those of several members at once;
@@ -128,8 +135,9 @@ pub fn on_members(
     taken: &[&str],
     is_portable: bool,
     handed: &[Node],
+    anchored: Option<Anchored<'_>>,
 ) -> StraightLine {
-    written(graph, scalar, outputs, taken, is_portable, Kind::Members(handed))
+    written(graph, scalar, outputs, taken, is_portable, Kind::Members(handed, anchored))
 }
 
 /// Which expressions neither change with q, v and t nor hold a parameter of the function, whose names are
@@ -166,20 +174,20 @@ fn written(
 ) -> StraightLine {
     let is_dual = matches!(kind, Kind::Duals);
     let (late, lanes) = match kind {
-        Kind::Lanes(late) => (Some(late), number_of_stages(graph)),
-        Kind::Members(_) => (Some(&[][..]), number_of_members(graph)),
+        Kind::Lanes(late, _) => (Some(late), number_of_stages(graph)),
+        Kind::Members(..) => (Some(&[][..]), number_of_members(graph)),
         Kind::Numbers | Kind::NumbersAsMembers | Kind::Duals => (None, number_of_stages(graph)),
     };
     let mut nodes = graph.reachable(outputs.iter().copied());
     let (is_constant, reads) = before_the_run(graph, &nodes, taken);
     let is_known: Vec<bool> = match kind {
-        Kind::Members(handed) => {
+        Kind::Members(handed, _) => {
             let is_field = |node: &Node| is_constant[node.index()] && reads[node.index()];
             graph.nodes().map(|node| is_field(&node) || handed.contains(&node)).collect()
         }
         _ => vec![false; graph.len()],
     };
-    if matches!(kind, Kind::Members(_)) {
+    if matches!(kind, Kind::Members(..)) {
         nodes = graph.reachable_before(outputs.iter().copied(), |node| is_known[node.index()]);
     }
     let mut uses = vec![0_u32; graph.len()];
@@ -200,9 +208,14 @@ fn written(
         is_portable,
         calls_elementary: Cell::new(false),
         is_lanes: vec![false; graph.len()],
-        lanes: format_ident!("{}", if matches!(kind, Kind::Members(_)) { "Members" } else { "Lanes" }),
+        lanes: format_ident!("{}", if matches!(kind, Kind::Members(..)) { "Members" } else { "Lanes" }),
         stages: lanes,
         is_dual,
+        anchored: match kind {
+            Kind::Lanes(_, anchored) | Kind::Members(_, Some(anchored)) => Some(anchored.0),
+            _ => None,
+        },
+        anchors: [0; 2],
         is_branch_free: match kind {
             Kind::NumbersAsMembers => is_constant.iter().map(|is_constant| !is_constant).collect(),
             _ => vec![false; graph.len()],
@@ -267,6 +280,7 @@ fn written(
         // `(1.5 + 0.5).ln()` has no type: a local says it.
         let needs_type = receives[node.index()] && !writer.typed[node.index()];
         let is_single = !is_paired
+            && writer.anchor(node).is_none()
             && !needs_type
             && uses[node.index()] <= 1
             && !matches!(operation, Operation::Select(..))
@@ -294,6 +308,7 @@ fn written(
         uses_inputs,
         calls_elementary,
         fields,
+        anchors: writer.anchors,
         parameters,
     }
 }

@@ -176,8 +176,13 @@ fn stubs(
     let vector = quote!(&::dalembert::nalgebra::SVector<#scalar, #n>);
     let derivatives = quote!(::dalembert::generated::Derivatives<#scalar, #n>);
     let is_empty = rules.of_displacement.is_empty() && !rules.gauss;
-    let forced = (is_empty || rules.gauss || lanes.gauss.is_some())
-        .then(|| quote!(impl ::dalembert::generated::ForcedLagrangian<#n> for #name {}));
+    let forced = (is_empty || rules.gauss || lanes.gauss.is_some()).then(|| {
+        quote! {
+            impl ::dalembert::generated::ForcedLagrangian<#n> for #name {
+                type Anchors<const S: usize> = ();
+            }
+        }
+    });
     let rules = if is_empty { &[Rule::Midpoint, Rule::Trapezoidal] } else { &rules.of_displacement[..] };
     // That the system offers methods: with which rule does not matter.
     let offered = rules.iter().find(|rule| rule.entry().is_self_adjoint).map(|rule| {
@@ -287,8 +292,9 @@ fn gauss_stubs(name: &syn::Ident, scalar: &TokenStream, n: &TokenStream) -> Toke
         impl ::dalembert::generated::ForcedLagrangianInLanes<#n> for #name {
             type Fields<const W: usize> = ();
             type Kept<const W: usize> = ();
+            type AnchorsInLanes<const W: usize> = ();
             fn fields<const W: usize>(_: [&Self; W]) {}
-            fn rates_in_lanes<const W: usize>(_: &(), _: &#members, _: &#members) -> (#members, ()) { ::core::unreachable!() }
+            fn rates_in_lanes<const W: usize>(_: &(), _: &mut (), _: &#members, _: &#members) -> (#members, ()) { ::core::unreachable!() }
             fn corrections_in_lanes<const W: usize>(_: &(), _: &(), _: &#members, _: &#members) -> [#members; 2] { ::core::unreachable!() }
         }
     }

@@ -7,6 +7,7 @@
 //! absent, never a factor 0: no NaN or infinity is hidden by a product.
 
 mod algebra;
+mod angles;
 mod factor;
 mod operation;
 mod zeros;

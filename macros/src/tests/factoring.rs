@@ -1,6 +1,6 @@
 //! Derivatives in fewer operations: how many are left, and that values stay.
 
-use crate::rayleigh_system::graph::{Comparison, Graph, Node, Operation, interpret};
+use crate::rayleigh_system::graph::{Comparison, Function, Graph, Node, Operation, interpret};
 
 /// A graph with q and v of three entries each.
 struct Expressions {
@@ -153,4 +153,50 @@ fn what_cancelled_is_no_common_factor() {
     let (a, b) = (e.product(&[zero, e.q[0], e.v[0]]), e.product(&[zero, e.q[0], e.v[1]]));
     let output = e.sum(a, b);
     e.factored(&[output], 0);
+}
+
+/// Sines and cosines left in what `outputs` become, after a check that they have the same values.
+fn angles(e: &mut Expressions, outputs: &[Node]) -> usize {
+    let fewer = e.graph.with_fewer_angles(outputs);
+    for point in [[[0.3, -1.7, 2.9], [0.11, 5.3, -0.7]], [[-4.1, 0.6, 1.2], [0.9, -2.2, 0.4]]] {
+        let point = [&point[0][..], &point[1]];
+        let [before, after] = [outputs, &fewer].map(|roots| interpret::values(&e.graph, roots, point, |x| x));
+        for (before, after) in before.iter().zip(&after) {
+            assert!((before - after).abs() <= 8.0 * f64::EPSILON, "{before} became {after}");
+        }
+    }
+    let angle = |node: Node| match e.graph.operation(node) {
+        Operation::Function(Function::Sin | Function::Cos, angle) => Some(angle),
+        _ => None,
+    };
+    let mut angles: Vec<Node> = e.graph.reachable(fewer).into_iter().filter_map(angle).collect();
+    angles.sort_unstable();
+    angles.dedup();
+    angles.len()
+}
+
+#[test]
+fn sums_of_angles_need_none_of_their_own() {
+    let mut e = Expressions::new();
+    let [a, b, c] = e.q;
+    let (difference, sum) = (e.graph.minus(a, b), e.graph.plus(a, b));
+    let all = e.graph.plus(sum, c);
+    let sine = |e: &mut Expressions, x| e.graph.function(Function::Sin, x);
+    let cosine = |e: &mut Expressions, x| e.graph.function(Function::Cos, x);
+    // The sum of all comes before the sum of two that it is made of.
+    let compound =
+        [sine(&mut e, all), cosine(&mut e, sum), sine(&mut e, difference), cosine(&mut e, difference)];
+    let nested = sine(&mut e, compound[2]);
+    let of_each = [sine(&mut e, a), cosine(&mut e, b)];
+    let together = [&compound[..], &of_each, &[nested]].concat();
+    // a, b, c + (a + b), of which c has none, and the sine of a sine.
+    assert_eq!(angles(&mut e, &together), 4);
+    let of_last = cosine(&mut e, c);
+    assert_eq!(angles(&mut e, &[&together[..], &[of_last]].concat()), 4);
+    // The control: where one of the two has none, it stays.
+    assert_eq!(angles(&mut e, &[compound[1], compound[3], of_each[0]]), 3);
+    // What a condition is made of stays.
+    let condition = e.graph.node(Operation::Compare(Comparison::Less, compound[2], c));
+    let chosen = e.graph.select(condition, compound[3], c);
+    assert_eq!(angles(&mut e, &[chosen, of_each[0], of_each[1]]), 3);
 }

@@ -68,9 +68,9 @@ pub(crate) use {each_coordinate, each_stage, stage_by_stage};
 #[repr(align(64))]
 pub struct Members<T, const W: usize>(pub [T; W]);
 
-/// Values of members that arrays can be made of before there are any.
+/// Values that are there before anything is known of them.
 pub trait Blank: Copy {
-    /// 0, or false, of every member.
+    /// 0 or false, or what nothing starts from.
     fn blank() -> Self;
 }
 
@@ -78,17 +78,24 @@ impl Blank for () {
     fn blank() -> Self {}
 }
 
-impl<T: Scalar, const W: usize, const K: usize> Blank for [Members<T, W>; K] {
+impl<T: Scalar, const W: usize> Blank for Members<T, W> {
     #[inline(always)]
     fn blank() -> Self {
-        [Members::splat(T::zero()); K]
+        Self::splat(T::zero())
     }
 }
 
-impl<const W: usize, const K: usize> Blank for [Mask<W>; K] {
+impl<const W: usize> Blank for Mask<W> {
     #[inline(always)]
     fn blank() -> Self {
-        [Mask::splat(false); K]
+        Self::splat(false)
+    }
+}
+
+impl<A: Blank, const K: usize> Blank for [A; K] {
+    #[inline(always)]
+    fn blank() -> Self {
+        [A::blank(); K]
     }
 }
 

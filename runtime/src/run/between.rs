@@ -10,8 +10,8 @@ use crate::numbers::Scalar;
 use crate::rules::Gauss;
 use crate::run::Trajectory;
 use crate::step::{Flow, State, Step, StepError};
+pub(in crate::run) use divisible::beginning;
 pub use divisible::{Divisible, Restartable};
-pub(in crate::run) use divisible::{beginning, velocity};
 pub use moment::Moment;
 pub use times::{SampledAt, TimeError};
 

@@ -3,9 +3,10 @@
 use nalgebra::SVector;
 
 use crate::numbers::Scalar;
-use crate::run::between::{Dense, Divisible, Moment, Restartable, SampledAt, beginning, velocity};
+use crate::run::between::{Dense, Divisible, Moment, Restartable, SampledAt, beginning};
 use crate::run::events::Watch;
 use crate::run::{DrivenTrajectory, Run};
+use crate::step::flow::velocity;
 use crate::step::{Flow, Memory, State, Step, StepError};
 
 /// Steps with one input.

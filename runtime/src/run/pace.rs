@@ -4,7 +4,8 @@ use nalgebra::SVector;
 
 use crate::numbers::Scalar;
 use crate::run::Checkpoint;
-use crate::step::{Flow, Memory, State, StepError};
+use crate::step::flow::velocity;
+use crate::step::{Flow, State, StepError};
 use crate::system::{Lagrangian, TimeScale};
 
 /// σ and ∇σ of a system at q.
@@ -70,10 +71,7 @@ impl<L: Lagrangian<N>, const N: usize> Pace<L, N> {
         let of = L::Scalar::constant;
         let time = at.time();
         let State { q, .. } = &at.state;
-        let velocity = match memory.velocity(&at.state) {
-            Some(velocity) => velocity,
-            None => system.later(of(time), |system| at.state.velocity(system))?,
-        };
+        let velocity = velocity::<L, M, N>(system, memory, time, &at.state)?;
         let (scale, gradient) = (self.scale)(system, q);
         let rate = gradient.dot(&velocity) / scale;
         let Course { mut parameter_step, is_first, mut rest } = self.course;

@@ -34,9 +34,14 @@ pub struct Stages<T, const N: usize, const S: usize> {
     note = "otherwise list the rule in the attribute: `#[rayleigh_system(rule = [midpoint, gauss])]`"
 )]
 pub trait ForcedLagrangian<const N: usize>: ActingForce<N> {
+    /// What the equations at all stages keep from one sweep to the next, blank before the first: nothing, `()`,
+    /// or sines, cosines and reciprocals to start from.
+    type Anchors<const S: usize>: Blank;
+
     /// The equations of motion at all stages, now. `momenta` gives the stages' momenta from their rates g.
     fn stages<const S: usize>(
         &self,
+        _anchors: &mut Self::Anchors<S>,
         q: &LaneVector<Self::Scalar, N, S>,
         v: &LaneVector<Self::Scalar, N, S>,
         momenta: impl FnOnce(&LaneVector<Self::Scalar, N, S>) -> LaneVector<Self::Scalar, N, S>,
@@ -51,6 +56,7 @@ pub trait ForcedLagrangian<const N: usize>: ActingForce<N> {
     #[inline(always)]
     fn stages_in_time<const S: usize>(
         &self,
+        anchors: &mut Self::Anchors<S>,
         elapsed: &Lanes<Self::Scalar, S>,
         q: &LaneVector<Self::Scalar, N, S>,
         v: &LaneVector<Self::Scalar, N, S>,
@@ -59,7 +65,11 @@ pub trait ForcedLagrangian<const N: usize>: ActingForce<N> {
     where
         Self: Sized,
     {
-        if Self::IS_TIMED { one_by_one(self, elapsed, q, v, momenta) } else { self.stages(q, v, momenta) }
+        if Self::IS_TIMED {
+            one_by_one(self, elapsed, q, v, momenta)
+        } else {
+            self.stages(anchors, q, v, momenta)
+        }
     }
 }
 
@@ -78,6 +88,9 @@ pub trait ForcedLagrangianInLanes<const N: usize>: ForcedLagrangian<N, Scalar: E
     /// What corrections need of rates.
     type Kept<const W: usize>: Blank;
 
+    /// [`Anchors`](ForcedLagrangian::Anchors) of each member at one stage.
+    type AnchorsInLanes<const W: usize>: Blank;
+
     /// What is known of the systems, gathered.
     fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W>;
 
@@ -85,6 +98,7 @@ pub trait ForcedLagrangianInLanes<const N: usize>: ForcedLagrangian<N, Scalar: E
     /// [`stages`](ForcedLagrangian::stages), to the last bit.
     fn rates_in_lanes<const W: usize>(
         fields: &Self::Fields<W>,
+        anchors: &mut Self::AnchorsInLanes<W>,
         q: &MemberVector<Self::Scalar, N, W>,
         v: &MemberVector<Self::Scalar, N, W>,
     ) -> (MemberVector<Self::Scalar, N, W>, Self::Kept<W>);

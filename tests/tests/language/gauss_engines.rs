@@ -4,7 +4,7 @@
 #![expect(clippy::neg_cmp_op_on_partial_ord, reason = "lanes must decide negated comparisons as numbers do")]
 
 use dalembert::nalgebra::vector;
-use dalembert::system::{ForcedLagrangian, Lanes};
+use dalembert::system::{Blank, ForcedLagrangian, Lanes};
 use dalembert::{Discretise, Force, Gauss, State};
 
 /// One system for each engine, with selections, masks, functions of one and of two numbers, and numbers among
@@ -76,7 +76,10 @@ fn lanes_agree_with_num_dual() {
         let q = [lanes([0.05, 0.3, -0.25, 0.8, 0.2]), lanes([-0.5, 0.17, 0.3, 0.1, -0.1])];
         let v = [lanes([0.4, -1.2, 0.3, 0.0, 2.0]), lanes([-0.3, 0.8, 1.1, 0.5, -0.7])];
         let momenta = |rate: &[Lanes<f64, 5>; 2]| [rate[0] * 0.3 + 0.7, rate[1] * -0.2 + 0.4];
-        let (a, b) = (one.stages(&q, &v, momenta), other.stages(&q, &v, momenta));
+        let (a, b) = (
+            one.stages(&mut Blank::blank(), &q, &v, momenta),
+            other.stages(&mut Blank::blank(), &q, &v, momenta),
+        );
         for (a, b) in [(a.rate, b.rate), (a.residual, b.residual), (a.correction, b.correction)] {
             for coordinate in 0..2 {
                 for lane in 0..5 {
@@ -87,7 +90,10 @@ fn lanes_agree_with_num_dual() {
         }
         // Positive control: another field is seen.
         let altered = expanded::Everything { a: 0.25, b: 1.3 + 1e-9, is_open };
-        assert!((altered.stages(&q, &v, momenta).rate[0].0[0] - a.rate[0].0[0]).abs() > 1e-11);
+        assert!(
+            (altered.stages(&mut Blank::blank(), &q, &v, momenta).rate[0].0[0] - a.rate[0].0[0]).abs()
+                > 1e-11
+        );
         assert_eq!(Force::force(&one, &vector![0.3, 0.1], &vector![0.2, -0.4])[1], 0.0);
     }
 }

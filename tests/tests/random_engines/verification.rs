@@ -97,7 +97,9 @@ impl ActingForce<1> for Mutated {
     }
 }
 
-impl ForcedLagrangian<1> for Mutated {}
+impl ForcedLagrangian<1> for Mutated {
+    type Anchors<const S: usize> = ();
+}
 
 macro_rules! discrete {
     ($($rule:ident $memory:ident),*) => {

@@ -111,7 +111,9 @@ impl ActingForce<3> for Altered {
     }
 }
 
-impl ForcedLagrangian<3> for Altered {}
+impl ForcedLagrangian<3> for Altered {
+    type Anchors<const S: usize> = ();
+}
 
 #[test]
 #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]

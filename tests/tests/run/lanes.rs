@@ -176,14 +176,15 @@ impl Everything {
     }
 }
 
-/// More coordinates than are unrolled.
+/// More coordinates than are unrolled, a band of three: at rest but for the first, floors rise as the others
+/// begin to move.
 #[derive(Clone, Debug)]
-struct Chain {
-    k: f64,
-    r: f64,
+pub(crate) struct Chain {
+    pub(crate) k: f64,
+    pub(crate) r: f64,
 }
 
-#[rayleigh_system(rule = trapezoidal, lanes = explicit)]
+#[rayleigh_system(rule = [midpoint, trapezoidal, gauss], lanes = [explicit, gauss, midpoint])]
 impl Chain {
     fn lagrangian(&self, q: [f64; 18], v: [f64; 18]) -> f64 {
         let (mut l, mut before) = (0.0, 0.0);

@@ -7,6 +7,8 @@ mod tolerance;
 
 // None of these holds a test that is long unoptimised.
 #[cfg(not(feature = "only-long-tests"))]
+mod anchors;
+#[cfg(not(feature = "only-long-tests"))]
 mod between;
 #[cfg(not(feature = "only-long-tests"))]
 mod composition;

@@ -9,7 +9,8 @@ use dalembert::{Discretise, Midpoint, State, rayleigh_system};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-use crate::lanes::{agree, bits, damping, members};
+use crate::gauss_lanes::Spring;
+use crate::lanes::{Chain, agree, bits, damping, members};
 
 /// Two pendulums, one at the end of the other, with friction in their joints.
 #[derive(Clone, Debug)]
@@ -116,53 +117,6 @@ impl Rotor {
 
     fn rayleigh(&self, v: [f64; 3]) -> f64 {
         0.5 * self.r * (v[0] * v[0] + (v[2] - v[1]).powi(2))
-    }
-}
-
-/// More coordinates than are unrolled, a band of three, at rest but for the first: floors rise as the others
-/// begin to move.
-#[derive(Clone, Debug)]
-struct Chain {
-    k: f64,
-    r: f64,
-}
-
-#[rayleigh_system(lanes = midpoint)]
-impl Chain {
-    fn lagrangian(&self, q: [f64; 18], v: [f64; 18]) -> f64 {
-        let (mut l, mut before) = (0.0, 0.0);
-        for i in 0..18 {
-            let d = q[i] - before;
-            l += 0.5 * v[i] * v[i] - self.k * (0.5 * d * d + 0.25 * d.powi(4));
-            before = q[i];
-        }
-        l
-    }
-
-    fn rayleigh(&self, v: [f64; 18]) -> f64 {
-        let mut r = 0.0;
-        for v in v {
-            r += 0.5 * self.r * v * v;
-        }
-        r
-    }
-}
-
-/// A spring between walls, soft in some members and stiff in others.
-#[derive(Clone, Debug)]
-struct Spring {
-    k: f64,
-    r: f64,
-}
-
-#[rayleigh_system(lanes = midpoint)]
-impl Spring {
-    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
-        0.5 * v[0] * v[0] - 0.5 * self.k * q[0] * q[0] - 0.25 * q[0].powi(4)
-    }
-
-    fn rayleigh(&self, v: [f64; 1]) -> f64 {
-        0.5 * self.r * v[0] * v[0]
     }
 }
 

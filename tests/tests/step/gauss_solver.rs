@@ -292,8 +292,11 @@ impl ActingForce<2> for OneByOne {
 }
 
 impl ForcedLagrangian<2> for OneByOne {
+    type Anchors<const S: usize> = [<DoublePendulum as ForcedLagrangian<2>>::Anchors<1>; S];
+
     fn stages<const S: usize>(
         &self,
+        anchors: &mut Self::Anchors<S>,
         q: &LaneVector<f64, 2, S>,
         v: &LaneVector<f64, 2, S>,
         momenta: impl FnOnce(&LaneVector<f64, 2, S>) -> LaneVector<f64, 2, S>,
@@ -303,18 +306,18 @@ impl ForcedLagrangian<2> for OneByOne {
         let are_copies = (last..S).all(|i| lane(q, i) == lane(q, last) && lane(v, i) == lane(v, last));
         let (most, all) = self.seen.get();
         self.seen.set((most.max(S), all && are_copies));
-        let at = |i: usize, p: LaneVector<f64, 2, 1>| {
-            DoublePendulum::EXAMPLE.stages::<1>(&lane(q, i), &lane(v, i), |_| p)
+        let at = |i: usize, anchors: &mut _, p: LaneVector<f64, 2, 1>| {
+            DoublePendulum::EXAMPLE.stages::<1>(anchors, &lane(q, i), &lane(v, i), |_| p)
         };
         let none = [Lanes([0.0; S]); 2];
         let mut all = Stages { rate: none, residual: none, correction: none };
-        for i in 0..S {
-            let rate = at(i, [Lanes([0.0]); 2]).rate;
+        for (i, mut anchors) in anchors.iter().copied().enumerate() {
+            let rate = at(i, &mut anchors, [Lanes([0.0]); 2]).rate;
             all.rate.iter_mut().zip(rate).for_each(|(all, one)| all.0[i] = one.0[0]);
         }
         let p = momenta(&all.rate);
-        for i in 0..S {
-            let one = at(i, lane(&p, i));
+        for (i, anchors) in anchors.iter_mut().enumerate() {
+            let one = at(i, anchors, lane(&p, i));
             for a in 0..2 {
                 all.residual[a].0[i] = one.residual[a].0[0];
                 all.correction[a].0[i] = one.correction[a].0[0];

@@ -139,7 +139,7 @@ mod num_dual {
 
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::step::{DiscreteDriven, NewtonMatrix};
-use dalembert::system::{Direction, ForcedLagrangian, Lanes, Scalar};
+use dalembert::system::{Blank, Direction, ForcedLagrangian, Lanes, Scalar};
 use dalembert::{
     Composition, Discrete, Discretise, EnergyLedger, Force, Gauss, Lagrangian, Midpoint, Rayleigh, State,
     Trapezoidal,
@@ -436,8 +436,9 @@ fn stages_see_their_own_time_in_both_engines() {
     for valve in [0.8, -0.8] {
         let u = [0.5, -1.2, valve];
         let (a, b) = (expanded::Storm { k: 0.4 }, num_dual::Storm { k: 0.4 });
-        let of = |t: f64| a.driven(u, t).stages_in_time(&elapsed, &q, &v, momenta);
-        let (a, b) = (of(0.6), b.driven(u, 0.6).stages_in_time(&elapsed, &q, &v, momenta));
+        let of = |t: f64| a.driven(u, t).stages_in_time(&mut Blank::blank(), &elapsed, &q, &v, momenta);
+        let (a, b) =
+            (of(0.6), b.driven(u, 0.6).stages_in_time(&mut Blank::blank(), &elapsed, &q, &v, momenta));
         for (a, b) in [(a.rate, b.rate), (a.residual, b.residual), (a.correction, b.correction)] {
             for (a, b) in a.iter().flat_map(|a| a.0).zip(b.iter().flat_map(|b| b.0)) {
                 assert!((a - b).abs() < 4e-15 * (1.0 + b.abs()), "{a} {b}");

@@ -53,6 +53,14 @@ impl Written {
     }
 }
 
+/// What starts from the sweep before.
+#[derive(Clone, Copy)]
+pub enum Anchor {
+    Angle(Node),
+    /// Of this.
+    Reciprocal(Node),
+}
+
 pub struct Writer<'g> {
     pub graph: &'g Graph,
     pub scalar: &'g Ident,
@@ -73,6 +81,10 @@ pub struct Writer<'g> {
     pub is_dual: bool,
     /// Which fields are truth values.
     pub is_condition: Vec<bool>,
+    /// The reciprocals of sweeps, in their code.
+    pub anchored: Option<&'g [Node]>,
+    /// How many angles and reciprocals have been written.
+    pub anchors: [usize; 2],
     /// Of which numbers sine, cosine and exponential are those of members.
     pub is_branch_free: Vec<bool>,
 }
@@ -82,7 +94,13 @@ impl Writer<'_> {
     pub fn statement(&mut self, node: Node, nodes: &[Node]) -> TokenStream {
         // Sine and cosine of one angle are one call.
         if let Some((partner, angle)) = partner(self.graph, node, nodes) {
-            let argument = self.called_on(angle, "sin_cos");
+            let pair = match self.anchor(node) {
+                Some(anchor) => self.starting_at(anchor),
+                None => {
+                    let argument = self.called_on(angle, "sin_cos");
+                    quote!(#argument.sin_cos())
+                }
+            };
             let [own, its] = [node, partner].map(|node| {
                 let name = self.names.of(self.graph, node, &self.locals);
                 self.locals[node.index()] = Some(name.clone());
@@ -90,9 +108,19 @@ impl Writer<'_> {
             });
             let is_sine = matches!(self.graph.operation(node), Operation::Function(Function::Sin, _));
             let (sine, cosine) = if is_sine { (own, its) } else { (its, own) };
-            return quote!(let (#sine, #cosine) = #argument.sin_cos(););
+            return quote!(let (#sine, #cosine) = #pair;);
         }
-        let value = self.expression(node).tokens;
+        let value = match self.anchor(node) {
+            Some(anchor) => {
+                let value = self.starting_at(anchor);
+                match self.graph.operation(node) {
+                    Operation::Function(Function::Sin, _) => quote!(#value.0),
+                    Operation::Function(..) => quote!(#value.1),
+                    _ => value,
+                }
+            }
+            None => self.expression(node).tokens,
+        };
         let name = self.names.of(self.graph, node, &self.locals);
         self.locals[node.index()] = Some(name.clone());
         let is_lanes = self.is_lanes[node.index()];
@@ -102,6 +130,34 @@ impl Writer<'_> {
         let scalar = self.scalar;
         self.typed[node.index()] = true;
         quote!(let #name: #scalar = #value;)
+    }
+
+    /// The angle or what the reciprocal is of, where the sweep before has one to start from.
+    pub fn anchor(&self, node: Node) -> Option<Anchor> {
+        let reciprocals = self.anchored.filter(|_| self.is_lanes[node.index()])?;
+        match self.graph.operation(node) {
+            Operation::Function(Function::Sin | Function::Cos, angle) => Some(Anchor::Angle(angle)),
+            Operation::Divide(_, x) if reciprocals.contains(&node) => Some(Anchor::Reciprocal(x)),
+            _ => None,
+        }
+    }
+
+    /// `angles[0].sin_cos(q[0])` or `reciprocals[0].of(x)`.
+    fn starting_at(&mut self, anchor: Anchor) -> TokenStream {
+        let [angles, reciprocals] = &mut self.anchors;
+        let count = if let Anchor::Angle(_) = anchor { angles } else { reciprocals };
+        let index = Literal::usize_unsuffixed(*count);
+        *count += 1;
+        match anchor {
+            Anchor::Angle(angle) => {
+                let angle = self.lanes(angle);
+                quote!(angles[#index].sin_cos(#angle))
+            }
+            Anchor::Reciprocal(x) => {
+                let x = self.lanes(x);
+                quote!(reciprocals[#index].of(#x))
+            }
+        }
     }
 
     pub fn expression(&self, node: Node) -> Written {

@@ -221,6 +221,11 @@ pub fn forced_lagrangian(
 ) -> TokenStream {
     let n = system.degrees.times(1);
     let subject = subject(system, system.home());
+    let stages = stages.unwrap_or_else(|| {
+        quote!(
+            type Anchors<const S: usize> = ();
+        )
+    });
     let in_lanes = in_lanes.map(|functions| {
         quote! {
             #[automatically_derived]

@@ -11,7 +11,7 @@ mod stages;
 use proc_macro2::TokenTree;
 use quote::ToTokens;
 
-use super::super::emit::{Field, as_on_members, number_of_members, on_members, straight_line};
+use super::super::emit::{Anchored, Field, as_on_members, number_of_members, on_members, straight_line};
 use super::super::syntax::regrouped;
 use super::*;
 pub(super) use explicit::{ExplicitOutputs, TAKEN};
@@ -96,9 +96,16 @@ impl OfMembers {
 
 impl Code<'_> {
     /// The code on members for `outputs`, in a function with parameters of these names.
-    fn on_members(&mut self, outputs: &[Node], taken: &[&str], handed: &[Node]) -> StraightLine {
+    fn on_members(
+        &mut self,
+        outputs: &[Node],
+        taken: &[&str],
+        handed: &[Node],
+        anchored: Option<Anchored<'_>>,
+    ) -> StraightLine {
         let taken = self.taken_with(taken);
-        let line = on_members(&self.graph, &self.system.scalar, outputs, &taken, self.is_portable, handed);
+        let (graph, scalar) = (&self.graph, &self.system.scalar);
+        let line = on_members(graph, scalar, outputs, &taken, self.is_portable, handed, anchored);
         let mut line = self.seen(line);
         line.fields.sort_by_key(|field| (field.is_truth, field.node));
         self.calls_elementary |= line.calls_elementary;
@@ -183,7 +190,7 @@ impl Code<'_> {
 }
 
 /// `()`, the one, or all of them in brackets.
-fn tuple(parts: impl Iterator<Item = TokenStream>) -> TokenStream {
+pub(super) fn tuple(parts: impl Iterator<Item = TokenStream>) -> TokenStream {
     let parts: Vec<TokenStream> = parts.collect();
     match &parts[..] {
         [one] => one.clone(),

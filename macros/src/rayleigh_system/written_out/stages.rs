@@ -12,13 +12,48 @@
 
 use std::collections::BTreeSet;
 
-use super::super::emit::{self, number_of_stages};
+use super::super::emit::{self, Anchored, number_of_stages};
+use super::in_lanes::tuple;
 use super::*;
 
 /// `stages`, and the functions of several members at once where they are asked for.
 pub(super) struct StagesWritten {
     pub(super) function: TokenStream,
     pub(super) in_lanes: Option<TokenStream>,
+}
+
+/// What a line of code in sweeps keeps from one to the next.
+pub(super) struct Anchors {
+    pub(super) ty: TokenStream,
+    /// The name of the parameter.
+    pub(super) parameter: Ident,
+    /// `let (angles, reciprocals) = anchors;`
+    pub(super) apart: Option<TokenStream>,
+}
+
+impl Anchors {
+    /// Of values of the type `lanes`.
+    pub(super) fn new(line: &StraightLine, lanes: &TokenStream) -> Self {
+        let groups: Vec<_> = [("Angle", "angles"), ("Reciprocal", "reciprocals")]
+            .into_iter()
+            .zip(line.anchors)
+            .filter(|&(_, count)| count > 0)
+            .map(|((ty, name), count)| {
+                let (ty, name, count) =
+                    (format_ident!("{ty}"), format_ident!("{name}"), Literal::usize_unsuffixed(count));
+                (quote!([::dalembert::generated::#ty<#lanes>; #count]), name)
+            })
+            .collect();
+        let ty = tuple(groups.iter().map(|(ty, _)| ty.clone()));
+        match &groups[..] {
+            [(_, name)] => Self { ty, parameter: name.clone(), apart: None },
+            groups => {
+                let names = tuple(groups.iter().map(|(_, name)| quote!(#name)));
+                let apart = (!groups.is_empty()).then(|| quote!(let #names = anchors;));
+                Self { ty, parameter: parameter("anchors", apart.is_some()), apart }
+            }
+        }
+    }
 }
 
 const NOT_FACTORED: &str =
@@ -79,18 +114,22 @@ impl Code<'_> {
         if self.graph.is_full() {
             return Err(NOT_FACTORED);
         }
+        let outputs = self.graph.with_fewer_angles(&outputs);
         let outputs = self.graph.factored(&outputs, self.written);
         // Lanes take both ways of a selection.
         if self.graph.is_conditional(outputs.iter().copied()) {
             return Err(CONDITIONAL);
         }
-        let in_lanes = self.system.lanes.gauss.as_ref().map(|_| self.stages_in_lanes(&outputs, &late));
-        let mut taken = vec!["q", "v", "p", "rate", "momenta"];
+        let reciprocals = self.of_corrections_alone(&outputs);
+        let anchored = Anchored(&reciprocals);
+        let in_lanes =
+            self.system.lanes.gauss.as_ref().map(|_| self.stages_in_lanes(&outputs, &late, anchored));
+        let mut taken = vec!["q", "v", "p", "rate", "momenta", "anchors", "angles", "reciprocals"];
         if self.home == Home::View {
             taken.extend(["u", "t", "elapsed"]);
         }
-        let mut line =
-            emit::in_lanes(&self.graph, &self.system.scalar, &outputs, &taken, self.is_portable, &late);
+        let (graph, scalar) = (&self.graph, &self.system.scalar);
+        let mut line = emit::in_lanes(graph, scalar, &outputs, &taken, self.is_portable, &late, anchored);
         if self.home == Home::View {
             let seen = |tokens: TokenStream| view::seen_from_view(tokens, &self.system.name);
             let input = line.uses_inputs.then(|| quote!(let u = self.u;));
@@ -113,16 +152,21 @@ impl Code<'_> {
         } else {
             (format_ident!("stages"), " G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages.", None)
         };
+        let Anchors { ty, parameter: anchors, apart } = Anchors::new(&line, &quote!(Lanes<#scalar, #stages>));
         let function = quote! {
+            type Anchors<const #stages: usize> = #ty;
+
             #[doc = #text]
             #[inline]
             fn #function<const #stages: usize>(
                 &self,
+                #anchors: &mut Self::Anchors<#stages>,
                 #elapsed
                 #q: &LaneVector<#scalar, #n, #stages>,
                 #v: &LaneVector<#scalar, #n, #stages>,
                 momenta: impl FnOnce(&LaneVector<#scalar, #n, #stages>) -> LaneVector<#scalar, #n, #stages>,
             ) -> Stages<#scalar, #n, #stages> {
+                #apart
                 #statements
                 let rate = [#(#rates),*];
                 let p = momenta(&rate);
@@ -131,6 +175,19 @@ impl Code<'_> {
             }
         };
         Ok(StagesWritten { function, in_lanes })
+    }
+
+    /// The reciprocals that corrections need and nothing else does: what they are off by, the next sweep sees.
+    fn of_corrections_alone(&self, outputs: &[Node]) -> Vec<Node> {
+        let (others, corrections) = outputs.split_at(2 * self.n);
+        let others: BTreeSet<Node> = self.graph.reachable(others.iter().copied()).into_iter().collect();
+        let is_reciprocal = |node: &Node| match self.graph.operation(*node) {
+            Operation::Divide(one, _) => self.graph.constant_value(one) == Some(1.0),
+            _ => false,
+        };
+        let mut alone = self.graph.reachable(corrections.iter().copied());
+        alone.retain(|node| is_reciprocal(node) && !others.contains(node));
+        alone
     }
 
     /// M⁻¹ `right`, M = ∂²L/∂v².

@@ -11,14 +11,20 @@ impl ::dalembert::generated::ForcedLagrangianInLanes<2> for Cart {
             )
         }
         type Kept<const W: usize> = [Members<f64, W>; 4];
+        type AnchorsInLanes<const W: usize> = (
+            [::dalembert::generated::Angle<Members<f64, W>>; 1],
+            [::dalembert::generated::Reciprocal<Members<f64, W>>; 1],
+        );
         #[inline(always)]
         fn rates_in_lanes<const W: usize>(
             fields: &Self::Fields<W>,
+            anchors: &mut Self::AnchorsInLanes<W>,
             q: &MemberVector<f64, 2, W>,
             v: &MemberVector<f64, 2, W>,
         ) -> (MemberVector<f64, 2, W>, Self::Kept<W>) {
             let [l, _, l_squared, end, k, c, a, t1] = *fields;
-            let (sin_q1, cos_q1) = q[1].sin_cos();
+            let (angles, reciprocals) = anchors;
+            let (sin_q1, cos_q1) = angles[0].sin_cos(q[1]);
             let reach = l * cos_q1;
             let t2 = Members::select(
                 end.less(q[0]),
@@ -27,9 +33,10 @@ impl ::dalembert::generated::ForcedLagrangianInLanes<2> for Cart {
             );
             let dl_dreach = 1.0 + v[0] * v[1];
             let t3 = t1 * reach;
+            let t4 = reciprocals[0].of(l_squared - reach * t3);
             (
                 [a.powf(q[0]) + t2, -(l * dl_dreach * sin_q1 + c * v[1])],
-                [v[0] * reach, v[1] * reach, t3, 1.0 / (l_squared - reach * t3)],
+                [v[0] * reach, v[1] * reach, t3, t4],
             )
         }
         #[inline(always)]

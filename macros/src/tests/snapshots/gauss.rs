@@ -189,15 +189,21 @@ const _: () = {
     }
     #[automatically_derived]
     impl ForcedLagrangian<2> for Cart {
+        type Anchors<const S: usize> = (
+            [::dalembert::generated::Angle<Lanes<f64, S>>; 1],
+            [::dalembert::generated::Reciprocal<Lanes<f64, S>>; 1],
+        );
         /// G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages.
         #[inline]
         fn stages<const S: usize>(
             &self,
+            anchors: &mut Self::Anchors<S>,
             q: &LaneVector<f64, 2, S>,
             v: &LaneVector<f64, 2, S>,
             momenta: impl FnOnce(&LaneVector<f64, 2, S>) -> LaneVector<f64, 2, S>,
         ) -> Stages<f64, 2, S> {
-            let (sin_q1, cos_q1) = q[1].sin_cos();
+            let (angles, reciprocals) = anchors;
+            let (sin_q1, cos_q1) = angles[0].sin_cos(q[1]);
             let l = self.l;
             let reach = l * cos_q1;
             let m = self.m;
@@ -209,6 +215,7 @@ const _: () = {
             let dl_dreach = 1.0 + v[0] * v[1];
             let t2 = 1.0 / m;
             let t3 = t2 * reach;
+            let t4 = reciprocals[0].of(l_squared - reach * t3);
             let rate = [
                 Lanes::<f64, S>::splat(self.a).powf(q[0]) + t1,
                 -(l * dl_dreach * sin_q1 + self.c * v[1]),
@@ -216,11 +223,11 @@ const _: () = {
             let p = momenta(&rate);
             let residual0 = p[0] - m * v[0] - v[1] * reach;
             let residual1 = p[1] - v[0] * reach - l_squared * v[1];
-            let t4 = 1.0 / (l_squared - reach * t3) * (residual1 - t3 * residual0);
+            let t5 = t4 * (residual1 - t3 * residual0);
             Stages {
                 rate,
                 residual: [residual0, residual1],
-                correction: [t2 * residual0 - t3 * t4, t4],
+                correction: [t2 * residual0 - t3 * t5, t5],
             }
         }
     }

@@ -184,10 +184,12 @@ const _: () = {
     }
     #[automatically_derived]
     impl ForcedLagrangian<1> for DrivenArm<'_> {
+        type Anchors<const S: usize> = [::dalembert::generated::Angle<Lanes<f64, S>>; 2];
         /// G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages, each at its own time.
         #[inline]
         fn stages_in_time<const S: usize>(
             &self,
+            angles: &mut Self::Anchors<S>,
             elapsed: &Lanes<f64, S>,
             q: &LaneVector<f64, 1, S>,
             v: &LaneVector<f64, 1, S>,
@@ -196,9 +198,10 @@ const _: () = {
             let u = self.u;
             let t = *elapsed + self.t;
             let m = self.system.m;
-            let (sin_q0, cos_q0) = q[0].sin_cos();
+            let (sin_q0, cos_q0) = angles[0].sin_cos(q[0]);
             let push = if u[0] > 0.0 { self.system.gain * u[0] } else { 0.0 };
-            let rate = [cos_q0 * push - v[0] + (t * Arm::RATE).sin() - sin_q0];
+            let t1 = angles[1].sin_cos(t * Arm::RATE).0;
+            let rate = [cos_q0 * push - v[0] + t1 - sin_q0];
             let p = momenta(&rate);
             let residual0 = p[0] - m * v[0];
             Stages {

@@ -101,10 +101,12 @@ const _: () = {
     impl ActingForce<2> for Kepler {}
     #[automatically_derived]
     impl ForcedLagrangian<2> for Kepler {
+        type Anchors<const S: usize> = ();
         /// G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages.
         #[inline]
         fn stages<const S: usize>(
             &self,
+            _anchors: &mut Self::Anchors<S>,
             q: &LaneVector<f64, 2, S>,
             v: &LaneVector<f64, 2, S>,
             momenta: impl FnOnce(&LaneVector<f64, 2, S>) -> LaneVector<f64, 2, S>,

@@ -12,6 +12,13 @@ pub trait Functions: Sized {
 
     /// The exponential of every lane.
     fn exponentials<const S: usize>(x: [Self; S]) -> [Self; S];
+
+    /// Sine and cosine of every lane from an angle near by, its sine and its cosine, the `anchor`; lanes that
+    /// are not near become anchors themselves.
+    fn turned<const S: usize>(x: [Self; S], anchor: [&mut [Self; S]; 3]) -> ([Self; S], [Self; S]);
+
+    /// 1/x of every lane by a step of Newton's method from reciprocals near by, by a division elsewhere.
+    fn corrected_reciprocals<const S: usize>(x: [Self; S], near: [Self; S]) -> [Self; S];
 }
 
 /// Up to here multiples of π/2 times the 33 bits of its first part are exact.
@@ -62,6 +69,24 @@ fn sine_and_cosine(x: f64) -> (f64, f64) {
     (sine, cosine)
 }
 
+/// Up to this angle the addition theorem is used.
+const LARGEST_TURN: f64 = 0.1875;
+
+/// sin δ and 1 − cos δ for |δ| ≤ [`LARGEST_TURN`]: interpolated at Chebyshev's nodes of δ², 0.05 ε off.
+#[inline(always)]
+fn sine_and_versine(delta: f64) -> (f64, f64) {
+    let z = delta * delta;
+    let p = 0.16666666666666638
+        - z * (0.008333333333061315 - z * (0.00019841265972408056 - z * 2.7539709917498416e-06));
+    let sine = delta - delta * (z * p);
+    let p = 0.041666666666666644
+        - z * (0.0013888888888662191 - z * (2.4801584077348975e-05 - z * 2.754264415234022e-07));
+    (sine, z * (0.5 - z * p))
+}
+
+/// Beyond this 1 − x r the reciprocal of x is no step of Newton's method from r.
+const LARGEST_DEFECT: f64 = 0.0625;
+
 /// Up to here neither the result nor a factor of it leaves the normal numbers.
 const LARGEST_EXPONENT: f64 = 700.0;
 
@@ -95,8 +120,18 @@ fn all_within<const S: usize>(x: &[f64; S], limit: f64) -> bool {
     within
 }
 
-/// Sine and cosine of a number, those of [`Elementary`](crate::numbers::Elementary): the platform's, or libm's
-/// where there is no platform or every machine is to compute the same.
+/// Whether a lane is larger than the limit; none that is NaN.
+#[inline(always)]
+fn some_above<const S: usize>(x: &[f64; S], limit: f64) -> bool {
+    let mut is_above = false;
+    for lane in x {
+        is_above |= lane.abs() > limit;
+    }
+    is_above
+}
+
+/// Sine and cosine of a number, those of [`Elementary`](crate::numbers::Elementary), which stands on this module:
+/// the platform's, or libm's where there is no platform or every machine is to compute the same.
 fn of_any_angle(x: f64) -> (f64, f64) {
     if cfg!(all(feature = "std", not(feature = "libm"))) {
         nalgebra::ComplexField::sin_cos(x)
@@ -169,6 +204,52 @@ impl Functions for f64 {
         }
         exponentials
     }
+
+    #[inline(always)]
+    fn turned<const S: usize>(x: [Self; S], anchor: [&mut [Self; S]; 3]) -> ([Self; S], [Self; S]) {
+        let [angle, anchor_sine, anchor_cosine] = anchor;
+        let (mut sines, mut cosines, mut delta) = (x, x, x);
+        for i in 0..S {
+            delta[i] = x[i] - angle[i];
+            let (sine, versine) = sine_and_versine(delta[i]);
+            let (s, c) = (anchor_sine[i], anchor_cosine[i]);
+            sines[i] = s + (c * sine - s * versine);
+            cosines[i] = c - (s * sine + c * versine);
+        }
+        if some_above(&delta, LARGEST_TURN) {
+            let (far_sines, far_cosines) = Self::sines_and_cosines(x);
+            for i in 0..S {
+                let is_far = delta[i].abs() > LARGEST_TURN;
+                let chosen = |far: f64, near: f64| if is_far { far } else { near };
+                angle[i] = chosen(x[i], angle[i]);
+                anchor_sine[i] = chosen(far_sines[i], anchor_sine[i]);
+                anchor_cosine[i] = chosen(far_cosines[i], anchor_cosine[i]);
+                sines[i] = chosen(far_sines[i], sines[i]);
+                cosines[i] = chosen(far_cosines[i], cosines[i]);
+            }
+        }
+        (sines, cosines)
+    }
+
+    #[inline(always)]
+    fn corrected_reciprocals<const S: usize>(x: [Self; S], near: [Self; S]) -> [Self; S] {
+        let (mut reciprocals, mut defect) = (near, x);
+        for i in 0..S {
+            defect[i] = 1.0 - x[i] * near[i];
+            reciprocals[i] = near[i] + near[i] * defect[i];
+        }
+        if some_above(&defect, LARGEST_DEFECT) {
+            let mut exact = x;
+            for i in 0..S {
+                exact[i] = 1.0 / x[i];
+            }
+            for i in 0..S {
+                let is_far = defect[i].abs() > LARGEST_DEFECT;
+                reciprocals[i] = if is_far { exact[i] } else { reciprocals[i] };
+            }
+        }
+        reciprocals
+    }
 }
 
 impl Functions for f32 {
@@ -181,6 +262,17 @@ impl Functions for f32 {
     #[inline(always)]
     fn exponentials<const S: usize>(x: [Self; S]) -> [Self; S] {
         f64::exponentials(x.map(f64::from)).map(|lane| lane as f32)
+    }
+
+    /// As many digits as an anchor would have to hold a number of this type has not.
+    #[inline(always)]
+    fn turned<const S: usize>(x: [Self; S], _anchor: [&mut [Self; S]; 3]) -> ([Self; S], [Self; S]) {
+        Self::sines_and_cosines(x)
+    }
+
+    #[inline(always)]
+    fn corrected_reciprocals<const S: usize>(x: [Self; S], _near: [Self; S]) -> [Self; S] {
+        x.map(|x| 1.0 / x)
     }
 }
 

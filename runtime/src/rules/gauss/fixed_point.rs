@@ -14,7 +14,7 @@ use super::newton;
 use super::problem::{Problem, Solution, in_units, in_width, reciprocals};
 use super::rounding::{at_rounding, worst};
 use crate::numbers::{
-    LaneVector, Scalar,
+    Blank, LaneVector, Scalar,
     lanes::{narrowed, splat, widened},
 };
 use crate::step::{Report, StepError, newton::AT_FLOOR};
@@ -71,11 +71,12 @@ where
 {
     let constant = T::constant;
     let mut v: LaneVector<T, N, W> = widened(*guess);
+    let mut anchors = L::Anchors::<W>::blank();
     let (mut floor, mut per_floor) = (SVector::<T, N>::zeros(), SVector::<T, N>::zeros());
     let (mut before, mut last) = (T::one(), T::one());
     let mut iterations = 0;
     while iterations < MAX_ITERATIONS {
-        let stages = problem.stages(&v);
+        let stages = problem.next_stages(&mut anchors, &v);
         if iterations == 0 {
             floor = problem.floor(&stages.rate, &stages.residual);
             per_floor = reciprocals(&floor);

@@ -1,9 +1,10 @@
 //! Steps by a Gauss rule of several members at once: the operations of each member's own run, in their order.
 //!
 //! Stage by stage, each over all members; sweeps are made of all until the last member is solved. A step that
-//! leaves the usual path (the first of a run, sweeps that do not contract, floors that rise or fall, rounding
-//! that has to be measured, Newton's method, numbers that are none) the member takes alone, by the functions
-//! of its own run, and comes back to the others.
+//! leaves the usual path (sweeps that do not contract, floors that rise or fall, rounding that has to be
+//! measured, Newton's method, numbers that are none) the member takes alone, by the functions of its own run,
+//! and comes back to the others. So it does for its first step, which takes more sweeps than the others', unless
+//! many take theirs.
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
 
@@ -25,11 +26,11 @@ pub struct StagesInLanes<T, F, const N: usize, const S: usize, const W: usize> {
     is_sound: Mask<W>,
     /// Who has not stepped yet.
     is_new: Mask<W>,
-    /// Whose last step was solved by the fixed point.
+    /// Whose last step was solved by the fixed point, or who has a velocity to start from.
     has_contracted: Mask<W>,
     fields: F,
     h: T,
-    /// The velocities V_i of the last step.
+    /// The velocities V_i of the last step; before the first, the velocity to start from.
     v: [MemberVector<T, N, W>; S],
     q: CompensatedMembers<T, N, W>,
     p: CompensatedMembers<T, N, W>,
@@ -179,10 +180,17 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
     }
 
     /// Puts a member into a lane, at its start; `begins`: whether a run does.
-    pub(crate) fn put(&mut self, lane: usize, start: &State<T, N>, begins: bool) {
+    pub(crate) fn put<L>(&mut self, lane: usize, system: &L, start: &State<T, N>, begins: bool)
+    where
+        L: ForcedLagrangianInLanes<N, Scalar = T, Fields<W> = F>,
+    {
+        let velocity = if begins { start.velocity(system).ok() } else { None };
         self.is_sound.0[lane] = begins;
         self.is_new.0[lane] = true;
-        self.has_contracted.0[lane] = false;
+        self.has_contracted.0[lane] = velocity.is_some();
+        for v in &mut self.v {
+            write_member(v, lane, &velocity.unwrap_or_else(nalgebra::zero));
+        }
         if let Some(slack) = self.slack {
             self.write_slack(lane, slack);
         }
@@ -203,7 +211,13 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
     {
         let steps = steps::<T, S>(self.h);
         for _ in 0..count {
-            let together = self.is_sound & self.has_contracted;
+            let mut together = self.is_sound & self.has_contracted;
+            // The sweeps that a first step takes more than others cost all lanes as much as a quarter of them
+            // alone.
+            let new = (together & self.is_new).0.iter().filter(|&&is_new| is_new).count();
+            if 4 * new < W {
+                together = together & !self.is_new;
+            }
             let mut is_alone = self.is_sound;
             if together.0.contains(&true) {
                 let solved = self.solve::<L>(&steps, together);
@@ -248,6 +262,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
                 self.left.steps[lane] = self.left.steps[lane].saturating_sub(taken);
             }
         }
+        self.is_new = self.is_new & !has_stepped;
         self.q.replace(has_stepped, &q);
         self.p.replace(has_stepped, &p);
         stage_by_stage!(j => {
@@ -258,7 +273,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         has_stepped
     }
 
-    /// The velocities of the last step, one step on.
+    /// The velocities of the last step, one step on; of who has not stepped yet, those to start from.
     #[inline(always)]
     fn extrapolation(&self) -> [MemberVector<T, N, W>; S] {
         let columns = &Self::COEFFICIENTS.extrapolation;
@@ -269,7 +284,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
                 each_stage!(j => {
                     sums[j % 2] = self.v[j][a].times_plus(T::constant(columns[j][i]), sums[j % 2]);
                 });
-                extrapolated[i][a] = sums[0] + sums[1];
+                extrapolated[i][a] = Members::select(self.is_new, self.v[i][a], sums[0] + sums[1]);
             });
         });
         extrapolated
@@ -319,7 +334,8 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         let (mut rate, mut residuals) = (v, v);
         let mut next = v;
         let (mut v, mut next) = (&mut v, &mut next);
-        let mut kept = [L::Kept::<W>::blank(); S];
+        let mut kept = <[L::Kept<W>; S]>::blank();
+        let mut anchors = <[L::AnchorsInLanes<W>; S]>::blank();
         let allowances = self.allowances();
         let is_loose = allowances.are_known & Mask::splat(self.slack.is_some());
         let some_loose = is_loose.0.contains(&true);
@@ -328,7 +344,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         for iterations in 1..=MAX_ITERATIONS {
             stage_by_stage!(i => {
                 let q = Self::at_stage(&self.q, &of_v, i);
-                (rate[i], kept[i]) = L::rates_in_lanes(&fields, &q, &v[i]);
+                (rate[i], kept[i]) = L::rates_in_lanes(&fields, &mut anchors[i], &q, &v[i]);
                 each_coordinate!(a => {
                     of_rate[i][a] = rate[i][a] * steps[i];
                 });

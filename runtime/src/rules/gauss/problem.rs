@@ -10,7 +10,7 @@ use nalgebra::SVector;
 
 use super::Gauss;
 use super::coefficients::Coefficients;
-use crate::numbers::{LaneVector, Lanes, Scalar, lanes::lane};
+use crate::numbers::{Blank, LaneVector, Lanes, Scalar, lanes::lane};
 use crate::step::Report;
 use crate::system::{ForcedLagrangian, GeneratedDiffers, Stages};
 
@@ -175,7 +175,17 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     /// The equations of motion at the stages with velocities `v`.
     #[inline(always)]
     pub(super) fn stages<const W: usize>(&self, v: &LaneVector<T, N, W>) -> Stages<T, N, W> {
-        self.stages_at(&self.configurations(v), v)
+        self.next_stages(&mut Blank::blank(), v)
+    }
+
+    /// The same in a sweep after others.
+    #[inline(always)]
+    pub(super) fn next_stages<const W: usize>(
+        &self,
+        anchors: &mut L::Anchors<W>,
+        v: &LaneVector<T, N, W>,
+    ) -> Stages<T, N, W> {
+        self.next_stages_at(anchors, &self.configurations(v), v)
     }
 
     /// The stages' equations at configurations of their own.
@@ -185,8 +195,18 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         q: &LaneVector<T, N, W>,
         v: &LaneVector<T, N, W>,
     ) -> Stages<T, N, W> {
+        self.next_stages_at(&mut Blank::blank(), q, v)
+    }
+
+    #[inline(always)]
+    fn next_stages_at<const W: usize>(
+        &self,
+        anchors: &mut L::Anchors<W>,
+        q: &LaneVector<T, N, W>,
+        v: &LaneVector<T, N, W>,
+    ) -> Stages<T, N, W> {
         let elapsed = Lanes(array::from_fn(|i| T::constant(InLanes::<S, W>::NODES[i]) * self.h));
-        self.system.stages_in_time(&elapsed, q, v, |rate| self.momenta(rate))
+        self.system.stages_in_time(anchors, &elapsed, q, v, |rate| self.momenta(rate))
     }
 
     /// c_i h, the time of a stage from the start of the step.

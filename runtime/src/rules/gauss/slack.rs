@@ -13,7 +13,7 @@
 
 use super::problem::{Problem, Solution, in_width};
 use crate::numbers::{
-    LaneVector, Lanes, Scalar,
+    Blank, LaneVector, Lanes, Scalar,
     lanes::{narrowed, widened},
 };
 use crate::step::{Report, State};
@@ -29,7 +29,7 @@ pub(super) const MAX_SWEEPS: u32 = 60;
 const SLUGGISH: f64 = 0.5;
 
 /// Below so many roundings of a momentum the slack is no more than rounding.
-pub(super) const ROUNDINGS: f64 = 64.0;
+pub(super) const ROUNDINGS: f64 = 8.0;
 
 /// How many steps of size `h` lead to `time`; where that is nearly a whole number, the last is one of them.
 pub(crate) fn steps_until(time: f64, h: f64) -> u64 {
@@ -162,9 +162,10 @@ where
     L: ForcedLagrangian<N, Scalar = T>,
 {
     let mut v: LaneVector<T, N, W> = widened(*guess);
+    let mut anchors = L::Anchors::<W>::blank();
     let (mut before, mut last) = (T::zero(), T::zero());
     for iterations in 1..=MAX_SWEEPS {
-        let stages = problem.stages(&v);
+        let stages = problem.next_stages(&mut anchors, &v);
         let size = allowance.size(&stages);
         if !size.is_finite() {
             return Swept::Lost;

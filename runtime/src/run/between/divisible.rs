@@ -4,6 +4,7 @@ use nalgebra::SVector;
 
 use crate::numbers::Scalar;
 use crate::run::{Run, Trajectory};
+use crate::step::flow::velocity;
 use crate::step::{Flow, Memory, State, StepError};
 use crate::system::Lagrangian;
 
@@ -125,20 +126,6 @@ where
 {
     fn restart_at(&mut self, time: f64, state: State<L::Scalar, N>) {
         self.restart_at(time, state);
-    }
-}
-
-/// The velocity of a state at a time of a run, by what is remembered of it or else solved for.
-#[inline]
-pub(in crate::run) fn velocity<L: Flow<M, N>, M, const N: usize>(
-    system: &L,
-    memory: &L::RunMemory,
-    time: f64,
-    state: &State<L::Scalar, N>,
-) -> Result<SVector<L::Scalar, N>, StepError> {
-    match memory.velocity(state) {
-        Some(velocity) => Ok(velocity),
-        None => system.later(L::Scalar::constant(time), |system| state.velocity(system)),
     }
 }
 

@@ -22,7 +22,7 @@ where
     ) -> Self::Lanes<W> {
         let mut lanes = StagesInLanes::new(L::fields(systems), h);
         for (lane, (system, start)) in systems.into_iter().zip(starts).enumerate() {
-            lanes.put(lane, start, begins(system, start, h));
+            lanes.put(lane, system, start, begins(system, start, h));
         }
         lanes
     }
@@ -36,7 +36,7 @@ where
         lanes.gather(L::fields(systems));
         for (lane, (system, start)) in systems.into_iter().zip(starts).enumerate() {
             if let Some(start) = start {
-                lanes.put(lane, start, begins(system, start, h));
+                lanes.put(lane, system, start, begins(system, start, h));
             }
         }
     }
@@ -61,8 +61,9 @@ impl<L, const N: usize, const S: usize, const W: usize> LaneRuns<'_, L, Gauss<S>
 where
     L: ForcedLagrangianInLanes<N>,
 {
-    /// How many steps members have taken by their own runs, of all members together: the first of each, and
-    /// those whose sweeps leave the usual path. Where they are many, lanes gain little.
+    /// How many steps members have taken by their own runs, of all members together: those whose sweeps leave
+    /// the usual path, and the first of members that are put in while most others go on. Where they are many,
+    /// lanes gain little.
     #[must_use]
     pub fn steps_alone(&self) -> u64 {
         self.lanes.steps_alone()

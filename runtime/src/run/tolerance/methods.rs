@@ -5,8 +5,9 @@ use nalgebra::SVector;
 use super::Method;
 use crate::numbers::Scalar;
 use crate::rules::{Fitted, FittedTrapezoidal, Gauss, Midpoint, SelfAdjoint, Trapezoidal};
-use crate::run::between::{beginning, velocity};
+use crate::run::between::beginning;
 use crate::run::{Composition, Explicit, Splitting};
+use crate::step::flow::velocity;
 use crate::step::{Discrete, Flow, LegendreDerivatives, Memory, State, Step, StepError};
 use crate::system::{ForcedLagrangian, Lagrangian};
 

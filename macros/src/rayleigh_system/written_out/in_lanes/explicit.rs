@@ -21,8 +21,8 @@ impl Code<'_> {
         if self.graph.is_conditional(force.iter().chain(&momenta).copied()) {
             return None;
         }
-        let force = self.on_members(force, &TAKEN, &[]);
-        let momenta = self.on_members(&momenta, &TAKEN, &[]);
+        let force = self.on_members(force, &TAKEN, &[], None);
+        let momenta = self.on_members(&momenta, &TAKEN, &[], None);
         let fields = OfMembers::fields_of(self, [&force, &momenta]);
         let gathered = self.gathered(&fields);
         let (scalar, n, members) = (&self.system.scalar, self.system.degrees.times(1), &fields.members);

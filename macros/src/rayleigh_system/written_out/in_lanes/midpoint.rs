@@ -25,8 +25,8 @@ impl Code<'_> {
         if self.graph.is_conditional(kernel.iter().chain(momenta).copied()) {
             return None;
         }
-        let kernel = self.on_members(kernel, &TAKEN_AT_MIDPOINT, &[]);
-        let momenta = self.on_members(momenta, &TAKEN_AT_MIDPOINT, &[]);
+        let kernel = self.on_members(kernel, &TAKEN_AT_MIDPOINT, &[], None);
+        let momenta = self.on_members(momenta, &TAKEN_AT_MIDPOINT, &[], None);
         let fields = OfMembers::fields_of(self, [&kernel, &momenta]);
         let is_timed = self.system.timed.any();
         let gathered = self.gathered(&fields);

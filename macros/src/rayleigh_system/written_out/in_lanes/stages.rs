@@ -2,20 +2,26 @@
 //! lead to leave and correct. What the second needs of the first is handed over.
 
 use super::super::super::emit::before_the_run;
+use super::super::stages::Anchors;
 use super::*;
 
 /// The names of parameters.
-const TAKEN: [&str; 6] = ["q", "v", "p", "kept", "fields", "systems"];
+const TAKEN: [&str; 9] = ["q", "v", "p", "kept", "fields", "systems", "anchors", "angles", "reciprocals"];
 
 impl Code<'_> {
     /// The functions of `ForcedLagrangianInLanes`, of what `stages` computes: rates, residuals and corrections,
     /// the last two from the momenta `late`.
-    pub(in super::super) fn stages_in_lanes(&mut self, outputs: &[Node], late: &[Node]) -> TokenStream {
+    pub(in super::super) fn stages_in_lanes(
+        &mut self,
+        outputs: &[Node],
+        late: &[Node],
+        anchored: Anchored<'_>,
+    ) -> TokenStream {
         let (rates, rest) = outputs.split_at(self.n);
         let handed = self.handed(rest, late);
-        let corrections = self.on_members(rest, &TAKEN, &handed);
+        let corrections = self.on_members(rest, &TAKEN, &handed, None);
         let first = [rates, &handed].concat();
-        let line = self.on_members(&first, &TAKEN, &[]);
+        let line = self.on_members(&first, &TAKEN, &[], Some(anchored));
 
         let is_handed = |field: &&Field| handed.contains(&field.node);
         let kept = corrections.fields.iter().filter(is_handed).map(|field| (field.node, field.is_truth));
@@ -35,14 +41,18 @@ impl Code<'_> {
         let of_fields = parameter("fields", apart.is_some());
         let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
         let (statements, kept_ty) = (&line.statements, kept.ty());
+        let anchors = Anchors::new(&line, &quote!(Members<#scalar, #members>));
+        let (anchors_ty, of_anchors, anchors_apart) = (&anchors.ty, &anchors.parameter, &anchors.apart);
         let rates = quote! {
             #[inline(always)]
             fn rates_in_lanes<const #members: usize>(
                 #of_fields: &Self::Fields<#members>,
+                #of_anchors: &mut Self::AnchorsInLanes<#members>,
                 #q: &MemberVector<#scalar, #n, #members>,
                 #v: &MemberVector<#scalar, #n, #members>,
             ) -> (MemberVector<#scalar, #n, #members>, Self::Kept<#members>) {
                 #apart
+                #anchors_apart
                 #statements
                 ([#(#of_rates),*], #handed_over)
             }
@@ -59,6 +69,8 @@ impl Code<'_> {
             #gathered
 
             type Kept<const #members: usize> = #kept_ty;
+
+            type AnchorsInLanes<const #members: usize> = #anchors_ty;
 
             #rates
 
