@@ -203,6 +203,19 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
         }
     }
 
+    /// The moment at `time` by the cubic through the last step's ends with their velocities, beyond the step as well.
+    #[inline(always)]
+    pub(super) fn on_cubic(
+        &self,
+        start: &Start<T::Scalar, N>,
+        ends: &[SVector<T::Scalar, N>; 2],
+        time: f64,
+    ) -> Moment<'_, T::System, N> {
+        let h = self.run.step_size();
+        let [q, v] = cubic(start, h, ends, (time - start.time) / h.widen());
+        Moment::interpolated(self.run.system(), [time, self.run.since()], q, v)
+    }
+
     /// Calls `visit` with the last step's moments at [`nodes`](Self::nodes); `ends` are the velocities there,
     /// asked for where the method has no polynomial.
     #[inline(always)]

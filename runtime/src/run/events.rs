@@ -17,7 +17,7 @@ pub use error::EventError;
 pub use event::{Event, EventDerivatives, EventGradient};
 use nodes::Nodes;
 use on_step::Found;
-use range::{BY_CHORD, Range};
+use range::{BY_CHORD, Range, missed};
 pub use roots::Passage;
 use roots::ROOTS;
 
@@ -75,10 +75,15 @@ pub enum Crossing {
 ///
 /// **What is found.** Every root of g along the run, from after its start on. A step is asked at its ends and
 /// between, at the stages of a [`Gauss`](crate::Gauss) rule (of three stages at least) or, by other methods,
-/// on the cubic through both ends with their velocities. Where the polynomial through these values has no
-/// root, even with what it may be off by, there is none; where it does not say, true values are asked for, by
-/// partial steps. So two roots within a step are found as one is. Each is refined by partial steps to
-/// rounding. They come in the order of time, several at one time in that of their functions.
+/// on the cubic through both ends with their velocities, which is held against the step before. Where the
+/// polynomial through these values has no root, even with what it may be off by, there is none; where it does
+/// not say, true values are asked for, by partial steps. So two roots within a step are found as one is. Each is
+/// refined by partial steps to rounding. They come in the order of time, several at one time in that of their
+/// functions.
+///
+/// What a polynomial may be off by is estimated, as functions have no bounds to ask for. Of two million random
+/// pairs of roots that lie closer together than a fiftieth of a step, by all methods with steps of up to 1.4
+/// radians, four were missed, all in steps of a radian and more.
 ///
 /// **What is not an event.** A start on the event: a run that begins where g is 0 to rounding. A root at the
 /// end of a step belongs to that step.
@@ -120,8 +125,8 @@ pub struct Watch<'t, T: Divisible<N>, G, const N: usize, const K: usize> {
     until: Option<f64>,
     /// The values at the end of the last step; `None` before the first.
     present: Option<[T::Scalar; K]>,
-    /// Those at its start.
-    earlier: Option<[T::Scalar; K]>,
+    /// Those at its start, and when that was.
+    earlier: Option<(f64, [T::Scalar; K])>,
     /// The velocity at its end, where it was asked for.
     velocity: Option<SVector<T::Scalar, N>>,
     /// Which events happened at the present state.
@@ -249,17 +254,19 @@ where
         let (time, state) = (self.dense.run().time(), self.dense.run().state());
         let times = [time, self.dense.since()];
         let lebesgue = Nodes::of(self.dense.nodes()).lebesgue;
+        let mut range = Range::of(before);
         let mut ends = [nalgebra::zero(); 2];
         let mut velocity = None;
+        let earlier = self.earlier;
         if !self.dense.is_collocated() {
-            if let Some(earlier) = self.earlier {
+            if let Some((_, earlier)) = &earlier {
                 let after = (self.g)(&Moment::of(self.dense.system(), times, state, None));
-                let mut range = Range::of(earlier);
-                range.widen(&before);
+                range.widen(earlier);
                 range.widen(&after);
                 self.dense.at_chord(start, |at| range.widen(&(self.g)(at)));
                 if range.is_clear(BY_CHORD * (lebesgue + 1.0)) {
-                    (self.earlier, self.present, self.velocity) = (Some(before), Some(after), None);
+                    (self.earlier, self.present, self.velocity) =
+                        (Some((start.time, before)), Some(after), None);
                     self.restarts = 0;
                     return Some(Ok(true));
                 }
@@ -276,19 +283,20 @@ where
                 Err(error) => return Some(Err(error.into())),
             };
             velocity = Some(ends[1]);
+            if let Some((time, earlier)) = &earlier {
+                range = Range::of(before);
+                range.widen(earlier);
+                let beyond = (self.g)(&self.dense.on_cubic(start, &ends, *time));
+                range.widen(&missed(earlier, beyond));
+            }
         }
         let after = (self.g)(&Moment::of(self.dense.system(), times, state, velocity));
-        // The cubic does not see how the velocity changes in the step, as the step before does.
-        let earlier = if self.dense.is_collocated() { Some(before) } else { self.earlier };
-        (self.earlier, self.present, self.velocity) = (Some(before), Some(after), velocity);
-        let mut range = Range::of(before);
+        (self.earlier, self.present, self.velocity) = (Some((start.time, before)), Some(after), velocity);
         range.widen(&after);
-        if let Some(earlier) = &earlier {
-            range.widen(earlier);
-        }
         self.dense.at_nodes(start, &ends, |_, at| range.widen(&(self.g)(at)));
-        // By more than a polynomial can leave the range of its values, and half a range besides.
-        if earlier.is_some() && range.is_clear(lebesgue + 1.0) {
+        // By more than a polynomial can leave the range of its values, and half a range besides. How the velocity
+        // changes within a step the cubic does not see, as the step before does.
+        if (earlier.is_some() || self.dense.is_collocated()) && range.is_clear(lebesgue + 1.0) {
             if self.restarts > 0 {
                 self.restarts = 0;
             }

@@ -1,5 +1,6 @@
 //! Runs: memory, checkpoints, compositions, splittings, an error asked for.
 
+mod close_pairs;
 mod random_events;
 mod saved_runs;
 mod splitting;

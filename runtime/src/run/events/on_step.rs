@@ -3,6 +3,7 @@
 use nalgebra::SVector;
 
 use super::nodes::{MOST, Nodes};
+use super::range::missed;
 use super::roots::{Curve, Origin, ROOTS, Search};
 use super::{Crossing, Event, EventError, Passage, RESTARTS, Watch};
 use crate::numbers::Scalar;
@@ -72,7 +73,7 @@ where
     #[inline(never)]
     pub(super) fn locate(
         &mut self,
-        earlier: Option<&[T::Scalar; K]>,
+        earlier: Option<&(f64, [T::Scalar; K])>,
         before: &[T::Scalar; K],
         after: &[T::Scalar; K],
         ends: &[SVector<T::Scalar, N>; 2],
@@ -116,12 +117,14 @@ where
                 Origin::Stages
             } else {
                 // Over two steps a change of the slope moves the ends by eight times what it bends one step.
-                let range = earlier.map_or(f64::INFINITY, |earlier| {
-                    let values = [earlier[index].widen(), first, last];
-                    let low = values.iter().fold(f64::INFINITY, |low, value| low.min(*value));
-                    values.iter().fold(f64::NEG_INFINITY, |high, value| high.max(*value)) - low
-                });
-                Origin::Cubic(0.25 * range)
+                Origin::Cubic(earlier.map_or(f64::INFINITY, |(time, earlier)| {
+                    let value = |values: &[T::Scalar; K]| values[index].widen();
+                    let ends_of_two = [value(earlier), first, last];
+                    let low = ends_of_two.iter().fold(f64::INFINITY, |low, value| low.min(*value));
+                    let high = ends_of_two.iter().fold(f64::NEG_INFINITY, |high, value| high.max(*value));
+                    let beyond = (self.g)(&self.dense.on_cubic(&start, ends, *time));
+                    0.25 * (high - low) + (value(&missed(earlier, beyond)) - value(earlier)).abs()
+                }))
             };
             let crossing = self.crossings.get(index).copied().unwrap_or_default();
             let starts_there = first == 0.0;
