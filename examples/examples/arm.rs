@@ -1,9 +1,10 @@
 //! A two-link arm whose tip follows a figure eight under a moving-horizon controller at 1 kHz: every
 //! millisecond one iteration of iterative LQR over the next 0.2 s, with the generated step as its model, from
-//! the state that an extended Kalman filter believes. The encoders give angles alone.
+//! the state that an extended Kalman filter believes. The encoders give angles alone, and those by a clock of
+//! their own, every 1.3 ms: the filter steps its model to when they were read, and from there to the next period.
 //!
 //! SI units. The motion itself is computed by another rule (trapezoidal) with steps of a quarter of a
-//! millisecond.
+//! millisecond; between them the encoders are read.
 //!
 //! ```text
 //! cargo run --release --example arm [picture.svg]
@@ -12,10 +13,11 @@
 use std::f64::consts::TAU;
 use std::time::Instant;
 
-use anyhow::{Result, ensure};
+use anyhow::{Context, Result, ensure};
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
+use dalembert::run::Run as _;
 use dalembert::{Discretise, State, StepError, Trapezoidal, rayleigh_system};
-use dalembert_examples::control::{self, Estimate, Linearised, Plan, Problem, Quadratic};
+use dalembert_examples::control::{self, Estimate, Linearised, Plan, Problem, Quadratic, SensorClock};
 use dalembert_examples::picture::{self, Curve, Dash, Panel, colour, linear, logarithmic};
 use rand::SeedableRng;
 use rand::rngs::StdRng;
@@ -82,8 +84,11 @@ impl Arm {
 
 /// The arm of the scene.
 pub const ARM: Arm = Arm { m: [1.0, 0.8], l: [0.5, 0.4], c: 0.05 };
-/// The period of controller and filter, s.
+/// The period of the controller, s.
 pub const H: f64 = 1e-3;
+/// When the encoders are read first and the time from one reading to the next, s: never at the end of a step of the
+/// plant.
+pub const ENCODERS: [f64; 2] = [0.37e-3, 1.3e-3];
 /// Periods of the run.
 pub const PERIODS: usize = 4000;
 /// Periods before the errors count: the arm starts at rest.
@@ -221,53 +226,79 @@ impl Run {
     pub fn new() -> Result<Self> {
         let mut random = StdRng::seed_from_u64(2);
         let (encoder, unknown) = (Normal::new(0.0, ENCODER)?, Normal::new(0.0, UNKNOWN)?);
-        let mut state = State::from_velocity(&ARM, ARM.angles(&reference(0.0)[0]), [0.0, 0.0])?;
+        let state = State::from_velocity(&ARM, ARM.angles(&reference(0.0)[0]), [0.0, 0.0])?;
         let mut estimate = Estimate {
             x: control::vector(&state),
             covariance: SMatrix::from_diagonal(&vector![1e-4, 1e-4, 1e-2, 1e-2]),
         };
         let angles_of_state = SMatrix::<f64, 2, 4>::identity();
         let noise_of_encoders = SMatrix::<f64, 2, 2>::identity() * ENCODER.powi(2);
+        let mut plant = ARM.driven([0.0; 2]).by(Trapezoidal, H / 4.0).run_with_inputs(state);
+        let mut clock = SensorClock::new(ENCODERS[0], ENCODERS[1]);
         let mut inputs = vec![SVector::zeros(); HORIZON];
-        let mut last_measured = state.q;
+        let mut readings: Vec<(f64, SVector<f64, 2>)> = Vec::new();
+        let (mut last, mut by_differences) = ((0.0, state.q), SVector::zeros());
+        let mut u = SVector::zeros();
         let mut run = Self::default();
         for k in 0..PERIODS {
-            let measured = state.q + SVector::from_fn(|_, _| encoder.sample(&mut random));
-            let clock = Instant::now();
-            estimate = estimate.corrected(&measured, &angles_of_state, &noise_of_encoders)?;
-            let problem = Following::from(k as f64 * H)?;
+            let now = k as f64 * H;
+            let stopwatch = Instant::now();
+            // To each reading since the last period and from there to now, under the input that was held.
+            let mut reached = (k as f64 - 1.0).max(0.0) * H;
+            for (time, measured) in &readings {
+                estimate = predicted(&estimate, &u, time - reached)?;
+                estimate = estimate.corrected(measured, &angles_of_state, &noise_of_encoders)?;
+                reached = *time;
+            }
+            if k > 0 {
+                estimate = predicted(&estimate, &u, now - reached)?;
+            }
+            let problem = Following::from(now)?;
             let plan = Plan::new(&problem, estimate.x, inputs)?;
             let plan = plan.improved(&problem, estimate.x, 0.0)?.unwrap_or(plan);
-            let u = plan.inputs[0];
-            let model = control::linearised::<_, 2, 2, 4>(&ARM.driven(u), &estimate.x, H)?;
-            let noise = model.b * model.b.transpose() * UNKNOWN.powi(2);
+            u = plan.inputs[0];
             // The horizon's steps are ten periods long: its inputs slide by a tenth of a step.
             inputs = plan.inputs;
             for index in 0..HORIZON - 1 {
                 inputs[index] = inputs[index].lerp(&inputs[index + 1], H / STRIDE);
             }
-            let believed_now = estimate.x;
-            estimate = estimate.predicted(&model, &noise);
-            run.seconds.push(clock.elapsed().as_secs_f64());
+            run.seconds.push(stopwatch.elapsed().as_secs_f64());
 
+            for (time, measured) in readings.drain(..) {
+                by_differences = (measured - last.1) / (time - last.0);
+                last = (time, measured);
+            }
+            let state = *plant.state();
             let v = state.velocity(&ARM)?;
-            let believed = control::state::<2, 4>(&believed_now).velocity(&ARM)?;
-            let by_differences = if k == 0 { v } else { (measured - last_measured) / H };
+            let believed = control::state::<2, 4>(&estimate.x).velocity(&ARM)?;
             run.velocities.push([v[1], believed[1], by_differences[1]]);
             run.filter_errors.push((believed - v).norm());
             run.difference_errors.push((by_differences - v).norm());
             run.tips.push(ARM.tip(&state.q));
-            run.misses.push((ARM.tip(&state.q) - reference(k as f64 * H)[0]).norm());
+            run.misses.push((ARM.tip(&state.q) - reference(now)[0]).norm());
             run.torques.push(u);
 
-            last_measured = measured;
             let driven = ARM.driven(u + SVector::from_fn(|_, _| unknown.sample(&mut random)));
-            for _ in 0..4 {
-                state = driven.by(Trapezoidal, H / 4.0).step(&state)?.state;
+            let mut period = plant.hold(&driven);
+            for sample in period.sample_at(clock.times_before(now + H)) {
+                let sample = sample?;
+                let error = SVector::from_fn(|_, _| encoder.sample(&mut random));
+                readings.push((sample.time, sample.state.q + error));
+            }
+            while period.time() < now + 0.9 * H {
+                period.next().context("a run goes on")??;
             }
         }
         Ok(run)
     }
+}
+
+/// The estimate some time on, under an input that is held, with what unknown torques add: they change from period to
+/// period, so that their share in the covariance grows with the time.
+fn predicted(estimate: &Estimate<4>, u: &SVector<f64, 2>, elapsed: f64) -> Result<Estimate<4>, StepError> {
+    let model = control::linearised::<_, 2, 2, 4>(&ARM.driven(*u), &estimate.x, elapsed)?;
+    let noise = model.b * model.b.transpose() * (UNKNOWN.powi(2) * H / elapsed);
+    Ok(estimate.predicted(&model, &noise))
 }
 
 fn draw(run: &Run) -> Result<std::path::PathBuf> {

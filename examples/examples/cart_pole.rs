@@ -3,7 +3,8 @@
 //! pushes.
 //!
 //! SI units. The motion itself is computed by another rule (trapezoidal) with steps ten times finer than the
-//! controller's.
+//! controller's. The sensors have a clock of their own, every 7.3 ms: they measure between the plant's steps, and
+//! what the controller knows is up to 7.3 ms old. One step of the model, as long as that, brings it up to date.
 //!
 //! ```text
 //! cargo run --release --example cart_pole [picture.svg]
@@ -15,8 +16,9 @@ use std::time::Instant;
 use anyhow::{Context, Result, ensure};
 use dalembert::derivative::PhaseMatrix;
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
+use dalembert::run::Run as _;
 use dalembert::{Discretise, State, StepError, Trapezoidal, rayleigh_system};
-use dalembert_examples::control::{self, Linearised, Plan, Problem, Quadratic};
+use dalembert_examples::control::{self, Linearised, Plan, Problem, Quadratic, SensorClock};
 use dalembert_examples::picture::{self, Curve, Dash, Mark, Panel, colour, linear};
 use rand::SeedableRng;
 use rand::rngs::StdRng;
@@ -61,6 +63,8 @@ pub const H: f64 = 0.01;
 pub const SWING: usize = 200;
 /// 14 s.
 pub const PERIODS: usize = 1400;
+/// The first measurement and the time from one to the next, s: never at the end of a step of the plant.
+pub const SENSORS: [f64; 2] = [0.00245, 0.0073];
 /// When the pole is pushed, in periods, and the angular momentum that each push adds, N m s.
 pub const PUSHES: [(usize, f64); 2] = [(500, 0.05), (900, -0.08)];
 
@@ -118,7 +122,8 @@ fn main() -> Result<()> {
         seconds_of_linearisation(&plan)? * 1e6
     );
     println!(
-        "  in each period: {:.2} µs, to make momenta of the sensors' velocities and to apply a gain; nothing estimates, nothing plans anew",
+        "  in each period: {:.2} µs, to make momenta of the sensors' velocities, to step the model over their age and to apply a gain; \
+         nothing filters, nothing plans anew",
         run.seconds / PERIODS as f64 * 1e6
     );
     println!(
@@ -219,35 +224,46 @@ impl Run {
         let mut random = StdRng::seed_from_u64(1);
         let sensor = [1e-3, 2e-3, 2e-2, 2e-2].map(|deviation| Normal::new(0.0, deviation));
         let gust = Normal::new(0.0, 0.5)?;
-        let mut state = State { q: vector![0.0, 0.0], p: vector![0.0, 0.0] };
-        let mut plant = PLANT.driven([0.0]).by(Trapezoidal, H / 10.0).run_with_inputs(state);
-        let mut run = Self { states: vec![state], forces: Vec::new(), seconds: 0.0 };
+        let start = State { q: vector![0.0, 0.0], p: vector![0.0, 0.0] };
+        let mut plant = PLANT.driven([0.0]).by(Trapezoidal, H / 10.0).run_with_inputs(start);
+        let mut clock = SensorClock::new(SENSORS[0], SENSORS[1]);
+        let mut run = Self { states: vec![start], forces: Vec::new(), seconds: 0.0 };
+        // What was measured last, and when: at first that it hangs at rest.
+        let (mut measured, mut since, mut u) = ([0.0; 4], 0.0, vector![0.0]);
         for k in 0..PERIODS {
-            // Sensors give positions and velocities, each with its error.
-            let v = state.velocity(&PLANT)?;
-            let mut measured = [state.q[0], state.q[1], v[0], v[1]];
-            for (value, error) in measured.iter_mut().zip(sensor) {
-                *value += error?.sample(&mut random);
-            }
-            let clock = Instant::now();
+            let now = k as f64 * H;
+            let stopwatch = Instant::now();
             let [x, angle, speed, rate] = measured;
-            let believed = control::vector::<2, 4>(&State::from_velocity(&PLANT, [x, angle], [speed, rate])?);
-            let u = match (k < SWING, feedback) {
+            let then = control::vector::<2, 4>(&State::from_velocity(&PLANT, [x, angle], [speed, rate])?);
+            let believed =
+                if now > since { control::advance(&PLANT.driven(u), &then, now - since)? } else { then };
+            u = match (k < SWING, feedback) {
                 (true, true) => plan.inputs[k] + plan.gains[k] * (believed - plan.states[k]),
                 (true, false) => plan.inputs[k],
                 (false, true) => -gain * (believed - target()),
                 (false, false) => vector![0.0],
             };
-            run.seconds += clock.elapsed().as_secs_f64();
+            run.seconds += stopwatch.elapsed().as_secs_f64();
             if let Some((_, push)) = PUSHES.iter().find(|(when, _)| *when == k) {
-                state.p[1] += push;
-                plant.correct(state);
+                let mut pushed = *plant.state();
+                pushed.p[1] += push;
+                plant.correct(pushed);
             }
             let driven = PLANT.driven([u[0] + gust.sample(&mut random)]);
-            for _ in 0..10 {
-                state = plant.advance(&driven)?.state;
+            let mut period = plant.hold(&driven);
+            for sample in period.sample_at(clock.times_before(now + H)) {
+                let sample = sample?;
+                // Positions and velocities, each with its error.
+                let v = sample.state.velocity(&PLANT)?;
+                (measured, since) = ([sample.state.q[0], sample.state.q[1], v[0], v[1]], sample.time);
+                for (value, error) in measured.iter_mut().zip(sensor) {
+                    *value += error?.sample(&mut random);
+                }
             }
-            run.states.push(state);
+            while period.time() < now + 0.95 * H {
+                period.next().context("a run goes on")??;
+            }
+            run.states.push(*plant.state());
             run.forces.push(u[0]);
         }
         Ok(run)

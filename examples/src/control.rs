@@ -1,5 +1,6 @@
 //! Controllers of the scenes with a closed loop, for states x = (q, p) and a model that gives its step with A
-//! and B: the linear-quadratic regulator, iterative LQR over a horizon, and the extended Kalman filter.
+//! and B: the linear-quadratic regulator, iterative LQR over a horizon, and the extended Kalman filter; and the
+//! clock of a sensor.
 
 use anyhow::{Context, Result};
 use dalembert::derivative::Linearization;
@@ -260,5 +261,34 @@ impl<const X: usize> Estimate<X> {
         let rest = SMatrix::<f64, X, X>::identity() - gain * c;
         let covariance = rest * self.covariance * rest.transpose() + gain * noise * gain.transpose();
         Ok(Self { x: self.x + gain * (y - c * self.x), covariance })
+    }
+}
+
+/// A sensor that measures at times of its own, whatever the steps of the plant and the periods of the controller.
+#[derive(Clone, Copy, Debug)]
+pub struct SensorClock {
+    /// The time of the first measurement.
+    pub first: f64,
+    /// The time from one to the next.
+    pub every: f64,
+    count: u32,
+}
+
+impl SensorClock {
+    /// A clock of which no time has passed.
+    #[must_use]
+    pub fn new(first: f64, every: f64) -> Self {
+        Self { first, every, count: 0 }
+    }
+
+    /// The times before `end` that have not passed yet; they pass.
+    pub fn times_before(&mut self, end: f64) -> impl Iterator<Item = f64> {
+        std::iter::from_fn(move || {
+            let time = self.first + self.every * f64::from(self.count);
+            (time < end).then(|| {
+                self.count += 1;
+                time
+            })
+        })
     }
 }
