@@ -53,25 +53,25 @@
 macro_rules! c_api {
     ($prefix:ident: $system:ident, coordinates: $n:literal, rule: $rule:ty, driven: $view:ident, inputs: $inputs:literal, time
         $(, parameters: $parameters:literal)? $(,)?) => {
-        $crate::c_api! { @functions $prefix $system $n [$rule] [$view<'static>] inputs [u $inputs] time [t]
+        $crate::c_api! { @functions $prefix $system $n [$rule] ['a $view<'a>] [$view<'static>] inputs [u $inputs] time [t CScalar]
             |system| system.driven(u, t), parameters [$($parameters)?] }
     };
     ($prefix:ident: $system:ident, coordinates: $n:literal, rule: $rule:ty, driven: $view:ident, inputs: $inputs:literal
         $(, parameters: $parameters:literal)? $(,)?) => {
-        $crate::c_api! { @functions $prefix $system $n [$rule] [$view<'static>] inputs [u $inputs] time []
+        $crate::c_api! { @functions $prefix $system $n [$rule] ['a $view<'a>] [$view<'static>] inputs [u $inputs] time []
             |system| system.driven(u), parameters [$($parameters)?] }
     };
     ($prefix:ident: $system:ident, coordinates: $n:literal, rule: $rule:ty, at_time: $view:ident
         $(, parameters: $parameters:literal)? $(,)?) => {
-        $crate::c_api! { @functions $prefix $system $n [$rule] [$view<'static>] inputs [] time [t]
+        $crate::c_api! { @functions $prefix $system $n [$rule] ['a $view<'a>] [$view<'static>] inputs [] time [t CScalar]
             |system| system.at_time(t), parameters [$($parameters)?] }
     };
     ($prefix:ident: $system:ident, coordinates: $n:literal, rule: $rule:ty $(, parameters: $parameters:literal)? $(,)?) => {
-        $crate::c_api! { @functions $prefix $system $n [$rule] [$system] inputs [] time []
+        $crate::c_api! { @functions $prefix $system $n [$rule] ['a $system] [$system] inputs [] time []
             |system| *system, parameters [$($parameters)?] }
     };
-    (@functions $prefix:ident $system:ident $n:literal [$rule:ty] [$view:ty] inputs [$($u:ident $inputs:literal)?] time [$($t:ident)?]
-        |$of:ident| $call:expr, parameters [$($parameters:literal)?]) => {
+    (@functions $prefix:ident $system:ident $n:literal [$rule:ty] [$life:lifetime $view:ty] [$kind:ty] inputs [$($u:ident $inputs:literal)?]
+        time [$($t:ident $time:ident)?] |$of:ident| $call:expr, parameters [$($parameters:literal)?]) => {
         #[doc = concat!("The C functions of [`", stringify!($system), "`], `", stringify!($prefix), "_init` and so on; [`HEADER`](", stringify!($prefix), "::HEADER) declares them.")]
         ///
         /// # Safety
@@ -81,16 +81,19 @@ macro_rules! c_api {
         pub mod $prefix {
             use super::*;
             // Types by their paths: the user's own may have the same names.
-            use $crate::boundary::{both, change, look, optional, place, read, seen, write};
+            use $crate::boundary::{calls, read};
             use $crate::dalembert::system::Scalar as _;
             use $crate::machine;
 
-            type CView = $view;
-            type CScalar = <CView as $crate::dalembert::Lagrangian<$n>>::Scalar;
+            const _: Option<machine::Checked<$kind, $rule, $n>> = None;
+            type CScalar = <CSystem as machine::Interface<$n>>::Scalar;
             type CVector = [CScalar; $n];
-            type CContent = machine::Machine<$system, CView, $rule, $n>;
+
+            /// The system as C sees it.
+            pub enum CSystem {}
+
             /// What the caller's memory holds: opaque in C.
-            pub type CMemory = $crate::boundary::Held<CContent>;
+            pub type CMemory = calls::Memory<CSystem, $n>;
 
             const TIMES: usize = [$(stringify!($t),)? ""].len() - 1;
             const LAYOUT: u64 = $crate::layout(
@@ -113,7 +116,7 @@ macro_rules! c_api {
                 coordinates: $n,
                 inputs: 0 $(+ $inputs)?,
                 takes_time: TIMES == 1,
-                parameters: [$(&<CView as $crate::dalembert::system::Parameters<$n, $parameters>>::PARAMETERS as &[&str],)? &[]][0],
+                parameters: [$(&<$kind as $crate::dalembert::system::Parameters<$n, $parameters>>::PARAMETERS as &[&str],)? &[]][0],
             };
 
             /// The derivatives of a step, row by row.
@@ -135,6 +138,32 @@ macro_rules! c_api {
             // SAFETY: repr(C), arrays of numbers of one type alone.
             unsafe impl $crate::boundary::Plain for CLinearized {}
 
+            impl machine::Interface<$n> for CSystem {
+                const SIGNATURE: u64 = LAYOUT;
+                type Parameters = $system;
+                type Rule = $rule;
+                type Scalar = <$kind as $crate::dalembert::Lagrangian<$n>>::Scalar;
+                type Given = ($([CScalar; $inputs],)? $($time,)?);
+                type Linearized = CLinearized;
+                type RunMemory = <$kind as $crate::dalembert::step::Flow<$rule, $n>>::RunMemory;
+                type Kind = $kind;
+                type View<$life> = $view;
+
+                fn view($of: &$system, ($($u,)? $($t,)?): Self::Given) -> Self::View<'_> {
+                    $call
+                }
+
+                fn linearized(
+                    taken: &$crate::dalembert::step::StepTaken<'_, Self::View<'_>, $rule, $n>,
+                ) -> Result<CLinearized, $crate::dalembert::StepError> {
+                    Ok(CLinearized {
+                        by_state: machine::rows_by_state(&taken.by_state()?),
+                        $(by_input: machine::rows_by(&taken.by_input::<$inputs>()?),)?
+                        $(by_parameters: machine::rows_by(&taken.by_parameters::<$parameters>()?),)?
+                    })
+                }
+            }
+
             #[unsafe(export_name = concat!(stringify!($prefix), "_init_with"))]
             #[doc = "Begins a run at (q, v)."]
             pub unsafe extern "C" fn init_with(
@@ -143,25 +172,13 @@ macro_rules! c_api {
                 layout: u64,
                 parameters: *const $system,
                 h: CScalar,
-                $($t: CScalar,)?
+                $($t: $time,)?
                 q: *const CVector,
                 v: *const CVector,
             ) -> $crate::Status {
-                let begin = || {
-                    seen(memory)?;
-                    if layout != LAYOUT || size < size_of::<CMemory>() {
-                        return Err($crate::Status::WrongMemory);
-                    }
-                    // SAFETY: the caller's promise.
-                    let (system, q, v) = unsafe { (machine::parameters(read(parameters)?)?, read(q)?, read(v)?) };
-                    let $of = &system;
-                    $(let $u = [CScalar::constant(0.0); $inputs];)?
-                    $(let [$t] = machine::input([$t])?;)?
-                    let run = machine::start(&$call, h, [q, v])?;
-                    // SAFETY: the caller's promise.
-                    unsafe { place(memory, LAYOUT, machine::Machine { system, run }) }
-                };
-                begin().into()
+                let given = || Ok(($([CScalar::constant(0.0); $inputs],)? $(machine::time($t)?,)?));
+                // SAFETY: the caller's promise.
+                unsafe { calls::init::<CSystem, $n>(memory, (size, layout), parameters, h, given, [q, v]) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_step"))]
@@ -169,20 +186,11 @@ macro_rules! c_api {
             pub unsafe extern "C" fn step(
                 memory: *mut CMemory,
                 $($u: *const [CScalar; $inputs],)?
-                $($t: CScalar,)?
+                $($t: $time,)?
                 report: *mut $crate::CReport,
             ) -> $crate::Status {
-                let ask = |machine::Machine { system: $of, run }: &mut CContent| {
-                    // SAFETY: the caller's promise.
-                    $(let $u = machine::input(unsafe { read($u)? })?;)?
-                    $(let [$t] = machine::input([$t])?;)?
-                    optional(report)?;
-                    let taken = run.advance(&$call)?;
-                    // SAFETY: the caller's promise.
-                    unsafe { write(report, $crate::CReport::new(&taken.report, run.time())) }
-                };
                 // SAFETY: the caller's promise.
-                unsafe { change(memory, LAYOUT, ask) }.into()
+                unsafe { calls::step::<CSystem, $n>(memory, || Ok(($(machine::input(read($u)?)?,)? $(machine::time($t)?,)?)), report) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_step_linearized"))]
@@ -190,32 +198,12 @@ macro_rules! c_api {
             pub unsafe extern "C" fn step_linearized(
                 memory: *mut CMemory,
                 $($u: *const [CScalar; $inputs],)?
-                $($t: CScalar,)?
+                $($t: $time,)?
                 report: *mut $crate::CReport,
                 linearized: *mut CLinearized,
             ) -> $crate::Status {
-                let ask = |machine::Machine { system: $of, run }: &mut CContent| {
-                    // SAFETY: the caller's promise.
-                    $(let $u = machine::input(unsafe { read($u)? })?;)?
-                    $(let [$t] = machine::input([$t])?;)?
-                    optional(report)?;
-                    seen(linearized)?;
-                    let view = &$call;
-                    let taken = run.advance_linearized(view)?;
-                    let derivatives = CLinearized {
-                        by_state: machine::rows_by_state(&taken.by_state()?),
-                        $(by_input: machine::rows_by(&taken.by_input::<$inputs>()?),)?
-                        $(by_parameters: machine::rows_by(&taken.by_parameters::<$parameters>()?),)?
-                    };
-                    let step = taken.step();
-                    // SAFETY: the caller's promise.
-                    unsafe {
-                        write(report, $crate::CReport::new(&step.report, run.time()))?;
-                        write(linearized, derivatives)
-                    }
-                };
                 // SAFETY: the caller's promise.
-                unsafe { change(memory, LAYOUT, ask) }.into()
+                unsafe { calls::step_linearized::<CSystem, $n>(memory, || Ok(($(machine::input(read($u)?)?,)? $(machine::time($t)?,)?)), report, linearized) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_state"))]
@@ -225,51 +213,30 @@ macro_rules! c_api {
                 q: *mut CVector,
                 p: *mut CVector,
             ) -> $crate::Status {
-                let ask = |machine: &CContent| {
-                    let at = machine.run.state();
-                    // SAFETY: the caller's promise.
-                    unsafe { both(q, at.q.into(), p, at.p.into()) }
-                };
                 // SAFETY: the caller's promise.
-                unsafe { look(memory, LAYOUT, ask) }.into()
+                unsafe { calls::state::<CSystem, $n>(memory, [q, p]) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_velocity"))]
             #[doc = "The velocity of the present state."]
             pub unsafe extern "C" fn velocity(
                 memory: *const CMemory,
-                $($t: CScalar,)?
+                $($t: $time,)?
                 v: *mut CVector,
             ) -> $crate::Status {
-                let ask = |machine::Machine { system: $of, run }: &CContent| {
-                    seen(v)?;
-                    $(let $u = [CScalar::constant(0.0); $inputs];)?
-                    $(let [$t] = machine::input([$t])?;)?
-                    let velocity = run.state().velocity(&$call)?;
-                    // SAFETY: the caller's promise.
-                    unsafe { write(v, velocity.into()) }
-                };
                 // SAFETY: the caller's promise.
-                unsafe { look(memory, LAYOUT, ask) }.into()
+                unsafe { calls::velocity::<CSystem, $n>(memory, || Ok(($([CScalar::constant(0.0); $inputs],)? $(machine::time($t)?,)?)), v) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_energy"))]
             #[doc = "The energy of the present state."]
             pub unsafe extern "C" fn energy(
                 memory: *const CMemory,
-                $($t: CScalar,)?
+                $($t: $time,)?
                 energy: *mut CScalar,
             ) -> $crate::Status {
-                let ask = |machine::Machine { system: $of, run }: &CContent| {
-                    seen(energy)?;
-                    $(let $u = [CScalar::constant(0.0); $inputs];)?
-                    $(let [$t] = machine::input([$t])?;)?
-                    let value = run.state().energy(&$call)?;
-                    // SAFETY: the caller's promise.
-                    unsafe { write(energy, value) }
-                };
                 // SAFETY: the caller's promise.
-                unsafe { look(memory, LAYOUT, ask) }.into()
+                unsafe { calls::energy::<CSystem, $n>(memory, || Ok(($([CScalar::constant(0.0); $inputs],)? $(machine::time($t)?,)?)), energy) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_time"))]
@@ -278,13 +245,8 @@ macro_rules! c_api {
                 memory: *const CMemory,
                 time: *mut f64,
             ) -> $crate::Status {
-                let ask = |machine: &CContent| {
-                    seen(time)?;
-                    // SAFETY: the caller's promise.
-                    unsafe { write(time, machine.run.time()) }
-                };
                 // SAFETY: the caller's promise.
-                unsafe { look(memory, LAYOUT, ask) }.into()
+                unsafe { calls::time::<CSystem, $n>(memory, time) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_state_after"))]
@@ -292,21 +254,13 @@ macro_rules! c_api {
             pub unsafe extern "C" fn state_after(
                 memory: *const CMemory,
                 $($u: *const [CScalar; $inputs],)?
-                $($t: CScalar,)?
+                $($t: $time,)?
                 after: CScalar,
                 q: *mut CVector,
                 p: *mut CVector,
             ) -> $crate::Status {
-                let ask = |machine::Machine { system: $of, run }: &CContent| {
-                    // SAFETY: the caller's promise.
-                    $(let $u = machine::input(unsafe { read($u)? })?;)?
-                    $(let [$t] = machine::input([$t])?;)?
-                    let at = machine::state_after::<_, $rule, $n>(&$call, after, run.state())?;
-                    // SAFETY: the caller's promise.
-                    unsafe { both(q, at.q.into(), p, at.p.into()) }
-                };
                 // SAFETY: the caller's promise.
-                unsafe { look(memory, LAYOUT, ask) }.into()
+                unsafe { calls::state_after::<CSystem, $n>(memory, || Ok(($(machine::input(read($u)?)?,)? $(machine::time($t)?,)?)), after, [q, p]) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_set_state"))]
@@ -316,14 +270,8 @@ macro_rules! c_api {
                 q: *const CVector,
                 p: *const CVector,
             ) -> $crate::Status {
-                let ask = |machine: &mut CContent| {
-                    // SAFETY: the caller's promise.
-                    let (q, p) = unsafe { (read(q)?, read(p)?) };
-                    machine.run.correct(machine::state(q, p)?);
-                    Ok(())
-                };
                 // SAFETY: the caller's promise.
-                unsafe { change(memory, LAYOUT, ask) }.into()
+                unsafe { calls::set_state::<CSystem, $n>(memory, [q, p]) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_set_parameters"))]
@@ -332,14 +280,8 @@ macro_rules! c_api {
                 memory: *mut CMemory,
                 parameters: *const $system,
             ) -> $crate::Status {
-                let ask = |machine: &mut CContent| {
-                    // SAFETY: the caller's promise.
-                    let system = machine::parameters(unsafe { read(parameters)? })?;
-                    machine.change_parameters(system);
-                    Ok(())
-                };
                 // SAFETY: the caller's promise.
-                unsafe { change(memory, LAYOUT, ask) }.into()
+                unsafe { calls::set_parameters::<CSystem, $n>(memory, parameters) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_set_step_size"))]
@@ -348,13 +290,8 @@ macro_rules! c_api {
                 memory: *mut CMemory,
                 h: CScalar,
             ) -> $crate::Status {
-                let ask = |machine: &mut CContent| {
-                    machine::require_step_size(h)?;
-                    machine.run.change_step_size(h);
-                    Ok(())
-                };
                 // SAFETY: the caller's promise.
-                unsafe { change(memory, LAYOUT, ask) }.into()
+                unsafe { calls::set_step_size::<CSystem, $n>(memory, h) }
             }
 
             #[unsafe(export_name = concat!(stringify!($prefix), "_text"))]

@@ -12,6 +12,8 @@ use core::ptr::copy_nonoverlapping;
 
 use crate::{CReport, Status};
 
+pub mod calls;
+
 /// Types every pattern of bits of which is a value, without padding that is read: numbers, arrays of them, and
 /// structs of such fields as [`parameters!`](crate::parameters) declares.
 ///

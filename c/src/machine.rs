@@ -1,22 +1,70 @@
 //! A run as the caller's memory holds it, and what a call does with it: the same for every system.
 
+use core::marker::PhantomData;
+
 use dalembert::nalgebra::SVector;
 use dalembert::run::DrivenTrajectory;
-use dalembert::step::{Flow, PhaseMatrix, Quantity, StateBy};
-use dalembert::system::{Lagrangian, Scalar};
+use dalembert::step::{Flow, Linearizable, Memory, PhaseMatrix, Quantity, StateBy, StepTaken};
+use dalembert::system::Scalar;
 use dalembert::{State, StepError};
 
+use crate::boundary::Plain;
 use crate::{CParameters, Status};
 
+/// What the functions of C ask of a system, said once where an entry of [`c_api!`](crate::c_api) does not fit it.
+#[diagnostic::on_unimplemented(
+    message = "C cannot step `{Self}` by `{M}` with {N} coordinates",
+    label = "no step with this number of coordinates, this rule, this input",
+    note = "`coordinates` is the length of q, `rule` one of those that `#[rayleigh_system(rule = …)]` lists, midpoint if none",
+    note = "a force with an input needs `driven: Driven…, inputs: …`; L, R or f with the time `time` behind them, or `at_time: …AtTime`"
+)]
+pub trait Stepped<M, const N: usize>: Linearizable<M, N> {}
+
+#[diagnostic::do_not_recommend]
+impl<V: Linearizable<M, N>, M, const N: usize> Stepped<M, N> for V {}
+
+/// That a system is [`Stepped`], as a type: said before anything that follows from its not being so.
+pub struct Checked<V: Stepped<M, N>, M, const N: usize>(PhantomData<fn() -> (V, M)>);
+
+/// A system as C sees it: what [`c_api!`](crate::c_api) states once, so that the functions are the same for all.
+pub trait Interface<const N: usize>: Sized + 'static {
+    /// What a memory of this system begins with: [`layout`](crate::layout).
+    const SIGNATURE: u64;
+    /// The struct of the system.
+    type Parameters: CParameters;
+    /// The rule.
+    type Rule: 'static;
+    /// `f64` or `f32`.
+    type Scalar: Scalar + Plain;
+    /// The input and the time of a step, as far as the system takes them.
+    type Given;
+    /// The derivatives of a step, as C reads them.
+    type Linearized: Plain;
+    /// What a run keeps.
+    type RunMemory: for<'a> Memory<Self::View<'a>, Self::Rule, N> + 'static;
+    /// Views as a run names them.
+    type Kind: Stepped<Self::Rule, N, Scalar = Self::Scalar, RunMemory = Self::RunMemory> + 'static;
+    /// The system with its input and time.
+    type View<'a>: Stepped<Self::Rule, N, Scalar = Self::Scalar, RunMemory = Self::RunMemory>;
+
+    /// The system with what is given.
+    fn view(system: &Self::Parameters, given: Self::Given) -> Self::View<'_>;
+
+    /// The derivatives of a step.
+    ///
+    /// # Errors
+    /// [`StepError::NonFinite`].
+    fn linearized(
+        taken: &StepTaken<'_, Self::View<'_>, Self::Rule, N>,
+    ) -> Result<Self::Linearized, StepError>;
+}
+
 /// The parameters and the run of a system: what lies behind the signature.
-pub struct Machine<P, V, M, const N: usize>
-where
-    V: Flow<M, N>,
-{
+pub struct Machine<I: Interface<N>, const N: usize> {
     /// The system, as C filled it in.
-    pub system: P,
+    pub system: I::Parameters,
     /// The run of its views.
-    pub run: DrivenTrajectory<V, M, N>,
+    pub run: DrivenTrajectory<I::Kind, I::Rule, N>,
 }
 
 /// The parameters, none of which is NaN.
@@ -33,6 +81,14 @@ pub fn parameters<P: CParameters>(given: P) -> Result<P, Status> {
 /// [`Status::InputNotFinite`].
 pub fn input<S: Scalar, const K: usize>(given: [S; K]) -> Result<[S; K], Status> {
     if given.iter().all(|value| value.is_finite()) { Ok(given) } else { Err(Status::InputNotFinite) }
+}
+
+/// The time, if it is finite.
+///
+/// # Errors
+/// [`Status::InputNotFinite`].
+pub fn time<S: Scalar>(given: S) -> Result<S, Status> {
+    input([given]).map(|[given]| given)
 }
 
 /// Fails where `h` is 0 or not finite.
@@ -56,21 +112,18 @@ pub fn state<S: Scalar, const N: usize>(q: [S; N], p: [S; N]) -> Result<State<S,
     Ok(State { q: q.into(), p: p.into() })
 }
 
-/// A run of `view` from (q, v), with step size `h`.
+/// A run of `system` from (q, v), with step size `h`.
 ///
 /// # Errors
 /// [`StepError`]s of the start.
-pub fn start<V, W, M, const N: usize>(
-    view: &W,
-    h: V::Scalar,
-    [q, v]: [[V::Scalar; N]; 2],
-) -> Result<DrivenTrajectory<V, M, N>, StepError>
-where
-    V: Flow<M, N>,
-    W: Lagrangian<N, Scalar = V::Scalar>,
-{
+pub fn start<I: Interface<N>, const N: usize>(
+    system: &I::Parameters,
+    given: I::Given,
+    h: I::Scalar,
+    [q, v]: [[I::Scalar; N]; 2],
+) -> Result<DrivenTrajectory<I::Kind, I::Rule, N>, StepError> {
     require_step_size(h)?;
-    let start = State::from_velocity(view, SVector::from(q), SVector::from(v))?;
+    let start = State::from_velocity(&I::view(system, given), SVector::from(q), SVector::from(v))?;
     Ok(DrivenTrajectory::new(h, start))
 }
 
@@ -84,16 +137,6 @@ pub fn state_after<L: Flow<M, N>, M, const N: usize>(
     state: &State<L::Scalar, N>,
 ) -> Result<State<L::Scalar, N>, StepError> {
     if after == L::Scalar::constant(0.0) { Ok(*state) } else { Ok(system.step(state, after, None)?.state) }
-}
-
-impl<P: Copy, V, M, const N: usize> Machine<P, V, M, N>
-where
-    V: Flow<M, N>,
-{
-    /// Goes on from the present state and time with other parameters.
-    pub fn change_parameters(&mut self, system: P) {
-        *self = Self { system, run: DrivenTrajectory::resume(self.run.present()) };
-    }
 }
 
 /// A = ∂(q1, p1)/∂(q0, p0) in rows of (q1, p1), a column each of (q0, p0).
