@@ -203,8 +203,8 @@ where
     /// [`EventError`], after which the watch has ended.
     #[inline]
     pub fn advance(&mut self) -> Option<Result<Watched<T::Scalar, N>, EventError>> {
-        if let Some(found) = self.found.get(self.next).copied().flatten() {
-            return Some(self.report(&found).map(Watched::Event));
+        if self.has_found() {
+            return self.advance_to_found();
         }
         if let Some(step) = self.step.take() {
             return Some(Ok(Watched::Step(step)));
@@ -212,10 +212,9 @@ where
         if self.ended {
             return None;
         }
-        let taken = self.take();
-        match taken {
-            Some(Ok(true)) => self.step.take().map(|step| Ok(Watched::Step(step))),
-            Some(Ok(false)) => self.advance_to_found(),
+        match self.take() {
+            Some(Ok(Some(step))) => Some(Ok(Watched::Step(step))),
+            Some(Ok(None)) => self.advance_to_found(),
             Some(Err(error)) => {
                 self.ended = true;
                 Some(Err(error))
@@ -228,16 +227,22 @@ where
     }
 
     #[cold]
+    #[inline(never)]
     fn advance_to_found(&mut self) -> Option<Result<Watched<T::Scalar, N>, EventError>> {
-        match self.found.first().copied().flatten() {
-            Some(found) => Some(self.report(&found).map(Watched::Event)),
-            None => self.step.take().map(|step| Ok(Watched::Step(step))),
-        }
+        let found = self.found.get(self.next).copied().flatten()?;
+        Some(self.report(&found).map(Watched::Event))
     }
 
-    /// Takes a step, and says whether it is clear of events.
+    /// Whether events of the last step wait to be reported.
     #[inline(always)]
-    fn take(&mut self) -> Option<Result<bool, EventError>> {
+    fn has_found(&self) -> bool {
+        matches!(self.found.get(self.next), Some(Some(_)))
+    }
+
+    /// Takes a step: the step itself where it is clear of events, as it is by far the most often. Where it has some,
+    /// it is kept until they are reported.
+    #[inline(always)]
+    fn take(&mut self) -> Option<Result<Option<Step<T::Scalar, N>>, EventError>> {
         let before = match self.present {
             Some(before) => before,
             None => match self.begin() {
@@ -249,7 +254,6 @@ where
             Ok(step) => step,
             Err(error) => return Some(Err(error.into())),
         };
-        self.step = Some(step);
         let start = self.dense.start()?;
         let (time, state) = (self.dense.run().time(), self.dense.run().state());
         let times = [time, self.dense.since()];
@@ -268,7 +272,7 @@ where
                     (self.earlier, self.present, self.velocity) =
                         (Some((start.time, before)), Some(after), None);
                     self.restarts = 0;
-                    return Some(Ok(true));
+                    return Some(Ok(Some(step)));
                 }
             }
             let found = match self.velocity {
@@ -300,9 +304,16 @@ where
             if self.restarts > 0 {
                 self.restarts = 0;
             }
-            return Some(Ok(true));
+            return Some(Ok(Some(step)));
         }
-        Some(self.locate(earlier.as_ref(), &before, &after, &ends))
+        match self.locate(earlier.as_ref(), &before, &after, &ends) {
+            Ok(true) => Some(Ok(Some(step))),
+            Ok(false) => {
+                self.step = Some(step);
+                Some(Ok(None))
+            }
+            Err(error) => Some(Err(error)),
+        }
     }
 
     /// Reports an event that was found, and ends the run there if it is terminal.
@@ -379,7 +390,7 @@ where
         let after = |time: f64, until: f64| if backwards { time < until } else { time > until };
         loop {
             if let Some(until) = self.until
-                && self.found.get(self.next).copied().flatten().is_none()
+                && !self.has_found()
                 && !after(until, self.run().time())
             {
                 return None;

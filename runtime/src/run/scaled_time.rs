@@ -29,9 +29,9 @@ where
     /// E (H. Poincaré's transformation); its steps of one size are symplectic. It can be written as a system of
     /// its own. Measured on orbits of eccentricity 0.99 and 0.999 over 10⁴ rounds, with σ = |q|^{3/2}, at
     /// equal cost: what is here has less error of the energy, by 30 and 80 times, as no rounding of E is
-    /// divided by σ; it needs no E, has forces, and keeps momentum maps that σ does not. On a chaotic orbit of
-    /// Hénon and Heiles' problem neither drifts in 10⁷ steps. With (t, −E) for coordinates,
-    /// s L(q, w/s) + (s/σ − 1)²/2c, s = dt/dτ, it has forces too, and costs 3 to 100 times as much, by c.
+    /// divided by σ; it needs no E, has forces, and keeps momentum maps that σ does not. With (t, −E) for
+    /// coordinates, s L(q, w/s) + (s/σ − 1)²/2c, s = dt/dτ, it has forces too, and costs 3 to 100 times as much,
+    /// by c.
     ///
     /// [`step_size`](Trajectory::step_size) is that of the last step, and the time the sum of all, with
     /// compensation. Errors: [`StepError::TimeScale`](crate::StepError::TimeScale) besides those of the steps.

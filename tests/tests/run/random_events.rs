@@ -140,7 +140,7 @@ fn trial<L: Flow<M, 2, Scalar = f64>, M>(by: Discretised<'_, L, M, 2>, draws: &m
     }
 }
 
-fn trials(numbers: std::ops::Range<u64>) -> Tally {
+fn trials(numbers: impl IntoIterator<Item = u64>) -> Tally {
     let mut tally = Tally::default();
     for number in numbers {
         let mut draws = Draws::new(number * 7919);
@@ -189,10 +189,12 @@ fn assert_all_found(tally: Tally, within: u64) {
 
 #[test]
 fn crossings_within_a_step_are_found() {
-    assert_all_found(trials(0..1200), 200);
+    // The last was missed once.
+    assert_all_found(trials((0..1200).chain([1_918_449])), 200);
 }
 
-/// A million of them, in half an hour of two cores: too long for continuous integration.
+/// Two million of them, a third in steps with several, in half an hour of two cores: too long for continuous
+/// integration.
 #[test]
 #[ignore = "half an hour: cargo test --release -p dalembert-tests --test run a_million -- --ignored"]
 fn a_million_crossings_within_a_step_are_found() {
@@ -210,5 +212,6 @@ fn a_million_crossings_within_a_step_are_found() {
         missed: a.missed + b.missed,
         hidden_from_ends: a.hidden_from_ends + b.hidden_from_ends,
     });
-    assert_all_found(sum, 1_000_000);
+    assert!(sum.seen > 2_000_000, "{sum:?}");
+    assert_all_found(sum, 600_000);
 }
