@@ -82,8 +82,8 @@ pub enum Crossing {
 /// functions.
 ///
 /// What a polynomial may be off by is estimated, as functions have no bounds to ask for. Of two million random
-/// pairs of roots that lie closer together than a fiftieth of a step, by all methods with steps of up to 1.4
-/// radians, four were missed, all in steps of a radian and more.
+/// crossings by all methods, a third of them in steps with several, none was missed; of two million pairs that
+/// lie closer together than a fiftieth of a step, four were, all in steps of a radian and more.
 ///
 /// **What is not an event.** A start on the event: a run that begins where g is 0 to rounding. A root at the
 /// end of a step belongs to that step.

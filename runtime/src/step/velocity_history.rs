@@ -37,10 +37,16 @@ impl<S: Scalar, const N: usize> VelocityHistory<S, N> {
     #[inline]
     pub(crate) fn push(&mut self, velocity: SVector<S, N>, h: S) {
         let [a, b, c, _] = self.velocities;
-        self.velocities = [velocity, a, b, c];
-        // Velocities a step apart are known for one step size alone.
-        let known = if h == self.h { self.known } else { self.known.min(1) };
-        self.known = (known + 1).min(4);
+        if h == self.h {
+            self.velocities = [velocity, a, b, c];
+            self.known = (self.known + 1).min(4);
+            return;
+        }
+        // Velocities a step apart are known for one step size alone: on the line through the two, one step back.
+        let is_ahead = self.known > 0 && h * self.h > S::zero();
+        let before = if is_ahead { velocity + (a - velocity) * (h / half_of(h + self.h)) } else { velocity };
+        self.velocities = [velocity, before, b, c];
+        self.known = if is_ahead { 2 } else { 1 };
         self.h = h;
     }
 
@@ -50,8 +56,16 @@ impl<S: Scalar, const N: usize> VelocityHistory<S, N> {
         let [a, b, c, d] = &self.velocities;
         let (two, three, four, six) =
             (S::constant(2.0), S::constant(3.0), S::constant(4.0), S::constant(6.0));
-        // The polynomial needs equal steps; the latest velocity alone is a guess for any.
-        let known = if h == self.h { self.known } else { self.known.min(1) };
+        if h != self.h {
+            // The polynomial needs equal steps; the line serves for one that is not much longer.
+            let is_near = h * self.h > S::zero() && h.widen().abs() <= 2.0 * self.h.widen().abs();
+            return match self.known {
+                0 => None,
+                2.. if is_near && !self.has_inputs => Some(a + (a - b) * (half_of(h + self.h) / self.h)),
+                _ => Some(*a),
+            };
+        }
+        let known = self.known;
         match if self.has_inputs { self.telling(known) } else { known } {
             0 => None,
             1 => Some(*a),
@@ -75,6 +89,10 @@ impl<S: Scalar, const N: usize> VelocityHistory<S, N> {
         consider(3, a - (b - c) * S::constant(3.0) - d);
         best.0
     }
+}
+
+fn half_of<S: Scalar>(value: S) -> S {
+    value * S::constant(0.5)
 }
 
 impl<L, R, const N: usize> Memory<L, R, N> for VelocityHistory<L::Scalar, N>
@@ -108,4 +126,31 @@ where
 
     /// Nor is where they led part of it.
     fn change_state(&mut self) {}
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Mean velocities of q = t²/2 are those of the middles of steps, on a line; of q = t³/3 they are not.
+    #[test]
+    fn a_line_is_carried_on_over_changes_of_the_step_size() {
+        let mut history = VelocityHistory::<f64, 1>::default();
+        let (mut time, mut off) = (0.0, 0.0_f64);
+        for (index, h) in [0.25, 0.25, 0.5, 0.5, 0.5, 0.125, 0.125, 0.25, 0.1875].into_iter().enumerate() {
+            let mean = time + 0.5 * h;
+            if index > 1 {
+                let guess = history.extrapolation(h).unwrap();
+                assert!((guess[0] - mean).abs() < 1e-14, "{index}: {} for {mean}", guess[0]);
+                off = off.max((history.velocities[0][0] - mean).abs());
+            }
+            history.push([mean].into(), h);
+            time += h;
+        }
+        // Positive control: the newest velocity alone is no line.
+        assert!(off > 0.1);
+        // Backwards, or far ahead, it is the guess.
+        assert_eq!(history.extrapolation(-0.1875), Some(history.velocities[0]));
+        assert_eq!(history.extrapolation(3.0), Some(history.velocities[0]));
+    }
 }
