@@ -20,7 +20,7 @@ pub use displacement::{DisplacementRule, Node};
 pub use fitted::Fitted;
 pub use fitted_trapezoidal::FittedTrapezoidal;
 pub use gauss::{Gauss, StageHistory};
-pub(crate) use gauss::{SLACK, StagesInLanes, steps_until};
+pub(crate) use gauss::{SLACK, Solver, StagesInLanes, steps_until};
 pub use joint::{JointRayleighRule, JointRule};
 pub use midpoint::Midpoint;
 pub use one_sided::OneSided;

@@ -12,11 +12,13 @@ mod force_work;
 mod history;
 mod in_lanes;
 mod linearised;
+mod modes;
 mod newton;
 mod problem;
 mod rounding;
 mod segment;
 mod sensitivity;
+mod simplified;
 mod slack;
 mod taken;
 mod tangent;
@@ -33,6 +35,7 @@ use crate::system::{ForcedLagrangian, GeneratedDiffers, VectorField};
 use coefficients::Coefficients;
 pub use history::StageHistory;
 pub use in_lanes::StagesInLanes;
+pub(crate) use problem::Solver;
 use problem::{Compensated, Problem, Solution};
 use segment::Segment;
 pub(crate) use slack::{SLACK, steps_until};
@@ -58,8 +61,9 @@ pub(crate) use slack::{SLACK, steps_until};
 /// ```
 ///
 /// L need not be quadratic in v. The stages come from a fixed-point iteration where it contracts, which is
-/// measured, and from Newton's method elsewhere (large steps, stiff forces). Without force the rule is
-/// symplectic and keeps the momentum maps of affine generators, ξ(q) = Aq + b, such as translations and
+/// measured. Elsewhere, at large steps and with stiff forces, it is simplified Newton's method, with N equations
+/// for each pair of stages, where that contracts, and Newton's method for all S N equations where it does not.
+/// Without force the rule is symplectic and keeps the momentum maps of affine generators, ξ(q) = Aq + b, such as translations and
 /// rotations; of others to its order. With friction its step has an R_d for n = 1, and for linear systems
 /// with CM⁻¹K = KM⁻¹C; for S ≥ 2 in general for no others, not even for a nonlinear V with C = 2aM, where the
 /// exact motion has one ([`rayleigh_step`](crate::Discretised::rayleigh_step)).
@@ -399,7 +403,7 @@ fn from_singular<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, 
         let v = splat(&rest);
         let report = Report { floor: T::SMALLEST_NORMAL, ..Report::of_no_equation() };
         let is_rest = crate::step::newton::is_rest(&residual, &state.p);
-        return is_rest.then_some(Solution { v, rate: v, report, contracted: false });
+        return is_rest.then_some(Solution { v, rate: v, report, solver: Solver::Newton });
     }
     let later = State { q: state.q, p: state.p + force * (problem.h * T::constant(0.5)) };
     fixed_point::solve(problem, &later.velocity(problem.system).ok()?).ok()

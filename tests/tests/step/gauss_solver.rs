@@ -1,14 +1,16 @@
 //! Large steps, stiff forces and what has no solution: where the fixed point of `Gauss<S>` gives way to
-//! Newton's method.
+//! simplified Newton's method and to Newton's.
 
 use std::cell::Cell;
 
 use allocation_counter::measure;
-use dalembert::nalgebra::{SVector, vector};
+use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::step::Quantity;
 use dalembert::system::{ActingForce, Derivatives, ForcedLagrangian, LaneVector, Lanes, Stages};
 use dalembert::{Discrete, Discretise, Gauss, Lagrangian, State, StepError, rayleigh_system};
 use dalembert_tests::systems::DoublePendulum;
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
 
 /// m q̈ + c q̇ + k q = 0, and a weak cubic spring.
 #[rayleigh_system(rule = gauss)]
@@ -87,6 +89,95 @@ fn stiff_steps_are_those_of_the_pade_approximant() {
     stiff_steps::<4>();
     stiff_steps::<6>();
     stiff_steps::<8>();
+}
+
+/// M q̈ + C q̇ + K q = 0 with any M, C, K.
+#[derive(Clone, Copy, Debug)]
+struct Linear {
+    m: [[f64; 3]; 3],
+    c: [[f64; 3]; 3],
+    k: [[f64; 3]; 3],
+}
+
+#[rayleigh_system(rule = gauss)]
+impl Linear {
+    fn lagrangian(&self, q: [f64; 3], v: [f64; 3]) -> f64 {
+        let mut l = 0.0;
+        for a in 0..3 {
+            for b in 0..3 {
+                l += 0.5 * v[a] * self.m[a][b] * v[b] - 0.5 * q[a] * self.k[a][b] * q[b];
+            }
+        }
+        l
+    }
+
+    fn rayleigh(&self, v: [f64; 3]) -> f64 {
+        let mut r = 0.0;
+        for a in 0..3 {
+            for b in 0..3 {
+                r += 0.5 * v[a] * self.c[a][b] * v[b];
+            }
+        }
+        r
+    }
+}
+
+/// The diagonal Padé approximant (s, s) of exp Z, times y.
+fn pade_of_matrix(s: u32, z: SMatrix<f64, 6, 6>, y: SVector<f64, 6>) -> SVector<f64, 6> {
+    let (mut above, mut below) = (SMatrix::<f64, 6, 6>::zeros(), SMatrix::<f64, 6, 6>::zeros());
+    let (mut power, mut coefficient) = (SMatrix::<f64, 6, 6>::identity(), 1.0);
+    for j in 0..=s {
+        above += power * coefficient;
+        below += power * if j % 2 == 0 { coefficient } else { -coefficient };
+        power *= z;
+        coefficient *= f64::from(s - j) / (f64::from(2 * s - j) * f64::from(j + 1));
+    }
+    below.full_piv_lu().solve(&(above * y)).unwrap()
+}
+
+/// The largest error of the stiff steps of random linear systems by S stages, in units of what they start from.
+fn worst_of_stiff_linear_systems<const S: usize>(random: &mut StdRng, steps: u32) -> f64 {
+    let mut worst = 0.0_f64;
+    for _ in 0..steps {
+        let mut matrix = || SMatrix::<f64, 3, 3>::from_fn(|_, _| random.random_range(-1.0..1.0));
+        let (m, c, k) = (matrix(), matrix(), matrix());
+        // In units of h: far beyond where the fixed point contracts, near enough for Padé's polynomials.
+        let mass = m * m.transpose() + SMatrix::identity();
+        let stiffness = (k * k.transpose() + SMatrix::identity()) * random.random_range(10.0..60.0);
+        let friction = c * c.transpose() * random.random_range(0.0..10.0);
+        let h = 10.0_f64.powf(random.random_range(-3.0..0.0));
+        let system = Linear { m: mass.into(), c: (friction / h).into(), k: (stiffness / (h * h)).into() };
+        let q = SVector::<f64, 3>::from_fn(|_, _| random.random_range(-1.0..1.0));
+        let p = SVector::<f64, 3>::from_fn(|_, _| random.random_range(-1.0..1.0)) / h;
+        let step = system.by(Gauss::<S>, h).step(&State { q, p }).unwrap();
+
+        let per_mass = mass.try_inverse().unwrap();
+        let mut z = SMatrix::<f64, 6, 6>::zeros();
+        z.fixed_view_mut::<3, 3>(0, 3).copy_from(&per_mass);
+        z.fixed_view_mut::<3, 3>(3, 0).copy_from(&-stiffness);
+        z.fixed_view_mut::<3, 3>(3, 3).copy_from(&(-friction * per_mass));
+        let stacked = |q: &SVector<f64, 3>, p: &SVector<f64, 3>| {
+            SVector::<f64, 6>::from_fn(|a, _| if a < 3 { q[a] } else { p[a - 3] * h })
+        };
+        let exact = pade_of_matrix(S as u32, z, stacked(&q, &p));
+        let error = stacked(&step.state.q, &step.state.p) - exact;
+        worst = worst.max(error.amax() / (stiffness.amax() * (1.0 + exact.amax())));
+    }
+    worst
+}
+
+#[test]
+fn stiff_steps_of_random_linear_systems_are_those_of_the_pade_approximant() {
+    let mut random = StdRng::seed_from_u64(71);
+    // (S, S) of the exponential of matrices with eigenvalues up to some tens: its own rounding grows with S.
+    assert!(worst_of_stiff_linear_systems::<1>(&mut random, 60) < 1e-14);
+    assert!(worst_of_stiff_linear_systems::<2>(&mut random, 60) < 1e-14);
+    assert!(worst_of_stiff_linear_systems::<3>(&mut random, 60) < 1e-14);
+    assert!(worst_of_stiff_linear_systems::<4>(&mut random, 60) < 1e-13);
+    assert!(worst_of_stiff_linear_systems::<5>(&mut random, 60) < 1e-13);
+    assert!(worst_of_stiff_linear_systems::<6>(&mut random, 60) < 1e-13);
+    assert!(worst_of_stiff_linear_systems::<7>(&mut random, 60) < 1e-13);
+    assert!(worst_of_stiff_linear_systems::<8>(&mut random, 60) < 1e-13);
 }
 
 #[test]

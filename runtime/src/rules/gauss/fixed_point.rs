@@ -2,17 +2,17 @@
 //! from those.
 //!
 //! One evaluation of all stages an iteration and no matrix but ∂²L/∂v². Without friction and with a constant
-//! mass an iteration takes the error down by O(h²), otherwise by O(h). Where it does not contract, Newton's
-//! method takes over, from the velocity at the start of the step: from an extrapolation that is far off it
-//! may find another root than the motion's.
+//! mass an iteration takes the error down by O(h²), otherwise by O(h). Where it does not contract, simplified
+//! Newton's method takes over, and then Newton's, from the velocity at the start of the step: from an
+//! extrapolation that is far off they may find another root than the motion's.
 
 use core::cmp::Ordering;
 
 use nalgebra::SVector;
 
-use super::newton;
-use super::problem::{Problem, Solution, in_units, in_width, reciprocals};
+use super::problem::{Problem, Solution, Solver, in_units, in_width, reciprocals};
 use super::rounding::{at_rounding, worst};
+use super::{newton, simplified};
 use crate::numbers::{
     Blank, LaneVector, Scalar,
     lanes::{narrowed, splat, widened},
@@ -44,10 +44,32 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
     problem: &Problem<'_, L, N, S>,
     guess: &SVector<T, N>,
 ) -> Result<Solution<T, N, S>, StepError> {
-    let guess = splat(guess);
-    match iterate(problem, &guess) {
+    let all = splat(guess);
+    match iterate(problem, &all).or_else(|| simplified::iterate(problem, guess)) {
         Some(solution) => Ok(solution),
-        None => newton::solve(problem, &guess, newton::MAX_ITERATIONS),
+        None => newton::solve(problem, &all, newton::MAX_ITERATIONS),
+    }
+}
+
+/// What a sweep changes the velocities by.
+pub(super) trait Corrector<T, const N: usize> {
+    /// Whether a correction changes the rates much less than the velocities: then the last one is made without
+    /// another evaluation, as far as the contraction measured promises.
+    const LEAVES_RATES: bool;
+
+    /// By the stages' residuals.
+    fn correction<const W: usize>(&self, stages: &Stages<T, N, W>) -> LaneVector<T, N, W>;
+}
+
+/// Each stage by its own mass matrix.
+struct ByMass;
+
+impl<T: Scalar, const N: usize> Corrector<T, N> for ByMass {
+    const LEAVES_RATES: bool = true;
+
+    #[inline(always)]
+    fn correction<const W: usize>(&self, stages: &Stages<T, N, W>) -> LaneVector<T, N, W> {
+        stages.correction
     }
 }
 
@@ -57,17 +79,29 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
     problem: &Problem<'_, L, N, S>,
     guess: &LaneVector<T, N, S>,
 ) -> Option<Solution<T, N, S>> {
-    in_width!(iterate_in::<T, L, N, S>(problem, guess))
+    iterate_by(problem, guess, &ByMass)
+}
+
+/// The same with corrections of one's own.
+#[inline(always)]
+pub(super) fn iterate_by<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    guess: &LaneVector<T, N, S>,
+    corrector: &impl Corrector<T, N>,
+) -> Option<Solution<T, N, S>> {
+    in_width!(iterate_in::<T, L, _; N, S>(problem, guess, corrector))
 }
 
 #[inline]
-fn iterate_in<T, L, const N: usize, const S: usize, const W: usize>(
+fn iterate_in<T, L, C, const N: usize, const S: usize, const W: usize>(
     problem: &Problem<'_, L, N, S>,
     guess: &LaneVector<T, N, S>,
+    corrector: &C,
 ) -> Option<Solution<T, N, S>>
 where
     T: Scalar,
     L: ForcedLagrangian<N, Scalar = T>,
+    C: Corrector<T, N>,
 {
     let constant = T::constant;
     let mut v: LaneVector<T, N, W> = widened(*guess);
@@ -75,8 +109,11 @@ where
     let (mut floor, mut per_floor) = (SVector::<T, N>::zeros(), SVector::<T, N>::zeros());
     let (mut before, mut last) = (T::one(), T::one());
     let mut iterations = 0;
+    // A coordinate begins to move once; floors that rise more often are those of an iteration that runs away.
+    let mut rises = 0;
     while iterations < MAX_ITERATIONS {
-        let stages = problem.next_stages(&mut anchors, &v);
+        let mut stages = problem.next_stages(&mut anchors, &v);
+        stages.correction = corrector.correction(&stages);
         if iterations == 0 {
             floor = problem.floor(&stages.rate, &stages.residual);
             per_floor = reciprocals(&floor);
@@ -90,6 +127,10 @@ where
             // iterations.
             let (rate, residual) = (stages.rate, stages.residual);
             if let Some(risen) = risen(problem, &rate, &residual, floor) {
+                rises += 1;
+                if rises > N {
+                    return None;
+                }
                 floor = risen;
                 per_floor = reciprocals(&floor);
                 size = in_units(&stages.residual, &per_floor);
@@ -104,7 +145,8 @@ where
         // The contraction is size/last; but where the mass depends on q velocities follow momenta an
         // iteration late, and every other iteration may take off nothing: the one before is heeded
         // too. A first one says little of coordinates with lower floors.
-        let mut is_at_rest = size * size <= constant(AT_REST) * last
+        let mut is_at_rest = C::LEAVES_RATES
+            && size * size <= constant(AT_REST) * last
             && if iterations > 2 {
                 size * last <= constant(AT_REST) * before
             } else if L::STRUCTURE.constant_mass_matrix {
@@ -113,7 +155,8 @@ where
                 size <= constant(AT_REST)
             };
         let has_stopped = iterations > 1 && size >= constant(SLUGGISH) * last;
-        let mut is_done = is_at_rest || (has_stopped && size <= constant(AT_FLOOR));
+        let is_low = !C::LEAVES_RATES && size <= T::one();
+        let mut is_done = is_at_rest || is_low || (has_stopped && size <= constant(AT_FLOOR));
         if is_done && iterations > 1 {
             // The floor of the guess says nothing of rounding at the root if it was far out, where forces are
             // larger.
@@ -146,7 +189,7 @@ where
             }
             let report = report(&stages, &floor, remaining, iterations);
             let (v, rate) = (narrowed(v), narrowed(stages.rate));
-            return Some(Solution { v, rate, report, contracted: true });
+            return Some(Solution { v, rate, report, solver: Solver::FixedPoint });
         }
         for (v, &correction) in v.iter_mut().zip(&stages.correction) {
             *v = *v + correction;

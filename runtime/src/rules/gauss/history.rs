@@ -5,7 +5,7 @@ use core::array;
 use nalgebra::SVector;
 
 use super::coefficients::Coefficients;
-use super::problem::{Compensated, Problem, Solution};
+use super::problem::{Compensated, Problem, Solution, Solver};
 use super::slack::{Allowance, Slack, Swept, sweep};
 use super::{Gauss, completed, fixed_point, solved_from};
 use crate::numbers::{
@@ -27,7 +27,7 @@ pub struct StageHistory<T, const N: usize, const S: usize> {
     /// Its step size; 0 before the first step.
     h: T,
     /// Whether it was solved without Newton's method; then the next may be too.
-    contracted: bool,
+    solver: Solver,
     q: Compensated<T, N>,
     p: Compensated<T, N>,
     /// What the stages may be left by; nothing where they are solved to rounding.
@@ -44,7 +44,7 @@ impl<T: Scalar, const N: usize, const S: usize> Default for StageHistory<T, N, S
         Self {
             v: splat(&zero),
             h: T::zero(),
-            contracted: false,
+            solver: Solver::Newton,
             q: Compensated::new(zero),
             p: Compensated::new(zero),
             slack: None,
@@ -82,20 +82,20 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
         [before, last].map(|weights| (0..N).fold(0.0, |largest, a| sum(a, &weights).max(largest)))
     }
 
-    /// Whether the last step was solved by the matrix of all stages, as the fixed point did not contract.
-    pub(crate) fn is_by_newton(&self) -> bool {
-        !self.contracted
+    /// What has solved the last step; Newton's method before the first.
+    pub(crate) fn solver(&self) -> Solver {
+        self.solver
     }
 
     /// What a run remembers of a step with velocities `v` that led to `ends`, q and p.
     pub(super) fn of_step(
         v: &[SVector<T, N>; S],
         h: T,
-        contracted: bool,
+        solver: Solver,
         ends: [Compensated<T, N>; 2],
     ) -> Self {
         let [q, p] = ends;
-        let mut history = Self { h, contracted, q, p, ..Self::default() };
+        let mut history = Self { h, solver, q, p, ..Self::default() };
         for (i, v) in v.iter().enumerate() {
             write_lane(&mut history.v, i, v);
         }
@@ -264,7 +264,7 @@ where
             (Compensated::new(state.q), Compensated::new(state.p))
         };
         let problem = Problem::<'_, L, N, S>::new(system, q0, p0, h);
-        let guess = match h == self.h && self.contracted {
+        let guess = match h == self.h && self.solver == Solver::FixedPoint {
             true if goes_on => Some(self.extrapolation()),
             true if self.is_corrected => Some(self.moved_extrapolation(&state.velocity(system)?)),
             _ => None,
@@ -286,7 +286,7 @@ where
             }
         };
         let (step, [q, p]) = completed(&problem, &solution)?;
-        (self.v, self.h, self.contracted) = (solution.v, h, solution.contracted);
+        (self.v, self.h, self.solver) = (solution.v, h, solution.solver);
         (self.q, self.p, self.suggested, self.is_corrected) = (q, p, None, false);
         if let Some(slack) = &mut self.slack {
             slack.follow(state, &step.state);
@@ -317,7 +317,7 @@ where
     }
 
     fn beginning(&self, system: &L, state: &State<T, N>, h: T, elapsed: T) -> Option<State<T, N>> {
-        if self.h != h || h == T::zero() || !self.contracted {
+        if self.h != h || h == T::zero() || self.solver != Solver::FixedPoint {
             return None;
         }
         let [q, p] = [state.q, state.p].map(Compensated::new);

@@ -12,7 +12,7 @@ use super::Gauss;
 use super::coefficients::Coefficients;
 use super::fixed_point::{AT_REST, CHANGED, MAX_ITERATIONS, NEAR, SLUGGISH};
 use super::history::StageHistory;
-use super::problem::{Compensated, steps};
+use super::problem::{Compensated, Solver, steps};
 use super::slack::{MAX_SWEEPS, ROUNDINGS, Slack, remaining};
 use crate::numbers::members::{each_coordinate, each_stage, member, stage_by_stage, write_member};
 use crate::numbers::{Blank, Mask, MemberVector, Members, Scalar};
@@ -524,7 +524,8 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
             let state = State { q: q.value, p: p.value };
             if !self.is_new.0[lane] {
                 let v = core::array::from_fn(|j| member(&self.v[j], lane));
-                history = StageHistory::of_step(&v, self.h, self.has_contracted.0[lane], [q, p]);
+                let solver = if self.has_contracted.0[lane] { Solver::FixedPoint } else { Solver::Newton };
+                history = StageHistory::of_step(&v, self.h, solver, [q, p]);
             }
             if let Some(slack) = self.slack {
                 let [q_change, p_change] = self.left.change;
@@ -534,7 +535,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
             let step = Memory::<L, Gauss<S>, N>::advance(&mut history, system, &state, self.h);
             self.is_sound.0[lane] = step.is_ok();
             self.is_new.0[lane] = false;
-            self.has_contracted.0[lane] = !history.is_by_newton();
+            self.has_contracted.0[lane] = history.solver() == Solver::FixedPoint;
             if let Some(slack) = history.slack() {
                 self.write_slack(lane, slack);
             }

@@ -9,7 +9,7 @@
 use nalgebra::SVector;
 
 use super::linearised::{Factored, Local, StageVector, locals, non_finite};
-use super::problem::{Problem, Solution, in_units_of};
+use super::problem::{Problem, Solution, Solver, in_units_of};
 use super::rounding::{at_rounding, is_decided, worst};
 use crate::numbers::{
     LaneVector, Scalar,
@@ -172,7 +172,7 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
                             v: at.v,
                             rate: at.rate,
                             report: report(residual, floor, damped),
-                            contracted: false,
+                            solver: Solver::Newton,
                         });
                     }
                 }
@@ -212,7 +212,7 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
                 v: next.v,
                 rate: next.rate,
                 report: report(residual, floor, damped),
-                contracted: false,
+                solver: Solver::Newton,
             });
         }
         last = next;

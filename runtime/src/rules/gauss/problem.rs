@@ -56,12 +56,12 @@ pub(super) const fn width(stages: usize) -> usize {
 
 /// Calls a function of S stages with their [`width`] for its last parameter.
 macro_rules! in_width {
-    ($function:ident::<$scalar:ident, $system:ident, $n:ident, $s:ident>($($argument:expr),*)) => {
+    ($function:ident::<$($type:ty),+; $n:ident, $s:ident>($($argument:expr),*)) => {
         match $crate::rules::gauss::problem::width($s) {
-            4 => $function::<$scalar, $system, $n, $s, 4>($($argument),*),
-            6 => $function::<$scalar, $system, $n, $s, 6>($($argument),*),
-            8 => $function::<$scalar, $system, $n, $s, 8>($($argument),*),
-            _ => $function::<$scalar, $system, $n, $s, $s>($($argument),*),
+            4 => $function::<$($type),+, $n, $s, 4>($($argument),*),
+            6 => $function::<$($type),+, $n, $s, 6>($($argument),*),
+            8 => $function::<$($type),+, $n, $s, 8>($($argument),*),
+            _ => $function::<$($type),+, $n, $s, $s>($($argument),*),
         }
     };
 }
@@ -85,7 +85,7 @@ impl<const S: usize, const W: usize> InLanes<S, W> {
 }
 
 /// The last lane stands for those beyond.
-const fn widened<const S: usize, const W: usize>(lanes: &[f64; S]) -> [f64; W] {
+pub(super) const fn widened<const S: usize, const W: usize>(lanes: &[f64; S]) -> [f64; W] {
     let mut wide = [0.0; W];
     let mut i = 0;
     while i < W {
@@ -117,6 +117,17 @@ pub(super) fn steps<T: Scalar, const S: usize>(h: T) -> [T; S] {
     steps
 }
 
+/// What has solved the stages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Solver {
+    /// The fixed point, which contracted.
+    FixedPoint,
+    /// Simplified Newton's method.
+    Simplified,
+    /// Newton's method.
+    Newton,
+}
+
 /// The stages of a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Solution<T, const N: usize, const S: usize> {
@@ -125,8 +136,7 @@ pub(super) struct Solution<T, const N: usize, const S: usize> {
     /// G_i.
     pub(super) rate: LaneVector<T, N, S>,
     pub(super) report: Report<T>,
-    /// Whether the fixed point contracted.
-    pub(super) contracted: bool,
+    pub(super) solver: Solver,
 }
 
 impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize> Problem<'a, L, N, S> {

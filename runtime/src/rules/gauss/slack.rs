@@ -11,7 +11,7 @@
 //! and both stay below the slack, δp1 weighed by w = max |Δq|/max |Δp| over the steps so far. Lanes of many
 //! members take the same decisions: they are functions of numbers alone.
 
-use super::problem::{Problem, Solution, in_width};
+use super::problem::{Problem, Solution, Solver, in_width};
 use crate::numbers::{
     Blank, LaneVector, Lanes, Scalar,
     lanes::{narrowed, widened},
@@ -148,7 +148,7 @@ pub(super) fn sweep<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
     guess: &LaneVector<T, N, S>,
     allowance: &Allowance<T>,
 ) -> Swept<T, N, S> {
-    in_width!(sweep_in::<T, L, N, S>(problem, guess, allowance))
+    in_width!(sweep_in::<T, L; N, S>(problem, guess, allowance))
 }
 
 #[inline]
@@ -182,7 +182,7 @@ where
                 let floor = allowance.residual;
                 let report = Report { iterations, damped: 0, residual: left, floor, last_correction };
                 let (v, rate) = (narrowed(v), narrowed(stages.rate));
-                return Swept::Within(Solution { v, rate, report, contracted: true });
+                return Swept::Within(Solution { v, rate, report, solver: Solver::FixedPoint });
             }
             if !share.is_finite() {
                 return Swept::Slow(narrowed(v), iterations);
