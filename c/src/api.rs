@@ -149,6 +149,11 @@ macro_rules! c_api {
                 type Kind = $kind;
                 type View<$life> = $view;
 
+                fn given(input: &[CScalar], time: CScalar) -> Option<Self::Given> {
+                    let _ = (input, time);
+                    Some(($(<[CScalar; $inputs]>::try_from(input).ok()?,)? $({ let $t: $time = time; $t },)?))
+                }
+
                 fn view($of: &$system, ($($u,)? $($t,)?): Self::Given) -> Self::View<'_> {
                     $call
                 }
@@ -161,6 +166,14 @@ macro_rules! c_api {
                         $(by_input: machine::rows_by(&taken.by_input::<$inputs>()?),)?
                         $(by_parameters: machine::rows_by(&taken.by_parameters::<$parameters>()?),)?
                     })
+                }
+
+                fn rows(linearized: &CLinearized) -> [&[CScalar]; 3] {
+                    [
+                        linearized.by_state.as_flattened(),
+                        [$(<[[CScalar; $inputs]]>::as_flattened(&linearized.by_input),)? &[]][0],
+                        [$(<[[CScalar; $parameters]]>::as_flattened(&linearized.by_parameters),)? &[]][0],
+                    ]
                 }
             }
 

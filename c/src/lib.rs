@@ -38,11 +38,13 @@ pub mod boundary;
 mod header;
 #[doc(hidden)]
 pub mod machine;
+mod number;
 mod parameters;
 mod report;
 mod status;
 
 pub use header::Header;
+pub use number::{Entries, Number};
 pub use parameters::{CParameters, CType, Field, layout};
 pub use report::CReport;
 pub use status::{Status, text};

@@ -41,11 +41,14 @@ pub trait Interface<const N: usize>: Sized + 'static {
     /// The derivatives of a step, as C reads them.
     type Linearized: Plain;
     /// What a run keeps.
-    type RunMemory: for<'a> Memory<Self::View<'a>, Self::Rule, N> + 'static;
+    type RunMemory: for<'a> Memory<Self::View<'a>, Self::Rule, N> + Clone + 'static;
     /// Views as a run names them.
     type Kind: Stepped<Self::Rule, N, Scalar = Self::Scalar, RunMemory = Self::RunMemory> + 'static;
     /// The system with its input and time.
     type View<'a>: Stepped<Self::Rule, N, Scalar = Self::Scalar, RunMemory = Self::RunMemory>;
+
+    /// What is given, of an input and a time; `None` where the input has another length.
+    fn given(input: &[Self::Scalar], time: Self::Scalar) -> Option<Self::Given>;
 
     /// The system with what is given.
     fn view(system: &Self::Parameters, given: Self::Given) -> Self::View<'_>;
@@ -57,6 +60,9 @@ pub trait Interface<const N: usize>: Sized + 'static {
     fn linearized(
         taken: &StepTaken<'_, Self::View<'_>, Self::Rule, N>,
     ) -> Result<Self::Linearized, StepError>;
+
+    /// A, B and the derivatives by parameters, one row of (q1, p1) after the other; none where there are none.
+    fn rows(linearized: &Self::Linearized) -> [&[Self::Scalar]; 3];
 }
 
 /// The parameters and the run of a system: what lies behind the signature.
@@ -65,6 +71,12 @@ pub struct Machine<I: Interface<N>, const N: usize> {
     pub system: I::Parameters,
     /// The run of its views.
     pub run: DrivenTrajectory<I::Kind, I::Rule, N>,
+}
+
+impl<I: Interface<N>, const N: usize> Clone for Machine<I, N> {
+    fn clone(&self) -> Self {
+        Self { system: self.system, run: self.run.clone() }
+    }
 }
 
 /// The parameters, none of which is NaN.

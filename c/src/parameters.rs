@@ -2,7 +2,9 @@
 
 use core::fmt;
 
+use crate::Number;
 use crate::boundary::Plain;
+use crate::number::Entries;
 
 /// A type that a field may have in both languages.
 #[diagnostic::on_unimplemented(
@@ -10,7 +12,7 @@ use crate::boundary::Plain;
     label = "no field of C's",
     note = "a field is a number, `f64`, `f32`, `i8` … `i64`, `u8` … `u64`, or an array of them, of one or two dimensions"
 )]
-pub trait CType: Plain {
+pub trait CType: Plain + Entries {
     /// What stands before the name of a field in C.
     const BASE: &'static str;
     /// What stands behind it: `[2][3]`, or nothing.
@@ -93,6 +95,12 @@ pub trait CParameters: Plain {
 
     /// Whether a field is NaN, or has a NaN in it.
     fn has_nan(&self) -> bool;
+
+    /// Number `index` of field `field`, arrays row by row.
+    fn entry(&self, field: usize, index: usize) -> Option<Number>;
+
+    /// Changes number `index` of field `field`; whether there is one of this type.
+    fn change_entry(&mut self, field: usize, index: usize, value: Number) -> bool;
 }
 
 /// Declares the struct of a system whose fields C is to fill in, and lays it out as C does.
@@ -140,6 +148,16 @@ macro_rules! parameters {
 
             fn has_nan(&self) -> bool {
                 false $(|| $crate::CType::has_nan(&self.$field))*
+            }
+
+            fn entry(&self, field: usize, index: usize) -> Option<$crate::Number> {
+                let fields: &[&dyn $crate::Entries] = &[$(&self.$field),*];
+                fields.get(field)?.entry(index)
+            }
+
+            fn change_entry(&mut self, field: usize, index: usize, value: $crate::Number) -> bool {
+                let fields: &mut [&mut dyn $crate::Entries] = &mut [$(&mut self.$field),*];
+                fields.get_mut(field).is_some_and(|field| field.change_entry(index, value))
             }
         }
     };

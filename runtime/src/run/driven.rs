@@ -79,6 +79,17 @@ where
     course: Course,
 }
 
+/// The copy goes on as the run itself would, bit by bit.
+impl<V, M, const N: usize> Clone for DrivenTrajectory<V, M, N>
+where
+    V: Flow<M, N>,
+    V::RunMemory: Clone,
+{
+    fn clone(&self) -> Self {
+        Self { method: PhantomData, at: self.at, memory: self.memory.clone(), course: self.course }
+    }
+}
+
 impl<V, M, const N: usize> DrivenTrajectory<V, M, N>
 where
     V: Flow<M, N>,

@@ -1,0 +1,52 @@
+//! A cart with a pole, as a functional mock-up unit.
+
+use dalembert::{Midpoint, rayleigh_system};
+
+dalembert_fmu::parameters! {
+    /// A rod hinged to a cart on a rail; q is (position in m, angle from upright in rad), u the force on the cart in N.
+    pub struct CartPole {
+        /// Mass of the cart.
+        /// Unit: kg
+        pub cart: f64,
+        /// Mass of the rod.
+        /// Unit: kg
+        pub rod: f64,
+        /// Half the length of the rod.
+        /// Unit: m
+        pub half_length: f64,
+        /// Friction of the rail and of the hinge.
+        /// Unit: N.s/m, N.m.s
+        pub friction: [f64; 2],
+    }
+}
+
+#[rayleigh_system(parameters = [cart, rod])]
+impl CartPole {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let (sine, cosine) = q[1].sin_cos();
+        let spin = self.half_length * v[1];
+        let (x, y) = (v[0] + cosine * spin, -sine * spin);
+        let kinetic = 0.5 * self.cart * v[0] * v[0] + self.rod * (0.5 * (x * x + y * y) + spin * spin / 6.0);
+        kinetic - self.rod * 9.81 * self.half_length * cosine
+    }
+
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        0.5 * (self.friction[0] * v[0] * v[0] + self.friction[1] * v[1] * v[1])
+    }
+
+    fn force(&self, _q: [f64; 2], _v: [f64; 2], u: [f64; 1]) -> [f64; 2] {
+        [u[0], 0.0]
+    }
+}
+
+dalembert_fmu::c_api! {
+    cart_pole: CartPole, coordinates: 2, rule: Midpoint, driven: DrivenCartPole, inputs: 1, parameters: 2
+}
+
+dalembert_fmu::fmu! {
+    cart_pole,
+    step_size: 0.01,
+    parameters: CartPole { cart: 1.0, rod: 0.1, half_length: 0.25, friction: [0.1, 0.002] },
+    q: [0.0, 0.1],
+    v: [0.0, 0.0],
+}

@@ -1,0 +1,61 @@
+//! A unit, as `fmu!` states it.
+
+use dalembert_c::Header;
+use dalembert_c::machine::Interface;
+
+/// A system with its step size and start, as a unit.
+///
+/// [`fmu!`](crate::fmu) makes it.
+pub struct Unit<I: Interface<N>, const N: usize> {
+    pub(crate) header: Header,
+    pub(crate) library: &'static str,
+    pub(crate) step_size: I::Scalar,
+    pub(crate) parameters: I::Parameters,
+    /// (q, v).
+    pub(crate) start: [[I::Scalar; N]; 2],
+}
+
+/// The names that are not left for fields.
+const TAKEN: [&str; 7] = ["time", "step_size", "u", "q", "v", "p", "energy"];
+
+impl<I: Interface<N>, const N: usize> Unit<I, N> {
+    /// The unit of a system in the library of this name. It does not compile where a field has the name of another
+    /// variable.
+    #[doc(hidden)]
+    pub const fn new(
+        header: Header,
+        library: &'static str,
+        step_size: I::Scalar,
+        parameters: I::Parameters,
+        start: [[I::Scalar; N]; 2],
+    ) -> Self {
+        let mut i = 0;
+        while i < header.fields.len() {
+            let mut j = 0;
+            while j < TAKEN.len() {
+                assert!(
+                    !equal(header.fields[i].name, TAKEN[j]),
+                    "a field has the name of another variable of the unit: time, step_size, u, q, v, p, energy"
+                );
+                j += 1;
+            }
+            i += 1;
+        }
+        Self { header, library, step_size, parameters, start }
+    }
+
+    /// What an importer shows to be of the unit that it has read the description of.
+    #[must_use]
+    pub fn token(&self) -> String {
+        format!("dalembert-{}-{:016x}", env!("CARGO_PKG_VERSION"), self.header.layout)
+    }
+}
+
+const fn equal(one: &str, other: &str) -> bool {
+    let (one, other) = (one.as_bytes(), other.as_bytes());
+    let mut i = 0;
+    while i < one.len() && i < other.len() && one[i] == other[i] {
+        i += 1;
+    }
+    i == one.len() && i == other.len()
+}

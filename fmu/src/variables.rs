@@ -1,0 +1,151 @@
+//! The variables of a unit; a value reference is a place among them.
+
+use dalembert::system::Scalar;
+use dalembert_c::machine::Interface;
+use dalembert_c::{CParameters, Field, Number};
+
+use crate::Unit;
+
+/// What a variable is a number of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    Time,
+    StepSize,
+    /// Number `index` of field `field`.
+    Parameter {
+        field: usize,
+        index: usize,
+    },
+    Input(usize),
+    Configuration(usize),
+    Velocity(usize),
+    Momentum(usize),
+    Energy,
+}
+
+/// What the importer may do with a variable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    Independent,
+    /// Set until initialization is left.
+    Fixed,
+    /// Set at any time.
+    Tunable,
+    Input,
+    /// An output with a start value, set until initialization is left.
+    Exact,
+    /// An output that follows from others.
+    Calculated,
+}
+
+/// One variable.
+#[derive(Clone, Debug)]
+pub struct Variable {
+    pub name: String,
+    pub description: String,
+    pub unit: Option<String>,
+    pub place: Place,
+    pub role: Role,
+    /// A number of its type: the start, where it has one.
+    pub start: Number,
+}
+
+impl Variable {
+    fn new(name: impl Into<String>, description: &str, place: Place, role: Role, start: Number) -> Self {
+        Self { name: name.into(), description: description.into(), unit: None, place, role, start }
+    }
+
+    pub const fn is_output(&self) -> bool {
+        matches!(self.role, Role::Exact | Role::Calculated)
+    }
+}
+
+/// Its type as FMI names it.
+pub const fn type_name(number: Number) -> &'static str {
+    match number {
+        Number::F64(_) => "Float64",
+        Number::F32(_) => "Float32",
+        Number::I8(_) => "Int8",
+        Number::I16(_) => "Int16",
+        Number::I32(_) => "Int32",
+        Number::I64(_) => "Int64",
+        Number::U8(_) => "UInt8",
+        Number::U16(_) => "UInt16",
+        Number::U32(_) => "UInt32",
+        Number::U64(_) => "UInt64",
+    }
+}
+
+/// A number of the system's scalar type.
+pub fn number<S: Scalar>(value: S) -> Number {
+    // One of the two, so that f32 loses nothing on the way.
+    let wide = value.widen();
+    if size_of::<S>() == size_of::<f32>() { Number::F32(wide as f32) } else { Number::F64(wide) }
+}
+
+/// All variables of a unit, in the order of their value references.
+pub fn of<I: Interface<N>, const N: usize>(unit: &Unit<I, N>) -> Vec<Variable> {
+    let zero = number(I::Scalar::constant(0.0));
+    let mut all = vec![
+        Variable::new("time", "Time", Place::Time, Role::Independent, Number::F64(0.0)),
+        step_size(unit),
+    ];
+    for (index, field) in I::Parameters::FIELDS.iter().enumerate() {
+        all.extend(parameters(unit, index, field));
+    }
+    for i in 0..unit.header.inputs {
+        let held = "Input, held over a communication step";
+        all.push(Variable::new(format!("u[{i}]"), held, Place::Input(i), Role::Input, zero));
+    }
+    let [q, v] = unit.start;
+    for (i, &start) in q.iter().enumerate() {
+        let (place, start) = (Place::Configuration(i), number(start));
+        all.push(Variable::new(format!("q[{i}]"), "Configuration", place, Role::Exact, start));
+    }
+    for (i, &start) in v.iter().enumerate() {
+        let (place, start) = (Place::Velocity(i), number(start));
+        all.push(Variable::new(format!("v[{i}]"), "Velocity", place, Role::Exact, start));
+    }
+    for i in 0..N {
+        all.push(Variable::new(format!("p[{i}]"), "Momentum", Place::Momentum(i), Role::Calculated, zero));
+    }
+    all.push(Variable::new("energy", "Energy", Place::Energy, Role::Calculated, zero));
+    all
+}
+
+fn step_size<I: Interface<N>, const N: usize>(unit: &Unit<I, N>) -> Variable {
+    let description = format!(
+        "Step size of the rule {}: the communication step has to be a multiple",
+        unit.header.rule.replace(' ', "")
+    );
+    Variable::new("step_size", &description, Place::StepSize, Role::Fixed, number(unit.step_size))
+}
+
+/// The numbers of a field: `mass`, or `friction[0]`, `friction[1]`, or `weights[0,0]` ….
+fn parameters<'a, I: Interface<N>, const N: usize>(
+    unit: &'a Unit<I, N>,
+    field: usize,
+    of: &'static Field,
+) -> impl Iterator<Item = Variable> + 'a {
+    let says_unit = |line: &&&str| line.trim().starts_with("Unit:");
+    let lines = of.documentation.iter();
+    let text: Vec<_> = lines.clone().filter(|line| !says_unit(line)).map(|line| line.trim()).collect();
+    let units: Vec<_> = lines
+        .filter(says_unit)
+        .flat_map(|line| line.trim().trim_start_matches("Unit:").split(','))
+        .map(|unit| unit.trim().to_owned())
+        .collect();
+    let entry = move |index| unit.parameters.entry(field, index);
+    (0..).map_while(move |index| entry(index).map(|start| (index, start))).map(move |(index, start)| {
+        let name = match *of.dimensions {
+            [_, columns] => format!("{}[{},{}]", of.name, index / columns, index % columns),
+            [_] => format!("{}[{index}]", of.name),
+            _ => of.name.to_owned(),
+        };
+        let place = Place::Parameter { field, index };
+        let mut variable = Variable::new(name, text.join(" ").trim(), place, Role::Tunable, start);
+        // One unit for all numbers of an array, or one each.
+        variable.unit = units.get(index).or(units.last()).cloned();
+        variable
+    })
+}
