@@ -44,7 +44,7 @@ mod report;
 mod status;
 
 pub use header::Header;
-pub use number::{Entries, Number};
+pub use number::Number;
 pub use parameters::{CParameters, CType, Field, layout};
 pub use report::CReport;
 pub use status::{Status, text};

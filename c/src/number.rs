@@ -16,15 +16,6 @@ pub enum Number {
     U64(u64),
 }
 
-/// A number, or an array of them, seen as its numbers in order, row by row.
-pub trait Entries {
-    /// Number `index`.
-    fn entry(&self, index: usize) -> Option<Number>;
-
-    /// Changes number `index`; whether there is one, of the type of `value`.
-    fn change_entry(&mut self, index: usize, value: Number) -> bool;
-}
-
 macro_rules! numbers {
     ($($number:ident $variant:ident)*) => { $(
         impl From<$number> for Number {
@@ -39,40 +30,6 @@ macro_rules! numbers {
 
             fn try_from(value: Number) -> Result<Self, Number> {
                 if let Number::$variant(value) = value { Ok(value) } else { Err(value) }
-            }
-        }
-
-        impl Entries for $number {
-            fn entry(&self, index: usize) -> Option<Number> {
-                (index == 0).then_some(Number::$variant(*self))
-            }
-
-            fn change_entry(&mut self, index: usize, value: Number) -> bool {
-                let Number::$variant(value) = value else { return false };
-                if index == 0 {
-                    *self = value;
-                }
-                index == 0
-            }
-        }
-
-        impl<const K: usize> Entries for [$number; K] {
-            fn entry(&self, index: usize) -> Option<Number> {
-                self.get(index)?.entry(0)
-            }
-
-            fn change_entry(&mut self, index: usize, value: Number) -> bool {
-                self.get_mut(index).is_some_and(|number| number.change_entry(0, value))
-            }
-        }
-
-        impl<const J: usize, const K: usize> Entries for [[$number; K]; J] {
-            fn entry(&self, index: usize) -> Option<Number> {
-                self.as_flattened().get(index)?.entry(0)
-            }
-
-            fn change_entry(&mut self, index: usize, value: Number) -> bool {
-                self.as_flattened_mut().get_mut(index).is_some_and(|number| number.change_entry(0, value))
             }
         }
     )* };

@@ -4,7 +4,6 @@ use core::fmt;
 
 use crate::Number;
 use crate::boundary::Plain;
-use crate::number::Entries;
 
 /// A type that a field may have in both languages.
 #[diagnostic::on_unimplemented(
@@ -12,7 +11,7 @@ use crate::number::Entries;
     label = "no field of C's",
     note = "a field is a number, `f64`, `f32`, `i8` … `i64`, `u8` … `u64`, or an array of them, of one or two dimensions"
 )]
-pub trait CType: Plain + Entries {
+pub trait CType: Plain {
     /// What stands before the name of a field in C.
     const BASE: &'static str;
     /// What stands behind it: `[2][3]`, or nothing.
@@ -20,6 +19,12 @@ pub trait CType: Plain + Entries {
 
     /// Whether it is NaN, or has a NaN in it.
     fn has_nan(&self) -> bool;
+
+    /// Its number `index`, row by row.
+    fn entry(&self, index: usize) -> Option<Number>;
+
+    /// Changes number `index`; whether there is one, of the type of `value`.
+    fn change_entry(&mut self, index: usize, value: Number) -> bool;
 }
 
 macro_rules! numbers {
@@ -32,6 +37,18 @@ macro_rules! numbers {
                 let $value = *self;
                 $nan
             }
+
+            fn entry(&self, index: usize) -> Option<Number> {
+                (index == 0).then_some((*self).into())
+            }
+
+            fn change_entry(&mut self, index: usize, value: Number) -> bool {
+                match (index, value.try_into()) {
+                    (0, Ok(value)) => *self = value,
+                    _ => return false,
+                }
+                true
+            }
         }
 
         impl<const K: usize> CType for [$number; K] {
@@ -41,6 +58,14 @@ macro_rules! numbers {
             fn has_nan(&self) -> bool {
                 self.iter().any(CType::has_nan)
             }
+
+            fn entry(&self, index: usize) -> Option<Number> {
+                self.get(index)?.entry(0)
+            }
+
+            fn change_entry(&mut self, index: usize, value: Number) -> bool {
+                self.get_mut(index).is_some_and(|number| number.change_entry(0, value))
+            }
         }
 
         impl<const J: usize, const K: usize> CType for [[$number; K]; J] {
@@ -49,6 +74,14 @@ macro_rules! numbers {
 
             fn has_nan(&self) -> bool {
                 self.iter().any(CType::has_nan)
+            }
+
+            fn entry(&self, index: usize) -> Option<Number> {
+                self.as_flattened().get(index)?.entry(0)
+            }
+
+            fn change_entry(&mut self, index: usize, value: Number) -> bool {
+                self.as_flattened_mut().get_mut(index).is_some_and(|number| number.change_entry(0, value))
             }
         }
     )* };
@@ -147,17 +180,17 @@ macro_rules! parameters {
             }),*];
 
             fn has_nan(&self) -> bool {
-                false $(|| $crate::CType::has_nan(&self.$field))*
+                false $(|| <$kind as $crate::CType>::has_nan(&self.$field))*
             }
 
             fn entry(&self, field: usize, index: usize) -> Option<$crate::Number> {
-                let fields: &[&dyn $crate::Entries] = &[$(&self.$field),*];
-                fields.get(field)?.entry(index)
+                let name = Self::FIELDS.get(field)?.name;
+                None $(.or_else(|| if name == stringify!($field) { <$kind as $crate::CType>::entry(&self.$field, index) } else { None }))*
             }
 
             fn change_entry(&mut self, field: usize, index: usize, value: $crate::Number) -> bool {
-                let fields: &mut [&mut dyn $crate::Entries] = &mut [$(&mut self.$field),*];
-                fields.get_mut(field).is_some_and(|field| field.change_entry(index, value))
+                let name = Self::FIELDS.get(field).map(|field| field.name);
+                false $(|| name == Some(stringify!($field)) && <$kind as $crate::CType>::change_entry(&mut self.$field, index, value))*
             }
         }
     };

@@ -21,7 +21,10 @@ use crate::refusal::Refusal;
 
 mod absent;
 mod functions;
+mod two;
 mod values;
+
+pub use two::{Callbacks, LogMessage2};
 
 /// How a call ended: `fmi3Status`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,19 +45,27 @@ pub enum Status {
 /// `fmi3LogMessageCallback`.
 pub type LogMessage = unsafe extern "C" fn(*mut c_void, Status, *const c_char, *const c_char);
 
+/// The callback of the importer's log.
+enum Call {
+    /// Of FMI 3.0.
+    Three(LogMessage),
+    /// Of FMI 2.0, which is told the name of the instance.
+    Two(LogMessage2, CString),
+}
+
 /// The importer's log.
 pub struct Log {
-    call: Option<LogMessage>,
+    call: Option<Call>,
     environment: *mut c_void,
     /// Of each of [`CATEGORIES`], whether it is on.
     on: [bool; 3],
 }
 
 impl Log {
-    /// A log, all of it on or off.
+    /// A log of FMI 3.0, all of it on or off.
     #[must_use]
     pub fn new(call: Option<LogMessage>, environment: *mut c_void, on: bool) -> Self {
-        Self { call, environment, on: [on; 3] }
+        Self { call: call.map(Call::Three), environment, on: [on; 3] }
     }
 
     fn say(&self, status: Status, message: &str) {
@@ -63,13 +74,21 @@ impl Log {
             Status::Fatal => 2,
             _ => 1,
         };
-        let name = CString::new(CATEGORIES[category].0);
-        // A zero byte would end the text.
-        let message = CString::new(message.replace('\0', " "));
-        if let (true, Some(call), Ok(name), Ok(message)) = (self.on[category], self.call, name, message) {
-            // SAFETY: the importer's callback, with the environment that it gave for it; both texts end with a zero
-            // byte and live until the call has returned.
-            unsafe { call(self.environment, status, name.as_ptr(), message.as_ptr()) }
+        let Some(call) = self.call.as_ref().filter(|_| self.on[category]) else { return };
+        // A zero byte would end the text; in FMI 2.0 it is a format, in which variables are named between #.
+        let message = message.replace('\0', " ");
+        let message =
+            if let Call::Two(..) = call { message.replace('%', "%%").replace('#', "##") } else { message };
+        let (Ok(name), Ok(message)) = (CString::new(CATEGORIES[category].0), CString::new(message)) else {
+            return;
+        };
+        let (name, message) = (name.as_ptr(), message.as_ptr());
+        match call {
+            // SAFETY: the importer's callback, with the environment that it gave for it; the texts end with a zero byte and
+            // live until the call has returned.
+            Call::Three(call) => unsafe { call(self.environment, status, name, message) },
+            // SAFETY: as above; the format asks for no arguments.
+            Call::Two(call, of) => unsafe { call(self.environment, of.as_ptr(), status, name, message) },
         }
     }
 }
@@ -78,6 +97,8 @@ impl Log {
 pub struct Instance {
     model: Box<dyn Model>,
     log: Log,
+    /// What FMI 2.0 says before it enters initialization mode.
+    start_time: f64,
     /// A panic has left the model in a state that nobody knows.
     dead: bool,
 }
@@ -105,13 +126,42 @@ pub unsafe fn instantiate<I: Interface<N>, const N: usize>(
         _ => {
             let made = catch_unwind(AssertUnwindSafe(|| Box::new(CoSimulation::new(unit))));
             return match made {
-                Ok(model) => Box::into_raw(Box::new(Instance { model, log, dead: false })),
+                Ok(model) => Box::into_raw(Box::new(Instance { model, log, start_time: 0.0, dead: false })),
                 Err(_) => core::ptr::null_mut(),
             };
         }
     };
     log.say(Status::Error, &refused);
     core::ptr::null_mut()
+}
+
+/// Makes an instance of FMI 2.0, or NULL, and says why.
+///
+/// # Safety
+/// The importer's promise: texts are NULL or end with a zero byte, `callbacks` is NULL or FMI's.
+pub unsafe fn instantiate_two<I: Interface<N>, const N: usize>(
+    unit: &'static Unit<I, N>,
+    name: *const c_char,
+    kind: i32,
+    token: *const c_char,
+    callbacks: *const Callbacks,
+    logging_on: bool,
+) -> *mut Instance {
+    // SAFETY: the same promise.
+    let (callbacks, own_name) = unsafe { (array(callbacks, 1, "functions"), text(name)) };
+    let callbacks = callbacks.ok().and_then(|callbacks| callbacks.first());
+    let own_name = CString::new(own_name.unwrap_or_default()).unwrap_or_default();
+    let log = Log {
+        call: callbacks.and_then(|callbacks| callbacks.log).map(|call| Call::Two(call, own_name)),
+        environment: callbacks.map_or(core::ptr::null_mut(), |callbacks| callbacks.environment),
+        on: [logging_on; 3],
+    };
+    if kind != 1 {
+        log.say(Status::Error, "the unit is for co-simulation, not for model exchange");
+        return core::ptr::null_mut();
+    }
+    // SAFETY: the same promise.
+    unsafe { instantiate(unit, name, token, false, log) }
 }
 
 /// Does `call` with the instance. What is refused, or panics, is said to its log.
@@ -130,7 +180,9 @@ unsafe fn with(instance: *mut Instance, call: impl FnOnce(&mut Instance) -> Resu
     let (status, said) = match ended {
         Ok(Ok(())) => return Status::Ok,
         Ok(Err(refusal)) => {
-            let discards = matches!(refusal, Refusal::NotAMultiple { .. });
+            // FMI 2.0 calls a communication step that was not carried out at all an error.
+            let is_two = matches!(instance.log.call, Some(Call::Two(..)));
+            let discards = matches!(refusal, Refusal::NotAMultiple { .. }) && !is_two;
             (if discards { Status::Discard } else { Status::Error }, refusal.to_string())
         }
         Err(panic) => {

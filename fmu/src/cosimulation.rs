@@ -105,15 +105,18 @@ impl<I: Interface<N>, const N: usize> CoSimulation<I, N> {
         I::given(input, I::Scalar::constant(time)).expect("as many inputs as the unit has")
     }
 
+    fn without_input(&self) -> I::Given {
+        Self::given(&vec![I::Scalar::constant(0.0); self.input.len()], self.time())
+    }
+
     /// The system without an input, now: what velocities, momenta and energy are asked of.
-    pub(crate) fn at_rest(&self) -> I::View<'_> {
-        let none = vec![I::Scalar::constant(0.0); self.input.len()];
-        I::view(&self.system, Self::given(&none, self.time()))
+    pub(crate) fn undriven(&self) -> I::View<'_> {
+        I::view(&self.system, self.without_input())
     }
 
     /// (q, p) and v.
     pub(crate) fn motion(&self) -> Result<Motion<I::Scalar, N>, Refusal> {
-        let system = self.at_rest();
+        let system = self.undriven();
         let motion = match &self.run {
             Some(run) => run.state().velocity(&system).map(|v| (*run.state(), v)),
             None => {
@@ -181,6 +184,10 @@ impl<I: Interface<N>, const N: usize> Model for CoSimulation<I, N> {
         self.start_time + self.run.as_ref().map_or(0.0, DrivenTrajectory::time)
     }
 
+    fn kinds(&self, references: &[u32]) -> Result<Vec<Number>, Refusal> {
+        references.iter().map(|&reference| self.variable(reference).map(|variable| variable.start)).collect()
+    }
+
     fn values(&self, references: &[u32]) -> Result<Vec<Number>, Refusal> {
         let mut motion = None;
         let mut values = Vec::with_capacity(references.len());
@@ -205,7 +212,7 @@ impl<I: Interface<N>, const N: usize> Model for CoSimulation<I, N> {
                         Place::Configuration(i) => state.q[i],
                         Place::Velocity(i) => v[i],
                         Place::Momentum(i) => state.p[i],
-                        _ => self.at_rest().energy(&state.q, &v),
+                        _ => self.undriven().energy(&state.q, &v),
                     })
                 }
             });
@@ -236,9 +243,7 @@ impl<I: Interface<N>, const N: usize> Model for CoSimulation<I, N> {
 
     fn exit_initialization(&mut self) -> Result<(), Refusal> {
         self.require(Mode::Initialization)?;
-        let none = vec![I::Scalar::constant(0.0); self.input.len()];
-        let given = Self::given(&none, self.start_time);
-        let run = machine::start::<I, N>(&self.system, given, self.step_size, self.start);
+        let run = machine::start::<I, N>(&self.system, self.without_input(), self.step_size, self.start);
         self.run = Some(run.map_err(|error| Refusal::Step { error, time: self.start_time })?);
         self.mode = Mode::Step;
         Ok(())

@@ -56,18 +56,18 @@ pub fn along<I: Interface<N>, const N: usize>(
     let (state, v) = of.motion()?;
     let (dq, dv, dp) = match of.mode {
         Mode::Initialization => {
-            let to_momentum = PhaseMatrix::from_velocity(&of.at_rest(), &state.q, &v);
+            let to_momentum = PhaseMatrix::from_velocity(&of.undriven(), &state.q, &v);
             (given.q, given.v, to_momentum.p_by_q * given.q + to_momentum.p_by_p * given.v)
         }
         Mode::Step => {
             let State { q: dq, p: dp } = carried(of, &given)?;
-            let to_velocity = PhaseMatrix::to_velocity(&of.at_rest(), &state.q, &v).map_err(failed)?;
+            let to_velocity = PhaseMatrix::to_velocity(&of.undriven(), &state.q, &v).map_err(failed)?;
             (dq, to_velocity.p_by_q * dq + to_velocity.p_by_p * dp, dp)
         }
         other => return Err(Refusal::NotNow(other)),
     };
     let by_energy = |State { q, .. }: &State<I::Scalar, N>| {
-        v.dot(&dp) - of.at_rest().lagrangian_gradient(q, &v).d1.dot(&dq)
+        v.dot(&dp) - of.undriven().lagrangian_gradient(q, &v).d1.dot(&dq)
     };
     let sensitivities: Vec<f64> = unknowns
         .iter()

@@ -1,4 +1,4 @@
-//! modelDescription.xml.
+//! modelDescription.xml of FMI 3.0, and what it shares with that of FMI 2.0.
 
 use std::io;
 
@@ -8,6 +8,10 @@ use quick_xml::Writer;
 
 use crate::Unit;
 use crate::variables::{self, Role, Variable, type_name};
+
+mod two;
+
+const TOOL: &str = concat!("dalembert ", env!("CARGO_PKG_VERSION"));
 
 /// What the log is divided into.
 pub const CATEGORIES: [(&str, &str); 3] = [
@@ -22,24 +26,31 @@ impl<I: Interface<N>, const N: usize> Unit<I, N> {
     pub fn description(&self) -> String {
         let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
         write(self, &mut writer).expect("memory takes all that is written");
-        let text = String::from_utf8(writer.into_inner()).expect("written from text");
-        format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{text}\n")
+        finished(writer)
     }
 }
 
 type To = Writer<Vec<u8>>;
 
+fn finished(writer: To) -> String {
+    let text = String::from_utf8(writer.into_inner()).expect("written from text");
+    format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{text}\n")
+}
+
+fn documentation<I: Interface<N>, const N: usize>(unit: &Unit<I, N>) -> String {
+    let lines: Vec<_> = unit.header.documentation.iter().map(|line| line.trim()).collect();
+    lines.join(" ").trim().to_owned()
+}
+
 fn write<I: Interface<N>, const N: usize>(unit: &Unit<I, N>, to: &mut To) -> io::Result<()> {
     let variables = variables::of(unit);
-    let lines: Vec<_> = unit.header.documentation.iter().map(|line| line.trim()).collect();
-    let (description, token) = (lines.join(" "), unit.token());
-    let tool = concat!("dalembert ", env!("CARGO_PKG_VERSION"));
+    let (description, token) = (documentation(unit), unit.token());
     let root = to.create_element("fmiModelDescription").with_attributes([
         ("fmiVersion", "3.0"),
         ("modelName", unit.header.prefix),
         ("instantiationToken", &token),
-        ("description", description.trim()),
-        ("generationTool", tool),
+        ("description", &description),
+        ("generationTool", TOOL),
         ("variableNamingConvention", "structured"),
     ]);
     root.write_inner_content(|to| {
@@ -53,16 +64,8 @@ fn write<I: Interface<N>, const N: usize>(unit: &Unit<I, N>, to: &mut To) -> io:
             ])
             .write_empty()?;
         units(&variables, to)?;
-        to.create_element("LogCategories").write_inner_content(|to| {
-            for (name, description) in CATEGORIES {
-                let category = to.create_element("Category");
-                category.with_attributes([("name", name), ("description", description)]).write_empty()?;
-            }
-            Ok(())
-        })?;
-        let step_size = text(variables::number(unit.step_size));
-        let experiment = to.create_element("DefaultExperiment");
-        experiment.with_attributes([("startTime", "0"), ("stepSize", &step_size)]).write_empty()?;
+        categories(to)?;
+        experiment(unit, to)?;
         to.create_element("ModelVariables").write_inner_content(|to| {
             variables.iter().enumerate().try_for_each(|(reference, of)| variable(reference, of, to))
         })?;
@@ -87,17 +90,39 @@ fn units(variables: &[Variable], to: &mut To) -> io::Result<()> {
     Ok(())
 }
 
-fn variable(reference: usize, of: &Variable, to: &mut To) -> io::Result<()> {
-    let reference = reference.to_string();
-    let is_real = matches!(of.start, Number::F64(_) | Number::F32(_));
-    let (causality, variability, initial) = match of.role {
+fn categories(to: &mut To) -> io::Result<()> {
+    to.create_element("LogCategories").write_inner_content(|to| {
+        CATEGORIES.iter().try_for_each(|(name, description)| {
+            let category = to.create_element("Category");
+            category.with_attributes([("name", *name), ("description", *description)]).write_empty().map(drop)
+        })
+    })?;
+    Ok(())
+}
+
+fn experiment<I: Interface<N>, const N: usize>(unit: &Unit<I, N>, to: &mut To) -> io::Result<()> {
+    let step_size = text(variables::number(unit.step_size));
+    let experiment = to.create_element("DefaultExperiment");
+    experiment.with_attributes([("startTime", "0"), ("stepSize", &step_size)]).write_empty()?;
+    Ok(())
+}
+
+/// Causality, variability and what is known of the start.
+fn roles(role: Role) -> (&'static str, &'static str, Option<&'static str>) {
+    match role {
         Role::Independent => ("independent", "continuous", None),
         Role::Fixed => ("parameter", "fixed", Some("exact")),
         Role::Tunable => ("parameter", "tunable", Some("exact")),
         Role::Input => ("input", "continuous", None),
         Role::Exact => ("output", "continuous", Some("exact")),
         Role::Calculated => ("output", "continuous", Some("calculated")),
-    };
+    }
+}
+
+fn variable(reference: usize, of: &Variable, to: &mut To) -> io::Result<()> {
+    let reference = reference.to_string();
+    let is_real = matches!(of.start, Number::F64(_) | Number::F32(_));
+    let (causality, variability, initial) = roles(of.role);
     let mut element = to.create_element(type_name(of.start)).with_attributes([
         ("name", of.name.as_str()),
         ("valueReference", &reference),

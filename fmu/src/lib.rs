@@ -1,8 +1,8 @@
-//! A system as a functional mock-up unit: FMI 3.0, co-simulation.
+//! A system as a functional mock-up unit: FMI 3.0 and 2.0, co-simulation.
 //!
 //! In a crate of its own, `crate-type = ["cdylib", "rlib"]`, [`parameters!`] declares the struct of the system's fields,
 //! [`c_api!`] names the system and its rule, and [`fmu!`] its step size and start. `UNIT.pack("cart_pole.fmu")` writes
-//! the unit; `examples/fmu/` is the template.
+//! the unit; `examples/fmu/` is the template. `UNIT.pack_fmi2` writes one of FMI 2.0.
 //!
 //! | variable | what it is |
 //! |---|---|
@@ -24,7 +24,7 @@
 //!
 //! A call that fails changes nothing and says why to the importer's log. A communication step that is no multiple of h is
 //! `fmi3Discard`; a step that cannot be solved is `fmi3Error` with the text of its [`StepError`](dalembert::StepError),
-//! and leaves the unit where the communication step began. A panic in L, R or f is `fmi3Fatal`.
+//! and leaves the unit where the communication step began. In FMI 2.0 both are `fmi2Error`. A panic in L, R or f is `fmi3Fatal`.
 
 #[doc(hidden)]
 pub use dalembert;
@@ -44,7 +44,7 @@ mod variables;
 
 pub use unit::Unit;
 
-/// Writes the functions of FMI 3.0 for a system that [`c_api!`] has named, and `UNIT`, which packs it.
+/// Writes the functions of FMI for a system that [`c_api!`] has named, and `UNIT`, which packs it.
 ///
 /// ```
 /// use dalembert::{Midpoint, rayleigh_system};
@@ -86,7 +86,27 @@ pub use unit::Unit;
 /// ```
 ///
 /// The entries are the module that [`c_api!`] has made, h, the parameters, and the start, each until the importer sets another. A
-/// library holds one unit: FMI names its functions alike in all.
+/// library holds one unit: FMI names its functions alike in all. A field that has the name of another variable of the unit is refused:
+///
+/// ```compile_fail,E0080
+/// # use dalembert::{Midpoint, rayleigh_system};
+/// dalembert_fmu::parameters! {
+///     /// A cart on a rail.
+///     pub struct Cart {
+///         /// Mass.
+///         pub energy: f64,
+///     }
+/// }
+/// # #[rayleigh_system]
+/// # impl Cart {
+/// #     fn lagrangian(&self, _q: [f64; 1], v: [f64; 1]) -> f64 {
+/// #         0.5 * self.energy * v[0] * v[0]
+/// #     }
+/// # }
+/// # dalembert_fmu::c_api! { cart: Cart, coordinates: 1, rule: Midpoint }
+/// dalembert_fmu::fmu! { cart, step_size: 0.01, parameters: Cart { energy: 2.0 }, q: [0.0], v: [1.0] }
+/// # fn main() {}
+/// ```
 #[macro_export]
 macro_rules! fmu {
     ($system:ident, step_size: $h:expr, parameters: $parameters:expr, q: $q:expr, v: $v:expr $(,)?) => {
@@ -118,6 +138,34 @@ macro_rules! fmu {
             // SAFETY: the importer's promise.
             unsafe {
                 $crate::boundary::instantiate(&UNIT, instance_name, instantiation_token, event_mode_used, log)
+            }
+        }
+
+        #[allow(unsafe_code, non_snake_case)]
+        #[unsafe(no_mangle)]
+        #[doc = "Begins an instance of the unit, by FMI 2.0."]
+        ///
+        /// # Safety
+        /// Texts are NULL or ended by a zero byte; the callbacks are those of FMI.
+        pub unsafe extern "C" fn fmi2Instantiate(
+            instance_name: *const ::core::ffi::c_char,
+            kind: i32,
+            guid: *const ::core::ffi::c_char,
+            _resource_location: *const ::core::ffi::c_char,
+            callbacks: *const $crate::boundary::Callbacks,
+            _visible: i32,
+            logging_on: i32,
+        ) -> *mut $crate::boundary::Instance {
+            // SAFETY: the importer's promise.
+            unsafe {
+                $crate::boundary::instantiate_two(
+                    &UNIT,
+                    instance_name,
+                    kind,
+                    guid,
+                    callbacks,
+                    logging_on != 0,
+                )
             }
         }
     };

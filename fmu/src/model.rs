@@ -8,6 +8,8 @@ use crate::refusal::Refusal;
 pub trait Model {
     /// The time.
     fn time(&self) -> f64;
+    /// A number of the type of each of these variables.
+    fn kinds(&self, references: &[u32]) -> Result<Vec<Number>, Refusal>;
     /// The values of these variables.
     fn values(&self, references: &[u32]) -> Result<Vec<Number>, Refusal>;
     /// Sets variables.

@@ -1,7 +1,7 @@
 //! The .fmu file: a zip archive of the description and the library.
 
 use std::env::consts::{ARCH, DLL_PREFIX, DLL_SUFFIX, OS};
-use std::io::{self, Cursor, Write};
+use std::io::{self, Cursor, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
@@ -17,25 +17,35 @@ impl<I: Interface<N>, const N: usize> Unit<I, N> {
     /// # Errors
     /// Where the library is not there, or `file` cannot be written; the message names either.
     pub fn pack(&self, file: impl AsRef<Path>) -> io::Result<()> {
-        self.pack_library(&self.library_beside_the_program()?, file)
+        let system = if OS == "macos" { "darwin" } else { OS };
+        self.write(file.as_ref(), &self.description(), &format!("{ARCH}-{system}"))
     }
 
-    /// Writes the unit to `file`, with the library `library` of this machine's kind.
+    /// As [`pack`](Self::pack), a unit of FMI 2.0.
     ///
     /// # Errors
-    /// Where the library cannot be read or `file` cannot be written; the message names either.
-    pub fn pack_library(&self, library: &Path, file: impl AsRef<Path>) -> io::Result<()> {
-        let binary = fs::read(library).map_err(|error| named(&error, library))?;
-        let system = if OS == "macos" { "darwin" } else { OS };
-        let place = format!("binaries/{ARCH}-{system}/{}{DLL_SUFFIX}", self.header.prefix);
+    /// Those of [`pack`](Self::pack), and where FMI 2.0 has no type for a field or no name for this machine.
+    pub fn pack_fmi2(&self, file: impl AsRef<Path>) -> io::Result<()> {
+        let machine = match (ARCH, OS) {
+            ("x86_64", "linux") => "linux64",
+            ("x86_64", "windows") => "win64",
+            ("x86_64", "macos") => "darwin64",
+            _ => return Err(io::Error::new(ErrorKind::Unsupported, "FMI 2.0 has no name for this machine")),
+        };
+        self.write(file.as_ref(), &self.description_fmi2()?, machine)
+    }
+
+    fn write(&self, file: &Path, description: &str, machine: &str) -> io::Result<()> {
+        let library = self.library_beside_the_program()?;
+        let binary = fs::read(&library).map_err(|error| named(&error, &library))?;
+        let place = format!("binaries/{machine}/{}{DLL_SUFFIX}", self.header.prefix);
         let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
         // The same bytes from the same library: no time of day.
         let options = SimpleFileOptions::default();
-        for (name, bytes) in [("modelDescription.xml", self.description().as_bytes()), (&*place, &*binary)] {
+        for (name, bytes) in [("modelDescription.xml", description.as_bytes()), (&*place, &*binary)] {
             archive.start_file(name, options)?;
             archive.write_all(bytes)?;
         }
-        let file = file.as_ref();
         fs::write(file, archive.finish()?.into_inner()).map_err(|error| named(&error, file))
     }
 

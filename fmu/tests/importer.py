@@ -1,6 +1,6 @@
 """Holds the template's unit against what an importer of others makes of it: FMPy reads, validates and simulates it.
 
-    importer.py cart_pole.fmu reference.txt
+    importer.py cart_pole.fmu cart_pole_fmi2.fmu reference.txt
 
 Every check has a control: the same check of something that is wrong, which has to fail.
 """
@@ -17,9 +17,10 @@ import fmpy
 import numpy as np
 from fmpy.fmi3 import FMU3Slave, fmi3Discard, fmi3Error, fmi3LogMessageCallback, fmi3OK
 from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 from fmpy.validation import validate_fmu
 
-unit, reference = Path(sys.argv[1]), Path(sys.argv[2])
+unit, unit_of_two, reference = map(Path, sys.argv[1:4])
 passed = 0
 
 
@@ -356,6 +357,73 @@ check(raw("fmi3ExitInitializationMode", pointer(None)) == fmi3Error, "no instanc
 library.fmi3FreeInstance(pointer(None))
 check(raw("fmi3DoStep", live, ctypes.c_double(9.0), ctypes.c_double(0.01), ctypes.c_bool(True), *[pointer(None)] * 4) == fmi3Error, "answers may be NULL")
 
+# --- FMI 2.0: the same instances by other functions ----------------------------------------------------------------------
+
+in_two = fmpy.read_model_description(unit_of_two)
+check(validate_fmu(str(unit_of_two)) == [], f"validates: {validate_fmu(str(unit_of_two))}")
+check([variable.name for variable in in_two.modelVariables] == names, "the same variables")
+check([variable.unit for variable in in_two.modelVariables] == [of[name].unit for name in names], "the same units")
+result = fmpy.simulate_fmu(str(unit_of_two), stop_time=3.0, output=motion)
+holds(lambda: same(columns(result), runs["stated"][:, 1:]), "FMI 2.0: the run in Rust")
+fails(lambda: same(columns(result), off), "FMI 2.0: a last place is seen")
+result = fmpy.simulate_fmu(str(unit_of_two), start_values=start, input=signal, **other)
+holds(lambda: same(columns(result), runs["other"][:, 1:]), "FMI 2.0: parameters, start, step size and input arrive")
+result = fmpy.simulate_fmu(str(unit_of_two), start_values=start, **other)
+fails(lambda: same(columns(result), runs["other"][:, 1:]), "FMI 2.0: the input matters")
+
+
+def log_of_two(environment, name, status, category, message):
+    said.append((status, category.decode(), message.decode()))
+
+
+callbacks = fmi2CallbackFunctions()
+callbacks.logger = fmi2CallbackLoggerTYPE(log_of_two)
+folder_of_two = fmpy.extract(str(unit_of_two))
+
+
+def instance_of_two(token=in_two.guid):
+    made = FMU2Slave(guid=token, unzipDirectory=folder_of_two, modelIdentifier="cart_pole", instanceName="two")
+    made.instantiate(callbacks=callbacks, loggingOn=True)
+    made.setupExperiment(startTime=0.0)
+    made.enterInitializationMode()
+    for name in begin:
+        made.setReal([vr[name]], [begin[name]])
+    made.exitInitializationMode()
+    return made
+
+
+two = instance_of_two()
+two.setReal([vr["u[0]"]], [0.4])
+before = two.getFMUstate()
+two.doStep(0.0, SIZE)
+holds(lambda: same(two.getReal([vr[name] for name in ends]), end), "FMI 2.0: a communication step")
+found = two.getDirectionalDerivative([vr[name] for name in ends], [vr["u[0]"]], [1.0])
+holds(lambda: same(found, along(ends, ["u[0]"], [1.0])), "FMI 2.0: the same derivatives")
+refused(lambda: two.doStep(SIZE, 0.015), fmi3Error, "no multiple")
+refused(lambda: two.getInteger([vr["rod"]]), fmi3Error, "Float64")
+refused(lambda: two.setReal([vr["q[0]"]], [0.0]), fmi3Error, "q[0]")
+check(two.getRealStatus(2) == SIZE and not two.getBooleanStatus(3), "FMI 2.0: status")
+as_bytes = two.serializeFMUstate(before)
+two.setFMUstate(before)
+two.doStep(0.0, SIZE)
+holds(lambda: same(two.getReal([vr[name] for name in ends]), end), "FMI 2.0: a state that is set goes on bit by bit")
+two.setFMUstate(two.deSerializeFMUstate(as_bytes))
+two.doStep(0.0, SIZE)
+holds(lambda: close(two.getReal([vr[name] for name in ends]), end, 1e-14), "FMI 2.0: a state as bytes")
+said.clear()
+try:
+    instance_of_two("100% another #")
+    check(False, "FMI 2.0: another token is refused")
+except Exception:
+    check("100%% another ##" in said[0][2], f"FMI 2.0: another token is refused, in a format of its own: {said}")
+declared = Path(fmpy.__file__).parent.joinpath("c-code", "fmi2Functions.h").read_text().split("FMI2_Export")
+expected = {part.split()[1].rstrip(";") for part in declared if part.split()[:1] and part.split()[0].endswith("TYPE")}
+exchange = {"EnterEventMode", "NewDiscreteStates", "EnterContinuousTimeMode", "CompletedIntegratorStep", "SetTime"}
+exchange |= {"SetContinuousStates", "GetDerivatives", "GetEventIndicators", "GetContinuousStates", "GetNominalsOfContinuousStates"}
+expected -= {"fmi2" + name for name in exchange}
+check(len(expected) == 34, f"FMI 2.0's functions for co-simulation: {len(expected)}")
+check([name for name in sorted(expected) if not hasattr(library, name)] == [], "FMI 2.0: all of them are there")
+
 # --- speed is no claim, but a unit that leaks or locks shows here --------------------------------------------------------
 
 for _ in range(200):
@@ -366,5 +434,6 @@ for _ in range(200):
     each.freeFMUState(state)
     each.terminate()
     each.freeInstance()
-shutil.rmtree(folder, ignore_errors=True)
-print(f"unit of FMI 3.0 in FMPy {fmpy.__version__}: {passed} passed, 0 failed")
+for each in [folder, folder_of_two]:
+    shutil.rmtree(each, ignore_errors=True)
+print(f"units of FMI 3.0 and 2.0 in FMPy {fmpy.__version__}: {passed} passed, 0 failed")

@@ -1,6 +1,6 @@
-//! Packs the unit: `cargo run --release` writes cart_pole.fmu, or the file that is named.
+//! Packs the unit, of FMI 3.0 and of FMI 2.0: `cargo run --release` writes cart_pole.fmu and cart_pole_fmi2.fmu.
 
 fn main() -> std::io::Result<()> {
-    let file = std::env::args_os().nth(1).unwrap_or_else(|| "cart_pole.fmu".into());
-    cart_pole_unit::UNIT.pack(file)
+    cart_pole_unit::UNIT.pack("cart_pole.fmu")?;
+    cart_pole_unit::UNIT.pack_fmi2("cart_pole_fmi2.fmu")
 }

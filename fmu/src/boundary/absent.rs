@@ -1,4 +1,4 @@
-//! The functions of FMI 3.0 that a unit has to export and that this one has no use for: each says so.
+//! The functions of FMI that a unit has to export and that this one has no use for: each says so.
 
 #![allow(non_snake_case, clippy::missing_safety_doc, clippy::too_many_arguments)]
 
@@ -51,6 +51,12 @@ absent! {
     fmi3SetIntervalFraction(References, usize, *const u64, *const u64);
     fmi3SetShiftDecimal(References, usize, *const f64);
     fmi3SetShiftFraction(References, usize, *const u64, *const u64);
+    fmi2SetRealInputDerivatives(References, usize, *const i32, *const f64);
+    fmi2GetRealOutputDerivatives(References, usize, *const i32, *mut f64);
+    fmi2CancelStep();
+    fmi2GetStatus(i32, *mut i32);
+    fmi2GetIntegerStatus(i32, *mut i32);
+    fmi2GetStringStatus(i32, *mut *const c_char);
 }
 
 macro_rules! types {
@@ -74,6 +80,10 @@ types! {
     fmi3SetBinary "Binary" (*const usize, *const *const u8, usize);
     fmi3GetClock "Clock" (*mut bool);
     fmi3SetClock "Clock" (*const bool);
+    fmi2GetBoolean "Boolean" (*mut i32);
+    fmi2SetBoolean "Boolean" (*const i32);
+    fmi2GetString "String" (*mut *const c_char);
+    fmi2SetString "String" (*const *const c_char);
 }
 
 macro_rules! instantiate {
