@@ -86,7 +86,7 @@ fn rows<S, const N: usize, const M: usize>(
     scene: S,
     python: &Python,
     page: &mut String,
-    methods: impl for<'a> Fn(&Runs<'a, S, N>) -> Vec<Candidate<'a, Ends<N>>>,
+    methods: impl for<'a> Fn(&Runs<'a, S, N>) -> Vec<Goal<'a, N>>,
 ) -> Result<()>
 where
     S: Scene<N> + Send + Sync,
@@ -108,18 +108,9 @@ where
 
     let pool = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
     let pool = pool.or_else(|_| ThreadPoolBuilder::new().num_threads(1).build())?;
-    let mut candidates = Vec::new();
-    let counts = || (0..40).map(|k| (reference.time * 2_f64.powf(0.25 * f64::from(k))).ceil());
-    for steps in counts() {
-        candidates.extend(methods(&Runs {
-            scene,
-            starts: &starts,
-            time: reference.time,
-            steps,
-            pool: &pool,
-        }));
-    }
-    let mut candidates = worth(candidates, worst);
+    let counts = (0..40).map(|k| (reference.time * 2_f64.powf(0.25 * f64::from(k))).ceil());
+    let runs = |steps| Runs { scene, starts: &starts, time: reference.time, steps, pool: &pool };
+    let mut candidates = worth(counts.map(|steps| methods(&runs(steps))), worst);
     for tolerance in (5..16).map(|k| 10_f64.powi(-k)).chain([f64::EPSILON]) {
         let run = move |repeats| {
             let (seconds, y) = python.run::<M>(BATCH, name, tolerance, repeats, 1)?;
@@ -213,20 +204,23 @@ where
     }
 }
 
+/// A candidate, and the least error that it is there for.
+type Goal<'a, const N: usize> = (f64, Candidate<'a, Ends<N>>);
+
 /// A method in lanes, by so many steps.
 trait InLanesOf<'a, S, const N: usize> {
     /// To rounding, or to each of the errors.
-    fn candidates(self, name: &'static str, runs: &Runs<'a, S, N>) -> Vec<Candidate<'a, Ends<N>>>;
+    fn candidates(self, name: &'static str, runs: &Runs<'a, S, N>) -> Vec<Goal<'a, N>>;
 }
 
 impl<'a, S, const N: usize, const K: usize> InLanesOf<'a, S, N> for Splitting<K>
 where
     S: InLanes<Self, N> + Lagrangian<N, Scalar = f64> + Copy + Send + Sync + 'a,
 {
-    fn candidates(self, name: &'static str, runs: &Runs<'a, S, N>) -> Vec<Candidate<'a, Ends<N>>> {
+    fn candidates(self, name: &'static str, runs: &Runs<'a, S, N>) -> Vec<Goal<'a, N>> {
         let (member, h, steps) = (runs.member(), runs.time / runs.steps, runs.steps as u64);
         let study = move || Ensemble::new(&member).by(self, h).steps(steps).in_lanes().ends(0..MEMBERS);
-        vec![runs.measured(name, study)]
+        vec![(LEVELS[LEVELS.len() - 1], runs.measured(name, study))]
     }
 }
 
@@ -234,36 +228,50 @@ impl<'a, S, const N: usize, const K: usize> InLanesOf<'a, S, N> for Gauss<K>
 where
     S: InLanes<Self, N> + Lagrangian<N, Scalar = f64> + Copy + Send + Sync + 'a,
 {
-    fn candidates(self, name: &'static str, runs: &Runs<'a, S, N>) -> Vec<Candidate<'a, Ends<N>>> {
+    fn candidates(self, name: &'static str, runs: &Runs<'a, S, N>) -> Vec<Goal<'a, N>> {
         let to_error = |error| {
             let (member, h, steps) = (runs.member(), runs.time / runs.steps, runs.steps as u64);
             let study = move || {
                 let study = Ensemble::new(&member).by(self, h).steps(steps).solved_for(error);
                 study.in_lanes().ends(0..MEMBERS)
             };
-            runs.measured(name, study)
+            (error, runs.measured(name, study))
         };
         LEVELS.map(to_error).into()
     }
 }
 
-/// Of the candidates, of ever more steps, those that may be the cheapest to an error.
-fn worth<E>(candidates: Vec<Candidate<'_, E>>, worst: impl Fn(&E) -> f64) -> Vec<Candidate<'_, E>> {
-    // What takes long after all errors have been reached is not tried with more steps.
-    let (mut most, mut last) = (f64::INFINITY, HashMap::new());
-    let tried = candidates.into_iter().filter_map(|mut candidate| {
-        if last.get(candidate.method).is_some_and(|&seconds| seconds > most) {
-            return None;
+/// Of rows of candidates, each row of more steps than the one before, those that may be the cheapest to an error.
+///
+/// A place in the rows is tried until its goal has been reached twice, until more steps no longer lower its error, or
+/// until it takes thrice as long as another with this goal.
+fn worth<'a, const N: usize>(
+    rows: impl Iterator<Item = Vec<Goal<'a, N>>>,
+    worst: impl Fn(&Ends<N>) -> f64,
+) -> Vec<Candidate<'a, Ends<N>>> {
+    let (mut tried, mut errors): (Vec<_>, HashMap<usize, Vec<f64>>) = Default::default();
+    let mut ended = Vec::new();
+    for row in rows {
+        for (place, (goal, mut candidate)) in row.into_iter().enumerate() {
+            if ended.contains(&place) {
+                continue;
+            }
+            let Ok((seconds, end)) = (candidate.run)(1) else { continue };
+            let error = worst(&end);
+            tried.push((candidate, seconds, error));
+            let errors = errors.entry(place).or_default();
+            errors.push(error);
+            let reached = errors.iter().filter(|&&error| error <= goal).count();
+            // Twice the steps are four rows.
+            let before = errors.len().checked_sub(5).map(|row| errors[row]);
+            let is_stuck = before.is_some_and(|before| before < 1e-6 && error > 0.5 * before);
+            let able = tried.iter().filter(|(_, _, error)| *error <= goal);
+            let least = able.fold(f64::INFINITY, |least, (_, seconds, _)| seconds.min(least));
+            if reached > 1 || is_stuck || seconds > 3.0 * least {
+                ended.push(place);
+            }
         }
-        let (seconds, end) = (candidate.run)(1).ok()?;
-        let error = worst(&end);
-        last.insert(candidate.method, seconds);
-        if error <= LEVELS[LEVELS.len() - 1] {
-            most = most.min(2.0 * seconds);
-        }
-        Some((candidate, seconds, error))
-    });
-    let tried: Vec<_> = tried.collect();
+    }
     let least = LEVELS.map(|level| {
         let able = tried.iter().filter(|(_, _, error)| *error <= level);
         able.fold(f64::INFINITY, |least: f64, (_, seconds, _)| least.min(*seconds))

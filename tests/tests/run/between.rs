@@ -209,6 +209,39 @@ fn single_precision_is_looked_into_as_well() {
     check(Splitting::blanes_moan_6(), 0.25);
 }
 
+/// Times by another arithmetic miss the clock by their rounding, to either side: they are the grid's all the same. Nor does a
+/// sensor at the end of a period take the run, or come after it, into another period's step.
+#[test]
+fn a_time_that_rounding_takes_off_the_grid_is_on_it() {
+    let mut ahead = 0;
+    for h in [0.1, 0.007, 0.3] {
+        let grid: Vec<_> =
+            WELL.by(Midpoint, h).run(START).take(200).map(|step| step.unwrap().state).collect();
+        let mut run = WELL.by(Midpoint, h).run(START);
+        let mut in_periods = WELL.by(Midpoint, h).run(START);
+        let times: Vec<f64> = (0..200).map(|k| f64::from(k) * h + h).collect();
+        for (k, sample) in run.sample_at(times.iter().copied()).enumerate() {
+            assert_eq!(sample.unwrap().state, grid[k], "{k}");
+        }
+        for (k, &time) in times.iter().enumerate() {
+            let clock = (k + 1) as f64 * h;
+            ahead += i32::from(time > clock);
+            let sample = in_periods.sample_at([time]).next().unwrap().unwrap();
+            assert_eq!((sample.state, in_periods.time()), (grid[k], clock));
+            // As the next period's first.
+            assert_eq!(in_periods.sample_at([time.min(clock)]).next().unwrap().unwrap().state, grid[k]);
+        }
+        // Positive control: what is off by more than rounding is another time.
+        let off = in_periods.time() * (1.0 - 1e-13);
+        assert!(matches!(in_periods.sample_at([off]).next(), Some(Err(TimeError::NotSorted { .. }))));
+        assert_ne!(
+            in_periods.sample_at([200.0 * h * (1.0 + 1e-13)]).next().unwrap().unwrap().state,
+            grid[199]
+        );
+    }
+    assert!((1..600).contains(&ahead), "{ahead}");
+}
+
 /// What is no time of the run has a name, and the run is where it was.
 #[test]
 fn times_that_are_none_are_refused() {

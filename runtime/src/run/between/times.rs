@@ -40,7 +40,9 @@ where
 
 /// The states of a run at given times: [`Trajectory::sample_at`].
 ///
-/// Each is [`Dense::state_at`] that time; on the grid it is the grid's own. The run stands at the end of the
+/// Each is [`Dense::state_at`] that time; on the grid it is the grid's own, and a time that is off the run's clock by
+/// no more than a few roundings is on it: 0.1 + 0.2 neither takes another step than 0.3 nor comes too late. (A sum of
+/// a thousand periods is off by more: multiply.) The run stands at the end of the
 /// step that the last time lies in, bit by bit where it would stand without having been asked. Times follow
 /// the run, backwards where h < 0; one may be asked for twice. An error is the last item.
 pub struct SampledAt<'t, T: Divisible<N>, const N: usize, I> {
@@ -64,8 +66,10 @@ impl<'t, T: Divisible<N>, const N: usize, I> SampledAt<'t, T, N, I> {
     fn sample(&mut self, time: f64) -> Result<Option<Sample<T::Scalar, N>>, TimeError> {
         let backwards = self.dense.run.step_size() < T::Scalar::constant(0.0);
         let ahead = |time: f64, of: f64| if backwards { time < of } else { time > of };
+        let asked = time;
+        let mut time = on_clock(asked, self.dense.run.time());
         if !time.is_finite() || ahead(self.asked, time) {
-            return Err(TimeError::NotSorted { time, after: self.asked });
+            return Err(TimeError::NotSorted { time: asked, after: self.asked });
         }
         self.asked = time;
         let (mut iterations, mut damped, mut worst_residual) = (0, 0, 0.0_f64);
@@ -79,13 +83,14 @@ impl<'t, T: Divisible<N>, const N: usize, I> SampledAt<'t, T, N, I> {
             if report.residual > T::Scalar::constant(0.0) {
                 worst_residual = worst_residual.max((report.residual / report.floor).widen());
             }
+            time = on_clock(asked, self.dense.run.time());
         }
         let (state, previous) = match self.dense.start {
             Some(start) => (self.dense.state_at(time)?, start.state.q),
             // The run has not begun.
             None => (*self.dense.run.state(), self.dense.run.state().q),
         };
-        Ok(Some(Sample { time, state, previous, iterations, damped, worst_residual }))
+        Ok(Some(Sample { time: asked, state, previous, iterations, damped, worst_residual }))
     }
 }
 
@@ -105,6 +110,12 @@ where
         self.ended = !matches!(sample, Some(Ok(_)));
         sample
     }
+}
+
+/// The time, or the clock where they differ by a few roundings of either.
+fn on_clock(time: f64, clock: f64) -> f64 {
+    let rounding = 8.0 * f64::EPSILON * nalgebra::ComplexField::abs(clock);
+    if nalgebra::ComplexField::abs(time - clock) <= rounding { clock } else { time }
 }
 
 /// Why there is no state at a time.
