@@ -6,6 +6,8 @@ use dalembert::run::DrivenTrajectory;
 use dalembert::{Gauss, State, rayleigh_system};
 use dalembert_fmu::boundary::Status;
 use importer::Imported;
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
 
 dalembert_fmu::parameters! {
     /// A pendulum whose gravity swells & ebbs, with two inputs.
@@ -111,6 +113,13 @@ fn fields_of_all_shapes_are_parameters() {
     assert_eq!(unit.double(["q[0]", "p[0]"]), Ok(in_rust(&other, 5, [0.0; 2]).0));
     assert_ne!(unit.double(["q[0]", "p[0]"]), Ok(in_rust(&STATED, 5, [0.0; 2]).0), "the control");
 
+    // By FMI 2.0 the integers are of one type.
+    assert!(UNIT.description_fmi2().unwrap().contains(r#"<Integer start="-1"/>"#));
+    assert_eq!(unit.integer("turns[2]"), Ok(-3));
+    assert_eq!(unit.set_integer("choice", 256), Err(Status::Error), "no u8");
+    assert_eq!((unit.set_integer("turns[0]", -300), unit.short(["turns[0]"])), (Ok(()), Ok([-300])));
+    unit.set_integer("turns[0]", 5).unwrap();
+
     // All of it is in the state.
     let bytes = unit.through_bytes().unwrap();
     assert_eq!((unit.byte(["choice"]), unit.short(["turns[0]", "turns[2]"])), (Ok([0]), Ok([5, -3])));
@@ -131,4 +140,74 @@ fn a_panic_ends_the_instance_and_nothing_else() {
     assert_eq!(unit.double(["q[0]"]), Err(Status::Fatal));
     other.step(2.52, 0.02).unwrap();
     assert_eq!(other.double(["q[0]", "p[0]"]), Ok(in_rust(&STATED, 2, [0.0; 2]).0));
+}
+
+/// Numbers, some of which no variable takes.
+const NUMBERS: [f64; 9] = [0.3, -0.2, 1.0, 0.0, 1e300, 0.02, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+
+/// What an importer may do, and what it may not.
+fn call(unit: &mut Imported, random: &mut StdRng) -> Result<(), Status> {
+    let number = NUMBERS[random.random_range(0..NUMBERS.len())];
+    let doubles = [
+        "time",
+        "step_size",
+        "c",
+        "weights[1,1]",
+        "u[0]",
+        "u[1]",
+        "q[0]",
+        "v[0]",
+        "p[0]",
+        "energy",
+        "choice",
+    ];
+    let double = doubles[random.random_range(0..doubles.len())];
+    match random.random_range(0..14) {
+        0 => unit.enter_initialization(number),
+        1 => unit.exit_initialization(),
+        2..=4 => {
+            let now = unit.double(["time"])?[0];
+            let size = if random.random_bool(0.7) { 0.04 } else { number };
+            unit.step(if random.random_bool(0.9) { now } else { number }, size).map(drop)
+        }
+        5..=7 => unit.set_double(double, number),
+        8 => unit.set_short("turns[2]", random.random_range(-3..3)),
+        9 => unit.along(["q[0]", "energy"], [double], [number]).map(drop),
+        10 => unit.double([double, "q[0]"]).map(drop),
+        11 => {
+            let mut bytes = unit.bytes();
+            let at = random.random_range(0..bytes.len());
+            bytes[at] ^= 1 << random.random_range(0..8);
+            // What can be read is a state; go back to the one before.
+            let before = unit.bytes();
+            unit.set_bytes(&bytes)?;
+            unit.set_bytes(&before)
+        }
+        12 if random.random_bool(0.1) => unit.terminate(),
+        13 if random.random_bool(0.2) => unit.reset(),
+        _ => unit.through_bytes().map(drop),
+    }
+}
+
+#[test]
+fn a_call_that_fails_changes_nothing_whatever_came_before() {
+    let mut random = StdRng::seed_from_u64(3);
+    let (mut unit, mut failed, mut done) = (imported(), 0, 0);
+    for k in 0..if cfg!(miri) { 100 } else { 20_000 } {
+        let before = unit.bytes();
+        match call(&mut unit, &mut random) {
+            Ok(()) => done += 1,
+            Err(Status::Error | Status::Discard) => {
+                failed += 1;
+                assert!(unit.bytes() == before, "call {k}");
+            }
+            Err(other) => panic!("call {k}: {other:?}"),
+        }
+    }
+    assert!(failed > 20 && done > 20, "the control: calls of both kinds, {failed} and {done}");
+    // The control: the bytes show what changes.
+    unit.reset().unwrap();
+    let before = unit.bytes();
+    unit.set_double("c", 0.25).unwrap();
+    assert_ne!(unit.bytes(), before);
 }

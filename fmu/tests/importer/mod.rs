@@ -54,6 +54,10 @@ unsafe extern "C" {
         sensitivity: *mut f64,
         sensitivity_length: usize,
     ) -> Status;
+    fn fmi2GetInteger(i: *mut Instance, vr: *const u32, n: usize, values: *mut i32) -> Status;
+    fn fmi2SetInteger(i: *mut Instance, vr: *const u32, n: usize, values: *const i32) -> Status;
+    fn fmi3Terminate(instance: *mut Instance) -> Status;
+    fn fmi3Reset(instance: *mut Instance) -> Status;
     fn fmi3GetFMUState(instance: *mut Instance, state: *mut *mut c_void) -> Status;
     fn fmi3SetFMUState(instance: *mut Instance, state: *const c_void) -> Status;
     fn fmi3FreeFMUState(instance: *mut Instance, state: *mut *mut c_void) -> Status;
@@ -154,11 +158,8 @@ impl Imported {
     }
 
     pub fn start_at(&mut self, time: f64) -> Result<(), Status> {
-        // SAFETY: the instance is alive.
-        unsafe {
-            done(fmi3EnterInitializationMode(self.instance, false, 0.0, time, false, 0.0))?;
-            done(fmi3ExitInitializationMode(self.instance))
-        }
+        self.enter_initialization(time)?;
+        self.exit_initialization()
     }
 
     pub fn step(&mut self, point: f64, size: f64) -> Result<f64, Status> {
@@ -186,22 +187,69 @@ impl Imported {
         Ok(sensitivity)
     }
 
+    pub fn enter_initialization(&mut self, time: f64) -> Result<(), Status> {
+        // SAFETY: the instance is alive.
+        done(unsafe { fmi3EnterInitializationMode(self.instance, false, 0.0, time, false, 0.0) })
+    }
+
+    pub fn exit_initialization(&mut self) -> Result<(), Status> {
+        // SAFETY: the instance is alive.
+        done(unsafe { fmi3ExitInitializationMode(self.instance) })
+    }
+
+    pub fn terminate(&mut self) -> Result<(), Status> {
+        // SAFETY: the instance is alive.
+        done(unsafe { fmi3Terminate(self.instance) })
+    }
+
+    pub fn reset(&mut self) -> Result<(), Status> {
+        // SAFETY: the instance is alive.
+        done(unsafe { fmi3Reset(self.instance) })
+    }
+
+    /// By FMI 2.0.
+    pub fn integer(&self, name: &str) -> Result<i32, Status> {
+        let (reference, mut value) = (self.references([name]), 0);
+        // SAFETY: arrays of one.
+        done(unsafe { fmi2GetInteger(self.instance, reference.as_ptr(), 1, &mut value) }).map(|()| value)
+    }
+
+    /// By FMI 2.0.
+    pub fn set_integer(&mut self, name: &str, value: i32) -> Result<(), Status> {
+        let reference = self.references([name]);
+        // SAFETY: arrays of one.
+        done(unsafe { fmi2SetInteger(self.instance, reference.as_ptr(), 1, &value) })
+    }
+
+    /// Its state as bytes.
+    pub fn bytes(&mut self) -> Vec<u8> {
+        let (mut state, mut size) = (ptr::null_mut(), 0);
+        // SAFETY: the instance and the state are alive; the array is of this length.
+        unsafe {
+            done(fmi3GetFMUState(self.instance, &mut state)).unwrap();
+            done(fmi3SerializedFMUStateSize(self.instance, state, &mut size)).unwrap();
+            let mut bytes = vec![0; size];
+            done(fmi3SerializeFMUState(self.instance, state, bytes.as_mut_ptr(), size)).unwrap();
+            done(fmi3FreeFMUState(self.instance, &mut state)).unwrap();
+            bytes
+        }
+    }
+
+    /// Goes on from these bytes.
+    pub fn set_bytes(&mut self, bytes: &[u8]) -> Result<(), Status> {
+        let mut state = ptr::null_mut();
+        // SAFETY: the instance and the state are alive; the array is of this length.
+        unsafe {
+            done(fmi3DeserializeFMUState(self.instance, bytes.as_ptr(), bytes.len(), &mut state))?;
+            done(fmi3SetFMUState(self.instance, state)).unwrap();
+            done(fmi3FreeFMUState(self.instance, &mut state))
+        }
+    }
+
     /// Its state, written as bytes and read back, is that of the instance from now on.
     pub fn through_bytes(&mut self) -> Result<Vec<u8>, Status> {
-        let (mut state, mut read, mut size) = (ptr::null_mut(), ptr::null_mut(), 0);
-        // SAFETY: the instance and the states are alive; the arrays are of these lengths.
-        unsafe {
-            done(fmi3GetFMUState(self.instance, &mut state))?;
-            done(fmi3SerializedFMUStateSize(self.instance, state, &mut size))?;
-            let mut bytes = vec![0; size];
-            done(fmi3SerializeFMUState(self.instance, state, bytes.as_mut_ptr(), size))?;
-            done(fmi3DeserializeFMUState(self.instance, bytes.as_ptr(), size, &mut read))?;
-            done(fmi3SetFMUState(self.instance, read))?;
-            done(fmi3FreeFMUState(self.instance, &mut state))?;
-            done(fmi3FreeFMUState(self.instance, &mut read))?;
-            assert!(state.is_null() && read.is_null());
-            Ok(bytes)
-        }
+        let bytes = self.bytes();
+        self.set_bytes(&bytes).map(|()| bytes)
     }
 
     values! {
