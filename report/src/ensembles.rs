@@ -41,11 +41,13 @@ pub fn write(docs: &Path) -> Result<()> {
         python.methods.contains(&BATCH),
         "heyoka is missing: name a Python interpreter that has it in PYTHON"
     );
+    // This thread, whose time is measured: a thread can be of one pool alone, so there is one for all scenes.
+    let pool = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build()?;
     let mut page = include_str!("../ensembles.md").to_owned();
     macro_rules! scenes {
         ($($name:literal: $scene:expr, $n:literal, [$($method:literal: $by:expr),*];)*) => {$(
             eprintln!("{}", $name);
-            rows::<_, $n, { 2 * $n }>($name, $scene, &python, &mut page, |runs| {
+            rows::<_, $n, { 2 * $n }>($name, $scene, (&python, &pool), &mut page, |runs| {
                 [$($by.candidates($method, runs)),*].into_iter().flatten().collect()
             })?;
         )*};
@@ -84,7 +86,7 @@ type Ends<const N: usize> = Vec<State<f64, N>>;
 fn rows<S, const N: usize, const M: usize>(
     name: &str,
     scene: S,
-    python: &Python,
+    (python, pool): (&Python, &ThreadPool),
     page: &mut String,
     methods: impl for<'a> Fn(&Runs<'a, S, N>) -> Vec<Goal<'a, N>>,
 ) -> Result<()>
@@ -106,10 +108,8 @@ where
         errors.fold(0.0, |worst: f64, error| if error > worst || error.is_nan() { error } else { worst })
     };
 
-    let pool = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
-    let pool = pool.or_else(|_| ThreadPoolBuilder::new().num_threads(1).build())?;
     let counts = (0..40).map(|k| (reference.time * 2_f64.powf(0.25 * f64::from(k))).ceil());
-    let runs = |steps| Runs { scene, starts: &starts, time: reference.time, steps, pool: &pool };
+    let runs = |steps| Runs { scene, starts: &starts, time: reference.time, steps, pool };
     let mut candidates = worth(counts.map(|steps| methods(&runs(steps))), worst);
     for tolerance in (5..16).map(|k| 10_f64.powi(-k)).chain([f64::EPSILON]) {
         let run = move |repeats| {

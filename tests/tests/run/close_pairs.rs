@@ -5,21 +5,10 @@ use dalembert::nalgebra::{Vector4, vector};
 use dalembert::run::between::Moment;
 use dalembert::run::events::{Passage, Watched};
 use dalembert::step::Flow;
-use dalembert::{
-    Composition, Discretise, Discretised, Gauss, Midpoint, Splitting, State, Trapezoidal, rayleigh_system,
-};
+use dalembert::{Composition, Discretise, Discretised, Gauss, Midpoint, Splitting, State, Trapezoidal};
 use dalembert_tests::draws::Draws;
 
-#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
-fn henon_heiles(q: [f64; 2], v: [f64; 2]) -> f64 {
-    let [x, y] = q;
-    0.5 * (v[0] * v[0] + v[1] * v[1]) - 0.5 * (x * x + y * y) - x * x * y + y * y * y / 3.0
-}
-
-#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
-fn double_pendulum(q: [f64; 2], v: [f64; 2]) -> f64 {
-    v[0] * v[0] + 0.5 * v[1] * v[1] + v[0] * v[1] * (q[0] - q[1]).cos() + 2.0 * q[0].cos() + q[1].cos()
-}
+use crate::random_events::{DoublePendulum, HenonHeiles, at};
 
 #[derive(Clone, Copy, Default, Debug)]
 struct Tally {
@@ -27,10 +16,6 @@ struct Tally {
     missed: u64,
     /// Pairs of which the signs at the step's ends say nothing.
     hidden_from_ends: u64,
-}
-
-fn at(state: &State<f64, 2>) -> Vector4<f64> {
-    vector![state.q[0], state.q[1], state.p[0], state.p[1]]
 }
 
 /// A plane that the third step of a run crosses twice, if the draw is one.

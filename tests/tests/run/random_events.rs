@@ -14,7 +14,7 @@ use dalembert::{
 use dalembert_tests::draws::Draws;
 
 #[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
-fn henon_heiles(q: [f64; 2], v: [f64; 2]) -> f64 {
+pub(crate) fn henon_heiles(q: [f64; 2], v: [f64; 2]) -> f64 {
     let [x, y] = q;
     0.5 * (v[0] * v[0] + v[1] * v[1]) - 0.5 * (x * x + y * y) - x * x * y + y * y * y / 3.0
 }
@@ -26,7 +26,7 @@ fn coupled(q: [f64; 2], v: [f64; 2], k: f64, r: f64) -> (f64, f64) {
 }
 
 #[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
-fn double_pendulum(q: [f64; 2], v: [f64; 2]) -> f64 {
+pub(crate) fn double_pendulum(q: [f64; 2], v: [f64; 2]) -> f64 {
     v[0] * v[0] + 0.5 * v[1] * v[1] + v[0] * v[1] * (q[0] - q[1]).cos() + 2.0 * q[0].cos() + q[1].cos()
 }
 
@@ -44,7 +44,7 @@ struct Tally {
 /// Points of the scan.
 const POINTS: u32 = 100;
 
-fn at(state: &State<f64, 2>) -> Vector4<f64> {
+pub(crate) fn at(state: &State<f64, 2>) -> Vector4<f64> {
     vector![state.q[0], state.q[1], state.p[0], state.p[1]]
 }
 
