@@ -387,10 +387,9 @@ pub fn setting(python: Option<&crate::peers::python::Python>) -> String {
         let line = text.lines().find(|line| line.starts_with("model name"))?;
         Some(line.split_once(": ")?.1.to_owned())
     });
-    let mut text = format!(
-        "- Processor: {}; built with `-C target-cpu=native`.\n",
-        processor.unwrap_or_else(|| "unknown".into())
-    );
+    let built = if cfg!(target_feature = "avx") { "with `-C target-cpu=native`" } else { "for any x86-64" };
+    let mut text =
+        format!("- Processor: {}; built {built}.\n", processor.unwrap_or_else(|| "unknown".into()));
     if let Some(python) = python {
         for version in &python.versions {
             let _ = writeln!(text, "- {version}");
