@@ -19,8 +19,8 @@ const PEER: RGBColor = RGBColor(90, 90, 90);
 /// colour; of the others the fastest of each kind.
 const SHOWN: [Look; 9] = [
     ("midpoint", colour::VARIATIONAL, Dash::Solid, Mark::Disc),
-    ("Gauss, 4 stages", colour::FIFTH, Dash::Solid, Mark::Triangle),
     ("Gauss, 8 stages", colour::EULER, Dash::Solid, Mark::Square),
+    ("Gauss, 8 stages, to an error", colour::FIFTH, Dash::Solid, Mark::Triangle),
     ("Gauss, 8 stages, in scaled time", colour::EULER, Dash::Dotted, Mark::Circle),
     ("Blanes–Moan 6", colour::RUNGE_KUTTA, Dash::Solid, Mark::Circle),
     ("ode_solvers Dop853", colour::REFERENCE, Dash::Dashed, Mark::Cross),

@@ -132,7 +132,10 @@ fn text(measured: &Measured<'_>) -> Result<String> {
             "![Error of the {quantity} over time, for each scene](speed-against-error/{quantity}.svg)\n"
         )?;
     }
-    writeln!(page, "## Tables\n\nµs of one trajectory; – where no run reaches the error.\n")?;
+    writeln!(
+        page,
+        "## Tables\n\nµs of one trajectory; – where no run reaches the error. A method without a row reaches none, or cannot step the scene.\n"
+    )?;
     for scene in SCENES {
         table(&mut page, measured, scene)?;
     }
@@ -298,17 +301,13 @@ fn table(page: &mut String, measured: &Measured<'_>, scene: &str) -> Result<()> 
     });
     heading(page, "method", columns)?;
     for method in measured.methods() {
-        write!(page, "| {method} |")?;
-        for (_, of) in QUANTITIES {
-            for error in LEVELS.into_iter().filter(|error| *error != 1e-4) {
-                write!(
-                    page,
-                    " {} |",
-                    measured.time(scene, method, error, of).map_or("–".into(), microseconds)
-                )?;
-            }
-        }
-        writeln!(page)?;
+        let errors = || LEVELS.into_iter().filter(|error| *error != 1e-4);
+        let cells = QUANTITIES.iter().flat_map(|&(_, of)| errors().map(move |error| (error, of)));
+        row(
+            page,
+            method,
+            cells.map(|(error, of)| measured.time(scene, method, error, of).map(microseconds)),
+        )?;
     }
     writeln!(page)?;
     Ok(())
@@ -326,15 +325,10 @@ fn long(page: &mut String, measured: &Measured<'_>) -> Result<()> {
         .flat_map(|error| long_run::HORIZONS.map(move |horizon| format!("{error:e}, T = {horizon}")));
     heading(page, "method", columns)?;
     for method in measured.methods() {
-        write!(page, "| {method} |")?;
-        for error in ERRORS {
-            for horizon in 0..3 {
-                let time = measured.fastest_long(error, horizon, |other| other == method);
-                let unit = |seconds: f64| format!("{:.3}", seconds * 1e6 / long_run::HORIZONS[2]);
-                write!(page, " {} |", time.map_or("–".into(), |(_, seconds)| unit(seconds)))?;
-            }
-        }
-        writeln!(page)?;
+        let cells = ERRORS.iter().flat_map(|&error| (0..3).map(move |horizon| (error, horizon)));
+        let unit = |seconds: f64| format!("{:.3}", seconds * 1e6 / long_run::HORIZONS[2]);
+        let time = |(error, horizon)| measured.fastest_long(error, horizon, |other| other == method);
+        row(page, method, cells.map(|cell| time(cell).map(|(_, seconds)| unit(seconds))))?;
     }
     Ok(())
 }
@@ -347,14 +341,20 @@ fn growth(page: &mut String, measured: &Measured<'_>) -> Result<()> {
         .flat_map(|error| COORDINATES.map(move |n| format!("{}, n = {n}", level(error))));
     heading(page, "method", columns)?;
     for method in measured.methods() {
-        write!(page, "| {method} |")?;
-        for error in [1e-6, 1e-10] {
-            for n in COORDINATES {
-                let time = measured.time(&format!("FPUT chain, n = {n}"), method, error, QUANTITIES[0].1);
-                write!(page, " {} |", time.map_or("–".into(), microseconds))?;
-            }
-        }
-        writeln!(page)?;
+        let cells = [1e-6, 1e-10].into_iter().flat_map(|error| COORDINATES.map(|n| (error, n)));
+        let time =
+            |(error, n)| measured.time(&format!("FPUT chain, n = {n}"), method, error, QUANTITIES[0].1);
+        row(page, method, cells.map(|cell| time(cell).map(microseconds)))?;
+    }
+    Ok(())
+}
+
+/// What a method reaches; no row where that is nothing.
+fn row(page: &mut String, method: &str, cells: impl Iterator<Item = Option<String>>) -> Result<()> {
+    let cells: Vec<_> = cells.collect();
+    if cells.iter().any(Option::is_some) {
+        let shown: Vec<_> = cells.iter().map(|cell| cell.as_deref().unwrap_or("–")).collect();
+        writeln!(page, "| {method} | {} |", shown.join(" | "))?;
     }
     Ok(())
 }

@@ -19,7 +19,7 @@ use page::Collection;
 /// The errors asked for.
 pub const TOLERANCES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 
-/// The collections: the code was written with an eye on the first two, the others were run once.
+/// The collections: the code was written with an eye on the first two, not on the others.
 const SEEDS: [u64; 4] = [1, 4711, 424_242, 8_675_309];
 
 /// Motions of each, and how many of them are compared to all fixed step sizes.

@@ -74,7 +74,7 @@ where the error that it expects passes 1.35 ε.
 
 **Motions.** Families in turn, parameters, phases and times at random from the seed (`tests/src/motions`). References: closed forms in numbers of
 twice the digits, or extrapolation of order 20 in such numbers, local error 1e-19. Errors are taken at 40 to 80 of the steps and at the end.
-Collections 1, 2 and 5 were looked at while the code was written, collections 3 and 4 were not: they were run once.
+Collections 1, 2 and 5 were looked at while the code was written, collections 3 and 4 were not.
 
 | column | |
 |---|---|
