@@ -18,11 +18,14 @@ const WARNINGS: [&str; 5] = ["-Wall", "-Wextra", "-pedantic", "-Wconversion", "-
 
 /// Of `tools` those that this machine has, and on CI all of them.
 fn there(tools: &[&'static str]) -> Vec<&'static str> {
-    let found: Vec<_> =
-        tools.iter().copied().filter(|tool| Command::new(tool).arg("--version").output().is_ok()).collect();
+    those_that(tools, "are installed", |tool| Command::new(tool).arg("--version").output().is_ok())
+}
+
+fn those_that(tools: &[&'static str], what: &str, does: impl Fn(&str) -> bool) -> Vec<&'static str> {
+    let found: Vec<_> = tools.iter().copied().filter(|tool| does(tool)).collect();
     if found.len() < tools.len() {
-        eprintln!("of {tools:?} only {found:?} are installed: nothing is said of the others");
-        assert!(std::env::var_os("CI").is_none(), "of {tools:?} only {found:?} are installed");
+        eprintln!("of {tools:?} only {found:?} {what}: nothing is said of the others");
+        assert!(std::env::var_os("CI").is_none(), "of {tools:?} only {found:?} {what}");
     }
     found
 }

@@ -260,16 +260,15 @@ impl<I: Interface<N>, const N: usize> Model for CoSimulation<I, N> {
         if !(steps >= 1.0 && (size / h - steps).abs() <= ROUNDING && steps <= f64::from(u32::MAX)) {
             return Err(Refusal::NotAMultiple { size, step_size: h });
         }
-        let before = self.run.clone().ok_or(Refusal::NotNow(self.mode))?;
-        let mut run = before.clone();
+        let mut run = self.run.clone().ok_or(Refusal::NotNow(self.mode))?;
         for _ in 0..steps as u64 {
             let time = self.start_time + run.time();
             let view = I::view(&self.system, Self::given(&self.input, time));
             run.advance(&view).map_err(|error| Refusal::Step { error, time })?;
         }
-        self.run = Some(run);
         let (system, input) = (self.system, self.input.clone());
-        self.last = Some(Communication { before, system, input, steps: steps as u64 });
+        let before = self.run.replace(run);
+        self.last = before.map(|before| Communication { before, system, input, steps: steps as u64 });
         Ok(())
     }
 

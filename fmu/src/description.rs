@@ -4,7 +4,7 @@ use std::io;
 
 use dalembert_c::Number;
 use dalembert_c::machine::Interface;
-use quick_xml::Writer;
+use quick_xml::writer::{ElementWriter, Writer};
 
 use crate::Unit;
 use crate::variables::{self, Role, Variable, type_name};
@@ -24,55 +24,69 @@ impl<I: Interface<N>, const N: usize> Unit<I, N> {
     /// modelDescription.xml of FMI 3.0.
     #[must_use]
     pub fn description(&self) -> String {
-        let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
-        write(self, &mut writer).expect("memory takes all that is written");
-        finished(writer)
+        let version = Version {
+            number: "3.0",
+            token: "instantiationToken",
+            also: &[],
+            capabilities: ["canGetAndSetFMUState", "canSerializeFMUState", "providesDirectionalDerivatives"],
+            variable,
+            structure,
+        };
+        document(self, &version).expect("FMI 3.0 has a type for every field")
     }
 }
 
 type To = Writer<Vec<u8>>;
+type Element<'a> = ElementWriter<'a, Vec<u8>>;
 
-fn finished(writer: To) -> String {
-    let text = String::from_utf8(writer.into_inner()).expect("written from text");
-    format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{text}\n")
+/// What the versions of FMI do not share.
+struct Version {
+    number: &'static str,
+    token: &'static str,
+    also: &'static [(&'static str, &'static str)],
+    /// All of them are true.
+    capabilities: [&'static str; 3],
+    variable: fn(usize, &Variable, &mut To) -> io::Result<()>,
+    structure: fn(&[Variable], &mut To) -> io::Result<()>,
 }
 
-fn documentation<I: Interface<N>, const N: usize>(unit: &Unit<I, N>) -> String {
-    let lines: Vec<_> = unit.header.documentation.iter().map(|line| line.trim()).collect();
-    lines.join(" ").trim().to_owned()
-}
-
-fn write<I: Interface<N>, const N: usize>(unit: &Unit<I, N>, to: &mut To) -> io::Result<()> {
+fn document<I: Interface<N>, const N: usize>(unit: &Unit<I, N>, version: &Version) -> io::Result<String> {
+    let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
     let variables = variables::of(unit);
     let (description, token) = (documentation(unit), unit.token());
-    let root = to.create_element("fmiModelDescription").with_attributes([
-        ("fmiVersion", "3.0"),
-        ("modelName", unit.header.prefix),
-        ("instantiationToken", &token),
-        ("description", &description),
-        ("generationTool", TOOL),
-        ("variableNamingConvention", "structured"),
-    ]);
+    let root = writer
+        .create_element("fmiModelDescription")
+        .with_attributes([
+            ("fmiVersion", version.number),
+            ("modelName", unit.header.prefix),
+            (version.token, &*token),
+            ("description", &description),
+            ("generationTool", TOOL),
+            ("variableNamingConvention", "structured"),
+        ])
+        .with_attributes(version.also.iter().copied());
     root.write_inner_content(|to| {
         to.create_element("CoSimulation")
-            .with_attributes([
-                ("modelIdentifier", unit.header.prefix),
-                ("canGetAndSetFMUState", "true"),
-                ("canSerializeFMUState", "true"),
-                ("providesDirectionalDerivatives", "true"),
-                ("canHandleVariableCommunicationStepSize", "false"),
-            ])
+            .with_attribute(("modelIdentifier", unit.header.prefix))
+            .with_attributes(version.capabilities.map(|capability| (capability, "true")))
+            .with_attribute(("canHandleVariableCommunicationStepSize", "false"))
             .write_empty()?;
         units(&variables, to)?;
         categories(to)?;
         experiment(unit, to)?;
         to.create_element("ModelVariables").write_inner_content(|to| {
-            variables.iter().enumerate().try_for_each(|(reference, of)| variable(reference, of, to))
+            variables.iter().enumerate().try_for_each(|(reference, of)| (version.variable)(reference, of, to))
         })?;
-        to.create_element("ModelStructure").write_inner_content(|to| structure(&variables, to))?;
+        to.create_element("ModelStructure").write_inner_content(|to| (version.structure)(&variables, to))?;
         Ok(())
     })?;
-    Ok(())
+    let text = String::from_utf8(writer.into_inner()).expect("written from text");
+    Ok(format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{text}\n"))
+}
+
+fn documentation<I: Interface<N>, const N: usize>(unit: &Unit<I, N>) -> String {
+    let lines: Vec<_> = unit.header.documentation.iter().map(|line| line.trim()).collect();
+    lines.join(" ").trim().to_owned()
 }
 
 fn units(variables: &[Variable], to: &mut To) -> io::Result<()> {
@@ -120,41 +134,52 @@ fn roles(role: Role) -> (&'static str, &'static str, Option<&'static str>) {
 }
 
 fn variable(reference: usize, of: &Variable, to: &mut To) -> io::Result<()> {
-    let reference = reference.to_string();
-    let is_real = matches!(of.start, Number::F64(_) | Number::F32(_));
+    valued(of, labelled(reference, of, to.create_element(type_name(of.start)))).write_empty().map(drop)
+}
+
+/// The element with the name of a variable and what it is for.
+fn labelled<'a>(reference: usize, of: &Variable, element: Element<'a>) -> Element<'a> {
     let (causality, variability, initial) = roles(of.role);
-    let mut element = to.create_element(type_name(of.start)).with_attributes([
-        ("name", of.name.as_str()),
-        ("valueReference", &reference),
-        ("description", &of.description),
-        ("causality", causality),
-        ("variability", variability),
-    ]);
-    if let Some(initial) = initial {
-        element = element.with_attribute(("initial", initial));
-    }
-    if let (Some(unit), true) = (&of.unit, is_real) {
-        element = element.with_attribute(("unit", unit.as_str()));
-    }
-    if !matches!(of.role, Role::Independent | Role::Calculated) {
-        element = element.with_attribute(("start", text(of.start).as_str()));
-    }
-    element.write_empty()?;
-    Ok(())
+    element
+        .with_attributes([
+            ("name", of.name.as_str()),
+            ("valueReference", &reference.to_string()),
+            ("description", &of.description),
+            ("causality", causality),
+            ("variability", variability),
+        ])
+        .with_attributes(initial.map(|initial| ("initial", initial)))
+}
+
+/// The element with the unit of a variable and its start value.
+fn valued<'a>(of: &Variable, element: Element<'a>) -> Element<'a> {
+    let is_real = matches!(of.start, Number::F64(_) | Number::F32(_));
+    let starts = !matches!(of.role, Role::Independent | Role::Calculated);
+    element
+        .with_attributes(of.unit.as_deref().filter(|_| is_real).map(|unit| ("unit", unit)))
+        .with_attributes(starts.then(|| text(of.start)).as_deref().map(|start| ("start", start)))
 }
 
 fn structure(variables: &[Variable], to: &mut To) -> io::Result<()> {
-    for (name, which) in [("Output", None), ("InitialUnknown", Some(Role::Calculated))] {
-        for (reference, variable) in variables.iter().enumerate() {
-            if variable.is_output() && which.is_none_or(|role| variable.role == role) {
-                let reference = reference.to_string();
-                to.create_element(name)
-                    .with_attribute(("valueReference", reference.as_str()))
-                    .write_empty()?;
-            }
-        }
-    }
-    Ok(())
+    unknowns(variables, None, |reference| unknown(to, "Output", ("valueReference", reference)))?;
+    unknowns(variables, Some(Role::Calculated), |reference| {
+        unknown(to, "InitialUnknown", ("valueReference", reference))
+    })
+}
+
+/// The value references of outputs: of one role, or of all.
+fn unknowns(
+    variables: &[Variable],
+    which: Option<Role>,
+    write: impl FnMut(usize) -> io::Result<()>,
+) -> io::Result<()> {
+    let is_unknown = |of: &Variable| of.is_output() && which.is_none_or(|role| of.role == role);
+    let all = variables.iter().enumerate();
+    all.filter(|(_, of)| is_unknown(of)).map(|(reference, _)| reference).try_for_each(write)
+}
+
+fn unknown(to: &mut To, name: &str, (attribute, number): (&str, usize)) -> io::Result<()> {
+    to.create_element(name).with_attribute((attribute, &*number.to_string())).write_empty().map(drop)
 }
 
 /// A number as XML Schema writes it, of all its digits.

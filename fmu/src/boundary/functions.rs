@@ -131,24 +131,28 @@ pub unsafe extern "C" fn fmi3Reset(instance: *mut Instance) -> Status {
     unsafe { with(instance, call) }
 }
 
+/// Saves `model`, into a new state or one that was saved before.
+///
+/// # Safety
+/// The importer's promise.
+unsafe fn save(model: Box<dyn Model>, into: *mut *mut Saved) -> Result<(), Refusal> {
+    // SAFETY: the importer's promise.
+    let old = unsafe { array(into, 1, "FMUState")? }[0];
+    // SAFETY: NULL, or by the promise a state that was made here and not freed.
+    if let Some(old) = unsafe { old.as_mut() } {
+        old.0 = model;
+        return Ok(());
+    }
+    let new = Box::into_raw(Box::new(Saved(model)));
+    // SAFETY: looked at above.
+    unsafe { write(into, 1, "FMUState", || Ok(vec![new])) }
+}
+
 #[unsafe(no_mangle)]
 #[doc = "Saves the state, into a new one or one that was saved before."]
 pub unsafe extern "C" fn fmi3GetFMUState(instance: *mut Instance, into: *mut *mut Saved) -> Status {
-    let call = |instance: &mut Instance| {
-        // SAFETY: the importer's promise.
-        let old = unsafe { array(into, 1, "FMUState")? }[0];
-        let copy = Saved(instance.model.copy());
-        // SAFETY: NULL, or by the promise a state that was made here and not freed.
-        if let Some(old) = unsafe { old.as_mut() } {
-            *old = copy;
-            return Ok(());
-        }
-        let new = Box::into_raw(Box::new(copy));
-        // SAFETY: looked at above.
-        unsafe { write(into, 1, "FMUState", || Ok(vec![new])) }
-    };
     // SAFETY: the importer's promise.
-    unsafe { with(instance, call) }
+    unsafe { with(instance, |instance| save(instance.model.copy(), into)) }
 }
 
 #[unsafe(no_mangle)]
@@ -231,17 +235,8 @@ pub unsafe extern "C" fn fmi3DeserializeFMUState(
     let call = |instance: &mut Instance| {
         // SAFETY: the importer's promise.
         let bytes = unsafe { array(bytes, size, "serializedState")? };
-        let model = instance.model.of_bytes(bytes)?;
         // SAFETY: the importer's promise.
-        let old = unsafe { array(into, 1, "FMUState")? }[0];
-        // SAFETY: NULL, or by the promise a state that was made here and not freed.
-        if let Some(old) = unsafe { old.as_mut() } {
-            old.0 = model;
-            return Ok(());
-        }
-        let new = Box::into_raw(Box::new(Saved(model)));
-        // SAFETY: looked at above.
-        unsafe { write(into, 1, "FMUState", || Ok(vec![new])) }
+        unsafe { save(instance.model.of_bytes(bytes)?, into) }
     };
     // SAFETY: the importer's promise.
     unsafe { with(instance, call) }

@@ -10,9 +10,9 @@ use core::ffi::{c_char, c_void};
 use dalembert_c::Number;
 
 use super::functions::{self, Saved};
+use super::values::{of_another_type, values};
 use super::{Instance, Status, array, with, write};
 use crate::refusal::Refusal;
-use crate::variables::type_name;
 
 /// `fmi2CallbackLogger`: the message is a format for the arguments behind it.
 pub type LogMessage2 =
@@ -131,34 +131,6 @@ pub unsafe extern "C" fn fmi2DoStep(
     }
 }
 
-/// The values of variables, each as `seen`.
-///
-/// # Safety
-/// The importer's promise.
-unsafe fn values<T: Copy>(
-    instance: *mut Instance,
-    references: *const u32,
-    length: usize,
-    into: *mut T,
-    seen: impl Fn(Number) -> Option<T>,
-) -> Status {
-    let call = |instance: &mut Instance| {
-        // SAFETY: the importer's promise.
-        let references = unsafe { array(references, length, "vr")? };
-        let read = || {
-            let numbers = instance.model.values(references)?.into_iter();
-            numbers
-                .zip(references)
-                .map(|(number, &of)| seen(number).ok_or_else(|| other(of, number)))
-                .collect()
-        };
-        // SAFETY: the importer's promise.
-        unsafe { write(into, length, "value", read) }
-    };
-    // SAFETY: the importer's promise.
-    unsafe { with(instance, call) }
-}
-
 /// Sets variables, each to a number of its own type that is `made` of the value.
 ///
 /// # Safety
@@ -176,16 +148,12 @@ unsafe fn set_values<T: Copy>(
             unsafe { (array(references, length, "vr")?, array(from, length, "value")?) };
         let kinds = instance.model.kinds(references)?;
         let numbers = kinds.into_iter().zip(references.iter().zip(given));
-        let numbers = numbers.map(|(kind, (&of, &value))| made(kind, value).ok_or_else(|| other(of, kind)));
+        let numbers =
+            numbers.map(|(kind, (&of, &value))| made(kind, value).ok_or_else(|| of_another_type(of, kind)));
         instance.model.set_values(references, &numbers.collect::<Result<Vec<_>, _>>()?)
     };
     // SAFETY: the importer's promise.
     unsafe { with(instance, call) }
-}
-
-fn other(reference: u32, number: Number) -> Refusal {
-    let name = format!("the variable with the value reference {reference}");
-    Refusal::AnotherType { name, kind: type_name(number) }
 }
 
 fn real(number: Number) -> Option<f64> {
@@ -232,7 +200,7 @@ macro_rules! types {
         #[doc = "Gets variables."]
         pub unsafe extern "C" fn $get(i: *mut Instance, vr: *const u32, length: usize, into: *mut $of) -> Status {
             // SAFETY: the importer's promise.
-            unsafe { values(i, vr, length, into, $seen) }
+            unsafe { values(i, (vr, length, "vr"), (into, length, "value"), $seen) }
         }
 
         #[unsafe(no_mangle)]

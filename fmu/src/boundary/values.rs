@@ -6,36 +6,37 @@ use super::{Instance, Status, array, with, write};
 use crate::refusal::Refusal;
 use crate::variables::type_name;
 
-/// The values of variables, all of type T.
+/// An array of the importer's: its address, its length and what FMI calls it.
+pub(super) type Array<P> = (P, usize, &'static str);
+
+/// The values of variables, each as `seen`.
 ///
 /// # Safety
 /// The importer's promise.
-unsafe fn values<T: Copy + TryFrom<Number, Error = Number>>(
+pub(super) unsafe fn values<T: Copy>(
     instance: *mut Instance,
-    references: *const u32,
-    references_length: usize,
-    values: *mut T,
-    length: usize,
+    (references, number, named): Array<*const u32>,
+    (into, length, called): Array<*mut T>,
+    seen: impl Fn(Number) -> Option<T>,
 ) -> Status {
     let call = |instance: &mut Instance| {
         // SAFETY: the importer's promise.
-        let references = unsafe { array(references, references_length, "valueReferences")? };
-        let model = &instance.model;
+        let references = unsafe { array(references, number, named)? };
         let read = || {
-            let typed = |(&reference, number): (&u32, Number)| {
-                let of_another = |number| Refusal::AnotherType {
-                    name: format!("the variable with the value reference {reference}"),
-                    kind: type_name(number),
-                };
-                T::try_from(number).map_err(of_another)
-            };
-            references.iter().zip(model.values(references)?).map(typed).collect()
+            let numbers = instance.model.values(references)?.into_iter();
+            let typed = |(number, &of)| seen(number).ok_or_else(|| of_another_type(of, number));
+            numbers.zip(references).map(typed).collect()
         };
         // SAFETY: the importer's promise.
-        unsafe { write(values, length, "values", read) }
+        unsafe { write(into, length, called, read) }
     };
     // SAFETY: the importer's promise.
     unsafe { with(instance, call) }
+}
+
+pub(super) fn of_another_type(reference: u32, number: Number) -> Refusal {
+    let name = format!("the variable with the value reference {reference}");
+    Refusal::AnotherType { name, kind: type_name(number) }
 }
 
 /// Sets variables, all of type T.
@@ -77,7 +78,10 @@ macro_rules! types {
             length: usize,
         ) -> Status {
             // SAFETY: the importer's promise.
-            unsafe { values(instance, references, references_length, into, length) }
+            unsafe {
+                let references = (references, references_length, "valueReferences");
+                values(instance, references, (into, length, "values"), |number| <$of>::try_from(number).ok())
+            }
         }
 
         #[doc = concat!("Sets variables of the type ", stringify!($of), ".")]

@@ -4,11 +4,10 @@ use std::io;
 
 use dalembert_c::Number;
 use dalembert_c::machine::Interface;
-use quick_xml::Writer;
 
-use super::{To, categories, documentation, experiment, finished, roles, text, units};
+use super::{To, Version, document, labelled, unknown, unknowns, valued};
 use crate::Unit;
-use crate::variables::{self, Role, Variable, type_name};
+use crate::variables::{Role, Variable, type_name};
 
 impl<I: Interface<N>, const N: usize> Unit<I, N> {
     /// modelDescription.xml of FMI 2.0.
@@ -16,44 +15,16 @@ impl<I: Interface<N>, const N: usize> Unit<I, N> {
     /// # Errors
     /// Where a field is of a type that FMI 2.0 has not, an integer beyond 32 bits with a sign.
     pub fn description_fmi2(&self) -> io::Result<String> {
-        let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
-        write(self, &mut writer)?;
-        Ok(finished(writer))
+        let version = Version {
+            number: "2.0",
+            token: "guid",
+            also: &[("numberOfEventIndicators", "0")],
+            capabilities: ["canGetAndSetFMUstate", "canSerializeFMUstate", "providesDirectionalDerivative"],
+            variable,
+            structure,
+        };
+        document(self, &version)
     }
-}
-
-fn write<I: Interface<N>, const N: usize>(unit: &Unit<I, N>, to: &mut To) -> io::Result<()> {
-    let variables = variables::of(unit);
-    let (description, token) = (documentation(unit), unit.token());
-    let root = to.create_element("fmiModelDescription").with_attributes([
-        ("fmiVersion", "2.0"),
-        ("modelName", unit.header.prefix),
-        ("guid", &token),
-        ("description", &description),
-        ("generationTool", super::TOOL),
-        ("variableNamingConvention", "structured"),
-        ("numberOfEventIndicators", "0"),
-    ]);
-    root.write_inner_content(|to| {
-        to.create_element("CoSimulation")
-            .with_attributes([
-                ("modelIdentifier", unit.header.prefix),
-                ("canHandleVariableCommunicationStepSize", "false"),
-                ("canGetAndSetFMUstate", "true"),
-                ("canSerializeFMUstate", "true"),
-                ("providesDirectionalDerivative", "true"),
-            ])
-            .write_empty()?;
-        units(&variables, to)?;
-        categories(to)?;
-        experiment(unit, to)?;
-        to.create_element("ModelVariables").write_inner_content(|to| {
-            variables.iter().enumerate().try_for_each(|(reference, of)| variable(reference, of, to))
-        })?;
-        to.create_element("ModelStructure").write_inner_content(|to| structure(&variables, to))?;
-        Ok(())
-    })?;
-    Ok(())
 }
 
 fn variable(reference: usize, of: &Variable, to: &mut To) -> io::Result<()> {
@@ -65,44 +36,16 @@ fn variable(reference: usize, of: &Variable, to: &mut To) -> io::Result<()> {
             return Err(io::Error::new(io::ErrorKind::Unsupported, message));
         }
     };
-    let reference = reference.to_string();
-    let (causality, variability, initial) = roles(of.role);
-    let mut element = to.create_element("ScalarVariable").with_attributes([
-        ("name", of.name.as_str()),
-        ("valueReference", &reference),
-        ("description", &of.description),
-        ("causality", causality),
-        ("variability", variability),
-    ]);
-    if let Some(initial) = initial {
-        element = element.with_attribute(("initial", initial));
-    }
-    element.write_inner_content(|to| {
-        let mut element = to.create_element(kind);
-        if let (Some(unit), "Real") = (&of.unit, kind) {
-            element = element.with_attribute(("unit", unit.as_str()));
-        }
-        if !matches!(of.role, Role::Independent | Role::Calculated) {
-            element = element.with_attribute(("start", text(of.start).as_str()));
-        }
-        element.write_empty().map(drop)
-    })?;
-    Ok(())
+    labelled(reference, of, to.create_element("ScalarVariable"))
+        .write_inner_content(|to| valued(of, to.create_element(kind)).write_empty().map(drop))
+        .map(drop)
 }
 
 fn structure(variables: &[Variable], to: &mut To) -> io::Result<()> {
     for (name, which) in [("Outputs", None), ("InitialUnknowns", Some(Role::Calculated))] {
+        // Counted from 1.
         to.create_element(name).write_inner_content(|to| {
-            // Counted from 1.
-            for (index, variable) in (1..).zip(variables) {
-                if variable.is_output() && which.is_none_or(|role| variable.role == role) {
-                    let index: i32 = index;
-                    to.create_element("Unknown")
-                        .with_attribute(("index", &*index.to_string()))
-                        .write_empty()?;
-                }
-            }
-            Ok(())
+            unknowns(variables, which, |reference| unknown(to, "Unknown", ("index", reference + 1)))
         })?;
     }
     Ok(())

@@ -53,6 +53,9 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
 
 /// What a sweep changes the velocities by.
 pub(super) trait Corrector<T, const N: usize> {
+    /// What the method is called.
+    const SOLVER: Solver;
+
     /// Whether a correction changes the rates much less than the velocities: then the last one is made without
     /// another evaluation, as far as the contraction measured promises.
     const LEAVES_RATES: bool;
@@ -65,6 +68,7 @@ pub(super) trait Corrector<T, const N: usize> {
 struct ByMass;
 
 impl<T: Scalar, const N: usize> Corrector<T, N> for ByMass {
+    const SOLVER: Solver = Solver::FixedPoint;
     const LEAVES_RATES: bool = true;
 
     #[inline(always)]
@@ -189,7 +193,7 @@ where
             }
             let report = report(&stages, &floor, remaining, iterations);
             let (v, rate) = (narrowed(v), narrowed(stages.rate));
-            return Some(Solution { v, rate, report, solver: Solver::FixedPoint });
+            return Some(Solution { v, rate, report, solver: C::SOLVER });
         }
         for (v, &correction) in v.iter_mut().zip(&stages.correction) {
             *v = *v + correction;

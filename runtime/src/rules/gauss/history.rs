@@ -26,7 +26,7 @@ pub struct StageHistory<T, const N: usize, const S: usize> {
     pub(super) v: LaneVector<T, N, S>,
     /// Its step size; 0 before the first step.
     h: T,
-    /// Whether it was solved without Newton's method; then the next may be too.
+    /// What it was solved by.
     solver: Solver,
     q: Compensated<T, N>,
     p: Compensated<T, N>,

@@ -111,17 +111,16 @@ const fn mode<const S: usize>(eigenvalue: Complex, coefficients: &Coefficients<S
     let mut mode = Mode { eigenvalue, left: [NONE; S], right: [NONE; S] };
     let mut i = 0;
     while i < S {
-        let at = 2.0 * coefficients.nodes[i] - 1.0;
-        let (mut before, mut p) = (0.0, 1.0);
         let mut m = 0;
         while m < S {
-            let degree = m as f64;
-            mode.right[i] = sum(mode.right[i], scaled(x[m], count * p));
-            mode.left[i] = sum(mode.left[i], scaled(y[m], (2.0 * degree + 1.0) * p));
-            (before, p) = (p, ((2.0 * degree + 1.0) * at * p - degree * before) / (degree + 1.0));
+            // (2m + 1) b_i P_m at the node.
+            let p = coefficients.legendre[m][i];
+            mode.left[i] = sum(mode.left[i], scaled(y[m], p));
+            mode.right[i] = sum(mode.right[i], scaled(x[m], p / (2 * m + 1) as f64));
             m += 1;
         }
-        mode.left[i] = scaled(times(mode.left[i], per_product), coefficients.weights[i]);
+        mode.left[i] = times(mode.left[i], per_product);
+        mode.right[i] = scaled(mode.right[i], count / coefficients.weights[i]);
         i += 1;
     }
     mode

@@ -55,7 +55,7 @@ where
     let factored = Factored::<T, N, S, M>::new(&local, problem.h)?;
     let solution = iterate_by(problem, &splat(v), &factored)?;
     let floor = problem.floor(&solution.rate, &splat(&SVector::zeros()));
-    is_decided(problem, &solution.v, &floor).then_some(Solution { solver: Solver::Simplified, ..solution })
+    is_decided(problem, &solution.v, &floor).then_some(solution)
 }
 
 /// The modes of S stages side by side, and how stages in W lanes follow from them.
@@ -194,6 +194,7 @@ impl<T: Scalar, const N: usize, const S: usize, const M: usize> Factored<T, N, S
 }
 
 impl<T: Scalar, const N: usize, const S: usize, const M: usize> Corrector<T, N> for Factored<T, N, S, M> {
+    const SOLVER: Solver = Solver::Simplified;
     const LEAVES_RATES: bool = false;
 
     /// Σ Re(u z), A z = Σ w r for each mode with matrix A and vectors w and u.
