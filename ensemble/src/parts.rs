@@ -48,7 +48,7 @@ use dalembert::{Lagrangian, State, StepError};
 
 use crate::progress::Progress;
 use crate::stepping::Stepping;
-use crate::study::Study;
+use crate::study::{Outcome, Study};
 pub use error::PartsError;
 use table::{Column, Row, Table};
 
@@ -174,9 +174,19 @@ where
     /// The rows of one part, and how many of its members failed.
     fn computed(&self, part: Range<u64>) -> Result<(Table, u64), Progress> {
         let names: Vec<&str> = self.columns.iter().map(|(name, _)| name.as_str()).collect();
-        let table = Table::new(&names, N);
+        let rows_of = |outcomes: Vec<Outcome<Vec<Row<N>>, L::Scalar, N>>| {
+            let (mut table, mut failed) = (Table::new(&names, N), 0);
+            for mut outcome in outcomes {
+                if let Some(failure) = &outcome.failure {
+                    failed += 1;
+                    self.add_failure(&mut outcome.value, failure);
+                }
+                outcome.value.into_iter().for_each(|row| table.push(row));
+            }
+            (table, failed)
+        };
         self.study
-            .reduce(
+            .reduce_chunks(
                 part,
                 |_| Vec::new(),
                 |rows, record| {
@@ -188,13 +198,11 @@ where
                         &record.state,
                     ));
                 },
-                (table, 0),
-                |(table, failed), mut outcome| {
-                    if let Some(failure) = &outcome.failure {
-                        *failed += 1;
-                        self.add_failure(&mut outcome.value, failure);
-                    }
-                    outcome.value.into_iter().for_each(|row| table.push(row));
+                rows_of,
+                (Table::new(&names, N), 0),
+                |(table, failed), (more, more_failed)| {
+                    table.append(more);
+                    *failed += more_failed;
                 },
             )
             .map_err(|cancelled| cancelled.progress)

@@ -285,8 +285,29 @@ where
         numbers: Range<u64>,
         value: impl Fn(u64) -> V + Sync,
         observe: impl Fn(&mut V, &Record<'_, L, N>) + Sync,
-        mut total: A,
+        total: A,
         mut add: impl FnMut(&mut A, Outcome<V, L::Scalar, N>),
+    ) -> Result<A, Cancelled<A>> {
+        self.reduce_chunks(
+            numbers,
+            value,
+            observe,
+            |outcomes| outcomes,
+            total,
+            |total, outcomes| outcomes.into_iter().for_each(|outcome| add(total, outcome)),
+        )
+    }
+
+    /// As [`reduce`](Self::reduce), but what is kept of a chunk's members is put together where they were stepped, and
+    /// added to the total as one.
+    pub(crate) fn reduce_chunks<V, C: Send, A>(
+        &self,
+        numbers: Range<u64>,
+        value: impl Fn(u64) -> V + Sync,
+        observe: impl Fn(&mut V, &Record<'_, L, N>) + Sync,
+        together: impl Fn(Vec<Outcome<V, L::Scalar, N>>) -> C + Sync,
+        mut total: A,
+        mut add: impl FnMut(&mut A, C),
     ) -> Result<A, Cancelled<A>> {
         let mut progress =
             Progress { done: 0, failed: 0, members: numbers.end.saturating_sub(numbers.start) };
@@ -316,14 +337,16 @@ where
                     .collect();
                 self.stepping.advance(&mut slots, &observe);
                 let outcome = |Slot { number, value, failure, .. }| Outcome { number, value, failure };
-                slots.into_iter().map(outcome).collect::<Vec<_>>()
+                let outcomes: Vec<_> = slots.into_iter().map(outcome).collect();
+                let failed = outcomes.iter().filter(|outcome| outcome.failure.is_some()).count();
+                (outcomes.len() as u64, failed as u64, together(outcomes))
             };
             let chunks: Vec<u64> = (first..end).step_by(size as usize).collect();
-            let outcomes: Vec<_> = chunks.into_par_iter().map(chunk).collect();
-            for outcome in outcomes.into_iter().flatten() {
-                progress.done += 1;
-                progress.failed += u64::from(outcome.failure.is_some());
-                add(&mut total, outcome);
+            let chunks: Vec<_> = chunks.into_par_iter().map(chunk).collect();
+            for (done, failed, kept) in chunks {
+                progress.done += done;
+                progress.failed += failed;
+                add(&mut total, kept);
             }
             first = end;
             if begin.elapsed() < BRIEF {

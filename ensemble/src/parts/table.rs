@@ -84,4 +84,14 @@ impl Table {
         self.numbers.iter_mut().zip(values).for_each(|(column, value)| column.push(value));
         self.errors.push(row.error);
     }
+
+    /// Puts the rows of `other` behind these.
+    pub(super) fn append(&mut self, mut other: Self) {
+        self.members.append(&mut other.members);
+        self.errors.append(&mut other.errors);
+        for (column, more) in self.numbers.iter_mut().zip(&mut other.numbers) {
+            column.values.append(&mut more.values);
+            column.present.append(&mut more.present);
+        }
+    }
 }
