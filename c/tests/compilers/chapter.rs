@@ -1,4 +1,5 @@
-//! The chapter "In C" of `docs/embedding.md` shows the code of the template. `c/run` follows its commands.
+//! The chapters "In C" and "In a browser" of `docs/embedding.md` show the code of their templates. `c/run` and
+//! `examples/browser/run` follow their commands.
 
 use std::fs;
 use std::path::Path;
@@ -9,18 +10,26 @@ fn blocks<'a>(chapter: &'a str, language: &str) -> Vec<&'a str> {
     chapter.split(&opening).skip(1).filter_map(|rest| rest.split("```").next()).collect()
 }
 
-#[test]
-fn the_chapter_shows_the_template() {
+/// Holds the blocks of a chapter, so many of each language, against files of its template.
+fn shows(chapter: &str, template: &str, languages: &[(&str, &[&str], usize)]) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let page = fs::read_to_string(root.join("docs/embedding.md")).expect("the page");
-    let chapter = page.split("\n## In C\n").nth(1).expect("the chapter");
-    let chapter = chapter.split("\n## ").next().expect("up to the next");
-    for (language, file, count) in [("rust", "src/lib.rs", 2), ("c", "main.c", 3)] {
-        let source = fs::read_to_string(root.join("examples/c").join(file)).expect("the template");
-        let blocks = blocks(chapter, language);
-        assert_eq!(blocks.len(), count, "{language}");
+    let text = page.split(&format!("\n## {chapter}\n")).nth(1).expect("the chapter");
+    let text = text.split("\n## ").next().expect("up to the next");
+    for (language, files, count) in languages {
+        let source = |file| fs::read_to_string(root.join(template).join(file)).expect("the template");
+        let sources: Vec<_> = files.iter().map(source).collect();
+        let blocks = blocks(text, language);
+        assert_eq!(blocks.len(), *count, "{language}");
         for block in blocks {
-            assert!(source.contains(block), "{file} has no\n{block}");
+            assert!(sources.iter().any(|source| source.contains(block)), "{files:?} have no\n{block}");
         }
     }
+}
+
+#[test]
+fn the_chapters_show_the_templates() {
+    shows("In C", "examples/c", &[("rust", &["src/lib.rs"], 2), ("c", &["main.c"], 3)]);
+    let scripts: &[&str] = &["page/module.js", "page/runs.js"];
+    shows("In a browser", "examples/browser", &[("rust", &["src/lib.rs"], 1), ("js", scripts, 2)]);
 }
