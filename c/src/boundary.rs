@@ -7,12 +7,18 @@
 
 #![allow(unsafe_code)]
 
+use core::hint::black_box;
 use core::mem::{MaybeUninit, needs_drop};
 use core::ptr::copy_nonoverlapping;
 
 use crate::{CReport, Status};
 
 pub mod calls;
+
+unsafe extern "C" {
+    /// Defined nowhere: a program that can reach a panic does not link. See [`no_panic!`](crate::no_panic).
+    pub safe fn a_panic_is_left_in_the_program() -> !;
+}
 
 /// Types every pattern of bits of which is a value, without padding that is read: numbers, arrays of them, and
 /// structs of such fields as [`parameters!`](crate::parameters) declares.
@@ -57,9 +63,16 @@ pub unsafe fn read<T: Plain>(address: *const T) -> Result<T, Status> {
 /// [`Status::NullPointer`], [`Status::Misaligned`].
 pub fn seen<T>(address: *const T) -> Result<(), Status> {
     if address.is_null() {
-        return Err(Status::NullPointer);
+        return Err(refused(Status::NullPointer));
     }
-    if address.is_aligned() { Ok(()) } else { Err(Status::Misaligned) }
+    if address.is_aligned() { Ok(()) } else { Err(refused(Status::Misaligned)) }
+}
+
+/// `status`, for a call that is refused: apart, and opaque, so that calls that are not do not prepare for it.
+#[cold]
+#[inline(never)]
+pub fn refused(status: Status) -> Status {
+    black_box(status)
 }
 
 /// Writes `value` to `address`, or nothing to NULL.
@@ -143,21 +156,41 @@ pub unsafe fn change<T: 'static, R>(
     signature: u64,
     with: impl FnOnce(&mut T) -> Result<R, Status>,
 ) -> Result<R, Status> {
+    let all_or_nothing = |held: &mut T| {
+        let held = core::ptr::from_mut(held);
+        let mut before = MaybeUninit::<T>::uninit();
+        // SAFETY: both are size_of::<T>() bytes, and `before` is nobody else's. As bytes, so that padding is copied too.
+        unsafe { copy_nonoverlapping(held.cast::<u8>(), before.as_mut_ptr().cast::<u8>(), size_of::<T>()) };
+        // SAFETY: the T that was borrowed.
+        let done = with(unsafe { &mut *held });
+        if done.is_err() {
+            // SAFETY: as above, the other way.
+            unsafe { copy_nonoverlapping(before.as_ptr().cast::<u8>(), held.cast::<u8>(), size_of::<T>()) };
+        }
+        done
+    };
+    // SAFETY: the same promise.
+    unsafe { advance(memory, signature, all_or_nothing) }
+}
+
+/// As [`change`], where `with` itself changes all or nothing: no copy is kept.
+///
+/// # Errors
+/// Those of [`change`].
+///
+/// # Safety
+/// As [`change`].
+#[inline]
+pub unsafe fn advance<T: 'static, R>(
+    memory: *mut Held<T>,
+    signature: u64,
+    with: impl FnOnce(&mut T) -> Result<R, Status>,
+) -> Result<R, Status> {
     // SAFETY: the same promise.
     unsafe { signed(memory, signature) }?;
-    let mut before = MaybeUninit::<T>::uninit();
-    // SAFETY: not NULL, aligned, and by the promise a Held<T>; the field is in it.
-    let held = unsafe { &raw mut (*memory).held }.cast::<T>();
-    // SAFETY: both are size_of::<T>() bytes, and `before` is nobody else's. As bytes, so that padding is copied too.
-    unsafe { copy_nonoverlapping(held.cast::<u8>(), before.as_mut_ptr().cast::<u8>(), size_of::<T>()) };
     // SAFETY: the signature is written by `place` alone, together with a T, which the caller alone could have changed.
     // The borrow ends with `with`.
-    let done = with(unsafe { &mut *held });
-    if done.is_err() {
-        // SAFETY: as above, the other way.
-        unsafe { copy_nonoverlapping(before.as_ptr().cast::<u8>(), held.cast::<u8>(), size_of::<T>()) };
-    }
-    done
+    with(unsafe { (*memory).held.assume_init_mut() })
 }
 
 /// Asks `of` what [`place`] has placed into `memory` under `signature`.
@@ -188,5 +221,5 @@ unsafe fn signed<T>(memory: *const Held<T>, signature: u64) -> Result<(), Status
     // SAFETY: not NULL, aligned, and by the promise above readable. Volatile: no compiler reasons about what a caller that
     // never initialised it has there.
     let found = unsafe { (&raw const (*memory).signature).read_volatile() };
-    if found == signature { Ok(()) } else { Err(Status::NotInitialised) }
+    if found == signature { Ok(()) } else { Err(refused(Status::NotInitialised)) }
 }

@@ -8,7 +8,7 @@ use dalembert::step::{Flow, Linearizable, Memory, PhaseMatrix, Quantity, StateBy
 use dalembert::system::Scalar;
 use dalembert::{State, StepError};
 
-use crate::boundary::Plain;
+use crate::boundary::{Plain, refused};
 use crate::{CParameters, Status};
 
 /// What the functions of C ask of a system, said once where an entry of [`c_api!`](crate::c_api) does not fit it.
@@ -92,7 +92,7 @@ pub fn parameters<P: CParameters>(given: P) -> Result<P, Status> {
 /// # Errors
 /// [`Status::InputNotFinite`].
 pub fn input<S: Scalar, const K: usize>(given: [S; K]) -> Result<[S; K], Status> {
-    if given.iter().all(|value| value.is_finite()) { Ok(given) } else { Err(Status::InputNotFinite) }
+    if given.iter().all(|value| value.is_finite()) { Ok(given) } else { Err(refused(Status::InputNotFinite)) }
 }
 
 /// The time, if it is finite.

@@ -84,6 +84,15 @@ statuses! {
 
 impl From<StepError> for Status {
     fn from(error: StepError) -> Self {
+        Self::from(&error)
+    }
+}
+
+impl From<&StepError> for Status {
+    /// Apart, and of an error where it lies: beside it a step that succeeds is copied as a whole.
+    #[cold]
+    #[inline(never)]
+    fn from(error: &StepError) -> Self {
         match error {
             StepError::StepSize { .. } => Self::StepSize,
             StepError::Time { .. } => Self::Time,

@@ -4,8 +4,9 @@
 //! object of the type declared; the objects of a call do not overlap; nobody else uses them meanwhile.
 
 use dalembert::run::DrivenTrajectory;
+use dalembert::step::{Flow, Report};
 
-use super::{Held, both, change, look, optional, place, read, seen, write};
+use super::{Held, advance, both, change, look, optional, place, read, seen, write};
 use crate::machine::{self, Interface, Machine};
 use crate::{CReport, Status};
 
@@ -40,6 +41,26 @@ pub unsafe fn init<I: Interface<N>, const N: usize>(
     begin().into()
 }
 
+/// Writes how a step of `run` went, unless nobody asks: the time is a product in double precision, which costs where that is
+/// software.
+///
+/// # Errors
+/// Those of [`write`].
+///
+/// # Safety
+/// The caller's promise.
+unsafe fn tell<V: Flow<M, N>, M, const N: usize>(
+    to: *mut CReport,
+    report: &Report<V::Scalar>,
+    run: &DrivenTrajectory<V, M, N>,
+) -> Result<(), Status> {
+    if to.is_null() {
+        return Ok(());
+    }
+    // SAFETY: the caller's promise.
+    unsafe { write(to, CReport::new(report, run.time())) }
+}
+
 /// Takes a step.
 ///
 /// # Safety
@@ -52,12 +73,13 @@ pub unsafe fn step<I: Interface<N>, const N: usize>(
     let ask = |Machine { system, run }: &mut Machine<I, N>| {
         let given = given()?;
         optional(report)?;
-        let taken = run.advance(&I::view(system, given))?;
+        // A run that fails here has not been written to: nothing has to be put back.
+        let taken = run.advance(&I::view(system, given));
         // SAFETY: the caller's promise.
-        unsafe { write(report, CReport::new(&taken.report, run.time())) }
+        unsafe { tell(report, &taken.as_ref()?.report, run) }
     };
     // SAFETY: the caller's promise.
-    unsafe { change(memory, I::SIGNATURE, ask) }.into()
+    unsafe { advance(memory, I::SIGNATURE, ask) }.into()
 }
 
 /// Takes a step, and linearises it.
@@ -79,7 +101,7 @@ pub unsafe fn step_linearized<I: Interface<N>, const N: usize>(
         let derivatives = I::linearized(&taken)?;
         // SAFETY: the caller's promise.
         unsafe {
-            write(report, CReport::new(&taken.step().report, run.time()))?;
+            tell(report, &taken.step().report, run)?;
             write(linearized, derivatives)
         }
     };

@@ -78,39 +78,42 @@ impl Course {
 
     /// Fails before the first step of a system that is not the one written, and where the clock does not tell
     /// the next step from none.
-    #[cold]
-    #[inline(never)]
     pub(crate) fn require<L: Lagrangian<N>, const N: usize>(
         &mut self,
         system: &L,
         at: &Checkpoint<L::Scalar, N>,
     ) -> Result<(), StepError> {
-        self.require_later(system, at.time(), at)
+        *self = self.checked(system, at.time(), at)?;
+        Ok(())
     }
 
-    /// As [`require`](Self::require), of a `system` that has the time of this step.
+    /// As [`require`](Self::require), of a `system` that has the time of this step: the course once the step is
+    /// taken.
     #[inline]
-    pub(crate) fn require_now<L: Lagrangian<N>, const N: usize>(
-        &mut self,
+    pub(crate) fn after<L: Lagrangian<N>, const N: usize>(
+        self,
         system: &L,
         at: &Checkpoint<L::Scalar, N>,
-    ) -> Result<(), StepError> {
-        if *self == Self::Open { Ok(()) } else { self.require_later(system, 0.0, at) }
+    ) -> Result<Self, StepError> {
+        if self == Self::Open { Ok(self) } else { self.checked(system, 0.0, at) }
     }
 
     #[cold]
     #[inline(never)]
-    fn require_later<L: Lagrangian<N>, const N: usize>(
-        &mut self,
+    fn checked<L: Lagrangian<N>, const N: usize>(
+        self,
         system: &L,
         elapsed: f64,
         at: &Checkpoint<L::Scalar, N>,
-    ) -> Result<(), StepError> {
-        if *self == Self::Starting {
+    ) -> Result<Self, StepError> {
+        let course = if self == Self::Starting {
             verify_start(system, elapsed, &at.state)?;
-            *self = Self::of(at);
-        }
-        self.require_time(at)
+            Self::of(at)
+        } else {
+            self
+        };
+        course.require_time(at)?;
+        Ok(course)
     }
 
     /// Fails where the end of the next step has the time of its start, or none.

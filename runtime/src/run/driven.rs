@@ -158,18 +158,45 @@ where
     /// Takes the step of `system`, which holds the input of this step.
     ///
     /// # Errors
-    /// A [`StepError`]; the state is untouched.
+    /// A [`StepError`]; the state is untouched, and of a rule's run every byte.
     #[inline]
     pub fn advance<L>(&mut self, system: &L) -> Result<Step<V::Scalar, N>, StepError>
     where
         L: Flow<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
         V::RunMemory: Memory<L, M, N>,
     {
-        self.course.require_now(system, &self.at)?;
-        Memory::<L, M, N>::change_input(&mut self.memory);
-        let step = Memory::<L, M, N>::advance(&mut self.memory, system, &self.at.state, self.at.step_size)?;
-        self.at.follow(&step.state);
-        Ok(step)
+        if self.course == Course::Open { self.take(system) } else { self.take_watched(system) }
+    }
+
+    /// Changes nothing before the step is taken: one that fails then leaves every byte.
+    #[inline]
+    fn take<L>(&mut self, system: &L) -> Result<Step<V::Scalar, N>, StepError>
+    where
+        L: Flow<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
+        V::RunMemory: Memory<L, M, N>,
+    {
+        let step = Memory::<L, M, N>::advance(&mut self.memory, system, &self.at.state, self.at.step_size);
+        if let Ok(step) = &step {
+            Memory::<L, M, N>::change_input(&mut self.memory);
+            self.at.follow(&step.state);
+        }
+        step
+    }
+
+    /// The first step of a run, or one that its clock may not tell from none.
+    #[cold]
+    #[inline(never)]
+    fn take_watched<L>(&mut self, system: &L) -> Result<Step<V::Scalar, N>, StepError>
+    where
+        L: Flow<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
+        V::RunMemory: Memory<L, M, N>,
+    {
+        let course = self.course.after(system, &self.at)?;
+        let step = self.take(system);
+        if step.is_ok() {
+            self.course = course;
+        }
+        step
     }
 
     /// As [`advance`](Self::advance), in 2, 4, … 2^`halvings` parts with the same input where the whole one fails.
@@ -185,9 +212,10 @@ where
         L: Flow<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
         V::RunMemory: Memory<L, M, N>,
     {
-        self.course.require_now(system, &self.at)?;
-        Memory::<L, M, N>::change_input(&mut self.memory);
+        let course = self.course.after(system, &self.at)?;
         let parted = in_parts(&mut self.memory, system, 0.0, &self.at, halvings)?;
+        Memory::<L, M, N>::change_input(&mut self.memory);
+        self.course = course;
         self.at.follow(&parted.step.state);
         Ok(parted)
     }
@@ -204,14 +232,15 @@ where
         L: Linearizable<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
         V::RunMemory: Memory<L, M, N>,
     {
-        self.course.require_now(system, &self.at)?;
+        let course = self.course.after(system, &self.at)?;
         let Checkpoint { state, step_size: h, .. } = self.at;
-        Memory::<L, M, N>::change_input(&mut self.memory);
         let step = Memory::<L, M, N>::advance(&mut self.memory, system, &state, h)?;
         let taken = StepTaken::new(system, &self.memory, &state, step, h);
+        Memory::<L, M, N>::change_input(&mut self.memory);
         if taken.is_err() {
             Memory::<L, M, N>::change_state(&mut self.memory);
         } else {
+            self.course = course;
             self.at.follow(&step.state);
         }
         taken

@@ -91,7 +91,8 @@ where
     /// The step of [`Flow::step`] from `state`.
     ///
     /// # Errors
-    /// Those of [`Flow::step`]; what is remembered is then as before.
+    /// Those of [`Flow::step`]; what is remembered is then as before, and where the method is a rule
+    /// ([`Linearizable`](crate::step::Linearizable)) nothing has been written.
     fn advance(
         &mut self,
         system: &L,
@@ -110,7 +111,8 @@ where
     fn follow(&mut self, _previous: &Self) {}
 
     /// The next step is of a system with another input: what was remembered of forces no longer holds, and the
-    /// Newton matrix may have changed. A memory that does not say better forgets all.
+    /// Newton matrix may have changed. A memory that does not say better forgets all. A run with inputs says so
+    /// at the end of each step.
     fn change_input(&mut self) {
         *self = Self::default();
     }
