@@ -16,6 +16,9 @@
 //! u is there where the force takes an input, t where L, R or f take the time. The chapter *In C* of `docs/embedding.md` is a
 //! control loop from the model to the numbers, and `examples/c/` the template.
 //!
+//! On a microcontroller, without the feature `std`, [`no_panic!`] makes the linker prove that no call panics; `examples/firmware-c/`
+//! is the template.
+//!
 //! The memory is the caller's: a static or a local variable of the type that the header declares. There is no
 //! allocation, no global state and no thread. A call that returns anything but `DALEMBERT_OK` has changed nothing, byte
 //! for byte. NULL, misaligned addresses, memory of another system or of none, layouts of another build and numbers that are NaN
@@ -38,6 +41,7 @@ pub mod boundary;
 mod header;
 #[doc(hidden)]
 pub mod machine;
+mod no_panic;
 mod number;
 mod parameters;
 mod report;

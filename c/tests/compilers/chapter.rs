@@ -1,4 +1,4 @@
-//! The chapters "In C" and "In a browser" of `docs/embedding.md` show the code of their templates. `c/run` and
+//! The chapters on C and on the browser of `docs/embedding.md` show the code of their templates. `c/run`, `firmware/run` and
 //! `examples/browser/run` follow their commands.
 
 use std::fs;
@@ -30,6 +30,7 @@ fn shows(chapter: &str, template: &str, languages: &[(&str, &[&str], usize)]) {
 #[test]
 fn the_chapters_show_the_templates() {
     shows("In C", "examples/c", &[("rust", &["src/lib.rs"], 2), ("c", &["main.c"], 3)]);
+    shows("On a microcontroller, from C", "examples/firmware-c", &[("rust", &["src/lib.rs"], 2)]);
     let scripts: &[&str] = &["page/module.js", "page/runs.js"];
     shows("In a browser", "examples/browser", &[("rust", &["src/lib.rs"], 1), ("js", scripts, 2)]);
 }

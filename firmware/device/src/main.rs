@@ -13,6 +13,7 @@ use core::hint::black_box;
 use core::panic::PanicInfo;
 use core::ptr;
 
+use dalembert::run::DrivenTrajectory;
 use dalembert::{Discrete, Discretise, Elementary, Midpoint, State};
 use firmware_scenes::{STEPS, Stepped, digest, double, single};
 use report::Line;
@@ -95,6 +96,36 @@ where
     succeeded
 }
 
+/// Steps a cart-pole with an input each, as `in_c/main.c` does; false where a step failed.
+macro_rules! push {
+    ($name:literal $module:ident $counter:ident) => {{
+        #[inline(never)]
+        fn push(counter: &machine::Counter) -> bool {
+            use $module::{DrivenPushedCartPole, PushedCartPole};
+            let system = black_box(PushedCartPole::SCENE);
+            let Ok(start) = system.start() else { return false };
+            let h = PushedCartPole::STEP;
+            let mut run = DrivenTrajectory::<DrivenPushedCartPole<'static>, Midpoint, 2>::new(h, start);
+            let (mut sum, mut worst, mut iterations, mut hash, mut succeeded) = (0, 0, 0, 0, true);
+            for index in 0..STEPS {
+                let (u, mut copy) = (black_box(PushedCartPole::input(index)), run.clone());
+                let instructions = counter.instructions(|| {
+                    succeeded &= black_box(&mut run).advance(&system.driven(u)).is_ok();
+                });
+                sum += instructions;
+                worst = if index == 0 { 0 } else { instructions.max(worst) };
+                let report = copy.advance(&system.driven(u)).map(|step| step.report);
+                iterations += report.map_or(0, |report| report.iterations);
+                hash = digest(hash, run.state());
+            }
+            let line = Line::new("scene").word($name).bits(hash);
+            line.number(sum / STEPS).number(worst).number(iterations).write();
+            succeeded
+        }
+        push(&$counter)
+    }};
+}
+
 /// Called by the start-up code.
 #[unsafe(no_mangle)]
 pub extern "C" fn start() -> ! {
@@ -115,6 +146,8 @@ pub extern "C" fn start() -> ! {
     scene!("double_pendulum_f64" double DoublePendulum);
     scene!("cart_pole_f64" double CartPole);
     Line::new("stack").word("f64").number(stack_used()).write();
+    succeeded &= push!("pushed_cart_pole_f32" single counter);
+    succeeded &= push!("pushed_cart_pole_f64" double counter);
     #[cfg(feature = "may-panic")]
     Line::new("control").number([1, 2, 3][stack_used() as usize]).write();
     machine::exit(if succeeded { 0 } else { 2 })

@@ -2,14 +2,19 @@
 //! instructions and stack below their ceilings. `firmware-host m7 3 < report`
 
 mod ceilings;
+mod in_c;
 
 use std::collections::HashMap;
 use std::io::Read;
 use std::process::ExitCode;
 
 use ceilings::{Ceiling, ceiling, stack_ceiling};
+use dalembert::run::DrivenTrajectory;
 use dalembert::{Discrete, Discretise, Midpoint, State};
 use firmware_scenes::{STEPS, Stepped, digest, double, single};
+
+/// How many scenes the program in C steps.
+const IN_C: usize = 2;
 
 /// The digest of the scene's states, by the same elementary functions as on the device.
 fn expected<L, const N: usize>(system: &L, start: State<L::Scalar, N>, h: L::Scalar) -> u64
@@ -31,24 +36,52 @@ fn all_expected() -> HashMap<&'static str, u64> {
             ($name, expected(&system, system.start().expect("masses are regular"), $module::$system::STEP))
         }};
     }
+    macro_rules! pushed {
+        ($name:literal $module:ident) => {{
+            use $module::{DrivenPushedCartPole, PushedCartPole};
+            let (system, h) = (PushedCartPole::SCENE, PushedCartPole::STEP);
+            let start = system.start().expect("masses are regular");
+            let mut run = DrivenTrajectory::<DrivenPushedCartPole<'static>, Midpoint, 2>::new(h, start);
+            let of_step = |hash, index| {
+                run.advance(&system.driven(PushedCartPole::input(index))).expect("the scene steps");
+                digest(hash, run.state())
+            };
+            ($name, (0..STEPS).fold(0, of_step))
+        }};
+    }
     HashMap::from([
         scene!("double_pendulum_f32" single DoublePendulum),
         scene!("cart_pole_f32" single CartPole),
+        pushed!("pushed_cart_pole_f32" single),
         scene!("double_pendulum_f64" double DoublePendulum),
         scene!("cart_pole_f64" double CartPole),
+        pushed!("pushed_cart_pole_f64" double),
     ])
 }
 
-/// What is wrong with a line of the report; nothing if it holds.
-fn mistake(words: &[&str], machine: &str, level: &str, expected: &HashMap<&str, u64>) -> Option<String> {
+/// Where a scene's `bits` are not those of the host.
+fn other_bits(name: &str, bits: &str, expected: &HashMap<&str, u64>) -> Option<String> {
+    let Some(own) = expected.get(name).map(|bits| format!("{bits:016x}")) else {
+        return Some(format!("no scene is called {name}"));
+    };
+    (own != bits).then(|| format!("{name}: bits {bits}, on the host {own}"))
+}
+
+/// What is wrong with a line of the report; nothing if it holds. `in_rust` is the mean of a scene's steps in Rust.
+fn mistake(
+    words: &[&str],
+    machine: &str,
+    level: &str,
+    expected: &HashMap<&str, u64>,
+    in_rust: impl Fn(&str) -> Option<u32>,
+) -> Option<String> {
     let number = |word: &str| word.parse::<u32>().ok();
     match words {
+        ["c", name, bits, mean, _, _, _] => other_bits(name, bits, expected)
+            .or_else(|| in_c::mistake(level, name, number(mean), in_rust(name))),
         ["scene", name, bits, mean, worst, _] => {
-            let Some(own) = expected.get(name).map(|bits| format!("{bits:016x}")) else {
-                return Some(format!("no scene is called {name}"));
-            };
-            if own != *bits {
-                return Some(format!("{name}: bits {bits}, on the host {own}"));
+            if let Some(other) = other_bits(name, bits, expected) {
+                return Some(other);
             }
             let (Some(ceiling), Some(mean), Some(worst)) =
                 (ceiling(machine, level, name), number(mean), number(worst))
@@ -63,7 +96,7 @@ fn mistake(words: &[&str], machine: &str, level: &str, expected: &HashMap<&str, 
                 format!("{name}: {worst} instructions in the worst step, the ceiling is {worst_ceiling}")
             })
         }
-        ["stack", scalar, bytes] => {
+        ["stack" | "c_stack", scalar, bytes] => {
             let ceiling = stack_ceiling(scalar)?;
             (number(bytes)? > ceiling)
                 .then(|| format!("{scalar}: {bytes} bytes of stack, the ceiling is {ceiling}"))
@@ -91,13 +124,20 @@ fn main() -> ExitCode {
     }
     let expected = all_expected();
     let lines: Vec<Vec<&str>> = report.lines().map(|line| line.split_whitespace().collect()).collect();
-    let scenes = lines.iter().filter(|words| words.first() == Some(&"scene")).count();
-    let mut failed = scenes != expected.len();
+    let count = |of: &str| lines.iter().filter(|words| words.first() == Some(&of)).count();
+    let (scenes, in_c) = (count("scene"), count("c"));
+    let mut failed = scenes != expected.len() || in_c != IN_C;
     if failed {
-        eprintln!("{machine}: {scenes} scenes reported, not {}", expected.len());
+        eprintln!("{machine}: {scenes} scenes reported, not {}; {in_c} in C, not {IN_C}", expected.len());
     }
+    let in_rust = |scene: &str| {
+        lines.iter().find_map(|words| match words[..] {
+            ["scene", name, _, mean, ..] if name == scene => mean.parse().ok(),
+            _ => None,
+        })
+    };
     for words in &lines {
-        if let Some(mistake) = mistake(words, machine, level, &expected) {
+        if let Some(mistake) = mistake(words, machine, level, &expected, in_rust) {
             eprintln!("{machine}, opt-level {level}: {mistake}");
             failed = true;
         }
@@ -113,19 +153,27 @@ mod tests {
     #[test]
     fn other_bits_and_higher_counts_are_mistakes() {
         let expected = all_expected();
+        let in_rust = |_: &str| Some(1000);
         let bits = format!("{:016x}", expected["cart_pole_f64"]);
         let said = |bits: &str, mean: &str, worst: &str| {
-            mistake(&["scene", "cart_pole_f64", bits, mean, worst, "400"], "m7", "3", &expected)
+            mistake(&["scene", "cart_pole_f64", bits, mean, worst, "400"], "m7", "3", &expected, in_rust)
         };
         assert_eq!(said(&bits, "1000", "1000"), None);
         assert!(said("0000000000000000", "1000", "1000").is_some_and(|text| text.contains("on the host")));
         assert!(said(&bits, "9000", "9000").is_some_and(|text| text.contains("9000 instructions a step")));
         assert!(said(&bits, "1000", "9000").is_some_and(|text| text.contains("in the worst step")));
-        let first =
-            |count: &str| mistake(&["part", "cart_pole_f64", "first_step", count], "m7", "3", &expected);
+        let first = |count: &str| {
+            mistake(&["part", "cart_pole_f64", "first_step", count], "m7", "3", &expected, in_rust)
+        };
         assert_eq!(first("1000"), None);
         assert!(first("90000").is_some_and(|text| text.contains("in the first step")));
-        assert!(mistake(&["stack", "f64", "99999"], "m7", "3", &expected).is_some());
-        assert!(mistake(&["fault"], "m7", "3", &expected).is_some());
+        assert!(mistake(&["stack", "f64", "99999"], "m7", "3", &expected, in_rust).is_some());
+        assert!(mistake(&["fault"], "m7", "3", &expected, in_rust).is_some());
+        let in_c = |bits: &str, mean: &str| {
+            mistake(&["c", "cart_pole_f64", bits, mean, "1100", "400", "1200"], "m7", "3", &expected, in_rust)
+        };
+        assert_eq!(in_c(&bits, "1010"), None);
+        assert!(in_c("0000000000000000", "1010").is_some_and(|text| text.contains("on the host")));
+        assert!(in_c(&bits, "1100").is_some_and(|text| text.contains("1100 instructions a step")));
     }
 }

@@ -1,4 +1,4 @@
-//! What the machines step: the double pendulum that all packages share, and a cart-pole with friction.
+//! What the machines step: the double pendulum that all packages share, and a cart-pole with friction, left alone and pushed.
 
 use dalembert::{Discrete, Midpoint, State, StepError, rayleigh_system};
 
@@ -16,16 +16,12 @@ pub trait Stepped: Discrete<Midpoint, 2> + Sized {
     fn start(&self) -> Result<State<Self::Scalar, 2>, StepError>;
 }
 
-macro_rules! scenes {
-    ($(#[$doc:meta])* $module:ident $float:ident $double_pendulum:path) => {
-        $(#[$doc])*
-        pub mod $module {
-            use super::{State, StepError, Stepped, rayleigh_system};
-
-            pub use $double_pendulum;
-
+/// A cart-pole, whose cart a force may push: declared so that C can fill it in.
+macro_rules! cart_pole {
+    ($name:ident $float:ident $($force:item)?) => {
+        dalembert_c::parameters! {
             /// A pole hinged on a cart: q is the cart's position and the pole's angle from the upright; friction in both.
-            pub struct CartPole {
+            pub struct $name {
                 /// Mass of the cart in kg.
                 pub cart: $float,
                 /// Mass of the pole in kg.
@@ -37,20 +33,41 @@ macro_rules! scenes {
                 /// Friction of the cart in N s/m, and of the hinge in N m s.
                 pub c: [$float; 2],
             }
+        }
 
-            #[rayleigh_system(derivatives = expanded)]
-            impl CartPole {
-                fn lagrangian(&self, q: [$float; 2], v: [$float; 2]) -> $float {
-                    let (sine, cosine) = q[1].sin_cos();
-                    // The centre of mass, and a slender rod's inertia about it.
-                    let [x, y] = [v[0] + self.half_length * cosine * v[1], -self.half_length * sine * v[1]];
-                    let spin = self.half_length * v[1];
-                    0.5 * self.cart * v[0].powi(2) + 0.5 * self.pole * (x * x + y * y) + self.pole * spin * spin / 6.0
-                        - self.pole * self.g * self.half_length * cosine
-                }
+        #[rayleigh_system(derivatives = expanded)]
+        impl $name {
+            fn lagrangian(&self, q: [$float; 2], v: [$float; 2]) -> $float {
+                let (sine, cosine) = q[1].sin_cos();
+                // The centre of mass, and a slender rod's inertia about it.
+                let [x, y] = [v[0] + self.half_length * cosine * v[1], -self.half_length * sine * v[1]];
+                let spin = self.half_length * v[1];
+                0.5 * self.cart * v[0].powi(2) + 0.5 * self.pole * (x * x + y * y) + self.pole * spin * spin / 6.0
+                    - self.pole * self.g * self.half_length * cosine
+            }
 
-                fn rayleigh(&self, v: [$float; 2]) -> $float {
-                    0.5 * (self.c[0] * v[0].powi(2) + self.c[1] * v[1].powi(2))
+            fn rayleigh(&self, v: [$float; 2]) -> $float {
+                0.5 * (self.c[0] * v[0].powi(2) + self.c[1] * v[1].powi(2))
+            }
+
+            $($force)?
+        }
+    };
+}
+
+macro_rules! scenes {
+    ($(#[$doc:meta])* $module:ident $float:ident $double_pendulum:path) => {
+        $(#[$doc])*
+        pub mod $module {
+            use super::{State, StepError, Stepped, rayleigh_system};
+
+            pub use $double_pendulum;
+
+            cart_pole! { CartPole $float }
+            cart_pole! {
+                PushedCartPole $float
+                fn force(&self, _q: [$float; 2], _v: [$float; 2], u: [$float; 1]) -> [$float; 2] {
+                    [u[0], 0.0]
                 }
             }
 
@@ -71,6 +88,28 @@ macro_rules! scenes {
 
                 fn start(&self) -> Result<State<$float, 2>, StepError> {
                     State::from_velocity(self, [0.0, 0.1], [0.2, 0.0])
+                }
+            }
+
+            /// The same while it is pushed and pulled: what a controller in C steps, and one in Rust.
+            impl PushedCartPole {
+                /// Step size in s.
+                pub const STEP: $float = CartPole::STEP;
+                /// With the parameters of the cart-pole.
+                pub const SCENE: Self = Self { cart: 1.0, pole: 0.2, half_length: 0.4, g: 9.81, c: [0.3, 0.01] };
+
+                /// Where it starts.
+                ///
+                /// # Errors
+                /// None, with the masses of the scene.
+                pub fn start(&self) -> Result<State<$float, 2>, StepError> {
+                    State::from_velocity(&self.driven([0.0]), [0.0, 0.1], [0.2, 0.0])
+                }
+
+                /// The force on the cart in step `index`, in N.
+                #[must_use]
+                pub fn input(index: u32) -> [$float; 1] {
+                    [0.25 * (index % 5) as $float - 0.5]
                 }
             }
         }
