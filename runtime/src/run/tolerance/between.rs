@@ -49,7 +49,7 @@ where
     where
         G: Fn(&Moment<'_, L, N>) -> [L::Scalar; K],
     {
-        Watch::new(self, g)
+        Watch::of(self, g)
     }
 }
 
