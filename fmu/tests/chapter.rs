@@ -8,7 +8,8 @@ use std::path::Path;
 fn the_chapter_shows_the_template() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let page = fs::read_to_string(root.join("docs/embedding.md")).expect("the page");
-    let chapter = page.split("\n## As a functional mock-up unit\n").nth(1).expect("the chapter");
+    let chapter = page.split("\n## ").find_map(|part| part.strip_prefix("As a functional mock-up unit\n"));
+    let chapter = chapter.expect("the chapter");
     let template = fs::read_to_string(root.join("examples/fmu/src/lib.rs")).expect("the template");
     let blocks: Vec<_> =
         chapter.split("```rust\n").skip(1).filter_map(|rest| rest.split("```").next()).collect();
