@@ -10,6 +10,8 @@
 
 #![no_std]
 #![no_main]
+// The control needs but some of the steps.
+#![cfg_attr(feature = "may-panic", allow(dead_code))]
 
 mod gauss;
 mod systems;
@@ -33,8 +35,9 @@ fn panic(_: &PanicInfo) -> ! {
 /// What the C runtime calls.
 #[unsafe(no_mangle)]
 pub extern "C" fn main() -> i32 {
+    #[cfg(not(feature = "may-panic"))]
     let failed = systems::step_all() + gauss::step_all();
     #[cfg(feature = "may-panic")]
-    let failed = failed + [1, 2, 3][black_box(failed) as usize];
+    let failed = [1, 2, 3][black_box(gauss::step_all()) as usize];
     black_box(failed)
 }
