@@ -97,7 +97,7 @@ macro_rules! c_api {
 
             const TIMES: usize = [$(stringify!($t),)? ""].len() - 1;
             const LAYOUT: u64 = $crate::layout(
-                <$system as $crate::CParameters>::FIELDS,
+                <$system as $crate::Fields>::FIELDS,
                 &[stringify!($prefix), stringify!($rule), <CScalar as $crate::CType>::BASE],
                 &[$n, 0 $(+ $inputs)?, 0 $(+ $parameters)?, TIMES, size_of::<$system>()],
             );
@@ -108,8 +108,8 @@ macro_rules! c_api {
                 prefix: stringify!($prefix),
                 rule: stringify!($rule),
                 layout: LAYOUT,
-                documentation: <$system as $crate::CParameters>::DOCUMENTATION,
-                fields: <$system as $crate::CParameters>::FIELDS,
+                documentation: <$system as $crate::Fields>::DOCUMENTATION,
+                fields: <$system as $crate::Fields>::FIELDS,
                 parameters_size: size_of::<$system>(),
                 memory_size: size_of::<CMemory>(),
                 scalar: <CScalar as $crate::CType>::BASE,

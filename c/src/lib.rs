@@ -49,6 +49,6 @@ mod status;
 
 pub use header::Header;
 pub use number::Number;
-pub use parameters::{CParameters, CType, Field, layout};
+pub use parameters::{CParameters, CType, Field, Fields, layout};
 pub use report::CReport;
 pub use status::{Status, text};

@@ -17,6 +17,9 @@ pub trait CType: Plain {
     /// What stands behind it: `[2][3]`, or nothing.
     const DIMENSIONS: &'static [usize];
 
+    /// 0, or as many as there are.
+    const ZERO: Self;
+
     /// Whether it is NaN, or has a NaN in it.
     fn has_nan(&self) -> bool;
 
@@ -32,6 +35,7 @@ macro_rules! numbers {
         impl CType for $number {
             const BASE: &'static str = $c;
             const DIMENSIONS: &'static [usize] = &[];
+            const ZERO: Self = 0 as $number;
 
             fn has_nan(&self) -> bool {
                 let $value = *self;
@@ -54,6 +58,7 @@ macro_rules! numbers {
         impl<const K: usize> CType for [$number; K] {
             const BASE: &'static str = $c;
             const DIMENSIONS: &'static [usize] = &[K];
+            const ZERO: Self = [0 as $number; K];
 
             fn has_nan(&self) -> bool {
                 self.iter().any(CType::has_nan)
@@ -71,6 +76,7 @@ macro_rules! numbers {
         impl<const J: usize, const K: usize> CType for [[$number; K]; J] {
             const BASE: &'static str = $c;
             const DIMENSIONS: &'static [usize] = &[J, K];
+            const ZERO: Self = [[0 as $number; K]; J];
 
             fn has_nan(&self) -> bool {
                 self.iter().any(CType::has_nan)
@@ -115,16 +121,15 @@ pub struct Field {
     pub offset: usize,
 }
 
-/// A system whose fields C can fill in: a struct that [`parameters!`](crate::parameters) declares.
-#[diagnostic::on_unimplemented(
-    message = "C does not know the fields of `{Self}`",
-    note = "declare the struct in `dalembert_c::parameters! {{ … }}`"
-)]
-pub trait CParameters: Plain {
+/// A system that knows its fields by name and number: a struct that [`fields!`](crate::fields) declares, for whoever fills
+/// them in.
+pub trait Fields: Copy + 'static {
     /// What the struct is, a line each.
     const DOCUMENTATION: &'static [&'static str];
     /// Its fields, in order.
     const FIELDS: &'static [Field];
+    /// The system all of whose fields are 0.
+    const ZERO: Self;
 
     /// Whether a field is NaN, or has a NaN in it.
     fn has_nan(&self) -> bool;
@@ -135,6 +140,15 @@ pub trait CParameters: Plain {
     /// Changes number `index` of field `field`; whether there is one of this type.
     fn change_entry(&mut self, field: usize, index: usize, value: Number) -> bool;
 }
+
+/// A system whose fields C can fill in: a struct that [`parameters!`](crate::parameters) declares.
+#[diagnostic::on_unimplemented(
+    message = "C does not know the fields of `{Self}`",
+    note = "declare the struct in `dalembert_c::parameters! {{ … }}`"
+)]
+pub trait CParameters: Fields + Plain {}
+
+impl<P: Fields + Plain> CParameters for P {}
 
 /// Declares the struct of a system whose fields C is to fill in, and lays it out as C does.
 ///
@@ -158,6 +172,25 @@ macro_rules! parameters {
         $(#[doc = $doc:expr])*
         $vis:vis struct $name:ident { $($(#[doc = $field_doc:expr])* pub $field:ident: $kind:ty),+ $(,)? }
     ) => {
+        $crate::fields! {
+            $(#[doc = $doc])*
+            $vis struct $name { $($(#[doc = $field_doc])* pub $field: $kind),+ }
+        }
+
+        // SAFETY: repr(C), and each field is a CType, so Plain; bytes between fields are not read.
+        #[allow(unsafe_code)]
+        unsafe impl $crate::boundary::Plain for $name {}
+    };
+}
+
+/// Declares the struct of a system as [`parameters!`](crate::parameters) does, for languages that fill it in by name: with no
+/// word about its bytes, and maybe without a field.
+#[macro_export]
+macro_rules! fields {
+    (
+        $(#[doc = $doc:expr])*
+        $vis:vis struct $name:ident { $($(#[doc = $field_doc:expr])* pub $field:ident: $kind:ty),* $(,)? }
+    ) => {
         $(#[doc = $doc])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[repr(C)]
@@ -165,11 +198,7 @@ macro_rules! parameters {
             $($(#[doc = $field_doc])* pub $field: $kind,)*
         }
 
-        // SAFETY: repr(C), and each field is a CType, so Plain; bytes between fields are not read.
-        #[allow(unsafe_code)]
-        unsafe impl $crate::boundary::Plain for $name {}
-
-        impl $crate::CParameters for $name {
+        impl $crate::Fields for $name {
             const DOCUMENTATION: &'static [&'static str] = &[$($doc),*];
             const FIELDS: &'static [$crate::Field] = &[$($crate::Field {
                 name: stringify!($field),
@@ -178,6 +207,7 @@ macro_rules! parameters {
                 dimensions: <$kind as $crate::CType>::DIMENSIONS,
                 offset: core::mem::offset_of!($name, $field),
             }),*];
+            const ZERO: Self = Self { $($field: <$kind as $crate::CType>::ZERO,)* };
 
             fn has_nan(&self) -> bool {
                 false $(|| <$kind as $crate::CType>::has_nan(&self.$field))*

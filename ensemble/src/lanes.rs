@@ -19,6 +19,14 @@ pub struct InLanes<M, S> {
     pub(crate) plan: Plan<S>,
 }
 
+impl<M, S> InLanes<M, S> {
+    /// By this method and plan.
+    #[must_use]
+    pub const fn new(method: M, plan: Plan<S>) -> Self {
+        Self { method, plan }
+    }
+}
+
 /// All runs on by this many steps, compiled for several instruction sets, of which the machine's is taken when
 /// the program runs.
 #[multiversion(targets(

@@ -135,11 +135,7 @@ where
         }
         let at = |source| PartsError::Io { path: self.folder.clone(), source };
         fs::create_dir_all(&self.folder).map_err(at)?;
-        let planned: Vec<Range<u64>> = numbers
-            .clone()
-            .step_by(usize::try_from(self.members).unwrap_or(usize::MAX))
-            .map(|first| first..numbers.end.min(first.saturating_add(self.members)))
-            .collect();
+        let planned: Vec<Range<u64>> = self.planned(numbers).collect();
         file::require_apart(&self.folder, &planned)?;
         file::remove_leftovers(&self.folder, &planned);
         let metadata = self.described();
@@ -169,6 +165,17 @@ where
             computed
         })?;
         Ok(written)
+    }
+
+    /// The files that the members `numbers` are in, or will be.
+    pub fn paths(&self, numbers: Range<u64>) -> impl Iterator<Item = PathBuf> {
+        self.planned(numbers).map(|part| file::path(&self.folder, &part))
+    }
+
+    fn planned(&self, numbers: Range<u64>) -> impl Iterator<Item = Range<u64>> {
+        let members = self.members;
+        let firsts = numbers.clone().step_by(usize::try_from(members).unwrap_or(usize::MAX));
+        firsts.map(move |first| first..numbers.end.min(first.saturating_add(members)))
     }
 
     /// The rows of one part, and how many of its members failed.

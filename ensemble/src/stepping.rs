@@ -71,6 +71,14 @@ pub struct OneByOne<M, S> {
     pub(crate) plan: Plan<S>,
 }
 
+impl<M, S> OneByOne<M, S> {
+    /// By this method and plan.
+    #[must_use]
+    pub const fn new(method: M, plan: Plan<S>) -> Self {
+        Self { method, plan }
+    }
+}
+
 impl<L, M, const N: usize> Stepping<L, N> for OneByOne<M, L::Scalar>
 where
     L: Flow<M, N>,
@@ -149,6 +157,14 @@ impl<S: Scalar> Plan<S> {
 pub struct ToError {
     pub(crate) tolerance: f64,
     pub(crate) time: f64,
+}
+
+impl ToError {
+    /// To the error `tolerance` until `time`.
+    #[must_use]
+    pub const fn new(tolerance: f64, time: f64) -> Self {
+        Self { tolerance, time }
+    }
 }
 
 impl<L, const N: usize> Stepping<L, N> for ToError

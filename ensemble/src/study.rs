@@ -2,6 +2,7 @@
 
 use core::marker::PhantomData;
 use core::ops::{ControlFlow, Range};
+use core::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use dalembert::run::InLanes as LanesBy;
@@ -66,6 +67,16 @@ impl<F> Ensemble<F> {
     {
         Study::new(self.members, ToError { tolerance, time })
     }
+
+    /// All members by a stepping that is not known when the program is compiled, or of one's own.
+    pub fn stepped<'f, M, L, const N: usize>(self, stepping: M) -> Study<'f, F, M, L, N>
+    where
+        F: Fn(u64) -> Result<(L, State<L::Scalar, N>), StepError> + Sync,
+        M: Stepping<L, N>,
+        L: Lagrangian<N>,
+    {
+        Study::new(self.members, stepping)
+    }
 }
 
 type Callback<'f> = Box<dyn Fn(Progress) -> ControlFlow<()> + Sync + 'f>;
@@ -79,6 +90,7 @@ pub struct Study<'f, F, M, L: Lagrangian<N>, const N: usize> {
     pub(crate) members: F,
     pub(crate) stepping: M,
     progress: Option<Callback<'f>>,
+    cancel: Option<&'f AtomicBool>,
     pub(crate) arrival: Option<Arrival<'f, L, N>>,
     of: PhantomData<fn() -> L>,
 }
@@ -99,7 +111,7 @@ pub struct Outcome<V, S, const N: usize> {
 
 impl<F, M, L: Lagrangian<N>, const N: usize> Study<'_, F, M, L, N> {
     fn new(members: F, stepping: M) -> Self {
-        Self { members, stepping, progress: None, arrival: None, of: PhantomData }
+        Self { members, stepping, progress: None, cancel: None, arrival: None, of: PhantomData }
     }
 }
 
@@ -177,8 +189,8 @@ where
     /// ```
     pub fn in_lanes(self) -> Study<'f, F, InLanes<M, L::Scalar>, L, N> {
         let OneByOne { method, plan } = self.stepping;
-        let Self { members, progress, arrival, of, .. } = self;
-        Study { members, stepping: InLanes { method, plan }, progress, arrival, of }
+        let Self { members, progress, cancel, arrival, of, .. } = self;
+        Study { members, stepping: InLanes { method, plan }, progress, cancel, arrival, of }
     }
 }
 
@@ -192,6 +204,35 @@ where
     /// cancels.
     pub fn on_progress(mut self, progress: impl Fn(Progress) -> ControlFlow<()> + Sync + 'f) -> Self {
         self.progress = Some(Box::new(progress));
+        self
+    }
+
+    /// Cancels when another thread sets `flag`: sooner than the progress callback can, after the members that threads have in
+    /// hand, 64 each at first. What they came to is not counted.
+    ///
+    /// ```
+    /// use std::sync::atomic::{AtomicBool, Ordering};
+    ///
+    /// use dalembert::{Midpoint, State, rayleigh_system};
+    /// use dalembert_ensemble::Ensemble;
+    ///
+    /// #[rayleigh_system]
+    /// fn falling(q: [f64; 1], v: [f64; 1]) -> f64 {
+    ///     0.5 * v[0] * v[0] - q[0]
+    /// }
+    /// let flag = AtomicBool::new(false);
+    /// let study = Ensemble::new(|_| {
+    ///     flag.store(true, Ordering::Relaxed);
+    ///     Ok((Falling {}, State { q: [1.0].into(), p: [0.0].into() }))
+    /// })
+    /// .by(Midpoint, 0.5)
+    /// .steps(100)
+    /// .cancelled_by(&flag);
+    /// let cancelled = study.ends(0..1_000_000).expect_err("the flag was set");
+    /// assert!(cancelled.total.is_empty());
+    /// ```
+    pub fn cancelled_by(mut self, flag: &'f AtomicBool) -> Self {
+        self.cancel = Some(flag);
         self
     }
 
@@ -326,6 +367,9 @@ where
             let window = size * CHUNKS * rayon::current_num_threads() as u64;
             let end = numbers.end.min(first.saturating_add(window));
             let chunk = |first: u64| {
+                if self.is_flagged() {
+                    return Vec::new();
+                }
                 let numbers = first..end.min(first.saturating_add(size));
                 let mut slots: Vec<Slot<L, V, N>> = numbers
                     .map(|number| Slot {
@@ -342,11 +386,14 @@ where
                 (outcomes.len() as u64, failed as u64, together(outcomes))
             };
             let chunks: Vec<u64> = (first..end).step_by(size as usize).collect();
-            let chunks: Vec<_> = chunks.into_par_iter().map(chunk).collect();
-            for (done, failed, kept) in chunks {
-                progress.done += done;
-                progress.failed += failed;
-                add(&mut total, kept);
+            let outcomes: Vec<_> = chunks.into_par_iter().map(chunk).collect();
+            if self.is_flagged() {
+                return Err(Cancelled { total, progress });
+            }
+            for outcome in outcomes.into_iter().flatten() {
+                progress.done += 1;
+                progress.failed += u64::from(outcome.failure.is_some());
+                add(&mut total, outcome);
             }
             first = end;
             if begin.elapsed() < BRIEF {
@@ -358,7 +405,11 @@ where
         Ok(total)
     }
 
+    fn is_flagged(&self) -> bool {
+        self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
+    }
+
     fn is_cancelled(&self, progress: Progress) -> bool {
-        self.progress.as_ref().is_some_and(|callback| callback(progress).is_break())
+        self.is_flagged() || self.progress.as_ref().is_some_and(|callback| callback(progress).is_break())
     }
 }

@@ -6,7 +6,7 @@ use dalembert::run::DrivenTrajectory;
 use dalembert::system::Scalar;
 use dalembert::{Lagrangian, State, nalgebra::SVector};
 use dalembert_c::machine::{self, Interface};
-use dalembert_c::{CParameters, Number};
+use dalembert_c::{Fields, Number};
 
 use crate::model::Model;
 use crate::refusal::{Mode, Refusal};

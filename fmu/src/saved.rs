@@ -6,7 +6,7 @@ use dalembert::State;
 use dalembert::run::{Checkpoint, DrivenTrajectory};
 use dalembert::system::Scalar;
 use dalembert_c::machine::Interface;
-use dalembert_c::{CParameters, Number};
+use dalembert_c::{Fields, Number};
 
 use crate::cosimulation::CoSimulation;
 use crate::refusal::{Mode, Refusal};

@@ -2,7 +2,7 @@
 
 use dalembert::system::Scalar;
 use dalembert_c::machine::Interface;
-use dalembert_c::{CParameters, Field, Number};
+use dalembert_c::{Field, Fields, Number};
 
 use crate::Unit;
 

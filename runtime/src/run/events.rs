@@ -55,7 +55,7 @@ where
     where
         G: Fn(&Moment<'_, L, N>) -> [L::Scalar; K],
     {
-        Watch::of(self, g)
+        Watch::new(self, g)
     }
 }
 
@@ -158,7 +158,8 @@ where
     T: Divisible<N>,
     G: Fn(&Moment<'_, T::System, N>) -> [T::Scalar; K],
 {
-    pub(in crate::run) fn of(run: &'t mut T, g: G) -> Self {
+    /// Watches `run`, of whatever type, for the events that the functions `g` vanish.
+    pub fn new(run: &'t mut T, g: G) -> Self {
         Self {
             dense: Dense::of(run),
             g,

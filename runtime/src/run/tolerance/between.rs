@@ -49,7 +49,7 @@ where
     where
         G: Fn(&Moment<'_, L, N>) -> [L::Scalar; K],
     {
-        Watch::of(self, g)
+        Watch::new(self, g)
     }
 }
 

@@ -1,0 +1,200 @@
+//! What checkers say of a system by one of its rules.
+
+use dalembert::nalgebra::{SMatrix, SVector};
+use dalembert::noether::{Contribution, Generator};
+use dalembert::samples::{SampleError, segments};
+use dalembert::step::{Discrete, ForceWork};
+use dalembert::{Discretise, EnergyLedger, Lagrangian, State};
+
+use crate::motion::Given;
+use crate::offer::Probe;
+use crate::record::Failure;
+use crate::system::System;
+
+/// A generator ξ(q) = A q + b of a group.
+#[derive(Clone, Debug)]
+pub struct Affine {
+    /// What reports call it.
+    pub name: String,
+    /// A, row by row.
+    pub linear: Vec<f64>,
+    /// b.
+    pub constant: Vec<f64>,
+}
+
+/// Where symmetries are looked for: segments that begin in a box.
+#[derive(Clone, Copy, Debug)]
+pub struct Region<'a> {
+    /// Lower ends.
+    pub low: &'a [f64],
+    /// Upper ends.
+    pub high: &'a [f64],
+    /// Largest displacement of each coordinate.
+    pub reach: &'a [f64],
+    /// How many segments.
+    pub samples: usize,
+}
+
+/// What was found of a generator.
+#[derive(Clone, Debug)]
+pub struct Symmetry {
+    /// Its name.
+    pub generator: String,
+    /// Whether it is a symmetry of L_d.
+    pub is_symmetry_of_lagrangian: bool,
+    /// Whether the discrete force does work along it.
+    pub force_does_work: bool,
+    /// Whether its momentum is conserved.
+    pub is_conserved: bool,
+    /// Whether the momenta are those of L_d and f_d.
+    pub is_consistent: bool,
+    /// ξ(L_d), f_d(ξ) and their sum: the largest value, beside what counts as zero, and what counts.
+    pub findings: [[f64; 2]; 3],
+    /// The report in words.
+    pub text: String,
+}
+
+/// Where the energy of a run went.
+#[derive(Clone, Copy, Debug)]
+pub struct Ledger {
+    /// E at the end less E at the start.
+    pub change: f64,
+    /// What friction took.
+    pub dissipated: f64,
+    /// What the general force brought.
+    pub work: f64,
+    /// The largest remainder of a step, by size.
+    pub largest: f64,
+    /// What the method did.
+    pub remainder: f64,
+}
+
+/// What is asked of a system by one rule.
+pub trait Checks<S: System<N>, const N: usize>: Send + Sync {
+    /// What the generators do.
+    ///
+    /// # Errors
+    /// A [`SampleError`].
+    fn symmetries(
+        &self,
+        fields: &S::Fields,
+        given: Given<'_>,
+        h: f64,
+        generators: &[Affine],
+        region: &Region<'_>,
+    ) -> Result<Vec<Symmetry>, SampleError>;
+
+    /// Where the energy of a run of so many steps went.
+    ///
+    /// # Errors
+    /// The step that failed.
+    fn ledger(
+        &self,
+        fields: &S::Fields,
+        given: Given<'_>,
+        h: f64,
+        start: &State<f64, N>,
+        steps: u64,
+    ) -> Result<Ledger, Failure>;
+}
+
+/// Of a method that has no discrete objects by formulas.
+pub trait NoChecks<S: System<N>, const N: usize> {
+    /// Nothing.
+    fn checks(&self) -> Option<Box<dyn Checks<S, N>>> {
+        None
+    }
+}
+
+impl<S: System<N>, M, const N: usize> NoChecks<S, N> for Probe<S, M, N> {}
+
+/// A rule.
+struct ByRule<M>(M);
+
+impl<S, M, const N: usize> Probe<S, M, N>
+where
+    S: System<N>,
+    for<'a> S::View<'a>: Discrete<M, N> + ForceWork<M, N>,
+    M: Copy + Send + Sync + 'static,
+{
+    /// What is asked of discrete objects.
+    #[must_use]
+    pub fn checks(&self) -> Option<Box<dyn Checks<S, N>>> {
+        Some(Box::new(ByRule(self.method)))
+    }
+}
+
+impl<S, M, const N: usize> Checks<S, N> for ByRule<M>
+where
+    S: System<N>,
+    for<'a> S::View<'a>: Discrete<M, N> + ForceWork<M, N>,
+    M: Copy + Send + Sync + 'static,
+{
+    fn symmetries(
+        &self,
+        fields: &S::Fields,
+        given: Given<'_>,
+        h: f64,
+        generators: &[Affine],
+        region: &Region<'_>,
+    ) -> Result<Vec<Symmetry>, SampleError> {
+        let system = S::view(fields, given.inputs, given.time);
+        let noether = system.by(self.0, h).noether();
+        let vector = SVector::<f64, N>::from_column_slice;
+        let Region { low, high, reach, samples } = *region;
+        let segments = segments(vector(low), vector(high), vector(reach), samples);
+        let judged = |Affine { name, linear, constant }: &Affine| {
+            let generator = Generator::affine(
+                name.clone(),
+                SMatrix::<f64, N, N>::from_row_slice(linear),
+                vector(constant),
+            );
+            let found = noether.symmetry(&generator, &segments)?;
+            let pair = |finding: &Contribution<N>| [finding.value, finding.tolerance];
+            Ok(Symmetry {
+                generator: found.generator.clone(),
+                is_symmetry_of_lagrangian: found.is_symmetry_of_lagrangian(),
+                force_does_work: found.force_does_work(),
+                is_conserved: found.is_conserved(),
+                is_consistent: found.is_consistent(),
+                findings: [pair(&found.lagrangian), pair(&found.force), pair(&found.defect)],
+                text: found.to_string(),
+            })
+        };
+        generators.iter().map(judged).collect()
+    }
+
+    fn ledger(
+        &self,
+        fields: &S::Fields,
+        given: Given<'_>,
+        h: f64,
+        start: &State<f64, N>,
+        steps: u64,
+    ) -> Result<Ledger, Failure> {
+        let system = S::view(fields, given.inputs, given.time);
+        let by = system.by(self.0, h);
+        let (mut total, mut largest) = (EnergyLedger::default(), 0.0_f64);
+        let (mut run, mut state) = (by.run(*start), *start);
+        for step in 0..steps {
+            let time = run.time();
+            let of_step = |state: &State<f64, N>, next: &State<f64, N>| {
+                system.later(time, |system| system.by(self.0, h).ledger(state, next))
+            };
+            let failed = |error| Failure {
+                error,
+                step,
+                time: given.time + time,
+                state: [state.q, state.p].map(|vector| vector.as_slice().to_vec()),
+            };
+            let Some(next) = run.next() else { break };
+            let next = next.map_err(failed)?.state;
+            let ledger = of_step(&state, &next).map_err(failed)?;
+            largest = largest.max(ledger.remainder().abs());
+            total += ledger;
+            state = next;
+        }
+        let EnergyLedger { change, dissipated, work } = total;
+        Ok(Ledger { change, dissipated, work, largest, remainder: total.remainder() })
+    }
+}

@@ -1,0 +1,331 @@
+//! Ensembles as Python sees them: what is given, how it is watched, what is returned.
+
+use core::sync::atomic::Ordering;
+use std::path::PathBuf;
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::thread;
+use std::time::Duration;
+
+use dalembert_c::Number;
+use dalembert_ensemble::parts::PartsError;
+use numpy::{PyArrayDyn, PyUntypedArrayMethods};
+use pyo3::exceptions::{PyOSError, PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyModule};
+
+use crate::arguments::{self, array, entries_of_members, of_shape};
+use crate::class::time;
+use crate::error::{of_member, of_memory, of_refusal};
+use crate::many::{Asked, Control, FieldOfMembers, Kept, NoResult, Rows, Written};
+use crate::model::{Kind, Model, Stepping};
+use crate::results::to_array;
+
+/// How long results are waited for before Python is asked whether to go on.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// The states of all members, one row each.
+#[pyclass(frozen, get_all)]
+pub struct Ends {
+    /// Times, shape (members,), or (members, records).
+    t: Py<PyArrayDyn<f64>>,
+    /// Configurations, shape (members, n), or (members, records, n).
+    q: Py<PyArrayDyn<f64>>,
+    /// Velocities, of the shape of q.
+    v: Py<PyArrayDyn<f64>>,
+    /// Momenta, of the shape of q.
+    p: Py<PyArrayDyn<f64>>,
+    /// Energies, of the shape of t.
+    energy: Py<PyArrayDyn<f64>>,
+    /// Why members are not what was asked for, by their numbers: exceptions that were not raised. Their rows are NaN.
+    failures: Py<PyDict>,
+}
+
+#[pymethods]
+impl Ends {
+    fn __len__(&self, py: Python<'_>) -> usize {
+        self.t.bind(py).shape()[0]
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> String {
+        format!("Ends: {} members, {} failed", self.__len__(py), self.failures.bind(py).len())
+    }
+}
+
+/// What was written as Parquet files, one for each part of the members.
+#[pyclass(frozen, get_all)]
+pub struct Parts {
+    /// Parts that were computed and written.
+    written: u64,
+    /// Parts that were there.
+    found: u64,
+    /// Members computed that failed.
+    failed: u64,
+    /// The files, in order.
+    paths: Vec<PathBuf>,
+}
+
+#[pymethods]
+impl Parts {
+    fn __len__(&self) -> usize {
+        self.paths.len()
+    }
+
+    fn __repr__(&self) -> String {
+        let Self { written, found, failed, .. } = self;
+        format!("Parts: {written} written, {found} were there, {failed} members failed")
+    }
+}
+
+/// What `ensemble` is given.
+pub struct Given<'a, 'py> {
+    /// Configurations.
+    pub q: &'a Bound<'py, PyAny>,
+    /// Velocities.
+    pub v: Option<&'a Bound<'py, PyAny>>,
+    /// Momenta.
+    pub p: Option<&'a Bound<'py, PyAny>>,
+    /// Inputs.
+    pub u: Option<&'a Bound<'py, PyAny>>,
+    /// The time.
+    pub t: Option<f64>,
+    /// Fields that differ.
+    pub fields: Option<&'a Bound<'py, PyDict>>,
+    /// The number of the first member.
+    pub first: u64,
+    /// The steps.
+    pub stepping: Stepping<'a>,
+    /// Steps from one record to the next.
+    pub every: Option<u64>,
+    /// Where parts go, and their size.
+    pub parts: Option<(PathBuf, u64)>,
+    /// Threads; those of the machine unless said.
+    pub threads: Option<usize>,
+    /// What is told of members that are done.
+    pub progress: Option<Py<PyAny>>,
+}
+
+/// Numbers for each member, or for all: the rows, and how many there are if it is one for each.
+struct Read {
+    numbers: Vec<f64>,
+    members: Option<usize>,
+    width: usize,
+}
+
+fn read(name: &str, given: &Bound<'_, PyAny>, width: usize) -> PyResult<Read> {
+    let array = array(name, given)?;
+    let members = match *array.shape() {
+        [columns] if columns == width => None,
+        [rows, columns] if columns == width => Some(rows),
+        _ => return Err(of_shape(name, &format!("({width},) or (members, {width})"), array.shape())),
+    };
+    Ok(Read { numbers: arguments::numbers(&array), members, width })
+}
+
+impl Read {
+    fn rows(&self) -> Rows<'_> {
+        Rows { numbers: &self.numbers, width: self.width }
+    }
+}
+
+/// Runs the ensemble.
+///
+/// # Errors
+/// Exceptions of all kinds.
+pub fn run<'py>(py: Python<'py>, model: &dyn Model, given: Given<'_, 'py>) -> PyResult<Bound<'py, PyAny>> {
+    let kind = model.kind();
+    let n = kind.coordinates();
+    let (name, other, is_velocity) = match (given.v, given.p) {
+        (Some(v), None) => ("v", v, true),
+        (None, Some(p)) => ("p", p, false),
+        _ => return Err(PyTypeError::new_err("starts are q with either v or p")),
+    };
+    let (q, other) = (read("q", given.q, n)?, read(name, other, n)?);
+    let inputs = match (given.u, kind.inputs()) {
+        (Some(u), length) if length > 0 => read("u", u, length)?,
+        (None, 0) => Read { numbers: Vec::new(), members: None, width: 0 },
+        (None, length) => {
+            let name = kind.name();
+            return Err(PyTypeError::new_err(format!("{name} takes an input: give u, {length} numbers")));
+        }
+        (Some(_), _) => return Err(PyTypeError::new_err(format!("{} takes no input u", kind.name()))),
+    };
+    let time = time(kind, given.t)?;
+    let mut members = None;
+    for (name, length) in [("q", q.members), (name, other.members), ("u", inputs.members)] {
+        agree(&mut members, name, length)?;
+    }
+    let fields = fields(model, given.fields, &mut members)?;
+    let members = members.ok_or_else(|| {
+        PyValueError::new_err(
+            "members: expected a row for each in q, v, p, u or a field; got one row for all",
+        )
+    })?;
+    let asked = Asked {
+        members,
+        first: given.first,
+        q: q.rows(),
+        other: other.rows(),
+        is_velocity,
+        inputs: inputs.rows(),
+        time,
+        fields: &fields,
+        stepping: given.stepping,
+        every: given.every,
+    };
+    let pool = given.threads.map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.map_err(|error| PyOSError::new_err(error.to_string()))
+    });
+    let pool = pool.transpose()?;
+    let within = |work: &(dyn Fn() -> Result<Result<Kept, Written>, NoResult> + Sync)| match &pool {
+        Some(pool) => pool.install(work),
+        None => work(),
+    };
+    let control = Control::default();
+    let parts = given.parts.as_ref();
+    let work = || match parts {
+        Some((folder, size)) => model.written(&asked, &control, folder, *size).map(Err),
+        None => model.kept(&asked, &control).map(Ok),
+    };
+    let result = watched(py, &control, members as u64, given.progress.as_ref(), &|| within(&work))?;
+    let rule = match given.stepping {
+        Stepping::Fixed { rule, .. } => rule,
+        Stepping::ToError(_) => None,
+    };
+    match result.map_err(|reason| of_no_result(py, reason, rule, kind))? {
+        Ok(kept) => {
+            Ok(Py::new(py, ends(py, kept, members, n, given.every.is_some())?)?.into_bound(py).into_any())
+        }
+        Err(Written { written, found, failed, paths }) => {
+            Ok(Py::new(py, Parts { written, found, failed, paths })?.into_bound(py).into_any())
+        }
+    }
+}
+
+fn agree(members: &mut Option<usize>, name: &str, length: Option<usize>) -> PyResult<()> {
+    match (*members, length) {
+        (Some(members), Some(length)) if members != length => Err(PyValueError::new_err(format!(
+            "{name}: expected a row for each of {members} members, got {length} rows"
+        ))),
+        (None, Some(length)) => {
+            *members = Some(length);
+            Ok(())
+        }
+        _ => Ok(()),
+    }
+}
+
+fn fields(
+    model: &dyn Model,
+    given: Option<&Bound<'_, PyDict>>,
+    members: &mut Option<usize>,
+) -> PyResult<Vec<FieldOfMembers>> {
+    let kind = model.kind();
+    let mut fields = Vec::new();
+    for (name, value) in given.into_iter().flatten() {
+        let name: String = name.extract()?;
+        let Some(field) = kind.fields().iter().position(|field| field.name == name) else {
+            let all: Vec<&str> = kind.fields().iter().map(|field| field.name).collect();
+            return Err(PyTypeError::new_err(format!(
+                "{} has no field {name}; it has {}",
+                kind.name(),
+                all.join(", ")
+            )));
+        };
+        let like = model.entry(field, 0).unwrap_or(Number::F64(0.0));
+        let (numbers, length) = entries_of_members(&kind.fields()[field], like, &value)?;
+        agree(members, &name, Some(length))?;
+        fields.push((field, numbers));
+    }
+    Ok(fields)
+}
+
+/// Runs `work` on a thread of its own, while this one looks for Ctrl-C and tells of progress.
+fn watched<T: Send>(
+    py: Python<'_>,
+    control: &Control,
+    members: u64,
+    progress: Option<&Py<PyAny>>,
+    work: &(dyn Fn() -> T + Sync),
+) -> PyResult<T> {
+    let look = || {
+        Python::attach(|py| {
+            py.check_signals()?;
+            let done = control.done.load(Ordering::Relaxed);
+            progress.map_or(Ok(()), |progress| progress.call1(py, (done, members)).map(drop))
+        })
+    };
+    py.detach(|| {
+        thread::scope(|scope| {
+            let (send, receive) = sync_channel(1);
+            // The receiver is there until the result is.
+            scope.spawn(move || drop(send.send(work())));
+            let mut interruption = None;
+            loop {
+                match receive.recv_timeout(PATIENCE) {
+                    Ok(result) => {
+                        return match interruption.or_else(|| look().err()) {
+                            None => Ok(result),
+                            Some(error) => Err(error),
+                        };
+                    }
+                    Err(RecvTimeoutError::Timeout) => {
+                        if interruption.is_none()
+                            && let Err(error) = look()
+                        {
+                            control.cancel.store(true, Ordering::Relaxed);
+                            interruption = Some(error);
+                        }
+                    }
+                    Err(RecvTimeoutError::Disconnected) => {
+                        return Err(PyValueError::new_err("a member panicked: L, R or f did"));
+                    }
+                }
+            }
+        })
+    })
+}
+
+fn ends(py: Python<'_>, kept: Kept, members: usize, n: usize, has_records: bool) -> PyResult<Ends> {
+    let Kept { t, q, v, p, energy, failures, records } = kept;
+    let shape = |last: &[usize]| {
+        let records: &[usize] = if has_records { &[records] } else { &[] };
+        [&[members], records, last].concat()
+    };
+    let array = |numbers: Vec<f64>, last: &[usize]| to_array(py, numbers, shape(last)).map(Bound::unbind);
+    let by_number = PyDict::new(py);
+    for failed in failures {
+        by_number.set_item(failed.number, of_member(py, &failed)?)?;
+    }
+    Ok(Ends {
+        t: array(t, &[])?,
+        q: array(q, &[n])?,
+        v: array(v, &[n])?,
+        p: array(p, &[n])?,
+        energy: array(energy, &[])?,
+        failures: by_number.unbind(),
+    })
+}
+
+fn of_no_result(py: Python<'_>, reason: NoResult, rule: Option<&str>, kind: &dyn Kind) -> PyErr {
+    match reason {
+        NoResult::Refused(refusal) => of_refusal(py, refusal, rule, &kind.rules()),
+        NoResult::Cancelled => PyValueError::new_err("cancelled"),
+        NoResult::TooLarge(reason) => of_memory(&reason),
+        NoResult::Parts(error @ PartsError::Io { .. }) => PyOSError::new_err(error.to_string()),
+        NoResult::Parts(error) => PyValueError::new_err(error.to_string()),
+    }
+}
+
+/// Adds the classes to `module`, as its own.
+///
+/// # Errors
+/// Those of Python.
+pub fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<Ends>()?;
+    module.add_class::<Parts>()?;
+    for name in ["Ends", "Parts"] {
+        module.getattr(name)?.setattr("__module__", module.name()?)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,346 @@
+//! An ensemble of a system: what is asked of it, and what is kept.
+
+use core::ops::{ControlFlow, Range};
+use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::collections::TryReserveError;
+use std::path::{Path, PathBuf};
+
+use dalembert::nalgebra::SVector;
+use dalembert::{Lagrangian, State, StepError};
+use dalembert_c::{Fields, Number};
+use dalembert_ensemble::parts::PartsError;
+use dalembert_ensemble::{Ensemble, Failure, MemberError, Outcome, Plan, Progress, Record};
+use twox_hash::XxHash3_128;
+
+use crate::model::{Refusal, Stepping};
+use crate::motion::measured;
+use crate::offer::Offer;
+use crate::system::System;
+use crate::together::BySome;
+
+/// A row of numbers for each member, or one for all.
+#[derive(Clone, Copy, Debug)]
+pub struct Rows<'a> {
+    /// The numbers, row by row.
+    pub numbers: &'a [f64],
+    /// Numbers of a row.
+    pub width: usize,
+}
+
+impl<'a> Rows<'a> {
+    /// The row of a member.
+    fn of(&self, member: usize) -> &'a [f64] {
+        let first = if self.numbers.len() == self.width { 0 } else { member * self.width };
+        &self.numbers[first..first + self.width]
+    }
+}
+
+/// A field that differs from member to member: which, and its numbers for each.
+pub type FieldOfMembers = (usize, Vec<Number>);
+
+/// Many members that are asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked<'a> {
+    /// How many.
+    pub members: usize,
+    /// The number of the first.
+    pub first: u64,
+    /// Configurations.
+    pub q: Rows<'a>,
+    /// Velocities or momenta.
+    pub other: Rows<'a>,
+    /// Which of them.
+    pub is_velocity: bool,
+    /// Inputs, held throughout.
+    pub inputs: Rows<'a>,
+    /// The time at the start.
+    pub time: f64,
+    /// Fields that differ.
+    pub fields: &'a [FieldOfMembers],
+    /// The steps.
+    pub stepping: Stepping<'a>,
+    /// Steps from one record to the next; the end alone if there are none.
+    pub every: Option<u64>,
+}
+
+/// How others follow an ensemble, and end it.
+#[derive(Debug, Default)]
+pub struct Control {
+    /// Whether to end.
+    pub cancel: AtomicBool,
+    /// Members that are done.
+    pub done: AtomicU64,
+}
+
+/// What is kept of the members, one after the other: t, q, v, p and energy of each record.
+#[derive(Clone, Debug, Default)]
+pub struct Kept {
+    /// Times.
+    pub t: Vec<f64>,
+    /// Configurations.
+    pub q: Vec<f64>,
+    /// Velocities.
+    pub v: Vec<f64>,
+    /// Momenta.
+    pub p: Vec<f64>,
+    /// Energies.
+    pub energy: Vec<f64>,
+    /// Members that failed.
+    pub failures: Vec<Failed>,
+    /// Records of a member.
+    pub records: usize,
+}
+
+/// A member that is not what was asked for.
+#[derive(Clone, Debug)]
+pub struct Failed {
+    /// Its number.
+    pub number: u64,
+    /// Why.
+    pub error: MemberError,
+    /// The time of its last good state.
+    pub time: f64,
+    /// That state, q and p; empty where it has no start.
+    pub state: [Vec<f64>; 2],
+}
+
+/// What was written.
+#[derive(Clone, Debug, Default)]
+pub struct Written {
+    /// Parts that were computed and written.
+    pub written: u64,
+    /// Parts that were there.
+    pub found: u64,
+    /// Members computed that failed.
+    pub failed: u64,
+    /// The files, one a part.
+    pub paths: Vec<PathBuf>,
+}
+
+/// Why there are no results.
+#[derive(Debug)]
+pub enum NoResult {
+    /// The system has no such steps.
+    Refused(Refusal),
+    /// Others have ended it.
+    Cancelled,
+    /// Results do not fit into memory.
+    TooLarge(TryReserveError),
+    /// They are not written.
+    Parts(PartsError),
+}
+
+/// The fields of each member, or those of all.
+fn fields_of_members<S: System<N>, const N: usize>(system: &S::Fields, asked: &Asked<'_>) -> Vec<S::Fields> {
+    if asked.fields.is_empty() {
+        return vec![*system];
+    }
+    let mut all = vec![*system; asked.members];
+    for (field, numbers) in asked.fields {
+        let width = numbers.len() / asked.members.max(1);
+        for (fields, numbers) in all.iter_mut().zip(numbers.chunks_exact(width.max(1))) {
+            for (index, number) in numbers.iter().enumerate() {
+                fields.change_entry(*field, index, *number);
+            }
+        }
+    }
+    all
+}
+
+/// Member `member`: its system and its start.
+fn start<'a, S: System<N>, const N: usize>(
+    fields: &'a [S::Fields],
+    asked: &Asked<'_>,
+    member: usize,
+) -> Result<(S::View<'a>, State<f64, N>), StepError> {
+    let fields = &fields[if fields.len() == 1 { 0 } else { member }];
+    let view = S::view(fields, asked.inputs.of(member), asked.time);
+    let vector = SVector::<f64, N>::from_column_slice;
+    let (q, other) = (vector(asked.q.of(member)), vector(asked.other.of(member)));
+    let state =
+        if asked.is_velocity { State::from_velocity(&view, q, other)? } else { State { q, p: other } };
+    Ok((view, state))
+}
+
+/// The steps that are asked for.
+fn by_some<'a, S: System<N>, const N: usize>(
+    asked: &Asked<'_>,
+) -> Result<BySome<'a, S::View<'a>, N>, Refusal> {
+    let steps = match asked.stepping {
+        Stepping::Fixed { h, steps, rule } => {
+            let is_asked_for =
+                |offer: &Offer<S, N>| rule.is_none_or(|rule| rule == offer.name) && offer.steps.is_some();
+            let offer = S::offers().into_iter().find(is_asked_for).ok_or(Refusal::Rule)?;
+            let plan = Plan { h, steps, every: asked.every.map(|every| every.max(1)), error: None };
+            offer.steps.ok_or(Refusal::Rule)?.together(plan)
+        }
+        Stepping::ToError(asked) => S::steps_to_error().ok_or(Refusal::NoError)?.together(asked),
+    };
+    Ok(BySome(steps))
+}
+
+/// How many records a member has.
+fn records(asked: &Asked<'_>) -> u64 {
+    match (asked.stepping, asked.every) {
+        (Stepping::Fixed { steps, .. }, Some(every)) => 1 + steps.div_ceil(every.max(1)),
+        _ => 1,
+    }
+}
+
+/// The states of all members as arrays.
+///
+/// # Errors
+/// Why there are none.
+pub fn kept<S: System<N>, const N: usize>(
+    system: &S::Fields,
+    asked: &Asked<'_>,
+    control: &Control,
+) -> Result<Kept, NoResult> {
+    let records = usize::try_from(records(asked)).unwrap_or(usize::MAX);
+    let mut kept = Kept { records, ..Kept::default() };
+    kept.reserve(asked.members, N).map_err(NoResult::TooLarge)?;
+    let last = asked.first + asked.members as u64;
+    let fields = fields_of_members::<S, N>(system, asked);
+    let steps = by_some::<S, N>(asked).map_err(NoResult::Refused)?;
+    let member = |number: u64| start::<S, N>(&fields, asked, (number - asked.first) as usize);
+    let study = Ensemble::new(member).stepped(steps).cancelled_by(&control.cancel).on_progress(
+        |Progress { done, .. }| {
+            control.done.store(done, Ordering::Relaxed);
+            ControlFlow::Continue(())
+        },
+    );
+    let observe = |rows: &mut Vec<Row<N>>, record: &Record<'_, S::View<'_>, N>| {
+        let of = |system: &S::View<'_>| measured(system, &record.state);
+        let (v, energy) =
+            record.system.later(record.time, of).unwrap_or_else(|_| (SVector::repeat(f64::NAN), f64::NAN));
+        rows.push(Row { t: asked.time + record.time, q: record.state.q, v, p: record.state.p, energy });
+    };
+    let add = |kept: &mut Kept, outcome: Outcome<Vec<Row<N>>, f64, N>| kept.add(outcome, asked.time);
+    study.reduce(asked.first..last, |_| Vec::new(), observe, kept, add).map_err(|_| NoResult::Cancelled)
+}
+
+/// Writes the parts of all members into `folder` that are not there.
+///
+/// # Errors
+/// Why they are not all there.
+pub fn written<S: System<N>, const N: usize>(
+    system: &S::Fields,
+    asked: &Asked<'_>,
+    control: &Control,
+    folder: &Path,
+    members_per_part: u64,
+) -> Result<Written, NoResult> {
+    let of_part = members_per_part.max(1);
+    let last = asked.first + asked.members as u64;
+    let mut all = Written::default();
+    let fields = fields_of_members::<S, N>(system, asked);
+    let steps = by_some::<S, N>(asked).map_err(NoResult::Refused)?;
+    let member = |number: u64| start::<S, N>(&fields, asked, (number - asked.first) as usize);
+    let before = AtomicU64::new(0);
+    let study = Ensemble::new(member).stepped(steps).cancelled_by(&control.cancel).on_progress(
+        |Progress { done, .. }| {
+            control.done.store(before.load(Ordering::Relaxed) + done, Ordering::Relaxed);
+            ControlFlow::Continue(())
+        },
+    );
+    for first in (asked.first..last).step_by(usize::try_from(of_part).unwrap_or(usize::MAX)) {
+        if control.cancel.load(Ordering::Relaxed) {
+            return Err(NoResult::Cancelled);
+        }
+        let part = first..last.min(first.saturating_add(of_part));
+        let starts = starts_of(&fields, asked, &part);
+        let parts = study.parts(folder).members_per_part(of_part).metadata("dalembert.starts", starts);
+        let written = parts.write(part.clone()).map_err(|error| match error {
+            PartsError::Cancelled(_) => NoResult::Cancelled,
+            error => NoResult::Parts(error),
+        })?;
+        all.written += written.written;
+        all.found += written.found;
+        all.failed += written.failed;
+        all.paths.extend(parts.paths(part.clone()));
+        before.fetch_add(part.end - part.start, Ordering::Relaxed);
+        control.done.store(before.load(Ordering::Relaxed), Ordering::Relaxed);
+    }
+    Ok(all)
+}
+
+/// What tells the members of a part from others: a hash of their fields, starts and inputs.
+fn starts_of<F: Fields>(fields: &[F], asked: &Asked<'_>, part: &Range<u64>) -> String {
+    let mut hash = XxHash3_128::new();
+    hash.write(&[u8::from(asked.is_velocity)]);
+    hash.write(&asked.time.to_le_bytes());
+    for number in part.clone() {
+        let member = (number - asked.first) as usize;
+        let fields = &fields[if fields.len() == 1 { 0 } else { member }];
+        for field in 0..F::FIELDS.len() {
+            for entry in (0..).map_while(|index| fields.entry(field, index)) {
+                hash.write(&bytes(entry));
+            }
+        }
+        for row in [asked.q, asked.other, asked.inputs] {
+            row.of(member).iter().for_each(|number| hash.write(&number.to_le_bytes()));
+        }
+    }
+    format!("{:032x}", hash.finish_128())
+}
+
+fn bytes(number: Number) -> [u8; 8] {
+    match number {
+        Number::F64(value) => value.to_le_bytes(),
+        Number::F32(value) => f64::from(value).to_le_bytes(),
+        Number::I8(value) => i64::from(value).to_le_bytes(),
+        Number::I16(value) => i64::from(value).to_le_bytes(),
+        Number::I32(value) => i64::from(value).to_le_bytes(),
+        Number::I64(value) => value.to_le_bytes(),
+        Number::U8(value) => u64::from(value).to_le_bytes(),
+        Number::U16(value) => u64::from(value).to_le_bytes(),
+        Number::U32(value) => u64::from(value).to_le_bytes(),
+        Number::U64(value) => value.to_le_bytes(),
+    }
+}
+
+/// A record of a member.
+struct Row<const N: usize> {
+    t: f64,
+    q: SVector<f64, N>,
+    v: SVector<f64, N>,
+    p: SVector<f64, N>,
+    energy: f64,
+}
+
+impl Kept {
+    fn reserve(&mut self, members: usize, n: usize) -> Result<(), TryReserveError> {
+        let rows = members.saturating_mul(self.records);
+        for (numbers, width) in
+            [(&mut self.t, 1), (&mut self.q, n), (&mut self.v, n), (&mut self.p, n), (&mut self.energy, 1)]
+        {
+            numbers.try_reserve_exact(rows.saturating_mul(width))?;
+        }
+        Ok(())
+    }
+
+    /// The records of a member; NaN where it has failed.
+    fn add<const N: usize>(&mut self, outcome: Outcome<Vec<Row<N>>, f64, N>, origin: f64) {
+        let Outcome { number, value, failure } = outcome;
+        let missing = self.records.saturating_sub(value.len());
+        for Row { t, q, v, p, energy } in value {
+            self.t.push(t);
+            self.q.extend_from_slice(q.as_slice());
+            self.v.extend_from_slice(v.as_slice());
+            self.p.extend_from_slice(p.as_slice());
+            self.energy.push(energy);
+        }
+        for (numbers, width) in
+            [(&mut self.t, 1), (&mut self.q, N), (&mut self.v, N), (&mut self.p, N), (&mut self.energy, 1)]
+        {
+            numbers.resize(numbers.len() + missing * width, f64::NAN);
+        }
+        if let Some(Failure { error, last, .. }) = failure {
+            let time = origin + last.map_or(0.0, |last| last.time);
+            let state = last.map_or([Vec::new(), Vec::new()], |last| {
+                [last.state.q, last.state.p].map(|vector| vector.as_slice().to_vec())
+            });
+            self.failures.push(Failed { number, error, time, state });
+        }
+    }
+}

@@ -1,0 +1,414 @@
+//! What a system offers: the methods by which it can be stepped, found by what its views implement.
+
+use core::marker::PhantomData;
+
+use dalembert::run::{Discretise, DrivenTrajectory, InLanes as LanesBy};
+use dalembert::step::{Flow, Linearizable, Memory, Step};
+use dalembert::tolerance::{OffersMethods, ToleranceError};
+use dalembert::{State, StepError};
+use dalembert_ensemble::{InLanes, OneByOne, Plan, ToError};
+
+use crate::checks::Checks;
+use crate::derivatives::{Columns, column_rows, matrix_rows};
+use crate::events::{Events, watched};
+use crate::motion::{Given, Motion, Of, StepByStep};
+use crate::record::Guarded;
+use crate::system::System;
+use crate::together::Together;
+
+/// A method by its name, and what it does with the system; `None` where the system has no step by it.
+pub struct Offer<S: System<N>, const N: usize> {
+    /// What `rule=` calls it.
+    pub name: &'static str,
+    /// Its steps.
+    pub steps: Option<Box<dyn Steps<S, N>>>,
+    /// Steps with inputs of their own, and derivatives: of rules.
+    pub driven: Option<Box<dyn DrivenSteps<S, N>>>,
+    /// Steps with A: of other methods.
+    pub differentiated: Option<Box<dyn DifferentiatedSteps<S, N>>>,
+    /// What is asked of its discrete objects: of rules by displacement.
+    pub checks: Option<Box<dyn Checks<S, N>>>,
+}
+
+/// What is done with a run.
+pub type Record<'r, const N: usize> = &'r mut dyn FnMut(&mut dyn Motion<N>);
+
+/// A step's derivatives, row by row.
+#[derive(Clone, Debug)]
+pub struct StepDerivatives<const N: usize> {
+    /// The step.
+    pub step: Step<f64, N>,
+    /// ∂(q1, p1)/∂(q0, p0).
+    pub a: Vec<f64>,
+    /// ∂(q1, p1)/∂u.
+    pub b: Option<Vec<f64>>,
+    /// ∂(q1, p1)/∂θ.
+    pub by_parameters: Option<Vec<f64>>,
+}
+
+/// Steps by one method.
+pub trait Steps<S: System<N>, const N: usize>: Send + Sync {
+    /// A run from `start`, with one input held.
+    fn run(
+        &self,
+        fields: &S::Fields,
+        given: Given<'_>,
+        h: f64,
+        start: &State<f64, N>,
+        events: Option<&mut Events<'_>>,
+        record: Record<'_, N>,
+    );
+
+    /// The runs of many.
+    fn together<'a>(&self, plan: Plan<f64>) -> Box<dyn Together<S::View<'a>, N> + 'a>;
+}
+
+/// Steps by one method, with A.
+pub trait DifferentiatedSteps<S: System<N>, const N: usize>: Send + Sync {
+    /// A step with A.
+    ///
+    /// # Errors
+    /// A [`StepError`].
+    fn linearized(
+        &self,
+        fields: &S::Fields,
+        given: Given<'_>,
+        h: f64,
+        start: &State<f64, N>,
+    ) -> Result<StepDerivatives<N>, StepError>;
+}
+
+/// Steps by a rule, each with an input of its own and with all its derivatives.
+pub trait DrivenSteps<S: System<N>, const N: usize>: Send + Sync {
+    /// A run from `start`; it carries along how it follows start and parameters where it `is_differentiated`.
+    fn run(
+        &self,
+        fields: &S::Fields,
+        given: Given<'_>,
+        h: f64,
+        start: &State<f64, N>,
+        is_differentiated: bool,
+        record: Record<'_, N>,
+    );
+
+    /// A step with A, B and derivatives by parameters.
+    ///
+    /// # Errors
+    /// A [`StepError`].
+    fn linearized(
+        &self,
+        fields: &S::Fields,
+        given: Given<'_>,
+        h: f64,
+        start: &State<f64, N>,
+    ) -> Result<StepDerivatives<N>, StepError>;
+}
+
+/// An error that is asked for, in units of q, and until which time from the start.
+#[derive(Clone, Copy, Debug)]
+#[allow(missing_docs)]
+pub struct ErrorAsked {
+    pub tolerance: f64,
+    pub until: f64,
+}
+
+/// Runs to an error asked for.
+pub trait StepsToError<S: System<N>, const N: usize>: Send + Sync {
+    /// A run from `start`; what became of its error.
+    ///
+    /// # Errors
+    /// A [`ToleranceError`].
+    fn run(
+        &self,
+        fields: &S::Fields,
+        given: Given<'_>,
+        asked: ErrorAsked,
+        start: &State<f64, N>,
+        events: Option<&mut Events<'_>>,
+        record: &mut dyn FnMut(&mut dyn Motion<N>, u64),
+    ) -> Result<Guarded, ToleranceError>;
+
+    /// The runs of many.
+    fn together<'a>(&self, asked: ErrorAsked) -> Box<dyn Together<S::View<'a>, N> + 'a>;
+}
+
+/// Asks what a system and a method offer: a function of the trait named beside it answers `None` where the one of
+/// `Probe` itself has bounds that do not hold. It decides for types that are known, as in what
+/// [`module!`](crate::module) writes, and there without a word about the methods of a system.
+pub struct Probe<S, M, const N: usize> {
+    pub(crate) method: M,
+    system: PhantomData<fn() -> S>,
+}
+
+impl<S, M, const N: usize> Probe<S, M, N> {
+    /// Of this method.
+    pub fn new(method: M) -> Self {
+        Self { method, system: PhantomData }
+    }
+}
+
+/// Of a method by which the system is not stepped.
+pub trait NoSteps<S: System<N>, const N: usize> {
+    /// Nothing.
+    fn steps(&self) -> Option<Box<dyn Steps<S, N>>> {
+        None
+    }
+}
+
+/// Of a method by which members are not stepped in lanes.
+pub trait NoStepsInLanes<S: System<N>, const N: usize> {
+    /// Nothing.
+    fn steps_in_lanes(&self) -> Option<Box<dyn Steps<S, N>>> {
+        None
+    }
+}
+
+/// Of a method whose steps are not asked for derivatives where they were taken.
+pub trait NoDrivenSteps<S: System<N>, const N: usize> {
+    /// Nothing.
+    fn driven_steps(&self) -> Option<Box<dyn DrivenSteps<S, N>>> {
+        None
+    }
+}
+
+/// Of a method by which the system is not stepped.
+pub trait NoDifferentiatedSteps<S: System<N>, const N: usize> {
+    /// Nothing.
+    fn differentiated_steps(&self) -> Option<Box<dyn DifferentiatedSteps<S, N>>> {
+        None
+    }
+}
+
+/// Of a system of which no error can be asked.
+pub trait NoStepsToError<S: System<N>, const N: usize> {
+    /// Nothing.
+    fn steps_to_error(&self) -> Option<Box<dyn StepsToError<S, N>>> {
+        None
+    }
+}
+
+impl<S: System<N>, M, const N: usize> NoSteps<S, N> for Probe<S, M, N> {}
+impl<S: System<N>, M, const N: usize> NoStepsInLanes<S, N> for Probe<S, M, N> {}
+impl<S: System<N>, M, const N: usize> NoDrivenSteps<S, N> for Probe<S, M, N> {}
+impl<S: System<N>, M, const N: usize> NoDifferentiatedSteps<S, N> for Probe<S, M, N> {}
+impl<S: System<N>, M, const N: usize> NoStepsToError<S, N> for Probe<S, M, N> {}
+
+/// A method.
+struct By<M>(M);
+
+/// A method that takes many members at a time.
+struct ByInLanes<M>(M);
+
+impl<S, M, const N: usize> Probe<S, M, N>
+where
+    S: System<N>,
+    for<'a> S::View<'a>: LanesBy<M, N>,
+    M: Copy + Send + Sync + 'static,
+{
+    /// Steps by the method, of many in lanes.
+    #[must_use]
+    pub fn steps_in_lanes(&self) -> Option<Box<dyn Steps<S, N>>> {
+        Some(Box::new(ByInLanes(self.method)))
+    }
+}
+
+impl<S, M, const N: usize> Steps<S, N> for ByInLanes<M>
+where
+    S: System<N>,
+    for<'a> S::View<'a>: LanesBy<M, N>,
+    M: Copy + Send + Sync + 'static,
+{
+    fn run(
+        &self,
+        fields: &S::Fields,
+        given: Given<'_>,
+        h: f64,
+        start: &State<f64, N>,
+        events: Option<&mut Events<'_>>,
+        record: Record<'_, N>,
+    ) {
+        Steps::<S, N>::run(&By(self.0), fields, given, h, start, events, record);
+    }
+
+    fn together<'a>(&self, plan: Plan<f64>) -> Box<dyn Together<S::View<'a>, N> + 'a> {
+        Box::new(InLanes::new(self.0, plan))
+    }
+}
+
+impl<S, M, const N: usize> Probe<S, M, N>
+where
+    S: System<N>,
+    for<'a> S::View<'a>: Flow<M, N>,
+    M: Copy + Send + Sync + 'static,
+{
+    /// Steps by the method.
+    #[must_use]
+    pub fn steps(&self) -> Option<Box<dyn Steps<S, N>>> {
+        Some(Box::new(By(self.method)))
+    }
+
+    /// Steps by the method, with A.
+    #[must_use]
+    pub fn differentiated_steps(&self) -> Option<Box<dyn DifferentiatedSteps<S, N>>> {
+        Some(Box::new(By(self.method)))
+    }
+}
+
+impl<S, M, const N: usize> Steps<S, N> for By<M>
+where
+    S: System<N>,
+    for<'a> S::View<'a>: Flow<M, N>,
+    M: Copy + Send + Sync + 'static,
+{
+    fn run(
+        &self,
+        fields: &S::Fields,
+        given: Given<'_>,
+        h: f64,
+        start: &State<f64, N>,
+        events: Option<&mut Events<'_>>,
+        record: Record<'_, N>,
+    ) {
+        let system = S::view(fields, given.inputs, given.time);
+        let mut run = system.by(self.0, h).run(*start);
+        match events {
+            None => record(&mut Of { system: &system, run: &mut run }),
+            Some(events) => watched(&mut run, events, record),
+        }
+    }
+
+    fn together<'a>(&self, plan: Plan<f64>) -> Box<dyn Together<S::View<'a>, N> + 'a> {
+        Box::new(OneByOne::new(self.0, plan))
+    }
+}
+
+impl<S, M, const N: usize> DifferentiatedSteps<S, N> for By<M>
+where
+    S: System<N>,
+    for<'a> S::View<'a>: Flow<M, N>,
+    M: Copy + Send + Sync + 'static,
+{
+    fn linearized(
+        &self,
+        fields: &S::Fields,
+        given: Given<'_>,
+        h: f64,
+        start: &State<f64, N>,
+    ) -> Result<StepDerivatives<N>, StepError> {
+        let system = S::view(fields, given.inputs, given.time);
+        let (step, by) = system.by(self.0, h).linearized_step(start)?;
+        Ok(StepDerivatives { step, a: matrix_rows(&by.a), b: None, by_parameters: None })
+    }
+}
+
+/// A rule, and what its runs keep.
+struct ByRule<M, K>(PhantomData<fn() -> (M, K)>);
+
+impl<S, M, K, const N: usize> Probe<S, M, N>
+where
+    S: System<N>,
+    S::Kind: Flow<M, N, RunMemory = K>,
+    for<'a> S::View<'a>: Linearizable<M, N> + Flow<M, N, RunMemory = K>,
+    K: for<'a> Memory<S::View<'a>, M, N> + 'static,
+    S::Input: for<'a> Columns<S::View<'a>, M, N>,
+    S::Parameters: for<'a> Columns<S::View<'a>, M, N>,
+    M: 'static,
+{
+    /// Steps with inputs of their own and with derivatives.
+    #[must_use]
+    pub fn driven_steps(&self) -> Option<Box<dyn DrivenSteps<S, N>>> {
+        Some(Box::new(ByRule::<M, K>(PhantomData)))
+    }
+}
+
+impl<S, M, K, const N: usize> DrivenSteps<S, N> for ByRule<M, K>
+where
+    S: System<N>,
+    S::Kind: Flow<M, N, RunMemory = K>,
+    for<'a> S::View<'a>: Linearizable<M, N> + Flow<M, N, RunMemory = K>,
+    K: for<'a> Memory<S::View<'a>, M, N> + 'static,
+    S::Input: for<'a> Columns<S::View<'a>, M, N>,
+    S::Parameters: for<'a> Columns<S::View<'a>, M, N>,
+    M: 'static,
+{
+    fn run(
+        &self,
+        fields: &S::Fields,
+        given: Given<'_>,
+        h: f64,
+        start: &State<f64, N>,
+        is_differentiated: bool,
+        record: Record<'_, N>,
+    ) {
+        record(&mut StepByStep::<S, M, N>::new(fields, given, h, *start, is_differentiated));
+    }
+
+    fn linearized(
+        &self,
+        fields: &S::Fields,
+        given: Given<'_>,
+        h: f64,
+        start: &State<f64, N>,
+    ) -> Result<StepDerivatives<N>, StepError> {
+        let system = S::view(fields, given.inputs, given.time);
+        let mut run = DrivenTrajectory::<S::Kind, M, N>::new(h, *start);
+        let taken = run.advance_linearized(&system)?;
+        let rows = |has_any: bool, columns| has_any.then(|| column_rows(&columns));
+        Ok(StepDerivatives {
+            step: *taken.step(),
+            a: matrix_rows(&taken.by_state()?),
+            b: rows(S::INPUTS > 0, S::Input::columns(&taken)?),
+            by_parameters: rows(!S::PARAMETERS.is_empty(), S::Parameters::columns(&taken)?),
+        })
+    }
+}
+
+/// The methods that the rules of a system stand for.
+struct Offered;
+
+impl<S, M, const N: usize> Probe<S, M, N>
+where
+    S: System<N>,
+    for<'a> S::View<'a>: OffersMethods<N>,
+{
+    /// Runs to an error asked for.
+    #[must_use]
+    pub fn steps_to_error(&self) -> Option<Box<dyn StepsToError<S, N>>> {
+        Some(Box::new(Offered))
+    }
+}
+
+impl<S, const N: usize> StepsToError<S, N> for Offered
+where
+    S: System<N>,
+    for<'a> S::View<'a>: OffersMethods<N>,
+{
+    fn run(
+        &self,
+        fields: &S::Fields,
+        given: Given<'_>,
+        asked: ErrorAsked,
+        start: &State<f64, N>,
+        events: Option<&mut Events<'_>>,
+        record: &mut dyn FnMut(&mut dyn Motion<N>, u64),
+    ) -> Result<Guarded, ToleranceError> {
+        let system = S::view(fields, given.inputs, given.time);
+        let choice = system.to_error(asked.tolerance).until(asked.until).choice(start)?;
+        let mut run = choice.trajectory();
+        let steps = choice.steps();
+        match events {
+            None => record(&mut Of { system: &system, run: &mut run }, steps),
+            Some(events) => watched(&mut run, events, &mut |motion| record(motion, steps)),
+        }
+        Ok(Guarded {
+            method: choice.method().to_string(),
+            h: choice.step_size(),
+            expected: run.expected(),
+            breach: run.breach().copied(),
+        })
+    }
+
+    fn together<'a>(&self, asked: ErrorAsked) -> Box<dyn Together<S::View<'a>, N> + 'a> {
+        Box::new(ToError::new(asked.tolerance, asked.until))
+    }
+}
