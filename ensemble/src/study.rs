@@ -368,7 +368,7 @@ where
             let end = numbers.end.min(first.saturating_add(window));
             let chunk = |first: u64| {
                 if self.is_flagged() {
-                    return Vec::new();
+                    return None;
                 }
                 let numbers = first..end.min(first.saturating_add(size));
                 let mut slots: Vec<Slot<L, V, N>> = numbers
@@ -383,17 +383,17 @@ where
                 let outcome = |Slot { number, value, failure, .. }| Outcome { number, value, failure };
                 let outcomes: Vec<_> = slots.into_iter().map(outcome).collect();
                 let failed = outcomes.iter().filter(|outcome| outcome.failure.is_some()).count();
-                (outcomes.len() as u64, failed as u64, together(outcomes))
+                Some((outcomes.len() as u64, failed as u64, together(outcomes)))
             };
             let chunks: Vec<u64> = (first..end).step_by(size as usize).collect();
-            let outcomes: Vec<_> = chunks.into_par_iter().map(chunk).collect();
+            let chunks: Vec<_> = chunks.into_par_iter().map(chunk).collect();
             if self.is_flagged() {
                 return Err(Cancelled { total, progress });
             }
-            for outcome in outcomes.into_iter().flatten() {
-                progress.done += 1;
-                progress.failed += u64::from(outcome.failure.is_some());
-                add(&mut total, outcome);
+            for (done, failed, kept) in chunks.into_iter().flatten() {
+                progress.done += done;
+                progress.failed += failed;
+                add(&mut total, kept);
             }
             first = end;
             if begin.elapsed() < BRIEF {
