@@ -1,7 +1,9 @@
 """Mechanical systems, stepped as NumPy arrays. Written by `stub()` of the module."""
 
 from collections.abc import Callable, Sequence
-from typing import Any, ClassVar, Self, TypedDict, final
+from os import PathLike
+from pathlib import Path
+from typing import Any, ClassVar, Self, TypedDict, final, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -25,6 +27,105 @@ class Breach:
     @property
     def instead(self) -> float:
         """A tolerance to ask for instead, from the start."""
+
+@final
+class Crossings:
+    """When an event function vanished, and where the motion was: one row an event."""
+
+    @property
+    def t(self) -> _Array:
+        """Times, shape (events,)."""
+    @property
+    def q(self) -> _Array:
+        """Configurations, shape (events, n)."""
+    @property
+    def v(self) -> _Array:
+        """Velocities, shape (events, n)."""
+    @property
+    def p(self) -> _Array:
+        """Momenta, shape (events, n)."""
+    def __len__(self) -> int: ...
+
+@final
+class Plane:
+    """A plane that a run crosses: q·a + v·b = value."""
+
+    def __new__(
+        cls,
+        q: Sequence[float],
+        v: Sequence[float] | None = None,
+        *,
+        value: float = 0.0,
+        direction: float = 0.0,
+        terminal: bool = False,
+    ) -> Self: ...
+    @property
+    def q(self) -> list[float]:
+        """a."""
+    @property
+    def v(self) -> list[float] | None:
+        """b."""
+    @property
+    def value(self) -> float:
+        """The right side."""
+    @property
+    def direction(self) -> float:
+        """Which crossings count."""
+    @property
+    def terminal(self) -> bool:
+        """Whether the run ends there."""
+
+@final
+class Symmetry:
+    """What a generator does to L_d, to the force and to its momentum, over samples."""
+
+    @property
+    def generator(self) -> str:
+        """The name of the generator."""
+    @property
+    def is_symmetry_of_lagrangian(self) -> bool:
+        """Whether it is a symmetry of L_d."""
+    @property
+    def force_does_work(self) -> bool:
+        """Whether the discrete force does work along it."""
+    @property
+    def is_conserved(self) -> bool:
+        """Whether its momentum is conserved."""
+    @property
+    def is_consistent(self) -> bool:
+        """Whether the momenta that the step uses are those of L_d and f_d, as they must be."""
+    @property
+    def lagrangian(self) -> tuple[float, float]:
+        """The largest ξ(L_d), and what counts as zero there."""
+    @property
+    def force(self) -> tuple[float, float]:
+        """The largest f_d(ξ), and what counts as zero there."""
+    @property
+    def defect(self) -> tuple[float, float]:
+        """The largest sum of both, and what counts as zero there."""
+    @property
+    def text(self) -> str:
+        """The report in words, which it prints."""
+
+@final
+class EnergyLedger:
+    """Where the energy of a run went."""
+
+    @property
+    def change(self) -> float:
+        """The energy at the end less that at the start."""
+    @property
+    def dissipated(self) -> float:
+        """What friction took."""
+    @property
+    def work(self) -> float:
+        """What the general force brought."""
+    @property
+    def remainder(self) -> float:
+        """What the method did: change + dissipated − work."""
+    @property
+    def largest_remainder(self) -> float:
+        """The largest remainder of one step, by size."""
 
 @final
 class Run:
@@ -69,6 +170,9 @@ class Run:
     @property
     def breach(self) -> Breach | None:
         """Where the error expected has passed the one asked for; None where it has not."""
+    @property
+    def events(self) -> list[Crossings]:
+        """The events of each function that was given."""
     def __len__(self) -> int: ...
 
 @final
@@ -91,6 +195,48 @@ class Linearization:
     def by_parameters(self) -> _Array | None:
         """∂(q1, p1)/∂θ, shape (2n, parameters); None where the attribute lists none."""
 
+@final
+class Ends:
+    """The states of all members, one row each."""
+
+    @property
+    def t(self) -> _Array:
+        """Times, shape (members,), or (members, records)."""
+    @property
+    def q(self) -> _Array:
+        """Configurations, shape (members, n), or (members, records, n)."""
+    @property
+    def v(self) -> _Array:
+        """Velocities, of the shape of q."""
+    @property
+    def p(self) -> _Array:
+        """Momenta, of the shape of q."""
+    @property
+    def energy(self) -> _Array:
+        """Energies, of the shape of t."""
+    @property
+    def failures(self) -> dict[int, Exception]:
+        """Why members are not what was asked for, by their numbers: exceptions that were not raised. Their rows are NaN."""
+    def __len__(self) -> int: ...
+
+@final
+class Parts:
+    """What was written as Parquet files, one for each part of the members."""
+
+    @property
+    def written(self) -> int:
+        """Parts that were computed and written."""
+    @property
+    def found(self) -> int:
+        """Parts that were there."""
+    @property
+    def failed(self) -> int:
+        """Members computed that failed."""
+    @property
+    def paths(self) -> list[Path]:
+        """The files, in order."""
+    def __len__(self) -> int: ...
+
 class Structure(TypedDict):
     engine: str
     constant_mass_matrix: bool
@@ -105,14 +251,17 @@ class StepError(ArithmeticError):
 
     kind: str
     data: dict[str, Any]
-    step: int
+    step: int | None
     t: float
-    q: _Array
+    q: _Array | None
     p: _Array | None
     partial: dict[str, _Array] | None
 
 class ToleranceError(ArithmeticError):
     """No method was chosen for the error asked for: the message says why."""
+
+class EventError(ArithmeticError):
+    """An event function that cannot be followed: the message says which and when."""
 
 class BreachWarning(UserWarning):
     """The error expected has passed the one asked for: `run.breach` says where."""
@@ -142,9 +291,55 @@ class System:
         u: _Numbers | None = None,
         t: float | None = None,
         derivatives: bool = False,
+        events: Sequence[Plane | Callable[[float, _Array, _Array], float]] | None = None,
         progress: Callable[[int, int], object] | None = None,
     ) -> Run:
         """The motion from (q, v), or from (q, p)."""
+    @overload
+    def ensemble(
+        self,
+        *,
+        q: _Numbers,
+        v: _Numbers | None = None,
+        p: _Numbers | None = None,
+        h: float | None = None,
+        steps: int | None = None,
+        tolerance: float | None = None,
+        until: float | None = None,
+        every: int | None = None,
+        rule: str | None = None,
+        u: _Numbers | None = None,
+        t: float | None = None,
+        fields: dict[str, Any] | None = None,
+        folder: None = None,
+        members_per_part: int = 65_536,
+        first: int = 0,
+        threads: int | None = None,
+        progress: Callable[[int, int], object] | None = None,
+    ) -> Ends: ...
+    @overload
+    def ensemble(
+        self,
+        *,
+        q: _Numbers,
+        v: _Numbers | None = None,
+        p: _Numbers | None = None,
+        h: float | None = None,
+        steps: int | None = None,
+        tolerance: float | None = None,
+        until: float | None = None,
+        every: int | None = None,
+        rule: str | None = None,
+        u: _Numbers | None = None,
+        t: float | None = None,
+        fields: dict[str, Any] | None = None,
+        folder: str | PathLike[str],
+        members_per_part: int = 65_536,
+        first: int = 0,
+        threads: int | None = None,
+        progress: Callable[[int, int], object] | None = None,
+    ) -> Parts:
+        """Many members, each a system and a start of its own, on all cores."""
     def linearization(
         self,
         *,
@@ -157,6 +352,33 @@ class System:
         rule: str | None = None,
     ) -> Linearization:
         """A step from (q, v), or from (q, p), with its derivatives."""
+    def symmetries(
+        self,
+        *,
+        h: float,
+        low: _Numbers,
+        high: _Numbers,
+        reach: _Numbers,
+        samples: int = 100,
+        generators: dict[str, tuple[_Numbers, _Numbers]] | None = None,
+        u: _Numbers | None = None,
+        t: float | None = None,
+        rule: str | None = None,
+    ) -> list[Symmetry]:
+        """What translations and rotations do to the discrete Lagrangian, to the force and to their momenta."""
+    def energy_ledger(
+        self,
+        *,
+        h: float,
+        steps: int,
+        q: _Numbers,
+        v: _Numbers | None = None,
+        p: _Numbers | None = None,
+        u: _Numbers | None = None,
+        t: float | None = None,
+        rule: str | None = None,
+    ) -> EnergyLedger:
+        """Where the energy of a run went, by the rule's own account of what forces did."""
     def energy(
         self,
         *,

@@ -18,7 +18,7 @@ ring, h, steps, every = Ring(k=1e-3), 0.2, 10_000, 5
 start = {"q": [0.0, 1.15549918674982], "v": [0.5, 0.0]}
 
 midpoint = ring.run(h=h, steps=steps, every=every, **start)
-motion = ring.run(tolerance=1e-8, until=h * steps, **start)
+motion = ring.run(tolerance=1e-6, until=h * steps, **start)
 
 
 def rate(state):

@@ -132,7 +132,7 @@ def test_parts_are_files_and_those_that_are_there_are_not_computed_again(tmp_pat
         (ValueError, r"k: expected the shape \(members,\), got \(4, 2\)", {"fields": {"k": np.zeros((4, 2))}}),
         (TypeError, "Ring has no field drag; it has k", {"fields": {"drag": np.zeros(4)}}),
         (ValueError, "rule: expected one of", {"rule": "euler"}),
-        (MemoryError, "", {"steps": 10**13, "every": 1}),
+        (MemoryError, "memory", {"steps": 10**13, "every": 1}),
     ],
 )
 def test_what_does_not_fit_is_said(kind, says, arguments):

@@ -38,7 +38,7 @@ def test_generators_of_ones_own():
 
 
 def test_samples_that_prove_nothing_are_refused():
-    with pytest.raises(ValueError, match="segment"):
+    with pytest.raises(ValueError, match="samples"):
         Ring(0.0).symmetries(h=0.1, low=[0, 0], high=[1, 1], reach=[0, 0])
     with pytest.raises(ValueError, match="midpoint, trapezoidal"):
         Ring(0.0).symmetries(h=0.1, rule="gauss_4", **BOX)
