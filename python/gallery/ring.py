@@ -18,7 +18,7 @@ ring, h, steps, every = Ring(k=1e-3), 0.2, 10_000, 5
 start = {"q": [0.0, 1.15549918674982], "v": [0.5, 0.0]}
 
 midpoint = ring.run(h=h, steps=steps, every=every, **start)
-motion = ring.run(tolerance=1e-6, until=h * steps, **start)
+motion = ring.run(h=h, steps=steps, every=every, rule="gauss_8", **start)
 
 
 def rate(state):
@@ -42,7 +42,7 @@ energies = {
     "midpoint rule": midpoint.energy,
 }
 
-true = np.interp(midpoint.t, motion.t, motion.energy)
+true = motion.energy
 figure, (above, below) = plt.subplots(2, 1, sharex=True, height_ratios=[2, 3])
 above.plot(motion.t, motion.energy, color="black", linestyle="-")
 above.set(ylabel="energy (dimensionless)", title="Friction takes the energy of a particle in the ring potential, drag k = 0.001")
