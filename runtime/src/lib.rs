@@ -1,4 +1,4 @@
-#![cfg_attr(feature = "theory", doc = include_str!("../README.md"))]
+#![cfg_attr(feature = "theory", doc = include_str!("guide/front_page.md"))]
 #![cfg_attr(
     all(feature = "std", not(feature = "theory")),
     doc = "Structure-preserving integrators for mechanical systems, without the checkers of the theory."
@@ -13,6 +13,8 @@ extern crate self as dalembert;
 
 pub mod derivative;
 pub mod generated;
+#[cfg(all(any(doc, doctest), feature = "theory"))]
+pub mod guide;
 pub mod nalgebra;
 mod numbers;
 pub mod rules;
@@ -25,6 +27,11 @@ mod theory;
 pub use run::tolerance;
 #[cfg(feature = "theory")]
 pub use theory::{exact, hamilton_jacobi, noether, rayleigh, samples};
+
+/// Its code blocks are tests.
+#[cfg(all(doctest, feature = "theory"))]
+#[doc = include_str!("../README.md")]
+struct ReadMe;
 
 /// The attributes that fit the features of this crate, which a macro cannot see.
 mod attributes {

@@ -1,0 +1,34 @@
+//! A guide for users, in eight chapters; every code block is a test.
+//!
+//! It is present in the documentation only. Read the first two chapters in order; the others stand alone.
+//!
+//! Python: docs/python.md in the repository.
+//!
+//! The scenes that the chapters name are programs: `cargo run --release --example ring` in a clone of the
+//! repository. Each prints a table and writes a picture to `target/`.
+
+#![allow(rustdoc::redundant_explicit_links)] // the chapters are also read as plain Markdown
+
+#[doc = include_str!("guide/first_system.md")]
+pub mod first_system {}
+
+#[doc = include_str!("guide/rule_and_step.md")]
+pub mod rule_and_step {}
+
+#[doc = include_str!("guide/control.md")]
+pub mod control {}
+
+#[doc = include_str!("guide/checkers.md")]
+pub mod checkers {}
+
+#[doc = include_str!("guide/own_rule.md")]
+pub mod own_rule {}
+
+#[doc = include_str!("guide/microcontrollers.md")]
+pub mod microcontrollers {}
+
+#[doc = include_str!("guide/many_members.md")]
+pub mod many_members {}
+
+#[doc = include_str!("guide/symbols.md")]
+pub mod symbols {}
