@@ -7,8 +7,6 @@
 //! The scenes that the chapters name are programs: `cargo run --release --example ring` in a clone of the
 //! repository. Each prints a table and writes a picture to `target/`.
 
-#![allow(rustdoc::redundant_explicit_links)] // the chapters are also read as plain Markdown
-
 #[doc = include_str!("guide/first_system.md")]
 pub mod first_system {}
 

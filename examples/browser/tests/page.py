@@ -234,7 +234,7 @@ def fits_a_telephone(page):
 
 
 def draw(page, path):
-    """README's picture: the ring without friction, after 10 000 steps."""
+    """The picture of docs/embedding.md: the ring without friction, after 10 000 steps."""
     choose(page, "ring")
     choose_rule(page, "midpoint")
     slide(page, "friction", 0)
