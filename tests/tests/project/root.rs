@@ -95,9 +95,17 @@ fn every_way_to_show_a_name_is_counted() {
 fn nothing_is_public_that_nobody_names() {
     let project = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut of_users = BTreeSet::new();
-    for part in
-        ["README.md", "benches", "docs", "examples", "firmware", "macros", "report", "runtime/src/guide", "tests"]
-    {
+    for part in [
+        "README.md",
+        "benches",
+        "docs",
+        "examples",
+        "firmware",
+        "macros",
+        "report",
+        "runtime/src/guide",
+        "tests",
+    ] {
         words(&project.join(part), &["target", "snapshots", "root.rs"], &mut of_users);
     }
     let mut of_macros = BTreeSet::new();
