@@ -1,8 +1,8 @@
 //! A guide for users, in eight chapters; every code block is a test.
 //!
-//! It is present in the documentation only. Read the first two chapters in order; the others stand alone.
+//! Read the first two chapters in order; the others stand alone.
 //!
-//! Python: docs/python.md in the repository.
+#![doc = include_str!("guide/chapters.md")]
 //!
 //! The scenes that the chapters name are programs: `cargo run --release --example ring` in a clone of the
 //! repository. Each prints a table and writes a picture to `target/`.

@@ -1,4 +1,11 @@
 #![cfg_attr(feature = "theory", doc = include_str!("guide/front_page.md"))]
+#![cfg_attr(feature = "theory", doc = "")]
+#![cfg_attr(feature = "theory", doc = include_str!("guide/chapters.md"))]
+#![cfg_attr(feature = "theory", doc = "")]
+#![cfg_attr(
+    feature = "theory",
+    doc = "The documentation of the attribute is the reference: what L and R may contain, and all options."
+)]
 #![cfg_attr(
     all(feature = "std", not(feature = "theory")),
     doc = "Structure-preserving integrators for mechanical systems, without the checkers of the theory."
