@@ -15,3 +15,8 @@ pub mod motions;
 pub mod reference;
 pub mod sections;
 pub mod systems;
+
+/// What crates.io shows of `dalembert`: its code is run.
+#[cfg(doctest)]
+#[doc = include_str!("../../runtime/CRATE.md")]
+struct CratePage;
