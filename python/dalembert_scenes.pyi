@@ -7,6 +7,7 @@ from typing import Any, ClassVar, Self, TypedDict, final, overload
 
 import numpy as np
 import numpy.typing as npt
+from typing_extensions import disjoint_base
 
 type _Array = npt.NDArray[np.float64]
 type _Numbers = Sequence[float] | Sequence[Sequence[float]] | npt.NDArray[np.floating[Any] | np.integer[Any]]
@@ -237,7 +238,7 @@ class Parts:
         """The files, in order."""
     def __len__(self) -> int: ...
 
-class Structure(TypedDict):
+class _Structure(TypedDict):
     engine: str
     constant_mass_matrix: bool
     quadratic_lagrangian: bool
@@ -266,6 +267,7 @@ class EventError(ArithmeticError):
 class BreachWarning(UserWarning):
     """The error expected has passed the one asked for: `run.breach` says where."""
 
+@disjoint_base
 class System:
     """A system with its fields: what all systems of this module have in common."""
 
@@ -274,7 +276,7 @@ class System:
     TAKES_TIME: ClassVar[bool]
     PARAMETERS: ClassVar[tuple[str, ...]]
     RULES: ClassVar[tuple[str, ...]]
-    STRUCTURE: ClassVar[Structure]
+    STRUCTURE: ClassVar[_Structure]
 
     def run(
         self,
