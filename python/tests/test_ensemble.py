@@ -9,7 +9,18 @@ import time
 import numpy as np
 import pyarrow.parquet as parquet
 import pytest
-from dalembert_scenes import CartPole, DoublePendulum, Ends, HenonHeiles, Ring, ShakenOscillator, StepError, ToleranceError
+from dalembert_scenes import (
+    CartPole,
+    DoublePendulum,
+    Ends,
+    EventError,
+    HenonHeiles,
+    Plane,
+    Ring,
+    ShakenOscillator,
+    StepError,
+    ToleranceError,
+)
 
 RANDOM = np.random.default_rng(7)
 
@@ -76,6 +87,94 @@ def test_a_member_that_fails_does_not_stop_the_others():
     assert on_the_way.t == raised.value.t and on_the_way.step is None and "member 50" in str(on_the_way)
     out_of_reach = star.ensemble(tolerance=1e-30, until=1.0, q=q[:2], v=v[:2])
     assert isinstance(out_of_reach.failures[0], ToleranceError)
+
+
+@pytest.mark.parametrize("rule", HenonHeiles.RULES)
+def test_events_of_members_are_those_of_their_runs(rule):
+    q, v = starts(23)
+    events = [Plane([1.0, 0.0], direction=1), Plane([0.0, 1.0], value=0.2, terminal=True)]
+    at = {"h": 0.1, "steps": 95, "rule": rule, "events": events}
+    ends = HenonHeiles().ensemble(q=q, v=v, first=100, **at)
+    on_the_way = HenonHeiles().ensemble(q=q, v=v, every=10, threads=1, **at)
+    ended_early = 0
+    for k in range(23):
+        run = HenonHeiles().run(q=q[k], v=v[k], every=10, **at)
+        assert ends.t[k] == run.t[-1] and ends.energy[k] == run.energy[-1]
+        assert np.array_equal(ends.q[k], run.q[-1]) and np.array_equal(ends.v[k], run.v[-1])
+        rows = len(run)
+        assert np.array_equal(on_the_way.p[k, :rows], run.p) and np.isnan(on_the_way.p[k, rows:]).all()
+        for found, alone in zip(ends.events, run.events, strict=True):
+            mine = found.member == 100 + k
+            assert np.array_equal(found.t[mine], alone.t) and np.array_equal(found.q[mine], alone.q)
+            assert np.array_equal(found.v[mine], alone.v) and np.array_equal(found.p[mine], alone.p)
+        ended_early += len(run.events[1])
+    assert on_the_way.q.shape == (23, 11, 2) and 0 < ended_early < 23 and len(ends.events[0]) > 10
+    assert not ends.failures and ends.events[0].member.dtype == np.int64
+
+
+def test_events_of_members_of_all_kinds():
+    q, v = starts(5)
+    c, plane = RANDOM.uniform(0, 0.1, (5, 2)), Plane([1.0, 0.0])
+    pendulum = DoublePendulum([1, 1], [1, 1], 9.81, [0, 0])
+    of_fields = pendulum.ensemble(h=0.01, steps=200, q=q, v=v, fields={"c": c}, events=[plane])
+    to_error = HenonHeiles().ensemble(tolerance=1e-7, until=5.0, q=q, v=v, events=[plane])
+    shaken = ShakenOscillator(1, 2, 0.1, 0.5, 1.7)
+    timed = shaken.ensemble(h=0.1, steps=20, q=q[:, :1], v=[0.0], t=3.0, events=[lambda t, q, v: t - 4.25])
+    for k in range(5):
+        run = DoublePendulum([1, 1], [1, 1], 9.81, c[k]).run(h=0.01, steps=200, q=q[k], v=v[k], events=[plane])
+        assert np.array_equal(of_fields.q[k], run.q[-1])
+        assert np.array_equal(of_fields.events[0].t[of_fields.events[0].member == k], run.events[0].t)
+        run = HenonHeiles().run(tolerance=1e-7, until=5.0, q=q[k], v=v[k], events=[plane])
+        assert np.array_equal(to_error.events[0].t[to_error.events[0].member == k], run.events[0].t)
+    assert timed.events[0].t == pytest.approx([4.25] * 5, abs=1e-12) and list(timed.events[0].member) == [0, 1, 2, 3, 4]
+
+
+def test_members_that_are_watched_fail_alone(tmp_path):
+    q, v = starts(40, 0.1)
+    q[13] = [np.nan, 0.0]
+    q[30], v[30] = [0.0, 40.0], [0.0, 40.0]
+    star, at = HenonHeiles(), {"h": 0.5, "steps": 200, "rule": "trapezoidal"}
+    watched = star.ensemble(q=q, v=v, events=[Plane([1.0, 0.0])], **at)
+    alone = star.ensemble(q=q, v=v, **at)
+    assert set(watched.failures) == set(alone.failures) == {13, 30}
+    assert np.array_equal(watched.q, alone.q, equal_nan=True) and np.array_equal(watched.t, alone.t, equal_nan=True)
+    for number, failure in alone.failures.items():
+        same = watched.failures[number]
+        assert str(same) == str(failure) and same.kind == failure.kind and same.t == failure.t
+        assert (same.q is None) == (failure.q is None) and (failure.q is None or np.array_equal(same.q, failure.q))
+    # A function that one member takes to where it is not defined.
+    q, v = starts(6, 0.1)
+    at = {"h": 0.1, "steps": 30}
+    ends = star.ensemble(q=q, v=v, events=[lambda t, x, w: np.nan if x[1] == q[2, 1] else 1.0], **at)
+    assert set(ends.failures) == {2} and isinstance(ends.failures[2], EventError) and "member 2" in str(ends.failures[2])
+    assert np.isnan(ends.q[2]).all() and np.isfinite(np.delete(ends.q, 2, axis=0)).all()
+
+    def broken(t, q, v):
+        raise KeyError("broken")
+
+    with pytest.raises(KeyError, match="broken"):
+        star.ensemble(q=q, v=v, events=[broken], **at)
+    with pytest.raises(TypeError, match="leave folder or events out"):
+        star.ensemble(q=q, v=v, events=[Plane([1.0, 0.0])], folder=tmp_path, **at)
+    with pytest.raises(ValueError, match="rule: expected one of"):
+        star.ensemble(q=q, v=v, events=[Plane([1.0, 0.0])], **at | {"rule": "euler"})
+
+
+def test_watched_members_are_many_and_can_be_stopped():
+    q, v = starts(40_000)
+    told = []
+    at = {"h": 0.1, "steps": 100, "q": q, "v": v, "rule": "trapezoidal", "events": [Plane([1.0, 0.0])]}
+    ends = HenonHeiles().ensemble(progress=lambda done, of: told.append((done, of)), **at)
+    assert told[-1] == (40_000, 40_000) and told == sorted(told)
+    assert (np.diff(ends.events[0].member) >= 0).all() and ends.events[0].member[-1] > 39_000
+
+    def stop(done, of):
+        raise RuntimeError("enough")
+
+    began = time.perf_counter()
+    with pytest.raises(RuntimeError, match="enough"):
+        HenonHeiles().ensemble(progress=stop, **at | {"steps": 10**6})
+    assert time.perf_counter() - began < 20
 
 
 def test_the_number_of_threads_changes_no_bit():

@@ -378,6 +378,8 @@ impl System {
     /// q, v, p, u, t, h, steps, tolerance, until, rule : as of `run`
     /// every : steps from one record to the next; unless said, the end alone is recorded
     /// fields : a dict of fields that differ from member to member
+    /// events : as of `run`; `events` of the result has those of all members, `t` the end of each. Members are then run one by
+    ///     one, and have no folder
     /// folder : where parts go
     /// members_per_part : members of a part
     /// first : the number of the first member, which begins a part
@@ -387,7 +389,7 @@ impl System {
     /// Returns
     /// -------
     /// Ends, or Parts where there is a folder
-    #[pyo3(signature = (*, q, v=None, p=None, h=None, steps=None, tolerance=None, until=None, every=None, rule=None, u=None, t=None, fields=None, folder=None, members_per_part=65_536, first=0, threads=None, progress=None))]
+    #[pyo3(signature = (*, q, v=None, p=None, h=None, steps=None, tolerance=None, until=None, every=None, rule=None, u=None, t=None, fields=None, events=None, folder=None, members_per_part=65_536, first=0, threads=None, progress=None))]
     #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
     fn ensemble<'py>(
         &self,
@@ -404,6 +406,7 @@ impl System {
         u: Option<&Bound<'py, PyAny>>,
         t: Option<f64>,
         fields: Option<&Bound<'py, PyDict>>,
+        events: Option<Vec<Bound<'_, PyAny>>>,
         folder: Option<PathBuf>,
         members_per_part: u64,
         first: u64,
@@ -416,10 +419,32 @@ impl System {
                 "of members to a tolerance the end alone is recorded: leave every out",
             ));
         }
+        let model = self.model();
+        let raised = Mutex::new(None);
+        let events = watching::functions(py, events, model.kind().coordinates(), &raised)?;
         let parts = folder.map(|folder| (folder, members_per_part));
-        let given =
-            ensemble::Given { q, v, p, u, t, fields, first, stepping, every, parts, threads, progress };
-        ensemble::run(py, &*self.model(), given)
+        if parts.is_some() && !events.is_empty() {
+            return Err(PyTypeError::new_err(
+                "events: parts have no room for them; leave folder or events out",
+            ));
+        }
+        let given = ensemble::Given {
+            q,
+            v,
+            p,
+            u,
+            t,
+            fields,
+            first,
+            stepping,
+            every,
+            events: &events,
+            raised: &raised,
+            parts,
+            threads,
+            progress,
+        };
+        ensemble::run(py, &*model, given)
     }
 
     /// A step from (q, v), or from (q, p), with its derivatives: A, by rules also B and by the parameters that the

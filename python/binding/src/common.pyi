@@ -34,6 +34,9 @@ class Crossings:
     """When an event function vanished, and where the motion was: one row an event."""
 
     @property
+    def member(self) -> npt.NDArray[np.int64] | None:
+        """The number of the member of each, shape (events,); None of a run."""
+    @property
     def t(self) -> _Array:
         """Times, shape (events,)."""
     @property
@@ -216,6 +219,9 @@ class Ends:
     def energy(self) -> _Array:
         """Energies, of the shape of t."""
     @property
+    def events(self) -> list[Crossings]:
+        """The events of each function that was given, member by member."""
+    @property
     def failures(self) -> dict[int, Exception]:
         """Why members are not what was asked for, by their numbers: exceptions that were not raised. Their rows are NaN."""
     def __len__(self) -> int: ...
@@ -313,6 +319,7 @@ class System:
         u: _Numbers | None = None,
         t: float | None = None,
         fields: dict[str, Any] | None = None,
+        events: Sequence[Plane | Callable[[float, _Array, _Array], float]] | None = None,
         folder: None = None,
         members_per_part: int = 65_536,
         first: int = 0,
@@ -335,6 +342,7 @@ class System:
         u: _Numbers | None = None,
         t: float | None = None,
         fields: dict[str, Any] | None = None,
+        events: None = None,
         folder: str | PathLike[str],
         members_per_part: int = 65_536,
         first: int = 0,

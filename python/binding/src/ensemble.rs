@@ -3,6 +3,7 @@
 use core::sync::atomic::Ordering;
 use std::path::PathBuf;
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::Duration;
 
@@ -16,9 +17,11 @@ use pyo3::types::{PyDict, PyModule};
 use crate::arguments::{self, array, entries_of_members, of_shape};
 use crate::class::time;
 use crate::error::{of_member, of_memory, of_refusal};
-use crate::many::{Asked, Control, FieldOfMembers, Kept, NoResult, Rows, Written};
+use crate::events::Event;
+use crate::many::{Asked, Control, FieldOfMembers, FoundOfMembers, Kept, NoResult, Rows, Written};
 use crate::model::{Kind, Model, Stepping};
-use crate::results::to_array;
+use crate::results::{Crossings, to_array};
+use crate::watched;
 
 /// How long results are waited for before Python is asked whether to go on.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -36,6 +39,8 @@ pub struct Ends {
     p: Py<PyArrayDyn<f64>>,
     /// Energies, of the shape of t.
     energy: Py<PyArrayDyn<f64>>,
+    /// The events of each function that was given, member by member.
+    events: Vec<Py<Crossings>>,
     /// Why members are not what was asked for, by their numbers: exceptions that were not raised. Their rows are NaN.
     failures: Py<PyDict>,
 }
@@ -96,6 +101,10 @@ pub struct Given<'a, 'py> {
     pub stepping: Stepping<'a>,
     /// Steps from one record to the next.
     pub every: Option<u64>,
+    /// What is looked for in the run of each.
+    pub events: &'a [Event<'a>],
+    /// What an event function has raised.
+    pub raised: &'a Mutex<Option<PyErr>>,
     /// Where parts go, and their size.
     pub parts: Option<(PathBuf, u64)>,
     /// Threads; those of the machine unless said.
@@ -185,9 +194,17 @@ pub fn run<'py>(py: Python<'py>, model: &dyn Model, given: Given<'_, 'py>) -> Py
     let parts = given.parts.as_ref();
     let work = || match parts {
         Some((folder, size)) => model.written(&asked, &control, folder, *size).map(Err),
+        None if !given.events.is_empty() => watched::kept(model, &asked, given.events, &control).map(Ok),
         None => model.kept(&asked, &control).map(Ok),
     };
-    let result = watched(py, &control, members as u64, given.progress.as_ref(), &|| within(&work))?;
+    let look = |py: Python<'_>| {
+        py.check_signals()?;
+        let raised = given.raised.lock().unwrap_or_else(PoisonError::into_inner).take();
+        raised.map_or(Ok(()), Err)?;
+        let done = control.done.load(Ordering::Relaxed);
+        given.progress.as_ref().map_or(Ok(()), |progress| progress.call1(py, (done, members)).map(drop))
+    };
+    let result = followed(py, &control, &look, &|| within(&work))?;
     let rule = match given.stepping {
         Stepping::Fixed { rule, .. } => rule,
         Stepping::ToError(_) => None,
@@ -240,21 +257,14 @@ fn fields(
     Ok(fields)
 }
 
-/// Runs `work` on a thread of its own, while this one looks for Ctrl-C and tells of progress.
-fn watched<T: Send>(
+/// Runs `work` on a thread of its own, while this one asks `look` from time to time whether to go on.
+fn followed<T: Send>(
     py: Python<'_>,
     control: &Control,
-    members: u64,
-    progress: Option<&Py<PyAny>>,
+    look: &(dyn Fn(Python<'_>) -> PyResult<()> + Sync),
     work: &(dyn Fn() -> T + Sync),
 ) -> PyResult<T> {
-    let look = || {
-        Python::attach(|py| {
-            py.check_signals()?;
-            let done = control.done.load(Ordering::Relaxed);
-            progress.map_or(Ok(()), |progress| progress.call1(py, (done, members)).map(drop))
-        })
-    };
+    let look = || Python::attach(look);
     py.detach(|| {
         thread::scope(|scope| {
             let (send, receive) = sync_channel(1);
@@ -287,7 +297,7 @@ fn watched<T: Send>(
 }
 
 fn ends(py: Python<'_>, kept: Kept, members: usize, n: usize, has_records: bool) -> PyResult<Ends> {
-    let Kept { t, q, v, p, energy, failures, records } = kept;
+    let Kept { t, q, v, p, energy, failures, records, events } = kept;
     let shape = |last: &[usize]| {
         let records: &[usize] = if has_records { &[records] } else { &[] };
         [&[members], records, last].concat()
@@ -297,7 +307,11 @@ fn ends(py: Python<'_>, kept: Kept, members: usize, n: usize, has_records: bool)
     for failed in failures {
         by_number.set_item(failed.number, of_member(py, &failed)?)?;
     }
+    let events = events
+        .into_iter()
+        .map(|FoundOfMembers { members, found }| Py::new(py, Crossings::new(py, found, Some(members), n)?));
     Ok(Ends {
+        events: events.collect::<PyResult<_>>()?,
         t: array(t, &[])?,
         q: array(q, &[n])?,
         v: array(v, &[n])?,

@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyModule, PyType};
 
-use crate::many::Failed;
+use crate::many::{Failed, WhyFailed};
 use crate::model::Refusal;
 use crate::record::Failure;
 use crate::results::to_array;
@@ -110,9 +110,12 @@ pub fn of_member<'py>(py: Python<'py>, failed: &Failed) -> PyResult<Bound<'py, P
     let Failed { number, error, time, state } = failed;
     let message = format!("member {number}, at t = {time}: {error}");
     match error {
-        MemberError::Step(error) => step_error(py, message, error, None, *time, state, None),
-        MemberError::Tolerance(_) => classes(py)?.tolerance.bind(py).call1((message,)),
-        _ => classes(py)?.breach.bind(py).call1((message,)),
+        WhyFailed::Member(MemberError::Step(error)) => {
+            step_error(py, message, error, None, *time, state, None)
+        }
+        WhyFailed::Member(MemberError::Tolerance(_)) => classes(py)?.tolerance.bind(py).call1((message,)),
+        WhyFailed::Events(_) => classes(py)?.event.bind(py).call1((message,)),
+        WhyFailed::Member(_) => classes(py)?.breach.bind(py).call1((message,)),
     }
 }
 

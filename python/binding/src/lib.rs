@@ -53,6 +53,7 @@ mod stub;
 pub mod system;
 #[doc(hidden)]
 pub mod together;
+mod watched;
 mod watching;
 
 /// Writes the Python module of some systems.

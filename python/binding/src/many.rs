@@ -1,20 +1,24 @@
 //! An ensemble of a system: what is asked of it, and what is kept.
 
+use core::fmt;
 use core::ops::{ControlFlow, Range};
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::collections::TryReserveError;
 use std::path::{Path, PathBuf};
 
 use dalembert::nalgebra::SVector;
+use dalembert::run::events::EventError;
 use dalembert::{Lagrangian, State, StepError};
 use dalembert_c::{Fields, Number};
 use dalembert_ensemble::parts::PartsError;
-use dalembert_ensemble::{Ensemble, Failure, MemberError, Outcome, Plan, Progress, Record};
+use dalembert_ensemble::{Ensemble, Failure, MemberError, Outcome, Plan, Progress, Record as OfMember};
 use twox_hash::XxHash3_128;
 
+use crate::events::Found;
 use crate::model::{Refusal, Stepping};
 use crate::motion::measured;
 use crate::offer::Offer;
+use crate::record::Record;
 use crate::system::System;
 use crate::together::BySome;
 
@@ -29,7 +33,8 @@ pub struct Rows<'a> {
 
 impl<'a> Rows<'a> {
     /// The row of a member.
-    fn of(&self, member: usize) -> &'a [f64] {
+    #[must_use]
+    pub fn of(&self, member: usize) -> &'a [f64] {
         let first = if self.numbers.len() == self.width { 0 } else { member * self.width };
         &self.numbers[first..first + self.width]
     }
@@ -63,6 +68,16 @@ pub struct Asked<'a> {
     pub every: Option<u64>,
 }
 
+impl Asked<'_> {
+    /// The fields of a member that differ, and their numbers.
+    pub fn entries(&self, member: usize) -> impl Iterator<Item = (usize, &[Number])> {
+        self.fields.iter().map(move |(field, numbers)| {
+            let width = numbers.len() / self.members.max(1);
+            (*field, &numbers[member * width..(member + 1) * width])
+        })
+    }
+}
+
 /// How others follow an ensemble, and end it.
 #[derive(Debug, Default)]
 pub struct Control {
@@ -89,6 +104,30 @@ pub struct Kept {
     pub failures: Vec<Failed>,
     /// Records of a member.
     pub records: usize,
+    /// The events of each function, if they were looked for.
+    pub events: Vec<FoundOfMembers>,
+}
+
+/// The events of one function, member by member.
+#[derive(Clone, Debug, Default)]
+pub struct FoundOfMembers {
+    /// The number of the member of each.
+    pub members: Vec<i64>,
+    /// When and where.
+    pub found: Found,
+}
+
+impl FoundOfMembers {
+    /// The events of the next member.
+    pub fn add(&mut self, number: u64, found: Found) {
+        self.members.resize(self.members.len() + found.t.len(), number.cast_signed());
+        let all = &mut self.found;
+        for (all, found) in
+            [(&mut all.t, found.t), (&mut all.q, found.q), (&mut all.v, found.v), (&mut all.p, found.p)]
+        {
+            all.extend(found);
+        }
+    }
 }
 
 /// A member that is not what was asked for.
@@ -97,11 +136,35 @@ pub struct Failed {
     /// Its number.
     pub number: u64,
     /// Why.
-    pub error: MemberError,
+    pub error: WhyFailed,
     /// The time of its last good state.
     pub time: f64,
     /// That state, q and p; empty where it has no start.
     pub state: [Vec<f64>; 2],
+}
+
+/// Why a member is not what was asked for.
+#[derive(Clone, Debug)]
+pub enum WhyFailed {
+    /// Its steps, or their error.
+    Member(MemberError),
+    /// Its events cannot be followed.
+    Events(EventError),
+}
+
+impl From<MemberError> for WhyFailed {
+    fn from(error: MemberError) -> Self {
+        Self::Member(error)
+    }
+}
+
+impl fmt::Display for WhyFailed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Member(error) => error.fmt(f),
+            Self::Events(error) => error.fmt(f),
+        }
+    }
 }
 
 /// What was written.
@@ -136,11 +199,10 @@ fn fields_of_members<S: System<N>, const N: usize>(system: &S::Fields, asked: &A
         return vec![*system];
     }
     let mut all = vec![*system; asked.members];
-    for (field, numbers) in asked.fields {
-        let width = numbers.len() / asked.members.max(1);
-        for (fields, numbers) in all.iter_mut().zip(numbers.chunks_exact(width.max(1))) {
+    for (member, fields) in all.iter_mut().enumerate() {
+        for (field, numbers) in asked.entries(member) {
             for (index, number) in numbers.iter().enumerate() {
-                fields.change_entry(*field, index, *number);
+                fields.change_entry(field, index, *number);
             }
         }
     }
@@ -196,9 +258,7 @@ pub fn kept<S: System<N>, const N: usize>(
     asked: &Asked<'_>,
     control: &Control,
 ) -> Result<Kept, NoResult> {
-    let records = usize::try_from(records(asked)).unwrap_or(usize::MAX);
-    let mut kept = Kept { records, ..Kept::default() };
-    kept.reserve(asked.members, N).map_err(NoResult::TooLarge)?;
+    let kept = Kept::with_room(asked, N)?;
     let last = asked.first + asked.members as u64;
     let fields = fields_of_members::<S, N>(system, asked);
     let steps = by_some::<S, N>(asked).map_err(NoResult::Refused)?;
@@ -209,7 +269,7 @@ pub fn kept<S: System<N>, const N: usize>(
             ControlFlow::Continue(())
         },
     );
-    let observe = |rows: &mut Vec<Row<N>>, record: &Record<'_, S::View<'_>, N>| {
+    let observe = |rows: &mut Vec<Row<N>>, record: &OfMember<'_, S::View<'_>, N>| {
         let of = |system: &S::View<'_>| measured(system, &record.state);
         let (v, energy) =
             record.system.later(record.time, of).unwrap_or_else(|_| (SVector::repeat(f64::NAN), f64::NAN));
@@ -309,20 +369,48 @@ struct Row<const N: usize> {
 }
 
 impl Kept {
-    fn reserve(&mut self, members: usize, n: usize) -> Result<(), TryReserveError> {
-        let rows = members.saturating_mul(self.records);
-        for (numbers, width) in
-            [(&mut self.t, 1), (&mut self.q, n), (&mut self.v, n), (&mut self.p, n), (&mut self.energy, 1)]
-        {
-            numbers.try_reserve_exact(rows.saturating_mul(width))?;
+    /// With room for what is asked for.
+    ///
+    /// # Errors
+    /// There is not so much.
+    pub fn with_room(asked: &Asked<'_>, n: usize) -> Result<Self, NoResult> {
+        let records = usize::try_from(records(asked)).unwrap_or(usize::MAX);
+        let mut kept = Self { records, ..Self::default() };
+        let rows = asked.members.saturating_mul(records);
+        for (numbers, width) in kept.columns(n) {
+            numbers.try_reserve_exact(rows.saturating_mul(width)).map_err(NoResult::TooLarge)?;
         }
-        Ok(())
+        Ok(kept)
     }
 
-    /// The records of a member; NaN where it has failed.
+    /// The columns, and how many numbers of each a row has.
+    fn columns(&mut self, n: usize) -> [(&mut Vec<f64>, usize); 5] {
+        let Self { t, q, v, p, energy, .. } = self;
+        [(t, 1), (q, n), (v, n), (p, n), (energy, 1)]
+    }
+
+    /// Rows up to those of `members`, NaN where there are none.
+    fn fill(&mut self, members: usize, n: usize) {
+        let rows = members * self.records;
+        for (numbers, width) in self.columns(n) {
+            numbers.resize(rows * width, f64::NAN);
+        }
+    }
+
+    /// The records of the next member from the `first` on; NaN where it has no more.
+    pub fn add_record(&mut self, record: &Record, first: usize, n: usize) {
+        let members = self.t.len() / self.records;
+        let from = [&record.t, &record.q, &record.v, &record.p, &record.energy];
+        for ((numbers, width), from) in self.columns(n).into_iter().zip(from) {
+            numbers.extend_from_slice(&from[first * width..]);
+        }
+        self.fill(members + 1, n);
+    }
+
+    /// The records of the next member; NaN where it has failed.
     fn add<const N: usize>(&mut self, outcome: Outcome<Vec<Row<N>>, f64, N>, origin: f64) {
         let Outcome { number, value, failure } = outcome;
-        let missing = self.records.saturating_sub(value.len());
+        let members = self.t.len() / self.records;
         for Row { t, q, v, p, energy } in value {
             self.t.push(t);
             self.q.extend_from_slice(q.as_slice());
@@ -330,17 +418,13 @@ impl Kept {
             self.p.extend_from_slice(p.as_slice());
             self.energy.push(energy);
         }
-        for (numbers, width) in
-            [(&mut self.t, 1), (&mut self.q, N), (&mut self.v, N), (&mut self.p, N), (&mut self.energy, 1)]
-        {
-            numbers.resize(numbers.len() + missing * width, f64::NAN);
-        }
+        self.fill(members + 1, N);
         if let Some(Failure { error, last, .. }) = failure {
             let time = origin + last.map_or(0.0, |last| last.time);
             let state = last.map_or([Vec::new(), Vec::new()], |last| {
                 [last.state.q, last.state.p].map(|vector| vector.as_slice().to_vec())
             });
-            self.failures.push(Failed { number, error, time, state });
+            self.failures.push(Failed { number, error: error.into(), time, state });
         }
     }
 }

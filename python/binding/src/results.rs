@@ -84,6 +84,8 @@ pub struct Run {
 /// When an event function vanished, and where the motion was: one row an event.
 #[pyclass(frozen, get_all)]
 pub struct Crossings {
+    /// The number of the member of each, shape (events,); None of a run.
+    member: Option<Py<PyArray1<i64>>>,
     /// Times, shape (events,).
     t: Py<PyArray1<f64>>,
     /// Configurations, shape (events, n).
@@ -95,11 +97,21 @@ pub struct Crossings {
 }
 
 impl Crossings {
-    fn new(py: Python<'_>, found: Found, n: usize) -> PyResult<Self> {
+    /// Of one function, in the run of a system with `n` coordinates or in those of members.
+    ///
+    /// # Errors
+    /// Those of Python.
+    pub fn new(py: Python<'_>, found: Found, members: Option<Vec<i64>>, n: usize) -> PyResult<Self> {
         let Found { t, q, v, p } = found;
         let events = t.len();
         let vectors = |numbers| to_array(py, numbers, [events, n]).map(Bound::unbind);
-        Ok(Self { q: vectors(q)?, v: vectors(v)?, p: vectors(p)?, t: to_array(py, t, [events])?.unbind() })
+        Ok(Self {
+            member: members.map(|members| PyArray1::from_vec(py, members).unbind()),
+            q: vectors(q)?,
+            v: vectors(v)?,
+            p: vectors(p)?,
+            t: to_array(py, t, [events])?.unbind(),
+        })
     }
 }
 
@@ -144,7 +156,7 @@ impl Run {
     /// Those of Python.
     pub fn new(py: Python<'_>, ran: Ran, n: usize, parameters: usize, h: f64, rule: &str) -> PyResult<Self> {
         let Ran { mut record, guarded, events, .. } = ran;
-        let events = events.into_iter().map(|found| Py::new(py, Crossings::new(py, found, n)?));
+        let events = events.into_iter().map(|found| Py::new(py, Crossings::new(py, found, None, n)?));
         let records = record.t.len();
         let matrices = |numbers: Vec<f64>, columns: usize| -> PyResult<Option<Py<PyArray3<f64>>>> {
             let has_any = !numbers.is_empty();
