@@ -2,6 +2,8 @@ import heyoka as hy
 import numpy as np
 from starts import END, GONE, OPENINGS
 
+PIECE = 1000
+
 
 def escape_times(q, v, tolerance, threads):
     hy.set_nthreads(threads)
@@ -13,11 +15,16 @@ def escape_times(q, v, tolerance, threads):
     starts = np.hstack([q, v])
     integrator = hy.taylor_adaptive(motion, starts[0], tol=tolerance, t_events=gone)
 
-    def member(integrator, index):
-        integrator.time = 0.0
-        integrator.state[:] = starts[index]
-        integrator.reset_cooldowns()
-        return integrator
+    times = []
+    # Each member is a copy of the integrator: in pieces they stay few.
+    for piece in np.split(starts, range(PIECE, len(starts), PIECE)):
 
-    done = hy.ensemble_propagate_until(integrator, END, len(starts), member)
-    return np.array([one[0].time for one in done])
+        def member(integrator, index, piece=piece):
+            integrator.time = 0.0
+            integrator.state[:] = piece[index]
+            integrator.reset_cooldowns()
+            return integrator
+
+        done = hy.ensemble_propagate_until(integrator, END, len(piece), member)
+        times += [one[0].time for one in done]
+    return np.array(times)
