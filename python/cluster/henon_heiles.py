@@ -14,7 +14,7 @@ from dalembert_scenes import HenonHeiles
 from dask.distributed import Client, as_completed
 
 SEED, MEMBERS_PER_PART = 1, 16_384
-STEPS = {"h": 0.25, "steps": 400, "rule": "blanes_moan_6"}
+STEPS = {"h": 0.25, "steps": 4000, "rule": "blanes_moan_6"}
 
 
 def part(first, last, folder):
