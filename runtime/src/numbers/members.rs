@@ -16,7 +16,7 @@ use nalgebra::SVector;
 
 use crate::numbers::{Mask, Scalar};
 
-/// The block for every coordinate, unrolled for the first 16.
+/// The block for every coordinate, unrolled for the first 16: those that there are, as the conditions are constants.
 ///
 /// Where a loop over coordinates remains and that over members does not, LLVM makes vectors of a coordinate's
 /// neighbours, gathered and scattered with AVX-512: 6 times as slow. The index of the others is kept from it.
@@ -29,7 +29,7 @@ macro_rules! each_coordinate {
         }
     };
     (@unrolled [$($known:literal)*] $index:ident $block:block) => {$(
-        if $known < N {
+        if const { $known < N } {
             let $index = $known;
             $block
         }
@@ -42,7 +42,7 @@ macro_rules! each_stage {
         $crate::numbers::members::each_stage!(@unrolled [0 1 2 3 4 5 6 7] $index $block);
     };
     (@unrolled [$($known:literal)*] $index:ident $block:block) => {$(
-        if $known < S {
+        if const { $known < S } {
             let $index = $known;
             $block
         }

@@ -55,13 +55,18 @@ pub(super) const fn width(stages: usize) -> usize {
 }
 
 /// Calls a function of S stages with their [`width`] for its last parameter.
+///
+/// The conditions are constants, so that the function is compiled in that width alone.
 macro_rules! in_width {
     ($function:ident::<$($type:ty),+; $n:ident, $s:ident>($($argument:expr),*)) => {
-        match $crate::rules::gauss::problem::width($s) {
-            4 => $function::<$($type),+, $n, $s, 4>($($argument),*),
-            6 => $function::<$($type),+, $n, $s, 6>($($argument),*),
-            8 => $function::<$($type),+, $n, $s, 8>($($argument),*),
-            _ => $function::<$($type),+, $n, $s, $s>($($argument),*),
+        if const { $crate::rules::gauss::problem::width($s) == 4 } {
+            $function::<$($type),+, $n, $s, 4>($($argument),*)
+        } else if const { $crate::rules::gauss::problem::width($s) == 6 } {
+            $function::<$($type),+, $n, $s, 6>($($argument),*)
+        } else if const { $crate::rules::gauss::problem::width($s) == 8 } {
+            $function::<$($type),+, $n, $s, 8>($($argument),*)
+        } else {
+            $function::<$($type),+, $n, $s, $s>($($argument),*)
         }
     };
 }

@@ -33,11 +33,15 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
     problem: &Problem<'_, L, N, S>,
     v: &SVector<T, N>,
 ) -> Option<Solution<T, N, S>> {
-    match number_of_modes(S) {
-        1 => iterate_by_modes::<T, L, N, S, 1>(problem, v),
-        2 => iterate_by_modes::<T, L, N, S, 2>(problem, v),
-        3 => iterate_by_modes::<T, L, N, S, 3>(problem, v),
-        _ => iterate_by_modes::<T, L, N, S, 4>(problem, v),
+    // Constants, so that it is compiled for the one number of modes.
+    if const { number_of_modes(S) == 1 } {
+        iterate_by_modes::<T, L, N, S, 1>(problem, v)
+    } else if const { number_of_modes(S) == 2 } {
+        iterate_by_modes::<T, L, N, S, 2>(problem, v)
+    } else if const { number_of_modes(S) == 3 } {
+        iterate_by_modes::<T, L, N, S, 3>(problem, v)
+    } else {
+        iterate_by_modes::<T, L, N, S, 4>(problem, v)
     }
 }
 
