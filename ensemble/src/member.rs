@@ -39,7 +39,7 @@ pub enum MemberError {
     Step(StepError),
     /// No method was chosen for the error asked for.
     Tolerance(ToleranceError),
-    /// The error expected has passed the one asked for on the way; the end was reached.
+    /// The error expected has passed the one asked for on the way, by the last run that was tried.
     Breach(Breach),
 }
 
@@ -67,7 +67,11 @@ impl From<StepError> for MemberError {
 
 impl From<ToleranceError> for MemberError {
     fn from(error: ToleranceError) -> Self {
-        Self::Tolerance(error)
+        match error {
+            ToleranceError::Breach(breach) => Self::Breach(breach),
+            ToleranceError::Step(error) => Self::Step(error),
+            error => Self::Tolerance(error),
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use dalembert::system::Scalar;
 use dalembert::tolerance::{Methods, OffersMethods};
 use dalembert::{Discretise, Lagrangian, State, StepError};
 
-use crate::member::{End, Failure, MemberError, Record};
+use crate::member::{End, Failure, Record};
 
 /// A member while it is stepped, and what is kept of it.
 #[derive(Clone, Debug)]
@@ -152,7 +152,8 @@ impl<S: Scalar> Plan<S> {
     }
 }
 
-/// Each member by the method and step size chosen for it, to an error asked for.
+/// Each member to an error asked for, by the method and step size that keep it
+/// ([`TimedRequest::end`](dalembert::tolerance::TimedRequest::end)).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ToError {
     pub(crate) tolerance: f64,
@@ -178,25 +179,15 @@ where
         observe: &impl Fn(&mut V, &Record<'_, L, N>) -> ControlFlow<()>,
     ) {
         one_by_one(members, |number, system, start, value| {
-            let failed = |error: MemberError, last| Failure { number, error, last };
-            let mut run = system
-                .to_error(self.tolerance)
-                .until(self.time)
-                .run(*start)
-                .map_err(|error| failed(error.into(), Some(End { number, time: 0.0, state: *start })))?;
-            let mut steps = 0;
-            while let Some(step) = run.next() {
-                let last = |time| Some(End { number, time, state: *run.state() });
-                step.map_err(|error| failed(error.into(), last(run.time())))?;
-                steps += 1;
-            }
-            let (time, state) = (run.time(), *run.state());
+            let reached = system.to_error(self.tolerance).until(self.time).end(start).map_err(|error| {
+                let last = Some(End { number, time: 0.0, state: *start });
+                Failure { number, error: error.into(), last }
+            })?;
+            let (steps, state) = (reached.choice.steps(), reached.state);
+            let time = reached.choice.step_size() * steps as f64;
             // The end is the only record: nothing is left to be stopped.
             let _ = observe(value, &Record { number, system, steps, time, state });
-            match run.breach() {
-                Some(breach) => Err(failed(MemberError::Breach(*breach), Some(End { number, time, state }))),
-                None => Ok(()),
-            }
+            Ok(())
         });
     }
 

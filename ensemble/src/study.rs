@@ -58,8 +58,9 @@ impl<F> Ensemble<F> {
     }
 
     /// All members to the error `tolerance`, in units of q, until `time`: each by the method and step size
-    /// that are chosen for it, with its guard ([`to_error`](dalembert::Discretise::to_error)). The end alone
-    /// is recorded. A member whose guard says that its error has passed the one asked for is a [`Failure`].
+    /// that keep it, found by one run or more with a guard
+    /// ([`TimedRequest::end`](dalembert::tolerance::TimedRequest::end)). The end alone is recorded. A member whose
+    /// error no run that was tried has kept is a [`Failure`].
     pub fn to_error<'f, L, const N: usize>(self, tolerance: f64, time: f64) -> Study<'f, F, ToError, L, N>
     where
         F: Fn(u64) -> Result<(L, State<L::Scalar, N>), StepError> + Sync,

@@ -8,5 +8,5 @@ mod reference;
 mod systems;
 
 pub use collection::{FAMILIES, collection, of_family};
-pub use measured::{Motion, Outcome, Verdict};
+pub use measured::{Cheapest, Motion, Outcome, Verdict};
 pub use reference::extrapolated;

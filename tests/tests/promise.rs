@@ -79,3 +79,25 @@ fn the_cheapest_fixed_choice_is_no_accident() {
         assert!(cheapest.unwrap().0 > 100.0, "{cheapest:?}");
     }
 }
+
+#[test]
+fn the_end_asked_for_is_one_whose_error_was_kept() {
+    let (mut asked, mut without, mut breached, mut runs) = (0, 0, 0, 0);
+    for motion in collection(17, 42) {
+        for tolerance in [1e-3, 1e-7, 1e-11] {
+            let (outcome, tried) = motion.reach(tolerance);
+            let what = || format!("{}, {}, {tolerance:e}: {outcome:?}", motion.family, motion.what);
+            assert!(!matches!(outcome.verdict, Verdict::Breach(_)), "{}", what());
+            assert!(outcome.error <= 2.0, "{}", what());
+            asked += 1;
+            without += usize::from(outcome.verdict == Verdict::Refused && motion.family != "kink");
+            breached += usize::from(matches!(motion.ask(tolerance).verdict, Verdict::Breach(_)));
+            runs += tried;
+        }
+    }
+    // Where nothing is smooth no step is short enough; elsewhere an end is found, as a rule by the second run.
+    assert!(without * 20 <= asked, "{without} of {asked}");
+    assert!(runs <= 2 * asked as u32, "{runs} runs for {asked}");
+    // Positive control: the first choice alone would have passed many errors.
+    assert!(breached * 10 >= asked, "{breached} of {asked}");
+}

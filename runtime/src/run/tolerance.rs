@@ -7,6 +7,7 @@ mod guard;
 mod methods;
 mod phase;
 mod random;
+mod reached;
 mod request;
 mod scale;
 mod search;
@@ -24,6 +25,7 @@ use crate::step::{State, StepError, verify_start};
 use crate::system::Lagrangian;
 pub use guard::{GuardedCheckpoint, GuardedTrajectory};
 pub use methods::{LastStep, MethodStep, Methods, Taken, WithGauss, WithSplittings};
+pub use reached::Reached;
 pub use request::{OffersMethods, Request, TimedRequest};
 
 /// A method of constant step: a self-adjoint rule of order 2, alone or composed, a splitting, or a Gauss
@@ -136,8 +138,12 @@ pub enum ToleranceError {
         /// The method.
         method: Method,
     },
-    /// A step at the chosen size failed at the start, or the system is not that written.
+    /// A step at the chosen size failed at the start, or the system is not that written. Of
+    /// [`TimedRequest::end`]: or a step on the way, of the last run that was tried.
     Step(StepError),
+    /// Of [`TimedRequest::end`]: each run that was tried has passed the error; this is what the last one's guard
+    /// reported.
+    Breach(Breach),
 }
 
 impl<S, const N: usize> Chosen<S, N> {
@@ -202,7 +208,7 @@ impl Method {
     /// **Guard.** The first steps do not show chaos, kinks, or a passage that comes later. So the run carries
     /// its error along ([`GuardedTrajectory`]), with the exact growth, and reports where it passes the
     /// tolerance. The state reached until then is good: [`Breach::instead`] is what to ask for from the
-    /// start.
+    /// start. [`TimedRequest::end`] does so by itself.
     ///
     /// The step size stays constant along the run, so that the structure is kept, but for what the sweeps of
     /// Gauss methods leave: they end where all steps together move the end by a hundredth of the tolerance

@@ -13,7 +13,7 @@ use std::path::Path;
 use std::thread;
 
 use anyhow::{Context, Result};
-use dalembert_tests::motions::{Motion, Outcome, collection, of_family};
+use dalembert_tests::motions::{Cheapest, Motion, Outcome, collection, of_family};
 use page::Collection;
 
 /// The errors asked for.
@@ -29,22 +29,40 @@ const COMPARED: usize = 42;
 /// A family of which there are more, with its seed and number: the one whose errors are hardest to tell.
 const MORE: (&str, u64, usize) = ("stiff pair", 5, 500);
 
-/// A run and the evaluations of the cheapest fixed choice, where that was looked for.
-pub type Run = (&'static str, f64, Outcome, Option<f64>);
+/// What came of one request.
+pub struct Run {
+    /// The kind of motion.
+    pub family: &'static str,
+    /// The error asked for.
+    pub tolerance: f64,
+    /// What came of the choice.
+    pub chosen: Outcome,
+    /// What came of the end that was asked for, and how many runs it took.
+    pub reached: (Outcome, u32),
+    /// The evaluations of the cheapest fixed choice, where that was looked for.
+    pub cheapest: Option<f64>,
+}
 
 fn runs(motion: &Motion, is_compared: bool) -> Vec<Run> {
     let cheapest = if is_compared { motion.cheapest(&TOLERANCES) } else { vec![None; TOLERANCES.len()] };
     let each = TOLERANCES.into_iter().zip(cheapest);
-    each.map(|(tolerance, best)| (motion.family, tolerance, motion.ask(tolerance), best.map(|best| best.0)))
-        .collect()
+    let run = |(tolerance, cheapest): (f64, Cheapest)| Run {
+        family: motion.family,
+        tolerance,
+        chosen: motion.ask(tolerance),
+        reached: motion.reach(tolerance),
+        cheapest: cheapest.map(|cheapest| cheapest.0),
+    };
+    each.map(run).collect()
 }
 
 fn main() -> Result<()> {
     let mut numbers = args().skip(1).map(|text| text.parse::<u64>());
     if let (Some(seed), Some(count)) = (numbers.next(), numbers.next()) {
         for motion in collection(seed?, count? as usize) {
-            for (family, tolerance, outcome, _) in runs(&motion, false) {
-                println!("{family}, {}: {tolerance:.0e}: {outcome:?}", motion.what);
+            for Run { family, tolerance, chosen, reached: (reached, runs), .. } in runs(&motion, false) {
+                println!("{family}, {}: {tolerance:.0e}: {chosen:?}", motion.what);
+                println!("    in {runs} runs: {reached:?}");
             }
         }
         return Ok(());

@@ -26,13 +26,23 @@ struct Counts {
     right: usize,
     wrong: usize,
     refused: usize,
+    /// Ends asked for: kept, passed in silence, none.
+    reached: [usize; 3],
+    /// The runs of those that there are.
+    runs: u32,
 }
 
 impl Counts {
-    fn of<'a>(outcomes: impl Iterator<Item = &'a Outcome>) -> Self {
+    fn of<'a>(runs: impl Iterator<Item = &'a Run>) -> Self {
         let mut counts = Self::default();
-        for outcome in outcomes {
+        for Run { chosen: outcome, reached: (reached, runs), .. } in runs {
             counts.all += 1;
+            match reached.verdict {
+                Verdict::Silent if reached.error > 2.0 => counts.reached[1] += 1,
+                Verdict::Silent => counts.reached[0] += 1,
+                Verdict::Breach(_) | Verdict::Refused => counts.reached[2] += 1,
+            }
+            counts.runs += runs;
             match outcome.verdict {
                 Verdict::Refused => counts.refused += 1,
                 Verdict::Silent if outcome.error > 2.0 => counts.silent += 1,
@@ -48,8 +58,13 @@ impl Counts {
     }
 
     fn row(&self, name: &str) -> String {
-        let Self { all, kept, silent, late, right, wrong, refused } = self;
-        format!("| {name} | {all} | {kept} | **{silent}** | {right} | {late} | {wrong} | {refused} |\n")
+        let Self { all, kept, silent, late, right, wrong, refused, reached: [ends, passed, none], runs } =
+            self;
+        let each = f64::from(*runs) / (ends + passed).max(1) as f64;
+        format!(
+            "| {name} | {all} | {kept} | **{silent}** | {right} | {late} | {wrong} | {refused} \
+             | {ends} | **{passed}** | {none} | {each:.2} |\n"
+        )
     }
 }
 
@@ -84,6 +99,10 @@ Collections 1, 2 and 5 were looked at while the code was written, collections 3 
 | late | of these: it passed 2 ε before the step at which the breach was reported |
 | wrong | a breach, though the error was at most ε to the end |
 | refused | no method chosen, or a step failed with its error |
+| end kept | the end asked for (`TimedRequest::end`), by a run whose error was at most 2 ε on the whole way |
+| end silent | such a run whose error passed 2 ε |
+| no end | an error says that no run that was tried keeps ε |
+| runs | of an end that there is, the mean |
 ";
 
 /// The page.
@@ -93,30 +112,31 @@ pub fn text(collections: &[Collection]) -> String {
         let motions = runs.len() / TOLERANCES.len();
         let _ =
             write!(page, "\n## Collection {}, {title}: {motions} motions, {} runs\n\n", i + 1, runs.len());
-        page.push_str("| | runs | kept | silent | right | late | wrong | refused |\n|---|--:|--:|--:|--:|--:|--:|--:|\n");
-        page.push_str(&Counts::of(runs.iter().map(|run| &run.2)).row("all"));
+        page.push_str("| | asked | kept | silent | right | late | wrong | refused | end kept | end silent | no end | runs |\n");
+        page.push_str("|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+        page.push_str(&Counts::of(runs.iter()).row("all"));
         for tolerance in TOLERANCES {
-            let of = runs.iter().filter(|run| run.1 == tolerance);
-            page.push_str(&Counts::of(of.map(|run| &run.2)).row(&format!("ε = {tolerance:.0e}")));
+            let of = runs.iter().filter(|run| run.tolerance == tolerance);
+            page.push_str(&Counts::of(of).row(&format!("ε = {tolerance:.0e}")));
         }
         let mut families: Vec<&str> = Vec::new();
         for run in runs {
-            if !families.contains(&run.0) {
-                families.push(run.0);
+            if !families.contains(&run.family) {
+                families.push(run.family);
             }
         }
         for family in families {
-            let of = runs.iter().filter(|run| run.0 == family);
-            page.push_str(&Counts::of(of.map(|run| &run.2)).row(family));
+            let of = runs.iter().filter(|run| run.family == family);
+            page.push_str(&Counts::of(of).row(family));
         }
         page.push_str("\nCost, in evaluations of the forces as `MethodStep` counts them; of runs that reached their end without a breach.\n\n");
         page.push_str("| | median | nine of ten below | runs |\n|---|--:|--:|--:|\n");
-        let whole: Vec<&Run> = runs.iter().filter(|run| run.2.verdict == Verdict::Silent).collect();
+        let whole: Vec<&Run> = runs.iter().filter(|run| run.chosen.verdict == Verdict::Silent).collect();
         let share = |of: &[&Run], part: usize| {
-            quantiles(of.iter().map(|run| run.2.evaluations[part] / run.2.evaluations[0]).collect())
+            quantiles(of.iter().map(|run| run.chosen.evaluations[part] / run.chosen.evaluations[0]).collect())
         };
         let between = |from: u64, to: u64| -> Vec<&Run> {
-            whole.iter().copied().filter(|run| (from..to).contains(&run.2.steps)).collect()
+            whole.iter().copied().filter(|run| (from..to).contains(&run.chosen.steps)).collect()
         };
         for (from, to, name) in [
             (100, 200, "100 to 199 steps"),
@@ -128,7 +148,9 @@ pub fn text(collections: &[Collection]) -> String {
             let _ = writeln!(page, "| guard / run, {name} | {} |", share(&of, 1));
         }
         let to_best = |part: fn(&Outcome) -> f64| {
-            quantiles(whole.iter().filter_map(|run| run.3.map(|best| part(&run.2) / best)).collect())
+            quantiles(
+                whole.iter().filter_map(|run| run.cheapest.map(|best| part(&run.chosen) / best)).collect(),
+            )
         };
         if *compared == 0 {
             continue;
@@ -170,6 +192,6 @@ method counts the derivatives and the matrix of all its stages.
 - A breach can come late: where the error arises within one step between two looks (a kink that the energy does not show, a pulse of a step's
   length) it is reported at the next look.
 - A pulse that lies between the nodes of all steps is seen by no method that evaluates forces.
-- Kinks, chaotic motions and passages that the first steps do not show end in breaches rather than in a choice that serves: `Breach::instead`
-  is the tolerance to ask for then.
+- Kinks, chaotic motions and passages that the first steps do not show end in breaches rather than in a choice that serves. `Breach::instead`
+  is the tolerance to ask for then; where the end is what counts, `TimedRequest::end` runs again by itself until the error is kept.
 ";

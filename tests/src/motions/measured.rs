@@ -2,8 +2,8 @@
 
 use dalembert::nalgebra::SVector;
 use dalembert::step::Step;
-use dalembert::tolerance::{Method, MethodStep, Methods, ToleranceError};
-use dalembert::{Lagrangian, State};
+use dalembert::tolerance::{Choice, Method, MethodStep, Methods, OffersMethods, ToleranceError};
+use dalembert::{Discretise, Lagrangian, State};
 
 /// (q, p) at the times given, ascending.
 pub type Reference<const N: usize> = Box<dyn Fn(&[f64]) -> Vec<State<f64, N>>>;
@@ -65,6 +65,7 @@ pub struct Motion {
     /// Its parameters.
     pub what: String,
     ask: Box<dyn Fn(f64) -> Outcome>,
+    reach: Box<dyn Fn(f64) -> (Outcome, u32)>,
     cheapest: Search,
 }
 
@@ -113,15 +114,28 @@ impl Motion {
         reference: Reference<N>,
     ) -> Self
     where
-        L: Lagrangian<N, Scalar = f64> + Clone + 'static,
+        L: OffersMethods<N> + Lagrangian<N, Scalar = f64> + Clone + 'static,
         M: Methods<L, N> + 'static,
     {
         let reference = std::rc::Rc::new(reference);
-        let (of_ask, of_cheapest) = (reference.clone(), system.clone());
+        let (of_ask, of_reach, of_cheapest) = (reference.clone(), reference.clone(), system.clone());
+        let asked = system.clone();
         Self {
             family,
             what,
-            ask: Box::new(move |tolerance| ask(&system, methods, start, time, tolerance, &of_ask)),
+            ask: Box::new(move |tolerance| {
+                measured(
+                    Method::for_tolerance(&asked, methods, &start, time, tolerance),
+                    start,
+                    tolerance,
+                    &of_ask,
+                )
+            }),
+            reach: Box::new(move |tolerance| {
+                let reached = system.to_error(tolerance).among(methods).until(time).end(&start);
+                let runs = reached.as_ref().map_or(0, |reached| reached.runs);
+                (measured(reached.map(|reached| reached.choice), start, tolerance, &of_reach), runs)
+            }),
             cheapest: Box::new(move |tolerances| {
                 cheapest(&of_cheapest, methods, start, time, tolerances, &reference)
             }),
@@ -133,6 +147,11 @@ impl Motion {
         (self.ask)(tolerance)
     }
 
+    /// What comes of asking for the end of a run that keeps an error, and how many runs that took.
+    pub fn reach(&self, tolerance: f64) -> (Outcome, u32) {
+        (self.reach)(tolerance)
+    }
+
     /// The cheapest method and step size for each tolerance, in evaluations, found by trying all step sizes:
     /// of those of which all shorter ones keep it as well. One step over the whole time ends well by
     /// accident where the motion has come to rest by then.
@@ -141,11 +160,9 @@ impl Motion {
     }
 }
 
-fn ask<L, M, const N: usize>(
-    system: &L,
-    methods: M,
+fn measured<L, M, const N: usize>(
+    choice: Result<Choice<'_, L, M, N>, ToleranceError>,
     start: State<f64, N>,
-    time: f64,
     tolerance: f64,
     reference: &Reference<N>,
 ) -> Outcome
@@ -163,7 +180,7 @@ where
         expected: 0.0,
         evaluations: [0.0; 3],
     };
-    let choice = match Method::for_tolerance(system, methods, &start, time, tolerance) {
+    let choice = match choice {
         Ok(choice) => choice,
         Err(ToleranceError::Request { .. }) => panic!("a request that makes no sense"),
         Err(_) => return refused,

@@ -203,6 +203,59 @@ fn from_the_pericentre_the_error_asked_for_is_kept() {
     }
 }
 
+/// Once around ellipses from any phase, of which a start near the apocentre shows nothing of the pericentre.
+#[test]
+fn the_end_asked_for_is_reached_from_any_phase() {
+    let among = WithGauss(WithSplittings(Trapezoidal));
+    let time = std::f64::consts::TAU;
+    let (mut again, mut missed) = (0, 0);
+    for k in 0..12 {
+        // Eccentric anomaly and eccentricity.
+        let (angle, e) = (0.55 * f64::from(k), 0.3 + 0.04 * f64::from(k));
+        let b = f64::sqrt(1.0 - e * e);
+        let (sine, cosine) = angle.sin_cos();
+        let per_r = 1.0 / (1.0 - e * cosine);
+        let start = State { q: [cosine - e, b * sine].into(), p: [-sine * per_r, b * cosine * per_r].into() };
+        let error = |end: &State<f64, 2>| (end.q - start.q).amax();
+        for tolerance in [1e-4, 1e-9] {
+            let request = Planet {}.to_error(tolerance).among(among).until(time);
+            let reached = request.end(&start).unwrap();
+            assert!(error(&reached.state) <= 2.0 * tolerance, "{:e}, {}", error(&reached.state), reached.choice);
+            assert!(reached.expected <= 1.35 * tolerance && reached.runs <= 4, "{} runs", reached.runs);
+            // The run once more, step by step.
+            let mut run = reached.choice.trajectory();
+            assert_eq!(run.by_ref().last().unwrap().unwrap().state, reached.state);
+            assert!(run.breach().is_none() && (run.time() - time).abs() < 1e-12);
+            // Positive control: some first choices miss the error, and it is those that another run follows.
+            let mut first = request.run(start).unwrap();
+            let end = first.by_ref().last().unwrap().unwrap().state;
+            assert_eq!(first.breach().is_some(), reached.runs > 1);
+            again += u32::from(reached.runs > 1);
+            missed += u32::from(error(&end) > tolerance);
+        }
+    }
+    assert!(again >= 6 && missed >= 4, "{again}, {missed}");
+}
+
+#[test]
+fn an_end_that_no_run_keeps_is_an_error() {
+    // A kink at which every method is of order 1.
+    #[rayleigh_system(rule = [trapezoidal, gauss])]
+    fn kink(q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * v[0] * v[0] - q[0].abs()
+    }
+    let start = State { q: [1.0].into(), p: [0.0].into() };
+    let request = |tolerance| Kink {}.to_error(tolerance).until(20.0).end(&start);
+    let Err(dalembert::tolerance::ToleranceError::Breach(breach)) = request(1e-10) else {
+        panic!("{:?}", request(1e-10).map(|reached| reached.runs))
+    };
+    assert!(breach.tolerance == 1e-10 && breach.expected > 1e-10 && breach.time > 1.0);
+    // What is no request is none.
+    assert!(matches!(request(-1.0), Err(dalembert::tolerance::ToleranceError::Request { .. })));
+    // Control: to an error that the kink allows there is an end.
+    assert!(request(0.3).is_ok());
+}
+
 #[test]
 fn a_choice_says_why_and_keeps_the_step() {
     let system = Pendulum::EXAMPLE;

@@ -63,7 +63,14 @@ impl fmt::Display for ToleranceError {
             Self::NotOffered { method } => {
                 write!(f, "the system does not offer the method of the run: {method}; list its rule")
             }
-            Self::Step(error) => write!(f, "at the start: {error}"),
+            Self::Step(error) => write!(f, "no run begins, or comes to its end: {error}"),
+            Self::Breach(breach) => {
+                let Breach { time, expected, tolerance, .. } = breach;
+                write!(
+                    f,
+                    "no run that was tried keeps the error of {tolerance:.1e}; at t = {time:.4} the last one comes to {expected:.1e}"
+                )
+            }
         }
     }
 }

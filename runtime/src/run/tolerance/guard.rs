@@ -133,6 +133,8 @@ struct Guard<S, const N: usize> {
     /// The step after which the energy was asked for.
     energy: u64,
     random: Random,
+    /// The largest error expected so far, where it was looked at.
+    largest: f64,
     breach: Option<Breach>,
 }
 
@@ -165,6 +167,7 @@ where
             unresolved: Unresolved::new(),
             energy: 0,
             random: Random::new(0x9e37_79b9_7f4a_7c15),
+            largest: 0.0,
             breach: None,
         };
         let mut guarded = Self { choice, step, half, guard, failed: false };
@@ -245,6 +248,11 @@ where
     /// Where the error expected has first passed the tolerance; `None` while it has not.
     pub fn breach(&self) -> Option<&Breach> {
         self.guard.breach.as_ref()
+    }
+
+    /// The largest error expected on the way, where it was looked at.
+    pub(super) fn largest(&self) -> f64 {
+        self.guard.largest
     }
 
     /// The last step.
@@ -395,6 +403,8 @@ where
 
     fn report(&mut self, expected: f64) {
         let tolerance = self.choice.chosen.tolerance;
+        let size = if expected.is_nan() { f64::INFINITY } else { expected };
+        self.guard.largest = self.guard.largest.max(size);
         if self.guard.breach.is_none() && (expected.is_nan() || expected > REPORTED * tolerance) {
             let share = (self.guard.taken as f64 / self.choice.chosen.steps as f64) * (tolerance / expected);
             let instead = tolerance * share.min(0.5);

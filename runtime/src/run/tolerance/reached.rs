@@ -1,0 +1,94 @@
+//! The end of a run that keeps the error asked for, whatever its start shows of it.
+
+use nalgebra::ComplexField;
+
+use super::{Choice, Method, Methods, ToleranceError};
+use crate::step::State;
+use crate::system::Lagrangian;
+
+/// Runs to the end at most.
+const RUNS: u32 = 8;
+
+/// What of the tolerance the next run is to come to, if its error goes with the one aimed at.
+const AIM: f64 = 0.3;
+
+/// The share of an aim that the next one is at least: errors as large as the motion say little.
+const LEAST: f64 = 1e-5;
+
+/// By so much the steps of a method are shortened, where no method is expected to reach a smaller error.
+const SHORTER: [f64; 2] = [1.1, 4.0];
+
+/// The end of a motion to an error that was asked for, and the run that has kept it:
+/// [`TimedRequest::end`](super::TimedRequest::end).
+#[derive(Debug)]
+pub struct Reached<'a, L: Lagrangian<N>, M, const N: usize> {
+    /// The state at the end.
+    pub state: State<L::Scalar, N>,
+    /// The error expected of it.
+    pub expected: f64,
+    /// The method and step size, whose [`trajectory`](Choice::trajectory) is this run once more, without a
+    /// breach.
+    pub choice: Choice<'a, L, M, N>,
+    /// How many runs it took, this one among them.
+    pub runs: u32,
+}
+
+/// Runs to the end with smaller and smaller errors aimed at, until the guard finds that one keeps the
+/// tolerance.
+pub(super) fn reached<'a, L, M, const N: usize>(
+    (system, methods): (&'a L, M),
+    start: &State<L::Scalar, N>,
+    time: f64,
+    tolerance: f64,
+) -> Result<Reached<'a, L, M, N>, ToleranceError>
+where
+    L: Lagrangian<N>,
+    M: Methods<L, N>,
+{
+    let mut aim = tolerance;
+    let mut choice = Method::for_tolerance(system, methods, start, time, tolerance)?;
+    let mut runs = 1;
+    loop {
+        let mut run = choice.trajectory();
+        let failure = run.by_ref().find_map(Result::err);
+        let (largest, error) = match (failure, run.breach()) {
+            (None, None) => {
+                return Ok(Reached { state: *run.state(), expected: run.expected(), choice, runs });
+            }
+            (Some(error), _) => (f64::INFINITY, ToleranceError::Step(error)),
+            (None, Some(&breach)) => (run.largest(), ToleranceError::Breach(breach)),
+        };
+        if runs == RUNS {
+            return Err(error);
+        }
+        runs += 1;
+        let share = AIM * tolerance / largest;
+        aim *= share.clamp(LEAST, AIM);
+        choice = match Method::for_tolerance(system, methods, start, time, aim) {
+            Ok(mut next) => {
+                next.chosen.tolerance = tolerance;
+                next
+            }
+            // The rounding of so many steps, or a step that fails.
+            Err(_) => choice.shortened(share, time),
+        };
+    }
+}
+
+impl<L, M, const N: usize> Choice<'_, L, M, N>
+where
+    L: Lagrangian<N>,
+    M: Methods<L, N>,
+{
+    /// The same method with steps as much shorter as an error smaller by the factor `share` takes.
+    fn shortened(mut self, share: f64, time: f64) -> Self {
+        let p = f64::from(self.chosen.method.order());
+        let [least, most] = SHORTER;
+        let factor = ComplexField::powf(share, -1.0 / p).clamp(least, most);
+        let steps = ComplexField::ceil(self.chosen.steps as f64 * factor);
+        self.chosen.local *= ComplexField::powf(factor, -1.0 - p);
+        self.chosen.expected *= ComplexField::powf(factor, -p);
+        (self.chosen.steps, self.chosen.step_size) = (steps as u64, time / steps);
+        self
+    }
+}
