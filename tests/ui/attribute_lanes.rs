@@ -49,8 +49,8 @@ struct Driven;
 
 #[rayleigh_system(rule = trapezoidal, lanes = explicit)]
 impl Driven {
-    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
-        0.5 * v[0] * v[0] - q[0]
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
+        0.5 * v[0] * v[0] - t * q[0] + t * v[0]
     }
 
     fn force(&self, _q: [f64; 1], _v: [f64; 1], u: [f64; 1], t: f64) -> [f64; 1] {

@@ -8,8 +8,6 @@ use super::rules::Rule;
 use super::structure::{Damping, Findings};
 use super::written_out::{CONDITIONAL, WrittenOut};
 
-const TIMED: &str = "takes no time: L, R and f have to be functions of q, v, the input and the fields; by `lanes = midpoint` they may take it";
-
 /// Reports what can be told from the attribute and the signatures.
 pub fn check(system: &System<'_>, report: &mut Report) {
     for word in system.lanes.words() {
@@ -24,24 +22,20 @@ pub fn check(system: &System<'_>, report: &mut Report) {
     if !report.is_empty() {
         return;
     }
-    if let Some(word) = &system.lanes.explicit {
-        if system.timed.any() {
-            refuse(word, TIMED, report);
-        } else if !system.rules.of_displacement.iter().any(|rule| rule.may_be_explicit()) {
-            refuse(word, "needs the rule whose steps are explicit; add `rule = trapezoidal`", report);
-        }
+    if let Some(word) = &system.lanes.explicit
+        && !system.rules.of_displacement.iter().any(|rule| rule.may_be_explicit())
+    {
+        refuse(word, "needs the rule whose steps are explicit; add `rule = trapezoidal`", report);
     }
     if let Some(word) = &system.lanes.midpoint
         && !system.rules.of_displacement.contains(&Rule::Midpoint)
     {
         refuse(word, "needs the midpoint rule; list it, `rule = midpoint`", report);
     }
-    if let Some(word) = &system.lanes.gauss {
-        if system.timed.any() {
-            refuse(word, TIMED, report);
-        } else if !system.rules.gauss {
-            refuse(word, "needs the rules of Gauss; add `rule = gauss`", report);
-        }
+    if let Some(word) = &system.lanes.gauss
+        && !system.rules.gauss
+    {
+        refuse(word, "needs the rules of Gauss; add `rule = gauss`", report);
     }
 }
 
@@ -73,6 +67,8 @@ fn why_implicit(findings: &Findings) -> &'static str {
         "needs explicit steps, and the friction is not linear in v: R has to be ½vᵀCv with constant C"
     } else if !findings.separable_lagrangian {
         "needs explicit steps, and a term of L holds both q and v: L has to be ½vᵀMv − V(q)"
+    } else if findings.timed_momenta {
+        "needs explicit steps, and ∂L/∂v takes the time: L has to be ½vᵀMv − V(q, t)"
     } else {
         "needs explicit steps, and the force depends on v: it has to be a function of q"
     }

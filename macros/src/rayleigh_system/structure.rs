@@ -40,6 +40,8 @@ pub struct Findings {
     pub constant_mass_matrix: bool,
     pub quadratic_lagrangian: bool,
     pub separable_lagrangian: bool,
+    /// ∂L/∂v holds the time.
+    pub timed_momenta: bool,
     pub damping: Damping,
     pub cyclic: Vec<Cyclic>,
     pub newton: Vec<Newton>,
@@ -74,8 +76,8 @@ pub struct Newton {
     pub constant: bool,
     /// Largest |i − j| of an entry.
     pub bandwidth: usize,
-    /// Constant by the trapezoidal rule, and no derivative holds both q and v: a step needs the force at one
-    /// point.
+    /// Constant by the trapezoidal rule, and no derivative holds both v and q or the time: a step needs the
+    /// force at one point and time.
     pub is_explicit: bool,
 }
 
@@ -120,6 +122,10 @@ pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>)
         })
     };
     let mass = of_pairs(&lagrangian.derivatives, Pairs::Velocities);
+    let timed_momenta = lagrangian.derivatives.gradient.iter().any(|(&by, &entry)| {
+        let is_velocity = matches!(graph.operation(by), Operation::Velocity(_));
+        is_velocity && contains(graph, entry, |operation| graph.is_time(operation))
+    });
 
     let cyclic = (0..n).filter_map(|index| {
         let is_own = |operation: Operation| operation == Operation::Coordinate(index);
@@ -160,18 +166,18 @@ pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>)
         // A function of M⁻¹C is full, unless both are diagonal.
         let is_fitted = rule.joint().is_some_and(|joint| joint.is_fitted);
         let bandwidth = if is_fitted && bandwidth > 0 { n - 1 } else { bandwidth };
-        // The force at a point has nothing but q, the input and fields in it.
+        // The force at a point has nothing but q, the input, the time and fields in it, what v adds to the momenta
+        // nothing but v and fields.
         let is_apart = |entry: Node, by_velocity: bool| {
             !contains(graph, entry, |operation| match operation {
                 Operation::Coordinate(_) => by_velocity,
                 Operation::Velocity(_) => !by_velocity,
+                time if graph.is_time(time) => by_velocity,
                 Operation::Input(_) | Operation::Parameter(_) | Operation::Constant(_) => false,
                 other => other.arguments().next().is_none(),
             })
         };
-        // The clocks of splittings are not kept.
         let is_explicit = constant
-            && !system.timed.any()
             && rule.may_be_explicit()
             && momenta.clone().all(|(entry, by_velocity)| is_apart(entry, by_velocity))
             && rayleigh.is_none_or(|r| !contains(graph, r.root, |o| matches!(o, Operation::Coordinate(_))))
@@ -184,6 +190,7 @@ pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>)
         constant_mass_matrix: degrees.in_velocity(lagrangian.root) <= 2 && is_constant(&mass),
         quadratic_lagrangian: degrees.joint(lagrangian.root) <= 2,
         separable_lagrangian: degrees.is_separable(lagrangian.root),
+        timed_momenta,
         damping,
         cyclic: cyclic.collect(),
         newton: newton.collect(),

@@ -10,7 +10,7 @@ mod midpoint;
 use core::marker::PhantomData;
 
 use crate::numbers::members::member;
-use crate::numbers::{Elementary, Mask, MemberVector, Scalar};
+use crate::numbers::{Elementary, Mask, MemberVector, Members, Scalar};
 use crate::rules::steps_until;
 use crate::run::{Checkpoint, Course, Explicit};
 use crate::step::{Flow, State};
@@ -29,6 +29,17 @@ pub trait ExplicitInLanes<const N: usize>: Explicit<N, Scalar: Elementary> {
     /// What the force reads, gathered.
     fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W>;
 
+    /// The same as long after each system's own time as `elapsed` says, [`later`](crate::Lagrangian::later) of
+    /// each.
+    #[inline(always)]
+    fn later_in_lanes<const W: usize>(
+        fields: &Self::Fields<W>,
+        elapsed: &Members<Self::Scalar, W>,
+    ) -> Self::Fields<W> {
+        let _ = elapsed;
+        *fields
+    }
+
     /// [`velocity_momenta`](Explicit::velocity_momenta) of each member, p0 and p1, to the last bit.
     fn velocity_momenta_in_lanes<const W: usize>(
         fields: &Self::Fields<W>,
@@ -36,7 +47,8 @@ pub trait ExplicitInLanes<const N: usize>: Explicit<N, Scalar: Elementary> {
         h: Self::Scalar,
     ) -> [MemberVector<Self::Scalar, N, W>; 2];
 
-    /// [`configuration_force`](Explicit::configuration_force) of each member, to the last bit.
+    /// [`configuration_force`](Explicit::configuration_force) of each member, whose time `fields` has, to the last
+    /// bit.
     fn configuration_force_in_lanes<const W: usize>(
         fields: &Self::Fields<W>,
         q: &MemberVector<Self::Scalar, N, W>,

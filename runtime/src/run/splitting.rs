@@ -18,7 +18,7 @@ use crate::step::{
 
 /// A splitting of the motion into kicks by the potential and damped free motions between, S of them,
 /// symmetric and of high order: for L = ½vᵀMv − V(q) and R = ½vᵀCv with constant M, positive definite, and C,
-/// and a force f(q), or f(q, u) with an input held.
+/// and a force f(q), or f(q, u) with an input held. V and f may take the time.
 ///
 /// **Derivation.** The motion's vector field is A + B, with flows that are known exactly:
 ///
@@ -39,6 +39,11 @@ use crate::step::{
 /// methods, J. Comput. Appl. Math. 142, 2002, 313–330) and of S. Blanes, F. Casas and A. Escorihuela-Tomàs
 /// (Runge–Kutta–Nyström symplectic splitting methods of order 8, Appl. Numer. Math. 2022, arXiv:2202.01541).
 /// A step costs S gradients and no equation is solved.
+///
+/// **Time.** With t as one more coordinate A adds ṫ = 1, so that t moves with the drifts and stands still in
+/// kicks, whose forces are then functions of (q, t): brackets vanish as before, and the conditions are the same.
+/// The kick after the drifts a₁ … aᵢ sees the time t + (a₁ + … + aᵢ)h. Order 4 and 6 then cost one gradient more,
+/// since the next step's clock starts at a rounding of its own.
 ///
 /// **Structure.** Each kick with the drift after it is the flow of a discrete Lagrangian system with force.
 /// Self-adjoint. Symplectic where C = 0. The determinant of the step is e^{−h tr M⁻¹C}, that of the flow, for
@@ -117,8 +122,8 @@ where
 /// The kicks and drifts of a [`Splitting`].
 ///
 /// What the drifts do is worked out in the first step of a size. Where kicks come first, the force at the end
-/// of a step is that at the start of the next, unless an input is held, which may be another by then. It belongs
-/// to one system.
+/// of a step is that at the start of the next, unless an input is held, which may be another by then, or the force
+/// takes the time. It belongs to one system.
 #[derive(Clone, Copy, Debug)]
 pub struct Kicks<T, const N: usize, const S: usize> {
     prepared: Option<Prepared<T, N, S>>,
@@ -206,17 +211,19 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
         if Splitting::<S>::DRIFTS_FIRST {
             if let Some((outer, inner)) = drifts.split_first() {
                 drift(outer, &mut q, &mut p);
-                for (&kick, of) in self.kicks.iter().zip(inner.iter().chain([outer])) {
-                    p += (system.configuration_force(&q) - self.thrust) * kick;
+                for ((&kick, of), share) in
+                    self.kicks.iter().zip(inner.iter().chain([outer])).zip(Splitting::<S>::NODES)
+                {
+                    p += (force_after(system, share, self.h, &q) - self.thrust) * kick;
                     drift(of, &mut q, &mut p);
                 }
             }
             return (State { q, p: p + self.shift }, force);
         }
-        for (&kick, of) in self.kicks.iter().zip(drifts) {
+        for ((&kick, of), share) in self.kicks.iter().zip(drifts).zip(Splitting::<S>::NODES) {
             p += force * kick;
             drift(of, &mut q, &mut p);
-            force = system.configuration_force(&q) - self.thrust;
+            force = force_after(system, share, self.h, &q) - self.thrust;
         }
         let closing = self.kicks.first().map_or(T::zero(), |&kick| kick);
         (State { q, p: p + force * closing + self.shift }, force)
@@ -245,13 +252,16 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
         let mut a = PhaseMatrix::identity();
         for part in Splitting::<S>::parts() {
             match part {
-                Part::Kick(i) => {
+                Part::Kick(i, share) => {
                     let kick = self.kicks[i];
-                    let slope = system.lagrangian_derivatives(&q, &rest).d11
-                        + system.general_force_derivatives(&q, &rest).d1;
+                    let (slope, force) = system.later(T::constant(share) * self.h, |system| {
+                        let slope = system.lagrangian_derivatives(&q, &rest).d11
+                            + system.general_force_derivatives(&q, &rest).d1;
+                        (slope, system.configuration_force(&q))
+                    });
                     a.p_by_q += slope * a.q_by_q * kick;
                     a.p_by_p += slope * a.q_by_p * kick;
-                    p += (system.configuration_force(&q) - self.thrust) * kick;
+                    p += (force - self.thrust) * kick;
                 }
                 Part::Drift(i) => {
                     let Drift { displacement, loss } = self.drift(i);
@@ -268,6 +278,17 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
         entries.into_iter().try_for_each(|block| StepError::require_finite(block, Quantity::Derivatives))?;
         Ok(a)
     }
+}
+
+/// G(q) when this share of a step of size `h` has passed.
+#[inline(always)]
+fn force_after<L: Explicit<N>, const N: usize>(
+    system: &L,
+    share: f64,
+    h: L::Scalar,
+    q: &SVector<L::Scalar, N>,
+) -> SVector<L::Scalar, N> {
+    system.later(L::Scalar::constant(share) * h, |system| system.configuration_force(q))
 }
 
 /// The drifts of a step, each length of them once.
@@ -307,7 +328,7 @@ where
             other => other.insert(Prepared::new(system, h)?),
         };
         let force = match self.force {
-            Some((q, force)) if q == state.q => force,
+            Some((q, force)) if q == state.q && !L::IS_TIMED => force,
             _ => {
                 state.require_finite()?;
                 if Splitting::<S>::DRIFTS_FIRST {

@@ -1,6 +1,7 @@
 //! Steps solved for v̄ of several members at once: the step's equation as data of all of them, and what a run's
 //! memory says of the next.
 
+pub(crate) mod clocks;
 pub(crate) mod newton;
 
 use crate::numbers::{Elementary, EntriesOfMembers, MemberVector, Members, NewtonMatrix};

@@ -7,7 +7,7 @@
 use nalgebra::SVector;
 
 use crate::numbers::{
-    Blank, Elementary, LaneVector, Lanes, MemberVector, NewtonMatrix, Scalar,
+    Blank, Elementary, LaneVector, Lanes, MemberVector, Members, NewtonMatrix, Scalar,
     lanes::{lane, splat, write_lane},
 };
 use crate::system::ActingForce;
@@ -94,8 +94,19 @@ pub trait ForcedLagrangianInLanes<const N: usize>: ForcedLagrangian<N, Scalar: E
     /// What is known of the systems, gathered.
     fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W>;
 
-    /// g = ∂L/∂q + f_L of each member at one stage, and what its correction needs: as in
-    /// [`stages`](ForcedLagrangian::stages), to the last bit.
+    /// The same as long after each system's own time as `elapsed` says, [`later`](crate::Lagrangian::later) of
+    /// each.
+    #[inline(always)]
+    fn later_in_lanes<const W: usize>(
+        fields: &Self::Fields<W>,
+        elapsed: &Members<Self::Scalar, W>,
+    ) -> Self::Fields<W> {
+        let _ = elapsed;
+        *fields
+    }
+
+    /// g = ∂L/∂q + f_L of each member at one stage, whose time `fields` has, and what its correction needs: as in
+    /// [`stages_in_time`](ForcedLagrangian::stages_in_time), to the last bit.
     fn rates_in_lanes<const W: usize>(
         fields: &Self::Fields<W>,
         anchors: &mut Self::AnchorsInLanes<W>,

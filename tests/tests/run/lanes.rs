@@ -634,7 +634,7 @@ fn explicit_members_that_fail_leave_the_others_as_they_are() {
 }
 
 /// Members put into lanes at random moments, each until a step of its own; how many had an end.
-fn refilled<L, M, const N: usize, const W: usize>(
+pub fn refilled<L, M, const N: usize, const W: usize>(
     method: M,
     members: &[(L, State<f64, N>)],
     h: f64,

@@ -36,4 +36,8 @@ mod slack;
 #[cfg(not(feature = "only-long-tests"))]
 mod splitting_conditions;
 #[cfg(not(feature = "only-long-tests"))]
+mod timed_lanes;
+#[cfg(not(feature = "only-long-tests"))]
+mod timed_splitting;
+#[cfg(not(feature = "only-long-tests"))]
 mod trajectory;

@@ -69,6 +69,7 @@ impl Code<'_> {
         let line = self.members_code(&force, &TAKEN, is_in_lanes);
         let [force] = self.parts(&line.outputs, [Shape::Vector]);
         let (q, statements) = (parameter("q", line.uses_coordinates), &line.statements);
+        let time = line.uses("t").then(|| quote!(let t = self.t;));
         let functions = quote! {
             #step_matrix
 
@@ -76,6 +77,7 @@ impl Code<'_> {
 
             #[inline]
             fn configuration_force(&self, #q: &Vector) -> Vector {
+                #time
                 #statements
                 #force
             }

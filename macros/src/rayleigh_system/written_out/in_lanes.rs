@@ -79,10 +79,21 @@ impl OfMembers {
         }))
     }
 
-    /// `let [k, _] = *fields;`, the names being those of the line; nothing where it uses none.
+    /// `let [k, _] = *kept;`, the names being those of the line; nothing where it uses none.
     fn taken_apart(&self, name: &str, line: &StraightLine) -> Option<TokenStream> {
         let name = format_ident!("{name}");
         self.pattern(line).map(|pattern| quote!(let #pattern = *#name;))
+    }
+
+    /// `let ([k, _], t) = *fields;`, with the present time by the name `time`, where the system has one and the
+    /// line reads it; nothing where it reads neither.
+    fn read_by(&self, line: &StraightLine, is_timed: bool, time: &str) -> Option<TokenStream> {
+        let (pattern, reads_time) = (self.pattern(line), line.uses("t"));
+        (pattern.is_some() || reads_time).then(|| {
+            let known = pattern.unwrap_or_else(|| quote!(_));
+            let time = if reads_time { format_ident!("{time}") } else { format_ident!("_") };
+            if is_timed { quote!(let (#known, #time) = *fields;) } else { quote!(let #known = *fields;) }
+        })
     }
 
     /// The names of the line, in the places of their values; nothing where it uses none.
@@ -134,8 +145,8 @@ impl Code<'_> {
         self.seen(line)
     }
 
-    /// `type Fields` and the function that fills it; where there is a time, that of the system and the present
-    /// one beside what is known.
+    /// `type Fields` and the function that fills it; where there is a time, with the present one beside what is
+    /// known, and the function that moves it.
     fn gathered(&mut self, fields: &OfMembers) -> TokenStream {
         let (ty, members) = (fields.ty(), &fields.members);
         let (scalar, is_timed) = (self.system.scalar.clone(), self.system.timed.any());
@@ -160,13 +171,10 @@ impl Code<'_> {
         let systems = parameter("systems", is_timed || !fields.is_empty());
         if is_timed {
             return quote! {
-                type Fields<const #members: usize> = (#ty, [Members<#scalar, #members>; 2]);
-
-                const IS_TIMED: bool = true;
+                type Fields<const #members: usize> = (#ty, Members<#scalar, #members>);
 
                 fn fields<const #members: usize>(#systems: [&Self; #members]) -> Self::Fields<#members> {
-                    let t = Members(systems.map(|system| system.t));
-                    (#values, [t; 2])
+                    (#values, Members(systems.map(|system| system.t)))
                 }
 
                 #[inline(always)]
@@ -174,8 +182,8 @@ impl Code<'_> {
                     fields: &Self::Fields<#members>,
                     elapsed: &Members<#scalar, #members>,
                 ) -> Self::Fields<#members> {
-                    let (known, [t, _]) = *fields;
-                    (known, [t, t + *elapsed])
+                    let (known, t) = *fields;
+                    (known, t + *elapsed)
                 }
             };
         }

@@ -16,6 +16,7 @@ use super::problem::{Compensated, Solver, steps};
 use super::slack::{MAX_SWEEPS, ROUNDINGS, Slack, remaining};
 use crate::numbers::members::{each_coordinate, each_stage, member, stage_by_stage, write_member};
 use crate::numbers::{Blank, Mask, MemberVector, Members, Scalar};
+use crate::step::in_lanes::clocks::Clocks;
 use crate::step::{Memory, State, newton::AT_FLOOR};
 use crate::system::ForcedLagrangianInLanes;
 
@@ -39,6 +40,8 @@ pub struct StagesInLanes<T, F, const N: usize, const S: usize, const W: usize> {
     /// What members start with; nothing where stages are solved to rounding.
     slack: Option<Slack<T>>,
     left: SlackOfMembers<T, W>,
+    /// Kept where L, R or f takes the time.
+    clocks: Clocks<W>,
 }
 
 // As many sweeps to an allowance as to rounding.
@@ -130,6 +133,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
             alone: 0,
             slack: None,
             left: SlackOfMembers { steps: [0; W], change: [Members::splat(T::zero()); 2] },
+            clocks: Clocks::new(),
         }
     }
 
@@ -184,9 +188,11 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
     where
         L: ForcedLagrangianInLanes<N, Scalar = T, Fields<W> = F>,
     {
-        let velocity = if begins { start.velocity(system).ok() } else { None };
+        let velocity = system.later(T::zero(), |system| start.velocity(system));
+        let velocity = if begins { velocity.ok() } else { None };
         self.is_sound.0[lane] = begins;
         self.is_new.0[lane] = true;
+        self.clocks.restart(lane);
         self.has_contracted.0[lane] = velocity.is_some();
         for v in &mut self.v {
             write_member(v, lane, &velocity.unwrap_or_else(nalgebra::zero));
@@ -221,7 +227,11 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
             let mut is_alone = self.is_sound;
             if together.0.contains(&true) {
                 let solved = self.solve::<L>(&steps, together);
-                is_alone = is_alone & !self.follow(&steps, &solved);
+                let has_stepped = self.follow(&steps, &solved);
+                if L::IS_TIMED {
+                    self.clocks.follow(has_stepped);
+                }
+                is_alone = is_alone & !has_stepped;
             }
             if is_alone.0.contains(&true) {
                 self.step_alone(systems, is_alone);
@@ -317,7 +327,10 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         L: ForcedLagrangianInLanes<N, Scalar = T, Fields<W> = F>,
     {
         let constant = T::constant;
-        let fields = self.fields;
+        let mut fields = self.fields;
+        if L::IS_TIMED {
+            fields = L::later_in_lanes(&fields, &self.clocks.elapsed(self.h));
+        }
         let mut v = self.extrapolation();
         let mut solved = Solved { is_solved: Mask::splat(false), v, rate: v };
         let mut is_open = together;
@@ -344,7 +357,14 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         for iterations in 1..=MAX_ITERATIONS {
             stage_by_stage!(i => {
                 let q = Self::at_stage(&self.q, &of_v, i);
-                (rate[i], kept[i]) = L::rates_in_lanes(&fields, &mut anchors[i], &q, &v[i]);
+                let in_time;
+                let mut at_stage = &fields;
+                if L::IS_TIMED {
+                    let elapsed = constant(Self::COEFFICIENTS.nodes[i]) * self.h;
+                    in_time = L::later_in_lanes(&fields, &Members::<T, W>::splat(elapsed));
+                    at_stage = &in_time;
+                }
+                (rate[i], kept[i]) = L::rates_in_lanes(at_stage, &mut anchors[i], &q, &v[i]);
                 each_coordinate!(a => {
                     of_rate[i][a] = rate[i][a] * steps[i];
                 });
@@ -532,7 +552,10 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
                 let change = [q_change.0[lane], p_change.0[lane]];
                 history = history.with_slack(Some(Slack { steps: self.left.steps[lane], change, ..slack }));
             }
-            let step = Memory::<L, Gauss<S>, N>::advance(&mut history, system, &state, self.h);
+            let step = system.later(self.clocks.elapsed_of(lane, self.h), |system| {
+                Memory::<L, Gauss<S>, N>::advance(&mut history, system, &state, self.h)
+            });
+            self.clocks.follow_one(lane);
             self.is_sound.0[lane] = step.is_ok();
             self.is_new.0[lane] = false;
             self.has_contracted.0[lane] = history.solver() == Solver::FixedPoint;

@@ -11,6 +11,7 @@ use crate::numbers::members::{difference, each_coordinate, member, write_member}
 use crate::numbers::{Mask, MatricesOfMembers, MemberVector, Members, NewtonMatrix, Scalar};
 use crate::rules::Trapezoidal;
 use crate::run::{Composition, ExplicitInLanes, InLanes};
+use crate::step::in_lanes::clocks::Clocks;
 use crate::step::newton::AT_FLOOR;
 use crate::step::{Flow, State};
 
@@ -21,6 +22,9 @@ pub struct ExplicitSteps<T, F, A, const N: usize, const S: usize, const W: usize
     is_sound: Mask<W>,
     /// Who takes the first step next.
     is_new: Mask<W>,
+    h: T,
+    /// Kept where the force takes the time.
+    clocks: Clocks<W>,
     fields: F,
     q: MemberVector<T, N, W>,
     p: MemberVector<T, N, W>,
@@ -64,6 +68,8 @@ fn started<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize
     let mut steps = Of::<L, N, S, W> {
         is_sound: Mask::splat(false),
         is_new: Mask::splat(false),
+        h,
+        clocks: Clocks::new(),
         fields: L::fields(systems),
         q: zero,
         p: zero,
@@ -90,6 +96,7 @@ fn put<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
 ) {
     steps.is_sound.0[lane] = begins(system, start, h) && prepare(steps, lane, system);
     steps.is_new.0[lane] = true;
+    steps.clocks.restart(lane);
     write_member(&mut steps.q, lane, &start.q);
     write_member(&mut steps.p, lane, &start.p);
 }
@@ -142,18 +149,27 @@ fn first_steps<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: u
         }
         let mut state = State { q: member(q, lane), p: member(p, lane) };
         steps.is_sound.0[lane] = is_sound.0[lane];
+        let mut elapsed = 0.0;
         for substep in &steps.substeps {
             if !steps.is_sound.0[lane] {
                 break;
             }
-            match Flow::<Trapezoidal, N>::step(system, &state, substep.h, None) {
+            let step = system.later(L::Scalar::constant(elapsed), |system| {
+                Flow::<Trapezoidal, N>::step(system, &state, substep.h, None)
+            });
+            match step {
                 Ok(step) => state = step.state,
                 Err(_) => steps.is_sound.0[lane] = false,
             }
+            elapsed += substep.h.widen();
         }
         write_member(&mut steps.q, lane, &state.q);
         write_member(&mut steps.p, lane, &state.p);
-        write_member(&mut steps.force, lane, &system.configuration_force(&state.q));
+        if !L::IS_TIMED {
+            write_member(&mut steps.force, lane, &system.configuration_force(&state.q));
+        }
+        steps.clocks.restart(lane);
+        steps.clocks.follow_one(lane);
         steps.is_new.0[lane] = false;
     }
 }
@@ -186,8 +202,22 @@ fn carry<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
     let (mut q, mut p, mut force) = (steps.q, steps.p, steps.force);
     let mut is_sound = steps.is_sound;
     for _ in 0..count {
+        let mut elapsed = Members::<f64, W>::splat(0.0);
+        if L::IS_TIMED {
+            elapsed = steps.clocks.times(steps.h);
+            steps.clocks.follow(Mask::splat(true));
+        }
         for i in 0..S {
             let substep = &substeps[if i < S - i { i } else { S - 1 - i }];
+            let end;
+            let mut fields = fields;
+            if L::IS_TIMED {
+                let start = L::later_in_lanes(fields, &Members(elapsed.0.map(L::Scalar::constant)));
+                force = L::configuration_force_in_lanes(&start, &q);
+                end = L::later_in_lanes(&start, &Members::<_, W>::splat(substep.h));
+                fields = &end;
+                elapsed = elapsed + substep.h.widen();
+            }
             is_sound = is_sound & substep.take::<L, _>(fields, &mut q, &mut p, &mut force);
         }
     }
@@ -195,7 +225,7 @@ fn carry<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
 }
 
 impl<T: Scalar, A, const N: usize, const W: usize> Substep<T, A, N, W> {
-    /// Takes it; whose velocities solve its equation.
+    /// Takes it, with `fields` at its end; whose velocities solve its equation.
     #[inline(always)]
     fn take<L, F>(
         &self,

@@ -13,6 +13,7 @@ use crate::numbers::{Mask, MatricesOfMembers, MemberVector, Members, Scalar};
 use crate::rules::Midpoint;
 use crate::run::memory::in_lanes::{by_kept_matrices, by_linear_matrices};
 use crate::run::{InLanes, LaneRuns};
+use crate::step::in_lanes::clocks::Clocks;
 use crate::step::in_lanes::newton::{MatricesOf, Roots, quick_in_lanes};
 use crate::step::{Discrete, DiscreteInLanes, Memory, MemoryInLanes, State, VelocityHistory};
 use crate::system::Lagrangian;
@@ -32,8 +33,7 @@ pub struct StepsInLanes<T, F, M, A, const N: usize, const W: usize> {
     /// The latest mean velocities, newest first, and how many of them are known.
     velocities: [MemberVector<T, N, W>; 4],
     known: [usize; W],
-    /// Steps since the start.
-    taken: [u64; W],
+    clocks: Clocks<W>,
     /// All else that runs keep.
     memories: [M; W],
     matrices: A,
@@ -71,7 +71,7 @@ where
             p: zero,
             velocities: [zero; 4],
             known: [0; W],
-            taken: [0; W],
+            clocks: Clocks::new(),
             memories: [M::default(); W],
             matrices: A::zero(),
             alone: 0,
@@ -84,16 +84,10 @@ where
         self.is_by_newton.0[lane] = false;
         self.is_by_matrix.0[lane] = false;
         self.known[lane] = 0;
-        self.taken[lane] = 0;
+        self.clocks.restart(lane);
         self.memories[lane] = M::default();
         write_member(&mut self.q, lane, &start.q);
         write_member(&mut self.p, lane, &start.p);
-    }
-
-    /// The time since the start after so many steps, as that of [`Checkpoint::time`](crate::run::Checkpoint::time).
-    #[inline(always)]
-    fn elapsed(&self, taken: u64) -> T {
-        T::constant(if taken == 0 { 0.0 } else { self.h.widen() * taken as f64 })
     }
 
     /// [`VelocityHistory::extrapolation`] of each that has a velocity.
@@ -140,8 +134,8 @@ where
         for lane in 0..W {
             let known = (self.known[lane] + usize::from(has_stepped.0[lane])).min(4);
             self.known[lane] = known;
-            self.taken[lane] += u64::from(has_stepped.0[lane]);
         }
+        self.clocks.follow(has_stepped);
         has_stepped
     }
 }
@@ -155,7 +149,7 @@ where
     for _ in 0..count {
         let mut fields = steps.fields;
         if L::IS_TIMED {
-            fields = L::later_in_lanes(&fields, &Members(steps.taken.map(|taken| steps.elapsed(taken))));
+            fields = L::later_in_lanes(&fields, &steps.clocks.elapsed(steps.h));
         }
         let guess = steps.extrapolation();
         let mut is_alone = steps.is_sound;
@@ -217,7 +211,7 @@ fn serve<L, const N: usize, const W: usize>(
         if has_stepped.0[lane] {
             let state = State { q: member(before, lane), p: member(&steps.p, lane) };
             let step = (member(&steps.velocities[0], lane), steps.h);
-            let elapsed = steps.elapsed(steps.taken[lane].saturating_sub(1));
+            let elapsed = steps.clocks.elapsed_before(lane, steps.h);
             let memory = &mut steps.memories[lane];
             let is_another = systems[lane]
                 .later(elapsed, |system| memory.has_served(system, &state, step, corrections[lane]));
@@ -253,7 +247,7 @@ where
         steps.alone += 1;
         let state = State { q: member(&steps.q, lane), p: member(&steps.p, lane) };
         let velocities = core::array::from_fn(|age| member(&steps.velocities[age], lane));
-        let (elapsed, h) = (steps.elapsed(steps.taken[lane]), steps.h);
+        let (elapsed, h) = (steps.clocks.elapsed_of(lane, steps.h), steps.h);
         let memory = &mut steps.memories[lane];
         *memory.history() = VelocityHistory::of(velocities, steps.known[lane], h);
         let Ok(step) = system.later(elapsed, |system| memory.advance(system, &state, h)) else {
@@ -265,7 +259,7 @@ where
             write_member(all, lane, own);
         }
         steps.known[lane] = known;
-        steps.taken[lane] += 1;
+        steps.clocks.follow_one(lane);
         write_member(&mut steps.q, lane, &step.state.q);
         write_member(&mut steps.p, lane, &step.state.p);
         look_ahead::<L, N, W>(steps, lane);

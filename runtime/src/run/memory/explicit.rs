@@ -5,7 +5,8 @@
 //! P v̄ = p0 + (h/2) G(q0),   q1 = q0 + h v̄,   p1 = ∂L/∂v(v̄) − (h/2) ∂R/∂v(v̄) + (h/2) G(q1)
 //! ```
 //!
-//! P depends on h alone and is factored once; G(q1) is the next step's G(q0). So a step costs one gradient.
+//! P depends on h alone and is factored once; G(q1) is the next step's G(q0). So a step costs one gradient; where
+//! the force takes the time, two: the next step's clock starts at a rounding of its own.
 
 use nalgebra::SVector;
 
@@ -17,12 +18,12 @@ use crate::step::{
 };
 use crate::system::ActingForce;
 
-/// A system that the trapezoidal rule steps explicitly: L = T(v) − V(q) with T quadratic, R quadratic in v,
-/// both with constant coefficients, and a force f(q).
+/// A system that the trapezoidal rule steps explicitly: L = T(v) − V(q, t) with T quadratic, R quadratic in v,
+/// both with constant coefficients, and a force f(q, t).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no explicit steps",
     label = "the equations of `{Self}` are not known to be explicit",
-    note = "list the rule, `#[rayleigh_system(rule = trapezoidal)]`; L has to be ½vᵀMv − V(q) with constant M, R quadratic in v with constant coefficients, a force a function of q alone, without time, and their derivatives written out: `derivatives = expanded` says what is in the way"
+    note = "list the rule, `#[rayleigh_system(rule = trapezoidal)]`; L has to be ½vᵀMv − V(q, t) with constant M, R quadratic in v with constant coefficients, a force a function of q and t alone, and their derivatives written out: `derivatives = expanded` says what is in the way"
 )]
 pub trait Explicit<const N: usize>: Discrete<Trapezoidal, N> + ActingForce<N> {
     /// P = ∂²L/∂v² + (h/2) ∂²R/∂v², the Newton matrix.
@@ -31,7 +32,7 @@ pub trait Explicit<const N: usize>: Discrete<Trapezoidal, N> + ActingForce<N> {
     /// What the velocity adds to the momenta: ∂L/∂v ± (h/2) ∂R/∂v.
     fn velocity_momenta(&self, v: &SVector<Self::Scalar, N>, h: Self::Scalar) -> Momenta<Self::Scalar, N>;
 
-    /// G(q) = ∂L/∂q + f.
+    /// G(q) = ∂L/∂q + f, now.
     fn configuration_force(&self, q: &SVector<Self::Scalar, N>) -> SVector<Self::Scalar, N>;
 }
 
@@ -73,7 +74,7 @@ where
         h: L::Scalar,
     ) -> Result<Step<L::Scalar, N>, StepError> {
         let force = match &self.force {
-            Some(_) if self.is_another => Some(system.configuration_force(&state.q)),
+            Some(_) if self.is_another || L::IS_TIMED => Some(system.configuration_force(&state.q)),
             Some((q, force)) if *q == state.q => Some(*force),
             _ => None,
         };
@@ -81,7 +82,7 @@ where
             && prepared.h == h
             && let Some(force) = &force
             && let Some((step, force)) = prepared.step(
-                |q| system.configuration_force(q),
+                |q| system.later(h, |system| system.configuration_force(q)),
                 |v| system.velocity_momenta(v, h),
                 state,
                 force,

@@ -127,12 +127,37 @@ impl<const S: usize> Splitting<S> {
     pub(super) const KICKS: [f64; S] =
         if Self::DRIFTS_FIRST { symmetric(Self::PUBLISHED.1) } else { outer(Self::PUBLISHED.1) };
 
-    /// The kicks and drifts of a step in their order, by their number.
+    /// a₁ + … + aᵢ: the share of the step that has passed after the i-th drift, when a kick follows.
+    pub(super) const NODES: [f64; S] = {
+        let mut nodes = [0.0; S];
+        let mut passed = 0.0;
+        let mut i = 0;
+        while i < S {
+            passed += Self::DRIFTS[i];
+            nodes[i] = passed;
+            i += 1;
+        }
+        if !Self::DRIFTS_FIRST {
+            nodes[S - 1] = 1.0;
+        }
+        nodes
+    };
+
+    /// The kicks and drifts of a step in their order.
     pub(super) fn parts() -> impl Iterator<Item = Part> {
         (0..=2 * S).map(|i| {
             let number = i / 2 % S;
-            if (i % 2 == 1) == Self::DRIFTS_FIRST { Part::Kick(number) } else { Part::Drift(number) }
+            if (i % 2 == 1) != Self::DRIFTS_FIRST {
+                return Part::Drift(number);
+            }
+            let drifts = i.div_ceil(2);
+            Part::Kick(number, if drifts == 0 { 0.0 } else { Self::NODES[drifts - 1] })
         })
+    }
+
+    /// How many gradients a step costs.
+    pub(crate) const fn gradients(is_timed: bool) -> usize {
+        if is_timed && !Self::DRIFTS_FIRST { S + 1 } else { S }
     }
 
     /// a₁ … a_S: the drifts as shares of the step; some are negative. They sum to 1, of order 8 with a₁ once
@@ -160,8 +185,9 @@ impl<const S: usize> Splitting<S> {
     }
 }
 
-/// Of a step.
+/// Of a step, by its number.
 pub(super) enum Part {
-    Kick(usize),
+    /// With the share of the step that has passed.
+    Kick(usize, f64),
     Drift(usize),
 }

@@ -42,11 +42,14 @@ where
         let (mut q, mut p) = (from.q, from.p - prepared.shift);
         for part in Splitting::<S>::parts() {
             match part {
-                Part::Kick(i) => {
+                Part::Kick(i, share) => {
                     let kick = prepared.kicks[i];
-                    let impulse = (self.configuration_force(&q) - prepared.thrust) * kick;
+                    let (acting, force) = self.later(L::Scalar::constant(share) * h, |system| {
+                        (system.configuration_force(&q), system.general_force(&q, &rest))
+                    });
+                    let impulse = (acting - prepared.thrust) * kick;
                     if L::HAS_FORCE {
-                        let force = self.general_force(&q, &rest) * kick;
+                        let force = force * kick;
                         exchange.work += along(&force, &(p + impulse * half))?;
                     }
                     p += impulse;

@@ -11,6 +11,7 @@ use crate::rules::Drift;
 use crate::run::lanes::{begins, state_if_sound};
 use crate::run::{ExplicitInLanes, InLanes};
 use crate::step::State;
+use crate::step::in_lanes::clocks::Clocks;
 
 /// W members on their way by a [`Splitting`].
 #[derive(Clone, Copy, Debug)]
@@ -29,6 +30,9 @@ struct Kicked<T, F, const N: usize, const S: usize, const W: usize> {
     p: MemberVector<T, N, W>,
     /// G − ∂R/∂v(0) at q, where kicks come first.
     force: MemberVector<T, N, W>,
+    h: T,
+    /// Kept where the force takes the time.
+    clocks: Clocks<W>,
     /// bᵢh.
     kicks: [T; S],
     /// ∂L/∂v at v = 0.
@@ -132,11 +136,18 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> Kicked<
         let (fields, shift, thrust) = (&self.fields, &self.shift, &self.thrust);
         let (mut q, mut p, mut force) = (self.q, self.p, self.force);
         for _ in 0..steps {
+            let present;
+            let mut now = fields;
+            if L::IS_TIMED {
+                present = L::later_in_lanes(fields, &self.clocks.elapsed(self.h));
+                now = &present;
+                self.clocks.follow(Mask::splat(true));
+            }
             p = difference(&p, shift);
             if Splitting::<S>::DRIFTS_FIRST {
                 drifts.drift(0, &mut q, &mut p);
                 for i in 0..S {
-                    force = difference(&L::configuration_force_in_lanes(fields, &q), thrust);
+                    force = difference(&force_after::<L, N, S, W>(now, i, self.h, &q), thrust);
                     for a in 0..N {
                         p[a] = p[a] + force[a] * self.kicks[i];
                     }
@@ -147,12 +158,15 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> Kicked<
                 }
                 continue;
             }
+            if L::IS_TIMED {
+                force = difference(&L::configuration_force_in_lanes(now, &q), thrust);
+            }
             for i in 0..S {
                 each_coordinate!(a => {
                     p[a] = p[a] + force[a] * self.kicks[i];
                 });
                 drifts.drift(if i < S - i { i } else { S - 1 - i }, &mut q, &mut p);
-                force = difference(&L::configuration_force_in_lanes(fields, &q), thrust);
+                force = difference(&force_after::<L, N, S, W>(now, i, self.h, &q), thrust);
             }
             each_coordinate!(a => {
                 p[a] = p[a] + force[a] * self.kicks[0] + shift[a];
@@ -160,6 +174,21 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> Kicked<
         }
         (self.q, self.p, self.force) = (q, p, force);
     }
+}
+
+/// G(q) of each after the i-th drift of the step, from the time that `fields` has.
+#[inline(always)]
+fn force_after<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
+    fields: &L::Fields<W>,
+    i: usize,
+    h: L::Scalar,
+    q: &MemberVector<L::Scalar, N, W>,
+) -> MemberVector<L::Scalar, N, W> {
+    if L::IS_TIMED {
+        let elapsed = Members::<_, W>::splat(L::Scalar::constant(Splitting::<S>::NODES[i]) * h);
+        return L::configuration_force_in_lanes(&L::later_in_lanes(fields, &elapsed), q);
+    }
+    L::configuration_force_in_lanes(fields, q)
 }
 
 impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> KicksInLanes<T, F, N, S, W> {
@@ -171,13 +200,14 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> KicksIn
         let prepared = if begins(system, start, h) { Prepared::new(system, h).ok() } else { None };
         let of = &mut self.kicked;
         of.has_begun.0[lane] = prepared.is_some();
+        of.clocks.restart(lane);
         let Some(prepared) = prepared else { return };
         self.drifts.write(lane, &prepared);
         write_member(&mut of.q, lane, &start.q);
         write_member(&mut of.p, lane, &start.p);
         write_member(&mut of.shift, lane, &prepared.shift);
         write_member(&mut of.thrust, lane, &prepared.thrust);
-        if !Splitting::<S>::DRIFTS_FIRST {
+        if !Splitting::<S>::DRIFTS_FIRST && !L::IS_TIMED {
             let force = system.configuration_force(&start.q) - prepared.thrust;
             write_member(&mut of.force, lane, &force);
         }
@@ -277,6 +307,8 @@ where
                 q: zero,
                 p: zero,
                 force: zero,
+                h,
+                clocks: Clocks::new(),
                 kicks: Splitting::<S>::KICKS.map(|share| L::Scalar::constant(share) * h),
                 shift: zero,
                 thrust: zero,

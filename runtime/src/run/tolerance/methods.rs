@@ -393,7 +393,8 @@ fn kicked<L: Explicit<N>, const N: usize, const S: usize>(
     state: &State<L::Scalar, N>,
 ) -> Result<Taken<L::Scalar, N>, StepError> {
     let step = step.advance(system, elapsed, state)?;
-    Ok(Taken { step, evaluations: S as f64, unresolved: None })
+    let evaluations = Splitting::<S>::gradients(L::IS_TIMED) as f64;
+    Ok(Taken { step, evaluations, unresolved: None })
 }
 
 /// What the derivatives of a stage's forces cost in evaluations, and what its share of a matrix of n rows

@@ -24,10 +24,11 @@ impl Code<'_> {
         let force = self.on_members(force, &TAKEN, &[], None);
         let momenta = self.on_members(&momenta, &TAKEN, &[], None);
         let fields = OfMembers::fields_of(self, [&force, &momenta]);
+        let is_timed = self.system.timed.any();
         let gathered = self.gathered(&fields);
         let (scalar, n, members) = (&self.system.scalar, self.system.degrees.times(1), &fields.members);
 
-        let (apart, statements) = (fields.taken_apart("fields", &momenta), &momenta.statements);
+        let (apart, statements) = (fields.read_by(&momenta, is_timed, "t"), &momenta.statements);
         let half = momenta.uses("half").then(|| quote!(let half = 0.5 * h;));
         let of_fields = parameter("fields", apart.is_some());
         let (v, h) =
@@ -47,7 +48,7 @@ impl Code<'_> {
             }
         };
 
-        let (apart, statements) = (fields.taken_apart("fields", &force), &force.statements);
+        let (apart, statements) = (fields.read_by(&force, is_timed, "t"), &force.statements);
         let of_fields = parameter("fields", apart.is_some());
         let (q, outputs) = (parameter("q", force.uses_coordinates), &force.outputs);
         Some(quote! {

@@ -29,21 +29,18 @@ impl Code<'_> {
         let momenta = self.on_members(momenta, &TAKEN_AT_MIDPOINT, &[], None);
         let fields = OfMembers::fields_of(self, [&kernel, &momenta]);
         let is_timed = self.system.timed.any();
+        let timed = is_timed.then(|| {
+            quote!(
+                const IS_TIMED: bool = true;
+            )
+        });
         let gathered = self.gathered(&fields);
         let (scalar, n, members) = (&self.system.scalar, self.system.degrees.times(1), &fields.members);
         let width = diagonals
             .map_or_else(|| n.clone(), |diagonals| Literal::usize_unsuffixed(diagonals).to_token_stream());
 
         let function = |name: &str, line: &StraightLine, result: TokenStream, ty: TokenStream| {
-            let (pattern, reads_time) = (fields.pattern(line), line.uses("t"));
-            let apart = (pattern.is_some() || reads_time).then(|| {
-                let known = pattern.unwrap_or_else(|| quote!(_));
-                match (is_timed, reads_time) {
-                    (false, _) => quote!(let #known = *fields;),
-                    (true, false) => quote!(let (#known, _) = *fields;),
-                    (true, true) => quote!(let (#known, [_, now]) = *fields;),
-                }
-            });
+            let apart = fields.read_by(line, is_timed, "now");
             let of_fields = parameter("fields", apart.is_some());
             let name = format_ident!("{name}");
             let body = self.at_midpoint(line, &quote!(now), result);
@@ -78,6 +75,8 @@ impl Code<'_> {
         let result = quote!([[#(#p0),*], [#(#p1),*]]);
         let momenta = function("momenta_in_lanes", &momenta, result, quote!([#vector; 2]));
         Some(quote! {
+            #timed
+
             #gathered
 
             #step_kernel

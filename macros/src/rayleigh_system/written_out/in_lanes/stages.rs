@@ -37,7 +37,8 @@ impl Code<'_> {
             let place = handed.iter().position(|&other| other == node);
             place.map_or_else(TokenStream::new, |place| of_kept[place].clone())
         });
-        let apart = fields.taken_apart("fields", &line);
+        let is_timed = self.system.timed.any();
+        let apart = fields.read_by(&line, is_timed, "t");
         let of_fields = parameter("fields", apart.is_some());
         let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
         let (statements, kept_ty) = (&line.statements, kept.ty());
@@ -59,7 +60,7 @@ impl Code<'_> {
         };
 
         let (apart, kept_apart) =
-            (fields.taken_apart("fields", &corrections), kept.taken_apart("kept", &corrections));
+            (fields.read_by(&corrections, is_timed, "t"), kept.taken_apart("kept", &corrections));
         let (of_fields, of_kept) =
             (parameter("fields", apart.is_some()), parameter("kept", !kept.is_empty()));
         let (v, p) = (parameter("v", corrections.uses_velocities), parameter("p", corrections.uses("p")));
