@@ -51,8 +51,7 @@
 //! Products and sums are rounded as they are alone: that changes no bit either. The lane of a member that is
 //! done is given to the next.
 //!
-//! **Inputs and time.** A view is a member as well, in lanes too where it takes no time, by the midpoint rule
-//! also where it does:
+//! **Inputs and time.** A view is a member as well, in lanes too; each member has an input and a time of its own:
 //!
 //! ```
 //! use dalembert::{Splitting, State, rayleigh_system};

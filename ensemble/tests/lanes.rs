@@ -1,6 +1,6 @@
 //! In lanes, members are what they are one by one: states, records, failures, and those that have arrived.
 
-use dalembert::{Gauss, Midpoint, Splitting, State, StepError, rayleigh_system};
+use dalembert::{Discretise, Gauss, Midpoint, Splitting, State, StepError, rayleigh_system};
 use dalembert_ensemble::{Ensemble, Outcome, Record};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -111,6 +111,56 @@ fn links(q: [f64; 2], v: [f64; 2], l: [f64; 2], r: f64) -> (f64, f64) {
     let coupling = l[0] * l[1] * v[0] * v[1] * (q[0] - q[1]).cos();
     let kinetic = (l[0] * v[0]).powi(2) + 0.5 * (l[1] * v[1]).powi(2) + coupling;
     (kinetic + 9.81 * (2.0 * l[0] * q[0].cos() + l[1] * q[1].cos()), 0.5 * r * (v[1] - v[0]).powi(2))
+}
+
+/// A pendulum whose pivot is shaken, pushed by an input.
+struct Shaken {
+    m: f64,
+    r: f64,
+}
+
+#[rayleigh_system(rule = [trapezoidal, gauss], lanes = [explicit, gauss])]
+impl Shaken {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
+        0.5 * self.m * v[0] * v[0] + (1.0 + 0.2 * (3.0 * t).sin()) * q[0].cos()
+    }
+
+    fn rayleigh(&self, v: [f64; 1]) -> f64 {
+        0.5 * self.r * v[0] * v[0]
+    }
+
+    fn force(&self, _q: [f64; 1], _v: [f64; 1], u: [f64; 1], t: f64) -> [f64; 1] {
+        [u[0] * t.cos()]
+    }
+}
+
+/// Each with an input and a time of its own, by a splitting and by a Gauss rule. Lanes are given to the next
+/// where members have arrived, so that they stand at other times.
+#[test]
+fn members_have_times_of_their_own() {
+    let systems: Vec<Shaken> =
+        (0..90).map(|member| Shaken { m: 1.0 + 0.01 * f64::from(member), r: 0.1 }).collect();
+    let member = |number: u64| {
+        let t = 0.3 * number as f64;
+        let speed = if number % 37 == 5 { f64::NAN } else { 0.02 * number as f64 };
+        let view = systems[number as usize].driven([0.1 * (number % 7) as f64], t);
+        Ok((view, State { q: [0.5].into(), p: [speed].into() }))
+    };
+    let study = || Ensemble::new(member).by(Splitting::blanes_moan_6(), 0.2).steps(100);
+    let study = || study().stop_when(|record: &Record<'_, DrivenShaken<'_>, 1>| record.state.q[0] > 2.5);
+    let text = |ends: Vec<_>| ends.iter().map(|end| format!("{end:?}")).collect::<Vec<_>>();
+    let by_splitting = text(study().in_lanes().ends(0..90).unwrap());
+    assert_eq!(by_splitting, text(study().ends(0..90).unwrap()));
+    let study = || Ensemble::new(member).by(Gauss::<4>, 0.2).steps(100);
+    let by_gauss = text(study().in_lanes().ends(0..90).unwrap());
+    assert_eq!(by_gauss, text(study().ends(0..90).unwrap()));
+    for ends in [by_splitting, by_gauss] {
+        assert_eq!(ends.iter().filter(|end| end.starts_with("Err")).count(), 3);
+    }
+    // The control: at another time it is another motion.
+    let start = State { q: [0.5].into(), p: [0.1].into() };
+    let end = |t| systems[0].driven([0.3], t).by(Gauss::<4>, 0.2).run(start).nth(99).unwrap().unwrap().state;
+    assert_ne!(end(1.0), end(1.0_f64.next_up()));
 }
 
 /// By the midpoint rule: the ends of all members, by their bits, and their failures.

@@ -164,8 +164,8 @@ mod attributes {
 /// | `derivatives = auto`, `expanded`, `num_dual` | who makes the derivatives; written out where that can be, up to 20 000 operations in one function, unless said |
 /// | `parameters = [m, c[0]]` | fields by which the step is differentiated: [`Discretised::state_by_parameters`]; written out only |
 /// | `step_derivatives = second` | second derivatives of the step: [`StepHessian`](derivative::StepHessian) |
-/// | `lanes = explicit` | explicit steps of many members at once, each with fields of its own: [`LaneRuns`](run::LaneRuns); written out only, without time. Sine, cosine and exponential of the force are then the branch-free ones of [`Lanes`](generated::Lanes), for one member too |
-/// | `lanes = midpoint`, `lanes = gauss` | the same of the midpoint rule, where L, R and f may take the time, and of Gauss rules; `lanes = [explicit, gauss]` for both |
+/// | `lanes = explicit` | explicit steps of many members at once, each with fields, an input and a time of its own: [`LaneRuns`](run::LaneRuns); written out only. Sine, cosine and exponential of the force are then the branch-free ones of [`Lanes`](generated::Lanes), for one member too |
+/// | `lanes = midpoint`, `lanes = gauss` | the same of the midpoint rule and of Gauss rules; `lanes = [explicit, gauss]` for both |
 /// | `crate = mechanics` | the path of this crate, where Cargo.toml gives it another name: `mechanics = { package = "dalembert" }`; also of [`differentiable`](macro@differentiable) |
 ///
 /// Where `auto` cannot write the derivatives out, dual numbers make them when the program runs: twice as

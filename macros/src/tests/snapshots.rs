@@ -314,6 +314,46 @@ fn bead_in_lanes() {
     assert_snapshot("bead_in_lanes.rs", &formatted(expansion));
 }
 
+/// The time of each member beside its fields: read by the force of an explicit step, by the rates of a stage, and
+/// handed to what corrects where the mass holds it.
+#[test]
+fn members_with_a_time() {
+    let written = |options, item| {
+        let expansion = formatted(rayleigh_system(Runtime::STD, options, item));
+        let start = ["ExplicitInLanes", "ForcedLagrangianInLanes"]
+            .iter()
+            .find_map(|name| expansion.find(&format!("impl ::dalembert::generated::{name}")))
+            .expect("it is written");
+        let implementation = &expansion[start..];
+        let end = implementation.find("#[automatically_derived]").unwrap_or(implementation.len());
+        implementation[..end].to_owned()
+    };
+    let explicit = written(
+        quote!(rule = trapezoidal, lanes = explicit),
+        quote! {
+            impl Shaken {
+                fn lagrangian(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
+                    0.5 * self.m * v[0] * v[0] + (1.0 + self.a * t.sin()) * q[0].cos()
+                }
+                fn force(&self, _q: [f64; 1], _v: [f64; 1], u: [f64; 1]) -> [f64; 1] {
+                    u
+                }
+            }
+        },
+    );
+    let gauss = written(
+        quote!(rule = gauss, lanes = gauss),
+        quote! {
+            impl Growing {
+                fn lagrangian(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
+                    0.5 * (self.m + t * t) * v[0] * v[0] + q[0].cos()
+                }
+            }
+        },
+    );
+    assert_snapshot("members_with_a_time.rs", &format!("{explicit}\n{gauss}"));
+}
+
 /// What is known is said to whoever reads the documentation.
 #[test]
 fn findings_are_documented() {

@@ -92,7 +92,8 @@ pub trait InLanes<M, const N: usize>: Flow<M, N> {
     fn state_of_lane<const W: usize>(lanes: &Self::Lanes<W>, lane: usize) -> Option<State<Self::Scalar, N>>;
 }
 
-/// W runs at once, by method `M` with one step size.
+/// W runs at once, by method `M` with one step size. Views are systems as well, each with the input that it holds
+/// and at its own time: that of the view and of the steps that its run has taken.
 ///
 /// A member that fails leaves the others as they are, and has no state from then on: its own run,
 /// `system.by(method, h).run(start)`, says why.

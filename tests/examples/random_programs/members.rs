@@ -49,8 +49,14 @@ impl Way {
     }
 }
 
-/// Where the time is set.
-const TIME: &str = "0.25";
+/// Whether L, R and f of what is stepped take the time.
+fn timed(program: &Program, way: Way) -> [bool; 3] {
+    let [of_l, of_r, of_f] = program.timed;
+    let of_r = of_r && program.rayleigh.is_some();
+    // There R is a part of the potential.
+    let of_l = of_l || (way == Way::Explicit && of_r);
+    [of_l, of_r && way != Way::Explicit, of_f && program.force.is_some()]
+}
 
 /// The program's block, its functions called by those that are stepped.
 pub fn block(program: &Program, way: Way) -> String {
@@ -60,7 +66,9 @@ pub fn block(program: &Program, way: Way) -> String {
     for name in ["lagrangian", "rayleigh", "force"] {
         text = text.replace(&format!("pub fn {name}("), &format!("fn written_{name}("));
     }
-    let time = program.timed.map(|is_timed| if is_timed { format!(", {TIME}") } else { String::new() });
+    let time = program.timed.map(|is_timed| if is_timed { ", t" } else { "" });
+    let taken =
+        timed(program, way).map(|is_timed| if is_timed { format!(", t: {scalar}") } else { String::new() });
     // Where no velocity may occur, q stands for it.
     let (v, share) = if way == Way::Explicit { ("q", "1.0") } else { ("v", "0.1") };
     let rayleigh = program.rayleigh.as_ref().map(|(of_both, _)| {
@@ -73,16 +81,18 @@ pub fn block(program: &Program, way: Way) -> String {
         (Way::Explicit, Some(rayleigh)) => write!(potential, " + {rayleigh}").expect("a string takes all"),
         (Way::Gauss | Way::Midpoint, Some(rayleigh)) => write!(
             own,
-            "pub fn rayleigh(&self, q: [{scalar}; {n}], v: [{scalar}; {n}]) -> {scalar} {{\n{share} * {rayleigh}\n}}\n"
+            "pub fn rayleigh(&self, q: [{scalar}; {n}], v: [{scalar}; {n}]{}) -> {scalar} {{\n{share} * {rayleigh}\n}}\n",
+            taken[1]
         )
         .expect("a string takes all"),
         (_, None) => {}
     }
     write!(
         own,
-        "pub fn lagrangian(&self, q: [{scalar}; {n}], v: [{scalar}; {n}]) -> {scalar} {{\n\
+        "pub fn lagrangian(&self, q: [{scalar}; {n}], v: [{scalar}; {n}]{}) -> {scalar} {{\n\
          let mut kinetic = 0.0;\nfor i in 0..{n} {{ kinetic += 0.5 * v[i] * v[i]; }}\n\
-         kinetic - {share} * ({potential})\n}}\n"
+         kinetic - {share} * ({potential})\n}}\n",
+        taken[0]
     )
     .expect("a string takes all");
     if program.force.is_some() {
@@ -90,32 +100,38 @@ pub fn block(program: &Program, way: Way) -> String {
             if m > 0 { (format!(", u: [{scalar}; {m}]"), ", u") } else { (String::new(), "") };
         write!(
             own,
-            "pub fn force(&self, q: [{scalar}; {n}], v: [{scalar}; {n}]{parameter}) -> [{scalar}; {n}] {{\n\
+            "pub fn force(&self, q: [{scalar}; {n}], v: [{scalar}; {n}]{parameter}{}) -> [{scalar}; {n}] {{\n\
              self.written_force(q, {v}{input}{})\n}}\n",
-            time[2]
+            taken[2], time[2]
         )
         .expect("a string takes all");
     }
     text.replacen("impl System {\n", &format!("impl System {{\n{own}"), 1)
 }
 
-/// The module of a program, whose members stand at its points, each with the input there.
+/// The module of a program, whose members stand at its points, each with the input and the time there.
 pub fn module(program: &Program, index: usize, way: Way) -> String {
     let (options, function) = (way.options(), way.function());
     let (n, m) = (program.n, program.inputs);
     let scalar = if program.single { "f32" } else { "f64" };
     let points: Vec<String> =
-        points(program).iter().map(|Point { q, v, u, .. }| format!("({q:?}, {v:?}, {u:?})")).collect();
-    let systems = if m > 0 && program.force.is_some() {
-        "let views = points.map(|(_, _, u)| s.driven(u));\nlet systems = views.each_ref();"
-    } else {
-        "let systems = points.map(|_| &s);"
+        points(program).iter().map(|Point { q, v, u, t }| format!("({q:?}, {v:?}, {u:?}, {t:?})")).collect();
+    let is_driven = m > 0 && program.force.is_some();
+    let view = match (is_driven, timed(program, way).contains(&true)) {
+        (true, true) => Some("driven(u, t)"),
+        (true, false) => Some("driven(u)"),
+        (false, true) => Some("at_time(t)"),
+        (false, false) => None,
     };
+    let systems = view.map_or_else(
+        || "let systems = points.map(|_| &s);".to_owned(),
+        |view| format!("let views = points.map(|(_, _, u, t)| s.{view});\nlet systems = views.each_ref();"),
+    );
     format!(
         "mod p{index} {{\n{}#[dalembert::rayleigh_system({options})]\n{}\
          pub fn run() {{\nlet s = system();\n\
-         let points: [([{scalar}; {n}], [{scalar}; {n}], [{scalar}; {m}]); {POINTS}] = [{}];\n{systems}\n\
-         crate::{function}({index}, systems, points.map(|(q, v, _)| (q.into(), v.into())));\n}}\n}}\n",
+         let points: [([{scalar}; {n}], [{scalar}; {n}], [{scalar}; {m}], {scalar}); {POINTS}] = [{}];\n{systems}\n\
+         crate::{function}({index}, systems, points.map(|(q, v, ..)| (q.into(), v.into())));\n}}\n}}\n",
         print::surroundings(program),
         block(program, way),
         points.join(", ")

@@ -188,8 +188,8 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
     where
         L: ForcedLagrangianInLanes<N, Scalar = T, Fields<W> = F>,
     {
-        let velocity = system.later(T::zero(), |system| start.velocity(system));
-        let velocity = if begins { velocity.ok() } else { None };
+        let velocity =
+            begins.then(|| system.later(T::zero(), |system| start.velocity(system)).ok()).flatten();
         self.is_sound.0[lane] = begins;
         self.is_new.0[lane] = true;
         self.clocks.restart(lane);
@@ -327,10 +327,11 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         L: ForcedLagrangianInLanes<N, Scalar = T, Fields<W> = F>,
     {
         let constant = T::constant;
-        let mut fields = self.fields;
-        if L::IS_TIMED {
-            fields = L::later_in_lanes(&fields, &self.clocks.elapsed(self.h));
-        }
+        let fields = if L::IS_TIMED {
+            L::later_in_lanes(&self.fields, &self.clocks.elapsed(self.h))
+        } else {
+            self.fields
+        };
         let mut v = self.extrapolation();
         let mut solved = Solved { is_solved: Mask::splat(false), v, rate: v };
         let mut is_open = together;
@@ -357,14 +358,13 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         for iterations in 1..=MAX_ITERATIONS {
             stage_by_stage!(i => {
                 let q = Self::at_stage(&self.q, &of_v, i);
-                let in_time;
-                let mut at_stage = &fields;
-                if L::IS_TIMED {
-                    let elapsed = constant(Self::COEFFICIENTS.nodes[i]) * self.h;
-                    in_time = L::later_in_lanes(&fields, &Members::<T, W>::splat(elapsed));
-                    at_stage = &in_time;
-                }
-                (rate[i], kept[i]) = L::rates_in_lanes(at_stage, &mut anchors[i], &q, &v[i]);
+                (rate[i], kept[i]) = if L::IS_TIMED {
+                    let elapsed = Members::<T, W>::splat(constant(Self::COEFFICIENTS.nodes[i]) * self.h);
+                    let fields = L::later_in_lanes(&fields, &elapsed);
+                    L::rates_in_lanes(&fields, &mut anchors[i], &q, &v[i])
+                } else {
+                    L::rates_in_lanes(&fields, &mut anchors[i], &q, &v[i])
+                };
                 each_coordinate!(a => {
                     of_rate[i][a] = rate[i][a] * steps[i];
                 });

@@ -1,0 +1,90 @@
+impl ::dalembert::generated::ExplicitInLanes<1> for DrivenShaken<'_> {
+        type Fields<const W: usize> = ([Members<f64, W>; 3], Members<f64, W>);
+        fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W> {
+            (
+                Members::of_each(
+                    systems
+                        .map(|system| {
+                            let u = system.u;
+                            [u[0], system.system.m, system.system.a]
+                        }),
+                ),
+                Members(systems.map(|system| system.t)),
+            )
+        }
+        #[inline(always)]
+        fn later_in_lanes<const W: usize>(
+            fields: &Self::Fields<W>,
+            elapsed: &Members<f64, W>,
+        ) -> Self::Fields<W> {
+            let (known, t) = *fields;
+            (known, t + *elapsed)
+        }
+        #[inline(always)]
+        fn velocity_momenta_in_lanes<const W: usize>(
+            fields: &Self::Fields<W>,
+            v: &MemberVector<f64, 1, W>,
+            _h: f64,
+        ) -> [MemberVector<f64, 1, W>; 2] {
+            let ([_, m, _], _) = *fields;
+            let t1 = m * v[0];
+            [[t1], [t1]]
+        }
+        #[inline(always)]
+        fn configuration_force_in_lanes<const W: usize>(
+            fields: &Self::Fields<W>,
+            q: &MemberVector<f64, 1, W>,
+        ) -> MemberVector<f64, 1, W> {
+            let ([t1, _, a], t) = *fields;
+            [t1 - (1.0 + t.sin() * a) * q[0].sin()]
+        }
+    }
+    
+impl ::dalembert::generated::ForcedLagrangianInLanes<1> for GrowingAtTime<'_> {
+        type Fields<const W: usize> = ([Members<f64, W>; 1], Members<f64, W>);
+        fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W> {
+            (
+                Members::of_each(systems.map(|system| [system.system.m])),
+                Members(systems.map(|system| system.t)),
+            )
+        }
+        #[inline(always)]
+        fn later_in_lanes<const W: usize>(
+            fields: &Self::Fields<W>,
+            elapsed: &Members<f64, W>,
+        ) -> Self::Fields<W> {
+            let (known, t) = *fields;
+            (known, t + *elapsed)
+        }
+        type Kept<const W: usize> = [Members<f64, W>; 2];
+        type AnchorsInLanes<const W: usize> = (
+            [::dalembert::generated::Angle<Members<f64, W>>; 1],
+            [::dalembert::generated::Reciprocal<Members<f64, W>>; 1],
+        );
+        #[inline(always)]
+        fn rates_in_lanes<const W: usize>(
+            fields: &Self::Fields<W>,
+            anchors: &mut Self::AnchorsInLanes<W>,
+            q: &MemberVector<f64, 1, W>,
+            v: &MemberVector<f64, 1, W>,
+        ) -> (MemberVector<f64, 1, W>, Self::Kept<W>) {
+            let ([m], t) = *fields;
+            let (angles, reciprocals) = anchors;
+            let t1 = t * t + m;
+            let sin_q0 = angles[0].sin_cos(q[0]).0;
+            let t2 = reciprocals[0].of(t1);
+            ([-sin_q0], [t1 * v[0], t2])
+        }
+        #[inline(always)]
+        fn corrections_in_lanes<const W: usize>(
+            _fields: &Self::Fields<W>,
+            kept: &Self::Kept<W>,
+            _v: &MemberVector<f64, 1, W>,
+            p: &MemberVector<f64, 1, W>,
+        ) -> [MemberVector<f64, 1, W>; 2] {
+            let [t1, t2] = *kept;
+            let residual0 = p[0] - t1;
+            [[residual0], [t2 * residual0]]
+        }
+    }
+};
