@@ -327,11 +327,10 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         L: ForcedLagrangianInLanes<N, Scalar = T, Fields<W> = F>,
     {
         let constant = T::constant;
-        let fields = if L::IS_TIMED {
-            L::later_in_lanes(&self.fields, &self.clocks.elapsed(self.h))
-        } else {
-            self.fields
-        };
+        let mut fields = self.fields;
+        if L::IS_TIMED {
+            fields = L::later_in_lanes(&fields, &self.clocks.elapsed(self.h));
+        }
         let mut v = self.extrapolation();
         let mut solved = Solved { is_solved: Mask::splat(false), v, rate: v };
         let mut is_open = together;
@@ -358,13 +357,15 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         for iterations in 1..=MAX_ITERATIONS {
             stage_by_stage!(i => {
                 let q = Self::at_stage(&self.q, &of_v, i);
-                (rate[i], kept[i]) = if L::IS_TIMED {
+                // One call for both, which is inlined.
+                let in_time;
+                let mut at_stage = &fields;
+                if L::IS_TIMED {
                     let elapsed = Members::<T, W>::splat(constant(Self::COEFFICIENTS.nodes[i]) * self.h);
-                    let fields = L::later_in_lanes(&fields, &elapsed);
-                    L::rates_in_lanes(&fields, &mut anchors[i], &q, &v[i])
-                } else {
-                    L::rates_in_lanes(&fields, &mut anchors[i], &q, &v[i])
-                };
+                    in_time = L::later_in_lanes(&fields, &elapsed);
+                    at_stage = &in_time;
+                }
+                (rate[i], kept[i]) = L::rates_in_lanes(at_stage, &mut anchors[i], &q, &v[i]);
                 each_coordinate!(a => {
                     of_rate[i][a] = rate[i][a] * steps[i];
                 });

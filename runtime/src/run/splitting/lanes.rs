@@ -184,11 +184,14 @@ fn force_after<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: u
     h: L::Scalar,
     q: &MemberVector<L::Scalar, N, W>,
 ) -> MemberVector<L::Scalar, N, W> {
+    let in_time;
+    let mut now = fields;
     if L::IS_TIMED {
         let elapsed = Members::<_, W>::splat(L::Scalar::constant(Splitting::<S>::NODES[i]) * h);
-        return L::configuration_force_in_lanes(&L::later_in_lanes(fields, &elapsed), q);
+        in_time = L::later_in_lanes(fields, &elapsed);
+        now = &in_time;
     }
-    L::configuration_force_in_lanes(fields, q)
+    L::configuration_force_in_lanes(now, q)
 }
 
 impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> KicksInLanes<T, F, N, S, W> {
