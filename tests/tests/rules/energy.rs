@@ -63,12 +63,14 @@ fn swing_start() -> State<f64, 1> {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn of_the_pendulum_is_bounded_over_a_million_steps_by_the_midpoint_rule() {
     let account = Account::of(&energies(&SWING, Midpoint, 0.2, swing_start(), [1_000_000, 7]));
     assert!(account.drift() < 0.01 && account.growth() < 1.01, "{account:?}");
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn of_the_pendulum_is_bounded_over_a_million_steps_by_the_trapezoidal_rule() {
     let account = Account::of(&energies(&SWING, Trapezoidal, 0.2, swing_start(), [1_000_000, 7]));
     assert!(account.drift() < 0.01 && account.growth() < 1.01, "{account:?}");

@@ -188,6 +188,7 @@ fn assert_all_found(tally: Tally, within: u64) {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn crossings_within_a_step_are_found() {
     // The last was missed once.
     assert_all_found(trials((0..1200).chain([1_918_449])), 200);

@@ -359,6 +359,7 @@ fn oscillator(q: [f64; 1], v: [f64; 1], k: f64, r: f64) -> (f64, f64) {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn oscillators_are_stable_up_to_the_bound_and_not_beyond() {
     fn left<const S: usize>(splitting: Splitting<S>, omega: f64, r: f64) -> f64 {
         let system = Oscillator { k: omega * omega, r };

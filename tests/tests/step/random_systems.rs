@@ -234,6 +234,7 @@ proptest! {
 
     /// In units that are powers of two of q, of time and of mass, every bit of a run is the same.
     #[test]
+    #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
     fn units_change_no_bit(
         system in masses(6.0), q in pair(-4.0, 4.0), p in pair(-4.0, 4.0), h in decades(-6.0, 2.0),
         units in [-40_i32..40, -20..20, -40..40],

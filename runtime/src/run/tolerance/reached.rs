@@ -12,6 +12,10 @@ const RUNS: u32 = 8;
 /// What of the tolerance the next run is to come to, if its error goes with the one aimed at.
 const AIM: f64 = 0.3;
 
+/// What of the tolerance a run that follows another may be expected to come to: the more runs are tried, the likelier
+/// one is taken for good whose error is underrated.
+const ACCEPTED: f64 = 0.7;
+
 /// The share of an aim that the next one is at least: errors as large as the motion say little.
 const LEAST: f64 = 1e-5;
 
@@ -51,14 +55,16 @@ where
     loop {
         let mut run = choice.trajectory();
         let failure = run.by_ref().find_map(Result::err);
+        let is_clear = run.largest() <= ACCEPTED * tolerance;
         let (largest, error) = match (failure, run.breach()) {
-            (None, None) => {
+            (None, None) if runs == 1 || runs == RUNS || is_clear => {
                 return Ok(Reached { state: *run.state(), expected: run.expected(), choice, runs });
             }
-            (Some(error), _) => (f64::INFINITY, ToleranceError::Step(error)),
-            (None, Some(&breach)) => (run.largest(), ToleranceError::Breach(breach)),
+            (None, None) => (run.largest(), None),
+            (None, Some(&breach)) => (run.largest(), Some(ToleranceError::Breach(breach))),
+            (Some(error), _) => (f64::INFINITY, Some(ToleranceError::Step(error))),
         };
-        if runs == RUNS {
+        if let (RUNS, Some(error)) = (runs, error) {
             return Err(error);
         }
         runs += 1;

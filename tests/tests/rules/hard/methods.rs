@@ -156,6 +156,7 @@ fn orbits_that_almost_collide_with_and_without_drag() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn chaotic_motions() {
     let system = TwoPendulums { r: 0.0 };
     let energy = |at: &Progress<2>| (at.state.energy(&system).unwrap() - 7.0).abs();
@@ -235,6 +236,7 @@ fn dry_friction() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn folds_and_damping_of_the_wrong_sign() {
     let system = CubicDrag { m: 1.3, r: 0.6 };
     let h = 0.4;
@@ -325,6 +327,7 @@ fn gyroscopic_terms_keep_the_speed() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn masses_up_to_their_singularity() {
     for a in [0.9, 0.999] {
         let system = MathewsLakshmanan { lambda: -1.0, r: 0.0 };

@@ -119,6 +119,7 @@ where
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn of_linear_systems_the_branch_is_that_of_the_pade_denominator() {
     let mut draws = Draws::new(1);
     let mut counts = [[0; 2]; 9];

@@ -404,6 +404,7 @@ fn a_mass_that_grows_with_time_damps() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn motions_that_were_refused_or_took_long() {
     // Cubic drag from v = 2 over h = 10: q = ln 21.
     let end = Exact::new(&Cubic { m: 1.0, r: 1.0 }).flow(&State { q: vector![0.0], p: vector![2.0] }, 10.0);

@@ -116,6 +116,7 @@ where
 
 /// c^{−k} ∂S_k/∂λ is constant, and q_k, p_k are found from it and λ to 1e-12, from a label that is far off.
 #[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn the_family_integrates_the_motion_in_two_dimensions() {
     fn check<M: Copy>(name: &str, method: M, c: f64, constant: usize, integrated: &[usize])
     where
