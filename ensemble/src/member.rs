@@ -37,9 +37,10 @@ pub struct End<S, const N: usize> {
 pub enum MemberError {
     /// A step failed, or the making of the start.
     Step(StepError),
-    /// No method was chosen for the error asked for.
+    /// No method was chosen for the error asked for, or no run that was tried keeps it.
     Tolerance(ToleranceError),
-    /// The error expected has passed the one asked for on the way, by the last run that was tried.
+    /// The error expected has passed the one asked for on the way: of a [`Stepping`](crate::Stepping) of one's own
+    /// that tries one run.
     Breach(Breach),
 }
 
@@ -68,7 +69,6 @@ impl From<StepError> for MemberError {
 impl From<ToleranceError> for MemberError {
     fn from(error: ToleranceError) -> Self {
         match error {
-            ToleranceError::Breach(breach) => Self::Breach(breach),
             ToleranceError::Step(error) => Self::Step(error),
             error => Self::Tolerance(error),
         }
