@@ -209,7 +209,7 @@ fn from_the_pericentre_the_error_asked_for_is_kept() {
 fn the_end_asked_for_is_reached_from_any_phase() {
     let among = WithGauss(WithSplittings(Trapezoidal));
     let time = std::f64::consts::TAU;
-    let (mut again, mut missed) = (0, 0);
+    let (mut again, mut missed, mut runs) = (0, 0, 0);
     for k in 0..12 {
         // Eccentric anomaly and eccentricity.
         let (angle, e) = (0.55 * f64::from(k), 0.3 + 0.04 * f64::from(k));
@@ -227,7 +227,8 @@ fn the_end_asked_for_is_reached_from_any_phase() {
                 error(&reached.state),
                 reached.choice
             );
-            assert!(reached.expected <= 1.35 * tolerance && reached.runs <= 4, "{} runs", reached.runs);
+            assert!(reached.expected <= 1.35 * tolerance, "{:e}", reached.expected);
+            runs += reached.runs;
             // The run once more, step by step.
             let mut run = reached.choice.trajectory();
             assert_eq!(run.by_ref().last().unwrap().unwrap().state, reached.state);
@@ -241,6 +242,8 @@ fn the_end_asked_for_is_reached_from_any_phase() {
         }
     }
     assert!(again >= 6 && missed >= 4, "{again}, {missed}");
+    // A second run, as a rule, or a third.
+    assert!(runs <= 3 * 24, "{runs}");
 }
 
 #[test]
@@ -258,8 +261,8 @@ fn an_end_that_no_run_keeps_is_an_error() {
     assert!(breach.tolerance == 1e-10 && breach.expected > 1e-10 && breach.time > 1.0);
     // What is no request is none.
     assert!(matches!(request(-1.0), Err(dalembert::tolerance::ToleranceError::Request { .. })));
-    // Control: to an error that the kink allows there is an end.
-    assert!(request(0.3).is_ok());
+    // Control: without the kink there is an end.
+    assert!(Oscillator {}.to_error(1e-10).until(6.0).end(&start).is_ok());
 }
 
 #[test]
