@@ -66,7 +66,7 @@ pub fn write(docs: &Path) -> Result<()> {
         ];
         "Kepler": Kepler { k: 1e-4 }, 2, [
             "Blanes–Moan 6": Splitting::blanes_moan_6(),
-            "Blanes–Casas–Escorihuela 8": Splitting::blanes_casas_escorihuela_8()
+            "Blanes–Casas–Escorihuela 8": Splitting::blanes_casas_escorihuela_8(), "Gauss, 8 stages": Gauss::<8>
         ];
         "FPUT chain": FputChain8::MEASURED, 8, [
             "Blanes–Moan 4": Splitting::blanes_moan_4(), "Blanes–Moan 6": Splitting::blanes_moan_6(),

@@ -39,8 +39,8 @@ macro_rules! anchors {
             #[inline(always)]
             #[must_use]
             pub fn sin_cos(&mut self, x: $numbers<T, K>) -> ($numbers<T, K>, $numbers<T, K>) {
-                let anchor = [&mut self.angle.0, &mut self.sine.0, &mut self.cosine.0];
-                let (sines, cosines) = T::turned(x.0, anchor);
+                let Self { angle, sine, cosine } = self;
+                let (sines, cosines) = T::turned(x.0, &mut angle.0, &mut sine.0, &mut cosine.0);
                 ($numbers(sines), $numbers(cosines))
             }
         }

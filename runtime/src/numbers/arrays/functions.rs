@@ -15,7 +15,12 @@ pub trait Functions: Sized {
 
     /// Sine and cosine of every lane from an angle near by, its sine and its cosine, the `anchor`; lanes that
     /// are not near become anchors themselves.
-    fn turned<const S: usize>(x: [Self; S], anchor: [&mut [Self; S]; 3]) -> ([Self; S], [Self; S]);
+    fn turned<const S: usize>(
+        x: [Self; S],
+        angle: &mut [Self; S],
+        sine: &mut [Self; S],
+        cosine: &mut [Self; S],
+    ) -> ([Self; S], [Self; S]);
 
     /// 1/x of every lane by a step of Newton's method from reciprocals near by, by a division elsewhere.
     fn corrected_reciprocals<const S: usize>(x: [Self; S], near: [Self; S]) -> [Self; S];
@@ -72,16 +77,38 @@ fn sine_and_cosine(x: f64) -> (f64, f64) {
 /// Up to this angle the addition theorem is used.
 const LARGEST_TURN: f64 = 0.1875;
 
+/// a b + c, rounded once where the target of the build has an instruction for it.
+#[inline(always)]
+fn product_plus(a: f64, b: f64, c: f64) -> f64 {
+    if cfg!(target_feature = "fma") { nalgebra::ComplexField::mul_add(a, b, c) } else { a * b + c }
+}
+
 /// sin δ and 1 − cos δ for |δ| ≤ [`LARGEST_TURN`]: interpolated at Chebyshev's nodes of δ², 0.05 ε off.
 #[inline(always)]
 fn sine_and_versine(delta: f64) -> (f64, f64) {
     let z = delta * delta;
-    let p = 0.16666666666666638
-        - z * (0.008333333333061315 - z * (0.00019841265972408056 - z * 2.7539709917498416e-06));
-    let sine = delta - delta * (z * p);
-    let p = 0.041666666666666644
-        - z * (0.0013888888888662191 - z * (2.4801584077348975e-05 - z * 2.754264415234022e-07));
-    (sine, z * (0.5 - z * p))
+    let p = product_plus(-z, 2.7539709917498416e-06, 0.00019841265972408056);
+    let p = product_plus(-z, p, 0.008333333333061315);
+    let p = product_plus(-z, p, 0.16666666666666638);
+    let sine = product_plus(-delta, z * p, delta);
+    let p = product_plus(-z, 2.754264415234022e-07, 2.4801584077348975e-05);
+    let p = product_plus(-z, p, 0.0013888888888662191);
+    let p = product_plus(-z, p, 0.041666666666666644);
+    (sine, z * product_plus(-z, p, 0.5))
+}
+
+/// Sine and cosine of angles δ away from those of `sine` and `cosine`, each within [`LARGEST_TURN`].
+#[inline(always)]
+#[allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
+fn by_addition<const S: usize>(delta: &[f64; S], sine: &[f64; S], cosine: &[f64; S]) -> ([f64; S], [f64; S]) {
+    let (mut sines, mut cosines) = (*sine, *cosine);
+    for i in 0..S {
+        let (turn, versine) = sine_and_versine(delta[i]);
+        let (s, c) = (sine[i], cosine[i]);
+        sines[i] = s + product_plus(c, turn, -(s * versine));
+        cosines[i] = c - product_plus(s, turn, c * versine);
+    }
+    (sines, cosines)
 }
 
 /// Beyond this 1 − x r the reciprocal of x is no step of Newton's method from r.
@@ -128,6 +155,16 @@ fn some_above<const S: usize>(x: &[f64; S], limit: f64) -> bool {
         is_above |= lane.abs() > limit;
     }
     is_above
+}
+
+/// Whether every lane is larger than the limit.
+#[inline(always)]
+fn all_above<const S: usize>(x: &[f64; S], limit: f64) -> bool {
+    let mut are_above = true;
+    for lane in x {
+        are_above &= lane.abs() > limit;
+    }
+    are_above
 }
 
 /// Sine and cosine of a number, those of [`Elementary`](crate::numbers::Elementary), which stands on this module:
@@ -206,27 +243,33 @@ impl Functions for f64 {
     }
 
     #[inline(always)]
-    fn turned<const S: usize>(x: [Self; S], anchor: [&mut [Self; S]; 3]) -> ([Self; S], [Self; S]) {
-        let [angle, anchor_sine, anchor_cosine] = anchor;
-        let (mut sines, mut cosines, mut delta) = (x, x, x);
+    fn turned<const S: usize>(
+        x: [Self; S],
+        angle: &mut [Self; S],
+        sine: &mut [Self; S],
+        cosine: &mut [Self; S],
+    ) -> ([Self; S], [Self; S]) {
+        let mut delta = x;
         for i in 0..S {
             delta[i] = x[i] - angle[i];
-            let (sine, versine) = sine_and_versine(delta[i]);
-            let (s, c) = (anchor_sine[i], anchor_cosine[i]);
-            sines[i] = s + (c * sine - s * versine);
-            cosines[i] = c - (s * sine + c * versine);
         }
-        if some_above(&delta, LARGEST_TURN) {
-            let (far_sines, far_cosines) = Self::sines_and_cosines(x);
-            for i in 0..S {
-                let is_far = delta[i].abs() > LARGEST_TURN;
-                let chosen = |far: f64, near: f64| if is_far { far } else { near };
-                angle[i] = chosen(x[i], angle[i]);
-                anchor_sine[i] = chosen(far_sines[i], anchor_sine[i]);
-                anchor_cosine[i] = chosen(far_cosines[i], anchor_cosine[i]);
-                sines[i] = chosen(far_sines[i], sines[i]);
-                cosines[i] = chosen(far_cosines[i], cosines[i]);
-            }
+        if !some_above(&delta, LARGEST_TURN) {
+            return by_addition(&delta, sine, cosine);
+        }
+        let (mut sines, mut cosines) = Self::sines_and_cosines(x);
+        if all_above(&delta, LARGEST_TURN) {
+            (*angle, *sine, *cosine) = (x, sines, cosines);
+            return (sines, cosines);
+        }
+        let (near_sines, near_cosines) = by_addition(&delta, sine, cosine);
+        for i in 0..S {
+            let is_far = delta[i].abs() > LARGEST_TURN;
+            let chosen = |far: f64, near: f64| if is_far { far } else { near };
+            angle[i] = chosen(x[i], angle[i]);
+            sine[i] = chosen(sines[i], sine[i]);
+            cosine[i] = chosen(cosines[i], cosine[i]);
+            sines[i] = chosen(sines[i], near_sines[i]);
+            cosines[i] = chosen(cosines[i], near_cosines[i]);
         }
         (sines, cosines)
     }
@@ -235,8 +278,8 @@ impl Functions for f64 {
     fn corrected_reciprocals<const S: usize>(x: [Self; S], near: [Self; S]) -> [Self; S] {
         let (mut reciprocals, mut defect) = (near, x);
         for i in 0..S {
-            defect[i] = 1.0 - x[i] * near[i];
-            reciprocals[i] = near[i] + near[i] * defect[i];
+            defect[i] = product_plus(-x[i], near[i], 1.0);
+            reciprocals[i] = product_plus(near[i], defect[i], near[i]);
         }
         if some_above(&defect, LARGEST_DEFECT) {
             let mut exact = x;
@@ -266,7 +309,12 @@ impl Functions for f32 {
 
     /// As many digits as an anchor would have to hold a number of this type has not.
     #[inline(always)]
-    fn turned<const S: usize>(x: [Self; S], _anchor: [&mut [Self; S]; 3]) -> ([Self; S], [Self; S]) {
+    fn turned<const S: usize>(
+        x: [Self; S],
+        _angle: &mut [Self; S],
+        _sine: &mut [Self; S],
+        _cosine: &mut [Self; S],
+    ) -> ([Self; S], [Self; S]) {
         Self::sines_and_cosines(x)
     }
 

@@ -18,7 +18,7 @@ use crate::numbers::members::{each_coordinate, each_stage, member, stage_by_stag
 use crate::numbers::{Blank, Mask, MemberVector, Members, Scalar};
 use crate::step::in_lanes::clocks::Clocks;
 use crate::step::{Memory, State, newton::AT_FLOOR};
-use crate::system::ForcedLagrangianInLanes;
+use crate::system::{ForcedLagrangianInLanes, Lagrangian};
 
 /// W members on their way by a Gauss rule.
 #[derive(Clone, Copy, Debug)]
@@ -101,11 +101,75 @@ impl<T: Scalar, const N: usize, const W: usize> CompensatedMembers<T, N, W> {
 
     /// Where the condition holds, those of `other`.
     #[inline(always)]
-    fn replace(&mut self, condition: Mask<W>, other: &Self) {
+    fn replace(&mut self, only_some: bool, condition: Mask<W>, other: &Self) {
         each_coordinate!(a => {
-            self.value[a] = Members::select(condition, other.value[a], self.value[a]);
-            self.rest[a] = Members::select(condition, other.rest[a], self.rest[a]);
+            self.value[a].replace(only_some, condition, other.value[a]);
+            self.rest[a].replace(only_some, condition, other.rest[a]);
         });
+    }
+}
+
+/// What the sweeps of each step write before they read it: made once for many steps.
+struct Sweeps<T, K, A, const N: usize, const S: usize, const W: usize> {
+    v: [MemberVector<T, N, W>; S],
+    next: [MemberVector<T, N, W>; S],
+    rate: [MemberVector<T, N, W>; S],
+    /// h b_j V_j, h b_j G_j.
+    terms: [[MemberVector<T, N, W>; S]; 2],
+    kept: [K; S],
+    anchors: [A; S],
+}
+
+impl<T: Scalar, K: Blank, A: Blank, const N: usize, const S: usize, const W: usize> Sweeps<T, K, A, N, S, W> {
+    #[inline(always)]
+    fn new() -> Self {
+        let zero = [[Members::splat(T::zero()); N]; S];
+        Self {
+            v: zero,
+            next: zero,
+            rate: zero,
+            terms: [zero; 2],
+            kept: Blank::blank(),
+            anchors: Blank::blank(),
+        }
+    }
+}
+
+/// [`Sweeps`] over the stages of a system.
+type SweepsOf<L, const N: usize, const S: usize, const W: usize> = Sweeps<
+    <L as Lagrangian<N>>::Scalar,
+    <L as ForcedLagrangianInLanes<N>>::Kept<W>,
+    <L as ForcedLagrangianInLanes<N>>::AnchorsInLanes<W>,
+    N,
+    S,
+    W,
+>;
+
+/// What a sweep has seen.
+#[derive(Clone, Copy)]
+struct Seen<T, const N: usize, const W: usize> {
+    /// The largest residual of each coordinate.
+    residual: MemberVector<T, N, W>,
+    /// The largest correction.
+    correction: Members<T, W>,
+    /// The sum of all, in which NaN and infinity stay.
+    sum: Members<T, W>,
+}
+
+impl<T: Scalar, const N: usize, const W: usize> Seen<T, N, W> {
+    #[inline(always)]
+    fn nothing() -> Self {
+        let none = Members::splat(T::zero());
+        Self { residual: [none; N], correction: none, sum: none }
+    }
+
+    #[inline(always)]
+    fn of_both([a, b]: &[Self; 2]) -> Self {
+        let mut residual = a.residual;
+        each_coordinate!(i => {
+            residual[i] = a.residual[i].larger(b.residual[i]);
+        });
+        Self { residual, correction: a.correction.larger(b.correction), sum: a.sum + b.sum }
     }
 }
 
@@ -216,6 +280,9 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         L: ForcedLagrangianInLanes<N, Scalar = T, Fields<W> = F>,
     {
         let steps = steps::<T, S>(self.h);
+        let zero = [[Members::splat(T::zero()); N]; S];
+        let mut sweeps = SweepsOf::<L, N, S, W>::new();
+        let mut solved = Solved { is_solved: Mask::splat(false), v: zero, rate: zero };
         for _ in 0..count {
             let mut together = self.is_sound & self.has_contracted;
             // The sweeps that a first step takes more than others cost all lanes as much as a quarter of them
@@ -226,7 +293,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
             }
             let mut is_alone = self.is_sound;
             if together.0.contains(&true) {
-                let solved = self.solve::<L>(&steps, together);
+                self.solve::<L>(&steps, together, &mut sweeps, &mut solved);
                 let has_stepped = self.follow(&steps, &solved);
                 if L::IS_TIMED {
                     self.clocks.follow(has_stepped);
@@ -265,7 +332,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
                 each_coordinate!(a => {
                     largest = largest.larger((to[a] - from[a]).abs());
                 });
-                *change = Members::select(has_stepped, largest, *change);
+                change.replace(true, has_stepped, largest);
             }
             for lane in 0..W {
                 let taken = u64::from(has_stepped.0[lane]);
@@ -273,11 +340,12 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
             }
         }
         self.is_new = self.is_new & !has_stepped;
-        self.q.replace(has_stepped, &q);
-        self.p.replace(has_stepped, &p);
+        let only_some = has_stepped.0.contains(&false);
+        self.q.replace(only_some, has_stepped, &q);
+        self.p.replace(only_some, has_stepped, &p);
         stage_by_stage!(j => {
             each_coordinate!(a => {
-                self.v[j][a] = Members::select(has_stepped, solved.v[j][a], self.v[j][a]);
+                self.v[j][a].replace(only_some, has_stepped, solved.v[j][a]);
             });
         });
         has_stepped
@@ -285,19 +353,24 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
 
     /// The velocities of the last step, one step on; of who has not stepped yet, those to start from.
     #[inline(always)]
-    fn extrapolation(&self) -> [MemberVector<T, N, W>; S] {
+    fn extrapolate(&self, extrapolated: &mut [MemberVector<T, N, W>; S]) {
         let columns = &Self::COEFFICIENTS.extrapolation;
-        let mut extrapolated = self.v;
         stage_by_stage!(i => {
             each_coordinate!(a => {
                 let mut sums = [Members::splat(T::zero()); 2];
                 each_stage!(j => {
                     sums[j % 2] = self.v[j][a].times_plus(T::constant(columns[j][i]), sums[j % 2]);
                 });
-                extrapolated[i][a] = Members::select(self.is_new, self.v[i][a], sums[0] + sums[1]);
+                extrapolated[i][a] = sums[0] + sums[1];
             });
         });
-        extrapolated
+        if self.is_new.0.contains(&true) {
+            stage_by_stage!(i => {
+                each_coordinate!(a => {
+                    extrapolated[i][a] = Members::select(self.is_new, self.v[i][a], extrapolated[i][a]);
+                });
+            });
+        }
     }
 
     /// start + Σ_j μ_ij (h b_j x_j) at the stage i, the `terms` being h b_j x_j.
@@ -322,8 +395,13 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
     /// The stages of those who step together, as far as sweeps of the usual kind solve for them:
     /// [`iterate`](super::fixed_point::iterate) of each.
     #[inline(always)]
-    fn solve<L>(&self, steps: &[T; S], together: Mask<W>) -> Solved<T, N, S, W>
-    where
+    fn solve<L>(
+        &self,
+        steps: &[T; S],
+        together: Mask<W>,
+        sweeps: &mut SweepsOf<L, N, S, W>,
+        solved: &mut Solved<T, N, S, W>,
+    ) where
         L: ForcedLagrangianInLanes<N, Scalar = T, Fields<W> = F>,
     {
         let constant = T::constant;
@@ -331,32 +409,29 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         if L::IS_TIMED {
             fields = L::later_in_lanes(&fields, &self.clocks.elapsed(self.h));
         }
-        let mut v = self.extrapolation();
-        let mut solved = Solved { is_solved: Mask::splat(false), v, rate: v };
-        let mut is_open = together;
-        let zero = [Members::splat(T::zero()); N];
-        let (mut floor, mut per_floor) = (zero, zero);
-        let (mut before, mut last) = (Members::splat(T::one()), Members::splat(T::one()));
-        // h b_j V_j, h b_j G_j.
-        let (mut of_v, mut of_rate) = (v, v);
+        let Sweeps { v, next, rate, terms: [of_v, of_rate], kept, anchors } = sweeps;
+        let (mut v, mut next) = (v, next);
+        *anchors = Blank::blank();
+        self.extrapolate(v);
         stage_by_stage!(j => {
             each_coordinate!(a => {
                 of_v[j][a] = v[j][a] * steps[j];
             });
         });
-        let (mut rate, mut residuals) = (v, v);
-        let mut next = v;
-        let (mut v, mut next) = (&mut v, &mut next);
-        let mut kept = <[L::Kept<W>; S]>::blank();
-        let mut anchors = <[L::AnchorsInLanes<W>; S]>::blank();
+        solved.is_solved = Mask::splat(false);
+        let mut is_open = together;
+        let none = Members::splat(T::zero());
+        let zero = [none; N];
+        let (mut floor, mut per_floor) = (zero, zero);
+        let (mut before, mut last) = (Members::splat(T::one()), Members::splat(T::one()));
         let allowances = self.allowances();
         let is_loose = allowances.are_known & Mask::splat(self.slack.is_some());
         let some_loose = is_loose.0.contains(&true);
-        let mut corrections = [Members::splat(T::zero()); S];
-        let (mut loose_before, mut loose_last) = (Members::splat(T::zero()), Members::splat(T::zero()));
+        let some_strict = (together & !is_loose).0.contains(&true);
+        let (mut loose_before, mut loose_last) = (none, none);
         for iterations in 1..=MAX_ITERATIONS {
             stage_by_stage!(i => {
-                let q = Self::at_stage(&self.q, &of_v, i);
+                let q = Self::at_stage(&self.q, of_v, i);
                 // One call for both, which is inlined.
                 let in_time;
                 let mut at_stage = &fields;
@@ -370,129 +445,126 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
                     of_rate[i][a] = rate[i][a] * steps[i];
                 });
             });
+            // Of every other stage, by an index that LLVM does not know: as variables, not in memory, they would
+            // become vectors of numbers that do not belong together.
+            let mut seen = [Seen::nothing(); 2];
             stage_by_stage!(i => {
-                let p = Self::at_stage(&self.p, &of_rate, i);
+                let p = Self::at_stage(&self.p, of_rate, i);
                 let [residual, correction] = L::corrections_in_lanes(&fields, &kept[i], &v[i], &p);
-                let (mut largest, mut poison) = (Members::splat(T::zero()), Members::splat(T::zero()));
+                let mut now = seen[i % 2];
                 each_coordinate!(a => {
-                    largest = largest.larger(correction[a].abs());
-                    poison = poison + correction[a] * T::zero();
-                    residuals[i][a] = residual[a].abs();
                     next[i][a] = v[i][a] + correction[a];
                     of_v[i][a] = next[i][a] * steps[i];
+                    let (residual, correction) = (residual[a].abs(), correction[a].abs());
+                    now.residual[a] = now.residual[a].larger(residual);
+                    now.correction = now.correction.larger(correction);
+                    now.sum = now.sum + (residual + correction);
                 });
-                corrections[i] = largest + poison;
+                seen[i % 2] = now;
             });
-            // The largest residual of each coordinate, and the sum, in which NaN and infinity stay.
-            let (mut largest, mut sum) = (zero, Members::splat(T::zero()));
-            each_coordinate!(a => {
-                each_stage!(i => {
-                    largest[a] = largest[a].larger(residuals[i][a]);
-                    sum = sum + residuals[i][a];
-                });
-            });
-            if iterations == 1 {
-                floor = self.floor(&rate, &largest);
-                per_floor = reciprocals(&floor);
-            }
-            let mut size = in_units(&largest, &per_floor);
-            if iterations == 1 {
-                last = size;
-            } else {
-                let grows = is_open & !is_loose & !size.less(last);
-                if grows.0.contains(&true) {
-                    let now = self.floor(&rate, &largest);
-                    let mut has_risen = Mask::splat(false);
+            let Seen { residual: largest, correction, sum } = Seen::of_both(&seen);
+            let (mut is_done, mut is_at_rest) = (Mask::splat(false), Mask::splat(false));
+            let mut size = last;
+            if some_strict {
+                if iterations == 1 {
+                    floor = self.floor(rate, &largest);
+                    per_floor = reciprocals(&floor);
+                }
+                size = in_units(&largest, &per_floor);
+                if iterations == 1 {
+                    last = size;
+                } else {
+                    let grows = is_open & !is_loose & !size.less(last);
+                    if grows.0.contains(&true) {
+                        let now = self.floor(rate, &largest);
+                        let mut has_risen = Mask::splat(false);
+                        each_coordinate!(a => {
+                            has_risen = has_risen | (floor[a] * constant(CHANGED)).less(now[a]);
+                            is_open = is_open & (!grows | now[a].is_finite());
+                        });
+                        let has_risen = grows & has_risen;
+                        each_coordinate!(a => {
+                            floor[a] = Members::select(has_risen, floor[a].larger(now[a]), floor[a]);
+                        });
+                        per_floor = reciprocals(&floor);
+                        size = in_units(&largest, &per_floor);
+                        before = Members::select(has_risen, size * constant(4.0), before);
+                        last = Members::select(has_risen, size, last);
+                    }
+                }
+                // As many of these in a sum would still be finite.
+                is_open = is_open & (is_loose | ((sum + size) * constant(256.0)).is_finite());
+
+                let small = Members::splat(constant(AT_REST));
+                is_at_rest = (size * size).less_or_equal(small * last)
+                    & if iterations > 2 {
+                        (size * last).less_or_equal(small * before)
+                    } else if !L::STRUCTURE.constant_mass_matrix {
+                        size.less_or_equal(small)
+                    } else if N > 1 {
+                        size.less_or_equal(Members::splat(constant(NEAR)))
+                    } else {
+                        Mask::splat(true)
+                    };
+                let mut has_stopped = Mask::splat(false);
+                if iterations > 1 {
+                    has_stopped = (last * constant(SLUGGISH)).less_or_equal(size);
+                }
+                let at_floor = size.less_or_equal(Members::splat(constant(AT_FLOOR)));
+                is_done = is_open & !is_loose & (is_at_rest | (has_stopped & at_floor));
+                if iterations > 1 && is_done.0.contains(&true) {
+                    let now = self.floor(rate, &largest);
+                    let mut has_fallen = Mask::splat(false);
                     each_coordinate!(a => {
-                        has_risen = has_risen | (floor[a] * constant(CHANGED)).less(now[a]);
-                        is_open = is_open & (!grows | now[a].is_finite());
+                        has_fallen = has_fallen | (now[a] * constant(CHANGED)).less(floor[a]);
                     });
-                    let has_risen = grows & has_risen;
+                    let has_fallen = is_done & has_fallen;
+                    is_done = is_done & !has_fallen;
                     each_coordinate!(a => {
-                        floor[a] = Members::select(has_risen, floor[a].larger(now[a]), floor[a]);
+                        floor[a] = Members::select(has_fallen, now[a], floor[a]);
                     });
                     per_floor = reciprocals(&floor);
                     size = in_units(&largest, &per_floor);
-                    before = Members::select(has_risen, size * constant(4.0), before);
-                    last = Members::select(has_risen, size, last);
+                    before = Members::select(has_fallen, size * constant(4.0), before);
+                    last = Members::select(has_fallen, size, last);
+                }
+                if iterations > 2 {
+                    // Rounding has to be measured, or Newton's method takes over.
+                    is_open = is_open & (is_done | is_loose | size.less(before * constant(SLUGGISH)));
                 }
             }
-            // As many of these in a sum would still be finite.
-            is_open = is_open & ((sum + size) * constant(256.0)).is_finite();
 
             // What is left, where an allowance says how much may be.
-            let (mut is_within, mut is_slow) = (Mask::splat(false), Mask::splat(false));
             if some_loose {
-                let (mut loose, mut sum) = (Members::splat(T::zero()), Members::splat(T::zero()));
+                let mut loose = correction * allowances.per_correction;
                 each_coordinate!(a => {
-                    let units = largest[a] * allowances.per_residual;
-                    loose = loose.larger(units);
-                    sum = sum + units;
+                    loose = loose.larger(largest[a] * allowances.per_residual);
                 });
-                each_stage!(i => {
-                    let units = corrections[i] * allowances.per_correction;
-                    loose = loose.larger(units);
-                    sum = sum + units;
-                });
-                is_open = is_open & (!is_loose | (sum * constant(256.0)).is_finite());
+                is_open = is_open & (!is_loose | ((sum + loose) * constant(256.0)).is_finite());
                 if iterations > 2 {
                     let mut share = loose;
                     for lane in 0..W {
                         share.0[lane] = remaining([loose_before.0[lane], loose_last.0[lane], loose.0[lane]]);
                     }
-                    is_within = is_loose & (loose * share).less_or_equal(Members::splat(T::one()));
-                    is_slow = is_loose & !is_within & !share.is_finite();
+                    let is_within = is_loose & (loose * share).less_or_equal(Members::splat(T::one()));
+                    is_open = is_open & !(is_loose & !is_within & !share.is_finite());
+                    is_done = is_done | (is_open & is_within);
                 }
                 (loose_before, loose_last) = (loose_last, loose);
             }
-
-            let small = Members::splat(constant(AT_REST));
-            let mut is_at_rest = (size * size).less_or_equal(small * last);
-            is_at_rest = is_at_rest
-                & if iterations > 2 {
-                    (size * last).less_or_equal(small * before)
-                } else if !L::STRUCTURE.constant_mass_matrix {
-                    size.less_or_equal(small)
-                } else if N > 1 {
-                    size.less_or_equal(Members::splat(constant(NEAR)))
-                } else {
-                    Mask::splat(true)
-                };
-            let mut has_stopped = Mask::splat(false);
-            if iterations > 1 {
-                has_stopped = (last * constant(SLUGGISH)).less_or_equal(size);
-            }
-            let at_floor = size.less_or_equal(Members::splat(constant(AT_FLOOR)));
-            let mut is_done = is_open & !is_loose & (is_at_rest | (has_stopped & at_floor));
-            if iterations > 1 && is_done.0.contains(&true) {
-                let now = self.floor(&rate, &largest);
-                let mut has_fallen = Mask::splat(false);
-                each_coordinate!(a => {
-                    has_fallen = has_fallen | (now[a] * constant(CHANGED)).less(floor[a]);
-                });
-                let has_fallen = is_done & has_fallen;
-                is_done = is_done & !has_fallen;
-                each_coordinate!(a => {
-                    floor[a] = Members::select(has_fallen, now[a], floor[a]);
-                });
-                per_floor = reciprocals(&floor);
-                size = in_units(&largest, &per_floor);
-                before = Members::select(has_fallen, size * constant(4.0), before);
-                last = Members::select(has_fallen, size, last);
-            }
-            if iterations > 2 {
-                // Rounding has to be measured, or Newton's method takes over.
-                is_open = is_open & (is_done | is_loose | size.less(before * constant(SLUGGISH)));
-            }
-            is_open = is_open & !is_slow;
-            is_done = is_done | (is_open & is_within);
             let is_moved = is_at_rest | is_loose;
             if is_done.0.contains(&true) {
+                // The first overwrite what is of no step.
+                let some_solved = solved.is_solved.0.contains(&true);
+                let all_moved = !is_moved.0.contains(&false);
                 stage_by_stage!(i => {
                     each_coordinate!(a => {
-                        let end = Members::select(is_moved, next[i][a], v[i][a]);
-                        solved.v[i][a] = Members::select(is_done, end, solved.v[i][a]);
-                        solved.rate[i][a] = Members::select(is_done, rate[i][a], solved.rate[i][a]);
+                        let mut end = next[i][a];
+                        if !all_moved {
+                            end = Members::select(is_moved, end, v[i][a]);
+                        }
+                        solved.v[i][a].replace(some_solved, is_done, end);
+                        solved.rate[i][a].replace(some_solved, is_done, rate[i][a]);
                     });
                 });
                 solved.is_solved = solved.is_solved | is_done;
@@ -504,7 +576,6 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
             core::mem::swap(&mut v, &mut next);
             (before, last) = (last, size);
         }
-        solved
     }
 
     /// [`Problem::floor`](super::problem::Problem::floor) of each, with the `largest` residual of each
