@@ -31,7 +31,10 @@ const MILLION: u64 = 1_000_000;
 const TURNS: usize = 3;
 const BATCH: &str = crate::page::BATCH;
 
-/// Measures and writes `docs/ensembles.md`.
+/// Whether this program is built for the machine that it runs on.
+const IS_NATIVE: bool = cfg!(target_feature = "avx");
+
+/// Measures and writes `docs/ensembles.md`, or in a native build `docs/ensembles-native.md`.
 ///
 /// # Errors
 /// heyoka is missing, a reference is not what it should be, or the page cannot be written.
@@ -43,7 +46,21 @@ pub fn write(docs: &Path) -> Result<()> {
     );
     // This thread, whose time is measured: a thread can be of one pool alone, so there is one for all scenes.
     let pool = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build()?;
-    let mut page = include_str!("../ensembles.md").to_owned();
+    let (name, written) = if IS_NATIVE {
+        (
+            "ensembles-native.md",
+            "`RUSTFLAGS=\"-C target-cpu=native\" cargo run --release -p dalembert-report -- ensembles`: built for the machine, \
+             with fused multiply-add in sums over stages, sines and reciprocals;\nthe program for any x86-64 has [a page of its \
+             own](ensembles.md)",
+        )
+    } else {
+        (
+            "ensembles.md",
+            "`cargo run --release -p dalembert-report -- ensembles`: built for any x86-64, the instructions chosen when the \
+             program runs; a native\nbuild has [a page of its own](ensembles-native.md)",
+        )
+    };
+    let mut page = include_str!("../ensembles.md").replace("{written}", written);
     macro_rules! scenes {
         ($($name:literal: $scene:expr, $n:literal, [$($method:literal: $by:expr),*];)*) => {$(
             eprintln!("{}", $name);
@@ -73,10 +90,12 @@ pub fn write(docs: &Path) -> Result<()> {
             "Blanes–Casas–Escorihuela 8": Splitting::blanes_casas_escorihuela_8()
         ];
     }
-    page.push_str(include_str!("../ensembles_growth.md"));
-    growth(&mut page)?;
+    if !IS_NATIVE {
+        page.push_str(include_str!("../ensembles_growth.md"));
+        growth(&mut page)?;
+    }
     write!(page, "\n{}", crate::page::setting(Some(&python)))?;
-    results::save(&docs.join("ensembles.md"), &page)
+    results::save(&docs.join(name), &page)
 }
 
 /// Sets of eight ends.

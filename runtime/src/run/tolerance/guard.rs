@@ -405,7 +405,7 @@ where
         let tolerance = self.choice.chosen.tolerance;
         let size = if expected.is_nan() { f64::INFINITY } else { expected };
         self.guard.largest = self.guard.largest.max(size);
-        if self.guard.breach.is_none() && (expected.is_nan() || expected > REPORTED * tolerance) {
+        if self.guard.breach.is_none() && size > REPORTED * tolerance {
             let share = (self.guard.taken as f64 / self.choice.chosen.steps as f64) * (tolerance / expected);
             let instead = tolerance * share.min(0.5);
             self.guard.breach = Some(Breach { time: self.time(), expected, tolerance, instead });

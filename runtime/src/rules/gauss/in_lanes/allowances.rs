@@ -1,0 +1,112 @@
+//! How far the sweeps of several members go where an error is asked for at an end.
+
+use super::sweeps::Seen;
+use crate::numbers::members::each_coordinate;
+use crate::numbers::{Mask, MemberVector, Members, Scalar};
+use crate::rules::gauss::slack::{ROUNDINGS, Slack, remaining};
+
+/// What the next steps of each member may leave unsolved, [`Slack`].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SlackOfMembers<T, const W: usize> {
+    pub(super) steps: [u64; W],
+    pub(super) change: [Members<T, W>; 2],
+}
+
+impl<T: Scalar, const W: usize> SlackOfMembers<T, W> {
+    /// None.
+    pub(super) fn none() -> Self {
+        Self { steps: [0; W], change: [Members::splat(T::zero()); 2] }
+    }
+
+    pub(super) fn write(&mut self, lane: usize, slack: Slack<T>) {
+        self.steps[lane] = slack.steps;
+        for (change, of_member) in self.change.iter_mut().zip(slack.change) {
+            change.0[lane] = of_member;
+        }
+    }
+
+    /// [`Slack::follow`] of those who have stepped, from and to these coordinates and momenta.
+    #[inline(always)]
+    pub(super) fn follow<const N: usize>(
+        &mut self,
+        has_stepped: Mask<W>,
+        steps: [[&MemberVector<T, N, W>; 2]; 2],
+    ) {
+        for (change, [from, to]) in self.change.iter_mut().zip(steps) {
+            let mut largest = *change;
+            each_coordinate!(a => {
+                largest = largest.larger((to[a] - from[a]).abs());
+            });
+            change.replace(true, has_stepped, largest);
+        }
+        for lane in 0..W {
+            self.steps[lane] = self.steps[lane].saturating_sub(u64::from(has_stepped.0[lane]));
+        }
+    }
+}
+
+/// What the sweeps of one step may leave, [`Allowance`](crate::rules::gauss::slack::Allowance), of those whose
+/// stages are not solved to rounding.
+pub(super) struct Allowances<T, const W: usize> {
+    pub(super) are_known: Mask<W>,
+    per_correction: T,
+    per_residual: Members<T, W>,
+    /// What the last two sweeps have changed, in units of what they may leave.
+    before: Members<T, W>,
+    last: Members<T, W>,
+}
+
+impl<T: Scalar, const W: usize> Allowances<T, W> {
+    /// [`Slack::allowance`] of each, for a step of size `h` from the momenta `p`; none without a slack.
+    #[inline(always)]
+    pub(super) fn new<const N: usize>(
+        slack: Option<Slack<T>>,
+        of_members: &SlackOfMembers<T, W>,
+        h: T,
+        p: &MemberVector<T, N, W>,
+    ) -> Self {
+        let none = Members::splat(T::zero());
+        let Some(Slack { of_step, .. }) = slack else {
+            let are_known = Mask::splat(false);
+            return Self { are_known, per_correction: h, per_residual: none, before: none, last: none };
+        };
+        let SlackOfMembers { steps, change: [q_change, p_change] } = *of_members;
+        let mut largest = none;
+        each_coordinate!(a => {
+            largest = largest.larger(p[a].abs());
+        });
+        let rounding = largest * (T::EPSILON * T::constant(ROUNDINGS)) * q_change;
+        let mut are_known = Mask(steps.map(|steps| steps > 0));
+        are_known = are_known & none.less(q_change) & rounding.less(p_change * of_step);
+        let per_residual = q_change / (p_change * of_step);
+        Self { are_known, per_correction: h.abs() / of_step, per_residual, before: none, last: none }
+    }
+
+    /// After so many sweeps, who of those whose allowance is known is solved; closed are those whose sweeps do not
+    /// contract.
+    #[inline(always)]
+    pub(super) fn solved<const N: usize>(
+        &mut self,
+        iterations: u32,
+        is_open: &mut Mask<W>,
+        seen: &Seen<T, N, W>,
+    ) -> Mask<W> {
+        let mut now = seen.correction * self.per_correction;
+        each_coordinate!(a => {
+            now = now.larger(seen.residual[a] * self.per_residual);
+        });
+        let is_finite = ((seen.sum + now) * T::constant(256.0)).is_finite();
+        *is_open = *is_open & (!self.are_known | is_finite);
+        let mut is_within = Mask::splat(false);
+        if iterations > 2 {
+            let mut share = now;
+            for lane in 0..W {
+                share.0[lane] = remaining([self.before.0[lane], self.last.0[lane], now.0[lane]]);
+            }
+            is_within = self.are_known & (now * share).less_or_equal(Members::splat(T::one()));
+            *is_open = *is_open & (!self.are_known | is_within | share.is_finite());
+        }
+        (self.before, self.last) = (self.last, now);
+        *is_open & is_within
+    }
+}
