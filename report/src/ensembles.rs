@@ -49,9 +49,9 @@ pub fn write(docs: &Path) -> Result<()> {
     let (name, written) = if IS_NATIVE {
         (
             "ensembles-native.md",
-            "`RUSTFLAGS=\"-C target-cpu=native\" cargo run --release -p dalembert-report -- ensembles`: built for the machine, \
-             with fused multiply-add in sums over stages, sines and reciprocals;\nthe program for any x86-64 has [a page of its \
-             own](ensembles.md)",
+            "`RUSTFLAGS=\"-C target-cpu=native\" cargo run --release -p dalembert-report -- ensembles`: built for the machine, where \
+             sums over\nstages, sines and reciprocals are of fused multiply-adds; a build for any x86-64 has \
+             [a page of its own](ensembles.md)",
         )
     } else {
         (

@@ -381,6 +381,19 @@ fn capitalised(name: &str) -> String {
     letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
+/// What the processor's widest vectors are called.
+fn widest_vectors() -> &'static str {
+    #[cfg(target_arch = "x86_64")]
+    let widest = match (is_x86_feature_detected!("avx512f"), is_x86_feature_detected!("avx2")) {
+        (true, _) => "AVX-512",
+        (false, true) => "AVX2",
+        (false, false) => "SSE2",
+    };
+    #[cfg(not(target_arch = "x86_64"))]
+    let widest = std::env::consts::ARCH;
+    widest
+}
+
 /// Kept beside the figures: which machine, which versions, what is missing.
 pub fn setting(python: Option<&crate::peers::python::Python>) -> String {
     let processor = std::fs::read_to_string("/proc/cpuinfo").ok().and_then(|text| {
@@ -388,8 +401,9 @@ pub fn setting(python: Option<&crate::peers::python::Python>) -> String {
         Some(line.split_once(": ")?.1.to_owned())
     });
     let built = if cfg!(target_feature = "avx") { "with `-C target-cpu=native`" } else { "for any x86-64" };
-    let mut text =
-        format!("- Processor: {}; built {built}.\n", processor.unwrap_or_else(|| "unknown".into()));
+    let vectors = widest_vectors();
+    let processor = processor.unwrap_or_else(|| "unknown".into());
+    let mut text = format!("- Processor: {processor}, with {vectors}; built {built}.\n");
     if let Some(python) = python {
         for version in &python.versions {
             let _ = writeln!(text, "- {version}");
