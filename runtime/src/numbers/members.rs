@@ -166,8 +166,8 @@ impl<T: Scalar, const W: usize> Members<T, W> {
         selected
     }
 
-    /// The numbers of `other`, where `only_some` those alone that the condition holds for: a store under a mask
-    /// may cost as much as ten others.
+    /// The numbers of `other`; with `only_some` those alone that the condition holds for, otherwise all, without
+    /// looking at it.
     #[inline(always)]
     pub(crate) fn replace(&mut self, only_some: bool, condition: Mask<W>, other: Self) {
         *self = if only_some { Self::select(condition, other, *self) } else { other };
