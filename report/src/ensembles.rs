@@ -50,8 +50,8 @@ pub fn write(docs: &Path) -> Result<()> {
         (
             "ensembles-native.md",
             "`RUSTFLAGS=\"-C target-cpu=native\" cargo run --release -p dalembert-report -- ensembles`: built for the machine, where \
-             sums over\nstages, sines and reciprocals are of fused multiply-adds; a build for any x86-64 has \
-             [a page of its own](ensembles.md)",
+             sums over\nstages, sines by the addition theorem and reciprocals are of fused multiply-adds; a build for any x86-64 \
+             has\n[a page of its own](ensembles.md)",
         )
     } else {
         (

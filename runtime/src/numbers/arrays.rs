@@ -5,4 +5,5 @@ mod functions;
 mod vectors;
 
 pub use functions::Functions;
+pub(crate) use functions::product_plus;
 pub use vectors::Vectors;

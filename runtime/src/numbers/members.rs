@@ -14,6 +14,7 @@ mod operators;
 
 use nalgebra::SVector;
 
+use crate::numbers::arrays::product_plus;
 use crate::numbers::{Mask, Scalar};
 
 /// The block for every coordinate, unrolled for the first 16: those that there are, as the conditions are constants.
@@ -136,11 +137,7 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     pub(crate) fn times_plus(self, factor: T, term: Self) -> Self {
         let mut result = term;
         for i in 0..W {
-            result.0[i] = if cfg!(target_feature = "fma") {
-                nalgebra::ComplexField::mul_add(self.0[i], factor, term.0[i])
-            } else {
-                self.0[i] * factor + term.0[i]
-            };
+            result.0[i] = product_plus(self.0[i], factor, term.0[i]);
         }
         result
     }

@@ -79,8 +79,8 @@ const LARGEST_TURN: f64 = 0.1875;
 
 /// a b + c, rounded once where the target of the build has an instruction for it.
 #[inline(always)]
-fn product_plus(a: f64, b: f64, c: f64) -> f64 {
-    if cfg!(target_feature = "fma") { nalgebra::ComplexField::mul_add(a, b, c) } else { a * b + c }
+pub(crate) fn product_plus<T: nalgebra::RealField>(a: T, b: T, c: T) -> T {
+    if cfg!(target_feature = "fma") { a.mul_add(b, c) } else { a * b + c }
 }
 
 /// sin δ and 1 − cos δ for |δ| ≤ [`LARGEST_TURN`]: interpolated at Chebyshev's nodes of δ², 0.05 ε off.

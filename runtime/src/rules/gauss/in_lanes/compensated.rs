@@ -40,7 +40,7 @@ impl<T: Scalar, const N: usize, const W: usize> CompensatedMembers<T, N, W> {
         sum
     }
 
-    /// Where the condition holds, those of `other`.
+    /// [`Members::replace`] of each number.
     #[inline(always)]
     pub(super) fn replace(&mut self, only_some: bool, condition: Mask<W>, other: &Self) {
         each_coordinate!(a => {
