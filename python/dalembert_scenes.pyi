@@ -249,6 +249,7 @@ class _Structure(TypedDict):
     constant_mass_matrix: bool
     quadratic_lagrangian: bool
     separable_lagrangian: bool
+    fused_multiply_add: bool
     damping: str
     cyclic: list[dict[str, int | bool]]
     newton_matrices: list[dict[str, str | bool | int]]

@@ -3,6 +3,7 @@
 
 mod corpus;
 mod factoring;
+mod fusing;
 mod hygiene;
 mod odd_input;
 mod oracle;

@@ -15,7 +15,7 @@ pub(crate) mod members;
 mod scalar;
 
 pub use anchors::{Angle, Reciprocal};
-pub(crate) use arrays::{Functions, Vectors};
+pub(crate) use arrays::{Functions, Vectors, product_plus};
 pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, Variations};
 pub use elementary::Elementary;
 pub use lanes::{LaneVector, Lanes, Mask};

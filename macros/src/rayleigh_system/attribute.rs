@@ -1,5 +1,6 @@
 //! The options of the attribute: `rule = midpoint`, `rule = [midpoint, trapezoidal]`, `derivatives =
-//! expanded`, `parameters = [m, c[0]]`, `step_derivatives = second`, `lanes = [explicit, gauss]`, `crate = mechanics`.
+//! expanded`, `parameters = [m, c[0]]`, `step_derivatives = second`, `lanes = [explicit, gauss]`, `multiply_add =
+//! fused`, `crate = mechanics`.
 
 use proc_macro2::TokenStream;
 use syn::ext::IdentExt;
@@ -63,6 +64,8 @@ pub struct Options {
     pub second: bool,
     /// Which steps of several members at once are asked for.
     pub lanes: Lanes,
+    /// Whether a product and the sum that it stands in are rounded once, by its word.
+    pub fused: Option<Ident>,
     /// The runtime, where the user's crate has another name for it.
     pub runtime: Option<Path>,
 }
@@ -99,6 +102,9 @@ pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) ->
                 order(&name, &words, &mut options.second, report);
             }
             Values::Words(words) if name == "lanes" => lanes(&name, words, &mut options.lanes, report),
+            Values::Words(words) if name == "multiply_add" => {
+                multiply_add(&name, words, runtime, &mut options.fused, report);
+            }
             Values::Words(_) => report.at(&name, Mistake::UnknownOption),
         }
     }
@@ -106,6 +112,11 @@ pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) ->
         && let Some(parameter) = options.parameters.first()
     {
         report.at(parameter, Mistake::ParametersByNumDual);
+    }
+    if options.engine == Engine::NumDual
+        && let Some(word) = &options.fused
+    {
+        report.at(word, Mistake::FusedByNumDual);
     }
     if !says_rule {
         options.rules.of_displacement.push(Rule::Midpoint);
@@ -134,6 +145,26 @@ fn order(name: &Ident, values: &[Ident], second: &mut bool, report: &mut Report)
         [value] if value == "second" => *second = true,
         [value] => report.at(value, Mistake::UnknownOrder),
         _ => report.at(name, Mistake::UnknownOrder),
+    }
+}
+
+/// `multiply_add = fused`
+fn multiply_add(
+    name: &Ident,
+    words: Vec<Ident>,
+    runtime: Runtime,
+    fused: &mut Option<Ident>,
+    report: &mut Report,
+) {
+    match <[Ident; 1]>::try_from(words) {
+        Ok([word]) if word == "fused" => {
+            if runtime.is_portable {
+                report.at(&word, Mistake::FusedByLibm);
+            }
+            *fused = Some(word);
+        }
+        Ok([word]) => report.at(&word, Mistake::UnknownMultiplyAdd),
+        Err(_) => report.at(name, Mistake::UnknownMultiplyAdd),
     }
 }
 

@@ -86,6 +86,7 @@ fn block<'a>(source: &'a Source, options: &Options, report: &mut Report) -> Opti
         parameters: options.parameters.clone(),
         second: options.second,
         lanes: options.lanes.clone(),
+        is_fused: options.fused.is_some(),
     })
 }
 
@@ -204,5 +205,6 @@ fn function_system<'a>(
         parameters: options.parameters.clone(),
         second: options.second,
         lanes: options.lanes.clone(),
+        is_fused: options.fused.is_some(),
     }
 }

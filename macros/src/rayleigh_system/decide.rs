@@ -35,12 +35,14 @@ pub fn engine(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Dec
     }
     match system.engine {
         Engine::NumDual => by_duals(system, report),
-        // Nothing else differentiates by parameters, or writes code on lanes.
-        Engine::Auto if system.parameters.is_empty() && system.lanes.words().next().is_none() => {
-            by_either(system, runtime, report)
-        }
+        Engine::Auto if !asks_for_code(system) => by_either(system, runtime, report),
         Engine::Auto | Engine::Expanded => written_out(system, runtime, report),
     }
+}
+
+/// Whether derivatives by parameters are asked for, code on lanes or fused sums: dual numbers have none of them.
+fn asks_for_code(system: &System<'_>) -> bool {
+    !system.parameters.is_empty() || system.lanes.words().next().is_some() || system.is_fused
 }
 
 /// `derivatives = auto`: written out where they can be.
@@ -66,8 +68,7 @@ fn by_either(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Deci
 fn written_out(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Decision {
     expansion(system, runtime, report).unwrap_or_else(|refusal| {
         // Advice that the system could not follow is none.
-        let asks_for_code = !system.parameters.is_empty() || system.lanes.words().next().is_some();
-        let by_duals = !refusal.is_final && !asks_for_code && runtime.has_std && {
+        let by_duals = !refusal.is_final && !asks_for_code(system) && runtime.has_std && {
             let mut mistakes = Report::default();
             rewrite::over_duals(system, &mut mistakes);
             mistakes.is_empty()

@@ -84,6 +84,9 @@ pub enum Mistake {
     UnknownLanes,
     RepeatedLanes(String),
     Lanes { word: String, lacks: &'static str },
+    UnknownMultiplyAdd,
+    FusedByNumDual,
+    FusedByLibm,
     NoParameters,
     ParametersByNumDual,
     NoSuchParameter(String),
@@ -170,7 +173,7 @@ impl Mistake {
 impl Display for Mistake {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::UnknownOption => f.write_str("unknown option; write `rule = midpoint`, `trapezoidal` or `gauss`, a list `rule = [midpoint, trapezoidal]`, `derivatives = auto`, `expanded`, `num_dual`, `parameters = [m, k]`, `step_derivatives = second`, `lanes = explicit`, `midpoint`, `gauss`, or `crate = path`"),
+            Self::UnknownOption => f.write_str("unknown option; write `rule = midpoint`, `trapezoidal` or `gauss`, a list `rule = [midpoint, trapezoidal]`, `derivatives = auto`, `expanded`, `num_dual`, `parameters = [m, k]`, `step_derivatives = second`, `lanes = explicit`, `midpoint`, `gauss`, `multiply_add = fused`, or `crate = path`"),
             Self::UnknownRule(rule) => write!(f, "unknown rule `{rule}`; the rules are `midpoint`, `trapezoidal`, `gauss`, `fitted`, `fitted_trapezoidal` and `one_sided`; one of your own is not listed: `system.by(Quadrature(rule), h)` steps by it"),
             Self::RepeatedRule(rule) => write!(f, "rule `{rule}` is listed twice; remove one"),
             Self::JointRule { rule, lacks } => write!(f, "`rule = {rule}` {lacks}; use `midpoint`, `trapezoidal` or `gauss`"),
@@ -181,6 +184,9 @@ impl Display for Mistake {
             Self::UnknownLanes => f.write_str("write `lanes = explicit`, `lanes = midpoint`, `lanes = gauss` or a list, `lanes = [explicit, gauss]`, or leave the option out where members are not stepped in lanes"),
             Self::RepeatedLanes(word) => write!(f, "`{word}` is listed twice; remove one"),
             Self::Lanes { word, lacks } => write!(f, "`lanes = {word}` {lacks}; or leave the option out"),
+            Self::UnknownMultiplyAdd => f.write_str("write `multiply_add = fused`, or leave the option out: products and sums are then rounded apart"),
+            Self::FusedByNumDual => f.write_str("sums are fused where derivatives are written out; use `derivatives = expanded` with it, or leave the option out"),
+            Self::FusedByLibm => f.write_str("without `std` and with the feature `libm` a function stands for the instruction, many times as slow; leave the option out, or take the platform's functions"),
             Self::NoParameters => f.write_str("no parameter is listed; write fields of the system, such as `parameters = [m, k]`, or leave the option out"),
             Self::ParametersByNumDual => f.write_str("derivatives by parameters are written out at compile time; use `derivatives = expanded` with them"),
             Self::NoSuchParameter(parameter) => write!(f, "neither L, R nor f reads the number `self.{parameter}`; list fields that they read, entries of an array one by one, such as `c[0]`"),

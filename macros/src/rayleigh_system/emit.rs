@@ -222,6 +222,8 @@ fn written(
         },
         is_condition: conditions(graph, &nodes),
     };
+    // Vectors that functions on members are handed: their entries are numbers of members.
+    let is_of_members = |operation: Operation| matches!((kind, operation), (Kind::Members(..), Operation::Parameter(index)) if graph.parameter(index).is_entry());
     let mut receives = vec![false; graph.len()];
     for receiver in nodes.iter().filter_map(|&node| graph.operation(node).receiver()) {
         receives[receiver.index()] = true;
@@ -258,6 +260,7 @@ fn written(
             writer.is_lanes[node.index()] |= is_late[node.index()]
                 || matches!(operation, Operation::Coordinate(_) | Operation::Velocity(_))
                 || graph.is_time(operation)
+                || is_of_members(operation)
                 || operation.arguments().any(|argument| writer.is_lanes[argument.index()]);
         }
         match operation {

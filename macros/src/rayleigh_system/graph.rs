@@ -9,6 +9,7 @@
 mod algebra;
 mod angles;
 mod factor;
+mod fused;
 mod operation;
 mod zeros;
 
@@ -57,6 +58,11 @@ impl Parameter {
     /// Whether it is a local already, such as `half` or `q1[0]`.
     pub fn is_local(&self) -> bool {
         self.is_entry || self.tokens.clone().into_iter().count() == 1
+    }
+
+    /// Whether it is an entry of a local array.
+    pub fn is_entry(&self) -> bool {
+        self.is_entry
     }
 
     /// Whether it is written where it is used, however often.

@@ -40,6 +40,8 @@ pub struct Findings {
     pub constant_mass_matrix: bool,
     pub quadratic_lagrangian: bool,
     pub separable_lagrangian: bool,
+    /// Products are rounded with the sums that they stand in.
+    pub fused: bool,
     /// ∂L/∂v holds the time.
     pub timed_momenta: bool,
     pub damping: Damping,
@@ -190,6 +192,7 @@ pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>)
         constant_mass_matrix: degrees.in_velocity(lagrangian.root) <= 2 && is_constant(&mass),
         quadratic_lagrangian: degrees.joint(lagrangian.root) <= 2,
         separable_lagrangian: degrees.is_separable(lagrangian.root),
+        fused: system.is_fused,
         timed_momenta,
         damping,
         cyclic: cyclic.collect(),
@@ -237,6 +240,7 @@ impl Structure {
                 (findings.constant_mass_matrix, "with_constant_mass_matrix"),
                 (findings.quadratic_lagrangian, "with_quadratic_lagrangian"),
                 (findings.separable_lagrangian, "with_separable_lagrangian"),
+                (findings.fused, "with_fused_multiply_add"),
             ];
             let found =
                 found.iter().filter(|(is_found, _)| *is_found).map(|(_, name)| format_ident!("{name}"));

@@ -16,7 +16,7 @@ use crate::rayleigh_system::{Runtime, attribute, check, diagnostics::Report, par
 type Number = Dual2SVec64<4>;
 
 /// SplitMix64: expressions must be the same on every machine.
-struct Random(u64);
+pub(super) struct Random(pub(super) u64);
 
 impl Random {
     fn bits(&mut self) -> u64 {
@@ -27,7 +27,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    fn below(&mut self, n: usize) -> usize {
+    pub(super) fn below(&mut self, n: usize) -> usize {
         (self.bits() % n as u64) as usize
     }
 

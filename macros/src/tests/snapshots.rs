@@ -190,6 +190,12 @@ fn gauss() {
     let start =
         expansion.find("impl ::dalembert::generated::ForcedLagrangianInLanes").expect("it is written");
     assert_snapshot("cart_in_lanes.rs", &expansion[start..]);
+    // Its sums rounded with the products in them.
+    let fused = quote!(rule = gauss, lanes = gauss, multiply_add = fused);
+    let expansion = formatted(rayleigh_system(Runtime::STD, fused, item.clone()));
+    let start =
+        expansion.find("impl ::dalembert::generated::ForcedLagrangianInLanes").expect("it is written");
+    assert_snapshot("cart_fused_in_lanes.rs", &expansion[start..]);
     // By the midpoint rule, its equation.
     let expansion = formatted(rayleigh_system(Runtime::STD, quote!(lanes = midpoint), item.clone()));
     let start = expansion.find("impl ::dalembert::generated::DiscreteInLanes").expect("it is written");

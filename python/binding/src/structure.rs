@@ -14,6 +14,7 @@ pub fn to_dict<'py>(py: Python<'py>, structure: &Structure) -> PyResult<Bound<'p
     found.set_item("constant_mass_matrix", structure.constant_mass_matrix)?;
     found.set_item("quadratic_lagrangian", structure.quadratic_lagrangian)?;
     found.set_item("separable_lagrangian", structure.separable_lagrangian)?;
+    found.set_item("fused_multiply_add", structure.fused_multiply_add)?;
     found.set_item("damping", damping(structure.damping))?;
     let cyclic = PyList::empty(py);
     for coordinate in structure.cyclic {

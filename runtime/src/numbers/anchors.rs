@@ -6,23 +6,23 @@
 
 use super::{Blank, Lanes, Members, Scalar};
 
-/// An angle with its sine and cosine.
+/// An angle with its sine and cosine; FUSED: products are rounded with the sums that they stand in.
 #[derive(Clone, Copy, Debug)]
-pub struct Angle<V> {
+pub struct Angle<V, const FUSED: bool = false> {
     /// Infinite before the first.
     angle: V,
     sine: V,
     cosine: V,
 }
 
-/// 1/x of a number x near by; 0 before the first.
+/// 1/x of a number x near by; 0 before the first. FUSED as of [`Angle`].
 #[derive(Clone, Copy, Debug)]
-pub struct Reciprocal<V>(V);
+pub struct Reciprocal<V, const FUSED: bool = false>(V);
 
 /// For numbers side by side of the one kind or the other.
 macro_rules! anchors {
     ($($numbers:ident)*) => {$(
-        impl<T: Scalar, const K: usize> Angle<$numbers<T, K>> {
+        impl<T: Scalar, const K: usize, const FUSED: bool> Angle<$numbers<T, K>, FUSED> {
             /// Sine and cosine of the angle that it is now.
             ///
             /// From (x₀, sin x₀, cos x₀) with |δ| = |x − x₀| ≤ 3/16,
@@ -40,23 +40,24 @@ macro_rules! anchors {
             #[must_use]
             pub fn sin_cos(&mut self, x: $numbers<T, K>) -> ($numbers<T, K>, $numbers<T, K>) {
                 let Self { angle, sine, cosine } = self;
-                let (sines, cosines) = T::turned(x.0, &mut angle.0, &mut sine.0, &mut cosine.0);
+                let (sines, cosines) =
+                    T::turned::<K, FUSED>(x.0, &mut angle.0, &mut sine.0, &mut cosine.0);
                 ($numbers(sines), $numbers(cosines))
             }
         }
 
-        impl<T: Scalar, const K: usize> Reciprocal<$numbers<T, K>> {
+        impl<T: Scalar, const K: usize, const FUSED: bool> Reciprocal<$numbers<T, K>, FUSED> {
             /// The reciprocal r of x by one step from the last, r₀: r = r₀ + r₀ (1 − x r₀), off by the square
             /// of 1 − x r₀; where that is above 1/16, 1/x. For corrections that sweeps follow.
             #[inline(always)]
             #[must_use]
             pub fn of(&mut self, x: $numbers<T, K>) -> $numbers<T, K> {
-                self.0.0 = T::corrected_reciprocals(x.0, self.0.0);
+                self.0.0 = T::corrected_reciprocals::<K, FUSED>(x.0, self.0.0);
                 self.0
             }
         }
 
-        impl<T: Scalar, const K: usize> Blank for Angle<$numbers<T, K>> {
+        impl<T: Scalar, const K: usize, const FUSED: bool> Blank for Angle<$numbers<T, K>, FUSED> {
             #[inline(always)]
             fn blank() -> Self {
                 let zero = $numbers::splat(T::zero());
@@ -64,7 +65,7 @@ macro_rules! anchors {
             }
         }
 
-        impl<T: Scalar, const K: usize> Blank for Reciprocal<$numbers<T, K>> {
+        impl<T: Scalar, const K: usize, const FUSED: bool> Blank for Reciprocal<$numbers<T, K>, FUSED> {
             #[inline(always)]
             fn blank() -> Self {
                 Reciprocal($numbers::splat(T::zero()))

@@ -56,10 +56,10 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
         self
     }
 
-    /// self × factor + term, rounded once where the target has an instruction for it.
+    /// self × factor + term, rounded once where that is asked for and where the target has an instruction for it.
     #[inline(always)]
-    pub(crate) fn times_plus(self, factor: T, term: Self) -> Self {
-        Self(T::products_plus(self.0, [factor; S], term.0))
+    pub(crate) fn times_plus(self, is_fused: bool, factor: T, term: Self) -> Self {
+        Self(T::products_plus(is_fused, self.0, [factor; S], term.0))
     }
 
     /// Constants of each lane.

@@ -14,8 +14,7 @@ mod operators;
 
 use nalgebra::SVector;
 
-use crate::numbers::arrays::product_plus;
-use crate::numbers::{Mask, Scalar};
+use crate::numbers::{Mask, Scalar, product_plus};
 
 /// The block for every coordinate, unrolled for the first 16: those that there are, as the conditions are constants.
 ///
@@ -131,13 +130,14 @@ impl<T: Scalar, const W: usize> Members<T, W> {
         all
     }
 
-    /// self × factor + term, rounded once where the target of the build has an instruction for it, as that of
-    /// [`Lanes`](crate::generated::Lanes): not where a function is compiled for more than the build is.
+    /// self × factor + term, rounded once where that is asked for or the target of the build has an instruction
+    /// for it, as that of [`Lanes`](crate::generated::Lanes): not where a function is compiled for more than the
+    /// build is.
     #[inline(always)]
-    pub(crate) fn times_plus(self, factor: T, term: Self) -> Self {
+    pub(crate) fn times_plus(self, is_fused: bool, factor: T, term: Self) -> Self {
         let mut result = term;
         for i in 0..W {
-            result.0[i] = product_plus(self.0[i], factor, term.0[i]);
+            result.0[i] = product_plus(is_fused, self.0[i], factor, term.0[i]);
         }
         result
     }

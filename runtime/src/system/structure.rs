@@ -35,6 +35,9 @@ pub struct Structure {
     pub quadratic_lagrangian: bool,
     /// L(q, v) = T(v) − V(q).
     pub separable_lagrangian: bool,
+    /// Products are rounded with the sums that they stand in, `multiply_add = fused`: in the derivatives and in the
+    /// sums over stages of Gauss rules.
+    pub fused_multiply_add: bool,
     /// What kind of force −∂R/∂v is.
     pub damping: Damping,
     /// Coordinates on which L does not depend.
@@ -118,6 +121,7 @@ impl Structure {
         constant_mass_matrix: false,
         quadratic_lagrangian: false,
         separable_lagrangian: false,
+        fused_multiply_add: false,
         damping: Damping::Unknown,
         cyclic: &[],
         newton_matrices: &[],
@@ -151,6 +155,12 @@ impl Structure {
     #[must_use]
     pub const fn with_separable_lagrangian(self) -> Self {
         Self { separable_lagrangian: true, ..self }
+    }
+
+    /// This structure, of a system whose products are rounded with the sums that they stand in.
+    #[must_use]
+    pub const fn with_fused_multiply_add(self) -> Self {
+        Self { fused_multiply_add: true, ..self }
     }
 
     /// This structure, with a force of R of this kind.

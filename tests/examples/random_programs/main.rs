@@ -8,9 +8,9 @@
 //! cargo study random_programs -- page                       # docs/random-programs.md
 //! ```
 //!
-//! `compiled` may be followed by an engine: `expanded` unless said, `auto`, `num_dual`, `portable` for the
-//! elementary functions of the runtime, or `lanes`, `midpoint_lanes` and `gauss_lanes`:
-//! several members at once. `show <seed>` prints a program, `shrink <seed>` the smallest part of
+//! `compiled` may be followed by an engine: `expanded` unless said, `auto`, `num_dual`, `fused` for sums rounded
+//! with their products, `portable` for the elementary functions of the runtime, or `lanes`, `midpoint_lanes` and
+//! `gauss_lanes`: several members at once, from the seed 1000000 on every other program with fused sums. `show <seed>` prints a program, `shrink <seed>` the smallest part of
 //! it that fails.
 
 mod batch;

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::batch::Computed;
+use super::generate::VIEWS_FROM;
 use super::point::{POINTS, Point, points};
 use super::print;
 use super::syntax::Program;
@@ -109,9 +110,15 @@ pub fn block(program: &Program, way: Way) -> String {
     text.replacen("impl System {\n", &format!("impl System {{\n{own}"), 1)
 }
 
+/// Whether the program's sums are fused; none below the seeds that take times, which are those of earlier counts.
+fn is_fused(program: &Program) -> bool {
+    program.seed >= VIEWS_FROM && program.seed % 2 == 1
+}
+
 /// The module of a program, whose members stand at its points, each with the input and the time there.
 pub fn module(program: &Program, index: usize, way: Way) -> String {
-    let (options, function) = (way.options(), way.function());
+    let fused = if is_fused(program) { ", multiply_add = fused" } else { "" };
+    let (options, function) = (format!("{}{fused}", way.options()), way.function());
     let (n, m) = (program.n, program.inputs);
     let scalar = if program.single { "f32" } else { "f64" };
     let points: Vec<String> =

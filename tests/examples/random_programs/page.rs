@@ -8,11 +8,12 @@ use super::run::{folder, workspace};
 use super::tally::{Tally, general};
 
 /// The ways that programs are tried, as files of runs begin, and as the page says it.
-const WAYS: [(&str, &str); 8] = [
+const WAYS: [(&str, &str); 9] = [
     ("graph-", "lowered, the graph evaluated"),
     ("compiled-expanded-", "compiled by rustc, `derivatives = expanded`"),
     ("compiled-auto-", "compiled by rustc, `derivatives = auto`"),
     ("compiled-num_dual-", "compiled by rustc, `derivatives = num_dual`"),
+    ("compiled-fused-", "compiled by rustc, `multiply_add = fused`"),
     ("compiled-portable-", "compiled by rustc, elementary functions of the runtime (`libm`)"),
     ("compiled-lanes-", "compiled by rustc, as a force of eight members in lanes, each beside its own run"),
     (

@@ -102,6 +102,7 @@ pub fn compiled(count: u64, seed: u64, engine: &str) -> Result<usize, String> {
     let folder = folder()?;
     let (written, features, runtime) = match engine {
         "portable" => ("expanded", "\"std\", \"libm\"", Runtime::PORTABLE),
+        "fused" => ("expanded, multiply_add = fused", "\"std\"", Runtime::STD),
         engine => (engine, "\"std\"", Runtime::STD),
     };
     let workshop = Workshop::new(&folder.join(format!("batch-{engine}")), &workspace(), features);

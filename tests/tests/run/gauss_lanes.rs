@@ -48,6 +48,30 @@ fn pendulums(random: &mut StdRng) -> DoublePendulum {
     DoublePendulum { m, l, g, c: [damping(random), 0.1 * damping(random)], tilt }
 }
 
+/// The same, its sums rounded with the products in them.
+#[derive(Clone, Debug)]
+struct FusedPendulum {
+    m: [f64; 2],
+    l: [f64; 2],
+    c: [f64; 2],
+}
+
+#[rayleigh_system(rule = gauss, lanes = gauss, multiply_add = fused)]
+impl FusedPendulum {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let total = self.m[0] + self.m[1];
+        let [first, second] = self.l;
+        let turning =
+            0.5 * total * first * first * v[0] * v[0] + 0.5 * self.m[1] * second * second * v[1] * v[1];
+        let coupling = self.m[1] * first * second * (q[0] - q[1]).cos() * v[0] * v[1];
+        turning + coupling + 9.81 * (total * first * q[0].cos() + self.m[1] * second * q[1].cos())
+    }
+
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        0.5 * self.c[0] * v[0] * v[0] + 0.5 * self.c[1] * (v[1] - v[0]) * (v[1] - v[0])
+    }
+}
+
 /// Fields, branches and questions; friction that depends on q, a force; a mass that is no polynomial.
 #[derive(Clone, Debug)]
 struct Bead {
@@ -152,6 +176,34 @@ fn pendulums_are_bit_by_bit_their_own_runs() {
     // The control: they do step together, so that it is lanes that agree.
     let alone = [share_alone::<_, 2, 4>(&all, 0.1), share_alone::<_, 2, 8>(&all, 0.3)];
     assert!(alone.iter().all(|&share| share < 0.2), "{alone:?}");
+}
+
+/// The members of these pendulums without a tilt, on Earth.
+fn fused((of, start): &(DoublePendulum, State<f64, 2>)) -> (FusedPendulum, State<f64, 2>) {
+    (FusedPendulum { m: of.m, l: of.l, c: of.c }, *start)
+}
+
+#[test]
+fn sums_fused_in_lanes_are_fused_alone_too() {
+    let all = members(16, 10, pendulums);
+    let fused: Vec<_> = all.iter().map(fused).collect();
+    let ends = [
+        agree::<_, _, 2, 3>(Gauss::<2>, &fused, 0.05),
+        agree::<_, _, 2, 16>(Gauss::<4>, &fused, 0.1),
+        agree::<_, _, 2, 8>(Gauss::<7>, &fused, 0.2),
+        agree::<_, _, 2, 8>(Gauss::<8>, &fused, 0.3),
+    ];
+    assert!(ends.iter().all(|&ends| ends > 14), "{ends:?}");
+    // The control: sums rounded apart lead elsewhere, by a rounding.
+    let (mut differ, mut largest) = (0, 0.0_f64);
+    for ((plain, start), (fused, _)) in all.iter().zip(&fused) {
+        let plain = DoublePendulum { g: 9.81, tilt: 0.0, ..plain.clone() };
+        let end = plain.by(Gauss::<4>, 0.05).run(*start).nth(9).unwrap().unwrap().state;
+        let fused_end = fused.by(Gauss::<4>, 0.05).run(*start).nth(9).unwrap().unwrap().state;
+        differ += usize::from(end != fused_end);
+        largest = largest.max((end.q - fused_end.q).amax());
+    }
+    assert!(differ > 12 && largest < 1e-13, "{differ} differ by {largest:e}");
 }
 
 #[test]
@@ -341,6 +393,8 @@ fn solved_for_an_error() {
     assert!(agrees::<_, 2, 4>(&pendulums, 0.1, 1e-4) < 0.2);
     assert!(agrees::<_, 2, 6>(&pendulums, 0.2, 1e-8) < 0.2);
     agrees::<_, 2, 8>(&pendulums, 0.3, 1e-13);
+    let fused: Vec<_> = pendulums.iter().map(fused).collect();
+    assert!(agrees::<_, 2, 6>(&fused, 0.2, 1e-8) < 0.2);
     let spring = |random: &mut StdRng| {
         let is_stiff = random.random_range(0..3) == 0;
         Spring { k: if is_stiff { 1e6 } else { 1.0 }, r: damping(random) }

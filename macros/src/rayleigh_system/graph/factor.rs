@@ -70,12 +70,7 @@ impl Graph {
             self.operation(node).arguments().for_each(|argument| *uses.entry(argument).or_default() += 1);
         }
         outputs.iter().for_each(|&output| *uses.entry(output).or_default() += 1);
-        let conditions = nodes
-            .iter()
-            .copied()
-            .filter(|&node| matches!(self.operation(node), Operation::Compare(..) | Operation::Is(..)));
-        let mut kept: HashSet<Node> = self.reachable(conditions).into_iter().collect();
-        kept.extend(nodes.iter().filter(|node| node.index() < written));
+        let kept = self.kept(&nodes, written);
         let mut open: HashMap<Node, u32> = HashMap::new();
         for &node in nodes.iter().rev() {
             let depth = open.get(&node).copied();
@@ -98,6 +93,16 @@ impl Graph {
             }
         }
         outputs.iter().map(|output| factoring.rewritten[output]).collect()
+    }
+
+    /// Of `nodes` and what they need, what stays as it is: the first `written` and what conditions are made of.
+    pub(super) fn kept(&self, nodes: &[Node], written: usize) -> HashSet<Node> {
+        let is_condition =
+            |node: &Node| matches!(self.operation(*node), Operation::Compare(..) | Operation::Is(..));
+        let conditions = nodes.iter().copied().filter(is_condition);
+        let mut kept: HashSet<Node> = self.reachable(conditions).into_iter().collect();
+        kept.extend(nodes.iter().filter(|node| node.index() < written));
+        kept
     }
 
     fn is_sum_or_product(&self, node: Node) -> bool {

@@ -31,6 +31,10 @@ fn sentences(findings: &Findings) -> Vec<String> {
     if findings.constant_mass_matrix {
         sentences.push("The mass matrix ∂²L/∂v² is constant.".to_owned());
     }
+    if findings.fused {
+        sentences
+            .push("Products are rounded with the sums that they stand in, as the attribute asks.".to_owned());
+    }
     match findings.damping {
         Damping::Unknown | Damping::Absent => {}
         Damping::Linear => {

@@ -55,10 +55,16 @@ impl Code<'_> {
         if self.graph.is_full() {
             return zeros(&mut self.graph);
         }
-        let shortened = self.graph.factored(outputs, self.written);
+        let shortened = self.rounded(outputs);
         let operations = self.graph.operations(shortened.iter().copied());
         self.longest = self.longest.max(operations);
         if operations > MOST_OPERATIONS { zeros(&mut self.graph) } else { shortened }
+    }
+
+    /// What `outputs` compute, in fewer operations, rounded as the attribute says.
+    pub(super) fn rounded(&mut self, outputs: &[Node]) -> Vec<Node> {
+        let factored = self.graph.factored(outputs, self.written);
+        if self.system.is_fused { self.graph.fused(&factored, self.written) } else { factored }
     }
 
     /// Splits outputs into scalars, vectors and matrices.

@@ -33,7 +33,8 @@ pub(super) struct Anchors {
 
 impl Anchors {
     /// Of values of the type `lanes`.
-    pub(super) fn new(line: &StraightLine, lanes: &TokenStream) -> Self {
+    pub(super) fn new(line: &StraightLine, lanes: &TokenStream, is_fused: bool) -> Self {
+        let fused = is_fused.then(|| quote!(, true));
         let groups: Vec<_> = [("Angle", "angles"), ("Reciprocal", "reciprocals")]
             .into_iter()
             .zip(line.anchors)
@@ -41,7 +42,7 @@ impl Anchors {
             .map(|((ty, name), count)| {
                 let (ty, name, count) =
                     (format_ident!("{ty}"), format_ident!("{name}"), Literal::usize_unsuffixed(count));
-                (quote!([::dalembert::generated::#ty<#lanes>; #count]), name)
+                (quote!([::dalembert::generated::#ty<#lanes #fused>; #count]), name)
             })
             .collect();
         let ty = tuple(groups.iter().map(|(ty, _)| ty.clone()));
@@ -92,12 +93,7 @@ impl Code<'_> {
             .collect();
         let momenta = self.covector(&of_lagrangian.gradient, true);
         // What the closure returns is known after the rates.
-        let late: Vec<Node> = (0..self.n)
-            .map(|index| {
-                let index = Literal::usize_unsuffixed(index);
-                self.graph.written(quote!(p[#index]))
-            })
-            .collect();
+        let late: Vec<Node> = (0..self.n).map(|index| self.graph.entry("p", index)).collect();
         let residuals: Vec<Node> = late
             .iter()
             .zip(momenta)
@@ -115,7 +111,7 @@ impl Code<'_> {
             return Err(NOT_FACTORED);
         }
         let outputs = self.graph.with_fewer_angles(&outputs);
-        let outputs = self.graph.factored(&outputs, self.written);
+        let outputs = self.rounded(&outputs);
         // Lanes take both ways of a selection.
         if self.graph.is_conditional(outputs.iter().copied()) {
             return Err(CONDITIONAL);
@@ -152,7 +148,8 @@ impl Code<'_> {
         } else {
             (format_ident!("stages"), " G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages.", None)
         };
-        let Anchors { ty, parameter: anchors, apart } = Anchors::new(&line, &quote!(Lanes<#scalar, #stages>));
+        let lanes = quote!(Lanes<#scalar, #stages>);
+        let Anchors { ty, parameter: anchors, apart } = Anchors::new(&line, &lanes, self.system.is_fused);
         let function = quote! {
             type Anchors<const #stages: usize> = #ty;
 

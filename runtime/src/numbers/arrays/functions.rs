@@ -15,7 +15,7 @@ pub trait Functions: Sized {
 
     /// Sine and cosine of every lane from an angle near by, its sine and its cosine, the `anchor`; lanes that
     /// are not near become anchors themselves.
-    fn turned<const S: usize>(
+    fn turned<const S: usize, const FUSED: bool>(
         x: [Self; S],
         angle: &mut [Self; S],
         sine: &mut [Self; S],
@@ -23,7 +23,7 @@ pub trait Functions: Sized {
     ) -> ([Self; S], [Self; S]);
 
     /// 1/x of every lane by a step of Newton's method from reciprocals near by, by a division elsewhere.
-    fn corrected_reciprocals<const S: usize>(x: [Self; S], near: [Self; S]) -> [Self; S];
+    fn corrected_reciprocals<const S: usize, const FUSED: bool>(x: [Self; S], near: [Self; S]) -> [Self; S];
 }
 
 /// Up to here multiples of π/2 times the 33 bits of its first part are exact.
@@ -77,36 +77,40 @@ fn sine_and_cosine(x: f64) -> (f64, f64) {
 /// Up to this angle the addition theorem is used.
 const LARGEST_TURN: f64 = 0.1875;
 
-/// a b + c, rounded once where the target of the build has an instruction for it.
+/// a b + c, rounded once where that is asked for and where the target of the build has an instruction for it.
 #[inline(always)]
-pub(crate) fn product_plus<T: nalgebra::RealField>(a: T, b: T, c: T) -> T {
-    if cfg!(target_feature = "fma") { a.mul_add(b, c) } else { a * b + c }
+pub(crate) fn product_plus<T: nalgebra::RealField>(is_fused: bool, a: T, b: T, c: T) -> T {
+    if is_fused || cfg!(target_feature = "fma") { a.mul_add(b, c) } else { a * b + c }
 }
 
 /// sin δ and 1 − cos δ for |δ| ≤ [`LARGEST_TURN`]: interpolated at Chebyshev's nodes of δ², 0.05 ε off.
 #[inline(always)]
-fn sine_and_versine(delta: f64) -> (f64, f64) {
+fn sine_and_versine<const FUSED: bool>(delta: f64) -> (f64, f64) {
     let z = delta * delta;
-    let p = product_plus(-z, 2.7539709917498416e-06, 0.00019841265972408056);
-    let p = product_plus(-z, p, 0.008333333333061315);
-    let p = product_plus(-z, p, 0.16666666666666638);
-    let sine = product_plus(-delta, z * p, delta);
-    let p = product_plus(-z, 2.754264415234022e-07, 2.4801584077348975e-05);
-    let p = product_plus(-z, p, 0.0013888888888662191);
-    let p = product_plus(-z, p, 0.041666666666666644);
-    (sine, z * product_plus(-z, p, 0.5))
+    let p = product_plus(FUSED, -z, 2.7539709917498416e-06, 0.00019841265972408056);
+    let p = product_plus(FUSED, -z, p, 0.008333333333061315);
+    let p = product_plus(FUSED, -z, p, 0.16666666666666638);
+    let sine = product_plus(FUSED, -delta, z * p, delta);
+    let p = product_plus(FUSED, -z, 2.754264415234022e-07, 2.4801584077348975e-05);
+    let p = product_plus(FUSED, -z, p, 0.0013888888888662191);
+    let p = product_plus(FUSED, -z, p, 0.041666666666666644);
+    (sine, z * product_plus(FUSED, -z, p, 0.5))
 }
 
 /// Sine and cosine of angles δ away from those of `sine` and `cosine`, each within [`LARGEST_TURN`].
 #[inline(always)]
 #[allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
-fn by_addition<const S: usize>(delta: &[f64; S], sine: &[f64; S], cosine: &[f64; S]) -> ([f64; S], [f64; S]) {
+fn by_addition<const S: usize, const FUSED: bool>(
+    delta: &[f64; S],
+    sine: &[f64; S],
+    cosine: &[f64; S],
+) -> ([f64; S], [f64; S]) {
     let (mut sines, mut cosines) = (*sine, *cosine);
     for i in 0..S {
-        let (turn, versine) = sine_and_versine(delta[i]);
+        let (turn, versine) = sine_and_versine::<FUSED>(delta[i]);
         let (s, c) = (sine[i], cosine[i]);
-        sines[i] = s + product_plus(c, turn, -(s * versine));
-        cosines[i] = c - product_plus(s, turn, c * versine);
+        sines[i] = s + product_plus(FUSED, c, turn, -(s * versine));
+        cosines[i] = c - product_plus(FUSED, s, turn, c * versine);
     }
     (sines, cosines)
 }
@@ -243,7 +247,7 @@ impl Functions for f64 {
     }
 
     #[inline(always)]
-    fn turned<const S: usize>(
+    fn turned<const S: usize, const FUSED: bool>(
         x: [Self; S],
         angle: &mut [Self; S],
         sine: &mut [Self; S],
@@ -254,14 +258,14 @@ impl Functions for f64 {
             delta[i] = x[i] - angle[i];
         }
         if !some_above(&delta, LARGEST_TURN) {
-            return by_addition(&delta, sine, cosine);
+            return by_addition::<S, FUSED>(&delta, sine, cosine);
         }
         let (mut sines, mut cosines) = Self::sines_and_cosines(x);
         if all_above(&delta, LARGEST_TURN) {
             (*angle, *sine, *cosine) = (x, sines, cosines);
             return (sines, cosines);
         }
-        let (near_sines, near_cosines) = by_addition(&delta, sine, cosine);
+        let (near_sines, near_cosines) = by_addition::<S, FUSED>(&delta, sine, cosine);
         for i in 0..S {
             let is_far = delta[i].abs() > LARGEST_TURN;
             let chosen = |far: f64, near: f64| if is_far { far } else { near };
@@ -275,11 +279,11 @@ impl Functions for f64 {
     }
 
     #[inline(always)]
-    fn corrected_reciprocals<const S: usize>(x: [Self; S], near: [Self; S]) -> [Self; S] {
+    fn corrected_reciprocals<const S: usize, const FUSED: bool>(x: [Self; S], near: [Self; S]) -> [Self; S] {
         let (mut reciprocals, mut defect) = (near, x);
         for i in 0..S {
-            defect[i] = product_plus(-x[i], near[i], 1.0);
-            reciprocals[i] = product_plus(near[i], defect[i], near[i]);
+            defect[i] = product_plus(FUSED, -x[i], near[i], 1.0);
+            reciprocals[i] = product_plus(FUSED, near[i], defect[i], near[i]);
         }
         if some_above(&defect, LARGEST_DEFECT) {
             let mut exact = x;
@@ -309,7 +313,7 @@ impl Functions for f32 {
 
     /// As many digits as an anchor would have to hold a number of this type has not.
     #[inline(always)]
-    fn turned<const S: usize>(
+    fn turned<const S: usize, const FUSED: bool>(
         x: [Self; S],
         _angle: &mut [Self; S],
         _sine: &mut [Self; S],
@@ -319,7 +323,7 @@ impl Functions for f32 {
     }
 
     #[inline(always)]
-    fn corrected_reciprocals<const S: usize>(x: [Self; S], _near: [Self; S]) -> [Self; S] {
+    fn corrected_reciprocals<const S: usize, const FUSED: bool>(x: [Self; S], _near: [Self; S]) -> [Self; S] {
         x.map(|x| 1.0 / x)
     }
 }

@@ -19,8 +19,8 @@ pub trait Vectors: Sized {
     /// a/b.
     fn quotients<const S: usize>(a: [Self; S], b: [Self; S]) -> [Self; S];
 
-    /// a b + c, rounded once where the target has an instruction for it.
-    fn products_plus<const S: usize>(a: [Self; S], b: [Self; S], c: [Self; S]) -> [Self; S];
+    /// a b + c, rounded once where that is asked for and where the target has an instruction for it.
+    fn products_plus<const S: usize>(is_fused: bool, a: [Self; S], b: [Self; S], c: [Self; S]) -> [Self; S];
 
     /// The larger of a and b; where one is NaN, either.
     fn larger<const S: usize>(a: [Self; S], b: [Self; S]) -> [Self; S];
@@ -93,9 +93,17 @@ macro_rules! vectors {
             }
 
             #[inline(always)]
-            fn products_plus<const S: usize>(a: [Self; S], b: [Self; S], c: [Self; S]) -> [Self; S] {
+            fn products_plus<const S: usize>(
+                is_fused: bool,
+                a: [Self; S],
+                b: [Self; S],
+                c: [Self; S],
+            ) -> [Self; S] {
                 if cfg!(target_feature = "fma") {
                     in_chunks!($vectors (a, b, c) => a.mul_add(b, c), nalgebra::ComplexField::mul_add(a, b, c))
+                } else if is_fused {
+                    // `wide` rounds twice where there is no instruction.
+                    core::array::from_fn(|i| nalgebra::ComplexField::mul_add(a[i], b[i], c[i]))
                 } else {
                     in_chunks!($vectors (a, b, c) => a * b + c, a * b + c)
                 }

@@ -149,7 +149,7 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
             let terms = self.v[a] * steps;
             let mut sums = [Lanes::splat(T::zero()); 2];
             for j in 0..S {
-                sums[j % 2] = Lanes::constants(&shares[j]).times_plus(terms.0[j], sums[j % 2]);
+                sums[j % 2] = Lanes::constants(&shares[j]).times_plus(false, terms.0[j], sums[j % 2]);
             }
             q[a] = (sums[0] + sums[1]) + q0[a];
         }
@@ -200,7 +200,7 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
             for (v, of_step) in v.iter_mut().zip(&self.v) {
                 let terms = row.iter().zip(&of_step.0).map(|(&factor, &v)| T::constant(factor) * v);
                 let coefficient = terms.fold(T::zero(), |sum, term| sum + term);
-                *v = p.times_plus(coefficient, *v);
+                *v = p.times_plus(false, coefficient, *v);
             }
             let k = k as f64;
             let [along, back] = [(2.0 * k + 1.0) / (k + 1.0), k / (k + 1.0)].map(T::constant);
@@ -209,13 +209,13 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
         v
     }
 
-    fn extrapolation(&self) -> LaneVector<T, N, S> {
+    fn extrapolation(&self, is_fused: bool) -> LaneVector<T, N, S> {
         let columns = &Gauss::<S>::COEFFICIENTS.extrapolation;
         let mut extrapolated = self.v;
         for a in 0..N {
             let mut sums = [Lanes::splat(T::zero()); 2];
             for j in 0..S {
-                sums[j % 2] = Lanes::constants(&columns[j]).times_plus(self.v[a].0[j], sums[j % 2]);
+                sums[j % 2] = Lanes::constants(&columns[j]).times_plus(is_fused, self.v[a].0[j], sums[j % 2]);
             }
             extrapolated[a] = sums[0] + sums[1];
         }
@@ -226,7 +226,7 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
     /// end of the last.
     #[cold]
     #[inline(never)]
-    fn moved_extrapolation(&self, v: &SVector<T, N>) -> LaneVector<T, N, S> {
+    fn moved_extrapolation(&self, is_fused: bool, v: &SVector<T, N>) -> LaneVector<T, N, S> {
         let coefficients = &Gauss::<S>::COEFFICIENTS;
         // ℓ_j(1) = b_j Σ (2k + 1) P_k(2c_j − 1).
         let at_end: [T; S] = array::from_fn(|j| {
@@ -238,7 +238,7 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
             }
             T::constant(coefficients.weights[j] * sum)
         });
-        let mut moved = self.extrapolation();
+        let mut moved = self.extrapolation(is_fused);
         for a in 0..N {
             let end = (0..S).fold(T::zero(), |end, j| end + at_end[j] * self.v[a].0[j]);
             moved[a] = moved[a] + (v[a] - end);
@@ -264,9 +264,10 @@ where
             (Compensated::new(state.q), Compensated::new(state.p))
         };
         let problem = Problem::<'_, L, N, S>::new(system, q0, p0, h);
+        let is_fused = L::STRUCTURE.fused_multiply_add;
         let guess = match h == self.h && self.solver == Solver::FixedPoint {
-            true if goes_on => Some(self.extrapolation()),
-            true if self.is_corrected => Some(self.moved_extrapolation(&state.velocity(system)?)),
+            true if goes_on => Some(self.extrapolation(is_fused)),
+            true if self.is_corrected => Some(self.moved_extrapolation(is_fused, &state.velocity(system)?)),
             _ => None,
         };
         let swept = if let Some(allowance) = self.slack.and_then(|slack| slack.allowance(h, &p0.value)) {

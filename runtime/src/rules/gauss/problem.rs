@@ -163,12 +163,13 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     ) -> LaneVector<T, N, W> {
         let steps = Lanes::<T, W>(array::from_fn(|i| self.steps[i.min(S - 1)]));
         let columns = &InLanes::<S, W>::SHARES;
+        let is_fused = L::STRUCTURE.fused_multiply_add;
         let mut at = *x;
         for a in 0..N {
             let mut sums = [Lanes::splat(start.rest[a]), Lanes::splat(T::zero())];
             let terms = x[a] * steps;
             for j in 0..S {
-                sums[j % 2] = Lanes::constants(&columns[j]).times_plus(terms.0[j], sums[j % 2]);
+                sums[j % 2] = Lanes::constants(&columns[j]).times_plus(is_fused, terms.0[j], sums[j % 2]);
             }
             at[a] = (sums[0] + sums[1]) + start.value[a];
         }

@@ -209,8 +209,8 @@ impl<T: Scalar, const N: usize, const S: usize, const M: usize> Corrector<T, N> 
             for i in 0..S {
                 let [re, im] = &InLanes::<S, M, W>::LEFT[i];
                 let residual = stages.residual[a].0[i.min(W - 1)];
-                share[a].re = Lanes::constants(re).times_plus(residual, share[a].re);
-                share[a].im = Lanes::constants(im).times_plus(residual, share[a].im);
+                share[a].re = Lanes::constants(re).times_plus(false, residual, share[a].re);
+                share[a].im = Lanes::constants(im).times_plus(false, residual, share[a].im);
             }
         }
         let z = self.solve(share);
@@ -218,8 +218,8 @@ impl<T: Scalar, const N: usize, const S: usize, const M: usize> Corrector<T, N> 
         for a in 0..N {
             for k in 0..M {
                 let [re, im] = &InLanes::<S, M, W>::RIGHT[k];
-                correction[a] = Lanes::constants(re).times_plus(z[a].re.0[k], correction[a]);
-                correction[a] = Lanes::constants(im).times_plus(-z[a].im.0[k], correction[a]);
+                correction[a] = Lanes::constants(re).times_plus(false, z[a].re.0[k], correction[a]);
+                correction[a] = Lanes::constants(im).times_plus(false, -z[a].im.0[k], correction[a]);
             }
         }
         correction

@@ -83,13 +83,13 @@ pub(super) struct Solved<T, const N: usize, const S: usize, const W: usize> {
 impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesInLanes<T, F, N, S, W> {
     /// The velocities of the last step, one step on; of who has not stepped yet, those to start from.
     #[inline(always)]
-    fn extrapolate(&self, extrapolated: &mut [MemberVector<T, N, W>; S]) {
+    fn extrapolate(&self, is_fused: bool, extrapolated: &mut [MemberVector<T, N, W>; S]) {
         let columns = &Self::COEFFICIENTS.extrapolation;
         stage_by_stage!(i => {
             each_coordinate!(a => {
                 let mut sums = [Members::splat(T::zero()); 2];
                 each_stage!(j => {
-                    sums[j % 2] = self.v[j][a].times_plus(T::constant(columns[j][i]), sums[j % 2]);
+                    sums[j % 2] = self.v[j][a].times_plus(is_fused, T::constant(columns[j][i]), sums[j % 2]);
                 });
                 extrapolated[i][a] = sums[0] + sums[1];
             });
@@ -106,6 +106,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
     /// start + Σ_j μ_ij (h b_j x_j) at the stage i, the `terms` being h b_j x_j.
     #[inline(always)]
     fn at_stage(
+        is_fused: bool,
         start: &CompensatedMembers<T, N, W>,
         terms: &[MemberVector<T, N, W>; S],
         i: usize,
@@ -115,7 +116,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         each_coordinate!(a => {
             let mut sums = [start.rest[a], Members::splat(T::zero())];
             each_stage!(j => {
-                sums[j % 2] = terms[j][a].times_plus(T::constant(columns[j][i]), sums[j % 2]);
+                sums[j % 2] = terms[j][a].times_plus(is_fused, T::constant(columns[j][i]), sums[j % 2]);
             });
             at[a] = (sums[0] + sums[1]) + start.value[a];
         });
@@ -134,6 +135,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
     ) where
         L: ForcedLagrangianInLanes<N, Scalar = T, Fields<W> = F>,
     {
+        let is_fused = L::STRUCTURE.fused_multiply_add;
         let mut fields = self.fields;
         if L::IS_TIMED {
             fields = L::later_in_lanes(&fields, &self.clocks.elapsed(self.h));
@@ -141,7 +143,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         let Sweeps { v, next, rate, terms: [of_v, of_rate], kept, anchors } = sweeps;
         let (mut v, mut next) = (v, next);
         *anchors = Blank::blank();
-        self.extrapolate(v);
+        self.extrapolate(is_fused, v);
         stage_by_stage!(j => {
             each_coordinate!(a => {
                 of_v[j][a] = v[j][a] * steps[j];
@@ -156,7 +158,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         let mut floors = Floors::new();
         for iterations in 1..=MAX_ITERATIONS {
             stage_by_stage!(i => {
-                let q = Self::at_stage(&self.q, of_v, i);
+                let q = Self::at_stage(is_fused, &self.q, of_v, i);
                 // One call for both, which is inlined.
                 let in_time;
                 let mut at_stage = &fields;
@@ -174,7 +176,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
             // become vectors of numbers that do not belong together.
             let mut seen = [Seen::nothing(); 2];
             stage_by_stage!(i => {
-                let p = Self::at_stage(&self.p, of_rate, i);
+                let p = Self::at_stage(is_fused, &self.p, of_rate, i);
                 let [residual, correction] = L::corrections_in_lanes(&fields, &kept[i], &v[i], &p);
                 let mut now = seen[i % 2];
                 each_coordinate!(a => {
