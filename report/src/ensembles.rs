@@ -13,7 +13,7 @@ use dalembert::run::InLanes;
 use dalembert::{Discretise, Gauss, Lagrangian, Splitting, State, StepError};
 use dalembert_ensemble::{Cancelled, Ensemble};
 use dalembert_examples::results;
-use dalembert_scenes::{DoublePendulum, FputChain8, HenonHeiles, Kepler, Ring};
+use dalembert_scenes::{DoublePendulum, FputChain8, HenonHeiles, Kepler, Ring, fused};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::measure::{Candidate, interleaved, timed};
@@ -27,6 +27,10 @@ const LEVELS: [f64; 4] = [1e-6, 1e-8, 1e-10, 1e-12];
 const MEMBERS: u64 = 256;
 /// Members that are written.
 const MILLION: u64 = 1_000_000;
+/// Rows of candidates from so many steps to twice as many.
+const ROWS: u32 = 8;
+/// Tolerances of heyoka's batch in a decade.
+const IN_A_DECADE: i32 = 3;
 /// How often two are measured in turns.
 const TURNS: usize = 3;
 const BATCH: &str = crate::page::BATCH;
@@ -69,25 +73,26 @@ pub fn write(docs: &Path) -> Result<()> {
             })?;
         )*};
     }
+    // Where rounding would stop them, in compensated sums.
+    let (six, eight) = (Splitting::blanes_moan_6(), Splitting::blanes_casas_escorihuela_8());
     scenes! {
         "ring": Ring::MEASURED, 2, [
-            "Blanes–Moan 4": Splitting::blanes_moan_4(), "Blanes–Moan 6": Splitting::blanes_moan_6(),
-            "Blanes–Casas–Escorihuela 8": Splitting::blanes_casas_escorihuela_8(), "Gauss, 8 stages": Gauss::<8>
+            "Blanes–Moan 4": Splitting::blanes_moan_4(), "Blanes–Moan 6": six, "Blanes–Casas–Escorihuela 8": eight,
+            "Blanes–Casas–Escorihuela 8, compensated": eight.compensated(), "Gauss, 8 stages": Gauss::<8>
         ];
         "double pendulum": DoublePendulum::MEASURED, 2, [
-            "Gauss, 4 stages": Gauss::<4>, "Gauss, 6 stages": Gauss::<6>, "Gauss, 8 stages": Gauss::<8>
+            "Gauss, 4 stages": Gauss::<4>, "Gauss, 6 stages": Gauss::<6>, "Gauss, 8 stages": Gauss::<8>,
+            "Gauss, 6 stages, fused": Fused(Gauss::<6>), "Gauss, 8 stages, fused": Fused(Gauss::<8>)
         ];
         "Hénon–Heiles": HenonHeiles {}, 2, [
-            "Blanes–Moan 6": Splitting::blanes_moan_6(),
-            "Blanes–Casas–Escorihuela 8": Splitting::blanes_casas_escorihuela_8()
+            "Blanes–Moan 6": six, "Blanes–Casas–Escorihuela 8": eight
         ];
         "Kepler": Kepler { k: 1e-4 }, 2, [
-            "Blanes–Moan 6": Splitting::blanes_moan_6(),
-            "Blanes–Casas–Escorihuela 8": Splitting::blanes_casas_escorihuela_8(), "Gauss, 8 stages": Gauss::<8>
+            "Blanes–Moan 6": six, "Blanes–Casas–Escorihuela 8": eight,
+            "Blanes–Casas–Escorihuela 8, compensated": eight.compensated(), "Gauss, 8 stages": Gauss::<8>
         ];
         "FPUT chain": FputChain8::MEASURED, 8, [
-            "Blanes–Moan 4": Splitting::blanes_moan_4(), "Blanes–Moan 6": Splitting::blanes_moan_6(),
-            "Blanes–Casas–Escorihuela 8": Splitting::blanes_casas_escorihuela_8()
+            "Blanes–Moan 4": Splitting::blanes_moan_4(), "Blanes–Moan 6": six, "Blanes–Casas–Escorihuela 8": eight
         ];
     }
     if !IS_NATIVE {
@@ -127,10 +132,13 @@ where
         errors.fold(0.0, |worst: f64, error| if error > worst || error.is_nan() { error } else { worst })
     };
 
-    let counts = (0..40).map(|k| (reference.time * 2_f64.powf(0.25 * f64::from(k))).ceil());
+    let counts = (0..80).map(|k| (reference.time * 2_f64.powf(f64::from(k) / f64::from(ROWS))).ceil());
     let runs = |steps| Runs { scene, starts: &starts, time: reference.time, steps, pool };
     let mut candidates = worth(counts.map(|steps| methods(&runs(steps))), worst);
-    for tolerance in (5..16).map(|k| 10_f64.powi(-k)).chain([f64::EPSILON]) {
+    let tolerances = (5 * IN_A_DECADE..=15 * IN_A_DECADE)
+        .map(|k| 10_f64.powf(-f64::from(k) / f64::from(IN_A_DECADE)))
+        .chain([f64::EPSILON]);
+    for tolerance in tolerances {
         let run = move |repeats| {
             let (seconds, y) = python.run::<M>(BATCH, name, tolerance, repeats, 1)?;
             let state = |y: [f64; M]| {
@@ -232,7 +240,8 @@ trait InLanesOf<'a, S, const N: usize> {
     fn candidates(self, name: &'static str, runs: &Runs<'a, S, N>) -> Vec<Goal<'a, N>>;
 }
 
-impl<'a, S, const N: usize, const K: usize> InLanesOf<'a, S, N> for Splitting<K>
+impl<'a, S, const N: usize, const K: usize, const COMPENSATED: bool> InLanesOf<'a, S, N>
+    for Splitting<K, COMPENSATED>
 where
     S: InLanes<Self, N> + Lagrangian<N, Scalar = f64> + Copy + Send + Sync + 'a,
 {
@@ -260,6 +269,17 @@ where
     }
 }
 
+/// The method with the double pendulum whose sums are rounded with the products in them.
+struct Fused<M>(M);
+
+impl<'a, const K: usize> InLanesOf<'a, DoublePendulum, 2> for Fused<Gauss<K>> {
+    fn candidates(self, name: &'static str, runs: &Runs<'a, DoublePendulum, 2>) -> Vec<Goal<'a, 2>> {
+        let Runs { scene: DoublePendulum { m, l, g, c }, starts, time, steps, pool } = *runs;
+        let scene = fused::DoublePendulum { m, l, g, c };
+        self.0.candidates(name, &Runs { scene, starts, time, steps, pool })
+    }
+}
+
 /// Of rows of candidates, each row of more steps than the one before, those that may be the cheapest to an error.
 ///
 /// A place in the rows is tried until its goal has been reached twice, until more steps no longer lower its error, or
@@ -281,8 +301,8 @@ fn worth<'a, const N: usize>(
             let errors = errors.entry(place).or_default();
             errors.push(error);
             let reached = errors.iter().filter(|&&error| error <= goal).count();
-            // Twice the steps are four rows.
-            let before = errors.len().checked_sub(5).map(|row| errors[row]);
+            // Twice the steps.
+            let before = errors.len().checked_sub(ROWS as usize + 1).map(|row| errors[row]);
             let is_stuck = before.is_some_and(|before| before < 1e-6 && error > 0.5 * before);
             let able = tried.iter().filter(|(_, _, error)| *error <= goal);
             let least = able.fold(f64::INFINITY, |least, (_, seconds, _)| seconds.min(least));

@@ -5,6 +5,7 @@
 
 mod anchors;
 mod arrays;
+mod compensated;
 pub(crate) mod derivatives;
 #[cfg(feature = "std")]
 pub mod dual;
@@ -16,6 +17,7 @@ mod scalar;
 
 pub use anchors::{Angle, Reciprocal};
 pub(crate) use arrays::{Functions, Vectors, product_plus};
+pub(crate) use compensated::{Compensated, CompensatedMembers};
 pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, Variations};
 pub use elementary::Elementary;
 pub use lanes::{LaneVector, Lanes, Mask};

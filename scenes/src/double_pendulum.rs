@@ -6,7 +6,10 @@
 //! ```
 
 macro_rules! double_pendulum {
-    ($name:ident: $float:ident, $engine:ident, [$($rule:ident),*] $(, lanes = [$($lanes:ident),*])?) => {
+    (
+        $name:ident: $float:ident, $engine:ident, [$($rule:ident),*] $(, lanes = [$($lanes:ident),*])?
+        $(, multiply_add = $multiply_add:ident)?
+    ) => {
         /// Two point masses on massless rods, one hung from the other, with friction in both joints.
         #[derive(Clone, Copy, Debug)]
         pub struct $name {
@@ -25,7 +28,9 @@ macro_rules! double_pendulum {
             pub const MEASURED: Self = Self { m: [1.0, 0.7], l: [1.0, 0.8], g: 9.81, c: [0.05, 0.03] };
         }
 
-        #[dalembert::rayleigh_system(rule = [$($rule),*], derivatives = $engine $(, lanes = [$($lanes),*])?)]
+        #[dalembert::rayleigh_system(
+            rule = [$($rule),*], derivatives = $engine $(, lanes = [$($lanes),*])? $(, multiply_add = $multiply_add)?
+        )]
         impl $name {
             fn lagrangian(&self, q: [$float; 2], v: [$float; 2]) -> $float {
                 let [m1, m2] = self.m;

@@ -45,6 +45,12 @@ pub mod single {
     double_pendulum!(DoublePendulum: f32, expanded, [midpoint]);
 }
 
+/// With sums rounded with the products in them.
+#[cfg(feature = "fused")]
+pub mod fused {
+    double_pendulum!(DoublePendulum: f64, expanded, [gauss], lanes = [gauss], multiply_add = fused);
+}
+
 /// By dual numbers when the program runs; above, derivatives are written out when it is compiled.
 #[cfg(feature = "num-dual")]
 pub mod num_dual {

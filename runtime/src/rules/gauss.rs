@@ -25,7 +25,7 @@ mod tangent;
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::numbers::{Derivatives, Scalar, lanes::splat};
+use crate::numbers::{Compensated, Derivatives, Scalar, lanes::splat};
 use crate::step::{
     Defect, Discrete, DiscreteForce, DiscreteForceDerivatives, EquationAt, Flow, LegendreDerivatives,
     Linearization, Momenta, Quantity, Report, State, StateBy, Step, StepError, StepKernel,
@@ -36,7 +36,7 @@ use coefficients::Coefficients;
 pub use history::StageHistory;
 pub use in_lanes::StagesInLanes;
 pub(crate) use problem::Solver;
-use problem::{Compensated, Problem, Solution};
+use problem::{Problem, Solution};
 use segment::Segment;
 pub(crate) use slack::{SLACK, steps_until};
 

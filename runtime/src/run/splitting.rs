@@ -3,12 +3,14 @@
 mod coefficients;
 mod force_work;
 mod lanes;
+mod underway;
 
 use nalgebra::{SMatrix, SVector};
 
 use coefficients::Part;
+use underway::Underway;
 
-use crate::numbers::Scalar;
+use crate::numbers::{Compensated, Scalar};
 use crate::rules::{Drift, modes, require_positive_definite};
 use crate::run::Explicit;
 use crate::step::{
@@ -64,6 +66,11 @@ use crate::step::{
 /// slowly than the order says, as by all splittings; there [`Fitted`](crate::Fitted) and
 /// [`Gauss`](crate::Gauss) rules serve.
 ///
+/// **Rounding.** A step rounds q and p once for each drift and kick, and those roundings add up over a run: for
+/// errors of some 1e-11 and below more steps do not help. With [`compensated`](Self::compensated) a step sums what
+/// it adds apart from where it starts, and what the sum of both loses is added in the next step, as in
+/// [`Gauss`](crate::Gauss) rules (E. Hairer, C. Lubich and G. Wanner, Geometric Numerical Integration, 2006, VIII.5).
+///
 /// **Errors.** [`StepError::MassNotPositiveDefinite`]; [`StepError::NonFinite`], of derivatives where damping
 /// overflows over a drift backwards, of the state where it overflows; [`StepError::StepSize`].
 ///
@@ -84,15 +91,44 @@ use crate::step::{
 /// # Ok::<(), dalembert::StepError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Splitting<const S: usize> {
+pub struct Splitting<const S: usize, const COMPENSATED: bool = false> {
     made: (),
 }
 
-impl<L, const N: usize, const S: usize> Flow<Splitting<S>, N> for L
+impl<const S: usize> Splitting<S> {
+    /// The same with compensated sums: for errors near rounding, and for energies and momenta that roundings do
+    /// not move in long runs. In lanes a step of order 8 takes 1.15 to 1.2 times as long, of order 4 and 6 up to 1.8
+    /// times.
+    ///
+    /// Kepler's problem with e = 0.6 over 16 revolutions, by 5 000 steps of order 8: off by 4e-13, else by 2e-11.
+    ///
+    /// ```
+    /// use dalembert::{Discretise, Splitting, State, rayleigh_system};
+    ///
+    /// #[rayleigh_system(rule = trapezoidal)]
+    /// fn pendulum(q: [f64; 1], v: [f64; 1]) -> f64 {
+    ///     0.5 * v[0] * v[0] + q[0].cos()
+    /// }
+    /// let start = State { q: [1.0].into(), p: [0.0].into() };
+    /// let energy = start.energy(&Pendulum {})?;
+    /// let splitting = Splitting::blanes_casas_escorihuela_8();
+    /// let end = Pendulum {}.by(splitting.compensated(), 0.03).run(start).take(10_000).last().unwrap()?;
+    /// assert!((end.state.energy(&Pendulum {})? - energy).abs() < 1e-15);
+    /// let end = Pendulum {}.by(splitting, 0.03).run(start).take(10_000).last().unwrap()?;
+    /// assert!((end.state.energy(&Pendulum {})? - energy).abs() > 3e-15);
+    /// # Ok::<(), dalembert::StepError>(())
+    /// ```
+    #[must_use]
+    pub const fn compensated(self) -> Splitting<S, true> {
+        Splitting { made: self.made }
+    }
+}
+
+impl<L, const N: usize, const S: usize, const COMPENSATED: bool> Flow<Splitting<S, COMPENSATED>, N> for L
 where
     L: Explicit<N>,
 {
-    type RunMemory = Kicks<L::Scalar, N, S>;
+    type RunMemory = Kicks<L::Scalar, N, S, COMPENSATED>;
 
     /// No equation is solved: no guess serves.
     #[inline]
@@ -102,7 +138,7 @@ where
         h: L::Scalar,
         _guess: Option<&SVector<L::Scalar, N>>,
     ) -> Result<Step<L::Scalar, N>, StepError> {
-        Memory::<L, Splitting<S>, N>::advance(&mut Kicks::default(), self, state, h)
+        Memory::<L, Splitting<S, COMPENSATED>, N>::advance(&mut Kicks::default(), self, state, h)
     }
 
     /// The product of the kicks' and drifts' derivatives.
@@ -113,8 +149,8 @@ where
         _guess: Option<&SVector<L::Scalar, N>>,
     ) -> Result<StepWith<L::Scalar, N, Linearization<L::Scalar, N>>, StepError> {
         let prepared = Prepared::<L::Scalar, N, S>::new(self, h)?;
-        let mut kicks = Kicks { prepared: Some(prepared), force: None };
-        let step = Memory::<L, Splitting<S>, N>::advance(&mut kicks, self, state, h)?;
+        let mut kicks = Kicks { prepared: Some(prepared), ..Kicks::default() };
+        let step = Memory::<L, Splitting<S, COMPENSATED>, N>::advance(&mut kicks, self, state, h)?;
         Ok((step, Linearization { a: prepared.derivative(self, state)?, b: StateBy::zero() }))
     }
 }
@@ -125,15 +161,17 @@ where
 /// of a step is that at the start of the next, unless an input is held, which may be another by then, or the force
 /// takes the time. It belongs to one system.
 #[derive(Clone, Copy, Debug)]
-pub struct Kicks<T, const N: usize, const S: usize> {
+pub struct Kicks<T, const N: usize, const S: usize, const COMPENSATED: bool> {
     prepared: Option<Prepared<T, N, S>>,
     /// A configuration, and G − ∂R/∂v(0) there.
     force: Option<(SVector<T, N>, SVector<T, N>)>,
+    /// The end of the last step, and what its sums have lost; only of compensated sums.
+    end: Option<[Compensated<T, N>; 2]>,
 }
 
-impl<T, const N: usize, const S: usize> Default for Kicks<T, N, S> {
+impl<T, const N: usize, const S: usize, const COMPENSATED: bool> Default for Kicks<T, N, S, COMPENSATED> {
     fn default() -> Self {
-        Self { prepared: None, force: None }
+        Self { prepared: None, force: None, end: None }
     }
 }
 
@@ -196,37 +234,39 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
         })
     }
 
-    /// The step with `drift` for the i-th drift of (q, p − ∂L/∂v(0)), from where the force is `force`; the
-    /// force at its end. One that drifts first asks for no force at its ends.
+    /// The step from where `at` is, with `drift` for its drifts, from where the force is `force`; the force at its
+    /// end. One that drifts first asks for no force at its ends.
     #[inline(always)]
-    fn carried<L: Explicit<N, Scalar = T>, D>(
+    fn carry<L: Explicit<N, Scalar = T>, D, const COMPENSATED: bool>(
         &self,
         system: &L,
-        state: &State<T, N>,
+        at: &mut Underway<T, N, COMPENSATED>,
         mut force: SVector<T, N>,
         drifts: &[D; S],
-        drift: impl Fn(&D, &mut SVector<T, N>, &mut SVector<T, N>),
-    ) -> (State<T, N>, SVector<T, N>) {
-        let (mut q, mut p) = (state.q, state.p - self.shift);
+        drift: impl Fn(&D, &mut Underway<T, N, COMPENSATED>),
+    ) -> SVector<T, N> {
         if Splitting::<S>::DRIFTS_FIRST {
             if let Some((outer, inner)) = drifts.split_first() {
-                drift(outer, &mut q, &mut p);
+                drift(outer, at);
                 for ((&kick, of), share) in
                     self.kicks.iter().zip(inner.iter().chain([outer])).zip(Splitting::<S>::NODES)
                 {
-                    p += (force_after(system, share, self.h, &q) - self.thrust) * kick;
-                    drift(of, &mut q, &mut p);
+                    at.kick(
+                        &((force_after(system, share, self.h, &at.configuration()) - self.thrust) * kick),
+                    );
+                    drift(of, at);
                 }
             }
-            return (State { q, p: p + self.shift }, force);
+            return force;
         }
         for ((&kick, of), share) in self.kicks.iter().zip(drifts).zip(Splitting::<S>::NODES) {
-            p += force * kick;
-            drift(of, &mut q, &mut p);
-            force = force_after(system, share, self.h, &q) - self.thrust;
+            at.kick(&(force * kick));
+            drift(of, at);
+            force = force_after(system, share, self.h, &at.configuration()) - self.thrust;
         }
         let closing = self.kicks.first().map_or(T::zero(), |&kick| kick);
-        (State { q, p: p + force * closing + self.shift }, force)
+        at.kick(&(force * closing));
+        force
     }
 
     /// The matrices of the i-th drift.
@@ -312,7 +352,8 @@ fn once_each<T: Scalar, const N: usize, const C: usize, const S: usize>(
     Ok(drifts)
 }
 
-impl<L, const N: usize, const S: usize> Memory<L, Splitting<S>, N> for Kicks<L::Scalar, N, S>
+impl<L, const N: usize, const S: usize, const COMPENSATED: bool> Memory<L, Splitting<S, COMPENSATED>, N>
+    for Kicks<L::Scalar, N, S, COMPENSATED>
 where
     L: Explicit<N>,
 {
@@ -338,32 +379,36 @@ where
                 }
             }
         };
-        let (end, force) = match (&prepared.drifts, prepared.is_damped) {
+        let mut at = Underway::<_, N, COMPENSATED>::new(state, &prepared.shift, self.end.as_ref());
+        let at_end = match (&prepared.drifts, prepared.is_damped) {
             (Drifts::Diagonal(drifts), true) => {
-                prepared.carried(system, state, force, drifts, |drift, q, p| {
-                    *q += drift.displacement.component_mul(p);
-                    *p += drift.loss.component_mul(p);
+                prepared.carry(system, &mut at, force, drifts, |drift, at| {
+                    let p = at.momentum();
+                    at.drift(&drift.displacement.component_mul(&p));
+                    at.kick(&drift.loss.component_mul(&p));
                 })
             }
             (Drifts::Diagonal(drifts), false) => {
-                prepared.carried(system, state, force, drifts, |drift, q, p| {
-                    *q += drift.displacement.component_mul(p);
+                prepared.carry(system, &mut at, force, drifts, |drift, at| {
+                    at.drift(&drift.displacement.component_mul(&at.momentum()));
                 })
             }
-            (Drifts::Full(drifts), true) => prepared.carried(system, state, force, drifts, |drift, q, p| {
-                *q += drift.displacement * *p;
-                *p += drift.loss * *p;
+            (Drifts::Full(drifts), true) => prepared.carry(system, &mut at, force, drifts, |drift, at| {
+                let p = at.momentum();
+                at.drift(&(drift.displacement * p));
+                at.kick(&(drift.loss * p));
             }),
-            (Drifts::Full(drifts), false) => prepared.carried(system, state, force, drifts, |drift, q, p| {
-                *q += drift.displacement * *p;
+            (Drifts::Full(drifts), false) => prepared.carry(system, &mut at, force, drifts, |drift, at| {
+                at.drift(&(drift.displacement * at.momentum()));
             }),
         };
+        let (end, rests) = at.end();
         end.require_finite()?;
         let velocity = (end.q - state.q) / h;
         if cfg!(debug_assertions) {
             system.verify_segment(&state.q, &velocity, h)?;
         }
-        self.force = Some((end.q, force));
+        (self.force, self.end) = (Some((end.q, at_end)), rests);
         Ok(Step { state: end, velocity, report: Report::of_no_equation() })
     }
 

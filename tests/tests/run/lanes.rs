@@ -381,6 +381,8 @@ fn rings_are_bit_by_bit_their_own_runs() {
     all[4].1 = State { q: vector![-0.0, 1.0], p: vector![-0.0, -0.0] };
     assert_eq!(agree_in_all(Splitting::blanes_moan_6(), &all, 0.09), 37);
     assert_eq!(agree_in_all(Splitting::blanes_casas_escorihuela_8(), &all, 0.09), 37);
+    assert_eq!(agree_in_all(Splitting::blanes_casas_escorihuela_8().compensated(), &all, 0.09), 37);
+    assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_moan_6().compensated(), &all, 0.09), 37);
     assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_moan_4(), &all, 0.02), 37);
     assert_eq!(agree::<_, _, 2, 16>(Splitting::blanes_moan_4(), &all, -0.05), 37);
     // Undamped ones alone take a way of their own.
@@ -388,6 +390,7 @@ fn rings_are_bit_by_bit_their_own_runs() {
     assert!(undamped.len() > 5);
     assert_eq!(agree::<_, _, 2, 4>(Splitting::blanes_moan_6(), &undamped, 0.1), undamped.len());
     assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_casas_escorihuela_8(), &undamped, 0.1), undamped.len());
+    assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_moan_4().compensated(), &undamped, 0.1), undamped.len());
 }
 
 #[test]
@@ -411,6 +414,7 @@ fn members_without_fields_and_in_other_functions() {
     assert_eq!(agree_in_all(Splitting::blanes_moan_6(), &all, 0.1), 35);
     assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_moan_4(), &all, 0.03), 35);
     assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_casas_escorihuela_8(), &all, 0.1), 35);
+    assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_moan_6().compensated(), &all, 0.1), 35);
 }
 
 #[test]
@@ -456,6 +460,8 @@ fn full_matrices_beside_diagonal_ones() {
     assert_eq!(agree::<_, _, 6, 3>(Splitting::blanes_moan_4(), &all, 0.1), 11);
     assert_eq!(agree::<_, _, 6, 8>(Splitting::blanes_moan_6(), &all, 0.2), 11);
     assert_eq!(agree::<_, _, 6, 4>(Splitting::blanes_casas_escorihuela_8(), &all, 0.2), 11);
+    assert_eq!(agree::<_, _, 6, 4>(Splitting::blanes_moan_6().compensated(), &all, 0.2), 11);
+    assert_eq!(agree::<_, _, 6, 3>(Splitting::blanes_casas_escorihuela_8().compensated(), &all, 0.2), 11);
 }
 
 #[test]
@@ -707,6 +713,7 @@ fn members_in_lanes_that_others_have_left_are_their_own_runs() {
         refilled::<_, _, 2, 8>(Splitting::blanes_moan_6(), &all, 0.09, 2),
         refilled::<_, _, 2, 32>(Splitting::blanes_moan_4(), &all, 0.03, 3),
         refilled::<_, _, 2, 8>(Splitting::blanes_casas_escorihuela_8(), &all, 0.09, 4),
+        refilled::<_, _, 2, 8>(Splitting::blanes_casas_escorihuela_8().compensated(), &all, 0.09, 5),
         refilled::<_, _, 2, 8>(Trapezoidal, &all, 0.03, 5),
         refilled::<_, _, 2, 3>(Composition::kahan_li_6(Trapezoidal), &all, 0.06, 6),
     ];

@@ -146,11 +146,12 @@ fn explicit_methods_see_the_time_of_each_member() {
         agree_in_all(Splitting::blanes_moan_4(), &all, 0.05),
         agree_in_all(Splitting::blanes_moan_6(), &all, 0.09),
         agree_in_all(Splitting::blanes_casas_escorihuela_8(), &all, -0.08),
+        agree_in_all(Splitting::blanes_moan_6().compensated(), &all, 0.09),
         agree_in_all(Trapezoidal, &all, 0.03),
         agree_in_all(Composition::kahan_li_6(Trapezoidal), &all, 0.06),
         agree::<_, _, 2, 8>(Composition::kahan_li_8(Trapezoidal), &all, 0.1),
     ];
-    assert_eq!(ends, [37; 6]);
+    assert_eq!(ends, [37; 7]);
     let systems = many(19, 3, |random| Pushed { c: random.random_range(-0.4..0.4) });
     let all = views::<_, _, 3>(&systems, 4, |system, t, _| system.at_time(t));
     assert_eq!(agree_in_all(Splitting::blanes_moan_6(), &all, 0.07), 19);

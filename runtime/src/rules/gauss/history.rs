@@ -5,11 +5,11 @@ use core::array;
 use nalgebra::SVector;
 
 use super::coefficients::Coefficients;
-use super::problem::{Compensated, Problem, Solution, Solver};
+use super::problem::{Problem, Solution, Solver};
 use super::slack::{Allowance, Slack, Swept, sweep};
 use super::{Gauss, completed, fixed_point, solved_from};
 use crate::numbers::{
-    LaneVector, Lanes, Scalar,
+    Compensated, LaneVector, Lanes, Scalar,
     lanes::{lane, splat, write_lane},
 };
 use crate::step::{Memory, Quantity, State, Step, StepError};

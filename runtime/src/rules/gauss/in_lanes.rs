@@ -9,22 +9,20 @@
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
 
 mod allowances;
-mod compensated;
 mod floors;
 mod sweeps;
 
 use allowances::SlackOfMembers;
-use compensated::CompensatedMembers;
 use sweeps::{Solved, SweepsOf};
 
 use super::Gauss;
 use super::coefficients::Coefficients;
 use super::fixed_point::MAX_ITERATIONS;
 use super::history::StageHistory;
-use super::problem::{Compensated, Solver, steps};
+use super::problem::{Solver, steps};
 use super::slack::{MAX_SWEEPS, Slack};
 use crate::numbers::members::{each_coordinate, each_stage, member, stage_by_stage, write_member};
-use crate::numbers::{Mask, MemberVector, Members, Scalar};
+use crate::numbers::{Compensated, CompensatedMembers, Mask, MemberVector, Members, Scalar};
 use crate::step::in_lanes::clocks::Clocks;
 use crate::step::{Memory, State};
 use crate::system::ForcedLagrangianInLanes;

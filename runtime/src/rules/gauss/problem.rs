@@ -10,37 +10,9 @@ use nalgebra::SVector;
 
 use super::Gauss;
 use super::coefficients::Coefficients;
-use crate::numbers::{Blank, LaneVector, Lanes, Scalar, lanes::lane};
+use crate::numbers::{Blank, Compensated, LaneVector, Lanes, Scalar, lanes::lane};
 use crate::step::Report;
 use crate::system::{ForcedLagrangian, GeneratedDiffers, Stages};
-
-/// A vector as an unevaluated sum, so that adding many small steps loses nothing.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Compensated<T, const N: usize> {
-    pub(super) value: SVector<T, N>,
-    /// What `value` lacks.
-    pub(super) rest: SVector<T, N>,
-}
-
-impl<T: Scalar, const N: usize> Compensated<T, N> {
-    pub(super) fn new(value: SVector<T, N>) -> Self {
-        Self { value, rest: nalgebra::zero() }
-    }
-
-    /// The sum with `change`, by the two-sum of Knuth.
-    #[inline]
-    pub(super) fn plus(&self, change: &SVector<T, N>) -> Self {
-        let mut sum = *self;
-        for a in 0..N {
-            let (value, change) = (self.value[a], change[a] + self.rest[a]);
-            let total = value + change;
-            let share = total - value;
-            sum.value[a] = total;
-            sum.rest[a] = (value - (total - share)) + (change - share);
-        }
-        sum
-    }
-}
 
 /// How many lanes the sweeps of S stages take: as many as vectors hold, where an S in between would be
 /// computed in parts. Lanes do not mix, so that numbers stay the same bit by bit.

@@ -15,11 +15,11 @@ use nalgebra::{SMatrix, SVector};
 
 use super::linearised::{Factored, Local, StageVector, locals, non_finite};
 use super::newton::Iterate;
-use super::problem::{Compensated, Problem};
+use super::problem::Problem;
 use super::rounding::{at_rounding, worst};
 use super::tangent::{ByState, Source, Tangent};
 use crate::numbers::{
-    Derivatives, LaneVector, NewtonMatrix, Scalar, Singular, determinant_sign,
+    Compensated, Derivatives, LaneVector, NewtonMatrix, Scalar, Singular, determinant_sign,
     lanes::{lane, splat},
 };
 use crate::step::{

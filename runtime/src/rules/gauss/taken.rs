@@ -1,9 +1,9 @@
 //! The step of a run, its equations linearised at the stages that were solved for.
 
-use super::problem::{Compensated, Problem};
+use super::problem::Problem;
 use super::segment::Segment;
 use super::{Gauss, StageHistory};
-use crate::numbers::Scalar;
+use crate::numbers::{Compensated, Scalar};
 use crate::step::{
     DiscreteDriven, DiscreteParameters, Linearizable, PhaseMatrix, State, StateBy, Step, StepError,
 };

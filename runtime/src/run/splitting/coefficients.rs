@@ -159,19 +159,21 @@ impl<const S: usize> Splitting<S> {
     pub(crate) const fn gradients(is_timed: bool) -> usize {
         if is_timed && !Self::DRIFTS_FIRST { S + 1 } else { S }
     }
+}
 
+impl<const S: usize, const COMPENSATED: bool> Splitting<S, COMPENSATED> {
     /// a₁ … a_S: the drifts as shares of the step; some are negative. They sum to 1, of order 8 with a₁ once
     /// more, for the drift after the last kick.
     #[must_use]
     pub const fn drifts(&self) -> &'static [f64; S] {
-        &Self::DRIFTS
+        &Splitting::<S>::DRIFTS
     }
 
     /// b₁ … b_S: the kicks as shares of the step. They sum to 1, of order 4 and 6 with b₁ once more, for the
     /// kick after the last drift.
     #[must_use]
     pub const fn kicks(&self) -> &'static [f64; S] {
-        &Self::KICKS
+        &Splitting::<S>::KICKS
     }
 
     /// The order p: on a fixed interval the error falls as h^p.

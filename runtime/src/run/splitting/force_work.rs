@@ -14,7 +14,7 @@ use crate::step::{EnergyExchange, ForceWork, State, StepError};
 /// ```
 ///
 /// with p less ∂L/∂v(0). A drift backwards gives back what friction would have taken on the way.
-impl<L, const N: usize, const S: usize> ForceWork<Splitting<S>, N> for L
+impl<L, const N: usize, const S: usize, const COMPENSATED: bool> ForceWork<Splitting<S, COMPENSATED>, N> for L
 where
     L: Explicit<N>,
 {

@@ -4,9 +4,10 @@
 
 use nalgebra::SMatrix;
 
+use super::underway::UnderwayInLanes;
 use super::{Drifts, Prepared, Splitting};
 use crate::numbers::members::{difference, each_coordinate, write_member};
-use crate::numbers::{Mask, MemberVector, Members, Scalar};
+use crate::numbers::{Compensated, CompensatedMembers, Mask, MemberVector, Members, Scalar};
 use crate::rules::Drift;
 use crate::run::lanes::{begins, state_if_sound};
 use crate::run::{ExplicitInLanes, InLanes};
@@ -15,7 +16,7 @@ use crate::step::in_lanes::clocks::Clocks;
 
 /// W members on their way by a [`Splitting`].
 #[derive(Clone, Copy, Debug)]
-pub struct KicksInLanes<T, F, const N: usize, const S: usize, const W: usize> {
+pub struct KicksInLanes<T, F, const N: usize, const S: usize, const COMPENSATED: bool, const W: usize> {
     drifts: DriftsInLanes<T, N, S, W>,
     kicked: Kicked<T, F, N, S, W>,
 }
@@ -26,8 +27,8 @@ struct Kicked<T, F, const N: usize, const S: usize, const W: usize> {
     /// Whose runs have begun.
     has_begun: Mask<W>,
     fields: F,
-    q: MemberVector<T, N, W>,
-    p: MemberVector<T, N, W>,
+    q: CompensatedMembers<T, N, W>,
+    p: CompensatedMembers<T, N, W>,
     /// G − ∂R/∂v(0) at q, where kicks come first.
     force: MemberVector<T, N, W>,
     h: T,
@@ -63,7 +64,7 @@ struct FullDrifts<T, const N: usize, const S: usize, const W: usize> {
 /// What one drift does to (q, p − ∂L/∂v(0)).
 trait Drifting<T, const N: usize, const W: usize> {
     /// The i-th of the first half.
-    fn drift(&self, i: usize, q: &mut MemberVector<T, N, W>, p: &mut MemberVector<T, N, W>);
+    fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<T, N, COMPENSATED, W>);
 }
 
 /// Drifts of the form [`DriftsInLanes::Undamped`].
@@ -73,10 +74,10 @@ impl<T: Scalar, const N: usize, const S: usize, const W: usize> Drifting<T, N, W
     for Undamped<'_, T, N, S, W>
 {
     #[inline(always)]
-    fn drift(&self, i: usize, q: &mut MemberVector<T, N, W>, p: &mut MemberVector<T, N, W>) {
+    fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<T, N, COMPENSATED, W>) {
         let drift = &self.0[i];
         each_coordinate!(a => {
-            q[a] = q[a] + drift.displacement[a] * p[a];
+            at.drift(a, drift.displacement[a] * at.momentum(a));
         });
     }
 }
@@ -88,11 +89,12 @@ impl<T: Scalar, const N: usize, const S: usize, const W: usize> Drifting<T, N, W
     for Diagonal<'_, T, N, S, W>
 {
     #[inline(always)]
-    fn drift(&self, i: usize, q: &mut MemberVector<T, N, W>, p: &mut MemberVector<T, N, W>) {
+    fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<T, N, COMPENSATED, W>) {
         let drift = &self.0[i];
         each_coordinate!(a => {
-            q[a] = q[a] + drift.displacement[a] * p[a];
-            p[a] = p[a] + drift.loss[a] * p[a];
+            let p = at.momentum(a);
+            at.drift(a, drift.displacement[a] * p);
+            at.kick(a, drift.loss[a] * p);
         });
     }
 }
@@ -101,13 +103,17 @@ impl<T: Scalar, const N: usize, const S: usize, const W: usize> Drifting<T, N, W
     for &FullDrifts<T, N, S, W>
 {
     #[inline(always)]
-    fn drift(&self, i: usize, q: &mut MemberVector<T, N, W>, p: &mut MemberVector<T, N, W>) {
+    fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<T, N, COMPENSATED, W>) {
         let drift = &self.drifts[i];
-        let before = *p;
+        let mut before = [Members::splat(T::zero()); N];
         for a in 0..N {
-            q[a] = q[a] + self.product(&drift.displacement[a], &before, a);
-            let lost = before[a] + self.product(&drift.loss[a], &before, a);
-            p[a] = Members::select(self.is_damped, lost, before[a]);
+            before[a] = at.momentum(a);
+        }
+        for a in 0..N {
+            at.drift(a, self.product(&drift.displacement[a], &before, a));
+            // Nothing, with the sign that leaves a zero as it is.
+            let none = Members::splat(T::constant(-0.0));
+            at.kick(a, Members::select(self.is_damped, self.product(&drift.loss[a], &before, a), none));
         }
     }
 }
@@ -127,7 +133,7 @@ impl<T: Scalar, const N: usize, const S: usize, const W: usize> FullDrifts<T, N,
 impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> Kicked<T, F, N, S, W> {
     /// As many steps, with the force −∇V(q) + f(q) of all members.
     #[inline(always)]
-    fn carry<L, D>(&mut self, steps: u64, drifts: D)
+    fn carry<L, D, const COMPENSATED: bool>(&mut self, steps: u64, drifts: D)
     where
         L: ExplicitInLanes<N, Scalar = T, Fields<W> = F>,
         D: Drifting<T, N, W>,
@@ -143,34 +149,35 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> Kicked<
                 now = &present;
                 self.clocks.follow(Mask::splat(true));
             }
-            p = difference(&p, shift);
+            let mut at = UnderwayInLanes::<T, N, COMPENSATED, W>::new(&q, &p, shift);
             if Splitting::<S>::DRIFTS_FIRST {
-                drifts.drift(0, &mut q, &mut p);
+                drifts.drift(0, &mut at);
                 for i in 0..S {
-                    force = difference(&force_after::<L, N, S, W>(now, i, self.h, &q), thrust);
+                    force =
+                        difference(&force_after::<L, N, S, W>(now, i, self.h, &at.configuration()), thrust);
                     for a in 0..N {
-                        p[a] = p[a] + force[a] * self.kicks[i];
+                        at.kick(a, force[a] * self.kicks[i]);
                     }
-                    drifts.drift(if i < S - 1 - i { i + 1 } else { S - 1 - i }, &mut q, &mut p);
+                    drifts.drift(if i < S - 1 - i { i + 1 } else { S - 1 - i }, &mut at);
                 }
-                for a in 0..N {
-                    p[a] = p[a] + shift[a];
-                }
+                [q, p] = at.end(&p, shift);
                 continue;
             }
             if L::IS_TIMED {
-                force = difference(&L::configuration_force_in_lanes(now, &q), thrust);
-            }
-            for i in 0..S {
-                each_coordinate!(a => {
-                    p[a] = p[a] + force[a] * self.kicks[i];
-                });
-                drifts.drift(if i < S - i { i } else { S - 1 - i }, &mut q, &mut p);
-                force = difference(&force_after::<L, N, S, W>(now, i, self.h, &q), thrust);
+                force = difference(&L::configuration_force_in_lanes(now, &at.configuration()), thrust);
             }
             each_coordinate!(a => {
-                p[a] = p[a] + force[a] * self.kicks[0] + shift[a];
+                at.kick(a, force[a] * self.kicks[0]);
             });
+            for i in 0..S {
+                drifts.drift(if i < S - i { i } else { S - 1 - i }, &mut at);
+                force = difference(&force_after::<L, N, S, W>(now, i, self.h, &at.configuration()), thrust);
+                let kick = self.kicks[if i + 1 < S { i + 1 } else { 0 }];
+                each_coordinate!(a => {
+                    at.kick(a, force[a] * kick);
+                });
+            }
+            [q, p] = at.end(&p, shift);
         }
         (self.q, self.p, self.force) = (q, p, force);
     }
@@ -194,7 +201,9 @@ fn force_after<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: u
     L::configuration_force_in_lanes(now, q)
 }
 
-impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> KicksInLanes<T, F, N, S, W> {
+impl<T: Scalar, F: Copy, const N: usize, const S: usize, const COMPENSATED: bool, const W: usize>
+    KicksInLanes<T, F, N, S, COMPENSATED, W>
+{
     /// Puts a member into a lane, at its start.
     fn put<L>(&mut self, lane: usize, system: &L, start: &State<T, N>, h: T)
     where
@@ -206,8 +215,8 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> KicksIn
         of.clocks.restart(lane);
         let Some(prepared) = prepared else { return };
         self.drifts.write(lane, &prepared);
-        write_member(&mut of.q, lane, &start.q);
-        write_member(&mut of.p, lane, &start.p);
+        of.q.write(lane, &Compensated::new(start.q));
+        of.p.write(lane, &Compensated::new(start.p));
         write_member(&mut of.shift, lane, &prepared.shift);
         write_member(&mut of.thrust, lane, &prepared.thrust);
         if !Splitting::<S>::DRIFTS_FIRST && !L::IS_TIMED {
@@ -290,11 +299,11 @@ fn write_rows<T: Scalar, const N: usize, const W: usize>(
     }
 }
 
-impl<L, const N: usize, const S: usize> InLanes<Splitting<S>, N> for L
+impl<L, const N: usize, const S: usize, const COMPENSATED: bool> InLanes<Splitting<S, COMPENSATED>, N> for L
 where
     L: ExplicitInLanes<N>,
 {
-    type Lanes<const W: usize> = KicksInLanes<L::Scalar, L::Fields<W>, N, S, W>;
+    type Lanes<const W: usize> = KicksInLanes<L::Scalar, L::Fields<W>, N, S, COMPENSATED, W>;
 
     fn in_lanes<const W: usize>(
         systems: [&Self; W],
@@ -307,8 +316,8 @@ where
             kicked: Kicked {
                 has_begun: Mask::splat(false),
                 fields: L::fields(systems),
-                q: zero,
-                p: zero,
+                q: CompensatedMembers::zero(),
+                p: CompensatedMembers::zero(),
                 force: zero,
                 h,
                 clocks: Clocks::new(),
@@ -341,15 +350,15 @@ where
     fn advance_in_lanes<const W: usize>(lanes: &mut Self::Lanes<W>, _systems: [&Self; W], steps: u64) {
         let KicksInLanes { drifts, kicked } = lanes;
         match drifts {
-            DriftsInLanes::Undamped(drifts) => kicked.carry::<L, _>(steps, Undamped(drifts)),
-            DriftsInLanes::Diagonal(drifts) => kicked.carry::<L, _>(steps, Diagonal(drifts)),
-            DriftsInLanes::Full(drifts) => kicked.carry::<L, _>(steps, &*drifts),
+            DriftsInLanes::Undamped(drifts) => kicked.carry::<L, _, COMPENSATED>(steps, Undamped(drifts)),
+            DriftsInLanes::Diagonal(drifts) => kicked.carry::<L, _, COMPENSATED>(steps, Diagonal(drifts)),
+            DriftsInLanes::Full(drifts) => kicked.carry::<L, _, COMPENSATED>(steps, &*drifts),
         }
     }
 
     #[inline]
     fn state_of_lane<const W: usize>(lanes: &Self::Lanes<W>, lane: usize) -> Option<State<L::Scalar, N>> {
         let of = &lanes.kicked;
-        state_if_sound(&of.q, &of.p, of.has_begun, lane)
+        state_if_sound(&of.q.value, &of.p.value, of.has_begun, lane)
     }
 }

@@ -2,10 +2,9 @@
 
 use super::StagesInLanes;
 use super::allowances::Allowances;
-use super::compensated::CompensatedMembers;
 use super::floors::{Floors, Terms};
 use crate::numbers::members::{each_coordinate, each_stage, stage_by_stage};
-use crate::numbers::{Blank, Mask, MemberVector, Members, Scalar};
+use crate::numbers::{Blank, CompensatedMembers, Mask, MemberVector, Members, Scalar};
 use crate::rules::gauss::fixed_point::MAX_ITERATIONS;
 use crate::system::{ForcedLagrangianInLanes, Lagrangian};
 
