@@ -245,6 +245,7 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
         drifts: &[D; S],
         drift: impl Fn(&D, &mut Underway<T, N, COMPENSATED>),
     ) -> SVector<T, N> {
+        let mut sum = nalgebra::zero();
         if Splitting::<S>::DRIFTS_FIRST {
             if let Some((outer, inner)) = drifts.split_first() {
                 drift(outer, at);
@@ -252,7 +253,8 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
                     self.kicks.iter().zip(inner.iter().chain([outer])).zip(Splitting::<S>::NODES)
                 {
                     at.kick(
-                        &((force_after(system, share, self.h, &at.configuration()) - self.thrust) * kick),
+                        &((force_after(system, share, self.h, at.configuration(&mut sum)) - self.thrust)
+                            * kick),
                     );
                     drift(of, at);
                 }
@@ -262,7 +264,7 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
         for ((&kick, of), share) in self.kicks.iter().zip(drifts).zip(Splitting::<S>::NODES) {
             at.kick(&(force * kick));
             drift(of, at);
-            force = force_after(system, share, self.h, &at.configuration()) - self.thrust;
+            force = force_after(system, share, self.h, at.configuration(&mut sum)) - self.thrust;
         }
         let closing = self.kicks.first().map_or(T::zero(), |&kick| kick);
         at.kick(&(force * closing));

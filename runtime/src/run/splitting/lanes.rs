@@ -64,7 +64,7 @@ struct FullDrifts<T, const N: usize, const S: usize, const W: usize> {
 /// What one drift does to (q, p − ∂L/∂v(0)).
 trait Drifting<T, const N: usize, const W: usize> {
     /// The i-th of the first half.
-    fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<T, N, COMPENSATED, W>);
+    fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<'_, T, N, COMPENSATED, W>);
 }
 
 /// Drifts of the form [`DriftsInLanes::Undamped`].
@@ -74,7 +74,7 @@ impl<T: Scalar, const N: usize, const S: usize, const W: usize> Drifting<T, N, W
     for Undamped<'_, T, N, S, W>
 {
     #[inline(always)]
-    fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<T, N, COMPENSATED, W>) {
+    fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<'_, T, N, COMPENSATED, W>) {
         let drift = &self.0[i];
         each_coordinate!(a => {
             at.drift(a, drift.displacement[a] * at.momentum(a));
@@ -89,7 +89,7 @@ impl<T: Scalar, const N: usize, const S: usize, const W: usize> Drifting<T, N, W
     for Diagonal<'_, T, N, S, W>
 {
     #[inline(always)]
-    fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<T, N, COMPENSATED, W>) {
+    fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<'_, T, N, COMPENSATED, W>) {
         let drift = &self.0[i];
         each_coordinate!(a => {
             let p = at.momentum(a);
@@ -103,7 +103,7 @@ impl<T: Scalar, const N: usize, const S: usize, const W: usize> Drifting<T, N, W
     for &FullDrifts<T, N, S, W>
 {
     #[inline(always)]
-    fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<T, N, COMPENSATED, W>) {
+    fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<'_, T, N, COMPENSATED, W>) {
         let drift = &self.drifts[i];
         let mut before = [Members::splat(T::zero()); N];
         for a in 0..N {
@@ -141,6 +141,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> Kicked<
         // Locals, so that they stay in registers.
         let (fields, shift, thrust) = (&self.fields, &self.shift, &self.thrust);
         let (mut q, mut p, mut force) = (self.q, self.p, self.force);
+        let mut sum = [Members::splat(T::zero()); N];
         for _ in 0..steps {
             let present;
             let mut now = fields;
@@ -149,35 +150,40 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> Kicked<
                 now = &present;
                 self.clocks.follow(Mask::splat(true));
             }
-            let mut at = UnderwayInLanes::<T, N, COMPENSATED, W>::new(&q, &p, shift);
+            let mut at = UnderwayInLanes::<T, N, COMPENSATED, W>::new(&mut q, &mut p, shift);
             if Splitting::<S>::DRIFTS_FIRST {
                 drifts.drift(0, &mut at);
                 for i in 0..S {
-                    force =
-                        difference(&force_after::<L, N, S, W>(now, i, self.h, &at.configuration()), thrust);
+                    force = difference(
+                        &force_after::<L, N, S, W>(now, i, self.h, at.configuration(&mut sum)),
+                        thrust,
+                    );
                     for a in 0..N {
                         at.kick(a, force[a] * self.kicks[i]);
                     }
                     drifts.drift(if i < S - 1 - i { i + 1 } else { S - 1 - i }, &mut at);
                 }
-                [q, p] = at.end(&p, shift);
+                at.end();
                 continue;
             }
             if L::IS_TIMED {
-                force = difference(&L::configuration_force_in_lanes(now, &at.configuration()), thrust);
+                force = difference(&L::configuration_force_in_lanes(now, at.configuration(&mut sum)), thrust);
             }
             each_coordinate!(a => {
                 at.kick(a, force[a] * self.kicks[0]);
             });
             for i in 0..S {
                 drifts.drift(if i < S - i { i } else { S - 1 - i }, &mut at);
-                force = difference(&force_after::<L, N, S, W>(now, i, self.h, &at.configuration()), thrust);
+                force = difference(
+                    &force_after::<L, N, S, W>(now, i, self.h, at.configuration(&mut sum)),
+                    thrust,
+                );
                 let kick = self.kicks[if i + 1 < S { i + 1 } else { 0 }];
                 each_coordinate!(a => {
                     at.kick(a, force[a] * kick);
                 });
             }
-            [q, p] = at.end(&p, shift);
+            at.end();
         }
         (self.q, self.p, self.force) = (q, p, force);
     }

@@ -35,9 +35,15 @@ impl<T: Scalar, const N: usize, const COMPENSATED: bool> Underway<T, N, COMPENSA
         Self { q, p, start: *start, shift: *shift }
     }
 
+    /// q, itself or as the sum that is put into `sum`.
     #[inline(always)]
-    pub(super) fn configuration(&self) -> SVector<T, N> {
-        if COMPENSATED { self.start.q + self.q } else { self.q }
+    pub(super) fn configuration<'s>(&'s self, sum: &'s mut SVector<T, N>) -> &'s SVector<T, N> {
+        if COMPENSATED {
+            *sum = self.start.q + self.q;
+            sum
+        } else {
+            &self.q
+        }
     }
 
     #[inline(always)]
@@ -70,70 +76,78 @@ impl<T: Scalar, const N: usize, const COMPENSATED: bool> Underway<T, N, COMPENSA
     }
 }
 
-/// [`Underway`] of each member.
-pub(super) struct UnderwayInLanes<T, const N: usize, const COMPENSATED: bool, const W: usize> {
-    q: MemberVector<T, N, W>,
-    p: MemberVector<T, N, W>,
-    start: [MemberVector<T, N, W>; 2],
+/// [`Underway`] of each member: with compensated sums what is added joins what they have lost, otherwise the values
+/// themselves move.
+pub(super) struct UnderwayInLanes<'s, T, const N: usize, const COMPENSATED: bool, const W: usize> {
+    q: &'s mut CompensatedMembers<T, N, W>,
+    p: &'s mut CompensatedMembers<T, N, W>,
+    /// p − ∂L/∂v(0) at the start; only of compensated sums.
+    start: MemberVector<T, N, W>,
+    shift: &'s MemberVector<T, N, W>,
 }
 
-impl<T: Scalar, const N: usize, const COMPENSATED: bool, const W: usize>
-    UnderwayInLanes<T, N, COMPENSATED, W>
+impl<'s, T: Scalar, const N: usize, const COMPENSATED: bool, const W: usize>
+    UnderwayInLanes<'s, T, N, COMPENSATED, W>
 {
     #[inline(always)]
     pub(super) fn new(
-        q: &CompensatedMembers<T, N, W>,
-        p: &CompensatedMembers<T, N, W>,
-        shift: &MemberVector<T, N, W>,
+        q: &'s mut CompensatedMembers<T, N, W>,
+        p: &'s mut CompensatedMembers<T, N, W>,
+        shift: &'s MemberVector<T, N, W>,
     ) -> Self {
-        let start = [q.value, difference(&p.value, shift)];
-        let [q, p] = if COMPENSATED { [q.rest, p.rest] } else { start };
-        Self { q, p, start }
+        let start = difference(&p.value, shift);
+        if !COMPENSATED {
+            p.value = start;
+        }
+        Self { q, p, start, shift }
     }
 
+    /// q, itself or as the sum that is put into `sum`.
     #[inline(always)]
-    pub(super) fn configuration(&self) -> MemberVector<T, N, W> {
-        let mut q = self.q;
-        if COMPENSATED {
-            each_coordinate!(a => {
-                q[a] = self.start[0][a] + q[a];
-            });
+    pub(super) fn configuration<'a>(
+        &'a self,
+        sum: &'a mut MemberVector<T, N, W>,
+    ) -> &'a MemberVector<T, N, W> {
+        if !COMPENSATED {
+            return &self.q.value;
         }
-        q
+        each_coordinate!(a => {
+            sum[a] = self.q.value[a] + self.q.rest[a];
+        });
+        sum
     }
 
     /// The entry `a` of p.
     #[inline(always)]
     pub(super) fn momentum(&self, a: usize) -> Members<T, W> {
-        if COMPENSATED { self.start[1][a] + self.p[a] } else { self.p[a] }
+        if COMPENSATED { self.start[a] + self.p.rest[a] } else { self.p.value[a] }
     }
 
     /// Moves the coordinate `a` of q.
     #[inline(always)]
     pub(super) fn drift(&mut self, a: usize, displacement: Members<T, W>) {
-        self.q[a] = self.q[a] + displacement;
+        let moved = if COMPENSATED { &mut self.q.rest[a] } else { &mut self.q.value[a] };
+        *moved = *moved + displacement;
     }
 
     /// Moves the coordinate `a` of p.
     #[inline(always)]
     pub(super) fn kick(&mut self, a: usize, impulse: Members<T, W>) {
-        self.p[a] = self.p[a] + impulse;
+        let moved = if COMPENSATED { &mut self.p.rest[a] } else { &mut self.p.value[a] };
+        *moved = *moved + impulse;
     }
 
-    /// Where the step that began at the momenta `start` ends, with what its sums have lost.
+    /// Leaves the members where the step ends.
     #[inline(always)]
-    pub(super) fn end(
-        mut self,
-        start: &CompensatedMembers<T, N, W>,
-        shift: &MemberVector<T, N, W>,
-    ) -> [CompensatedMembers<T, N, W>; 2] {
+    pub(super) fn end(self) {
+        let Self { q, p, shift, .. } = self;
         if COMPENSATED {
-            let q = CompensatedMembers::new(self.start[0]).plus(&self.q);
-            return [q, CompensatedMembers::new(start.value).plus(&self.p)];
+            *q = CompensatedMembers::new(q.value).plus(&q.rest);
+            *p = CompensatedMembers::new(p.value).plus(&p.rest);
+        } else {
+            each_coordinate!(a => {
+                p.value[a] = p.value[a] + shift[a];
+            });
         }
-        each_coordinate!(a => {
-            self.p[a] = self.p[a] + shift[a];
-        });
-        [CompensatedMembers::new(self.q), CompensatedMembers::new(self.p)]
     }
 }
