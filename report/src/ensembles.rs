@@ -155,15 +155,15 @@ where
         let cheapest = |is_ours: bool| {
             let able =
                 measured.iter().filter(|one| (one.method != BATCH) == is_ours && worst(&one.end) <= level);
-            able.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
+            able.min_by(|a, b| a.least.total_cmp(&b.least))
         };
         let (own, batch) = (cheapest(true), cheapest(false));
         let cell = |of: Option<&crate::measure::Measured<Ends<N>>>| match of {
-            Some(of) => format!("{} {:.3} | {:.1e}", of.method, of.seconds * 1e6, worst(&of.end)),
+            Some(of) => format!("{} {:.3} | {:.1e}", of.method, of.least * 1e6, worst(&of.end)),
             None => "not reached | ".to_owned(),
         };
         let ratio = match (own, batch) {
-            (Some(own), Some(batch)) => format!("{:.2}", own.seconds / batch.seconds),
+            (Some(own), Some(batch)) => format!("{:.2}", own.least / batch.least),
             _ => String::new(),
         };
         writeln!(page, "| {name} | {level:.0e} | {} | {} | {ratio} |", cell(own), cell(batch))?;

@@ -16,12 +16,15 @@ pub struct Candidate<'a, E> {
     pub run: Run<'a, E>,
 }
 
-/// A candidate's median seconds and its end.
+/// A candidate's seconds and its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured<E> {
     pub method: &'static str,
     pub setting: f64,
+    /// The median of all rounds.
     pub seconds: f64,
+    /// The least of them: neighbours on a shared machine only add.
+    pub least: f64,
     pub end: E,
 }
 
@@ -64,6 +67,7 @@ pub fn interleaved<E>(candidates: Vec<Candidate<'_, E>>) -> Vec<Measured<E>> {
     let measured = |entry: Entry<'_, E>| Measured {
         method: entry.candidate.method,
         setting: entry.candidate.setting,
+        least: entry.seconds.iter().copied().fold(f64::INFINITY, f64::min),
         seconds: median(entry.seconds),
         end: entry.end,
     };
