@@ -111,7 +111,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         i: usize,
     ) -> MemberVector<T, N, W> {
         let columns = &Self::COEFFICIENTS.shares;
-        let mut at = start.value;
+        let mut at = [Members::splat(T::zero()); N];
         each_coordinate!(a => {
             let mut sums = [start.rest[a], Members::splat(T::zero())];
             each_stage!(j => {
