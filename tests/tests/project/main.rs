@@ -1,7 +1,6 @@
-//! What the project says of itself: messages of the compiler, pages.
+//! What the project says of itself: its pages, its files, how its parts use each other.
 
 mod corrections_page;
 mod floors;
 mod pages;
 mod root;
-mod ui;

@@ -1,9 +1,7 @@
 //! What each rule of discretisation promises, and hard cases.
 
 mod energy;
-mod gauss;
 mod gauss_order;
-mod gauss_structure;
 mod hard;
 
 // None of these holds a test that is long unoptimised.
@@ -14,6 +12,10 @@ mod fitted_stiffness;
 #[cfg(not(feature = "only-long-tests"))]
 mod fitted_structure;
 #[cfg(not(feature = "only-long-tests"))]
+mod gauss;
+#[cfg(not(feature = "only-long-tests"))]
 mod gauss_segments;
+#[cfg(not(feature = "only-long-tests"))]
+mod gauss_structure;
 #[cfg(not(feature = "only-long-tests"))]
 mod order;

@@ -9,7 +9,7 @@ use dalembert::{Discretise, Gauss, State, rayleigh_system};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-use crate::lanes::{Chain, agree, bits, damping, members};
+use crate::lanes::{Chain, agree, bits, damping, forward, members};
 
 /// Two pendulums, one at the end of the other, with friction in their joints.
 #[derive(Clone, Debug)]
@@ -154,7 +154,7 @@ where
     let systems: [&L; 8] = std::array::from_fn(|lane| &members[lane].0);
     let starts: [State<f64, N>; 8] = std::array::from_fn(|lane| members[lane].1);
     let mut runs = LaneRuns::new(Gauss::<S>, systems, &starts, h);
-    runs.advance(100);
+    forward(&mut runs, 100);
     runs.steps_alone() as f64 / 800.0
 }
 
@@ -272,7 +272,7 @@ fn single_precision_too() {
         std::array::from_fn(|_| Single { m: any(0.5, 2.0), k: any(0.1, 3.0), r: any(0.0, 0.3) });
     let starts = std::array::from_fn(|_| State { q: vector![any(-1.0, 1.0)], p: vector![any(-1.0, 1.0)] });
     let mut runs = LaneRuns::new(Gauss::<3>, all.each_ref(), &starts, 0.1);
-    runs.advance(200);
+    forward(&mut runs, 200);
     for (lane, system) in all.iter().enumerate() {
         let alone = system.by(Gauss::<3>, 0.1).run(starts[lane]).nth(199).unwrap().unwrap().state;
         let bits = |state: State<f32, 1>| [state.q[0].to_bits(), state.p[0].to_bits()];
@@ -296,7 +296,7 @@ fn whatever_runs_beside_them() {
     for _ in 0..20 {
         let drawn: [usize; 8] = std::array::from_fn(|_| random.random_range(0..40));
         let mut runs = LaneRuns::new(Gauss::<6>, drawn.map(|i| &all[i].0), &drawn.map(|i| all[i].1), 0.25);
-        runs.advance(30);
+        forward(&mut runs, 30);
         for (lane, &i) in drawn.iter().enumerate() {
             assert_eq!(runs.state(lane).map(|state| bits(&state)), ends[i]);
         }
@@ -337,15 +337,15 @@ fn inputs_and_lanes_given_to_others() {
         &[starts[0], starts[1], starts[2], starts[3]],
         0.1,
     );
-    runs.advance(17);
+    forward(&mut runs, 17);
     let end = |runs: &LaneRuns<'_, _, _, 2, 4>, lane: usize| runs.state(lane).map(|state| bits(&state));
     assert_eq!(end(&runs, 2), Some(alone(2, 17)));
     runs.refill(
         [None, Some(&driven[4]), None, Some(&driven[5])],
         &[starts[0], starts[4], starts[0], starts[5]],
     );
-    runs.advance(1);
-    runs.advance(12);
+    forward(&mut runs, 1);
+    forward(&mut runs, 12);
     for (lane, (member, steps)) in [(0, 30), (4, 13), (2, 30), (5, 13)].into_iter().enumerate() {
         assert_eq!(end(&runs, lane), Some(alone(member, steps)), "lane {lane}");
     }
@@ -368,13 +368,16 @@ fn solved_for_an_error() {
             run.nth(steps - 1)?.ok().map(|step| bits(&step.state))
         };
         for steps in [9, 20, 25] {
-            runs.advance(if steps == 9 {
-                9
-            } else if steps == 20 {
-                11
-            } else {
-                5
-            });
+            forward(
+                &mut runs,
+                if steps == 9 {
+                    9
+                } else if steps == 20 {
+                    11
+                } else {
+                    5
+                },
+            );
             for lane in 0..8 {
                 assert_eq!(runs.state(lane).map(|state| bits(&state)), end(lane, steps), "lane {lane}");
             }
@@ -383,7 +386,7 @@ fn solved_for_an_error() {
         (others[2], others[5]) = (Some(&all[8].0), Some(&all[9].0));
         let starts = std::array::from_fn(|lane| all[if lane == 2 { 8 } else { 9 }].1);
         runs.refill(others, &starts);
-        runs.advance(22);
+        forward(&mut runs, 22);
         for (lane, member, steps) in [(0, 0, 47), (2, 8, 22), (5, 9, 22), (7, 7, 47)] {
             assert_eq!(runs.state(lane).map(|state| bits(&state)), end(member, steps), "lane {lane}");
         }

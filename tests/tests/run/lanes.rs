@@ -287,6 +287,15 @@ where
     Ok(*run.state())
 }
 
+/// Runs on by so many steps: one copy of what is inlined wherever it is called, and long to compile.
+#[inline(never)]
+pub fn forward<L, M, const N: usize, const W: usize>(runs: &mut LaneRuns<'_, L, M, N, W>, steps: u64)
+where
+    L: InLanes<M, N>,
+{
+    runs.advance(steps);
+}
+
 /// Members in W lanes beside each alone, after 1, 3 and more steps; how many members had an end.
 pub fn agree<L, M, const N: usize, const W: usize>(method: M, members: &[(L, State<f64, N>)], h: f64) -> usize
 where
@@ -301,10 +310,10 @@ where
         let starts: [State<f64, N>; W] = std::array::from_fn(|lane| member(lane).1);
         let mut runs = LaneRuns::new(method, systems, &starts, h);
         let mut at_once = runs;
-        at_once.advance(21);
+        forward(&mut at_once, 21);
         let mut steps = 0;
         for more in [0, 1, 2, 18] {
-            runs.advance(more);
+            forward(&mut runs, more);
             steps += more;
             for lane in 0..W {
                 match (runs.state(lane), alone(method, systems[lane], starts[lane], h, steps)) {
@@ -330,7 +339,7 @@ where
     ends
 }
 
-/// In every number of lanes.
+/// In one lane, in some and in many.
 pub fn agree_in_all<L, M, const N: usize>(method: M, members: &[(L, State<f64, N>)], h: f64) -> usize
 where
     L: InLanes<M, N, Scalar = f64>,
@@ -338,13 +347,11 @@ where
 {
     let ends = [
         agree::<L, M, N, 1>(method, members, h),
-        agree::<L, M, N, 2>(method, members, h),
         agree::<L, M, N, 3>(method, members, h),
         agree::<L, M, N, 8>(method, members, h),
-        agree::<L, M, N, 16>(method, members, h),
         agree::<L, M, N, 32>(method, members, h),
     ];
-    assert_eq!(ends, [ends[0]; 6]);
+    assert_eq!(ends, [ends[0]; 4]);
     ends[0]
 }
 
@@ -521,7 +528,7 @@ fn single_precision_agrees_too() {
         p: vector![random.random_range(-2.0..2.0)],
     });
     let mut runs = LaneRuns::new(Splitting::blanes_moan_4(), systems.each_ref(), &starts, 0.1);
-    runs.advance(50);
+    forward(&mut runs, 50);
     for lane in 0..8 {
         let alone = systems[lane].by(Splitting::blanes_moan_4(), 0.1).run(starts[lane]).nth(49);
         let (alone, in_lanes) = (alone.unwrap().unwrap().state, runs.state(lane).unwrap());
@@ -556,7 +563,7 @@ fn members_that_fail_leave_the_others_as_they_are() {
     let systems: [&Ring; 9] = std::array::from_fn(|lane| &all[lane].0);
     let starts = std::array::from_fn(|lane| all[lane].1);
     let mut runs = LaneRuns::new(Splitting::blanes_moan_6(), systems, &starts, 0.09);
-    runs.advance(10);
+    forward(&mut runs, 10);
     let has_state: [bool; 9] = std::array::from_fn(|lane| runs.state(lane).is_some());
     assert_eq!(has_state, [true, false, false, false, true, false, false, true, false]);
     // No step at all, by a step size that is none.
@@ -687,7 +694,7 @@ where
         runs.refill(arriving, &from);
         let part =
             random.random_range(1..4).min(lanes.iter().map(|(_, steps, end)| end - steps).min().unwrap());
-        runs.advance(part);
+        forward(&mut runs, part);
         lanes.iter_mut().for_each(|(_, steps, _)| *steps += part);
     }
     ends
@@ -743,7 +750,7 @@ fn bits_see_another_rounding() {
     let ring = Ring { k: 0.1, height: 1.3 };
     let start = State { q: vector![0.1, 1.1], p: vector![0.5, 0.0] };
     let mut runs = LaneRuns::new(Splitting::blanes_moan_6(), [&ring; 2], &[start; 2], 0.09);
-    runs.advance(21);
+    forward(&mut runs, 21);
     let other = Ring { height: f64::from_bits(1.3_f64.to_bits() + 1), ..ring.clone() };
     let other = alone(Splitting::blanes_moan_6(), &other, start, 0.09, 21).unwrap();
     assert_ne!(bits(&runs.state(0).unwrap()), bits(&other));

@@ -10,7 +10,7 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
 use crate::gauss_lanes::Spring;
-use crate::lanes::{Chain, agree, bits, damping, members};
+use crate::lanes::{Chain, agree, bits, damping, forward, members};
 
 /// Two pendulums, one at the end of the other, with friction in their joints.
 #[derive(Clone, Debug)]
@@ -138,7 +138,7 @@ where
     let systems: [&L; 8] = std::array::from_fn(|lane| &members[lane].0);
     let starts: [State<f64, N>; 8] = std::array::from_fn(|lane| members[lane].1);
     let mut runs = LaneRuns::new(Midpoint, systems, &starts, h);
-    runs.advance(100);
+    forward(&mut runs, 100);
     runs.steps_alone() as f64 / 800.0
 }
 
@@ -261,7 +261,7 @@ fn single_precision_too() {
         p: vector![any(-1.0, 1.0), any(-1.0, 1.0)],
     });
     let mut runs = LaneRuns::new(Midpoint, all.each_ref(), &starts, 0.1);
-    runs.advance(200);
+    forward(&mut runs, 200);
     for (lane, system) in all.iter().enumerate() {
         let alone = system.by(Midpoint, 0.1).run(starts[lane]).nth(199).unwrap().unwrap().state;
         let bits = |state: State<f32, 2>| [state.q, state.p].map(|of| [of[0].to_bits(), of[1].to_bits()]);
@@ -285,7 +285,7 @@ fn whatever_runs_beside_them() {
     for _ in 0..20 {
         let drawn: [usize; 8] = std::array::from_fn(|_| random.random_range(0..40));
         let mut runs = LaneRuns::new(Midpoint, drawn.map(|i| &all[i].0), &drawn.map(|i| all[i].1), 0.25);
-        runs.advance(30);
+        forward(&mut runs, 30);
         for (lane, &i) in drawn.iter().enumerate() {
             assert_eq!(runs.state(lane).map(|state| bits(&state)), ends[i]);
         }
@@ -326,15 +326,15 @@ fn inputs_and_lanes_given_to_others() {
         &[starts[0], starts[1], starts[2], starts[3]],
         0.1,
     );
-    runs.advance(17);
+    forward(&mut runs, 17);
     let end = |runs: &LaneRuns<'_, _, _, 2, 4>, lane: usize| runs.state(lane).map(|state| bits(&state));
     assert_eq!(end(&runs, 2), Some(alone(2, 17)));
     runs.refill(
         [None, Some(&driven[4]), None, Some(&driven[5])],
         &[starts[0], starts[4], starts[0], starts[5]],
     );
-    runs.advance(1);
-    runs.advance(12);
+    forward(&mut runs, 1);
+    forward(&mut runs, 12);
     for (lane, (member, steps)) in [(0, 30), (4, 13), (2, 30), (5, 13)].into_iter().enumerate() {
         assert_eq!(end(&runs, lane), Some(alone(member, steps)), "lane {lane}");
     }
@@ -396,13 +396,13 @@ fn every_member_has_a_time_of_its_own() {
     };
     let systems = [&views[0], &views[1], &views[2], &views[3]];
     let mut runs = LaneRuns::new(Midpoint, systems, &[starts[0], starts[1], starts[2], starts[3]], 0.07);
-    runs.advance(17);
+    forward(&mut runs, 17);
     runs.refill(
         [None, Some(&views[4]), None, Some(&views[5])],
         &[starts[0], starts[4], starts[0], starts[5]],
     );
-    runs.advance(1);
-    runs.advance(24);
+    forward(&mut runs, 1);
+    forward(&mut runs, 24);
     for (lane, (member, steps)) in [(0, 42), (4, 25), (2, 42), (5, 25)].into_iter().enumerate() {
         assert_eq!(runs.state(lane).map(|state| bits(&state)), Some(alone(member, steps)), "lane {lane}");
     }
@@ -413,7 +413,7 @@ fn every_member_has_a_time_of_its_own() {
     let growing = [0.0, 0.5, -0.5, 1.0].map(|t| Growing.at_time(t));
     let starts: [State<f64, 4>; 4] = std::array::from_fn(|_| crate::lanes::start(&mut random));
     let mut runs = LaneRuns::new(Midpoint, growing.each_ref(), &starts, 0.02);
-    runs.advance(100);
+    forward(&mut runs, 100);
     for (lane, system) in growing.iter().enumerate() {
         let alone = system.by(Midpoint, 0.02).run(starts[lane]).nth(99).unwrap().unwrap().state;
         assert_eq!(runs.state(lane).map(|state| bits(&state)), Some(bits(&alone)), "lane {lane}");

@@ -8,7 +8,7 @@ use dalembert::{Composition, Discretise, Gauss, Lagrangian, Splitting, State, Tr
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-use crate::lanes::{agree, agree_in_all, bits, damping, refilled, start};
+use crate::lanes::{agree, agree_in_all, bits, damping, forward, refilled, start};
 
 /// An explicit system whose potential and force take the time, by the names that generated code has.
 #[derive(Clone, Debug)]
@@ -182,7 +182,7 @@ fn gauss_rules_see_the_time_of_each_stage() {
     let systems: [&DrivenShaken<'_>; 8] = std::array::from_fn(|lane| &all[lane].0);
     let starts = std::array::from_fn(|lane| all[lane].1);
     let mut runs = LaneRuns::new(Gauss::<6>, systems, &starts, 0.05);
-    runs.advance(100);
+    forward(&mut runs, 100);
     assert!(runs.steps_alone() < 160, "{}", runs.steps_alone());
 }
 
@@ -201,7 +201,7 @@ fn single_precision_too() {
         let starts =
             std::array::from_fn(|_| State { q: vector![any(-1.0, 1.0)], p: vector![any(-1.0, 1.0)] });
         let mut runs = LaneRuns::new(method, views.each_ref(), &starts, h);
-        runs.advance(200);
+        forward(&mut runs, 200);
         for (lane, system) in views.iter().enumerate() {
             let alone = system.by(method, h).run(starts[lane]).nth(199).unwrap().unwrap().state;
             let bits = |state: State<f32, 1>| [state.q[0].to_bits(), state.p[0].to_bits()];
@@ -258,7 +258,7 @@ fn stiff_members_take_their_steps_alone() {
     let systems: [&PumpedAtTime<'_>; 24] = std::array::from_fn(|lane| &all[lane].0);
     let starts = std::array::from_fn(|lane| all[lane].1);
     let mut runs = LaneRuns::new(Gauss::<3>, systems, &starts, 0.1);
-    runs.advance(100);
+    forward(&mut runs, 100);
     assert!((200..1800).contains(&runs.steps_alone()), "{}", runs.steps_alone());
 }
 
@@ -269,7 +269,7 @@ fn solved_for_an_error() {
     let systems: [&PumpedAtTime<'_>; 8] = std::array::from_fn(|lane| &all[lane].0);
     let starts = std::array::from_fn(|lane| all[lane].1);
     let mut runs = LaneRuns::new(Gauss::<6>, systems, &starts, 0.2).solved_for(1e-6, 6.0);
-    runs.advance(40);
+    forward(&mut runs, 40);
     let mut differ = false;
     for (lane, (system, start)) in all.iter().enumerate() {
         let run = || system.by(Gauss::<6>, 0.2).run(*start);
@@ -292,7 +292,7 @@ fn bits_see_another_time() {
             let mut systems = right.each_ref();
             systems[2] = wrong;
             let mut runs = LaneRuns::new(method, systems, &starts, 0.05);
-            runs.advance(60);
+            forward(&mut runs, 60);
             for (lane, system) in right.iter().enumerate() {
                 let alone = system.by(method, 0.05).run(starts[lane]).nth(59).unwrap().unwrap().state;
                 let agrees = runs.state(lane).map(|state| bits(&state)) == Some(bits(&alone));

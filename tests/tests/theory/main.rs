@@ -3,7 +3,6 @@
 mod conjecture;
 mod exact;
 mod hamilton_jacobi;
-mod rayleigh;
 mod verdicts;
 
 // None of these holds a test that is long unoptimised.
@@ -13,3 +12,5 @@ mod energy;
 mod noether;
 #[cfg(not(feature = "only-long-tests"))]
 mod principle;
+#[cfg(not(feature = "only-long-tests"))]
+mod rayleigh;

@@ -1,7 +1,8 @@
 //! Long runs: rounding errors walk at random, they do not drift.
 
+use dalembert::nalgebra::vector;
 use dalembert::system::Scalar;
-use dalembert::{Discrete, Discretise, Midpoint, State, Trapezoidal, rayleigh_system};
+use dalembert::{Discrete, Discretise, Gauss, Midpoint, State, Trapezoidal, rayleigh_system};
 use dalembert_tests::systems::FreePendulum;
 
 #[rayleigh_system(rule = [midpoint, trapezoidal])]
@@ -127,4 +128,42 @@ fn angles_past_many_turns() {
             assert!((b.p[0] - a.p[0]).abs() < 1e4 * far * f64::EPSILON);
         }
     }
+}
+
+/// The ring of Marsden and West, without friction.
+#[rayleigh_system(rule = gauss)]
+fn ring(q: [f64; 2], v: [f64; 2]) -> f64 {
+    let s = q[0] * q[0] + q[1] * q[1];
+    0.5 * (v[0] * v[0] + v[1] * v[1]) - s * (s - 1.0).powi(2)
+}
+
+/// Root mean square over orbits of the energy error after `steps` steps.
+fn energy_error(steps: usize, is_compensated: bool) -> f64 {
+    let (h, orbits) = (0.02, 16);
+    let square: f64 = (0..orbits)
+        .map(|orbit| {
+            let shift = 0.01 * f64::from(orbit);
+            let start = State { q: vector![0.0, 1.15 - shift], p: vector![0.5 + 0.7 * shift, 0.3 * shift] };
+            let mut state = start;
+            if is_compensated {
+                state = Ring {}.by(Gauss::<5>, h).run(start).take(steps).last().unwrap().unwrap().state;
+            } else {
+                for _ in 0..steps {
+                    state = Ring {}.by(Gauss::<5>, h).step(&state).unwrap().state;
+                }
+            }
+            let energy = |state: &State<f64, 2>| state.energy(&Ring {}).unwrap();
+            (energy(&state) - energy(&start)).powi(2)
+        })
+        .sum();
+    (square / f64::from(orbits)).sqrt()
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
+fn a_trajectory_loses_less_to_rounding_than_single_steps() {
+    let (with, without) = (energy_error(20_000, true), energy_error(20_000, false));
+    // A step adds ε|q| without compensation, and εh|v| with it.
+    assert!(with < without / 4.0, "{with:e} {without:e}");
+    assert!(with < 5e-15, "{with:e}");
 }

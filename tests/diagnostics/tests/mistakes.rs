@@ -3,7 +3,7 @@
 //!
 //! rustc words its own part of a message anew from version to version, so the expected messages are held
 //! against the version that they were written with; another one skips them, and says so, or fails where the
-//! variable `CI` is set. `TRYBUILD=overwrite cargo test -p dalembert-tests --test project mistakes` writes
+//! variable `CI` is set. `TRYBUILD=overwrite cargo test -p dalembert-diagnostics` writes
 //! them anew. Read each one before committing.
 
 use std::process::Command;
