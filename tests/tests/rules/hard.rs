@@ -4,21 +4,13 @@
 //! say so by a named `StepError`, and leave the last good state.
 
 mod chaotic;
+mod damping;
+mod faults;
+mod first_guess;
+mod kepler;
 mod methods;
 mod rounding;
+mod scales;
+mod singular;
 mod stiff;
 mod verdicts;
-
-// None of these holds a test that is long unoptimised.
-#[cfg(not(feature = "only-long-tests"))]
-mod damping;
-#[cfg(not(feature = "only-long-tests"))]
-mod faults;
-#[cfg(not(feature = "only-long-tests"))]
-mod first_guess;
-#[cfg(not(feature = "only-long-tests"))]
-mod kepler;
-#[cfg(not(feature = "only-long-tests"))]
-mod scales;
-#[cfg(not(feature = "only-long-tests"))]
-mod singular;

@@ -1,5 +1,7 @@
 //! Events: their times to rounding on closed forms, where they begin and end, what follows them.
 
+#![cfg(not(feature = "only-long-tests"))]
+
 use std::f64::consts::{PI, TAU};
 
 use dalembert::nalgebra::{SVector, Vector2, vector};

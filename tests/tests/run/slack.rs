@@ -1,5 +1,7 @@
 //! Stages solved no further than an error asks for: how far that moves the end, and what it saves.
 
+#![cfg(not(feature = "only-long-tests"))]
+
 use dalembert::nalgebra::SVector;
 use dalembert::system::ForcedLagrangian;
 use dalembert::{Discretise, Gauss, State, Trapezoidal, rayleigh_system};

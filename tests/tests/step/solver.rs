@@ -1,5 +1,7 @@
 //! The solver of a step: every error reached on purpose, and the roots that it must find.
 
+#![cfg(not(feature = "only-long-tests"))]
+
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::run::VelocityHistory;
 use dalembert::step::{Momenta, Quantity, StepKernel};

@@ -1,5 +1,7 @@
 //! The Rayleigh structure of forced discrete systems.
 
+#![cfg(not(feature = "only-long-tests"))]
+
 mod classical_damping;
 mod conformal;
 mod dissipation;

@@ -1,5 +1,7 @@
 //! Friction that is stiff, not smooth, of the wrong sign, or without a real step.
 
+#![cfg(not(feature = "only-long-tests"))]
+
 use dalembert::nalgebra::vector;
 use dalembert::step::Quantity;
 use dalembert::{
