@@ -23,6 +23,8 @@ use crate::scenes::Scene;
 
 /// Errors to be reached.
 const LEVELS: [f64; 4] = [1e-6, 1e-8, 1e-10, 1e-12];
+/// The least of them.
+const LEAST: f64 = LEVELS[LEVELS.len() - 1];
 /// Members of a run: those of one chunk, on the eight starts in turn.
 const MEMBERS: u64 = 256;
 /// Members that are written.
@@ -252,7 +254,7 @@ where
     fn candidates(self, name: &'static str, runs: &Runs<'a, S, N>) -> Vec<Goal<'a, N>> {
         let (member, h, steps) = (runs.member(), runs.time / runs.steps, runs.steps as u64);
         let study = move || Ensemble::new(&member).by(self, h).steps(steps).in_lanes().ends(0..MEMBERS);
-        vec![(LEVELS[LEVELS.len() - 1], runs.measured(name, study))]
+        vec![(LEAST, runs.measured(name, study))]
     }
 }
 
@@ -267,7 +269,7 @@ where
                 let study = Ensemble::new(&member).by(self, h).steps(steps).solved_for(error);
                 study.in_lanes().ends(0..MEMBERS)
             };
-            ((KEPT * error).max(LEVELS[LEVELS.len() - 1]), runs.measured(name, study))
+            ((KEPT * error).max(LEAST), runs.measured(name, study))
         };
         ASKED.map(solved_for).into()
     }

@@ -2,5 +2,6 @@
 
 mod corrections_page;
 mod floors;
+mod long_tests;
 mod pages;
 mod root;

@@ -1,8 +1,6 @@
 //! What `Gauss<S>` keeps: the symplectic form and the momentum maps without force, and with it the identities
 //! of the theory.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::noether::Generator;
 use dalembert::{Discrete, Discretise, Gauss, State, rayleigh_system, samples};

@@ -369,17 +369,8 @@ fn solved_for_an_error() {
             let mut run = all[member].0.by(Gauss::<S>, h).run(all[member].1).solved_for(error, time);
             run.nth(steps - 1)?.ok().map(|step| bits(&step.state))
         };
-        for steps in [9, 20, 25] {
-            forward(
-                &mut runs,
-                if steps == 9 {
-                    9
-                } else if steps == 20 {
-                    11
-                } else {
-                    5
-                },
-            );
+        for (more, steps) in [(9, 9), (11, 20), (5, 25)] {
+            forward(&mut runs, more);
             for lane in 0..8 {
                 assert_eq!(runs.state(lane).map(|state| bits(&state)), end(lane, steps), "lane {lane}");
             }

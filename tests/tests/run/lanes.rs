@@ -341,7 +341,7 @@ where
     ends
 }
 
-/// In one lane, in some and in many.
+/// In every number of lanes.
 pub fn agree_in_all<L, M, const N: usize>(method: M, members: &[(L, State<f64, N>)], h: f64) -> usize
 where
     L: InLanes<M, N, Scalar = f64>,
@@ -349,11 +349,13 @@ where
 {
     let ends = [
         agree::<L, M, N, 1>(method, members, h),
+        agree::<L, M, N, 2>(method, members, h),
         agree::<L, M, N, 3>(method, members, h),
         agree::<L, M, N, 8>(method, members, h),
+        agree::<L, M, N, 16>(method, members, h),
         agree::<L, M, N, 32>(method, members, h),
     ];
-    assert_eq!(ends, [ends[0]; 4]);
+    assert_eq!(ends, [ends[0]; 6]);
     ends[0]
 }
 

@@ -1,7 +1,5 @@
 //! The Rayleigh structure of forced discrete systems.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 mod classical_damping;
 mod conformal;
 mod dissipation;
