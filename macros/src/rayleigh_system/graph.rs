@@ -22,6 +22,7 @@ use proc_macro2::{Ident, Literal, Span, TokenStream, TokenTree};
 use quote::{ToTokens, format_ident, quote};
 use syn::Expr;
 
+use super::hygiene::unmarked;
 use super::syntax::regrouped;
 
 pub use operation::{Comparison, Function, Operation, PairFunction, Predicate};
@@ -41,7 +42,7 @@ impl Node {
 pub struct Parameter {
     /// The user's tokens.
     pub tokens: TokenStream,
-    /// The same as text: equal texts are one parameter.
+    /// The tokens as text: equal texts are one parameter.
     text: String,
     /// An entry of a local array, such as `q1[0]`.
     is_entry: bool,
@@ -89,11 +90,11 @@ impl Parameter {
 
 /// Where expressions are moved to.
 pub struct Point {
-    /// What is added to names there.
+    /// The suffix of names there.
     name: &'static str,
     coordinates: Vec<Node>,
     time: Option<Node>,
-    /// What has been moved there.
+    /// Expressions that have been moved there, by those that they were.
     moved: HashMap<Node, Node>,
 }
 
@@ -184,13 +185,16 @@ impl Graph {
     }
 
     /// Names an expression, unless it has a name or needs none.
+    ///
+    /// A name of the user's loses its mark here, before names are told apart: two that differ by the mark alone
+    /// would become one where marks are taken off, in the finished text.
     pub fn give_name(&mut self, node: Node, name: &str) {
         let needs_none = match self.operation(node) {
             Operation::Parameter(index) => self.parameters[index].stays,
             operation => operation.is_literal(),
         };
         if !needs_none {
-            self.names.entry(node).or_insert_with(|| name.trim_start_matches('_').to_owned());
+            self.names.entry(node).or_insert_with(|| unmarked(name).trim_start_matches('_').to_owned());
         }
     }
 
@@ -231,7 +235,7 @@ impl Graph {
         self.parameter_of(tokens, false)
     }
 
-    /// The same; `is_block` if the tokens are a `match`.
+    /// [`written`](Self::written) tokens; `is_block` if they are a `match`.
     pub fn written_as(&mut self, tokens: TokenStream, is_block: bool) -> Node {
         let node = self.parameter_of(tokens, false);
         if let Operation::Parameter(index) = self.operation(node) {
@@ -391,7 +395,7 @@ impl Graph {
         self.reachable_before(roots, |_| false)
     }
 
-    /// The same without what is behind those that are `known`.
+    /// [`reachable`](Self::reachable) without what is behind nodes that are `known`.
     pub fn reachable_before(
         &self,
         roots: impl IntoIterator<Item = Node>,

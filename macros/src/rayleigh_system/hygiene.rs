@@ -16,7 +16,7 @@ use quote::quote;
 
 use super::syntax::regrouped;
 
-/// What a marked name ends in: nothing that says whether it is a type or a constant, and no name of Rust
+/// The end of a marked name: nothing that says whether it is a type or a constant, and no name of Rust
 /// code.
 pub const MARK: &str = "__0__0__";
 
@@ -81,7 +81,7 @@ pub struct Shared {
 }
 
 impl Shared {
-    /// Those of the annotated item, and of the struct that is named after its function.
+    /// Names of the annotated item, and of the struct that is named after its function.
     pub fn of(item: &TokenStream) -> Self {
         let mut all = HashSet::new();
         collect(item.clone(), &mut all);
@@ -128,7 +128,7 @@ impl Shared {
                         module = Some(String::new());
                         resolved.extend([token.clone()]);
                     } else if text.contains(MARK) {
-                        resolved.extend([Ident::new(&text.replace(MARK, ""), name.span())]);
+                        resolved.extend([Ident::new(&unmarked(&text), name.span())]);
                     } else if let Some(module) = &mut module {
                         let leaf = if text == "self" { module.clone() } else { text.clone() };
                         if is_leaf && self.shared.contains(&leaf) {
@@ -147,7 +147,7 @@ impl Shared {
                 TokenTree::Group(group) => {
                     resolved.extend([regrouped(group, self.resolved_in(group.stream(), module.clone()))]);
                 }
-                TokenTree::Literal(literal) => resolved.extend([unmarked(literal)]),
+                TokenTree::Literal(literal) => resolved.extend([unmarked_literal(literal)]),
                 TokenTree::Punct(punct) => {
                     if punct.as_char() == ';' {
                         module = None;
@@ -172,6 +172,11 @@ impl Shared {
 /// The name of the user's, marked if generated code has it too.
 pub fn marked(name: Ident) -> Ident {
     if is_generated(&name.to_string()) { Ident::new(&format!("{name}{MARK}"), name.span()) } else { name }
+}
+
+/// The text with the user's names as the user wrote them.
+pub fn unmarked(text: &str) -> String {
+    text.replace(MARK, "")
 }
 
 fn is_generated(name: &str) -> bool {
@@ -204,9 +209,9 @@ fn is_punctuation(token: &TokenTree, mark: char) -> bool {
 }
 
 /// Messages and documentation name what the user wrote.
-fn unmarked(literal: &Literal) -> TokenTree {
+fn unmarked_literal(literal: &Literal) -> TokenTree {
     let text = literal.to_string();
-    let own = text.contains(MARK).then(|| text.replace(MARK, "").parse::<Literal>().ok()).flatten();
+    let own = text.contains(MARK).then(|| unmarked(&text).parse::<Literal>().ok()).flatten();
     let mut own = own.unwrap_or_else(|| literal.clone());
     own.set_span(literal.span());
     TokenTree::Literal(own)

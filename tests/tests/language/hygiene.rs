@@ -153,3 +153,65 @@ mod of_functions {
         assert_eq!(VectorField.vector(&vector![1.0, 2.0]), vector![-2.0, 1.0]);
     }
 }
+
+/// A body's constants are named by one letter as generated code's types are, and its locals by the same letter in
+/// lower case, which is what temporaries are named after that hold an entry of the constant.
+mod letters {
+    use dalembert::nalgebra::vector;
+    use dalembert::{Discretise as _, Gauss, Midpoint, State, rayleigh_system};
+
+    /// A mass on a track through five heights, straight between them.
+    macro_rules! track {
+        ($name:ident, $heights:ident, $local:ident, $derivatives:ident) => {
+            pub struct $name;
+            const _: () = {
+                const $heights: [f64; 5] = [0.0, 0.3, 1.1, 0.7, 2.0];
+                #[rayleigh_system(rule = [midpoint, gauss], derivatives = $derivatives)]
+                impl $name {
+                    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+                        let mut y = 0.0;
+                        for i in 0..4 {
+                            let $local = q[0] - i as f64;
+                            if $local >= 0.0 && $local < 1.0 {
+                                y = $heights[i] * (1.0 - $local) + $heights[i + 1] * $local;
+                            }
+                        }
+                        0.5 * v[0] * v[0] - y
+                    }
+                }
+            };
+        };
+    }
+    track!(Plain, HEIGHTS, along, expanded);
+    track!(AsTime, T, t, expanded);
+    track!(AsDual, D, d, expanded);
+    track!(AsDualByDuals, D, d, num_dual);
+
+    #[test]
+    fn are_no_locals() {
+        fn check<L>(system: L)
+        where
+            L: dalembert::Discrete<Midpoint, 1, Scalar = f64>
+                + dalembert::step::Flow<Gauss<2>, 1>
+                + dalembert::Discrete<Gauss<2>, 1>,
+        {
+            // Midpoint, h = 0.01, from (0.2, 2): at 50 steps the mass is on the third piece, q, p as of an own program.
+            let state = State { q: vector![0.2], p: vector![2.0] };
+            let mut run = system.by(Midpoint, 0.01).run(state);
+            let end = run.nth(49).unwrap().unwrap().state;
+            assert!((end.q[0] - 1.160475).abs() < 1e-6 && (end.p[0] - 1.805).abs() < 1e-12, "{end:?}");
+            for q in [0.2, 1.3, 2.9, 3.5] {
+                let slope = system.lagrangian_gradient(&vector![q], &vector![1.0]).d1[0];
+                let expected = [-0.3, -0.8, 0.4, -1.3][q as usize];
+                assert!((slope - expected).abs() < 1e-15, "{q} {slope}");
+            }
+            // Straight pieces: what Gauss's stages see is the same.
+            let end = system.by(Gauss::<2>, 0.01).step(&state).unwrap().state;
+            assert!((end.p[0] - (2.0 - 0.3 * 0.01)).abs() < 1e-14, "{end:?}");
+        }
+        check(Plain);
+        check(AsTime);
+        check(AsDual);
+        check(AsDualByDuals);
+    }
+}
