@@ -65,9 +65,9 @@ pub enum Crossing {
     /// All, touching among them.
     #[default]
     Either,
-    /// Those from below.
+    /// Passages from below.
     Rising,
-    /// Those from above.
+    /// Passages from above.
     Falling,
 }
 
@@ -81,7 +81,7 @@ pub enum Crossing {
 /// refined by partial steps to rounding. They come in the order of time, several at one time in that of their
 /// functions.
 ///
-/// What a polynomial may be off by is estimated, as functions have no bounds to ask for. Of two million random
+/// The error of a polynomial is estimated, as functions have no bounds to ask for. Of two million random
 /// crossings by all methods, a third of them in steps with several, none was missed; of two million pairs that
 /// lie closer together than a fiftieth of a step, four were, all in steps of a radian and more.
 ///
@@ -125,13 +125,13 @@ pub struct Watch<'t, T: Divisible<N>, G, const N: usize, const K: usize> {
     until: Option<f64>,
     /// The values at the end of the last step; `None` before the first.
     present: Option<[T::Scalar; K]>,
-    /// Those at its start, and when that was.
+    /// The values at its start, and when that was.
     earlier: Option<(f64, [T::Scalar; K])>,
     /// The velocity at its end, where it was asked for.
     velocity: Option<SVector<T::Scalar, N>>,
     /// Which events happened at the present state.
     happened: [bool; K],
-    /// What was found in the last step, in order.
+    /// Events found in the last step, in order.
     found: [Option<Found<T::Scalar, N>>; ROOTS],
     /// Which of them comes next.
     next: usize,
@@ -144,7 +144,7 @@ pub struct Watch<'t, T: Divisible<N>, G, const N: usize, const K: usize> {
 /// Leaves the grid.
 type Stop<'t, T, const N: usize> = fn(&mut Dense<'t, T, N>, f64, State<<T as Run<N>>::Scalar, N>);
 
-/// What comes next in a run that is watched.
+/// An item of a run that is watched.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Watched<S, const N: usize> {
     /// An event of the step that follows.
@@ -186,6 +186,9 @@ where
     }
 
     /// Ends the iteration over events at this time: the run takes no step from there on.
+    ///
+    /// The events of the last step, which was begun before this time, are all told, those after this time too: the
+    /// run is past them, and another watch would not find them again.
     #[must_use]
     pub fn until(self, time: f64) -> Self {
         Self { until: Some(time), ..self }
@@ -197,7 +200,7 @@ where
         self.dense.run()
     }
 
-    /// What comes next, at most a step further: its events, and then the step itself. `None` where the run has
+    /// The next item, at most a step further: its events, and then the step itself. `None` where the run has
     /// ended, by a terminal event for instance.
     ///
     /// # Errors
@@ -398,9 +401,6 @@ where
             }
             match self.advance()? {
                 Ok(Watched::Step(_)) => {}
-                Ok(Watched::Event(event)) if self.until.is_some_and(|until| after(event.time, until)) => {
-                    return None;
-                }
                 Ok(Watched::Event(event)) => return Some(Ok(event)),
                 Err(error) => return Some(Err(error)),
             }
