@@ -3,6 +3,7 @@
 //! The user's item stands as it was written; nothing of it is evaluated over other numbers.
 
 mod body;
+mod cancelling;
 mod derivatives;
 mod directions;
 mod entries;
@@ -56,7 +57,7 @@ pub struct WrittenOut {
 }
 
 impl WrittenOut {
-    /// What the expressions show.
+    /// The structure that the expressions show.
     pub fn findings(&self) -> Option<&Findings> {
         self.functions.structure.findings.as_ref()
     }
@@ -166,7 +167,7 @@ struct Code<'s> {
     /// Entries of the input.
     m: usize,
     derivation: Differentiation,
-    /// What the function being written stands on.
+    /// The type that the function being written stands on.
     home: Home,
     is_portable: bool,
     /// Whether any function written calls one of the runtime's elementary functions.
@@ -189,7 +190,7 @@ impl Code<'_> {
         })
     }
 
-    /// What the expressions show of the system's structure.
+    /// Finds the system's structure in its expressions.
     fn findings(&mut self, lagrangian: Node, rayleigh: Option<Node>, force: Option<&[Node]>) -> Findings {
         let mut differentiated = |root: Node, symbol: &str| Differentiated {
             root,

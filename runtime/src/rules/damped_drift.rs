@@ -122,7 +122,7 @@ impl<S: Scalar, const N: usize> Drift<SMatrix<S, N, N>> {
 
 /// A rule fitted to linear damping: its equation, given the free motion.
 pub(crate) trait ByDrift {
-    /// What is known of the equation.
+    /// The kind of the step's equation: linear in v̄, or general.
     const EQUATION: Equation;
 
     /// Where on the segment L is evaluated, as shares of it.
@@ -160,7 +160,8 @@ pub(crate) trait ByDrift {
         let momenta = |q0: &_, v: &_, h| Self::momenta(drift, system, q0, v, h);
         // Under damping that excites, what is left of M in p0 is below any share of it.
         let inertia = |_: &_, _: &_| drift.before;
-        let step = step_by(system, Self::EQUATION, (kernel, momenta, inertia), state, h, guess)
+        let cancelling = |_: &_, _: &_, _| nalgebra::zero();
+        let step = step_by(system, Self::EQUATION, (kernel, momenta, inertia, cancelling), state, h, guess)
             .map_err(|error| of_mass(system, &state.q, error));
         if cfg!(debug_assertions)
             && let Ok(step) = &step
@@ -205,7 +206,8 @@ pub(crate) trait ByDrift {
     }
 }
 
-/// What a step failed for: M, where it is not positive definite, for derivatives that are no numbers.
+/// Replaces an error of derivatives that are no numbers by the error of M at (q, 0), if it has one:
+/// [`require_positive_definite`].
 #[cold]
 fn of_mass<L: Rayleigh<N> + ?Sized, const N: usize>(
     system: &L,

@@ -32,8 +32,8 @@ pub trait Discrete<R, const N: usize>: Flow<R, N> {
     /// The form of the Newton matrix: `SMatrix<Scalar, N, N>`, or [`Banded`](crate::step::Banded).
     type Matrix: NewtonMatrix<Self::Scalar, N>;
 
-    /// What a run of steps keeps from one to the next: [`VelocityHistory`](crate::run::VelocityHistory),
-    /// unless the rule has something better.
+    /// The memory of a run from step to step: [`VelocityHistory`](crate::run::VelocityHistory), unless the
+    /// rule has something better.
     type Memory: Memory<Self, R, N>;
 
     /// Whether the step's equation is linear in v̄, so that one correction solves it, with a matrix that neither
@@ -72,6 +72,22 @@ pub trait Discrete<R, const N: usize>: Flow<R, N> {
         h: Self::Scalar,
     ) -> Momenta<Self::Scalar, N>;
 
+    /// Sizes of the terms that may cancel in p0, component by component: p0 as computed is off by ε times that, where
+    /// last places of q0 and v̄ do not show it, as in (q − 1) + (q + 1) at rest.
+    ///
+    /// Generated where L, R or f have such terms; 0 otherwise. A step whose residual stops falling asks for it, no
+    /// other.
+    #[cold]
+    fn cancelling_terms(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> SVector<Self::Scalar, N> {
+        let _ = (q0, v, h);
+        nalgebra::zero()
+    }
+
     /// Energy on the segment: E_L at the points and velocity that the rule sees.
     fn segment_energy(
         &self,
@@ -106,8 +122,8 @@ pub trait Discrete<R, const N: usize>: Flow<R, N> {
     /// Whether the rule has points between q0 and q1, eliminated by the forced equations.
     const HAS_INTERIOR_POINTS: bool = false;
 
-    /// What `xi` does to the segment, and the sizes of the terms that each part is the sum of: NaN where one
-    /// is lost to underflow.
+    /// The [`Defect`] of the segment along `xi`, and the sizes of the terms that each part is the sum of: NaN
+    /// where one is lost to underflow.
     fn defect(
         &self,
         xi: &dyn VectorField<N, Scalar = Self::Scalar>,

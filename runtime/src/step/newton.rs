@@ -44,12 +44,12 @@ pub(crate) struct Solution<S, const N: usize> {
 /// The undamped method's iterations: from a guess this far off the careful one goes on.
 pub(crate) const QUICK_ITERATIONS: u32 = 8;
 
-/// What is known of the equation p0(q, v) = p before it is solved.
+/// The kind of the equation p0(q, v) = p, as known before it is solved.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Equation {
     /// Linear in v: the first correction leads to the root.
     Linear,
-    /// Nothing.
+    /// Any equation.
     General,
 }
 
@@ -73,7 +73,10 @@ pub(crate) fn root<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     let finish = alone(momentum);
     let solution = match quick(Equation::General, evaluate, &finish, state, start) {
         Ok(solution) => solution,
-        Err(reached) => careful(&Equations { evaluate, finish: &finish, inertia, state, h }, reached)?,
+        Err(reached) => {
+            let of = Equations { evaluate, finish: &finish, inertia, cancelling: &none_cancel, state, h };
+            careful(&of, reached)?
+        }
     };
     Ok(solution.unknown)
 }
@@ -88,8 +91,14 @@ pub(crate) fn root_from_rest<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     h: S,
     error: StepError,
 ) -> Result<SVector<S, N>, StepError> {
-    let of = Equations { evaluate, finish: &alone(momentum), inertia, state, h };
+    let finish = &alone(momentum);
+    let of = Equations { evaluate, finish, inertia, cancelling: &none_cancel, state, h };
     Ok(from_rest(&of, &nalgebra::zero(), error)?.unknown)
+}
+
+/// Of an equation of which no terms are known to cancel.
+fn none_cancel<S: Scalar, const N: usize>(_: &SVector<S, N>, _: &SVector<S, N>) -> SVector<S, N> {
+    nalgebra::zero()
 }
 
 /// One momentum in the place of both.

@@ -11,15 +11,16 @@ use crate::step::{
 use crate::system::Lagrangian;
 
 /// [`Flow::step`](crate::step::Flow::step) with the step's equation and both momenta as functions of (q0, v̄,
-/// h), and the mass that the velocity has in them.
+/// h), the mass that the velocity has in them, and the sizes of terms that cancel in p0.
 #[inline]
 pub(crate) fn step_by<L, M, const N: usize>(
     system: &L,
     kind: Equation,
-    (kernel, momenta, inertia): (
+    (kernel, momenta, inertia, cancelling): (
         impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> StepKernel<L::Scalar, N, M>,
         impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> Momenta<L::Scalar, N>,
         impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, N>,
+        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> SVector<L::Scalar, N>,
     ),
     state: &State<L::Scalar, N>,
     h: L::Scalar,
@@ -39,7 +40,8 @@ where
     let solution = match newton::quick(kind, &evaluate, &finish, state, start) {
         Ok(solution) => solution,
         Err(reached) => {
-            let of = StepEquations { kernel: &kernel, momenta: &momenta, inertia: &inertia, state, h };
+            let (kernel, momenta, inertia, cancelling) = (&kernel, &momenta, &inertia, &cancelling);
+            let of = StepEquations { kernel, momenta, inertia, cancelling, state, h };
             newton::at_length(&of, start, guess.is_some(), reached)
                 .map_err(|error| in_arguments(state, guess).unwrap_or(error))?
         }

@@ -21,8 +21,8 @@ pub trait SolvedForVelocity {}
 
 /// A rule whose discrete objects are formulas in (q0, q1): nothing within a segment has to be solved for.
 ///
-/// Those of [`Gauss`](crate::Gauss) rules are not: they are asked of [`segment`](crate::Discretised::segment),
-/// which may fail.
+/// [`Gauss`](crate::Gauss) rules are not of this kind: their discrete objects are asked of
+/// [`segment`](crate::Discretised::segment), which may fail.
 ///
 /// ```compile_fail
 /// use dalembert::{Discretise, Gauss, nalgebra::vector, rayleigh_system};
@@ -63,6 +63,7 @@ where
             |q0: &_, v: &_, h| self.step_kernel(q0, v, h),
             |q0: &_, v: &_, h| self.momenta(q0, v, h),
             |q0: &_, v: &_| self.lagrangian_derivatives(q0, v).d22,
+            |q0: &_, v: &_, h| self.cancelling_terms(q0, v, h),
         );
         let step = step_by(self, kind::<L, R, N>(), equation, state, h, guess);
         if cfg!(debug_assertions)

@@ -11,5 +11,6 @@ mod inputs;
 mod legendre;
 mod oscillator_flow;
 mod random_systems;
+mod rest;
 mod solver;
 mod special_steps;

@@ -10,11 +10,13 @@ use super::joint;
 use super::verify_segment;
 use super::view::subject;
 
-/// What an engine makes of the step's equation: bodies of the functions that a step calls, L, R and f
+/// The step's equation as an engine makes it: bodies of the functions that a step calls, L, R and f
 /// together, and what its structure allows.
 pub struct Kernel {
     pub step_kernel: TokenStream,
     pub momenta: TokenStream,
+    /// Sizes of the terms that cancel in p0, where some can.
+    pub cancelling_terms: Option<TokenStream>,
     /// The diagonals of a banded Newton matrix.
     pub diagonals: Option<usize>,
     /// The step is one linear solve.
@@ -22,13 +24,13 @@ pub struct Kernel {
     pub memory: Memory,
     /// The functions of an explicit step.
     pub explicit: Option<TokenStream>,
-    /// Those of several members at once.
+    /// The functions of an explicit step of several members at once.
     pub explicit_in_lanes: Option<TokenStream>,
     /// The equation of several members at once.
     pub in_lanes: Option<TokenStream>,
 }
 
-/// What a run keeps from step to step.
+/// The memory of a run.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Memory {
     Velocities,
@@ -76,9 +78,20 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
             }
         }
     });
-    let Kernel { step_kernel, momenta, diagonals, is_linear, memory, explicit, explicit_in_lanes, in_lanes } = kernel.unwrap_or_else(|| Kernel {
+    let Kernel {
+        step_kernel,
+        momenta,
+        cancelling_terms,
+        diagonals,
+        is_linear,
+        memory,
+        explicit,
+        explicit_in_lanes,
+        in_lanes,
+    } = kernel.unwrap_or_else(|| Kernel {
         step_kernel: quote!(#rule::lagrangian_kernel(self, q0, v, h) #(+ #rule::#kernels(self, q0, v, h))*),
         momenta: quote!(#rule::lagrangian_momenta(self, q0, v, h) #(+ #rule::#momenta(self, q0, v, h))*),
+        cancelling_terms: None,
         diagonals: None,
         is_linear: false,
         memory: Memory::Velocities,
@@ -133,6 +146,15 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
             }
         }
     });
+    let cancelling_terms = cancelling_terms.map(|terms| {
+        quote! {
+            /// Sizes of the terms that cancel in p0, at rest for instance.
+            #[cold]
+            fn cancelling_terms(&self, q0: &Vector, v: &Vector, h: #scalar) -> Vector {
+                #terms
+            }
+        }
+    });
     let verification = is_expanded.then(|| verify_segment(system, &quote!(#rule)));
     // p0 = −D1 L_d − f_d⁻: Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0,
     // v, h)
@@ -171,6 +193,8 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
             fn momenta(&self, q0: &Vector, v: &Vector, h: #scalar) -> Momenta<#scalar, #n> {
                 #momenta
             }
+
+            #cancelling_terms
 
             /// E_L on the segment.
             fn segment_energy(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {

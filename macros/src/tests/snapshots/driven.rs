@@ -350,6 +350,27 @@ const _: () = {
                 p1: SVector::from([t1 + t2]),
             }
         }
+        /// Sizes of the terms that cancel in p0, at rest for instance.
+        #[cold]
+        fn cancelling_terms(&self, q0: &Vector, v: &Vector, h: f64) -> Vector {
+            let half = 0.5 * h;
+            let q = [q0[0] + half * v[0]];
+            let t = self.t + half;
+            let u = self.u;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            let t1 = self.system.gain * u[0];
+            let t2 = cos_q0 * t1;
+            let t3 = t2 + (t * Arm::RATE).sin();
+            let t4 = t3 - sin_q0;
+            let t5 = t4 - self.system.c * v[0];
+            let t6 = half * t5;
+            SVector::from([
+                t6.abs()
+                    + half.abs()
+                        * (t2.abs() + 2.0 * (cos_q0.abs() * t1.abs()) + t3.abs()
+                            + t4.abs() + t5.abs()) + (self.system.m * v[0] - t6).abs(),
+            ])
+        }
         /// E_L on the segment.
         fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::segment_energy(self, q0, q1, h)

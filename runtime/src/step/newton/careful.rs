@@ -137,7 +137,7 @@ fn nearer<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     square(&next) < square(&last.correction) * S::constant(0.25)
 }
 
-/// What a Newton matrix that cannot be solved with means.
+/// The error of a Newton matrix that cannot be solved with.
 #[cold]
 pub(super) fn unsolvable<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     singular: Singular,

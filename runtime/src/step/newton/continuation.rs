@@ -28,12 +28,16 @@ type Kernel<'f, S, M, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>, S
 /// Both momenta as a function of (q, v̄, h).
 type BothMomenta<'f, S, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>, S) -> Momenta<S, N> + 'f;
 
+/// Sizes of terms that cancel in p0 as a function of (q, v̄, h).
+type Cancelling<'f, S, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>, S) -> SVector<S, N> + 'f;
+
 /// The equation of a step as functions of (q, v̄, h), of which `inertia` does not depend on h; behind
 /// pointers, for steps that take long.
 pub(crate) struct StepEquations<'f, S, M, const N: usize> {
     pub(crate) kernel: &'f Kernel<'f, S, M, N>,
     pub(crate) momenta: &'f BothMomenta<'f, S, N>,
     pub(crate) inertia: &'f Inertia<'f, S, N>,
+    pub(crate) cancelling: &'f Cancelling<'f, S, N>,
     pub(crate) state: &'f State<S, N>,
     pub(crate) h: S,
 }
@@ -44,6 +48,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> StepEquations<'_, S, M, N
             evaluate: &|q, v| (self.kernel)(q, v, h),
             finish: &|q, v| (self.momenta)(q, v, h),
             inertia: self.inertia,
+            cancelling: &|q, v| (self.cancelling)(q, v, h),
             state: self.state,
             h,
         })
@@ -81,8 +86,8 @@ pub(crate) fn at_length<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     })
 }
 
-/// What `root` leads to part by part, up to the whole of h; `root` gives the root of a share of h from that
-/// of another, if it is near.
+/// The root for the whole of h, reached part by part; `root` gives the root of a share of h from that of
+/// another, if it is near.
 #[cold]
 #[inline(never)]
 pub(crate) fn along_h<S: Scalar, G: Copy>(start: G, root: &dyn Fn(S, &G) -> Option<G>) -> Option<G> {

@@ -49,7 +49,7 @@ pub(crate) fn is_sensible<S: Scalar, const N: usize>(floor: &SVector<S, N>, term
     (0..N).all(|i| floor[i] <= terms[i] * S::constant(SENSIBLE) + S::SMALLEST_NORMAL * S::constant(4.0))
 }
 
-/// What of `terms` is a number: where a term is not finite, it says nothing.
+/// The absolute values of `terms`, with 0 where a term is not finite.
 #[cold]
 pub(crate) fn finite_part<S: Scalar, const N: usize>(terms: &SVector<S, N>) -> SVector<S, N> {
     terms.map(|term| if term.is_finite() { term.abs() } else { S::zero() })
@@ -131,9 +131,9 @@ fn held<S: Scalar>(residual: S, floor: S, worst: (S, S, bool)) -> (S, S, bool) {
     if size * worst.1 > worst.0 * floor { (size, floor, is_root) } else { (worst.0, worst.1, is_root) }
 }
 
-/// What [`held_against`] says of a residual at a root whose size, [`weighted`](super::weighted) by 1/`floor`,
-/// is known, in a third of its operations; nothing where it is no root, or where the rounding of the weights
-/// would decide. No floor may overflow.
+/// The residual and floor of [`held_against`] at a root, in a third of its operations, where the `size`,
+/// [`weighted`](super::weighted) by `weights` = 1/`floor`, is known; `None` where it is no root, or where the
+/// rounding of the weights would decide. No floor may overflow.
 #[inline]
 pub(crate) fn held_by_weights<S: Scalar, const N: usize>(
     residual: &SVector<S, N>,
@@ -176,7 +176,7 @@ pub(super) fn worst<S: Scalar, const N: usize>(residual: &SVector<S, N>, floor: 
 /// swallow a single one.
 pub(crate) const PLACES: f64 = 8.0;
 
-/// What rounding does to p0: its changes when each entry of q and of v moves by its last place, added up.
+/// The rounding of p0: its changes when each entry of q and of v moves by its last place, added up.
 #[cold]
 pub(super) fn rounding<S: Scalar, const N: usize>(
     p0: impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,

@@ -170,8 +170,8 @@ fn without<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
             SVector::from_fn(|i, _| if resting.get(i) == Some(&true) { p[i] + change[i] } else { p1[i] });
         Momenta { p0: held(p0), p1 }
     };
-    let Equations { inertia, state, h, .. } = *of;
-    let others = Equations { evaluate: &evaluate, finish: &finish, inertia, state, h };
+    let Equations { inertia, cancelling, state, h, .. } = *of;
+    let others = Equations { evaluate: &evaluate, finish: &finish, inertia, cancelling, state, h };
     let solution = careful(&others, Reached { v: start, iterations: 0 }).ok()?;
     let found = vanishing(&|v| (of.finish)(&of.state.q, v).p0 - p, p, &solution.unknown, near);
     resting.iter().zip(found).all(|(rests, found)| !rests || found).then_some(solution)

@@ -18,18 +18,22 @@ type Finish<'f, S, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>) -> M
 pub(super) type Inertia<'f, S, const N: usize> =
     dyn Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, N> + 'f;
 
-/// What is solved, and from where.
+/// Sizes of terms that cancel in p0 as a function of (q, v).
+type Cancelling<'f, S, const N: usize> = dyn Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N> + 'f;
+
+/// The equations that are solved, and the state and h that they are solved for.
 pub(crate) struct Equations<'f, S, M, const N: usize> {
     pub(crate) evaluate: &'f Evaluate<'f, S, M, N>,
     pub(crate) finish: &'f Finish<'f, S, N>,
     pub(crate) inertia: &'f Inertia<'f, S, N>,
+    pub(crate) cancelling: &'f Cancelling<'f, S, N>,
     pub(crate) state: &'f State<S, N>,
     /// v times this and a share leads from q to the configurations on the way.
     pub(crate) h: S,
 }
 
 impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Equations<'_, S, M, N> {
-    /// What the equation is made of: |p| + |M||v|, with which the forces balance, and p0 at rest.
+    /// The terms of the equation: |p| + |M||v|, with which the forces balance, and p0 at rest.
     fn terms(&self, v: &SVector<S, N>) -> SVector<S, N> {
         let State { q, p } = self.state;
         let at_rest = (self.finish)(q, &nalgebra::zero()).p0;
@@ -77,6 +81,12 @@ pub(super) fn verified<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     }
     let mut terms = of.terms(v);
     let mut has_forces = false;
+    if !held.2 {
+        let cancelling = finite_part(&(of.cancelling)(q, v));
+        floor += cancelling * S::EPSILON;
+        terms += cancelling;
+        held = held_against(&remaining, &floor);
+    }
     if !held.2 {
         // Far above what any sensible floor explains, none is measured: of a step that fails, that would be
         // most of the cost.
@@ -149,6 +159,7 @@ mod tests {
             evaluate: &|q, v| StepKernel { p0: momenta(q, v).p0, matrix },
             finish: &momenta,
             inertia: &|_, _| matrix![1.0],
+            cancelling: &|_, _| vector![0.0],
             state: &state,
             h: 1.0,
         };

@@ -1,7 +1,5 @@
 //! Friction that is stiff, not smooth, of the wrong sign, or without a real step.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::vector;
 use dalembert::step::Quantity;
 use dalembert::{
@@ -142,7 +140,8 @@ fn sliding_to_rest_without_ringing() {
     assert!(before < 1e-15, "{before:e}");
 }
 
-/// What the obvious formulas of the same friction do: an overflow and a loss of digits, each by its name.
+/// What the obvious formulas of the same friction do: an overflow is named; 1 − 1 near rest rounds as 1 does, and
+/// there is rest to that rounding.
 #[test]
 fn friction_written_carelessly_is_named() {
     let (mu, epsilon, h) = (0.7, 1e-4, 1e-3);
@@ -151,8 +150,8 @@ fn friction_written_carelessly_is_named() {
     assert_eq!(step.unwrap_err(), StepError::NonFinite { quantity: Quantity::Derivatives, index: 0 });
 
     let system = Cancelling { mu, epsilon };
-    let error = system.by(Midpoint, h).run(start).take(10_000).find_map(Result::err);
-    assert!(matches!(error, Some(StepError::LostPrecision { .. })), "{error:?}");
+    let last = system.by(Midpoint, h).run(start).take(10_000).last().unwrap().unwrap().state.p[0];
+    assert!(last.abs() <= 16.0 * f64::EPSILON * 0.5 * h * mu, "{last:e}");
     // The control: the same friction in two pieces.
     let system = Block { k: 0.0, mu, u: 0.0, epsilon };
     assert!(system.by(Midpoint, h).run(start).take(10_000).all(|step| step.is_ok()));

@@ -1,0 +1,131 @@
+//! Damped motion to its end: forces that cancel at q = 0 round by their own size, of which last places of q, v and p
+//! show nothing there.
+
+use dalembert::nalgebra::{Vector2, matrix, vector};
+use dalembert::{Discrete, Discretise, Midpoint, State, StepError, rayleigh_system};
+
+/// A mass between two springs.
+#[rayleigh_system]
+fn springs(q: [f64; 1], v: [f64; 1]) -> (f64, f64) {
+    (0.5 * v[0] * v[0] - 0.5 * (q[0] - 1.0).powi(2) - 0.5 * (q[0] + 1.0).powi(2), 0.25 * v[0] * v[0])
+}
+
+/// A mass between two points that attract it.
+#[rayleigh_system]
+fn wells(q: [f64; 1], v: [f64; 1], a: f64) -> (f64, f64) {
+    let (left, right) = (q[0] + a, q[0] - a);
+    (
+        0.5 * v[0] * v[0] + 1.0 / (left * left + 1.0).sqrt() + 1.0 / (right * right + 1.0).sqrt(),
+        0.1 * v[0] * v[0],
+    )
+}
+
+/// [`springs`] as one would write them who has done the sum: nothing cancels.
+#[rayleigh_system]
+fn spring(q: [f64; 1], v: [f64; 1]) -> (f64, f64) {
+    (0.5 * v[0] * v[0] - q[0] * q[0], 0.25 * v[0] * v[0])
+}
+
+/// A pair of springs far from one another, whose equilibrium is the origin, and two masses in them.
+#[rayleigh_system]
+fn pair(q: [f64; 2], v: [f64; 2], a: f64) -> (f64, f64) {
+    let between = q[1] - q[0];
+    (
+        0.5 * (v[0] * v[0] + v[1] * v[1])
+            - 0.5 * (q[0] - a).powi(2)
+            - 0.5 * (q[0] + a).powi(2)
+            - 0.5 * (between - 3.0 * a).powi(2)
+            - 0.5 * (between + 3.0 * a).powi(2),
+        0.2 * (v[0] * v[0] + v[1] * v[1]),
+    )
+}
+
+/// Fifty starts between rest and rest: each step is that of the rule in closed form, to rounding of the forces.
+#[test]
+fn a_mass_between_two_springs_comes_to_rest() {
+    const H: f64 = 0.1;
+    // v̄ = (p0 − (h/2) k q0)/(1 + (h/2) c + (h²/4) k), q1 = q0 + h v̄, p1 = 2 m v̄ − p0 − h c v̄ − …: by k = 2, c = ½.
+    let inverse = 1.0 / (1.0 + 0.25 * H + 0.5 * H * H);
+    let v = vector![-H * inverse, inverse].transpose();
+    let q = vector![1.0, 0.0].transpose() + v * H;
+    let p = v * (1.0 - 0.25 * H) - (vector![1.0, 0.0].transpose() + q) * (0.5 * H);
+    let step = matrix![q[0], q[1]; p[0], p[1]];
+    for start in 30..80 {
+        let mut expected: Vector2<f64> = vector![f64::from(start) / 100.0, 0.0];
+        let state = State { q: vector![expected[0]], p: vector![0.0] };
+        let mut run = Springs {}.by(Midpoint, H).run(state);
+        for index in 0..800 {
+            let taken = run.next().unwrap().unwrap_or_else(|error| panic!("{start}, step {index}: {error}"));
+            expected = step * expected;
+            let off = vector![taken.state.q[0], taken.state.p[0]] - expected;
+            assert!(off.amax() < 1e-14, "{start}, step {index}: {off:e}");
+        }
+        assert!(run.state().q[0].abs() < 1e-14);
+    }
+}
+
+/// Where the forces are not linear, the rest of a run is known: the origin.
+#[test]
+fn a_mass_between_two_attracting_points_comes_to_rest() {
+    for a in [0.3, 0.6] {
+        for start in 0..6 {
+            let wells = Wells { a };
+            let state = State { q: vector![0.01 + f64::from(start) / 9.0], p: vector![0.0] };
+            let mut run = wells.by(Midpoint, 0.1).run(state);
+            for index in 0..4000 {
+                if let Some(Err(error)) = run.next() {
+                    panic!("{a}, {start}, step {index}: {error}");
+                }
+            }
+            assert!(run.state().q[0].abs() < 1e-13, "{:e}", run.state().q[0]);
+        }
+    }
+}
+
+fn cancelling_terms<L, const N: usize>(system: &L, q: [f64; N], v: [f64; N]) -> [f64; N]
+where
+    L: Discrete<Midpoint, N, Scalar = f64>,
+{
+    system.cancelling_terms(&q.into(), &v.into(), 0.1).into()
+}
+
+#[test]
+fn the_terms_are_those_that_cancel_and_there_are_none_where_none_do() {
+    // h/2 times the length of a spring at least, and of both at most with all sums that they are in.
+    let [size] = cancelling_terms(&Springs {}, [1e-9], [1e-9]);
+    assert!((0.05..=0.2).contains(&size), "{size}");
+    assert_eq!(cancelling_terms(&Spring {}, [1e-9], [1e-9]), [0.0]);
+    // As much as the springs are long, times h/2.
+    for size in cancelling_terms(&Pair { a: 1e6 }, [0.0, 0.0], [0.0, 0.0]) {
+        assert!((0.05e6..2e6).contains(&size), "{size}");
+    }
+}
+
+/// The rounding of lengths that are 10⁶ times the motion explains no residual that is larger: the solver does not
+/// take what a short guess leaves.
+#[test]
+fn what_terms_do_not_explain_is_solved_for() {
+    let pair = Pair { a: 1e6 };
+    let state = State { q: vector![1e-3, -2e-3], p: vector![0.0, 0.0] };
+    let step = pair.by(Midpoint, 0.1).near(&vector![1.0, -1.0]).step(&state).unwrap();
+    // 6 and 4 in place of (q ± a) + …: the same springs without their lengths, solved on paper.
+    let stiffness = matrix![4.0, -2.0; -2.0, 2.0];
+    let mass = matrix![1.0 + 0.5 * 0.1 * 0.4, 0.0; 0.0, 1.0 + 0.5 * 0.1 * 0.4] + stiffness * (0.25 * 0.01);
+    let expected = mass.lu().solve(&(stiffness * state.q * -0.05)).unwrap();
+    assert!((step.velocity - expected).amax() < 4.0 * f64::EPSILON * 1e6 * 0.1 * 6.0);
+    assert!((step.velocity - expected).amax() < 1e-3 * expected.amax());
+}
+
+/// The control: p0 = v − v² + … is at most ¼ and some, however large the terms are that cancel in it.
+#[test]
+fn a_step_without_a_root_is_refused_as_before() {
+    #[rayleigh_system]
+    fn bounded(q: [f64; 1], v: [f64; 1], a: f64) -> f64 {
+        0.5 * v[0] * v[0] - v[0].powi(3) / 3.0 - 0.5 * (q[0] - a).powi(2) - 0.5 * (q[0] + a).powi(2)
+    }
+    for a in [1.0, 1e6] {
+        let state = State { q: vector![0.0], p: vector![1.0] };
+        let error = Bounded { a }.by(Midpoint, 0.1).step(&state).unwrap_err();
+        assert!(matches!(error, StepError::NoRealSolution { .. }), "{error}");
+    }
+}
