@@ -92,7 +92,7 @@ macro_rules! c_api {
             /// The system as C sees it.
             pub enum CSystem {}
 
-            /// What the caller's memory holds: opaque in C.
+            /// The caller's memory: opaque in C.
             pub type CMemory = calls::Memory<CSystem, $n>;
 
             const TIMES: usize = [$(stringify!($t),)? ""].len() - 1;

@@ -44,7 +44,7 @@ const _: () = assert!(size_of::<CReport>() == 32);
 // SAFETY: an array has no more than its elements.
 unsafe impl<T: Plain, const K: usize> Plain for [T; K] {}
 
-/// What lies at `address`, copied.
+/// Copies the value at `address`.
 ///
 /// # Errors
 /// [`Status::NullPointer`], [`Status::Misaligned`].
@@ -119,7 +119,7 @@ pub unsafe fn both<T: Plain>(first: *mut T, one: T, second: *mut T, other: T) ->
     }
 }
 
-/// What the caller's memory begins with once it is initialised.
+/// The beginning of the caller's memory once it is initialised.
 #[repr(C)]
 pub struct Held<T> {
     signature: u64,

@@ -11,13 +11,13 @@ mod class;
 /// [`c_api!`](crate::c_api) fills it in.
 #[derive(Clone, Copy, Debug)]
 pub struct Header {
-    /// What all names begin with.
+    /// The prefix of all names.
     pub prefix: &'static str,
     /// The rule.
     pub rule: &'static str,
     /// See [`layout`](crate::layout).
     pub layout: u64,
-    /// What the system is, a line each.
+    /// The documentation of the system, a line each.
     pub documentation: &'static [&'static str],
     /// Its fields.
     pub fields: &'static [Field],
@@ -37,7 +37,7 @@ pub struct Header {
     pub parameters: &'static [&'static str],
 }
 
-/// What cannot be seen of an address is the caller's to promise.
+/// The caller's promise, of what cannot be seen of an address.
 const PROMISE: &str = " Opaque; copied as a whole it is another run.
  *
  * A call that returns anything but DALEMBERT_OK has changed nothing. It refuses NULL, misaligned addresses and memory that does
@@ -46,7 +46,7 @@ const PROMISE: &str = " Opaque; copied as a whole it is another run.
  */
 ";
 
-/// What all headers share, once in a program.
+/// The text that all headers share, once in a program.
 const SHARED: &str = include_str!("shared.h");
 
 /// As the preprocessor compares it: major, minor and patch, two digits each.

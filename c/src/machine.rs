@@ -11,7 +11,8 @@ use dalembert::{State, StepError};
 use crate::boundary::{Plain, refused};
 use crate::{CParameters, Status};
 
-/// What the functions of C ask of a system, said once where an entry of [`c_api!`](crate::c_api) does not fit it.
+/// A system that the functions of C can step. Where an entry of [`c_api!`](crate::c_api) does not fit, the
+/// compiler says so once, by the message of this trait.
 #[diagnostic::on_unimplemented(
     message = "C cannot step `{Self}` by `{M}` with {N} coordinates",
     label = "no step with this number of coordinates, this rule, this input",
@@ -28,7 +29,7 @@ pub struct Checked<V: Stepped<M, N>, M, const N: usize>(PhantomData<fn() -> (V, 
 
 /// A system as C sees it: what [`c_api!`](crate::c_api) states once, so that the functions are the same for all.
 pub trait Interface<const N: usize>: Sized + 'static {
-    /// What a memory of this system begins with: [`layout`](crate::layout).
+    /// The signature that a memory of this system begins with: [`layout`](crate::layout).
     const SIGNATURE: u64;
     /// The struct of the system.
     type Parameters: CParameters;
@@ -40,14 +41,14 @@ pub trait Interface<const N: usize>: Sized + 'static {
     type Given;
     /// The derivatives of a step, as C reads them.
     type Linearized: Plain;
-    /// What a run keeps.
+    /// The memory that a run keeps from step to step.
     type RunMemory: for<'a> Memory<Self::View<'a>, Self::Rule, N> + Clone + 'static;
     /// Views as a run names them.
     type Kind: Stepped<Self::Rule, N, Scalar = Self::Scalar, RunMemory = Self::RunMemory> + 'static;
     /// The system with its input and time.
     type View<'a>: Stepped<Self::Rule, N, Scalar = Self::Scalar, RunMemory = Self::RunMemory>;
 
-    /// What is given, of an input and a time; `None` where the input has another length.
+    /// Takes what the system needs of an input and a time; `None` where the input has another length.
     fn given(input: &[Self::Scalar], time: Self::Scalar) -> Option<Self::Given>;
 
     /// The system with what is given.

@@ -1,4 +1,4 @@
-//! What a panic does where there is no operating system.
+//! Panics where there is no operating system.
 
 /// Panics, in a library for bare metal: the program links only if the linker finds none in it.
 ///

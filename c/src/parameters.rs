@@ -12,9 +12,9 @@ use crate::boundary::Plain;
     note = "a field is a number, `f64`, `f32`, `i8` … `i64`, `u8` … `u64`, or an array of them, of one or two dimensions"
 )]
 pub trait CType: Plain {
-    /// What stands before the name of a field in C.
+    /// The type before the name of a field in C.
     const BASE: &'static str;
-    /// What stands behind it: `[2][3]`, or nothing.
+    /// The dimensions behind the name: `[2][3]`, or nothing.
     const DIMENSIONS: &'static [usize];
 
     /// 0, or as many as there are.
@@ -113,7 +113,7 @@ pub struct Field {
     pub name: &'static str,
     /// Its documentation, a line each.
     pub documentation: &'static [&'static str],
-    /// What stands before the name in C.
+    /// The type before the name in C.
     pub base: &'static str,
     /// The lengths of the arrays behind it.
     pub dimensions: &'static [usize],
@@ -124,7 +124,7 @@ pub struct Field {
 /// A system that knows its fields by name and number: a struct that [`fields!`](crate::fields) declares, for whoever fills
 /// them in.
 pub trait Fields: Copy + 'static {
-    /// What the struct is, a line each.
+    /// The documentation of the struct, a line each.
     const DOCUMENTATION: &'static [&'static str];
     /// Its fields, in order.
     const FIELDS: &'static [Field];

@@ -15,7 +15,7 @@ pub struct CReport {
     pub floor: f64,
     /// Iterations of the solver.
     pub iterations: u32,
-    /// Those of them that had to be shortened.
+    /// Iterations that had to be shortened.
     pub damped: u32,
 }
 

@@ -29,7 +29,7 @@ macro_rules! statuses {
                 }
             }
 
-            /// What happened and what to do, in ASCII, ended by a zero byte.
+            /// The text for C: the cause and the remedy, in ASCII, ended by a zero byte.
             pub(crate) const fn text_for_c(self) -> &'static str {
                 match self {
                     $(Self::$name => concat!($text, "\0"),)*
@@ -123,7 +123,7 @@ impl fmt::Display for Status {
     }
 }
 
-/// What the number `status` says, for C: `dalembert_text`.
+/// The text of the number `status`, for C: `dalembert_text`.
 #[must_use]
 pub fn text(status: i32) -> *const core::ffi::c_char {
     let known = Status::ALL.iter().find(|known| **known as i32 == status);

@@ -200,8 +200,8 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
         ControlFlow::Continue(member.next - steps)
     }
 
-    /// What became of a member whose lane does not tell: by its own run, which is the same up to there. What was
-    /// observed is not observed again.
+    /// Finds what became of a member whose lane does not tell, by a run of its own, which has the
+    /// lane's states up to there. Records that were observed are not observed again.
     #[cold]
     fn alone<L, V, const N: usize>(
         &self,

@@ -1,4 +1,4 @@
-//! What is told of one member.
+//! A member's records, its end, and why it failed.
 
 use core::fmt;
 

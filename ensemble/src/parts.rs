@@ -65,7 +65,7 @@ pub struct Parts<'s, 'f, F, M, L: Lagrangian<N>, const N: usize> {
     metadata: Vec<(String, String)>,
 }
 
-/// What was written.
+/// Counts of the parts written and found, and of the members that failed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Written {
     /// Parts that were computed and written.
@@ -231,7 +231,7 @@ where
         rows.push(Row { error, ..row });
     }
 
-    /// What tells this study from others.
+    /// The metadata that tell this study from others.
     fn described(&self) -> Vec<(String, String)> {
         let columns: Vec<&str> = self.columns.iter().map(|(name, _)| name.as_str()).collect();
         let own = [

@@ -16,7 +16,7 @@ pub struct Progress {
 /// A study that was cancelled by its progress callback.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cancelled<A> {
-    /// What there is of the members that were done, the first ones.
+    /// The total over the members finished before it was cancelled: a prefix of the range.
     pub total: A,
     /// How far it was.
     pub progress: Progress,

@@ -17,7 +17,7 @@ pub struct Slot<L: Lagrangian<N>, V, const N: usize> {
     pub number: u64,
     /// Its system and start, or why there is none.
     pub start: Result<(L, State<L::Scalar, N>), StepError>,
-    /// What is kept of it.
+    /// The value kept of it.
     pub value: V,
     /// Why it is not what was asked for.
     pub failure: Option<Failure<L::Scalar, N>>,

@@ -99,12 +99,12 @@ pub struct Study<'f, F, M, L: Lagrangian<N>, const N: usize> {
 /// The state of each member at the end, or why it did not get there.
 pub type Ends<S, const N: usize> = Vec<Result<End<S, N>, Failure<S, N>>>;
 
-/// What became of a member, and what was kept of it.
+/// A member after its run: the value kept of it, and why it failed, if it did.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome<V, S, const N: usize> {
     /// Its number.
     pub number: u64,
-    /// What was kept of it, up to its failure if it failed.
+    /// The value kept of it, up to its failure if it failed.
     pub value: V,
     /// Why it is not what was asked for.
     pub failure: Option<Failure<S, N>>,
@@ -167,8 +167,9 @@ where
     /// As many members at a time as the machine has lanes for: 32, 16 or 8, fewer of many coordinates; every
     /// field has its own value.
     ///
-    /// The same bits as one by one, many times faster. Sine, cosine and exponential are branch-free, the same for
-    /// one member and for many; the other elementary functions are taken member by member.
+    /// Members get the bits that they get one by one, many times faster. Sine, cosine and exponential are
+    /// branch-free, the same for one member and for many; the other elementary functions are taken member by
+    /// member.
     ///
     /// ```
     /// use dalembert::{Splitting, State, rayleigh_system};

@@ -34,9 +34,9 @@ pub enum Status {
     Ok = 0,
     /// Not used.
     Warning = 1,
-    /// Nothing was done; another call may do.
+    /// The call has changed nothing; another may do.
     Discard = 2,
-    /// Nothing was done.
+    /// The call has changed nothing.
     Error = 3,
     /// The instance is of no use any more.
     Fatal = 4,
@@ -97,7 +97,7 @@ impl Log {
 pub struct Instance {
     model: Box<dyn Model>,
     log: Log,
-    /// What FMI 2.0 says before it enters initialization mode.
+    /// The start time, which FMI 2.0 sets before it enters initialization mode.
     start_time: f64,
     /// A panic has left the model in a state that nobody knows.
     dead: bool,

@@ -13,7 +13,7 @@ mod two;
 
 const TOOL: &str = concat!("dalembert ", env!("CARGO_PKG_VERSION"));
 
-/// What the log is divided into.
+/// The categories of the log, each with its description.
 pub const CATEGORIES: [(&str, &str); 3] = [
     ("logStatusDiscard", "A communication step that is no multiple of the step size"),
     ("logStatusError", "Calls that were refused, and steps without a solution"),
@@ -39,7 +39,7 @@ impl<I: Interface<N>, const N: usize> Unit<I, N> {
 type To = Writer<Vec<u8>>;
 type Element<'a> = ElementWriter<'a, Vec<u8>>;
 
-/// What the versions of FMI do not share.
+/// A version of FMI, as far as its description differs from the other's.
 struct Version {
     number: &'static str,
     token: &'static str,

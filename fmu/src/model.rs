@@ -1,4 +1,4 @@
-//! What an instance does, whatever its system: the boundary calls this and knows nothing of systems.
+//! Instances of any system: the boundary calls [`Model`] and knows nothing of systems.
 
 use dalembert_c::Number;
 

@@ -1,6 +1,6 @@
 //! The state of an instance as bytes, the same on every machine: words of eight bytes, little-endian.
 //!
-//! What the solver remembers of earlier steps is left out, so that a state read back goes on within rounding.
+//! The solver's memory of earlier steps is left out, so that a state read back goes on within rounding.
 
 use dalembert::State;
 use dalembert::run::{Checkpoint, DrivenTrajectory};

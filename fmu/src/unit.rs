@@ -44,7 +44,7 @@ impl<I: Interface<N>, const N: usize> Unit<I, N> {
         Self { header, library, step_size, parameters, start }
     }
 
-    /// What an importer shows to be of the unit that it has read the description of.
+    /// The token by which an importer shows that it has read the description of this unit.
     #[must_use]
     pub fn token(&self) -> String {
         format!("dalembert-{}-{:016x}", env!("CARGO_PKG_VERSION"), self.header.layout)

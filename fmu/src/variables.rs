@@ -6,7 +6,7 @@ use dalembert_c::{Field, Fields, Number};
 
 use crate::Unit;
 
-/// What a variable is a number of.
+/// The quantity that a variable is a number of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Place {
     Time,
@@ -23,7 +23,7 @@ pub enum Place {
     Energy,
 }
 
-/// What the importer may do with a variable.
+/// The role of a variable: whether the importer may set it, and when.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     Independent,

@@ -1,5 +1,5 @@
-//! What is asked of a step beside where it leads: its derivatives by state, input and parameters, and how
-//! well it was posed.
+//! Derivatives of a step by state, input and parameters, and its [`Certificate`]: how well its equation was
+//! posed.
 //!
 //! Uses rules and all below; runs neither use it nor does it use them.
 

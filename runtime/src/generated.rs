@@ -1,5 +1,5 @@
-//! What the code that the attributes write names: all of it, and nothing else. Users find the same names in
-//! the root of the crate, and in [`system`](crate::system), [`step`](crate::step) and the other modules.
+//! Names in the code that the attributes write: all of them, and nothing else. Users find them in the root
+//! of the crate, and in [`system`](crate::system), [`step`](crate::step) and the other modules.
 
 #[cfg(feature = "std")]
 pub use crate::numbers::dual;

@@ -1,4 +1,4 @@
-//! What each function of C does, for every system: addresses in, a status out.
+//! The functions of C, for every system: addresses in, a status out.
 //!
 //! In all of them the caller promises what the header asks: an address that is neither NULL nor misaligned is that of an
 //! object of the type declared; the objects of a call do not overlap; nobody else uses them meanwhile.
@@ -12,7 +12,7 @@ use crate::{CReport, Status};
 
 type Vector<I, const N: usize> = [<I as Interface<N>>::Scalar; N];
 
-/// What the caller's memory holds: opaque in C.
+/// The caller's memory: opaque in C.
 pub type Memory<I, const N: usize> = Held<Machine<I, N>>;
 
 /// Begins a run at (q, v).

@@ -63,7 +63,7 @@ private:
     }
 }
 
-/// The same in C++, ended by a comma.
+/// [`Given`] in C++, ended by a comma.
 struct GivenFirst<'a>(Given<'a>);
 
 impl Display for GivenFirst<'_> {
@@ -85,7 +85,7 @@ impl Display for TimeFirst<'_> {
     }
 }
 
-/// What C++ passes on.
+/// The arguments that C++ passes on to C.
 struct Passed<'a>(&'a Header);
 
 impl Display for Passed<'_> {

@@ -30,7 +30,7 @@ pub enum PartsError {
     AnotherStudy {
         /// Which.
         path: PathBuf,
-        /// What differs: a key of the metadata.
+        /// The key of the metadata that differs.
         key: String,
         /// Its value here.
         expected: String,

@@ -30,7 +30,7 @@ pub struct Callbacks {
     pub free: Option<unsafe extern "C" fn()>,
     /// Not used: steps are finished when the call returns.
     pub step_finished: Option<unsafe extern "C" fn()>,
-    /// What the log is called with.
+    /// The first argument of the log.
     pub environment: *mut c_void,
 }
 

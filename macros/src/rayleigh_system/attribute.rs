@@ -51,7 +51,7 @@ fn list<T: Parse>(input: ParseStream) -> syn::Result<Vec<T>> {
     Ok(Punctuated::<T, Token![,]>::parse_terminated(&list)?.into_iter().collect())
 }
 
-/// What the attribute asks for.
+/// The options of the attribute.
 #[derive(Default)]
 pub struct Options {
     /// Midpoint unless said.

@@ -124,7 +124,7 @@ fn free_function<'a>(
     Some(function_system(source, function, shape, options, rayleigh, report.count() == before))
 }
 
-/// What a field is: the number of its components.
+/// The kind of a field, by the number of its components.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Field {
     Vector,

@@ -12,7 +12,7 @@ use super::{joint, lanes, parameters};
 /// and calls is then written out once for each.
 const MOST_EXPRESSIONS: usize = 2_000;
 
-/// Who makes the derivatives.
+/// The decision which engine makes the derivatives.
 pub enum Decision {
     /// They are written out.
     WrittenOut(Box<WrittenOut>),
@@ -125,14 +125,14 @@ fn by_duals(system: &System<'_>, report: &mut Report) -> Decision {
     }
 }
 
-/// What stands elsewhere as it is, dual numbers cannot follow: then it is said why they would have to.
+/// Reports why dual numbers were needed, where the mistakes found are limits of dual numbers alone.
 fn needs_duals(refusal: Option<Refusal>, report: &mut Report) {
     if let Some(refusal) = refusal.filter(|_| report.is_limit_of_duals()) {
         report.at_span(refusal.span, Mistake::NeedsDuals(refusal.reason));
     }
 }
 
-/// What was asked to be written out, or no engine can follow.
+/// Refuses a system that was to be written out, or that no engine can follow.
 fn not_lowered(refusal: Refusal, by_duals: bool, report: &mut Report) -> Decision {
     report.at_span(refusal.span, Mistake::NotLowered { reason: refusal.reason, by_duals });
     Decision::Refused

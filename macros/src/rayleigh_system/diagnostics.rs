@@ -71,7 +71,7 @@ impl Report {
     }
 }
 
-/// What can be wrong with an annotated item.
+/// A mistake in an annotated item.
 pub enum Mistake {
     // The attribute.
     UnknownOption,
@@ -267,7 +267,7 @@ impl Display for Mistake {
     }
 }
 
-/// What is said beside mistakes.
+/// A message about dual numbers, beside the mistakes.
 pub enum Note {
     /// Dual numbers make the derivatives, and nobody asked for them.
     DualNumbers { system: String, reason: String },

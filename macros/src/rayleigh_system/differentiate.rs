@@ -198,7 +198,7 @@ fn union<'k, K: Ord>(a: impl Iterator<Item = &'k K>, b: impl Iterator<Item = &'k
     a.chain(b).collect::<std::collections::BTreeSet<_>>().into_iter().collect()
 }
 
-/// What a sweep carries: derivatives of the root by the nodes still open.
+/// The state of a sweep: derivatives of the root by the nodes still open.
 #[derive(Default)]
 struct Sweep {
     adjoints: Gradient,

@@ -79,7 +79,7 @@ pub fn system(
     }
 }
 
-/// What num-dual makes of the system.
+/// The functions that the runtime's traits ask for, by num-dual.
 fn functions(system: &System<'_>, refusal: Option<Refusal>) -> EngineFunctions {
     let both = RayleighArguments::ConfigurationAndVelocity;
     EngineFunctions {

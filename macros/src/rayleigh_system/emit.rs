@@ -1,10 +1,10 @@
 //! From expressions to straight-line code that reads as if written by hand.
 //!
-//! What is used more than once, what the user named, and every selection becomes a `let`; the rest stands
-//! where it is used. Only what the outputs need is written, in the order in which it was found, so that equal
-//! systems give equal text.
+//! A `let` holds each value that is used more than once or that the user named, and each selection; the rest
+//! stands where it is used. Only what the outputs need is written, in the order in which it was found, so
+//! that equal systems give equal text.
 //!
-//! The same text serves numbers and lanes, but for selections: what differs is in `lanes.rs`.
+//! Code on lanes has the text of code on numbers, but for what `lanes.rs` writes otherwise.
 
 mod expression;
 mod lanes;
@@ -27,7 +27,7 @@ const DEEPEST: u32 = 64;
 /// Straight-line code: statements, then one expression for each output.
 pub struct StraightLine {
     pub statements: TokenStream,
-    /// Those that need the values that come later, of code in lanes.
+    /// Statements that read the `late` parameters of [`in_lanes`]; none in other code.
     pub later: TokenStream,
     pub outputs: Vec<TokenStream>,
     /// Whether q occurs.
@@ -38,7 +38,7 @@ pub struct StraightLine {
     pub uses_inputs: bool,
     /// Whether one of the runtime's elementary functions is called.
     pub calls_elementary: bool,
-    /// What the code on members knows of their systems before it runs.
+    /// Values that code on members has from before it runs.
     pub fields: Vec<Field>,
     /// How many angles and reciprocals start from those of the sweep before.
     pub anchors: [usize; 2],
@@ -78,7 +78,7 @@ pub fn straight_line(
     written(graph, scalar, outputs, taken, is_portable, Kind::Numbers)
 }
 
-/// The same with the functions that [`on_members`] has, so that both compute the same numbers.
+/// [`straight_line`] with the functions that [`on_members`] has, so that both compute the same numbers.
 pub fn as_on_members(
     graph: &Graph,
     scalar: &Ident,
@@ -99,7 +99,7 @@ pub fn over_duals(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&str
 #[derive(Clone, Copy)]
 pub struct Anchored<'l>(pub &'l [Node]);
 
-/// What the code computes with.
+/// The numbers that the code computes with.
 #[derive(Clone, Copy)]
 enum Kind<'l> {
     Numbers,

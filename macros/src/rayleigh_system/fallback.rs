@@ -1,4 +1,4 @@
-//! What stands in for the expansion of a wrong system: the user's item, the diagnostics, and stubs of the
+//! The stand-in for the expansion of a wrong system: the user's item, the diagnostics, and stubs of the
 //! traits, so that one mistake gives one message and not one more for each use of the system. Bodies with
 //! mistakes are left out: rustc would say the same in other words.
 
@@ -19,7 +19,7 @@ pub fn item_alone(item: TokenStream, report: Report) -> TokenStream {
 
 /// The item, the diagnostics and stubs, as far as the signature of L tells the number of degrees of freedom.
 ///
-/// Those in lanes too, where they are asked for.
+/// Stubs in lanes are among them, where lanes are asked for.
 pub fn with_stubs(source: &Source, rules: &Rules, lanes: &Lanes, report: Report) -> TokenStream {
     let errors = report.to_tokens();
     let name = source.name();

@@ -1,4 +1,4 @@
-//! What the rules that take L and R together ask of a system, on the expressions of L and R as they are
+//! The demands of the rules that take L and R together, checked on the expressions of L and R as they are
 //! written.
 
 use super::diagnostics::{Mistake, Report};
@@ -18,7 +18,7 @@ pub fn check(system: &System<'_>, lowered: Option<&Lowered>, report: &mut Report
     }
 }
 
-/// What the system lacks for `rule`, if anything.
+/// The first demand of `rule` that the system does not meet, if any.
 fn lacks(rule: Joint, system: &System<'_>, lowered: Option<&Lowered>) -> Option<&'static str> {
     if let Some(lacks) = asked_too_much(system) {
         return Some(lacks);
@@ -53,7 +53,8 @@ fn lacks(rule: Joint, system: &System<'_>, lowered: Option<&Lowered>) -> Option<
     (!is_natural(&graph, &l)).then_some("needs L = ½vᵀMv − V(q) with constant M")
 }
 
-/// What rules that take L and R together do not have: views of a system, and derivatives on request.
+/// Names what the system asks for and rules that take L and R together do not have: a view, or derivatives
+/// on request.
 fn asked_too_much(system: &System<'_>) -> Option<&'static str> {
     if system.has_view() {
         return Some("takes neither input nor time");

@@ -1,4 +1,4 @@
-//! What `lanes = explicit`, `lanes = midpoint` and `lanes = gauss` ask of a system.
+//! The demands of `lanes = explicit`, `lanes = midpoint` and `lanes = gauss` on a system.
 
 use syn::Ident;
 

@@ -61,7 +61,7 @@ pub struct Lowered {
     pub functions: Vec<Ident>,
     /// Names taken for bindings where a constant of that name would be one: rustc has to agree.
     pub bindings: Vec<Ident>,
-    /// What most operations are written by.
+    /// The loop or method call that writes most operations.
     pub heaviest: Option<Load>,
 }
 

@@ -1,4 +1,4 @@
-//! What is known of a system once it is checked.
+//! The model of a system: all that is known of it once it is checked.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{ToTokens, quote};
@@ -7,7 +7,7 @@ use syn::{Expr, ExprLit, FnArg, Ident, ImplItem, ImplItemFn, ItemFn, Lit, Pat, T
 use super::rules::Rules;
 use super::syntax::{is_integer, with_self_named};
 
-/// Who makes the derivatives.
+/// The engine that makes the derivatives, as the attribute asks.
 #[derive(Clone, Copy, Default, PartialEq, Eq, Debug)]
 pub enum Engine {
     /// Written out where every body can be lowered, num-dual otherwise.
@@ -40,7 +40,7 @@ pub struct Function {
     pub role: Role,
 }
 
-/// What a free function stands for.
+/// The role of a free function.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     /// L and R of (q, v, parameters…).
@@ -103,7 +103,7 @@ pub struct System<'a> {
     /// `f64` or `f32`.
     pub scalar: Ident,
     pub rules: Rules,
-    /// Who is asked for the derivatives.
+    /// The engine that the attribute asks for.
     pub engine: Engine,
     /// L, R, f and σ.
     pub bodies: Vec<Body>,
@@ -128,11 +128,11 @@ pub struct System<'a> {
 /// The steps of several members at once that are asked for, each by its word.
 #[derive(Clone, Default)]
 pub struct Lanes {
-    /// Those of the trapezoidal rule where they are explicit, its compositions and the splittings.
+    /// Steps of the trapezoidal rule where they are explicit, of its compositions and of splittings.
     pub explicit: Option<Ident>,
-    /// Those of the midpoint rule.
+    /// Steps of the midpoint rule.
     pub midpoint: Option<Ident>,
-    /// Those of the Gauss rules.
+    /// Steps of the Gauss rules.
     pub gauss: Option<Ident>,
 }
 
@@ -184,7 +184,7 @@ impl Timed {
     }
 }
 
-/// What the runtime's traits are implemented for.
+/// The type that one of the runtime's traits is implemented for.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Home {
     /// The user's type.
@@ -209,7 +209,7 @@ impl System<'_> {
         Literal::usize_unsuffixed(self.parameters.len())
     }
 
-    /// Those of L, R and f that there are.
+    /// The parts that the system has, of L, R and f.
     pub fn parts(&self) -> impl Iterator<Item = Part> + use<> {
         let rayleigh = self.rayleigh.map(|_| Part::Rayleigh);
         let force = self.has_force.then_some(Part::Force);
@@ -232,7 +232,7 @@ impl System<'_> {
     }
 }
 
-/// What the Rayleigh function takes.
+/// The arguments of the Rayleigh function, but for the time.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum RayleighArguments {
     Velocity,

@@ -6,11 +6,11 @@ use syn::Ident;
 /// The rules that the attribute lists.
 #[derive(Clone, Default)]
 pub struct Rules {
-    /// Those that the system implements.
+    /// Rules that the system implements, those of `joint` among them.
     pub of_displacement: Vec<Rule>,
-    /// Those of them that take L and R together, where they stand.
+    /// Rules of `of_displacement` that take L and R together, each with its word in the attribute.
     pub joint: Vec<(Ident, Rule)>,
-    /// Those of Gauss, which the runtime implements for every forced Lagrangian.
+    /// Whether the rules of Gauss are listed, which the runtime implements for every forced Lagrangian.
     pub gauss: bool,
 }
 
@@ -25,7 +25,7 @@ impl Rules {
 /// The word for the rules of Gauss in the attribute.
 pub const GAUSS: &str = "gauss";
 
-/// A rule that sees a segment through its displacement alone.
+/// A rule that the macro implements for the system; the rules of Gauss are the runtime's alone.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Rule {
     Midpoint,
@@ -35,7 +35,7 @@ pub enum Rule {
     OneSided,
 }
 
-/// What is known of a rule.
+/// All that the macro knows of a rule.
 pub struct Entry {
     /// Its word in the attribute.
     pub word: &'static str,
@@ -110,7 +110,7 @@ pub struct Joint {
     pub asks_for_variations: bool,
     /// Whether one correction solves its step.
     pub is_linear: bool,
-    /// What a run keeps from step to step, a type of the runtime.
+    /// The type of the runtime that a run keeps from step to step.
     pub memory: &'static str,
 }
 
@@ -216,7 +216,7 @@ impl Rule {
         format_ident!("{}", self.entry().name)
     }
 
-    /// What it asks for, if it takes L and R together.
+    /// The entry's [`Joint`], if the rule takes L and R together.
     pub fn joint(self) -> Option<Joint> {
         match self.entry().terms {
             Terms::Joint(joint) => Some(joint),

@@ -1,4 +1,4 @@
-//! What the expressions of a system show of its structure, as data and as documentation.
+//! The structure of a system as its expressions show it, as data and as documentation.
 //!
 //! Two passes over the graph: polynomial degrees and separation, from the operations as written, and the
 //! patterns of the derivatives. Both are conservative: what is found holds for every q, v and field; what
@@ -19,21 +19,21 @@ use super::lower::Refusal;
 use super::model::{Part, System};
 use super::rules::{Pairs, Points, Rule};
 
-/// Who makes the derivatives, and why.
+/// The engine that makes the derivatives, and why.
 pub enum Engine {
     Expanded,
     /// `None` where the attribute asks for num-dual.
     NumDual(Option<Refusal>),
 }
 
-/// What is stated about a system.
+/// The statement about a system: its engine, and its structure.
 pub struct Structure {
     pub engine: Engine,
-    /// Nothing was looked for where the derivatives are not written out.
+    /// `None` where the derivatives are not written out: then the expressions were not looked at.
     pub findings: Option<Findings>,
 }
 
-/// What the expressions show.
+/// The structure that the expressions show.
 pub struct Findings {
     /// Degrees of freedom.
     pub n: usize,
@@ -49,7 +49,7 @@ pub struct Findings {
     pub newton: Vec<Newton>,
 }
 
-/// What kind of force R makes.
+/// The kind of force that R makes.
 #[derive(Clone, Copy, Debug)]
 pub enum Damping {
     /// R takes the time.
@@ -97,7 +97,7 @@ pub struct Terms<'t> {
     pub force: &'t [(Node, Gradient)],
 }
 
-/// What the terms show, for each of the rules.
+/// Finds the structure of the terms, and of the Newton matrix of each rule.
 pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>) -> Findings {
     let degrees = Degrees::of(graph);
     let Terms { lagrangian, rayleigh, force } = terms;

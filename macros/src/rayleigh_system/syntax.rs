@@ -1,5 +1,5 @@
-//! What an expression, a path or a type is by its form alone: literals, places of `self`, names of the
-//! standard library.
+//! Expressions, paths and types told by their form alone: literals, places of `self`, names of the standard
+//! library.
 
 use proc_macro2::{Group, Span, TokenStream, TokenTree};
 use syn::parse::{Parse, ParseStream};
@@ -221,7 +221,7 @@ pub fn identifier(name: &str, span: Span) -> Ident {
     }
 }
 
-/// What stands between the parentheses of `matches!`.
+/// The arguments of `matches!`.
 pub struct Matches {
     pub value: Expr,
     pub pattern: Pat,

@@ -17,9 +17,9 @@ use super::model::System;
 use super::structure::{Engine, Structure};
 pub use discrete::{Kernel, Memory};
 
-/// What an engine makes of a system: the functions that the runtime's traits ask for.
+/// The functions that the runtime's traits ask for, as an engine writes them.
 pub struct EngineFunctions {
-    /// What is known of the system.
+    /// The structure of the system.
     pub structure: Structure,
     /// Derivatives of L.
     pub lagrangian: TokenStream,
@@ -33,9 +33,9 @@ pub struct EngineFunctions {
     pub by_input: Option<TokenStream>,
     /// The equations at the stages of Gauss rules, where they are not those that the runtime makes.
     pub stages: Option<TokenStream>,
-    /// Those of several members at once.
+    /// The stages' equations of several members at once.
     pub stages_in_lanes: Option<TokenStream>,
-    /// What each rule has of its own.
+    /// The kernel of each rule of displacement, where the engine writes one.
     pub kernels: Vec<Option<Kernel>>,
     /// Derivatives by parameters, if they are asked for.
     pub by_parameters: Option<TokenStream>,

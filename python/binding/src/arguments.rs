@@ -65,7 +65,7 @@ pub fn numbers(array: &PyReadonlyArrayDyn<'_, f64>) -> Vec<f64> {
     array.as_array().iter().copied().collect()
 }
 
-/// What is said of an array of another shape.
+/// The error for an array of another shape.
 pub fn of_shape(name: &str, expected: &str, found: &[usize]) -> PyErr {
     let comma = if found.len() == 1 { "," } else { "" };
     PyValueError::new_err(format!("{name}: expected the shape {expected}, got ({}{comma})", listed(found)))

@@ -1,4 +1,4 @@
-//! What checkers say of a system by one of its rules.
+//! Checks of a system by one of its rules: its symmetries, and where its energy goes.
 
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::noether::{Contribution, Generator};
@@ -14,7 +14,7 @@ use crate::system::System;
 /// A generator ξ(q) = A q + b of a group.
 #[derive(Clone, Debug)]
 pub struct Affine {
-    /// What reports call it.
+    /// The name of the generator in reports.
     pub name: String,
     /// A, row by row.
     pub linear: Vec<f64>,
@@ -35,7 +35,7 @@ pub struct Region<'a> {
     pub samples: usize,
 }
 
-/// What was found of a generator.
+/// The findings on a generator.
 #[derive(Clone, Debug)]
 pub struct Symmetry {
     /// Its name.
@@ -59,19 +59,19 @@ pub struct Symmetry {
 pub struct Ledger {
     /// E at the end less E at the start.
     pub change: f64,
-    /// What friction took.
+    /// Energy that friction took.
     pub dissipated: f64,
-    /// What the general force brought.
+    /// Energy that the general force brought.
     pub work: f64,
     /// The largest remainder of a step, by size.
     pub largest: f64,
-    /// What the method did.
+    /// Energy that the method added: change + dissipated − work.
     pub remainder: f64,
 }
 
-/// What is asked of a system by one rule.
+/// The checks of a system by one rule.
 pub trait Checks<S: System<N>, const N: usize>: Send + Sync {
-    /// What the generators do.
+    /// The effect of each generator on L_d, on the force and on its momentum.
     ///
     /// # Errors
     /// A [`SampleError`].
@@ -100,7 +100,7 @@ pub trait Checks<S: System<N>, const N: usize>: Send + Sync {
 
 /// Of a method that has no discrete objects by formulas.
 pub trait NoChecks<S: System<N>, const N: usize> {
-    /// Nothing.
+    /// Returns `None`.
     fn checks(&self) -> Option<Box<dyn Checks<S, N>>> {
         None
     }
@@ -117,7 +117,7 @@ where
     for<'a> S::View<'a>: Discrete<M, N> + ForceWork<M, N>,
     M: Copy + Send + Sync + 'static,
 {
-    /// What is asked of discrete objects.
+    /// The checks of its discrete objects.
     #[must_use]
     pub fn checks(&self) -> Option<Box<dyn Checks<S, N>>> {
         Some(Box::new(ByRule(self.method)))

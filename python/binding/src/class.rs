@@ -24,7 +24,7 @@ use crate::watching;
 /// Under which name a class has its [`KindObject`].
 pub const KIND: &str = "_kind";
 
-/// What a class knows of its systems.
+/// The kind of the systems of a class.
 #[pyclass(frozen, name = "_Kind")]
 pub struct KindObject(pub &'static dyn Kind);
 
@@ -105,7 +105,7 @@ impl Given {
     }
 }
 
-/// What a method of a system is given for its start.
+/// The arguments of a method of a system that say where it starts.
 struct StartArguments<'a, 'py> {
     q: &'a Bound<'py, PyAny>,
     v: Option<&'a Bound<'py, PyAny>>,

@@ -72,7 +72,7 @@ pub struct Dependence<const N: usize> {
 }
 
 impl<const N: usize> Dependence<N> {
-    /// That of the start itself, with so many parameters.
+    /// The dependence of the start itself, with so many parameters.
     #[must_use]
     pub fn none(parameters: usize) -> Self {
         let zero = SVector::zeros();

@@ -81,7 +81,7 @@ impl Parts {
     }
 }
 
-/// What `ensemble` is given.
+/// The arguments of `ensemble`.
 pub struct Given<'a, 'py> {
     /// Configurations.
     pub q: &'a Bound<'py, PyAny>,
@@ -101,15 +101,15 @@ pub struct Given<'a, 'py> {
     pub stepping: Stepping<'a>,
     /// Steps from one record to the next.
     pub every: Option<u64>,
-    /// What is looked for in the run of each.
+    /// Events to look for in the run of each.
     pub events: &'a [Event<'a>],
-    /// What an event function has raised.
+    /// The exception that an event function has raised.
     pub raised: &'a Mutex<Option<PyErr>>,
     /// Where parts go, and their size.
     pub parts: Option<(PathBuf, u64)>,
     /// Threads; those of the machine unless said.
     pub threads: Option<usize>,
-    /// What is told of members that are done.
+    /// The callable that is told how many members are done.
     pub progress: Option<Py<PyAny>>,
 }
 

@@ -14,7 +14,7 @@ use crate::motion::{Motion, measured};
 /// Most functions of one run.
 pub const MOST: usize = 8;
 
-/// What an event function is: of (t, q, v).
+/// An event function, of (t, q, v).
 pub type Given<'a> = dyn Fn(f64, &[f64], &[f64]) -> f64 + Send + Sync + 'a;
 
 /// A function whose zeros are events.
@@ -62,7 +62,7 @@ pub struct Found {
     pub p: Vec<f64>,
 }
 
-/// What is looked for along a run, and what was found.
+/// Events looked for along a run, and those found.
 #[derive(Debug)]
 pub struct Events<'a> {
     /// At most [`MOST`].
@@ -75,7 +75,7 @@ pub struct Events<'a> {
     pub error: Option<EventError>,
 }
 
-/// What is called with the index of a node, with q there and with v.
+/// A function of the index of a node, of q there and of v.
 type Visit<'v, const N: usize> = dyn FnMut(usize, &SVector<f64, N>, &SVector<f64, N>) + 'v;
 
 /// A run that is [`Divisible`], without its type.

@@ -102,7 +102,7 @@ mod watching;
 #[macro_export]
 macro_rules! module {
     ($name:ident { $($system:ident $({ $($entry:tt)* })?),+ $(,)? }) => {
-        /// What `System` is implemented for: the systems may be of another crate.
+        /// The type that `System` is implemented for: the systems may be of another crate.
         struct DalembertPython<S>(::core::marker::PhantomData<S>);
 
         $($crate::system! { DalembertPython $system { $($($entry)*)? } })+
@@ -184,7 +184,7 @@ macro_rules! system {
     };
 }
 
-/// What each method offers of a system: one that has no step by it offers nothing.
+/// Lists the offers of all methods to a system; a method that has no step for it offers nothing.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! offers {

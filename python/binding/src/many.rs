@@ -87,7 +87,7 @@ pub struct Control {
     pub done: AtomicU64,
 }
 
-/// What is kept of the members, one after the other: t, q, v, p and energy of each record.
+/// The records of the members, one after the other: t, q, v, p and energy of each.
 #[derive(Clone, Debug, Default)]
 pub struct Kept {
     /// Times.
@@ -167,7 +167,7 @@ impl fmt::Display for WhyFailed {
     }
 }
 
-/// What was written.
+/// Counts of the parts and of the members that failed, and the files.
 #[derive(Clone, Debug, Default)]
 pub struct Written {
     /// Parts that were computed and written.
@@ -324,7 +324,7 @@ pub fn written<S: System<N>, const N: usize>(
     Ok(all)
 }
 
-/// What tells the members of a part from others: a hash of their fields, starts and inputs.
+/// The hash that tells the members of a part from others: of their fields, starts and inputs.
 fn starts_of<F: Fields>(fields: &[F], asked: &Asked<'_>, part: &Range<u64>) -> String {
     let mut hash = XxHash3_128::new();
     hash.write(&[u8::from(asked.is_velocity)]);

@@ -19,11 +19,11 @@ use crate::offer::{ErrorAsked, Offer};
 use crate::record::{Failure, Guarded, Plan, Record, Stop};
 use crate::system::System;
 
-/// What a class of systems is.
+/// A class of systems.
 pub trait Kind: Send + Sync {
     /// The name of the class.
     fn name(&self) -> &'static str;
-    /// What the struct is, a line each.
+    /// The documentation of the struct, a line each.
     fn documentation(&self) -> &'static [&'static str];
     /// Its fields, in order.
     fn fields(&self) -> &'static [Field];
@@ -37,7 +37,7 @@ pub trait Kind: Send + Sync {
     fn parameters(&self) -> &'static [&'static str];
     /// The methods by which it is stepped, as `rule=` calls them.
     fn rules(&self) -> Vec<&'static str>;
-    /// What was found of it when it was compiled.
+    /// The structure that was found when it was compiled.
     fn structure(&self) -> Structure;
     /// A system all of whose fields are 0.
     fn zero(&self) -> Box<dyn Model>;
@@ -47,7 +47,7 @@ pub trait Kind: Send + Sync {
 pub trait Model: Send + Sync {
     /// Its class.
     fn kind(&self) -> &'static dyn Kind;
-    /// The same once more.
+    /// A boxed copy.
     fn copy(&self) -> Box<dyn Model>;
     /// Number `index` of field `field`, arrays row by row.
     fn entry(&self, field: usize, index: usize) -> Option<Number>;
@@ -66,7 +66,7 @@ pub trait Model: Send + Sync {
     /// Why there is none.
     fn linearized(&self, start: &Start<'_>, h: f64, rule: Option<&str>) -> Result<Linearized, Refusal>;
 
-    /// What generators do, of the step by a rule.
+    /// The effect of each generator on the step by a rule.
     ///
     /// # Errors
     /// Why that is not known.
@@ -85,13 +85,13 @@ pub trait Model: Send + Sync {
     /// Why that is not known.
     fn ledger(&self, start: &Start<'_>, h: f64, rule: Option<&str>, steps: u64) -> Result<Ledger, Refusal>;
 
-    /// What many members come to, as arrays.
+    /// Records of many members, as arrays.
     ///
     /// # Errors
     /// Why there is nothing.
     fn kept(&self, asked: &Asked<'_>, control: &Control) -> Result<Kept, NoResult>;
 
-    /// What they come to, as files.
+    /// Records of many members, as files.
     ///
     /// # Errors
     /// Why they are not all there.
@@ -111,7 +111,7 @@ pub trait Model: Send + Sync {
     -> Result<Vec<f64>, (usize, StepError)>;
 }
 
-/// What watches a run: it is told of the steps taken and to take, and may call it off.
+/// A watcher of a run: it is told of the steps taken and to take, and may call it off.
 pub type Watch<'w> = &'w mut dyn FnMut(u64, u64) -> ControlFlow<()>;
 
 /// Velocities or momenta.
@@ -136,7 +136,7 @@ pub struct Start<'a> {
     pub time: f64,
 }
 
-/// What steps a run takes.
+/// The steps that a run takes.
 #[derive(Clone, Copy, Debug)]
 pub enum Stepping<'a> {
     /// So many of size h.
@@ -148,7 +148,7 @@ pub enum Stepping<'a> {
         /// By which rule; the first of the system if none is named.
         rule: Option<&'a str>,
     },
-    /// Those that an error asked for needs.
+    /// The steps that an error asked for needs.
     ToError(ErrorAsked),
 }
 
@@ -163,7 +163,7 @@ pub struct Run<'a> {
     pub every: u64,
     /// Whether it carries along how it follows start and parameters.
     pub is_differentiated: bool,
-    /// What is looked for on the way.
+    /// Events to look for on the way.
     pub events: &'a [Event<'a>],
 }
 
@@ -174,7 +174,7 @@ pub struct Ran {
     pub record: Record,
     /// Why there are no more.
     pub stop: Option<Stop>,
-    /// What became of the error asked for.
+    /// The choice made for the error asked for, and where the run passed it.
     pub guarded: Option<Guarded>,
     /// The events of each function.
     pub events: Vec<Found>,
@@ -283,7 +283,7 @@ impl<S: System<N>, const N: usize> ModelOf<S, N> {
     }
 }
 
-/// What the rule of this name offers, or the first.
+/// The offer of the rule of this name, or of the first.
 fn offered<S: System<N>, const N: usize>(rule: Option<&str>) -> Result<Offer<S, N>, Refusal> {
     let is_asked_for =
         |offer: &Offer<S, N>| rule.is_none_or(|rule| rule == offer.name) && offer.steps.is_some();

@@ -52,7 +52,7 @@ fn class<'py>(module: &Bound<'py, PyModule>, kind: &'static dyn Kind) -> PyResul
     py.get_type::<PyType>().call1((kind.name(), (py.get_type::<System>(),), namespace))
 }
 
-/// What the struct and its fields are.
+/// The documentation of the struct and of its fields.
 fn documentation(kind: &dyn Kind) -> String {
     let mut text = lines(kind.documentation(), "\n");
     for field in kind.fields() {

@@ -71,7 +71,7 @@ pub fn measured<L: Lagrangian<N, Scalar = f64>, const N: usize>(
     Ok((v, system.energy(&state.q, &v)))
 }
 
-/// What is given to a run, and when it begins.
+/// The inputs of a run, and the time at which it begins.
 #[derive(Clone, Copy, Debug)]
 pub struct Given<'a> {
     /// u, or one after the other for as many steps.

@@ -1,4 +1,4 @@
-//! What a system offers: the methods by which it can be stepped, found by what its views implement.
+//! Offers of a system: the methods by which it can be stepped, found by what its views implement.
 
 use core::marker::PhantomData;
 
@@ -18,7 +18,7 @@ use crate::together::Together;
 
 /// A method by its name, and what it does with the system; `None` where the system has no step by it.
 pub struct Offer<S: System<N>, const N: usize> {
-    /// What `rule=` calls it.
+    /// The name of the method, for `rule=`.
     pub name: &'static str,
     /// Its steps.
     pub steps: Option<Box<dyn Steps<S, N>>>,
@@ -26,11 +26,11 @@ pub struct Offer<S: System<N>, const N: usize> {
     pub driven: Option<Box<dyn DrivenSteps<S, N>>>,
     /// Steps with A: of other methods.
     pub differentiated: Option<Box<dyn DifferentiatedSteps<S, N>>>,
-    /// What is asked of its discrete objects: of rules by displacement.
+    /// Checks of its discrete objects: of rules by displacement.
     pub checks: Option<Box<dyn Checks<S, N>>>,
 }
 
-/// What is done with a run.
+/// A function that a run is handed to.
 pub type Record<'r, const N: usize> = &'r mut dyn FnMut(&mut dyn Motion<N>);
 
 /// A step's derivatives, row by row.
@@ -149,7 +149,7 @@ impl<S, M, const N: usize> Probe<S, M, N> {
 
 /// Of a method by which the system is not stepped.
 pub trait NoSteps<S: System<N>, const N: usize> {
-    /// Nothing.
+    /// Returns `None`.
     fn steps(&self) -> Option<Box<dyn Steps<S, N>>> {
         None
     }
@@ -157,7 +157,7 @@ pub trait NoSteps<S: System<N>, const N: usize> {
 
 /// Of a method by which members are not stepped in lanes.
 pub trait NoStepsInLanes<S: System<N>, const N: usize> {
-    /// Nothing.
+    /// Returns `None`.
     fn steps_in_lanes(&self) -> Option<Box<dyn Steps<S, N>>> {
         None
     }
@@ -165,7 +165,7 @@ pub trait NoStepsInLanes<S: System<N>, const N: usize> {
 
 /// Of a method whose steps are not asked for derivatives where they were taken.
 pub trait NoDrivenSteps<S: System<N>, const N: usize> {
-    /// Nothing.
+    /// Returns `None`.
     fn driven_steps(&self) -> Option<Box<dyn DrivenSteps<S, N>>> {
         None
     }
@@ -173,7 +173,7 @@ pub trait NoDrivenSteps<S: System<N>, const N: usize> {
 
 /// Of a method by which the system is not stepped.
 pub trait NoDifferentiatedSteps<S: System<N>, const N: usize> {
-    /// Nothing.
+    /// Returns `None`.
     fn differentiated_steps(&self) -> Option<Box<dyn DifferentiatedSteps<S, N>>> {
         None
     }
@@ -181,7 +181,7 @@ pub trait NoDifferentiatedSteps<S: System<N>, const N: usize> {
 
 /// Of a system of which no error can be asked.
 pub trait NoStepsToError<S: System<N>, const N: usize> {
-    /// Nothing.
+    /// Returns `None`.
     fn steps_to_error(&self) -> Option<Box<dyn StepsToError<S, N>>> {
         None
     }

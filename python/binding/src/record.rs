@@ -1,4 +1,4 @@
-//! What is kept of a run.
+//! The records of a run.
 
 use core::ops::ControlFlow;
 use std::collections::TryReserveError;
@@ -56,7 +56,7 @@ pub struct Record {
 pub enum Stop {
     /// A step failed.
     Failed(Failure),
-    /// Who watches has called it off.
+    /// The watcher has called it off.
     Interrupted,
     /// Events cannot be followed.
     Events(EventError),
@@ -77,7 +77,7 @@ pub struct Failure {
     pub state: [Vec<f64>; 2],
 }
 
-/// What became of a run to an error asked for.
+/// The method and step size chosen for an error asked for, and where the run passed it.
 #[derive(Clone, Debug)]
 pub struct Guarded {
     /// The method chosen.

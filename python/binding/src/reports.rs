@@ -1,4 +1,4 @@
-//! What checkers report, as objects that print.
+//! Reports of checkers, as objects that print.
 
 use pyo3::prelude::*;
 use pyo3::types::PyModule;

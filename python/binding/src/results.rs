@@ -1,4 +1,4 @@
-//! What is returned: arrays, and objects that print.
+//! Results: arrays, and objects that print.
 
 use dalembert::tolerance::Breach as BreachOf;
 use numpy::ndarray::{Array, IntoDimension};
@@ -190,7 +190,7 @@ impl Run {
 }
 
 impl Run {
-    /// What is to be warned of.
+    /// The warning that the error expected has passed the one asked for, where it has.
     #[must_use]
     pub fn breach_text(&self) -> Option<String> {
         let Breach { t, expected, tolerance, instead } = self.breach.as_ref()?.get();
@@ -200,7 +200,7 @@ impl Run {
     }
 }
 
-/// What a run had recorded before it failed.
+/// The records of a run that failed, as a dict.
 ///
 /// # Errors
 /// Those of Python.

@@ -1,4 +1,4 @@
-//! What was found of a system when it was compiled, as data of Python.
+//! The structure of a system, found when it was compiled, as data of Python.
 
 use dalembert::system::{Damping, Engine, Structure};
 use pyo3::prelude::*;

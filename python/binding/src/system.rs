@@ -24,7 +24,7 @@ pub trait System<const N: usize>: Sized + 'static {
     type Input;
     /// [`NoParameters`](crate::derivatives::NoParameters), or [`Parameters`](crate::derivatives::Parameters).
     type Parameters;
-    /// What is stepped: the fields, or a view of them with an input and a time.
+    /// The type that is stepped: the fields, or a view of them with an input and a time.
     type View<'a>: Lagrangian<N, Scalar = f64> + Send + Sync;
 
     /// The views as a run names them, which borrows none.
@@ -33,7 +33,7 @@ pub trait System<const N: usize>: Sized + 'static {
     /// The system with the input `u` at the time `t`, as far as it takes them; u has the length that it takes.
     fn view<'a>(fields: &'a Self::Fields, u: &[f64], t: f64) -> Self::View<'a>;
 
-    /// What the rules of the system offer.
+    /// The offers of all methods, to this system.
     fn offers() -> Vec<Offer<Self, N>>;
 
     /// Runs to an error asked for, where the rules offer some.

@@ -14,7 +14,7 @@ use crate::record::{Failure, Record, Stop};
 /// Members whose runs are held before they are added to the arrays.
 const HELD: usize = 16_384;
 
-/// What became of a member.
+/// A member after its run.
 struct Member {
     record: Record,
     /// Whether its last record is the end of the run.
@@ -100,7 +100,7 @@ fn run(
     }
 }
 
-/// What a run has come to, the events up to where it failed among it.
+/// The outcome of a run, with the events up to where it failed.
 fn outcome(ran: Ran, number: u64) -> Result<Member, NoResult> {
     let Ran { record, stop, guarded, events } = ran;
     let has_end = stop.is_none();

@@ -1,12 +1,12 @@
-//! What can be asked of a step after it was taken: how well its equation was posed, and on which branch its
-//! root lies.
+//! The certificate of a step that was taken: how well its equation was posed, and on which branch its root
+//! lies.
 
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{NewtonMatrix, Scalar, linear};
 use crate::step::{Discrete, Discretised, EquationAt, State, Step, StepError};
 
-/// What a step's Newton matrix ∂p0/∂v̄ says of it; see
+/// Condition, remaining correction and branch of a step, by its Newton matrix ∂p0/∂v̄; see
 /// [`Discretised::certificate`](crate::Discretised::certificate).
 ///
 /// **When to worry.** The step finds v̄ from p0, and rounding of p0 reaches v̄ enlarged by up to the condition

@@ -1,4 +1,4 @@
-//! What sweeps over the same equations take from the sweep before: sine and cosine of an angle that has moved
+//! Values that a sweep over equations takes from the sweep before: sine and cosine of an angle that has moved
 //! little, by the addition theorem; the reciprocal of a number that has, by a step of Newton's method.
 //!
 //! Each number decides for itself what is little, so that it has the bits that it has alone, whatever stands

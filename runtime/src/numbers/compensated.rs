@@ -9,7 +9,7 @@ use super::{Mask, MemberVector, Members, Scalar};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Compensated<T, const N: usize> {
     pub(crate) value: SVector<T, N>,
-    /// What `value` lacks.
+    /// The rounding error of `value`: the sum is `value` + `rest`.
     pub(crate) rest: SVector<T, N>,
 }
 

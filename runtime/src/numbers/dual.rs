@@ -41,7 +41,7 @@ pub trait Dual<F: Scalar>: DualNum<Primitive = F> + Copy {
     /// The value without derivatives.
     fn primal(self) -> F;
 
-    /// The same derivatives around another value: corrects a value that was reached by a less accurate way.
+    /// Replaces the value and keeps the derivatives: corrects a value reached by a less accurate way.
     fn with_primal(self, value: F) -> Self;
 
     /// g(self), from g, g′, g″ and g‴ at its value.

@@ -142,12 +142,14 @@ macro_rules! arguments {
     };
 }
 
-/// What `x.sin()` of a body becomes where it must not be the standard library's: `x.elementary().sin()`.
+/// A number with the functions of [`Elementary`]: `x.sin()` of a body becomes `x.elementary().sin()` where it
+/// must not be the standard library's.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct Chosen<S>(S);
 
-/// What `x.sin()` of a force becomes that lanes of members share to the last bit: `x.branch_free().sin()`.
+/// A number with functions that lanes of members share to the last bit: `x.sin()` of a force becomes
+/// `x.branch_free().sin()`.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct BranchFree<S>(S);

@@ -187,7 +187,7 @@ pub trait DisplacementRule: Copy {
         })
     }
 
-    /// What L adds to the step's equation: −D1 L_d and its derivative by v̄.
+    /// The part of the step's equation from L: −D1 L_d and its derivative by v̄.
     #[inline]
     fn lagrangian_kernel<L: Lagrangian<N>, const N: usize>(
         system: &L,
@@ -203,7 +203,7 @@ pub trait DisplacementRule: Copy {
         })
     }
 
-    /// What R adds: −D1 R_d and its derivative by v̄.
+    /// The part of the step's equation from R: −D1 R_d and its derivative by v̄.
     #[inline]
     fn rayleigh_kernel<L: Rayleigh<N>, const N: usize>(
         system: &L,
@@ -220,7 +220,7 @@ pub trait DisplacementRule: Copy {
         })
     }
 
-    /// What the general force adds: −f_d⁻ and its derivative by v̄.
+    /// The part of the step's equation from the general force: −f_d⁻ and its derivative by v̄.
     #[inline]
     fn force_kernel<L: Force<N>, const N: usize>(
         system: &L,
@@ -236,7 +236,7 @@ pub trait DisplacementRule: Copy {
         })
     }
 
-    /// What L adds to both momenta: −D1 L_d and D2 L_d.
+    /// The part of p0 and p1 from L: −D1 L_d and D2 L_d.
     #[inline]
     fn lagrangian_momenta<L: Lagrangian<N>, const N: usize>(
         system: &L,
@@ -250,7 +250,7 @@ pub trait DisplacementRule: Copy {
         })
     }
 
-    /// What R adds to both momenta: −D1 R_d and −D2 R_d.
+    /// The part of p0 and p1 from R: −D1 R_d and −D2 R_d.
     #[inline]
     fn rayleigh_momenta<L: Rayleigh<N>, const N: usize>(
         system: &L,
@@ -268,7 +268,7 @@ pub trait DisplacementRule: Copy {
         })
     }
 
-    /// What the general force adds to both momenta: −f_d⁻ and f_d⁺.
+    /// The part of p0 and p1 from the general force: −f_d⁻ and f_d⁺.
     #[inline]
     fn force_momenta<L: Force<N>, const N: usize>(
         system: &L,
@@ -297,7 +297,7 @@ pub trait DisplacementRule: Copy {
         })
     }
 
-    /// What parameters of L move in both momenta.
+    /// The part of ∂p0/∂θ and ∂p1/∂θ from L.
     #[inline]
     fn lagrangian_by_parameters<L: Parameters<N, P>, const N: usize, const P: usize>(
         system: &L,
@@ -311,7 +311,7 @@ pub trait DisplacementRule: Copy {
         })
     }
 
-    /// What parameters of R move in both momenta.
+    /// The part of ∂p0/∂θ and ∂p1/∂θ from R.
     #[inline]
     fn rayleigh_by_parameters<L: Parameters<N, P>, const N: usize, const P: usize>(
         system: &L,
@@ -327,7 +327,7 @@ pub trait DisplacementRule: Copy {
         })
     }
 
-    /// What parameters of the general force move in both momenta.
+    /// The part of ∂p0/∂θ and ∂p1/∂θ from the general force.
     #[inline]
     fn force_by_parameters<L: Parameters<N, P>, const N: usize, const P: usize>(
         system: &L,

@@ -1,4 +1,4 @@
-//! What forces do over a step by each rule.
+//! The energy that forces take and bring over a step, by each rule.
 
 use nalgebra::SVector;
 
@@ -50,8 +50,8 @@ by_nodes! {
     [] OneSided, of Midpoint;
 }
 
-/// What friction takes over the motion that is damped and free but for a constant force, from q0 with the
-/// mean velocity v̄.
+/// The energy that friction takes over the motion that is damped and free but for a constant force, from q0
+/// with the mean velocity v̄.
 ///
 /// ```text
 /// p0 + p1 = 2 M u,   p0 − p1 = h (C v̄ − g)      without the terms of first degree, g = `force` − ∂R/∂v(0)

@@ -50,12 +50,12 @@ impl<S: Scalar, const N: usize> Checkpoint<S, N> {
     }
 }
 
-/// What a run has to look at before its next step.
+/// The stage of a run: which check its next step needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Course {
     /// Before the first step: whether the system is the one written.
     Starting,
-    /// Nothing: its clock resolves more steps than a computer takes.
+    /// No check: the clock resolves more steps than a computer takes, or the step itself refuses its size.
     Open,
     /// Whether the next step can be told from none by the clock.
     Watched,
@@ -67,7 +67,7 @@ impl Course {
     /// Steps that a clock without an origin tells apart, with some to spare: at 10 ns a step, a year.
     const STEPS: u64 = 1 << 52;
 
-    /// That of a run which has started, at `checkpoint`.
+    /// The course of a run that has started, at `checkpoint`.
     fn of<S: Scalar, const N: usize>(checkpoint: &Checkpoint<S, N>) -> Self {
         let (h, origin) = (checkpoint.step_size.widen().abs(), checkpoint.origin.abs());
         // A step size that is none is the step's to refuse.

@@ -1,10 +1,10 @@
-//! What a run begins with: `system.by(rule, h)`, or `system.to_error(tolerance)`.
+//! The two beginnings of a run: `system.by(rule, h)`, or `system.to_error(tolerance)`.
 
 use crate::run::tolerance::{OffersMethods, Request};
 use crate::step::{Discretised, MethodOf};
 use crate::system::Lagrangian;
 
-/// What makes a [`Discretised`] of every system.
+/// Discretises every system: by a method and a step size, or for an error asked for.
 pub trait Discretise<const N: usize>: Lagrangian<N> + Sized {
     /// This system discretised by `method` with step size `h`: what is asked of a discrete system is asked of
     /// the value returned.
@@ -37,8 +37,8 @@ pub trait Discretise<const N: usize>: Lagrangian<N> + Sized {
     /// This system with an error of at most `tolerance` asked for, in units of q, of its state on the whole
     /// way: the method and the step size are chosen by the motion.
     ///
-    /// What is promised, and how it is chosen and guarded,
-    /// [`Method::for_tolerance`](crate::tolerance::Method::for_tolerance) tells.
+    /// [`Method::for_tolerance`](crate::tolerance::Method::for_tolerance) says what is promised, how both are
+    /// chosen, and how the run is guarded.
     ///
     /// ```
     /// use dalembert::{Discretise, State, rayleigh_system};

@@ -1,4 +1,4 @@
-//! What events and samples of a run say.
+//! `Display` of the events and samples of a run.
 
 use core::fmt;
 

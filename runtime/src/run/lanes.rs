@@ -1,7 +1,8 @@
 //! W runs at once: each member a system of its own from a state of its own, all by one method and step size.
 //!
-//! What is computed of one member is computed of all, in plain arrays and loops ([`Members`]): as fast as the
-//! instructions allow that the caller is compiled for, and bit by bit what each member's own run computes.
+//! Each operation is done for all members, in plain arrays and loops ([`Members`]): as fast as the
+//! instructions allow that the caller is compiled for. The states are bit by bit those of each member's own
+//! run.
 
 mod explicit;
 mod gauss;
@@ -23,14 +24,13 @@ use crate::system::Lagrangian;
     note = "add `lanes = explicit` to the attribute: `#[rayleigh_system(rule = trapezoidal, lanes = explicit)]`"
 )]
 pub trait ExplicitInLanes<const N: usize>: Explicit<N, Scalar: Elementary> {
-    /// What the force reads of each of W systems.
+    /// The fields of W systems that the force reads.
     type Fields<const W: usize>: Copy + core::fmt::Debug;
 
-    /// What the force reads, gathered.
+    /// Gathers the fields that the force reads.
     fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W>;
 
-    /// The same as long after each system's own time as `elapsed` says, [`later`](crate::Lagrangian::later) of
-    /// each.
+    /// The fields of [`later`](crate::Lagrangian::later) of each system: at its own time plus `elapsed`.
     #[inline(always)]
     fn later_in_lanes<const W: usize>(
         fields: &Self::Fields<W>,
@@ -60,7 +60,7 @@ pub trait InLanes<M, const N: usize>: Flow<M, N> {
     /// W members on their way: their states, and all that a step asks for.
     type Lanes<const W: usize>: Copy + core::fmt::Debug;
 
-    /// Above so many members at a time the steps of one cost no less, on any machine that was measured.
+    /// The largest W at which a member's step still got cheaper, on the machines measured.
     const MOST_LANES: usize = 32;
 
     /// The members at their starts. One that no run can start from, or whose method cannot be prepared, has no

@@ -1,4 +1,4 @@
-//! What a run of steps keeps from one to the next.
+//! Memories of runs: the values kept from one step to the next.
 
 mod drift;
 mod explicit;

@@ -21,14 +21,14 @@ pub(super) struct Pace<L: Lagrangian<N>, const N: usize> {
     before: (Course<L::Scalar>, L::Scalar, f64, u64),
 }
 
-/// What is known of the steps so far.
+/// Step parameter and clock, as the steps so far leave them.
 #[derive(Clone, Copy)]
 struct Course<S> {
     /// Δτ; 0 while it is not known, of a run resumed.
     parameter_step: S,
     /// Whether the next step is the first, from σ itself.
     is_first: bool,
-    /// What the clock has lost by rounding.
+    /// The time that the clock has lost by rounding.
     rest: f64,
 }
 

@@ -96,9 +96,9 @@ pub struct Splitting<const S: usize, const COMPENSATED: bool = false> {
 }
 
 impl<const S: usize> Splitting<S> {
-    /// The same with compensated sums: for errors near rounding, and for energies and momenta that roundings do
-    /// not move in long runs. In lanes a step of order 8 takes 1.15 to 1.2 times as long, of order 4 and 6 up to 1.8
-    /// times.
+    /// This splitting with compensated sums: for errors near rounding, and for energies and momenta that
+    /// roundings do not move in long runs. In lanes a step of order 8 takes 1.15 to 1.2 times as long, of
+    /// order 4 and 6 up to 1.8 times.
     ///
     /// Kepler's problem with e = 0.6 over 16 revolutions, by 5 000 steps of order 8: off by 4e-13, else by 2e-11.
     ///
@@ -157,7 +157,7 @@ where
 
 /// The kicks and drifts of a [`Splitting`].
 ///
-/// What the drifts do is worked out in the first step of a size. Where kicks come first, the force at the end
+/// The drifts are worked out in the first step of a size. Where kicks come first, the force at the end
 /// of a step is that at the start of the next, unless an input is held, which may be another by then, or the force
 /// takes the time. It belongs to one system.
 #[derive(Clone, Copy, Debug)]
@@ -175,7 +175,7 @@ impl<T, const N: usize, const S: usize, const COMPENSATED: bool> Default for Kic
     }
 }
 
-/// What depends on the step size alone.
+/// A step size, and the values that depend on it alone.
 #[derive(Clone, Copy, Debug)]
 struct Prepared<T, const N: usize, const S: usize> {
     h: T,

@@ -52,7 +52,7 @@ pub enum Method {
     Gauss8,
 }
 
-/// What the start says of one method.
+/// One method tried at the start: its step size, and the cost and error expected.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -75,7 +75,7 @@ pub struct Choice<'a, L: Lagrangian<N>, M, const N: usize> {
     chosen: Chosen<L::Scalar, N>,
 }
 
-/// What was chosen for a start, and what the start says of it.
+/// The method and step size chosen for a start, with the error and cost expected.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(
     feature = "serde",
@@ -97,7 +97,7 @@ struct Chosen<S, const N: usize> {
     evaluations_per_step: f64,
     /// Roundings of a step.
     roundings: f64,
-    /// What choosing has cost.
+    /// The cost of choosing, in evaluations of the forces.
     spent: f64,
     trials: [Option<Trial>; Method::ALL.len()],
 }
@@ -351,9 +351,9 @@ where
         self.chosen.tolerance
     }
 
-    /// What the sweeps of one step may leave of its change, in units of q: of Gauss methods, whose stages
-    /// are solved no further than the error asks for
-    /// ([`Trajectory::solved_for`](crate::Trajectory::solved_for)). Nothing of methods that solve to
+    /// The largest change, in units of q, that the sweeps of one step may leave unsolved: of Gauss methods,
+    /// whose stages are solved no further than the error asks for
+    /// ([`Trajectory::solved_for`](crate::Trajectory::solved_for)). `None` of methods that solve to
     /// rounding, or have nothing to solve.
     pub fn slack(&self) -> Option<f64> {
         self.chosen.slack()
@@ -364,12 +364,12 @@ where
         self.chosen.expected
     }
 
-    /// What choosing has cost, in evaluations of the forces.
+    /// The cost of choosing, in evaluations of the forces.
     pub fn evaluations(&self) -> f64 {
         self.chosen.spent
     }
 
-    /// What was found of the methods that were tried, in the order of [`Method::ALL`].
+    /// The trials of the methods that were tried, in the order of [`Method::ALL`].
     pub fn trials(&self) -> impl Iterator<Item = &Trial> {
         self.chosen.trials.iter().flatten()
     }
@@ -384,7 +384,7 @@ where
 
     /// Its step and a half one, before the first.
     ///
-    /// What is left of the whole step's stages shows beside halves that are solved to rounding.
+    /// The half steps are solved to rounding: beside them it shows what is left of the whole step's stages.
     fn fresh_steps(&self) -> Option<[M::Step; 2]> {
         let Chosen { method, step_size, tolerance, steps, .. } = self.chosen;
         let step = |h: f64| self.methods.step(method, L::Scalar::constant(h));

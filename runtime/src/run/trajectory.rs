@@ -204,7 +204,7 @@ where
         }
     }
 
-    /// What stands in the way of the next step: the end of the run or, once, an error.
+    /// The reason not to take the next step: `Some(None)` at the end of the run or, once, `Some` of an error.
     #[cold]
     #[inline(never)]
     fn stop(&mut self) -> Option<Option<StepError>> {
@@ -345,10 +345,10 @@ where
     /// The [`Report`](crate::step::Report) of a step solved so has for `residual` what is left of the
     /// momenta, and for `floor` what might be. A [`checkpoint`](Self::checkpoint) ends it.
     ///
-    /// What is asked of such a step where it was taken is that of its stages as they were left: the state
-    /// between its ends ([`between`](crate::run::between)), and derivatives that take the stages from the memory
-    /// of the run ([`Linearizable::linearized`](crate::step::Linearizable::linearized)), off by about what is left
-    /// times the second derivatives. [`Discretised::linearized_step`] solves the stages to rounding first.
+    /// Other values of such a step are those of its stages as they were left: the state between its ends
+    /// ([`between`](crate::run::between)), and derivatives that take the stages from the memory of the run
+    /// ([`Linearizable::linearized`](crate::step::Linearizable::linearized)), off by about what is left times
+    /// the second derivatives. [`Discretised::linearized_step`] solves the stages to rounding first.
     ///
     /// ```
     /// use dalembert::{Discretise, Gauss, State, rayleigh_system};

@@ -1,4 +1,4 @@
-//! What a vector field does to a segment: the change of its momentum map, by its causes.
+//! The change of a vector field's momentum map over a segment, split into its causes.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -24,7 +24,7 @@ pub struct Defect<S> {
     pub lagrangian: S,
     /// f_d(ξ), or f_L·ξ at the stages: the work of the force along ξ.
     pub force: S,
-    /// What the rule itself adds: 0 of rules without interior points, and where ξ is affine.
+    /// The part of the rule itself: 0 of rules without interior points, and where ξ is affine.
     pub interior: S,
 }
 

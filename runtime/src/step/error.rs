@@ -1,4 +1,4 @@
-//! What can go wrong in a step.
+//! The errors of a step.
 
 use core::fmt;
 

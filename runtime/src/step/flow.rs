@@ -17,7 +17,7 @@ use crate::system::Lagrangian;
     note = "otherwise list the rule in the attribute: `#[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]`; one of your own, `impl dalembert::rules::DisplacementRule`, is stepped by `Quadrature(rule)`"
 )]
 pub trait Flow<M, const N: usize>: Lagrangian<N> {
-    /// What a run of steps keeps from one to the next.
+    /// The memory of a run from step to step.
     type RunMemory: Memory<Self, M, N>;
 
     /// The step of size `h` from `state`. `guess` is a guess for v̄ = (q1 − q0)/h.
@@ -78,7 +78,7 @@ pub trait BoundedFlow<M, const N: usize>: Flow<M, N> {
     ) -> Result<BoundedStep<Self::Scalar, N>, StepError>;
 }
 
-/// What a run keeps from step to step, and how the next step uses it.
+/// The memory of a run from step to step, and how the next step uses it.
 ///
 /// [`Default`] is the memory before the first step. What is remembered makes a step cheaper; it never decides
 /// where the step leads, beyond rounding, or what a run was told to leave unsolved

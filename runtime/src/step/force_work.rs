@@ -1,4 +1,4 @@
-//! What forces take from a system and bring to it over one step.
+//! The energy that forces take from a system and bring to it over one step.
 
 use core::ops::{Add, Mul};
 
@@ -18,7 +18,7 @@ pub struct EnergyExchange<S> {
 }
 
 impl<S: Scalar> EnergyExchange<S> {
-    /// Nothing.
+    /// No energy taken and no energy brought.
     #[must_use]
     pub fn zero() -> Self {
         Self { dissipated: S::zero(), work: S::zero() }
@@ -61,7 +61,7 @@ impl<S: Scalar> Mul<S> for EnergyExchange<S> {
     note = "of a step that was made otherwise, `EnergyLedger::of` takes account from its two ends"
 )]
 pub trait ForceWork<M, const N: usize>: Flow<M, N> + ActingForce<N> {
-    /// What forces took and brought over the step of size `h` from `from` to `to`.
+    /// The energy that forces took and brought over the step of size `h` from `from` to `to`.
     ///
     /// A method with points between the ends makes the step again from `from`.
     ///

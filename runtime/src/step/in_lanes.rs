@@ -1,5 +1,5 @@
-//! Steps solved for v̄ of several members at once: the step's equation as data of all of them, and what a run's
-//! memory says of the next.
+//! Steps solved for v̄ of several members at once: the step's equation as data of all of them, and what a
+//! run's memory says of the next.
 
 pub(crate) mod clocks;
 pub(crate) mod newton;
@@ -17,16 +17,16 @@ use crate::step::{Discrete, Memory, State, VelocityHistory};
 pub trait DiscreteInLanes<R, const N: usize>:
     Sized + Discrete<R, N, Scalar: Elementary, Memory: MemoryInLanes<Self, R, N>>
 {
-    /// What the equation knows of each of W systems before the run.
+    /// The fields of W systems, and terms of the equation that depend on these alone.
     type Fields<const W: usize>: Copy + core::fmt::Debug;
 
     /// Whether L, R or f takes the time.
     const IS_TIMED: bool = false;
 
-    /// What is known of the systems, gathered.
+    /// Gathers the [`Fields`](Self::Fields) of the systems.
     fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W>;
 
-    /// The same as long after each system's own time as `elapsed` says, [`later`](crate::Lagrangian::later) of each.
+    /// The fields at the time `elapsed` after each system's own: [`later`](crate::Lagrangian::later) of each.
     #[inline(always)]
     fn later_in_lanes<const W: usize>(
         fields: &Self::Fields<W>,
@@ -63,8 +63,8 @@ pub(crate) type KeptOf<'m, L, R, const N: usize> = (
     &'m <<L as Discrete<R, N>>::Matrix as NewtonMatrix<<L as crate::system::Lagrangian<N>>::Scalar, N>>::Factored,
 );
 
-/// A memory of steps that are solved for v̄, of a member whose steps others take at the same time: the velocities
-/// are kept with theirs, all else here.
+/// The memory of one of several members that step at once by a rule solved for v̄: its velocities are kept
+/// with those of the others, all else here.
 pub trait MemoryInLanes<L, R, const N: usize>: Memory<L, R, N> + Copy + core::fmt::Debug
 where
     L: Discrete<R, N>,
@@ -81,11 +81,11 @@ where
     /// The matrix that the next step of this size is solved with.
     fn kept(&self, h: L::Scalar) -> Option<KeptOf<'_, L, R, N>>;
 
-    /// A step by Newton's method has been taken.
+    /// Takes in a step by Newton's method.
     fn has_paused(&mut self);
 
-    /// The step from `state` with this mean velocity has been taken by the matrix kept, in so many corrections;
-    /// whether another is kept from now on, or none.
+    /// Takes in the step from `state` with this mean velocity, made by the matrix kept in so many
+    /// corrections; returns whether another matrix is kept from now on, or no matrix.
     fn has_served(
         &mut self,
         system: &L,

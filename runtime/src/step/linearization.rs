@@ -68,7 +68,7 @@ pub struct PhaseMatrix<S, const N: usize> {
 }
 
 impl<S: Scalar, const N: usize> PhaseMatrix<S, N> {
-    /// That of a state which stays as it is.
+    /// The identity: the matrix of a state that stays as it is.
     #[must_use]
     pub fn identity() -> Self {
         let (one, zero) = (SMatrix::identity(), nalgebra::zero());
@@ -126,8 +126,8 @@ impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
 }
 
 impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
-    /// What (q1, p1) makes of quantities that move the momenta by `momenta` at fixed configurations, (q0, p0)
-    /// being held.
+    /// The derivatives of (q1, p1), (q0, p0) being held, by quantities that move the momenta by `momenta` at
+    /// fixed configurations.
     ///
     /// # Errors
     /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular; [`StepError::NonFinite`] where a derivative is

@@ -119,12 +119,12 @@ where
         self.push(*velocity, h);
     }
 
-    /// Velocities are but a guess, of any input.
+    /// Keeps the velocities, which are but a guess, of any input.
     fn change_input(&mut self) {
         self.has_inputs = true;
     }
 
-    /// Nor is where they led part of it.
+    /// Keeps the history: it holds velocities and no state.
     fn change_state(&mut self) {}
 }
 

@@ -22,7 +22,7 @@ pub trait Lagrangian<const N: usize> {
     /// `f64` or `f32`.
     type Scalar: Scalar;
 
-    /// What is known of the system when it is compiled.
+    /// The structure of the system, as known when it is compiled.
     const STRUCTURE: Structure = Structure::UNKNOWN;
 
     /// L(q, v).
@@ -59,8 +59,8 @@ pub trait Lagrangian<const N: usize> {
 
     /// `evaluate` for the system as it is at the time `elapsed` from now.
     ///
-    /// The same system, unless L, R or f take a time: rules call this so that every node of a segment sees
-    /// its own.
+    /// Leaves the system as it is unless L, R or f take a time: rules call this so that every node of a
+    /// segment sees its own.
     #[inline]
     fn later<T>(&self, elapsed: Self::Scalar, evaluate: impl FnOnce(&Self) -> T) -> T
     where

@@ -5,7 +5,7 @@ use nalgebra::{SMatrix, SVector};
 use crate::numbers::Scalar;
 use crate::system::Force;
 
-/// What `system.driven(u)` takes for the input u ∈ ℝᴹ: `[S; M]`, or an `SVector<S, M>`.
+/// An input u ∈ ℝᴹ as `system.driven(u)` takes it: `[S; M]`, or an `SVector<S, M>`.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not an input of this system: it takes an array `[{S}; {M}]`, or an `SVector<{S}, {M}>`",
     label = "not `[{S}; {M}]`"

@@ -1,4 +1,4 @@
-//! What can be wrong with a system.
+//! The error of generated derivatives that do not belong to the functions as written.
 
 use core::fmt;
 

@@ -34,8 +34,8 @@ pub struct Stages<T, const N: usize, const S: usize> {
     note = "otherwise list the rule in the attribute: `#[rayleigh_system(rule = [midpoint, gauss])]`"
 )]
 pub trait ForcedLagrangian<const N: usize>: ActingForce<N> {
-    /// What the equations at all stages keep from one sweep to the next, blank before the first: nothing, `()`,
-    /// or sines, cosines and reciprocals to start from.
+    /// Values that the equations at all stages keep from one sweep to the next, blank before the first:
+    /// sines, cosines and reciprocals to start from, or `()`.
     type Anchors<const S: usize>: Blank;
 
     /// The equations of motion at all stages, now. `momenta` gives the stages' momenta from their rates g.
@@ -82,20 +82,19 @@ pub trait ForcedLagrangian<const N: usize>: ActingForce<N> {
     note = "add `lanes = gauss` to the attribute: `#[rayleigh_system(rule = gauss, lanes = gauss)]`"
 )]
 pub trait ForcedLagrangianInLanes<const N: usize>: ForcedLagrangian<N, Scalar: Elementary> {
-    /// What the equations know of each of W systems before the run.
+    /// The fields of W systems, and terms of the equations that depend on these alone.
     type Fields<const W: usize>: Copy + core::fmt::Debug;
 
-    /// What corrections need of rates.
+    /// Values of [`rates_in_lanes`](Self::rates_in_lanes) that corrections need.
     type Kept<const W: usize>: Blank;
 
     /// [`Anchors`](ForcedLagrangian::Anchors) of each member at one stage.
     type AnchorsInLanes<const W: usize>: Blank;
 
-    /// What is known of the systems, gathered.
+    /// Gathers the [`Fields`](Self::Fields) of the systems.
     fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W>;
 
-    /// The same as long after each system's own time as `elapsed` says, [`later`](crate::Lagrangian::later) of
-    /// each.
+    /// The fields at the time `elapsed` after each system's own: [`later`](crate::Lagrangian::later) of each.
     #[inline(always)]
     fn later_in_lanes<const W: usize>(
         fields: &Self::Fields<W>,

@@ -1,4 +1,4 @@
-//! What is known of a system when it is compiled.
+//! The structure of a system, as known when it is compiled.
 
 /// Findings about a system, as data: `Ring::STRUCTURE`, an associated constant of
 /// [`Lagrangian`](crate::Lagrangian).
@@ -27,7 +27,7 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Structure {
-    /// Who makes the derivatives.
+    /// The source of the derivatives.
     pub engine: Engine,
     /// ∂²L/∂v² depends neither on q nor on v.
     pub constant_mass_matrix: bool,
@@ -38,7 +38,7 @@ pub struct Structure {
     /// Products are rounded with the sums that they stand in, `multiply_add = fused`: in the derivatives and in the
     /// sums over stages of Gauss rules.
     pub fused_multiply_add: bool,
-    /// What kind of force −∂R/∂v is.
+    /// The kind of the force −∂R/∂v.
     pub damping: Damping,
     /// Coordinates on which L does not depend.
     pub cyclic: &'static [CyclicCoordinate],
@@ -46,7 +46,7 @@ pub struct Structure {
     pub newton_matrices: &'static [NewtonStructure],
 }
 
-/// Who makes the derivatives of a system.
+/// The source of a system's derivatives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Engine {
@@ -56,7 +56,7 @@ pub enum Engine {
     Expanded,
     /// Dual numbers, when the program runs.
     NumDual {
-        /// What could not be written out; `None` where the attribute says `derivatives = num_dual`.
+        /// The token that could not be written out; `None` where the attribute says `derivatives = num_dual`.
         refusal: Option<Refusal>,
     },
 }
@@ -73,7 +73,7 @@ pub struct Refusal {
     pub reason: &'static str,
 }
 
-/// What kind of force the Rayleigh function makes.
+/// The kind of force that the Rayleigh function makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Damping {
@@ -115,7 +115,7 @@ pub struct NewtonStructure {
 }
 
 impl Structure {
-    /// Nothing is known: a system written by hand.
+    /// The structure of a system written by hand: nothing is known.
     pub const UNKNOWN: Self = Self {
         engine: Engine::ByHand,
         constant_mass_matrix: false,
@@ -127,7 +127,7 @@ impl Structure {
         newton_matrices: &[],
     };
 
-    /// What is known of the Newton matrix by the rule of this name.
+    /// The Newton matrix by the rule of this name; `None` where nothing is known of it.
     #[must_use]
     pub fn newton_matrix(&self, rule: &str) -> Option<&'static NewtonStructure> {
         self.newton_matrices.iter().find(|matrix| matrix.rule == rule)
@@ -205,7 +205,7 @@ impl CyclicCoordinate {
 }
 
 impl NewtonStructure {
-    /// What is known of the Newton matrix by `rule`.
+    /// The Newton matrix by `rule`, constant or not, of this bandwidth.
     #[must_use]
     pub const fn new(rule: &'static str, constant: bool, bandwidth: usize) -> Self {
         Self { rule, constant, bandwidth }

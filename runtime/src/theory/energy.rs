@@ -98,7 +98,7 @@ impl<S: Scalar> EnergyLedger<S> {
         Ok(Self { change, dissipated, work })
     }
 
-    /// What the method did: change + dissipated − work.
+    /// The energy that the method added: change + dissipated − work.
     #[must_use]
     pub fn remainder(&self) -> S {
         self.change + self.dissipated - self.work

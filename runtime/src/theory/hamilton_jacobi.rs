@@ -136,7 +136,7 @@ impl<L, R, const N: usize> HamiltonJacobi<'_, L, R, N>
 where
     L: Discrete<R, N>,
 {
-    /// The same with another relative tolerance, for candidates whose own values carry more than rounding
+    /// This theory with another relative tolerance, for candidates whose own values carry more than rounding
     /// errors.
     ///
     /// An equation holds if its residual is at most `relative` × the size of its terms, with the rounding of

@@ -1,4 +1,4 @@
-//! What counts as zero, and what was found of it: one rule for every verdict of every checker.
+//! One rule for every verdict of every checker: which quantities count as zero, and what was found of them.
 //!
 //! A quantity counts as zero if it is finite, is held against a finite tolerance, and is within it. What is
 //! NaN or infinite on either side proves nothing, and no checker says yes to it. Samples at which nothing
@@ -9,12 +9,12 @@ use core::fmt;
 
 use crate::numbers::Scalar;
 
-/// What a checker found of a quantity that has to vanish: the value furthest above its tolerance, and where.
+/// A checker's finding on a quantity that has to vanish: the value furthest above its tolerance, and where.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finding<P> {
     /// That value.
     pub value: f64,
-    /// What counts as zero there.
+    /// The largest magnitude that counts as zero there.
     pub tolerance: f64,
     /// The size of the terms that it is a sum of.
     pub terms: f64,
@@ -71,7 +71,7 @@ impl<P: fmt::Display> fmt::Display for Finding<P> {
     }
 }
 
-/// What counts as zero: `relative` × `scale`.
+/// The bound up to which a quantity counts as zero: `relative` × `scale`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// Rounding allowed, relative to the terms that the quantity is a sum of.

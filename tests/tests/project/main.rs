@@ -2,6 +2,6 @@
 
 mod corrections_page;
 mod floors;
-mod long_tests;
 mod pages;
+mod prose;
 mod root;

@@ -56,7 +56,7 @@ fn time(ty: &Type, shape: &Shape, report: &mut Report) -> bool {
     is_time
 }
 
-/// The same for L and R, which may be mistaken for what takes an input.
+/// [`time`] for L and R; an array is reported as an input, which they do not take.
 fn time_without_input(ty: &Type, shape: &Shape, report: &mut Report) -> bool {
     match ty {
         Type::Array(_) => {
@@ -82,7 +82,7 @@ fn input(ty: &Type, shape: &Shape, report: &mut Report) -> Option<Expr> {
     Some(array.len.clone())
 }
 
-/// What R takes, and whether the time is part of it.
+/// The arguments of R, and whether the time is among them.
 pub fn rayleigh_signature(
     signature: &Signature,
     shape: &Shape,
@@ -173,7 +173,7 @@ pub fn time_scale_signature(signature: &Signature, shape: &Shape, report: &mut R
     scalar_result(signature, FUNCTION, shape, report);
 }
 
-/// What no differentiated function can be.
+/// Reports qualifiers and generics that no differentiated function can have.
 pub fn qualifiers(signature: &Signature, report: &mut Report) {
     if let Some(word) = &signature.constness {
         report.at(word, Mistake::Qualifier("const"));

@@ -7,7 +7,7 @@ use super::partials::Partials;
 #[derive(Clone, Copy)]
 pub enum Factor {
     Whole(Node),
-    /// That of one branch of a selection; in the other the derivative is 0 by structure.
+    /// The derivative of one branch of a selection; that of the other is 0 by structure.
     Branch {
         condition: Node,
         /// Whether it is the branch where the condition holds.
@@ -56,7 +56,7 @@ impl Factor {
         Some(in_branch(graph, condition, holds, product))
     }
 
-    /// What is left of the factor inside a branch.
+    /// The factor inside a branch, where a selection by its condition is decided.
     fn within(self, graph: &Graph, condition: Node, holds: bool) -> Self {
         match self {
             Self::Branch { derivative, .. } => Self::Whole(derivative),

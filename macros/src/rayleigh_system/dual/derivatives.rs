@@ -100,7 +100,7 @@ pub fn by_input(system: &System<'_>, input: &Degrees) -> TokenStream {
     }
 }
 
-/// What L, R or f takes after q and v, as constants of the dual numbers.
+/// The arguments of L, R or f after q and v, as constants of the dual numbers.
 fn lifted(system: &System<'_>, part: Part) -> Vec<TokenStream> {
     arguments(system, part).into_iter().map(|argument| quote!(dual::lift(#argument))).collect()
 }

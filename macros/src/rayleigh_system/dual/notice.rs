@@ -1,5 +1,4 @@
-//! What a user is told of dual numbers: a warning where nobody asked for them, an error where they cannot
-//! run.
+//! Notices about dual numbers: a warning where nobody asked for them, an error where they cannot run.
 //!
 //! Neither changes what is generated. Stable Rust has no warnings of macros; a deprecated constant, used at
 //! the user's token, makes rustc print one.

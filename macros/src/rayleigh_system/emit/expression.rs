@@ -53,7 +53,7 @@ impl Written {
     }
 }
 
-/// What starts from the sweep before.
+/// A computation that starts from its result in the sweep before.
 #[derive(Clone, Copy)]
 pub enum Anchor {
     Angle(Node),
@@ -317,7 +317,7 @@ impl Writer<'_> {
         Written::new(quote!(-#a), Binding::Sign)
     }
 
-    /// What the method of that name is called on: the number, or its elementary functions in the runtime.
+    /// The receiver of the method of that name: the number, or its elementary functions in the runtime.
     fn called_on(&self, node: Node, method: &str) -> TokenStream {
         let receiver = self.receiver(node);
         // Lanes bring their own.
@@ -333,7 +333,7 @@ impl Writer<'_> {
         }
     }
 
-    /// What a method is called on.
+    /// The node as the receiver of a method.
     fn receiver(&self, node: Node) -> TokenStream {
         match self.graph.constant_value(node) {
             Some(value) => {

@@ -1,4 +1,4 @@
-//! What is written otherwise where values are lanes: comparisons give masks, selections take both branches,
+//! The differences in code where values are lanes: comparisons give masks, selections take both branches,
 //! and numbers among the arguments of a method are spread over the lanes.
 
 use proc_macro2::{Literal, TokenStream};

@@ -15,15 +15,15 @@ use super::{Function, Graph, Node, Operation};
 struct Angles {
     /// All whose sine or cosine is computed.
     all: HashSet<Node>,
-    /// What stands for each node.
+    /// The node that each node has become.
     rewritten: HashMap<Node, Node>,
     /// Sine and cosine of angles.
     known: HashMap<Node, [Node; 2]>,
 }
 
 impl Graph {
-    /// What `outputs` compute, with sines and cosines of fewer angles. What conditions are made of stays: they
-    /// have to choose as the user's function does.
+    /// Rewrites `outputs` with sines and cosines of fewer angles. Nodes that conditions are made of stay:
+    /// they have to choose as the user's function does.
     pub fn with_fewer_angles(&mut self, outputs: &[Node]) -> Vec<Node> {
         let nodes = self.reachable(outputs.iter().copied());
         let all = nodes.iter().filter_map(|&node| self.angle(node)).collect();
@@ -54,7 +54,7 @@ impl Graph {
         outputs.iter().map(|output| angles.rewritten[output]).collect()
     }
 
-    /// What the node is the sine or cosine of.
+    /// The angle that the node is the sine or cosine of.
     fn angle(&self, node: Node) -> Option<Node> {
         match self.operation(node) {
             Operation::Function(Function::Sin | Function::Cos, angle) => Some(angle),

@@ -50,19 +50,19 @@ impl Term {
 /// The rewriting of one function's expressions.
 struct Factoring<'g> {
     graph: &'g mut Graph,
-    /// What stays as it is: the first nodes, and what conditions are made of.
+    /// Nodes that stay as they are: the first ones, and those that conditions are made of.
     kept: HashSet<Node>,
     /// Sums and products used once, by another sum or product: part of it.
     open: HashSet<Node>,
-    /// What stands for each node that is not open.
+    /// The node that each node has become, unless it is open.
     rewritten: HashMap<Node, Node>,
     /// Products that the function computes.
     products: HashSet<Node>,
 }
 
 impl Graph {
-    /// What `outputs` compute, in fewer operations. The first `written` nodes of the graph stay as they are,
-    /// and so does what conditions are made of: they have to choose as the user's function does.
+    /// Rewrites `outputs` in fewer operations. The first `written` nodes of the graph stay as they are, and
+    /// so do those that conditions are made of: they have to choose as the user's function does.
     pub fn factored(&mut self, outputs: &[Node], written: usize) -> Vec<Node> {
         let nodes = self.reachable(outputs.iter().copied());
         let mut uses: HashMap<Node, u32> = HashMap::new();

@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::{Graph, Node, Operation};
 
-/// What sums make of a product: nothing is left of it where all of them take it.
+/// Uses of a product, in sums and elsewhere: sums take it only where all its uses are in sums.
 #[derive(Clone, Copy, Default)]
 struct Uses {
     in_sums: u32,
@@ -12,8 +12,8 @@ struct Uses {
 }
 
 impl Graph {
-    /// What `outputs` compute, with a product and the sum that it stands in as one operation. The first `written`
-    /// nodes of the graph stay as they are, and so does what conditions are made of.
+    /// Rewrites `outputs` with a product and the sum that it stands in as one operation. The first `written`
+    /// nodes of the graph stay as they are, and so do those that conditions are made of.
     pub fn fused(&mut self, outputs: &[Node], written: usize) -> Vec<Node> {
         let nodes = self.reachable(outputs.iter().copied());
         let kept = self.kept(&nodes, written);

@@ -1,4 +1,4 @@
-//! What a node computes.
+//! The operations that nodes compute.
 
 use super::Node;
 
@@ -40,7 +40,7 @@ impl Operation {
         matches!(self, Self::Coordinate(_) | Self::Velocity(_) | Self::Input(_) | Self::Constant(_))
     }
 
-    /// The same operation with the arguments of a commutative one in order: equal to the last bit.
+    /// Puts the arguments of a sum or product in order: its value stays equal to the last bit.
     pub fn ordered(self) -> Self {
         match self {
             Self::Add(a, b) if b < a => Self::Add(b, a),
@@ -66,7 +66,7 @@ impl Operation {
         matches!(self, Self::Compare(..) | Self::Is(..) | Self::Not(_) | Self::And(..) | Self::Or(..))
     }
 
-    /// The same operation on other arguments.
+    /// Applies `of` to each argument.
     pub fn with_arguments(self, mut of: impl FnMut(Node) -> Node) -> Self {
         match self {
             Self::Coordinate(_)

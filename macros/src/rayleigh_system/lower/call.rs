@@ -14,7 +14,7 @@ use super::{Leaving, Lowering, Result, Returned, refuse};
 /// Calls within calls.
 const MAX_DEPTH: usize = 64;
 
-/// What surrounds a body that is called.
+/// The state of the caller while a body that it calls is run.
 struct Outside {
     locals: Vec<(String, Value)>,
     captured: usize,

@@ -82,7 +82,7 @@ impl Lowering<'_> {
         Ok((a, b, always))
     }
 
-    /// What has been returned after both ways.
+    /// Joins what the two ways of a condition have returned.
     fn joined(&mut self, at: &impl ToTokens, condition: Node, a: Returned, b: Returned) -> Result<Returned> {
         let parts = |returned| match returned {
             Returned::Never => (Truth::Known(false), None),

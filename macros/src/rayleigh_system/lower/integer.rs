@@ -32,7 +32,7 @@ pub struct Class(usize);
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct IntegerType {
     name: &'static str,
-    /// Nothing for `usize` and `isize`, whose width is the target's.
+    /// The width; `None` for `usize` and `isize`, whose width is the target's.
     bits: Option<u32>,
     is_signed: bool,
 }

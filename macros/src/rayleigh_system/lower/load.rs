@@ -66,7 +66,7 @@ impl Load {
     }
 }
 
-/// What a loop is shown at; nothing where the expression is none.
+/// The tokens that a loop or method call is shown at; `None` for other expressions.
 fn shown(expression: &Expr) -> Option<&dyn ToTokens> {
     match expression {
         Expr::ForLoop(each) => Some(&*each.expr),

@@ -66,7 +66,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// What stands in the place.
+    /// The value in the place.
     pub fn read(&self, at: &Expr, place: &Place) -> Result<Value> {
         let mut value = &self.locals[place.position].1;
         for &step in &place.steps {

@@ -1,4 +1,4 @@
-//! What cannot be lowered, and why.
+//! Refusals: tokens that cannot be lowered, and why.
 
 use proc_macro2::{Span, TokenStream};
 use quote::ToTokens;
@@ -9,7 +9,7 @@ use super::super::diagnostics::span_of;
 #[derive(Debug)]
 pub struct Refusal {
     pub span: Span,
-    /// What stands there, on one line.
+    /// The tokens at `span`, on one line.
     pub token: String,
     pub reason: String,
     /// Whether dual numbers could not follow either.
@@ -26,7 +26,7 @@ impl Refusal {
         }
     }
 
-    /// The same where dual numbers could not follow either.
+    /// Marks the refusal as final: dual numbers could not follow either.
     pub fn for_all(mut self) -> Self {
         self.is_final = true;
         self

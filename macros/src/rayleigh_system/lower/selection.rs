@@ -120,7 +120,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// What an operation makes of either of the two that a value may be.
+    /// Runs an operation on either of the two that a value may be, and selects between the results.
     pub fn distribute(
         &mut self,
         at: &impl ToTokens,

@@ -1,4 +1,4 @@
-//! What types say of values: the lengths of arrays, the types of integers.
+//! Shapes that types give to values: the lengths of arrays, the types of integers.
 
 use std::rc::Rc;
 

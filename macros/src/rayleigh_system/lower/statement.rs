@@ -13,7 +13,7 @@ impl Lowering<'_> {
         self.statements(block, None)
     }
 
-    /// The same with the type of the tail written down.
+    /// [`block`](Self::block) where the type of the tail is written down.
     pub fn block_of_type(&mut self, block: &Block, ty: &Type) -> Result<Value> {
         self.statements(block, Some(ty))
     }

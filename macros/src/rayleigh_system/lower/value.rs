@@ -1,4 +1,4 @@
-//! What an expression of a body is while the body is run.
+//! The values of a body's expressions while the body is run.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -31,7 +31,7 @@ pub enum Value {
     Function(Ident),
     /// `f64::sin` handed on.
     Method(Ident),
-    /// What a `use` in the body stands for.
+    /// The path behind a name that a `use` in the body brings in.
     Import(TokenStream),
     /// `self`.
     System,
@@ -53,7 +53,7 @@ pub struct Closure {
     pub result: Option<Type>,
     pub body: Expr,
     pub locals: Vec<(String, Value)>,
-    /// What it was last called with and gave: the types are those of every call.
+    /// The arguments and the result of its last call: the types are those of every call.
     pub last: RefCell<Option<Vec<Value>>>,
 }
 

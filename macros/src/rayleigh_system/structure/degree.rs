@@ -2,10 +2,10 @@
 
 use super::super::graph::{Graph, Node, Operation};
 
-/// What is no polynomial has this degree, or any above the few that are told apart.
+/// The degree of an expression that is no polynomial, or of one above the few that are told apart.
 const UNBOUNDED: u8 = u8::MAX;
 
-/// What a node is made of.
+/// The variables that a node is made of.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Parts {
     /// Neither q nor v.

@@ -91,7 +91,7 @@ fn verification(system: &System<'_>, home: Home) -> TokenStream {
     }
 }
 
-/// That of the view, where the system itself has one of its own.
+/// `fn verify_generated` of the view, where the derivatives are written out and there is a view.
 fn verification_of_view(system: &System<'_>, is_expanded: bool) -> Option<TokenStream> {
     (is_expanded && system.has_view()).then(|| verification(system, Home::View))
 }

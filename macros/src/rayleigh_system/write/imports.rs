@@ -6,8 +6,8 @@ use syn::Ident;
 
 use super::super::model::{Home, Part, System};
 
-/// What an implementation uses, with the names that its engine adds, and nothing else: an unused import would
-/// warn in the user's crate.
+/// Imports the names that an implementation and its engine use, and no others: an unused import would warn in
+/// the user's crate.
 pub fn imports(system: &System<'_>, of_engine: &[&'static str], calls_elementary: bool) -> TokenStream {
     let mut names = of_traits(system);
     names.extend(of_engine);

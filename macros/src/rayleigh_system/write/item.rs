@@ -55,7 +55,7 @@ pub fn conditions(source: &Source) -> Vec<Attribute> {
     named(attributes, &["cfg"]).collect()
 }
 
-/// What the user's item says of lints.
+/// The lint levels that the user's item sets.
 pub fn lint_levels(source: &Source) -> Vec<Attribute> {
     let attributes = match source {
         Source::Block(block) => &block.item.attrs,

@@ -1,4 +1,4 @@
-//! What systems have on request: derivatives by the input and by parameters, and second ones.
+//! Traits implemented on request: derivatives by the input and by parameters, and second ones.
 
 use proc_macro2::TokenStream;
 use quote::{ToTokens, format_ident, quote};

@@ -15,7 +15,7 @@ pub fn name(system: &System<'_>) -> Ident {
     if system.input.is_some() { format_ident!("Driven{name}") } else { format_ident!("{name}AtTime") }
 }
 
-/// What the traits are implemented for: `Arm`, `DrivenArm<'_>`.
+/// The type that the traits are implemented for: `Arm`, `DrivenArm<'_>`.
 pub fn subject(system: &System<'_>, home: Home) -> TokenStream {
     match home {
         Home::System => {
@@ -37,7 +37,7 @@ pub fn owner(home: Home) -> TokenStream {
     }
 }
 
-/// What L, R or f takes after q and v: `self.u`, `self.t`.
+/// The arguments of L, R or f after q and v: `self.u`, `self.t`.
 pub fn arguments(system: &System<'_>, part: Part) -> Vec<TokenStream> {
     let input = (part == Part::Force && system.input.is_some()).then(|| quote!(self.u));
     let time = system.timed.of(part).then(|| quote!(self.t));

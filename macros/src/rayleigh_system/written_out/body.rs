@@ -8,7 +8,7 @@ impl Code<'_> {
         self.code_taking(outputs, &[])
     }
 
-    /// The same in a function with further parameters.
+    /// [`code`](Self::code) for a function with further parameters.
     pub(super) fn code_taking(&mut self, outputs: &[Node], parameters: &[&str]) -> StraightLine {
         let mut line = self.code_at_node(outputs, parameters);
         if line.uses("t") {
@@ -18,13 +18,13 @@ impl Code<'_> {
         line
     }
 
-    /// The same, with the time left to the caller.
+    /// [`code_taking`](Self::code_taking) without `let t = self.t`.
     pub(super) fn code_at_node(&mut self, outputs: &[Node], parameters: &[&str]) -> StraightLine {
         let outputs = self.shortened(outputs);
         self.code_as_it_stands(&outputs, parameters)
     }
 
-    /// The same, of what has been shortened.
+    /// [`code_at_node`](Self::code_at_node) for outputs that are shortened already.
     pub(super) fn code_as_it_stands(&mut self, outputs: &[Node], parameters: &[&str]) -> StraightLine {
         let mut taken = vec!["q", "v", "h", "half", "q0", "q1", "minus", "plus"];
         // Without a view, u and t are free for the user's own names.
@@ -49,7 +49,7 @@ impl Code<'_> {
         line
     }
 
-    /// What `outputs` compute, in few operations; zeros where it is too long to be written.
+    /// Rewrites `outputs` in few operations; gives zeros where they are too long to be written.
     pub(super) fn shortened(&mut self, outputs: &[Node]) -> Vec<Node> {
         let zeros = |graph: &mut Graph| vec![graph.constant(0.0); outputs.len()];
         if self.graph.is_full() {
@@ -61,7 +61,7 @@ impl Code<'_> {
         if operations > MOST_OPERATIONS { zeros(&mut self.graph) } else { shortened }
     }
 
-    /// What `outputs` compute, in fewer operations, rounded as the attribute says.
+    /// Rewrites `outputs` in fewer operations, rounded as the attribute says.
     pub(super) fn rounded(&mut self, outputs: &[Node]) -> Vec<Node> {
         let factored = self.graph.factored(outputs, self.written);
         if self.system.is_fused { self.graph.fused(&factored, self.written) } else { factored }

@@ -1,8 +1,8 @@
 //! Several members at once: the text of a system's functions on other numbers, so that what every member gets
 //! is its own to the last bit.
 //!
-//! What is made of fields alone is computed of each system by itself, before the run and by the functions of
-//! numbers, as it is where one system runs alone.
+//! Values made of fields alone are computed for each system by itself, before the run and by the functions of
+//! numbers, as they are where one system runs alone.
 
 mod explicit;
 mod midpoint;
@@ -42,7 +42,7 @@ impl OfMembers {
         }
     }
 
-    /// What several lines know of their systems.
+    /// The fields of several lines: all that they have from before they run.
     fn fields_of<'l>(code: &Code<'_>, lines: impl IntoIterator<Item = &'l StraightLine>) -> Self {
         let fields = lines.into_iter().flat_map(|line| &line.fields);
         Self::new(code, fields.map(|field| (field.node, field.is_truth)))

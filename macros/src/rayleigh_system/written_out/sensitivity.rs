@@ -1,5 +1,4 @@
-//! What systems have on request: derivatives by parameters, and the Hessians that second derivatives of the
-//! step need.
+//! Derivatives on request: those by parameters, and the Hessians that second derivatives of the step need.
 
 use syn::Expr;
 

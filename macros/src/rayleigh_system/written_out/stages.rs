@@ -22,7 +22,7 @@ pub(super) struct StagesWritten {
     pub(super) in_lanes: Option<TokenStream>,
 }
 
-/// What a line of code in sweeps keeps from one to the next.
+/// The parameter by which code in sweeps keeps angles and reciprocals from one sweep to the next.
 pub(super) struct Anchors {
     pub(super) ty: TokenStream,
     /// The name of the parameter.

@@ -9,7 +9,7 @@ use super::{Dual, Real};
     note = "a system's L, R and f may depend on numbers, bools and arrays of them; keep other data outside the struct, or convert it to numbers first"
 )]
 pub trait Lift<D>: Sized {
-    /// The same shape with `Real<D>` for floating-point numbers.
+    /// A type of this shape, with `Real<D>` for floating-point numbers.
     type Lifted;
 
     /// The value with constants for floating-point numbers.
@@ -18,14 +18,14 @@ pub trait Lift<D>: Sized {
 
 /// A value of a differentiated body that can be handed back to plain code.
 pub trait Lower: Sized {
-    /// The same shape with plain floating-point numbers.
+    /// A type of this shape, with plain floating-point numbers.
     type Lowered;
 
     /// The value without derivatives.
     fn lower(self) -> Self::Lowered;
 }
 
-/// What `as f64` accepts.
+/// A number that `as f64` accepts: an integer, or a floating-point number of the system.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` cannot be cast to the scalar type of this system",
     label = "neither an integer nor a floating-point number of this system"
@@ -35,7 +35,7 @@ pub trait Number<D> {
     fn number(self) -> Real<D>;
 }
 
-/// What a cast to an integer accepts: integers and `bool`.
+/// A value that a cast to an integer accepts: an integer or a `bool`.
 #[diagnostic::on_unimplemented(
     message = "a floating-point number of a differentiated body cannot become an integer",
     label = "an integer has no derivative",
@@ -46,7 +46,7 @@ pub trait Integer<T> {
     fn integer(self) -> T;
 }
 
-/// What `%` may give in a differentiated body: an integer.
+/// A number that `%` may give in a differentiated body: an integer.
 #[diagnostic::on_unimplemented(
     message = "`%` cannot be used on floating-point numbers of a differentiated body",
     label = "the remainder jumps, and has no derivative there",
@@ -54,7 +54,7 @@ pub trait Integer<T> {
 )]
 pub trait Remainder {}
 
-/// What rounding and bit methods accept: nothing, since they have no derivative.
+/// A number that rounding and bit methods accept: no type is one, since they have no derivative.
 #[diagnostic::on_unimplemented(
     message = "rounding and bit methods cannot be used in a differentiated body",
     label = "piecewise constant: it has no useful derivative",

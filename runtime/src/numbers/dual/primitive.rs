@@ -1,4 +1,4 @@
-//! What the dual engine asks of `f64` and `f32` beside arithmetic.
+//! Functions that the dual engine asks of `f64` and `f32` beside arithmetic.
 
 use core::cmp::Ordering;
 

@@ -9,7 +9,7 @@ use super::lift::Roundable;
 use super::primitive::Primitive;
 use crate::numbers::Elementary;
 
-/// What stands for `f64` (or `f32`) in a differentiated body: a number of type `D`, plain or dual.
+/// The number that stands for `f64` (or `f32`) in a differentiated body: of type `D`, plain or dual.
 ///
 /// Operators take `Real<D>`, references to it and plain numbers, in any mixture, as `f64` does. Methods are
 /// those of `f64` that have a derivative; they give the value that `f64` gives.

@@ -29,7 +29,7 @@ pub(super) fn has_nan<F: Primitive, const R: usize, const C: usize>(entries: &SM
     entries.data.0.as_flattened().iter().fold(false, |found, &entry| found | Primitive::is_nan(entry))
 }
 
-/// What a variable carries in the first and in the second part, if anything.
+/// The derivatives that a variable carries in its first and second part, if any.
 type Seeds<F> = [Option<F>; 2];
 
 /// `f` where qₖ carries `seeds(k)` and vₖ carries `seeds(N + k)`.
@@ -172,9 +172,9 @@ fn only<F: Primitive>(is_seeded: bool) -> Option<F> {
     is_seeded.then(nalgebra::one)
 }
 
-/// What variable `k` of (q, v) carries where the unit vector eᵢ is followed along `direction`. A variable
-/// that does not move carries nothing: 0 × ∞ would be NaN, as of q at the first node of the trapezoidal rule,
-/// which q1 does not move.
+/// The derivative that variable `k` of (q, v) carries where the unit vector eᵢ is followed along `direction`;
+/// `None` of a variable that does not move: 0 × ∞ would be NaN, as of q at the first node of the trapezoidal
+/// rule, which q1 does not move.
 #[inline(always)]
 fn along<F: Primitive>(direction: Direction<F>, i: usize, k: usize, n: usize) -> Option<F> {
     let moves = if k == i {

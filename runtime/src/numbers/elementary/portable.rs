@@ -1,4 +1,5 @@
-//! The same functions on every machine: those of libm, and for `f32` our own where libm's compute in `f64`.
+//! Elementary functions that do not depend on the machine: those of libm, and for `f32` our own where libm's
+//! compute in `f64`.
 
 use super::{Elementary, single};
 

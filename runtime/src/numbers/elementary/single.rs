@@ -12,7 +12,7 @@ use core::f32::consts::FRAC_PI_4;
 /// place.
 const TINY: f32 = 1.0 / 4096.0;
 
-/// What π/2 has beyond [`FRAC_PI_2`](core::f32::consts::FRAC_PI_2), twice [`FRAC_PI_4`].
+/// π/2 − [`FRAC_PI_2`](core::f32::consts::FRAC_PI_2), rounded; that constant is twice [`FRAC_PI_4`].
 const FRAC_PI_2_LOW: f32 = -4.371_139e-8;
 
 /// The bits of 2/π behind the point, after 32 zeros.

@@ -82,7 +82,7 @@ impl<S: Scalar, const N: usize, const W: usize> NewtonMatrix<S, N> for Banded<S,
     type Factored = FactoredBand<S, N, W>;
     type OfMembers<const M: usize> = BandedOfMembers<S, N, W, M>;
 
-    /// Nothing if a pivot is small beside its row: that calls for row exchanges.
+    /// Factors without row exchanges; `None` if a pivot is small beside its row, which calls for them.
     #[inline]
     #[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a NaN pivot must fail the comparison")]
     fn factored(&self) -> Option<FactoredBand<S, N, W>> {
@@ -174,7 +174,7 @@ impl<S: Scalar, const N: usize, const W: usize> NewtonMatrix<S, N> for Banded<S,
     }
 }
 
-/// The same with row exchanges, in dense form: where the band does not dominate its diagonal, and to name a
+/// Solves with row exchanges, in dense form: where a pivot of the band is small beside its row, and to name a
 /// singular column.
 #[cold]
 fn pivoted<S: Scalar, const N: usize, const W: usize>(

@@ -100,7 +100,7 @@ pub struct FactoredDense<S, const N: usize> {
     pub(super) rows: [[S; N]; N],
     /// The row of the matrix that came to stand here.
     pub(super) order: [usize; N],
-    /// Those of the pivots.
+    /// The reciprocals of the pivots.
     pub(super) reciprocals: [S; N],
 }
 

@@ -13,7 +13,7 @@ use crate::numbers::{Mask, MemberVector, Members, Scalar};
 
 /// The matrices of W members, made ready to solve with.
 pub trait MatricesOfMembers<S: Scalar, const N: usize, const W: usize>: Copy + core::fmt::Debug {
-    /// That of one member.
+    /// The matrix of one member.
     type Matrix: NewtonMatrix<S, N>;
 
     /// The entries alone, as they are computed: row by row, of a band those within it.
@@ -36,8 +36,8 @@ pub trait MatricesOfMembers<S: Scalar, const N: usize, const W: usize>: Copy + c
     /// [`NewtonMatrix::magnitudes`] of each.
     fn magnitudes(&self, v: &MemberVector<S, N, W>) -> MemberVector<S, N, W>;
 
-    /// [`NewtonMatrix::solve`] of each, and whose solution that is: not of those whose matrix has to be looked
-    /// at more closely.
+    /// [`NewtonMatrix::solve`] of each, and a mask: false for members with a matrix that has to be looked at
+    /// more closely.
     fn solution(entries: &Self::Entries, right: &MemberVector<S, N, W>) -> (MemberVector<S, N, W>, Mask<W>);
 
     /// [`NewtonMatrix::magnitudes`] of each.
@@ -118,7 +118,8 @@ impl<S: Scalar, const N: usize, const W: usize> MatricesOfMembers<S, N, W> for D
     }
 }
 
-/// That of one or two coordinates, [`dense`]; and whose determinant does not cancel.
+/// The solution with one or two coordinates in closed form, as [`dense`] has it; the mask is false where the
+/// determinant is 0, not finite or lost to cancellation.
 #[inline(always)]
 fn closed_form<S: Scalar, const N: usize, const W: usize>(
     entries: &[MemberVector<S, N, W>; N],
@@ -140,7 +141,7 @@ fn closed_form<S: Scalar, const N: usize, const W: usize>(
     (x, cancelled.less(determinant.abs()) & zero.less(reciprocal.abs()))
 }
 
-/// Elimination with the row exchanges of each member; and whose pivots are not suspicious.
+/// Elimination with the row exchanges of each member; the mask is false where a pivot is suspicious.
 #[inline(always)]
 fn eliminate<S: Scalar, const N: usize, const W: usize>(
     mut rows: [MemberVector<S, N, W>; N],

@@ -1,4 +1,4 @@
-//! What a vector field does to a segment, at its stages.
+//! The change of a vector field's momentum map over a segment, split into its causes at the stages.
 
 use nalgebra::SVector;
 

@@ -51,16 +51,16 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
     }
 }
 
-/// What a sweep changes the velocities by.
+/// A method that corrects the stages' velocities in each sweep.
 pub(super) trait Corrector<T, const N: usize> {
-    /// What the method is called.
+    /// The method, as a [`Solution`] names it.
     const SOLVER: Solver;
 
     /// Whether a correction changes the rates much less than the velocities: then the last one is made without
     /// another evaluation, as far as the contraction measured promises.
     const LEAVES_RATES: bool;
 
-    /// By the stages' residuals.
+    /// The correction by the stages' residuals.
     fn correction<const W: usize>(&self, stages: &Stages<T, N, W>) -> LaneVector<T, N, W>;
 }
 
@@ -86,7 +86,7 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
     iterate_by(problem, guess, &ByMass)
 }
 
-/// The same with corrections of one's own.
+/// [`iterate`] with any `corrector`, such as the factored matrices of simplified Newton's method.
 #[inline(always)]
 pub(super) fn iterate_by<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
     problem: &Problem<'_, L, N, S>,

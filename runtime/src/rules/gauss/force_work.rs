@@ -1,4 +1,4 @@
-//! What forces do over a step, at its stages.
+//! The energy that forces take and bring over a step, at its stages.
 
 use super::{Gauss, solved};
 use crate::numbers::{Scalar, lanes::lane};

@@ -1,4 +1,4 @@
-//! What a run of steps by a Gauss rule keeps.
+//! The memory of a run of steps by a Gauss rule.
 
 use core::array;
 
@@ -26,11 +26,11 @@ pub struct StageHistory<T, const N: usize, const S: usize> {
     pub(super) v: LaneVector<T, N, S>,
     /// Its step size; 0 before the first step.
     h: T,
-    /// What it was solved by.
+    /// The method that solved it.
     solver: Solver,
     q: Compensated<T, N>,
     p: Compensated<T, N>,
-    /// What the stages may be left by; nothing where they are solved to rounding.
+    /// The error that stages may be left with; `None` where they are solved to rounding.
     slack: Option<Slack<T>>,
     /// The velocity to start from before the first step.
     suggested: Option<SVector<T, N>>,
@@ -55,8 +55,8 @@ impl<T: Scalar, const N: usize, const S: usize> Default for StageHistory<T, N, S
 }
 
 impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
-    /// What `q` and `p` of the last state lack of the exact sums, in units of the state. The state with these
-    /// added is known to twice the digits.
+    /// The exact sums of `q` and `p` less the last state, in units of the state. The state with these added
+    /// is known to twice the digits.
     pub fn rests(&self) -> (SVector<T, N>, SVector<T, N>) {
         (self.q.rest, self.p.rest)
     }
@@ -82,12 +82,12 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
         [before, last].map(|weights| (0..N).fold(0.0, |largest, a| sum(a, &weights).max(largest)))
     }
 
-    /// What has solved the last step; Newton's method before the first.
+    /// The method that solved the last step; Newton's before the first.
     pub(crate) fn solver(&self) -> Solver {
         self.solver
     }
 
-    /// What a run remembers of a step with velocities `v` that led to `ends`, q and p.
+    /// The memory of a step with velocities `v` that led to `ends`, q and p.
     pub(super) fn of_step(
         v: &[SVector<T, N>; S],
         h: T,
@@ -119,12 +119,12 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
         self.slack = Some(Slack::new(error, steps, weight));
     }
 
-    /// The same with what the steps to come may leave.
+    /// This memory with another slack for the steps to come.
     pub(super) fn with_slack(self, slack: Option<Slack<T>>) -> Self {
         Self { slack, ..self }
     }
 
-    /// What the steps to come may leave.
+    /// The error that the steps to come may leave; `None` where they are solved to rounding.
     pub(super) fn slack(&self) -> Option<Slack<T>> {
         self.slack
     }

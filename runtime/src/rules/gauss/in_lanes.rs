@@ -2,9 +2,9 @@
 //!
 //! Stage by stage, each over all members; sweeps are made of all until the last member is solved. A step that
 //! leaves the usual path (sweeps that do not contract, floors that rise or fall, rounding that has to be
-//! measured, Newton's method, numbers that are none) the member takes alone, by the functions of its own run,
-//! and comes back to the others. So it does for its first step, which takes more sweeps than the others', unless
-//! many take theirs.
+//! measured, Newton's method, numbers that are not finite) the member takes alone, by the functions of its
+//! own run, and comes back to the others. Its first step, which takes more sweeps than the others', it takes
+//! alone too, unless many members take theirs.
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
 
@@ -30,11 +30,12 @@ use crate::system::ForcedLagrangianInLanes;
 /// W members on their way by a Gauss rule.
 #[derive(Clone, Copy, Debug)]
 pub struct StagesInLanes<T, F, const N: usize, const S: usize, const W: usize> {
-    /// Whose states are those of their runs.
+    /// Members that have begun and not failed: their q and p equal those of their own run.
     is_sound: Mask<W>,
-    /// Who has not stepped yet.
+    /// Members that have not stepped yet.
     is_new: Mask<W>,
-    /// Whose last step was solved by the fixed point, or who has a velocity to start from.
+    /// Members with velocities that sweeps can start from: the fixed point solved their last step or, before
+    /// the first, the velocity of their state is known.
     has_contracted: Mask<W>,
     fields: F,
     h: T,
@@ -44,7 +45,7 @@ pub struct StagesInLanes<T, F, const N: usize, const S: usize, const W: usize> {
     p: CompensatedMembers<T, N, W>,
     /// Steps that a member has taken alone.
     alone: u64,
-    /// What members start with; nothing where stages are solved to rounding.
+    /// The slack that members start with; `None` where stages are solved to rounding.
     slack: Option<Slack<T>>,
     left: SlackOfMembers<T, W>,
     /// Kept where L, R or f takes the time.
@@ -75,8 +76,8 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         }
     }
 
-    /// Solves the stages of all members, and of those who are put in later, as far as an error of `error` after
-    /// so many steps from their starts needs.
+    /// Solves the stages of all members, also of those put in later, as far as an error of `error` after so
+    /// many steps from their starts needs.
     pub(crate) fn leave(&mut self, error: f64, steps: u64) {
         let slack = Slack::new(error, steps, 0.0);
         self.slack = Some(slack);
@@ -90,7 +91,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         self.alone
     }
 
-    /// The fields of other systems, some of whose members are new.
+    /// Takes the fields of the systems that are now in the lanes.
     pub(crate) fn gather(&mut self, fields: F) {
         self.fields = fields;
     }
@@ -116,12 +117,12 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         self.p.write(lane, &Compensated::new(start.p));
     }
 
-    /// Where members are, and whose states are those of their runs.
+    /// q and p of the members, and which members have begun and not failed.
     pub(crate) fn standing(&self) -> (&MemberVector<T, N, W>, &MemberVector<T, N, W>, Mask<W>) {
         (&self.q.value, &self.p.value, self.is_sound)
     }
 
-    /// All members on by so many steps.
+    /// Advances the members that have begun and not failed by `count` steps.
     #[inline(always)]
     pub(crate) fn advance<L>(&mut self, systems: [&L; W], count: u64)
     where
@@ -154,7 +155,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         }
     }
 
-    /// The step that was solved for; who has taken it.
+    /// Takes the step that was solved for, and returns which members have taken it.
     #[inline(always)]
     fn follow(&mut self, steps: &[T; S], solved: &Solved<T, N, S, W>) -> Mask<W> {
         let zero = [Members::splat(T::zero()); N];
@@ -188,7 +189,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         has_stepped
     }
 
-    /// The step of some members, by each member's own run.
+    /// Takes the step of some members, each by the functions of its own run.
     #[cold]
     #[inline(never)]
     fn step_alone<L>(&mut self, systems: [&L; W], is_alone: Mask<W>)

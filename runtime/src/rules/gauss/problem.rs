@@ -94,7 +94,7 @@ pub(super) fn steps<T: Scalar, const S: usize>(h: T) -> [T; S] {
     steps
 }
 
-/// What has solved the stages.
+/// The method that solved the stages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Solver {
     /// The fixed point, which contracted.
@@ -166,7 +166,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         self.next_stages(&mut Blank::blank(), v)
     }
 
-    /// The same in a sweep after others.
+    /// [`stages`](Self::stages), with the `anchors` that the sweeps before have left.
     #[inline(always)]
     pub(super) fn next_stages<const W: usize>(
         &self,
@@ -229,7 +229,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         })
     }
 
-    /// What rounding leaves of the momentum equations: 4ε (|p0| + |h| max |G_i| + max |P_i − ∂L/∂v|),
+    /// The round-off floor of the momentum equations: 4ε (|p0| + |h| max |G_i| + max |P_i − ∂L/∂v|),
     /// coordinate by coordinate.
     #[inline(always)]
     pub(super) fn floor<const W: usize>(

@@ -17,7 +17,7 @@ use crate::step::{
 use crate::system::{Driven, ForcedLagrangian, Parameters};
 
 impl<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize> Segment<'_, L, N, S> {
-    /// What `of` gives of the system at every stage, each at its own time.
+    /// Evaluates `of` at every stage, on the system at the stage's own time.
     pub(super) fn at_stages<X>(&self, of: impl Fn(&L, &SVector<T, N>, &SVector<T, N>) -> X) -> [X; S] {
         let q = self.problem.configurations(&self.v);
         array::from_fn(|i| {
@@ -53,7 +53,7 @@ impl<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usi
         self.tangent(&Source { momentum: gradients.map(|l| l.d2), rate, ..Source::none() })
     }
 
-    /// What a tangent at fixed (q0, p0) moves in the momenta at fixed (q0, q1).
+    /// The derivatives of the momenta at fixed (q0, q1), from a tangent at fixed (q0, p0).
     fn momenta_by<const K: usize>(&self, by: &Tangent<T, N, S, K>) -> Result<MomentaBy<T, N, K>, StepError> {
         let ByState { p, .. } = self.by_state()?;
         let p0 = -(crate::step::invert(&p.end.q)? * by.end.q);

@@ -145,7 +145,7 @@ struct Factored<T, const N: usize, const S: usize, const M: usize> {
 }
 
 impl<T: Scalar, const N: usize, const S: usize, const M: usize> Factored<T, N, S, M> {
-    /// Nothing where a pivot is 0 or none.
+    /// Factors the matrix of every mode; `None` where a pivot is 0 or not finite.
     fn new(local: &Local<T, N>, h: T) -> Option<Self> {
         let [re, im] = &InLanes::<S, M, S>::EIGENVALUES;
         let along = Complex { re: Lanes::constants(re) * h, im: Lanes::constants(im) * h };

@@ -1,4 +1,4 @@
-//! What sweeps may leave of the stages' change, where an error is asked for at an end.
+//! The slack of sweeps: the change that they may leave unmade, where an error is asked for at an end.
 //!
 //! A share of 1/100 of that error is spread evenly over the steps: its part of one step is the slack. With
 //! sweeps whose residuals in momenta are r and whose corrections of velocities are c, a step errs by what the
@@ -36,7 +36,7 @@ pub(crate) fn steps_until(time: f64, h: f64) -> u64 {
     nalgebra::ComplexField::ceil((time / h).max(0.0) - 1e-6) as u64
 }
 
-/// What each of the next steps may leave unsolved.
+/// The error that unsolved stages may make in each of the next steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Slack<T> {
     /// In units of q.
@@ -66,7 +66,7 @@ impl<T: Scalar> Slack<T> {
             [self.change[0].max((to.q - from.q).amax()), self.change[1].max((to.p - from.p).amax())];
     }
 
-    /// What the sweeps of the next step, of size `h` from the momentum `p`, may leave; nothing before the
+    /// The allowance for the sweeps of the next step, of size `h` from the momentum `p`; `None` before the
     /// first step has shown how q and p change, after the last, and where it were no more than rounding.
     #[inline]
     pub(crate) fn allowance<const N: usize>(
@@ -85,14 +85,14 @@ impl<T: Scalar> Slack<T> {
     }
 }
 
-/// What the sweeps of one step may leave.
+/// The change that the sweeps of one step may leave unmade, as a unit of corrections and residuals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Allowance<T> {
-    /// By the units that follow corrections of V are measured in.
+    /// The factor from corrections of V to this unit.
     pub(crate) per_correction: T,
-    /// By the units that residuals of the momenta are measured in.
+    /// The factor from residuals of the momenta to this unit.
     pub(crate) per_residual: T,
-    /// One such unit, of a momentum.
+    /// The unit, as a residual of a momentum.
     residual: T,
 }
 
@@ -114,8 +114,8 @@ impl<T: Scalar> Allowance<T> {
     }
 }
 
-/// What sweeps still to be made would change, in units of the present size, by the last three sizes, the
-/// present one last; infinite where they do not contract.
+/// The change that sweeps still to be made would add, in units of the present size, by the last three sizes,
+/// the present one last; infinite where they do not contract.
 ///
 /// Where the mass depends on q, velocities follow momenta a sweep late, and every other sweep may take off
 /// less: of the last two contractions x and y the larger is expected of the next sweep, and x y of any two.
@@ -133,11 +133,11 @@ pub(crate) fn remaining<T: Scalar>([before, last, now]: [T; 3]) -> T {
 
 /// How sweeps within an allowance ended.
 pub(super) enum Swept<T, const N: usize, const S: usize> {
-    /// What is left is within it.
+    /// The change left is within the allowance.
     Within(Solution<T, N, S>),
-    /// They no longer contract: to be solved from here to rounding, after so many sweeps.
+    /// The sweeps no longer contract: to be solved from here to rounding, after so many of them.
     Slow(LaneVector<T, N, S>, u32),
-    /// They lead nowhere.
+    /// The sweeps lead nowhere.
     Lost,
 }
 

@@ -21,7 +21,7 @@ use crate::numbers::Scalar;
 use crate::step::{PhaseMatrix, Quantity, StateBy, StepError};
 use crate::system::ForcedLagrangian;
 
-/// What K quantities move by themselves, the stages' velocities being held.
+/// The changes that K quantities make by themselves, the stages' velocities being held.
 pub(super) struct Source<T, const N: usize, const S: usize, const K: usize> {
     /// In q0.
     pub(super) q0: SMatrix<T, N, K>,

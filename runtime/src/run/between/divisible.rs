@@ -12,7 +12,7 @@ use crate::system::Lagrangian;
 /// ([`GuardedTrajectory`](crate::tolerance::GuardedTrajectory)), and one whose input is held
 /// ([`HeldInput`](crate::run::HeldInput)).
 pub trait Divisible<const N: usize>: Run<N> {
-    /// What is stepped.
+    /// The type of the system that is stepped.
     type System: Lagrangian<N, Scalar = Self::Scalar>;
 
     /// The system.

@@ -1,4 +1,4 @@
-//! What can go wrong while a run is watched.
+//! Errors of a run that is watched for events.
 
 use core::fmt;
 

@@ -52,7 +52,8 @@ pub struct EventDerivatives<S, const N: usize> {
 }
 
 impl<S: Scalar, const N: usize> EventDerivatives<S, N> {
-    /// The same by an earlier state, of which x0 has the derivative `a`: the product of the steps' between.
+    /// The derivatives of this event by an earlier state x, given `a` = ∂x0/∂x, the product of the
+    /// derivatives of the steps between.
     #[must_use]
     pub fn after(&self, a: &PhaseMatrix<S, N>) -> Self {
         Self {

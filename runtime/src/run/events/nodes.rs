@@ -38,7 +38,7 @@ const fn binomial(n: usize, k: usize) -> f64 {
     value
 }
 
-/// Those of the cubic, and of the Gauss rules of three stages and more.
+/// The nodes of the cubic, with two between its ends, and of the Gauss rules of three to eight stages.
 static OF_STAGES: [Nodes; 7] = [
     Nodes::new(&Gauss::<2>::NODES),
     Nodes::new(&Gauss::<3>::NODES),
@@ -192,7 +192,7 @@ impl Nodes {
         [coefficient(&self.tails[0]), coefficient(&self.tails[1]), coefficient(&self.tails[2])]
     }
 
-    /// What rounding leaves of β, where no value is larger than `size`.
+    /// The rounding error of β, where no value is larger than `size`.
     pub(super) fn rounding(&self, epsilon: f64, size: f64) -> f64 {
         2.0 * epsilon * self.norm * size
     }

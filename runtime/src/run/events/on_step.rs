@@ -182,8 +182,8 @@ fn in_order<S: Scalar, const N: usize>(found: &mut [Option<Found<S, N>>]) {
     }
 }
 
-/// What rounding of the state leaves of an event function: its changes when each coordinate moves by some last
-/// places, of itself and of what a step adds to it.
+/// The rounding error of an event function from that of the state: its changes, added up, when each
+/// coordinate and momentum moves by some last places, of itself and of what a step adds to it.
 fn rounding<L, G, S: Scalar, const N: usize, const K: usize>(
     g: &G,
     system: &L,
@@ -239,7 +239,7 @@ where
     T: Divisible<N>,
     G: Fn(&Moment<'_, T::System, N>) -> [T::Scalar; K],
 {
-    /// What the run has at a share of the step.
+    /// The time and the state at a share of the step.
     fn at(&mut self, share: f64) -> Result<At<T::Scalar, N>, EventError> {
         let h = self.dense.run().step_size();
         let elapsed = T::Scalar::constant(share * h.widen());

@@ -1,4 +1,4 @@
-//! What the values of event functions on a step say at once.
+//! The range of event functions' values on a step: whether it is clear of 0.
 
 use crate::numbers::Scalar;
 

@@ -23,7 +23,7 @@ pub(super) trait Curve {
     /// Whether the run was restarted at this event.
     fn is_restarted(&self) -> bool;
 
-    /// What rounding leaves of the value.
+    /// The rounding error of the value.
     fn floor(&mut self, share: f64) -> Result<f64, EventError>;
 
     /// More roots than are kept of one step.
@@ -89,7 +89,7 @@ const STEEPER: f64 = 16.0;
 /// The nodes of true values.
 const OWN: Nodes = Nodes::new(&Gauss::<8>::NODES);
 
-/// What is known while a step is searched.
+/// The search of a step for the roots of one event function.
 pub(super) struct Search<'c> {
     pub(super) curve: &'c mut dyn Curve,
     /// Of the scalar.
@@ -157,7 +157,7 @@ impl Search<'_> {
         self.searched(whole, roots)
     }
 
-    /// The same of a part of which more has to be known.
+    /// Adds the roots in `whole` to `roots`, part by part; `None` where a polynomial proves wrong.
     #[inline(never)]
     fn searched(&mut self, whole: Part, mut roots: Roots) -> Result<Option<Roots>, EventError> {
         let mut waiting = Waiting::of(whole);
@@ -226,7 +226,7 @@ impl Search<'_> {
         Part { from, to, polynomial, error, slope_error: steeper * error / sampled, sampled, origin }
     }
 
-    /// What the polynomial says of a part.
+    /// Judges a part by its polynomial.
     fn judge(&self, part: &Part) -> Verdict {
         let Part { polynomial, error, .. } = part;
         let [low, high] = polynomial.range();

@@ -18,9 +18,9 @@ use crate::step::{Flow, State};
 /// W members on their way by explicit substeps, S in a step.
 #[derive(Clone, Copy, Debug)]
 pub struct ExplicitSteps<T, F, A, const N: usize, const S: usize, const W: usize> {
-    /// Whose states are those of their runs.
+    /// Members that have not failed: their q and p equal those of their own runs.
     is_sound: Mask<W>,
-    /// Who takes the first step next.
+    /// Members that take their first step next.
     is_new: Mask<W>,
     h: T,
     /// Kept where the force takes the time.
@@ -34,7 +34,7 @@ pub struct ExplicitSteps<T, F, A, const N: usize, const S: usize, const W: usize
     substeps: [Substep<T, A, N, W>; S],
 }
 
-/// What depends on the size of a substep alone.
+/// A substep's size, and the values that depend on it alone.
 #[derive(Clone, Copy, Debug)]
 struct Substep<T, A, const N: usize, const W: usize> {
     h: T,
@@ -44,7 +44,7 @@ struct Substep<T, A, const N: usize, const W: usize> {
     at_rest: MemberVector<T, N, W>,
 }
 
-/// Those of a system.
+/// [`ExplicitSteps`] of the system type `L`.
 type Of<L, const N: usize, const S: usize, const W: usize> = ExplicitSteps<
     <L as crate::system::Lagrangian<N>>::Scalar,
     <L as ExplicitInLanes<N>>::Fields<W>,
@@ -132,7 +132,7 @@ fn prepare<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize
     true
 }
 
-/// Members where they are, and whose states are those of their runs.
+/// q and p of the members, and which of them have not failed.
 type Standing<T, const N: usize, const W: usize> = (MemberVector<T, N, W>, MemberVector<T, N, W>, Mask<W>);
 
 /// The first step of each member that is new, its own; `start` is where they stood before the others went on.
@@ -225,7 +225,7 @@ fn carry<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
 }
 
 impl<T: Scalar, A, const N: usize, const W: usize> Substep<T, A, N, W> {
-    /// Takes it, with `fields` at its end; whose velocities solve its equation.
+    /// Takes the substep, with `fields` at its end. Returns the members for which v solves its equation.
     #[inline(always)]
     fn take<L, F>(
         &self,

@@ -21,9 +21,9 @@ use crate::system::Lagrangian;
 /// W members on their way by steps that are solved for v̄.
 #[derive(Clone, Copy, Debug)]
 pub struct StepsInLanes<T, F, M, A, const N: usize, const W: usize> {
-    /// Whose states are those of their runs.
+    /// Members that have not failed: their q and p equal those of their own runs.
     is_sound: Mask<W>,
-    /// Whose next step is by Newton's method, and whose by the matrix kept; the others take it alone.
+    /// Members that take the next step by Newton's method, and by the matrix kept; the others take it alone.
     is_by_newton: Mask<W>,
     is_by_matrix: Mask<W>,
     fields: F,
@@ -41,7 +41,7 @@ pub struct StepsInLanes<T, F, M, A, const N: usize, const W: usize> {
     alone: u64,
 }
 
-/// Those of a system.
+/// [`StepsInLanes`] of the system type `L`.
 type Of<L, const N: usize, const W: usize> = StepsInLanes<
     <L as Lagrangian<N>>::Scalar,
     <L as DiscreteInLanes<Midpoint, N>>::Fields<W>,
@@ -112,7 +112,7 @@ where
         guess
     }
 
-    /// The steps to these roots; who has taken them.
+    /// Takes the steps to these roots, and returns the members that have taken them.
     #[inline(always)]
     fn follow(&mut self, roots: &Roots<T, N, W>) -> Mask<W> {
         let (mut q, mut p) = (self.q, self.p);

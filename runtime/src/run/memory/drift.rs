@@ -62,7 +62,7 @@ where
 /// The matrix of a step size, factored, and the functions of Z.
 type Kept<S, const N: usize> = (Prepared<S, SMatrix<S, N, N>, N>, DampedDrift<S, N>);
 
-/// What [`FittedTrapezoidal`] asks for: the functions of Z, one of them factored, and the force at the end of
+/// The memory of [`FittedTrapezoidal`]: the functions of Z, one of them factored, and the force at the end of
 /// the last step. It belongs to one system.
 ///
 /// As for [`Explicit`](super::Explicit) systems, a step costs one gradient.

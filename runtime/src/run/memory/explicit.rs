@@ -29,7 +29,7 @@ pub trait Explicit<const N: usize>: Discrete<Trapezoidal, N> + ActingForce<N> {
     /// P = ∂²L/∂v² + (h/2) ∂²R/∂v², the Newton matrix.
     fn step_matrix(&self, h: Self::Scalar) -> Self::Matrix;
 
-    /// What the velocity adds to the momenta: ∂L/∂v ± (h/2) ∂R/∂v.
+    /// The velocity's part in the momenta: ∂L/∂v ± (h/2) ∂R/∂v.
     fn velocity_momenta(&self, v: &SVector<Self::Scalar, N>, h: Self::Scalar) -> Momenta<Self::Scalar, N>;
 
     /// G(q) = ∂L/∂q + f, now.
@@ -46,7 +46,7 @@ pub struct ExplicitMemory<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> {
     is_another: bool,
 }
 
-/// What depends on the step size alone.
+/// A step size, and the values that depend on it alone.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Prepared<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> {
     pub(super) h: S,
@@ -133,7 +133,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> ExplicitMemory<S, M, N> {
 }
 
 impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Prepared<S, M, N> {
-    /// Nothing where the matrix cannot be factored.
+    /// Factors the matrix of the step size `h`; `None` where it cannot be factored.
     pub(super) fn new(h: S, matrix: M, at_rest: SVector<S, N>) -> Option<Self> {
         matrix.factored().map(|factored| Self { h, matrix, factored, at_rest })
     }

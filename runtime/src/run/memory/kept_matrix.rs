@@ -269,7 +269,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
     /// E = (J(h) + J(−h))/2 − J(0) = −(h²/4) ∂²L/∂q² + …      floorᵢ += 4ε (2/|h|) Σⱼ |Eᵢⱼ||qⱼ|
     /// ```
     ///
-    /// What damping brings is odd in h: it acts on v, with which it vanishes.
+    /// Damping adds terms that are odd in h: it acts on v, with which it vanishes.
     #[cold]
     #[inline(never)]
     fn held_up<L, R>(

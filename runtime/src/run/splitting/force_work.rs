@@ -1,4 +1,5 @@
-//! What forces do over a step: friction in the drifts, exactly, a general force in the kicks.
+//! The energy exchanged with forces over a step: by friction in the drifts, exactly, and by a general force
+//! in the kicks.
 
 use nalgebra::SVector;
 

@@ -24,7 +24,7 @@ pub struct KicksInLanes<T, F, const N: usize, const S: usize, const COMPENSATED:
 /// The members, and what they have besides their drifts.
 #[derive(Clone, Copy, Debug)]
 struct Kicked<T, F, const N: usize, const S: usize, const W: usize> {
-    /// Whose runs have begun.
+    /// Members with a run that could begin.
     has_begun: Mask<W>,
     fields: F,
     q: CompensatedMembers<T, N, W>,
@@ -56,12 +56,12 @@ enum DriftsInLanes<T, const N: usize, const S: usize, const W: usize> {
 #[derive(Clone, Copy, Debug)]
 struct FullDrifts<T, const N: usize, const S: usize, const W: usize> {
     drifts: [Drift<[MemberVector<T, N, W>; N]>; S],
-    /// Whose matrices are diagonal: what is beside the diagonal then adds nothing, not even a sign to a zero.
+    /// Members with diagonal M and C. Off-diagonal products are left out: they would turn −0.0 into 0.0.
     is_diagonal: Mask<W>,
     is_damped: Mask<W>,
 }
 
-/// What one drift does to (q, p − ∂L/∂v(0)).
+/// Takes (q, p − ∂L/∂v(0)) through one drift.
 trait Drifting<T, const N: usize, const W: usize> {
     /// The i-th of the first half.
     fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<'_, T, N, COMPENSATED, W>);

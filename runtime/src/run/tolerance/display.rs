@@ -1,4 +1,4 @@
-//! What a choice and its refusal say.
+//! `Display` of methods, trials, choices, breaches and refusals.
 
 use core::fmt;
 

@@ -28,19 +28,19 @@ const UNFORESEEN: f64 = 10.0;
 const MOST_PARTS: f64 = 8.0;
 const PART: f64 = 6.0;
 
-/// What the sum of local errors is taken to err by, and what growth over [`ANGLE`] is.
+/// Shares that are unsure: of the local errors added up, and of an error carried over the larger [`ANGLE`].
 const UNSURE: [f64; 2] = [0.3, 0.02];
 
 /// Where J changes by less than this, squared, its mean serves for any number of turns.
 const SLIGHT: f64 = 0.1;
 
-/// What of a change of J counts from one state to the next.
+/// The share of a change of J that still counts at the next state.
 const REMEMBERED: f64 = 0.8;
 
 /// Growth between two looks at most: more may be that of the norm alone.
 const MOST_GROWTH: f64 = 4.0;
 
-/// Samples of what the error may be besides.
+/// The number of samples of δ's uncertainty.
 const SAMPLES: usize = 2;
 
 /// The run between two states that were looked at.
@@ -51,7 +51,7 @@ pub(super) struct Since {
     pub(super) roundings: f64,
     /// The error of the energy foreseen.
     pub(super) foreseen: f64,
-    /// What derivatives on the way may cost.
+    /// The evaluations that derivatives on the way may take.
     pub(super) affordable: f64,
     /// Whether the energy is asked for.
     pub(super) is_energy: bool,
@@ -70,13 +70,13 @@ pub(super) struct Since {
 pub(super) struct Estimate<S, const N: usize> {
     /// δ, the run less the motion, at the state last looked at.
     error: State<S, N>,
-    /// What δ may be besides, at random: by rounding, by what δ itself may err by, and by steps that were
-    /// not looked at. Where motions part it grows in directions in which δ may have no part.
+    /// Random samples of δ's uncertainty: by rounding, by the error of δ itself, and by steps that were not
+    /// looked at. Where motions part they grow in directions in which δ may have no part.
     unsure: [State<S, N>; SAMPLES],
     random: Random,
     /// The motion there, and its time.
     last: Option<(Variation<S, N>, f64)>,
-    /// What rounding has made of the state, without growth.
+    /// The size of the state's rounding error, without growth.
     rounding: f64,
     /// The energy at the start, and its error when it was asked for last; nothing where it is not kept.
     energy: Option<[S; 2]>,
@@ -89,7 +89,7 @@ pub(super) struct Estimate<S, const N: usize> {
     share: f64,
     /// The angle by which an error turned in the last unit of time, as far as one J did not serve.
     pub(super) speed: f64,
-    /// What the derivatives have cost.
+    /// The cost of the derivatives so far, in evaluations.
     pub(super) evaluations: f64,
 }
 
@@ -166,7 +166,7 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         self.err(local, steps.widen() * UNSURE[0]);
     }
 
-    /// Makes δ less sure by so much of `of`, at random.
+    /// Adds `share × of`, with random signs, to each sample of δ's uncertainty.
     fn err(&mut self, of: &State<S, N>, share: f64) {
         let mut next = || S::constant(share * self.random.sign());
         for unsure in &mut self.unsure {
@@ -354,8 +354,8 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
     }
 }
 
-/// What rounding makes of the state in some steps: of q and p by their own, and of p by the forces in the
-/// fastest mode.
+/// The rounding error of the state over some steps: of q and p by their own rounding, and of p by that of the
+/// forces in the fastest mode.
 fn rounding<S: Scalar, const N: usize>(
     at: &Variation<S, N>,
     state: &State<S, N>,

@@ -31,8 +31,8 @@ const REPORTED: f64 = 1.35;
 /// Of so many coordinates errors are followed in every turn, whatever it costs.
 const RESOLVED: usize = 3;
 
-/// What the motion's derivative at a state costs in evaluations: two, and the algebra of N×N matrices beside
-/// forces of some N terms.
+/// The cost of the motion's derivative at a state, in evaluations: two, and the algebra of N×N matrices
+/// beside forces of some N terms.
 fn derivatives(n: usize) -> f64 {
     2.0 + 1.3 * (n * n) as f64 + 4.0 * n as f64
 }
@@ -40,7 +40,7 @@ fn derivatives(n: usize) -> f64 {
 /// A step is looked at where the motion has become rougher than where it was looked at last, by this factor.
 const ROUGHER: f64 = 2.0;
 
-/// What of the tolerance a change of the force with time over one step has to come to before it is looked at.
+/// The share of the tolerance above which a change of the force with time over one step is looked at.
 const STROKE: f64 = 0.05;
 
 /// The run of a [`Choice`] over its time: an iterator over steps, that ends after the last step or an error.
@@ -114,11 +114,11 @@ struct Guard<S, const N: usize> {
     taken: u64,
     scale: Scale<S, N>,
     estimate: Estimate<S, N>,
-    /// What a step cost on average.
+    /// The average cost of a step, in evaluations.
     evaluations: f64,
-    /// What the guard has cost.
+    /// The cost of the half steps so far, in evaluations.
     looked: f64,
-    /// The step after which the motion was differentiated last, and is next, and was before.
+    /// Steps after which the tangent map was computed last, will be next, and was the time before the last.
     carried: [u64; 3],
     /// Where a twin has carried the error last, and after which step.
     twin: (State<S, N>, u64),
@@ -260,7 +260,7 @@ where
         self.step.last()
     }
 
-    /// What the steps taken have cost, in evaluations of the forces, and what the guard has cost beside them.
+    /// The cost of the steps taken, in evaluations of the forces, and that of the guard beside them.
     pub fn evaluations(&self) -> (f64, f64) {
         (
             self.guard.evaluations * self.guard.taken as f64,
@@ -275,7 +275,7 @@ where
         self.guard.looks[1] = next.min(self.choice.chosen.steps);
     }
 
-    /// What the derivatives may cost for each step.
+    /// The evaluations that the derivatives may take for each step.
     fn affordable(&self) -> f64 {
         let share = if self.choice.chosen.steps < FEW || N <= RESOLVED { f64::INFINITY } else { SHARE };
         share * self.choice.chosen.evaluations_per_step

@@ -48,8 +48,8 @@ pub trait Methods<L: Lagrangian<N>, const N: usize>: Copy {
 pub struct Taken<S, const N: usize> {
     /// Where it leads, and how it went.
     pub step: Step<S, N>,
-    /// What it cost in evaluations of the forces: of an implicit step those of its iterations, all stages
-    /// counted.
+    /// The cost in evaluations of the forces: of an implicit step those of its iterations, for all
+    /// stages.
     pub evaluations: f64,
     /// The last two coefficients of the polynomial that a Gauss method has of the velocity over the step,
     /// which show what it does not resolve; nothing for other methods.
@@ -72,7 +72,7 @@ pub trait MethodStep<L: Lagrangian<N>, const N: usize> {
     /// Lets go of the state that the last step led to, as a step from another has to.
     fn forget(&mut self);
 
-    /// What is known of the last step, for those who look into it.
+    /// The last step, to be looked into.
     fn last(&self) -> &dyn LastStep<L, N>;
 
     /// From here on equations are solved no further than an error of `error` after so many steps asks for,
@@ -84,7 +84,7 @@ pub trait MethodStep<L: Lagrangian<N>, const N: usize> {
     }
 }
 
-/// What is called with the index of a node, with q there and with v.
+/// A function called with the index of a node, with q there and with v.
 type Visit<'v, S, const N: usize> = dyn FnMut(usize, &SVector<S, N>, &SVector<S, N>) + 'v;
 
 /// The last step of a method as it can be looked into: what [`Memory`] has, of a method that is not known when the
@@ -206,7 +206,7 @@ impl<L: Flow<M, N>, M, const N: usize> LastStep<L, N> for OfSize<L, M, N> {
     }
 }
 
-/// What a substep of a rule costs in evaluations for each iteration: the matrix, and the solution with it.
+/// The cost of an iteration in a substep of a rule, in evaluations: the matrix, and the solution with it.
 const ITERATION: f64 = 3.0;
 
 impl<L: Discrete<R, N>, R: SelfAdjoint, const N: usize> MethodStep<L, N> for Composed<L, R, N> {
@@ -298,7 +298,7 @@ macro_rules! rules {
 
 rules! { Midpoint Trapezoidal Fitted FittedTrapezoidal }
 
-/// What a wrapper adds to the methods of another: its steps, and which of them a method asks for.
+/// Defines the steps of a wrapper that adds methods to those of another, and its [`Methods`].
 macro_rules! added {
     ($with:ident: $system:ident, $(#[$doc:meta])* $or:ident {
         $($(#[$what:meta])* $method:ident($step:ty): $advance:expr, $forget:expr, $leave:expr;)*
@@ -397,13 +397,13 @@ fn kicked<L: Explicit<N>, const N: usize, const S: usize>(
     Ok(Taken { step, evaluations, unresolved: None })
 }
 
-/// What the derivatives of a stage's forces cost in evaluations, and what its share of a matrix of n rows
-/// does, over n².
+/// The cost of the derivatives of a stage's forces, in evaluations, and that of its share of a matrix of n
+/// rows, over n².
 const DERIVATIVE: f64 = 2.0;
 const FACTORING: f64 = 1.0 / 60.0;
 
-/// What a sweep of simplified Newton's method costs in evaluations, with sweeps of the fixed point that were in
-/// vain, and what solving for n modes adds, over n².
+/// The cost of a sweep of simplified Newton's method, in evaluations, with sweeps of the fixed point that
+/// were in vain, and that of solving for n modes, over n².
 const BY_MODES: f64 = 3.0;
 const SOLVING: f64 = 1.0 / 20.0;
 

@@ -9,11 +9,11 @@ use crate::system::Lagrangian;
 /// Runs to the end at most.
 const RUNS: u32 = 8;
 
-/// What of the tolerance the next run is to come to, if its error goes with the one aimed at.
+/// The share of the tolerance that the next run is to come to, if its error goes with the one aimed at.
 const AIM: f64 = 0.3;
 
-/// What of the tolerance a run that follows another may be expected to come to: the more runs are tried, the likelier
-/// one is taken for good whose error is underrated.
+/// The share of the tolerance that a run after the first may be expected to come to: the more runs are tried,
+/// the likelier one is taken for good whose error is underrated.
 const ACCEPTED: f64 = 0.7;
 
 /// The share of an aim that the next one is at least: errors as large as the motion say little.
@@ -86,7 +86,7 @@ where
     L: Lagrangian<N>,
     M: Methods<L, N>,
 {
-    /// The same method with steps as much shorter as an error smaller by the factor `share` takes.
+    /// This choice with h divided by share^(−1/p), p the order; the divisor is kept within [`SHORTER`].
     fn shortened(mut self, share: f64, time: f64) -> Self {
         let p = f64::from(self.chosen.method.order());
         let [least, most] = SHORTER;

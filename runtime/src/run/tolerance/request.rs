@@ -87,7 +87,7 @@ impl<'a, L, M> TimedRequest<'a, L, M> {
 
     /// The end of a run whose error is kept on the whole way, as far as its guard can tell.
     ///
-    /// What the first steps show is not always what comes: a run that starts at the apocentre of a long ellipse
+    /// The first steps do not always show what comes: a run that starts at the apocentre of a long ellipse
     /// passes its error at the pericentre. So as long as a run ends in a breach, or a step of it fails, another
     /// one starts from the beginning. Its method and step size are chosen for an error that is smaller by as much
     /// as the guard found the last one too large; where no method is expected to reach that, the last one takes

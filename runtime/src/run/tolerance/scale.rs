@@ -39,7 +39,7 @@ impl<S: Scalar, const N: usize> Scale<S, N> {
         self.furthest = self.furthest.max(to.q.amax());
     }
 
-    /// What an error of p is multiplied by.
+    /// The factor of an error of p beside one of q.
     pub(super) fn weight(&self) -> f64 {
         let ratio = |[q, p]: [S; 2]| if p > S::zero() { (q / p).widen() } else { f64::INFINITY };
         let weight = ratio(self.reached).min(ratio(self.change));

@@ -18,8 +18,8 @@ const TRYING: f64 = 0.04;
 const CHOOSING: f64 = 0.085;
 const EXPLORING: f64 = 0.02;
 
-/// What trying a step size costs in usual steps: one, and two half ones, from no guess. What it may save has
-/// to be more by a factor.
+/// The cost of trying a step size, in usual steps: one, and two half ones, from no guess. The saving has to
+/// be more by the factor `WORTH`.
 const TRIAL: f64 = 1.5;
 const WORTH: f64 = 4.0;
 
@@ -29,7 +29,7 @@ const TRIES: u32 = 12;
 /// A method whose trial would have to be better than its first one by this factor is given up.
 const HOPELESS: f64 = 1.5;
 
-/// What is known of the start.
+/// A start and its tolerance, with what is known of the motion there.
 struct Start<'a, L: Lagrangian<N>, M, const N: usize> {
     system: &'a L,
     methods: M,
@@ -38,12 +38,12 @@ struct Start<'a, L: Lagrangian<N>, M, const N: usize> {
     tolerance: f64,
     /// The fastest rate at which the motion changes.
     fastest: f64,
-    /// What an error of p counts beside one of q.
+    /// The factor of an error of p beside one of q.
     weight: f64,
     spent: f64,
 }
 
-/// What one step of a method errs by and costs.
+/// The local error and the cost of one step of a method.
 #[derive(Clone, Copy)]
 struct Measured {
     local: f64,

@@ -1,4 +1,4 @@
-//! What of an error is a shift in time: the motion carries it exactly.
+//! The part of an error that is a shift in time: the motion carries it exactly.
 
 use super::phase::plus;
 use super::scale::Scale;
@@ -7,7 +7,7 @@ use super::variation::Variation;
 use crate::numbers::Scalar;
 use crate::step::State;
 
-/// What of an error is a shift in time; 0 at rest.
+/// The time by which `error` is a shift: its component along `rate`, in units of `rate`; 0 at rest.
 pub(super) fn shift<S: Scalar, const N: usize>(
     error: &State<S, N>,
     rate: &State<S, N>,
@@ -19,7 +19,7 @@ pub(super) fn shift<S: Scalar, const N: usize>(
     if shift.is_finite() { shift } else { S::zero() }
 }
 
-/// What of errors is a shift in time stays one: f is carried to f exactly.
+/// Carries `errors` on to `to`. Their component along the motion, a shift in time, is mapped exactly: f to f.
 pub(super) fn along_the_motion<S: Scalar, const N: usize, const K: usize>(
     errors: [State<S, N>; K],
     from: &Variation<S, N>,

@@ -21,8 +21,8 @@ pub(super) fn stride(rate: f64, h: f64, most: u64) -> u64 {
     (ANGLE / (rate * h)).clamp(1.0, most as f64) as u64
 }
 
-/// What becomes of `error` at `state` within `time`, and what that has cost in evaluations; nothing where the
-/// motions cannot be followed.
+/// The `error` at `state` carried on by `time`, and the cost in evaluations; `None` where the motions cannot
+/// be followed.
 pub(super) fn carried<L, M, const N: usize>(
     (system, methods): (&L, M),
     state: &State<L::Scalar, N>,

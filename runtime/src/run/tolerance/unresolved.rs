@@ -1,4 +1,4 @@
-//! What a Gauss method leaves unresolved: what steps err by that are not looked at.
+//! The unresolved part of a Gauss method's steps: the local errors of those that are not looked at.
 //!
 //! A Gauss method's local error is of twice the order of the last coefficients of its velocity's polynomial,
 //! so local errors go as their squares: of one step that was looked at both are known.
@@ -25,7 +25,7 @@ use crate::step::State;
 pub(super) struct Unresolved<S, const N: usize> {
     /// The largest.
     largest: [f64; 2],
-    /// Those since the last look, added up.
+    /// The sums of the squares since the last look.
     unseen: [f64; 2],
     /// The largest of those looked at, with the local error there and a quarter of a turn later: the larger,
     /// the surer.

@@ -20,12 +20,12 @@ impl<const W: usize> Clocks<W> {
         Self { taken: [0; W] }
     }
 
-    /// A member is at its start.
+    /// Puts the clock of one member back to its start.
     pub(crate) fn restart(&mut self, lane: usize) {
         self.taken[lane] = 0;
     }
 
-    /// These members have taken a step.
+    /// Counts a step of the members of `whose`.
     #[inline(always)]
     pub(crate) fn follow(&mut self, whose: Mask<W>) {
         for lane in 0..W {
@@ -33,7 +33,7 @@ impl<const W: usize> Clocks<W> {
         }
     }
 
-    /// One member has taken a step.
+    /// Counts a step of one member.
     pub(crate) fn follow_one(&mut self, lane: usize) {
         self.taken[lane] += 1;
     }
@@ -44,7 +44,7 @@ impl<const W: usize> Clocks<W> {
         Members(self.taken.map(|taken| time(taken, h)))
     }
 
-    /// The same in the numbers of the system.
+    /// [`times`](Self::times) in the numbers of the system.
     #[inline(always)]
     pub(crate) fn elapsed<T: Scalar>(&self, h: T) -> Members<T, W> {
         Members(self.times(h).0.map(T::constant))
@@ -56,7 +56,7 @@ impl<const W: usize> Clocks<W> {
         T::constant(time(self.taken[lane], h))
     }
 
-    /// The same at the start of its last step.
+    /// [`elapsed_of`](Self::elapsed_of) at the start of the member's last step.
     #[inline]
     pub(crate) fn elapsed_before<T: Scalar>(&self, lane: usize, h: T) -> T {
         T::constant(time(self.taken[lane].saturating_sub(1), h))

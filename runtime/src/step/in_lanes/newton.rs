@@ -8,7 +8,7 @@ use crate::step::newton::{AT_FLOOR, QUICK_ITERATIONS, SLOW, SMALL};
 use crate::step::{Discrete, DiscreteInLanes};
 use crate::system::Lagrangian;
 
-/// The roots of those that are solved, and both momenta there.
+/// The roots of the members that are solved, and both momenta there.
 #[derive(Clone, Copy)]
 pub(crate) struct Roots<T, const N: usize, const W: usize> {
     pub(crate) is_solved: Mask<W>,
@@ -22,7 +22,7 @@ impl<T: Scalar, const N: usize, const W: usize> Roots<T, N, W> {
         Self { is_solved: Mask::splat(false), v: *guess, momenta: [*guess; 2] }
     }
 
-    /// Those of some members.
+    /// Adds the roots of the members of `whose`, with both momenta.
     #[inline(always)]
     pub(crate) fn add(
         &mut self,
@@ -43,8 +43,8 @@ impl<T: Scalar, const N: usize, const W: usize> Roots<T, N, W> {
 pub(crate) type MatricesOf<L, R, const N: usize, const W: usize> =
     <<L as Discrete<R, N>>::Matrix as NewtonMatrix<<L as Lagrangian<N>>::Scalar, N>>::OfMembers<W>;
 
-/// [`quick`](crate::step::newton::quick) of each of `whose`: it leaves those unsolved that quick leaves, and some whose
-/// numbers are near overflow.
+/// [`quick`](crate::step::newton::quick) of each of `whose`: it leaves those unsolved that quick leaves, and
+/// some with numbers near overflow.
 #[inline(always)]
 pub(crate) fn quick_in_lanes<L, R, const N: usize, const W: usize>(
     fields: &L::Fields<W>,
@@ -144,8 +144,8 @@ pub(crate) fn reciprocals<T: Scalar, const N: usize, const W: usize>(
     reciprocals
 }
 
-/// [`weighted`](crate::step::newton::weighted) of each: NaN where a number is none, and where their sum, in whatever order,
-/// might overflow.
+/// [`weighted`](crate::step::newton::weighted) of each: NaN where a number is none, and where their sum, in
+/// whatever order, might overflow.
 #[inline(always)]
 pub(crate) fn weighted<T: Scalar, const N: usize, const W: usize>(
     residual: &MemberVector<T, N, W>,
@@ -170,7 +170,7 @@ pub(crate) fn largest<T: Scalar, const N: usize, const W: usize>(v: &MemberVecto
     largest
 }
 
-/// Whose residual is that of a root, [`held_against`](crate::step::newton::held_against).
+/// Which members have the residual of a root, by [`held_against`](crate::step::newton::held_against).
 #[inline(always)]
 pub(crate) fn is_at_floor<T: Scalar, const N: usize, const W: usize>(
     residual: &MemberVector<T, N, W>,

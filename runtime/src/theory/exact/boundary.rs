@@ -44,7 +44,7 @@ pub(super) struct Shot<const N: usize> {
     pub(super) inverse: SMatrix<f64, N, N>,
     /// How much larger a variation of q1 is inside the segment than at its end, at least 1.
     pub(super) growth: f64,
-    /// What one rounding of the start makes of the end, relative to the largest of the motion.
+    /// The error at the end from one rounding of the start, relative to the largest of the motion.
     pub(super) conditioning: f64,
     pub(super) iterations: u32,
     /// Smaller step sizes that the motion was followed through.
@@ -60,7 +60,7 @@ struct Trial<const N: usize> {
     inverse: SMatrix<f64, N, N>,
     growth: f64,
     conditioning: f64,
-    /// What one rounding of the initial momentum makes of q(h), largest coordinate.
+    /// The error of q(h) from one rounding of the initial momentum, largest coordinate.
     enlargement: f64,
 }
 
@@ -221,8 +221,8 @@ impl<L: ActingForce<N, Scalar = f64>, const N: usize> Boundary<'_, L, N> {
     }
 }
 
-/// What one rounding of (q0, p0) makes of the end, relative to the largest of the motion, in units in which
-/// every coordinate has mass 1. The families are those of q0 and p0.
+/// The error at the end from one rounding of (q0, p0), relative to the largest of the motion, in units in
+/// which every coordinate has mass 1. The families are those of q0 and p0.
 pub(super) fn conditioning<const N: usize>(
     start: &Point<N>,
     Carried { end, largest: most, .. }: &Carried<N>,

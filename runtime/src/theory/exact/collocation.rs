@@ -116,8 +116,8 @@ pub(super) struct Varied<const N: usize> {
     pub(super) end: (SVector<f64, N>, SVector<f64, N>),
 }
 
-/// What a second variation has beside its first-order terms at each stage: m_i in ∂L/∂v, s_i in the rate of
-/// the momentum.
+/// The sources of a second variation at each stage, beside its first-order terms: m_i in ∂L/∂v, s_i in the
+/// rate of the momentum.
 pub(super) type Source<const N: usize> = Vec<(SVector<f64, N>, SVector<f64, N>)>;
 
 /// (q, p), and the velocity that Newton's method starts from.

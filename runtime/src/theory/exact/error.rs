@@ -61,7 +61,7 @@ pub enum ExactError {
     IllConditioned {
         /// The step size.
         h: f64,
-        /// What one rounding makes, relative to the largest of the motion.
+        /// The error from one rounding, relative to the largest of the motion.
         error: f64,
     },
     /// All evaluations of L and f that one question may take
@@ -85,7 +85,7 @@ pub enum ExactError {
 }
 
 impl ExactError {
-    /// What the Legendre transform of a state failed for, at the start of a motion.
+    /// Converts the failure of a state's Legendre transform at the start of a motion.
     pub(super) fn at_start(error: StepError) -> Self {
         match error {
             StepError::NonFinite { quantity, index } => Self::NonFinite { quantity, index },

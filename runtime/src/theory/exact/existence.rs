@@ -32,8 +32,8 @@ pub struct Existence<const N: usize> {
     pub minus: SMatrix<f64, N, N>,
     /// D2 f_d^ex+ − (D2 f_d^ex+)ᵀ, shape N×N; 0 for N = 1.
     pub plus: SMatrix<f64, N, N>,
-    /// What counts as 0: ten times the error estimate of the Jacobians. One as large as the Jacobians
-    /// themselves says nothing, and none of the conditions holds.
+    /// The largest entry that counts as 0: ten times the error estimate of the Jacobians. One as large as the
+    /// Jacobians themselves says nothing, and none of the conditions holds.
     pub tolerance: f64,
     /// The largest entry of the Jacobians D f_d^ex±.
     pub terms: f64,
@@ -41,7 +41,7 @@ pub struct Existence<const N: usize> {
     pub h: f64,
 }
 
-/// What the criterion says.
+/// The verdict of the criterion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ExistenceVerdict {

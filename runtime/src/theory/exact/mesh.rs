@@ -62,10 +62,10 @@ impl Sums {
     }
 }
 
-/// What is done at each step, with the variations of q0 and q1 (or p0) along it.
+/// A function called at each step, with the variations by q0 and q1 (or p0) along it, to add to the sums.
 pub(super) type Visitor<'v, const N: usize> = dyn FnMut(&Step<N>, &[Varied<N>], &mut Sums) + 'v;
 
-/// What is to be found along a motion.
+/// The sums that are to be found along a motion.
 pub(super) struct Question<'q, const N: usize> {
     /// Lengths of consecutive runs of sums that share a unit.
     pub(super) blocks: &'q [usize],

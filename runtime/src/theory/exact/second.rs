@@ -127,7 +127,7 @@ where
 }
 
 impl<const N: usize> SecondDerivatives<N> {
-    /// Those of the segment from q1 back to q0; see [`ExactSegment::reversed`].
+    /// The derivatives of the segment from q1 back to q0; see [`ExactSegment::reversed`].
     pub(super) fn reversed(self) -> Self {
         let Derivatives { value, d1, d2, d11, d12, d22 } = self.lagrangian;
         let turned =

@@ -35,7 +35,7 @@ pub struct ExactSegment<const N: usize> {
     pub p0: CovectorDerivatives<f64, N>,
     /// p1 = ∂L/∂v(q1, v1), with its derivatives by q0 and q1.
     pub p1: CovectorDerivatives<f64, N>,
-    /// What the figures are good for.
+    /// How the segment was found, and error estimates.
     pub report: SegmentReport,
     /// How the motion was followed.
     pub(super) course: Course<N>,
@@ -71,7 +71,8 @@ pub struct SegmentReport {
     /// How much larger a variation of q1 is inside the segment than at its end: 1 away from conjugate
     /// points.
     pub growth: f64,
-    /// What one rounding at one end of the motion makes of the other, relative to the largest of the motion.
+    /// The error at one end of the motion from one rounding at the other, relative to the largest of the
+    /// motion.
     pub conditioning: f64,
 }
 

@@ -37,8 +37,8 @@ use crate::theory::samples::at_segment;
 /// splittings alike; the line must stay where steps can be taken. Of rules with L_d and R_d G has a closed
 /// form, [`ProportionalSplit`](crate::rayleigh::ProportionalSplit), the same but for the constant.
 ///
-/// What a step multiplies by c at the states given, it multiplies by c at each step of a characteristic, or
-/// there is an error: a c that is none is never used.
+/// The factor c is found at the states given, and every step of a characteristic is held against it, with an
+/// error if it misses: a c that is none is never used.
 pub struct ConformalHamiltonJacobi<'a, L, M, const N: usize>
 where
     L: Flow<M, N>,

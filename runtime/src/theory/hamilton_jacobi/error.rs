@@ -1,4 +1,4 @@
-//! What can keep an object of the theory from being evaluated.
+//! Errors in the evaluation of an object of the theory.
 
 use core::fmt;
 
@@ -15,7 +15,7 @@ pub enum HamiltonJacobiError {
         equation: ImplicitEquation,
         /// The step k at which it was asked for; 0 for an object of one segment alone.
         step: usize,
-        /// What the solver met.
+        /// The solver's error.
         cause: StepError,
     },
     /// The points given are too few.
@@ -54,7 +54,7 @@ pub enum HamiltonJacobiError {
     Unsettled {
         /// The step k.
         step: usize,
-        /// What the best halving of their spacing still changed.
+        /// The change that the best halving of their spacing still made.
         error: f64,
     },
     /// No label was found whose characteristic is where it is asked for.
@@ -89,8 +89,8 @@ pub enum ImplicitEquation {
 }
 
 impl HamiltonJacobiError {
-    /// The same at step k: objects of one segment do not know which one they are, reports along a trajectory
-    /// do.
+    /// This error at step k: objects of one segment do not know which one they are, reports along a
+    /// trajectory do.
     pub(super) fn at_step(self, k: usize) -> Self {
         match self {
             Self::Implicit { equation, cause, .. } => Self::Implicit { equation, step: k, cause },

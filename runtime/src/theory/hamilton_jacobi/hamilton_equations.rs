@@ -112,7 +112,8 @@ where
         equations.report(self.relative, false)
     }
 
-    /// The same equations in the paper's Rayleigh form, with the signs as printed and corrected.
+    /// [`hamilton_equations`](Self::hamilton_equations) in the paper's Rayleigh form, with the signs as
+    /// printed and corrected.
     ///
     /// ```text
     ///               printed                               corrected

@@ -45,7 +45,7 @@ struct Measured<const N: usize> {
     value: SVector<f64, N>,
     /// Estimated, but for the rounding of S_k.
     error: f64,
-    /// What that rounding makes of the value.
+    /// The error of the value from the rounding of S_k.
     rounding: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What a candidate solution is made of: sections of T*Q and maps of Q.
+//! The parts of a candidate solution: sections of T*Q and maps of Q.
 
 use nalgebra::{SMatrix, SVector};
 

@@ -51,7 +51,7 @@ impl<const N: usize> SolutionReport<N> {
 struct Image<S, const N: usize> {
     q1: SVector<S, N>,
     derivative: SMatrix<S, N, N>,
-    /// What rounding makes of q1, in units of ε.
+    /// The rounding error of q1, in units of ε.
     spread: SVector<S, N>,
 }
 

@@ -62,7 +62,7 @@ where
     /// d(W_k ∘ c_k) = Q_kᵀ f_d⁻ + Q_{k+1}ᵀ f_d⁺                                   Q_k = ∂c_k/∂x
     /// ```
     ///
-    /// Nothing is divided by det Q_k, so that S_k goes on through caustics, as a function of the label. Where
+    /// S_k goes on through caustics, as a function of the label, since nothing is divided by det Q_k. Where
     /// the section is not closed (n > 1), the value depends on the path of labels. `nodes` Gauss–Legendre
     /// nodes are used; each carries its own characteristic.
     ///

@@ -17,7 +17,7 @@ pub struct Closure {
     pub residual: f64,
     /// The pair of basis elements whose bracket that is.
     pub pair: Option<(usize, usize)>,
-    /// What counts as closed: rounding of the bracket, and the uncertainty of the basis.
+    /// The largest residual that counts as closed: rounding of the bracket, and the uncertainty of the basis.
     pub tolerance: f64,
 }
 

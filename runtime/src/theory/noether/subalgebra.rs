@@ -94,7 +94,7 @@ impl fmt::Display for SubalgebraError {
 
 impl core::error::Error for SubalgebraError {}
 
-/// What one generator contributes at one segment.
+/// The contributions of one generator at one segment.
 struct Row {
     lagrangian: (f64, f64),
     force: (f64, f64),

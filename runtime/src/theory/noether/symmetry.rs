@@ -12,7 +12,7 @@ use crate::theory::{
 /// One of the quantities of Noether's theorem over the samples.
 pub type Contribution<const N: usize> = Finding<Segment<f64, N>>;
 
-/// What a generator does to L_d, to the force and to J, over a set of segments. See [`Noether::symmetry`].
+/// The effect of a generator on L_d, the force and J, over a set of segments. See [`Noether::symmetry`].
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Symmetry<const N: usize> {
@@ -28,7 +28,7 @@ pub struct Symmetry<const N: usize> {
     pub lagrangian: Contribution<N>,
     /// f_d(ξ), or f_L·ξ at the stages.
     pub force: Contribution<N>,
-    /// What interior points add; 0 where there are none.
+    /// The contribution of interior points; 0 where there are none.
     pub interior: Contribution<N>,
     /// The defect, the sum of the three.
     pub defect: Contribution<N>,

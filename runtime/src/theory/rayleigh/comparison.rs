@@ -66,8 +66,8 @@ impl<const N: usize> Equivalence<N> {
 
     /// Whether ψ, φ0 and φ1 account for the difference of L_d and of f_d.
     ///
-    /// The same equations without it: L_d differs by a φ with D1 D2 φ ≠ 0 that the forces undo, which two
-    /// Rayleigh systems cannot do.
+    /// Equal equations without a gauge mean that L_d differs by a φ with D1 D2 φ ≠ 0 that the forces undo,
+    /// which two Rayleigh systems cannot do.
     #[must_use]
     pub fn is_gauge(&self) -> bool {
         self.has_same_equations() && self.lagrangian.vanishes() && self.rayleigh.vanishes()

@@ -136,7 +136,7 @@ impl ConformalStep {
         Self::held_against(best.0, derivatives, relative).ok_or(too_few)
     }
 
-    /// The same with the factor given; `None` without a derivative.
+    /// [`of`](Self::of) with the `factor` c given; `None` without a derivative.
     pub(crate) fn held_against<S: Scalar, const N: usize>(
         factor: f64,
         derivatives: &[PhaseMatrix<S, N>],

@@ -21,7 +21,7 @@ pub struct Dissipation<const N: usize> {
     pub at: TangentPoint<f64, N>,
     /// Number of points where v·∂R/∂v is negative: the force drives the motion there.
     pub driven: usize,
-    /// What counts as zero for the power.
+    /// The tolerance within which a power counts as zero.
     pub tolerance: Tolerance,
     /// Largest entry of ∂R/∂q(q, 0).
     ///

@@ -79,7 +79,7 @@ impl From<SampleError> for ProportionError {
     }
 }
 
-/// What R_d = κL_d + α(q0) + β(q1) is made of, and the generating function of its step.
+/// The parts of R_d = κL_d + α(q0) + β(q1), and the generating function of its step.
 ///
 /// With ρ = R_d − κL_d and a base point a,
 ///

@@ -69,8 +69,8 @@ fn integrate(epsilon: f64, g: impl Fn(f64) -> f64) -> Integral {
     })
 }
 
-/// The same of a g that is a sum whose terms may cancel: its value, and the size of the terms, whose rounding
-/// it has.
+/// [`integrate`] of a g that is a sum of terms that may cancel: g gives its value, and the size of the terms,
+/// whose rounding it has.
 pub(in crate::theory) fn integrate_sum(epsilon: f64, g: impl Fn(f64) -> (f64, f64)) -> Integral {
     // The error of each part is the difference of the two rules.
     let on = |a: f64, b: f64| {

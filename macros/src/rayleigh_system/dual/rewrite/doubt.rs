@@ -1,4 +1,4 @@
-//! What a rewritten body leaves open: types that it does not tell.
+//! Doubts about a rewritten body: types that it does not tell.
 
 use syn::visit::{self, Visit};
 use syn::{Expr, ImplItemFn, Local};

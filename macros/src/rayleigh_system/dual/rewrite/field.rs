@@ -7,7 +7,7 @@ use crate::rayleigh_system::diagnostics::{Mistake, span_of};
 use crate::rayleigh_system::syntax::{identifier, is_self, without_parentheses};
 
 impl Rewriter<'_> {
-    /// What stands for `base.member`, where that is a field of the system.
+    /// The expression in place of `base.member`, where that is a field of the system.
     ///
     /// | written | becomes |
     /// |---|---|

@@ -1,4 +1,4 @@
-//! What functions that L, R or f call may take and return.
+//! Signatures of functions that L, R or f call: types that they may take and return.
 
 use syn::{FnArg, Ident, ImplItemFn, Pat, ReturnType, Type};
 

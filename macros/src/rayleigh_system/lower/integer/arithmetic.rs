@@ -1,4 +1,4 @@
-//! What operators, casts and methods make of integers.
+//! Operators, casts and methods of integers.
 
 use proc_macro2::Ident;
 use quote::ToTokens;

@@ -15,7 +15,7 @@ use super::super::written::{Arm, Leaf, Text, Written};
 use super::super::{Lowering, Refusal, Result, refuse};
 use super::{is_rest_or_named, parts};
 
-/// What a pattern binds, and where it matches.
+/// The condition under which a pattern matches, and the names that it binds.
 type Test = (Truth, Vec<(String, Value)>);
 
 impl Lowering<'_> {
@@ -280,7 +280,7 @@ fn variant(pattern: &Pat) -> Option<String> {
     path.segments.last().map(|segment| format!("is_{}", segment.ident.to_string().to_lowercase()))
 }
 
-/// What a pattern hides from the macro, if anything.
+/// The part of a pattern that the macro cannot see into, if there is one.
 fn hidden(pattern: &Pat) -> Option<TokenStream> {
     struct Hidden(Option<TokenStream>);
     impl<'ast> Visit<'ast> for Hidden {

@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// What `ExplicitInLanes` asks for, as `Explicit` computes it.
+/// The outputs that `ExplicitInLanes` asks for, as `Explicit` computes them.
 pub(in super::super) struct ExplicitOutputs<'o> {
     pub force: &'o [Node],
     pub p0: &'o [Node],

@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// What `DiscreteInLanes` asks for, as `Discrete` computes it.
+/// The outputs that `DiscreteInLanes` asks for, as `Discrete` computes them.
 pub(in super::super) struct MidpointOutputs<'o> {
     /// p0, and the entries of its matrix in the form that they are kept in.
     pub kernel: &'o [Node],

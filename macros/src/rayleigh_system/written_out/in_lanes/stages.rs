@@ -90,8 +90,9 @@ impl Code<'_> {
         }
     }
 
-    /// What `outputs` need that the momenta `late` do not change, but for velocities, what is known before the
-    /// run, and what is one operation of those: sooner computed again than stored.
+    /// The nodes to hand over: `outputs` need them, and the momenta `late` do not change them. Velocities and
+    /// values known before the run are at hand, and a product or a negation of those is sooner computed again
+    /// than stored.
     fn handed(&self, outputs: &[Node], late: &[Node]) -> Vec<Node> {
         let nodes = self.graph.reachable(outputs.iter().copied());
         let (is_constant, _) = before_the_run(&self.graph, &nodes, &TAKEN);

@@ -5,7 +5,7 @@ use crate::numbers::members::each_coordinate;
 use crate::numbers::{Mask, MemberVector, Members, Scalar};
 use crate::rules::gauss::slack::{ROUNDINGS, Slack, remaining};
 
-/// What the next steps of each member may leave unsolved, [`Slack`].
+/// The [`Slack`] of each member, but for `of_step`, which all members share.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SlackOfMembers<T, const W: usize> {
     pub(super) steps: [u64; W],
@@ -13,7 +13,7 @@ pub(super) struct SlackOfMembers<T, const W: usize> {
 }
 
 impl<T: Scalar, const W: usize> SlackOfMembers<T, W> {
-    /// None.
+    /// No steps that may leave anything unsolved.
     pub(super) fn none() -> Self {
         Self { steps: [0; W], change: [Members::splat(T::zero()); 2] }
     }
@@ -25,7 +25,7 @@ impl<T: Scalar, const W: usize> SlackOfMembers<T, W> {
         }
     }
 
-    /// [`Slack::follow`] of those who have stepped, from and to these coordinates and momenta.
+    /// [`Slack::follow`] of the members that have stepped, from and to these coordinates and momenta.
     #[inline(always)]
     pub(super) fn follow<const N: usize>(
         &mut self,
@@ -45,19 +45,20 @@ impl<T: Scalar, const W: usize> SlackOfMembers<T, W> {
     }
 }
 
-/// What the sweeps of one step may leave, [`Allowance`](crate::rules::gauss::slack::Allowance), of those whose
-/// stages are not solved to rounding.
+/// The [`Allowance`](crate::rules::gauss::slack::Allowance) of each member for the sweeps of one step; not
+/// known of members with stages that are solved to rounding.
 pub(super) struct Allowances<T, const W: usize> {
     pub(super) are_known: Mask<W>,
     per_correction: T,
     per_residual: Members<T, W>,
-    /// What the last two sweeps have changed, in units of what they may leave.
+    /// The size of the last sweep but one and, in `last`, of the last, in units of the allowance.
     before: Members<T, W>,
     last: Members<T, W>,
 }
 
 impl<T: Scalar, const W: usize> Allowances<T, W> {
-    /// [`Slack::allowance`] of each, for a step of size `h` from the momenta `p`; none without a slack.
+    /// [`Slack::allowance`] of each, for a step of size `h` from the momenta `p`; without a slack, known of
+    /// no member.
     #[inline(always)]
     pub(super) fn new<const N: usize>(
         slack: Option<Slack<T>>,
@@ -82,8 +83,8 @@ impl<T: Scalar, const W: usize> Allowances<T, W> {
         Self { are_known, per_correction: h.abs() / of_step, per_residual, before: none, last: none }
     }
 
-    /// After so many sweeps, who of those whose allowance is known is solved; closed are those whose sweeps do not
-    /// contract.
+    /// Which members with a known allowance are solved after sweep `iterations`. Clears `is_open` where their
+    /// sweeps do not contract or numbers are not finite.
     #[inline(always)]
     pub(super) fn solved<const N: usize>(
         &mut self,

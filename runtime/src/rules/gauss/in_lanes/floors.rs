@@ -6,7 +6,7 @@ use crate::numbers::{Mask, MemberVector, Members, Scalar};
 use crate::rules::gauss::fixed_point::{AT_REST, CHANGED, NEAR, SLUGGISH};
 use crate::step::newton::AT_FLOOR;
 
-/// What rounding makes of the residual of each coordinate, and how large residuals are beside it.
+/// The round-off floor of each coordinate's residual, and residuals of the last two sweeps in units of it.
 pub(super) struct Floors<T, const N: usize, const W: usize> {
     floor: MemberVector<T, N, W>,
     per_floor: MemberVector<T, N, W>,
@@ -14,7 +14,7 @@ pub(super) struct Floors<T, const N: usize, const W: usize> {
     last: Members<T, W>,
 }
 
-/// What the floor of a step is made of.
+/// The terms that the floor of a step is made of.
 pub(super) struct Terms<'a, T, const N: usize, const S: usize, const W: usize> {
     pub(super) h: T,
     pub(super) p: &'a MemberVector<T, N, W>,
@@ -22,8 +22,8 @@ pub(super) struct Terms<'a, T, const N: usize, const S: usize, const W: usize> {
 }
 
 impl<T: Scalar, const N: usize, const S: usize, const W: usize> Terms<'_, T, N, S, W> {
-    /// [`Problem::floor`](crate::rules::gauss::problem::Problem::floor) of each, with the `largest` residual of
-    /// each coordinate.
+    /// [`Problem::floor`](crate::rules::gauss::problem::Problem::floor) of each, with the `largest` residual
+    /// of each coordinate.
     #[inline(always)]
     fn floor(&self, largest: &MemberVector<T, N, W>) -> MemberVector<T, N, W> {
         let unit = T::EPSILON * T::constant(4.0);
@@ -52,8 +52,8 @@ impl<T: Scalar, const N: usize, const W: usize> Floors<T, N, W> {
         Self { floor: zero, per_floor: zero, before: one, last: one }
     }
 
-    /// After so many sweeps, who of `whose` is solved, and whose last correction is still worth taking; closed are
-    /// those who leave the usual path.
+    /// Which members of `whose` are solved after sweep `iterations`, and where these apply the last
+    /// correction too. Clears `is_open` for members of `whose` that have to take the step alone.
     #[inline(always)]
     pub(super) fn solved<const S: usize>(
         &mut self,
@@ -129,7 +129,7 @@ impl<T: Scalar, const N: usize, const W: usize> Floors<T, N, W> {
         [is_done, is_at_rest]
     }
 
-    /// Residuals in units of other floors, with those of `whose` that came before.
+    /// Measures residuals by the floors as they are now; restarts the sizes before for members of `whose`.
     #[inline(always)]
     fn begin_anew(&mut self, whose: Mask<W>, largest: &MemberVector<T, N, W>) -> Members<T, W> {
         self.per_floor = reciprocals(&self.floor);
@@ -152,8 +152,8 @@ fn reciprocals<T: Scalar, const N: usize, const W: usize>(
     reciprocals
 }
 
-/// [`in_units`](crate::rules::gauss::problem::in_units) of each, of the `largest` residual of each coordinate; not finite
-/// where a floor is none.
+/// [`in_units`](crate::rules::gauss::problem::in_units) of each, of the `largest` residual of each
+/// coordinate; not finite where a floor is not.
 #[inline(always)]
 fn in_units<T: Scalar, const N: usize, const W: usize>(
     largest: &MemberVector<T, N, W>,

@@ -8,7 +8,7 @@ use crate::numbers::{Blank, CompensatedMembers, Mask, MemberVector, Members, Sca
 use crate::rules::gauss::fixed_point::MAX_ITERATIONS;
 use crate::system::{ForcedLagrangianInLanes, Lagrangian};
 
-/// What the sweeps of each step write before they read it: made once for many steps.
+/// The arrays that the sweeps of each step write before they read them: made once for many steps.
 pub(super) struct Sweeps<T, K, A, const N: usize, const S: usize, const W: usize> {
     v: [MemberVector<T, N, W>; S],
     next: [MemberVector<T, N, W>; S],
@@ -44,7 +44,7 @@ pub(super) type SweepsOf<L, const N: usize, const S: usize, const W: usize> = Sw
     W,
 >;
 
-/// What a sweep has seen.
+/// The sizes of the residuals and corrections of one sweep.
 #[derive(Clone, Copy)]
 pub(super) struct Seen<T, const N: usize, const W: usize> {
     /// The largest residual of each coordinate.
@@ -72,7 +72,7 @@ impl<T: Scalar, const N: usize, const W: usize> Seen<T, N, W> {
     }
 }
 
-/// The stages of a step, of those that were solved.
+/// The stages of a step, for the members that are solved.
 pub(super) struct Solved<T, const N: usize, const S: usize, const W: usize> {
     pub(super) is_solved: Mask<W>,
     pub(super) v: [MemberVector<T, N, W>; S],
@@ -80,7 +80,7 @@ pub(super) struct Solved<T, const N: usize, const S: usize, const W: usize> {
 }
 
 impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesInLanes<T, F, N, S, W> {
-    /// The velocities of the last step, one step on; of who has not stepped yet, those to start from.
+    /// The velocities of the last step, one step on; of members that have not stepped, those to start from.
     #[inline(always)]
     fn extrapolate(&self, is_fused: bool, extrapolated: &mut [MemberVector<T, N, W>; S]) {
         let columns = &Self::COEFFICIENTS.extrapolation;
@@ -122,7 +122,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         at
     }
 
-    /// The stages of those who step together, as far as sweeps of the usual kind solve for them:
+    /// Solves the stages of the members `together`, as far as sweeps of the usual kind do:
     /// [`iterate`](super::fixed_point::iterate) of each.
     #[inline(always)]
     pub(super) fn solve<L>(

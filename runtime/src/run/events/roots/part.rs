@@ -48,7 +48,7 @@ impl Part {
     }
 }
 
-/// What is known of a part.
+/// The verdict on a part: how many roots it has, or how more is learnt of them.
 pub(super) enum Verdict {
     /// No root.
     Nothing,

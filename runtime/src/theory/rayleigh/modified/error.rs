@@ -105,7 +105,7 @@ pub enum ModifiedSystemError {
     Lagrangian,
     /// R is not known to be ½vᵀCv with constant C.
     Friction {
-        /// What it is.
+        /// The kind of force that R makes.
         damping: Damping,
     },
     /// R has a term linear in v: a constant force, which belongs in V.

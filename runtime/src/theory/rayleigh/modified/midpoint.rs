@@ -236,7 +236,7 @@ impl<'a, L: ActingForce<N>, const N: usize> ModifiedSystem<'a, L, N> {
     }
 }
 
-/// What takes third derivatives of V: `#[rayleigh_system(step_derivatives = second)]`.
+/// Functions that take third derivatives of V: `#[rayleigh_system(step_derivatives = second)]`.
 impl<L: ActingForce<N> + SecondOrder<N, 0>, const N: usize> ModifiedSystem<'_, L, N> {
     /// ∇(½vᵀV″v) = ½V‴[v, v].
     fn third(&self, q: &SVector<L::Scalar, N>, v: &SVector<L::Scalar, N>) -> SVector<L::Scalar, N> {

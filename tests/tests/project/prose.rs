@@ -1,0 +1,147 @@
+//! Documentation opens with the noun that an item is, or with a verb: rustdoc shows each paragraph by itself,
+//! and a reader who meets "Those of …" there does not know of what.
+
+use std::fs;
+use std::path::Path;
+
+/// The most paragraphs that may open with one of [`OPENINGS`], of 499 that did at first: what is left are
+/// sentences that Python's users read too, of fields of a report. It only ever goes down.
+const CEILING: usize = 6;
+
+/// So many fewer there may be before the ceiling has to follow.
+const SLACK: usize = 3;
+
+const OPENINGS: [&str; 7] = ["What", "The same", "Those", "Nothing", "Who", "Whose", "That of"];
+
+const FOLDERS: [&str; 6] =
+    ["macros/src", "runtime/src", "c/src", "fmu/src", "ensemble/src", "python/binding/src"];
+
+/// Tests, and the text that the macro generates for them.
+const LEFT_OUT: &str = "macros/src/tests";
+
+/// A paragraph of documentation.
+#[derive(Debug, PartialEq)]
+struct Paragraph<'t> {
+    /// The number of its first line, from 1.
+    line: usize,
+    /// Its first line.
+    text: &'t str,
+}
+
+impl Paragraph<'_> {
+    /// Whether its first words are one of [`OPENINGS`].
+    fn opens_badly(&self) -> bool {
+        OPENINGS.iter().any(|words| {
+            let rest = self.text.strip_prefix(words);
+            rest.is_some_and(|rest| !rest.starts_with(|next: char| next.is_alphanumeric() || next == '_'))
+        })
+    }
+}
+
+/// The paragraphs of a source file: runs of lines of documentation up to an empty one. Code between fences is
+/// none; a list, a table or a heading begins one with its own mark, and the lines below belong to it.
+fn paragraphs(source: &str) -> Vec<Paragraph<'_>> {
+    let mut found = Vec::new();
+    let (mut before, mut is_inside, mut is_code) = ("", false, false);
+    for (index, line) in source.lines().enumerate() {
+        let line = line.trim_start();
+        let marks = ["///", "//!"].into_iter().find(|marks| line.starts_with(marks));
+        let Some(marks) = marks.filter(|_| !line.starts_with("////")) else {
+            (before, is_inside, is_code) = ("", false, false);
+            continue;
+        };
+        if marks != before {
+            (before, is_inside, is_code) = (marks, false, false);
+        }
+        let text = line[marks.len()..].trim();
+        if text.starts_with("```") {
+            (is_inside, is_code) = (false, !is_code);
+        } else if !is_code {
+            if !is_inside && !text.is_empty() {
+                found.push(Paragraph { line: index + 1, text });
+            }
+            is_inside = !text.is_empty();
+        }
+    }
+    found
+}
+
+/// The sources of `folder`, by their paths from `root`, in order.
+fn read(root: &Path, folder: &Path, files: &mut Vec<(String, String)>) {
+    let mut paths: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    for path in paths {
+        let name = path.strip_prefix(root).unwrap().to_str().unwrap().replace('\\', "/");
+        if path.is_dir() && name != LEFT_OUT {
+            read(root, &path, files);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            files.push((name, fs::read_to_string(&path).unwrap()));
+        }
+    }
+}
+
+#[test]
+fn paragraphs_open_with_what_the_item_is() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut files = Vec::new();
+    FOLDERS.iter().for_each(|folder| read(&root, &root.join(folder), &mut files));
+    let mut places = Vec::new();
+    let mut all = 0;
+    for (name, source) in &files {
+        let paragraphs = paragraphs(source);
+        all += paragraphs.len();
+        let bad = paragraphs.iter().filter(|paragraph| paragraph.opens_badly());
+        places.extend(bad.map(|Paragraph { line, text }| format!("{name}:{line}: {text}")));
+    }
+    // Not for want of looking.
+    assert!(all > 4_000, "{all} paragraphs");
+    let (count, first) = (places.len(), places[..places.len().min(10)].join("\n"));
+    assert!(
+        count <= CEILING,
+        "{count} paragraphs open with one of {OPENINGS:?}, and {CEILING} may: say what the item is, as a \
+         noun, or what it does. The first are\n{first}"
+    );
+    assert!(
+        count + SLACK >= CEILING,
+        "{count} paragraphs open with one of {OPENINGS:?}: lower the ceiling of {CEILING}. The first \
+         are\n{first}"
+    );
+}
+
+#[test]
+fn only_what_opens_a_paragraph_is_counted() {
+    let source = "\
+//! Words of the file.
+/// What opens.
+/// What stands in the middle.
+///
+/// # Errors
+/// Those below a heading.
+///
+/// ```
+/// What is code.
+///
+/// Those are code.
+/// ```
+/// The same after a fence.
+///
+/// - Nothing in a list.
+///
+/// | Who | is in a table |
+fn first() {
+    // What is no documentation.
+    //// What is none either.
+}
+
+    /// Whatever is another word.
+    ///
+    /// Whose line follows an empty one.
+    struct Second;
+";
+    let all = paragraphs(source);
+    assert_eq!(all.len(), 8, "{all:?}");
+    let bad: Vec<_> = all.into_iter().filter(Paragraph::opens_badly).collect();
+    let expected =
+        [(2, "What opens."), (13, "The same after a fence."), (25, "Whose line follows an empty one.")];
+    assert_eq!(bad, expected.map(|(line, text)| Paragraph { line, text }));
+}
