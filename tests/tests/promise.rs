@@ -7,7 +7,7 @@ use dalembert_tests::motions::{Verdict, collection};
 fn of_random_motions_none_passes_its_error_in_silence() {
     let tolerances = [1e-2, 1e-5, 1e-8, 1e-11];
     let (mut runs, mut passed, mut wrong) = (0, 0, 0);
-    for motion in collection(3, 42) {
+    for motion in collection(3, if cfg!(debug_assertions) { 20 } else { 42 }) {
         for tolerance in tolerances {
             let outcome = motion.ask(tolerance);
             runs += 1;
@@ -83,7 +83,7 @@ fn the_cheapest_fixed_choice_is_no_accident() {
 #[test]
 fn the_end_asked_for_is_one_whose_error_was_kept() {
     let (mut asked, mut without, mut breached, mut runs) = (0, 0, 0, 0);
-    for motion in collection(17, 42) {
+    for motion in collection(17, if cfg!(debug_assertions) { 10 } else { 42 }) {
         for tolerance in [1e-3, 1e-7, 1e-11] {
             let (outcome, tried) = motion.reach(tolerance);
             let what = || format!("{}, {}, {tolerance:e}: {outcome:?}", motion.family, motion.what);

@@ -282,7 +282,8 @@ fn random_tokens_are_answered() {
             .collect()
     }
     let mut parsed = 0;
-    for _ in 0..20_000 {
+    let count = if cfg!(debug_assertions) { 3_000 } else { 20_000 };
+    for _ in 0..count {
         let noise = tokens(&mut next, &words, 3);
         rayleigh_system(Runtime::STD, noise.clone(), noise.clone());
         differentiable(Runtime::STD, TokenStream::new(), noise.clone());
@@ -294,5 +295,5 @@ fn random_tokens_are_answered() {
             messages(&rayleigh_system(Runtime::STD, TokenStream::new(), item));
         }
     }
-    assert!(parsed > 1_000, "only {parsed} bodies parse: the noise tests nothing");
+    assert!(parsed > count / 20, "only {parsed} bodies parse: the noise tests nothing");
 }

@@ -1,7 +1,5 @@
 //! The rules fitted to linear damping, and the one-sided one: what mathematics promises of them.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::step::DiscreteRayleigh;
 use dalembert::{

@@ -1,7 +1,5 @@
 //! The rules fitted to linear damping, where it is stiff: stability, and the orders that are left.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{Matrix2, vector};
 use dalembert::{Discrete, Discretise, Fitted, FittedTrapezoidal, Midpoint, State, rayleigh_system};
 

@@ -1,8 +1,6 @@
 //! The rules fitted to linear damping, where damping is a matrix: the free flow, phase space, and what a run
 //! keeps.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{Matrix3, SMatrix, SVector, Vector3, matrix, vector};
 use dalembert::{
     Discrete, Discretise, Fitted, FittedTrapezoidal, Midpoint, State, Trapezoidal, rayleigh_system,

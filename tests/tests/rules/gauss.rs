@@ -1,8 +1,6 @@
 //! The step of `Gauss<S>` is Gauss collocation on the forced Hamilton equations, and satisfies the forced
 //! Galerkin equations.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{DMatrix, DVector, SVector, vector};
 use dalembert::{Discrete, Discretise, Gauss, Midpoint, State, StepError, rayleigh_system};
 use dalembert_tests::by_hand::{ByHand, Continuous, Part, derivatives};

@@ -1,8 +1,6 @@
 //! Segments of Gauss rules, the interior points solved for: also those that lead back to where they start, or
 //! hardly away from there, and those that are not.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::SVector;
 use dalembert::step::Flow;
 use dalembert::system::Scalar;

@@ -189,7 +189,6 @@ fn momentum_maps_are_kept_to_rounding() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn the_checkers_see_it() {
     let segments = samples::segments([-1.0, -1.0], [1.0, 1.0], [0.1, 0.1], 20);
     let generator = Generator::rotation(0, 1);

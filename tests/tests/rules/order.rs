@@ -2,8 +2,6 @@
 //!
 //! Reference: another method (Dormand–Prince 8(5,3)) on accelerations derived on paper.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::rules::DisplacementRule;
 use dalembert::rules::SolvedForVelocity;

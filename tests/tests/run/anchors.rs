@@ -1,8 +1,6 @@
 //! Sines, cosines and reciprocals that start from those of the sweep before: how far off they may be, beside 31
 //! digits, and that each lane is what it is alone.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use std::f64::consts::FRAC_PI_2;
 
 use dalembert::generated::{Angle, Lanes, Members, Reciprocal};

@@ -1,8 +1,6 @@
 //! State at any time: to the order of the run, by a step, and for nothing, by a polynomial; the grid is the
 //! same bit by bit, whoever looks between.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::vector;
 use dalembert::run::between::TimeError;
 use dalembert::step::Flow;

@@ -1,8 +1,6 @@
 //! Kahan and Li's compositions: the order conditions, the order measured, what negative substeps do to
 //! damping.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::rules::SelfAdjoint;
 use dalembert::{
     Composition, Discrete, Discretise, Midpoint, State, StepError, Trapezoidal, rayleigh_system,

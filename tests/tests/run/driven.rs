@@ -1,8 +1,6 @@
 //! Runs whose input changes from step to step: each step is that of the system with its input, cold, up to
 //! rounding; what a step gives by state, input and parameters; errors, corrections, checkpoints.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::rules::{DisplacementRule, Node, Quadrature, SelfAdjoint};
 use dalembert::run::DrivenTrajectory;

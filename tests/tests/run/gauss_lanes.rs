@@ -1,8 +1,6 @@
 //! Gauss rules in lanes: every member's state is bit by bit that of its own run, whatever the number of stages
 //! and of lanes, whatever runs beside it: stiff members, members on their way to infinity, members that fail.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use std::fmt::Debug;
 
 use dalembert::nalgebra::vector;

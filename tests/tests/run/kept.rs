@@ -1,8 +1,6 @@
 //! What is asked for and what is returned have names: a user keeps both in types of their own, and writes
 //! functions of them.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::derivative::StateBy;
 use dalembert::rules::SolvedForVelocity;
 use dalembert::step::{BoundedStep, StepWith};

@@ -1,8 +1,6 @@
 //! A Newton matrix is kept where it serves, and not where it is soon of no use: evaluations counted over a
 //! run.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use std::cell::Cell;
 
 use dalembert::run::{KeptMatrix, VelocityHistory};

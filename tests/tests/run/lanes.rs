@@ -1,8 +1,6 @@
 //! Runs in lanes: every member's state is bit by bit that of its own run, whatever runs beside it, in
 //! however many lanes, at once or in parts; and a member that fails has none.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::run::{InLanes, LaneRuns};
 use dalembert::{Composition, Discretise, Splitting, State, StepError, Trapezoidal, rayleigh_system};

@@ -2,8 +2,6 @@
 //! coordinates and of lanes and the form of the matrix, whatever runs beside it: stiff members, members on
 //! their way to infinity, members that fail.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::vector;
 use dalembert::run::{InLanes, LaneRuns};
 use dalembert::step::DiscreteInLanes;

@@ -1,7 +1,5 @@
 //! One run for all methods: a first guess, samples, derivatives of the step, and a guarded run that is saved.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{Matrix4, SVector, vector};
 use dalembert::rules::{DisplacementRule, Node, Quadrature, SelfAdjoint};
 use dalembert::step::{Flow, PhaseMatrix};

@@ -1,7 +1,5 @@
 //! Steps that follow a time scale: what they are, what they keep, where they end.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use std::f64::consts::TAU;
 
 use dalembert::nalgebra::{SVector, Vector2, vector};

@@ -1,7 +1,5 @@
 //! Stages solved no further than an error asks for: how far that moves the end, and what it saves.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::SVector;
 use dalembert::system::ForcedLagrangian;
 use dalembert::{Discretise, Gauss, State, Trapezoidal, rayleigh_system};

@@ -1,7 +1,5 @@
 //! The conditions of order of the splittings: by trees, to the digits published, and with damping.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::Splitting;
 use dalembert_tests::double_double::DoubleDouble;
 

@@ -2,8 +2,6 @@
 //! its own, that of its view and the steps since it was put into its lane, and its state is bit by bit that of its
 //! own run, whatever the number of lanes and whatever runs beside it.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::vector;
 use dalembert::run::{InLanes, LaneRuns};
 use dalembert::{Composition, Discretise, Gauss, Lagrangian, Splitting, State, Trapezoidal, rayleigh_system};

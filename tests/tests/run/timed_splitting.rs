@@ -1,8 +1,6 @@
 //! Explicit steps of systems that take the time: splittings, Störmer–Verlet and its compositions, beside the same
 //! system with the time as one more coordinate, whose steps ask for no clock.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::vector;
 use dalembert::step::{Flow, ForceWork};
 use dalembert::{Composition, Discretise, Gauss, Splitting, State, Trajectory, Trapezoidal, rayleigh_system};

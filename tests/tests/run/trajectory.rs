@@ -1,7 +1,5 @@
 //! A trajectory is its steps: errors end it, another step size lets it go on, samples skip nothing.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::{Discretise, Midpoint, State, StepError, rayleigh_system};
 use dalembert_tests::systems::{Bead, DoublePendulum};

@@ -1,7 +1,5 @@
 //! Neither a step nor a trajectory allocates, whether steps succeed, are damped or fail.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use allocation_counter::measure;
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::{

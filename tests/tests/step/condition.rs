@@ -4,8 +4,6 @@
 //! differences of the momentum; its inverse and its singular values from nalgebra. Dense, banded and Gauss
 //! systems of 1 to 8 coordinates.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{DMatrix, SMatrix, SVector, vector};
 use dalembert::step::NewtonMatrix;
 use dalembert::{

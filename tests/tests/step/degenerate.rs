@@ -1,7 +1,5 @@
 //! A Lagrangian whose momenta do not determine velocities is refused at the first step, by its coordinate.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::vector;
 use dalembert::{Discretise, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
 

@@ -8,8 +8,6 @@
 //! Then L_d⁺ gains 2ψ(q0) + 2φ1(q1) and L_d⁻ gains 2φ0(q0) − 2ψ(q1): both momenta change by −2∇ψ. The paper
 //! prints −φ1(q1) in χ.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{Matrix2, Vector2};
 use dalembert::rules::SolvedForVelocity;
 use dalembert::run::VelocityHistory;

@@ -1,7 +1,5 @@
 //! Systems written in f32 step in f32 and are as accurate as f32 allows.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::{Discrete, Discretise, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
 use dalembert_tests::systems::Bead;

@@ -1,8 +1,6 @@
 //! Large steps, stiff forces and what has no solution: where the fixed point of `Gauss<S>` gives way to
 //! simplified Newton's method and to Newton's.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use std::cell::Cell;
 
 use allocation_counter::measure;

@@ -1,8 +1,6 @@
 //! Inputs and time: a force that takes u, and L, R and f that take t, by both rules and both engines, in both
 //! precisions.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 /// The systems, with the engine named.
 macro_rules! systems {
     ($engine:ident) => {

@@ -1,7 +1,5 @@
 //! Legendre transforms, discrete Euler–Lagrange equations and the two flows fit together.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::{Discrete, Discretise, Midpoint, State, Trapezoidal, rayleigh_system};
 use dalembert_tests::by_hand::ByHand;

@@ -6,8 +6,6 @@
 //! det = (4m + h²k − 2hr)/D
 //! ```
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{Matrix2, vector};
 use dalembert::{Discretise, Midpoint, State, rayleigh_system};
 

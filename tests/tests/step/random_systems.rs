@@ -158,13 +158,12 @@ where
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: ProptestConfig::default().cases.max(1_000),
+        cases: if cfg!(debug_assertions) { 60 } else { ProptestConfig::default().cases.max(1_000) },
         failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("failures"))),
         ..ProptestConfig::default()
     })]
 
     #[test]
-    #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
     fn a_step_is_taken_or_named(
         system in masses(6.0), q in pair(-6.0, 6.0), p in pair(-6.0, 6.0), h in signed(-6.0, 3.0),
     ) {
@@ -177,6 +176,14 @@ proptest! {
         taken_or_named(&system, Trapezoidal, h, start)?;
         taken_or_named(&system, Gauss::<3>, h, start)?;
     }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: ProptestConfig::default().cases.max(if cfg!(debug_assertions) { 256 } else { 1_000 }),
+        failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("failures"))),
+        ..ProptestConfig::default()
+    })]
 
     /// Without friction (q, −p) runs the motion backwards.
     #[test]
@@ -234,7 +241,6 @@ proptest! {
 
     /// In units that are powers of two of q, of time and of mass, every bit of a run is the same.
     #[test]
-    #[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
     fn units_change_no_bit(
         system in masses(6.0), q in pair(-4.0, 4.0), p in pair(-4.0, 4.0), h in decades(-6.0, 2.0),
         units in [-40_i32..40, -20..20, -40..40],

@@ -54,7 +54,7 @@ fn a_mass_between_two_springs_comes_to_rest() {
         let mut expected: Vector2<f64> = vector![f64::from(start) / 100.0, 0.0];
         let state = State { q: vector![expected[0]], p: vector![0.0] };
         let mut run = Springs {}.by(Midpoint, H).run(state);
-        for index in 0..800 {
+        for index in 0..1500 {
             let taken = run.next().unwrap().unwrap_or_else(|error| panic!("{start}, step {index}: {error}"));
             expected = step * expected;
             let off = vector![taken.state.q[0], taken.state.p[0]] - expected;

@@ -1,7 +1,5 @@
 //! The solver of a step: every error reached on purpose, and the roots that it must find.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::run::VelocityHistory;
 use dalembert::step::{Momenta, Quantity, StepKernel};

@@ -1,8 +1,6 @@
 //! The steps that a system's structure allows, against the general one: the same systems with derivatives by
 //! num-dual, whose every step is Newton's method with a dense matrix.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 /// The systems, with the engine named.
 macro_rules! systems {
     ($engine:ident) => {

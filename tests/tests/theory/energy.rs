@@ -1,7 +1,5 @@
 //! The energy ledger: each method's own account of what forces did, against an integration beside it.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::rules::{DisplacementRule, Node, Quadrature};
 use dalembert::step::{Discretised, EnergyExchange, ForceWork, Quantity};

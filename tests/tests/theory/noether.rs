@@ -1,7 +1,5 @@
 //! Momentum maps, symmetries and their balance.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 mod affine;
 mod angular_momentum;
 mod balance;

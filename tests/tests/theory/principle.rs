@@ -1,7 +1,5 @@
 //! The discrete Lagrange–d'Alembert principle, of which all else is a consequence.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 mod configurations;
 mod phase_space;
 

@@ -1,7 +1,5 @@
 //! User functions that panic, and runs that break off: what was computed stays.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU32, Ordering};
 

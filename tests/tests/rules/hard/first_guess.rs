@@ -1,8 +1,6 @@
 //! The first step, without a guess: from any velocity and from rest, where Hessians at v = 0 are singular or
 //! do not exist.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::SVector;
 use dalembert::{
     Discrete, Discretise, Gauss, Lagrangian, Midpoint, Rayleigh, State, StepError, Trapezoidal,

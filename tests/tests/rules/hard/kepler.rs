@@ -1,7 +1,5 @@
 //! Orbits that almost collide.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use std::f64::consts::TAU;
 
 use dalembert::{Discrete, Discretise, Gauss, Midpoint, State, StepError, Trapezoidal};

@@ -1,7 +1,5 @@
 //! Units, sizes of h, and time reversal.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::vector;
 use dalembert::step::Flow;
 use dalembert::step::Quantity;

@@ -1,7 +1,5 @@
 //! Masses that are singular or nearly so; functions without derivatives somewhere.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::vector;
 use dalembert::step::Quantity;
 use dalembert::{Discretise, Midpoint, State, StepError, Trapezoidal, rayleigh_system};

@@ -93,11 +93,14 @@ fn count(counts: &mut [usize; 2], found: Option<bool>, expected: Option<bool>, w
     }
 }
 
+/// Systems drawn by each rule.
+const LINEAR: usize = if cfg!(debug_assertions) { 80 } else { 400 };
+
 fn linear<const S: usize>(draws: &mut Draws, counts: &mut [usize; 2])
 where
     Oscillator: ForcedLagrangian<1, Scalar = f64>,
 {
-    for _ in 0..400 {
+    for _ in 0..LINEAR {
         let h = draws.between(0.2, 8.0);
         let (k, r, m) = (draws.between(-1.0, 3.0), draws.between(-3.0, 3.0), draws.scale(1e-3, 1e3));
         let state = State { q: vector![draws.between(-1.0, 1.0)], p: vector![m * draws.between(-1.0, 1.0)] };
@@ -119,7 +122,6 @@ where
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn of_linear_systems_the_branch_is_that_of_the_pade_denominator() {
     let mut draws = Draws::new(1);
     let mut counts = [[0; 2]; 9];
@@ -132,7 +134,7 @@ fn of_linear_systems_the_branch_is_that_of_the_pade_denominator() {
     println!("{counts:?}");
     for (stages, [past, on]) in counts.into_iter().enumerate().filter(|(_, counts)| counts[1] > 0) {
         // D_S has a real zero for odd S, and none for even S.
-        assert!(on > 400 && (past > 20) == (stages % 2 == 1), "{stages}: {past} {on}");
+        assert!(on > LINEAR && (past > LINEAR / 20) == (stages % 2 == 1), "{stages}: {past} {on}");
     }
     // One equation alone: midpoint as Gauss<1>, and trapezoidal, where det = m + hr/2.
     let mut counts = [[0; 2]; 2];
@@ -210,11 +212,11 @@ fn follow<L, R: Copy, const N: usize>(
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn what_small_steps_lead_to_is_on_the_branch() {
     let mut draws = Draws::new(2);
     let mut followed: [Followed; 5] = Default::default();
-    for _ in 0..120 {
+    let all = if cfg!(debug_assertions) { 16 } else { 120 };
+    for _ in 0..all {
         let (h, r) = (draws.between(0.2, 6.0), draws.between(-0.3, 0.8));
         let (pendulum, state) = (
             Pendulum { r },
@@ -233,9 +235,9 @@ fn what_small_steps_lead_to_is_on_the_branch() {
     }
     for (index, Followed { on_the_branch, past_a_conjugate_point }) in followed.iter().enumerate() {
         println!("{index}: {on_the_branch} followed, {past_a_conjugate_point} past a conjugate point");
-        assert!(*on_the_branch > 40, "{index}");
+        assert!(*on_the_branch > all / 3, "{index}");
     }
-    assert!(followed[2..].iter().all(|followed| followed.past_a_conjugate_point > 5));
+    assert!(followed[2..].iter().all(|followed| followed.past_a_conjugate_point >= all / 24));
 }
 
 #[test]

@@ -5,8 +5,6 @@
 //! L_d^ex = (m³/r²h)(cosh(rd/m) − 1),   R_d^ex = (m²/rh)[(m/r) sinh(rd/m) − d],   d = q1 − q0
 //! ```
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::exact::{Exact, ExistenceVerdict};
 use dalembert::nalgebra::vector;
 use dalembert::rayleigh_system;

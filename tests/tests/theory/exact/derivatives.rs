@@ -1,6 +1,8 @@
 //! Derivatives of the exact objects against central differences of order 8 of what they differentiate, on a
 //! system with q-dependent mass, q-dependent Rayleigh function and general force.
 
+use std::sync::LazyLock;
+
 use dalembert::exact::{Exact, ExactSegment};
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::rayleigh_system;
@@ -38,10 +40,11 @@ fn exact() -> Exact<'static, Arm, 2> {
     Exact::new(&SYSTEM)
 }
 
-/// ∂g/∂q0 and ∂g/∂q1, columns by coordinate.
-fn differences(g: impl Fn(&ExactSegment<2>) -> SVector<f64, 2>) -> (SMatrix<f64, 2, 2>, SMatrix<f64, 2, 2>) {
-    let spacing = 0.02;
-    let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+const SPACING: f64 = 0.02;
+
+/// The segments with a coordinate of their ends moved by 1 to 4 spacings, ahead and back: by coordinate, those of q0
+/// first.
+static MOVED: LazyLock<[[[ExactSegment<2>; 2]; 4]; 4]> = LazyLock::new(|| {
     let at = |index: usize, shift: f64| {
         let (mut q0, mut q1) = (Q0, Q1);
         if index < 2 {
@@ -49,12 +52,20 @@ fn differences(g: impl Fn(&ExactSegment<2>) -> SVector<f64, 2>) -> (SMatrix<f64,
         } else {
             q1[index - 2] += shift;
         }
-        g(&exact().segment(q0, q1, H).unwrap())
+        exact().segment(q0, q1, H).unwrap()
     };
+    std::array::from_fn(|index| {
+        std::array::from_fn(|k| [1.0, -1.0].map(|sign| at(index, sign * SPACING * (k + 1) as f64)))
+    })
+});
+
+/// ∂g/∂q0 and ∂g/∂q1, columns by coordinate.
+fn differences(g: impl Fn(&ExactSegment<2>) -> SVector<f64, 2>) -> (SMatrix<f64, 2, 2>, SMatrix<f64, 2, 2>) {
+    let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
     let column = |index: usize| {
-        (0..4).fold(SVector::<f64, 2>::zeros(), |sum, k| {
-            let shift = spacing * (k + 1) as f64;
-            sum + (at(index, shift) - at(index, -shift)) * (weights[k] / spacing)
+        let sides = MOVED[index].iter().zip(weights);
+        sides.fold(SVector::<f64, 2>::zeros(), |sum, ([ahead, back], weight)| {
+            sum + (g(ahead) - g(back)) * (weight / SPACING)
         })
     };
     let pair = |first: usize| {
@@ -71,7 +82,6 @@ fn assert_close(value: &SMatrix<f64, 2, 2>, expected: &SMatrix<f64, 2, 2>, what:
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn first_derivatives_of_the_exact_lagrangian() {
     let segment = exact().segment(Q0, Q1, H).unwrap();
     // The value stands in both components: row 0 of the differences is the gradient.
@@ -83,7 +93,6 @@ fn first_derivatives_of_the_exact_lagrangian() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn second_derivatives_of_the_exact_lagrangian() {
     let second = exact().second_derivatives(&exact().segment(Q0, Q1, H).unwrap()).unwrap();
     let (d11, d12) = differences(|s| s.lagrangian.d1);
@@ -96,7 +105,6 @@ fn second_derivatives_of_the_exact_lagrangian() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn jacobians_of_the_exact_force() {
     let second = exact().second_derivatives(&exact().segment(Q0, Q1, H).unwrap()).unwrap();
     let (minus_d1, minus_d2) = differences(|s| s.force.minus);
@@ -111,7 +119,6 @@ fn jacobians_of_the_exact_force() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn derivatives_of_the_momenta() {
     let segment = exact().segment(Q0, Q1, H).unwrap();
     let (p0_d1, p0_d2) = differences(|s| s.p0.value);

@@ -1,8 +1,6 @@
 //! For n > 1 an exact discrete force is Rayleigh iff three conditions hold: the one that the paper prints
 //! (section 3.4) is D1 f_d⁺ = −(D2 f_d⁻)ᵀ, and the symmetry of D1 f_d⁻ and D2 f_d⁺ must be asked for besides.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::exact::{Exact, ExistenceVerdict};
 use dalembert::nalgebra::{Matrix2, vector};
 use dalembert::rayleigh_system;

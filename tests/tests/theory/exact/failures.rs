@@ -87,7 +87,6 @@ fn time_by_way_of(turning: f64, q0: f64, q1: f64) -> f64 {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn the_step_size_where_a_motion_ceases_is_found() {
     // The longest time from 0.6 to 1.1 with one turn: beyond it the motion near the straight line ceases to
     // exist.

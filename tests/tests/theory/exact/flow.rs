@@ -3,8 +3,6 @@
 //!
 //! The motion comes from equations of motion written by hand and a Runge–Kutta method of the test's own.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::State;
 use dalembert::exact::Exact;
 use dalembert::nalgebra::{SVector, Vector4, vector};

@@ -3,8 +3,6 @@
 //! A nonlinear system with q-dependent mass and q-dependent R: midpoint and trapezoidal rule of order 2, a
 //! one-sided rectangle rule of order 1.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::exact::{Convergence, Exact};
 use dalembert::nalgebra::vector;
 use dalembert::rules::Quadrature;

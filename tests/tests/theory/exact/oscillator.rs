@@ -10,8 +10,6 @@
 //! The paper prints sinh bh for sin bh in R_d^ex, and an L_d with coth bh: these hold for b = √(r² − 4km)/2m,
 //! overdamped.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::exact::{Exact, ExactError};
 use dalembert::nalgebra::vector;
 use dalembert::rayleigh_system;

@@ -1,7 +1,5 @@
 //! Neither the units of the coordinates nor a motion's smallness costs digits.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::exact::{Exact, ExistenceVerdict};
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::rayleigh_system;

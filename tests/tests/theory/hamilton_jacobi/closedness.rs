@@ -2,8 +2,6 @@
 //! against differences of the flow, against the criterion for a Rayleigh force, and 0 without force or for
 //! n = 1.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::hamilton_jacobi::Characteristic;
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::{Discrete, Discretise, Midpoint, ScalarField, Trapezoidal, rayleigh_system};

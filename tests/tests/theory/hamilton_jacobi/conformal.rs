@@ -116,7 +116,6 @@ where
 
 /// c^{−k} ∂S_k/∂λ is constant, and q_k, p_k are found from it and λ to 1e-12, from a label that is far off.
 #[test]
-#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn the_family_integrates_the_motion_in_two_dimensions() {
     fn check<M: Copy>(name: &str, method: M, c: f64, constant: usize, integrated: &[usize])
     where
@@ -319,7 +318,6 @@ fn drift_near_a_caustic(width: f64) -> Result<f64, HamiltonJacobiError> {
 
 /// Spacings so wide that S_k is another branch: an error, or the right value once halved, no other.
 #[test]
-#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn no_spacing_takes_another_branch_for_the_right_one() {
     let drifts = [0.02, 200.0].map(drift_near_a_caustic);
     for drift in drifts {

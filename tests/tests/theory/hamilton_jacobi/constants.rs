@@ -1,8 +1,6 @@
 //! The complete solution of the damped oscillator: λ_0 as a function of (q, p, k) is a constant of motion,
 //! ∂S/∂λ_0 is not; the k-step pair (L, R) in closed form gives k steps at once.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::vector;
 use dalembert::{Discretise, Midpoint, State};
 use dalembert_tests::damped_oscillator::{CompleteSolution, DAMPED, H, Oscillator, UNDAMPED};

@@ -1,8 +1,6 @@
 //! The corrected Hamilton–Jacobi theory holds on the closed-form complete solution of the damped oscillator,
 //! and its check rejects what is no solution.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::vector;
 use dalembert::{Discretise, Midpoint, ScalarField};
 use dalembert_tests::damped_oscillator::{CompleteSolution, DAMPED, H, Oscillator, UNDAMPED, Vector};

@@ -1,8 +1,6 @@
 //! The paper's worked oscillator example: its sums, its coefficients of γ⁻, its 𝔽⁻, and its flow (which is
 //! right).
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::vector;
 use dalembert::{Discretise, Midpoint};
 use dalembert_tests::damped_oscillator::{DAMPED, H, Oscillator, trajectory};

@@ -1,8 +1,6 @@
 //! The forced discrete Hamilton equations: the printed second ones miss by the force at the eliminated end,
 //! the corrected ones hold; in Rayleigh form two signs are wrong besides (paper, sections 3.2 and 3.3).
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::hamilton_jacobi::HamiltonEquationsReport;
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::step::DiscreteRayleigh;

@@ -1,8 +1,6 @@
 //! The paper's theory as printed, on functions S_k: by what each statement misses under force, in closed
 //! form, and that all hold without (paper, section 4).
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::hamilton_jacobi::PrintedReport;
 use dalembert::nalgebra::vector;
 use dalembert::{Discretise, Midpoint, ScalarField};

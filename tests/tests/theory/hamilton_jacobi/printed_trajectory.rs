@@ -1,8 +1,6 @@
 //! γ⁻ = DS∘π1 − f⁻ as printed misses the momentum by the net force, the example's γ⁻ = D1 G_d by twice that;
 //! both hold with the net force added, and without force (paper, section 4 and Example 4).
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::{Discrete, Discretise, Midpoint, State, Trapezoidal, rayleigh_system};
 use dalembert_tests::damped_oscillator::{DAMPED, H, UNDAMPED, trajectory};

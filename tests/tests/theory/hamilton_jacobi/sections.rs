@@ -2,8 +2,6 @@
 //! and a force with curl, sections γ_k(q) = M_k q + l_k from the carried frames. And what cannot be evaluated
 //! is a typed error.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::hamilton_jacobi::{ConfigurationMap, HamiltonJacobiError, Section};
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::{Discrete, Discretise, Midpoint, Trapezoidal, rayleigh_system};

@@ -2,8 +2,6 @@
 //! has an R_d for every h, nonlinear or not. So have rules whose steps are then conformally symplectic; Gauss
 //! rules of two stages and more, and compositions of the midpoint rule, only where V is quadratic.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::derivative::{LegendreDerivatives, Linearization};
 use dalembert::exact::Exact;
 use dalembert::nalgebra::vector;

@@ -1,8 +1,6 @@
 //! Steps that multiply the symplectic form by a constant: the equivalence of three statements on random
 //! systems, α, β and G of a pair, and order above 2 with an R_d.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::derivative::PhaseMatrix;
 use dalembert::hamilton_jacobi::Frame;
 use dalembert::nalgebra::{Matrix1, Matrix2, SVector, Vector2, vector};

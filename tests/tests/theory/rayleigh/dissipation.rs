@@ -1,7 +1,5 @@
 //! Whether v·∂R/∂v ≥ 0 on the sampled region, with the point where it is not.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::rayleigh::dissipation;
 use dalembert::samples::{SampleError, TangentPoint, tangent_points};
 use dalembert::{Discretise, Midpoint, State, rayleigh_system};

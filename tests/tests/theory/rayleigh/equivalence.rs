@@ -1,8 +1,6 @@
 //! (L_d + φ, R_d + χ) is equivalent to (L_d, R_d) for χ = ψ(q0) + φ1(q1) − φ0(q0) + ψ(q1); with the printed
 //! −φ1(q1) (section 3.3) the equations differ.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::rayleigh::Comparison;
 use dalembert::run::VelocityHistory;

@@ -1,7 +1,5 @@
 //! The modified Lagrangian and Rayleigh function of the midpoint rule, any V.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{Matrix2, Vector2, vector};
 use dalembert::rayleigh::modified::{ModifiedSystem, ModifiedSystemError};
 use dalembert::system::Damping;

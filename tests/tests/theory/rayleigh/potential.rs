@@ -1,8 +1,6 @@
 //! R_d is recovered from f_d alone; for the midpoint rule it is (h²/2) R(q̄, v̄), not (h/2) R as the paper
 //! prints (section 3.5).
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::rayleigh::Potential;
 use dalembert::samples::{self, Segment};
 use dalembert::{Discretise, Midpoint, Trapezoidal, rayleigh_system};

@@ -2,8 +2,6 @@
 //! every method but the fitted rule. Its block b = ∂q1/∂p0 is reciprocity; together they make the modified
 //! system a Rayleigh system.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{Matrix4, vector};
 use dalembert::step::Flow;
 use dalembert::{

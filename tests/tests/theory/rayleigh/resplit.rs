@@ -1,8 +1,6 @@
 //! Every forced system with n = 1 is a Rayleigh one in other L_d^±: −D1 L_d⁺ = p0, D2 L_d⁻ = p1. For n > 1
 //! iff D1 f⁻ and D2 f⁺ are symmetric.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::rayleigh::Resplit;
 use dalembert::{Discrete, Discretise, Midpoint, Trapezoidal, rayleigh_system, samples};

@@ -1,7 +1,5 @@
 //! Discrete Routh reduction with Rayleigh forces.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{SVector, vector};
 use dalembert::rayleigh::routh::{ReducedState, Routh, RouthError};
 use dalembert::samples::{Segment, segments};

@@ -1,8 +1,6 @@
 //! For n > 1 a discrete force is Rayleigh iff three conditions hold; the one that the paper prints, D1 f⁺ =
 //! −D2 f⁻ (section 3.4), is fulfilled by forces without any potential.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::rayleigh::{Potential, structure};
 use dalembert::run::VelocityHistory;

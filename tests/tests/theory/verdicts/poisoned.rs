@@ -181,10 +181,10 @@ fn clean_samples_tell_right_from_wrong() {
 }
 
 #[test]
-#[cfg_attr(debug_assertions, ignore = "long without optimisation: cargo test --release")]
 fn poisoned_samples_get_no_yes() {
     let mut tried = 0;
-    for (name, segments) in poisoned() {
+    let every = if cfg!(debug_assertions) { 6 } else { 1 };
+    for (name, segments) in poisoned().into_iter().step_by(every) {
         let found = answers(&Wrong, &Wrong, &segments, H, ROUNDING);
         // What the samples cannot show is not asked of them: far out and close to 0 one part of the system is
         // all there is.
@@ -207,7 +207,7 @@ fn poisoned_samples_get_no_yes() {
         assert!(!dissipative, "{name}");
     }
     println!("{tried} poisoned sets of samples");
-    assert!(tried > 80);
+    assert!(tried > 80 / every);
 }
 
 #[test]

@@ -1,8 +1,6 @@
 //! Families with values and slopes that are not finite, or too large to say anything: Hamilton–Jacobi
 //! reports.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::ScalarField;
 use dalembert::hamilton_jacobi::{ConfigurationMap, Outcome, Residual, SolutionReport};
 use dalembert::nalgebra::{SMatrix, SVector, vector};

@@ -1,7 +1,5 @@
 //! False claims of steps by their derivatives, on poisoned derivatives, states, segments and tolerances.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::derivative::PhaseMatrix;
 use dalembert::nalgebra::vector;
 use dalembert::rayleigh::modified::ModifiedLinearSystem;

@@ -1,8 +1,6 @@
 //! Every verdict of a public type is tried on nonsense, in the files `poisoned` of this folder: what the source
 //! of the checkers answers with a bool, and what it says otherwise.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;

@@ -1,7 +1,5 @@
 //! Checkers of a view follow the time: the k-th segment is that of t0 + k h.
 
-#![cfg(not(feature = "only-long-tests"))]
-
 use dalembert::exact::Exact;
 use dalembert::hamilton_jacobi::Section;
 use dalembert::nalgebra::{SMatrix, SVector, vector};
