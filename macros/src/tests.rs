@@ -1,6 +1,7 @@
 //! Tests of the pipeline, called as plain code: derivatives against num-dual, refusals, what it writes, and
 //! that nothing makes it panic.
 
+mod cancelling;
 mod corpus;
 mod factoring;
 mod fusing;

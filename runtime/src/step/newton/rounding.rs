@@ -25,6 +25,10 @@
 //! own: far from q = 0, say after 10³ turns of an angle, q0 and q1 are known to ε|q|, and where what their
 //! errors do cancels if both are moved together, as under the trapezoidal rule, moving q shows nothing of it.
 //!
+//! Where forces cancel at q = 0, as (q − 1) + (q + 1) do, no place of q shows their rounding. Derivatives that
+//! are written out come with the sizes of such terms ([`cancelling_terms`](crate::Discrete::cancelling_terms)),
+//! which count before anything is measured: ε times them is floor, and they are terms of the equation.
+//!
 //! `tests/examples/verdicts` holds every rule against this definition in twice the precision.
 
 use nalgebra::SVector;
