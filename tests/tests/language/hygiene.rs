@@ -156,6 +156,7 @@ mod of_functions {
 
 /// A body's constants are named by one letter as generated code's types are, and its locals by the same letter in
 /// lower case, which is what temporaries are named after that hold an entry of the constant.
+#[allow(clippy::manual_range_contains, reason = "the body that was reported")]
 mod letters {
     use dalembert::nalgebra::vector;
     use dalembert::{Discretise as _, Gauss, Midpoint, State, rayleigh_system};
