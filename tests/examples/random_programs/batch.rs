@@ -43,6 +43,9 @@ const LINTS: &str = "#![allow(arithmetic_overflow, unconditional_panic, overflow
 /// One build finds the programs that fail at the same stage of rustc.
 const MOST_BUILDS: usize = 12;
 
+/// So many programs are expanded sooner than the macro is optimised.
+const FEW: usize = 50;
+
 /// Where batches are built.
 pub struct Workshop {
     folder: PathBuf,
@@ -62,17 +65,19 @@ impl Workshop {
         let source = self.folder.join("src");
         std::fs::create_dir_all(&source).map_err(|error| error.to_string())?;
         let runtime = self.workspace.join("runtime");
-        let manifest = format!(
+        let mut manifest = format!(
             "[package]\nname = \"random-programs\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n\
              [dependencies]\ndalembert = {{ path = {runtime:?}, default-features = false, features = [{}] }}\n\n\
-             [profile.dev]\nopt-level = 0\ndebug = false\nincremental = false\noverflow-checks = true\n\n\
-             [profile.dev.package.\"*\"]\nopt-level = 1\n\n{}",
+             [profile.dev]\nopt-level = 0\ndebug = false\nincremental = false\noverflow-checks = true\n\n",
             self.features,
-            // The macro runs at every batch, the runtime is built once.
-            ["syn", "quote", "proc-macro2"]
-                .map(|name| format!("[profile.dev.package.{name}]\nopt-level = 3\n\n"))
-                .concat()
         );
+        if programs.len() > FEW {
+            manifest += "[profile.dev.package.\"*\"]\nopt-level = 1\n\n";
+            // The macro runs at every batch, the runtime is built once.
+            for name in ["syn", "quote", "proc-macro2"] {
+                manifest += &format!("[profile.dev.package.{name}]\nopt-level = 3\n\n");
+            }
+        }
         write_if_changed(&self.folder.join("Cargo.toml"), &manifest)?;
         let lock = self.workspace.join("Cargo.lock");
         if lock.exists() && !self.folder.join("Cargo.lock").exists() {

@@ -47,9 +47,7 @@ where
         if error.sqrt() < PLATEAU || steps > if cfg!(debug_assertions) { 500 } else { 2000 } {
             return convergence.order(PLATEAU);
         }
-        // High orders have few points above rounding.
-        let is_coarse = cfg!(debug_assertions) && steps > 128;
-        steps += (steps / if is_coarse { 3 } else { 8 }).max(1);
+        steps += (steps / 8).max(1);
     }
 }
 
