@@ -108,7 +108,7 @@ fn the_first_step_of_the_chain_is_found() {
 #[test]
 fn the_chain_exchanges_stiff_energies() {
     let system = Fermi { omega: 50.0, r: 0.0 };
-    let (end, stride) = (if cfg!(debug_assertions) { 40.0 } else { 80.0 }, 2.0);
+    let (end, stride) = (80.0, 2.0);
     // Averages over each two units of time, some sixteen periods of a stiff spring: the fast oscillation is
     // left out.
     let averages = |energies: &mut dyn Iterator<Item = [f64; FERMI]>, count: usize| {
