@@ -431,6 +431,7 @@ fn motions_that_were_refused_or_took_long() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "minutes without optimisation: cargo test --release")]
 fn work_is_bounded_and_said() {
     // 10⁷ periods.
     let system = Counted::new(1.0, 1.0, 0.0);
