@@ -1,15 +1,13 @@
 //! The runtime's floors: a module uses those below its own, none above; on one floor no modules use each
-//! other in a circle. Nor do files of the macros.
+//! other in a circle. Nor do files of the macros. Both are of the first level: `circles.rs` looks at all.
 //!
 //! `cargo test -p dalembert-tests --test project floors -- --nocapture` prints who uses whom.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
-use std::fs;
 use std::path::Path;
 
-use proc_macro2::{TokenStream, TokenTree};
-use syn::visit::{self, Visit};
+use super::paths::{self, Segments, read};
 
 /// A crate: how its files name its root, and its floors from the lowest up. What stands side by side does not
 /// use each other.
@@ -29,116 +27,6 @@ const MACROS: Crate = Crate { root: &["crate"], levels: &[&["rayleigh_system"]] 
 impl Crate {
     fn level(&self, floor: &str) -> Option<usize> {
         self.levels.iter().position(|floors| floors.contains(&floor))
-    }
-}
-
-/// A path that a file names: segments from the crate's root.
-type Segments = Vec<String>;
-
-/// Every path of a file that begins at `crate` or `super`, but for those of its tests.
-struct Paths {
-    /// The module that is looked at, from the crate's root.
-    module: Segments,
-    of: &'static Crate,
-    found: Vec<Segments>,
-}
-
-impl Paths {
-    fn of(of: &'static Crate, module: Segments, text: &str) -> Vec<Segments> {
-        let mut paths = Self { module, of, found: Vec::new() };
-        paths.visit_file(&syn::parse_file(text).expect("a source file"));
-        paths.found
-    }
-
-    /// The path as written; one that begins elsewhere, or ends at once, names nothing here.
-    fn add(&mut self, written: &[String]) {
-        let from_root = match written.first().map(String::as_str) {
-            Some(first) if self.of.root.contains(&first) => written[1..].to_vec(),
-            Some("super") => {
-                let up = written.iter().take_while(|segment| *segment == "super").count();
-                let Some(depth) = self.module.len().checked_sub(up) else { return };
-                self.module[..depth].iter().chain(&written[up..]).cloned().collect()
-            }
-            _ => return,
-        };
-        if written.iter().any(|segment| !matches!(segment.as_str(), "crate" | "super")) {
-            self.found.push(from_root);
-        }
-    }
-
-    /// The paths of a `use`, one for each name.
-    fn add_tree(&mut self, before: &[String], tree: &syn::UseTree) {
-        let with = |name: String| before.iter().cloned().chain([name]).collect::<Segments>();
-        match tree {
-            syn::UseTree::Path(path) => self.add_tree(&with(path.ident.to_string()), &path.tree),
-            syn::UseTree::Name(name) if name.ident == "self" => self.add(before),
-            syn::UseTree::Name(name) => self.add(&with(name.ident.to_string())),
-            syn::UseTree::Rename(rename) => self.add(&with(rename.ident.to_string())),
-            syn::UseTree::Glob(_) => self.add(&with("*".into())),
-            syn::UseTree::Group(group) => group.items.iter().for_each(|tree| self.add_tree(before, tree)),
-        }
-    }
-
-    /// The paths in what a macro is given, or consists of.
-    fn add_tokens(&mut self, tokens: TokenStream) {
-        let mut written = Segments::new();
-        for token in tokens {
-            match token {
-                TokenTree::Ident(ident) => {
-                    if written.last().is_none_or(|last| last != "::") {
-                        written.clear();
-                    }
-                    written.push(ident.to_string());
-                    let names: Segments = written.iter().filter(|part| *part != "::").cloned().collect();
-                    let root =
-                        names.len() == 2 && (names[0] == "super" || self.of.level(&names[1]).is_none());
-                    if names.len() == 3 || root {
-                        self.add(&names);
-                    }
-                }
-                TokenTree::Punct(punct) if punct.as_char() == ':' => {
-                    if written.last().is_some_and(|last| last != "::") {
-                        written.push("::".into());
-                    }
-                }
-                TokenTree::Group(group) => {
-                    written.clear();
-                    self.add_tokens(group.stream());
-                }
-                _ => written.clear(),
-            }
-        }
-    }
-}
-
-fn is_for_tests(attributes: &[syn::Attribute]) -> bool {
-    attributes.iter().any(|attribute| {
-        attribute.path().is_ident("cfg")
-            && attribute.parse_args::<syn::Ident>().is_ok_and(|flag| flag == "test")
-    })
-}
-
-impl<'ast> Visit<'ast> for Paths {
-    fn visit_item_mod(&mut self, module: &'ast syn::ItemMod) {
-        if !is_for_tests(&module.attrs) {
-            self.module.push(module.ident.to_string());
-            visit::visit_item_mod(self, module);
-            self.module.pop();
-        }
-    }
-
-    fn visit_item_use(&mut self, item: &'ast syn::ItemUse) {
-        self.add_tree(&[], &item.tree);
-    }
-
-    fn visit_path(&mut self, path: &'ast syn::Path) {
-        self.add(&path.segments.iter().map(|segment| segment.ident.to_string()).collect::<Segments>());
-        visit::visit_path(self, path);
-    }
-
-    fn visit_macro(&mut self, invocation: &'ast syn::Macro) {
-        self.visit_path(&invocation.path);
-        self.add_tokens(invocation.tokens.clone());
     }
 }
 
@@ -171,9 +59,7 @@ impl Plan {
                         shown.insert((floor.clone(), module.clone()), module);
                     }
                     syn::Item::Use(item) => {
-                        let mut paths = Paths { module: Vec::new(), of, found: Vec::new() };
-                        paths.add_tree(&["crate".into()], &item.tree);
-                        for path in paths.found {
+                        for (path, _) in paths::of_use(&item.tree) {
                             // What it shows of floors below is no module of its own.
                             if let [module, .., name] = &path[..]
                                 && module != "crate"
@@ -193,7 +79,9 @@ impl Plan {
                 plan.refused.push(format!("{path}: stands on no floor"));
                 continue;
             };
-            for used in Paths::of(of, module.clone(), text) {
+            let file = syn::parse_file(text).expect("a source file");
+            let named = paths::of_file(module.clone(), &file);
+            for used in named.iter().filter_map(|path| path.in_crate(of.root)) {
                 let said = format!("{path}: crate::{}", used.join("::"));
                 let to = &used[0];
                 match of.level(to) {
@@ -292,19 +180,6 @@ impl Plan {
             }
         }
         drawn
-    }
-}
-
-/// The files of `directory`, by their paths from `root`.
-fn read(root: &Path, directory: &Path, files: &mut Vec<(String, String)>) {
-    for entry in fs::read_dir(directory).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            read(root, &path, files);
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            let name = path.strip_prefix(root).unwrap().to_str().unwrap().replace('\\', "/");
-            files.push((name, fs::read_to_string(&path).unwrap()));
-        }
     }
 }
 

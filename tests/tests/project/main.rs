@@ -1,7 +1,9 @@
 //! What the project says of itself: its pages, its files, how its parts use each other.
 
+mod circles;
 mod corrections_page;
 mod floors;
 mod pages;
+mod paths;
 mod prose;
 mod root;
