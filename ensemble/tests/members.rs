@@ -19,6 +19,9 @@ fn ring(q: [f64; 2], v: [f64; 2], r: f64) -> (f64, f64) {
     (0.5 * speed - s * (s - 1.0) * (s - 1.0), 0.5 * r * speed)
 }
 
+/// Members of a study.
+const MEMBERS: u64 = if cfg!(debug_assertions) { 150 } else { 600 };
+
 fn random(number: u64) -> Result<(Ring, State<f64, 2>), StepError> {
     let mut random = ChaCha8Rng::seed_from_u64(4);
     random.set_stream(number);
@@ -32,8 +35,8 @@ fn random(number: u64) -> Result<(Ring, State<f64, 2>), StepError> {
 fn every_member_is_the_trajectory_that_it_is_alone() {
     macro_rules! as_alone {
         ($($method:expr),+) => {$(
-            let ends = Ensemble::new(random).by($method, 0.1).steps(25).ends(1000..1150).unwrap();
-            assert_eq!(ends.len(), 150);
+            let ends = Ensemble::new(random).by($method, 0.1).steps(25).ends(1000..1000 + MEMBERS).unwrap();
+            assert_eq!(ends.len(), MEMBERS as usize);
             for (number, end) in (1000..).zip(&ends) {
                 let (system, start) = random(number).unwrap();
                 let mut run = system.by($method, 0.1).run(start);
@@ -62,7 +65,13 @@ fn the_number_of_threads_changes_no_bit() {
             let add =
                 |sum: &mut f64, record: &dalembert_ensemble::Record<'_, Ring, 2>| *sum += record.state.q[0];
             study
-                .reduce(0..3000, |_| 0.0, add, 0.0, |sum: &mut f64, outcome| *sum += outcome.value / 3.0)
+                .reduce(
+                    0..15 * MEMBERS,
+                    |_| 0.0,
+                    add,
+                    0.0,
+                    |sum: &mut f64, outcome| *sum += outcome.value / 3.0,
+                )
                 .unwrap()
         })
     };

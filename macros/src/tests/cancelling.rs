@@ -47,6 +47,9 @@ fn where_some_can_they_are_written() {
         ("q[0] - q[0].sin()", "0.0"),
         ("q[0] + (-q[0]).exp()", "0.0"),
         ("(q[0] - std::f64::consts::PI).cos()", "0.0"),
+        // 1 − sin q/q, and 1 − q^a, where a may be 0.
+        ("q[0]", "q[0].sin() / q[0]"),
+        ("q[0]", "q[0].powf(self.a)"),
         (
             "-1.0 / ((q[0] - self.a).powi(2) + 1.0).sqrt() - 1.0 / ((q[0] + self.a).powi(2) + 1.0).sqrt()",
             "0.0",

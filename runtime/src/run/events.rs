@@ -391,11 +391,11 @@ where
     #[inline]
     fn next(&mut self) -> Option<Self::Item> {
         let backwards = self.run().step_size() < T::Scalar::constant(0.0);
-        let after = |time: f64, until: f64| if backwards { time < until } else { time > until };
+        let is_before = |time: f64, until: f64| if backwards { time > until } else { time < until };
         loop {
             if let Some(until) = self.until
                 && !self.has_found()
-                && !after(until, self.run().time())
+                && !is_before(self.run().time(), until)
             {
                 return None;
             }

@@ -74,7 +74,8 @@ pub(crate) fn root<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     let solution = match quick(Equation::General, evaluate, &finish, state, start) {
         Ok(solution) => solution,
         Err(reached) => {
-            let of = Equations { evaluate, finish: &finish, inertia, cancelling: &none_cancel, state, h };
+            let cancelling = &|_: &_, _: &_| nalgebra::zero();
+            let of = Equations { evaluate, finish: &finish, inertia, cancelling, state, h };
             careful(&of, reached)?
         }
     };
@@ -91,14 +92,9 @@ pub(crate) fn root_from_rest<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     h: S,
     error: StepError,
 ) -> Result<SVector<S, N>, StepError> {
-    let finish = &alone(momentum);
-    let of = Equations { evaluate, finish, inertia, cancelling: &none_cancel, state, h };
+    let (finish, cancelling) = (&alone(momentum), &|_: &_, _: &_| nalgebra::zero());
+    let of = Equations { evaluate, finish, inertia, cancelling, state, h };
     Ok(from_rest(&of, &nalgebra::zero(), error)?.unknown)
-}
-
-/// Of an equation of which no terms are known to cancel.
-fn none_cancel<S: Scalar, const N: usize>(_: &SVector<S, N>, _: &SVector<S, N>) -> SVector<S, N> {
-    nalgebra::zero()
 }
 
 /// One momentum in the place of both.

@@ -1,5 +1,5 @@
-//! The runtime's floors: a module uses those below its own, none above; on one floor no modules use each
-//! other in a circle. Nor do files of the macros. Both are of the first level: `circles.rs` looks at all.
+//! The runtime's floors: a module uses those below its own, none above. Circles on one floor are found by
+//! `circles.rs`.
 //!
 //! `cargo test -p dalembert-tests --test project floors -- --nocapture` prints who uses whom.
 
@@ -20,9 +20,6 @@ const RUNTIME: Crate = Crate {
     root: &["crate", "dalembert"],
     levels: &[&["numbers"], &["system"], &["step"], &["rules"], &["run", "derivative"], &["theory"]],
 };
-
-/// One floor: what is held is that its modules use each other in no circle.
-const MACROS: Crate = Crate { root: &["crate"], levels: &[&["rayleigh_system"]] };
 
 impl Crate {
     fn level(&self, floor: &str) -> Option<usize> {
@@ -99,7 +96,6 @@ impl Plan {
                 }
             }
         }
-        plan.refuse_circles();
         plan
     }
 
@@ -122,45 +118,6 @@ impl Plan {
                 uses.entry(other.clone()).or_insert(said);
             }
         }
-    }
-
-    fn refuse_circles(&mut self) {
-        let mut done = BTreeSet::new();
-        for (floor, module) in self.within.keys() {
-            let mut way = vec![module.clone()];
-            if let Some(circle) = self.circle(floor, &mut way, &mut done) {
-                let said =
-                    circle.windows(2).map(|pair| &self.within[&(floor.clone(), pair[0].clone())][&pair[1]]);
-                let said = said.cloned().collect::<Vec<_>>().join(", ");
-                done.extend(way.into_iter().map(|module| (floor.clone(), module)));
-                self.refused.push(format!("{floor}: a circle {} ({said})", circle.join(" → ")));
-            }
-        }
-    }
-
-    /// The first circle met on a way on from the end of `way`.
-    fn circle(
-        &self,
-        floor: &str,
-        way: &mut Vec<String>,
-        done: &mut BTreeSet<(String, String)>,
-    ) -> Option<Vec<String>> {
-        let here = (floor.to_owned(), way.last()?.clone());
-        if done.contains(&here) {
-            return None;
-        }
-        for next in self.within.get(&here)?.keys() {
-            way.push(next.clone());
-            if let Some(start) = way[..way.len() - 1].iter().position(|module| module == next) {
-                return Some(way[start..].to_vec());
-            }
-            if let Some(circle) = self.circle(floor, way, done) {
-                return Some(circle);
-            }
-            way.pop();
-        }
-        done.insert(here);
-        None
     }
 
     /// The floors, from the highest down.
@@ -200,20 +157,6 @@ fn floors_use_what_is_below_them() {
     assert!(plan.within[&("step".into(), "legendre".into())].contains_key("newton"));
 }
 
-#[test]
-fn files_of_the_macros_use_each_other_in_no_circle() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../macros/src");
-    let mut files = Vec::new();
-    read(&root, &root, &mut files);
-    files.retain(|(path, _)| path.starts_with("rayleigh_system"));
-    files.sort();
-    let plan = Plan::of(&MACROS, &files);
-    println!("{}", plan.drawn());
-    assert!(plan.refused.is_empty(), "{:#?}", plan.refused);
-    // Not for want of looking.
-    assert!(plan.within[&("rayleigh_system".into(), "lower".into())].contains_key("graph"));
-}
-
 /// What is refused of a tree of files.
 fn refused(files: &[(&str, &str)]) -> Vec<String> {
     let files: Vec<_> = files.iter().map(|&(path, text)| (path.to_owned(), text.to_owned())).collect();
@@ -221,7 +164,7 @@ fn refused(files: &[(&str, &str)]) -> Vec<String> {
 }
 
 #[test]
-fn climbs_and_circles_are_refused() {
+fn climbs_are_refused() {
     let below = ("numbers.rs", "mod scalar; pub use scalar::Scalar;");
     let above = ("step.rs", "mod error; mod state; pub use error::StepError; pub use state::State;");
     let error = ("step/error.rs", "use crate::numbers::Scalar; pub struct StepError;");
@@ -248,9 +191,4 @@ fn climbs_and_circles_are_refused() {
         refused(&[beside]),
         ["run.rs: crate::derivative::Certificate goes from run to derivative beside it"]
     );
-
-    let around = ("step/error.rs", "pub struct StepError(crate::step::State);");
-    let circle = refused(&[below, above, around, state, scalar]);
-    let ways = "step/error.rs: crate::step::State, step/state.rs: crate::step::StepError";
-    assert_eq!(circle, [format!("step: a circle error → state → error ({ways})")]);
 }

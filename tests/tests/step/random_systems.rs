@@ -10,7 +10,7 @@ use dalembert::{
     rayleigh_system,
 };
 use proptest::prelude::*;
-use proptest::test_runner::FileFailurePersistence;
+use proptest::test_runner::{FailurePersistence, FileFailurePersistence};
 
 /// Two masses on springs of degree 2 and 4 between each other and to walls, coupled in the mass matrix;
 /// friction that is linear, depends on the place, or is dry but for a width.
@@ -156,12 +156,17 @@ where
     Ok(taken)
 }
 
+const MANY: u32 = 1_000;
+
+fn config(cases: u32) -> ProptestConfig {
+    let failure_persistence: Box<dyn FailurePersistence> =
+        Box::new(FileFailurePersistence::WithSource("failures"));
+    ProptestConfig { cases, failure_persistence: Some(failure_persistence), ..ProptestConfig::default() }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: if cfg!(debug_assertions) { 60 } else { ProptestConfig::default().cases.max(1_000) },
-        failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("failures"))),
-        ..ProptestConfig::default()
-    })]
+    // These take long without optimisation.
+    #![proptest_config(config(if cfg!(debug_assertions) { 60 } else { MANY.max(ProptestConfig::default().cases) }))]
 
     #[test]
     fn a_step_is_taken_or_named(
@@ -176,14 +181,26 @@ proptest! {
         taken_or_named(&system, Trapezoidal, h, start)?;
         taken_or_named(&system, Gauss::<3>, h, start)?;
     }
+
+    /// In units that are powers of two of q, of time and of mass, every bit of a run is the same.
+    #[test]
+    fn units_change_no_bit(
+        system in masses(6.0), q in pair(-4.0, 4.0), p in pair(-4.0, 4.0), h in decades(-6.0, 2.0),
+        units in [-40_i32..40, -20..20, -40..40],
+    ) {
+        // The cosine has a unit.
+        let system = Masses { c: 0.0, ..system };
+        let units = units.map(|power| 2_f64.powi(power));
+        prop_assert_eq!(run(&system, State { q, p }, h, [1.0; 3], Midpoint), run(&system, State { q, p }, h, units, Midpoint));
+        prop_assert_eq!(
+            run(&system, State { q, p }, h, [1.0; 3], Trapezoidal),
+            run(&system, State { q, p }, h, units, Trapezoidal)
+        );
+    }
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: ProptestConfig::default().cases.max(if cfg!(debug_assertions) { 256 } else { 1_000 }),
-        failure_persistence: Some(Box::new(FileFailurePersistence::WithSource("failures"))),
-        ..ProptestConfig::default()
-    })]
+    #![proptest_config(config(MANY.max(ProptestConfig::default().cases)))]
 
     /// Without friction (q, −p) runs the motion backwards.
     #[test]
@@ -237,22 +254,6 @@ proptest! {
         let linear = Masses { c: 0.0, quartic: 0.0, g: 0.0, dry: [0.0, 1.0], ..system };
         let (remainder, bound) = remainder(&linear, State { q, p }, h)?;
         prop_assert!(remainder <= bound, "{:e} {:e}", remainder, bound);
-    }
-
-    /// In units that are powers of two of q, of time and of mass, every bit of a run is the same.
-    #[test]
-    fn units_change_no_bit(
-        system in masses(6.0), q in pair(-4.0, 4.0), p in pair(-4.0, 4.0), h in decades(-6.0, 2.0),
-        units in [-40_i32..40, -20..20, -40..40],
-    ) {
-        // The cosine has a unit.
-        let system = Masses { c: 0.0, ..system };
-        let units = units.map(|power| 2_f64.powi(power));
-        prop_assert_eq!(run(&system, State { q, p }, h, [1.0; 3], Midpoint), run(&system, State { q, p }, h, units, Midpoint));
-        prop_assert_eq!(
-            run(&system, State { q, p }, h, [1.0; 3], Trapezoidal),
-            run(&system, State { q, p }, h, units, Trapezoidal)
-        );
     }
 
     /// f_d^∓ = ±(h²/4) ∂R/∂q − (h/2) ∂R/∂v at (q̄, v̄), and L_d^± = L_d ± R_d.

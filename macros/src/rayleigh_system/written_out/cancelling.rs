@@ -16,7 +16,7 @@
 use std::collections::HashMap;
 
 use super::super::differentiate::{Order, partials::partials};
-use super::super::graph::{Function, PairFunction};
+use super::super::graph::{Function, MOST_EXPRESSIONS, PairFunction};
 use super::*;
 
 /// How an expression is rounded: the larger includes the smaller.
@@ -27,32 +27,49 @@ enum Kind {
     Cancelling,
 }
 
+/// The most operations of p0 whose terms are looked at: sizes take up to eight times as many, and no system is to be
+/// refused for their length.
+const MOST: usize = MOST_OPERATIONS / 8;
+
+impl Kind {
+    fn of_sum(self, other: Self) -> Self {
+        if self == Self::Nonzero && other == Self::Nonzero { Self::Cancelling } else { self.max(other) }
+    }
+
+    fn of_product(self, other: Self) -> Self {
+        if self.max(other) == Self::Cancelling { Self::Cancelling } else { self.min(other) }
+    }
+
+    /// Of a function that does not vanish with its argument, and keeps the digits that it has.
+    fn not_vanishing(self) -> Self {
+        self.max(Self::Nonzero)
+    }
+
+    /// Of a function that loses the digits of an argument that does not vanish; `at_zero`: of one that does.
+    fn unless_nonzero(self, at_zero: Self) -> Self {
+        if self == Self::Vanishing { at_zero } else { Self::Cancelling }
+    }
+}
+
 impl Code<'_> {
-    /// Sizes of the terms that cancel, for each component of p0; nothing where none can, or where they would be too
-    /// long to be written.
+    /// Sizes of the terms that cancel, for each component of p0; nothing where none can, or where p0 is long.
     pub(super) fn cancelling_terms(&mut self, p0: &[Node]) -> Option<Vec<Node>> {
         let kinds = self.kinds(p0);
-        let cancelling: Vec<Node> =
-            p0.iter().copied().filter(|component| kinds[component] == Kind::Cancelling).collect();
-        if cancelling.is_empty() {
+        let may_cancel = |component: &Node| kinds[component] == Kind::Cancelling;
+        let has_room = self.graph.len() < MOST_EXPRESSIONS / 2;
+        if !p0.iter().any(may_cancel) || !has_room || self.graph.operations(p0.iter().copied()) > MOST {
             return None;
         }
         let mut sizes: HashMap<Node, Node> = HashMap::new();
-        for node in self.graph.reachable(cancelling) {
+        for node in self.graph.reachable(p0.iter().copied().filter(may_cancel)) {
             if kinds[&node] != Kind::Vanishing
                 && let Some(size) = self.rounded_in(node, &sizes)
             {
                 sizes.insert(node, size);
             }
         }
-        let terms: Vec<Node> = p0
-            .iter()
-            .map(|component| sizes.get(component).filter(|_| kinds[component] == Kind::Cancelling).copied())
-            .map(|size| self.or_zero(size))
-            .collect();
-        let is_short =
-            !self.graph.is_full() && self.graph.operations(terms.iter().copied()) <= MOST_OPERATIONS / 2;
-        is_short.then_some(terms)
+        let of = |component: &Node| sizes.get(component).filter(|_| may_cancel(component)).copied();
+        Some(p0.iter().map(|component| self.or_zero(of(component))).collect())
     }
 
     /// The kinds of all that `roots` are made of.
@@ -65,60 +82,36 @@ impl Code<'_> {
     }
 
     fn kind(&self, node: Node, of: impl Fn(Node) -> Kind) -> Kind {
-        use Kind::{Cancelling, Nonzero, Vanishing};
-        // A factor or a function of something that is known to its own size is.
-        let unless_cancelling = |kind: Kind| if kind == Cancelling { Cancelling } else { Nonzero };
-        let sum = |a: Node, b: Node| match (of(a), of(b)) {
-            (Nonzero, Nonzero) => Cancelling,
-            (a, b) => a.max(b),
-        };
-        let product = |a: Node, b: Node| match (of(a), of(b)) {
-            (Cancelling, _) | (_, Cancelling) => Cancelling,
-            (a, b) => a.min(b),
-        };
+        use Kind::{Nonzero, Vanishing};
         match self.graph.operation(node) {
             Operation::Coordinate(_) | Operation::Velocity(_) => Vanishing,
             _ if !self.graph.depends(node) => Nonzero,
-            Operation::Add(a, b) | Operation::Subtract(a, b) => sum(a, b),
-            Operation::Multiply(a, b) => product(a, b),
-            Operation::MultiplyAdd(a, b, c) => match (product(a, b), of(c)) {
-                (Nonzero, Nonzero) => Cancelling,
-                (product, c) => product.max(c),
-            },
-            Operation::Divide(a, b) => match of(b) {
-                Cancelling => Cancelling,
-                _ => of(a),
-            },
+            Operation::Add(a, b) | Operation::Subtract(a, b) => of(a).of_sum(of(b)),
+            Operation::Multiply(a, b) => of(a).of_product(of(b)),
+            Operation::MultiplyAdd(a, b, c) => of(a).of_product(of(b)).of_sum(of(c)),
+            // 1/b does not vanish, and sin q/q does not either.
+            Operation::Divide(a, b) if of(b) == Vanishing => of(a).not_vanishing(),
+            Operation::Divide(a, b) => of(a).of_product(of(b)),
             Operation::Negate(a) => of(a),
             Operation::Power(a, n) if n > 0 => of(a),
-            Operation::Power(a, _) => unless_cancelling(of(a)),
+            Operation::Power(a, _) => of(a).not_vanishing(),
             Operation::Function(function, x) => match function {
                 Function::Abs | Function::Sqrt | Function::Cbrt => of(x),
                 Function::Recip | Function::Exp | Function::Exp2 | Function::Cosh | Function::Signum => {
-                    unless_cancelling(of(x))
+                    of(x).not_vanishing()
                 }
                 Function::Cos | Function::Ln | Function::Log2 | Function::Log10 | Function::Acos => {
-                    if of(x) == Vanishing { Nonzero } else { Cancelling }
+                    of(x).unless_nonzero(Nonzero)
                 }
-                _ => {
-                    if of(x) == Vanishing {
-                        Vanishing
-                    } else {
-                        Cancelling
-                    }
-                }
+                _ => of(x).unless_nonzero(Vanishing),
             },
-            Operation::Pair(PairFunction::Hypot, a, b) => of(a).max(of(b)),
+            Operation::Pair(PairFunction::Hypot, a, b) | Operation::Select(_, a, b) => of(a).max(of(b)),
             Operation::Pair(PairFunction::Copysign, a, _) => of(a),
-            Operation::Pair(PairFunction::Powf, a, b) if !self.graph.depends(b) => of(a),
-            Operation::Pair(_, a, b) => {
-                if of(a).max(of(b)) == Vanishing {
-                    Nonzero
-                } else {
-                    Cancelling
-                }
+            Operation::Pair(PairFunction::Powf, a, b) if !self.graph.depends(b) => {
+                let vanishes = self.graph.constant_value(b).is_some_and(|exponent| exponent > 0.0);
+                if vanishes { of(a) } else { of(a).not_vanishing() }
             }
-            Operation::Select(_, a, b) => of(a).max(of(b)),
+            Operation::Pair(_, a, b) => of(a).max(of(b)).unless_nonzero(Nonzero),
             // An input; truth values have no size.
             _ => Nonzero,
         }

@@ -199,7 +199,7 @@ fn segments_of_random_damped_oscillators() {
         }
     }
     println!("{found} segments, worst error claimed {worst:.1e}, at most {most} evaluations; {errors:?}");
-    assert!(found > all * 9 / 10);
+    assert!(found > all * 19 / 20);
 }
 
 #[test]
@@ -265,7 +265,7 @@ fn cubic(_q: [f64; 1], v: [f64; 1], m: f64, r: f64) -> (f64, f64) {
 fn flows_of_random_cubic_drag() {
     let mut draws = Draws::new(13);
     let (mut found, mut escaped) = (0, 0);
-    let all = if cfg!(debug_assertions) { 40 } else { 200 };
+    let all = if cfg!(debug_assertions) { 50 } else { 200 };
     for draw in 0..all {
         let (m, r) = (draws.scale(1e-2, 1e2), draws.scale(1e-2, 1e2));
         let (v, h) = (draws.sign() * draws.scale(1e-2, 1e2), draws.sign() * draws.scale(1e-3, 1e2));
@@ -295,7 +295,7 @@ fn flows_of_random_cubic_drag() {
         }
     }
     println!("{found} flows, {escaped} escapes");
-    assert!(found > all * 2 / 5 && escaped > all / 20, "{found} {escaped}");
+    assert!(found > all * 2 / 5 && escaped > all / 10, "{found} {escaped}");
 }
 
 /// Free fall with drag c|v|v.

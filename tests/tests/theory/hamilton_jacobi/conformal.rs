@@ -147,11 +147,11 @@ fn the_family_integrates_the_motion_in_two_dimensions() {
     }
     let (z, exact) = (A * H, (-2.0 * A * H).exp());
     // Without optimisation eight steps take half a minute.
-    let studies = cfg!(feature = "studies");
-    let (constant, integrated): (usize, &[usize]) = if studies { (8, &[1, 4, 8]) } else { (3, &[3]) };
+    let all = !cfg!(debug_assertions);
+    let (constant, integrated): (usize, &[usize]) = if all { (8, &[1, 4, 8]) } else { (3, &[3]) };
     check("trapezoidal", Trapezoidal, (1.0 - z) / (1.0 + z), constant, integrated);
-    check("fitted trapezoidal", FittedTrapezoidal, exact, if studies { 8 } else { 2 }, &[2]);
-    check("Blanes–Moan 6", Splitting::blanes_moan_6(), exact, if studies { 4 } else { 1 }, &[1]);
+    check("fitted trapezoidal", FittedTrapezoidal, exact, if all { 8 } else { 2 }, &[2]);
+    check("Blanes–Moan 6", Splitting::blanes_moan_6(), exact, if all { 4 } else { 1 }, &[1]);
 }
 
 /// S_k by the closed form G = (1 − κ)L_d + cκ(h/2)V(q0) − κ(h/2)V(q1), written out here, and by quadrature:
