@@ -1,5 +1,5 @@
 //! Numbers: scalars, numbers side by side and numbers that carry derivatives; elementary functions,
-//! derivatives as data, matrices.
+//! derivatives as data, matrices, nonlinear equations at length.
 //!
 //! The lowest floor: it uses nothing else of this crate.
 
@@ -13,6 +13,8 @@ mod elementary;
 pub(crate) mod lanes;
 pub(crate) mod linear;
 pub(crate) mod members;
+pub(crate) mod nonlinear;
+mod precision;
 mod scalar;
 
 pub use anchors::{Angle, Reciprocal};
@@ -21,7 +23,8 @@ pub(crate) use compensated::{Compensated, CompensatedMembers};
 pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, Variations};
 pub use elementary::Elementary;
 pub use lanes::{LaneVector, Lanes, Mask};
-pub(crate) use linear::determinant_sign;
 pub use linear::{Banded, EntriesOfMembers, Factored, MatricesOfMembers, NewtonMatrix, Singular};
+pub(crate) use linear::{determinant_sign, dot};
 pub use members::{Blank, MemberVector, Members};
+pub(crate) use precision::Precision;
 pub use scalar::Scalar;

@@ -81,7 +81,7 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
     /// Of all lanes what `combine` makes of two, halves with halves: the logarithm of S such steps wait for
     /// each other.
     #[inline(always)]
-    pub(crate) fn folded(mut self, combine: impl Fn(T, T) -> T) -> T {
+    fn folded(mut self, combine: impl Fn(T, T) -> T) -> T {
         let mut lanes = &mut self.0[..];
         while let Some((low, high)) = lanes.split_at_mut_checked(lanes.len().div_ceil(2))
             && !high.is_empty()
@@ -94,12 +94,19 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
         self.0[0]
     }
 
+    /// The largest of the lanes, or the sum over all of `terms` where that is no finite number: NaN and infinity
+    /// stay in a sum.
+    #[inline(always)]
+    pub(crate) fn largest_unless(self, terms: Self) -> T {
+        let sum = terms.folded(|a, b| a + b);
+        if sum.is_finite() { self.folded(|a, b| if a > b { a } else { b }) } else { sum }
+    }
+
     /// The largest of the lanes' absolute values; not finite if one is not.
     #[inline(always)]
     pub(crate) fn amax(self) -> T {
         let sizes = self.abs();
-        let sum = sizes.folded(|a, b| a + b);
-        if sum.is_finite() { sizes.folded(|a, b| if a > b { a } else { b }) } else { sum }
+        sizes.largest_unless(sizes)
     }
 
     /// Lane by lane, self < other.

@@ -66,6 +66,9 @@ pub trait NewtonMatrix<S: Scalar, const N: usize>: Copy + core::fmt::Debug + sea
     #[must_use]
     fn plus(&self, other: &Self, factor: S) -> Self;
 
+    /// Makes rows and columns with an entry in `held` that is not 0 those of the unit matrix.
+    fn hold(&mut self, held: &[S]);
+
     /// Whether every entry of the row is a finite number.
     fn row_is_finite(&self, row: usize) -> bool {
         (0..N).all(|column| self.entry(row, column).is_finite())
@@ -76,6 +79,16 @@ pub trait NewtonMatrix<S: Scalar, const N: usize>: Copy + core::fmt::Debug + sea
 pub trait Factored<S: Scalar, const N: usize>: Copy + core::fmt::Debug {
     /// The solution x of A x = `right`.
     fn solve(&self, right: &SVector<S, N>) -> SVector<S, N>;
+}
+
+/// a·b, entry by entry: nalgebra's is unrolled, a thousand operations to compile in every program.
+#[inline]
+pub(crate) fn dot<S: Scalar, const N: usize>(a: &SVector<S, N>, b: &SVector<S, N>) -> S {
+    let mut sum = S::zero();
+    for (a, b) in a.as_slice().iter().zip(b.as_slice()) {
+        sum += *a * *b;
+    }
+    sum
 }
 
 /// The inverse of `matrix`, with one elimination.

@@ -1,8 +1,6 @@
 //! The scalar type of a system: `f64` or `f32`.
 
-use nalgebra::RealField;
-
-use crate::numbers::{Functions, Vectors};
+use crate::numbers::{Functions, Precision, Vectors, nonlinear::AtLength};
 
 mod sealed {
     pub trait Sealed {}
@@ -13,29 +11,24 @@ mod sealed {
 /// The scalar type that a system is written in: `f64` or `f32`.
 ///
 /// Sealed: tolerances are derived from [`EPSILON`](Scalar::EPSILON) and hold for IEEE formats only.
-pub trait Scalar: RealField + Copy + Functions + Vectors + sealed::Sealed {
+pub trait Scalar: Precision + Functions + Vectors + AtLength + sealed::Sealed {
     /// Distance from 1 to the next larger number.
-    const EPSILON: Self;
+    const EPSILON: Self = Self::SPACING;
 
     /// The smallest positive number that carries all its digits.
-    const SMALLEST_NORMAL: Self;
+    const SMALLEST_NORMAL: Self = Self::LEAST_NORMAL;
 
     /// The nearest scalar to an `f64` constant.
-    fn constant(value: f64) -> Self;
+    #[inline]
+    fn constant(value: f64) -> Self {
+        Self::nearest(value)
+    }
 
     /// This number in `f64`, exact for both types.
     fn widen(self) -> f64;
 }
 
 impl Scalar for f64 {
-    const EPSILON: Self = f64::EPSILON;
-    const SMALLEST_NORMAL: Self = f64::MIN_POSITIVE;
-
-    #[inline]
-    fn constant(value: f64) -> Self {
-        value
-    }
-
     #[inline]
     fn widen(self) -> f64 {
         self
@@ -43,14 +36,6 @@ impl Scalar for f64 {
 }
 
 impl Scalar for f32 {
-    const EPSILON: Self = f32::EPSILON;
-    const SMALLEST_NORMAL: Self = f32::MIN_POSITIVE;
-
-    #[inline]
-    fn constant(value: f64) -> Self {
-        value as f32
-    }
-
     #[inline]
     fn widen(self) -> f64 {
         f64::from(self)

@@ -29,7 +29,7 @@ use crate::numbers::{Compensated, Derivatives, Scalar, lanes::splat};
 use crate::step::{
     Defect, Discrete, DiscreteForce, DiscreteForceDerivatives, EquationAt, Flow, LegendreDerivatives,
     Linearization, Momenta, Quantity, Report, State, StateBy, Step, StepError, StepKernel,
-    newton::{ITERATIONS, along_h},
+    newton::ITERATIONS,
 };
 use crate::system::{ForcedLagrangian, GeneratedDiffers, VectorField};
 use coefficients::Coefficients;
@@ -371,7 +371,7 @@ fn solved_from<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, co
     }
 }
 
-/// The stages that those of shorter steps lead to, from the velocity `v` at the start ([`along_h`]).
+/// The stages that those of shorter steps lead to, from the velocity `v` at the start ([`along_h`](crate::numbers::nonlinear::AtLength::along_h)).
 #[cold]
 #[inline(never)]
 fn in_parts<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
@@ -379,11 +379,14 @@ fn in_parts<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const
     v: &SVector<T, N>,
 ) -> Option<Solution<T, N, S>> {
     let Problem { system, q0, p0, h, .. } = *problem;
-    let stages = along_h(splat(v), &|share, v| {
+    let mut stages = splat(v);
+    let is_reached = T::along_h(&mut |share| {
         let part = Problem::<'_, L, N, S>::new(system, q0, p0, h * share);
-        newton::solve(&part, v, ITERATIONS).ok().map(|solution| solution.v)
+        let found = newton::solve(&part, &stages, ITERATIONS);
+        stages = found.map_or(stages, |solution| solution.v);
+        found.is_ok()
     });
-    newton::solve(problem, &stages?, newton::MAX_ITERATIONS).ok()
+    if is_reached { newton::solve(problem, &stages, newton::MAX_ITERATIONS).ok() } else { None }
 }
 
 /// Where forces do not exist at `v`, as drag at rest may not: the stages from the velocity half a step later

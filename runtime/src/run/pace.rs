@@ -1,21 +1,24 @@
 //! The step sizes of a run that follows a time scale.
 
-use nalgebra::SVector;
-
 use crate::numbers::Scalar;
 use crate::run::Checkpoint;
 use crate::step::flow::velocity;
 use crate::step::{Flow, State, StepError};
 use crate::system::{Lagrangian, TimeScale};
 
-/// σ and ∇σ of a system at q.
-type Scale<L, const N: usize> =
-    fn(&L, &SVector<Scalars<L, N>, N>) -> (Scalars<L, N>, SVector<Scalars<L, N>, N>);
 type Scalars<L, const N: usize> = <L as Lagrangian<N>>::Scalar;
 
+/// [`Pace::next`] of a system that has a time scale: compiled where a run follows it, and in no other program.
+type Next<L, M, const N: usize> = fn(
+    &mut Pace<L, M, N>,
+    &L,
+    &<L as Flow<M, N>>::RunMemory,
+    &mut Checkpoint<Scalars<L, N>, N>,
+) -> Result<(), StepError>;
+
 /// How steps follow a time scale.
-pub(super) struct Pace<L: Lagrangian<N>, const N: usize> {
-    scale: Scale<L, N>,
+pub(super) struct Pace<L: Flow<M, N>, M, const N: usize> {
+    next: Next<L, M, N>,
     course: Course<L::Scalar>,
     /// The course and the clock before the step that is being taken: step size, origin, steps.
     before: (Course<L::Scalar>, L::Scalar, f64, u64),
@@ -32,7 +35,7 @@ struct Course<S> {
     rest: f64,
 }
 
-impl<L: Lagrangian<N>, const N: usize> Pace<L, N> {
+impl<L: Flow<M, N>, M, const N: usize> Pace<L, M, N> {
     pub(super) fn new(at: &Checkpoint<L::Scalar, N>) -> Self
     where
         L: TimeScale<N>,
@@ -41,7 +44,7 @@ impl<L: Lagrangian<N>, const N: usize> Pace<L, N> {
         let parameter_step = if is_first { at.step_size } else { L::Scalar::constant(0.0) };
         let course = Course { parameter_step, is_first, rest: 0.0 };
         let before = (course, at.step_size, at.origin, at.steps);
-        Self { scale: L::time_scale_gradient, course, before }
+        Self { next: Self::next_scaled, course, before }
     }
 
     /// Starts anew with Δτ.
@@ -59,20 +62,29 @@ impl<L: Lagrangian<N>, const N: usize> Pace<L, N> {
     ///
     /// # Errors
     /// [`StepError::TimeScale`]; those of [`State::velocity`].
-    pub(super) fn next<M>(
+    pub(super) fn next(
+        &mut self,
+        system: &L,
+        memory: &L::RunMemory,
+        at: &mut Checkpoint<L::Scalar, N>,
+    ) -> Result<(), StepError> {
+        (self.next)(self, system, memory, at)
+    }
+
+    fn next_scaled(
         &mut self,
         system: &L,
         memory: &L::RunMemory,
         at: &mut Checkpoint<L::Scalar, N>,
     ) -> Result<(), StepError>
     where
-        L: Flow<M, N>,
+        L: TimeScale<N>,
     {
         let of = L::Scalar::constant;
         let time = at.time();
         let State { q, .. } = &at.state;
         let velocity = velocity::<L, M, N>(system, memory, time, &at.state)?;
-        let (scale, gradient) = (self.scale)(system, q);
+        let (scale, gradient) = system.time_scale_gradient(q);
         let rate = gradient.dot(&velocity) / scale;
         let Course { mut parameter_step, is_first, mut rest } = self.course;
         let before = if is_first { parameter_step * scale } else { at.step_size };

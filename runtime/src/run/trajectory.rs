@@ -46,7 +46,7 @@ where
     pub(super) memory: L::RunMemory,
     course: Course,
     /// How steps follow a time scale, if they do.
-    pub(super) pace: Option<Pace<L, N>>,
+    pub(super) pace: Option<Pace<L, M, N>>,
 }
 
 impl<'a, L, M, const N: usize> Trajectory<'a, L, M, N>

@@ -51,15 +51,19 @@ impl<S: Scalar, const N: usize> State<S, N> {
             return self.velocity_by_newton(system, Some(error));
         }
         let v = at_rest.d22.solve(&(self.p - at_rest.d2)).unwrap_or(rest);
-        let residual = system.lagrangian_gradient(&self.q, &v).d2 - self.p;
-        let (_, _, is_root) = held_against(&residual, &estimated_floor(&self.p, &at_rest.d22, &v));
-        if is_root && L::STRUCTURE.constant_mass_matrix {
-            return Ok(v);
-        }
-        self.velocity_by_newton(system, None)
+        let (momentum, mass) = if L::STRUCTURE.constant_mass_matrix {
+            (system.lagrangian_gradient(&self.q, &v).d2, at_rest.d22)
+        } else {
+            let l = system.lagrangian_derivatives(&self.q, &v);
+            (l.d2, l.d22)
+        };
+        let (_, _, is_root) = held_against(&(momentum - self.p), &estimated_floor(&self.p, &mass, &v));
+        if is_root { Ok(v) } else { self.velocity_by_newton(system, None) }
     }
 
     /// By Newton's method from rest or, with the `error` that this led to, from away from it.
+    #[cold]
+    #[inline(never)]
     fn velocity_by_newton<L: Lagrangian<N, Scalar = S> + ?Sized>(
         &self,
         system: &L,
@@ -72,12 +76,7 @@ impl<S: Scalar, const N: usize> State<S, N> {
         };
         let momentum = |q: &SVector<S, N>, v: &SVector<S, N>| system.lagrangian_gradient(q, v).d2;
         let mass = |q: &SVector<S, N>, v: &SVector<S, N>| system.lagrangian_derivatives(q, v).d22;
-        let h = S::zero();
-        let velocity = match error {
-            None => newton::root(&transform, &momentum, &mass, self, h, nalgebra::zero()),
-            Some(error) => newton::root_from_rest(&transform, &momentum, &mass, self, h, error),
-        };
-        velocity.map_err(|error| match error {
+        newton::root_from_rest(&transform, &momentum, &mass, self, error).map_err(|error| match error {
             StepError::SingularNewtonMatrix { column, .. } => StepError::DegenerateLagrangian { column },
             StepError::NoRealSolution { residual, .. } => StepError::NoVelocity { residual },
             other => other,

@@ -17,22 +17,16 @@ use nalgebra::{SMatrix, SVector};
 use crate::numbers::{NewtonMatrix, Scalar};
 use crate::step::{Momenta, Report, State, StepError, StepKernel};
 
+mod at_length;
 mod bounded;
-mod careful;
-mod continuation;
 mod rounding;
-mod start;
-mod verdict;
-pub(crate) use bounded::bounded;
-use careful::careful;
-pub(crate) use careful::shorter;
-pub(crate) use continuation::{ITERATIONS, StepEquations, along_h, at_length};
-pub(crate) use rounding::{
-    AT_FLOOR, PLACES, SLOW, SMALL, estimated_floor, finite_part, held_against, held_by_weights, is_sensible,
+pub(crate) use crate::numbers::nonlinear::{
+    AT_FLOOR, ITERATIONS, PLACES, SLOW, SMALL, add_finite_part, is_sensible, shorter,
 };
-use start::from_rest;
-pub(crate) use start::is_rest;
-use verdict::Equations;
+use crate::numbers::nonlinear::{Room, Unsolved, Way};
+pub(crate) use at_length::StepEquations;
+pub(crate) use bounded::bounded;
+pub(crate) use rounding::{estimated_floor, held_against, held_by_weights};
 
 /// A root, with both momenta there.
 pub(crate) struct Solution<S, const N: usize> {
@@ -68,33 +62,70 @@ pub(crate) fn root<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     inertia: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, N>,
     state: &State<S, N>,
     h: S,
-    start: SVector<S, N>,
+    mut start: SVector<S, N>,
 ) -> Result<SVector<S, N>, StepError> {
     let finish = alone(momentum);
-    let solution = match quick(Equation::General, evaluate, &finish, state, start) {
-        Ok(solution) => solution,
+    let way = match quick(Equation::General, evaluate, &finish, state, start) {
+        Ok(solution) => return Ok(solution.unknown),
         Err(reached) => {
-            let cancelling = &|_: &_, _: &_| nalgebra::zero();
-            let of = Equations { evaluate, finish: &finish, inertia, cancelling, state, h };
-            careful(&of, reached)?
+            start = reached.v;
+            Way::Damped { iterations: reached.iterations }
         }
     };
-    Ok(solution.unknown)
+    at_length(evaluate, momentum, inertia, (state, h), way, &start)
 }
 
-/// [`root`] from rest or, where rest is a singular point, from away from it; `error` is what rest led to.
-#[cold]
+/// [`root`] from rest, by the damped method. Where that has led to an `error`, a matrix that is singular there
+/// or not finite, from away from rest.
 pub(crate) fn root_from_rest<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
     momentum: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
     inertia: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, N>,
     state: &State<S, N>,
-    h: S,
-    error: StepError,
+    error: Option<StepError>,
 ) -> Result<SVector<S, N>, StepError> {
-    let (finish, cancelling) = (&alone(momentum), &|_: &_, _: &_| nalgebra::zero());
-    let of = Equations { evaluate, finish, inertia, cancelling, state, h };
-    Ok(from_rest(&of, &nalgebra::zero(), error)?.unknown)
+    let way = match error {
+        None => Way::Damped { iterations: 0 },
+        Some(StepError::NonFinite { index, .. }) => Way::FromRest { error: Unsolved::NonFinite { index } },
+        Some(StepError::DegenerateLagrangian { column }) => {
+            Way::FromRest { error: Unsolved::Singular { iteration: 0, column } }
+        }
+        Some(other) => return Err(other),
+    };
+    at_length(evaluate, momentum, inertia, (state, S::zero()), way, &nalgebra::zero())
+}
+
+/// [`root`] by this way.
+fn at_length<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+    evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
+    momentum: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
+    inertia: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, N>,
+    (state, h): (&State<S, N>, S),
+    way: Way<'_, S>,
+    start: &SVector<S, N>,
+) -> Result<SVector<S, N>, StepError> {
+    let alone = alone(momentum);
+    let of = StepEquations {
+        kernel: &|q, v, _| evaluate(q, v),
+        momenta: &|q, v, _| alone(q, v),
+        inertia,
+        cancelling: &|_, _, _| nalgebra::zero(),
+        state,
+        h,
+    };
+    Ok(of.solved(way, start)?.unknown)
+}
+
+/// Whether the `residual` vanishes with the velocity in every coordinate, so that rest is its root.
+#[cold]
+pub(crate) fn is_rest<S: Scalar, const N: usize>(
+    residual: &dyn Fn(&SVector<S, N>) -> SVector<S, N>,
+    p: &SVector<S, N>,
+) -> bool {
+    let residual = &mut |v: &[S], into: &mut [S]| {
+        at_length::write(into, &residual(&at_length::vector(v)));
+    };
+    S::is_rest(residual, p.as_slice(), Room::new(at_length::room::<S, N>().as_flattened_mut(), N))
 }
 
 /// One momentum in the place of both.
@@ -111,8 +142,8 @@ fn alone<S: Scalar, const N: usize>(
 /// Where the undamped method left off: the last iterate that lowered the residual, and the corrections that
 /// led there.
 pub(crate) struct Reached<S, const N: usize> {
-    v: SVector<S, N>,
-    iterations: u32,
+    pub(crate) v: SVector<S, N>,
+    pub(crate) iterations: u32,
 }
 
 /// The undamped method, as long as it contracts as Newton's does.

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::numbers::{NewtonMatrix, Scalar};
+use crate::numbers::{NewtonMatrix, Scalar, nonlinear::Way};
 use crate::step::{
     BoundedStep, Momenta, Quantity, State, Step, StepError, StepKernel, newton,
     newton::{Equation, StepEquations},
@@ -42,8 +42,12 @@ where
         Err(reached) => {
             let (kernel, momenta, inertia, cancelling) = (&kernel, &momenta, &inertia, &cancelling);
             let of = StepEquations { kernel, momenta, inertia, cancelling, state, h };
-            newton::at_length(&of, start, guess.is_some(), reached)
-                .map_err(|error| in_arguments(state, guess).unwrap_or(error))?
+            // A guess is the caller's: from elsewhere there may be another root.
+            let way = match guess {
+                Some(_) => Way::Damped { iterations: reached.iterations },
+                None => Way::Every { iterations: reached.iterations, start: start.as_slice() },
+            };
+            of.solved(way, &reached.v).map_err(|error| in_arguments(state, guess).unwrap_or(error))?
         }
     };
     // An argument that is not finite shows here or has failed above: none is looked at before.

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::numbers::Scalar;
+use crate::numbers::{Scalar, dot};
 use crate::step::{Flow, Memory, State, Step, StepError, or_without_guess};
 
 /// The latest four mean velocities: the next, extrapolated to order 3, is the guess for Newton's method.
@@ -81,7 +81,7 @@ impl<S: Scalar, const N: usize> VelocityHistory<S, N> {
         let [a, b, c, d] = &self.velocities;
         let mut best = (known.min(1), a - b);
         let mut consider = |count: usize, error: SVector<S, N>| {
-            if count < known && error.norm_squared() < best.1.norm_squared() {
+            if count < known && dot(&error, &error) < dot(&best.1, &best.1) {
                 best = (count, error);
             }
         };

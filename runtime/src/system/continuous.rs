@@ -8,7 +8,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::numbers::{CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, Variations};
+use crate::numbers::{CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, Variations, dot};
 use crate::system::{GeneratedDiffers, Structure};
 
 /// A Lagrangian L(q, v) on TQ, Q = ℝᴺ, with its derivatives.
@@ -91,7 +91,7 @@ pub trait Lagrangian<const N: usize> {
     #[inline]
     fn energy(&self, q: &SVector<Self::Scalar, N>, v: &SVector<Self::Scalar, N>) -> Self::Scalar {
         let l = self.lagrangian_gradient(q, v);
-        v.dot(&l.d2) - l.value
+        dot(v, &l.d2) - l.value
     }
 }
 

@@ -37,7 +37,7 @@ pub trait Vectors: Sized {
 macro_rules! in_chunks {
     ([$($vector:ident $width:literal)*] $arguments:tt => $wide:expr, $alone:expr) => {{
         $(
-            if S.is_multiple_of($width) {
+            if const { S.is_multiple_of($width) } {
                 return in_chunks!(@chunks $vector $width $arguments => $wide);
             }
         )*
@@ -103,7 +103,7 @@ macro_rules! vectors {
                     in_chunks!($vectors (a, b, c) => a.mul_add(b, c), nalgebra::ComplexField::mul_add(a, b, c))
                 } else if is_fused {
                     // `wide` rounds twice where there is no instruction.
-                    core::array::from_fn(|i| nalgebra::ComplexField::mul_add(a[i], b[i], c[i]))
+                    in_chunks!(@alone (a, b, c) => nalgebra::ComplexField::mul_add(a, b, c))
                 } else {
                     in_chunks!($vectors (a, b, c) => a * b + c, a * b + c)
                 }

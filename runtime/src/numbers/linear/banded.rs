@@ -169,6 +169,18 @@ impl<S: Scalar, const N: usize, const W: usize> NewtonMatrix<S, N> for Banded<S,
         sum
     }
 
+    #[cold]
+    fn hold(&mut self, held: &[S]) {
+        let is_held = |i: usize| held.get(i).is_some_and(|held| *held != S::zero());
+        for (i, row) in self.rows.iter_mut().enumerate() {
+            for (k, entry) in row.iter_mut().enumerate() {
+                if is_held(i) || (i + k).checked_sub(Self::B).is_some_and(is_held) {
+                    *entry = if k == Self::B { S::one() } else { S::zero() };
+                }
+            }
+        }
+    }
+
     fn row_is_finite(&self, row: usize) -> bool {
         self.rows.get(row).is_none_or(|row| row.iter().all(|entry| entry.is_finite()))
     }

@@ -1,7 +1,5 @@
 //! Dense systems: closed forms to N = 2, then elimination with scaled partial pivoting.
 
-use core::array;
-
 use nalgebra::{SMatrix, SVector};
 
 use super::of_members::DenseOfMembers;
@@ -50,6 +48,18 @@ impl<S: Scalar, const N: usize> NewtonMatrix<S, N> for SMatrix<S, N, N> {
     #[inline]
     fn plus(&self, other: &Self, factor: S) -> Self {
         self + other * factor
+    }
+
+    #[cold]
+    fn hold(&mut self, held: &[S]) {
+        let is_held = |i: usize| held.get(i).is_some_and(|held| *held != S::zero());
+        for i in 0..N {
+            for j in 0..N {
+                if is_held(i) || is_held(j) {
+                    self[(i, j)] = if i == j { S::one() } else { S::zero() };
+                }
+            }
+        }
     }
 }
 
@@ -108,8 +118,12 @@ impl<S: Scalar, const N: usize> Factored<S, N> for FactoredDense<S, N> {
     #[inline]
     fn solve(&self, right: &SVector<S, N>) -> SVector<S, N> {
         // An index that nothing shows to be within bounds would bring a panic into the step.
-        let mut x: SVector<S, N> =
-            SVector::from_fn(|i, _| right.get(self.order[i]).copied().unwrap_or_else(S::zero));
+        let mut x: SVector<S, N> = nalgebra::zero();
+        for i in 0..N {
+            if let Some(&entry) = right.as_slice().get(self.order[i]) {
+                x[i] = entry;
+            }
+        }
         for i in 1..N {
             for k in 0..i {
                 let known = x[k];
@@ -132,9 +146,13 @@ impl<S: Scalar, const N: usize> Factored<S, N> for FactoredDense<S, N> {
 pub(super) fn factored<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,
 ) -> Result<FactoredDense<S, N>, Singular> {
-    let mut rows: [[S; N]; N] = array::from_fn(|i| array::from_fn(|j| matrix[(i, j)]));
-    let mut order: [usize; N] = array::from_fn(|i| i);
-    let mut scale: [S; N] = array::from_fn(|i| inverse_magnitude(&rows[i]));
+    let (mut rows, mut order, mut scale) = ([[S::zero(); N]; N], [0; N], [S::zero(); N]);
+    for i in 0..N {
+        for j in 0..N {
+            rows[i][j] = matrix[(i, j)];
+        }
+        (order[i], scale[i]) = (i, inverse_magnitude(&rows[i]));
+    }
     let mut reciprocals = [S::zero(); N];
     let mut suspicious = false;
 
@@ -203,7 +221,10 @@ fn check_cancellation<S: Scalar, const N: usize>(
 
 #[inline]
 fn inverse_magnitude<S: Scalar, const N: usize>(row: &[S; N]) -> S {
-    let largest = row.iter().fold(S::zero(), |largest, entry| largest.max(entry.abs()));
+    let mut largest = S::zero();
+    for entry in row {
+        largest = largest.max(entry.abs());
+    }
     if largest > S::zero() { S::one() / largest } else { S::zero() }
 }
 

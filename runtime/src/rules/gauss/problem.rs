@@ -275,6 +275,5 @@ pub(super) fn in_units<T: Scalar, const N: usize, const S: usize>(
         // In the sum NaN and infinity stay.
         sum = sum + units;
     }
-    let sum = sum.folded(|a, b| a + b);
-    if sum.is_finite() { largest.folded(|a, b| if a > b { a } else { b }) } else { sum }
+    largest.largest_unless(sum)
 }

@@ -6,7 +6,7 @@ use nalgebra::SVector;
 
 use super::problem::{Problem, in_units_of};
 use crate::numbers::{LaneVector, Lanes, Scalar, lanes::splat};
-use crate::step::newton::{AT_FLOOR, PLACES, finite_part, is_sensible};
+use crate::step::newton::{AT_FLOOR, PLACES, add_finite_part, is_sensible};
 use crate::system::ForcedLagrangian;
 
 /// The residual that is largest in units of its floor, and this floor.
@@ -53,21 +53,22 @@ pub(super) fn is_decided<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N:
     v: &LaneVector<T, N, S>,
     floor: &SVector<T, N>,
 ) -> bool {
-    let momentum = finite_part(&problem.p0.value);
-    if is_sensible(floor, &momentum) {
+    let mut terms = SVector::<T, N>::zeros();
+    let is_decided = |terms: &SVector<T, N>| is_sensible(floor.as_slice(), terms.as_slice());
+    let mut add = |of: &[T], factor: T| {
+        add_finite_part(terms.as_mut_slice(), factor, of);
+        is_decided(&terms)
+    };
+    if add(problem.p0.value.as_slice(), T::one()) {
         return true;
     }
     let rest = splat(&SVector::zeros());
-    let size = |v: &LaneVector<T, N, S>| {
+    let size = |v: &LaneVector<T, N, S>| -> [T; N] {
         let stages = problem.stages(v);
-        let momenta = problem.momenta(&stages.rate);
-        SVector::<T, N>::from_fn(|a, _| momenta[a].amax())
+        problem.momenta(&stages.rate).map(|stages| stages.amax())
     };
-    let terms = momentum + finite_part(&size(&rest)) + finite_part(&size(v));
-    is_sensible(floor, &terms) || {
-        let at_rest = rounding(problem, &rest) * (T::one() / T::EPSILON);
-        is_sensible(floor, &(terms + finite_part(&at_rest)))
-    }
+    add(&size(&rest), T::one());
+    add(&size(v), T::one()) || add(rounding(problem, &rest).as_slice(), T::one() / T::EPSILON)
 }
 
 /// The rounding of the residuals at the stages, measured: each coordinate of Q is moved by [`PLACES`] last

@@ -109,8 +109,7 @@ impl<T: Scalar> Allowance<T> {
             // In the sum NaN and infinity stay.
             sum = sum + (residual + correction);
         }
-        let sum = sum.folded(|a, b| a + b);
-        if sum.is_finite() { largest.folded(|a, b| if a > b { a } else { b }) } else { sum }
+        largest.largest_unless(sum)
     }
 }
 

@@ -13,7 +13,9 @@ use nalgebra::SVector;
 use crate::numbers::{Factored, NewtonMatrix, Scalar};
 use crate::step::{
     Discrete, KeptOf, Memory, MemoryInLanes, Momenta, Report, State, Step, StepError, VelocityHistory,
-    newton::{AT_FLOOR, estimated_floor, finite_part, held_against, held_by_weights, is_sensible, weighted},
+    newton::{
+        AT_FLOOR, add_finite_part, estimated_floor, held_against, held_by_weights, is_sensible, weighted,
+    },
 };
 
 /// A correction must leave at most this share of the residual.
@@ -290,8 +292,11 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         let even = now.plus(&matrix(-self.h), S::one()).plus(&mass, -S::constant(2.0));
         let unit = S::constant(4.0) * S::EPSILON / self.h.abs();
         let floor = estimated_floor(p, &now, &v) + even.magnitudes(&(q * unit));
-        let terms = finite_part(p) + finite_part(&mass.magnitudes(&v));
-        let is_sensible = is_sensible(&floor, &terms);
+        let mut terms: SVector<S, N> = nalgebra::zero();
+        for of in [p, &mass.magnitudes(&v)] {
+            add_finite_part(terms.as_mut_slice(), S::one(), of.as_slice());
+        }
+        let is_sensible = is_sensible(floor.as_slice(), terms.as_slice());
         let (residual, floor, is_root) = held_against(&(momenta.p0 - p), &floor);
         let report = Report { iterations, damped: 0, residual, floor, last_correction: correction.amax() };
         if !is_root || !is_sensible {

@@ -2,10 +2,9 @@
 
 use nalgebra::SVector;
 
-use super::careful::{first_non_finite, unsolvable};
-use super::rounding::{estimated_floor, held_against, in_units_of};
+use super::rounding::{estimated_floor, held_against};
 use super::{Equation, Solution, is_known_at, largest};
-use crate::numbers::{NewtonMatrix, Scalar};
+use crate::numbers::{NewtonMatrix, Scalar, Singular, nonlinear::in_units_of};
 use crate::step::{Momenta, Quantity, Report, State, StepError, StepKernel};
 
 /// The best iterate of at most `bound` undamped Newton iterations, and whether it is the solution, by the
@@ -30,13 +29,18 @@ pub(crate) fn bounded<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
             Ok(correction) => correction,
             // What was reached before stands.
             Err(_) if best.is_some() => break,
-            Err(singular) => return Err(unsolvable(singular, &residual, &kernel.matrix, iteration, 0)),
+            Err(Singular { column }) => {
+                return Err(match first_non_finite(&residual, &kernel.matrix) {
+                    Some(index) => StepError::NonFinite { quantity: Quantity::Derivatives, index },
+                    None => StepError::SingularNewtonMatrix { iteration, column },
+                });
+            }
         };
         let next = v - correction;
         let momenta = finish(q, &next);
         let remaining = momenta.p0 - p;
         let floor = estimated_floor(p, &kernel.matrix, &next);
-        let size = in_units_of(&remaining, &floor);
+        let size = in_units_of(remaining.as_slice(), floor.as_slice());
         // A guess or a step that leaves the domain of L, R or f.
         if !size.is_finite() && best.is_none() {
             let index = first_non_finite(&residual, &kernel.matrix)
@@ -60,4 +64,12 @@ pub(crate) fn bounded<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         Some((_, solution, is_solved)) => Ok((solution, is_solved)),
         None => Err(StepError::NonFinite { quantity: Quantity::Derivatives, index: 0 }),
     }
+}
+
+#[cold]
+fn first_non_finite<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+    residual: &SVector<S, N>,
+    matrix: &M,
+) -> Option<usize> {
+    (0..N).find(|&i| !residual[i].is_finite() || !matrix.row_is_finite(i))
 }

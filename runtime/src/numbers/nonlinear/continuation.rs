@@ -1,0 +1,138 @@
+//! Steps in parts: the root that Newton's method misses from the state alone.
+//!
+//! The root of a step is a curve v̄(h) that starts at the velocity of the state; the step continues the motion
+//! if it lies on it. Where no iteration from the state leads to the root, h grows part by part, each solved
+//! from the root before: a short homotopy (E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990,
+//! chapter 2). It ends where the curve turns back, and then there is no such root.
+
+use super::careful::{MAX_ITERATIONS, careful};
+use super::equations::{Equations, Root, Solved, Unsolved, Way};
+use super::start::{from_rest, is_rest};
+use super::vectors::{Room, copy};
+use crate::numbers::Precision;
+
+/// The first part of h, from which parts double, and the least.
+const FIRST: f64 = 1.0 / 1024.0;
+
+/// Parts that are tried.
+const PARTS: u32 = 24;
+
+/// Iterations for each: what needs more has left the root.
+pub(crate) const ITERATIONS: u32 = 10;
+
+/// What is compiled once for each scalar type, in this crate, and not in each program that has a system.
+pub trait AtLength: Sized {
+    /// The solution of the equation by this way; `root` has the velocity to start from.
+    ///
+    /// # Errors
+    /// What the damped method ends with, or what it ends with from rest.
+    fn at_length(
+        of: Equations<'_, Self>,
+        way: Way<'_, Self>,
+        root: Root<'_, Self>,
+        room: Room<'_, Self>,
+    ) -> Result<Solved<Self>, Unsolved<Self>>;
+
+    /// Whether the `residual`, a function of v that is written to the second slice, vanishes with the velocity
+    /// in every coordinate, so that rest is its root.
+    fn is_rest(residual: &mut dyn FnMut(&[Self], &mut [Self]), p: &[Self], room: Room<'_, Self>) -> bool;
+
+    /// Whether the root is reached for the whole of h, part by part; `root` goes on to the root of this share
+    /// of h from that of another, if it is near.
+    fn along_h(root: &mut dyn FnMut(Self) -> bool) -> bool;
+}
+
+macro_rules! compiled_for {
+    ($($scalar:ty)*) => {$(
+        impl AtLength for $scalar {
+            #[cold]
+            #[inline(never)]
+            fn at_length(
+                mut of: Equations<'_, Self>,
+                way: Way<'_, Self>,
+                mut root: Root<'_, Self>,
+                room: Room<'_, Self>,
+            ) -> Result<Solved<Self>, Unsolved<Self>> {
+                solved(&mut of, way, &mut root, room)
+            }
+
+            #[cold]
+            #[inline(never)]
+            fn is_rest(
+                residual: &mut dyn FnMut(&[Self], &mut [Self]),
+                p: &[Self],
+                room: Room<'_, Self>,
+            ) -> bool {
+                is_rest(residual, p, room)
+            }
+
+            #[cold]
+            #[inline(never)]
+            fn along_h(root: &mut dyn FnMut(Self) -> bool) -> bool {
+                along_h(root)
+            }
+        }
+    )*};
+}
+compiled_for!(f64 f32);
+
+fn solved<S: Precision>(
+    of: &mut Equations<'_, S>,
+    way: Way<'_, S>,
+    root: &mut Root<'_, S>,
+    mut room: Room<'_, S>,
+) -> Result<Solved<S>, Unsolved<S>> {
+    match way {
+        Way::Damped { iterations } => careful(of, iterations, root, room),
+        Way::FromRest { error } => {
+            let rest = room.zeros();
+            from_rest(of, rest, error, root, room)
+        }
+        Way::Every { iterations, start } => careful(of, iterations, root, room.inner())
+            .or_else(|error| from_rest(of, start, error, root, room.inner()))
+            .or_else(|error| in_parts(of, start, root, room).ok_or(error)),
+    }
+}
+
+/// The root for the whole of h, from `start` part by part.
+fn in_parts<S: Precision>(
+    of: &mut Equations<'_, S>,
+    start: &[S],
+    root: &mut Root<'_, S>,
+    mut room: Room<'_, S>,
+) -> Option<Solved<S>> {
+    let at = room.vector();
+    copy(at, start);
+    let (h, held) = (of.h, of.held);
+    let is_reached = along_h(&mut |share| {
+        copy(root.v, at);
+        let part = careful(&mut of.with(h * share, held), MAX_ITERATIONS - ITERATIONS, root, room.inner());
+        if part.is_ok() {
+            copy(at, root.v);
+        }
+        part.is_ok()
+    });
+    copy(root.v, at);
+    if is_reached { careful(of, 0, root, room).ok() } else { None }
+}
+
+fn along_h<S: Precision>(root: &mut dyn FnMut(S) -> bool) -> bool {
+    let first = S::nearest(FIRST);
+    let (mut reached, mut part) = (S::zero(), first);
+    for _ in 0..PARTS {
+        let share = if reached + part < S::one() { reached + part } else { S::one() };
+        if root(share) {
+            if share == S::one() {
+                return true;
+            }
+            reached = share;
+            part += part;
+        } else if part <= first {
+            // The first part is so short that only what has no motion at all fails.
+            return false;
+        } else {
+            part *= S::nearest(0.25);
+        }
+    }
+    false
+}

@@ -1,0 +1,84 @@
+//! Vectors of any length, as slices of one buffer.
+
+use crate::numbers::Precision;
+
+/// Vectors in use at once where calls are deepest: 7 from rest, 7 damped, 4 for a verdict, 2 for forces at rest, 5 for
+/// rounding, 5 for a momentum where others are held.
+pub(crate) const VECTORS: usize = 30;
+
+/// Room for vectors of one length, in a buffer of the caller's.
+///
+/// What is taken is given back when the `Room` that it was taken from ends: an [`inner`](Room::inner) one for
+/// each function that is called.
+pub struct Room<'r, S> {
+    left: &'r mut [S],
+    length: usize,
+}
+
+impl<'r, S: Precision> Room<'r, S> {
+    /// Room in `buffer` for vectors of this `length`.
+    pub(crate) fn new(buffer: &'r mut [S], length: usize) -> Self {
+        Self { left: buffer, length }
+    }
+
+    /// What is left, for as long as it is borrowed.
+    pub(super) fn inner(&mut self) -> Room<'_, S> {
+        Room { left: self.left, length: self.length }
+    }
+
+    /// A vector, of whatever is there.
+    pub(super) fn vector(&mut self) -> &'r mut [S] {
+        let left = core::mem::take(&mut self.left);
+        let Some((vector, left)) = left.split_at_mut_checked(self.length) else {
+            debug_assert!(false, "no room for another vector: there are {VECTORS}");
+            return &mut [];
+        };
+        self.left = left;
+        vector
+    }
+
+    /// Several vectors, of whatever is there.
+    pub(super) fn vectors<const K: usize>(&mut self) -> [&'r mut [S]; K] {
+        core::array::from_fn(|_| self.vector())
+    }
+
+    /// A vector of zeros.
+    pub(super) fn zeros(&mut self) -> &'r mut [S] {
+        let vector = self.vector();
+        vector.fill(S::zero());
+        vector
+    }
+}
+
+/// `to` = `from`.
+pub(super) fn copy<S: Copy>(to: &mut [S], from: &[S]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+    }
+}
+
+/// `x` += `factor` `y`.
+pub(super) fn add<S: Precision>(x: &mut [S], factor: S, y: &[S]) {
+    for (x, y) in x.iter_mut().zip(y) {
+        *x += *y * factor;
+    }
+}
+
+/// `to` = `x` + `factor` `y`.
+pub(super) fn sum<S: Precision>(to: &mut [S], x: &[S], factor: S, y: &[S]) {
+    for ((to, x), y) in to.iter_mut().zip(x).zip(y) {
+        *to = *x + *y * factor;
+    }
+}
+
+/// `x` −= `y`.
+pub(super) fn subtract<S: Precision>(x: &mut [S], y: &[S]) {
+    for (x, y) in x.iter_mut().zip(y) {
+        *x -= *y;
+    }
+}
+
+/// max |xᵢ|.
+pub(super) fn largest<S: Precision>(x: &[S]) -> S {
+    x.iter().fold(S::zero(), |largest, entry| if entry.abs() > largest { entry.abs() } else { largest })
+}
