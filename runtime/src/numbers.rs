@@ -16,6 +16,7 @@ pub(crate) mod members;
 pub(crate) mod nonlinear;
 mod precision;
 mod scalar;
+mod singular;
 
 pub use anchors::{Angle, Reciprocal};
 pub(crate) use arrays::{Functions, Vectors, product_plus};
@@ -23,8 +24,9 @@ pub(crate) use compensated::{Compensated, CompensatedMembers};
 pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, Variations};
 pub use elementary::Elementary;
 pub use lanes::{LaneVector, Lanes, Mask};
-pub use linear::{Banded, EntriesOfMembers, Factored, MatricesOfMembers, NewtonMatrix, Singular};
+pub use linear::{Banded, EntriesOfMembers, Factored, MatricesOfMembers, NewtonMatrix};
 pub(crate) use linear::{determinant_sign, dot};
 pub use members::{Blank, MemberVector, Members};
 pub(crate) use precision::Precision;
 pub use scalar::Scalar;
+pub use singular::Singular;

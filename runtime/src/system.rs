@@ -25,6 +25,7 @@ pub use crate::numbers::{
     Variations,
 };
 pub use acting_force::ActingForce;
+pub(crate) use continuous::derivatives_apart;
 pub use continuous::{Force, Lagrangian, Rayleigh};
 pub use driven::{Driven, Input};
 pub use error::{Function, GeneratedDiffers};

@@ -7,6 +7,7 @@
 //! Code on lanes has the text of code on numbers, but for what `lanes.rs` writes otherwise.
 
 mod expression;
+mod inlined;
 mod lanes;
 mod names;
 
@@ -18,6 +19,7 @@ use syn::Ident;
 
 use super::graph::{Graph, Node, Operation};
 use expression::{Writer, partner};
+pub use inlined::inlined;
 use names::Names;
 
 /// How deep an expression is nested before a part of it becomes a `let`: a sum of thousands of terms is as

@@ -20,7 +20,7 @@ use quote::{format_ident, quote};
 use syn::Ident;
 
 use super::differentiate::{Derivatives, Differentiation, Gradient};
-use super::emit::{StraightLine, straight_line};
+use super::emit::{StraightLine, inlined, straight_line};
 use super::graph::{Graph, MOST_OPERATIONS, Node, Operation};
 use super::lower::{Length, Load, Lowered, Refusal};
 use super::model::{Degrees, Home, Part, System};

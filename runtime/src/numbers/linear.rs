@@ -5,7 +5,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::numbers::Scalar;
+use crate::numbers::{Scalar, Singular};
 
 mod banded;
 mod dense;
@@ -15,13 +15,6 @@ mod of_members;
 pub use banded::Banded;
 pub(crate) use determinant::determinant_sign;
 pub use of_members::{EntriesOfMembers, MatricesOfMembers};
-
-/// A matrix that has no solution to working precision: the column whose pivot is lost to rounding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Singular {
-    /// The column.
-    pub column: usize,
-}
 
 mod sealed {
     pub trait Sealed {}

@@ -4,7 +4,7 @@ use nalgebra::RealField;
 
 /// The precision of a type of real numbers in an IEEE format.
 ///
-/// [`Scalar`](crate::Scalar) shows it; this is what the floor below it knows.
+/// [`Scalar`](crate::numbers::Scalar) shows it; this is what the floor below it knows.
 pub trait Precision: RealField + Copy {
     /// Distance from 1 to the next larger number.
     const SPACING: Self;

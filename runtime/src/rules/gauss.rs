@@ -20,6 +20,7 @@ mod segment;
 mod sensitivity;
 mod simplified;
 mod slack;
+mod solve;
 mod taken;
 mod tangent;
 
@@ -39,6 +40,7 @@ pub(crate) use problem::Solver;
 use problem::{Problem, Solution};
 use segment::Segment;
 pub(crate) use slack::{SLACK, steps_until};
+use solve::solve;
 
 /// The Gauss–Galerkin rule of S stages, 1 ≤ S ≤ 8: order 2S, self-adjoint, A-stable; S = 1 is
 /// [`Midpoint`](crate::Midpoint).
@@ -348,7 +350,7 @@ fn solved<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, con
     let solution = match guess {
         Some(v) => {
             StepError::require_finite(v, Quantity::Velocity)?;
-            fixed_point::solve(&problem, v)?
+            solve(&problem, v)?
         }
         None => solved_from(&problem, state)?,
     };
@@ -362,7 +364,7 @@ fn solved_from<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, co
     state: &State<T, N>,
 ) -> Result<Solution<T, N, S>, StepError> {
     let v = state.velocity(problem.system)?;
-    match fixed_point::solve(problem, &v) {
+    match solve(problem, &v) {
         Err(error @ StepError::NonFinite { quantity: Quantity::Derivatives, .. }) => {
             from_singular(problem, state, &v).ok_or(error)
         }
@@ -402,14 +404,14 @@ fn from_singular<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, 
     let rest = nalgebra::zero();
     if *v == rest && force == rest {
         let residual =
-            |v: &SVector<T, N>| problem.stages::<S>(&splat(v)).residual.map(|stages| stages.amax()).into();
+            |v: &SVector<T, N>| problem.stages(&splat(v)).residual.map(|stages| stages.amax()).into();
         let v = splat(&rest);
         let report = Report { floor: T::SMALLEST_NORMAL, ..Report::of_no_equation() };
         let is_rest = crate::step::newton::is_rest(&residual, &state.p);
         return is_rest.then_some(Solution { v, rate: v, report, solver: Solver::Newton });
     }
     let later = State { q: state.q, p: state.p + force * (problem.h * T::constant(0.5)) };
-    fixed_point::solve(problem, &later.velocity(problem.system).ok()?).ok()
+    solve(problem, &later.velocity(problem.system).ok()?).ok()
 }
 
 /// The step from `state`, with its equations linearised at the stages.

@@ -7,7 +7,7 @@ use crate::step::{
     Quantity, State, StepError, StepKernel, newton,
     newton::{estimated_floor, held_against},
 };
-use crate::system::{Lagrangian, verification::around};
+use crate::system::{Lagrangian, derivatives_apart, verification::around};
 
 impl<S: Scalar, const N: usize> State<S, N> {
     /// The state (q, ∂L/∂v(q, v)), by the Legendre transform of L.
@@ -25,7 +25,7 @@ impl<S: Scalar, const N: usize> State<S, N> {
         StepError::require_finite(&q, Quantity::Configuration)?;
         StepError::require_finite(&v, Quantity::Velocity)?;
         around(system, &q, &v)?;
-        let l = system.lagrangian_derivatives(&q, &v);
+        let l = derivatives_apart(system, &q, &v);
         StepError::require_finite(&l.d2, Quantity::Momentum)?;
         require_regular(&l.d22).or_else(|error| require_regular_nearby(system, &q, &v, error))?;
         Ok(Self { q, p: l.d2 })
@@ -71,11 +71,11 @@ impl<S: Scalar, const N: usize> State<S, N> {
     ) -> Result<SVector<S, N>, StepError> {
         // 𝔽L is the limit h → 0 of the discrete transforms.
         let transform = |q: &SVector<S, N>, v: &SVector<S, N>| {
-            let l = system.lagrangian_derivatives(q, v);
+            let l = derivatives_apart(system, q, v);
             StepKernel { p0: l.d2, matrix: l.d22 }
         };
         let momentum = |q: &SVector<S, N>, v: &SVector<S, N>| system.lagrangian_gradient(q, v).d2;
-        let mass = |q: &SVector<S, N>, v: &SVector<S, N>| system.lagrangian_derivatives(q, v).d22;
+        let mass = |q: &SVector<S, N>, v: &SVector<S, N>| derivatives_apart(system, q, v).d22;
         newton::root_from_rest(&transform, &momentum, &mass, self, error).map_err(|error| match error {
             StepError::SingularNewtonMatrix { column, .. } => StepError::DegenerateLagrangian { column },
             StepError::NoRealSolution { residual, .. } => StepError::NoVelocity { residual },
@@ -108,7 +108,7 @@ fn require_regular_nearby<L: Lagrangian<N> + ?Sized, const N: usize>(
     let nearby = SVector::from_fn(|i, _| {
         v[i] + size * constant(1.0 / 8.0) * (constant(1.0) + constant(i as f64) / constant(N as f64 + 1.0))
     });
-    require_regular(&system.lagrangian_derivatives(q, &nearby).d22).map_err(|_| error)
+    require_regular(&derivatives_apart(system, q, &nearby).d22).map_err(|_| error)
 }
 
 /// Fails where ∂²L/∂v² is not finite or cannot be inverted.

@@ -1,16 +1,16 @@
 //! Newton's method with the analytic matrix.
 //!
 //! Nearly every step is solved by the undamped method in two or three iterations ([`quick`]). Where that does
-//! not contract, the residual is held up by rounding, far from a root, or without one: [`careful`] damps it
-//! and tells these apart. A step that finds no root from the state alone is led to it in parts of h
-//! ([`continuation`]).
+//! not contract, the residual is held up by rounding, far from a root, or without one, it is damped,
+//! and these are told apart; a step that finds no root from the state alone is led to it in parts of h: at
+//! length, by [`nonlinear`](crate::numbers::nonlinear).
 //!
 //! Residuals are measured in units of their round-off floor, component by component; [`rounding`] defines
 //! when a step is solved. Descent of the residual alone would refuse good iterates: the residual of a
 //! coordinate at rest, without a force as yet, has a floor near 0, and that of a stiff spring grows with the
 //! square of a long sideways step. An iterate is therefore taken as well where the Newton step still to take
-//! from it is shorter ([`careful::nearer`]; compare P. Deuflhard, Newton Methods for Nonlinear
-//! Problems, 2004, on tests in the unknowns).
+//! from it is shorter (`nearer`; compare P. Deuflhard, Newton Methods for Nonlinear Problems,
+//! 2004, on tests in the unknowns).
 
 use nalgebra::{SMatrix, SVector};
 

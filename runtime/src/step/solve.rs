@@ -8,7 +8,7 @@ use crate::step::{
     newton::{Equation, StepEquations},
     require_regular,
 };
-use crate::system::Lagrangian;
+use crate::system::{Lagrangian, derivatives_apart};
 
 /// [`Flow::step`](crate::step::Flow::step) with the step's equation and both momenta as functions of (q0, v̄,
 /// h), the mass that the velocity has in them, and the sizes of terms that cancel in p0.
@@ -68,7 +68,7 @@ fn first_guess<L: Lagrangian<N> + ?Sized, const N: usize>(
     let rest = nalgebra::zero();
     if kind == Equation::Linear {
         state.require_finite()?;
-        return require_regular(&system.lagrangian_derivatives(&state.q, &rest).d22).map(|()| rest);
+        return require_regular(&derivatives_apart(system, &state.q, &rest).d22).map(|()| rest);
     }
     match state.velocity(system) {
         Ok(v) if StepError::require_finite(&v, Quantity::Velocity).is_ok() => Ok(v),

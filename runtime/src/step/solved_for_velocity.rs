@@ -6,6 +6,7 @@ use crate::step::{
     BoundedFlow, BoundedStep, Discrete, Flow, Linearization, State, Step, StepError, StepWith,
     newton::Equation, step_by, step_within_by,
 };
+use crate::system::derivatives_apart;
 
 /// A rule whose step is solved for v̄ itself, by the [`step_kernel`](Discrete::step_kernel) and
 /// [`momenta`](Discrete::momenta) that its systems have.
@@ -62,7 +63,7 @@ where
         let equation = (
             |q0: &_, v: &_, h| self.step_kernel(q0, v, h),
             |q0: &_, v: &_, h| self.momenta(q0, v, h),
-            |q0: &_, v: &_| self.lagrangian_derivatives(q0, v).d22,
+            |q0: &_, v: &_| derivatives_apart(self, q0, v).d22,
             |q0: &_, v: &_, h| self.cancelling_terms(q0, v, h),
         );
         let step = step_by(self, kind::<L, R, N>(), equation, state, h, guess);

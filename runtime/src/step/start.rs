@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use crate::numbers::{NewtonMatrix, Scalar};
 use crate::step::{State, StepError};
 use crate::system::{
-    Lagrangian,
+    Lagrangian, derivatives_apart,
     verification::{around, has_two_values},
 };
 
@@ -24,7 +24,7 @@ pub(crate) fn verify_start<L: Lagrangian<N>, const N: usize>(
         // One Newton iteration for ∂L/∂v(q, v) = p from rest: exact where L is quadratic in v, and a point as
         // good as any elsewhere.
         let rest = SVector::zeros();
-        let l = system.lagrangian_derivatives(&state.q, &rest);
+        let l = derivatives_apart(system, &state.q, &rest);
         let v = l.d22.solve(&(state.p - l.d2)).unwrap_or(rest);
         Ok(around(system, &state.q, &v)?)
     })

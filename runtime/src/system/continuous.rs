@@ -95,6 +95,17 @@ pub trait Lagrangian<const N: usize> {
     }
 }
 
+/// [`lagrangian_derivatives`](Lagrangian::lagrangian_derivatives) out of line: each place that inlines them is one
+/// more copy of all their operations to compile.
+#[inline(never)]
+pub(crate) fn derivatives_apart<L: Lagrangian<N> + ?Sized, const N: usize>(
+    system: &L,
+    q: &SVector<L::Scalar, N>,
+    v: &SVector<L::Scalar, N>,
+) -> Derivatives<L::Scalar, N> {
+    system.lagrangian_derivatives(q, v)
+}
+
 /// A Rayleigh function R(q, v), with the force −∂R/∂v.
 ///
 /// Normalise R(q, 0) = 0: adding g(q) leaves the continuous system as it is, but shifts the discrete forces

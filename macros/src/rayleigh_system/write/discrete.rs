@@ -4,6 +4,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
+use super::super::emit::inlined;
 use super::super::model::System;
 use super::super::rules::Rule;
 use super::joint;
@@ -99,6 +100,7 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
         explicit_in_lanes: None,
         in_lanes: None,
     });
+    let [inline_kernel, inline_momenta] = [&step_kernel, &momenta].map(inlined);
     let (matrix, kernel) = match diagonals {
         None => (quote!(SMatrix<#scalar, #n, #n>), quote!(StepKernel<#scalar, #n>)),
         Some(diagonals) => {
@@ -183,13 +185,13 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
             #discrete_force
 
             /// p0 = −D1 L_d − f_d⁻ and ∂p0/∂v̄, at q1 = q0 + h v̄.
-            #[inline]
+            #inline_kernel
             fn step_kernel(&self, q0: &Vector, v: &Vector, h: #scalar) -> #kernel {
                 #step_kernel
             }
 
             /// p0 = −D1 L_d − f_d⁻ and p1 = D2 L_d + f_d⁺, at q1 = q0 + h v̄.
-            #[inline]
+            #inline_momenta
             fn momenta(&self, q0: &Vector, v: &Vector, h: #scalar) -> Momenta<#scalar, #n> {
                 #momenta
             }

@@ -17,8 +17,9 @@ impl Code<'_> {
         let [value_of, d1, d2] = self.parts(&line.outputs, [Shape::Scalar, Shape::Vector, Shape::Vector]);
         let (q, v, statements) =
             (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
+        let inline = inlined(statements);
         let gradient = quote! {
-            #[inline]
+            #inline
             fn #gradient(&self, #q: &Vector, #v: &Vector) -> Gradient<#scalar, #n> {
                 #statements
                 Gradient { value: #value_of, d1: #d1, d2: #d2 }
@@ -40,8 +41,9 @@ impl Code<'_> {
         );
         let (q, v, statements) =
             (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
+        let inline = inlined(statements);
         let derivatives = quote! {
-            #[inline]
+            #inline
             fn #derivatives(&self, #q: &Vector, #v: &Vector) -> Derivatives<#scalar, #n> {
                 #statements
                 Derivatives { value: #value_of, d1: #d1, d2: #d2, d11: #d11, d12: #d12, d22: #d22 }
@@ -75,8 +77,9 @@ impl Code<'_> {
         let [value, d1, d2] = self.parts(&line.outputs, [Shape::Vector, Shape::Matrix, Shape::Matrix]);
         let (q, v, statements) =
             (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities), &line.statements);
+        let inline = inlined(statements);
         quote! {
-            #[inline]
+            #inline
             fn force_derivatives(&self, #q: &Vector, #v: &Vector) -> CovectorDerivatives<#scalar, #n> {
                 #statements
                 CovectorDerivatives { value: #value, d1: #d1, d2: #d2 }

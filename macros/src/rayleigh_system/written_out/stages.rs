@@ -150,11 +150,12 @@ impl Code<'_> {
         };
         let lanes = quote!(Lanes<#scalar, #stages>);
         let Anchors { ty, parameter: anchors, apart } = Anchors::new(&line, &lanes, self.system.is_fused);
+        let inline = inlined(&quote!(#statements #later));
         let function = quote! {
             type Anchors<const #stages: usize> = #ty;
 
             #[doc = #text]
-            #[inline]
+            #inline
             fn #function<const #stages: usize>(
                 &self,
                 #anchors: &mut Self::Anchors<#stages>,

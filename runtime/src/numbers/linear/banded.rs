@@ -3,8 +3,8 @@
 use nalgebra::SVector;
 
 use super::of_members::BandedOfMembers;
-use super::{Factored, NewtonMatrix, Singular, dense};
-use crate::numbers::Scalar;
+use super::{Factored, NewtonMatrix, dense};
+use crate::numbers::{Scalar, Singular};
 
 /// A matrix whose entries lie within B of the diagonal, W = 2B + 1: Newton matrices of chains, and diagonal
 /// ones (W = 1).

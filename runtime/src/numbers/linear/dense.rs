@@ -3,8 +3,8 @@
 use nalgebra::{SMatrix, SVector};
 
 use super::of_members::DenseOfMembers;
-use super::{Factored, NewtonMatrix, Singular};
-use crate::numbers::Scalar;
+use super::{Factored, NewtonMatrix};
+use crate::numbers::{Scalar, Singular};
 
 impl<S: Scalar, const N: usize> NewtonMatrix<S, N> for SMatrix<S, N, N> {
     type Factored = FactoredDense<S, N>;

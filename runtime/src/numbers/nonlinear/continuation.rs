@@ -20,12 +20,13 @@ const PARTS: u32 = 24;
 /// Iterations for each: what needs more has left the root.
 pub(crate) const ITERATIONS: u32 = 10;
 
-/// What is compiled once for each scalar type, in this crate, and not in each program that has a system.
+/// Functions that are compiled once for each scalar type, in this crate, and not in each program that has a
+/// system.
 pub trait AtLength: Sized {
     /// The solution of the equation by this way; `root` has the velocity to start from.
     ///
     /// # Errors
-    /// What the damped method ends with, or what it ends with from rest.
+    /// The error that the damped method ends with, or that it ends with from rest.
     fn at_length(
         of: Equations<'_, Self>,
         way: Way<'_, Self>,

@@ -24,7 +24,7 @@ type Residual<'f, S> = dyn FnMut(&[S], &mut [S]) + 'f;
 /// there was `error`.
 ///
 /// # Errors
-/// What Newton's method from rest ends with; `error` where it has been there or cannot start there.
+/// That of Newton's method from rest; `error` where it has been there or cannot start there.
 pub(super) fn from_rest<S: Precision>(
     of: &mut Equations<'_, S>,
     tried: &[S],

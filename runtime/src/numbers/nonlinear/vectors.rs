@@ -8,7 +8,7 @@ pub(crate) const VECTORS: usize = 30;
 
 /// Room for vectors of one length, in a buffer of the caller's.
 ///
-/// What is taken is given back when the `Room` that it was taken from ends: an [`inner`](Room::inner) one for
+/// A vector that is taken is given back when the `Room` that it was taken from ends: an [`inner`](Room::inner) one for
 /// each function that is called.
 pub struct Room<'r, S> {
     left: &'r mut [S],
@@ -21,7 +21,7 @@ impl<'r, S: Precision> Room<'r, S> {
         Self { left: buffer, length }
     }
 
-    /// What is left, for as long as it is borrowed.
+    /// The room that is left, for as long as it is borrowed.
     pub(super) fn inner(&mut self) -> Room<'_, S> {
         Room { left: self.left, length: self.length }
     }

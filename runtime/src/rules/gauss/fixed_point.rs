@@ -2,9 +2,7 @@
 //! from those.
 //!
 //! One evaluation of all stages an iteration and no matrix but ∂²L/∂v². Without friction and with a constant
-//! mass an iteration takes the error down by O(h²), otherwise by O(h). Where it does not contract, simplified
-//! Newton's method takes over, and then Newton's, from the velocity at the start of the step: from an
-//! extrapolation that is far off they may find another root than the motion's.
+//! mass an iteration takes the error down by O(h²), otherwise by O(h).
 
 use core::cmp::Ordering;
 
@@ -12,12 +10,11 @@ use nalgebra::SVector;
 
 use super::problem::{Problem, Solution, Solver, in_units, in_width, reciprocals};
 use super::rounding::{at_rounding, worst};
-use super::{newton, simplified};
 use crate::numbers::{
     Blank, LaneVector, Scalar,
-    lanes::{narrowed, splat, widened},
+    lanes::{narrowed, widened},
 };
-use crate::step::{Report, StepError, newton::AT_FLOOR};
+use crate::step::{Report, newton::AT_FLOOR};
 use crate::system::{ForcedLagrangian, Stages};
 
 /// More iterations than Newton's method would be worth.
@@ -37,19 +34,6 @@ pub(super) const NEAR: f64 = 1024.0;
 /// If the floor has risen or fallen by this factor, sizes measured with the old floor are not comparable with
 /// new ones.
 pub(super) const CHANGED: f64 = 8.0;
-
-/// Solves for the stages from the one velocity `guess`.
-#[inline]
-pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
-    problem: &Problem<'_, L, N, S>,
-    guess: &SVector<T, N>,
-) -> Result<Solution<T, N, S>, StepError> {
-    let all = splat(guess);
-    match iterate(problem, &all).or_else(|| simplified::iterate(problem, guess)) {
-        Some(solution) => Ok(solution),
-        None => newton::solve(problem, &all, newton::MAX_ITERATIONS),
-    }
-}
 
 /// A method that corrects the stages' velocities in each sweep.
 pub(super) trait Corrector<T, const N: usize> {
@@ -96,7 +80,7 @@ pub(super) fn iterate_by<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N:
     in_width!(iterate_in::<T, L, _; N, S>(problem, guess, corrector))
 }
 
-#[inline]
+#[inline(never)]
 fn iterate_in<T, L, C, const N: usize, const S: usize, const W: usize>(
     problem: &Problem<'_, L, N, S>,
     guess: &LaneVector<T, N, S>,

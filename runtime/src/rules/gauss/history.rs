@@ -7,6 +7,7 @@ use nalgebra::SVector;
 use super::coefficients::Coefficients;
 use super::problem::{Problem, Solution, Solver};
 use super::slack::{Allowance, Slack, Swept, sweep};
+use super::solve::solve;
 use super::{Gauss, completed, fixed_point, solved_from};
 use crate::numbers::{
     Compensated, LaneVector, Lanes, Scalar,
@@ -282,7 +283,7 @@ where
         let solution = match swept {
             Some(solution) => solution,
             None => {
-                let near = self.suggested.and_then(|v| fixed_point::solve(&problem, &v).ok());
+                let near = self.suggested.and_then(|v| solve(&problem, &v).ok());
                 near.map_or_else(|| solved_from(&problem, state), Ok)?
             }
         };

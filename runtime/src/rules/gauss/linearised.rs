@@ -13,7 +13,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::problem::Problem;
 use crate::numbers::{LaneVector, Scalar, Singular, lanes::lane};
-use crate::system::ForcedLagrangian;
+use crate::system::{ForcedLagrangian, derivatives_apart};
 
 /// A vector for each stage.
 pub(super) type StageVector<T, const N: usize, const S: usize> = [SVector<T, N>; S];
@@ -48,7 +48,7 @@ impl<T: Scalar, const N: usize> Local<T, N> {
         q: &SVector<T, N>,
         v: &SVector<T, N>,
     ) -> Self {
-        let l = system.lagrangian_derivatives(q, v);
+        let l = derivatives_apart(system, q, v);
         let mut local = Self {
             lagrangian: l.value,
             slope: l.d1,

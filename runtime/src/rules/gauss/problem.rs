@@ -160,13 +160,21 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         self.at_stages(&self.p0, rate)
     }
 
-    /// The equations of motion at the stages with velocities `v`.
-    #[inline(always)]
-    pub(super) fn stages<const W: usize>(&self, v: &LaneVector<T, N, W>) -> Stages<T, N, W> {
-        self.next_stages(&mut Blank::blank(), v)
+    /// The equations of motion at the stages with velocities `v`, where that is seldom asked for: out of line.
+    #[cold]
+    pub(super) fn stages(&self, v: &LaneVector<T, N, S>) -> Stages<T, N, S> {
+        self.stages_at(&self.configurations(v), v)
     }
 
-    /// [`stages`](Self::stages), with the `anchors` that the sweeps before have left.
+    /// [`stages`](Self::stages) at configurations of their own.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn stages_at(&self, q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>) -> Stages<T, N, S> {
+        self.next_stages_at(&mut Blank::blank(), q, v)
+    }
+
+    /// The equations of motion at the stages with velocities `v`, with the `anchors` that the sweeps before have
+    /// left.
     #[inline(always)]
     pub(super) fn next_stages<const W: usize>(
         &self,
@@ -174,16 +182,6 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         v: &LaneVector<T, N, W>,
     ) -> Stages<T, N, W> {
         self.next_stages_at(anchors, &self.configurations(v), v)
-    }
-
-    /// The stages' equations at configurations of their own.
-    #[inline(always)]
-    pub(super) fn stages_at<const W: usize>(
-        &self,
-        q: &LaneVector<T, N, W>,
-        v: &LaneVector<T, N, W>,
-    ) -> Stages<T, N, W> {
-        self.next_stages_at(&mut Blank::blank(), q, v)
     }
 
     #[inline(always)]

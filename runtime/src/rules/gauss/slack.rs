@@ -150,7 +150,7 @@ pub(super) fn sweep<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
     in_width!(sweep_in::<T, L; N, S>(problem, guess, allowance))
 }
 
-#[inline]
+#[inline(never)]
 fn sweep_in<T, L, const N: usize, const S: usize, const W: usize>(
     problem: &Problem<'_, L, N, S>,
     guess: &LaneVector<T, N, S>,

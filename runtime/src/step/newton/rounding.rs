@@ -4,10 +4,10 @@
 //! [`AT_FLOOR`] times its round-off floor, and this floor
 //!
 //! 1. belongs to the solution that is returned, not to an iterate on the way: where the last correction was
-//!    not small beside v̄ ([`SMALL`]), the matrix is evaluated again at the solution;
+//!    not small beside v̄ ([`SMALL`](super::SMALL)), the matrix is evaluated again at the solution;
 //! 2. is finite;
-//! 3. where the residual had stopped falling, or Newton steps had to be shortened: is at most [`SENSIBLE`] of
-//!    the terms that the equation is made of. Otherwise rounding would explain any residual.
+//! 3. where the residual had stopped falling, or Newton steps had to be shortened: is at most
+//!    a thousandth of the terms that the equation is made of ([`is_sensible`](super::is_sensible)). Otherwise rounding would explain any residual.
 //!
 //! Then the solution satisfies exactly the equation with q, v̄ and p changed by some units of their last
 //! places. Each component has a floor of its own,
@@ -20,8 +20,8 @@
 //! so that neither the unit of a coordinate nor its neighbours' size matters. These estimates know nothing of
 //! what q contributes: near an equilibrium away from q = 0 large forces cancel, and v and p go to 0 while the
 //! rounding of those forces stays. Where the residual stops falling above the estimate, its rounding is
-//! therefore measured: by what the last places of q and v change ([`rounding`]), and, where that does not
-//! explain it, by how it scatters ([`scatter`]). The latter sees each configuration on the way rounded on its
+//! therefore measured: by what the last places of q and v change (`add_rounding`), and, where that does not
+//! explain it, by how it scatters (`add_scatter`). The latter sees each configuration on the way rounded on its
 //! own: far from q = 0, say after 10³ turns of an angle, q0 and q1 are known to ε|q|, and where what their
 //! errors do cancels if both are moved together, as under the trapezoidal rule, moving q shows nothing of it.
 //!

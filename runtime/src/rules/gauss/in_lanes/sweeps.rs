@@ -123,7 +123,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
     }
 
     /// Solves the stages of the members `together`, as far as sweeps of the usual kind do:
-    /// [`iterate`](super::fixed_point::iterate) of each.
+    /// [`iterate`](crate::rules::gauss::fixed_point::iterate) of each.
     #[inline(always)]
     pub(super) fn solve<L>(
         &self,
