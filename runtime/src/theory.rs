@@ -9,6 +9,8 @@ pub mod exact;
 #[cfg(feature = "theory")]
 pub mod hamilton_jacobi;
 #[cfg(feature = "theory")]
+mod legendre;
+#[cfg(feature = "theory")]
 pub mod noether;
 #[cfg(feature = "theory")]
 pub mod rayleigh;

@@ -267,7 +267,6 @@ mod tests {
         }
     }
 
-    #[cfg(feature = "theory")]
     #[test]
     fn nodes_and_weights_are_those_of_gauss_quad() {
         for_all_stages!(agrees_with_a_library);

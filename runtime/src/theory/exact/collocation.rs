@@ -19,12 +19,12 @@
 use core::num::NonZeroUsize;
 use std::sync::OnceLock;
 
-use gauss_quad::GaussLegendre;
 use nalgebra::{DMatrix, Dyn, LU, SMatrix, SVector};
 
 use super::motion::{Dynamics, Local};
 use super::work::Breakdown;
 use crate::system::ActingForce;
+use crate::theory::legendre::{GaussLegendre, polynomials};
 
 /// Stages of a step.
 pub(super) const STAGES: usize = 8;
@@ -61,15 +61,8 @@ fn coefficients() -> &'static Coefficients {
 /// The zeros of P_8 − P_7 on [−1, 1], taken to [0, 1].
 fn nodes() -> [f64; STAGES] {
     let count = STAGES as f64;
-    // The polynomial and its derivative, by the recurrence of Legendre's polynomials.
     let at = |x: f64| {
-        let (mut p, mut q) = ((1.0, 0.0), (x, 1.0));
-        for n in 1..STAGES {
-            let n = n as f64;
-            let next = ((2.0 * n + 1.0) * x * q.0 - n * p.0) / (n + 1.0);
-            let slope = ((2.0 * n + 1.0) * (q.0 + x * q.1) - n * p.1) / (n + 1.0);
-            (p, q) = (q, (next, slope));
-        }
+        let [p, q] = polynomials(STAGES, x);
         (q.0 - p.0, q.1 - p.1)
     };
     core::array::from_fn(|i| {

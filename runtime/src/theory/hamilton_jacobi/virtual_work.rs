@@ -2,13 +2,13 @@
 
 use core::num::NonZeroUsize;
 
-use gauss_quad::legendre::GaussLegendre;
 use nalgebra::SVector;
 
 use super::{Characteristic, HamiltonJacobi, HamiltonJacobiError};
 use crate::numbers::Scalar;
 use crate::step::Discrete;
 use crate::system::ScalarField;
+use crate::theory::legendre::GaussLegendre;
 
 /// W_k of two functions S_k, S_{k+1} at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,12 +109,12 @@ where
     ) -> Result<Vec<S>, HamiltonJacobiError> {
         let across = label - reference;
         let mut work = vec![S::zero(); steps];
-        for (node, weight) in GaussLegendre::new(nodes).iter() {
-            let share = S::constant(0.5 * (1.0 + node));
+        for (share, weight) in GaussLegendre::new(nodes).nodes {
+            let share = S::constant(share);
             let characteristic = self.carry(s0, &(reference + across * share), steps)?;
             for (k, work) in work.iter_mut().enumerate() {
                 let density = self.work_covector(&characteristic, k).dot(&across);
-                *work += density * S::constant(0.5 * weight);
+                *work += density * S::constant(weight);
             }
         }
         Ok(work)

@@ -2,11 +2,11 @@ use core::num::NonZeroUsize;
 use core::ops::{Add, Mul};
 use std::sync::LazyLock;
 
-use gauss_quad::GaussLegendre;
 use nalgebra::SVector;
 
 use crate::numbers::Scalar;
 use crate::step::DiscreteForce;
+use crate::theory::legendre::GaussLegendre;
 use crate::theory::samples::Segment;
 
 /// An integral by quadrature.

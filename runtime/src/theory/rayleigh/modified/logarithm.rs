@@ -1,15 +1,18 @@
 //! The principal logarithm of a real matrix.
 
+use core::num::NonZeroUsize;
+
 use nalgebra::{Complex, DMatrix, DVector};
 
 use super::schur::{Matrix, schur};
+use crate::theory::legendre::GaussLegendre;
 use crate::theory::rayleigh::modified::ModifiedLinearSystemError;
 
 /// Square roots are taken until ‖T − I‖ is below this, where the quadrature of `NODES` nodes is exact to
 /// rounding: its error is that of the Padé approximant of ln(1 + x), ((√(1+x) − 1)/(√(1+x) + 1))^(2·12) =
 /// 4e-19 at x = −½.
 const NEAR: f64 = 0.5;
-const NODES: usize = 12;
+const NODES: NonZeroUsize = NonZeroUsize::new(12).unwrap();
 
 /// More square roots than any matrix of finite numbers needs to come near I.
 const MOST_ROOTS: i32 = 64;
@@ -50,7 +53,7 @@ pub(super) fn logarithm(matrix: &DMatrix<f64>) -> Result<DMatrix<f64>, ModifiedL
     }
     let x = &t - &identity;
     let mut sum = DMatrix::zeros(n, n);
-    for (node, weight) in nodes() {
+    for (node, weight) in GaussLegendre::new(NODES).nodes {
         let shifted = &identity + &x * Complex::from(node);
         let term = shifted.solve_upper_triangular(&x).ok_or(ModifiedLinearSystemError::NotConverged)?;
         sum += term * Complex::from(weight);
@@ -78,13 +81,6 @@ fn square_root(t: &Matrix) -> Matrix {
 /// The largest sum of magnitudes of a column.
 fn column_norm(matrix: &Matrix) -> f64 {
     matrix.column_iter().map(|column| column.iter().map(|entry| entry.norm()).sum()).fold(0.0, f64::max)
-}
-
-/// Gauss–Legendre nodes and weights on [0, 1].
-fn nodes() -> Vec<(f64, f64)> {
-    let count = core::num::NonZeroUsize::new(NODES).unwrap_or(core::num::NonZeroUsize::MIN);
-    let rule = gauss_quad::GaussLegendre::new(count);
-    rule.as_node_weight_pairs().iter().map(|&(node, weight)| (0.5 * (1.0 + node), 0.5 * weight)).collect()
 }
 
 #[cfg(test)]
