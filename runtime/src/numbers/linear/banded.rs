@@ -275,4 +275,25 @@ mod tests {
         let y = matrix.eliminate(&scaled).expect("scaling rows changes no verdict");
         assert!((x - y).amax() < 1e-13);
     }
+
+    #[test]
+    fn coordinates_are_held_in_the_band_as_in_the_dense_matrix() {
+        let (tri, penta) = matrices();
+        for held in [[0.0; 5], [0.0, 1e-300, 0.0, 0.0, 0.0], [2.0, 0.0, 0.0, -1.0, 0.5], [1.0; 5]] {
+            let (mut a, mut b) = (tri, penta);
+            let (mut dense_a, mut dense_b) = (a.dense(), b.dense());
+            a.hold(&held);
+            b.hold(&held);
+            dense_a.hold(&held);
+            dense_b.hold(&held);
+            assert_eq!((a.dense(), b.dense()), (dense_a, dense_b));
+            for i in (0..5).filter(|i| held[*i] != 0.0) {
+                assert!(
+                    (0..5)
+                        .all(|j| a.entry(i, j) == f64::from(u8::from(i == j))
+                            && a.entry(j, i) == a.entry(i, j))
+                );
+            }
+        }
+    }
 }

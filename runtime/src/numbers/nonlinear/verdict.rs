@@ -122,7 +122,7 @@ pub(super) fn stagnated<S: Precision>(
 
 #[cfg(test)]
 mod tests {
-    use super::super::equations::Evaluate;
+    use super::super::{VECTORS, equations::Evaluate};
     use super::*;
     use crate::numbers::Singular;
 
@@ -159,7 +159,7 @@ mod tests {
         let of = Equations { evaluate: &mut evaluate, q: &[1.0], p: &[1.0], h: 1.0, held: &[0.0] };
         let counts = Counts { iterations: 1, damped: 0, last_correction };
         let mut root = Root { v: &mut [0.0], p0: &mut [0.0], p1: &mut [0.0] };
-        let buffer = &mut [0.0; 40];
+        let buffer = &mut [0.0; VECTORS];
         verified(&of, (&[1.0], Matrix::Present), counts, false, &mut root, Room::new(buffer, 1)).is_some()
     }
 
@@ -184,5 +184,28 @@ mod tests {
         for stiffness in [1e13, 1e200, 1e308] {
             assert!(!is_solved(100.0, stiffness, 1e-14));
         }
+    }
+
+    /// The deepest calls: behind those from rest and the damped method's, which hold 7 vectors each, rounding is
+    /// measured of an equation in which another coordinate rests. Room for one vector less does not do.
+    #[test]
+    fn there_is_room_for_the_deepest_calls() {
+        let is_enough = |vectors: usize| {
+            std::panic::catch_unwind(|| {
+                let mut evaluate = One { off: 1.0, matrix: 1.0 };
+                let held = [0.0, 1e-300];
+                let of =
+                    Equations { evaluate: &mut evaluate, q: &[1.0; 2], p: &[1.0; 2], h: 1.0, held: &held };
+                let counts = Counts { iterations: 1, damped: 0, last_correction: 1e-14 };
+                let mut root = Root { v: &mut [0.0; 2], p0: &mut [0.0; 2], p1: &mut [0.0; 2] };
+                let mut buffer = vec![0.0; 2 * vectors];
+                let mut room = Room::new(&mut buffer, 2);
+                let _ = room.vectors::<14>();
+                verified(&of, (&[1.0; 2], Matrix::Present), counts, true, &mut root, room);
+            })
+            .is_ok()
+        };
+        assert!(is_enough(VECTORS));
+        assert!(!cfg!(debug_assertions) || !is_enough(VECTORS - 1));
     }
 }
