@@ -55,6 +55,7 @@ pub(crate) enum Equation {
 ///
 /// Functions by reference: with `F = &G` for one of them, calls of it would not be inlined where `F` is
 /// behind a pointer as well.
+#[cfg(feature = "theory")]
 #[inline]
 pub(crate) fn root<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,

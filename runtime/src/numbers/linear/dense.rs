@@ -53,10 +53,10 @@ impl<S: Scalar, const N: usize> NewtonMatrix<S, N> for SMatrix<S, N, N> {
     #[cold]
     fn hold(&mut self, held: &[S]) {
         let is_held = |i: usize| held.get(i).is_some_and(|held| *held != S::zero());
-        for i in 0..N {
-            for j in 0..N {
+        for (j, column) in self.data.0.iter_mut().enumerate() {
+            for (i, entry) in column.iter_mut().enumerate() {
                 if is_held(i) || is_held(j) {
-                    self[(i, j)] = if i == j { S::one() } else { S::zero() };
+                    *entry = if i == j { S::one() } else { S::zero() };
                 }
             }
         }
@@ -147,11 +147,16 @@ pub(super) fn factored<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,
 ) -> Result<FactoredDense<S, N>, Singular> {
     let (mut rows, mut order, mut scale) = ([[S::zero(); N]; N], [0; N], [S::zero(); N]);
-    for i in 0..N {
-        for j in 0..N {
-            rows[i][j] = matrix[(i, j)];
+    // Iterators, whose bounds hold without proof: an index would bring a panic into the step.
+    for (j, column) in matrix.data.0.iter().enumerate() {
+        for (row, entry) in rows.iter_mut().zip(column) {
+            if let Some(to) = row.get_mut(j) {
+                *to = *entry;
+            }
         }
-        (order[i], scale[i]) = (i, inverse_magnitude(&rows[i]));
+    }
+    for (i, ((row, order), scale)) in rows.iter().zip(&mut order).zip(&mut scale).enumerate() {
+        (*order, *scale) = (i, inverse_magnitude(row));
     }
     let mut reciprocals = [S::zero(); N];
     let mut suspicious = false;
