@@ -76,8 +76,8 @@ pub fn ceiling(machine: &str, level: &str, scene: &str) -> Option<Ceiling> {
 /// Bytes of stack for scenes of a scalar type, on any machine; `f64` after `f32`.
 pub fn stack_ceiling(scalar: &str) -> Option<u32> {
     match scalar {
-        "f32" => Some(3_320),
-        "f64" => Some(6_140),
+        "f32" => Some(3_860),
+        "f64" => Some(6_820),
         _ => None,
     }
 }

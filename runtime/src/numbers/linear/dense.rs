@@ -147,16 +147,15 @@ pub(super) fn factored<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,
 ) -> Result<FactoredDense<S, N>, Singular> {
     let (mut rows, mut order, mut scale) = ([[S::zero(); N]; N], [0; N], [S::zero(); N]);
-    // Iterators, whose bounds hold without proof: an index would bring a panic into the step.
-    for (j, column) in matrix.data.0.iter().enumerate() {
-        for (row, entry) in rows.iter_mut().zip(column) {
-            if let Some(to) = row.get_mut(j) {
-                *to = *entry;
-            }
+    // Of arrays: an index into the matrix that is not shown to be within bounds would bring a panic into the step.
+    for j in 0..N {
+        for i in 0..N {
+            rows[i][j] = matrix.data.0[j][i];
         }
     }
-    for (i, ((row, order), scale)) in rows.iter().zip(&mut order).zip(&mut scale).enumerate() {
-        (*order, *scale) = (i, inverse_magnitude(row));
+    for i in 0..N {
+        order[i] = i;
+        scale[i] = inverse_magnitude(&rows[i]);
     }
     let mut reciprocals = [S::zero(); N];
     let mut suspicious = false;

@@ -28,6 +28,7 @@ struct Iterate<'r, S> {
 }
 
 /// The damped method, and the verdicts, from the velocity of `root`, to which `iterations` have led.
+#[inline(never)]
 pub(super) fn careful<S: Precision>(
     of: &mut Equations<'_, S>,
     mut iterations: u32,
@@ -137,6 +138,7 @@ impl<S: Precision> Iterate<'_, S> {
 ///
 /// Neither the units of a coordinate nor a stiff direction that turns, nor a component that was 0, change
 /// this verdict. With one coordinate it is that of the residual.
+#[inline(never)]
 fn nearer<S: Precision>(
     of: &Equations<'_, S>,
     residual: &[S],

@@ -96,6 +96,7 @@ fn solved<S: Precision>(
 }
 
 /// The root for the whole of h, from `start` part by part.
+#[inline(never)]
 fn in_parts<S: Precision>(
     of: &mut Equations<'_, S>,
     start: &[S],

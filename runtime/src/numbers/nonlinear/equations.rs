@@ -114,6 +114,7 @@ impl<S: Precision> Equations<'_, S> {
     }
 
     /// p0 − p, and the present matrix.
+    #[inline(never)]
     pub(super) fn evaluate(&mut self, v: &[S], residual: &mut [S]) {
         self.evaluate.kernel(self.q, v, self.h, self.held, residual);
         subtract(residual, self.p);
@@ -121,21 +122,29 @@ impl<S: Precision> Equations<'_, S> {
     }
 
     /// Both momenta at a configuration of its own.
-    pub(super) fn momenta(&self, q: &[S], v: &[S], p0: &mut [S], p1: &mut [S], mut room: Room<'_, S>) {
+    pub(super) fn momenta(&self, q: &[S], v: &[S], p0: &mut [S], p1: &mut [S], room: Room<'_, S>) {
         self.evaluate.momenta(q, v, self.h, p0, p1);
         if self.held.iter().any(|held| *held != S::zero()) {
-            let [moved, change] = room.vectors();
-            self.change_at_rest(v, self.held, moved, change, room);
-            let entries = p0.iter_mut().zip(p1).zip(self.p).zip(change.iter()).zip(self.held);
-            for ((((p0, p1), p), change), held) in entries {
-                if *held != S::zero() {
-                    (*p0, *p1) = (*p, *p + *change);
-                }
+            self.hold_momenta(v, p0, p1, room);
+        }
+    }
+
+    /// The momenta of the coordinates that are held: p, and what it changes to.
+    #[cold]
+    #[inline(never)]
+    fn hold_momenta(&self, v: &[S], p0: &mut [S], p1: &mut [S], mut room: Room<'_, S>) {
+        let [moved, change] = room.vectors();
+        self.change_at_rest(v, self.held, moved, change, room);
+        let entries = p0.iter_mut().zip(p1).zip(self.p).zip(change.iter()).zip(self.held);
+        for ((((p0, p1), p), change), held) in entries {
+            if *held != S::zero() {
+                (*p0, *p1) = (*p, *p + *change);
             }
         }
     }
 
     /// p0 of [`momenta`](Self::momenta).
+    #[inline(never)]
     pub(super) fn p0(&self, q: &[S], v: &[S], p0: &mut [S], mut room: Room<'_, S>) {
         let p1 = room.vector();
         self.momenta(q, v, p0, p1, room);
@@ -143,6 +152,8 @@ impl<S: Precision> Equations<'_, S> {
 
     /// p1 − p0 where some coordinates of `v` are next to rest, as the mean of both sides: what is odd in their
     /// velocities vanishes.
+    #[cold]
+    #[inline(never)]
     pub(super) fn change_at_rest(
         &self,
         v: &[S],
@@ -166,6 +177,8 @@ impl<S: Precision> Equations<'_, S> {
     }
 
     /// The first coordinate whose residual or row of the present matrix is not finite.
+    #[cold]
+    #[inline(never)]
     pub(super) fn first_non_finite(&self, residual: &[S]) -> Option<usize> {
         let mut entries = residual.iter().enumerate();
         entries.find(|(i, entry)| !entry.is_finite() || !self.evaluate.row_is_finite(*i)).map(|(i, _)| i)

@@ -94,6 +94,7 @@ pub(crate) fn worst<S: Precision>(residual: &[S], floor: &[S]) -> (S, S) {
 }
 
 /// The floor that the terms of p0 give at `v`, 4ε (|pᵢ| + Σⱼ |Jᵢⱼ||vⱼ|).
+#[inline(never)]
 pub(super) fn estimated_floor<S: Precision>(
     of: &Equations<'_, S>,
     matrix: Matrix<'_, S>,
@@ -120,6 +121,7 @@ pub(crate) const PLACES: f64 = 8.0;
 
 /// Adds to `sums`, times `factor`, the rounding of p0 at `v`: its changes when each entry of q and of v moves
 /// by its last place, added up.
+#[inline(never)]
 pub(super) fn add_rounding<S: Precision>(
     of: &Equations<'_, S>,
     v: &[S],
@@ -158,9 +160,13 @@ pub(super) fn add_rounding<S: Precision>(
 /// differences is below ε.
 const NEXT_TO: f64 = 1.0 / (1 << 24) as f64;
 
+/// Places and weights of a fourth difference. Static: an array of the loop would take room on a small stack.
+static FOURTH_DIFFERENCE: &[(f64, f64)] = &[(2.0, 1.0), (-2.0, 1.0), (1.0, -4.0), (-1.0, -4.0), (0.0, 6.0)];
+
 /// Adds to `sums` how far p0 scatters about a smooth function of v where h v moves by a few last places of q:
 /// its fourth differences, which hold up to 16 times the rounding of p0 and a quarter of them mostly at least
 /// that.
+#[inline(never)]
 pub(super) fn add_scatter<S: Precision>(
     of: &Equations<'_, S>,
     v: &[S],
@@ -178,7 +184,7 @@ pub(super) fn add_scatter<S: Precision>(
             *change = if place * share < most { place * share } else { S::zero() };
         }
         fourth.fill(S::zero());
-        for (places, weight) in [(2.0, 1.0), (-2.0, 1.0), (1.0, -4.0), (-1.0, -4.0), (0.0, 6.0)] {
+        for &(places, weight) in FOURTH_DIFFERENCE {
             sum(moved, v, S::nearest(places), change);
             of.p0(of.q, moved, value, room.inner());
             add(fourth, S::nearest(weight), value);

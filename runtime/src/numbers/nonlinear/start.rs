@@ -25,6 +25,7 @@ type Residual<'f, S> = dyn FnMut(&[S], &mut [S]) + 'f;
 ///
 /// # Errors
 /// That of Newton's method from rest; `error` where it has been there or cannot start there.
+#[inline(never)]
 pub(super) fn from_rest<S: Precision>(
     of: &mut Equations<'_, S>,
     tried: &[S],
@@ -32,30 +33,35 @@ pub(super) fn from_rest<S: Precision>(
     root: &mut Root<'_, S>,
     mut room: Room<'_, S>,
 ) -> Result<Solved<S>, Unsolved<S>> {
-    let [at_rest, unused, near, resting, p1] = room.vectors();
-    let [rest, start] = [room.zeros(), room.zeros()];
-    of.p0(of.q, rest, at_rest, room.inner());
-    subtract(at_rest, of.p);
-    if at_rest.iter().any(|entry| *entry != S::zero()) {
-        of.evaluate(rest, unused);
-        if of.evaluate.solve(at_rest, unused).is_ok() {
-            if tried.iter().all(|entry| *entry == S::zero()) {
-                return Err(error);
+    let [near, resting] = room.vectors();
+    let start = room.zeros();
+    {
+        let mut room = room.inner();
+        let [at_rest, unused, p1] = room.vectors();
+        let rest = room.zeros();
+        of.p0(of.q, rest, at_rest, room.inner());
+        subtract(at_rest, of.p);
+        if at_rest.iter().any(|entry| *entry != S::zero()) {
+            of.evaluate(rest, unused);
+            if of.evaluate.solve(at_rest, unused).is_ok() {
+                if tried.iter().all(|entry| *entry == S::zero()) {
+                    return Err(error);
+                }
+                root.v.fill(S::zero());
+                return careful(of, 0, root, room);
             }
-            root.v.fill(S::zero());
-            return careful(of, 0, root, room);
         }
+        let residual = &mut |v: &[S], residual: &mut [S]| {
+            of.evaluate.momenta(of.q, v, of.h, residual, p1);
+            subtract(residual, of.p);
+        };
+        near_rest(residual, near, unused);
+        vanishing(residual, of.p, rest, near, resting, room.inner());
+        if is_all(resting) {
+            return Ok(rest_itself(of, near, root, room));
+        }
+        away_from_rest(residual, near, resting, start, room);
     }
-    let residual = &mut |v: &[S], residual: &mut [S]| {
-        of.evaluate.momenta(of.q, v, of.h, residual, p1);
-        subtract(residual, of.p);
-    };
-    near_rest(residual, near, unused);
-    vanishing(residual, of.p, rest, near, resting, room.inner());
-    if is_all(resting) {
-        return Ok(rest_itself(of, near, root, room));
-    }
-    away_from_rest(residual, near, resting, start, room.inner());
     if *start != *tried {
         copy(root.v, start);
         if let Ok(solution) = careful(of, 0, root, room.inner()) {
@@ -85,6 +91,7 @@ fn is_all<S: Precision>(resting: &[S]) -> bool {
 
 /// A velocity so small that only what is constant is left of the residual, but at which it is a number in
 /// every coordinate. No two entries are alike.
+#[inline(never)]
 fn near_rest<S: Precision>(residual: &mut Residual<'_, S>, near: &mut [S], found: &mut [S]) {
     let mut size = S::LEAST_NORMAL;
     let count = S::nearest(near.len() as f64);
@@ -103,6 +110,7 @@ fn near_rest<S: Precision>(residual: &mut Residual<'_, S>, near: &mut [S], found
 /// The coordinates whose residual vanishes as they come to rest, the others as in `v`: theirs of `near`, which
 /// is next to rest, and 0 for the others. Where derivatives do not exist at rest, p has to be 0: one that is
 /// small beside that of `near` could not be told from it.
+#[inline(never)]
 fn vanishing<S: Precision>(
     residual: &mut Residual<'_, S>,
     p: &[S],
@@ -133,6 +141,7 @@ fn vanishing<S: Precision>(
 }
 
 /// Rest, with the momenta that it has in the limit.
+#[inline(never)]
 fn rest_itself<S: Precision>(
     of: &Equations<'_, S>,
     near: &[S],
@@ -158,6 +167,7 @@ fn rest_itself<S: Precision>(
 
 /// The solution in which the coordinates `resting` rest: they are held, the equations of the others are
 /// solved from the root's velocity.
+#[inline(never)]
 fn without<S: Precision>(
     of: &mut Equations<'_, S>,
     near: &[S],
@@ -167,18 +177,31 @@ fn without<S: Precision>(
 ) -> Option<Solved<S>> {
     let h = of.h;
     let solution = careful(&mut of.with(h, resting), 0, root, room.inner()).ok()?;
+    still_rest(of, near, resting, root.v, room).then_some(solution)
+}
+
+/// Whether the coordinates `resting` still rest in the solution `v`.
+#[inline(never)]
+fn still_rest<S: Precision>(
+    of: &Equations<'_, S>,
+    near: &[S],
+    resting: &[S],
+    v: &[S],
+    mut room: Room<'_, S>,
+) -> bool {
     let [p1, found] = room.vectors();
     let residual = &mut |v: &[S], residual: &mut [S]| {
         of.evaluate.momenta(of.q, v, of.h, residual, p1);
         subtract(residual, of.p);
     };
-    vanishing(residual, of.p, root.v, near, found, room);
+    vanishing(residual, of.p, v, near, found, room);
     let mut pairs = resting.iter().zip(found);
-    pairs.all(|(rests, found)| *rests == S::zero() || *found != S::zero()).then_some(solution)
+    pairs.all(|(rests, found)| *rests == S::zero() || *found != S::zero())
 }
 
 /// A velocity of the order of the root's, with the directions in which the `residual` at rest falls; those
 /// `resting` stay.
+#[inline(never)]
 fn away_from_rest<S: Precision>(
     residual: &mut Residual<'_, S>,
     near: &[S],

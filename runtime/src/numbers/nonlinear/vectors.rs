@@ -2,9 +2,10 @@
 
 use crate::numbers::Precision;
 
-/// Vectors in use at once where calls are deepest: 7 from rest, 7 damped, 4 for a verdict, 2 for forces at rest, 5 for
-/// rounding, 5 for a momentum where others are held.
-pub(crate) const VECTORS: usize = 30;
+/// Vectors in use at once where calls are deepest: 4 from rest, 7 of the damped method, 4 for a verdict, 2 for forces
+/// at rest, 5 for rounding, 5 for a momentum where others are held. The way by damping alone from rest has 4 more
+/// for as long, and none of the last 5.
+pub(crate) const VECTORS: usize = 27;
 
 /// Room for vectors of one length, in a buffer of the caller's.
 ///

@@ -37,7 +37,8 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> StepEquations<'_, S, M, N
     pub(crate) fn solved(&self, way: Way<'_, S>, v: &SVector<S, N>) -> Result<Solution<S, N>, StepError> {
         let mut buffer = room::<S, N>();
         let mut evaluate = Evaluations { of: self, present: M::zero(), before: M::zero() };
-        let [mut v, mut p0, mut p1] = [*v, nalgebra::zero(), nalgebra::zero()];
+        let momenta = Momenta { p0: nalgebra::zero(), p1: nalgebra::zero() };
+        let mut solution = Solution { unknown: *v, momenta, report: Report::of_no_equation() };
         let of = Equations {
             evaluate: &mut evaluate,
             q: self.state.q.as_slice(),
@@ -45,9 +46,10 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> StepEquations<'_, S, M, N
             h: self.h,
             held: &[],
         };
-        let root = Root { v: v.as_mut_slice(), p0: p0.as_mut_slice(), p1: p1.as_mut_slice() };
-        let report = S::at_length(of, way, root, Room::new(buffer.as_flattened_mut(), N))?.into();
-        Ok(Solution { unknown: v, momenta: Momenta { p0, p1 }, report })
+        let Momenta { p0, p1 } = &mut solution.momenta;
+        let root = Root { v: solution.unknown.as_mut_slice(), p0: p0.as_mut_slice(), p1: p1.as_mut_slice() };
+        solution.report = S::at_length(of, way, root, Room::new(buffer.as_flattened_mut(), N))?.into();
+        Ok(solution)
     }
 }
 
