@@ -22,4 +22,4 @@ pub(crate) use rounding::{
     AT_FLOOR, PLACES, SLOW, SMALL, add_finite_part, held, held_one_by_one, in_units_of, is_sensible,
 };
 pub use vectors::Room;
-pub(crate) use vectors::VECTORS;
+pub(crate) use vectors::{VECTORS, largest};

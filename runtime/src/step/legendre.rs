@@ -50,14 +50,16 @@ impl<S: Scalar, const N: usize> State<S, N> {
             require_regular_nearby(system, &self.q, &rest, error)?;
             return self.velocity_by_newton(system, Some(error));
         }
-        let v = at_rest.d22.solve(&(self.p - at_rest.d2)).unwrap_or(rest);
-        let (momentum, mass) = if L::STRUCTURE.constant_mass_matrix {
-            (system.lagrangian_gradient(&self.q, &v).d2, at_rest.d22)
-        } else {
+        let mut v = at_rest.d22.solve(&(self.p - at_rest.d2)).unwrap_or(rest);
+        let mut mass = at_rest.d22;
+        if !L::STRUCTURE.constant_mass_matrix {
+            // Where L is quadratic in v, this takes the rounding of the first solution back.
             let l = system.lagrangian_derivatives(&self.q, &v);
-            (l.d2, l.d22)
-        };
-        let (_, _, is_root) = held_against(&(momentum - self.p), &estimated_floor(&self.p, &mass, &v));
+            v += l.d22.solve(&(self.p - l.d2)).unwrap_or(rest);
+            mass = l.d22;
+        }
+        let residual = system.lagrangian_gradient(&self.q, &v).d2 - self.p;
+        let (_, _, is_root) = held_against(&residual, &estimated_floor(&self.p, &mass, &v));
         if is_root { Ok(v) } else { self.velocity_by_newton(system, None) }
     }
 

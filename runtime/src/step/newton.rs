@@ -23,7 +23,7 @@ mod rounding;
 pub(crate) use crate::numbers::nonlinear::{
     AT_FLOOR, ITERATIONS, PLACES, SLOW, SMALL, add_finite_part, is_sensible, shorter,
 };
-use crate::numbers::nonlinear::{Room, Unsolved, Way};
+use crate::numbers::nonlinear::{Room, Unsolved, Way, largest};
 pub(crate) use at_length::StepEquations;
 pub(crate) use bounded::bounded;
 pub(crate) use rounding::{estimated_floor, held_against, held_by_weights};
@@ -63,20 +63,17 @@ pub(crate) fn root<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     inertia: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, N>,
     state: &State<S, N>,
     h: S,
-    mut start: SVector<S, N>,
+    start: SVector<S, N>,
 ) -> Result<SVector<S, N>, StepError> {
-    let finish = alone(momentum);
-    let way = match quick(Equation::General, evaluate, &finish, state, start) {
-        Ok(solution) => return Ok(solution.unknown),
-        Err(reached) => {
-            start = reached.v;
-            Way::Damped { iterations: reached.iterations }
+    match quick(Equation::General, evaluate, &alone(momentum), state, start) {
+        Ok(solution) => Ok(solution.unknown),
+        Err(Reached { v, iterations }) => {
+            root_by(Way::Damped { iterations }, evaluate, momentum, inertia, (state, h), &v)
         }
-    };
-    at_length(evaluate, momentum, inertia, (state, h), way, &start)
+    }
 }
 
-/// [`root`] from rest, by the damped method. Where that has led to an `error`, a matrix that is singular there
+/// The root of an equation alone, from rest by the damped method. Where that has led to an `error`, a matrix that is singular there
 /// or not finite, from away from rest.
 pub(crate) fn root_from_rest<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
@@ -93,16 +90,16 @@ pub(crate) fn root_from_rest<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         }
         Some(other) => return Err(other),
     };
-    at_length(evaluate, momentum, inertia, (state, S::zero()), way, &nalgebra::zero())
+    root_by(way, evaluate, momentum, inertia, (state, S::zero()), &nalgebra::zero())
 }
 
-/// [`root`] by this way.
-fn at_length<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+/// The root of an equation alone, at length by this way.
+fn root_by<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
+    way: Way<'_, S>,
     evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
     momentum: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,
     inertia: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SMatrix<S, N, N>,
     (state, h): (&State<S, N>, S),
-    way: Way<'_, S>,
     start: &SVector<S, N>,
 ) -> Result<SVector<S, N>, StepError> {
     let alone = alone(momentum);
@@ -193,7 +190,7 @@ pub(crate) fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
             let residual = momenta.p0 - p;
             let floor = estimated_floor(p, &kernel.matrix, &v);
             let (residual, floor, is_root) = held_against(&residual, &floor);
-            let last_correction = largest(&correction);
+            let last_correction = largest(correction.as_slice());
             if is_root && (kind == Equation::Linear || is_known_at(&v, last_correction)) {
                 let iterations = iterations + 1;
                 let report = Report { iterations, damped: 0, residual, floor, last_correction };
@@ -209,18 +206,7 @@ pub(crate) fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
 /// larger by as many, and with it the floor.
 #[inline(always)]
 fn is_known_at<S: Scalar, const N: usize>(v: &SVector<S, N>, last_correction: S) -> bool {
-    last_correction <= largest(v) * S::constant(SMALL)
-}
-
-/// max |vᵢ|; a loop of its own, which optimisation for size leaves one.
-#[inline(always)]
-fn largest<S: Scalar, const N: usize>(v: &SVector<S, N>) -> S {
-    let mut largest = S::zero();
-    for entry in v.as_slice() {
-        let size = entry.abs();
-        largest = if size > largest { size } else { largest };
-    }
-    largest
+    last_correction <= largest(v.as_slice()) * S::constant(SMALL)
 }
 
 /// max |residualᵢ| weightᵢ; NaN if one of them is no finite number.

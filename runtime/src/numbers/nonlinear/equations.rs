@@ -118,7 +118,17 @@ impl<S: Precision> Equations<'_, S> {
     pub(super) fn evaluate(&mut self, v: &[S], residual: &mut [S]) {
         self.evaluate.kernel(self.q, v, self.h, self.held, residual);
         subtract(residual, self.p);
-        self.hold(residual, S::zero());
+        for (residual, held) in residual.iter_mut().zip(self.held) {
+            if *held != S::zero() {
+                *residual = S::zero();
+            }
+        }
+    }
+
+    /// p0 − p by the momenta, with no coordinate held.
+    pub(super) fn residual(&self, v: &[S], residual: &mut [S], p1: &mut [S]) {
+        self.evaluate.momenta(self.q, v, self.h, residual, p1);
+        subtract(residual, self.p);
     }
 
     /// Both momenta at a configuration of its own.
@@ -182,13 +192,5 @@ impl<S: Precision> Equations<'_, S> {
     pub(super) fn first_non_finite(&self, residual: &[S]) -> Option<usize> {
         let mut entries = residual.iter().enumerate();
         entries.find(|(i, entry)| !entry.is_finite() || !self.evaluate.row_is_finite(*i)).map(|(i, _)| i)
-    }
-
-    fn hold(&self, x: &mut [S], value: S) {
-        for (x, held) in x.iter_mut().zip(self.held) {
-            if *held != S::zero() {
-                *x = value;
-            }
-        }
     }
 }

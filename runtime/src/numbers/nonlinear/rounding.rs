@@ -119,13 +119,12 @@ pub(super) fn estimated_floor<S: Precision>(
 /// swallow a single one.
 pub(crate) const PLACES: f64 = 8.0;
 
-/// Adds to `sums`, times `factor`, the rounding of p0 at `v`: its changes when each entry of q and of v moves
-/// by its last place, added up.
+/// Adds to `sums` the rounding of p0 at `v`: its changes when each entry of q and of v moves by its last place,
+/// added up.
 #[inline(never)]
 pub(super) fn add_rounding<S: Precision>(
     of: &Equations<'_, S>,
     v: &[S],
-    factor: S,
     sums: &mut [S],
     mut room: Room<'_, S>,
 ) {
@@ -153,7 +152,7 @@ pub(super) fn add_rounding<S: Precision>(
             }
         }
     }
-    add(sums, factor / places, sum);
+    add(sums, S::one() / places, sum);
 }
 
 /// The most that [`add_scatter`] moves a velocity, as a share of it: what is left of a smooth function's fourth
@@ -254,7 +253,7 @@ mod tests {
     ) -> [[f64; N]; 2] {
         let of = Equations { evaluate: &mut Momentum(p0), q: &q, p: &[0.0; N], h, held: &[0.0; N] };
         let [mut rounding, mut scatter] = [[0.0; N]; 2];
-        add_rounding(&of, &v, 1.0, &mut rounding, Room::new(&mut [0.0; 40], N));
+        add_rounding(&of, &v, &mut rounding, Room::new(&mut [0.0; 40], N));
         add_scatter(&of, &v, &mut scatter, Room::new(&mut [0.0; 40], N));
         [rounding, scatter]
     }

@@ -39,8 +39,7 @@ pub(super) fn from_rest<S: Precision>(
         let mut room = room.inner();
         let [at_rest, unused, p1] = room.vectors();
         let rest = room.zeros();
-        of.p0(of.q, rest, at_rest, room.inner());
-        subtract(at_rest, of.p);
+        of.residual(rest, at_rest, p1);
         if at_rest.iter().any(|entry| *entry != S::zero()) {
             of.evaluate(rest, unused);
             if of.evaluate.solve(at_rest, unused).is_ok() {
@@ -51,10 +50,7 @@ pub(super) fn from_rest<S: Precision>(
                 return careful(of, 0, root, room);
             }
         }
-        let residual = &mut |v: &[S], residual: &mut [S]| {
-            of.evaluate.momenta(of.q, v, of.h, residual, p1);
-            subtract(residual, of.p);
-        };
+        let residual = &mut |v: &[S], residual: &mut [S]| of.residual(v, residual, p1);
         near_rest(residual, near, unused);
         vanishing(residual, of.p, rest, near, resting, room.inner());
         if is_all(resting) {
@@ -190,10 +186,7 @@ fn still_rest<S: Precision>(
     mut room: Room<'_, S>,
 ) -> bool {
     let [p1, found] = room.vectors();
-    let residual = &mut |v: &[S], residual: &mut [S]| {
-        of.evaluate.momenta(of.q, v, of.h, residual, p1);
-        subtract(residual, of.p);
-    };
+    let residual = &mut |v: &[S], residual: &mut [S]| of.residual(v, residual, p1);
     vanishing(residual, of.p, v, near, found, room);
     let mut pairs = resting.iter().zip(found);
     pairs.all(|(rests, found)| *rests == S::zero() || *found != S::zero())

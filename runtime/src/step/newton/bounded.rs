@@ -49,7 +49,7 @@ pub(crate) fn bounded<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
             return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
         }
         let (residual, floor, is_root) = held_against(&remaining, &floor);
-        let last_correction = largest(&correction);
+        let last_correction = largest(correction.as_slice());
         let is_solved = is_root && (kind == Equation::Linear || is_known_at(&next, last_correction));
         if is_solved || best.as_ref().is_none_or(|(least, ..)| size < *least) {
             let report = Report { iterations: iteration + 1, damped: 0, residual, floor, last_correction };
