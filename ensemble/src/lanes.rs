@@ -8,6 +8,7 @@ use dalembert::run::{InLanes as LanesBy, LaneRuns};
 use dalembert::step::MethodOf;
 use dalembert::system::Scalar;
 use multiversion::multiversion;
+use multiversion::target::match_target;
 
 use crate::member::{Failure, Record};
 use crate::stepping::{Plan, Slot, Stepping};
@@ -27,36 +28,67 @@ impl<M, S> InLanes<M, S> {
     }
 }
 
-/// All runs on by this many steps, compiled for several instruction sets, of which the machine's is taken when
-/// the program runs.
+/// Work that is compiled for several instruction sets.
+trait Versioned {
+    /// Does it, in a set that `MOST` members at a time keep the registers of full; returns `MOST`. To be inlined.
+    fn work<const MOST: usize>(self) -> usize;
+}
+
+/// The work in the widest instructions of the machine, found when the program runs. How many members their
+/// registers take is as measured by `cargo bench -p dalembert-benches --bench lanes`.
 #[multiversion(targets(
     "x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx2+fma",
     "x86_64+avx2+fma",
     "aarch64+neon"
 ))]
-fn advance<L, M, const N: usize, const W: usize>(runs: &mut LaneRuns<'_, L, M, N, W>, steps: u64)
-where
-    L: LanesBy<M, N>,
-{
-    runs.advance(steps);
+fn in_widest<V: Versioned>(versioned: V) -> usize {
+    match_target! {
+        "x86_64+avx512f+avx512dq+avx512vl+avx512bw+avx2+fma" => versioned.work::<32>(),
+        "x86_64+avx2+fma" => versioned.work::<16>(),
+        _ => versioned.work::<8>(),
+    }
+}
+
+/// Nothing but to tell how many.
+struct Widest;
+
+impl Versioned for Widest {
+    #[inline(always)]
+    fn work<const MOST: usize>(self) -> usize {
+        MOST
+    }
+}
+
+/// Runs that go on by so many steps.
+struct Advance<'r, 's, L: LanesBy<M, N>, M, const N: usize, const W: usize> {
+    runs: &'r mut LaneRuns<'s, L, M, N, W>,
+    steps: u64,
+}
+
+impl<L: LanesBy<M, N>, M, const N: usize, const W: usize> Versioned for Advance<'_, '_, L, M, N, W> {
+    #[inline(always)]
+    fn work<const MOST: usize>(self) -> usize {
+        // Compiled for the one set that takes so many at a time.
+        if const { W == width::<L, M, N>(MOST) } {
+            self.runs.advance(self.steps);
+        }
+        MOST
+    }
 }
 
 /// Most bytes of the runs of one group: they stand on the stack, of which a thread may have 2 MiB, and are to
 /// stay in the cache.
 const MOST_BYTES: usize = 256 * 1024;
 
-/// How many members at a time keep the registers of the machine full, as measured by
-/// `cargo bench -p dalembert-benches --bench lanes`.
-fn widest() -> usize {
-    #[cfg(target_arch = "x86_64")]
-    let widest = match (is_x86_feature_detected!("avx512f"), is_x86_feature_detected!("avx2")) {
-        (true, _) => 32,
-        (false, true) => 16,
-        (false, false) => 8,
-    };
-    #[cfg(not(target_arch = "x86_64"))]
-    let widest = 8;
-    widest
+/// Members at a time, of at most so many: 8, or as many more as the method takes while their runs stay small.
+const fn width<L: LanesBy<M, N>, M, const N: usize>(most: usize) -> usize {
+    if most >= 32 && fits::<L, M, N, 32>() {
+        32
+    } else if most >= 16 && fits::<L, M, N, 16>() {
+        16
+    } else {
+        8
+    }
 }
 
 /// Whether the method takes W members at a time, and their runs stay small.
@@ -102,11 +134,11 @@ where
                 }
             }
         });
-        // Fewer where N or the method makes the runs large; known when compiled, so that what never runs is not.
-        let widest = widest();
-        if const { fits::<L, M, N, 32>() } && widest >= 32 {
+        // Known when compiled, but for the machine, so that what never runs is not.
+        let widest = in_widest(Widest);
+        if const { width::<L, M, N>(32) == 32 } && widest >= 32 {
             self.advance_all::<L, V, N, 32>(waiting, observe);
-        } else if const { fits::<L, M, N, 16>() } && widest >= 16 {
+        } else if const { width::<L, M, N>(16) == 16 } && widest >= 16 {
             self.advance_all::<L, V, N, 16>(waiting, observe);
         } else {
             self.advance_all::<L, V, N, 8>(waiting, observe);
@@ -166,7 +198,7 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
                 return;
             }
             if part > 0 {
-                advance(&mut runs, part);
+                in_widest(Advance { runs: &mut runs, steps: part });
                 left.iter_mut().for_each(|left| *left -= if *left == u64::MAX { 0 } else { part });
             }
         }

@@ -36,6 +36,21 @@ macro_rules! each_coordinate {
     )*};
 }
 
+/// The block for every coordinate, one after the other: of blocks that are long, or many in one function, which
+/// unrolled would take as many times as long to compile. LLVM does not see that the index counts.
+macro_rules! coordinate_by_coordinate {
+    ($index:ident => $block:block) => {
+        if const { N <= 2 } {
+            $crate::numbers::members::each_coordinate!(@unrolled [0 1] $index $block);
+        } else {
+            for index in &core::hint::black_box(const { $crate::numbers::members::counted::<N>() }) {
+                let $index = (*index).min(N - 1);
+                $block
+            }
+        }
+    };
+}
+
 /// The block for every stage, S ≤ 8 of them, unrolled.
 macro_rules! each_stage {
     ($index:ident => $block:block) => {
@@ -60,7 +75,37 @@ macro_rules! stage_by_stage {
     };
 }
 
-pub(crate) use {each_coordinate, each_stage, stage_by_stage};
+/// The block for every member.
+///
+/// Tested at its end: LLVM would turn a loop over a range into this one, at a cost that grows with the function
+/// that it has been inlined into.
+macro_rules! each_member {
+    ($index:ident => $block:block) => {
+        if const { W > 0 } {
+            let mut $index = 0;
+            loop {
+                $block
+                $index += 1;
+                if $index >= W {
+                    break;
+                }
+            }
+        }
+    };
+}
+
+pub(crate) use {coordinate_by_coordinate, each_coordinate, each_member, each_stage, stage_by_stage};
+
+/// 0, 1, …, N − 1.
+pub(crate) const fn counted<const N: usize>() -> [usize; N] {
+    let mut counted = [0; N];
+    let mut i = 0;
+    while i < N {
+        counted[i] = i;
+        i += 1;
+    }
+    counted
+}
 
 /// One number of each of W members. Operators and functions act on each of them as on a number alone, to the
 /// last bit. Aligned to lines of the cache, so that no vector stands across two.
@@ -136,9 +181,9 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     #[inline(always)]
     pub(crate) fn times_plus(self, is_fused: bool, factor: T, term: Self) -> Self {
         let mut result = term;
-        for i in 0..W {
+        each_member!(i => {
             result.0[i] = product_plus(is_fused, self.0[i], factor, term.0[i]);
-        }
+        });
         result
     }
 
@@ -146,9 +191,9 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     #[inline(always)]
     pub(crate) fn larger(self, other: Self) -> Self {
         let mut larger = other;
-        for i in 0..W {
+        each_member!(i => {
             larger.0[i] = if self.0[i] > other.0[i] { self.0[i] } else { other.0[i] };
-        }
+        });
         larger
     }
 
@@ -157,9 +202,9 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     #[must_use]
     pub fn select(condition: Mask<W>, a: Self, b: Self) -> Self {
         let mut selected = b;
-        for i in 0..W {
+        each_member!(i => {
             selected.0[i] = if condition.0[i] { a.0[i] } else { b.0[i] };
-        }
+        });
         selected
     }
 
@@ -175,9 +220,9 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     #[must_use]
     pub fn less(self, other: Self) -> Mask<W> {
         let mut mask = Mask([false; W]);
-        for i in 0..W {
+        each_member!(i => {
             mask.0[i] = self.0[i] < other.0[i];
-        }
+        });
         mask
     }
 
@@ -186,9 +231,9 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     #[must_use]
     pub fn less_or_equal(self, other: Self) -> Mask<W> {
         let mut mask = Mask([false; W]);
-        for i in 0..W {
+        each_member!(i => {
             mask.0[i] = self.0[i] <= other.0[i];
-        }
+        });
         mask
     }
 
@@ -197,9 +242,9 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     #[must_use]
     pub fn equal(self, other: Self) -> Mask<W> {
         let mut mask = Mask([false; W]);
-        for i in 0..W {
+        each_member!(i => {
             mask.0[i] = self.0[i] == other.0[i];
-        }
+        });
         mask
     }
 
@@ -215,9 +260,9 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     #[must_use]
     pub fn is_finite(self) -> Mask<W> {
         let mut mask = Mask([false; W]);
-        for i in 0..W {
+        each_member!(i => {
             mask.0[i] = self.0[i].is_finite();
-        }
+        });
         mask
     }
 
@@ -233,9 +278,9 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     #[must_use]
     pub fn is_sign_negative(self) -> Mask<W> {
         let mut mask = Mask([false; W]);
-        for i in 0..W {
+        each_member!(i => {
             mask.0[i] = self.0[i].is_sign_negative();
-        }
+        });
         mask
     }
 

@@ -8,7 +8,7 @@ use nalgebra::SMatrix;
 use super::banded::{self, FactoredBand};
 use super::dense::{self, FactoredDense};
 use super::{Banded, NewtonMatrix};
-use crate::numbers::members::each_coordinate;
+use crate::numbers::members::{coordinate_by_coordinate, counted, each_coordinate};
 use crate::numbers::{Mask, MemberVector, Members, Scalar};
 
 /// The matrices of W members, made ready to solve with.
@@ -148,6 +148,8 @@ fn eliminate<S: Scalar, const N: usize, const W: usize>(
     mut x: MemberVector<S, N, W>,
 ) -> (MemberVector<S, N, W>, Mask<W>) {
     let (zero, one) = (Members::splat(S::zero()), Members::splat(S::one()));
+    // As in `coordinate_by_coordinate`: N³ operations in loops.
+    let order = core::hint::black_box(const { counted::<N>() });
     let mut is_solved = Mask::splat(true);
     let mut scale = [zero; N];
     for i in 0..N {
@@ -158,10 +160,12 @@ fn eliminate<S: Scalar, const N: usize, const W: usize>(
         scale[i] = Members::select(zero.less(largest), one / largest, zero);
     }
     let mut reciprocals = scale;
-    for k in 0..N {
+    coordinate_by_coordinate!(k => {
+        let below = order.get(k + 1..).unwrap_or_default();
         let mut best = rows[k][k].abs() * scale[k];
         let mut pivot = [k; W];
-        for i in k + 1..N {
+        for i in below {
+            let i = (*i).min(N - 1);
             let candidate = rows[i][k].abs() * scale[i];
             for member in 0..W {
                 let is_better = candidate.0[member] > best.0[member];
@@ -170,26 +174,29 @@ fn eliminate<S: Scalar, const N: usize, const W: usize>(
             best = candidate.larger(best);
         }
         is_solved = is_solved & Members::splat(S::constant(dense::SUSPICIOUS)).less(best);
-        for i in k + 1..N {
+        for i in below {
+            let i = (*i).min(N - 1);
             let here = Mask(pivot.map(|pivot| pivot == i));
             if here.0.contains(&true) {
                 let exchanged = |a, b| (Members::select(here, b, a), Members::select(here, a, b));
-                for j in 0..N {
+                coordinate_by_coordinate!(j => {
                     (rows[k][j], rows[i][j]) = exchanged(rows[k][j], rows[i][j]);
-                }
+                });
                 (scale[k], scale[i]) = exchanged(scale[k], scale[i]);
                 (x[k], x[i]) = exchanged(x[k], x[i]);
             }
         }
         reciprocals[k] = one / rows[k][k];
-        for i in k + 1..N {
+        for i in below {
+            let i = (*i).min(N - 1);
             let factor = rows[i][k] * reciprocals[k];
             rows[i][k] = factor;
-            for j in k + 1..N {
+            for j in below {
+                let j = (*j).min(N - 1);
                 rows[i][j] = rows[i][j] - factor * rows[k][j];
             }
         }
-    }
+    });
     (substituted(&rows, &reciprocals, x), is_solved)
 }
 

@@ -2,7 +2,7 @@
 //! [`branch_free`](crate::numbers::Elementary::branch_free) gives of one number, the others one by one through
 //! those of numbers; so they are rounded alike.
 
-use super::Members;
+use super::{Members, each_member};
 use crate::numbers::{Elementary, Scalar};
 
 /// Functions of one number.
@@ -14,9 +14,9 @@ macro_rules! of_one {
                 #[inline(always)]
                 #[must_use]
                 pub fn $name(mut self) -> Self {
-                    for i in 0..W {
+                    each_member!(i => {
                         self.0[i] = Elementary::$name(self.0[i]);
-                    }
+                    });
                     self
                 }
             )*
@@ -33,9 +33,9 @@ macro_rules! of_two {
                 #[inline(always)]
                 #[must_use]
                 pub fn $name(mut self, other: Self) -> Self {
-                    for i in 0..W {
+                    each_member!(i => {
                         self.0[i] = Elementary::$name(self.0[i], other.0[i]);
-                    }
+                    });
                     self
                 }
             )*
@@ -125,9 +125,9 @@ impl<T: Elementary, const W: usize> Members<T, W> {
     #[inline(always)]
     #[must_use]
     pub fn powi(mut self, n: i32) -> Self {
-        for i in 0..W {
+        each_member!(i => {
             self.0[i] = Elementary::powi(self.0[i], n);
-        }
+        });
         self
     }
 
@@ -135,9 +135,9 @@ impl<T: Elementary, const W: usize> Members<T, W> {
     #[inline(always)]
     #[must_use]
     pub fn mul_add(mut self, a: Self, b: Self) -> Self {
-        for i in 0..W {
+        each_member!(i => {
             self.0[i] = Elementary::mul_add(self.0[i], a.0[i], b.0[i]);
-        }
+        });
         self
     }
 }
@@ -154,9 +154,9 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     #[inline(always)]
     #[must_use]
     pub fn abs(mut self) -> Self {
-        for i in 0..W {
+        each_member!(i => {
             self.0[i] = nalgebra::ComplexField::abs(self.0[i]);
-        }
+        });
         self
     }
 
@@ -164,9 +164,9 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     #[inline(always)]
     #[must_use]
     pub fn copysign(mut self, sign: Self) -> Self {
-        for i in 0..W {
+        each_member!(i => {
             self.0[i] = nalgebra::RealField::copysign(self.0[i], sign.0[i]);
-        }
+        });
         self
     }
 

@@ -2,16 +2,16 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::Members;
+use super::{Members, each_member};
 use crate::numbers::Scalar;
 
 impl<T: Scalar, const W: usize> Neg for Members<T, W> {
     type Output = Self;
     #[inline(always)]
     fn neg(mut self) -> Self {
-        for i in 0..W {
+        each_member!(i => {
             self.0[i] = -self.0[i];
-        }
+        });
         self
     }
 }
@@ -22,9 +22,9 @@ macro_rules! operators {
             type Output = Self;
             #[inline(always)]
             fn $method(mut self, other: Self) -> Self {
-                for i in 0..W {
+                each_member!(i => {
                     self.0[i] $assigning other.0[i];
-                }
+                });
                 self
             }
         }
@@ -33,9 +33,9 @@ macro_rules! operators {
             type Output = Self;
             #[inline(always)]
             fn $method(mut self, other: T) -> Self {
-                for i in 0..W {
+                each_member!(i => {
                     self.0[i] $assigning other;
-                }
+                });
                 self
             }
         }

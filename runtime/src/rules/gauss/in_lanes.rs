@@ -21,7 +21,7 @@ use super::fixed_point::MAX_ITERATIONS;
 use super::history::StageHistory;
 use super::problem::{Solver, steps};
 use super::slack::{MAX_SWEEPS, Slack};
-use crate::numbers::members::{each_coordinate, each_stage, member, stage_by_stage, write_member};
+use crate::numbers::members::{coordinate_by_coordinate, each_stage, member, stage_by_stage, write_member};
 use crate::numbers::{Compensated, CompensatedMembers, Mask, MemberVector, Members, Scalar};
 use crate::step::in_lanes::clocks::Clocks;
 use crate::step::{Memory, State};
@@ -161,14 +161,14 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         let zero = [Members::splat(T::zero()); N];
         let (mut displacement, mut impulse) = (zero, zero);
         stage_by_stage!(j => {
-            each_coordinate!(a => {
+            coordinate_by_coordinate!(a => {
                 displacement[a] = displacement[a] + solved.v[j][a] * steps[j];
                 impulse[a] = impulse[a] + solved.rate[j][a] * steps[j];
             });
         });
         let (q, p) = (self.q.plus(&displacement), self.p.plus(&impulse));
         let mut has_stepped = solved.is_solved;
-        each_coordinate!(a => {
+        coordinate_by_coordinate!(a => {
             let velocity = displacement[a] / self.h;
             let is_finite = q.value[a].is_finite() & p.value[a].is_finite() & velocity.is_finite();
             has_stepped = has_stepped & is_finite;
@@ -182,7 +182,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         self.q.replace(only_some, has_stepped, &q);
         self.p.replace(only_some, has_stepped, &p);
         stage_by_stage!(j => {
-            each_coordinate!(a => {
+            coordinate_by_coordinate!(a => {
                 self.v[j][a].replace(only_some, has_stepped, solved.v[j][a]);
             });
         });

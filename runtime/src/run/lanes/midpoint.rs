@@ -8,7 +8,7 @@
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
 
 use super::{begins, state_if_sound};
-use crate::numbers::members::{each_coordinate, member, write_member};
+use crate::numbers::members::{coordinate_by_coordinate, each_coordinate, member, write_member};
 use crate::numbers::{Mask, MatricesOfMembers, MemberVector, Members, Scalar};
 use crate::rules::Midpoint;
 use crate::run::memory::in_lanes::{by_kept_matrices, by_linear_matrices};
@@ -103,7 +103,7 @@ where
         if self.known.iter().any(|&known| known < 4) {
             let [is_first, is_second, is_third] =
                 [1, 2, 3].map(|count| Mask(self.known.map(|known| known == count)));
-            each_coordinate!(i => {
+            coordinate_by_coordinate!(i => {
                 guess[i] = Members::select(is_third, (a[i] - b[i]) * three + c[i], guess[i]);
                 guess[i] = Members::select(is_second, a[i] * two - b[i], guess[i]);
                 guess[i] = Members::select(is_first, a[i], guess[i]);
@@ -117,12 +117,12 @@ where
     fn follow(&mut self, roots: &Roots<T, N, W>) -> Mask<W> {
         let (mut q, mut p) = (self.q, self.p);
         let mut has_stepped = roots.is_solved;
-        each_coordinate!(a => {
+        coordinate_by_coordinate!(a => {
             q[a] = q[a] + roots.v[a] * self.h;
             p[a] = p[a] + (roots.momenta[1][a] - roots.momenta[0][a]);
             has_stepped = has_stepped & q[a].is_finite() & p[a].is_finite();
         });
-        each_coordinate!(a => {
+        coordinate_by_coordinate!(a => {
             self.q[a] = Members::select(has_stepped, q[a], self.q[a]);
             self.p[a] = Members::select(has_stepped, p[a], self.p[a]);
             for age in (1..4).rev() {

@@ -4,7 +4,7 @@
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
 
 use super::kept_matrix::{CLOSE, CONTRACTION, MOST, SMALL};
-use crate::numbers::members::{difference, each_coordinate};
+use crate::numbers::members::{coordinate_by_coordinate, difference};
 use crate::numbers::{Mask, MatricesOfMembers, MemberVector, Members, Scalar};
 use crate::step::DiscreteInLanes;
 use crate::step::in_lanes::newton::{
@@ -55,7 +55,7 @@ where
                         let (_, there) = L::step_kernel_in_lanes(fields, q, &v, h);
                         let magnitudes = MatricesOf::<L, R, N, W>::magnitudes_of(&there, &scaled(&v));
                         let own = estimated_floor(p, &magnitudes);
-                        each_coordinate!(a => {
+                        coordinate_by_coordinate!(a => {
                             floor[a] = Members::select(is_shown, floor[a], own[a]);
                         });
                     }
@@ -101,7 +101,7 @@ where
     let again = whose & (largest(&v) * L::Scalar::constant(SMALL)).less(largest(&first));
     if again.0.contains(&true) {
         let second = difference(&v, &correction(&v));
-        each_coordinate!(a => {
+        coordinate_by_coordinate!(a => {
             v[a] = Members::select(again, second[a], v[a]);
         });
     }
@@ -119,7 +119,7 @@ fn is_far<T: Scalar, const N: usize, const W: usize>(
     weights: &MemberVector<T, N, W>,
 ) -> Mask<W> {
     let mut least = Members::splat(T::one() / T::zero());
-    each_coordinate!(a => {
+    coordinate_by_coordinate!(a => {
         let units = residual[a].abs() * weights[a];
         least = Members::select(units.less(least), units, least);
     });
@@ -135,7 +135,7 @@ fn is_shown<T: Scalar, const N: usize, const W: usize>(
 ) -> Mask<W> {
     let unit = T::EPSILON * T::constant(4.0);
     let mut is_shown = Mask::splat(true);
-    each_coordinate!(a => {
+    coordinate_by_coordinate!(a => {
         let size = residual[a].abs();
         let has_fallen = size.less_or_equal(first[a].abs() * T::constant(CONTRACTION));
         is_shown = is_shown & (has_fallen | size.less_or_equal(p[a].abs() * unit));

@@ -1,7 +1,7 @@
 //! How far the sweeps of several members go where an error is asked for at an end.
 
 use super::sweeps::Seen;
-use crate::numbers::members::each_coordinate;
+use crate::numbers::members::coordinate_by_coordinate;
 use crate::numbers::{Mask, MemberVector, Members, Scalar};
 use crate::rules::gauss::slack::{ROUNDINGS, Slack, remaining};
 
@@ -34,7 +34,7 @@ impl<T: Scalar, const W: usize> SlackOfMembers<T, W> {
     ) {
         for (change, [from, to]) in self.change.iter_mut().zip(steps) {
             let mut largest = *change;
-            each_coordinate!(a => {
+            coordinate_by_coordinate!(a => {
                 largest = largest.larger((to[a] - from[a]).abs());
             });
             change.replace(true, has_stepped, largest);
@@ -73,7 +73,7 @@ impl<T: Scalar, const W: usize> Allowances<T, W> {
         };
         let SlackOfMembers { steps, change: [q_change, p_change] } = *of_members;
         let mut largest = none;
-        each_coordinate!(a => {
+        coordinate_by_coordinate!(a => {
             largest = largest.larger(p[a].abs());
         });
         let rounding = largest * (T::EPSILON * T::constant(ROUNDINGS)) * q_change;
@@ -93,7 +93,7 @@ impl<T: Scalar, const W: usize> Allowances<T, W> {
         seen: &Seen<T, N, W>,
     ) -> Mask<W> {
         let mut now = seen.correction * self.per_correction;
-        each_coordinate!(a => {
+        coordinate_by_coordinate!(a => {
             now = now.larger(seen.residual[a] * self.per_residual);
         });
         let is_finite = ((seen.sum + now) * T::constant(256.0)).is_finite();

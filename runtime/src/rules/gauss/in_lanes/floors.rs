@@ -1,7 +1,7 @@
 //! How far the sweeps of several members go to solve their stages to rounding.
 
 use super::sweeps::Seen;
-use crate::numbers::members::each_coordinate;
+use crate::numbers::members::coordinate_by_coordinate;
 use crate::numbers::{Mask, MemberVector, Members, Scalar};
 use crate::rules::gauss::fixed_point::{AT_REST, CHANGED, NEAR, SLUGGISH};
 use crate::step::newton::AT_FLOOR;
@@ -29,7 +29,7 @@ impl<T: Scalar, const N: usize, const S: usize, const W: usize> Terms<'_, T, N, 
         let unit = T::EPSILON * T::constant(4.0);
         let of_rate = (self.h * unit).abs();
         let mut floor = *largest;
-        each_coordinate!(a => {
+        coordinate_by_coordinate!(a => {
             let mut largest_rate = self.rate[0][a].abs();
             for i in 1..S {
                 largest_rate = largest_rate.larger(self.rate[i][a].abs());
@@ -77,12 +77,12 @@ impl<T: Scalar, const N: usize, const W: usize> Floors<T, N, W> {
             if grows.0.contains(&true) {
                 let now = terms.floor(largest);
                 let mut has_risen = Mask::splat(false);
-                each_coordinate!(a => {
+                coordinate_by_coordinate!(a => {
                     has_risen = has_risen | (self.floor[a] * constant(CHANGED)).less(now[a]);
                     *is_open = *is_open & (!grows | now[a].is_finite());
                 });
                 let has_risen = grows & has_risen;
-                each_coordinate!(a => {
+                coordinate_by_coordinate!(a => {
                     self.floor[a] = Members::select(has_risen, self.floor[a].larger(now[a]), self.floor[a]);
                 });
                 size = self.begin_anew(has_risen, largest);
@@ -111,12 +111,12 @@ impl<T: Scalar, const N: usize, const W: usize> Floors<T, N, W> {
         if iterations > 1 && is_done.0.contains(&true) {
             let now = terms.floor(largest);
             let mut has_fallen = Mask::splat(false);
-            each_coordinate!(a => {
+            coordinate_by_coordinate!(a => {
                 has_fallen = has_fallen | (now[a] * constant(CHANGED)).less(self.floor[a]);
             });
             let has_fallen = is_done & has_fallen;
             is_done = is_done & !has_fallen;
-            each_coordinate!(a => {
+            coordinate_by_coordinate!(a => {
                 self.floor[a] = Members::select(has_fallen, now[a], self.floor[a]);
             });
             size = self.begin_anew(has_fallen, largest);
@@ -146,7 +146,7 @@ fn reciprocals<T: Scalar, const N: usize, const W: usize>(
     floor: &MemberVector<T, N, W>,
 ) -> MemberVector<T, N, W> {
     let mut reciprocals = *floor;
-    each_coordinate!(a => {
+    coordinate_by_coordinate!(a => {
         reciprocals[a] = Members::splat(T::one()) / floor[a] + floor[a] * T::zero();
     });
     reciprocals
@@ -160,7 +160,7 @@ fn in_units<T: Scalar, const N: usize, const W: usize>(
     per_floor: &MemberVector<T, N, W>,
 ) -> Members<T, W> {
     let (mut size, mut poison) = (Members::splat(T::zero()), Members::splat(T::zero()));
-    each_coordinate!(a => {
+    coordinate_by_coordinate!(a => {
         let units = largest[a] * per_floor[a];
         size = size.larger(units);
         poison = poison + units * T::zero();

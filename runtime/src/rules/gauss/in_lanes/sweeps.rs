@@ -3,7 +3,7 @@
 use super::StagesInLanes;
 use super::allowances::Allowances;
 use super::floors::{Floors, Terms};
-use crate::numbers::members::{each_coordinate, each_stage, stage_by_stage};
+use crate::numbers::members::{coordinate_by_coordinate, each_stage, stage_by_stage};
 use crate::numbers::{Blank, CompensatedMembers, Mask, MemberVector, Members, Scalar};
 use crate::rules::gauss::fixed_point::MAX_ITERATIONS;
 use crate::system::{ForcedLagrangianInLanes, Lagrangian};
@@ -65,7 +65,7 @@ impl<T: Scalar, const N: usize, const W: usize> Seen<T, N, W> {
     #[inline(always)]
     fn of_both([a, b]: &[Self; 2]) -> Self {
         let mut residual = a.residual;
-        each_coordinate!(i => {
+        coordinate_by_coordinate!(i => {
             residual[i] = a.residual[i].larger(b.residual[i]);
         });
         Self { residual, correction: a.correction.larger(b.correction), sum: a.sum + b.sum }
@@ -85,7 +85,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
     fn extrapolate(&self, is_fused: bool, extrapolated: &mut [MemberVector<T, N, W>; S]) {
         let columns = &Self::COEFFICIENTS.extrapolation;
         stage_by_stage!(i => {
-            each_coordinate!(a => {
+            coordinate_by_coordinate!(a => {
                 let mut sums = [Members::splat(T::zero()); 2];
                 each_stage!(j => {
                     sums[j % 2] = self.v[j][a].times_plus(is_fused, T::constant(columns[j][i]), sums[j % 2]);
@@ -95,7 +95,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         });
         if self.is_new.0.contains(&true) {
             stage_by_stage!(i => {
-                each_coordinate!(a => {
+                coordinate_by_coordinate!(a => {
                     extrapolated[i][a] = Members::select(self.is_new, self.v[i][a], extrapolated[i][a]);
                 });
             });
@@ -112,7 +112,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
     ) -> MemberVector<T, N, W> {
         let columns = &Self::COEFFICIENTS.shares;
         let mut at = [Members::splat(T::zero()); N];
-        each_coordinate!(a => {
+        coordinate_by_coordinate!(a => {
             let mut sums = [start.rest[a], Members::splat(T::zero())];
             each_stage!(j => {
                 sums[j % 2] = terms[j][a].times_plus(is_fused, T::constant(columns[j][i]), sums[j % 2]);
@@ -144,7 +144,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
         *anchors = Blank::blank();
         self.extrapolate(is_fused, v);
         stage_by_stage!(j => {
-            each_coordinate!(a => {
+            coordinate_by_coordinate!(a => {
                 of_v[j][a] = v[j][a] * steps[j];
             });
         });
@@ -167,7 +167,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
                     at_stage = &in_time;
                 }
                 (rate[i], kept[i]) = L::rates_in_lanes(at_stage, &mut anchors[i], &q, &v[i]);
-                each_coordinate!(a => {
+                coordinate_by_coordinate!(a => {
                     of_rate[i][a] = rate[i][a] * steps[i];
                 });
             });
@@ -177,16 +177,17 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
             stage_by_stage!(i => {
                 let p = Self::at_stage(is_fused, &self.p, of_rate, i);
                 let [residual, correction] = L::corrections_in_lanes(&fields, &kept[i], &v[i], &p);
-                let mut now = seen[i % 2];
-                each_coordinate!(a => {
+                let now = &mut seen[i % 2];
+                let (mut largest, mut sum) = (now.correction, now.sum);
+                coordinate_by_coordinate!(a => {
                     next[i][a] = v[i][a] + correction[a];
                     of_v[i][a] = next[i][a] * steps[i];
                     let (residual, correction) = (residual[a].abs(), correction[a].abs());
                     now.residual[a] = now.residual[a].larger(residual);
-                    now.correction = now.correction.larger(correction);
-                    now.sum = now.sum + (residual + correction);
+                    largest = largest.larger(correction);
+                    sum = sum + (residual + correction);
                 });
-                seen[i % 2] = now;
+                (now.correction, now.sum) = (largest, sum);
             });
             let seen = Seen::of_both(&seen);
             let (mut is_done, mut is_moved) = (Mask::splat(false), is_loose);
@@ -205,7 +206,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
                 let some_solved = solved.is_solved.0.contains(&true);
                 let all_moved = !is_moved.0.contains(&false);
                 stage_by_stage!(i => {
-                    each_coordinate!(a => {
+                    coordinate_by_coordinate!(a => {
                         let mut end = next[i][a];
                         if !all_moved {
                             end = Members::select(is_moved, end, v[i][a]);
