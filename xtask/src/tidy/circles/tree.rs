@@ -2,9 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use anyhow::{Context, Result};
 use syn::Item;
 
-use crate::paths::{self, Segments, Written};
+use super::super::paths::{self, Segments, Written};
 
 /// For each name of a module: the names of those that it uses, each with the files and paths that say so.
 /// Paths come first that begin at the root or at `super`; others go through what these import.
@@ -34,7 +35,7 @@ pub struct Tree<'f> {
 
 impl<'f> Tree<'f> {
     /// Of the root's file, and of those that it declares, directly or through others.
-    pub fn of(root: &str, files: &'f BTreeMap<String, String>) -> Self {
+    pub fn of(root: &str, files: &'f BTreeMap<String, String>) -> Result<Self> {
         let mut tree = Self {
             files,
             roots: vec!["crate".into()],
@@ -43,18 +44,19 @@ impl<'f> Tree<'f> {
             globs: BTreeMap::new(),
             written: Vec::new(),
         };
-        tree.read(root, &[]);
-        tree
+        tree.read(root, &[])?;
+        Ok(tree)
     }
 
-    fn read(&mut self, path: &str, module: &[String]) {
-        let file = syn::parse_file(&self.files[path]).expect("a source file");
-        self.declare(module, &file.items);
+    fn read(&mut self, path: &str, module: &[String]) -> Result<()> {
+        let file = syn::parse_file(&self.files[path]).with_context(|| path.to_owned())?;
+        self.declare(module, &file.items)?;
         let written = paths::of_file(module.to_vec(), &file);
         self.written.extend(written.into_iter().map(|written| (path.to_owned(), written)));
+        Ok(())
     }
 
-    fn declare(&mut self, module: &[String], items: &[Item]) {
+    fn declare(&mut self, module: &[String], items: &[Item]) -> Result<()> {
         self.modules.insert(module.to_vec());
         for item in items {
             let (attributes, name) = paths::head(item);
@@ -64,14 +66,14 @@ impl<'f> Tree<'f> {
             let own = name.map(|name| [module, &[name.to_string()]].concat());
             match (item, own) {
                 (Item::Mod(syn::ItemMod { content: Some((_, items)), .. }), Some(child)) => {
-                    self.declare(&child, items)
+                    self.declare(&child, items)?
                 }
                 (Item::Mod(_), Some(child)) => {
                     let path = child.join("/");
                     let paths = [format!("{path}.rs"), format!("{path}/mod.rs")];
                     // A file of another crate, by `#[path]`, is read there.
                     match paths.iter().find(|path| self.files.contains_key(*path)) {
-                        Some(path) => self.read(path, &child),
+                        Some(path) => self.read(path, &child)?,
                         None => drop(self.modules.insert(child)),
                     }
                 }
@@ -99,6 +101,7 @@ impl<'f> Tree<'f> {
                 _ => {}
             }
         }
+        Ok(())
     }
 
     fn show(&mut self, module: &[String], name: String, target: Segments) {

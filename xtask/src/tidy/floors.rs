@@ -1,13 +1,13 @@
 //! The runtime's floors: a module uses those below its own, none above. Circles on one floor are found by
 //! `circles.rs`.
-//!
-//! `cargo test -p dalembert-tests --test project floors -- --nocapture` prints who uses whom.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write;
-use std::path::Path;
 
-use super::paths::{self, Segments, read};
+use anyhow::{Context, Result, ensure};
+
+use super::kept;
+use super::paths::{self, Segments};
+use crate::project;
 
 /// A crate: how its files name its root, and its floors from the lowest up. What stands side by side does not
 /// use each other.
@@ -29,7 +29,6 @@ impl Crate {
 
 /// Who uses whom.
 struct Plan {
-    of: &'static Crate,
     /// For each module, as (floor, module): the modules of its floor that it uses, each with the file and
     /// path that say so.
     within: BTreeMap<(String, String), BTreeMap<String, String>>,
@@ -40,15 +39,15 @@ struct Plan {
 
 impl Plan {
     /// Of files given as their paths, `floor/module.rs` and below, and their texts.
-    fn of(of: &'static Crate, files: &[(String, String)]) -> Self {
-        let mut plan = Self { of, within: BTreeMap::new(), between: BTreeMap::new(), refused: Vec::new() };
+    fn of(of: &'static Crate, files: &[(String, String)]) -> Result<Self> {
+        let mut plan = Self { within: BTreeMap::new(), between: BTreeMap::new(), refused: Vec::new() };
         let module_of =
             |path: &str| -> Segments { path.trim_end_matches(".rs").split('/').map(str::to_owned).collect() };
         // What a floor shows of its modules: name by name, as `pub use state::State` in its file.
         let mut shown = BTreeMap::<(String, String), String>::new();
         for (path, text) in files {
             let [floor] = &module_of(path)[..] else { continue };
-            for item in syn::parse_file(text).expect("a source file").items {
+            for item in syn::parse_file(text).with_context(|| path.clone())?.items {
                 match item {
                     syn::Item::Mod(module) => {
                         let module = module.ident.to_string();
@@ -76,7 +75,7 @@ impl Plan {
                 plan.refused.push(format!("{path}: stands on no floor"));
                 continue;
             };
-            let file = syn::parse_file(text).expect("a source file");
+            let file = syn::parse_file(text).with_context(|| path.clone())?;
             let named = paths::of_file(module.clone(), &file);
             for used in named.iter().filter_map(|path| path.in_crate(of.root)) {
                 let said = format!("{path}: crate::{}", used.join("::"));
@@ -96,7 +95,7 @@ impl Plan {
                 }
             }
         }
-        plan
+        Ok(plan)
     }
 
     fn use_within(
@@ -119,76 +118,68 @@ impl Plan {
             }
         }
     }
-
-    /// The floors, from the highest down.
-    fn drawn(&self) -> String {
-        let mut drawn = String::new();
-        for floor in self.of.levels.iter().rev().copied().flatten().copied() {
-            writeln!(drawn, "{floor}").unwrap();
-            for (_, (module, uses)) in
-                self.within.iter().map(|(key, uses)| (&key.0, (&key.1, uses))).filter(|(of, _)| *of == floor)
-            {
-                let uses = uses.keys().map(String::as_str).collect::<Vec<_>>().join(", ");
-                writeln!(drawn, "    {module}{}{uses}", if uses.is_empty() { "" } else { " → " }).unwrap();
-            }
-            for (other, names) in self.between.get(floor).into_iter().flatten() {
-                let names = names.iter().map(String::as_str).collect::<Vec<_>>().join(", ");
-                writeln!(drawn, "  {other}: {names}").unwrap();
-            }
-        }
-        drawn
-    }
 }
 
-#[test]
-fn floors_use_what_is_below_them() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime/src");
-    let mut files = Vec::new();
-    read(&root, &root, &mut files);
-    // The root itself shows what the floors have, to users and to generated code, and nalgebra beside them; the guide
-    // is documentation alone.
+/// Uses that climb, go sideways or go through the root.
+pub fn check() -> Result<Vec<String>> {
+    let root = project::root().join("runtime/src");
+    let mut files = project::sources(&root, &root)?;
+    // The root itself shows what the floors have, to users and to generated code, and nalgebra beside them;
+    // the guide is documentation alone.
     files.retain(|(path, _)| !["lib.rs", "generated.rs", "guide.rs", "nalgebra.rs"].contains(&path.as_str()));
-    files.sort();
-    let plan = Plan::of(&RUNTIME, &files);
-    println!("{}", plan.drawn());
-    assert!(plan.refused.is_empty(), "{:#?}", plan.refused);
-    // Not for want of looking.
-    assert!(plan.between["step"]["numbers"].contains("Scalar"));
-    assert!(plan.within[&("step".into(), "legendre".into())].contains_key("newton"));
+    kept::of("floors", &files, || of_runtime(&files))
 }
 
-/// What is refused of a tree of files.
-fn refused(files: &[(&str, &str)]) -> Vec<String> {
-    let files: Vec<_> = files.iter().map(|&(path, text)| (path.to_owned(), text.to_owned())).collect();
-    Plan::of(&RUNTIME, &files).refused
+fn of_runtime(files: &[(String, String)]) -> Result<Vec<String>> {
+    let plan = Plan::of(&RUNTIME, files)?;
+    let scalar = plan.between["step"]["numbers"].contains("Scalar");
+    let newton = plan.within[&("step".into(), "legendre".into())].contains_key("newton");
+    ensure!(scalar && newton, "uses that are there were not seen");
+    Ok(plan.refused)
 }
 
-#[test]
-fn climbs_are_refused() {
-    let below = ("numbers.rs", "mod scalar; pub use scalar::Scalar;");
-    let above = ("step.rs", "mod error; mod state; pub use error::StepError; pub use state::State;");
-    let error = ("step/error.rs", "use crate::numbers::Scalar; pub struct StepError;");
-    let state = ("step/state.rs", "use super::StepError; pub struct State;");
-    let scalar =
-        ("numbers/scalar.rs", "pub trait Scalar {} #[cfg(test)] mod tests { use crate::step::State; }");
-    assert_eq!(refused(&[below, above, error, state, scalar]), [""; 0]);
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-    let climbing = |text| refused(&[below, above, error, state, ("numbers/scalar.rs", text)]);
-    let message = "numbers/scalar.rs: crate::step::State climbs from numbers to step";
-    assert_eq!(climbing("use crate::{step::State};"), [message]);
-    assert_eq!(climbing("fn of(_: crate::step::State) {}"), [message]);
-    assert_eq!(climbing("macro_rules! of { () => { $crate::step::State } }"), [message]);
-    assert_eq!(climbing("mod inner { use super::super::super::step::State; }"), [message]);
+    #[test]
+    fn floors_use_what_is_below_them() {
+        assert_eq!(check().unwrap(), [""; 0]);
+    }
 
-    let through = refused(&[below, above, error, scalar, ("step/state.rs", "use crate::{Scalar};")]);
-    let message = "step/state.rs: crate::Scalar goes through the root: name the floor";
-    assert_eq!(through, [message]);
-    let text = "macro_rules! of { () => { $crate::Scalar } }";
-    assert_eq!(refused(&[below, above, error, scalar, ("step/state.rs", text)]), [message]);
+    /// Uses that are refused in a tree of files.
+    fn refused(files: &[(&str, &str)]) -> Vec<String> {
+        let files: Vec<_> = files.iter().map(|&(path, text)| (path.to_owned(), text.to_owned())).collect();
+        Plan::of(&RUNTIME, &files).unwrap().refused
+    }
 
-    let beside = ("run.rs", "mod trajectory; use crate::derivative::Certificate;");
-    assert_eq!(
-        refused(&[beside]),
-        ["run.rs: crate::derivative::Certificate goes from run to derivative beside it"]
-    );
+    #[test]
+    fn climbs_are_refused() {
+        let below = ("numbers.rs", "mod scalar; pub use scalar::Scalar;");
+        let above = ("step.rs", "mod error; mod state; pub use error::StepError; pub use state::State;");
+        let error = ("step/error.rs", "use crate::numbers::Scalar; pub struct StepError;");
+        let state = ("step/state.rs", "use super::StepError; pub struct State;");
+        let scalar =
+            ("numbers/scalar.rs", "pub trait Scalar {} #[cfg(test)] mod tests { use crate::step::State; }");
+        assert_eq!(refused(&[below, above, error, state, scalar]), [""; 0]);
+
+        let climbing = |text| refused(&[below, above, error, state, ("numbers/scalar.rs", text)]);
+        let message = "numbers/scalar.rs: crate::step::State climbs from numbers to step";
+        assert_eq!(climbing("use crate::{step::State};"), [message]);
+        assert_eq!(climbing("fn of(_: crate::step::State) {}"), [message]);
+        assert_eq!(climbing("macro_rules! of { () => { $crate::step::State } }"), [message]);
+        assert_eq!(climbing("mod inner { use super::super::super::step::State; }"), [message]);
+
+        let through = refused(&[below, above, error, scalar, ("step/state.rs", "use crate::{Scalar};")]);
+        let message = "step/state.rs: crate::Scalar goes through the root: name the floor";
+        assert_eq!(through, [message]);
+        let text = "macro_rules! of { () => { $crate::Scalar } }";
+        assert_eq!(refused(&[below, above, error, scalar, ("step/state.rs", text)]), [message]);
+
+        let beside = ("run.rs", "mod trajectory; use crate::derivative::Certificate;");
+        assert_eq!(
+            refused(&[beside]),
+            ["run.rs: crate::derivative::Certificate goes from run to derivative beside it"]
+        );
+    }
 }

@@ -1,0 +1,83 @@
+//! `docs/python.md` and `docs/clusters.md` in a fresh environment, what they say, and the figures of the
+//! gallery.
+
+use std::env;
+use std::path::Path;
+
+use anyhow::{Context, Result, ensure};
+use xshell::{Shell, cmd};
+
+use super::{clusters, commands, move_home, script, show};
+use crate::tools::NotChecked;
+use crate::{project, python_environment};
+
+const PACKAGES: [&str; 10] = [
+    "asyncssh",
+    "dask",
+    "dask-jobqueue",
+    "distributed",
+    "matplotlib",
+    "mypy",
+    "numpy",
+    "pyarrow",
+    "pytest",
+    "scipy",
+];
+
+/// Follows both pages, and tests the package that they install.
+pub fn run() -> Result<()> {
+    let shell = project::shell()?;
+    let work = shell.create_temp_dir()?;
+    let work = work.path();
+    let programs = environment(&shell, work).map_err(|error| NotChecked::new("PYTHON", error))?;
+    shell.set_var("PYO3_PYTHON", programs.join("python"));
+    let path = env::var_os("PATH").context("PATH is not set")?;
+    shell.set_var("PATH", env::join_paths([programs].into_iter().chain(env::split_paths(&path)))?);
+    shell.set_var("PIP_DISABLE_PIP_VERSION_CHECK", "1");
+    shell.set_var("CARGO_TARGET_DIR", project::target());
+    move_home(&shell, work)?;
+
+    for block in commands("docs/python.md", None, 2)? {
+        show(&block);
+        script(&shell, &block).run()?;
+    }
+    cmd!(shell, "cargo fmt --manifest-path python/Cargo.toml --all --check").run()?;
+    cmd!(shell, "cargo fmt --manifest-path examples/python/Cargo.toml --check").run()?;
+    let clippy = cmd!(shell, "cargo clippy --manifest-path python/Cargo.toml --workspace --all-targets");
+    clippy.args(["--", "-D", "warnings"]).run()?;
+    let reference = work.join("reference.txt");
+    let printed =
+        cmd!(shell, "cargo run --quiet --release -p dalembert-c --example python_reference").output()?;
+    shell.write_file(&reference, printed.stdout)?;
+    cmd!(shell, "python -m pytest --quiet -p no:cacheprovider python/tests --reference {reference}").run()?;
+
+    of_clusters(&shell, work)?;
+    for script in shell.read_dir("python/gallery")? {
+        if script.extension().is_some_and(|extension| extension == "py") {
+            cmd!(shell, "python {script} {work}").run()?;
+        }
+    }
+    let allowed = project::root().join("python/tests/stubtest.allowlist");
+    shell.change_dir(work);
+    cmd!(shell, "python -m mypy.stubtest dalembert_scenes --allowlist {allowed}").run()?;
+    Ok(())
+}
+
+fn environment(shell: &Shell, work: &Path) -> Result<std::path::PathBuf> {
+    let is_new =
+        cmd!(shell, "python3 -c").arg("import sys; sys.exit(sys.version_info < (3, 11))").quiet().run();
+    ensure!(is_new.is_ok(), "python3 is older than 3.11, or is not there");
+    python_environment::make(shell, work, &PACKAGES)
+}
+
+/// The page on clusters: its command, workers that are killed, and three kinds of cluster.
+fn of_clusters(shell: &Shell, work: &Path) -> Result<()> {
+    let _errors_alone = shell.push_env("DASK_LOGGING__DISTRIBUTED", "error");
+    let commands = commands("docs/clusters.md", None, 1)?.concat();
+    let commands: Vec<_> = commands.lines().filter(|line| !line.starts_with("pip")).collect();
+    ensure!(commands.len() == 1, "the page on clusters has lost its command");
+    show(commands[0]);
+    script(shell, &commands[0].replace(" cloud ", &format!(" {}/cloud ", work.display()))).run()?;
+    cmd!(shell, "python python/cluster/killed.py 200000").run()?;
+    clusters::run(shell)
+}

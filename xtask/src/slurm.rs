@@ -1,0 +1,82 @@
+//! `slurm`: the Slurm array of `cluster.sbatch` on one machine, with a task that is requeued while it runs
+//! and one that is killed. In the end every part is there once, with the bits of one process that nothing
+//! happened to.
+
+use std::path::Path;
+use std::time::Duration;
+use std::{fs, thread};
+
+use anyhow::{Context, Result, ensure};
+use xshell::{Shell, cmd};
+
+use crate::one_machine::OneMachine;
+use crate::project;
+
+const PARTS: usize = 16;
+
+/// Builds the program, starts a Slurm and submits the array twice. Needs root.
+pub fn run() -> Result<()> {
+    let shell = project::shell()?;
+    cmd!(shell, "cargo build --release -p dalembert-ensemble --features parquet --example cluster").run()?;
+    let program = project::target().join("release/examples/cluster");
+    shell.set_var("PROGRAM", &program);
+    let machine = OneMachine::start(&shell)?;
+    let home = machine.home();
+    let folder = home.join("parts");
+
+    let job = submit(&shell, home, "task", &folder)?;
+    // While the first tasks run: one is requeued, as after the loss of a node; another killed outright and
+    // then submitted again.
+    wait_until(200, 100, || Ok(!cmd!(shell, "squeue -h -t R -j {job}").quiet().read()?.is_empty()))?;
+    thread::sleep(Duration::from_secs(2));
+    cmd!(shell, "scontrol requeue {job}_0").run()?;
+    // Slurm holds a requeued task back for two minutes.
+    cmd!(shell, "scontrol update JobId={job}_0 StartTime=now").run()?;
+    cmd!(shell, "scancel --signal=KILL {job}_1").ignore_status().ignore_stderr().run()?;
+    thread::sleep(Duration::from_secs(1));
+    cmd!(shell, "scancel {job}_1").ignore_status().ignore_stderr().run()?;
+    wait_for_the_end(&shell, &job)?;
+    println!("after the first submission: {} of {PARTS} parts", parts(&folder)?);
+
+    let job = submit(&shell, home, "again", &folder)?;
+    wait_for_the_end(&shell, &job)?;
+    for task in 0..4 {
+        let log = fs::read_to_string(home.join(format!("again-{task}.log"))).context("a task's log")?;
+        println!("{}", log.lines().last().unwrap_or_default());
+    }
+
+    let alone = home.join("alone");
+    cmd!(shell, "{program} --members 0..262144 {alone}").ignore_stderr().run()?;
+    ensure!(parts(&folder)? == PARTS, "{} of {PARTS} parts", parts(&folder)?);
+    cmd!(shell, "diff -r {folder} {alone}").run()?;
+    println!("every part once, and the bits of one process: {PARTS} of {PARTS} parts");
+    Ok(())
+}
+
+/// Submits the array, and returns its number.
+fn submit(shell: &Shell, home: &Path, logs: &str, folder: &Path) -> Result<String> {
+    let log = home.join(format!("{logs}-%a.log"));
+    let script = "ensemble/examples/cluster.sbatch";
+    Ok(cmd!(shell, "sbatch --parsable --array=0-3 --output={log} {script} {folder}").read()?)
+}
+
+/// Waits until no task of the job is left, for five minutes at most.
+fn wait_for_the_end(shell: &Shell, job: &str) -> Result<()> {
+    // A job that has been over for a while is an error to squeue.
+    let left = || cmd!(shell, "squeue -h -j {job}").quiet().ignore_stderr().ignore_status().read();
+    wait_until(600, 500, || Ok(left()?.is_empty()))
+}
+
+fn wait_until(tries: usize, milliseconds: u64, is_so: impl Fn() -> Result<bool>) -> Result<()> {
+    for _ in 0..tries {
+        if is_so()? {
+            break;
+        }
+        thread::sleep(Duration::from_millis(milliseconds));
+    }
+    Ok(())
+}
+
+fn parts(folder: &Path) -> Result<usize> {
+    Ok(fs::read_dir(folder).context("the folder of parts")?.count())
+}
