@@ -5,7 +5,7 @@
 //! midpoint and trapezoidal rule with dense mass matrices, friction and a general force; by the midpoint rule
 //! with banded Newton matrices, n = 4…8; by the fitted rules, the one-sided one and the explicit trapezoidal
 //! rule, its composition and its splitting; and steps of n = 1…3 coordinates by Gauss rules, with an input
-//! and time, and every derivative of them. Certificates are not among them. `firmware/no_panic/run` builds it
+//! and time, and every derivative of them. Certificates are not among them. `cargo xtask no-panic` builds it
 //! at opt-level 3 and s, and with the feature `may-panic`, which must fail.
 
 #![no_std]
