@@ -23,7 +23,7 @@ struct Publication {
     shell: Shell,
     /// The folder for packages and for what is compiled of them.
     target: PathBuf,
-    /// What does not hold, and what was not looked at.
+    /// Failures, and parts that were not looked at.
     failures: Vec<String>,
     skipped: Vec<String>,
 }
@@ -120,7 +120,7 @@ impl Publication {
         install.run().map_err(|error| self.fail("installation", error.to_string())).is_ok()
     }
 
-    /// What cargo says of the workspace in a folder.
+    /// The metadata that cargo gives of the workspace in a folder.
     fn metadata(&self, at: &Path, arguments: &[&str]) -> Result<Value> {
         let _at = self.shell.push_dir(at);
         let text = cmd!(self.shell, "cargo metadata --format-version=1 {arguments...}").quiet().read()?;

@@ -15,7 +15,7 @@ pub const IN_C: &str = "target/in_c/program";
 
 const TEMPLATE: &str = "../examples/firmware-c";
 
-/// Those of a machine at an opt-level.
+/// The programs of a machine at an opt-level.
 pub struct Programs<'a> {
     /// A shell in the workspace of the firmware.
     pub shell: &'a Shell,

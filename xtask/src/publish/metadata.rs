@@ -50,7 +50,7 @@ fn open_to_all(of: &Publication, clone: &Path) -> Result<BTreeSet<String>> {
     Ok(open)
 }
 
-/// What is wrong with the metadata of a package.
+/// Faults in the metadata of a package.
 fn of_package(package: &Value, workspace: &Value) -> Vec<String> {
     let mut found = Vec::new();
     for field in ["version", "license", "rust_version", "edition"] {

@@ -105,7 +105,7 @@ fn list(root: &Path, folder: &Path, files: &mut Vec<String>) -> Result<()> {
     Ok(())
 }
 
-/// What should not be among the files of a package, or is missing.
+/// Files that should not be in a package, or are missing.
 fn contents(files: &[String], page: &str) -> Vec<String> {
     let mut found = Vec::new();
     for file in files {

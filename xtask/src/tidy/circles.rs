@@ -101,7 +101,7 @@ fn of_crate(root: &str) -> Result<Vec<String>> {
     })
 }
 
-/// What differs between the circles that were found and those that are known.
+/// Differences between the circles that were found and those that are known.
 fn differences(found: &BTreeMap<String, String>, known: &[&str]) -> Vec<String> {
     let new = found.iter().filter(|(circle, _)| !known.contains(&circle.as_str()));
     let new = new.map(|(circle, arrows)| format!("a new circle, to be taken apart: {circle}\n{arrows}"));

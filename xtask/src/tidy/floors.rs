@@ -27,7 +27,7 @@ impl Crate {
     }
 }
 
-/// Who uses whom.
+/// A record of who uses whom.
 struct Plan {
     /// For each module, as (floor, module): the modules of its floor that it uses, each with the file and
     /// path that say so.

@@ -8,7 +8,7 @@ use xshell::cmd;
 use super::{beside, kept};
 use crate::{project, tools};
 
-/// What differs, package by package.
+/// Differences, package by package.
 pub fn check() -> Result<Vec<String>> {
     let shell = project::shell()?;
     let rustfmt = cmd!(shell, "rustfmt --version").quiet().read()? + &project::text("rustfmt.toml")?;
@@ -29,7 +29,7 @@ fn package(manifest: &str) -> Option<String> {
     Some(name.trim().trim_matches('"').to_owned())
 }
 
-/// What rustfmt would change in a package. Without its name cargo would format all members of a workspace.
+/// Changes that rustfmt would make in a package: without its name, in all members of the workspace.
 fn differences(manifest: &Path, package: &str) -> Result<Vec<String>> {
     let shell = project::shell()?;
     let command = cmd!(shell, "cargo fmt --check --manifest-path {manifest} --package {package}");

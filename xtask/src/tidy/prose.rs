@@ -14,11 +14,11 @@ const SLACK: usize = 3;
 
 const OPENINGS: [&str; 7] = ["What", "The same", "Those", "Nothing", "Who", "Whose", "That of"];
 
-const FOLDERS: [&str; 6] =
-    ["macros/src", "runtime/src", "c/src", "fmu/src", "ensemble/src", "python/binding/src"];
+const FOLDERS: [&str; 7] =
+    ["macros/src", "runtime/src", "c/src", "fmu/src", "ensemble/src", "python/binding/src", "xtask/src"];
 
-/// Tests, and the text that the macro generates for them.
-const LEFT_OUT: &str = "macros/src/tests/";
+/// Tests, and the text that the macro generates for them; and this file, which has bad openings to see.
+const LEFT_OUT: [&str; 2] = ["macros/src/tests/", "xtask/src/tidy/prose.rs"];
 
 /// A paragraph of documentation.
 #[derive(Debug, PartialEq)]
@@ -73,7 +73,7 @@ pub fn check() -> Result<Vec<String>> {
     let (mut places, mut all) = (Vec::new(), 0);
     for folder in FOLDERS {
         for (name, source) in project::sources(root, &root.join(folder))? {
-            if name.starts_with(LEFT_OUT) {
+            if LEFT_OUT.iter().any(|left_out| name.starts_with(left_out)) {
                 continue;
             }
             let paragraphs = paragraphs(&source);

@@ -62,7 +62,7 @@ pub fn check(shell: &Shell) -> Result<Vec<String>> {
     Ok(places.iter().flat_map(|(folder, places)| against(folder, places, CEILINGS)).collect())
 }
 
-/// What is to be said of a folder's places.
+/// Messages about a folder's places.
 fn against(folder: &str, places: &[String], ceilings: &[(&str, usize)]) -> Vec<String> {
     let ceiling = ceilings.iter().find(|of| of.0 == folder).map_or(0, |of| of.1);
     let count = places.len();

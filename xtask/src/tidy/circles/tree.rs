@@ -140,7 +140,7 @@ impl<'f> Tree<'f> {
             || (left > 0 && self.globs.get(module).is_some_and(by_globs))
     }
 
-    /// Who uses whom among the children of each module.
+    /// The uses among the children of each module.
     pub fn uses(&self) -> BTreeMap<Segments, Uses> {
         let mut uses = BTreeMap::<Segments, Uses>::new();
         for (file, written) in &self.written {
