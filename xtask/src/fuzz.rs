@@ -96,8 +96,8 @@ impl Fuzzing<'_> {
         let (mut inputs, mut failures) = (0, 0);
         let end = Instant::now() + time;
         // A failure ends the program, not the run.
-        while let left = end.saturating_duration_since(Instant::now()).as_secs()
-            && left > 0
+        while let left = end.saturating_duration_since(Instant::now()).as_secs_f64().ceil()
+            && left > 0.0
         {
             let options = ["-rss_limit_mb=3000", "-print_final_stats=1"];
             let run = self.command().args(options).arg(format!("-artifact_prefix={artifacts}"));

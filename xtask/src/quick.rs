@@ -22,10 +22,15 @@ struct Row {
 }
 
 impl Row {
+    /// Whether a path is one of the row's, or stands in one of its folders; a module's file does, beside its
+    /// folder.
     fn is_for(&self, path: &str) -> bool {
-        self.paths
-            .iter()
-            .any(|of| path == of || (of.ends_with('/') && format!("{path}/").starts_with(of.as_str())))
+        self.paths.iter().any(|of| match of.strip_suffix('/') {
+            Some(folder) => path
+                .strip_prefix(folder)
+                .is_some_and(|rest| ["", ".rs"].contains(&rest) || rest.starts_with('/')),
+            None => path == of,
+        })
     }
 }
 
@@ -158,6 +163,7 @@ mod tests {
         assert_eq!(of("a/deep/y.rs"), ["cargo test -p a", "one", "two"]);
         assert_eq!(of("a/deep"), ["cargo test -p a", "one", "two"]);
         assert_eq!([of("b/src/x.rs"), of("b/src/y.rs")].concat(), ["cargo test -p a"; 2]);
+        assert_eq!(of("a/deep.rs"), of("a/deep/y.rs"));
         assert!(of("b/src/x.rs.orig").is_empty() && of("ab/c").is_empty());
         assert_eq!(rows[1].at_length, ["three"]);
     }
