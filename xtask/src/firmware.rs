@@ -19,7 +19,8 @@ use programs::Programs;
 pub fn run(only: Option<&str>) -> Result<()> {
     let machines: Vec<_> =
         MACHINES.iter().filter(|machine| only.is_none_or(|only| machine.name == only)).collect();
-    ensure!(!machines.is_empty(), "no machine is {only:?}: there are m4f, m7, m33 and rv");
+    let name = only.unwrap_or_default();
+    ensure!(!machines.is_empty(), "no machine is {name:?}: there are m4f, m7, m33 and rv");
     let shell = project::shell()?;
     // RISC-V's compiler is not fetched where it is not asked for.
     cross_tools::prepare(&shell, only.is_none_or(|only| only == "rv"))?;
