@@ -27,7 +27,7 @@ pub fn run() -> Result<()> {
     let job = submit(&shell, home, "task", &folder)?;
     // While the first tasks run: one is requeued, as after the loss of a node; another killed outright and
     // then submitted again.
-    wait_until(200, 100, || Ok(!cmd!(shell, "squeue -h -t R -j {job}").quiet().read()?.is_empty()))?;
+    wait_until(200, 100, || Ok(!listed(&shell, &["-t", "R"], &job)?.is_empty()))?;
     thread::sleep(Duration::from_secs(2));
     cmd!(shell, "scontrol requeue {job}_0").run()?;
     // Slurm holds a requeued task back for two minutes.
@@ -62,9 +62,14 @@ fn submit(shell: &Shell, home: &Path, logs: &str, folder: &Path) -> Result<Strin
 
 /// Waits until no task of the job is left, for five minutes at most.
 fn wait_for_the_end(shell: &Shell, job: &str) -> Result<()> {
-    // A job that has been over for a while is an error to squeue.
-    let left = || cmd!(shell, "squeue -h -j {job}").quiet().ignore_stderr().ignore_status().read();
-    wait_until(600, 500, || Ok(left()?.is_empty()))
+    wait_until(600, 500, || Ok(listed(shell, &[], job)?.is_empty()))
+}
+
+/// The tasks of the job that Slurm lists.
+fn listed(shell: &Shell, states: &[&str], job: &str) -> Result<String> {
+    // A job that is not there yet, or has been over for a while, is an error to squeue.
+    let list = cmd!(shell, "squeue -h {states...} -j {job}");
+    Ok(list.quiet().ignore_stderr().ignore_status().read()?)
 }
 
 fn wait_until(tries: usize, milliseconds: u64, is_so: impl Fn() -> Result<bool>) -> Result<()> {
