@@ -52,7 +52,7 @@ pub fn is_there(program: &str) -> bool {
 pub fn install(shell: &Shell, packages: &[&str]) -> Result<()> {
     let missing = packages.join(", ");
     let is_root = cmd!(shell, "id -u").quiet().read().is_ok_and(|user| user == "0");
-    ensure!(is_root && is_there("apt-get"), "{missing} missing, and no right to install");
+    ensure!(is_root && is_there("apt-get"), "{missing} missing, and no right to install them");
     // Lists that cannot be renewed may serve.
     let _ = cmd!(shell, "apt-get update").quiet().output();
     let install = cmd!(shell, "apt-get install -y --no-install-recommends {packages...}");
