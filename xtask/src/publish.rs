@@ -108,6 +108,7 @@ impl Publication {
     /// Whether a tool answers. Where `CI` is set it is installed first if it does not.
     fn has(&mut self, tool: Cmd, install: Cmd) -> bool {
         let name = tool.to_string();
+        let name = name.rsplit('/').next().unwrap_or(&name);
         let answers = tool.quiet().ignore_status().output();
         if answers.is_ok_and(|output| output.status.success()) {
             return true;
