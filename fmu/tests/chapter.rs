@@ -1,5 +1,5 @@
-//! The chapter "As a functional mock-up unit" of `docs/embedding.md` shows the code of the template. `fmu/run` follows its
-//! commands.
+//! The chapter "As a functional mock-up unit" of `docs/embedding.md` shows the code of the template.
+//! `cargo xtask page fmu` follows its commands.
 
 use std::fs;
 use std::path::Path;
