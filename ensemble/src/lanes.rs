@@ -49,7 +49,7 @@ fn in_widest<V: Versioned>(versioned: V) -> usize {
     }
 }
 
-/// Nothing but to tell how many.
+/// The number of members alone.
 struct Widest;
 
 impl Versioned for Widest {

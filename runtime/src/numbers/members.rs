@@ -16,7 +16,8 @@ use nalgebra::SVector;
 
 use crate::numbers::{Mask, Scalar, product_plus};
 
-/// The block for every coordinate, unrolled for the first 16: those that there are, as the conditions are constants.
+/// The block for every coordinate, unrolled for the first 16: those that there are, as the conditions are
+/// constants.
 ///
 /// Where a loop over coordinates remains and that over members does not, LLVM makes vectors of a coordinate's
 /// neighbours, gathered and scattered with AVX-512: 6 times as slow. The index of the others is kept from it.
@@ -36,8 +37,8 @@ macro_rules! each_coordinate {
     )*};
 }
 
-/// The block for every coordinate, one after the other: of blocks that are long, or many in one function, which
-/// unrolled would take as many times as long to compile. LLVM does not see that the index counts.
+/// The block for every coordinate, one after the other: of blocks that are long, or many in one function, and
+/// would take as many times as long to compile if they were unrolled. LLVM does not see that the index counts.
 macro_rules! coordinate_by_coordinate {
     ($index:ident => $block:block) => {
         if const { N <= 2 } {
@@ -77,8 +78,8 @@ macro_rules! stage_by_stage {
 
 /// The block for every member.
 ///
-/// Tested at its end: LLVM would turn a loop over a range into this one, at a cost that grows with the function
-/// that it has been inlined into.
+/// Tested at its end: LLVM would turn a loop over a range into this one, at a cost that grows with the
+/// function that it has been inlined into.
 macro_rules! each_member {
     ($index:ident => $block:block) => {
         if const { W > 0 } {

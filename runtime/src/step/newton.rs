@@ -73,8 +73,8 @@ pub(crate) fn root<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     }
 }
 
-/// The root of an equation alone, from rest by the damped method. Where that has led to an `error`, a matrix that is singular there
-/// or not finite, from away from rest.
+/// The root of an equation alone, from rest by the damped method. Where that has led to an `error`, a matrix that
+/// is singular there or not finite, from away from rest.
 pub(crate) fn root_from_rest<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
     momentum: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,

@@ -2,15 +2,15 @@
 
 use crate::numbers::Precision;
 
-/// Vectors in use at once where calls are deepest: 4 from rest, 7 of the damped method, 4 for a verdict, 2 for forces
-/// at rest, 5 for rounding, 5 for a momentum where others are held. The damped method from rest itself runs
-/// beside 4 more of those from rest, and takes 1 of the last 5.
+/// Vectors in use at once where calls are deepest: 4 from rest, 7 of the damped method, 4 for a verdict, 2 for
+/// forces at rest, 5 for rounding, 5 for a momentum where others are held. The damped method from rest itself
+/// runs beside 4 more of those from rest, and takes 1 of the last 5.
 pub(crate) const VECTORS: usize = 27;
 
 /// Room for vectors of one length, in a buffer of the caller's.
 ///
-/// A vector that is taken is given back when the `Room` that it was taken from ends: an [`inner`](Room::inner) one for
-/// each function that is called.
+/// A vector that is taken is given back when the `Room` that it was taken from ends: an [`inner`](Room::inner)
+/// one for each function that is called.
 pub struct Room<'r, S> {
     left: &'r mut [S],
     length: usize,

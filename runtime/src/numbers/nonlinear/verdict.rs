@@ -1,5 +1,5 @@
-//! Whether an iterate of the damped method is the solution: the definition of `step/newton/rounding.rs`, with the
-//! matrix at the iterate itself.
+//! Whether an iterate of the damped method is the solution: the definition of `step/newton/rounding.rs`, with
+//! the matrix at the iterate itself.
 
 use super::equations::{Equations, Matrix, Root, Solved};
 use super::rounding::{
@@ -189,8 +189,8 @@ mod tests {
     }
 
     /// The deepest calls, behind those that hold 4 vectors from rest and 7 of the damped method: rounding is
-    /// measured of an equation in which another coordinate rests; or of the whole equation, with 4 vectors more held
-    /// from rest. Room for one vector less does not do.
+    /// measured of an equation in which another coordinate rests; or of the whole equation, with 4 vectors more
+    /// held from rest. Room for one vector less does not do.
     #[test]
     fn there_is_room_for_the_deepest_calls() {
         let is_enough = |vectors: usize, from_rest: usize, held: [f64; 2]| {

@@ -125,7 +125,7 @@ fn the_chain_exchanges_stiff_energies() {
         }
     };
     let fine = 0.02;
-    let mut exact = baseline::states(&system, Method::DormandPrince853(1e-12), fine, system.start())
+    let mut exact = baseline::states(&system, Method::DormandPrince853(1e-8), fine, system.start())
         .unwrap()
         .take((end / fine).round() as usize)
         .map(|state| system.stiff_energies(&state.unwrap()));
@@ -148,8 +148,10 @@ fn the_chain_exchanges_stiff_energies() {
         let pairs = own.iter().zip(&exact);
         pairs.flat_map(|(a, b)| (0..FERMI).map(move |j| (a[j] - b[j]).abs())).fold(0.0, f64::max)
     };
-    let (coarse, fine) = (error(0.005), error(0.0025));
-    assert!(coarse < 0.02 && fine < 0.3 * coarse, "{coarse} {fine}");
+    // Without optimisation at twice the step size, and with four times the error.
+    let h = if cfg!(debug_assertions) { 0.01 } else { 0.005 };
+    let (coarse, fine) = (error(h), error(0.5 * h));
+    assert!(coarse < 800.0 * h * h && fine < 0.3 * coarse, "{coarse} {fine}");
     // The control: the energies do change hands.
     let handed_on = (0..FERMI).all(|j| {
         let low = exact.iter().map(|row| row[j]).fold(f64::INFINITY, f64::min);

@@ -90,8 +90,13 @@ fn time_by_way_of(turning: f64, q0: f64, q1: f64) -> f64 {
 fn the_step_size_where_a_motion_ceases_is_found() {
     // The longest time from 0.6 to 1.1 with one turn: beyond it the motion near the straight line ceases to
     // exist.
-    let turnings = (1..4000).map(|i| 1.1 + 1e-4 * f64::from(i));
-    let longest = turnings.map(|turning| time_by_way_of(turning, 0.6, 1.1)).fold(0.0, f64::max);
+    let longest_of = |turnings: &mut dyn Iterator<Item = f64>| {
+        let times = turnings.map(|turning| (time_by_way_of(turning, 0.6, 1.1), turning));
+        times.fold((0.0, 0.0), |longest, other| if other.0 > longest.0 { other } else { longest })
+    };
+    let (_, near) = longest_of(&mut (1..40).map(|i| 1.1 + 1e-2 * f64::from(i)));
+    assert!((1.12..1.48).contains(&near), "{near}, at an end");
+    let (longest, _) = longest_of(&mut (-100..=100).map(|i| near + 1e-4 * f64::from(i)));
     let exact = Exact::unforced(&Quartic);
     let error = exact.segment(vector![0.6], vector![1.1], 2.0).unwrap_err();
     let ExactError::ConjugatePoints { h, growth } = error else { panic!("{error}") };
