@@ -114,6 +114,15 @@ pub struct NewtonStructure {
     pub bandwidth: usize,
 }
 
+/// a = b, when it is compiled.
+const fn is_equal(a: &[u8], b: &[u8]) -> bool {
+    let mut i = 0;
+    while i < a.len() && i < b.len() && a[i] == b[i] {
+        i += 1;
+    }
+    i == a.len() && i == b.len()
+}
+
 impl Structure {
     /// The structure of a system written by hand: nothing is known.
     pub const UNKNOWN: Self = Self {
@@ -129,8 +138,15 @@ impl Structure {
 
     /// The Newton matrix by the rule of this name; `None` where nothing is known of it.
     #[must_use]
-    pub fn newton_matrix(&self, rule: &str) -> Option<&'static NewtonStructure> {
-        self.newton_matrices.iter().find(|matrix| matrix.rule == rule)
+    pub const fn newton_matrix(&self, rule: &str) -> Option<&'static NewtonStructure> {
+        let mut i = 0;
+        while i < self.newton_matrices.len() {
+            if is_equal(self.newton_matrices[i].rule.as_bytes(), rule.as_bytes()) {
+                return Some(&self.newton_matrices[i]);
+            }
+            i += 1;
+        }
+        None
     }
 
     /// This structure, with derivatives by `engine`.

@@ -13,6 +13,7 @@ use crate::run::lanes::{begins, state_if_sound};
 use crate::run::{ExplicitInLanes, InLanes};
 use crate::step::State;
 use crate::step::in_lanes::clocks::Clocks;
+use crate::system::{Damping, NewtonStructure, Structure};
 
 /// W members on their way by a [`Splitting`].
 #[derive(Clone, Copy, Debug)]
@@ -305,6 +306,17 @@ fn write_rows<T: Scalar, const N: usize, const W: usize>(
     }
 }
 
+/// Whether there may be an R.
+const fn may_be_damped(structure: &Structure) -> bool {
+    !matches!(structure.damping, Damping::Absent)
+}
+
+/// Whether M or C may have entries off their diagonals: the trapezoidal rule's matrix has those of both.
+const fn may_be_full<const N: usize>(structure: &Structure) -> bool {
+    let of_both = structure.newton_matrix("Trapezoidal");
+    N > 1 && !matches!(of_both, Some(NewtonStructure { bandwidth: 0, .. }))
+}
+
 impl<L, const N: usize, const S: usize, const COMPENSATED: bool> InLanes<Splitting<S, COMPENSATED>, N> for L
 where
     L: ExplicitInLanes<N>,
@@ -357,8 +369,14 @@ where
         let KicksInLanes { drifts, kicked } = lanes;
         match drifts {
             DriftsInLanes::Undamped(drifts) => kicked.carry::<L, _, COMPENSATED>(steps, Undamped(drifts)),
-            DriftsInLanes::Diagonal(drifts) => kicked.carry::<L, _, COMPENSATED>(steps, Diagonal(drifts)),
-            DriftsInLanes::Full(drifts) => kicked.carry::<L, _, COMPENSATED>(steps, &*drifts),
+            DriftsInLanes::Diagonal(drifts) if const { may_be_damped(&L::STRUCTURE) } => {
+                kicked.carry::<L, _, COMPENSATED>(steps, Diagonal(drifts))
+            }
+            DriftsInLanes::Full(drifts) if const { may_be_full::<N>(&L::STRUCTURE) } => {
+                kicked.carry::<L, _, COMPENSATED>(steps, &*drifts)
+            }
+            // Of no system with this structure: if it is wrong, each member is left to a run of its own.
+            DriftsInLanes::Diagonal(_) | DriftsInLanes::Full(_) => kicked.has_begun = Mask::splat(false),
         }
     }
 
@@ -366,5 +384,26 @@ where
     fn state_of_lane<const W: usize>(lanes: &Self::Lanes<W>, lane: usize) -> Option<State<L::Scalar, N>> {
         let of = &lanes.kicked;
         state_if_sound(&of.q.value, &of.p.value, of.has_begun, lane)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Drifts that no member can have are not compiled; where nothing is known, all are.
+    #[test]
+    fn drifts_are_those_that_the_structure_allows() {
+        const DIAGONAL: NewtonStructure =
+            NewtonStructure { rule: "Trapezoidal", constant: true, bandwidth: 0 };
+        const BAND: NewtonStructure = NewtonStructure { bandwidth: 1, ..DIAGONAL };
+        const OTHER: NewtonStructure = NewtonStructure { rule: "Midpoint", ..DIAGONAL };
+        let unknown = Structure::UNKNOWN;
+        assert!(may_be_damped(&unknown) && may_be_damped(&unknown.with_damping(Damping::Linear)));
+        assert!(!may_be_damped(&unknown.with_damping(Damping::Absent)));
+        assert!(may_be_full::<2>(&unknown) && !may_be_full::<1>(&unknown));
+        assert!(!may_be_full::<2>(&unknown.with_newton_matrices(&[OTHER, DIAGONAL])));
+        assert!(may_be_full::<2>(&unknown.with_newton_matrices(&[OTHER, BAND])));
+        assert!(may_be_full::<2>(&unknown.with_newton_matrices(&[OTHER])));
     }
 }
