@@ -44,10 +44,15 @@ macro_rules! coordinate_by_coordinate {
         if const { N <= 2 } {
             $crate::numbers::members::each_coordinate!(@unrolled [0 1] $index $block);
         } else {
-            for index in &core::hint::black_box(const { $crate::numbers::members::counted::<N>() }) {
-                let $index = (*index).min(N - 1);
-                $block
-            }
+            let all = core::hint::black_box(const { $crate::numbers::members::counted::<N>() });
+            $crate::numbers::members::coordinate_by_coordinate!($index of all => $block);
+        }
+    };
+    // Of those in an array or a part of it.
+    ($index:ident of $some:ident => $block:block) => {
+        for index in &$some[..] {
+            let $index = (*index).min(N - 1);
+            $block
         }
     };
 }

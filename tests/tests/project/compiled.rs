@@ -73,40 +73,32 @@ const CEILINGS: [Ceiling; 3] = [
     },
 ];
 
-/// Methods with the rule that the attribute names for each.
-const RULES: [(&str, &str); 3] =
-    [("midpoint", "Midpoint"), ("trapezoidal", "Trapezoidal"), ("gauss", "Gauss::<4>")];
+/// The rules of a program, as the attribute names them, and its methods: of a ceiling the one and the other.
+type Programs = [(&'static str, &'static [&'static str]); 2];
 
-/// The programs of a ceiling: the one and the other.
-fn programs(of: &Ceiling) -> [String; 2] {
-    if of.is_in_lanes {
-        let advance = |method: &str| {
-            format!(
-                "LaneRuns::new({method}, [&system; 8], &[start; 8], 0.01).solved_for(1e-9, 1.0).advance(100);"
-            )
-        };
-        let runs = ["Gauss::<3>", "Gauss::<4>"].map(advance);
-        return [1, 2]
-            .map(|count| program(of, "gauss, lanes = gauss", "Gauss, run::LaneRuns", &runs[..count]));
-    }
-    [1, 3].map(|count| {
-        let [rules, methods] = [0, 1].map(|which| {
-            RULES[..count].iter().map(|rule| if which == 0 { rule.0 } else { rule.1 }).collect::<Vec<_>>()
-        });
-        let step = |method: &&str| {
+const ALONE: Programs = [
+    ("midpoint", &["Midpoint"]),
+    ("[midpoint, trapezoidal, gauss]", &["Midpoint", "Trapezoidal", "Gauss::<4>"]),
+];
+
+const IN_LANES: Programs =
+    [("gauss, lanes = gauss", &["Gauss::<3>"]), ("gauss, lanes = gauss", &["Gauss::<3>", "Gauss::<4>"])];
+
+/// A program that takes steps of the system by each method.
+fn program(of: &Ceiling, rules: &str, methods: &[&str]) -> String {
+    let run = |method: &&str| match of.is_in_lanes {
+        false => {
             format!("system.by({method}, 0.01).run(start).take(100).try_for_each(|step| step.map(drop))?;")
-        };
-        let runs: Vec<_> = methods.iter().map(step).collect();
-        let imports = methods.join(", ").replace("::<4>", "") + ", Discretise";
-        program(of, &format!("[{}]", rules.join(", ")), &imports, &runs)
-    })
-}
-
-/// A program that makes these runs of the system.
-fn program(of: &Ceiling, rules: &str, imports: &str, runs: &[String]) -> String {
-    let (n, system, runs) = (of.n, of.system, runs.join("\n    "));
+        }
+        true => format!(
+            "LaneRuns::new({method}, [&system; 8], &[start; 8], 0.01).solved_for(1e-9, 1.0).advance(100);"
+        ),
+    };
+    let (n, system) = (of.n, of.system);
+    let runs = methods.iter().map(run).collect::<Vec<_>>().join("\n    ");
     format!(
-        "use dalembert::{{State, rayleigh_system, {imports}}};
+        "#![allow(unused_imports)]
+use dalembert::{{Discretise, Gauss, Midpoint, State, Trapezoidal, rayleigh_system, run::LaneRuns}};
 pub struct System {{ pub drag: f64 }}
 #[rayleigh_system(rule = {rules})]
 impl System {{
@@ -173,7 +165,8 @@ fn a_program_compiles_what_its_system_asks_for() {
     let mut above = Vec::new();
     println!("{:18}{:>24}{:>24}", "", "one rule", "more");
     for of in &CEILINGS {
-        let [one, more] = programs(of).map(|program| package.size(&program));
+        let programs = if of.is_in_lanes { IN_LANES } else { ALONE };
+        let [one, more] = programs.map(|(rules, methods)| package.size(&program(of, rules, methods)));
         println!("{:18}{:>14}, {:>4} KiB{:>14}, {:>4} KiB", of.name, one[0], one[1], more[0], more[1]);
         let exceeds = |found: [usize; 2], most: [usize; 2]| found[0] > most[0] || found[1] > most[1];
         if exceeds(one, of.one) || exceeds(more, of.more) {

@@ -164,18 +164,16 @@ fn eliminate<S: Scalar, const N: usize, const W: usize>(
         let below = order.get(k + 1..).unwrap_or_default();
         let mut best = rows[k][k].abs() * scale[k];
         let mut pivot = [k; W];
-        for i in below {
-            let i = (*i).min(N - 1);
+        coordinate_by_coordinate!(i of below => {
             let candidate = rows[i][k].abs() * scale[i];
             for member in 0..W {
                 let is_better = candidate.0[member] > best.0[member];
                 pivot[member] = if is_better { i } else { pivot[member] };
             }
             best = candidate.larger(best);
-        }
+        });
         is_solved = is_solved & Members::splat(S::constant(dense::SUSPICIOUS)).less(best);
-        for i in below {
-            let i = (*i).min(N - 1);
+        coordinate_by_coordinate!(i of below => {
             let here = Mask(pivot.map(|pivot| pivot == i));
             if here.0.contains(&true) {
                 let exchanged = |a, b| (Members::select(here, b, a), Members::select(here, a, b));
@@ -185,17 +183,15 @@ fn eliminate<S: Scalar, const N: usize, const W: usize>(
                 (scale[k], scale[i]) = exchanged(scale[k], scale[i]);
                 (x[k], x[i]) = exchanged(x[k], x[i]);
             }
-        }
+        });
         reciprocals[k] = one / rows[k][k];
-        for i in below {
-            let i = (*i).min(N - 1);
+        coordinate_by_coordinate!(i of below => {
             let factor = rows[i][k] * reciprocals[k];
             rows[i][k] = factor;
-            for j in below {
-                let j = (*j).min(N - 1);
+            coordinate_by_coordinate!(j of below => {
                 rows[i][j] = rows[i][j] - factor * rows[k][j];
-            }
-        }
+            });
+        });
     });
     (substituted(&rows, &reciprocals, x), is_solved)
 }

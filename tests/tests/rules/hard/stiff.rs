@@ -148,10 +148,8 @@ fn the_chain_exchanges_stiff_energies() {
         let pairs = own.iter().zip(&exact);
         pairs.flat_map(|(a, b)| (0..FERMI).map(move |j| (a[j] - b[j]).abs())).fold(0.0, f64::max)
     };
-    // Without optimisation at twice the step size, and with four times the error.
-    let h = if cfg!(debug_assertions) { 0.01 } else { 0.005 };
-    let (coarse, fine) = (error(h), error(0.5 * h));
-    assert!(coarse < 800.0 * h * h && fine < 0.3 * coarse, "{coarse} {fine}");
+    let (coarse, fine) = (error(0.005), error(0.0025));
+    assert!(coarse < 0.02 && fine < 0.3 * coarse, "{coarse} {fine}");
     // The control: the energies do change hands.
     let handed_on = (0..FERMI).all(|j| {
         let low = exact.iter().map(|row| row[j]).fold(f64::INFINITY, f64::min);
