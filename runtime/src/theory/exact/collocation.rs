@@ -19,7 +19,7 @@
 use core::num::NonZeroUsize;
 use std::sync::OnceLock;
 
-use nalgebra::{DMatrix, Dyn, LU, SMatrix, SVector};
+use nalgebra::{DMatrix, Dyn, LU, SVector};
 
 use super::motion::{Dynamics, Local};
 use super::work::Breakdown;
@@ -178,7 +178,13 @@ fn weighted<const N: usize>(
     length: f64,
     vector: impl Fn(usize) -> SVector<f64, N>,
 ) -> SVector<f64, N> {
-    row.iter().enumerate().fold(SVector::zeros(), |sum, (j, share)| sum + vector(j) * *share) * length
+    let mut sum = [0.0; N];
+    for (j, share) in row.iter().enumerate() {
+        for (sum, x) in sum.iter_mut().zip(vector(j).as_slice()) {
+            *sum += x * share;
+        }
+    }
+    SVector::from(sum) * length
 }
 
 impl<L: ActingForce<N, Scalar = f64>, const N: usize> Dynamics<'_, L, N> {
@@ -196,9 +202,10 @@ impl<L: ActingForce<N, Scalar = f64>, const N: usize> Dynamics<'_, L, N> {
                 let local = self.local(time, &q, &v[i])?;
                 stages.push(Stage { time, weight: length * matrix[STAGES - 1][i], q, v: v[i], local });
             }
-            let rate = |j: usize| stages[j].local.rate();
+            let rates: Vec<_> = stages.iter().map(|stage| stage.local.rate()).collect();
+            let rate = |j: usize| rates[j];
             let unit = SVector::<f64, N>::from_fn(|a, _| unit_of(&stages[0].local, a));
-            let factored = jacobian(&stages, &unit, length).lu();
+            let factored = Blocks::of(&stages).jacobian(unit.as_slice(), length).lu();
             if is_last {
                 let p = start.p + weighted(&matrix[STAGES - 1], length, rate);
                 return Ok(Step { length, p, stages, unit, factored });
@@ -234,27 +241,59 @@ pub(super) fn unit_of<const N: usize>(local: &Local<N>, a: usize) -> f64 {
     if own > 0.0 { own.sqrt() } else { local.l.d22.row(a).amax().sqrt() }
 }
 
-/// ∂r_i/∂V_j = δ_ij L_vv + τ a_ij (L_vq,i − G_v,j) − τ² Σ_k a_ik G_q,k a_kj of r_i = ∂L/∂v − P_i, both sides
-/// in `unit`s.
-fn jacobian<const N: usize>(stages: &[Stage<N>], unit: &SVector<f64, N>, length: f64) -> DMatrix<f64> {
-    let Coefficients { matrix, .. } = coefficients();
-    let mut jacobian = DMatrix::zeros(STAGES * N, STAGES * N);
-    let by_q: Vec<_> = stages.iter().map(|stage| stage.local.rate_by_q()).collect();
-    for i in 0..STAGES {
-        for j in 0..STAGES {
-            let (own, other) = (&stages[i].local, &stages[j].local);
-            let mut block = (own.l.d12.transpose() - other.rate_by_v()) * (length * matrix[i][j]);
-            for (k, by_q) in by_q.iter().enumerate() {
-                block -= by_q * (length * matrix[i][k] * (length * matrix[k][j]));
-            }
-            if i == j {
-                block += own.l.d22;
-            }
-            let block = SMatrix::<f64, N, N>::from_fn(|a, b| block[(a, b)] / unit[a] / unit[b]);
-            jacobian.view_mut((i * N, j * N), (N, N)).copy_from(&block);
+/// The blocks that Newton's matrix is made of: n×n, by column, one stage after the other.
+#[derive(Default)]
+struct Blocks {
+    /// L_vv.
+    mass: Vec<f64>,
+    /// L_vq.
+    by_q: Vec<f64>,
+    /// G_v.
+    rate_by_v: Vec<f64>,
+    /// G_q.
+    rate_by_q: Vec<f64>,
+}
+
+impl Blocks {
+    fn of<const N: usize>(stages: &[Stage<N>]) -> Self {
+        let mut blocks = Self::default();
+        for Stage { local, .. } in stages {
+            blocks.mass.extend_from_slice(local.l.d22.as_slice());
+            blocks.by_q.extend_from_slice(local.l.d12.transpose().as_slice());
+            blocks.rate_by_v.extend_from_slice(local.rate_by_v().as_slice());
+            blocks.rate_by_q.extend_from_slice(local.rate_by_q().as_slice());
         }
+        blocks
     }
-    jacobian
+
+    /// ∂r_i/∂V_j = δ_ij L_vv + τ a_ij (L_vq,i − G_v,j) − τ² Σ_k a_ik G_q,k a_kj of r_i = ∂L/∂v − P_i, both sides
+    /// in `unit`s. On slices: compiled once, not for each number of coordinates.
+    fn jacobian(&self, unit: &[f64], length: f64) -> DMatrix<f64> {
+        let Coefficients { matrix, .. } = coefficients();
+        let n = unit.len();
+        let mut jacobian = DMatrix::zeros(STAGES * n, STAGES * n);
+        for i in 0..STAGES {
+            for j in 0..STAGES {
+                let share = length * matrix[i][j];
+                let shares: [f64; STAGES] =
+                    core::array::from_fn(|k| length * matrix[i][k] * (length * matrix[k][j]));
+                for b in 0..n {
+                    for a in 0..n {
+                        let at = |stage: usize| (stage * n + b) * n + a;
+                        let mut entry = (self.by_q[at(i)] - self.rate_by_v[at(j)]) * share;
+                        for (k, share) in shares.iter().enumerate() {
+                            entry -= self.rate_by_q[at(k)] * share;
+                        }
+                        if i == j {
+                            entry += self.mass[at(i)];
+                        }
+                        jacobian[(i * n + a, j * n + b)] = entry / unit[a] / unit[b];
+                    }
+                }
+            }
+        }
+        jacobian
+    }
 }
 
 #[cfg(test)]
