@@ -1,6 +1,5 @@
 //! Members many at a time, in the widest instructions that the machine has.
 
-use core::array;
 use core::ops::ControlFlow;
 
 use dalembert::State;
@@ -161,18 +160,20 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
         L: LanesBy<M, N, Scalar = S> + 's,
         M: MethodOf<L, N>,
     {
-        let mut lanes: [Option<OnItsWay<'s, L, V, N>>; W] = array::from_fn(|_| waiting.next());
+        let mut lanes: [Option<OnItsWay<'s, L, V, N>>; W] = [const { None }; W];
+        lanes.iter_mut().for_each(|lane| *lane = waiting.next());
         let Some(first) = &lanes[0] else { return };
-        let members: [_; W] = array::from_fn(|lane| lanes[lane].as_ref().unwrap_or(first));
-        let mut starts = members.map(|member| member.start);
-        let mut runs = LaneRuns::new(self.method, members.map(|member| member.system), &starts, self.plan.h);
+        let (mut systems, mut starts) = ([first.system; W], [first.start; W]);
+        // Steps until the next record of each lane; a lane without a member has none.
+        let mut left = [u64::MAX; W];
+        for (lane, member) in lanes.iter().enumerate() {
+            let Some(member) = member else { break };
+            (systems[lane], starts[lane], left[lane]) = (member.system, member.start, member.next);
+        }
+        let mut runs = LaneRuns::new(self.method, systems, &starts, self.plan.h);
         if let Some(error) = self.plan.error {
             runs = runs.solved_for(error, self.plan.time());
         }
-        // Steps until the next record of each lane; a lane without a member has none.
-        let until =
-            |lane: &Option<OnItsWay<'s, L, V, N>>| lane.as_ref().map_or(u64::MAX, |member| member.next);
-        let mut left: [u64; W] = array::from_fn(|lane| until(&lanes[lane]));
         loop {
             let mut arriving = [None; W];
             for lane in 0..W {
@@ -185,9 +186,9 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
                     continue;
                 }
                 lanes[lane] = waiting.next();
-                left[lane] = until(&lanes[lane]);
+                left[lane] = u64::MAX;
                 if let Some(next) = &lanes[lane] {
-                    (arriving[lane], starts[lane]) = (Some(next.system), next.start);
+                    (arriving[lane], starts[lane], left[lane]) = (Some(next.system), next.start, next.next);
                 }
             }
             if arriving.iter().any(Option::is_some) {

@@ -79,7 +79,7 @@ pub struct Events<'a> {
 type Visit<'v, const N: usize> = dyn FnMut(usize, &SVector<f64, N>, &SVector<f64, N>) + 'v;
 
 /// A run that is [`Divisible`], without its type.
-trait Divided<L, const N: usize> {
+pub(crate) trait Divided<L, const N: usize> {
     fn take(&mut self) -> Option<Result<Step<f64, N>, StepError>>;
     fn state(&self) -> &State<f64, N>;
     fn time(&self) -> f64;
@@ -235,13 +235,12 @@ struct Watching<'t, 'r, 'e, L: Lagrangian<N, Scalar = f64>, G, const N: usize> {
 }
 
 /// Records `run` while it is watched for `events`.
-pub fn watched<L, T, const N: usize>(
-    run: &mut T,
+pub(crate) fn watched<L, const N: usize>(
+    run: &mut dyn Divided<L, N>,
     events: &mut Events<'_>,
     record: &mut dyn FnMut(&mut dyn Motion<N>),
 ) where
     L: Lagrangian<N, Scalar = f64>,
-    T: Divisible<N, System = L, Scalar = f64>,
 {
     let Events { asked, origin, found, error } = events;
     let (asked, origin) = (*asked, *origin);

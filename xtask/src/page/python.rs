@@ -43,7 +43,8 @@ pub fn run() -> Result<()> {
     }
     cmd!(shell, "cargo fmt --manifest-path python/Cargo.toml --all --check").run()?;
     cmd!(shell, "cargo fmt --manifest-path examples/python/Cargo.toml --check").run()?;
-    let clippy = cmd!(shell, "cargo clippy --manifest-path python/Cargo.toml --workspace --all-targets");
+    let clippy =
+        cmd!(shell, "cargo clippy --release --manifest-path python/Cargo.toml --workspace --all-targets");
     clippy.args(["--", "-D", "warnings"]).run()?;
     let reference = work.join("reference.txt");
     let printed =
