@@ -111,7 +111,8 @@ fn at_random<const S: usize>(random: &mut StdRng, largest: f64, factor: f64) -> 
 fn the_end_is_moved_by_a_hundredth_of_the_error_at_most() {
     let mut random = StdRng::seed_from_u64(20);
     let (mut tried, mut sweeps) = (0, [0; 2]);
-    for case in 0..30 {
+    let cases = if cfg!(debug_assertions) { 18 } else { 30 };
+    for case in 0..cases {
         let moved = match case % 3 {
             0 => at_random::<4>(&mut random, -3.0, 1.0),
             1 => at_random::<5>(&mut random, -3.0, 1.0),
@@ -122,14 +123,14 @@ fn the_end_is_moved_by_a_hundredth_of_the_error_at_most() {
         tried += 1;
         sweeps = [sweeps[0] + moved.sweeps[0], sweeps[1] + moved.sweeps[1]];
     }
-    assert!(tried >= 25, "{tried}");
+    assert!(6 * tried >= 5 * cases, "{tried}");
     // It saves what it is for.
     assert!(sweeps[1] * 4 < sweeps[0] * 3, "{sweeps:?}");
     // Positive control: solved for a thousand times the error, most ends are moved by more.
     let mut random = StdRng::seed_from_u64(20);
-    let caught = (0..16).filter_map(|_| at_random::<5>(&mut random, -6.0, 1000.0));
+    let caught = (0..cases / 2).filter_map(|_| at_random::<5>(&mut random, -6.0, 1000.0));
     let caught = caught.filter(|moved| moved.by_slack > moved.by_start).count();
-    assert!(caught >= 8, "{caught}");
+    assert!(4 * caught >= cases, "{caught}");
 }
 
 #[test]

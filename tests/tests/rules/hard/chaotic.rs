@@ -25,7 +25,7 @@ fn the_double_pendulum_at_high_energy_keeps_it() {
     let system = TwoPendulums { r: 0.0 };
     let start = system.high_energy();
     assert!((start.energy(&system).unwrap() - 7.0).abs() < 1e-14);
-    let steps = if cfg!(debug_assertions) { 10_000 } else { 100_000 };
+    let steps = if cfg!(debug_assertions) { 5_000 } else { 100_000 };
     for h in [0.02, 0.01] {
         for [first, second] in
             [halves(&system, Midpoint, h, start, steps), halves(&system, Trapezoidal, h, start, steps)]
@@ -35,11 +35,12 @@ fn the_double_pendulum_at_high_energy_keeps_it() {
     }
     // The control: Runge–Kutta drifts.
     let mut drift = [0.0_f64; 2];
+    let steps = if cfg!(debug_assertions) { 20_000 } else { 100_000 };
     for (k, state) in
-        baseline::states(&system, Method::RungeKutta4, 0.02, start).unwrap().take(100_000).enumerate()
+        baseline::states(&system, Method::RungeKutta4, 0.02, start).unwrap().take(steps).enumerate()
     {
         let error = (state.unwrap().energy(&system).unwrap() - 7.0).abs();
-        let half = &mut drift[usize::from(k >= 50_000)];
+        let half = &mut drift[usize::from(k >= steps / 2)];
         *half = half.max(error);
     }
     assert!(drift[1] > 1.5 * drift[0], "{drift:?}");
@@ -50,7 +51,7 @@ fn the_double_pendulum_at_high_energy_keeps_it() {
 #[test]
 fn henon_heiles_at_the_energy_of_escape() {
     let system = HenonHeiles { r: 0.0 };
-    let steps = if cfg!(debug_assertions) { 40_000 } else { 200_000 };
+    let steps = if cfg!(debug_assertions) { 20_000 } else { 200_000 };
     let energy = 1.0 / 6.0 - 4e-4;
     let start = HenonHeiles::start(energy, -0.1, 0.1);
     assert!((HenonHeiles::energy_of(&start) - energy).abs() < 1e-15);
