@@ -15,6 +15,7 @@ mod dual;
 mod emit;
 mod fallback;
 pub mod graph;
+mod groups;
 pub mod hygiene;
 mod joint;
 mod lanes;
@@ -43,6 +44,7 @@ use rules::Rules;
 /// The expansion of `#[rayleigh_system(attribute)] item`.
 pub fn rayleigh_system(runtime: Runtime, attribute: TokenStream, item: TokenStream) -> TokenStream {
     let mut report = Report::default();
+    let item = groups::in_parentheses(item);
     let names = Shared::of(&item);
     let options = attribute::options(names.marked_in(attribute), runtime, &mut report);
     let path = options.runtime.clone();
@@ -78,6 +80,7 @@ fn system(
 pub fn differentiable(runtime: Runtime, attribute: TokenStream, item: TokenStream) -> TokenStream {
     let mut report = Report::default();
     let path = attribute::of_field(attribute, &mut report);
+    let item = groups::in_parentheses(item);
     let names = Shared::of(&item);
     let expansion = names.resolved(field(runtime, names.marked_in(item), report));
     match path {

@@ -36,6 +36,18 @@ fn what_cannot_be_written_out_is_an_error_that_says_why() {
         (quote!(let mut s = 0.0; for x in q { if x < 0.0 { break; } s += x; } s), "numbers decide to leave"),
         (quote!(println!("{}", q[0]); q[0]), "macros hide"),
         (quote!(q[0].powi(self.n)), "use `powf`"),
+        (
+            quote!(let mut s = q[0]; for i in i128::MAX - 1..=i128::MAX { s += i as f64; } s),
+            "not known at compile time",
+        ),
+        (
+            quote!(let mut s = q[0]; for i in 170141183460469231731687303715884105726..=170141183460469231731687303715884105727_i128 { s += i as f64; } s),
+            "to the largest integer",
+        ),
+        (
+            quote!(let mut s = q[0]; for i in -170141183460469231731687303715884105728..170141183460469231731687303715884105727_i128 { s += i as f64; } s),
+            "too long for straight-line code",
+        ),
     ];
     for (body, reason) in cases {
         let expanded = expansion("expanded", &body);

@@ -16,6 +16,7 @@ mod enums;
 mod fields;
 mod forms;
 mod found_by_fuzzing;
+mod fragments;
 mod gauss_engines;
 mod hygiene;
 mod methods;

@@ -113,3 +113,23 @@ case! {
         fn cos(x: f64) -> f64 { x + 1.0 }
     }
 }
+
+case! {
+    /// Their opposites are not in the type.
+    the_least_numbers_are_literals: [1] at [([0.3], [1.1]), ([-0.8], [0.9])]
+    definitions {
+        pub struct System;
+        fn system() -> System { System }
+    }
+    functions {
+        fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+            let least = [-128_i8 as f64, -(32_768_i16) as f64, -9_223_372_036_854_775_808_i64 as f64];
+            let mut sum = 0.5 * v[0] * v[0];
+            for x in least {
+                sum += 1e-2 * x.cbrt() * q[0] + !(-128_i8) as f64;
+            }
+            let widest = -170_141_183_460_469_231_731_687_303_715_884_105_728_i128;
+            sum + (3.0 + v[0]).powi(-2147483648) + 1e-38 * (widest as f64) * q[0] * q[0]
+        }
+    }
+}

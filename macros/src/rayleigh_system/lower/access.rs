@@ -94,7 +94,7 @@ impl Lowering<'_> {
             return refuse(range, "a range without an end; write the end out");
         }
         let (start, end) = self.bounds(range, None)?;
-        if end.value - start.value > super::MAX_NODES as i128 {
+        if end.value.saturating_sub(start.value) > super::MAX_NODES as i128 {
             return refuse(range, "the loops, written out, are too long for straight-line code");
         }
         Ok(Value::Sequence(
@@ -125,7 +125,17 @@ impl Lowering<'_> {
             None => known(self, length.unwrap_or_default())?,
         };
         // A closed range ends at its last value, and computes none behind it.
-        end.value += i128::from(is_closed && range.end.is_some());
+        if is_closed && range.end.is_some() {
+            match end.value.checked_add(1) {
+                Some(behind) => end.value = behind,
+                None => {
+                    return refuse(
+                        range,
+                        "a closed range to the largest integer; write one that ends before",
+                    );
+                }
+            }
+        }
         Ok((start, end))
     }
 

@@ -1,6 +1,7 @@
 //! Casts, and calls of functions by their path, conversions among them.
 
 use quote::quote;
+use syn::spanned::Spanned;
 use syn::{Expr, ExprCall, ExprCast, GenericArgument, PathArguments, Type};
 
 use super::super::syntax::{is_plain, simple_name};
@@ -30,7 +31,8 @@ impl Lowering<'_> {
             (Value::Integer(integer), None)
                 if simple_name(ty).is_some_and(|name| name == "f64" || name == "f32") =>
             {
-                let exact = proc_macro2::Literal::i128_suffixed(integer.value.abs());
+                let digits = format!("{}_i128", integer.value.unsigned_abs());
+                let exact = syn::LitInt::new(&digits, cast.span());
                 let sign = (integer.value < 0).then(|| quote!(-));
                 Ok(Value::Written(Written::leaf(quote!((#sign #exact as #ty)))))
             }

@@ -2,10 +2,11 @@
 
 use proc_macro2::Span;
 use quote::quote;
-use syn::{BinOp, ExprBinary, ExprUnary, UnOp};
+use syn::{BinOp, Expr, ExprBinary, ExprLit, ExprUnary, Lit, UnOp};
 
 use super::super::diagnostics::span_of;
 use super::super::graph::{Comparison, Operation};
+use super::super::syntax::without_parentheses;
 use super::integer::Integer;
 use super::value::{Truth, Value};
 use super::written::Written;
@@ -13,6 +14,12 @@ use super::{Lowering, Node, Result, refuse};
 
 impl Lowering<'_> {
     pub fn unary(&mut self, unary: &ExprUnary) -> Result<Value> {
+        if let (UnOp::Neg(_), Expr::Lit(ExprLit { lit: Lit::Int(literal), .. })) =
+            (&unary.op, without_parentheses(&unary.expr))
+            && let Some(value) = self.negative_literal(unary, literal)
+        {
+            return value;
+        }
         let value = self.expression(&unary.expr)?;
         self.apply_unary(unary, value)
     }
@@ -193,7 +200,7 @@ impl Lowering<'_> {
 
 /// The integer as it is written.
 pub fn literal(integer: Integer) -> Written {
-    let digits = proc_macro2::Literal::i128_unsuffixed(integer.value.abs());
+    let digits = proc_macro2::Literal::u128_unsuffixed(integer.value.unsigned_abs());
     Written::leaf(if integer.value < 0 { quote!((-#digits)) } else { quote!(#digits) })
 }
 

@@ -2,7 +2,7 @@
 
 use proc_macro2::Ident;
 use quote::ToTokens;
-use syn::BinOp;
+use syn::{BinOp, LitInt};
 
 use super::super::value::{Truth, Value};
 use super::super::{Lowering, Result, refuse};
@@ -95,11 +95,25 @@ impl Lowering<'_> {
         }
     }
 
+    /// A literal with its sign: the least number of a type, `-128_i8`, has no opposite there. `None` where it
+    /// is no integer.
+    pub fn negative_literal(&mut self, at: &impl ToTokens, literal: &LitInt) -> Option<Result<Value>> {
+        let ty = IntegerType::named(literal.suffix());
+        if ty.is_none() && !literal.suffix().is_empty() {
+            return None;
+        }
+        let size = literal.base10_parse().ok()?;
+        let value = 0_i128.checked_sub_unsigned(size)?;
+        let class = self.integers.fresh(ty);
+        self.integers.of_mut(class).is_signed = true;
+        Some(self.in_class(at, value, class))
+    }
+
     /// `!value`
     pub fn complement(&mut self, at: &impl ToTokens, integer: Integer) -> Result<Value> {
         let ty = self.needed_type(at, integer.class)?;
         match (ty.is_signed, ty.bits) {
-            (true, _) => self.in_class(at, -integer.value - 1, integer.class),
+            (true, _) => self.in_class(at, !integer.value, integer.class),
             (false, Some(bits)) if bits < 128 => {
                 self.in_class(at, ty.range().1 - integer.value, integer.class)
             }
