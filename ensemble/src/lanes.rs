@@ -167,7 +167,7 @@ impl<M: Copy, S: Scalar> InLanes<M, S> {
         // Steps until the next record of each lane; a lane without a member has none.
         let mut left = [u64::MAX; W];
         for (lane, member) in lanes.iter().enumerate() {
-            let Some(member) = member else { break };
+            let Some(member) = member else { continue };
             (systems[lane], starts[lane], left[lane]) = (member.system, member.start, member.next);
         }
         let mut runs = LaneRuns::new(self.method, systems, &starts, self.plan.h);

@@ -66,8 +66,8 @@ impl<L: Rayleigh<N, Scalar = f64>, const N: usize> ODE<f64, SMatrix<f64, N, 2>> 
         let l = self.0.lagrangian_derivatives(&q, &v);
         let force = l.d1 - l.d12.transpose() * v - self.0.rayleigh_gradient(&q, &v).d2;
         rate.set_column(0, &v);
-        match l.d22.cholesky() {
-            Some(mass) => rate.set_column(1, &mass.solve(&force)),
+        match l.d22.try_inverse() {
+            Some(inverse) => rate.set_column(1, &(inverse * force)),
             // Nothing can be returned from here; the state that follows is refused because it is not finite.
             None => rate.fill(f64::NAN),
         }

@@ -61,6 +61,46 @@ fn expressions_of_fragments_stay_whole() {
     is_right(&num_dual::Products, num_dual::Products.lagrangian(at.0, at.1));
 }
 
+/// Parentheses that the user did not write are not warned of, wherever the fragment stands.
+#[deny(unused_parens)]
+mod quiet {
+    macro_rules! system {
+        ($sum:expr, $truth:expr, $range:expr, $function:expr, $pattern:pat, $engine:ident) => {
+            pub mod $engine {
+                pub struct System;
+                #[dalembert::rayleigh_system(derivatives = $engine)]
+                impl System {
+                    pub fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+                        let sum = $sum;
+                        let mut l = Self::half(v[0] * v[0] + v[1] * v[1]);
+                        for i in $range {
+                            l -= q[i];
+                        }
+                        if $truth {
+                            l -= q.iter().map($function).sum::<f64>();
+                        }
+                        match 2 {
+                            $pattern => l * sum,
+                            _ => l,
+                        }
+                    }
+                    fn half(x: f64) -> f64 {
+                        return $sum * 0.5 * x;
+                    }
+                }
+            }
+        };
+    }
+    system!(0.5 + 0.5, 1 < 2, 0..2, |x| 2.0 * x, 1..=3, expanded);
+    system!(0.5 + 0.5, 1 < 2, 0..2, |x| 2.0 * x, 1..=3, num_dual);
+
+    #[test]
+    fn its_value_is_right() {
+        let (q, v) = ([0.5, 0.25], [1.0, 2.0]);
+        assert_eq!((expanded::System.lagrangian(q, v), num_dual::System.lagrangian(q, v)), (0.25, 0.25));
+    }
+}
+
 /// Positive control: without the group `1.0 + 2.0 * 0.5` is 2, not 1.5.
 #[test]
 fn the_fragments_do_bind_weaker_than_what_stands_beside_them() {

@@ -155,6 +155,6 @@ fn of_a_linear_system_is_constant_to_rounding() {
     let steps = if cfg!(debug_assertions) { 200_000 } else { 1_000_000 };
     let account = energies(&system, Midpoint, 0.3, start, [steps, 1000]);
     let off = account.iter().map(|e| (e / account[0] - 1.0).abs()).fold(0.0, f64::max);
-    // Unbiased rounding walks √steps ε, 2e-13 in a million; a bias of ε a step would reach ten times this.
-    assert!(off < 0.1 * f64::EPSILON * steps as f64, "{off:e}");
+    // Of a million steps unbiased rounding walks √steps ε = 2e-13; a bias of ε a step would reach 2e-10.
+    assert!(off < 2e-17 * steps as f64, "{off:e}");
 }

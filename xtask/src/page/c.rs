@@ -1,7 +1,5 @@
 //! The chapter "In C" of `docs/embedding.md`, with gcc and with clang.
 
-use std::env;
-
 use anyhow::{Result, ensure};
 use xshell::{Shell, cmd};
 
@@ -18,10 +16,8 @@ pub fn run() -> Result<()> {
 
     let home = shell.create_temp_dir()?;
     move_home(&shell, home.path())?;
-    // All build in one place, the caller's if there is any: dalembert is compiled once.
-    if env::var_os("CARGO_TARGET_DIR").is_none() {
-        shell.set_var("CARGO_TARGET_DIR", project::root().join("target/c"));
-    }
+    // All build in one place: dalembert is compiled once.
+    shell.set_var("CARGO_TARGET_DIR", project::target());
     for compiler in ["gcc", "clang"] {
         shell.remove_path("examples/c/control_loop")?;
         shell.remove_path("target/control-loop")?;

@@ -126,15 +126,10 @@ impl Lowering<'_> {
         };
         // A closed range ends at its last value, and computes none behind it.
         if is_closed && range.end.is_some() {
-            match end.value.checked_add(1) {
-                Some(behind) => end.value = behind,
-                None => {
-                    return refuse(
-                        range,
-                        "a closed range to the largest integer; write one that ends before",
-                    );
-                }
-            }
+            let Some(behind) = end.value.checked_add(1) else {
+                return refuse(range, "a closed range to the largest integer; write one that ends before");
+            };
+            end.value = behind;
         }
         Ok((start, end))
     }

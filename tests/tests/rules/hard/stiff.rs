@@ -124,7 +124,7 @@ fn the_chain_exchanges_stiff_energies() {
             rows.push(sum);
         }
     };
-    let fine = 0.05;
+    let fine = if cfg!(debug_assertions) { 0.05 } else { 0.02 };
     let mut exact = baseline::states(&system, Method::DormandPrince853(1e-8), fine, system.start())
         .unwrap()
         .take((end / fine).round() as usize)

@@ -41,8 +41,11 @@ const ROUNDING: f64 = 1024.0 * f64::EPSILON;
 
 type Segments = Vec<Segment<f64, 2>>;
 
+/// Segments of a set; the more, the longer each takes without optimisation.
+const COUNT: usize = if cfg!(debug_assertions) { 12 } else { 24 };
+
 fn clean() -> Segments {
-    segments([-1.0; 2], [1.0; 2], [0.2; 2], 12)
+    segments([-1.0; 2], [1.0; 2], [0.2; 2], COUNT)
 }
 
 /// Names and answers: what says yes to a claim that is false of [`Wrong`].
@@ -118,7 +121,7 @@ fn poisoned() -> Vec<(String, Segments)> {
         clean().iter().map(|segment| Segment { q1: segment.q0, ..*segment }).collect(),
     ));
     samples.push(("at rest at 0".into(), vec![resting([0.0; 2]); 12]));
-    samples.push(("one, many times".into(), vec![clean()[3]; 12]));
+    samples.push(("one, many times".into(), vec![clean()[3]; COUNT]));
     for poison in [
         f64::NAN,
         f64::INFINITY,
