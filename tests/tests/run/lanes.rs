@@ -348,12 +348,21 @@ where
     let ends = [
         agree::<L, M, N, 1>(method, members, h),
         agree::<L, M, N, 2>(method, members, h),
-        agree::<L, M, N, 3>(method, members, h),
         agree::<L, M, N, 8>(method, members, h),
-        agree::<L, M, N, 16>(method, members, h),
         agree::<L, M, N, 32>(method, members, h),
     ];
-    assert_eq!(ends, [ends[0]; 6]);
+    assert_eq!(ends, [agree_in_two(method, members, h); 4]);
+    ends[0]
+}
+
+/// In an odd number of lanes and in an even one: each is another copy of the step to compile.
+pub fn agree_in_two<L, M, const N: usize>(method: M, members: &[(L, State<f64, N>)], h: f64) -> usize
+where
+    L: InLanes<M, N, Scalar = f64>,
+    M: Copy,
+{
+    let ends = [agree::<L, M, N, 3>(method, members, h), agree::<L, M, N, 16>(method, members, h)];
+    assert_eq!(ends[0], ends[1]);
     ends[0]
 }
 
@@ -389,8 +398,8 @@ fn rings_are_bit_by_bit_their_own_runs() {
     all[3].1 = State { q: vector![0.0, -0.0], p: vector![-0.0, 0.0] };
     all[4].1 = State { q: vector![-0.0, 1.0], p: vector![-0.0, -0.0] };
     assert_eq!(agree_in_all(Splitting::blanes_moan_6(), &all, 0.09), 37);
-    assert_eq!(agree_in_all(Splitting::blanes_casas_escorihuela_8(), &all, 0.09), 37);
-    assert_eq!(agree_in_all(Splitting::blanes_casas_escorihuela_8().compensated(), &all, 0.09), 37);
+    assert_eq!(agree_in_two(Splitting::blanes_casas_escorihuela_8(), &all, 0.09), 37);
+    assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_casas_escorihuela_8().compensated(), &all, 0.09), 37);
     assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_moan_6().compensated(), &all, 0.09), 37);
     assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_moan_4(), &all, 0.02), 37);
     assert_eq!(agree::<_, _, 2, 16>(Splitting::blanes_moan_4(), &all, -0.05), 37);
@@ -409,7 +418,7 @@ fn members_without_fields_and_in_other_functions() {
     for (_, state) in &mut all[..10] {
         (state.q, state.p) = (state.q * 0.2, state.p * 0.2);
     }
-    let ends = agree_in_all(Splitting::blanes_moan_6(), &all, 0.4);
+    let ends = agree_in_two(Splitting::blanes_moan_6(), &all, 0.4);
     assert!((10..19).contains(&ends), "{ends}");
     let pendulums = |random: &mut StdRng| Pendulums {
         m: [random.random_range(0.5..2.0), random.random_range(0.5..2.0)],
@@ -420,7 +429,7 @@ fn members_without_fields_and_in_other_functions() {
         r: damping(random),
     };
     let all = members(35, 3, pendulums);
-    assert_eq!(agree_in_all(Splitting::blanes_moan_6(), &all, 0.1), 35);
+    assert_eq!(agree_in_two(Splitting::blanes_moan_6(), &all, 0.1), 35);
     assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_moan_4(), &all, 0.03), 35);
     assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_casas_escorihuela_8(), &all, 0.1), 35);
     assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_moan_6().compensated(), &all, 0.1), 35);
@@ -467,8 +476,8 @@ fn full_matrices_beside_diagonal_ones() {
     assert!((2..9).contains(&diagonal), "{diagonal} of 11 are diagonal");
     assert_eq!(agree::<_, _, 6, 1>(Splitting::blanes_moan_6(), &all, 0.1), 11);
     assert_eq!(agree::<_, _, 6, 3>(Splitting::blanes_moan_4(), &all, 0.1), 11);
-    assert_eq!(agree::<_, _, 6, 8>(Splitting::blanes_moan_6(), &all, 0.2), 11);
-    assert_eq!(agree::<_, _, 6, 4>(Splitting::blanes_casas_escorihuela_8(), &all, 0.2), 11);
+    assert_eq!(agree::<_, _, 6, 4>(Splitting::blanes_moan_6(), &all, 0.2), 11);
+    assert_eq!(agree::<_, _, 6, 3>(Splitting::blanes_casas_escorihuela_8(), &all, 0.2), 11);
     assert_eq!(agree::<_, _, 6, 4>(Splitting::blanes_moan_6().compensated(), &all, 0.2), 11);
     assert_eq!(agree::<_, _, 6, 3>(Splitting::blanes_casas_escorihuela_8().compensated(), &all, 0.2), 11);
 }
@@ -488,7 +497,7 @@ fn every_member_takes_its_own_branches() {
             state.q[0] = -0.0;
         }
     }
-    assert_eq!(agree_in_all(Splitting::blanes_moan_6(), &all, 0.15), 41);
+    assert_eq!(agree_in_two(Splitting::blanes_moan_6(), &all, 0.15), 41);
     assert_eq!(agree::<_, _, 1, 8>(Splitting::blanes_moan_4(), &all, 0.05), 41);
 }
 
@@ -505,8 +514,8 @@ fn members_are_driven_each_by_its_own_input() {
     let mut driven: Vec<_> = systems.iter().map(|(system, start)| (system.driven(input()), *start)).collect();
     // An input that is no number is that member's fault alone.
     driven[7].0 = systems[7].0.driven([f64::NAN, 0.0]);
-    assert_eq!(agree_in_all(Splitting::blanes_moan_6(), &driven, 0.2), 40);
-    assert_eq!(agree_in_all(Trapezoidal, &driven, 0.05), 40);
+    assert_eq!(agree_in_two(Splitting::blanes_moan_6(), &driven, 0.2), 40);
+    assert_eq!(agree_in_two(Trapezoidal, &driven, 0.05), 40);
     assert_eq!(agree::<_, _, 2, 8>(Splitting::blanes_casas_escorihuela_8(), &driven, 0.2), 40);
     assert_eq!(agree::<_, _, 2, 8>(Composition::kahan_li_6(Trapezoidal), &driven, 0.1), 40);
     assert_eq!(refilled::<_, _, 2, 8>(Trapezoidal, &driven, 0.05, 10), 40);
@@ -587,7 +596,7 @@ fn masses_that_are_none_have_no_state() {
     });
     all[1].0.m[1] = -1.0;
     all[4].0.m[0] = 0.0;
-    assert_eq!(agree_in_all(Splitting::blanes_moan_6(), &all, 0.05), 4);
+    assert_eq!(agree_in_two(Splitting::blanes_moan_6(), &all, 0.05), 4);
 }
 
 /// Störmer–Verlet and its compositions, by every form of the matrix.
