@@ -8,6 +8,7 @@
 pub mod attribute;
 pub mod check;
 mod conditions;
+mod contexts;
 mod decide;
 pub mod diagnostics;
 pub mod differentiate;
@@ -44,7 +45,7 @@ use rules::Rules;
 /// The expansion of `#[rayleigh_system(attribute)] item`.
 pub fn rayleigh_system(runtime: Runtime, attribute: TokenStream, item: TokenStream) -> TokenStream {
     let mut report = Report::default();
-    let item = groups::in_parentheses(item);
+    let item = contexts::apart(groups::in_parentheses(item));
     let names = Shared::of(&item);
     let options = attribute::options(names.marked_in(attribute), runtime, &mut report);
     let path = options.runtime.clone();
@@ -80,7 +81,7 @@ fn system(
 pub fn differentiable(runtime: Runtime, attribute: TokenStream, item: TokenStream) -> TokenStream {
     let mut report = Report::default();
     let path = attribute::of_field(attribute, &mut report);
-    let item = groups::in_parentheses(item);
+    let item = contexts::apart(groups::in_parentheses(item));
     let names = Shared::of(&item);
     let expansion = names.resolved(field(runtime, names.marked_in(item), report));
     match path {
@@ -103,7 +104,9 @@ fn field(runtime: Runtime, item: TokenStream, mut report: Report) -> TokenStream
         report.at_span(source.name().span(), Mistake::FieldWithoutStd);
     }
     match &source {
-        Source::Function(function) if report.is_empty() => dual::field(&system, &twins[0], function, field),
+        Source::Function(function) if report.is_empty() => {
+            dual::field(&system, &twins[0], function, field, runtime.is_portable)
+        }
         _ => fallback::with_stubs(&source, &Rules::default(), &Lanes::default(), report),
     }
 }

@@ -39,24 +39,22 @@ pub fn system(
     refusal: Option<Refusal>,
     is_portable: bool,
 ) -> TokenStream {
-    let (item, twins) = match (twins, system.source) {
-        (Twins::Rewritten(twins), Source::Block(block)) => (
-            twins::plain_block(system, &block.item, twins),
-            twins::twins_of_block(system, &block.item, twins),
+    let (functions, twins) = match (twins, system.source) {
+        (Twins::Rewritten(twins), source) => (
+            twins.iter().map(|twin| twin.plain.sig.ident.clone()).collect(),
+            match source {
+                Source::Block(_) => twins::twins_of_block(system, twins),
+                Source::Function(function) => twins::twins_of_function(system, function, &twins[0]),
+            },
         ),
-        (Twins::Rewritten(twins), Source::Function(function)) => (
-            twins::function_and_struct(system, function),
-            twins::twins_of_function(system, function, &twins[0]),
-        ),
-        (Twins::Lowered(lowered), _) => {
-            (as_written(system, &lowered.functions, is_portable), expressions::twins(system, lowered))
-        }
+        (Twins::Lowered(lowered), _) => (lowered.functions.clone(), expressions::twins(system, lowered)),
     };
+    let item = as_written(system, &functions, is_portable);
     let warning = refusal.as_ref().map(|refusal| notice::warning(system, refusal));
     let bound = notice::bound(system);
     let view = view::definition(system);
     let (conditions, quiet_twins) = (conditions(system.source), quiet_twins());
-    let implementation = write::system(system, functions(system, refusal));
+    let implementation = write::system(system, engine(system, refusal));
     // Bodies stand apart from the implementations: the fewer names are imported beside a user's code, the
     // fewer collide.
     quote! {
@@ -80,7 +78,7 @@ pub fn system(
 }
 
 /// The functions that the runtime's traits ask for, by num-dual.
-fn functions(system: &System<'_>, refusal: Option<Refusal>) -> EngineFunctions {
+fn engine(system: &System<'_>, refusal: Option<Refusal>) -> EngineFunctions {
     let both = RayleighArguments::ConfigurationAndVelocity;
     EngineFunctions {
         structure: Structure { engine: Engine::NumDual(refusal), findings: None },
@@ -97,10 +95,21 @@ fn functions(system: &System<'_>, refusal: Option<Refusal>) -> EngineFunctions {
         names: vec!["Direction", "Variations", "dual"],
         calls_elementary: false,
         bindings: Vec::new(),
+        plain: None,
     }
 }
 
-/// The user's bodies over dual numbers: rustc checks them there, and there alone.
+/// No lint speaks of the user's bodies a second time.
 fn quiet_twins() -> TokenStream {
-    quote!(#[allow(clippy::pedantic, clippy::nursery)])
+    quote! {
+        #[allow(
+            clippy::all,
+            clippy::pedantic,
+            clippy::nursery,
+            deprecated,
+            nonstandard_style,
+            unreachable_code,
+            unused
+        )]
+    }
 }

@@ -53,6 +53,15 @@ pub struct Parameter {
     /// Whether its evaluation may panic where the user's code does not evaluate it: it stays within the
     /// condition.
     stays: bool,
+    /// The type that the user's body has it in, as far as the macro sees.
+    taken_for: Option<Taken>,
+}
+
+/// A type that the macro takes something for that it cannot see into.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Taken {
+    Number,
+    Truth,
 }
 
 impl Parameter {
@@ -235,13 +244,19 @@ impl Graph {
         self.parameter_of(tokens, false)
     }
 
-    /// [`written`](Self::written) tokens; `is_block` if they are a `match`.
-    pub fn written_as(&mut self, tokens: TokenStream, is_block: bool) -> Node {
+    /// [`written`](Self::written) tokens of the user's; `is_block` if they are a `match`.
+    pub fn written_as(&mut self, tokens: TokenStream, is_block: bool, taken_for: Taken) -> Node {
         let node = self.parameter_of(tokens, false);
         if let Operation::Parameter(index) = self.operation(node) {
-            self.parameters[index].is_block = is_block;
+            let parameter = &mut self.parameters[index];
+            (parameter.is_block, parameter.taken_for) = (is_block, Some(taken_for));
         }
         node
+    }
+
+    /// The user's tokens that are taken for a type.
+    pub fn taken_for(&self, taken: Taken) -> impl Iterator<Item = &TokenStream> {
+        self.parameters.iter().filter(move |known| known.taken_for == Some(taken)).map(|known| &known.tokens)
     }
 
     /// Leaves the parameter within the conditions that it stands in.
@@ -281,6 +296,7 @@ impl Graph {
                 is_listed,
                 is_block: false,
                 stays: false,
+                taken_for: None,
             });
             self.parameters.len() - 1
         });

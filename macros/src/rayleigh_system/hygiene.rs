@@ -55,6 +55,7 @@ pub const GENERATED: &[&str] = &[
     "Midpoint",
     "Momenta",
     "MomentaBy",
+    "Never",
     "OneSided",
     "Parameters",
     "Rayleigh",
@@ -78,6 +79,8 @@ pub struct Shared {
     shared: HashSet<String>,
     /// All names of the item.
     all: HashSet<String>,
+    /// Whether the item comes with marks.
+    is_marked: bool,
 }
 
 impl Shared {
@@ -93,7 +96,8 @@ impl Shared {
             _ => None,
         }));
         let shared = all.iter().filter(|name| is_generated(name)).cloned().collect();
-        Self { shared, all }
+        let is_marked = all.iter().any(|name| name.contains(MARK));
+        Self { shared, all, is_marked }
     }
 
     /// The user's tokens, what is shared marked.
@@ -111,7 +115,8 @@ impl Shared {
 
     /// The expansion: shared names that are marked are the user's, others the generated code's.
     pub fn resolved(&self, tokens: TokenStream) -> TokenStream {
-        if self.shared.is_empty() { tokens } else { self.resolved_in(tokens, None) }
+        let is_as_it_was = self.shared.is_empty() && !self.is_marked;
+        if is_as_it_was { tokens } else { self.resolved_in(tokens, None) }
     }
 
     /// `module`: within an import, what the names come from.

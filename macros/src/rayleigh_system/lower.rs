@@ -59,6 +59,8 @@ pub struct Lowered {
     pub time_scale: Option<Node>,
     /// The functions of the block that were run.
     pub functions: Vec<Ident>,
+    /// Methods taken for those of slices, each called on an array of so many numbers: rustc has to agree.
+    pub of_arrays: Vec<(Ident, usize)>,
     /// Names taken for bindings where a constant of that name would be one: rustc has to agree.
     pub bindings: Vec<Ident>,
     /// The loop or method call that writes most operations.
@@ -89,6 +91,7 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
         is_weighed: false,
         part: None,
         functions: Vec::new(),
+        of_arrays: Vec::new(),
     };
     lowering.graph.reserve(system.name.to_string());
     // Known before the bodies read them.
@@ -159,7 +162,7 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
     let time_scale = time_scale.map(|value| lowering.scalar(at, value)).transpose()?;
     lowering.integers.settled()?;
     let bindings = lowering.bindings.into_values().collect();
-    let (functions, heaviest) = (lowering.functions, lowering.heaviest);
+    let (functions, of_arrays, heaviest) = (lowering.functions, lowering.of_arrays, lowering.heaviest);
     Ok(Lowered {
         graph: lowering.graph,
         n,
@@ -169,6 +172,7 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
         force,
         time_scale,
         functions,
+        of_arrays,
         bindings,
         heaviest,
     })
@@ -210,6 +214,8 @@ struct Lowering<'s> {
     integers: Classes,
     bindings: BTreeMap<String, Ident>,
     functions: Vec<Ident>,
+    /// Methods of slices, with the length of the array of numbers that each was called on.
+    of_arrays: Vec<(Ident, usize)>,
     heaviest: Option<Load>,
     /// Whether a loop or call is running whose operations are counted.
     is_weighed: bool,

@@ -47,6 +47,8 @@ pub struct EngineFunctions {
     pub calls_elementary: bool,
     /// Names that rustc has to agree are bindings.
     pub bindings: Vec<Ident>,
+    /// What rustc has to agree are numbers.
+    pub plain: Option<TokenStream>,
 }
 
 /// The system: every trait that it implements, in a scope of their own.
@@ -76,7 +78,7 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
         quote!(#discrete #rayleigh)
     });
     let offered_methods = discrete::offered_methods(system, is_explicit);
-    let bindings = item::are_bindings(&functions.bindings);
+    let (bindings, plain) = (item::are_bindings(&functions.bindings), functions.plain);
     let (conditions, quiet) = (item::conditions(system.source), item::quiet());
     let (scalar, n) = (&system.scalar, system.degrees.times(1));
     quote! {
@@ -86,6 +88,8 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
             #imports
 
             type Vector = SVector<#scalar, #n>;
+
+            #plain
 
             #lagrangian
             #rayleigh

@@ -21,12 +21,12 @@ use syn::Ident;
 
 use super::differentiate::{Derivatives, Differentiation, Gradient};
 use super::emit::{StraightLine, inlined, straight_line};
-use super::graph::{Graph, MOST_OPERATIONS, Node, Operation};
+use super::graph::{Graph, MOST_OPERATIONS, Node, Operation, Taken};
 use super::lower::{Length, Load, Lowered, Refusal};
 use super::model::{Degrees, Home, Part, System};
 use super::rules::Points;
 use super::structure::{self, Differentiated, Findings, Structure, Terms};
-use super::write::item::as_written;
+use super::write::item::{are_plain, as_written};
 use super::write::{self, EngineFunctions, Kernel, view};
 use body::{Shape, matrix, parameter, unused};
 pub use stages::CONDITIONAL;
@@ -80,9 +80,22 @@ impl WrittenOut {
 
 /// The derivatives of what was lowered, unless they are too long to be written out.
 pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Result<WrittenOut, Refusal> {
-    let Lowered { graph, n, m, lagrangian, rayleigh, force, time_scale, functions: run, bindings, heaviest } =
-        lowered;
+    let Lowered {
+        graph,
+        n,
+        m,
+        lagrangian,
+        rayleigh,
+        force,
+        time_scale,
+        functions: run,
+        of_arrays,
+        bindings,
+        heaviest,
+    } = lowered;
     let written = graph.len();
+    let plain = [(system.scalar.clone(), Taken::Number), (format_ident!("bool"), Taken::Truth)]
+        .map(|(ty, taken)| (ty, graph.taken_for(taken).cloned().collect()));
     let mut code = Code {
         system,
         graph,
@@ -142,6 +155,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
         names,
         calls_elementary: code.calls_elementary,
         bindings,
+        plain: Some(are_plain(system, plain, &of_arrays)),
     };
     Ok(WrittenOut { functions, run, lacks_stages })
 }

@@ -175,8 +175,9 @@ fn described<'py>(py: Python<'py>, error: &StepError) -> PyResult<(&'static str,
             data.set_item("floor", floor)?;
             "NotConverged"
         }
-        StepError::GeneratedDiffers { function, generated, written } => {
+        StepError::GeneratedDiffers { function, compared, generated, written } => {
             data.set_item("function", function.to_string())?;
+            data.set_item("compared", format!("{compared:?}").to_lowercase())?;
             data.set_item("generated", generated)?;
             data.set_item("written", written)?;
             "GeneratedDiffers"

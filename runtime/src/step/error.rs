@@ -5,7 +5,7 @@ use core::fmt;
 use nalgebra::SMatrix;
 
 use crate::numbers::Scalar;
-use crate::system::{Function, GeneratedDiffers};
+use crate::system::{Compared, Function, GeneratedDiffers};
 
 /// A quantity that an error speaks of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,14 +103,16 @@ pub enum StepError {
         /// The round-off floor aimed at.
         floor: f64,
     },
-    /// The derivatives generated belong to another function than the one written: their values differ
-    /// ([`verification`](crate::system::verification)).
+    /// The derivatives generated belong to another function than the one written: it has another value, or
+    /// another slope ([`verification`](crate::system::verification)).
     GeneratedDiffers {
         /// Which function.
         function: Function,
-        /// Its value as generated together with its derivatives.
+        /// Which quantity of it.
+        compared: Compared,
+        /// The quantity as generated.
         generated: f64,
-        /// Its value as written.
+        /// The quantity of the function as written: a derivative by differences.
         written: f64,
     },
 }
@@ -141,8 +143,8 @@ impl StepError {
 }
 
 impl From<GeneratedDiffers> for StepError {
-    fn from(GeneratedDiffers { function, generated, written }: GeneratedDiffers) -> Self {
-        Self::GeneratedDiffers { function, generated, written }
+    fn from(GeneratedDiffers { function, compared, generated, written }: GeneratedDiffers) -> Self {
+        Self::GeneratedDiffers { function, compared, generated, written }
     }
 }
 
@@ -218,8 +220,8 @@ impl fmt::Display for StepError {
                 "not converged after {iterations} iterations: residual {residual:.3e}, floor {floor:.3e}; \
                  try a smaller step"
             ),
-            &Self::GeneratedDiffers { function, generated, written } => {
-                GeneratedDiffers { function, generated, written }.fmt(f)
+            &Self::GeneratedDiffers { function, compared, generated, written } => {
+                GeneratedDiffers { function, compared, generated, written }.fmt(f)
             }
         }
     }

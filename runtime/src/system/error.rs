@@ -19,15 +19,27 @@ pub enum Function {
     TimeScale,
 }
 
-/// The derivatives generated belong to another function than the one written: their values differ
-/// ([`verification`](crate::system::verification)).
+/// A quantity of a function that is compared ([`verification`](crate::system::verification)).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Compared {
+    /// Its value.
+    Value,
+    /// Its derivative along a direction in (q, v).
+    Derivative,
+}
+
+/// The derivatives generated belong to another function than the one written: it has another value, or
+/// another slope ([`verification`](crate::system::verification)).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GeneratedDiffers {
     /// Which function.
     pub function: Function,
-    /// Its value as generated together with its derivatives.
+    /// Which quantity of it.
+    pub compared: Compared,
+    /// The quantity as generated.
     pub generated: f64,
-    /// Its value as written.
+    /// The quantity of the function as written: a derivative by differences.
     pub written: f64,
 }
 
@@ -44,11 +56,15 @@ impl fmt::Display for Function {
 
 impl fmt::Display for GeneratedDiffers {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { function, generated, written } = self;
+        let Self { function, compared, generated, written } = self;
+        let along = match compared {
+            Compared::Value => "",
+            Compared::Derivative => "the derivative along a direction of ",
+        };
         write!(
             f,
-            "{function} is {written:e} as written and {generated:e} as generated: the derivatives belong to another \
-             function, a fault of dalembert; report it with the body, and use `derivatives = num_dual` until it is mended"
+            "{along}{function} is {written:e} as written and {generated:e} as generated: the derivatives belong to \
+             another function, a fault of dalembert; report it with the body"
         )
     }
 }

@@ -1,26 +1,30 @@
 //! Whether the derivatives belong to the functions as written.
 //!
-//! Derivatives that the macro writes out come with a value, of the operations that it read off the body. It
-//! is that of the user's own function, bit by bit; where it is not, the derivatives are those of another
-//! function. Each function of this module compares the two at one point. NaN counts as equal to NaN, and 0 to
-//! −0.
+//! Derivatives that the macro makes, written out or by dual numbers, come with a value, of the operations that
+//! it read off the body. It is that of the user's own function, bit by bit; where it is not, the derivatives
+//! are those of another function. NaN counts as equal to NaN, and 0 to −0. And they are the slopes of the
+//! function as written, along a direction with a part in every coordinate and velocity: by its differences at
+//! seven points, as far as those can tell. Each function of this module compares at one point.
 //!
-//! | when | where |
-//! |---|---|
-//! | [`State::from_velocity`](crate::State::from_velocity) | at (q, v), and at a point beside it where no coordinate is special |
-//! | the start of a run: [`Trajectory`](crate::Trajectory), compositions, splittings, [`resume`](crate::Trajectory::resume) | at the state, and beside it |
-//! | every step, with `debug_assertions` | at the points where the rule evaluates the step taken |
+//! | when | what | where |
+//! |---|---|---|
+//! | [`State::from_velocity`](crate::State::from_velocity) | values | at (q, v), and at a point beside it where no coordinate is special |
+//! | the start of a run: [`Trajectory`](crate::Trajectory), compositions, splittings, [`resume`](crate::Trajectory::resume) | values, and with the standard library slopes | at the state and beside it; slopes near it, and farther away |
+//! | [`State::verify`](crate::State::verify) | values and slopes | as at the start of a run |
+//! | every step, with `debug_assertions` | values | at the points where the rule evaluates the step taken |
 //!
 //! A difference is [`StepError::GeneratedDiffers`](crate::StepError::GeneratedDiffers). Systems written by
-//! hand, and those of dual numbers, have one value and nothing to compare. On x86 processors without SSE2
-//! nothing is compared: their registers round differently each time.
+//! hand have one value and nothing to compare. On x86 processors without SSE2 no values are compared: their
+//! registers round differently each time.
+
+mod slope;
 
 use core::hint::black_box;
 
 use nalgebra::SVector;
 
 use crate::numbers::Scalar;
-use crate::system::{Engine, Force, Function, GeneratedDiffers, Lagrangian, Rayleigh, TimeScale};
+use crate::system::{Compared, Engine, Force, Function, GeneratedDiffers, Lagrangian, Rayleigh, TimeScale};
 
 /// Whether the same operations give the same bits.
 const IS_IEEE: bool = cfg!(not(all(target_arch = "x86", not(target_feature = "sse2"))));
@@ -97,17 +101,152 @@ fn compare<S: Scalar>(function: Function, generated: S, written: S) -> Result<()
     if !IS_IEEE || generated == written || (generated.is_nan() && written.is_nan()) {
         Ok(())
     } else {
-        Err(GeneratedDiffers { function, generated, written })
+        Err(GeneratedDiffers { function, compared: Compared::Value, generated, written })
     }
+}
+
+/// The size of each entry of a point: of those that are 0, or so small that their squares carry no digits, that
+/// of the largest, but at most 1.
+fn sizes<S: Scalar, const N: usize>(point: &SVector<S, N>) -> SVector<S, N> {
+    let least = S::EPSILON.widen() * S::EPSILON.widen();
+    let mut largest = 0.0_f64;
+    for i in 0..N {
+        largest = largest.max(point[i].widen().abs());
+    }
+    let unit = if largest > least { largest.min(1.0) } else { 1.0 };
+    let mut sizes = *point;
+    for i in 0..N {
+        let size = point[i].widen().abs();
+        sizes[i] = S::constant(if size > least { size } else { unit });
+    }
+    sizes
+}
+
+/// A direction in (q, v), with a part in every one: a third to two thirds of its size.
+fn direction<S: Scalar, const N: usize>(point: &SVector<S, N>, phase: usize) -> SVector<S, N> {
+    let mut direction = sizes(point);
+    for i in 0..N {
+        let share = 1.0 / 3.0 + ((i + phase) * 7 % 11) as f64 / 33.0;
+        let sign = if (i + phase) % 3 == 1 { -1.0 } else { 1.0 };
+        direction[i] *= S::constant(sign * share);
+    }
+    direction
+}
+
+/// The slope of a function from its partial derivatives `d1` and `d2`, held against its differences along the
+/// [`direction`] of (q, v).
+fn hold<S: Scalar, const N: usize>(
+    of: Function,
+    [q, v]: [&SVector<S, N>; 2],
+    [d1, d2]: [&SVector<S, N>; 2],
+    written: &dyn Fn(&SVector<S, N>, &SVector<S, N>) -> S,
+) -> Result<(), GeneratedDiffers> {
+    let epsilon = S::EPSILON.widen();
+    let largest = slope::largest(epsilon);
+    if !q.iter().chain(v.iter()).all(|x| x.widen().abs() <= largest) {
+        return Ok(());
+    }
+    let (a, b) = (direction(q, 0), direction(v, 5));
+    let (mut slope, mut size) = (0.0, 0.0);
+    for i in 0..N {
+        let [d1, d2] = [d1[i].widen(), d2[i].widen()];
+        slope += d1 * a[i].widen() + d2 * b[i].widen();
+        size += (d1 * q[i].widen()).abs() + (d2 * v[i].widen()).abs();
+    }
+    let mut along = |s: f64| {
+        let (mut moved_q, mut moved_v) = (*q, *v);
+        for i in 0..N {
+            moved_q[i] += a[i] * S::constant(s);
+            moved_v[i] += b[i] * S::constant(s);
+        }
+        written(&moved_q, &moved_v).widen()
+    };
+    match slope::refuted(slope, epsilon, size, &mut along) {
+        None => Ok(()),
+        Some(written) => {
+            Err(GeneratedDiffers { function: of, compared: Compared::Derivative, generated: slope, written })
+        }
+    }
+}
+
+/// ∂L/∂q and ∂L/∂v as generated against differences of L as written, along one direction.
+///
+/// # Errors
+/// [`GeneratedDiffers`].
+#[cold]
+#[inline(never)]
+pub fn lagrangian_slope<L: Lagrangian<N>, const N: usize>(
+    system: &L,
+    q: &SVector<L::Scalar, N>,
+    v: &SVector<L::Scalar, N>,
+) -> Result<(), GeneratedDiffers> {
+    let of = system.lagrangian_gradient(q, v);
+    hold(Function::Lagrangian, [q, v], [&of.d1, &of.d2], &|q, v| system.lagrangian(q, v))
+}
+
+/// ∂R/∂q and ∂R/∂v as generated against differences of R as written, along one direction.
+///
+/// # Errors
+/// [`GeneratedDiffers`].
+#[cold]
+#[inline(never)]
+pub fn rayleigh_slope<L: Rayleigh<N>, const N: usize>(
+    system: &L,
+    q: &SVector<L::Scalar, N>,
+    v: &SVector<L::Scalar, N>,
+) -> Result<(), GeneratedDiffers> {
+    let of = system.rayleigh_gradient(q, v);
+    hold(Function::Rayleigh, [q, v], [&of.d1, &of.d2], &|q, v| system.rayleigh(q, v))
+}
+
+/// ∂f/∂q and ∂f/∂v as generated against differences of f as written: a sum of all components along one
+/// direction, and where it differs, each.
+///
+/// # Errors
+/// [`GeneratedDiffers`].
+#[cold]
+#[inline(never)]
+pub fn force_slope<L: Force<N>, const N: usize>(
+    system: &L,
+    q: &SVector<L::Scalar, N>,
+    v: &SVector<L::Scalar, N>,
+) -> Result<(), GeneratedDiffers> {
+    let of = system.force_derivatives(q, v);
+    let along = |shares: &SVector<L::Scalar, N>, index| {
+        let (mut d1, mut d2) = (SVector::zeros(), SVector::zeros());
+        for i in 0..N {
+            for j in 0..N {
+                d1[i] += shares[j] * of.d1[(j, i)];
+                d2[i] += shares[j] * of.d2[(j, i)];
+            }
+        }
+        hold(Function::Force { index }, [q, v], [&d1, &d2], &|q, v| {
+            let f = system.force(q, v);
+            let mut sum = L::Scalar::constant(0.0);
+            for j in 0..N {
+                sum += shares[j] * f[j];
+            }
+            sum
+        })
+    };
+    let sum = along(&direction(&SVector::zeros(), 2), 0);
+    if sum.is_ok() {
+        return sum;
+    }
+    for index in 0..N {
+        let mut one = SVector::zeros();
+        one[index] = L::Scalar::constant(1.0);
+        along(&one, index)?;
+    }
+    sum
 }
 
 /// Whether there are two values of each function.
 pub(crate) const fn has_two_values(engine: Engine) -> bool {
-    matches!(engine, Engine::Expanded)
+    matches!(engine, Engine::Expanded | Engine::NumDual { .. })
 }
 
-/// Verifies a system at (q, v), and beside it: at rest, and where a coordinate is 0, functions agree by
-/// chance.
+/// Verifies values at (q, v), and beside it: at rest, and where a coordinate is 0, functions agree by chance.
 pub(crate) fn around<L: Lagrangian<N>, const N: usize>(
     system: &L,
     q: &SVector<L::Scalar, N>,
@@ -117,8 +256,32 @@ pub(crate) fn around<L: Lagrangian<N>, const N: usize>(
         return Ok(());
     }
     system.verify_generated(q, v)?;
-    let beside = |x: &SVector<L::Scalar, N>, direction: f64| {
-        SVector::from_fn(|i, _| x[i] + L::Scalar::constant(direction * (1.0 + 0.125 * i as f64)))
+    let one = SVector::repeat(L::Scalar::constant(1.0));
+    system.verify_generated(&beside(q, 0.75, &one), &beside(v, -1.25, &one))
+}
+
+/// Verifies slopes near (q, v) and farther away: at the point itself a body may take a way of its own, as at 0.
+pub(crate) fn slopes_around<L: Lagrangian<N>, const N: usize>(
+    system: &L,
+    q: &SVector<L::Scalar, N>,
+    v: &SVector<L::Scalar, N>,
+) -> Result<(), GeneratedDiffers> {
+    let at = |[of_q, of_v]: [f64; 2]| {
+        system.verify_slopes(&beside(q, of_q, &sizes(q)), &beside(v, of_v, &sizes(v)))
     };
-    system.verify_generated(&beside(q, 0.75), &beside(v, -1.25))
+    at([0.011, -0.017])?;
+    at([0.75, -1.25])
+}
+
+/// A point away from `x`, in no special direction.
+fn beside<S: Scalar, const N: usize>(
+    x: &SVector<S, N>,
+    distance: f64,
+    unit: &SVector<S, N>,
+) -> SVector<S, N> {
+    let mut beside = *x;
+    for i in 0..N {
+        beside[i] += S::constant(distance * (1.0 + 0.125 * i as f64)) * unit[i];
+    }
+    beside
 }

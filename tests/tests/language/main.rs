@@ -21,6 +21,7 @@ mod gauss_engines;
 mod hygiene;
 mod methods;
 mod names;
+mod own_types;
 mod quiet;
 mod semantics;
 mod singular;

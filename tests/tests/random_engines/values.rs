@@ -1,21 +1,31 @@
 //! The values of L, R and f as generated are those of the functions as written, bit by bit, at whatever
 //! optimisation level the two are compiled: `--config 'profile.test.package.dalembert-tests.opt-level=0'` and
-//! the like.
+//! the like. Their slopes are not refuted by differences of the functions as written, and are where they are
+//! those of another system.
 
-use dalembert::Lagrangian;
-use dalembert::system::GeneratedDiffers;
+use dalembert::system::{Derivatives, verification};
+use dalembert::{Lagrangian, State, StepError};
 use nalgebra::SVector;
 
-use super::{Spread, expanded, generator};
+use super::{Spread, expanded, generator, num_dual};
 
-/// `verify_generated` at a point: q, v and the coefficients.
-type Verify = fn(&[f64]) -> Result<(), GeneratedDiffers>;
+/// `verify_generated` at a point, q, v and the coefficients, and what a run verifies that starts at (q, p = v), by both
+/// engines.
+type Verify = fn(&[f64]) -> [Result<(), StepError>; 4];
 
 macro_rules! verify {
     ($name:ident, $n:literal, [$($rayleigh:ident)?], [$($force:ident)?]) => {
         ($n, |at| {
-            let system = expanded::$name { c: std::array::from_fn(|k| at[2 * $n + k]) };
-            system.verify_generated(&SVector::from_fn(|i, _| at[i]), &SVector::from_fn(|i, _| at[$n + i]))
+            let c = std::array::from_fn(|k| at[2 * $n + k]);
+            let (q, v) = (SVector::from_fn(|i, _| at[i]), SVector::from_fn(|i, _| at[$n + i]));
+            let (expanded, num_dual) = (expanded::$name { c }, num_dual::$name { c });
+            let state = State { q, p: v };
+            [
+                expanded.verify_generated(&q, &v).map_err(StepError::from),
+                state.verify(&expanded),
+                num_dual.verify_generated(&q, &v).map_err(StepError::from),
+                state.verify(&num_dual),
+            ]
         })
     };
 }
@@ -60,10 +70,68 @@ fn generated_values_are_those_written_to_the_bit() {
                     }
                 }
             }
-            let verdict = verify(&point);
-            assert!(verdict.is_ok(), "System{index} at {point:?}: {verdict:?}");
+            let mut verdict = verify(&point);
+            // The sine of 1e300 q is no function that differences could follow.
+            if point.iter().any(|x| x.abs() > 1e9) {
+                (verdict[1], verdict[3]) = (Ok(()), Ok(()));
+            }
+            assert!(verdict.iter().all(Result::is_ok), "System{index} at {point:?}: {verdict:?}");
             tried += 1;
         }
     }
     println!("{tried} points of {} systems", generator::SYSTEMS);
+}
+
+/// A system with the derivatives of another.
+struct Mixed<S> {
+    written: S,
+    derivatives: S,
+}
+
+impl<S: Lagrangian<N>, const N: usize> Lagrangian<N> for Mixed<S> {
+    type Scalar = S::Scalar;
+
+    fn lagrangian(&self, q: &SVector<S::Scalar, N>, v: &SVector<S::Scalar, N>) -> S::Scalar {
+        self.written.lagrangian(q, v)
+    }
+
+    fn lagrangian_derivatives(
+        &self,
+        q: &SVector<S::Scalar, N>,
+        v: &SVector<S::Scalar, N>,
+    ) -> Derivatives<S::Scalar, N> {
+        self.derivatives.lagrangian_derivatives(q, v)
+    }
+}
+
+/// Whether slopes refute the derivatives of a system that has its last coefficients changed by so much.
+type Refute = fn(&[f64], f64) -> bool;
+
+macro_rules! refute {
+    ($name:ident, $n:literal, [$($rayleigh:ident)?], [$($force:ident)?]) => {
+        ($n, |at, change| {
+            let c = std::array::from_fn(|k| at[2 * $n + k]);
+            let (q, v) = (SVector::from_fn(|i, _| at[i]), SVector::from_fn(|i, _| at[$n + i]));
+            let (written, derivatives) =
+                (expanded::$name { c }, expanded::$name { c: c.map(|c| c * (1.0 + change)) });
+            verification::lagrangian_slope(&Mixed { written, derivatives }, &q, &v).is_err()
+        })
+    };
+}
+
+/// The control, and what slopes can tell: coefficients that are off by a share.
+#[test]
+fn derivatives_of_another_system_are_refuted() {
+    let systems: [(usize, Refute); generator::SYSTEMS] = every_system!(refute);
+    let told = |change: f64| {
+        let of_system = |(index, &(n, refute)): (usize, &(usize, Refute))| {
+            let mut random = Spread(2000 + index as u64);
+            (0..20).filter(|_| refute(&random.point(n), change)).count()
+        };
+        systems.iter().enumerate().map(of_system).sum::<usize>()
+    };
+    let told = [0.0, 1e-4, 1e-2, 0.5].map(told);
+    println!("coefficients off by 0, 1e-4, 0.01 and a half: refuted at {told:?} of 1000 points");
+    assert_eq!(told[0], 0);
+    assert!(told[2] > 800 && told[3] > 900, "{told:?}");
 }

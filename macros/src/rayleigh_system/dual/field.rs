@@ -5,17 +5,23 @@ use quote::quote;
 
 use super::super::check::Field;
 use super::super::model::{Function, System};
-use super::super::write::item::{conditions, quiet};
+use super::super::write::item::{as_written, conditions, quiet};
 use super::quiet_twins;
 use super::rewrite::Twin;
-use super::twins::{function_and_struct, written};
+use super::twins::written;
 
 /// The whole expansion of a field: the user's function, the struct of its parameters, and the field that it
 /// is.
-pub fn field(system: &System<'_>, twin: &Twin, function: &Function, kind: Field) -> TokenStream {
+pub fn field(
+    system: &System<'_>,
+    twin: &Twin,
+    function: &Function,
+    kind: Field,
+    is_portable: bool,
+) -> TokenStream {
     let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
-    let item = function_and_struct(system, function);
+    let item = as_written(system, std::slice::from_ref(&function.item.sig.ident), is_portable);
     let conditions = conditions(system.source);
     let (quiet, quiet_twins) = (quiet(), quiet_twins());
     let twin_name = &twin.over.sig.ident;

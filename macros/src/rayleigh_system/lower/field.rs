@@ -4,7 +4,7 @@ use proc_macro2::Ident;
 use quote::{ToTokens, format_ident, quote};
 use syn::{BinOp, Expr, ExprMethodCall, UnOp, parse_quote};
 
-use super::super::graph::{Node, Operation};
+use super::super::graph::{Node, Operation, Taken};
 use super::operator::literal;
 use super::value::{Truth, Value};
 use super::written::{Text, Written};
@@ -139,7 +139,7 @@ impl Lowering<'_> {
             text.tokens = quote!(#scalar::clone(&#tokens));
         }
         let (may_panic, is_block) = (text.may_panic, !text.arms.is_empty());
-        let node = self.graph.written_as(text.within_arms(&quote!(0.0)), is_block);
+        let node = self.graph.written_as(text.within_arms(&quote!(0.0)), is_block, Taken::Number);
         match self.guard().filter(|_| may_panic) {
             Some(guard) => {
                 self.graph.keep_in_place(node);
@@ -153,7 +153,7 @@ impl Lowering<'_> {
     /// Tokens that are a condition.
     pub fn text_truth(&mut self, text: Text) -> Node {
         let (may_panic, is_block) = (text.may_panic, !text.arms.is_empty());
-        let node = self.graph.written_as(text.within_arms(&quote!(false)), is_block);
+        let node = self.graph.written_as(text.within_arms(&quote!(false)), is_block, Taken::Truth);
         match self.guard().filter(|_| may_panic) {
             Some(guard) => {
                 self.graph.keep_in_place(node);

@@ -6,7 +6,7 @@ use syn::{BinOp, Expr, ExprBinary, ExprLit, ExprUnary, Lit, UnOp};
 
 use super::super::diagnostics::span_of;
 use super::super::graph::{Comparison, Operation};
-use super::super::syntax::without_parentheses;
+use super::super::syntax::{is_place_of_self, without_parentheses};
 use super::integer::Integer;
 use super::value::{Truth, Value};
 use super::written::Written;
@@ -21,6 +21,12 @@ impl Lowering<'_> {
             return value;
         }
         let value = self.expression(&unary.expr)?;
+        // What is written `*self.k` is a reference, or a type with a `Deref` of its own.
+        if let (UnOp::Deref(_), Value::Written(place)) = (&unary.op, &value)
+            && is_place_of_self(without_parentheses(&unary.expr))
+        {
+            return Ok(Value::Written(place.derived(false, |place| quote!((*#place)))));
+        }
         self.apply_unary(unary, value)
     }
 

@@ -8,6 +8,9 @@ use super::integer::IntegerType;
 use super::value::{Truth, Value};
 use super::{Lowering, Node, Result, refuse};
 
+/// Methods that arrays have as slices: a trait in scope with a method of that name for arrays comes before.
+const OF_SLICES: [&str; 5] = ["chunks", "chunks_exact", "iter", "len", "windows"];
+
 impl Lowering<'_> {
     pub fn sequence_method(
         &mut self,
@@ -17,6 +20,12 @@ impl Lowering<'_> {
         said: Option<&Type>,
     ) -> Result<Value> {
         let name = method.to_string();
+        if OF_SLICES.contains(&name.as_str()) && entries.iter().all(|entry| matches!(entry, Value::Real(_))) {
+            let length = entries.len();
+            if !self.of_arrays.iter().any(|(known, of)| method == known && *of == length) {
+                self.of_arrays.push((method.clone(), length));
+            }
+        }
         let pair = |a: Value, b: Value| Value::Tuple(vec![a, b]);
         let entries: Vec<Value> = match (name.as_str(), &arguments[..]) {
             ("iter" | "into_iter" | "copied" | "cloned" | "clone" | "as_slice" | "to_owned", []) => entries,

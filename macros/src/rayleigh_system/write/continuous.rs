@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::super::model::{Home, Part, RayleighArguments, Source, System};
-use super::super::structure::{Engine, Structure};
+use super::super::structure::Structure;
 use super::view::{self, arguments, owner, subject};
 
 /// The plain value of L (0) or R (1) at the vectors q and v.
@@ -42,9 +42,8 @@ pub fn lagrangian(system: &System<'_>, structure: &Structure, derivatives: Token
     let subject = subject(system, home);
     let later = if home == Home::View { view::later(system) } else { None };
     let value = value(system, Part::Lagrangian, RayleighArguments::ConfigurationAndVelocity);
-    let is_expanded = matches!(structure.engine, Engine::Expanded);
-    let verification = is_expanded.then(|| verification(system, home));
-    let delegation = view::delegation(system, Part::Lagrangian, verification_of_view(system, is_expanded));
+    let verification = verification(system, home);
+    let delegation = view::delegation(system, Part::Lagrangian, verification_of_view(system));
     let (documentation, constant) = (structure.documentation(), structure.constant());
     quote! {
         #documentation
@@ -70,30 +69,38 @@ pub fn lagrangian(system: &System<'_>, structure: &Structure, derivatives: Token
     }
 }
 
-/// `fn verify_generated`: those of L, R and f that `home` has.
+/// `fn verify_generated` and `fn verify_slopes`: of L, R and f, as far as `home` has them.
 fn verification(system: &System<'_>, home: Home) -> TokenStream {
     let parts = system.parts().filter(|&part| home == Home::View || system.home_of(part) == home);
-    let functions: Vec<_> = parts.map(|part| format_ident!("{}", part.name())).collect();
+    let parts: Vec<_> = parts.map(Part::name).collect();
     let time_scale = (system.has_time_scale && home == system.home())
         .then(|| quote!(::dalembert::generated::verification::time_scale(self, q)?;));
-    let Some((last, others)) = functions.split_last() else { return TokenStream::new() };
-    // verification::lagrangian(self, q, v)?; verification::rayleigh(self, q, v)
-    quote! {
-        fn verify_generated(
-            &self,
-            q: &Vector,
-            v: &Vector,
-        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
-            #time_scale
-            #(::dalembert::generated::verification::#others(self, q, v)?;)*
-            ::dalembert::generated::verification::#last(self, q, v)
-        }
-    }
+    // fn verify_generated(&self, q: …, v: …) -> Result<(), GeneratedDiffers> {
+    //     verification::lagrangian(self, q, v)?; verification::rayleigh(self, q, v)
+    // }
+    let function = |name: &str, suffix: &str, before: Option<TokenStream>| {
+        let name = format_ident!("{name}");
+        let checks: Vec<_> = parts.iter().map(|part| format_ident!("{part}{suffix}")).collect();
+        let (last, others) = checks.split_last()?;
+        Some(quote! {
+            fn #name(
+                &self,
+                q: &Vector,
+                v: &Vector,
+            ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+                #before
+                #(::dalembert::generated::verification::#others(self, q, v)?;)*
+                ::dalembert::generated::verification::#last(self, q, v)
+            }
+        })
+    };
+    let functions = [function("verify_generated", "", time_scale), function("verify_slopes", "_slope", None)];
+    quote!(#(#functions)*)
 }
 
-/// `fn verify_generated` of the view, where the derivatives are written out and there is a view.
-fn verification_of_view(system: &System<'_>, is_expanded: bool) -> Option<TokenStream> {
-    (is_expanded && system.has_view()).then(|| verification(system, Home::View))
+/// [`verification`] of the view, where there is one.
+fn verification_of_view(system: &System<'_>) -> Option<TokenStream> {
+    system.has_view().then(|| verification(system, Home::View))
 }
 
 /// `impl Rayleigh<2> for Ring`, with the derivatives of either engine.

@@ -1,10 +1,11 @@
 //! The user's item, written again: its attributes and conditions, the struct of a function's parameters, and
 //! what stands beside either engine's implementation.
 
-use proc_macro2::TokenStream;
-use quote::{ToTokens, quote};
+use proc_macro2::{Literal, TokenStream};
+use quote::{ToTokens, quote, quote_spanned};
 use syn::{AttrStyle, Attribute, Ident};
 
+use super::super::diagnostics::span_of;
 use super::super::model::{Function, Role, Source, System};
 use super::super::portable;
 
@@ -52,7 +53,12 @@ pub fn conditions(source: &Source) -> Vec<Attribute> {
         Source::Block(block) => &block.item.attrs,
         Source::Function(function) => &function.item.attrs,
     };
-    named(attributes, &["cfg"]).collect()
+    conditions_of(attributes).collect()
+}
+
+/// The conditions among the attributes.
+pub fn conditions_of(attributes: &[Attribute]) -> impl Iterator<Item = Attribute> {
+    named(attributes, &["cfg"])
 }
 
 /// The lint levels that the user's item sets.
@@ -62,11 +68,6 @@ pub fn lint_levels(source: &Source) -> Vec<Attribute> {
         Source::Function(function) => &function.item.attrs,
     };
     named(attributes, &["allow", "warn", "deny", "forbid"]).collect()
-}
-
-/// Attributes that hold for a body wherever it stands.
-pub fn lints(attributes: &[Attribute]) -> impl Iterator<Item = Attribute> {
-    named(attributes, &["allow", "expect", "warn", "deny", "forbid", "cfg"])
 }
 
 /// Attributes of these names, as outer ones.
@@ -89,6 +90,47 @@ pub fn quiet() -> TokenStream {
             unused_variables,
             unreachable_patterns
         )]
+    }
+}
+
+/// Has rustc agree that what is read of the system, or a constant, has the type that it was taken for, and that
+/// methods of arrays are those of slices: other types have operators of their own, and traits methods.
+pub fn are_plain(
+    system: &System<'_>,
+    of_type: [(Ident, Vec<TokenStream>); 2],
+    of_arrays: &[(Ident, usize)],
+) -> TokenStream {
+    let System { name, scalar, .. } = system;
+    let checks = of_type.into_iter().filter(|(_, tokens)| !tokens.is_empty()).map(|(ty, tokens)| {
+        let count = Literal::usize_unsuffixed(tokens.len());
+        // Errors are shown where the field is read.
+        let references = tokens.iter().map(|tokens| {
+            let span = span_of(tokens);
+            quote_spanned!(span=> &(#tokens))
+        });
+        quote!(let _: [&dyn ::dalembert::generated::Plain<#ty>; #count] = [#(#references),*];)
+    });
+    let mut checks: Vec<_> = checks.collect();
+    if !of_arrays.is_empty() {
+        let count = Literal::usize_unsuffixed(of_arrays.len());
+        let calls = of_arrays.iter().map(|(method, length)| {
+            let (length, zero) = (Literal::usize_unsuffixed(*length), Literal::f64_unsuffixed(0.0));
+            quote!(([#zero; #length] as [#scalar; #length]).#method())
+        });
+        checks.push(quote! {
+            use ::dalembert::generated::SliceMethods as _;
+            let _: [::dalembert::generated::OfSlice; #count] = [#(#calls),*];
+        });
+    }
+    if checks.is_empty() {
+        return TokenStream::new();
+    }
+    quote! {
+        impl ::dalembert::generated::PlainFields for #name {
+            fn plain_fields<Never>(&self) {
+                #(#checks)*
+            }
+        }
     }
 }
 

@@ -28,6 +28,18 @@ const _: () = {
     };
     use ::dalembert::generated::Elementary as _;
     type Vector = SVector<f64, 1>;
+    impl ::dalembert::generated::PlainFields for Bead {
+        fn plain_fields<Never>(&self) {
+            let _: [&dyn ::dalembert::generated::Plain<f64>; 5] = [
+                &(Self::WALL),
+                &(self.k),
+                &(self.m),
+                &(self.g),
+                &(self.r),
+            ];
+            let _: [&dyn ::dalembert::generated::Plain<bool>; 1] = [&(self.has_wall)];
+        }
+    }
     /// Known at compile time:
     /// - Derivatives are written out.
     /// - L = T(v) − V(q).
@@ -94,6 +106,14 @@ const _: () = {
         ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             ::dalembert::generated::verification::lagrangian(self, q, v)?;
             ::dalembert::generated::verification::rayleigh(self, q, v)
+        }
+        fn verify_slopes(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh_slope(self, q, v)
         }
     }
     #[automatically_derived]

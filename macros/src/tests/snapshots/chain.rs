@@ -27,6 +27,16 @@ const _: () = {
         Midpoint, Momenta, StepKernel,
     };
     type Vector = SVector<f64, 4>;
+    impl ::dalembert::generated::PlainFields for Chain {
+        fn plain_fields<Never>(&self) {
+            let _: [&dyn ::dalembert::generated::Plain<f64>; 1] = [&(self.beta)];
+            use ::dalembert::generated::SliceMethods as _;
+            let _: [::dalembert::generated::OfSlice; 2] = [
+                ([0.0; 4] as [f64; 4]).iter(),
+                ([0.0; 4] as [f64; 4]).windows(),
+            ];
+        }
+    }
     /// Known at compile time:
     /// - Derivatives are written out.
     /// - L = T(v) − V(q).
@@ -131,6 +141,13 @@ const _: () = {
             v: &Vector,
         ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             ::dalembert::generated::verification::lagrangian(self, q, v)
+        }
+        fn verify_slopes(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian_slope(self, q, v)
         }
     }
     #[automatically_derived]

@@ -30,6 +30,19 @@ const _: () = {
         Rayleigh, StepKernel,
     };
     type Vector = SVector<f64, 2>;
+    impl ::dalembert::generated::PlainFields for DoublePendulum {
+        fn plain_fields<Never>(&self) {
+            let _: [&dyn ::dalembert::generated::Plain<f64>; 7] = [
+                &(self.m[0]),
+                &(self.m[1]),
+                &(self.l[0]),
+                &(self.l[1]),
+                &(self.g),
+                &(self.c[0]),
+                &(self.c[1]),
+            ];
+        }
+    }
     /// Known at compile time:
     /// - Derivatives are written out.
     /// - The damping force −∂R/∂v is linear in v with constant coefficients.
@@ -120,6 +133,14 @@ const _: () = {
         ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             ::dalembert::generated::verification::lagrangian(self, q, v)?;
             ::dalembert::generated::verification::rayleigh(self, q, v)
+        }
+        fn verify_slopes(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh_slope(self, q, v)
         }
     }
     #[automatically_derived]

@@ -51,6 +51,16 @@ const _: () = {
         MomentaBy, Rayleigh, StepKernel, Variations,
     };
     type Vector = SVector<f64, 1>;
+    impl ::dalembert::generated::PlainFields for Arm {
+        fn plain_fields<Never>(&self) {
+            let _: [&dyn ::dalembert::generated::Plain<f64>; 4] = [
+                &(self.m),
+                &(self.c),
+                &(self.gain),
+                &(Self::RATE),
+            ];
+        }
+    }
     /// Known at compile time:
     /// - Derivatives are written out.
     /// - L = T(v) − V(q).
@@ -103,6 +113,14 @@ const _: () = {
             ::dalembert::generated::verification::lagrangian(self, q, v)?;
             ::dalembert::generated::verification::rayleigh(self, q, v)
         }
+        fn verify_slopes(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh_slope(self, q, v)
+        }
     }
     #[automatically_derived]
     impl Lagrangian<1> for DrivenArm<'_> {
@@ -140,6 +158,15 @@ const _: () = {
             ::dalembert::generated::verification::lagrangian(self, q, v)?;
             ::dalembert::generated::verification::rayleigh(self, q, v)?;
             ::dalembert::generated::verification::force(self, q, v)
+        }
+        fn verify_slopes(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh_slope(self, q, v)?;
+            ::dalembert::generated::verification::force_slope(self, q, v)
         }
         #[inline]
         fn later<T>(&self, elapsed: f64, evaluate: impl FnOnce(&Self) -> T) -> T {

@@ -1,23 +1,12 @@
 impl Arm {
-    #[allow(clippy::used_underscore_binding)]
     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
-        use ::dalembert::generated::dual;
-        dual::lower(self.lagrangian_over::<f64>(dual::lift(q), dual::lift(v)))
+        0.5 * self.m * v[0] * v[0] + q[0].cos()
     }
-    #[allow(clippy::used_underscore_binding)]
     fn rayleigh(&self, v: [f64; 1]) -> f64 {
-        use ::dalembert::generated::dual;
-        dual::lower(self.rayleigh_over::<f64>(dual::lift(v)))
+        0.5 * self.c * v[0] * v[0]
     }
-    #[allow(clippy::used_underscore_binding)]
     fn force(&self, q: [f64; 1], _v: [f64; 1], u: [f64; 1], t: f64) -> [f64; 1] {
-        use ::dalembert::generated::dual;
-        dual::lower(
-            self
-                .force_over::<
-                    f64,
-                >(dual::lift(q), dual::lift(_v), dual::lift(u), dual::lift(t)),
-        )
+        [self.gain * u[0] * q[0].cos() + (Self::RATE * t).sin()]
     }
 }
 const _: () = ::core::assert!(
@@ -49,7 +38,15 @@ impl Arm {
         }
     }
 }
-#[allow(clippy::pedantic, clippy::nursery)]
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    deprecated,
+    nonstandard_style,
+    unreachable_code,
+    unused
+)]
 const _: () = {
     use ::dalembert::generated::dual::{self, Dual, Real};
     #[allow(dead_code)]
@@ -145,6 +142,22 @@ const _: () = {
                 |q, v| self.lagrangian_over(q, v),
             )
         }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh(self, q, v)
+        }
+        fn verify_slopes(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh_slope(self, q, v)
+        }
     }
     #[automatically_derived]
     impl Lagrangian<1> for DrivenArm<'_> {
@@ -173,6 +186,24 @@ const _: () = {
             plus: Direction<f64>,
         ) -> Variations<f64, 1> {
             Lagrangian::lagrangian_variations(self.system, q, v, minus, plus)
+        }
+        fn verify_generated(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh(self, q, v)?;
+            ::dalembert::generated::verification::force(self, q, v)
+        }
+        fn verify_slopes(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh_slope(self, q, v)?;
+            ::dalembert::generated::verification::force_slope(self, q, v)
         }
         #[inline]
         fn later<T>(&self, elapsed: f64, evaluate: impl FnOnce(&Self) -> T) -> T {

@@ -32,6 +32,18 @@ const _: () = {
         Lagrangian, LaneVector, Lanes, Rayleigh, Stages,
     };
     type Vector = SVector<f64, 2>;
+    impl ::dalembert::generated::PlainFields for Cart {
+        fn plain_fields<Never>(&self) {
+            let _: [&dyn ::dalembert::generated::Plain<f64>; 6] = [
+                &(self.l),
+                &(self.m),
+                &(self.end),
+                &(self.k),
+                &(self.c),
+                &(self.a),
+            ];
+        }
+    }
     /// Known at compile time:
     /// - Derivatives are written out.
     /// - The damping force −∂R/∂v is linear in v with constant coefficients.
@@ -107,6 +119,15 @@ const _: () = {
             ::dalembert::generated::verification::lagrangian(self, q, v)?;
             ::dalembert::generated::verification::rayleigh(self, q, v)?;
             ::dalembert::generated::verification::force(self, q, v)
+        }
+        fn verify_slopes(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh_slope(self, q, v)?;
+            ::dalembert::generated::verification::force_slope(self, q, v)
         }
     }
     #[automatically_derived]

@@ -48,6 +48,15 @@ const _: () = {
         Parameters, SecondOrder, Stages, Variations,
     };
     type Vector = SVector<f64, 1>;
+    impl ::dalembert::generated::PlainFields for Arm {
+        fn plain_fields<Never>(&self) {
+            let _: [&dyn ::dalembert::generated::Plain<f64>; 3] = [
+                &(self.gain),
+                &(self.m),
+                &(Self::RATE),
+            ];
+        }
+    }
     /// Known at compile time:
     /// - Derivatives are written out.
     /// - L = T(v) − V(q).
@@ -95,6 +104,13 @@ const _: () = {
         ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             ::dalembert::generated::verification::lagrangian(self, q, v)
         }
+        fn verify_slopes(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian_slope(self, q, v)
+        }
     }
     #[automatically_derived]
     impl Lagrangian<1> for DrivenArm<'_> {
@@ -131,6 +147,14 @@ const _: () = {
         ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             ::dalembert::generated::verification::lagrangian(self, q, v)?;
             ::dalembert::generated::verification::force(self, q, v)
+        }
+        fn verify_slopes(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
+            ::dalembert::generated::verification::force_slope(self, q, v)
         }
         #[inline]
         fn later<T>(&self, elapsed: f64, evaluate: impl FnOnce(&Self) -> T) -> T {

@@ -29,6 +29,15 @@ const _: () = {
         Rayleigh, StepKernel, Trapezoidal,
     };
     type Vector = SVector<f64, 1>;
+    impl ::dalembert::generated::PlainFields for Oscillator {
+        fn plain_fields<Never>(&self) {
+            let _: [&dyn ::dalembert::generated::Plain<f64>; 3] = [
+                &(self.m),
+                &(self.k),
+                &(self.r),
+            ];
+        }
+    }
     /// Known at compile time:
     /// - Derivatives are written out.
     /// - L = T(v) − V(q), of degree at most 2.
@@ -85,6 +94,14 @@ const _: () = {
         ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             ::dalembert::generated::verification::lagrangian(self, q, v)?;
             ::dalembert::generated::verification::rayleigh(self, q, v)
+        }
+        fn verify_slopes(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh_slope(self, q, v)
         }
     }
     #[automatically_derived]

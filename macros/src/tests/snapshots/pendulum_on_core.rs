@@ -26,6 +26,11 @@ const _: () = {
     };
     use ::dalembert::generated::Elementary as _;
     type Vector = SVector<f64, 1>;
+    impl ::dalembert::generated::PlainFields for Pendulum {
+        fn plain_fields<Never>(&self) {
+            let _: [&dyn ::dalembert::generated::Plain<f64>; 1] = [&(self.g)];
+        }
+    }
     /// Known at compile time:
     /// - Derivatives are written out.
     /// - L = T(v) − V(q).
@@ -75,6 +80,13 @@ const _: () = {
             v: &Vector,
         ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             ::dalembert::generated::verification::lagrangian(self, q, v)
+        }
+        fn verify_slopes(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian_slope(self, q, v)
         }
     }
     #[automatically_derived]

@@ -23,6 +23,11 @@ const _: () = {
         Rayleigh, StepKernel,
     };
     type Vector = SVector<f64, 2>;
+    impl ::dalembert::generated::PlainFields for Ring {
+        fn plain_fields<Never>(&self) {
+            let _: [&dyn ::dalembert::generated::Plain<f64>; 1] = [&(self.k)];
+        }
+    }
     /// Known at compile time:
     /// - Derivatives are written out.
     /// - L = T(v) − V(q).
@@ -85,6 +90,14 @@ const _: () = {
         ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             ::dalembert::generated::verification::lagrangian(self, q, v)?;
             ::dalembert::generated::verification::rayleigh(self, q, v)
+        }
+        fn verify_slopes(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh_slope(self, q, v)
         }
     }
     #[automatically_derived]

@@ -1,6 +1,5 @@
 fn rotation(q: [f64; 2], speed: f64) -> [f64; 2] {
-    use ::dalembert::generated::dual;
-    dual::lower(Rotation::rotation_over::<f64>(dual::lift(q), dual::lift(speed)))
+    [-speed * q[1], speed * q[0]]
 }
 /// The field of [`rotation`], with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,7 +8,15 @@ struct Rotation {
     /// Parameter `speed` of [`rotation`].
     speed: f64,
 }
-#[allow(clippy::pedantic, clippy::nursery)]
+#[allow(
+    clippy::all,
+    clippy::pedantic,
+    clippy::nursery,
+    deprecated,
+    nonstandard_style,
+    unreachable_code,
+    unused
+)]
 const _: () = {
     use ::dalembert::generated::dual::{self, Dual, Real};
     #[allow(dead_code)]

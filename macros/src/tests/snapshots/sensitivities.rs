@@ -49,6 +49,14 @@ const _: () = {
         Rayleigh, SecondOrder, StepKernel, Variations,
     };
     type Vector = SVector<f64, 1>;
+    impl ::dalembert::generated::PlainFields for Joint {
+        fn plain_fields<Never>(&self) {
+            let _: [&dyn ::dalembert::generated::Plain<f64>; 2] = [
+                &(self.l),
+                &(self.c[0]),
+            ];
+        }
+    }
     /// Known at compile time:
     /// - Derivatives are written out.
     /// - L = T(v) − V(q).
@@ -101,6 +109,14 @@ const _: () = {
             ::dalembert::generated::verification::lagrangian(self, q, v)?;
             ::dalembert::generated::verification::rayleigh(self, q, v)
         }
+        fn verify_slopes(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh_slope(self, q, v)
+        }
     }
     #[automatically_derived]
     impl Lagrangian<1> for DrivenJoint<'_> {
@@ -138,6 +154,15 @@ const _: () = {
             ::dalembert::generated::verification::lagrangian(self, q, v)?;
             ::dalembert::generated::verification::rayleigh(self, q, v)?;
             ::dalembert::generated::verification::force(self, q, v)
+        }
+        fn verify_slopes(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
+            ::dalembert::generated::verification::rayleigh_slope(self, q, v)?;
+            ::dalembert::generated::verification::force_slope(self, q, v)
         }
     }
     #[automatically_derived]

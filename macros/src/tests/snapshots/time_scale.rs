@@ -84,6 +84,13 @@ const _: () = {
             ::dalembert::generated::verification::time_scale(self, q)?;
             ::dalembert::generated::verification::lagrangian(self, q, v)
         }
+        fn verify_slopes(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
+            ::dalembert::generated::verification::lagrangian_slope(self, q, v)
+        }
     }
     #[automatically_derived]
     impl ::dalembert::generated::TimeScale<2> for Kepler {

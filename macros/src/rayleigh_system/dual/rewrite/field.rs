@@ -4,6 +4,7 @@ use syn::{Expr, ExprField, Ident, Member, parse_quote_spanned};
 
 use super::{Field, Rewriter};
 use crate::rayleigh_system::diagnostics::{Mistake, span_of};
+use crate::rayleigh_system::hygiene::unmarked;
 use crate::rayleigh_system::syntax::{identifier, is_self, without_parentheses};
 
 impl Rewriter<'_> {
@@ -91,7 +92,7 @@ impl Rewriter<'_> {
 
     /// Whether a local of the body, or another field, has the name.
     fn is_taken(&self, name: &str, words: &[String]) -> bool {
-        self.bound.contains(name)
+        self.bound.iter().any(|bound| unmarked(bound) == name)
             || self.fields.iter().any(|(others, field)| others != words && field.local == *name)
     }
 }

@@ -1,0 +1,89 @@
+//! Locals of one name under different hygiene, told apart by their text.
+//!
+//! rustc tells a local of a `macro_rules` from one of its caller, or from the caller's constant of that name;
+//! the stages read names as text:
+//!
+//! ```text
+//! let k = 2.0 * q[0]; $e * k    with $e = k + 1.0    →    let k·· = 2.0 * q[0]; (k + 1.0) * k··
+//! ```
+//!
+//! Marks are taken off again where the expansion is done ([`hygiene`](super::hygiene)).
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use proc_macro2::{Ident, TokenStream, TokenTree};
+use syn::visit::{self, Visit};
+use syn::{Item, PatIdent};
+
+use super::hygiene::MARK;
+use super::syntax::regrouped;
+
+/// The item, each local marked that another hygiene has a name of the same text beside.
+pub fn apart(item: TokenStream) -> TokenStream {
+    let mut contexts = BTreeMap::new();
+    collect(item.clone(), &mut contexts);
+    contexts.retain(|_, of| of.len() > 1);
+    let Some(mut bound) =
+        (!contexts.is_empty()).then(|| syn::parse2(item.clone()).map(bound)).and_then(Result::ok)
+    else {
+        return item;
+    };
+    bound.retain(|(name, _)| contexts.contains_key(name));
+    // One mark is that of names that generated code has too.
+    let marks = bound.into_iter().zip(2..).collect();
+    marked(item, &marks)
+}
+
+/// The hygiene of a name, of which stable Rust shows no more than what `Debug` prints: `#3 bytes(10..11)`.
+fn context(name: &Ident) -> String {
+    let span = format!("{:?}", name.span());
+    span.split(" bytes").next().filter(|context| context.starts_with('#')).unwrap_or_default().to_owned()
+}
+
+/// The contexts in which each name occurs.
+fn collect(tokens: TokenStream, contexts: &mut BTreeMap<String, BTreeSet<String>>) {
+    for token in tokens {
+        match token {
+            TokenTree::Ident(name) => {
+                contexts.entry(name.to_string()).or_default().insert(context(&name));
+            }
+            TokenTree::Group(group) => collect(group.stream(), contexts),
+            _ => {}
+        }
+    }
+}
+
+/// The locals of an item, each with its context.
+fn bound(item: Item) -> BTreeSet<(String, String)> {
+    struct Bound(BTreeSet<(String, String)>);
+    impl<'ast> Visit<'ast> for Bound {
+        fn visit_pat_ident(&mut self, pattern: &'ast PatIdent) {
+            self.0.insert((pattern.ident.to_string(), context(&pattern.ident)));
+            visit::visit_pat_ident(self, pattern);
+        }
+    }
+    let mut bound = Bound(BTreeSet::new());
+    bound.visit_item(&item);
+    bound.0
+}
+
+/// The tokens, names that `marks` has marked so many times, but for members and what belongs to a path.
+fn marked(tokens: TokenStream, marks: &HashMap<(String, String), usize>) -> TokenStream {
+    let mut before = [None; 2];
+    let marked = tokens.into_iter().map(|token| {
+        let is_member = matches!(before, [_, Some('.')] | [Some(':'), Some(':')]);
+        let mark = if let TokenTree::Punct(mark) = &token { Some(mark.as_char()) } else { None };
+        before = [before[1], mark];
+        match token {
+            TokenTree::Ident(name) => match marks.get(&(name.to_string(), context(&name))) {
+                Some(&count) if !is_member => {
+                    TokenTree::Ident(Ident::new(&format!("{name}{}", MARK.repeat(count)), name.span()))
+                }
+                _ => TokenTree::Ident(name),
+            },
+            TokenTree::Group(group) => regrouped(&group, marked(group.stream(), marks)),
+            other => other,
+        }
+    });
+    marked.collect()
+}
