@@ -47,7 +47,7 @@ pub struct EngineFunctions {
     pub calls_elementary: bool,
     /// Names that rustc has to agree are bindings.
     pub bindings: Vec<Ident>,
-    /// What rustc has to agree are numbers.
+    /// The check that what is taken for a number is one.
     pub plain: Option<TokenStream>,
 }
 

@@ -31,7 +31,7 @@ pub struct OfSlice;
 
 /// Methods of arrays that are those of slices, unless a trait in scope has one of that name for arrays: rustc
 /// then finds two where generated code calls one of these.
-#[allow(missing_docs, reason = "names of the methods of slices")]
+#[allow(missing_docs, clippy::len_without_is_empty, reason = "names of the methods of slices")]
 pub trait SliceMethods {
     fn chunks(&self) -> OfSlice {
         OfSlice

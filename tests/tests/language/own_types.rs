@@ -108,7 +108,8 @@ fn a_method_of_a_trait_that_dual_numbers_have_not_is_told() {
     assert!(start.verify(&Counted).is_err_and(told));
 }
 
-/// A local of the macro, `k`, around statements of the caller, which have a `k` of their own in the same scope.
+/// A local of the macro, `k`, around statements of the caller, which have a `k` of their own in the same
+/// scope.
 macro_rules! around {
     ($engine:ident: $($name:ident $inner:ident { $($statements:tt)* })*) => {
         pub mod $engine {$(

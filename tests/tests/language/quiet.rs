@@ -9,6 +9,7 @@
 #![deny(trivial_numeric_casts, let_underscore_drop, missing_copy_implementations, redundant_imports)]
 #![deny(elided_lifetimes_in_paths, explicit_outlives_requirements, unit_bindings, variant_size_differences)]
 #![deny(clippy::all, clippy::pedantic, clippy::nursery)]
+#![allow(clippy::suboptimal_flops, reason = "the bodies are the user's own, and stand as written")]
 
 use dalembert::rayleigh_system;
 use dalembert_tests::documented;

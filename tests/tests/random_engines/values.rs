@@ -9,8 +9,8 @@ use nalgebra::SVector;
 
 use super::{Spread, expanded, generator, num_dual};
 
-/// `verify_generated` at a point, q, v and the coefficients, and what a run verifies that starts at (q, p = v), by both
-/// engines.
+/// `verify_generated` at a point, q, v and the coefficients, and what a run verifies that starts at
+/// (q, p = v), by both engines.
 type Verify = fn(&[f64]) -> [Result<(), StepError>; 4];
 
 macro_rules! verify {

@@ -18,7 +18,7 @@ const CERTAIN: f64 = 16.0;
 struct Differences {
     forward: f64,
     backward: f64,
-    /// What they lose to rounding.
+    /// The loss to rounding.
     rounding: f64,
 }
 
@@ -79,7 +79,8 @@ mod tests {
     /// A smooth function, its slope at 0, and the wrong slopes that are told.
     #[test]
     fn slopes_of_others_are_told_and_its_own_is_not() {
-        let functions: [(fn(f64) -> f64, f64); 6] = [
+        type Of = fn(f64) -> f64;
+        let functions: [(Of, f64); 6] = [
             (|s| (1.3 + s).sin(), 1.3_f64.cos()),
             (|s| (0.7 * s).exp() * 1e3, 700.0),
             (|s| (1.0 + s).powi(7) - 10.0, 7.0),
