@@ -63,8 +63,8 @@ pub(crate) fn verify_start<L: Lagrangian<N>, const N: usize>(
     })
 }
 
-/// The velocity of a state, by one Newton iteration for ∂L/∂v(q, v) = p from rest: exact where L is quadratic in
-/// v, and a point as good as any elsewhere.
+/// The velocity of a state, by one Newton iteration for ∂L/∂v(q, v) = p from rest: exact where L is quadratic
+/// in v, and a point as good as any elsewhere.
 fn velocity<L: Lagrangian<N>, const N: usize>(
     system: &L,
     state: &State<L::Scalar, N>,

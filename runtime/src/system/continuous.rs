@@ -111,8 +111,8 @@ pub trait Lagrangian<const N: usize> {
     }
 }
 
-/// [`lagrangian_derivatives`](Lagrangian::lagrangian_derivatives) out of line: each place that inlines them is one
-/// more copy of all their operations to compile.
+/// [`lagrangian_derivatives`](Lagrangian::lagrangian_derivatives) out of line: each place that inlines them
+/// is one more copy of all their operations to compile.
 #[inline(never)]
 pub(crate) fn derivatives_apart<L: Lagrangian<N> + ?Sized, const N: usize>(
     system: &L,

@@ -1,10 +1,10 @@
 //! Whether the derivatives belong to the functions as written.
 //!
-//! Derivatives that the macro makes, written out or by dual numbers, come with a value, of the operations that
-//! it read off the body. It is that of the user's own function, bit by bit; where it is not, the derivatives
-//! are those of another function. NaN counts as equal to NaN, and 0 to −0. And they are the slopes of the
-//! function as written, along a direction with a part in every coordinate and velocity: by its differences at
-//! seven points, as far as those can tell. Each function of this module compares at one point.
+//! Derivatives that the macro makes, written out or by dual numbers, come with a value, of the operations
+//! that it read off the body. It is that of the user's own function, bit by bit; where it is not, the
+//! derivatives are those of another function. NaN counts as equal to NaN, and 0 to −0. And they are the
+//! slopes of the function as written, along a direction with a part in every coordinate and velocity: by its
+//! differences at seven points, as far as those can tell. Each function of this module compares at one point.
 //!
 //! | when | what | where |
 //! |---|---|---|
@@ -105,8 +105,8 @@ fn compare<S: Scalar>(function: Function, generated: S, written: S) -> Result<()
     }
 }
 
-/// The size of each entry of a point: of those that are 0, or so small that their squares carry no digits, that
-/// of the largest, but at most 1.
+/// The size of each entry of a point: of those that are 0, or so small that their squares carry no digits,
+/// that of the largest, but at most 1.
 fn sizes<S: Scalar, const N: usize>(point: &SVector<S, N>) -> SVector<S, N> {
     let least = S::EPSILON.widen() * S::EPSILON.widen();
     let mut largest = 0.0_f64;
@@ -260,7 +260,8 @@ pub(crate) fn around<L: Lagrangian<N>, const N: usize>(
     system.verify_generated(&beside(q, 0.75, &one), &beside(v, -1.25, &one))
 }
 
-/// Verifies slopes near (q, v) and farther away: at the point itself a body may take a way of its own, as at 0.
+/// Verifies slopes near (q, v) and farther away: at the point itself a body may take a way of its own, as at
+/// 0.
 pub(crate) fn slopes_around<L: Lagrangian<N>, const N: usize>(
     system: &L,
     q: &SVector<L::Scalar, N>,

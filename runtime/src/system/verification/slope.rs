@@ -1,6 +1,7 @@
 //! The slope of a function along a line, against its differences.
 
-/// Widths of the central differences, each a 1024th of the one before: of functions in `f64`, and an eighth in `f32`.
+/// Widths of the central differences, each a 1024th of the one before: of functions in `f64`, and an eighth
+/// in `f32`.
 const WIDTHS: [[f64; 3]; 2] =
     [[9.765_625e-4, 9.536_743_164_062_5e-7, 9.313_225_746_154_785e-10], [0.125, 0.015_625, 1.953_125e-3]];
 
@@ -43,11 +44,11 @@ pub fn largest(epsilon: f64) -> f64 {
 
 /// The slope by differences, where it is certain that it is another than `slope`; by seven evaluations.
 ///
-/// `function` is along the line, at its argument; `epsilon` the spacing of its numbers at 1, and `size` that of
-/// the terms that it adds up. Two pairs of widths have to say so, each with certainty: in a pair, the central
-/// differences agree, and the bend of the narrow ones is that of a smooth function, a kink's being as large over
-/// any width. Kinks, jumps, noise and scales of the function between the widths leave a pair without a
-/// verdict; a ripple far below the narrowest would not be seen.
+/// `function` is along the line, at its argument; `epsilon` the spacing of its numbers at 1, and `size` that
+/// of the terms that it adds up. Two pairs of widths have to say so, each with certainty: in a pair, the
+/// central differences agree, and the bend of the narrow ones is that of a smooth function, a kink's being as
+/// large over any width. Kinks, jumps, noise and scales of the function between the widths leave a pair
+/// without a verdict; a ripple far below the narrowest would not be seen.
 pub fn refuted(slope: f64, epsilon: f64, size: f64, function: &mut dyn FnMut(f64) -> f64) -> Option<f64> {
     let (widths, least) = (WIDTHS[usize::from(is_single(epsilon))], LEAST[usize::from(is_single(epsilon))]);
     let ratio = widths[0] / widths[1];
