@@ -52,6 +52,7 @@
 //! # Ok::<(), dalembert::samples::SampleError>(())
 //! ```
 
+mod asked;
 mod comparison;
 mod conformal_step;
 mod dissipation;

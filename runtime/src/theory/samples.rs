@@ -8,17 +8,34 @@
 //! Of a system at a time t0, a view, the k-th segment starts at t0 + k h: the segments of a trajectory each
 //! at its own time, those of a region at times spread over as many steps.
 //!
-//! No verdict is given on samples that prove nothing: a NaN or an infinity is a [`SampleError`], and so are
-//! samples that cannot tell yes from no, such as segments that do not move.
+//! **Samples that cannot tell.** No verdict is given on samples that prove nothing: a NaN or an infinity is a
+//! [`SampleError`], and so are samples that cannot tell yes from no. One rule holds for every checker:
+//!
+//! ```text
+//! a segment moves            by more than 10 τ of its coordinates, τ = 1024 ε
+//! two samples lie apart      by more than √τ of the size of a coordinate
+//! a view is asked            at three times at least, a step each after the other
+//! a tolerance                leaves a digit of what it is held against
+//! ```
+//!
+//! Nearer than √τ a quantity whose slope is 0 changes by less than what counts as zero. Checkers that claim
+//! one constant for all samples ask for samples that lie apart. They also ask at samples that they make of
+//! those given, so that neither a symmetry between two of them nor a line through all hides what changes.
+
+mod apart;
+mod error;
 
 use core::fmt;
+use std::borrow::Cow;
 
 use nalgebra::SVector;
 
 use crate::numbers::Scalar;
 use crate::step::Discretised;
 use crate::system::Lagrangian;
-pub use crate::theory::verdict::{Finding, Tolerance};
+pub use crate::theory::verdict::{Finding, Tolerance, Verdict};
+pub(crate) use apart::{Sizes, around, different};
+pub use error::SampleError;
 
 /// A segment (q0, q1), a point of Q×Q.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,9 +59,15 @@ impl<S: Scalar, const N: usize> Segment<S, N> {
     }
 
     /// Whether it leads anywhere: one at rest says nothing of what depends on velocities, nor does one whose
-    /// squares underflow.
+    /// squares underflow, or whose displacement is rounding of the coordinates.
     pub(crate) fn moves(&self) -> bool {
-        is_felt(&(self.q1 - self.q0))
+        let by = self.q1 - self.q0;
+        let is_more_than_rounding = |i: usize| {
+            let size = self.q0[i].widen().abs().max(self.q1[i].widen().abs());
+            // A NaN is an error of its own.
+            !Tolerance { relative: Tolerance::rounding::<S>(), scale: size }.hides(by[i].widen())
+        };
+        is_felt(&by) && (0..N).any(is_more_than_rounding)
     }
 
     /// This segment in `f64`.
@@ -173,6 +196,27 @@ pub(crate) fn at_segment<L: Lagrangian<N>, R, T, const N: usize>(
     by.system.later(time, |system| evaluate(&by.of(system)))
 }
 
+/// Whether the system is another one a step later, a view with the time.
+pub(crate) fn is_timed<L: Lagrangian<N>, R, const N: usize>(by: &Discretised<'_, L, R, N>) -> bool {
+    // A system without time is handed on itself.
+    by.system.later(by.h, |later| !core::ptr::eq(later, by.system))
+}
+
+/// Times at which a view is asked, at least.
+const TIMES: usize = 3;
+
+/// The segments, those of a view again and again until there is one for each of three times.
+pub(crate) fn at_several_times<'s, L: Lagrangian<N>, R, const N: usize>(
+    by: &Discretised<'_, L, R, N>,
+    segments: &'s [Segment<L::Scalar, N>],
+) -> Cow<'s, [Segment<L::Scalar, N>]> {
+    if segments.len() < TIMES && is_timed(by) {
+        segments.iter().cycle().take(if segments.is_empty() { 0 } else { TIMES }).copied().collect()
+    } else {
+        Cow::Borrowed(segments)
+    }
+}
+
 /// Fails on a step size that no verdict can be given for: with one below the normal numbers, forces underflow
 /// to an exact 0.
 pub(crate) fn require_step_size<S: Scalar>(h: S) -> Result<(), SampleError> {
@@ -217,53 +261,6 @@ pub(crate) fn worst<S: Scalar, const N: usize>(
     }
     worst.ok_or(SampleError::TooFew { given: 0, needed: 1 })
 }
-
-/// Why the samples given cannot be judged.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum SampleError {
-    /// Fewer samples than unknowns.
-    TooFew {
-        /// Samples given.
-        given: usize,
-        /// The least number that decides.
-        needed: usize,
-    },
-    /// A quantity is NaN or infinite at a sample.
-    NonFinite {
-        /// Number of the sample, from 0.
-        index: usize,
-    },
-    /// No sample can tell yes from no: all are at rest, or the generator vanishes at all of them.
-    Uninformative {
-        /// Samples given.
-        given: usize,
-    },
-    /// The step size is NaN, infinite, 0 or below the normal numbers.
-    StepSize,
-}
-
-impl fmt::Display for SampleError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::TooFew { given, needed } => {
-                write!(f, "{given} samples given, at least {needed} needed to decide; give more")
-            }
-            Self::Uninformative { given } => write!(
-                f,
-                "none of the {given} samples can tell yes from no: they do not move, or the generator vanishes there; give \
-                 samples that move"
-            ),
-            Self::StepSize => f.write_str("the step size is not a normal number; give a finite h ≠ 0"),
-            Self::NonFinite { index } => write!(
-                f,
-                "NaN or infinite value at sample {index}; keep the samples where L, R, f and the generators are smooth"
-            ),
-        }
-    }
-}
-
-impl core::error::Error for SampleError {}
 
 #[cfg(test)]
 mod tests {

@@ -9,6 +9,27 @@ use core::fmt;
 
 use crate::numbers::Scalar;
 
+/// A checker's answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// The statement holds to rounding.
+    Yes,
+    /// It does not.
+    No,
+    /// The tolerance is as large as what it is held against: it would hide a no.
+    CannotTell,
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Yes => "yes",
+            Self::No => "no",
+            Self::CannotTell => "cannot tell",
+        })
+    }
+}
+
 /// A checker's finding on a quantity that has to vanish: the value furthest above its tolerance, and where.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Finding<P> {
@@ -25,9 +46,9 @@ pub struct Finding<P> {
 }
 
 impl<P> Finding<P> {
-    /// A value held against a share of its terms, which has to be less than all of them.
+    /// A value held against a share of its terms, which has to leave a digit of them.
     pub fn relative(value: f64, tolerance: Tolerance, at: P) -> Self {
-        let tells = (0.0..1.0).contains(&tolerance.relative);
+        let tells = (0.0..SHARE).contains(&tolerance.relative);
         Self { value, tolerance: tolerance.bound(), terms: tolerance.scale, at, tells }
     }
 
@@ -41,6 +62,22 @@ impl<P> Finding<P> {
     #[must_use]
     pub fn vanishes(&self) -> bool {
         self.tells && is_zero(self.value, self.tolerance)
+    }
+
+    /// Whether the value is zero to rounding, or why not.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        match (self.tells, self.vanishes()) {
+            (true, true) => Verdict::Yes,
+            (true, false) => Verdict::No,
+            (false, _) if self.tolerance.is_finite() && self.excess() > 1.0 => Verdict::No,
+            (false, _) => Verdict::CannotTell,
+        }
+    }
+
+    /// This finding, silent unless its tolerance leaves a digit of `quantity` too.
+    pub(crate) fn beside(self, quantity: f64) -> Self {
+        Self { tells: self.tells && tells(self.tolerance, quantity.abs()), ..self }
     }
 
     /// |value| in units of its tolerance.
@@ -64,10 +101,11 @@ impl<P> Finding<P> {
 impl<P: fmt::Display> fmt::Display for Finding<P> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:+.2e}, zero below {:.1e}", self.value, self.tolerance)?;
-        if !self.vanishes() {
-            write!(f, ", at {}", self.at)?;
+        match self.verdict() {
+            Verdict::Yes => Ok(()),
+            Verdict::No => write!(f, ", at {}", self.at),
+            Verdict::CannotTell => write!(f, ", which is too coarse to tell, at {}", self.at),
         }
-        Ok(())
     }
 }
 
@@ -95,6 +133,11 @@ impl Tolerance {
     #[must_use]
     pub fn bound(&self) -> f64 {
         self.relative * self.scale
+    }
+
+    /// Whether a displacement by `value` leaves no digit beside the tolerance.
+    pub(crate) fn hides(&self, value: f64) -> bool {
+        value.abs() * SHARE <= self.bound()
     }
 }
 

@@ -12,6 +12,7 @@ use crate::system::ScalarField;
 use crate::theory::rayleigh::quadrature::integrate_sum;
 use crate::theory::rayleigh::{ConformalStep, Integral};
 use crate::theory::samples::at_segment;
+use crate::theory::verdict::Verdict;
 
 /// The Hamilton–Jacobi theory of a step with AᵀΩA = cΩ, whatever made it:
 /// [`conformal_hamilton_jacobi`](crate::Discretised::conformal_hamilton_jacobi).
@@ -127,11 +128,11 @@ where
         states: &[State<L::Scalar, N>],
     ) -> Result<ConformalHamiltonJacobi<'a, L, M, N>, HamiltonJacobiError> {
         let report = self.conformal_step(states).map_err(HamiltonJacobiError::States)?;
-        if !report.is_conformal() {
-            return Err(HamiltonJacobiError::NotConformal { step: None, report });
-        }
-        if report.factor.abs() <= report.defect.tolerance {
-            return Err(HamiltonJacobiError::VanishingFactor);
+        match report.verdict() {
+            Verdict::Yes if report.factor != 0.0 => {}
+            // Or the tolerance leaves no digit of c.
+            Verdict::Yes | Verdict::CannotTell => return Err(HamiltonJacobiError::VanishingFactor),
+            Verdict::No => return Err(HamiltonJacobiError::NotConformal { step: None, report }),
         }
         Ok(ConformalHamiltonJacobi { by: *self, report, reference: states[0] })
     }

@@ -41,7 +41,8 @@ pub enum HamiltonJacobiError {
         /// By how much, and where.
         report: ConformalStep,
     },
-    /// c = 0: the step forgets momenta, and c^{−k} is none.
+    /// c is 0, or no larger than what counts as 0 beside the terms of AᵀΩA: the step forgets momenta, and
+    /// c^{−k} is none.
     VanishingFactor,
     /// det ∂²S_0/∂q∂λ = 0 at the label: the parameters and their constants do not tell the motions apart.
     DegenerateFamily,
@@ -144,7 +145,7 @@ impl fmt::Display for HamiltonJacobiError {
             Self::NotConformal { step: None, report } => {
                 write!(f, "the theory needs a step with AᵀΩA = cΩ, such as Trapezoidal with C = 2aM: {report}")
             }
-            Self::VanishingFactor => f.write_str("AᵀΩA = 0: the step forgets momenta; take another h"),
+            Self::VanishingFactor => f.write_str("AᵀΩA = 0 to rounding: the step forgets momenta; take another h"),
             Self::DegenerateFamily => f.write_str(
                 "det ∂²S_0/∂q∂λ = 0 at the label: this family does not integrate the motion; take one whose λ moves \
                  ∂S_0/∂q in every direction",

@@ -146,7 +146,7 @@ impl<const N: usize> Worst<N> {
     ) {
         self.places += 1;
         let entries = magnitude.iter().chain(matrix.iter()).map(|entry| entry.widen());
-        let tells = largest(entries).is_finite() && self.relative < 1.0;
+        let tells = largest(entries).is_finite() && tells(self.relative, 1.0);
         self.place(step, tells, true);
         for i in 0..N {
             for j in 0..=i {

@@ -6,7 +6,7 @@ use super::rank::Conditions;
 use super::{Generator, bracket};
 use crate::numbers::Scalar;
 use crate::system::VectorField;
-use crate::theory::verdict::{excess, is_zero, largest, typical};
+use crate::theory::verdict::{excess, is_zero, largest, tells, typical};
 
 /// How far the brackets of a basis lie from its span, at the sampled points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,11 +22,11 @@ pub struct Closure {
 }
 
 impl Closure {
-    /// Whether the span is a Lie algebra, to rounding. A tolerance of 1 or more, the size of a bracket's
-    /// terms, says nothing.
+    /// Whether the span is a Lie algebra, to rounding. A tolerance that leaves no digit of 1, the size
+    /// of a bracket's terms, says nothing.
     #[must_use]
     pub fn is_closed(&self) -> bool {
-        self.tolerance < 1.0 && is_zero(self.residual, self.tolerance)
+        tells(self.tolerance, 1.0) && is_zero(self.residual, self.tolerance)
     }
 }
 

@@ -2,7 +2,7 @@ use core::fmt;
 
 use nalgebra::DMatrix;
 
-use crate::theory::verdict::{largest, typical};
+use crate::theory::verdict::{largest, tells, typical};
 
 /// A rank decision with its evidence: the singular values, the threshold and the gap between those kept and
 /// dropped.
@@ -36,10 +36,10 @@ impl RankDecision {
     }
 
     /// Whether the gap spans at least three decades; if not, look at the singular values before trusting the
-    /// rank. A threshold of 1 or more, the size of what does not cancel at all, decides nothing.
+    /// rank. A threshold that leaves no digit of 1, the size of what does not cancel at all, decides nothing.
     #[must_use]
     pub fn is_clear(&self) -> bool {
-        self.threshold < 1.0 && self.gap() >= CLEAR_GAP
+        tells(self.threshold, 1.0) && self.gap() >= CLEAR_GAP
     }
 
     /// Angle by which rounding may have turned the null space: threshold over smallest singular value kept.

@@ -8,7 +8,10 @@ use super::{Closure, Generator, Noether, RankDecision, Terms, moves_an_end};
 use crate::numbers::Scalar;
 use crate::step::Discrete;
 use crate::theory::{
-    samples::{SampleError, Segment, at_segment, require_informative, require_step_size},
+    samples::{
+        SampleError, Segment, Sizes, at_segment, at_several_times, different, require_informative,
+        require_step_size,
+    },
     verdict::largest,
 };
 
@@ -115,9 +118,12 @@ where
     /// [`RankDecision`]. Brackets [ξ, η] = Dη ξ − Dξ η are taken at the ends of the segments and fitted
     /// by the span.
     ///
+    /// **Segments it needs.** Two for each generator that move by more than rounding and lie apart
+    /// ([`samples`](crate::samples)).
+    ///
     /// # Errors
-    /// [`SubalgebraError`] if there are fewer than two different segments that move for each generator, a
-    /// value is not finite, or the generators are linearly dependent.
+    /// [`SubalgebraError`] if there are fewer, a value is not finite, or the generators are linearly
+    /// dependent.
     pub fn subalgebra(
         &self,
         generators: &[Generator<L::Scalar, N>],
@@ -128,10 +134,12 @@ where
             segment.moves() && generators.iter().any(|xi| moves_an_end(xi, segment))
         })?;
         let needed = (2 * generators.len()).max(1);
-        let given = different(segments, needed);
+        let moving: Vec<_> = segments.iter().filter(|segment| segment.moves()).copied().collect();
+        let given = different(&moving, &Sizes::of(moving.iter().copied()), needed);
         if given < needed {
             return Err(SampleError::TooFew { given, needed }.into());
         }
+        let segments = &at_several_times(&self.by, segments)[..];
         let rows: Vec<Vec<Row>> = segments
             .iter()
             .enumerate()
@@ -194,17 +202,6 @@ where
             contraction,
         }
     }
-}
-
-/// The number of different segments that move, counted up to `enough`.
-fn different<S: Scalar, const N: usize>(segments: &[Segment<S, N>], enough: usize) -> usize {
-    let mut known: Vec<&Segment<S, N>> = Vec::new();
-    for segment in segments {
-        if known.len() < enough && segment.moves() && !known.contains(&segment) {
-            known.push(segment);
-        }
-    }
-    known.len()
 }
 
 fn require_finite(rows: &[Vec<Row>], fields: &Fields) -> Result<(), SampleError> {

@@ -5,7 +5,9 @@ use crate::numbers::Scalar;
 use crate::step::Discrete;
 use crate::system::VectorField;
 use crate::theory::{
-    samples::{SampleError, Segment, at_segment, require_informative, require_step_size, worst},
+    samples::{
+        SampleError, Segment, at_segment, at_several_times, require_informative, require_step_size, worst,
+    },
     verdict::{Finding, scales},
 };
 
@@ -75,6 +77,10 @@ where
     /// own sample, or as half of the samples exceed it, if that is more. A sum cannot be known better
     /// than its terms are rounded.
     ///
+    /// **Segments it needs.** One that moves by more than rounding, with ξ ≠ 0 at an end. Each is judged by
+    /// itself: the answer is about the segments given. Fewer than three of a view are asked again at later
+    /// times.
+    ///
     /// # Errors
     /// [`SampleError`] if there is no segment, none that moves with ξ ≠ 0, or a value is not finite.
     pub fn symmetry(
@@ -84,6 +90,7 @@ where
     ) -> Result<Symmetry<N>, SampleError> {
         require_step_size(self.by.h)?;
         require_informative(segments, |segment| segment.moves() && moves_an_end(generator, segment))?;
+        let segments = &at_several_times(&self.by, segments)[..];
         let terms: Vec<Terms> =
             segments.iter().enumerate().map(|(k, segment)| self.terms(k, generator, segment)).collect();
         let sizes = |scale: fn(&Terms) -> f64| scales(&terms.iter().map(scale).collect::<Vec<_>>());

@@ -1,4 +1,5 @@
 use core::fmt;
+use std::borrow::Cow;
 
 use nalgebra::SVector;
 
@@ -8,7 +9,9 @@ use super::{Integral, SegmentFinding};
 use crate::numbers::Scalar;
 use crate::step::{Discrete, DiscreteForce, Discretised};
 use crate::theory::{
-    samples::{SampleError, Segment, Tolerance, at_segment, require_informative, require_step_size},
+    samples::{
+        SampleError, Segment, Tolerance, at_segment, at_several_times, require_informative, require_step_size,
+    },
     verdict::scales,
 };
 
@@ -119,11 +122,18 @@ where
 
     /// Compares the equations at (q0, q1, q1 + the next segment's displacement), and the gauge at (q0, q1).
     ///
+    /// **Segments it needs.** One that moves by more than rounding. Each is judged by itself: the answer is
+    /// about the segments given. Fewer than three of a view are asked again at later times.
+    ///
     /// # Errors
     /// [`SampleError`] if there is no segment, none that moves, or a value is not finite.
     pub fn check(&self, segments: &[Segment<L::Scalar, N>]) -> Result<Equivalence<N>, SampleError> {
         require_step_size(self.ours.h)?;
         require_informative(segments, Segment::moves)?;
+        let segments = &match at_several_times(&self.ours, segments) {
+            Cow::Borrowed(segments) => at_several_times(&self.theirs, segments),
+            repeated => repeated,
+        }[..];
         let relative = Tolerance::rounding::<L::Scalar>();
         let third = |index: usize| {
             let next = &segments[(index + 1) % segments.len()];

@@ -4,8 +4,9 @@ use core::fmt;
 
 use crate::numbers::Scalar;
 use crate::step::{Discretised, Flow, PhaseMatrix, State, StepError};
+use crate::theory::rayleigh::asked::ask;
 use crate::theory::rayleigh::rayleigh_step::Entry;
-use crate::theory::verdict::{Finding, Tolerance};
+use crate::theory::verdict::{Finding, Tolerance, Verdict};
 
 /// Whether a step multiplies the symplectic form by a constant:
 /// [`conformal_step`](crate::Discretised::conformal_step).
@@ -34,7 +35,8 @@ pub struct ConformalStep {
     pub samples: usize,
     /// The c that was tried: (1/n) tr(aᵀd − c′ᵀb) where that is known best.
     pub factor: f64,
-    /// AᵀΩA − cΩ, where it is furthest above its tolerance; rows and columns 0 … 2n − 1, q before p.
+    /// AᵀΩA − cΩ, where it is furthest above its tolerance; rows and columns 0 … 2n − 1, q before p. It
+    /// cannot tell where some tolerance is as large as c.
     pub defect: Finding<Entry>,
 }
 
@@ -42,13 +44,16 @@ pub struct ConformalStep {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ConformalStepError {
-    /// Fewer samples than decide.
+    /// Fewer samples than decide, of those that lie apart.
     TooFewSamples {
-        /// Samples given.
+        /// Derivatives given, or states that lie apart by more than a derivative resolves.
         given: usize,
         /// 1, or 2 for n = 1, where each alone fulfils the condition.
         needed: usize,
     },
+    /// The step moves no state by more than a derivative resolves, so that A is 1 to rounding: a much
+    /// longer one tells.
+    AtRest,
     /// A step could not be taken or differentiated.
     Step {
         /// The sample, from 0.
@@ -91,7 +96,7 @@ impl<S: Scalar, const N: usize> PulledBack<'_, S, N> {
         (value / N as f64, terms / N as f64)
     }
 
-    /// AᵀΩA − cΩ where it is worst.
+    /// AᵀΩA − cΩ where it is worst. A tolerance as large as c tells nothing of it.
     fn defect(&self, c: f64, relative: f64, sample: usize) -> Option<Finding<Entry>> {
         let mut worst = None;
         for j in 0..2 * N {
@@ -100,16 +105,22 @@ impl<S: Scalar, const N: usize> PulledBack<'_, S, N> {
                 let expected = if j == i + N { c } else { 0.0 };
                 let tolerance = Tolerance { relative, scale: terms + expected.abs() };
                 Finding::relative(value - expected, tolerance, Entry { entry: (i, j), sample })
-                    .keep_if_worse(&mut worst, Finding::excess);
+                    .beside(c)
+                    .keep_if_worse(&mut worst, Finding::excess_or_silence);
             }
         }
         worst
     }
 }
 
+/// The least number of samples: with one coordinate each alone fulfils the condition.
+fn needed<const N: usize>() -> usize {
+    if N == 1 { 2 } else { 1 }
+}
+
 impl ConformalStep {
-    /// Of steps with these derivatives, such as one written by hand. A defect counts as zero within
-    /// `relative` of the terms it is the sum of, or 1024 ε unless said.
+    /// Of steps with these derivatives, such as one written by hand, at states that lie apart. A defect
+    /// counts as zero within `relative` of the terms it is the sum of, or 1024 ε unless said.
     ///
     /// # Errors
     /// A [`ConformalStepError`].
@@ -117,7 +128,7 @@ impl ConformalStep {
         derivatives: &[PhaseMatrix<S, N>],
         relative: Option<f64>,
     ) -> Result<Self, ConformalStepError> {
-        let needed = if N == 1 { 2 } else { 1 };
+        let needed = needed::<N>();
         let too_few = ConformalStepError::TooFewSamples { given: derivatives.len(), needed };
         if derivatives.len() < needed {
             return Err(too_few);
@@ -146,7 +157,7 @@ impl ConformalStep {
         let mut worst = None;
         for (sample, a) in derivatives.iter().enumerate() {
             if let Some(found) = PulledBack(a).defect(factor, relative, sample) {
-                found.keep_if_worse(&mut worst, Finding::excess);
+                found.keep_if_worse(&mut worst, Finding::excess_or_silence);
             }
         }
         worst.map(|defect| Self { samples: derivatives.len(), factor, defect })
@@ -155,7 +166,13 @@ impl ConformalStep {
     /// Whether AᵀΩA = cΩ with one c at all samples.
     #[must_use]
     pub fn is_conformal(&self) -> bool {
-        self.defect.vanishes() && self.factor.is_finite()
+        self.verdict() == Verdict::Yes
+    }
+
+    /// Whether that is so, or cannot be told: where c is no larger than what counts as zero.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        if self.factor.is_finite() { self.defect.verdict() } else { Verdict::CannotTell }
     }
 
     /// κ = (1 − c)/(1 + c): what D1D2R_d = κ D1D2L_d then has ([`Proportion`](crate::rayleigh::Proportion)).
@@ -173,6 +190,11 @@ where
 {
     /// Whether the step multiplies the symplectic form by a constant, by its derivative at the `states`: of a
     /// rule, a composition or a splitting alike. See [`ConformalStep`](crate::rayleigh::ConformalStep).
+    ///
+    /// **States it needs.** One, or for n = 1 two that lie apart ([`samples`](crate::samples)). It is asked
+    /// at 2n more, each of which differs from the first in one coordinate: towards another of the states
+    /// given, or by its own size. The k-th of all is asked k h after the time of a view. The answer is
+    /// about these.
     ///
     /// ```
     /// use dalembert::nalgebra::vector;
@@ -203,13 +225,24 @@ where
         &self,
         states: &[State<L::Scalar, N>],
     ) -> Result<ConformalStep, ConformalStepError> {
-        let mut derivatives = Vec::with_capacity(states.len());
-        for (sample, state) in states.iter().enumerate() {
-            let (_, by) =
-                self.linearized_step(state).map_err(|error| ConformalStepError::Step { sample, error })?;
-            derivatives.push(by.a);
+        let asked =
+            ask(self, states).map_err(|(sample, error)| ConformalStepError::Step { sample, error })?;
+        let (given, needed) = (asked.different, needed::<N>());
+        if given < needed {
+            return Err(ConformalStepError::TooFewSamples { given, needed });
         }
-        ConformalStep::of(&derivatives, None)
+        if !asked.moves {
+            return Err(ConformalStepError::AtRest);
+        }
+        let (given, beside) = asked.derivatives.split_at(states.len());
+        let factor = ConformalStep::of(given, None)?.factor;
+        // Beside the states given a step may be so stiff that it tells nothing.
+        let tells = |a: &&PhaseMatrix<L::Scalar, N>| {
+            ConformalStep::held_against(factor, &[**a], None)
+                .is_some_and(|found| found.verdict() != Verdict::CannotTell)
+        };
+        let all: Vec<_> = given.iter().chain(beside.iter().filter(tells)).copied().collect();
+        ConformalStep::of(&all, None)
     }
 }
 
@@ -220,8 +253,15 @@ impl fmt::Display for ConformalStep {
             writeln!(f, "conformally symplectic, c = {factor:.15}, by its derivative at states: {samples}")?;
             write!(f, "  AᵀΩA = cΩ   yes: {defect}")
         } else {
-            writeln!(f, "not conformally symplectic, by its derivative at states: {samples}")?;
-            write!(f, "  AᵀΩA = cΩ   no: {defect} with c = {factor:.6}, which comes nearest at one state")
+            let (verdict, answer) = match self.verdict() {
+                Verdict::CannotTell => ("whether conformally symplectic cannot be told", Verdict::CannotTell),
+                _ => ("not conformally symplectic", Verdict::No),
+            };
+            writeln!(f, "{verdict}, by its derivative at states: {samples}")?;
+            write!(
+                f,
+                "  AᵀΩA = cΩ   {answer}: {defect} with c = {factor:.6}, which comes nearest at one state"
+            )
         }
     }
 }
@@ -230,12 +270,15 @@ impl fmt::Display for ConformalStepError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::TooFewSamples { given, needed } => {
-                write!(f, "{given} steps given to look at, {needed} needed; give more states")?;
+                write!(f, "{given} steps given to look at that lie apart, {needed} needed; give more states")?;
                 if *needed > 1 {
                     f.write_str(": with one coordinate every single A has AᵀΩA = det A Ω")?;
                 }
                 Ok(())
             }
+            Self::AtRest => f.write_str(
+                "the step moves no state by more than its derivative resolves; take a longer step, or states that move",
+            ),
             Self::Step { sample, error } => write!(f, "the step of sample {sample}: {error}"),
             Self::NonFinite { sample } => write!(f, "the derivative of sample {sample} is not finite"),
         }

@@ -42,8 +42,10 @@ impl<const N: usize> Dissipation<N> {
 
 /// Tests v·∂R/∂v ≥ 0 at `points`: along the motion dE/dt = −v·∂R/∂v.
 ///
-/// A power counts as negative below −1024 ε Σ|vᵢ ∂R/∂vᵢ|, the terms of its own sum. The time of a view is
-/// that of all points.
+/// A power counts as negative below −1024 ε Σ|vᵢ ∂R/∂vᵢ|, the terms of its own sum.
+///
+/// **Points it needs.** One with v ≠ 0. Each is judged by itself, at the time of a view: the answer is
+/// about these points and this time.
 ///
 /// ```
 /// use dalembert::rayleigh::dissipation;

@@ -12,6 +12,7 @@ mod branch;
 mod criterion;
 mod error;
 mod linear;
+mod linear_steps;
 mod logarithm;
 mod midpoint;
 mod scaled;

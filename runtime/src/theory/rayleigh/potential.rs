@@ -8,7 +8,7 @@ use super::structure::structure_of;
 use super::{Integral, RayleighStructure, SegmentFinding};
 use crate::step::{Discrete, Discretised};
 use crate::theory::{
-    samples::{SampleError, Segment, Tolerance, at_segment},
+    samples::{SampleError, Segment, Tolerance, at_segment, at_several_times},
     verdict::largest,
 };
 
@@ -70,10 +70,14 @@ where
 
     /// Recovers R_d at `segments`, along the straight path and along the edges of the box in Q×Q.
     ///
+    /// **Segments it needs.** Those of [`structure`](super::structure()), away from the base.
+    ///
     /// # Errors
     /// [`SampleError`] if there is no segment, none that moves, or a force on a path is not finite.
     pub fn check(&self, segments: &[Segment<L::Scalar, N>]) -> Result<Recovery<N>, SampleError> {
         let structure = structure_of(&self.by, segments)?;
+        let given = segments.len();
+        let segments = &at_several_times(&self.by, segments)[..];
         let relative = Tolerance::rounding::<L::Scalar>();
         let (mut values, mut quadrature_error, mut path_dependence) = (Vec::new(), 0.0_f64, None);
         for (index, segment) in segments.iter().enumerate() {
@@ -83,7 +87,7 @@ where
             let gap = straight + edges * -1.0;
             keep_worse_gap(&mut path_dependence, gap, relative, index, segment.widen())?;
             quadrature_error = largest([quadrature_error, straight.error]);
-            values.push(straight.value);
+            values.extend((index < given).then_some(straight.value));
         }
         let path_dependence = path_dependence.ok_or(SampleError::TooFew { given: 0, needed: 1 })?;
         Ok(Recovery { structure, values, quadrature_error, path_dependence, tolerance: relative })

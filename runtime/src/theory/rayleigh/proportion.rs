@@ -7,7 +7,8 @@ use nalgebra::SVector;
 use crate::numbers::Scalar;
 use crate::step::{Discrete, DiscreteRayleigh, Discretised};
 use crate::theory::samples::{
-    SampleError, Segment, Tolerance, at_segment, require_informative, require_step_size,
+    SampleError, Segment, Sizes, Tolerance, around, at_segment, different, require_informative,
+    require_step_size,
 };
 use crate::theory::verdict::{Finding, largest};
 
@@ -150,17 +151,25 @@ where
     /// Whether D1D2R_d = κ D1D2L_d on the `segments`, with one κ. See
     /// [`Proportion`](crate::rayleigh::Proportion).
     ///
+    /// **Segments it needs.** One that moves by more than rounding, or for n = 1 two that lie apart
+    /// ([`samples`](crate::samples)). It is asked at 2n more, each of which differs from the first in one
+    /// coordinate of q0 or of q1 − q0: towards another of the segments given, or by its own size. The k-th
+    /// of all is asked k h after the time of a view. The answer is about these.
+    ///
     /// # Errors
     /// A [`ProportionError`](crate::rayleigh::ProportionError).
     pub fn proportion(&self, segments: &[Segment<S, N>]) -> Result<Proportion<N>, ProportionError> {
         require_step_size(self.h)?;
         require_informative(segments, Segment::moves)?;
         let needed = if N == 1 { 2 } else { 1 };
-        if segments.len() < needed {
-            return Err(SampleError::TooFew { given: segments.len(), needed }.into());
-        }
-        let mut blocks = Vec::with_capacity(segments.len());
-        for (index, Segment { q0, q1 }) in segments.iter().enumerate() {
+        let sizes = Sizes::of(segments.iter().copied());
+        let mut blocks = Vec::new();
+        let beside = around(segments, &sizes, [1.0, self.h.widen().abs()]);
+        let mut asked = Vec::new();
+        for (index, segment) in segments.iter().chain(&beside).enumerate() {
+            let Segment { q0, q1 } = segment;
+            // Beside the segments given a system may end.
+            let is_given = index < segments.len();
             let (l, r, f) = at_segment(self, index, |by| {
                 (
                     by.system.discrete_lagrangian_derivatives(q0, q1, by.h),
@@ -170,7 +179,10 @@ where
             });
             let entries = l.d12.iter().chain(r.d12.iter()).chain(f.minus.iter()).chain(f.plus.iter());
             if !largest(entries.map(|entry| entry.widen())).is_finite() {
-                return Err(SampleError::NonFinite { index }.into());
+                if is_given {
+                    return Err(SampleError::NonFinite { index }.into());
+                }
+                continue;
             }
             let other = (f.minus - r.d1).amax().max((f.plus + r.d2).amax()).widen();
             let size = r.d1.amax().max(r.d2.amax()).widen();
@@ -178,6 +190,11 @@ where
                 return Err(ProportionError::OtherForce { index });
             }
             blocks.push((l.d12.map(Scalar::widen), r.d12.map(Scalar::widen)));
+            asked.push(*segment);
+        }
+        let given = different(segments, &sizes, needed);
+        if given < needed {
+            return Err(SampleError::TooFew { given, needed }.into());
         }
         let (products, squares) =
             blocks.iter().fold((0.0, 0.0), |sum, (l, r)| (sum.0 + l.dot(r), sum.1 + l.norm_squared()));
@@ -199,8 +216,8 @@ where
         let worst = worst.ok_or(SampleError::TooFew { given: 0, needed })?;
         let (index, entry) = worst.at;
         let tolerance = Tolerance { relative, scale: worst.terms };
-        let defect = Finding::relative(worst.value, tolerance, segments[index].widen());
-        Ok(Proportion { samples: segments.len(), kappa, defect, entry })
+        let defect = Finding::relative(worst.value, tolerance, asked[index].widen());
+        Ok(Proportion { samples: asked.len(), kappa, defect, entry })
     }
 
     /// α, β and G of a pair with this `proportion`, from the `base` point a; `None` where κ is not constant,

@@ -6,6 +6,7 @@ use nalgebra::SMatrix;
 
 use crate::numbers::Scalar;
 use crate::step::{Discretised, Flow, PhaseMatrix, State, StepError, invert};
+use crate::theory::rayleigh::asked::ask;
 use crate::theory::verdict::{Finding, Tolerance};
 
 /// Whether a step is a Rayleigh step: [`rayleigh_step`](crate::Discretised::rayleigh_step).
@@ -46,7 +47,7 @@ pub type Asymmetry = Finding<Entry>;
 pub struct Entry {
     /// Row and column: the asymmetry is entry (i, j) less entry (j, i).
     pub entry: (usize, usize),
-    /// The sample, from 0.
+    /// The sample, from 0; those beyond the states given lie around the first of them.
     pub sample: usize,
 }
 
@@ -56,6 +57,9 @@ pub struct Entry {
 pub enum RayleighStepError {
     /// No sample was given.
     NoSamples,
+    /// The step moves no state by more than a derivative resolves, so that A is 1 to rounding: a much
+    /// longer one tells.
+    AtRest,
     /// A step could not be taken or differentiated.
     Step {
         /// The sample, from 0.
@@ -143,6 +147,10 @@ where
     /// Whether the step is a Rayleigh step, by its derivative at the `states`: of a rule, a composition or a
     /// splitting alike. See [`RayleighStep`](crate::rayleigh::RayleighStep).
     ///
+    /// **States it needs.** One. It is asked at 2n more, each of which differs from the first in one
+    /// coordinate, towards another of the states given, or by its own size: an equilibrium does not speak
+    /// for the motion. The k-th of all is asked k h after the time of a view. The answer is about these.
+    ///
     /// ```
     /// use dalembert::nalgebra::vector;
     /// use dalembert::{Composition, Discretise, Midpoint, State, rayleigh_system};
@@ -166,13 +174,14 @@ where
     /// # Errors
     /// A [`RayleighStepError`](crate::rayleigh::RayleighStepError) that says which hypothesis fails.
     pub fn rayleigh_step(&self, states: &[State<L::Scalar, N>]) -> Result<RayleighStep, RayleighStepError> {
-        let mut derivatives = Vec::with_capacity(states.len());
-        for (sample, state) in states.iter().enumerate() {
-            let (_, by) =
-                self.linearized_step(state).map_err(|error| RayleighStepError::Step { sample, error })?;
-            derivatives.push(by.a);
+        let asked = ask(self, states).map_err(|(sample, error)| RayleighStepError::Step { sample, error })?;
+        if !states.is_empty() && !asked.moves {
+            return Err(RayleighStepError::AtRest);
         }
-        RayleighStep::of(&derivatives, None)
+        let (given, beside) = asked.derivatives.split_at(states.len());
+        // Beside the states given the ends may not tell the step.
+        let beside = beside.iter().filter(|a| invert(&a.q_by_p).is_ok());
+        RayleighStep::of(&given.iter().chain(beside).copied().collect::<Vec<_>>(), None)
     }
 }
 
@@ -197,6 +206,9 @@ impl fmt::Display for RayleighStepError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoSamples => f.write_str("no step was given to look at"),
+            Self::AtRest => f.write_str(
+                "the step moves no state by more than its derivative resolves; take a longer step, or states that move",
+            ),
             Self::Step { sample, error } => write!(f, "the step of sample {sample}: {error}"),
             Self::NonFinite { sample } => write!(f, "the derivative of sample {sample} is not finite"),
             Self::Degenerate { sample } => write!(

@@ -9,7 +9,7 @@ use super::{Integral, RayleighStructure, SegmentFinding};
 use crate::numbers::Scalar;
 use crate::step::{Discrete, Discretised};
 use crate::theory::{
-    samples::{SampleError, Segment, Tolerance, at_segment},
+    samples::{SampleError, Segment, Tolerance, at_segment, at_several_times},
     verdict::largest,
 };
 
@@ -86,10 +86,13 @@ where
 
     /// Tests at `segments` whether the re-split exists.
     ///
+    /// **Segments it needs.** Those of [`structure`](super::structure()), away from the base.
+    ///
     /// # Errors
     /// [`SampleError`] if there is no segment, none that moves, or a force on a path is not finite.
     pub fn check(&self, segments: &[Segment<L::Scalar, N>]) -> Result<ResplitReport<N>, SampleError> {
         let structure = structure_of(&self.by, segments)?;
+        let segments = &at_several_times(&self.by, segments)[..];
         let relative = Tolerance::rounding::<L::Scalar>();
         let (mut plus, mut minus, mut quadrature_error) = (None, None, 0.0_f64);
         for (index, segment) in segments.iter().enumerate() {

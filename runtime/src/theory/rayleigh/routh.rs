@@ -47,6 +47,7 @@
 mod coordinates;
 mod error;
 mod functions;
+mod hypotheses;
 
 use core::cell::Cell;
 
@@ -54,8 +55,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::Scalar;
 use crate::step::{Discrete, Discretised, LegendreDerivatives, State, StepError, StepKernel, invert, newton};
-use crate::theory::samples::Segment;
-use crate::theory::verdict::{Finding, Tolerance};
+use crate::theory::samples::{Segment, Sizes, around};
 use coordinates::{shape, with, without};
 pub use error::RouthError;
 
@@ -97,6 +97,11 @@ where
     /// The hypotheses are checked at the `segments`, of [`samples`](crate::samples) or of a run, and the
     /// condition on friction at every step again.
     ///
+    /// **Segments it needs.** Two whose shapes (x0, x1) lie apart, on one of which beside the first θ has a
+    /// momentum. They are checked at 2n more, each of which differs from the first in one coordinate of q0
+    /// or of q1 − q0: towards another segment, or by its own size. A view whose momenta change with time is
+    /// refused.
+    ///
     /// # Errors
     /// A [`RouthError`](crate::rayleigh::routh::RouthError) that says which hypothesis fails.
     pub fn routh<const K: usize>(
@@ -110,9 +115,22 @@ where
             return Err(RouthError::NoSuchCoordinate { cyclic });
         }
         let routh = Routh { by: *self, cyclic, reference: shape(first, cyclic) };
+        let sizes = Sizes::of(segments.iter().map(|segment| shape::<_, N, K>(segment, cyclic)));
         let mut told = false;
         for (sample, segment) in segments.iter().enumerate() {
-            told |= routh.check(sample, segment)?;
+            let has_momentum = routh.check(sample, segment)?;
+            routh.require_no_time(sample, segment)?;
+            told |= has_momentum && sizes.are_apart(&shape(segment, cyclic), &routh.reference);
+        }
+        let units = [1.0, self.step_size().widen().abs()];
+        let beside = around(segments, &Sizes::of(segments.iter().copied()), units);
+        for (k, segment) in beside.iter().enumerate() {
+            // Beside the segments given a system may end.
+            if let Err(error @ (RouthError::NotCyclic { .. } | RouthError::NotReducible { .. })) =
+                routh.check(segments.len() + k, segment)
+            {
+                return Err(error);
+            }
         }
         if told { Ok(routh) } else { Err(RouthError::Uninformative) }
     }
@@ -122,50 +140,6 @@ impl<L, R, const N: usize, const K: usize> Routh<'_, L, R, N, K>
 where
     L: Discrete<R, N>,
 {
-    /// Whether the segment tells anything of the condition, which holds there.
-    fn check(&self, sample: usize, segment: &Segment<L::Scalar, N>) -> Result<bool, RouthError> {
-        let theta = self.cyclic;
-        let k = self.by.system().legendre_derivatives(&segment.q0, &segment.q1, self.by.step_size());
-        for (momentum, by_q0, by_q1) in
-            [(k.momenta.p0, k.p0_by_q0, k.p0_by_q1), (k.momenta.p1, k.p1_by_q0, k.p1_by_q1)]
-        {
-            for i in 0..N {
-                let (at_start, at_end) = (by_q0[(i, theta)].widen(), by_q1[(i, theta)].widen());
-                if !(at_start.is_finite() && at_end.is_finite() && momentum[i].widen().is_finite()) {
-                    return Err(RouthError::NonFinite { sample });
-                }
-                let scale = (0..N).map(|j| by_q0[(i, j)].widen().abs() + by_q1[(i, j)].widen().abs()).sum();
-                let tolerance = Tolerance { relative: Tolerance::rounding::<L::Scalar>(), scale };
-                let found = Finding::relative(at_start + at_end, tolerance, sample);
-                if !found.vanishes() {
-                    return Err(RouthError::NotCyclic { sample, defect: found.value });
-                }
-            }
-        }
-        let [before, after] = [k.momenta.p0[theta], k.momenta.p1[theta]];
-        self.require_condition(after, self.next_momentum(before)?, before)?;
-        let is_elsewhere = shape::<_, N, K>(segment, theta) != self.reference;
-        Ok(before.widen() != 0.0 && is_elsewhere)
-    }
-
-    /// That p1_θ is g(p0_θ).
-    fn require_condition(
-        &self,
-        found: L::Scalar,
-        expected: L::Scalar,
-        before: L::Scalar,
-    ) -> Result<(), RouthError> {
-        let [found, expected, before] = [found, expected, before].map(Scalar::widen);
-        let scale = found.abs() + expected.abs() + before.abs();
-        let tolerance = Tolerance { relative: Tolerance::rounding::<L::Scalar>(), scale };
-        let held = Finding::relative(found - expected, tolerance, ());
-        if held.vanishes() {
-            Ok(())
-        } else {
-            Err(RouthError::NotReducible { momentum: before, found, expected })
-        }
-    }
-
     /// g(μ): what μ is after a step.
     ///
     /// # Errors

@@ -3,7 +3,10 @@ use core::fmt;
 use crate::numbers::Scalar;
 use crate::step::{Discrete, DiscreteForceDerivatives, Discretised};
 use crate::theory::{
-    samples::{SampleError, Segment, Tolerance, at_segment, require_informative, require_step_size, worst},
+    samples::{
+        SampleError, Segment, Tolerance, at_segment, at_several_times, require_informative,
+        require_step_size, worst,
+    },
     verdict::{Finding, largest, scales},
 };
 
@@ -63,6 +66,10 @@ impl<const N: usize> RayleighStructure<N> {
 /// is symmetric. Entries are compared with 1024 ε (|Hᵢⱼ| + |Hⱼᵢ| + √|Hᵢᵢ Hⱼⱼ|), at their sample or as half of
 /// the samples exceed it: a scale that follows the units of the coordinates.
 ///
+/// **Segments it needs.** One that moves by more than rounding. Each is judged by itself, so that the
+/// answer is about the segments given: spread them over a region, away from symmetric places. Fewer than
+/// three of a view are asked again at later times.
+///
 /// # Errors
 /// [`SampleError`] if there is no segment, none that moves, or a derivative is not finite.
 pub fn structure<L, R, const N: usize>(
@@ -87,6 +94,7 @@ where
 {
     require_step_size(by.h)?;
     require_informative(segments, Segment::moves)?;
+    let segments = &at_several_times(by, segments)[..];
     let hessians: Vec<_> = segments
         .iter()
         .enumerate()

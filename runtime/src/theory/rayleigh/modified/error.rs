@@ -10,8 +10,11 @@ use crate::system::Damping;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ModifiedLinearSystemError {
-    /// Fewer than two states were given: nothing says that the system is linear.
+    /// Fewer than two states were given that lie apart by more than a derivative resolves: nothing says
+    /// that the system is linear.
     TooFewStates,
+    /// The step moves no state by more than a derivative resolves: a much longer one tells.
+    AtRest,
     /// A step could not be taken or differentiated.
     Step {
         /// The state, from 0.
@@ -29,9 +32,17 @@ pub enum ModifiedLinearSystemError {
         /// The state, from 0.
         sample: usize,
     },
+    /// The step is another one at a later time: its springs, its friction or a push change.
+    Timed {
+        /// How many steps later.
+        steps: usize,
+        /// The largest difference to the step at the time given, of A in units of A or of the end in units
+        /// of it.
+        difference: f64,
+    },
     /// A is another matrix at another state: the system is not linear.
     NotLinear {
-        /// The state, from 0.
+        /// The state, from 0; those beyond the states given lie around the first of them.
         sample: usize,
         /// The largest difference to A at the first, in units of A.
         difference: f64,
@@ -58,10 +69,21 @@ pub enum ModifiedLinearSystemError {
 impl fmt::Display for ModifiedLinearSystemError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::TooFewStates => f.write_str("two states at least are needed to see that a system is linear"),
+            Self::TooFewStates => f.write_str(
+                "two states that lie apart are needed to see that a system is linear; give states that differ by more \
+                 than rounding",
+            ),
+            Self::AtRest => f.write_str(
+                "the step moves no state by more than its derivative resolves; take a longer step, or states that move",
+            ),
             Self::Step { sample, error } => write!(f, "the step of state {sample}: {error}"),
             Self::StepSize { h } => write!(f, "step size {h} is zero or not finite; give a finite h ≠ 0"),
             Self::NonFinite { sample } => write!(f, "the derivative at state {sample} is not finite"),
+            Self::Timed { steps, difference } => write!(
+                f,
+                "the step is another one {steps} steps later (by {difference:.1e}): the system changes with time; give \
+                 ModifiedLinearSystem::of the derivative at one time"
+            ),
             Self::NotLinear { sample, difference } => write!(
                 f,
                 "the step's derivative at state {sample} is not that at state 0 (by {difference:.1e}): the system is \

@@ -4,15 +4,14 @@ use core::fmt;
 
 use nalgebra::{SMatrix, SVector};
 
-use super::branch::require_principal;
-use super::logarithm::{eigenvalues, logarithm};
-use super::scaled::{assembled, blocks, require_finite, rescaled, scales, widened};
+use super::logarithm::logarithm;
+use super::scaled::{ROUNDINGS, assembled, blocks, require_finite, rescaled, scales, widened};
 use crate::numbers::Scalar;
 use crate::rules::modes;
-use crate::step::{Discretised, Flow, PhaseMatrix, State, invert};
+use crate::step::{PhaseMatrix, State, invert};
 use crate::theory::rayleigh::modified::ModifiedLinearSystemError;
 use crate::theory::rayleigh::{Asymmetry, Entry};
-use crate::theory::verdict::{Finding, Tolerance};
+use crate::theory::verdict::{Finding, Tolerance, Verdict};
 
 /// The modified system of a linear step: the q of its run lie on a motion of M̃q̈ + C̃q̇ + K̃q = 0, exactly.
 ///
@@ -70,11 +69,13 @@ pub struct ModifiedLinearSystem<const N: usize> {
     negative_damping: Finding<()>,
 }
 
-/// The asymmetry of a bilinear form that is worst, in (x, x) coordinates, as it is in (q, q) ones.
+/// The asymmetry of a bilinear form that is worst, in (x, x) coordinates, as it is in (q, q) ones;
+/// `quantity` is what a tolerance has to leave a digit of.
 fn asymmetry<const N: usize>(
     form: &SMatrix<f64, N, N>,
     s: &SVector<f64, N>,
-    (relative, size): (f64, f64),
+    relative: f64,
+    [size, quantity]: [f64; 2],
 ) -> Asymmetry {
     let mut worst = None;
     for i in 0..N {
@@ -83,13 +84,28 @@ fn asymmetry<const N: usize>(
             let tolerance = Tolerance { relative, scale: size * unit };
             let value = (form[(i, j)] - form[(j, i)]) * unit;
             let at = Entry { entry: (i, j), sample: 0 };
-            Finding::relative(value, tolerance, at).keep_if_worse(&mut worst, Finding::excess);
+            Finding::relative(value, tolerance, at)
+                .beside(quantity * unit)
+                .keep_if_worse(&mut worst, Finding::excess_or_silence);
         }
     }
     worst.unwrap_or_else(|| {
         let at = Entry { entry: (0, 0), sample: 0 };
         Finding::relative(0.0, Tolerance { relative, scale: 1.0 }, at)
     })
+}
+
+/// A form as small as this beside the others is as good as none: what a tolerance leaves no digit of is then
+/// below their digits too.
+const SMALL: f64 = 1e-5;
+
+/// For each of M̃, C̃ and K̃, in units of h: its size, or [`SMALL`] in units of the motion, whose rate the
+/// others tell.
+fn quantities<const N: usize>([m, c, k]: [&SMatrix<f64, N, N>; 3], is_free: bool) -> [f64; 3] {
+    let [m, c, k] = [m, c, k].map(|form| form.norm());
+    // No springs give a rate, only the step.
+    let by_step = if is_free { m } else { 0.0 };
+    [m, c.max(SMALL * (m * k).sqrt().max(by_step)), k.max(SMALL * (c * c / m).max(by_step))]
 }
 
 impl<const N: usize> ModifiedLinearSystem<N> {
@@ -112,26 +128,31 @@ impl<const N: usize> ModifiedLinearSystem<N> {
         }
         let a = widened(derivative);
         require_finite(&a, 0)?;
-        let s = scales(&a);
-        let x = blocks::<N>(&logarithm(&assembled(&rescaled(&a, &s.map(f64::recip))))?);
+        let epsilon = S::EPSILON.widen();
+        let s = scales(&a, epsilon);
+        let scaled = rescaled(&a, &s.map(f64::recip));
+        let is_free = scaled.p_by_q.amax() <= ROUNDINGS * epsilon * scaled.q_by_p.amax();
+        let x = blocks::<N>(&logarithm(&assembled(&scaled))?);
         let PhaseMatrix { q_by_q: a, q_by_p: b, p_by_q: c, p_by_p: d } = &x;
         let m = invert(b).map_err(|_| ModifiedLinearSystemError::Degenerate)?;
         // In units of h; ṗ of y.
         let (damping, stiffness) = (-(m * a + d * m), d * m * a - c);
-        // An error of 1 in each entry of the logarithm moves the three by these.
+        // An error of 1 in each entry of the logarithm moves the three by these, and one of ∂p1/∂q0 as a
+        // step's ends make it.
         let [of_a, of_d, of_m] = [a, d, &m].map(|block| block.norm());
         let size_of_mass = of_m * of_m;
         let size_of_damping = 2.0 * of_m + (of_a + of_d) * size_of_mass;
-        let size_of_stiffness = 1.0 + (of_a + of_d) * of_m + of_a * of_d * size_of_mass;
+        let of_ends = of_m * ROUNDINGS / Tolerance::ROUNDINGS;
+        let size_of_stiffness = of_ends.max(1.0) + (of_a + of_d) * of_m + of_a * of_d * size_of_mass;
         let symmetric = (damping + damping.transpose()) * 0.5;
         let (.., eigenvalues) = modes(&SMatrix::identity(), &symmetric);
         let least = eigenvalues.min();
         let to_form = |form: &SMatrix<f64, N, N>, unit: f64| {
             form.map_with_location(|i, j, entry| entry * unit / (s[i] * s[j]))
         };
-        let in_time = |size: f64, power: i32| size * h.powi(power);
-        let found = |form: &SMatrix<f64, N, N>, size: f64, power: i32| {
-            asymmetry(&(form * h.powi(power)), &s, (relative, in_time(size, power).abs()))
+        let [mass_size, damping_size, stiffness_size] = quantities([&m, &damping, &stiffness], is_free);
+        let found = |form: &SMatrix<f64, N, N>, sizes: [f64; 2], power: i32| {
+            asymmetry(&(form * h.powi(power)), &s, relative, sizes.map(|size| size * h.powi(power).abs()))
         };
         let field = rescaled(&x, &s);
         Ok(Self {
@@ -144,21 +165,36 @@ impl<const N: usize> ModifiedLinearSystem<N> {
             mass: to_form(&m, h),
             damping: to_form(&damping, 1.0),
             stiffness: to_form(&stiffness, 1.0 / h),
-            of_mass: found(&m, size_of_mass, 1),
-            of_damping: found(&damping, size_of_damping, 0),
-            of_stiffness: found(&stiffness, size_of_stiffness, -1),
+            of_mass: found(&m, [size_of_mass, mass_size], 1),
+            of_damping: found(&damping, [size_of_damping, damping_size], 0),
+            of_stiffness: found(&stiffness, [size_of_stiffness, stiffness_size], -1),
             negative_damping: Finding::relative(
                 if least > 0.0 { 0.0 } else { least },
                 Tolerance { relative, scale: size_of_damping },
                 (),
-            ),
+            )
+            .beside(damping_size),
         })
     }
 
     /// Whether the modified system is a Rayleigh system: M̃, C̃ and K̃ are symmetric, to rounding.
     #[must_use]
     pub fn is_rayleigh(&self) -> bool {
-        self.of_mass.vanishes() && self.of_damping.vanishes() && self.of_stiffness.vanishes()
+        self.verdict() == Verdict::Yes
+    }
+
+    /// Whether that is so, or cannot be told: where h is so small that the rounding of A is as large as M̃,
+    /// C̃ or K̃.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        let found = [&self.of_mass, &self.of_damping, &self.of_stiffness].map(Finding::verdict);
+        if found.contains(&Verdict::No) {
+            Verdict::No
+        } else if found.contains(&Verdict::CannotTell) {
+            Verdict::CannotTell
+        } else {
+            Verdict::Yes
+        }
     }
 
     /// Whether R̃ = ½vᵀC̃v ≥ 0 for every v, to rounding.
@@ -214,86 +250,24 @@ impl<const N: usize> ModifiedLinearSystem<N> {
     }
 }
 
-/// Modified systems of linear steps.
-impl<L, M, const N: usize> Discretised<'_, L, M, N>
-where
-    L: Flow<M, N>,
-{
-    /// The modified system of a linear system by this method, from its derivative alone: of a rule, a
-    /// composition or a splitting alike. See
-    /// [`ModifiedLinearSystem`](crate::rayleigh::modified::ModifiedLinearSystem).
-    ///
-    /// The derivatives at the `states`, two of them or more, have to be one matrix: that the system is
-    /// linear, up to a constant force. The logarithm is the one that the step size leads to from 0; where
-    /// that is not the principal one the step is refused.
-    ///
-    /// ```
-    /// use dalembert::nalgebra::vector;
-    /// use dalembert::{Composition, Discretise, Midpoint, State, rayleigh_system};
-    ///
-    /// #[rayleigh_system]
-    /// fn pair(q: [f64; 2], v: [f64; 2], r: f64) -> (f64, f64) {
-    ///     let potential = q[0] * q[0] + q[0] * q[1] + q[1] * q[1];
-    ///     (0.5 * (v[0] * v[0] + v[1] * v[1] - potential), 0.5 * r * v[0] * v[0] + 0.1 * v[1] * v[1])
-    /// }
-    /// let pair = Pair { r: 0.5 };
-    /// let states = [[0.3, -0.2], [0.1, 0.4]].map(|q| State { q: q.into(), p: vector![0.1, 0.0] });
-    /// let six = pair.by(Composition::kahan_li_6(Midpoint), 0.5).modified_linear_system(&states)?;
-    /// assert!(six.is_rayleigh() && six.is_dissipative());
-    /// assert!((six.damping[(0, 0)] - 0.5).abs() < 1e-4);
-    /// println!("{six}");
-    /// # Ok::<(), dalembert::rayleigh::modified::ModifiedLinearSystemError>(())
-    /// ```
-    ///
-    /// # Errors
-    /// A [`ModifiedLinearSystemError`](crate::rayleigh::modified::ModifiedLinearSystemError) that says which
-    /// hypothesis fails.
-    pub fn modified_linear_system(
-        &self,
-        states: &[State<L::Scalar, N>],
-    ) -> Result<ModifiedLinearSystem<N>, ModifiedLinearSystemError> {
-        let [first, others @ ..] = states else { return Err(ModifiedLinearSystemError::TooFewStates) };
-        if others.is_empty() {
-            return Err(ModifiedLinearSystemError::TooFewStates);
-        }
-        let derivative = |sample: usize, state: &State<L::Scalar, N>, share: f64| {
-            let by = self.with_step(self.step_size() * L::Scalar::constant(share));
-            match by.linearized_step(state) {
-                Ok((_, by)) => Ok(by.a),
-                Err(error) => Err(ModifiedLinearSystemError::Step { sample, error }),
-            }
-        };
-        let a = derivative(0, first, 1.0)?;
-        let wide = widened(&a);
-        require_finite(&wide, 0)?;
-        let s = scales(&wide).map(f64::recip);
-        let whole = |a: &PhaseMatrix<f64, N>| assembled(&rescaled(a, &s));
-        let size = whole(&wide).amax();
-        for (sample, state) in (1..).zip(others) {
-            let other = widened(&derivative(sample, state, 1.0)?);
-            require_finite(&other, sample)?;
-            let difference = (whole(&other) - whole(&wide)).amax() / size;
-            if difference > Tolerance::rounding::<L::Scalar>() {
-                return Err(ModifiedLinearSystemError::NotLinear { sample, difference });
-            }
-        }
-        let modified = ModifiedLinearSystem::of(&a, self.step_size().widen(), None)?;
-        require_principal(|share| eigenvalues(&whole(&widened(&derivative(0, first, share)?))))?;
-        Ok(modified)
-    }
-}
-
 impl<const N: usize> fmt::Display for ModifiedLinearSystem<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let answer = |yes: bool| if yes { "yes" } else { "no" };
-        let verdict = if self.is_rayleigh() { "a Rayleigh system" } else { "not a Rayleigh system" };
-        writeln!(f, "the modified system is {verdict}")?;
+        writeln!(
+            f,
+            "the modified system is {}",
+            match self.verdict() {
+                Verdict::Yes => "a Rayleigh system",
+                Verdict::No => "not a Rayleigh system",
+                Verdict::CannotTell => "not told from one that is no Rayleigh system: take a larger step",
+            }
+        )?;
         for (name, found) in [
             ("M̃ is symmetric", &self.of_mass),
             ("C̃ is symmetric", &self.of_damping),
             ("K̃ is symmetric", &self.of_stiffness),
         ] {
-            writeln!(f, "  {name}: {}: {found}", answer(found.vanishes()))?;
+            writeln!(f, "  {name}: {}: {found}", found.verdict())?;
         }
         write!(f, "  R̃ ≥ 0: {}", answer(self.is_dissipative()))
     }

@@ -6,8 +6,12 @@ use crate::numbers::Scalar;
 use crate::step::PhaseMatrix;
 use crate::theory::rayleigh::modified::ModifiedLinearSystemError;
 
-/// Scales x = S⁻¹q, y = Sp in which q and p, and the coordinates, are alike.
-pub(super) fn scales<const N: usize>(a: &PhaseMatrix<f64, N>) -> SVector<f64, N> {
+/// Rounding of ∂p1/∂q0, in units of ε (∂q1/∂p0)⁻¹: what the ends of a step make of it is a difference of
+/// such.
+pub(super) const ROUNDINGS: f64 = 16.0;
+
+/// Scales x = S⁻¹q, y = Sp in which q and p, and the coordinates, are alike; `epsilon` is the rounding of A.
+pub(super) fn scales<const N: usize>(a: &PhaseMatrix<f64, N>, epsilon: f64) -> SVector<f64, N> {
     let by_momentum = SVector::<f64, N>::from_fn(|i, _| match a.q_by_p.row(i).amax() {
         size if size > 0.0 => size.sqrt(),
         _ => 1.0,
@@ -16,8 +20,8 @@ pub(super) fn scales<const N: usize>(a: &PhaseMatrix<f64, N>) -> SVector<f64, N>
         block.map_with_location(|i, j, entry| entry * (by_momentum[i] * by_momentum[j]).powi(power)).amax()
     };
     let (b, c) = (scaled(&a.q_by_p, -1), scaled(&a.p_by_q, 1));
-    // Free coordinates have c = 0.
-    let between = if c > 0.0 { (b / c).sqrt().sqrt() } else { 1.0 };
+    // Free coordinates have c = 0, to rounding.
+    let between = if c > ROUNDINGS * epsilon * b { (b / c).sqrt().sqrt() } else { 1.0 };
     by_momentum * between
 }
 

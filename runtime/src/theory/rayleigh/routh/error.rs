@@ -13,8 +13,16 @@ pub enum RouthError {
         /// The number given.
         cyclic: usize,
     },
-    /// The segments say nothing: there are none, or θ has no momentum on them, or x moves alike on all.
+    /// The segments say nothing: there are none, or θ has no momentum on them, or x moves alike on all, as
+    /// far as a derivative resolves.
     Uninformative,
+    /// The momenta change with time: a reduction has none.
+    Timed {
+        /// The segment, from 0.
+        sample: usize,
+        /// How many steps later a momentum is another.
+        steps: usize,
+    },
     /// A momentum or a derivative of one is not finite.
     NonFinite {
         /// The segment, from 0.
@@ -49,6 +57,11 @@ impl fmt::Display for RouthError {
             Self::NoSuchCoordinate { cyclic } => write!(f, "there is no coordinate {cyclic}; they count from 0"),
             Self::Uninformative => f.write_str(
                 "the segments say nothing of a reduction: give several, of several shapes, along which θ moves",
+            ),
+            Self::Timed { sample, steps } => write!(
+                f,
+                "a momentum of segment {sample} is another one {steps} steps later; reduce a system that does not change \
+                 with time"
             ),
             Self::NonFinite { sample } => write!(f, "a momentum of segment {sample} is NaN or infinite"),
             Self::NotCyclic { sample, defect } => write!(

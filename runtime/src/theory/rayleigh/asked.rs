@@ -1,0 +1,56 @@
+//! Where the checkers of steps look: the states given, states beside them, each at a time of its own.
+
+use crate::numbers::Scalar;
+use crate::step::{Discretised, Flow, PhaseMatrix, State, StepError};
+use crate::theory::samples::{Sizes, around, at_segment, different};
+
+/// The derivatives of a step at some states.
+pub(super) struct Asked<S, const N: usize> {
+    /// At the states given, then beside the first of them, where a step can be taken.
+    pub(super) derivatives: Vec<PhaseMatrix<S, N>>,
+    /// How many of the states given lie apart, counted up to two.
+    pub(super) different: usize,
+    /// Whether the step moves one of them all by more than a derivative resolves.
+    pub(super) moves: bool,
+}
+
+/// Asks for the derivatives of the step at the `states`, the k-th k h after the time of the system, and at
+/// states [`around`] the first of them, each a step later still: with one state a view is asked at 2N + 1
+/// times.
+///
+/// # Errors
+/// The number of the state given whose step fails, and why.
+pub(super) fn ask<L, M, const N: usize>(
+    by: &Discretised<'_, L, M, N>,
+    states: &[State<L::Scalar, N>],
+) -> Result<Asked<L::Scalar, N>, (usize, StepError)>
+where
+    L: Flow<M, N>,
+{
+    let at = |k: usize, state: &State<L::Scalar, N>| at_segment(by, k, |by| by.linearized_step(state));
+    let (mut derivatives, mut ends) = (Vec::new(), Vec::new());
+    for (k, state) in states.iter().enumerate() {
+        let (step, linear) = at(k, state).map_err(|error| (k, error))?;
+        derivatives.push(linear.a);
+        ends.push(step.state);
+    }
+    // A coordinate that starts at 0 has the size that a step gives it.
+    let sizes = Sizes::of(states.iter().chain(&ends).copied());
+    let mut moves = states.iter().zip(&ends).any(|(state, end)| sizes.are_apart(state, end));
+    for (k, state) in around(states, &sizes, [1.0, 1.0]).iter().enumerate() {
+        // Beside the states given a system may end.
+        if let Ok((step, linear)) = at(states.len() + k, state)
+            && is_finite(&linear.a)
+        {
+            derivatives.push(linear.a);
+            moves |= Sizes::of([*state, step.state]).are_apart(state, &step.state);
+        }
+    }
+    Ok(Asked { derivatives, different: different(states, &sizes, 2), moves })
+}
+
+fn is_finite<S: Scalar, const N: usize>(a: &PhaseMatrix<S, N>) -> bool {
+    [&a.q_by_q, &a.q_by_p, &a.p_by_q, &a.p_by_p]
+        .iter()
+        .all(|block| block.iter().all(|entry| entry.widen().is_finite()))
+}

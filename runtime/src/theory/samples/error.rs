@@ -1,0 +1,53 @@
+//! Why samples cannot be judged.
+
+use core::fmt;
+
+/// Why the samples given cannot be judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum SampleError {
+    /// Fewer samples than decide. Where they are held against each other, those count that lie apart.
+    TooFew {
+        /// Samples given, or those of them that lie apart.
+        given: usize,
+        /// The least number that decides.
+        needed: usize,
+    },
+    /// A quantity is NaN or infinite at a sample.
+    NonFinite {
+        /// Number of the sample, from 0.
+        index: usize,
+    },
+    /// No sample can tell yes from no: none moves by more than rounding, or the generator vanishes at all.
+    Uninformative {
+        /// Samples given.
+        given: usize,
+    },
+    /// The step size is NaN, infinite, 0 or below the normal numbers.
+    StepSize,
+}
+
+impl fmt::Display for SampleError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooFew { given, needed } => {
+                write!(
+                    f,
+                    "{given} samples given that lie apart, at least {needed} needed to decide; give more"
+                )
+            }
+            Self::Uninformative { given } => write!(
+                f,
+                "none of the {given} samples can tell yes from no: they move by no more than rounding, or the generator \
+                 vanishes there; give samples that move"
+            ),
+            Self::StepSize => f.write_str("the step size is not a normal number; give a finite h ≠ 0"),
+            Self::NonFinite { index } => write!(
+                f,
+                "NaN or infinite value at sample {index}; keep the samples where L, R, f and the generators are smooth"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for SampleError {}
