@@ -3,5 +3,7 @@
 mod poisoned;
 mod poisoned_sections;
 mod poisoned_steps;
+mod random_samples;
 mod register;
+mod samples;
 mod time;
