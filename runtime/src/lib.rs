@@ -251,6 +251,7 @@ mod attributes {
 /// | hyperbolic | `sinh` `cosh` `tanh` `asinh` `acosh` `atanh` |
 /// | piecewise | `abs` `signum` `copysign` `min` `max` `clamp` |
 /// | sums | `mul_add` `midpoint`, `sum()` and `product()` of iterators |
+/// | of fields and constants alone | `floor` `ceil` `round` `round_ties_even` `trunc` `fract` `rem_euclid` `div_euclid`, `%`; casts of `f32` to `f64` and back |
 /// | questions, on the value alone | `is_nan` `is_finite` `is_infinite` `is_normal` `is_subnormal` `is_sign_positive` `is_sign_negative` `total_cmp`, `==` `<` `partial_cmp` |
 ///
 /// `hypot` guards against overflow and costs 1.5 times as much as `sqrt` of a sum of squares, which

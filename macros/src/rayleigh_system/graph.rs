@@ -11,6 +11,7 @@ mod angles;
 mod factor;
 mod fused;
 mod operation;
+mod text;
 mod zeros;
 
 #[cfg(test)]

@@ -18,6 +18,7 @@ mod operator;
 mod pattern;
 mod place;
 mod refusal;
+mod rounding;
 mod selection;
 mod sequence;
 mod shape;

@@ -9,7 +9,8 @@
 //! Methods of `f64` itself come before those of a trait: an import alone would leave `x.sin()` to the
 //! standard library wherever there is one.
 
-use quote::quote;
+use proc_macro2::{TokenStream, TokenTree};
+use quote::{ToTokens, quote};
 use syn::visit_mut::{self, VisitMut};
 use syn::{Block, Expr, ExprMethodCall, ExprPath, Ident, ImplItem, ItemFn, ItemImpl, parse_quote};
 use syn::{parse_quote_spanned, spanned::Spanned};
@@ -44,6 +45,25 @@ pub fn function(item: &ItemFn) -> ItemFn {
     let mut item = item.clone();
     body(&mut item.block);
     item
+}
+
+/// The expression with the runtime's elementary functions, if it calls one.
+pub fn text(expression: &TokenStream) -> Option<TokenStream> {
+    if !mentions_elementary(expression.clone()) {
+        return None;
+    }
+    let mut expression: Expr = syn::parse2(expression.clone()).ok()?;
+    let mut portable = Portable { calls_method: false };
+    portable.visit_expr_mut(&mut expression);
+    portable.calls_method.then(|| expression.into_token_stream())
+}
+
+fn mentions_elementary(tokens: TokenStream) -> bool {
+    tokens.into_iter().any(|token| match token {
+        TokenTree::Ident(word) => is_elementary(&word.to_string()),
+        TokenTree::Group(group) => mentions_elementary(group.stream()),
+        _ => false,
+    })
 }
 
 fn body(block: &mut Block) {

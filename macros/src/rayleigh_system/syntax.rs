@@ -134,6 +134,14 @@ pub fn takes_function(method: &Ident) -> bool {
 pub const ROUNDING: &[&str] =
     &["ceil", "floor", "fract", "next_down", "next_up", "round", "round_ties_even", "to_bits", "trunc"];
 
+/// Remainders that floating-point numbers and integers share.
+pub const EUCLIDEAN: &[&str] = &["div_euclid", "rem_euclid"];
+
+/// Whether a method of floating-point numbers jumps: of fields and constants alone it is a number.
+pub fn jumps(method: &Ident) -> bool {
+    ROUNDING.iter().chain(EUCLIDEAN).any(|name| method == name)
+}
+
 /// Methods of floating-point numbers that a user may call like functions, as in C.
 pub const METHODS: &[&str] = &[
     "abs",

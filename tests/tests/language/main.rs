@@ -19,6 +19,7 @@ mod found_by_fuzzing;
 mod fragments;
 mod gauss_engines;
 mod hygiene;
+mod jumps;
 mod methods;
 mod names;
 mod own_types;

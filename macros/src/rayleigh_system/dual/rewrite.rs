@@ -11,6 +11,7 @@
 //! | `f64::sin(x)` | `Real::<D>::sin(x)` |
 //! | `i as f64` | `D::number(i)` |
 //! | `i as usize`, `i % n` | `dual::integer::<_, usize>(i)`, `dual::remainder(i % n)`: for integers alone |
+//! | `self.k.floor()`, `self.k % 2.0` | `D::lift(self.k.floor())`, `D::lift(self.k % 2.0)`: of constants alone |
 
 mod call;
 mod cast;
@@ -168,6 +169,10 @@ impl VisitMut for Rewriter<'_> {
                 self.report.at(expression, Mistake::OtherFloat { expected });
             }
             *expression = parse_quote_spanned!(span=> D::real(#expression));
+            return;
+        }
+        if let Some(replacement) = self.constant_that_jumps(expression) {
+            *expression = replacement;
             return;
         }
         match expression {

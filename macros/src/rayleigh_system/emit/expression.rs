@@ -187,7 +187,13 @@ impl Writer<'_> {
                 (quote!(u[#index]), Binding::Atom)
             }
             operation @ Operation::Parameter(index) => {
-                let operand = self.graph.parameter(index).operand();
+                let mut operand = self.graph.parameter(index).operand();
+                if self.is_portable
+                    && let Some(own) = portable::text(&operand)
+                {
+                    self.calls_elementary.set(true);
+                    operand = own;
+                }
                 let is_lifted =
                     self.is_dual && !self.is_condition[node.index()] && !self.graph.is_time(operation);
                 (if is_lifted { quote!(D::lift(#operand)) } else { operand }, Binding::Atom)

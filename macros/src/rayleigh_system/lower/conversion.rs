@@ -22,6 +22,7 @@ impl Lowering<'_> {
 
     fn cast_value(&mut self, cast: &ExprCast, value: Value) -> Result<Value> {
         let ty = &cast.ty;
+        let value = self.of_any_precision(value);
         let is_scalar = simple_name(ty).is_some_and(|name| *name == self.scalar);
         match (value, IntegerType::of(ty)) {
             (Value::Integer(integer), Some(ty)) => self.integer_cast(cast, integer.value, ty),
@@ -56,6 +57,17 @@ impl Lowering<'_> {
                 cast,
                 "only integers can be cast here, to an integer or to the scalar of the system; to choose between cases, compare: `if q[0] > 0.0 { … } else { … }`",
             ),
+        }
+    }
+
+    /// The value as text, where it is a number of fields and constants alone: what it is made of may be of
+    /// another precision than the system's.
+    fn of_any_precision(&self, value: Value) -> Value {
+        match &value {
+            Value::Real(node) if self.graph.constant_value(*node).is_none() => {
+                self.graph.text(*node).map_or(value, |text| Value::Written(Written::leaf(text)))
+            }
+            _ => value,
         }
     }
 
@@ -98,6 +110,7 @@ impl Lowering<'_> {
     /// `f64::from(value)`
     fn float_from(&mut self, call: &ExprCall, value: Value) -> Result<Value> {
         let function = &call.func;
+        let value = self.of_any_precision(value);
         let is_scalar = matches!(&**function, Expr::Path(path) if path.path.segments[0].ident == self.scalar);
         match value {
             Value::Written(written) => Ok(Value::Written(self.converted_text(call, function, &written)?)),

@@ -10,8 +10,9 @@ use super::value::{Truth, Value};
 use super::written::{Text, Written};
 use super::{Lowering, Result, refuse};
 
-/// Methods that floating-point numbers and integers share: what they are is left open.
-const SHARED: [&str; 5] = ["abs", "clamp", "max", "min", "signum"];
+/// Methods that floating-point numbers share with integers, or whose constants depend on the precision: what
+/// they are is left open.
+const SHARED: [&str; 7] = ["abs", "clamp", "max", "min", "signum", "to_degrees", "to_radians"];
 
 /// Methods of integers and of `Option`, written out as they stand; true where they may panic.
 const WRITTEN: [(&str, bool); 43] = [

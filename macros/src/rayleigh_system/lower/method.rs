@@ -6,7 +6,7 @@ use syn::{Expr, ExprMethodCall, ExprRange, RangeLimits, Type};
 use super::super::diagnostics::span_of;
 use super::super::differentiate::extremum;
 use super::super::graph::{Comparison, Function, Operation, PairFunction, Predicate};
-use super::super::syntax::{METHODS, ROUNDING};
+use super::super::syntax::{METHODS, ROUNDING, jumps};
 use super::integer::IntegerType;
 use super::value::{Truth, Value};
 use super::{Lowering, Node, Refusal, Result, refuse};
@@ -76,6 +76,7 @@ impl Lowering<'_> {
             }
             Value::Written(written) => match self.written_method(method, &written, &arguments)? {
                 Some(value) => Ok(value),
+                None if jumps(method) => self.rounded(method, Value::Written(written), &arguments),
                 None => self.number_method(method, Value::Written(written), arguments),
             },
             Value::Chosen(chosen) if !arguments.iter().any(|argument| matches!(argument, Value::Real(_))) => {
@@ -83,6 +84,7 @@ impl Lowering<'_> {
                     this.value_method(method, receiver, arguments.clone(), None)
                 })
             }
+            Value::Real(_) if jumps(method) => self.rounded(method, receiver, &arguments),
             Value::Real(_) | Value::Chosen(_) => self.number_method(method, receiver, arguments),
             _ => refuse(method, format!("the method `{method}` cannot be followed at compile time")),
         }

@@ -139,6 +139,7 @@ impl Lowering<'_> {
             (a @ (Value::Integer(_) | Value::Written(_)), Value::Chosen(b)) => {
                 self.distribute(at, &b, |this, b| this.operate(at, operator, a.clone(), b))
             }
+            (left, right) if matches!(operator, BinOp::Rem(_)) => self.remainder(operator, &left, &right),
             (left, right) => {
                 let (a, b) = (self.scalar(&at.left, left)?, self.scalar(&at.right, right)?);
                 let operation = match operator {
@@ -155,10 +156,7 @@ impl Lowering<'_> {
                             BinOp::Eq(_) => Comparison::Equal,
                             BinOp::Ne(_) => Comparison::NotEqual,
                             _ => {
-                                return refuse(
-                                    operator,
-                                    "this operator has no derivative; angles need no wrapping, coordinates live in ℝ",
-                                );
+                                return refuse(operator, "this operator is none of floating-point numbers");
                             }
                         };
                         let node = self.graph.node(Operation::Compare(comparison, a, b));

@@ -108,6 +108,11 @@ impl Written {
         }
     }
 
+    /// The expression as it stands: no operation of it becomes one of the graph.
+    pub fn as_text(&self, may_panic: bool) -> Self {
+        Self::Leaf(Leaf { may_panic: may_panic || self.parts_may_panic(), ..self.as_leaf() })
+    }
+
     /// `*x`: what a pattern bound may be a reference, anything else is one for patterns alone.
     pub fn dereferenced(self) -> Self {
         match self {
@@ -172,6 +177,13 @@ impl Written {
             }
             Self::Method(..) => true,
         }
+    }
+
+    /// Whether what it is made of may panic.
+    fn parts_may_panic(&self) -> bool {
+        let mut leaves = Vec::new();
+        self.leaves(&mut leaves);
+        leaves.iter().any(|leaf| leaf.may_panic)
     }
 
     fn tokens(&self) -> TokenStream {

@@ -1,11 +1,11 @@
-//! Casts: of what does not depend on q and v they are left to rustc.
+//! Casts and functions that jump: of what does not depend on q and v they are left to rustc.
 
 use syn::{BinOp, Expr, ExprCast, UnOp, parse_quote_spanned, visit_mut};
 
 use super::Rewriter;
 use crate::rayleigh_system::diagnostics::{Mistake, span_of};
+use crate::rayleigh_system::syntax::{METHODS, is_integer, jumps, simple_name};
 use crate::rayleigh_system::syntax::{is_arithmetic, is_constant_name, is_self, without_parentheses};
-use crate::rayleigh_system::syntax::{is_integer, simple_name};
 
 impl Rewriter<'_> {
     /// | written | becomes |
@@ -49,8 +49,23 @@ impl Rewriter<'_> {
         }
     }
 
-    /// Whether the expression is made of literals, fields and constants alone, by arithmetic and casts: the
-    /// same over plain numbers.
+    /// `self.k.floor()` → `D::lift(self.k.floor())`, and the remainder `self.k % 2.0` so too.
+    pub fn constant_that_jumps(&self, expression: &Expr) -> Option<Expr> {
+        let (operands, span) = match expression {
+            Expr::MethodCall(call) if jumps(&call.method) => (vec![&*call.receiver], call.method.span()),
+            Expr::Call(call) => (call.args.iter().collect(), span_of(&call.func)),
+            Expr::Binary(binary) if matches!(binary.op, BinOp::Rem(_)) => {
+                (vec![&*binary.left, &*binary.right], span_of(&binary.op))
+            }
+            _ => return None,
+        };
+        // Of literals alone the type would not show.
+        let is_typed = operands.iter().any(|operand| !is_of_literals(operand));
+        (is_typed && self.is_constant(expression)).then(|| parse_quote_spanned!(span=> D::lift(#expression)))
+    }
+
+    /// Whether the expression is made of literals, fields and constants alone, by arithmetic, casts and
+    /// methods of numbers: the same over plain numbers.
     fn is_constant(&self, expression: &Expr) -> bool {
         match expression {
             Expr::Lit(_) => true,
@@ -63,6 +78,21 @@ impl Rewriter<'_> {
                     && self.is_constant(&binary.left)
                     && self.is_constant(&binary.right)
             }
+            Expr::MethodCall(call) => {
+                (jumps(&call.method) || METHODS.iter().any(|method| call.method == method))
+                    && self.is_constant(&call.receiver)
+                    && call.args.iter().all(|argument| self.is_constant(argument))
+            }
+            Expr::Call(call) => {
+                let segments = match &*call.func {
+                    Expr::Path(path) => &path.path.segments,
+                    _ => return false,
+                };
+                segments.len() == 2
+                    && segments[0].ident == self.system.scalar
+                    && jumps(&segments[1].ident)
+                    && call.args.iter().all(|argument| self.is_constant(argument))
+            }
             Expr::Field(field) => is_self(&field.base) || self.is_constant(&field.base),
             Expr::Index(entry) => self.is_constant(&entry.expr) && self.is_constant(&entry.index),
             Expr::Path(path) => path.path.segments.last().is_some_and(|last| {
@@ -72,5 +102,17 @@ impl Rewriter<'_> {
             }),
             _ => false,
         }
+    }
+}
+
+/// Whether the expression is arithmetic of literals.
+fn is_of_literals(expression: &Expr) -> bool {
+    match expression {
+        Expr::Lit(_) => true,
+        Expr::Paren(inner) => is_of_literals(&inner.expr),
+        Expr::Group(inner) => is_of_literals(&inner.expr),
+        Expr::Unary(unary) => is_of_literals(&unary.expr),
+        Expr::Binary(binary) => is_of_literals(&binary.left) && is_of_literals(&binary.right),
+        _ => false,
     }
 }

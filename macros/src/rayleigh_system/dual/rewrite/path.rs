@@ -7,7 +7,7 @@ use super::{Rewriter, over};
 use crate::rayleigh_system::diagnostics::{Mistake, span_of};
 use crate::rayleigh_system::model::Source;
 use crate::rayleigh_system::syntax::{
-    METHODS, ROUNDING, has_floats, is_constant_name, is_function_of_std, is_variant,
+    METHODS, has_floats, is_constant_name, is_function_of_std, is_variant, jumps,
 };
 
 impl Rewriter<'_> {
@@ -110,7 +110,7 @@ impl Rewriter<'_> {
         if in_module || first.ident != self.system.scalar || is_constant_name(&last.ident) {
             return None;
         }
-        if ROUNDING.iter().chain(&["rem_euclid", "div_euclid"]).any(|rounding| last.ident == rounding) {
+        if jumps(&last.ident) {
             self.report.at(path, Mistake::Rounding(last.ident.to_string()));
         }
         let span = first.ident.span();
