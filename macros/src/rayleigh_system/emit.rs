@@ -205,7 +205,7 @@ fn written(
         graph,
         scalar,
         locals: vec![None; graph.len()],
-        names: Names::new(taken),
+        names: Names::new(graph, taken),
         typed: vec![false; graph.len()],
         is_portable,
         calls_elementary: Cell::new(false),

@@ -139,8 +139,8 @@ pub struct Graph {
     keeps_zeros: bool,
     /// Sums that have lost theirs, as they are without it.
     without_zero: Vec<Node>,
-    /// The name of the user's system.
-    reserved: Option<String>,
+    /// The name of the user's system, and those of constants in small letters.
+    reserved: BTreeSet<String>,
     /// Half the step size and the step size, where they occur.
     step_size: Option<[Node; 2]>,
 }
@@ -176,12 +176,17 @@ impl Graph {
 
     /// Keeps a name from what is generated.
     pub fn reserve(&mut self, name: String) {
-        self.reserved = Some(name);
+        self.reserved.insert(name);
+    }
+
+    /// The names that are kept from what is generated.
+    pub fn reserved(&self) -> impl Iterator<Item = &String> {
+        self.reserved.iter()
     }
 
     /// Whether the name is kept from what is generated.
     pub fn is_reserved(&self, name: &str) -> bool {
-        self.reserved.as_deref() == Some(name)
+        self.reserved.contains(name)
     }
 
     /// Whether the value changes with q, v or u.

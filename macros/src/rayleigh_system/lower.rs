@@ -14,6 +14,7 @@ mod field;
 mod integer;
 mod load;
 mod method;
+mod module;
 mod operator;
 mod pattern;
 mod place;

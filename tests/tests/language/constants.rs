@@ -99,3 +99,73 @@ case! {
         }
     }
 }
+
+/// Constants and statics in small letters, by each engine.
+macro_rules! in_small_letters {
+    ($($name:ident: $engine:ident of $scalar:ident;)*) => {$(
+        #[allow(non_upper_case_globals)]
+        mod $name {
+            const g: $scalar = 9.81;
+            static damping: $scalar = 0.1;
+            const half_of_it: f32 = 0.25;
+            static count: usize = 3;
+            // What a temporary would be called.
+            const cos_q0: $scalar = 2.0;
+            pub mod physics {
+                pub const k: $scalar = 0.3;
+                pub static c: [$scalar; 2] = [0.1, 0.2];
+            }
+            pub struct Small {
+                pub m: $scalar,
+            }
+
+            #[dalembert::rayleigh_system(derivatives = $engine)]
+            impl Small {
+                fn lagrangian(&self, q: [$scalar; 1], v: [$scalar; 1]) -> $scalar {
+                    let weight = g;
+                    let slope = if q[0] > 0.0 { damping } else { q[0] };
+                    0.5 * self.m * v[0] * v[0] - self.m * weight * q[0] * cos_q0 + slope * q[0] * v[0]
+                        + (half_of_it * 2.0) as $scalar * q[0].cos() + q[0] * q[0].cos()
+                        - self::physics::k * q[0] * q[0] + physics::c[1] * v[0] * count as $scalar
+                }
+                fn rayleigh(&self, v: [$scalar; 1]) -> $scalar {
+                    0.5 * damping * v[0] * v[0]
+                }
+            }
+        }
+    )*};
+}
+in_small_letters! {
+    small_auto: auto of f64;
+    small_expanded: expanded of f64;
+    small_num_dual: num_dual of f64;
+    small_single: expanded of f32;
+}
+
+#[test]
+fn constants_in_small_letters_are_those_of_the_module() {
+    use dalembert::nalgebra::SVector;
+    use dalembert::system::Engine;
+    use dalembert::{Lagrangian, Rayleigh};
+
+    let (q, v) = (0.3_f64, -1.1_f64);
+    let value = v * v - 2.0 * 9.81 * q * 2.0 + 0.1 * q * v + (0.5 + q) * q.cos() - 0.3 * q * q + 0.6 * v;
+    let by_q = -2.0 * 9.81 * 2.0 + 0.1 * v - (0.5 + q) * q.sin() + q.cos() - 0.6 * q;
+    let by_v = 2.0 * v + 0.1 * q + 0.6;
+    macro_rules! check {
+        ($($name:ident within $error:literal),*) => {$(
+            let system = $name::Small { m: 2.0 };
+            let (q, v) = (SVector::from([0.3]), SVector::from([-1.1]));
+            let seen = system.lagrangian_derivatives(&q, &v);
+            for (seen, expected) in [(seen.value, value), (seen.d1[0], by_q), (seen.d2[0], by_v)] {
+                let error = (f64::from(seen) - expected).abs();
+                assert!(error < $error * (1.0 + expected.abs()), "{}: {seen} {expected}", stringify!($name));
+            }
+            let force = f64::from(system.rayleigh_gradient(&q, &v).d2[0]);
+            assert!((force + 0.11).abs() < $error, "{force}");
+        )*};
+    }
+    check!(small_auto within 1e-15, small_expanded within 1e-15, small_num_dual within 1e-15);
+    check!(small_single within 1e-6);
+    assert!(matches!(small_auto::Small::STRUCTURE.engine, Engine::Expanded));
+}

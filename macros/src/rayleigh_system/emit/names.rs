@@ -2,6 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+use proc_macro2::Span;
 use syn::Ident;
 
 use super::super::graph::{Graph, Node, Operation};
@@ -15,12 +16,9 @@ pub struct Names {
 }
 
 impl Names {
-    pub fn new(taken: &[&str]) -> Self {
-        Self {
-            taken: taken.iter().map(|&name| name.to_owned()).collect(),
-            numbers: HashMap::new(),
-            unnamed: 0,
-        }
+    pub fn new(graph: &Graph, taken: &[&str]) -> Self {
+        let taken = taken.iter().map(|&name| name.to_owned());
+        Self { taken: taken.chain(graph.reserved().cloned()).collect(), numbers: HashMap::new(), unnamed: 0 }
     }
 
     /// A name for the node that nothing else in the function has; `locals` have theirs.
@@ -40,8 +38,18 @@ impl Names {
             *number += 1;
             unique = format!("{name}_{number}");
         }
-        Ident::new(&unique, proc_macro2::Span::call_site())
+        Ident::new(&unique, span(graph, node))
     }
+}
+
+/// The span of the name: at the user's tokens for what stands for them. A module with a static of the same name
+/// has rustc refuse the local there, and not at the attribute.
+fn span(graph: &Graph, node: Node) -> Span {
+    let place = match graph.operation(node) {
+        Operation::Parameter(index) => graph.parameter(index).tokens.clone().into_iter().last(),
+        _ => None,
+    };
+    place.map_or_else(Span::call_site, |token| Span::call_site().located_at(token.span()))
 }
 
 /// The user's name, or one made of those of the arguments.

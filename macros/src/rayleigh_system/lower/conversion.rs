@@ -6,6 +6,7 @@ use syn::{Expr, ExprCall, ExprCast, GenericArgument, PathArguments, Type};
 
 use super::super::syntax::{is_plain, simple_name};
 use super::integer::{Integer, IntegerType};
+use super::module::not_known;
 use super::value::{Truth, Value};
 use super::written::Written;
 use super::{Lowering, Result, refuse};
@@ -97,6 +98,13 @@ impl Lowering<'_> {
             }
         }
         let function = self.expression(&call.func)?;
+        // A function of the module, which the macro cannot see into.
+        if let (Value::Written(_), Expr::Path(path)) = (&function, &*call.func)
+            && let Some(name) = path.path.segments.last().map(|segment| &segment.ident)
+            && name.to_string().starts_with(char::is_lowercase)
+        {
+            return refuse(path, not_known(name));
+        }
         let arguments =
             call.args.iter().map(|argument| self.expression(argument)).collect::<Result<Vec<_>>>()?;
         // `Self::height(self, q)`.

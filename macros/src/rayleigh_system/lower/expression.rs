@@ -180,12 +180,7 @@ impl Lowering<'_> {
         if path.path.segments.len() == 2 && *first == self.scalar {
             return Ok(Value::Method(name));
         }
-        refuse(
-            path,
-            format!(
-                "`{name}` is not known here; use locals, fields, constants and functions of the annotated block"
-            ),
-        )
+        self.constant_of_module(path)
     }
 
     /// The path as it reads outside the body: `consts::PI` after `use std::f64::consts;`.

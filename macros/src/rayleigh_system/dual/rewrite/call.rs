@@ -1,7 +1,7 @@
 //! Calls: of functions and methods that have twins, and of those of the standard library.
 
 use syn::visit_mut::VisitMut;
-use syn::{Expr, ExprCall, ExprMethodCall, Path, parse_quote};
+use syn::{Expr, ExprCall, ExprMethodCall, Ident, Path, parse_quote};
 
 use super::{Rewriter, over};
 use crate::rayleigh_system::diagnostics::Mistake;
@@ -36,18 +36,21 @@ impl Rewriter<'_> {
             // block.
             match argument {
                 Expr::Path(path) if takes_function(&call.method) && self.is_unknown(&path.path) => {
-                    self.called_path(path, false);
+                    if let Some(replacement) = self.called_path(path, false) {
+                        *argument = replacement;
+                    }
                 }
                 _ => self.visit_expr_mut(argument),
             }
         }
     }
 
-    /// A plain name in small letters that is bound nowhere in the body.
+    /// A name in small letters that is bound nowhere in the body, or a path to one.
     fn is_unknown(&self, path: &Path) -> bool {
-        path.get_ident().is_some_and(|name| {
-            *name != "self" && !self.bound.contains(&name.to_string()) && !is_constant_name(name)
-        })
+        let is_bound = path.get_ident().is_some_and(|name| self.bound.contains(&name.to_string()));
+        let is_small =
+            |name: &Ident| !is_constant_name(name) && !name.to_string().starts_with(char::is_uppercase);
+        !is_bound && !path.is_ident("self") && path.segments.last().is_some_and(|last| is_small(&last.ident))
     }
 
     pub fn call(&mut self, call: &mut ExprCall) {

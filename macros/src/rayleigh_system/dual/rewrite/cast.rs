@@ -98,7 +98,8 @@ impl Rewriter<'_> {
             Expr::Path(path) => path.path.segments.last().is_some_and(|last| {
                 let is_local =
                     path.path.get_ident().is_some_and(|name| self.bound.contains(&name.to_string()));
-                !is_local && is_constant_name(&last.ident)
+                let is_small = last.ident.to_string().starts_with(char::is_lowercase);
+                !is_local && !is_self(expression) && (is_constant_name(&last.ident) || is_small)
             }),
             _ => false,
         }

@@ -79,11 +79,15 @@ impl Rewriter<'_> {
             self.report.at(path, Mistake::VariantByDuals);
             return None;
         }
-        // A misspelled local: rustc knows better which one was meant.
-        if path.path.get_ident().is_some() {
-            return None;
+        if let Some(replacement) = self.function_of_scalar(&path.path) {
+            return Some(replacement);
         }
-        self.called_path(path, false)
+        if path.qself.is_some() || is_function_of_std(&path.path) {
+            return self.called_path(path, false);
+        }
+        // A constant of the module, or a misspelled local: rustc knows better which one was meant.
+        let span = span_of(path);
+        Some(parse_quote_spanned!(span=> D::lift(#path)))
     }
 
     /// `Self::square` → `Self::square_over`.
