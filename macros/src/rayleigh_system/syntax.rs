@@ -97,13 +97,19 @@ pub fn is_constant_name(name: &Ident) -> bool {
 
 /// A path such as `Law::Linear`, unless it is one of the standard library's that bodies may hold.
 pub fn is_variant(path: &Path) -> bool {
+    path.segments.last().is_some_and(|last| last.ident.to_string().contains(char::is_lowercase))
+        && is_variant_with_fields(path)
+}
+
+/// [`is_variant`] of a path with fields behind it: `Law::A(k)` may be in capitals, and is no constant.
+pub fn is_variant_with_fields(path: &Path) -> bool {
     let Some(last) = path.segments.last() else { return false };
     let name = last.ident.to_string();
     let of_std = ["Option", "Ordering", "Result"].iter().any(|ty| path.segments[0].ident == ty)
         || ["Some", "None", "Ok", "Err"].iter().any(|variant| name == *variant)
         || ["std", "core"].iter().any(|root| path.segments[0].ident == root)
         || path.is_ident("Self");
-    !of_std && name.starts_with(char::is_uppercase) && name.contains(char::is_lowercase)
+    !of_std && name.starts_with(char::is_uppercase)
 }
 
 /// Methods whose argument is often a function's name.

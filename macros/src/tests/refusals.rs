@@ -42,6 +42,13 @@ fn what_cannot_be_written_out_is_an_error_that_says_why() {
         (quote!(println!("{}", q[0]); q[0]), "macros hide"),
         (quote!(q[0].powi(self.n)), "use `powf`"),
         (
+            quote!(match self.pair {
+                (1, (Some(k), _) | (_, Some(k))) if k > 0.0 => k * q[0],
+                _ => v[0],
+            }),
+            "write an arm for each",
+        ),
+        (
             quote!(let mut s = q[0]; for i in i128::MAX - 1..=i128::MAX { s += i as f64; } s),
             "not known at compile time",
         ),

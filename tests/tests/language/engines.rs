@@ -340,3 +340,68 @@ fn trajectories_stay_together() {
     }
     assert!((state_a.q - state_b.q).amax() < 1e-12, "{} and {}", state_a.q, state_b.q);
 }
+
+/// Or-patterns that bind, by each engine.
+macro_rules! cases_by_each_engine {
+    ($($name:ident by $engine:ident of $scalar:ident),*) => {$(
+        mod $name {
+            pub enum Law {
+                Linear($scalar),
+                Cubic { k: $scalar },
+                A($scalar),
+                Off,
+            }
+
+            pub struct Spring {
+                pub law: Law,
+                pub k: ($scalar, $scalar),
+            }
+
+            #[dalembert::rayleigh_system(derivatives = $engine)]
+            impl Spring {
+                fn lagrangian(&self, q: [$scalar; 1], v: [$scalar; 1]) -> $scalar {
+                    let k = match self.law {
+                        Law::Linear(k) | Law::Cubic { k } => k,
+                        Law::A(k) => 2.0 * k,
+                        Law::Off => 0.0,
+                    };
+                    let x = match (q[0] > 0.0, v[0] > 0.0, self.k) {
+                        (true, _, (x, _)) | (_, true, (_, x)) => x,
+                        _ => 1.0,
+                    };
+                    0.5 * v[0] * v[0] - 0.5 * k * x * q[0] * q[0]
+                }
+            }
+
+            pub fn springs() -> [Spring; 4] {
+                [Law::Linear(0.5), Law::Cubic { k: 1.5 }, Law::A(0.75), Law::Off]
+                    .map(|law| Spring { law, k: (3.0, 5.0) })
+            }
+        }
+    )*};
+}
+cases_by_each_engine!(
+    cases_auto by auto of f64,
+    cases_expanded by expanded of f64,
+    cases_num_dual by num_dual of f64,
+    cases_single by expanded of f32
+);
+
+#[test]
+fn cases_that_bind_are_those_of_every_engine() {
+    macro_rules! check {
+        ($($name:ident),*) => {$(
+            for (q, v, x) in [(0.5, -1.0, 3.0), (-0.5, 1.0, 5.0), (-0.5, -1.0, 1.0)] {
+                for (spring, k) in $name::springs().iter().zip([0.5, 1.5, 1.5, 0.0]) {
+                    let seen = spring.lagrangian_derivatives(&SVector::from([q]), &SVector::from([v]));
+                    assert_eq!([seen.value, seen.d1[0], seen.d11[(0, 0)]], [
+                        0.5 * v * v - 0.5 * k * x * q * q,
+                        -k * x * q,
+                        -k * x,
+                    ]);
+                }
+            }
+        )*};
+    }
+    check!(cases_auto, cases_expanded, cases_num_dual, cases_single);
+}

@@ -146,3 +146,55 @@ case! {
         }
     }
 }
+
+case! {
+    cases_that_bind: [1] at [([0.3], [1.1]), ([-0.3], [1.1])]
+    definitions {
+        #[derive(Clone, Copy)]
+        #[allow(dead_code)]
+        pub enum Law { A(f64), B(f64), C, D { c: f64, n: i32 }, E(Option<f64>) }
+        pub struct System { laws: [Law; 5], k: Option<f64>, pair: (Option<f64>, Option<f64>), n: i32, entry: (i32, f64) }
+        fn system() -> System {
+            let laws = [Law::A(0.7), Law::B(1.3), Law::C, Law::D { c: 0.4, n: 2 }, Law::E(Some(2.5))];
+            System { laws, k: Some(0.9), pair: (Some(-1.0), Some(2.0)), n: 3, entry: (2, 0.6) }
+        }
+    }
+    functions {
+        fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+            let mut total = v[0] * v[0];
+            for i in 0..5 {
+                let law = self.laws[i];
+                let weight = (i + 1) as f64;
+                total += weight * match law {
+                    Law::A(k) | Law::B(k) => k * q[0],
+                    Law::C => 0.0,
+                    Law::D { c, .. } | Law::E(Some(c)) => c * v[0] * q[0],
+                    Law::E(None) => 1.0,
+                };
+                total += weight * match (law, 2) {
+                    (Law::A(k) | Law::B(k), 1) | (Law::E(Some(k)), 2) => k * q[0].sin(),
+                    _ => 0.0,
+                };
+                total += if let Law::D { c: k, n: 1 | 2 } | Law::A(k) = law { k * v[0] } else { q[0] };
+                total -= Self::squared(law, q[0]);
+            }
+            // Both cases match, and the guard holds for the second alone.
+            total += match self.pair { (Some(k), _) | (_, Some(k)) if k > 0.0 => k * q[0].powi(3), _ => v[0] };
+            total += match &self.k { Some(k) | Some(k) if *k > 1.0 => *k, Some(k) => 2.0 * k * q[0], None => 0.0 };
+            total += match (self.n, q[0]) {
+                (1, x) | (2, x) => x * q[0],
+                (n @ 3, x) | (n @ 4, x) => x * n as f64,
+                _ => 0.0,
+            };
+            total += match 3 { n @ 1 | n @ 3 => n as f64 * q[0], _ => 0.0 };
+            total += match self.entry { (1, x) | (2, x) => x * q[0], (_, x) => x };
+            let chosen = if q[0] > 0.0 { self.laws[0] } else { self.laws[3] };
+            total += match chosen { Law::A(k) | Law::D { c: k, .. } => k * q[0].exp(), _ => 0.0 };
+            total + match (q[0] > 0.0, v[0] > 0.0, q[0]) { (true, _, x) | (_, true, x) => x * v[0], _ => q[0] }
+        }
+        fn squared(law: Law, x: f64) -> f64 {
+            let (Law::A(k) | Law::B(k)) = law else { return x };
+            k * k * x
+        }
+    }
+}

@@ -36,7 +36,7 @@ use super::super::model::{Body, System};
 use super::super::scope::bound_names;
 use super::super::syntax::{
     Matches, is_assignment, is_float_literal, is_generic_of_std, is_integer, is_of_other_float,
-    is_place_of_self, is_plain, is_variant, real_type, simple_name,
+    is_place_of_self, is_plain, is_variant, is_variant_with_fields, real_type, simple_name,
 };
 use signature::helper_signature;
 
@@ -255,10 +255,10 @@ impl VisitMut for Rewriter<'_> {
                 }
             }
             Pat::Macro(_) => self.report.at(pattern, Mistake::Macro),
-            Pat::TupleStruct(inner) if is_variant(&inner.path) => {
+            Pat::TupleStruct(inner) if is_variant_with_fields(&inner.path) => {
                 self.report.at(&inner.path, Mistake::VariantByDuals);
             }
-            Pat::Struct(inner) if is_variant(&inner.path) => {
+            Pat::Struct(inner) if is_variant_with_fields(&inner.path) => {
                 self.report.at(&inner.path, Mistake::VariantByDuals);
             }
             Pat::Path(inner) if is_variant(&inner.path) => self.report.at(inner, Mistake::VariantByDuals),

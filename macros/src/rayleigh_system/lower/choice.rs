@@ -7,6 +7,7 @@ use quote::ToTokens;
 
 use super::super::graph::Operation;
 use super::super::syntax::Matches;
+use super::pattern::cases::Case;
 use super::value::{Truth, Value};
 use super::{Lowering, Node, Result, Returned, refuse};
 
@@ -180,25 +181,27 @@ impl Lowering<'_> {
 
     pub fn match_arms(&mut self, choice: &ExprMatch) -> Result<Value> {
         let value = self.expression(&choice.expr)?;
-        self.arms_from(choice, &value, 0)
+        let arms = self.arms(&choice.arms);
+        self.arms_from(&choice.expr, &arms, &value)
     }
 
-    /// The arms from that one on: the first that matches.
-    fn arms_from(&mut self, choice: &ExprMatch, value: &Value, index: usize) -> Result<Value> {
-        let Some(arm) = choice.arms.get(index) else { return refuse(&choice.expr, "no arm matches") };
-        let (pattern, guard) = match &arm.pat {
-            Pat::Guard(guarded) => (&*guarded.pat, Some(&*guarded.guard)),
-            pattern => (pattern, None),
+    /// The arms, from the first of these on: the first that matches.
+    fn arms_from(&mut self, at: &Expr, arms: &[Case<'_>], value: &Value) -> Result<Value> {
+        let Some((&Case { pattern, guard, body }, others)) = arms.split_first() else {
+            return refuse(at, "no arm matches");
         };
+        if guard.is_some() {
+            self.without_overlap(pattern)?;
+        }
         let outside = self.locals.len();
         let (mut truth, bound) = self.test(pattern, value)?;
         // Arms are exhaustive: rustc checks it.
-        if index + 1 == choice.arms.len() && guard.is_none() && truth != Truth::Known(false) {
+        if others.is_empty() && guard.is_none() && truth != Truth::Known(false) {
             truth = Truth::Known(true);
         }
         if truth == Truth::Known(false) {
             self.integers.has_dead_code = true;
-            return self.arms_from(choice, value, index + 1);
+            return self.arms_from(at, others, value);
         }
         if let Some(guard) = guard {
             self.locals.extend(bound.iter().cloned());
@@ -211,20 +214,20 @@ impl Lowering<'_> {
             self.locals.truncate(outside);
             truth = truth.and(&mut self.graph, holds);
         }
-        let body = |this: &mut Self| {
+        let run = |this: &mut Self| {
             this.locals.extend(bound);
-            let value = this.expression(&arm.body);
+            let value = this.expression(body);
             this.locals.truncate(outside);
             value
         };
         match truth {
             Truth::Known(true) => {
-                self.integers.has_dead_code |= index + 1 < choice.arms.len();
-                body(self)
+                self.integers.has_dead_code |= !others.is_empty();
+                run(self)
             }
-            Truth::Known(false) => self.arms_from(choice, value, index + 1),
+            Truth::Known(false) => self.arms_from(at, others, value),
             Truth::Where(condition) => {
-                self.branch(&arm.pat, condition, body, |this| this.arms_from(choice, value, index + 1))
+                self.branch(pattern, condition, run, |this| this.arms_from(at, others, value))
             }
         }
     }
@@ -255,6 +258,9 @@ impl Lowering<'_> {
         };
         let value = self.expression(&value)?;
         let outside = self.locals.len();
+        if guard.is_some() {
+            self.without_overlap(&pattern)?;
+        }
         let (truth, bound) = self.test(&pattern, &value)?;
         self.locals.extend(bound);
         let truth = match (guard, truth) {

@@ -4,6 +4,7 @@
 //! it decides: the pattern is written out, as `matches!(self.law, Friction::Linear(_))`, and what it binds as
 //! a `match` that gives the binding.
 
+pub mod cases;
 mod matching;
 
 use std::rc::Rc;

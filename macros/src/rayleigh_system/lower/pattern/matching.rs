@@ -16,7 +16,7 @@ use super::super::{Lowering, Refusal, Result, refuse};
 use super::{is_rest_or_named, parts};
 
 /// The condition under which a pattern matches, and the names that it binds.
-type Test = (Truth, Vec<(String, Value)>);
+pub type Test = (Truth, Vec<(String, Value)>);
 
 impl Lowering<'_> {
     /// Whether the value matches, and what the pattern binds where it does.
@@ -52,7 +52,10 @@ impl Lowering<'_> {
                 Ok((truth, bound))
             }
             (Pat::Reference(inner), value) => self.test(&inner.pat, value),
-            (Pat::Or(or), value) => self.test_cases(pattern, or.cases.iter(), value),
+            (Pat::Or(or), value) => {
+                let cases: Vec<&Pat> = or.cases.iter().collect();
+                self.test_cases(pattern, &cases, value)
+            }
             (Pat::Lit(literal), value) => self.test_literal(pattern, &literal.lit, value),
             (Pat::Path(path), Value::Integer(value)) => self.test_constant(pattern, path, *value),
             (Pat::Ident(name), Value::Integer(value)) => {
@@ -91,11 +94,9 @@ impl Lowering<'_> {
             (pattern, Value::Chosen(chosen)) => {
                 let (a, bound_a) = self.test(pattern, &chosen.a)?;
                 let (b, bound_b) = self.test(pattern, &chosen.b)?;
-                if !(bound_a.is_empty() && bound_b.is_empty()) {
-                    return refuse(pattern, "numbers decide what this binds; use `if`");
-                }
+                let bound = self.either(pattern, chosen.condition, bound_a, bound_b)?;
                 match self.select(pattern, chosen.condition, Value::Truth(a), Value::Truth(b))? {
-                    Value::Truth(truth) => Ok((truth, Vec::new())),
+                    Value::Truth(truth) => Ok((truth, bound)),
                     _ => refuse(pattern, "this pattern cannot be followed here"),
                 }
             }
@@ -144,26 +145,6 @@ impl Lowering<'_> {
             (name.to_string(), Value::Written(Written::Named(plain, Box::new(Written::Leaf(leaf)))))
         });
         Ok((Truth::Where(truth), bound.collect()))
-    }
-
-    fn test_cases<'p>(
-        &mut self,
-        at: &Pat,
-        cases: impl Iterator<Item = &'p Pat>,
-        value: &Value,
-    ) -> Result<Test> {
-        let mut all = Truth::Known(false);
-        for case in cases {
-            let (truth, bound) = self.test(case, value)?;
-            if truth == Truth::Known(true) && all == Truth::Known(false) {
-                return Ok((truth, bound));
-            }
-            if !bound.is_empty() && truth != Truth::Known(false) {
-                return refuse(at, "numbers decide what this binds; use `if`");
-            }
-            all = all.or(&mut self.graph, truth);
-        }
-        Ok((all, Vec::new()))
     }
 
     fn test_literal(&mut self, at: &Pat, pattern: &Lit, value: &Value) -> Result<Test> {
