@@ -80,19 +80,23 @@ pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) ->
             return options;
         }
     };
-    let mut says_rule = false;
+    let mut said: Vec<Ident> = Vec::new();
     for setting in settings {
         let Setting { name, values } = setting;
+        if said.contains(&name) {
+            report.at(&name, Mistake::RepeatedOption(name.to_string()));
+            continue;
+        }
+        said.push(name.clone());
         match values {
             Values::Fields(fields) => {
                 if fields.is_empty() {
                     report.at(&name, Mistake::NoParameters);
                 }
-                options.parameters.extend(fields);
+                options.parameters = fields;
             }
             Values::Path(path) => options.runtime = Some(path),
             Values::Words(words) if name == "rule" => {
-                says_rule = true;
                 rules(&name, words, &mut options.rules, report);
             }
             Values::Words(words) if name == "derivatives" => {
@@ -118,7 +122,7 @@ pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) ->
     {
         report.at(word, Mistake::FusedByNumDual);
     }
-    if !says_rule {
+    if !said.iter().any(|name| name == "rule") {
         options.rules.of_displacement.push(Rule::Midpoint);
     }
     options

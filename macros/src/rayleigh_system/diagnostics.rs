@@ -75,6 +75,7 @@ impl Report {
 pub enum Mistake {
     // The attribute.
     UnknownOption,
+    RepeatedOption(String),
     UnknownRule(String),
     RepeatedRule(String),
     NoRule,
@@ -174,6 +175,15 @@ impl Display for Mistake {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::UnknownOption => f.write_str("unknown option; write `rule = midpoint`, `trapezoidal` or `gauss`, a list `rule = [midpoint, trapezoidal]`, `derivatives = auto`, `expanded`, `num_dual`, `parameters = [m, k]`, `step_derivatives = second`, `lanes = explicit`, `midpoint`, `gauss`, `multiply_add = fused`, or `crate = path`"),
+            Self::RepeatedOption(option) => {
+                write!(f, "`{option}` is given twice; ")?;
+                match &**option {
+                    "rule" => f.write_str("write one list, such as `rule = [midpoint, gauss]`"),
+                    "lanes" => f.write_str("write one list, such as `lanes = [explicit, gauss]`"),
+                    "parameters" => f.write_str("write one list, such as `parameters = [m, k]`"),
+                    _ => f.write_str("remove one"),
+                }
+            }
             Self::UnknownRule(rule) => write!(f, "unknown rule `{rule}`; the rules are `midpoint`, `trapezoidal`, `gauss`, `fitted`, `fitted_trapezoidal` and `one_sided`; one of your own is not listed: `system.by(Quadrature(rule), h)` steps by it"),
             Self::RepeatedRule(rule) => write!(f, "rule `{rule}` is listed twice; remove one"),
             Self::JointRule { rule, lacks } => write!(f, "`rule = {rule}` {lacks}; use `midpoint`, `trapezoidal` or `gauss`"),

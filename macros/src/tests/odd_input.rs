@@ -120,7 +120,11 @@ fn wrong_attributes_say_what_is_right() {
         ("rule = []", "no rule is listed"),
         ("rule = [midpoint, midpoint]", "rule `midpoint` is listed twice"),
         ("rule = [gauss, gauss]", "rule `gauss` is listed twice"),
-        ("rule = midpoint, rule = midpoint", "rule `midpoint` is listed twice"),
+        ("rule = midpoint, rule = midpoint", "`rule` is given twice; write one list"),
+        ("rule = midpoint, rule = gauss", "`rule` is given twice; write one list"),
+        ("derivatives = auto, rule = gauss, derivatives = auto", "`derivatives` is given twice; remove one"),
+        ("parameters = [k], parameters = m", "`parameters` is given twice; write one list"),
+        ("crate = a, crate = b", "`crate` is given twice; remove one"),
     ] {
         let Ok(tokens) = attribute.parse::<TokenStream>() else { continue };
         let answer = messages(&rayleigh_system(Runtime::STD, tokens, item.parse().unwrap()));
