@@ -10,6 +10,7 @@ pub mod check;
 mod conditions;
 mod contexts;
 mod decide;
+mod depth;
 pub mod diagnostics;
 pub mod differentiate;
 mod dual;
@@ -36,6 +37,7 @@ mod written_out;
 use proc_macro2::TokenStream;
 
 use decide::Decision;
+use depth::Depth;
 use diagnostics::{Mistake, Report};
 use hygiene::Shared;
 pub use model::Runtime;
@@ -44,6 +46,11 @@ use rules::Rules;
 
 /// The expansion of `#[rayleigh_system(attribute)] item`.
 pub fn rayleigh_system(runtime: Runtime, attribute: TokenStream, item: TokenStream) -> TokenStream {
+    on_own_stack(attribute, item, |attribute, item| expanded(runtime, attribute, item))
+}
+
+/// [`rayleigh_system`] where there is room for it.
+fn expanded(runtime: Runtime, attribute: TokenStream, item: TokenStream) -> TokenStream {
     let mut report = Report::default();
     let item = contexts::apart(groups::in_parentheses(item));
     let names = Shared::of(&item);
@@ -54,6 +61,22 @@ pub fn rayleigh_system(runtime: Runtime, attribute: TokenStream, item: TokenStre
         Some(path) => renamed::runtime(expansion, &path),
         None => expansion,
     }
+}
+
+/// Runs the stages where there is room for expressions as deep as those of the item.
+fn on_own_stack(
+    attribute: TokenStream,
+    item: TokenStream,
+    stages: impl FnOnce(TokenStream, TokenStream) -> TokenStream,
+) -> TokenStream {
+    let depths = [Depth::of(&attribute), Depth::of(&item)];
+    if let Some(beyond) = depths.iter().find_map(Depth::beyond) {
+        let mut report = Report::default();
+        report.at_span(beyond, Mistake::TooDeep { most: depth::MOST_LEVELS });
+        return fallback::item_alone(item, report);
+    }
+    let [attribute_depth, item_depth] = depths;
+    item_depth.and(attribute_depth).on_own_stack(|| stages(attribute, item))
 }
 
 /// The expansion of a system whose options are read.
@@ -79,6 +102,11 @@ fn system(
 
 /// The expansion of `#[differentiable] item`: the same stages, for a function of (q, parameters…).
 pub fn differentiable(runtime: Runtime, attribute: TokenStream, item: TokenStream) -> TokenStream {
+    on_own_stack(attribute, item, |attribute, item| expanded_field(runtime, attribute, item))
+}
+
+/// [`differentiable`] where there is room for it.
+fn expanded_field(runtime: Runtime, attribute: TokenStream, item: TokenStream) -> TokenStream {
     let mut report = Report::default();
     let path = attribute::of_field(attribute, &mut report);
     let item = contexts::apart(groups::in_parentheses(item));

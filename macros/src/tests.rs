@@ -3,6 +3,7 @@
 
 mod cancelling;
 mod corpus;
+mod deep;
 mod factoring;
 mod fusing;
 mod hygiene;

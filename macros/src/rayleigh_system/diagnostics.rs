@@ -98,6 +98,7 @@ pub enum Mistake {
     NotLoweredWithoutStd(String),
     FieldWithoutStd,
     // The item.
+    TooDeep { most: usize },
     WrongItem,
     WrongField,
     FieldOption,
@@ -209,6 +210,7 @@ impl Display for Mistake {
             Self::NotLoweredWithoutStd(reason) => write!(f, "derivatives cannot be written out: {reason}; num-dual would need the feature `std` of dalembert"),
             Self::FieldWithoutStd => f.write_str("`#[differentiable]` takes its derivatives from num-dual, which needs the feature `std` of dalembert; put `#[cfg(feature = …)]` on the function where it is built without"),
 
+            Self::TooDeep { most } => write!(f, "more than {most} operators and brackets stand one within the other up to here; give parts of the expression names with `let`, or compute it in a loop"),
             Self::WrongItem => f.write_str("`#[rayleigh_system]` goes on an `impl` block with `fn lagrangian`, or on one free function of (q, v, parameters…)"),
             Self::WrongField => f.write_str("`#[differentiable]` goes on one free function of (q, parameters…)"),
             Self::FieldOption => f.write_str("`#[differentiable]` has no options but `crate = path`; remove this"),

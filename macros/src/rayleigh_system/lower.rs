@@ -48,6 +48,9 @@ pub const MAX_NODES: usize = super::graph::MOST_OPERATIONS;
 /// Statements and expressions run before a body is given up: an unrolled loop may be long, but not endless.
 const MAX_EVALUATIONS: usize = 400_000;
 
+/// Expressions that are run one within the other, in all bodies that are being run: as many fit the stack.
+const MAX_NESTING: usize = 6_500;
+
 /// L, R and f as expressions.
 pub struct Lowered {
     pub graph: Graph,
@@ -87,6 +90,7 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
         guards: Vec::new(),
         depth: 0,
         evaluations: 0,
+        nesting: 0,
         integers: Classes::default(),
         bindings: BTreeMap::new(),
         heaviest: None,
@@ -213,6 +217,8 @@ struct Lowering<'s> {
     guards: Vec<(Node, bool)>,
     depth: usize,
     evaluations: usize,
+    /// Expressions that are being run, one within the other.
+    nesting: usize,
     integers: Classes,
     bindings: BTreeMap<String, Ident>,
     functions: Vec<Ident>,

@@ -8,7 +8,7 @@ use syn::{Expr, Ident};
 
 use super::super::graph::{MOST_EXPRESSIONS, MOST_OPERATIONS};
 use super::value::Value;
-use super::{Lowering, Refusal, Result};
+use super::{Lowering, MAX_NESTING, Refusal, Result, refuse};
 
 /// The operations that one loop or call writes.
 #[derive(Clone, Debug)]
@@ -78,14 +78,25 @@ fn shown(expression: &Expr) -> Option<&dyn ToTokens> {
 }
 
 impl Lowering<'_> {
+    /// Runs an expression within those that are being run.
+    fn nested(&mut self, expression: &Expr) -> Result<Value> {
+        if self.nesting == MAX_NESTING {
+            return refuse(expression, "calls and expressions are nested too deeply here");
+        }
+        self.nesting += 1;
+        let value = self.evaluated(expression);
+        self.nesting -= 1;
+        value
+    }
+
     /// The value of an expression; the operations of a loop that is in no other are counted.
     pub fn expression(&mut self, expression: &Expr) -> Result<Value> {
         let Some(at) = shown(expression).filter(|_| !self.is_weighed) else {
-            return self.evaluated(expression);
+            return self.nested(expression);
         };
         let before = self.graph.len();
         self.is_weighed = true;
-        let value = self.evaluated(expression);
+        let value = self.nested(expression);
         self.is_weighed = false;
         let operations = self.graph.len() - before;
         if self.heaviest.as_ref().is_none_or(|heaviest| heaviest.operations < operations)
