@@ -23,6 +23,7 @@ mod rounding;
 mod selection;
 mod sequence;
 mod shape;
+mod size;
 mod statement;
 mod value;
 mod written;

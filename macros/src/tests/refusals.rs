@@ -41,6 +41,23 @@ fn what_cannot_be_written_out_is_an_error_that_says_why() {
         (quote!(let mut s = 0.0; for x in q { if x < 0.0 { break; } s += x; } s), "numbers decide to leave"),
         (quote!(println!("{}", q[0]); q[0]), "macros hide"),
         (quote!(q[0].powi(self.n)), "use `powf`"),
+        (quote!(let a = [[[q[0]; 1000]; 1000]; 1000]; a[0][0][0]), "too many for straight-line code"),
+        (
+            quote!(let a: [[[f64; 1000]; 1000]; 1000] = self.a; a[0][0][0] * q[0]),
+            "too many for straight-line code",
+        ),
+        (
+            quote!(let a = [q[0]; 10000]; let b = a.map(|x| [x; 1000]); b[0][0]),
+            "too many for straight-line code",
+        ),
+        (
+            quote!(let a = [q[0]; 10000]; a.windows(5000).map(|w| w[0]).sum::<f64>()),
+            "too many for straight-line code",
+        ),
+        (
+            quote!(let mut a = (q[0], v[0]); let b = (a, a, a, a, a, a, a, a); let c = [b; 1000]; let d = [c, c, c]; d[0][0].0.0),
+            "too many for straight-line code",
+        ),
         (
             quote!(match self.pair {
                 (1, (Some(k), _) | (_, Some(k))) if k > 0.0 => k * q[0],

@@ -170,11 +170,10 @@ impl Lowering<'_> {
         };
         let Some(function) = call.args.first() else { return refuse(call, "called without a function") };
         let function = self.expression(function)?;
-        let mut entries = Vec::new();
-        for index in 0..length {
-            let index = self.integer(call, index as i128, Some(IntegerType::USIZE))?;
-            entries.push(self.apply(call, &function, vec![index])?);
-        }
+        let entries = self.collected(call, length, |this, index| {
+            let index = this.integer(call, index as i128, Some(IntegerType::USIZE))?;
+            this.apply(call, &function, vec![index])
+        })?;
         Ok(Value::Sequence(entries))
     }
 

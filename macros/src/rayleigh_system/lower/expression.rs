@@ -52,18 +52,17 @@ impl Lowering<'_> {
                 let entries: Vec<Value> =
                     array.elems.iter().map(|entry| self.expression(entry)).collect::<Result<_>>()?;
                 entries.windows(2).try_for_each(|pair| self.unify_values(&pair[0], &pair[1]))?;
-                Ok(Value::Sequence(entries))
+                self.of_bounded_size(array, Value::Sequence(entries))
             }
             Expr::Repeat(repeat) => {
                 let (value, length) = (self.expression(&repeat.expr)?, self.length(&repeat.len)?);
-                Ok(Value::Sequence(vec![value; length]))
+                self.repeated(&repeat.len, value, length).map(Value::Sequence)
             }
-            Expr::Tuple(tuple) => tuple
-                .elems
-                .iter()
-                .map(|entry| self.expression(entry))
-                .collect::<Result<_>>()
-                .map(Value::Tuple),
+            Expr::Tuple(tuple) => {
+                let entries =
+                    tuple.elems.iter().map(|entry| self.expression(entry)).collect::<Result<_>>()?;
+                self.of_bounded_size(tuple, Value::Tuple(entries))
+            }
             Expr::Range(range) => self.range(range),
             Expr::Cast(cast) => self.cast(cast),
             Expr::Call(call) => self.path_call(call, None),

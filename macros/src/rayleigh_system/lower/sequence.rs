@@ -33,10 +33,9 @@ impl Lowering<'_> {
                 return self.integer(method, entries.len() as i128, Some(IntegerType::USIZE));
             }
             ("map" | "flat_map", [function]) => {
-                let mut mapped = Vec::new();
-                for entry in entries {
-                    mapped.push(self.apply(method, function, vec![entry])?);
-                }
+                let mapped = self.collected(method, entries.len(), |this, index| {
+                    this.apply(method, function, vec![entries[index].clone()])
+                })?;
                 if name == "map" { mapped } else { flattened(method, mapped)? }
             }
             ("flatten", []) => flattened(method, entries)?,
@@ -72,10 +71,13 @@ impl Lowering<'_> {
             ("step_by", &[Value::Integer(step)]) if step.value > 0 => {
                 entries.into_iter().step_by(self.size(method, step)?).collect()
             }
-            ("windows", &[Value::Integer(width)]) if width.value > 0 => entries
-                .windows(self.size(method, width)?)
-                .map(|window| Value::Sequence(window.to_vec()))
-                .collect(),
+            ("windows", &[Value::Integer(width)]) if width.value > 0 => {
+                let width = self.size(method, width)?;
+                let count = (entries.len() + 1).saturating_sub(width);
+                self.collected(method, count, |_, start| {
+                    Ok(Value::Sequence(entries[start..start + width].to_vec()))
+                })?
+            }
             ("chunks", &[Value::Integer(width)]) if width.value > 0 => entries
                 .chunks(self.size(method, width)?)
                 .map(|chunk| Value::Sequence(chunk.to_vec()))
@@ -120,7 +122,7 @@ impl Lowering<'_> {
                 );
             }
         };
-        Ok(Value::Sequence(entries))
+        self.of_bounded_size(method, Value::Sequence(entries))
     }
 
     /// Whether the closure holds for any or for all; closures change nothing, so that the order of asking

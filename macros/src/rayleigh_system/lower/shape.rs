@@ -51,6 +51,7 @@ impl Lowering<'_> {
                 format!("this system is written in `{}`; write the type out, an alias hides it", self.scalar),
             ),
             (Value::Written(array), Type::Array(ty)) => {
+                self.entries_of(&Type::Array(ty.clone()))?;
                 let length = self.length(&ty.len)?;
                 let entries = (0..length).map(|index| Value::Written(array.entry(index)));
                 entries.map(|entry| self.shaped(entry, &ty.elem)).collect::<Result<_>>().map(Value::Sequence)
