@@ -455,7 +455,7 @@ fn steps_of_every_size_by_gauss_and_by_composition() {
 fn odd_values_by_the_other_rules() {
     const ODD: [f64; 11] =
         [0.0, -0.0, 5e-324, -1e-310, 1e-200, 1.0, 1e150, -1e200, f64::MAX, f64::NEG_INFINITY, f64::NAN];
-    fn all<R: Copy>(_: R) -> [u32; 2]
+    fn all<R: Copy>(rule: R) -> [u32; 2]
     where
         Oscillator: Discrete<R, 1, Scalar = f64>,
     {
@@ -468,7 +468,7 @@ fn odd_values_by_the_other_rules() {
                     for p in ODD {
                         for h in ODD {
                             let state = State { q: vector![q], p: vector![p] };
-                            match system.by(Midpoint, h).step(&state) {
+                            match system.by(rule, h).step(&state) {
                                 Ok(step) => {
                                     counts[0] += 1;
                                     assert!(q.is_finite() && p.is_finite() && h.is_finite() && h != 0.0);
