@@ -223,18 +223,18 @@ fn assert_order<L, M>(
 #[test]
 fn every_method_takes_account_to_its_order() {
     let mut random = StdRng::seed_from_u64(20);
-    for _ in 0..5 {
+    for _ in 0..if cfg!(debug_assertions) { 3 } else { 5 } {
         let bodies = Bodies::any(&mut random);
         let start = State {
             q: vector![random.random_range(-1.0..1.0), random.random_range(-1.0..1.0)],
             p: vector![random.random_range(-1.0..1.0), random.random_range(-1.0..1.0)],
         };
-        let reference = |model| (bodies.exact(model, &start, TIME), start);
+        let reference = [0, 1, 2].map(|model| (bodies.exact(model, &start, TIME), start));
         let (damped, stirred, pumped) = (Damped(bodies), Stirred(bodies), Pumped(bodies));
         macro_rules! orders {
             ($($system:ident, $model:literal: $($method:expr => $order:literal in $steps:literal),+;)*) => {$($(
                 let name = concat!(stringify!($system), " by ", stringify!($method));
-                assert_order(name, &$system, $method, reference($model), $order, $steps);
+                assert_order(name, &$system, $method, reference[$model], $order, $steps);
             )+)*};
         }
         orders! {

@@ -23,8 +23,8 @@ const DISPLACEMENTS: [f64; 4] = [0.2, 1.0, 2.5, -0.4];
 fn the_pair_is_the_exact_one() {
     let CubicDrag { m, r } = SYSTEM;
     let exact = Exact::new(&SYSTEM);
-    for d in DISPLACEMENTS {
-        for h in [0.1, 0.8] {
+    for (d, hs) in DISPLACEMENTS.into_iter().zip([[0.1, 0.8], [0.8, 0.1], [0.1, 0.8], [0.8, 0.1]]) {
+        for &h in &hs[..if cfg!(debug_assertions) { 1 } else { 2 }] {
             let segment = exact.segment(vector![0.3], vector![0.3 + d], h).unwrap();
             let u = r * d / m;
             let lagrangian = m.powi(3) / (r * r * h) * (u.cosh() - 1.0);

@@ -1,4 +1,4 @@
-//! Derivatives of the exact objects against central differences of order 8 of what they differentiate, on a
+//! Derivatives of the exact objects against central differences of order 6 of what they differentiate, on a
 //! system with q-dependent mass, q-dependent Rayleigh function and general force.
 
 use std::sync::LazyLock;
@@ -40,11 +40,11 @@ fn exact() -> Exact<'static, Arm, 2> {
     Exact::new(&SYSTEM)
 }
 
-const SPACING: f64 = 0.02;
+const SPACING: f64 = 0.01;
 
-/// The segments with a coordinate of their ends moved by 1 to 4 spacings, ahead and back: by coordinate, those of q0
-/// first.
-static MOVED: LazyLock<[[[ExactSegment<2>; 2]; 4]; 4]> = LazyLock::new(|| {
+/// The segments with a coordinate of their ends moved by 1 to 3 spacings, ahead and back: by coordinate,
+/// those of q0 first.
+static MOVED: LazyLock<[[[ExactSegment<2>; 2]; 3]; 4]> = LazyLock::new(|| {
     let at = |index: usize, shift: f64| {
         let (mut q0, mut q1) = (Q0, Q1);
         if index < 2 {
@@ -61,7 +61,7 @@ static MOVED: LazyLock<[[[ExactSegment<2>; 2]; 4]; 4]> = LazyLock::new(|| {
 
 /// ∂g/∂q0 and ∂g/∂q1, columns by coordinate.
 fn differences(g: impl Fn(&ExactSegment<2>) -> SVector<f64, 2>) -> (SMatrix<f64, 2, 2>, SMatrix<f64, 2, 2>) {
-    let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
+    let weights = [3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0];
     let column = |index: usize| {
         let sides = MOVED[index].iter().zip(weights);
         sides.fold(SVector::<f64, 2>::zeros(), |sum, ([ahead, back], weight)| {

@@ -44,7 +44,7 @@ fn rate(y: Vector4<f64>) -> Vector4<f64> {
 
 /// The classical Runge–Kutta method with small steps: about 1e-14 here.
 fn advance(mut y: Vector4<f64>, h: f64) -> Vector4<f64> {
-    let steps = 4000;
+    let steps = 1000;
     let step = h / f64::from(steps);
     for _ in 0..steps {
         let k1 = rate(y);

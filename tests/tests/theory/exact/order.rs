@@ -46,7 +46,7 @@ const PUSHED: Pushed = Pushed { r: 0.4 };
 
 /// From coarse to far down the round-off plateau.
 fn step_sizes() -> Vec<f64> {
-    (2..20).map(|k| 0.5_f64.powi(k)).collect()
+    (2..20).map(|k| 0.5_f64.powi(k)).step_by(if cfg!(debug_assertions) { 2 } else { 1 }).collect()
 }
 
 fn assert_slope(convergence: &Convergence, expected: f64, what: &str) {

@@ -36,7 +36,7 @@ fn force_plus(s: f64) -> (SVector<f64, 2>, SMatrix<f64, 2, 2>) {
 #[test]
 fn units_of_the_coordinates_do_not_matter() {
     let (force, jacobian) = force_plus(1.0);
-    for s in [1e2, 1e4, 1e6] {
+    for &s in if cfg!(debug_assertions) { &[1e6][..] } else { &[1e2, 1e4, 1e6] } {
         let (scaled_force, scaled_jacobian) = force_plus(s);
         for i in 0..2 {
             assert!((scaled_force[i] / force[i] - 1.0).abs() < 1e-13, "{s}: {scaled_force} {force}");

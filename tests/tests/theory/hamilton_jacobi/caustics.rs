@@ -174,7 +174,7 @@ fn sign_changes(openings: &[f64]) -> (Vec<f64>, bool) {
 fn random_fans_fold_where_each_of_their_directions_does() {
     let mut draws = Draws::new(1);
     let (mut fans, mut folds, mut doubles) = (0, 0, 0);
-    let all = if cfg!(debug_assertions) { 200 } else { 4000 };
+    let all = if cfg!(debug_assertions) { 80 } else { 4000 };
     for _ in 0..all {
         let h = draws.scale(0.02, 1.5);
         let friction = draws.between(-0.2, 1.0);

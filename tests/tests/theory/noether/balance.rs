@@ -21,6 +21,8 @@ impl Tilted {
     }
 }
 
+const STEPS: usize = if cfg!(debug_assertions) { 3_000 } else { 20_000 };
+
 fn balance<R: Copy>(system: &Tilted, of: &Tilted, rule: R, steps: usize) -> Balance
 where
     Tilted: Discrete<R, 2, Scalar = f64>,
@@ -38,7 +40,7 @@ where
     Tilted: Discrete<R, 2, Scalar = f64>,
 {
     let system = Tilted { k: 0.01, tilt: 0.2 };
-    let account = balance(&system, &system, rule, 20_000);
+    let account = balance(&system, &system, rule, STEPS);
     assert!(account.is_balanced(), "{account}");
     // The bound is sharp enough to mean something, and both causes took part.
     assert!(account.tolerance < 1e-8, "{account}");
@@ -59,7 +61,7 @@ fn the_account_closes_to_rounding() {
 #[test]
 fn without_tilt_and_drag_nothing_is_accumulated() {
     let free = Tilted { k: 0.0, tilt: 0.0 };
-    let account = balance(&free, &free, Midpoint, 20_000);
+    let account = balance(&free, &free, Midpoint, STEPS);
     assert!((account.end - account.start).abs() < 1e-12, "{account}");
     let damped = Tilted { k: 0.01, tilt: 0.0 };
     let account = balance(&damped, &damped, Midpoint, 5_000);
@@ -73,7 +75,7 @@ fn without_tilt_and_drag_nothing_is_accumulated() {
 fn the_account_of_another_system_does_not_close() {
     let system = Tilted { k: 0.01, tilt: 0.2 };
     let other = Tilted { k: 0.01 * (1.0 + 1e-6), tilt: 0.2 };
-    let account = balance(&system, &other, Midpoint, 20_000);
+    let account = balance(&system, &other, Midpoint, STEPS);
     assert!(!account.is_balanced(), "{account}");
     assert!(account.to_string().contains("OUTSIDE"), "{account}");
 }

@@ -189,7 +189,7 @@ fn by_two(draws: &mut Draws, size: f64) -> SVector<f64, 2> {
 #[test]
 fn finite_variations_of_the_action_give_the_discrete_equations() {
     let mut draws = Draws::new(31);
-    for _ in 0..6 {
+    for _ in 0..if cfg!(debug_assertions) { 2 } else { 6 } {
         let curved = Curved::random(&mut draws);
         holds(&curved, Midpoint, &mut draws);
         holds(&curved, Trapezoidal, &mut draws);

@@ -193,7 +193,8 @@ fn closed_sections_conformal_steps_and_proportional_pairs_are_the_same() {
     let mut random = StdRng::seed_from_u64(21);
     let (mut holds, mut fails, mut pairs) = (0, 0, 0);
     let (mut largest_held, mut smallest_missed) = (0.0_f64, f64::INFINITY);
-    for case in 0..60 {
+    let systems = if cfg!(debug_assertions) { 20 } else { 60 };
+    for case in 0..systems {
         let class = CLASSES[case % CLASSES.len()];
         let (pair, a) = class.draw(&mut random);
         for found in all(class, &pair, a, 0.3) {
@@ -225,9 +226,9 @@ fn closed_sections_conformal_steps_and_proportional_pairs_are_the_same() {
             *(if expected { &mut holds } else { &mut fails }) += 1;
         }
     }
-    assert!(holds > 200 && fails > 200, "{holds} {fails}");
+    assert!(3 * holds > 10 * systems && 3 * fails > 10 * systems, "{holds} {fails}");
     println!(
-        "60 systems, 11 methods: all three hold of {holds}, none of {fails}; {pairs} pairs (L_d, R_d); \
+        "{systems} systems, 11 methods: all three hold of {holds}, none of {fails}; {pairs} pairs (L_d, R_d); \
          largest where they hold {largest_held:.1e}, smallest where they fail {smallest_missed:.1e}"
     );
 }
@@ -338,9 +339,9 @@ fn the_splitting_of_order_6_has_tanh_ah_times_l_d() {
         }
         (p, by.step(&State { q: *q0, p }).unwrap().state.p)
     };
-    // ∫ by Boole's rule on 32 cells.
+    // ∫ by Boole's rule.
     let integral = |of: &dyn Fn(f64) -> f64| {
-        let cells = 32;
+        let cells = if cfg!(debug_assertions) { 16 } else { 32 };
         let at = |i: usize| of(i as f64 / (4 * cells) as f64);
         let boole = |i: usize| 7.0 * (at(i) + at(i + 4)) + 32.0 * (at(i + 1) + at(i + 3)) + 12.0 * at(i + 2);
         (0..cells).map(|cell| boole(4 * cell)).sum::<f64>() / (90 * cells) as f64

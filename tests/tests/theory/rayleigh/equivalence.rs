@@ -112,7 +112,7 @@ impl Discrete<Midpoint, 2> for Regauged {
 const H: f64 = 0.1;
 
 fn plane() -> Vec<Segment<f64, 2>> {
-    samples::segments([-1.0; 2], [1.0; 2], [0.3; 2], 40)
+    samples::segments([-1.0; 2], [1.0; 2], [0.3; 2], if cfg!(debug_assertions) { 10 } else { 40 })
 }
 
 #[test]
