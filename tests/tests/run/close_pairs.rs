@@ -129,9 +129,10 @@ const ONCE_MISSED: &[u64] = &[
 
 #[test]
 fn close_pairs_are_found() {
-    let tally = trials((0..1000).chain(ONCE_MISSED.iter().copied()));
+    let (all, pairs) = if cfg!(debug_assertions) { (200, 288) } else { (1000, 1000) };
+    let tally = trials((0..all).chain(ONCE_MISSED.iter().copied()));
     assert_eq!(tally.missed, 0, "{tally:?}");
-    assert!(tally.pairs > 1000, "{tally:?}");
+    assert!(tally.pairs > pairs, "{tally:?}");
     // Positive control: the ends alone see none of them.
     assert!(tally.hidden_from_ends as f64 > 0.9 * tally.pairs as f64, "{tally:?}");
 }

@@ -135,7 +135,7 @@ fn each_step_is_that_of_its_input() {
             if k % 7 == 0 { 10_f64.powf(random.random_range(0.0..9.0)) } else { 0.0 },
         ]
     };
-    for _ in 0..20 {
+    for _ in 0..if cfg!(debug_assertions) { 5 } else { 20 } {
         let h = random.random_range(0.01..0.15);
         let links = Links { c: random.random_range(0.0..1.0), g: random.random_range(0.0..5.0) };
         let brakes = Brakes { k: random.random_range(0.1..10.0) };
@@ -192,7 +192,7 @@ fn with_one_input_it_is_the_run_of_that_system() {
 #[test]
 fn a_step_tells_how_it_follows_state_input_and_parameters() {
     let mut random = StdRng::seed_from_u64(5);
-    for _ in 0..10 {
+    for _ in 0..if cfg!(debug_assertions) { 4 } else { 10 } {
         let links = Links { c: random.random_range(0.0..1.0), g: random.random_range(0.0..5.0) };
         macro_rules! checked {
             ($($method:expr),*) => {$({

@@ -234,8 +234,11 @@ fn chains_that_begin_to_move() {
         state.q.fill(0.0);
         state.p.rows_mut(1, 17).fill(0.0);
     }
-    assert_eq!(agree::<_, _, 18, 2>(Gauss::<4>, &all, 0.2), 5);
-    assert_eq!(agree::<_, _, 18, 3>(Gauss::<2>, &all, 0.1), 5);
+    // Some of both kinds, side by side.
+    let few = &all[if cfg!(debug_assertions) { 2..4 } else { 0..5 }];
+    assert_eq!(agree::<_, _, 18, 2>(Gauss::<4>, few, 0.2), few.len());
+    let few = &all[if cfg!(debug_assertions) { 2..5 } else { 0..5 }];
+    assert_eq!(agree::<_, _, 18, 3>(Gauss::<2>, few, 0.1), few.len());
 }
 
 #[test]
@@ -285,7 +288,8 @@ fn single_precision_too() {
 #[test]
 fn whatever_runs_beside_them() {
     let mut random = StdRng::seed_from_u64(8);
-    let all = members(40, 9, pendulums);
+    let (of, times) = if cfg!(debug_assertions) { (12, 6) } else { (40, 20) };
+    let all = members(of, 9, pendulums);
     let ends: Vec<Option<Vec<u64>>> = all
         .iter()
         .map(|(system, start)| {
@@ -293,8 +297,8 @@ fn whatever_runs_beside_them() {
             end.ok().map(|step| bits(&step.state))
         })
         .collect();
-    for _ in 0..20 {
-        let drawn: [usize; 8] = std::array::from_fn(|_| random.random_range(0..40));
+    for _ in 0..times {
+        let drawn: [usize; 8] = std::array::from_fn(|_| random.random_range(0..of));
         let mut runs = LaneRuns::new(Gauss::<6>, drawn.map(|i| &all[i].0), &drawn.map(|i| all[i].1), 0.25);
         forward(&mut runs, 30);
         for (lane, &i) in drawn.iter().enumerate() {

@@ -296,6 +296,9 @@ where
     runs.advance(steps);
 }
 
+/// Steps of [`agree`] after the third.
+const MORE: u64 = if cfg!(debug_assertions) { 6 } else { 18 };
+
 /// Members in W lanes beside each alone, after 1, 3 and more steps; how many members had an end.
 pub fn agree<L, M, const N: usize, const W: usize>(method: M, members: &[(L, State<f64, N>)], h: f64) -> usize
 where
@@ -310,9 +313,9 @@ where
         let starts: [State<f64, N>; W] = std::array::from_fn(|lane| member(lane).1);
         let mut runs = LaneRuns::new(method, systems, &starts, h);
         let mut at_once = runs;
-        forward(&mut at_once, 21);
+        forward(&mut at_once, 3 + MORE);
         let mut steps = 0;
-        for more in [0, 1, 2, 18] {
+        for more in [0, 1, 2, MORE] {
             forward(&mut runs, more);
             steps += more;
             for lane in 0..W {

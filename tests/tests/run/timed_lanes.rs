@@ -162,7 +162,8 @@ fn explicit_methods_see_the_time_of_each_member() {
 
 #[test]
 fn gauss_rules_see_the_time_of_each_stage() {
-    let systems = many(24, 5, |random| Pumped { k: random.random_range(0.2..2.0), r: damping(random) });
+    let count = if cfg!(debug_assertions) { 12 } else { 24 };
+    let systems = many(count, 5, |random| Pumped { k: random.random_range(0.2..2.0), r: damping(random) });
     let all = views::<_, _, 2>(&systems, 6, |system, t, _| system.at_time(t));
     let ends = [
         agree_in_two(Gauss::<2>, &all, 0.05),
@@ -174,7 +175,7 @@ fn gauss_rules_see_the_time_of_each_stage() {
         agree::<_, _, 2, 8>(Gauss::<7>, &all, 0.2),
         agree::<_, _, 2, 32>(Gauss::<8>, &all, 0.3),
     ];
-    assert!(ends.iter().all(|&ends| ends > 20), "{ends:?}");
+    assert!(ends.iter().all(|&ends| 6 * ends > 5 * count), "{ends:?}");
     let systems = many(19, 7, shaken);
     let all = views::<_, _, 2>(&systems, 8, pushed_by_input);
     assert_eq!(agree_in_two(Gauss::<6>, &all, 0.2), 19);
@@ -258,8 +259,9 @@ fn stiff_members_take_their_steps_alone() {
     let systems: [&PumpedAtTime<'_>; 24] = std::array::from_fn(|lane| &all[lane].0);
     let starts = std::array::from_fn(|lane| all[lane].1);
     let mut runs = LaneRuns::new(Gauss::<3>, systems, &starts, 0.1);
-    forward(&mut runs, 100);
-    assert!((200..1800).contains(&runs.steps_alone()), "{}", runs.steps_alone());
+    let steps = if cfg!(debug_assertions) { 25 } else { 100 };
+    forward(&mut runs, steps);
+    assert!((2 * steps..18 * steps).contains(&runs.steps_alone()), "{}", runs.steps_alone());
 }
 
 #[test]

@@ -70,7 +70,7 @@ where
 {
     let mut random = StdRng::seed_from_u64(31);
     let mut apart = 0.0_f64;
-    for _ in 0..40 {
+    for _ in 0..if cfg!(debug_assertions) { 10 } else { 40 } {
         let system = pushed(&mut random);
         let t = random.random_range(-5.0..5.0);
         let mut any = || random.random_range(-1.0..1.0);
