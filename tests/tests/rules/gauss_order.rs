@@ -44,6 +44,7 @@ where
     let Motion { start, exact, unit } = motion;
     let mut convergence = Convergence::default();
     let mut steps = (*unit as u32).max(2);
+    let most = if cfg!(debug_assertions) { (16.0 * unit).max(200.0) as u32 } else { 2000 };
     loop {
         let h = unit * TIMES[0] / f64::from(steps);
         let system = system(h);
@@ -53,7 +54,7 @@ where
             sum + (state.q - exact.q).norm_squared() + (state.p - exact.p).norm_squared()
         });
         convergence.push(h, error.sqrt());
-        if error.sqrt() < PLATEAU || steps > if cfg!(debug_assertions) { 500 } else { 2000 } {
+        if error.sqrt() < PLATEAU || steps > most {
             return convergence.order(PLATEAU);
         }
         // The high orders show on few steps, just above the plateau.

@@ -25,7 +25,7 @@ fn the_double_pendulum_at_high_energy_keeps_it() {
     let system = TwoPendulums { r: 0.0 };
     let start = system.high_energy();
     assert!((start.energy(&system).unwrap() - 7.0).abs() < 1e-14);
-    let steps = if cfg!(debug_assertions) { 5_000 } else { 100_000 };
+    let steps = if cfg!(debug_assertions) { 2_000 } else { 100_000 };
     for h in [0.02, 0.01] {
         for [first, second] in
             [halves(&system, Midpoint, h, start, steps), halves(&system, Trapezoidal, h, start, steps)]
@@ -51,7 +51,7 @@ fn the_double_pendulum_at_high_energy_keeps_it() {
 #[test]
 fn henon_heiles_at_the_energy_of_escape() {
     let system = HenonHeiles { r: 0.0 };
-    let steps = if cfg!(debug_assertions) { 20_000 } else { 200_000 };
+    let steps = if cfg!(debug_assertions) { 8_000 } else { 200_000 };
     let energy = 1.0 / 6.0 - 4e-4;
     let start = HenonHeiles::start(energy, -0.1, 0.1);
     assert!((HenonHeiles::energy_of(&start) - energy).abs() < 1e-15);

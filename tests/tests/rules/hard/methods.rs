@@ -124,7 +124,7 @@ fn orbits_that_almost_collide_with_and_without_drag() {
             let counts: &[u64] = if is_left_out { &[1_000] } else { &[1_000, resolved] };
             for &steps in counts {
                 let (system, start, h) = (Kepler { k }, Kepler::aphelion(e), TAU / steps as f64);
-                let taken = if cfg!(debug_assertions) && steps > 1_000 { steps } else { 3 * steps };
+                let taken = if cfg!(debug_assertions) { steps } else { 3 * steps };
                 let error = |at: &Progress<2>| {
                     let exact = Kepler::angular_momentum(&start) * (-k * at.time).exp();
                     (Kepler::angular_momentum(&at.state) / exact - 1.0).abs()
@@ -167,7 +167,7 @@ fn chaotic_motions() {
         &system,
         0.02,
         system.high_energy(),
-        if cfg!(debug_assertions) { 1_000 } else { 10_000 },
+        if cfg!(debug_assertions) { 400 } else { 10_000 },
         energy,
     );
     assert_below("double pendulum", &runs, [0.1, 0.15, 1e-5, 1e-4]);
@@ -175,7 +175,7 @@ fn chaotic_motions() {
     // solver.
     let start = HenonHeiles::start(1.0 / 6.0, -0.1, 0.1);
     let energy = |at: &Progress<2>| (HenonHeiles::energy_of(&at.state) - 1.0 / 6.0).abs();
-    let steps = if cfg!(debug_assertions) { 6_000 } else { 20_000 };
+    let steps = if cfg!(debug_assertions) { 2_500 } else { 20_000 };
     let runs = by_each(&HenonHeiles { r: 0.0 }, 0.05, start, steps, energy);
     assert_below("Hénon–Heiles", &runs, [1e-4, 5e-4, 1e-12, 1e-11]);
     let runs = by_splittings(&HenonHeiles { r: 0.0 }, 0.05, start, steps, energy);
@@ -192,7 +192,7 @@ fn stiff_springs_by_gauss() {
         let start = system.at_angle(1.0);
         let energy = |at: &Progress<2>| (system.energy_of(&at.state) - system.energy_of(&start)).abs();
         let run =
-            by(&system, Gauss::<3>, 1e-3, start, if cfg!(debug_assertions) { 600 } else { 3_000 }, &energy);
+            by(&system, Gauss::<3>, 1e-3, start, if cfg!(debug_assertions) { 250 } else { 3_000 }, &energy);
         let bound = 1e-12 + 1e-10 * ratio / 1e4 + 1e-18 * system.k;
         assert!(run.stopped.is_none() && run.largest < bound.max(1e-15 * system.k), "{ratio:e}: {run:?}");
     }
@@ -202,7 +202,7 @@ fn stiff_springs_by_gauss() {
         let start = system.at_angle(1.0);
         let energy = |at: &Progress<2>| (system.energy_of(&at.state) - system.energy_of(&start)).abs();
         let [midpoint, trapezoidal, gauss, order_6] =
-            by_each(&system, 0.01, start, if cfg!(debug_assertions) { 500 } else { 2_000 }, energy);
+            by_each(&system, 0.01, start, if cfg!(debug_assertions) { 200 } else { 2_000 }, energy);
         assert_below("spring pendulum", &[midpoint, gauss, order_6], [2e-2, 1e-9, 0.1]);
         // The explicit one asks for h below the spring's period, and says so.
         assert!(trapezoidal.stopped.is_none() == (ratio == 1e2), "{trapezoidal:?}");
@@ -216,7 +216,7 @@ fn fermi_by_each() {
     let start = system.start();
     let energy =
         |at: &Progress<6>| (at.state.energy(&system).unwrap() - start.energy(&system).unwrap()).abs();
-    let steps = if cfg!(debug_assertions) { 1_000 } else { 5_000 };
+    let steps = if cfg!(debug_assertions) { 400 } else { 5_000 };
     let runs = by_each(&system, 0.01, start, steps, energy);
     assert_below("Fermi, energy", &runs, [5e-4, 0.1, 1e-8, 1e-7]);
     assert_below("Fermi, splittings", &by_splittings(&system, 0.01, start, steps, energy), [1e-4, 1e-5]);
@@ -228,12 +228,13 @@ fn fermi_by_each() {
 /// The lowest point of stick and slip, −μ/k − u = −1.1.
 #[test]
 fn dry_friction() {
+    let steps = if cfg!(debug_assertions) { 1_300 } else { 1_600 };
     for epsilon in [1e-2, 1e-4, 1e-6] {
         let system = Block { k: 1.0, mu: 1.0, u: 0.1, epsilon };
         let start = State { q: vector![0.0], p: vector![-0.1] };
         let lowest = |at: &Progress<1>| -at.state.q[0];
-        let [midpoint, trapezoidal, gauss, order_6] = by_each(&system, 1e-2, start, 1_600, lowest);
-        let one_sided = by(&system, OneSided, 1e-2, start, 1_600, &lowest);
+        let [midpoint, trapezoidal, gauss, order_6] = by_each(&system, 1e-2, start, steps, lowest);
+        let one_sided = by(&system, OneSided, 1e-2, start, steps, &lowest);
         for run in [midpoint, trapezoidal, gauss, one_sided] {
             let expected = 1.1 - 3.0 * epsilon;
             assert!(
@@ -294,9 +295,9 @@ fn folds_and_damping_of_the_wrong_sign() {
     }
 
     // Damping of both signs, depending on q: the cycle's amplitude.
-    for (mu, h, steps) in
-        [(1.0, 0.02, 3_000), (50.0, 0.005, if cfg!(debug_assertions) { 20_000 } else { 40_000 })]
-    {
+    // Half a cycle at least.
+    let [few, many] = if cfg!(debug_assertions) { [1_000, 10_000] } else { [3_000, 40_000] };
+    for (mu, h, steps) in [(1.0, 0.02, few), (50.0, 0.005, many)] {
         let start = State { q: vector![2.0], p: vector![0.0] };
         let runs = by_each(&VanDerPol { mu }, h, start, steps, |at| at.state.q[0].abs());
         for run in &runs {
@@ -328,13 +329,14 @@ fn stiff_damping() {
 
 #[test]
 fn gyroscopic_terms_keep_the_speed() {
+    let steps = if cfg!(debug_assertions) { 400 } else { 1_000 };
     for b in [1.0, 1e3, 1e6] {
         let system = UniformField { b, r: 0.0 };
         let error = |at: &Progress<2>| {
             let [x, y] = system.velocity_of(&at.state);
             (x.hypot(y) - 1.0).abs()
         };
-        assert_below("field", &by_each(&system, 0.1, UniformField::start(), 1_000, error), [1e-11; 4]);
+        assert_below("field", &by_each(&system, 0.1, UniformField::start(), steps, error), [1e-11; 4]);
     }
 }
 
@@ -348,11 +350,12 @@ fn masses_up_to_their_singularity() {
             &system,
             TAU / omega / 2_000.0,
             system.start(a),
-            if cfg!(debug_assertions) { 1_000 } else { 4_000 },
+            if cfg!(debug_assertions) { 500 } else { 4_000 },
             error,
         );
         assert_below("Mathews–Lakshmanan", &runs, [1e-4, 5e-3, 1e-10, 1e-9]);
     }
+    let steps = if cfg!(debug_assertions) { 1_000 } else { 5_000 };
     for m in [1e-2, 1e-4, 1e-6] {
         let system = Arm { m, r: 0.0 };
         let start = State::from_velocity(&system, [0.3, 0.31], [0.2, 0.25]).unwrap();
@@ -360,7 +363,7 @@ fn masses_up_to_their_singularity() {
             |at: &Progress<2>| (at.state.energy(&system).unwrap() - start.energy(&system).unwrap()).abs();
         assert_below(
             "arm",
-            &by_each(&system, 0.02 * m.sqrt(), start, 5_000, energy),
+            &by_each(&system, 0.02 * m.sqrt(), start, steps, energy),
             [1e-5, 1e-5, 1e-9, 1e-9],
         );
     }
@@ -378,7 +381,7 @@ fn units() {
     let (q, p) = ([1.1, -0.6, 0.4], [0.3, 1.2, -0.5]);
     let a = plain.by(Gauss::<3>, 0.05).run(plain.state(q, p));
     let b = scaled.by(Gauss::<3>, 0.05).run(scaled.state(q, p));
-    for (a, b) in a.zip(b).take(1_000) {
+    for (a, b) in a.zip(b).take(if cfg!(debug_assertions) { 400 } else { 1_000 }) {
         let (a, b) = (a.unwrap(), b.unwrap());
         assert!((scaled.plain(&b.state).q - a.state.q).amax() < 1e-13);
     }
@@ -400,7 +403,7 @@ fn units() {
         let start = |unit: f64| State { q: vector![0.4], p: vector![-0.2 * unit] };
         let a = a.by(rule, 0.1).run(start(1.0));
         let b = b.by(rule, 0.1 * time).run(start(momentum));
-        for (a, b) in a.zip(b).take(500) {
+        for (a, b) in a.zip(b).take(if cfg!(debug_assertions) { 200 } else { 500 }) {
             let (a, b) = (a.unwrap(), b.unwrap());
             // Powers of 2 round nothing.
             assert!((a.state.q - b.state.q).amax() < 1e-15 && a.report.iterations == b.report.iterations);
@@ -439,11 +442,11 @@ fn time_reverses() {
 /// From h = ±1e-12 to ±1e12: a step, or a named error that says what is wrong with it.
 #[test]
 fn steps_of_every_size_by_gauss_and_by_composition() {
-    let system = TwoPendulums { r: 0.01 };
+    let (system, steps) = (TwoPendulums { r: 0.01 }, if cfg!(debug_assertions) { 8 } else { 20 });
     for exponent in -12..=12 {
         for sign in [1.0, -1.0] {
             let h = sign * 10.0_f64.powi(exponent);
-            let runs = by_each(&system, h, system.high_energy(), 20, |_| 0.0);
+            let runs = by_each(&system, h, system.high_energy(), steps, |_| 0.0);
             assert_named("sizes", &runs);
             assert!(exponent >= -1 || runs.iter().all(|run| run.stopped.is_none()), "{h:e}: {runs:?}");
         }
@@ -455,6 +458,8 @@ fn steps_of_every_size_by_gauss_and_by_composition() {
 fn odd_values_by_the_other_rules() {
     const ODD: [f64; 11] =
         [0.0, -0.0, 5e-324, -1e-310, 1e-200, 1.0, 1e150, -1e200, f64::MAX, f64::NEG_INFINITY, f64::NAN];
+    /// Of the combinations of q, p and h, without optimisation a fifth: of any two of them all.
+    const EVERY: usize = if cfg!(debug_assertions) { 5 } else { 1 };
     fn all<R: Copy>(rule: R) -> [u32; 2]
     where
         Oscillator: Discrete<R, 1, Scalar = f64>,
@@ -464,9 +469,12 @@ fn odd_values_by_the_other_rules() {
             for which in 0..3 {
                 let mut system = Oscillator { m: 1.3, k: 0.7, r: 0.2, f: 0.3 };
                 *[&mut system.m, &mut system.k, &mut system.r][which] = field;
-                for q in ODD {
-                    for p in ODD {
-                        for h in ODD {
+                for (i, q) in ODD.into_iter().enumerate() {
+                    for (j, p) in ODD.into_iter().enumerate() {
+                        for (k, h) in ODD.into_iter().enumerate() {
+                            if (i + j + k) % EVERY != 0 {
+                                continue;
+                            }
                             let state = State { q: vector![q], p: vector![p] };
                             match system.by(rule, h).step(&state) {
                                 Ok(step) => {
@@ -485,6 +493,7 @@ fn odd_values_by_the_other_rules() {
         counts
     }
     for [taken, refused] in [all(Gauss::<3>), all(Fitted), all(FittedTrapezoidal), all(OneSided)] {
-        assert!(taken > 1_000 && refused > 1_000, "{taken} {refused}");
+        let least = 1_000 / EVERY as u32;
+        assert!(taken > least && refused > least, "{taken} {refused}");
     }
 }

@@ -14,7 +14,7 @@ where
     let (q, p) = ([1.1, -0.6, 0.4], [0.3, 1.2, -0.5]);
     let a = plain.by(rule, 0.05).run(plain.state(q, p));
     let b = scaled.by(rule, 0.05).run(scaled.state(q, p));
-    for (a, b) in a.zip(b).take(2_000) {
+    for (a, b) in a.zip(b).take(if cfg!(debug_assertions) { 800 } else { 2_000 }) {
         let (a, b) = (a.unwrap(), b.unwrap());
         // Powers of 2 change no rounding but through the order of elimination, and friction forgets it.
         let b_state = scaled.plain(&b.state);
@@ -96,14 +96,14 @@ fn and_with_friction_while_digits_last() {
 /// trapezoidal rule keeps a bounded energy.
 #[test]
 fn steps_of_every_size() {
-    let system = TwoPendulums { r: 0.01 };
+    let (system, steps) = (TwoPendulums { r: 0.01 }, if cfg!(debug_assertions) { 40 } else { 100 });
     let start = system.high_energy();
     for exponent in -12..=12 {
         for sign in [1.0, -1.0] {
             let h = sign * 10.0_f64.powi(exponent);
             for stopped in [
-                drive(&system, Midpoint, h, start, [100, 1], |_| ()).stopped,
-                drive(&system, Trapezoidal, h, start, [100, 1], |_| ()).stopped,
+                drive(&system, Midpoint, h, start, [steps, 1], |_| ()).stopped,
+                drive(&system, Trapezoidal, h, start, [steps, 1], |_| ()).stopped,
             ] {
                 assert!(exponent >= -1 || stopped.is_none(), "{h:e}: {stopped:?}");
             }
@@ -151,6 +151,10 @@ fn odd_values_in_every_argument() {
     let (mut taken, mut refused) = (0, 0);
     for m in [1.0, 1e-300, 1e300, f64::NAN, f64::INFINITY, 0.0] {
         for a in [1.0, 0.0, 1e300, f64::NAN] {
+            // One of the two odd at a time.
+            if cfg!(debug_assertions) && m != 1.0 && a != 1.0 {
+                continue;
+            }
             let system = Anharmonic { m, a };
             for q in ODD {
                 for p in ODD {

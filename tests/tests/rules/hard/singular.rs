@@ -47,6 +47,7 @@ fn the_singularity_itself_has_a_name() {
 /// The upper mass all but vanishes: det ∂²L/∂v² = m when the arms align, down to the last digits.
 #[test]
 fn an_arm_near_alignment() {
+    let steps = if cfg!(debug_assertions) { 6_000 } else { 20_000 };
     for m in [1e-2, 1e-4, 1e-6] {
         let system = Arm { m, r: 0.0 };
         let start = State::from_velocity(&system, [0.3, 0.31], [0.2, 0.25]).unwrap();
@@ -54,7 +55,7 @@ fn an_arm_near_alignment() {
         // The small mass turns at a rate of 1/√m once the arms bend.
         let h = 0.02 * f64::sqrt(m);
         let mut worst = 0.0_f64;
-        let effort = drive(&system, Midpoint, h, start, [20_000, 1], |at| {
+        let effort = drive(&system, Midpoint, h, start, [steps, 1], |at| {
             worst = worst.max((at.state.energy(&system).unwrap() - energy).abs());
         });
         assert_eq!(effort.stopped, None, "m = {m:e}");
