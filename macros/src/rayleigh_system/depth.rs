@@ -8,10 +8,10 @@ use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 /// Expressions within expressions, at most.
 pub const MOST_LEVELS: usize = 6_000;
 
-/// What a level takes at most, built without optimisation.
+/// The most that a level takes, built without optimisation.
 const BYTES_OF_LEVEL: usize = 48 << 10;
 
-/// What is there for any item: calls within calls among them, whose bodies are run one within the other.
+/// The stack that any item has: calls within calls among them, whose bodies are run one within the other.
 const LEAST_BYTES: usize = 128 << 20;
 
 const PRECEDENCES: usize = 10;
@@ -29,7 +29,7 @@ struct Open {
     levels: usize,
 }
 
-/// What was seen of a statement, or of an entry of a list.
+/// The depth seen of a statement, or of an entry of a list.
 #[derive(Default)]
 struct Statement {
     /// Operators of each precedence since one of a lower.

@@ -201,8 +201,8 @@ impl Graph {
 
     /// Names an expression, unless it has a name or needs none.
     ///
-    /// A name of the user's loses its mark here, before names are told apart: two that differ by the mark alone
-    /// would become one where marks are taken off, in the finished text.
+    /// A name of the user's loses its mark here, before names are told apart: two that differ by the mark
+    /// alone would become one where marks are taken off, in the finished text.
     pub fn give_name(&mut self, node: Node, name: &str) {
         let needs_none = match self.operation(node) {
             Operation::Parameter(index) => self.parameters[index].stays,

@@ -1,5 +1,5 @@
-//! Expressions as deep as generated programs make them: they are followed, or refused at a token, and never end
-//! the compiler.
+//! Expressions as deep as generated programs make them: they are followed, or refused at a token, and never
+//! end the compiler.
 
 use proc_macro2::TokenStream;
 

@@ -8,10 +8,15 @@
 //!
 //! | when | what | where |
 //! |---|---|---|
-//! | [`State::from_velocity`](crate::State::from_velocity) | values | at (q, v), and at a point beside it where no coordinate is special |
-//! | the start of a run: [`Trajectory`](crate::Trajectory), compositions, splittings, [`resume`](crate::Trajectory::resume) | values, and with the standard library slopes | at the state and beside it; slopes near it, and farther away |
-//! | [`State::verify`](crate::State::verify) | values and slopes | as at the start of a run |
-//! | every step, with `debug_assertions` | values | at the points where the rule evaluates the step taken |
+//! | [`State::from_velocity`] | values | at (q, v), and beside it where no coordinate is special |
+//! | the start of a run, or of one that is resumed | values, with `std` slopes | at the state, and beside it |
+//! | [`State::verify`] | values and slopes | at the state, and beside it |
+//! | every step, with `debug_assertions` | values | at the points where the rule evaluates it |
+//!
+//! Slopes are those near the state: at the point itself a body may take a way of its own, as at 0.
+//!
+//! [`State::from_velocity`]: crate::State::from_velocity
+//! [`State::verify`]: crate::State::verify
 //!
 //! A difference is [`StepError::GeneratedDiffers`](crate::StepError::GeneratedDiffers). Systems written by
 //! hand have one value and nothing to compare. On x86 processors without SSE2 no values are compared: their

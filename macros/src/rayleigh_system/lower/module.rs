@@ -1,5 +1,5 @@
-//! Names in small letters that the body does not bind: constants and statics of the module, if anything. Whether
-//! they are, rustc knows.
+//! Names in small letters that the body does not bind: constants and statics of the module, if anything.
+//! Whether they are, rustc knows.
 
 use proc_macro2::Ident;
 use syn::ExprPath;

@@ -93,8 +93,8 @@ pub fn quiet() -> TokenStream {
     }
 }
 
-/// Has rustc agree that what is read of the system, or a constant, has the type that it was taken for, and that
-/// methods of arrays are those of slices: other types have operators of their own, and traits methods.
+/// Has rustc agree that what is read of the system, or a constant, has the type that it was taken for, and
+/// that methods of arrays are those of slices: other types have operators of their own, and traits methods.
 pub fn are_plain(
     system: &System<'_>,
     of_type: [(Ident, Vec<TokenStream>); 2],

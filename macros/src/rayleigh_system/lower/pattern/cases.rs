@@ -29,8 +29,8 @@ impl Lowering<'_> {
         Ok((truth.or(&mut self.graph, otherwise), bound))
     }
 
-    /// What a pattern binds, `a` where the condition holds; a name that one way alone binds is asked for there
-    /// alone.
+    /// The names that a pattern binds, `a` where the condition holds; a name that one way alone binds is
+    /// asked for there alone.
     pub fn either(
         &mut self,
         at: &Pat,
@@ -53,8 +53,8 @@ impl Lowering<'_> {
 }
 
 impl Lowering<'_> {
-    /// The arms; Rust asks a guard for each case of its pattern that matches, so that cases that bind names and
-    /// may overlap are arms of their own.
+    /// The arms; Rust asks a guard for each case of its pattern that matches, so that cases that bind names
+    /// and may overlap are arms of their own.
     pub fn arms<'a>(&self, arms: &'a [Arm]) -> Vec<Case<'a>> {
         let mut all = Vec::new();
         for arm in arms {
