@@ -260,9 +260,13 @@ impl Graph {
         node
     }
 
-    /// The user's tokens that are taken for a type.
-    pub fn taken_for(&self, taken: Taken) -> impl Iterator<Item = &TokenStream> {
-        self.parameters.iter().filter(move |known| known.taken_for == Some(taken)).map(|known| &known.tokens)
+    /// The user's tokens that the expressions take for a type.
+    pub fn taken_for(&self, taken: Taken, roots: impl IntoIterator<Item = Node>) -> Vec<TokenStream> {
+        let parameters = self.reachable(roots).into_iter().filter_map(|node| match self.operation(node) {
+            Operation::Parameter(index) => Some(&self.parameters[index]),
+            _ => None,
+        });
+        parameters.filter(|known| known.taken_for == Some(taken)).map(|known| known.tokens.clone()).collect()
     }
 
     /// Leaves the parameter within the conditions that it stands in.

@@ -94,8 +94,11 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
         heaviest,
     } = lowered;
     let written = graph.len();
+    let components = force.iter().flatten().copied();
+    let roots: Vec<_> =
+        [lagrangian].into_iter().chain(rayleigh).chain(components).chain(time_scale).collect();
     let plain = [(system.scalar.clone(), Taken::Number), (format_ident!("bool"), Taken::Truth)]
-        .map(|(ty, taken)| (ty, graph.taken_for(taken).cloned().collect()));
+        .map(|(ty, taken)| (ty, graph.taken_for(taken, roots.iter().copied())));
     let mut code = Code {
         system,
         graph,
