@@ -31,6 +31,7 @@ mod rules;
 mod scope;
 mod structure;
 mod syntax;
+mod valueless;
 mod write;
 mod written_out;
 
@@ -93,6 +94,9 @@ fn system(
     let Some(system) = check::system(&source, &options, &mut report) else {
         return fallback::with_stubs(&source, &options.rules, &options.lanes, report);
     };
+    if report.is_empty() && valueless::is_owed_in(&source, &system) {
+        return fallback::with_stubs(&source, &options.rules, &options.lanes, report);
+    }
     match decide::engine(&system, runtime, &mut report) {
         Decision::WrittenOut(written) => written_out::system(&system, *written, runtime.is_portable),
         Decision::DualNumbers(twins, why) => dual::system(&system, &twins, why, runtime.is_portable),
@@ -127,6 +131,9 @@ fn field(runtime: Runtime, item: TokenStream, mut report: Report) -> TokenStream
     let Some((system, field)) = check::field(&source, &mut report) else {
         return fallback::with_stubs(&source, &Rules::default(), &Lanes::default(), report);
     };
+    if report.is_empty() && valueless::is_owed_in(&source, &system) {
+        return fallback::with_stubs(&source, &Rules::default(), &Lanes::default(), report);
+    }
     let twins = dual::rewrite::over_duals(&system, &mut report);
     if !runtime.has_std {
         report.at_span(source.name().span(), Mistake::FieldWithoutStd);

@@ -270,7 +270,7 @@ impl Display for Mistake {
             Self::BareSelf => f.write_str("use `self` only as `self.field` or `self.function(…)`"),
             Self::FieldAssignment => f.write_str("L, R and forces are functions: they cannot assign to a field; copy it to a local with `let mut`"),
             Self::FieldBorrowedMutably => f.write_str("L, R and forces are functions: they cannot borrow a field mutably; copy it to a local with `let mut`"),
-            Self::Rounding(method) => write!(f, "`{method}` has no derivative, unless it is of fields and constants alone, as `self.k.{method}(…)`; leave it out, or choose between smooth cases with `if`"),
+            Self::Rounding(method) => write!(f, "`{method}` has no derivative, unless it is of fields and constants alone; leave it out, or choose between smooth cases with `if`"),
             Self::OtherFloat { expected } => write!(f, "this system is written in `{expected}`; a detour through another precision would lose digits and derivatives"),
             Self::FloatPattern => f.write_str("a floating-point number cannot be matched by a pattern here; compare it with `if`"),
             Self::Unsafe => f.write_str("no `unsafe` inside a differentiated body"),
