@@ -7,8 +7,8 @@ use std::process::Command;
 
 use super::members;
 use super::point::{Point, points};
-use super::print;
 use super::syntax::Program;
+use super::{print, renamed};
 
 /// What a program printed at one point.
 #[derive(Clone, Debug, Default)]
@@ -89,7 +89,7 @@ impl Workshop {
             match self.built(&crate_text(programs, &kept, engine))? {
                 Built::Printed(printed) => {
                     read(&printed, programs, &mut outcome)?;
-                    outcome.not_rust = self.not_rust(programs, &outcome.errors)?;
+                    outcome.not_rust = self.not_rust(programs, &outcome.errors, engine)?;
                     return Ok(outcome);
                 }
                 Built::Refused(errors) => outcome.errors.extend(errors),
@@ -103,11 +103,12 @@ impl Workshop {
         &self,
         programs: &[Program],
         refused: &BTreeMap<usize, String>,
+        engine: &str,
     ) -> Result<BTreeSet<usize>, String> {
         let mut found = BTreeSet::new();
         for _ in 0..MOST_BUILDS {
             let kept: Vec<usize> = refused.keys().copied().filter(|index| !found.contains(index)).collect();
-            match self.built(&plain_text(programs, &kept))? {
+            match self.built(&plain_text(programs, &kept, engine))? {
                 Built::Printed(_) => return Ok(found),
                 Built::Refused(errors) => found.extend(errors.into_keys()),
             }
@@ -184,26 +185,36 @@ fn crate_text(programs: &[Program], kept: &[usize], engine: &str) -> CrateText {
 }
 
 /// The programs without the macro.
-fn plain_text(programs: &[Program], kept: &[usize]) -> CrateText {
+fn plain_text(programs: &[Program], kept: &[usize], engine: &str) -> CrateText {
     let mut text = format!("{LINTS}\nfn main() {{}}\n");
     let mut lines = Vec::new();
     for &index in kept {
         lines.push((text.lines().count() + 1, index));
         let program = &programs[index];
-        writeln!(text, "mod p{index} {{\n{}{}\n}}", print::surroundings(program), print::block(program))
-            .expect("a string takes all");
+        let plain = format!("{}{}", print::surroundings(program), print::block(program));
+        writeln!(text, "mod p{index} {{\n{}\n}}", named(plain, program, engine)).expect("a string takes all");
     }
     CrateText { text, lines }
+}
+
+/// The engine of programs under other names.
+pub const RENAMED: &str = "renamed";
+
+/// The text, under other names if the engine says so.
+fn named(text: String, program: &Program, engine: &str) -> String {
+    if engine == RENAMED { renamed::text(&text, program.seed) } else { text }
 }
 
 fn module(program: &Program, index: usize, engine: &str) -> String {
     let n = program.n;
     let scalar = if program.single { "f32" } else { "f64" };
-    let mut text = format!(
-        "mod p{index} {{\n{}#[dalembert::rayleigh_system(derivatives = {engine})]\n{}",
+    let written = if engine == RENAMED { "expanded" } else { engine };
+    let system = format!(
+        "{}#[dalembert::rayleigh_system(derivatives = {written})]\n{}",
         print::surroundings(program),
         print::block(program)
     );
+    let mut text = format!("mod p{index} {{\n{}\n", named(system, program, engine));
     writeln!(text, "pub fn run() {{\nlet s = system();").expect("a string takes all");
     let arrays: Vec<String> =
         points(program).iter().map(|Point { q, v, u, t }| format!("({q:?}, {v:?}, {u:?}, {t:?})")).collect();

@@ -9,9 +9,10 @@
 //! ```
 //!
 //! `compiled` may be followed by an engine: `expanded` unless said, `auto`, `num_dual`, `fused` for sums rounded
-//! with their products, `portable` for the elementary functions of the runtime, or `lanes`, `midpoint_lanes` and
-//! `gauss_lanes`: several members at once, from the seed 1000000 on every other program with fused sums. `show <seed>` prints a program, `shrink <seed>` the smallest part of
-//! it that fails.
+//! with their products, `portable` for the elementary functions of the runtime, `renamed` for programs under the
+//! names of generated code, or `lanes`, `midpoint_lanes` and `gauss_lanes`: several members at once, from the seed
+//! 1000000 on every other program with fused sums. `show <seed>` prints a program, `shrink <seed>` the smallest
+//! part of it that fails.
 
 mod batch;
 mod class;
@@ -29,6 +30,7 @@ mod point;
 mod print;
 mod random;
 mod rebuilt;
+mod renamed;
 mod run;
 mod shrink;
 mod syntax;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::batch::Workshop;
+use super::batch::{RENAMED, Workshop};
 use super::rayleigh_system::Runtime;
 use super::syntax::Program;
 use super::tally::Tally;
@@ -119,7 +119,8 @@ pub fn compiled(count: u64, seed: u64, engine: &str) -> Result<usize, String> {
                 tally.take(&program, &Trial::Discarded);
                 continue;
             };
-            match trial::reaction(&program, written, runtime) {
+            let by = if written == RENAMED { "expanded" } else { written };
+            match trial::reaction(&program, by, runtime) {
                 Some(end) => {
                     if let Trial::Failed(words) = &end {
                         println!("seed {}: {words}", program.seed);
@@ -146,6 +147,10 @@ pub fn compiled(count: u64, seed: u64, engine: &str) -> Result<usize, String> {
         for (index, program) in programs.iter().enumerate() {
             let trial = match outcome.errors.get(&index) {
                 Some(_) if outcome.not_rust.contains(&index) => Trial::Discarded,
+                // Names in both kinds of letters are types to the macro.
+                Some(error) if engine == RENAMED && error.contains("cannot be written out") => {
+                    Trial::Refused(error.clone())
+                }
                 Some(error) => trial::told_by_rustc(error),
                 None if members::Way::named(engine).is_some() => {
                     members::judged(program, outcome.computed.get(&(index, 0)))

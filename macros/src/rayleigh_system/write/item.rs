@@ -114,8 +114,9 @@ pub fn are_plain(
     if !of_arrays.is_empty() {
         let count = Literal::usize_unsuffixed(of_arrays.len());
         let calls = of_arrays.iter().map(|(method, length)| {
-            let (length, zero) = (Literal::usize_unsuffixed(*length), Literal::f64_unsuffixed(0.0));
-            quote!(([#zero; #length] as [#scalar; #length]).#method())
+            let length = Literal::usize_unsuffixed(*length);
+            let zero = if scalar == "f32" { Literal::f32_suffixed(0.0) } else { Literal::f64_suffixed(0.0) };
+            quote!([#zero; #length].#method())
         });
         checks.push(quote! {
             use ::dalembert::generated::SliceMethods as _;

@@ -32,8 +32,8 @@ const _: () = {
             let _: [&dyn ::dalembert::generated::Plain<f64>; 1] = [&(self.beta)];
             use ::dalembert::generated::SliceMethods as _;
             let _: [::dalembert::generated::OfSlice; 2] = [
-                ([0.0; 4] as [f64; 4]).iter(),
-                ([0.0; 4] as [f64; 4]).windows(),
+                [0f64; 4].iter(),
+                [0f64; 4].windows(),
             ];
         }
     }

@@ -1,0 +1,154 @@
+//! Programs under other names: every name of the user's a word that generated code has.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use proc_macro2::{Group, Ident, TokenStream, TokenTree};
+use syn::visit::{self, Visit};
+
+use super::random::Random;
+use super::rayleigh_system::hygiene::GENERATED;
+
+/// Locals and arguments of generated code, beside the names that it brings into scope.
+const LOCALS: [&str; 34] = [
+    "q0",
+    "q1",
+    "q2",
+    "h",
+    "half",
+    "p0",
+    "p1",
+    "t1",
+    "t2",
+    "t3",
+    "t4",
+    "sin_q0",
+    "cos_q0",
+    "u",
+    "v0",
+    "self_k",
+    "value",
+    "d1",
+    "d2",
+    "d11",
+    "d12",
+    "d22",
+    "minus",
+    "plus",
+    "matrix",
+    "momenta",
+    "lane",
+    "stages",
+    "angles",
+    "reciprocals",
+    "elapsed",
+    "system",
+    "dl_dt1",
+    "held",
+];
+
+/// The text, its names drawn anew by the seed: those that it declares within itself.
+pub fn text(text: &str, seed: u64) -> String {
+    let (Ok(file), Ok(tokens)) = (syn::parse_file(text), text.parse::<TokenStream>()) else {
+        return text.to_owned();
+    };
+    let mut names = Names::default();
+    names.visit_file(&file);
+    let mut words: Vec<&str> = GENERATED.iter().chain(&LOCALS).copied().collect();
+    let mut random = Random::new(seed ^ 0x6e61_6d65);
+    // Where a body does not name a constant of the module, the macro cannot know of it.
+    names.unseen.retain(|constant| !names.mentioned.contains(constant));
+    let kept: BTreeSet<String> = names.in_short.union(&names.unseen).cloned().collect();
+    let declared = names.declared.difference(&kept);
+    let map: BTreeMap<String, &str> = declared
+        .map_while(|name| {
+            let index = (!words.is_empty()).then(|| random.below(words.len()))?;
+            Some((name.clone(), words.swap_remove(index)))
+        })
+        .collect();
+    renamed(tokens, &map).to_string()
+}
+
+/// The names that a program declares.
+#[derive(Default)]
+struct Names {
+    declared: BTreeSet<String>,
+    /// Names that stand for a field and a local at once.
+    in_short: BTreeSet<String>,
+    /// Constants of the module.
+    unseen: BTreeSet<String>,
+    /// Names in paths.
+    mentioned: BTreeSet<String>,
+}
+
+impl<'ast> Visit<'ast> for Names {
+    fn visit_item_struct(&mut self, item: &'ast syn::ItemStruct) {
+        if item.ident == "System" {
+            self.declared
+                .extend(item.fields.iter().filter_map(|field| field.ident.as_ref()).map(Ident::to_string));
+        }
+    }
+
+    fn visit_impl_item_fn(&mut self, function: &'ast syn::ImplItemFn) {
+        let name = function.sig.ident.to_string();
+        if !["lagrangian", "rayleigh", "force"].contains(&name.as_str()) {
+            self.declared.insert(name);
+        }
+        visit::visit_impl_item_fn(self, function);
+    }
+
+    fn visit_impl_item_const(&mut self, constant: &'ast syn::ImplItemConst) {
+        self.declared.insert(constant.ident.to_string());
+    }
+
+    fn visit_item_const(&mut self, constant: &'ast syn::ItemConst) {
+        self.declared.insert(constant.ident.to_string());
+        self.unseen.insert(constant.ident.to_string());
+    }
+
+    fn visit_expr_path(&mut self, path: &'ast syn::ExprPath) {
+        self.mentioned.extend(path.path.get_ident().map(Ident::to_string));
+    }
+
+    fn visit_pat_ident(&mut self, pattern: &'ast syn::PatIdent) {
+        self.declared.insert(pattern.ident.to_string());
+        visit::visit_pat_ident(self, pattern);
+    }
+
+    fn visit_field_pat(&mut self, field: &'ast syn::FieldPat) {
+        if let (None, syn::Member::Named(name)) = (&field.colon_token, &field.member) {
+            self.in_short.insert(name.to_string());
+        }
+        visit::visit_field_pat(self, field);
+    }
+
+    fn visit_field_value(&mut self, field: &'ast syn::FieldValue) {
+        if let (None, syn::Member::Named(name)) = (&field.colon_token, &field.member) {
+            self.in_short.insert(name.to_string());
+        }
+        visit::visit_field_value(self, field);
+    }
+}
+
+fn renamed(tokens: TokenStream, map: &BTreeMap<String, &str>) -> TokenStream {
+    let tokens: Vec<TokenTree> = tokens.into_iter().collect();
+    let is = |at: Option<usize>, mark: char| {
+        at.and_then(|at| tokens.get(at)).is_some_and(|token| token.to_string() == mark.to_string())
+    };
+    let renamed = tokens.iter().enumerate().map(|(index, token)| match token {
+        TokenTree::Ident(name) => {
+            // `.count()` is a method; `self.count` is a field, and `self.helper(x)` a function of the block.
+            let is_method = is(index.checked_sub(1), '.')
+                && matches!(tokens.get(index + 1), Some(TokenTree::Group(group)) if group.delimiter() == proc_macro2::Delimiter::Parenthesis)
+                && !tokens.get(index.wrapping_sub(2)).is_some_and(|owner| owner.to_string() == "self");
+            match map.get(&name.to_string()) {
+                Some(word) if !is_method => TokenTree::Ident(Ident::new(word, name.span())),
+                _ => token.clone(),
+            }
+        }
+        TokenTree::Group(group) => {
+            TokenTree::Group(Group::new(group.delimiter(), renamed(group.stream(), map)))
+        }
+        other => other.clone(),
+    });
+    renamed.collect()
+}
