@@ -203,8 +203,8 @@ mod attributes {
 /// - Fields that are `f64`, integers, `bool`, arrays or tuples of them, `Option`s, and enums and structs
 ///   of your own; constants of the standard library, the module and the block; functions of the block.
 /// - `let`, `let … else`, `mut` locals, arrays, tuples, references, closures that change nothing
-///   outside, loops and iterators, labels, `if`, `if let`, `match` with guards, `matches!`, early
-///   return.
+///   outside, loops and iterators, `for x in a.iter_mut()`, `swap`, labels and blocks that `break` ends,
+///   `if`, `if let`, `match` with guards, patterns with `|`, `matches!`, early return.
 /// - `is_some`, `is_none`, `unwrap_or`, `map_or`, `is_some_and` and their like of an `Option`. What a
 ///   pattern matches, rustc decides: the pattern is written out, and each arm is differentiated for
 ///   itself.
@@ -264,7 +264,14 @@ mod attributes {
 ///
 /// Where a derivative does not exist, it is what the table of [`Real`](generated::dual::Real) says.
 ///
-/// Loops whose turns depend on numbers or fields are left to dual numbers, which take no enum.
+/// `auto` leaves to dual numbers, which take no enum, and `expanded` refuses:
+///
+/// - loops whose turns depend on numbers or fields, `break` and `continue` among them;
+/// - closures, and blocks with a label that numbers decide to leave, which change a local outside;
+/// - `&mut` but for `for x in &mut a` and `std::mem::swap`, and `iter_mut` but with `enumerate` and `zip`;
+/// - `sort_by`, `partial_cmp`, `total_cmp`, `min_by`, `max_by`, `find`, `position`, `last`, `nth`, `scan`,
+///   `take_while`, and `reduce` without an `unwrap` behind it;
+/// - a `Vec`, and an `Option` made in the body.
 ///
 /// Generated bodies may be as deep as 6 000 operators and brackets one within the other: a sum of 5 000 terms.
 /// Deeper ones are refused.

@@ -12,9 +12,11 @@ mod conversion;
 mod expression;
 mod field;
 mod integer;
+mod labelled;
 mod load;
 mod method;
 mod module;
+mod mutable;
 mod operator;
 mod pattern;
 mod place;
@@ -88,6 +90,7 @@ fn on_graph(system: &System<'_>, graph: Graph) -> Result<Lowered> {
         captured: 0,
         returned: Returned::Never,
         leaving: None,
+        labels: Vec::new(),
         guards: Vec::new(),
         depth: 0,
         evaluations: 0,
@@ -214,6 +217,8 @@ struct Lowering<'s> {
     captured: usize,
     returned: Returned,
     leaving: Option<Leaving>,
+    /// Blocks that are run as bodies, innermost last.
+    labels: Vec<String>,
     /// Conditions, and which way they were decided, under which the code being run is reached.
     guards: Vec<(Node, bool)>,
     depth: usize,

@@ -41,6 +41,11 @@ fn what_cannot_be_written_out_is_an_error_that_says_why() {
         (quote!(let mut s = 0.0; for x in q { if x < 0.0 { break; } s += x; } s), "numbers decide to leave"),
         (quote!(println!("{}", q[0]); q[0]), "macros hide"),
         (quote!(q[0].powi(self.n)), "use `powf`"),
+        (
+            quote!(let mut x = q[0]; 'a: { x = v[0]; if x > 0.0 { break 'a; } x = 1.0; } x),
+            "a block with a label",
+        ),
+        (quote!(let mut a = q; for x in a.iter_mut().rev() { *x *= 2.0; } a[0]), "the method `iter_mut`"),
         (quote!(let a = [[[q[0]; 1000]; 1000]; 1000]; a[0][0][0]), "too many for straight-line code"),
         (
             quote!(let a: [[[f64; 1000]; 1000]; 1000] = self.a; a[0][0][0] * q[0]),
@@ -98,16 +103,19 @@ fn what_can_be_written_out_does_without_dual_numbers() {
         quote!(q.windows(2).map(|w| (w[1] - w[0]).powi(2)).sum::<f64>() * self.k),
         quote!(if q[0] < 0.0 { return v[0]; } let [a, b] = q; a * b),
         quote!(let m: [f64; 2] = self.m; m.iter().zip(v).map(|(m, v)| 0.5 * m * v * v).sum()),
+        quote!(let mut a = q; a.swap(0, 1); for (i, x) in a.iter_mut().enumerate() { *x *= i as f64; } a[1]),
+        quote!(let y = 'a: { if q[0] > 0.0 { break 'a v[0]; } q[1] }; y + q.into_iter().reduce(f64::max).unwrap()
+        ),
         quote!(let mut a = [[0.0; 2]; 2]; a[1][0] = q[0]; a[1][0] *= 2.0; a[1][0] - a[0][0]),
         quote!(let square = |x: f64| x * x; square(q[0]) + i32::pow as usize as f64 * 0.0),
     ];
-    for body in &cases[..7] {
+    for body in &cases[..9] {
         let expanded = expansion("expanded", body);
         assert!(!expanded.contains("compile_error"), "{body}: {expanded}");
         assert!(!expanded.contains("Real"), "{body} needs dual numbers");
         assert_eq!(expanded, expansion("auto", body));
     }
-    assert!(expansion("expanded", &cases[7]).contains("compile_error"));
+    assert!(expansion("expanded", &cases[9]).contains("compile_error"));
 }
 
 #[test]

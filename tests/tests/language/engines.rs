@@ -405,3 +405,86 @@ fn cases_that_bind_are_those_of_every_engine() {
     }
     check!(cases_auto, cases_expanded, cases_num_dual, cases_single);
 }
+
+/// Places that loops and swaps change, blocks that `break` ends, by each engine.
+macro_rules! places_by_each_engine {
+    ($($name:ident by $engine:ident of $scalar:ident),*) => {$(
+        mod $name {
+            pub struct Places {
+                pub k: [$scalar; 3],
+            }
+
+            #[dalembert::rayleigh_system(derivatives = $engine)]
+            impl Places {
+                fn lagrangian(&self, q: [$scalar; 2], v: [$scalar; 2]) -> $scalar {
+                    let mut x = q;
+                    x.swap(0, 1);
+                    let (mut a, mut b) = (v[0], x[0]);
+                    std::mem::swap(&mut a, &mut b);
+                    // a = q1, b = v0, x = [q1, q0]
+                    for (i, x) in x.iter_mut().enumerate() {
+                        *x *= (i + 1) as $scalar;
+                        if *x > 100.0 {
+                            *x = 0.0;
+                        }
+                    }
+                    let mut table = [[0.0; 2]; 2];
+                    for row in table.iter_mut() {
+                        for (entry, x) in row.iter_mut().zip(x) {
+                            *entry += x * x;
+                        }
+                    }
+                    for entry in &mut table[1] {
+                        *entry *= 0.5;
+                    }
+                    let stiffness = 'found: {
+                        for k in [1.0, 2.0, 3.0] {
+                            if q[0] < k - 1.5 {
+                                break 'found k * q[0];
+                            }
+                        }
+                        7.0
+                    };
+                    let fixed = 'a: {
+                        let mut n = 0;
+                        loop {
+                            n += 1;
+                            if n == 3 {
+                                break 'a n as $scalar;
+                            }
+                        }
+                    };
+                    let k: [$scalar; 3] = self.k;
+                    let product = k.map(|k| k * q[1]).into_iter().reduce(|a, b| a * b).unwrap();
+                    let most = [q[0], q[1]].into_iter().reduce($scalar::max).unwrap_or(0.0);
+                    a * b + table[0][1] + table[1][0] + stiffness * fixed + product + most * v[1]
+                }
+            }
+        }
+    )*};
+}
+places_by_each_engine!(
+    places_auto by auto of f64,
+    places_expanded by expanded of f64,
+    places_num_dual by num_dual of f64,
+    places_single by expanded of f32
+);
+
+#[test]
+fn places_and_blocks_are_those_of_every_engine() {
+    // q0 < 0.5: the second constant is found; q1 < q0.
+    let (q, v) = ([0.25, -0.5], [1.5, 2.0]);
+    // q1 v0 + 4 q0² + q1²/2 + 3·2 q0 + 6 q1³ + q0 v1
+    let value = -0.75 + 4.0 * 0.0625 + 0.125 + 6.0 * 0.25 - 6.0 * 0.125 + 0.5;
+    let by_q = [8.0 * 0.25 + 6.0 + 2.0, 1.5 - 0.5 + 18.0 * 0.25];
+    macro_rules! check {
+        ($($name:ident),*) => {$(
+            let system = $name::Places { k: [1.0, 2.0, 3.0] };
+            let seen = system.lagrangian_derivatives(&SVector::from(q.map(|x| x as _)), &SVector::from(v.map(|x| x as _)));
+            assert_eq!([seen.value, seen.d1[0], seen.d1[1]].map(f64::from), [value, by_q[0], by_q[1]]);
+            assert_eq!([seen.d2[0], seen.d2[1], seen.d11[(1, 1)]].map(f64::from), [-0.5, 0.25, 1.0 + 36.0 * -0.5]);
+        )*};
+    }
+    check!(places_auto, places_expanded, places_num_dual, places_single);
+    assert!(matches!(places_auto::Places::STRUCTURE.engine, dalembert::system::Engine::Expanded));
+}

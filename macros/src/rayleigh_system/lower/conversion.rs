@@ -85,6 +85,7 @@ impl Lowering<'_> {
             let segments: Vec<String> =
                 path.path.segments.iter().map(|segment| segment.ident.to_string()).collect();
             match segments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+                [.., "mem", "swap"] => return self.swap_places(call),
                 [.., "array", "from_fn"] => return self.array_from_fn(call, length),
                 ["f64" | "f32", "from"] if call.args.len() == 1 => {
                     let value = self.expression(&call.args[0])?;

@@ -68,7 +68,10 @@ impl Lowering<'_> {
             Expr::Call(call) => self.path_call(call, None),
             Expr::MethodCall(call) => self.method_call(call),
             Expr::Closure(closure) => Ok(self.closure(closure)),
-            Expr::Block(block) if block.label.is_none() => self.block(&block.block),
+            Expr::Block(block) => match &block.label {
+                None => self.block(&block.block),
+                Some(label) => self.labelled_block(label, &block.block),
+            },
             Expr::If(choice) => self.choice(choice),
             Expr::Match(choice) => self.match_arms(choice),
             Expr::Macro(invocation) => self.matches_macro(&invocation.mac),

@@ -19,6 +19,12 @@ impl Lowering<'_> {
         {
             return self.range_contains(range, value);
         }
+        if let Some(value) = self.swap_entries(call)? {
+            return Ok(value);
+        }
+        if let Some(value) = self.reduced(call)? {
+            return Ok(value);
+        }
         let receiver = self.expression(&call.receiver)?;
         if let Value::Written(written) = &receiver
             && let Some(value) = self.option_method(call, written)?

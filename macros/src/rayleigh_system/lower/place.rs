@@ -1,7 +1,7 @@
 //! Places: locals, entries of their arrays, members of their tuples.
 
 use syn::visit::{self, Visit};
-use syn::{Expr, ExprArray, ExprTuple, Index, Member};
+use syn::{Expr, ExprArray, ExprTuple, Index, Member, UnOp};
 
 use super::value::Value;
 use super::{Lowering, Result, refuse};
@@ -10,6 +10,14 @@ use super::{Lowering, Result, refuse};
 pub struct Place {
     position: usize,
     steps: Vec<usize>,
+}
+
+impl Place {
+    /// An entry of the array in the place.
+    pub fn entry(&self, index: usize) -> Self {
+        let steps = self.steps.iter().copied().chain([index]).collect();
+        Self { position: self.position, steps }
+    }
 }
 
 impl Lowering<'_> {
@@ -45,6 +53,8 @@ impl Lowering<'_> {
                 }
             }
             Expr::Paren(inner) => self.place(&inner.expr),
+            // The local stands for the entry that a loop lends.
+            Expr::Unary(reference) if matches!(reference.op, UnOp::Deref(_)) => self.place(&reference.expr),
             Expr::Group(inner) => self.place(&inner.expr),
             Expr::Index(index) => {
                 let mut place = self.place(&index.expr)?;
@@ -83,7 +93,7 @@ impl Lowering<'_> {
         if place.position < self.captured {
             return refuse(
                 at,
-                "a closure cannot change a local of its surroundings here; use a `for` loop, or `fold`",
+                "a closure or a block with a label cannot change a local of its surroundings here; use a `for` loop, or `fold`",
             );
         }
         let before = self.read(at, place)?;
@@ -120,6 +130,8 @@ impl<'ast> Visit<'ast> for Assignments {
     fn visit_expr(&mut self, expression: &'ast Expr) {
         self.found |= match expression {
             Expr::Assign(_) => true,
+            Expr::Reference(reference) => reference.mutability.is_some(),
+            Expr::MethodCall(call) => call.method == "swap" || call.method == "iter_mut",
             Expr::Binary(binary) => super::super::syntax::is_assignment(&binary.op),
             _ => false,
         };

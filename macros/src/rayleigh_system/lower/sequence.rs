@@ -1,9 +1,10 @@
 //! Methods of arrays and iterators.
 
 use proc_macro2::Ident;
-use syn::{BinOp, ExprBinary, Type, parse_quote};
+use syn::{BinOp, Expr, ExprBinary, ExprMethodCall, Type, parse_quote};
 
 use super::super::graph::Operation;
+use super::super::syntax::is_self;
 use super::integer::IntegerType;
 use super::value::{Truth, Value};
 use super::{Lowering, Node, Result, refuse};
@@ -123,6 +124,32 @@ impl Lowering<'_> {
             }
         };
         self.of_bounded_size(method, Value::Sequence(entries))
+    }
+
+    /// `numbers.reduce(function).unwrap()`, or `unwrap_or(default)`; nothing if it is another method.
+    pub fn reduced(&mut self, call: &ExprMethodCall) -> Result<Option<Value>> {
+        let Expr::MethodCall(inner) = &*call.receiver else { return Ok(None) };
+        let is_reduce = inner.method == "reduce" && !is_self(&inner.receiver);
+        let (Some(function), true) = (inner.args.first(), is_reduce) else { return Ok(None) };
+        let arguments: Vec<&Expr> = call.args.iter().collect();
+        let default = match (call.method.to_string().as_str(), &arguments[..]) {
+            ("unwrap", []) | ("expect", [_]) => None,
+            ("unwrap_or", [default]) => Some(*default),
+            _ => return Ok(None),
+        };
+        let Value::Sequence(entries) = self.expression(&inner.receiver)? else {
+            return refuse(&inner.method, "the length of what is reduced is not known here; give it a type");
+        };
+        let function = self.expression(function)?;
+        let default = default.map(|default| self.expression(default)).transpose()?;
+        let mut entries = entries.into_iter();
+        let Some(mut total) = entries.next().or(default) else {
+            return refuse(&call.method, "nothing is reduced here: this panics");
+        };
+        for entry in entries {
+            total = self.apply(&inner.method, &function, vec![total, entry])?;
+        }
+        Ok(Some(total))
     }
 
     /// Whether the closure holds for any or for all; closures change nothing, so that the order of asking

@@ -4,6 +4,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use syn::{Block, Expr, ExprForLoop, ExprLoop, ExprWhile, Item, Label, Lifetime, Pat, Stmt, Type, UseTree};
 
+use super::mutable::Mutable;
 use super::value::{Truth, Value};
 use super::{Leaving, Lowering, Result, Returned, refuse};
 
@@ -115,6 +116,9 @@ impl Lowering<'_> {
     }
 
     pub fn for_loop(&mut self, each: &ExprForLoop) -> Result<Value> {
+        if let Some(mutable) = Mutable::of(&each.expr, &each.pat) {
+            return self.for_each_place(each, &mutable);
+        }
         let entries = self.expression(&each.expr)?;
         let Value::Sequence(entries) = entries else {
             return refuse(
@@ -169,7 +173,7 @@ impl Lowering<'_> {
     }
 
     /// After a turn of a loop: the loop's value if that was the last one.
-    fn ends(&mut self, label: Option<&Label>) -> Option<Value> {
+    pub fn ends(&mut self, label: Option<&Label>) -> Option<Value> {
         let own = label.map(|label| label.name.to_string());
         match self.leaving.take() {
             Some(leaving) if leaving.label.is_none() || leaving.label == own => {
@@ -193,21 +197,19 @@ impl Lowering<'_> {
                     Some(value) => self.expression(value)?,
                     None => Value::unit(),
                 };
-                self.returned = match std::mem::replace(&mut self.returned, Returned::Never) {
-                    Returned::Never => Returned::Always(value),
-                    // Where an earlier `return` was taken, its value stands.
-                    Returned::Where(condition, earlier) => {
-                        Returned::Always(self.select(expression, condition, earlier, value)?)
-                    }
-                    Returned::Always(earlier) => Returned::Always(earlier),
-                };
+                self.return_with(expression, value)?;
             }
             Expr::Break(departure) => {
                 let value = match &departure.expr {
                     Some(value) => self.expression(value)?,
                     None => Value::unit(),
                 };
-                self.leaving = Some(Leaving { is_break: true, label: label(&departure.label), value });
+                let label = label(&departure.label);
+                if self.ends_body(label.as_ref()) {
+                    self.return_with(expression, value)?;
+                } else {
+                    self.leaving = Some(Leaving { is_break: true, label, value });
+                }
             }
             Expr::Continue(departure) => {
                 let label = label(&departure.label);
@@ -216,5 +218,18 @@ impl Lowering<'_> {
             other => return refuse(other, "this departure cannot be followed at compile time"),
         }
         Ok(Value::unit())
+    }
+
+    /// Ends the body that is run with the value.
+    fn return_with(&mut self, at: &Expr, value: Value) -> Result<()> {
+        self.returned = match std::mem::replace(&mut self.returned, Returned::Never) {
+            Returned::Never => Returned::Always(value),
+            // Where an earlier `return` was taken, its value stands.
+            Returned::Where(condition, earlier) => {
+                Returned::Always(self.select(at, condition, earlier, value)?)
+            }
+            Returned::Always(earlier) => Returned::Always(earlier),
+        };
+        Ok(())
     }
 }
