@@ -24,7 +24,7 @@ pub use crate::run::{
 #[doc(no_inline)]
 pub use crate::step::{
     Discrete, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteInLanes, DiscreteParameters,
-    DiscreteRayleigh, DiscreteSecondOrder, Momenta, MomentaBy, StepKernel,
+    DiscreteRayleigh, DiscreteSecondOrder, Momenta, MomentaBy, StartByInput, StepKernel,
 };
 #[doc(no_inline)]
 pub use crate::system::{

@@ -47,7 +47,7 @@ pub use linearization::{LegendreDerivatives, Linearization, PhaseMatrix, StateBy
 pub(crate) use outcome::EquationAt;
 pub use outcome::{BoundedStep, Report, Step, StepWith};
 pub use parameters::DiscreteParameters;
-pub use second_order::{DiscreteSecondOrder, StepHessian};
+pub use second_order::{DiscreteSecondOrder, StartByInput, StepHessian};
 pub use segment::DiscreteSegment;
 pub(crate) use solve::{or_without_guess, require_step_size, step_by, step_within_by};
 pub(crate) use solved_for_velocity::ClosedForm;

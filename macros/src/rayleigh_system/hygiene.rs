@@ -65,6 +65,7 @@ pub const GENERATED: &[&str] = &[
     "ScalarField",
     "SecondOrder",
     "Stages",
+    "StartByInput",
     "StepKernel",
     "T",
     "Trapezoidal",

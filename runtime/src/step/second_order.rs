@@ -17,7 +17,23 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::Hessian;
 use crate::step::{Discrete, State, StepError, StepWith, invert};
-use crate::system::SecondOrder;
+use crate::system::{Lagrangian, SecondOrder};
+
+/// The change of p0 with the input, by rule `R`: systems without an input have none of it.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not say how p0 changes with its input by `{R}`",
+    label = "∂p0/∂u is missing",
+    note = "write `impl StartByInput<{R}, {N}, {M}> for {Self}`, whose `p0_by_input` is −∂f_d⁻/∂u"
+)]
+pub trait StartByInput<R, const N: usize, const M: usize>: Lagrangian<N> {
+    /// ∂p0/∂u at fixed ends, on the segment from q0 with mean velocity `v`.
+    fn p0_by_input(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> SMatrix<Self::Scalar, N, M>;
+}
 
 /// Second derivatives of both momenta of a segment by rule `R`.
 #[diagnostic::on_unimplemented(
@@ -25,7 +41,9 @@ use crate::system::SecondOrder;
     label = "no second derivatives",
     note = "ask for them in the attribute: `#[rayleigh_system(step_derivatives = second)]`"
 )]
-pub trait DiscreteSecondOrder<R, const N: usize, const M: usize>: Discrete<R, N> + SecondOrder<N, M> {
+pub trait DiscreteSecondOrder<R, const N: usize, const M: usize>:
+    Discrete<R, N> + SecondOrder<N, M> + StartByInput<R, N, M>
+{
     /// Second derivatives by (q0, q1, u) of `at_start`·p0 + `at_end`·p1, on the segment from q0 with mean
     /// velocity `v`.
     fn momenta_along(
@@ -36,19 +54,6 @@ pub trait DiscreteSecondOrder<R, const N: usize, const M: usize>: Discrete<R, N>
         at_start: &SVector<Self::Scalar, N>,
         at_end: &SVector<Self::Scalar, N>,
     ) -> Hessian<Self::Scalar, N, M>;
-
-    /// ∂p0/∂u at fixed ends, on the segment from q0 with mean velocity `v`; rules with interior points have
-    /// no use for it.
-    #[inline]
-    fn p0_by_input(
-        &self,
-        _q0: &SVector<Self::Scalar, N>,
-        _v: &SVector<Self::Scalar, N>,
-        _h: Self::Scalar,
-    ) -> SMatrix<Self::Scalar, N, M> {
-        const { assert!(M == 0, "a system with an input has ∂p0/∂u = −∂f_d⁻/∂u here") };
-        SMatrix::zeros()
-    }
 
     /// Second derivatives of the step on the segment (`q0`, `q1`):
     /// [`Discretised::step_hessian`](crate::Discretised::step_hessian).

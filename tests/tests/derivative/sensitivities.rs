@@ -50,7 +50,9 @@ mod num_dual {
 use dalembert::derivative::{PhaseMatrix, StepHessian};
 use dalembert::nalgebra::{SMatrix, SVector, matrix, vector};
 use dalembert::step::Flow;
-use dalembert::step::{DiscreteDriven, DiscreteParameters, DiscreteRayleigh, DiscreteSecondOrder};
+use dalembert::step::{
+    DiscreteDriven, DiscreteParameters, DiscreteRayleigh, DiscreteSecondOrder, StartByInput,
+};
 use dalembert::system::{Parameters, SecondOrder};
 use dalembert::{
     Discrete, Discretise, Gauss, Lagrangian, Midpoint, Rayleigh, State, Trapezoidal, rayleigh_system,
@@ -159,6 +161,35 @@ where
     for (row, column) in [(0, 0), (0, 2), (2, 2), (0, 4), (2, 4), (4, 4)] {
         assert!(found.fixed_view::<2, 2>(row, column).amax() > 1e-5, "{row} {column} {found}");
     }
+}
+
+fn check_start_by_input<R>(_: R)
+where
+    for<'a> expanded::DrivenCartPole<'a>: Discrete<R, 2, Scalar = f64> + StartByInput<R, 2, 2>,
+{
+    let start = |u: [f64; 2]| Discrete::<R, 2>::legendre_minus(&CART.driven(u, T), &Q0, &Q1, H).p;
+    let found = StartByInput::<R, 2, 2>::p0_by_input(&CART.driven(U, T), &Q0, &((Q1 - Q0) / H), H);
+    let width = 1e-5;
+    for j in 0..2 {
+        let shifted = |by: f64| {
+            let mut u = U;
+            u[j] += by;
+            start(u)
+        };
+        let difference = (shifted(width) - shifted(-width)) / (2.0 * width);
+        assert!((found.column(j) - difference).amax() < 1e-9 * found.amax(), "{j}: {found}{difference}");
+    }
+    // Positive control: both inputs act.
+    assert!(found.column(0).amax() > 1e-2 && found.column(1).amax() > 1e-3, "{found}");
+}
+
+#[test]
+fn p0_follows_the_input_as_differences_at_fixed_ends_say() {
+    check_start_by_input(Midpoint);
+    check_start_by_input(Trapezoidal);
+    check_start_by_input(Gauss::<1>);
+    check_start_by_input(Gauss::<2>);
+    check_start_by_input(Gauss::<4>);
 }
 
 fn assembled(h: &StepHessian<f64, 2, 2>) -> SMatrix<f64, 6, 6> {

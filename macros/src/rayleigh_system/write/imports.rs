@@ -81,6 +81,7 @@ fn of_traits(system: &System<'_>) -> Vec<&'static str> {
     if system.second {
         names.extend(["Hessian", "SecondOrder"]);
         names.extend(of_displacement("DiscreteSecondOrder"));
+        names.extend(of_displacement("StartByInput").filter(|_| system.input.is_some()));
     }
     names.extend(rules.of_displacement.iter().map(|rule| rule.entry().name));
     names

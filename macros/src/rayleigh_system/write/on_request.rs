@@ -77,9 +77,12 @@ pub fn second_order(system: &System<'_>, functions: TokenStream) -> TokenStream 
     let discrete = rules.map(|rule| {
         let p0_by_input = system.input.is_some().then(|| {
             quote! {
-                /// −∂f_d⁻/∂u.
-                fn p0_by_input(&self, q0: &Vector, v: &Vector, h: #scalar) -> SMatrix<#scalar, #n, #m> {
-                    #rule::force_by_input(self, q0, v, h).p0
+                #[automatically_derived]
+                impl StartByInput<#rule, #n, #m> for #subject {
+                    /// −∂f_d⁻/∂u.
+                    fn p0_by_input(&self, q0: &Vector, v: &Vector, h: #scalar) -> SMatrix<#scalar, #n, #m> {
+                        #rule::force_by_input(self, q0, v, h).p0
+                    }
                 }
             }
         });
@@ -97,9 +100,9 @@ pub fn second_order(system: &System<'_>, functions: TokenStream) -> TokenStream 
                 ) -> Hessian<#scalar, #n, #m> {
                     #(#rule::#terms(self, q0, v, h, [at_start, at_end]))+*
                 }
-
-                #p0_by_input
             }
+
+            #p0_by_input
         }
     });
     // What rules with interior points ask for besides.

@@ -46,7 +46,7 @@ const _: () = {
         DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteParameters,
         DiscreteRayleigh, DiscreteSecondOrder, DisplacementRule, Driven, Force, Gradient,
         GradientBy, Hessian, Lagrangian, Midpoint, Momenta, MomentaBy, Parameters,
-        Rayleigh, SecondOrder, StepKernel, Variations,
+        Rayleigh, SecondOrder, StartByInput, StepKernel, Variations,
     };
     type Vector = SVector<f64, 1>;
     impl ::dalembert::generated::PlainFields for Joint {
@@ -398,6 +398,9 @@ const _: () = {
                 + Midpoint::rayleigh_along(self, q0, v, h, [at_start, at_end])
                 + Midpoint::force_along(self, q0, v, h, [at_start, at_end])
         }
+    }
+    #[automatically_derived]
+    impl StartByInput<Midpoint, 1, 1> for DrivenJoint<'_> {
         /// −∂f_d⁻/∂u.
         fn p0_by_input(&self, q0: &Vector, v: &Vector, h: f64) -> SMatrix<f64, 1, 1> {
             Midpoint::force_by_input(self, q0, v, h).p0

@@ -21,7 +21,7 @@ use super::segment::Segment;
 use super::tangent::{ByState, Source, Tangent};
 use super::{Gauss, nan, solved_segment};
 use crate::numbers::{Hessian, Scalar};
-use crate::step::{DiscreteSecondOrder, State, Step, StepError, StepHessian};
+use crate::step::{DiscreteSecondOrder, StartByInput, State, Step, StepError, StepHessian};
 use crate::system::{ForcedLagrangian, SecondOrder};
 
 /// ∂²[μ_i·∂L/∂v + γ_i·G] at each stage.
@@ -118,6 +118,19 @@ fn pulled_back<T: Scalar, const N: usize, const M: usize, const S: usize>(
         d1u: block(curvatures, x, u) + with_input(curvatures, x),
         d2u: block(curvatures, y, u) + with_input(curvatures, y),
         duu: block(curvatures, u, u) + of_input + of_input.transpose() + directly,
+    }
+}
+
+impl<T, L, const N: usize, const M: usize, const S: usize> StartByInput<Gauss<S>, N, M> for L
+where
+    T: Scalar,
+    L: ForcedLagrangian<N, Scalar = T> + SecondOrder<N, M>,
+{
+    /// NaN where the segment has no solution that Newton's method finds.
+    fn p0_by_input(&self, q0: &SVector<T, N>, v: &SVector<T, N>, h: T) -> SMatrix<T, N, M> {
+        let solved = Segment::<'_, L, N, S>::new(self, q0, v, h)
+            .and_then(|segment| Ok(-(segment.variations()?.p0_by_q1 * segment.by_held_input()?.end.q)));
+        solved.unwrap_or_else(|_| SMatrix::repeat(nan()))
     }
 }
 
