@@ -8,10 +8,10 @@ use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 /// Expressions within expressions, at most.
 pub const MOST_LEVELS: usize = 6_000;
 
-/// The most that a level takes, built without optimisation.
+/// The stack that a level takes at most, built without optimisation.
 const BYTES_OF_LEVEL: usize = 48 << 10;
 
-/// The stack that any item has: calls within calls among them, whose bodies are run one within the other.
+/// The stack that there is for any item: calls within calls are run one within the other.
 const LEAST_BYTES: usize = 128 << 20;
 
 const PRECEDENCES: usize = 10;
@@ -29,7 +29,7 @@ struct Open {
     levels: usize,
 }
 
-/// The depth seen of a statement, or of an entry of a list.
+/// A statement, or an entry of a list, as far as it was seen.
 #[derive(Default)]
 struct Statement {
     /// Operators of each precedence since one of a lower.
@@ -112,6 +112,9 @@ fn is_separator(token: &TokenTree) -> bool {
     matches!(token, TokenTree::Punct(punct) if [',', ';'].contains(&punct.as_char()))
 }
 
+/// Words that stand before the expression that they hold.
+const WORDS: [&str; 8] = ["break", "else", "if", "in", "match", "move", "return", "while"];
+
 /// How tightly the token holds what stands beside it, from the loosest, 0; nothing if it makes no expression.
 fn precedence(token: &TokenTree) -> Option<usize> {
     match token {
@@ -128,10 +131,7 @@ fn precedence(token: &TokenTree) -> Option<usize> {
             _ => None,
         },
         TokenTree::Ident(word) if word == "as" => Some(7),
-        TokenTree::Ident(word) => ["break", "else", "if", "in", "match", "move", "return", "while"]
-            .iter()
-            .any(|other| word == other)
-            .then_some(0),
+        TokenTree::Ident(word) => WORDS.iter().any(|other| word == other).then_some(0),
         TokenTree::Group(_) | TokenTree::Literal(_) => None,
     }
 }

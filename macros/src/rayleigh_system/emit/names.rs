@@ -42,8 +42,8 @@ impl Names {
     }
 }
 
-/// The span of the name: at the user's tokens for what stands for them. A module with a static of the same
-/// name has rustc refuse the local there, and not at the attribute.
+/// The span of the name: at the user's tokens for what stands for them. Where the module has a static of that
+/// name, rustc refuses the local there, and not at the attribute.
 fn span(graph: &Graph, node: Node) -> Span {
     let place = match graph.operation(node) {
         Operation::Parameter(index) => graph.parameter(index).tokens.clone().into_iter().last(),

@@ -1,5 +1,5 @@
-//! Entries of arrays that a loop changes: `for x in a.iter_mut()`, `for (i, x) in a.iter_mut().enumerate()`, and
-//! entries that change places.
+//! Entries of arrays that a loop changes, as in `for (i, x) in a.iter_mut().enumerate()`, and entries that
+//! change places.
 
 use syn::{Expr, ExprCall, ExprForLoop, ExprMethodCall, Ident, Pat};
 
@@ -12,7 +12,7 @@ use super::{Lowering, Result, refuse};
 /// A loop over the places of an array.
 pub struct Mutable<'e> {
     array: &'e Expr,
-    /// What the entries are paired with, innermost first.
+    /// Partners of the entries, innermost first.
     pairs: Vec<Pair<'e>>,
     /// The local that stands for the entry.
     entry: &'e Ident,
@@ -60,8 +60,8 @@ fn name(pattern: &Pat) -> Option<&Ident> {
 }
 
 impl Lowering<'_> {
-    /// The loop: each turn has the entry in a local, and puts back what has become of it. Nothing else can read
-    /// the array meanwhile.
+    /// The loop: each turn has the entry in a local, and puts back what has become of it. Nothing else can
+    /// read the array meanwhile.
     pub fn for_each_place(&mut self, each: &ExprForLoop, mutable: &Mutable<'_>) -> Result<Value> {
         let array = self.place(mutable.array)?;
         let Value::Sequence(entries) = self.read(mutable.array, &array)? else {

@@ -29,8 +29,8 @@ impl Lowering<'_> {
         Ok((truth.or(&mut self.graph, otherwise), bound))
     }
 
-    /// The names that a pattern binds, `a` where the condition holds; a name that one way alone binds is
-    /// asked for there alone.
+    /// Names that a pattern binds, `a` where the condition holds; one that one way alone binds is asked for
+    /// there alone.
     pub fn either(
         &mut self,
         at: &Pat,
