@@ -251,7 +251,7 @@ mod attributes {
 /// | hyperbolic | `sinh` `cosh` `tanh` `asinh` `acosh` `atanh` |
 /// | piecewise | `abs` `signum` `copysign` `min` `max` `clamp` |
 /// | sums | `mul_add` `midpoint`, `sum()` and `product()` of iterators |
-/// | of fields and constants alone | `floor` `ceil` `round` `round_ties_even` `trunc` `fract` `rem_euclid` `div_euclid`, `%`; casts of `f32` to `f64` and back |
+/// | of fields and constants alone | `floor` `ceil` `round` `trunc` `fract` `rem_euclid` `div_euclid`, `%` |
 /// | questions, on the value alone | `is_nan` `is_finite` `is_infinite` `is_normal` `is_subnormal` `is_sign_positive` `is_sign_negative` `total_cmp`, `==` `<` `partial_cmp` |
 ///
 /// `hypot` guards against overflow and costs 1.5 times as much as `sqrt` of a sum of squares, which
@@ -273,8 +273,8 @@ mod attributes {
 ///   `take_while`, and `reduce` without an `unwrap` behind it;
 /// - a `Vec`, and an `Option` made in the body.
 ///
-/// Generated bodies may be as deep as 6 000 operators and brackets one within the other: a sum of 5 000 terms.
-/// Deeper ones are refused.
+/// Bodies that programs write may be 6 000 operators and brackets deep, as a sum of 5 000 terms is; deeper
+/// ones are refused.
 ///
 /// Refused, with a message at the token: `#[cfg]` inside the item, type aliases, items and macros inside
 /// a body, functions outside the block, generic helpers, assignment to a field, casts of coordinates to
