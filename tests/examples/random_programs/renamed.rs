@@ -54,6 +54,9 @@ pub fn text(text: &str, seed: u64) -> String {
     let mut names = Names::default();
     names.visit_file(&file);
     let mut words: Vec<&str> = GENERATED.iter().chain(&LOCALS).copied().collect();
+    // A word that the program has already could be another name's.
+    let own: BTreeSet<&str> = text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
+    words.retain(|word| !own.contains(word));
     let mut random = Random::new(seed ^ 0x6e61_6d65);
     // Where a body does not name a constant of the module, the macro cannot know of it.
     names.unseen.retain(|constant| !names.mentioned.contains(constant));

@@ -9,8 +9,32 @@ use super::value::Value;
 use super::written::Written;
 use super::{Lowering, Result, refuse};
 
-/// Names of locals that generated functions have whatever the system: no constant can stand beside them.
-const LOCALS: [&str; 12] = ["h", "half", "minus", "p", "plus", "q", "q0", "q1", "rate", "t", "u", "v"];
+/// Names of arguments and locals that generated functions have whatever the expressions: no constant can stand
+/// beside them.
+const LOCALS: [&str; 22] = [
+    "_q",
+    "_v",
+    "anchors",
+    "direction",
+    "elapsed",
+    "evaluate",
+    "h",
+    "half",
+    "kept",
+    "minus",
+    "momenta",
+    "p",
+    "plus",
+    "q",
+    "q0",
+    "q1",
+    "rate",
+    "systems",
+    "t",
+    "u",
+    "v",
+    "vector",
+];
 
 impl Lowering<'_> {
     /// The constant or static of that path, unless it reads like a misspelled local: rustc knows better which
