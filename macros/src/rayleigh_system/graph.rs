@@ -23,7 +23,7 @@ use proc_macro2::{Ident, Literal, Span, TokenStream, TokenTree};
 use quote::{ToTokens, format_ident, quote};
 use syn::Expr;
 
-use super::hygiene::unmarked;
+use super::hygiene::{MARK, unmarked};
 use super::syntax::regrouped;
 
 pub use operation::{Comparison, Function, Operation, PairFunction, Predicate};
@@ -209,7 +209,9 @@ impl Graph {
             operation => operation.is_literal(),
         };
         if !needs_none {
-            self.names.entry(node).or_insert_with(|| unmarked(name).trim_start_matches('_').to_owned());
+            // `let Midpoint = …` would be the rule of that name, under whatever other name it has.
+            let name = if name.contains(MARK) { unmarked(name).to_lowercase() } else { name.to_owned() };
+            self.names.entry(node).or_insert_with(|| name.trim_start_matches('_').to_owned());
         }
     }
 

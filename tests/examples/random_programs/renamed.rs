@@ -8,6 +8,11 @@ use syn::visit::{self, Visit};
 use super::random::Random;
 use super::rayleigh_system::hygiene::GENERATED;
 
+/// Words for constants: temporaries have them in small letters.
+const CONSTANTS: [&str; 2] = ["D", "T"];
+
+const CONSTANTS_IN_SMALL: [&str; 2] = ["d", "t"];
+
 /// Locals and arguments of generated code, beside the names that it brings into scope.
 const LOCALS: [&str; 34] = [
     "q0",
@@ -53,22 +58,33 @@ pub fn text(text: &str, seed: u64) -> String {
     };
     let mut names = Names::default();
     names.visit_file(&file);
-    let mut words: Vec<&str> = GENERATED.iter().chain(&LOCALS).copied().collect();
     // A word that the program has already could be another name's.
     let own: BTreeSet<&str> = text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
-    words.retain(|word| !own.contains(word));
-    let mut random = Random::new(seed ^ 0x6e61_6d65);
+    let free = |words: &[&'static str]| -> Vec<&'static str> {
+        words.iter().copied().filter(|word| !own.contains(word)).collect()
+    };
     // Where a body does not name a constant of the module, the macro cannot know of it.
-    names.unseen.retain(|constant| !names.mentioned.contains(constant));
-    let kept: BTreeSet<String> = names.in_short.union(&names.unseen).cloned().collect();
-    let declared = names.declared.difference(&kept);
-    let map: BTreeMap<String, &str> = declared
-        .map_while(|name| {
-            let index = (!words.is_empty()).then(|| random.below(words.len()))?;
-            Some((name.clone(), words.swap_remove(index)))
-        })
-        .collect();
+    let constants = names.constants.intersection(&names.mentioned);
+    let others = names.declared.difference(&names.in_short);
+    let all = GENERATED.iter().chain(&LOCALS).copied();
+    let words: Vec<&str> = all.filter(|word| !CONSTANTS.contains(word)).collect();
+    let mut random = Random::new(seed ^ 0x6e61_6d65);
+    let mut map = drawn(constants, [free(&CONSTANTS), Vec::new()], &mut random);
+    map.extend(drawn(others, [free(&CONSTANTS_IN_SMALL), free(&words)], &mut random));
     renamed(tokens, &map).to_string()
+}
+
+/// A word for each name, of the first words until they are used up; none where there are no more.
+fn drawn<'n>(
+    names: impl Iterator<Item = &'n String>,
+    mut words: [Vec<&'static str>; 2],
+    random: &mut Random,
+) -> BTreeMap<String, &'static str> {
+    let word = |name: &String| {
+        let words = words.iter_mut().find(|words| !words.is_empty())?;
+        Some((name.clone(), words.swap_remove(random.below(words.len()))))
+    };
+    names.map_while(word).collect()
 }
 
 /// The names that a program declares.
@@ -77,8 +93,8 @@ struct Names {
     declared: BTreeSet<String>,
     /// Names that stand for a field and a local at once.
     in_short: BTreeSet<String>,
-    /// Constants of the module.
-    unseen: BTreeSet<String>,
+    /// Constants of the module and of the block.
+    constants: BTreeSet<String>,
     /// Names in paths.
     mentioned: BTreeSet<String>,
 }
@@ -100,16 +116,15 @@ impl<'ast> Visit<'ast> for Names {
     }
 
     fn visit_impl_item_const(&mut self, constant: &'ast syn::ImplItemConst) {
-        self.declared.insert(constant.ident.to_string());
+        self.constants.insert(constant.ident.to_string());
     }
 
     fn visit_item_const(&mut self, constant: &'ast syn::ItemConst) {
-        self.declared.insert(constant.ident.to_string());
-        self.unseen.insert(constant.ident.to_string());
+        self.constants.insert(constant.ident.to_string());
     }
 
     fn visit_expr_path(&mut self, path: &'ast syn::ExprPath) {
-        self.mentioned.extend(path.path.get_ident().map(Ident::to_string));
+        self.mentioned.extend(path.path.segments.last().map(|name| name.ident.to_string()));
     }
 
     fn visit_pat_ident(&mut self, pattern: &'ast syn::PatIdent) {

@@ -163,3 +163,23 @@ fn names_of_a_macro_and_of_its_caller_are_two() {
     is_right(&num_dual::Looped { k: 2.0 });
     is_right(&num_dual::Matched { k: 2.0 });
 }
+
+/// Locals with the names of rules and types of generated code.
+#[allow(non_snake_case)]
+mod named_like_rules {
+    #[dalembert::rayleigh_system(derivatives = expanded)]
+    pub fn named(q: [f64; 1], v: [f64; 1]) -> f64 {
+        let Midpoint = q[0] * q[0] * q[0];
+        let Momenta = Midpoint * Midpoint + v[0];
+        0.5 * v[0] * v[0] - Midpoint - Momenta * Momenta
+    }
+}
+
+#[test]
+fn locals_are_not_the_rules_of_their_names() {
+    let (q, v) = (0.7_f64, -0.4);
+    let of = named_like_rules::Named {}.lagrangian_gradient(&vector![q], &vector![v]);
+    let sum = q.powi(6) + v;
+    assert!((of.d1[0] + 3.0 * q * q + 12.0 * sum * q.powi(5)).abs() < 1e-14);
+    assert!((of.d2[0] - v + 2.0 * sum).abs() < 1e-14);
+}
