@@ -8,10 +8,10 @@
 //!
 //! Everything else is the chain rule: varying q0 moves (qᵢ, v̄) by (1 − cᵢ, −1/h), varying q1 by (cᵢ, 1/h).
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
 use crate::numbers::{CovectorDerivatives, Derivatives, Direction, Hessian, Scalar};
-use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, MomentaBy, StartByInput, StepKernel};
+use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, MomentaBy, StepKernel};
 use crate::system::{Driven, Force, GeneratedDiffers, Lagrangian, Parameters, Rayleigh, SecondOrder};
 
 /// A node of the quadrature over one segment.
@@ -47,19 +47,6 @@ impl<S: Scalar, const N: usize> Sample<S, N> {
         let by_q0 = Direction { first: S::one() - self.position, second: -S::one() / h };
         let by_q1 = Direction { first: self.position, second: S::one() / h };
         by_node.pull_back(by_q0, by_q1)
-    }
-}
-
-/// Of a system without an input there is nothing to say.
-impl<R: DisplacementRule, L: Lagrangian<N>, const N: usize> StartByInput<R, N, 0> for L {
-    #[inline]
-    fn p0_by_input(
-        &self,
-        _q0: &SVector<L::Scalar, N>,
-        _v: &SVector<L::Scalar, N>,
-        _h: L::Scalar,
-    ) -> SMatrix<L::Scalar, N, 0> {
-        SMatrix::zeros()
     }
 }
 

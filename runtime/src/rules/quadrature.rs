@@ -6,7 +6,7 @@ use super::{DisplacementRule, SelfAdjoint};
 use crate::numbers::{CovectorDerivatives, Derivatives, Gradient};
 use crate::step::{
     Discrete, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteParameters, DiscreteRayleigh,
-    Momenta, MomentaBy, SolvedForVelocity, StartByInput, StepKernel, VelocityHistory,
+    Momenta, MomentaBy, SolvedForVelocity, StepKernel, VelocityHistory,
 };
 use crate::system::{ActingForce, Driven, Force, GeneratedDiffers, Lagrangian, Parameters, Rayleigh};
 
@@ -52,18 +52,6 @@ pub struct Quadrature<Q>(pub Q);
 
 impl<Q: DisplacementRule> SolvedForVelocity for Quadrature<Q> {}
 impl<Q: SelfAdjoint> SelfAdjoint for Quadrature<Q> {}
-
-/// Of a system without an input there is nothing to say.
-impl<Q: DisplacementRule, L: Lagrangian<N>, const N: usize> StartByInput<Quadrature<Q>, N, 0> for L {
-    fn p0_by_input(
-        &self,
-        _q0: &SVector<L::Scalar, N>,
-        _v: &SVector<L::Scalar, N>,
-        _h: L::Scalar,
-    ) -> SMatrix<L::Scalar, N, 0> {
-        SMatrix::zeros()
-    }
-}
 
 impl<L, Q, const N: usize> Discrete<Quadrature<Q>, N> for L
 where

@@ -55,6 +55,9 @@ impl<S: Scalar, const N: usize> Checkpoint<S, N> {
 pub(crate) enum Course {
     /// Before the first step: whether the system is the one written.
     Starting,
+    /// Before the first step of another size, or of one more of several runs: whether its values are those
+    /// written. The slopes were looked at.
+    Beginning,
     /// No check: the clock resolves more steps than a computer takes, or the step itself refuses its size.
     Open,
     /// Whether the next step can be told from none by the clock.
@@ -74,6 +77,15 @@ impl Course {
         let is_none = h == 0.0 || !h.is_finite();
         let resolves = checkpoint.steps <= Self::STEPS && origin <= h * Self::STEPS as f64 && h <= 1e280;
         if is_none || resolves { Self::Open } else { Self::Watched }
+    }
+
+    /// The course once the step size is another.
+    pub(crate) fn resized(self) -> Self {
+        match self {
+            Self::Open | Self::Watched => Self::Beginning,
+            // A run that has ended may not have begun.
+            Self::Starting | Self::Beginning | Self::Ended => Self::Starting,
+        }
     }
 
     /// Fails before the first step of a system that is not the one written, and where the clock does not tell
@@ -106,8 +118,8 @@ impl Course {
         elapsed: f64,
         at: &Checkpoint<L::Scalar, N>,
     ) -> Result<Self, StepError> {
-        let course = if self == Self::Starting {
-            verify_start(system, elapsed, &at.state)?;
+        let course = if matches!(self, Self::Starting | Self::Beginning) {
+            verify_start(system, elapsed, &at.state, self == Self::Starting)?;
             Self::of(at)
         } else {
             self

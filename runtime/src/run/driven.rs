@@ -125,7 +125,7 @@ where
     /// Goes on with another step size from the present state.
     pub fn change_step_size(&mut self, h: V::Scalar) {
         self.at = Checkpoint { step_size: h, origin: self.time(), steps: 0, state: self.at.state };
-        self.course = Course::Starting;
+        self.course = self.course.resized();
     }
 
     /// Goes on from `state`, near the present one: what an estimator makes of it by a measurement. The guess for

@@ -234,13 +234,15 @@ impl<L: InLanes<M, N>, M, const N: usize, const W: usize> Clone for LaneRuns<'_,
 
 impl<L: InLanes<M, N>, M, const N: usize, const W: usize> Copy for LaneRuns<'_, L, M, N, W> {}
 
-/// Whether a run from `start` begins, and its clock needs no watching.
+/// Whether the run in a lane begins from `start`, and its clock needs no watching. Of the first lane slopes are
+/// looked at too: they cost as much as some steps of all.
 pub(crate) fn begins<L: Lagrangian<N>, const N: usize>(
+    lane: usize,
     system: &L,
     start: &State<L::Scalar, N>,
     h: L::Scalar,
 ) -> bool {
-    let mut course = Course::Starting;
+    let mut course = if lane == 0 { Course::Starting } else { Course::Beginning };
     start.require_finite().is_ok()
         && course.require(system, &Checkpoint::new(h, *start)).is_ok()
         && course == Course::Open

@@ -252,7 +252,7 @@ impl Method {
         if !valid(time) || !valid(tolerance) {
             return Err(ToleranceError::Request { time, tolerance });
         }
-        verify_start(system, 0.0, start).map_err(ToleranceError::Step)?;
+        verify_start(system, 0.0, start, true).map_err(ToleranceError::Step)?;
         search::choice(system, methods, start, time, tolerance)
     }
 

@@ -72,7 +72,7 @@ where
     /// it is Δτ.
     pub fn change_step_size(&mut self, h: L::Scalar) {
         self.at = Checkpoint { step_size: h, origin: self.time(), steps: 0, state: self.at.state };
-        self.course = Course::Starting;
+        self.course = self.course.resized();
         if let Some(pace) = &mut self.pace {
             pace.begin(h);
         }

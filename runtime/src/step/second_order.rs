@@ -16,7 +16,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::Hessian;
-use crate::step::{Discrete, State, StepError, StepWith, invert};
+use crate::step::{Discrete, SolvedForVelocity, State, StepError, StepWith, invert};
 use crate::system::{Lagrangian, SecondOrder};
 
 /// The change of p0 with the input, by rule `R`: systems without an input have none of it.
@@ -33,6 +33,19 @@ pub trait StartByInput<R, const N: usize, const M: usize>: Lagrangian<N> {
         v: &SVector<Self::Scalar, N>,
         h: Self::Scalar,
     ) -> SMatrix<Self::Scalar, N, M>;
+}
+
+/// Of a system without an input there is nothing to say.
+impl<R: SolvedForVelocity, L: Lagrangian<N>, const N: usize> StartByInput<R, N, 0> for L {
+    #[inline]
+    fn p0_by_input(
+        &self,
+        _q0: &SVector<L::Scalar, N>,
+        _v: &SVector<L::Scalar, N>,
+        _h: L::Scalar,
+    ) -> SMatrix<L::Scalar, N, 0> {
+        SMatrix::zeros()
+    }
 }
 
 /// Second derivatives of both momenta of a segment by rule `R`.

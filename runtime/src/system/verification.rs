@@ -14,6 +14,7 @@
 //! | every step, with `debug_assertions` | values | at the points where the rule evaluates it |
 //!
 //! Slopes are those near the state: at the point itself a body may take a way of its own, as at 0.
+//! Of members in lanes they are looked at in the first lane, and not again where a run changes its step size.
 //!
 //! [`State::from_velocity`]: crate::State::from_velocity
 //! [`State::verify`]: crate::State::verify

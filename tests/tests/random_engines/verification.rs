@@ -10,8 +10,8 @@ use dalembert::step::Flow;
 use dalembert::step::{Momenta, StepKernel};
 use dalembert::system::verification;
 use dalembert::system::{
-    ActingForce, CovectorDerivatives, Derivatives, Engine, ForcedLagrangian, Function, GeneratedDiffers,
-    Structure,
+    ActingForce, Compared, CovectorDerivatives, Derivatives, Engine, ForcedLagrangian, Function,
+    GeneratedDiffers, Structure,
 };
 use dalembert::tolerance::{Method, ToleranceError, WithGauss};
 use dalembert::{
@@ -24,6 +24,8 @@ use dalembert::{
 struct Mutated {
     /// What the values as generated are off by, of L, R and f.
     off: [f64; 3],
+    /// What the slopes are off by, of L, R and f.
+    bent: [f64; 3],
 }
 
 type Vector = Vector1<f64>;
@@ -42,7 +44,7 @@ impl Lagrangian<1> for Mutated {
     fn lagrangian_derivatives(&self, q: &Vector, v: &Vector) -> Derivatives<f64, 1> {
         Derivatives {
             value: self.lagrangian(q, v) * (1.0 + self.off[0]),
-            d1: -q,
+            d1: -q * (1.0 + self.bent[0]),
             d2: *v,
             d11: matrix![-1.0],
             d12: matrix![0.0],
@@ -55,6 +57,12 @@ impl Lagrangian<1> for Mutated {
         verification::rayleigh(self, q, v)?;
         verification::force(self, q, v)
     }
+
+    fn verify_slopes(&self, q: &Vector, v: &Vector) -> Result<(), GeneratedDiffers> {
+        verification::lagrangian_slope(self, q, v)?;
+        verification::rayleigh_slope(self, q, v)?;
+        verification::force_slope(self, q, v)
+    }
 }
 
 impl Rayleigh<1> for Mutated {
@@ -66,7 +74,7 @@ impl Rayleigh<1> for Mutated {
         Derivatives {
             value: self.rayleigh(q, v) * (1.0 + self.off[1]),
             d1: vector![0.0],
-            d2: v * DAMPING,
+            d2: v * DAMPING * (1.0 + self.bent[1]),
             d11: matrix![0.0],
             d12: matrix![0.0],
             d22: matrix![DAMPING],
@@ -82,7 +90,7 @@ impl Force<1> for Mutated {
     fn force_derivatives(&self, q: &Vector, v: &Vector) -> CovectorDerivatives<f64, 1> {
         CovectorDerivatives {
             value: self.force(q, v) * (1.0 + self.off[2]),
-            d1: matrix![-0.25],
+            d1: matrix![-0.25 * (1.0 + self.bent[2])],
             d2: matrix![0.0],
         }
     }
@@ -157,7 +165,7 @@ impl Explicit<1> for Mutated {
     }
 }
 
-const RIGHT: Mutated = Mutated { off: [0.0; 3] };
+const RIGHT: Mutated = Mutated { off: [0.0; 3], bent: [0.0; 3] };
 
 /// L, R or f wrong by one rounding.
 fn wrong() -> [(Mutated, Function); 3] {
@@ -165,7 +173,7 @@ fn wrong() -> [(Mutated, Function); 3] {
     std::array::from_fn(|i| {
         let mut off = [0.0; 3];
         off[i] = f64::EPSILON;
-        (Mutated { off }, functions[i])
+        (Mutated { off, ..RIGHT }, functions[i])
     })
 }
 
@@ -236,6 +244,30 @@ fn a_wrong_value_is_an_error_that_names_the_function_wherever_a_run_starts() {
     for (place, found) in at_a_start(&RIGHT) {
         assert_eq!(found, None, "{place}");
     }
+}
+
+#[test]
+fn a_wrong_slope_is_an_error_that_names_the_function_where_a_run_starts() {
+    let functions = [Function::Lagrangian, Function::Rayleigh, Function::Force { index: 0 }];
+    for (i, function) in functions.into_iter().enumerate() {
+        let mut bent = [0.0; 3];
+        bent[i] = 0.01;
+        let system = Mutated { bent, ..RIGHT };
+        for (place, found) in at_a_start(&system) {
+            // A state is made of values alone.
+            let is_a_state = place.starts_with("from");
+            assert_eq!(found, (!is_a_state).then_some(function), "{place}");
+        }
+        let told = START.verify(&system);
+        assert!(matches!(told, Err(StepError::GeneratedDiffers { compared: Compared::Derivative, .. })));
+        // Another step size does not get past it.
+        let mut run = system.by(Midpoint, H).run(START);
+        run.change_step_size(0.5 * H);
+        assert!(run.next().unwrap().is_err());
+        run.change_step_size(H);
+        assert!(run.next().unwrap().is_err());
+    }
+    assert_eq!(START.verify(&RIGHT), Ok(()));
 }
 
 #[test]

@@ -94,7 +94,7 @@ fn put<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
     start: &State<L::Scalar, N>,
     h: L::Scalar,
 ) {
-    steps.is_sound.0[lane] = begins(system, start, h) && prepare(steps, lane, system);
+    steps.is_sound.0[lane] = begins(lane, system, start, h) && prepare(steps, lane, system);
     steps.is_new.0[lane] = true;
     steps.clocks.restart(lane);
     write_member(&mut steps.q, lane, &start.q);

@@ -22,7 +22,7 @@ where
     ) -> Self::Lanes<W> {
         let mut lanes = StagesInLanes::new(L::fields(systems), h);
         for (lane, (system, start)) in systems.into_iter().zip(starts).enumerate() {
-            lanes.put(lane, system, start, begins(system, start, h));
+            lanes.put(lane, system, start, begins(lane, system, start, h));
         }
         lanes
     }
@@ -36,7 +36,7 @@ where
         lanes.gather(L::fields(systems));
         for (lane, (system, start)) in systems.into_iter().zip(starts).enumerate() {
             if let Some(start) = start {
-                lanes.put(lane, system, start, begins(system, start, h));
+                lanes.put(lane, system, start, begins(lane, system, start, h));
             }
         }
     }

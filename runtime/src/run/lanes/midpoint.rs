@@ -281,7 +281,7 @@ where
     ) -> Self::Lanes<W> {
         let mut lanes = Of::<L, N, W>::new(L::fields(systems), h);
         for (lane, (system, start)) in systems.into_iter().zip(starts).enumerate() {
-            lanes.put(lane, start, begins(system, start, h));
+            lanes.put(lane, start, begins(lane, system, start, h));
         }
         lanes
     }
@@ -295,7 +295,7 @@ where
         lanes.fields = L::fields(systems);
         for (lane, (system, start)) in systems.into_iter().zip(starts).enumerate() {
             if let Some(start) = start {
-                lanes.put(lane, start, begins(system, start, h));
+                lanes.put(lane, start, begins(lane, system, start, h));
             }
         }
     }

@@ -216,7 +216,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const COMPENSATED: bool
     where
         L: ExplicitInLanes<N, Scalar = T, Fields<W> = F>,
     {
-        let prepared = if begins(system, start, h) { Prepared::new(system, h).ok() } else { None };
+        let prepared = if begins(lane, system, start, h) { Prepared::new(system, h).ok() } else { None };
         let of = &mut self.kicked;
         of.has_begun.0[lane] = prepared.is_some();
         of.clocks.restart(lane);
