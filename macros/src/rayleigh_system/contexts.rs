@@ -1,7 +1,6 @@
 //! Locals of one name under different hygiene, told apart by their text.
 //!
-//! rustc tells a local of a `macro_rules` from one of its caller, or from the caller's constant of that name;
-//! the stages read names as text:
+//! rustc tells a local of a `macro_rules` from one of its caller; the stages read names as text:
 //!
 //! ```text
 //! let k = 2.0 * q[0]; $e * k    with $e = k + 1.0    →    let k·· = 2.0 * q[0]; (k + 1.0) * k··
@@ -23,15 +22,14 @@ pub fn apart(item: TokenStream) -> TokenStream {
     let mut contexts = BTreeMap::new();
     collect(item.clone(), &mut contexts);
     contexts.retain(|_, of| of.len() > 1);
-    let Some(mut bound) =
-        (!contexts.is_empty()).then(|| syn::parse2(item.clone()).map(bound)).and_then(Result::ok)
-    else {
+    if contexts.is_empty() {
         return item;
-    };
-    bound.retain(|(name, _)| contexts.contains_key(name));
+    }
+    // What is no item is told where items are parsed.
+    let Ok(parsed) = syn::parse2(item.clone()) else { return item };
+    let bound = bound(&parsed).into_iter().filter(|(name, _)| contexts.contains_key(name));
     // One mark is that of names that generated code has too.
-    let marks = bound.into_iter().zip(2..).collect();
-    marked(item, &marks)
+    marked(item, &bound.zip(2..).collect())
 }
 
 /// The hygiene of a name, of which stable Rust shows no more than what `Debug` prints: `#3 bytes(10..11)`.
@@ -54,7 +52,7 @@ fn collect(tokens: TokenStream, contexts: &mut BTreeMap<String, BTreeSet<String>
 }
 
 /// The locals of an item, each with its context.
-fn bound(item: Item) -> BTreeSet<(String, String)> {
+fn bound(item: &Item) -> BTreeSet<(String, String)> {
     struct Bound(BTreeSet<(String, String)>);
     impl<'ast> Visit<'ast> for Bound {
         fn visit_pat_ident(&mut self, pattern: &'ast PatIdent) {
@@ -63,7 +61,7 @@ fn bound(item: Item) -> BTreeSet<(String, String)> {
         }
     }
     let mut bound = Bound(BTreeSet::new());
-    bound.visit_item(&item);
+    bound.visit_item(item);
     bound.0
 }
 

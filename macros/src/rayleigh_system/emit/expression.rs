@@ -6,7 +6,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 use syn::Ident;
 
-use super::super::graph::{Comparison, Function, Graph, Node, Operation};
+use super::super::graph::{Function, Graph, Node, Operation};
 use super::super::portable;
 use super::names::Names;
 
@@ -236,15 +236,7 @@ impl Writer<'_> {
                 (quote!(if #condition { #a } else { #b }), Binding::Or)
             }
             Operation::Compare(comparison, a, b) => {
-                let symbol = match comparison {
-                    Comparison::Less => quote!(<),
-                    Comparison::LessOrEqual => quote!(<=),
-                    Comparison::Greater => quote!(>),
-                    Comparison::GreaterOrEqual => quote!(>=),
-                    Comparison::Equal => quote!(==),
-                    Comparison::NotEqual => quote!(!=),
-                };
-                (binary(a, symbol, b, Binding::Sum, Binding::Sum), Binding::Comparison)
+                (binary(a, comparison.symbol(), b, Binding::Sum, Binding::Sum), Binding::Comparison)
             }
             Operation::Is(predicate, x) => {
                 let (x, name) = (self.receiver(x), format_ident!("{}", predicate.name()));

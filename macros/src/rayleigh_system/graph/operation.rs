@@ -1,5 +1,8 @@
 //! The operations that nodes compute.
 
+use proc_macro2::TokenStream;
+use quote::quote;
+
 use super::Node;
 
 /// An operation on earlier nodes.
@@ -209,4 +212,18 @@ pub enum Comparison {
     GreaterOrEqual,
     Equal,
     NotEqual,
+}
+
+impl Comparison {
+    /// The operator as it is written.
+    pub fn symbol(self) -> TokenStream {
+        match self {
+            Self::Less => quote!(<),
+            Self::LessOrEqual => quote!(<=),
+            Self::Greater => quote!(>),
+            Self::GreaterOrEqual => quote!(>=),
+            Self::Equal => quote!(==),
+            Self::NotEqual => quote!(!=),
+        }
+    }
 }

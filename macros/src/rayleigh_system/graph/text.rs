@@ -4,7 +4,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::{Comparison, Graph, Node, Operation};
+use super::{Graph, Node, Operation};
 
 /// Operations of one text: what is used often is written as often.
 const LONGEST: usize = 500;
@@ -54,14 +54,10 @@ impl Graph {
             (Operation::Select(..), [condition, a, b]) => {
                 quote!((if #condition { #a } else { #b }))
             }
-            (Operation::Compare(comparison, ..), [a, b]) => match comparison {
-                Comparison::Less => quote!((#a < #b)),
-                Comparison::LessOrEqual => quote!((#a <= #b)),
-                Comparison::Greater => quote!((#a > #b)),
-                Comparison::GreaterOrEqual => quote!((#a >= #b)),
-                Comparison::Equal => quote!((#a == #b)),
-                Comparison::NotEqual => quote!((#a != #b)),
-            },
+            (Operation::Compare(comparison, ..), [a, b]) => {
+                let symbol = comparison.symbol();
+                quote!((#a #symbol #b))
+            }
             (Operation::Not(_), [a]) => quote!((!#a)),
             (Operation::And(..), [a, b]) => quote!((#a && #b)),
             (Operation::Or(..), [a, b]) => quote!((#a || #b)),

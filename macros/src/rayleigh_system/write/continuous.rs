@@ -42,8 +42,9 @@ pub fn lagrangian(system: &System<'_>, structure: &Structure, derivatives: Token
     let subject = subject(system, home);
     let later = if home == Home::View { view::later(system) } else { None };
     let value = value(system, Part::Lagrangian, RayleighArguments::ConfigurationAndVelocity);
+    let of_view = system.has_view().then(|| verification(system, Home::View));
     let verification = verification(system, home);
-    let delegation = view::delegation(system, Part::Lagrangian, verification_of_view(system));
+    let delegation = view::delegation(system, Part::Lagrangian, of_view);
     let (documentation, constant) = (structure.documentation(), structure.constant());
     quote! {
         #documentation
@@ -96,11 +97,6 @@ fn verification(system: &System<'_>, home: Home) -> TokenStream {
     };
     let functions = [function("verify_generated", "", time_scale), function("verify_slopes", "_slope", None)];
     quote!(#(#functions)*)
-}
-
-/// [`verification`] of the view, where there is one.
-fn verification_of_view(system: &System<'_>) -> Option<TokenStream> {
-    system.has_view().then(|| verification(system, Home::View))
 }
 
 /// `impl Rayleigh<2> for Ring`, with the derivatives of either engine.

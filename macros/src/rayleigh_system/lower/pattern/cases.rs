@@ -50,9 +50,7 @@ impl Lowering<'_> {
         bound.extend(b);
         Ok(bound)
     }
-}
 
-impl Lowering<'_> {
     /// The arms; Rust asks a guard for each case of its pattern that matches, so that cases that bind names
     /// and may overlap are arms of their own.
     pub fn arms<'a>(&self, arms: &'a [Arm]) -> Vec<Case<'a>> {
