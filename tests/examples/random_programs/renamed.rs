@@ -157,7 +157,7 @@ fn renamed(tokens: TokenStream, map: &BTreeMap<String, &str>) -> TokenStream {
             // `.count()` is a method; `self.count` is a field, and `self.helper(x)` a function of the block.
             let is_method = is(index.checked_sub(1), '.')
                 && matches!(tokens.get(index + 1), Some(TokenTree::Group(group)) if group.delimiter() == proc_macro2::Delimiter::Parenthesis)
-                && !tokens.get(index.wrapping_sub(2)).is_some_and(|owner| owner.to_string() == "self");
+                && tokens.get(index.wrapping_sub(2)).is_none_or(|owner| owner.to_string() != "self");
             match map.get(&name.to_string()) {
                 Some(word) if !is_method => TokenTree::Ident(Ident::new(word, name.span())),
                 _ => token.clone(),
