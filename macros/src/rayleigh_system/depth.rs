@@ -6,7 +6,7 @@
 use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 
 /// Expressions within expressions, at most.
-pub const MOST_LEVELS: usize = 6_000;
+pub const MOST_LEVELS: usize = own_stack::MOST_LEVELS;
 
 /// The stack that a level takes at most, built without optimisation.
 const BYTES_OF_LEVEL: usize = 48 << 10;
@@ -104,7 +104,39 @@ impl Depth {
 
     /// Runs the stages on a stack that is large enough for tokens of this depth.
     pub fn on_own_stack<T>(&self, run: impl FnOnce() -> T) -> T {
-        stacker::grow(LEAST_BYTES + self.levels * BYTES_OF_LEVEL, run)
+        own_stack::run(LEAST_BYTES + self.levels * BYTES_OF_LEVEL, run)
+    }
+}
+
+/// On hosts of which `corosensei` knows the stacks, as in Cargo.toml.
+#[cfg(any(
+    all(unix, any(target_arch = "x86_64", target_arch = "aarch64")),
+    all(windows, target_arch = "x86_64")
+))]
+mod own_stack {
+    use corosensei::{on_stack, stack::DefaultStack};
+
+    pub const MOST_LEVELS: usize = 6_000;
+
+    pub fn run<T>(bytes: usize, run: impl FnOnce() -> T) -> T {
+        match DefaultStack::new(bytes) {
+            Ok(stack) => on_stack(stack, run),
+            // Most items do without.
+            Err(_) => run(),
+        }
+    }
+}
+
+/// On others the compiler's stack has to do, of 8 MiB.
+#[cfg(not(any(
+    all(unix, any(target_arch = "x86_64", target_arch = "aarch64")),
+    all(windows, target_arch = "x86_64")
+)))]
+mod own_stack {
+    pub const MOST_LEVELS: usize = 100;
+
+    pub fn run<T>(_bytes: usize, run: impl FnOnce() -> T) -> T {
+        run()
     }
 }
 
