@@ -12,6 +12,7 @@ use nalgebra::SVector;
 
 use crate::numbers::{CovectorDerivatives, Derivatives, Direction, Hessian, Scalar};
 use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, MomentaBy, StepKernel};
+use crate::system::verification::verify_node;
 use crate::system::{Driven, Force, GeneratedDiffers, Lagrangian, Parameters, Rayleigh, SecondOrder};
 
 /// A node of the quadrature over one segment.
@@ -391,7 +392,8 @@ pub trait DisplacementRule: Copy {
         })
     }
 
-    /// Verifies the system at the nodes of the segment: [`Lagrangian::verify_generated`].
+    /// Verifies the system at the nodes of the segment: [`Lagrangian::verify_generated`]; with
+    /// `debug_assertions` slopes as well near one node of 64.
     ///
     /// # Errors
     /// [`GeneratedDiffers`].
@@ -402,7 +404,7 @@ pub trait DisplacementRule: Copy {
         h: L::Scalar,
     ) -> Result<(), GeneratedDiffers> {
         on_velocity::<Self, _, N>(q0, v, h)
-            .try_for_each(|node| system.later(node.time(h), |system| system.verify_generated(&node.q, v)))
+            .try_for_each(|node| system.later(node.time(h), |system| verify_node(system, &node.q, v)))
     }
 
     /// Energy on the segment, Σ bᵢ E_L(qᵢ, v̄).

@@ -10,6 +10,7 @@ use crate::step::{
     EnergyExchange, Flow, ForceWork, Linearization, Memory, PhaseMatrix, Report, State, StateBy, Step,
     StepError, StepWith,
 };
+use crate::system::GeneratedDiffers;
 
 /// A composition of S substeps γ₁h, …, γ_S h of rule `R`, symmetric (γᵢ = γ_{S+1−i}) and of high order.
 ///
@@ -183,6 +184,10 @@ where
             elapsed += part;
         }
         Ok((summary.step(state, &end, h), Linearization { a, b: StateBy::zero() }))
+    }
+
+    fn verify_momenta(&self, state: &State<L::Scalar, N>, h: L::Scalar) -> Result<(), GeneratedDiffers> {
+        Flow::<R, N>::verify_momenta(self, state, h)
     }
 }
 

@@ -6,6 +6,7 @@ pub(crate) mod in_lanes;
 mod kept_matrix;
 
 pub use drift::{DriftMemory, ExplicitDriftMemory};
+pub(super) use explicit::verify_explicit;
 pub use explicit::{Explicit, ExplicitMemory};
 pub use kept_matrix::KeptMatrix;
 

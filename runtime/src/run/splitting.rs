@@ -13,10 +13,12 @@ use underway::Underway;
 use crate::numbers::{Compensated, Scalar};
 use crate::rules::{Drift, modes, require_positive_definite};
 use crate::run::Explicit;
+use crate::run::memory::verify_explicit;
 use crate::step::{
     Flow, Linearization, Memory, PhaseMatrix, Quantity, Report, State, StateBy, Step, StepError, StepWith,
     invert,
 };
+use crate::system::GeneratedDiffers;
 
 /// A splitting of the motion into kicks by the potential and damped free motions between, S of them,
 /// symmetric and of high order: for L = ½vᵀMv − V(q) and R = ½vᵀCv with constant M, positive definite, and C,
@@ -152,6 +154,10 @@ where
         let mut kicks = Kicks { prepared: Some(prepared), ..Kicks::default() };
         let step = Memory::<L, Splitting<S, COMPENSATED>, N>::advance(&mut kicks, self, state, h)?;
         Ok((step, Linearization { a: prepared.derivative(self, state)?, b: StateBy::zero() }))
+    }
+
+    fn verify_momenta(&self, state: &State<L::Scalar, N>, h: L::Scalar) -> Result<(), GeneratedDiffers> {
+        verify_explicit(self, state, h)
     }
 }
 

@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use crate::numbers::Scalar;
 use crate::step::{BoundedStep, Linearization, State, Step, StepError, StepWith};
-use crate::system::Lagrangian;
+use crate::system::{GeneratedDiffers, Lagrangian};
 
 /// The flow of a system by the method `M`: (q0, p0) ↦ (q1, p1).
 ///
@@ -41,6 +41,23 @@ pub trait Flow<M, const N: usize>: Lagrangian<N> {
         h: Self::Scalar,
         guess: Option<&SVector<Self::Scalar, N>>,
     ) -> Result<StepWith<Self::Scalar, N, Linearization<Self::Scalar, N>>, StepError>;
+
+    /// Verifies that the step of size `h` from `state` computes p0 and p1 as the derivatives of L_d and f_d
+    /// say. With the standard library a run does so before its first step.
+    ///
+    /// A step that computes no momenta at once has nothing to compare.
+    ///
+    /// # Errors
+    /// [`GeneratedDiffers`].
+    #[cold]
+    fn verify_momenta(
+        &self,
+        state: &State<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> Result<(), GeneratedDiffers> {
+        let _ = (state, h);
+        Ok(())
+    }
 }
 
 /// A flow whose step can be given a bounded number of iterations, each of them one evaluation of both sides

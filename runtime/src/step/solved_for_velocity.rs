@@ -4,9 +4,9 @@ use nalgebra::SVector;
 
 use crate::step::{
     BoundedFlow, BoundedStep, Discrete, Flow, Linearization, State, Step, StepError, StepWith,
-    newton::Equation, step_by, step_within_by,
+    newton::Equation, of_equation_and_step, step_by, step_within_by, verify_momenta,
 };
-use crate::system::derivatives_apart;
+use crate::system::{GeneratedDiffers, derivatives_apart};
 
 /// A rule whose step is solved for v̄ itself, by the [`step_kernel`](Discrete::step_kernel) and
 /// [`momenta`](Discrete::momenta) that its systems have.
@@ -83,6 +83,10 @@ where
     ) -> Result<StepWith<L::Scalar, N, Linearization<L::Scalar, N>>, StepError> {
         let step = self.step(state, h, guess)?;
         Ok((step, self.linearization(&state.q, &step.state.q, h)?))
+    }
+
+    fn verify_momenta(&self, state: &State<L::Scalar, N>, h: L::Scalar) -> Result<(), GeneratedDiffers> {
+        verify_momenta::<L, R, N>(self, state, h, &|q0, v| of_equation_and_step(self, q0, v, h))
     }
 }
 

@@ -3,10 +3,10 @@
 use nalgebra::SVector;
 
 use crate::numbers::{NewtonMatrix, Scalar};
-use crate::step::{State, StepError};
+use crate::step::{Discrete, Momenta, State, StepError};
 use crate::system::{
-    Lagrangian, derivatives_apart,
-    verification::{around, has_two_values, slopes_around},
+    Compared, Engine, Function, GeneratedDiffers, Lagrangian, derivatives_apart,
+    verification::{around, beside, has_two_values, sizes, slopes_around},
 };
 
 impl<S: Scalar, const N: usize> State<S, N> {
@@ -67,11 +67,98 @@ pub(crate) fn verify_start<L: Lagrangian<N>, const N: usize>(
 
 /// The velocity of a state, by one Newton iteration for ∂L/∂v(q, v) = p from rest: exact where L is quadratic
 /// in v, and a point as good as any elsewhere.
-fn velocity<L: Lagrangian<N>, const N: usize>(
+fn velocity<L: Lagrangian<N> + ?Sized, const N: usize>(
     system: &L,
     state: &State<L::Scalar, N>,
 ) -> SVector<L::Scalar, N> {
     let rest = SVector::zeros();
     let l = derivatives_apart(system, &state.q, &rest);
     l.d22.solve(&(state.p - l.d2)).unwrap_or(rest)
+}
+
+/// Momenta of a segment from q0 with mean velocity v̄, by two ways to compute them.
+type TwoWays<'a, S, const N: usize> = &'a dyn Fn(&SVector<S, N>, &SVector<S, N>) -> [Momenta<S, N>; 2];
+
+/// Verifies p0 and p1 of the step from `state`, as `generated`, against the derivatives of L_d and f_d.
+///
+/// At three points beside the state: at a kink or a jump the two may be on different sides.
+#[cold]
+#[inline(never)]
+pub(crate) fn verify_momenta<L: Discrete<R, N> + ?Sized, R, const N: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    h: L::Scalar,
+    generated: TwoWays<'_, L::Scalar, N>,
+) -> Result<(), GeneratedDiffers> {
+    // Dual numbers have no functions for it.
+    if L::STRUCTURE.engine != Engine::Expanded || !cfg!(feature = "std") {
+        return Ok(());
+    }
+    let v = velocity(system, state);
+    let at = |[of_q, of_v]: [f64; 2]| {
+        let (q0, v) = (beside(&state.q, of_q, &sizes(&state.q)), beside(&v, of_v, &sizes(&v)));
+        compare_momenta(system, &q0, &v, h, generated(&q0, &v))
+    };
+    at([0.011, -0.017]).or_else(|_| at([0.013, 0.019])).or_else(|_| at([0.0171, -0.023]))
+}
+
+/// p0 as the step's equation has it, and both momenta as the step has them.
+pub(crate) fn of_equation_and_step<L: Discrete<R, N> + ?Sized, R, const N: usize>(
+    system: &L,
+    q0: &SVector<L::Scalar, N>,
+    v: &SVector<L::Scalar, N>,
+    h: L::Scalar,
+) -> [Momenta<L::Scalar, N>; 2] {
+    let momenta = system.momenta(q0, v, h);
+    [Momenta { p0: system.step_kernel(q0, v, h).p0, ..momenta }, momenta]
+}
+
+/// Fails where p0 or p1 is off by more than rounding, and by more than it changes with the last half of the
+/// digits of q0 and q1.
+fn compare_momenta<L: Discrete<R, N> + ?Sized, R, const N: usize>(
+    system: &L,
+    q0: &SVector<L::Scalar, N>,
+    v: &SVector<L::Scalar, N>,
+    h: L::Scalar,
+    generated: [Momenta<L::Scalar, N>; 2],
+) -> Result<(), GeneratedDiffers> {
+    let mut q1 = *q0;
+    for i in 0..N {
+        q1[i] += h * v[i];
+    }
+    let precision = L::Scalar::EPSILON.widen().sqrt();
+    let near = by_derivatives(system, q0, &q1, h);
+    let far = by_derivatives(system, &beside(q0, precision, q0), &beside(&q1, -precision, &q1), h);
+    for momenta in generated {
+        for index in 0..N {
+            let sides = [
+                (Function::InitialMomentum { index }, momenta.p0[index]),
+                (Function::FinalMomentum { index }, momenta.p1[index]),
+            ];
+            for (side, (function, generated)) in sides.into_iter().enumerate() {
+                let (generated, (written, size)) = (generated.widen(), near[index][side]);
+                let tolerance = precision * size + 16.0 * (far[index][side].0 - written).abs();
+                if (generated - written).abs() > tolerance {
+                    let compared = Compared::Value;
+                    return Err(GeneratedDiffers { function, compared, generated, written });
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// −D1 L_d − f_d⁻ and D2 L_d + f_d⁺, component by component, each with the size of its terms.
+fn by_derivatives<L: Discrete<R, N> + ?Sized, R, const N: usize>(
+    system: &L,
+    q0: &SVector<L::Scalar, N>,
+    q1: &SVector<L::Scalar, N>,
+    h: L::Scalar,
+) -> [[(f64, f64); 2]; N] {
+    let (l, f) = (system.discrete_lagrangian_derivatives(q0, q1, h), system.discrete_force(q0, q1, h));
+    core::array::from_fn(|i| {
+        let [d1, d2, minus, plus] = [l.d1[i], l.d2[i], f.minus[i], f.plus[i]].map(Scalar::widen);
+        let size = d1.abs() + d2.abs() + minus.abs() + plus.abs();
+        [(-d1 - minus, size), (d2 + plus, size)]
+    })
 }

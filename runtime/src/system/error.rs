@@ -17,6 +17,16 @@ pub enum Function {
     },
     /// σ, the time scale.
     TimeScale,
+    /// A component of p0 = −D1 L_d − f_d⁻, as the step's equation computes it.
+    InitialMomentum {
+        /// Its coordinate.
+        index: usize,
+    },
+    /// A component of p1 = D2 L_d + f_d⁺, as the step computes it.
+    FinalMomentum {
+        /// Its coordinate.
+        index: usize,
+    },
 }
 
 /// A quantity of a function that is compared ([`verification`](crate::system::verification)).
@@ -27,6 +37,8 @@ pub enum Compared {
     Value,
     /// Its derivative along a direction in (q, v).
     Derivative,
+    /// Its second derivative along two directions in (q, v).
+    SecondDerivative,
 }
 
 /// The derivatives generated belong to another function than the one written: it has another value, or
@@ -39,7 +51,8 @@ pub struct GeneratedDiffers {
     pub compared: Compared,
     /// The quantity as generated.
     pub generated: f64,
-    /// The quantity of the function as written: a derivative by differences.
+    /// The quantity of the function as written: a derivative by differences, a second one by those of the
+    /// first as generated, and momenta by the derivatives of L_d and f_d.
     pub written: f64,
 }
 
@@ -50,6 +63,8 @@ impl fmt::Display for Function {
             Self::Rayleigh => f.write_str("R"),
             Self::Force { index } => write!(f, "component {index} of f"),
             Self::TimeScale => f.write_str("σ"),
+            Self::InitialMomentum { index } => write!(f, "component {index} of p0"),
+            Self::FinalMomentum { index } => write!(f, "component {index} of p1"),
         }
     }
 }
@@ -60,6 +75,7 @@ impl fmt::Display for GeneratedDiffers {
         let along = match compared {
             Compared::Value => "",
             Compared::Derivative => "the derivative along a direction of ",
+            Compared::SecondDerivative => "the second derivative along two directions of ",
         };
         write!(
             f,

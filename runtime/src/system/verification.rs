@@ -10,8 +10,11 @@
 //! |---|---|---|
 //! | [`State::from_velocity`] | values | at (q, v), and beside it where no coordinate is special |
 //! | the start of a run, or of one that is resumed | values, with `std` slopes | at the state, and beside it |
+//! | that start, with `std` | p0 and p1 of the step against those of L_d and f_d | beside the state |
 //! | [`State::verify`] | values and slopes | at the state, and beside it |
+//! | with slopes, if `debug_assertions` are on | second derivatives along two directions | there |
 //! | every step, with `debug_assertions` | values | at the points where the rule evaluates it |
+//! | a step, with `debug_assertions` | slopes | near one such point of 64 |
 //!
 //! Slopes are those near the state: at the point itself a body may take a way of its own, as at 0.
 //! Of members in lanes they are looked at in the first lane, and not again where a run changes its step size.
@@ -23,7 +26,10 @@
 //! hand have one value and nothing to compare. On x86 processors without SSE2 no values are compared: their
 //! registers round differently each time.
 
+mod along;
 mod slope;
+
+pub use along::{force_slope, lagrangian_slope, rayleigh_slope};
 
 use core::hint::black_box;
 
@@ -113,7 +119,7 @@ fn compare<S: Scalar>(function: Function, generated: S, written: S) -> Result<()
 
 /// The size of each entry of a point: of those that are 0, or so small that their squares carry no digits,
 /// that of the largest, but at most 1.
-fn sizes<S: Scalar, const N: usize>(point: &SVector<S, N>) -> SVector<S, N> {
+pub(crate) fn sizes<S: Scalar, const N: usize>(point: &SVector<S, N>) -> SVector<S, N> {
     let least = S::EPSILON.widen() * S::EPSILON.widen();
     let mut largest = 0.0_f64;
     for i in 0..N {
@@ -126,125 +132,6 @@ fn sizes<S: Scalar, const N: usize>(point: &SVector<S, N>) -> SVector<S, N> {
         sizes[i] = S::constant(if size > least { size } else { unit });
     }
     sizes
-}
-
-/// A direction in (q, v), with a part in every one: a third to two thirds of its size.
-fn direction<S: Scalar, const N: usize>(point: &SVector<S, N>, phase: usize) -> SVector<S, N> {
-    let mut direction = sizes(point);
-    for i in 0..N {
-        let share = 1.0 / 3.0 + ((i + phase) * 7 % 11) as f64 / 33.0;
-        let sign = if (i + phase) % 3 == 1 { -1.0 } else { 1.0 };
-        direction[i] *= S::constant(sign * share);
-    }
-    direction
-}
-
-/// The slope of a function from its partial derivatives `d1` and `d2`, held against its differences along the
-/// [`direction`] of (q, v).
-fn hold<S: Scalar, const N: usize>(
-    of: Function,
-    [q, v]: [&SVector<S, N>; 2],
-    [d1, d2]: [&SVector<S, N>; 2],
-    written: &dyn Fn(&SVector<S, N>, &SVector<S, N>) -> S,
-) -> Result<(), GeneratedDiffers> {
-    let epsilon = S::EPSILON.widen();
-    let largest = slope::largest(epsilon);
-    if !q.iter().chain(v.iter()).all(|x| x.widen().abs() <= largest) {
-        return Ok(());
-    }
-    let (a, b) = (direction(q, 0), direction(v, 5));
-    let (mut slope, mut size) = (0.0, 0.0);
-    for i in 0..N {
-        let [d1, d2] = [d1[i].widen(), d2[i].widen()];
-        slope += d1 * a[i].widen() + d2 * b[i].widen();
-        size += (d1 * q[i].widen()).abs() + (d2 * v[i].widen()).abs();
-    }
-    let mut along = |s: f64| {
-        let (mut moved_q, mut moved_v) = (*q, *v);
-        for i in 0..N {
-            moved_q[i] += a[i] * S::constant(s);
-            moved_v[i] += b[i] * S::constant(s);
-        }
-        written(&moved_q, &moved_v).widen()
-    };
-    match slope::refuted(slope, epsilon, size, &mut along) {
-        None => Ok(()),
-        Some(written) => {
-            Err(GeneratedDiffers { function: of, compared: Compared::Derivative, generated: slope, written })
-        }
-    }
-}
-
-/// ∂L/∂q and ∂L/∂v as generated against differences of L as written, along one direction.
-///
-/// # Errors
-/// [`GeneratedDiffers`].
-#[cold]
-#[inline(never)]
-pub fn lagrangian_slope<L: Lagrangian<N>, const N: usize>(
-    system: &L,
-    q: &SVector<L::Scalar, N>,
-    v: &SVector<L::Scalar, N>,
-) -> Result<(), GeneratedDiffers> {
-    let of = system.lagrangian_gradient(q, v);
-    hold(Function::Lagrangian, [q, v], [&of.d1, &of.d2], &|q, v| system.lagrangian(q, v))
-}
-
-/// ∂R/∂q and ∂R/∂v as generated against differences of R as written, along one direction.
-///
-/// # Errors
-/// [`GeneratedDiffers`].
-#[cold]
-#[inline(never)]
-pub fn rayleigh_slope<L: Rayleigh<N>, const N: usize>(
-    system: &L,
-    q: &SVector<L::Scalar, N>,
-    v: &SVector<L::Scalar, N>,
-) -> Result<(), GeneratedDiffers> {
-    let of = system.rayleigh_gradient(q, v);
-    hold(Function::Rayleigh, [q, v], [&of.d1, &of.d2], &|q, v| system.rayleigh(q, v))
-}
-
-/// ∂f/∂q and ∂f/∂v as generated against differences of f as written: a sum of all components along one
-/// direction, and where it differs, each.
-///
-/// # Errors
-/// [`GeneratedDiffers`].
-#[cold]
-#[inline(never)]
-pub fn force_slope<L: Force<N>, const N: usize>(
-    system: &L,
-    q: &SVector<L::Scalar, N>,
-    v: &SVector<L::Scalar, N>,
-) -> Result<(), GeneratedDiffers> {
-    let of = system.force_derivatives(q, v);
-    let along = |shares: &SVector<L::Scalar, N>, index| {
-        let (mut d1, mut d2) = (SVector::zeros(), SVector::zeros());
-        for i in 0..N {
-            for j in 0..N {
-                d1[i] += shares[j] * of.d1[(j, i)];
-                d2[i] += shares[j] * of.d2[(j, i)];
-            }
-        }
-        hold(Function::Force { index }, [q, v], [&d1, &d2], &|q, v| {
-            let f = system.force(q, v);
-            let mut sum = L::Scalar::constant(0.0);
-            for j in 0..N {
-                sum += shares[j] * f[j];
-            }
-            sum
-        })
-    };
-    let sum = along(&direction(&SVector::zeros(), 2), 0);
-    if sum.is_ok() {
-        return sum;
-    }
-    for index in 0..N {
-        let mut one = SVector::zeros();
-        one[index] = L::Scalar::constant(1.0);
-        along(&one, index)?;
-    }
-    sum
 }
 
 /// Whether there are two values of each function.
@@ -280,8 +167,30 @@ pub(crate) fn slopes_around<L: Lagrangian<N>, const N: usize>(
     at([0.75, -1.25])
 }
 
+/// Verifies values at a node of a step, and slopes near one of 64.
+pub(crate) fn verify_node<L: Lagrangian<N>, const N: usize>(
+    system: &L,
+    q: &SVector<L::Scalar, N>,
+    v: &SVector<L::Scalar, N>,
+) -> Result<(), GeneratedDiffers> {
+    system.verify_generated(q, v)?;
+    if cfg!(debug_assertions) && has_two_values(L::STRUCTURE.engine) && is_one_of_64(q) {
+        slopes_around(system, q, v)?;
+    }
+    Ok(())
+}
+
+/// Whether a point is one of some 64, as its last places have it.
+fn is_one_of_64<S: Scalar, const N: usize>(point: &SVector<S, N>) -> bool {
+    let mut hash = 1_u64;
+    for i in 0..N {
+        hash = (hash ^ point[i].widen().to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29);
+    }
+    hash & 63 == 0
+}
+
 /// A point away from `x`, in no special direction.
-fn beside<S: Scalar, const N: usize>(
+pub(crate) fn beside<S: Scalar, const N: usize>(
     x: &SVector<S, N>,
     distance: f64,
     unit: &SVector<S, N>,

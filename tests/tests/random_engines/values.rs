@@ -1,17 +1,19 @@
 //! The values of L, R and f as generated are those of the functions as written, bit by bit, at whatever
 //! optimisation level the two are compiled: `--config 'profile.test.package.dalembert-tests.opt-level=0'` and
 //! the like. Their slopes are not refuted by differences of the functions as written, and are where they are
-//! those of another system.
+//! those of another system. The momenta of their steps are those of L_d and f_d.
 
-use dalembert::system::{Derivatives, verification};
-use dalembert::{Lagrangian, State, StepError};
+use dalembert::run::VelocityHistory;
+use dalembert::step::{DiscreteForce, Flow, Momenta, StepKernel};
+use dalembert::system::{Derivatives, Structure, verification};
+use dalembert::{Discrete, Lagrangian, Midpoint, State, StepError};
 use nalgebra::SVector;
 
 use super::{Spread, expanded, generator, num_dual};
 
 /// `verify_generated` at a point, q, v and the coefficients, and what a run verifies that starts at
-/// (q, p = v), by both engines.
-type Verify = fn(&[f64]) -> [Result<(), StepError>; 4];
+/// (q, p = v), by both engines; and the momenta of its step by the midpoint rule.
+type Verify = fn(&[f64]) -> [Result<(), StepError>; 5];
 
 macro_rules! verify {
     ($name:ident, $n:literal, [$($rayleigh:ident)?], [$($force:ident)?]) => {
@@ -25,6 +27,8 @@ macro_rules! verify {
                 state.verify(&expanded),
                 num_dual.verify_generated(&q, &v).map_err(StepError::from),
                 state.verify(&num_dual),
+                Flow::<Midpoint, $n>::verify_momenta(&expanded, &state, step_size(at))
+                    .map_err(StepError::from),
             ]
         })
     };
@@ -32,6 +36,13 @@ macro_rules! verify {
 
 fn every_verification() -> [(usize, Verify); generator::SYSTEMS] {
     every_system!(verify)
+}
+
+/// One of many step sizes, as the last places of the point have it.
+fn step_size(at: &[f64]) -> f64 {
+    const SIZES: [f64; 12] = [1e-9, 1e-6, 1e-4, 1e-3, 0.01, 0.1, 0.3, -0.1, 1.0, 10.0, 1e3, 1e-300];
+    let bits = at.iter().fold(0_u64, |bits, x| bits.rotate_left(7) ^ x.to_bits());
+    SIZES[(bits.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize % SIZES.len()]
 }
 
 /// Numbers at which operations are special.
@@ -91,6 +102,8 @@ struct Mixed<S> {
 impl<S: Lagrangian<N>, const N: usize> Lagrangian<N> for Mixed<S> {
     type Scalar = S::Scalar;
 
+    const STRUCTURE: Structure = S::STRUCTURE;
+
     fn lagrangian(&self, q: &SVector<S::Scalar, N>, v: &SVector<S::Scalar, N>) -> S::Scalar {
         self.written.lagrangian(q, v)
     }
@@ -104,8 +117,69 @@ impl<S: Lagrangian<N>, const N: usize> Lagrangian<N> for Mixed<S> {
     }
 }
 
-/// Whether slopes refute the derivatives of a system that has its last coefficients changed by so much.
-type Refute = fn(&[f64], f64) -> bool;
+/// With the step's equation and momenta of the other.
+impl<S: Discrete<Midpoint, N>, const N: usize> Discrete<Midpoint, N> for Mixed<S> {
+    type Matrix = S::Matrix;
+    type Memory = VelocityHistory<S::Scalar, N>;
+
+    fn discrete_lagrangian(
+        &self,
+        q0: &SVector<S::Scalar, N>,
+        q1: &SVector<S::Scalar, N>,
+        h: S::Scalar,
+    ) -> S::Scalar {
+        self.written.discrete_lagrangian(q0, q1, h)
+    }
+
+    fn discrete_lagrangian_derivatives(
+        &self,
+        q0: &SVector<S::Scalar, N>,
+        q1: &SVector<S::Scalar, N>,
+        h: S::Scalar,
+    ) -> Derivatives<S::Scalar, N> {
+        self.written.discrete_lagrangian_derivatives(q0, q1, h)
+    }
+
+    fn discrete_force(
+        &self,
+        q0: &SVector<S::Scalar, N>,
+        q1: &SVector<S::Scalar, N>,
+        h: S::Scalar,
+    ) -> DiscreteForce<S::Scalar, N> {
+        self.written.discrete_force(q0, q1, h)
+    }
+
+    fn step_kernel(
+        &self,
+        q0: &SVector<S::Scalar, N>,
+        v: &SVector<S::Scalar, N>,
+        h: S::Scalar,
+    ) -> StepKernel<S::Scalar, N, S::Matrix> {
+        self.derivatives.step_kernel(q0, v, h)
+    }
+
+    fn momenta(
+        &self,
+        q0: &SVector<S::Scalar, N>,
+        v: &SVector<S::Scalar, N>,
+        h: S::Scalar,
+    ) -> Momenta<S::Scalar, N> {
+        self.derivatives.momenta(q0, v, h)
+    }
+
+    fn segment_energy(
+        &self,
+        q0: &SVector<S::Scalar, N>,
+        q1: &SVector<S::Scalar, N>,
+        h: S::Scalar,
+    ) -> S::Scalar {
+        self.written.segment_energy(q0, q1, h)
+    }
+}
+
+/// Whether slopes refute the derivatives of a system that has its coefficients changed by so much, and the
+/// derivatives of L_d and f_d the momenta of a step.
+type Refute = fn(&[f64], f64) -> [bool; 2];
 
 macro_rules! refute {
     ($name:ident, $n:literal, [$($rayleigh:ident)?], [$($force:ident)?]) => {
@@ -114,7 +188,11 @@ macro_rules! refute {
             let (q, v) = (SVector::from_fn(|i, _| at[i]), SVector::from_fn(|i, _| at[$n + i]));
             let (written, derivatives) =
                 (expanded::$name { c }, expanded::$name { c: c.map(|c| c * (1.0 + change)) });
-            verification::lagrangian_slope(&Mixed { written, derivatives }, &q, &v).is_err()
+            let mixed = Mixed { written, derivatives };
+            [
+                verification::lagrangian_slope(&mixed, &q, &v).is_err(),
+                Flow::<Midpoint, $n>::verify_momenta(&mixed, &State { q, p: v }, 0.1).is_err(),
+            ]
         })
     };
 }
@@ -124,14 +202,20 @@ macro_rules! refute {
 fn derivatives_of_another_system_are_refuted() {
     let systems: [(usize, Refute); generator::SYSTEMS] = every_system!(refute);
     let told = |change: f64| {
-        let of_system = |(index, &(n, refute)): (usize, &(usize, Refute))| {
+        let mut told = [0, 0];
+        for (index, &(n, refute)) in systems.iter().enumerate() {
             let mut random = Spread(2000 + index as u64);
-            (0..20).filter(|_| refute(&random.point(n), change)).count()
-        };
-        systems.iter().enumerate().map(of_system).sum::<usize>()
+            for _ in 0..20 {
+                let refuted = refute(&random.point(n), change);
+                told = [0, 1].map(|i| told[i] + usize::from(refuted[i]));
+            }
+        }
+        told
     };
     let told = [0.0, 1e-4, 1e-2, 0.5].map(told);
-    println!("coefficients off by 0, 1e-4, 0.01 and a half: refuted at {told:?} of 1000 points");
-    assert_eq!(told[0], 0);
-    assert!(told[2] > 800 && told[3] > 900, "{told:?}");
+    println!(
+        "coefficients off by 0, 1e-4, 0.01 and a half: slopes and momenta refute {told:?} of 1000 points"
+    );
+    assert_eq!(told[0], [0, 0]);
+    assert!(told[2][0] > 800 && told[3][0] > 900 && told[2][1] > 900 && told[3][1] > 900, "{told:?}");
 }

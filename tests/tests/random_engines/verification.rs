@@ -7,7 +7,7 @@ use dalembert::nalgebra::{Matrix1, SVector, Vector1, matrix, vector};
 use dalembert::rules::DisplacementRule;
 use dalembert::run::Explicit;
 use dalembert::step::Flow;
-use dalembert::step::{Momenta, StepKernel};
+use dalembert::step::{DiscreteForce, Momenta, StepKernel};
 use dalembert::system::verification;
 use dalembert::system::{
     ActingForce, Compared, CovectorDerivatives, Derivatives, Engine, ForcedLagrangian, Function,
@@ -26,6 +26,11 @@ struct Mutated {
     off: [f64; 3],
     /// What the slopes are off by, of L, R and f.
     bent: [f64; 3],
+    /// What second derivatives are off by, of L and R.
+    curved: [f64; 2],
+    /// What momenta are off by where they are computed at once: p0 of the equation, p0 and p1 of the step,
+    /// and the force of the explicit one.
+    fused: [f64; 4],
 }
 
 type Vector = Vector1<f64>;
@@ -46,7 +51,7 @@ impl Lagrangian<1> for Mutated {
             value: self.lagrangian(q, v) * (1.0 + self.off[0]),
             d1: -q * (1.0 + self.bent[0]),
             d2: *v,
-            d11: matrix![-1.0],
+            d11: matrix![-1.0 - self.curved[0]],
             d12: matrix![0.0],
             d22: matrix![1.0],
         }
@@ -77,7 +82,7 @@ impl Rayleigh<1> for Mutated {
             d2: v * DAMPING * (1.0 + self.bent[1]),
             d11: matrix![0.0],
             d12: matrix![0.0],
-            d22: matrix![DAMPING],
+            d22: matrix![DAMPING * (1.0 + self.curved[1])],
         }
     }
 }
@@ -124,16 +129,24 @@ macro_rules! discrete {
                     <$rule as DisplacementRule>::discrete_lagrangian_derivatives(self, q0, q1, h)
                 }
 
+                fn discrete_force(&self, q0: &Vector, q1: &Vector, h: f64) -> DiscreteForce<f64, 1> {
+                    <$rule as DisplacementRule>::rayleigh_force(self, q0, q1, h)
+                        + <$rule as DisplacementRule>::general_force(self, q0, q1, h)
+                }
+
                 fn step_kernel(&self, q0: &Vector, v: &Vector, h: f64) -> StepKernel<f64, 1> {
-                    <$rule as DisplacementRule>::lagrangian_kernel(self, q0, v, h)
+                    let kernel = <$rule as DisplacementRule>::lagrangian_kernel(self, q0, v, h)
                         + <$rule as DisplacementRule>::rayleigh_kernel(self, q0, v, h)
-                        + <$rule as DisplacementRule>::force_kernel(self, q0, v, h)
+                        + <$rule as DisplacementRule>::force_kernel(self, q0, v, h);
+                    StepKernel { p0: kernel.p0 * (1.0 + self.fused[0]), ..kernel }
                 }
 
                 fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
-                    <$rule as DisplacementRule>::lagrangian_momenta(self, q0, v, h)
+                    let momenta = <$rule as DisplacementRule>::lagrangian_momenta(self, q0, v, h)
                         + <$rule as DisplacementRule>::rayleigh_momenta(self, q0, v, h)
-                        + <$rule as DisplacementRule>::force_momenta(self, q0, v, h)
+                        + <$rule as DisplacementRule>::force_momenta(self, q0, v, h);
+                    let [_, off_p0, off_p1, _] = self.fused;
+                    Momenta { p0: momenta.p0 * (1.0 + off_p0), p1: momenta.p1 * (1.0 + off_p1) }
                 }
 
                 fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
@@ -161,11 +174,11 @@ impl Explicit<1> for Mutated {
     }
 
     fn configuration_force(&self, q: &Vector) -> Vector {
-        q * -1.25
+        q * (-1.25 * (1.0 + self.fused[3]))
     }
 }
 
-const RIGHT: Mutated = Mutated { off: [0.0; 3], bent: [0.0; 3] };
+const RIGHT: Mutated = Mutated { off: [0.0; 3], bent: [0.0; 3], curved: [0.0; 2], fused: [0.0; 4] };
 
 /// L, R or f wrong by one rounding.
 fn wrong() -> [(Mutated, Function); 3] {
@@ -268,6 +281,59 @@ fn a_wrong_slope_is_an_error_that_names_the_function_where_a_run_starts() {
         assert!(run.next().unwrap().is_err());
     }
     assert_eq!(START.verify(&RIGHT), Ok(()));
+}
+
+#[test]
+fn wrong_momenta_are_an_error_where_a_run_starts_that_computes_them() {
+    let (initial, last) = (Function::InitialMomentum { index: 0 }, Function::FinalMomentum { index: 0 });
+    let names = ["trajectory, midpoint", "trajectory, trapezoidal", "composition", "splitting"];
+    // By the midpoint rule, the trapezoidal one, a composition of midpoints, and a splitting.
+    let expected = [
+        [Some(initial), Some(initial), Some(initial), None],
+        [Some(initial), Some(initial), Some(initial), None],
+        [Some(last), Some(last), Some(last), None],
+        [None, Some(initial), None, Some(initial)],
+    ];
+    for (i, expected) in expected.into_iter().enumerate() {
+        let mut fused = [0.0; 4];
+        fused[i] = 1e-4;
+        let found = at_a_start(&Mutated { fused, ..RIGHT });
+        for (name, expected) in names.into_iter().zip(expected) {
+            let [(place, found)] = found.iter().filter(|(place, _)| *place == name).collect::<Vec<_>>()[..]
+            else {
+                panic!("{name}")
+            };
+            assert_eq!(*found, expected, "{place}, {i}");
+        }
+    }
+}
+
+#[test]
+fn with_debug_assertions_second_derivatives_are_compared_where_a_run_starts() {
+    for (i, function) in [Function::Lagrangian, Function::Rayleigh].into_iter().enumerate() {
+        let mut curved = [0.0; 2];
+        curved[i] = 0.01;
+        let error = START.verify(&Mutated { curved, ..RIGHT });
+        let found = match error {
+            Err(StepError::GeneratedDiffers { function, compared, .. }) => Some((function, compared)),
+            _ => None,
+        };
+        let told = Some((function, Compared::SecondDerivative));
+        assert_eq!(found, told.filter(|_| cfg!(debug_assertions)));
+    }
+}
+
+#[test]
+fn with_debug_assertions_steps_compare_slopes_at_some_of_their_points() {
+    let bent = Mutated { bent: [0.01, 0.0, 0.0], ..RIGHT };
+    let found = |system: &Mutated| {
+        let states = (0..640).map(|i| State { q: vector![0.5 + 1e-3 * f64::from(i)], ..START });
+        states.filter(|state| named(system.by(Midpoint, H).step(state)).is_some()).count()
+    };
+    let found_bent = found(&bent);
+    let expected = if cfg!(debug_assertions) { 1..=40 } else { 0..=0 };
+    assert!(expected.contains(&found_bent), "{found_bent}");
+    assert_eq!(found(&RIGHT), 0);
 }
 
 #[test]

@@ -15,8 +15,9 @@ use crate::rules::Trapezoidal;
 use crate::step::{
     Discrete, Flow, Memory, Momenta, Report, State, Step, StepError,
     newton::{estimated_floor, held_against},
+    verify_momenta,
 };
-use crate::system::ActingForce;
+use crate::system::{ActingForce, GeneratedDiffers};
 
 /// A system that the trapezoidal rule steps explicitly: L = T(v) − V(q, t) with T quadratic, R quadratic in v,
 /// both with constant coefficients, and a force f(q, t).
@@ -34,6 +35,27 @@ pub trait Explicit<const N: usize>: Discrete<Trapezoidal, N> + ActingForce<N> {
 
     /// G(q) = ∂L/∂q + f, now.
     fn configuration_force(&self, q: &SVector<Self::Scalar, N>) -> SVector<Self::Scalar, N>;
+}
+
+/// Verifies both momenta of an explicit step against the derivatives of L_d and f_d.
+pub(in crate::run) fn verify_explicit<L: Explicit<N>, const N: usize>(
+    system: &L,
+    state: &State<L::Scalar, N>,
+    h: L::Scalar,
+) -> Result<(), GeneratedDiffers> {
+    verify_momenta::<L, Trapezoidal, N>(system, state, h, &|q0, v| {
+        let (mut momenta, mut q1) = (system.velocity_momenta(v, h), *q0);
+        for i in 0..N {
+            q1[i] += h * v[i];
+        }
+        let at_end = system.later(h, |system| system.configuration_force(&q1));
+        let (at_start, half) = (system.configuration_force(q0), h * L::Scalar::constant(0.5));
+        for i in 0..N {
+            momenta.p0[i] -= half * at_start[i];
+            momenta.p1[i] += half * at_end[i];
+        }
+        [momenta; 2]
+    })
 }
 
 /// The factors of P, and the force at the end of the last step. It belongs to one system.
@@ -121,6 +143,9 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> ExplicitMemory<S, M, N> {
     where
         L: Explicit<N, Scalar = S, Matrix = M>,
     {
+        if self.prepared.is_none() {
+            verify_explicit(system, state, h)?;
+        }
         let step = Flow::<Trapezoidal, N>::step(system, state, h, None)?;
         if self.prepared.as_ref().is_none_or(|prepared| prepared.h != h) {
             let at_rest = system.velocity_momenta(&nalgebra::zero(), h).p0;
