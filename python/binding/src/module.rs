@@ -16,6 +16,8 @@ use crate::{ensemble, error, reports, results, watching};
 /// Those of Python.
 pub fn fill(module: &Bound<'_, PyModule>, kinds: &'static [&'static dyn Kind]) -> PyResult<()> {
     let py = module.py();
+    // Ctrl-C raises its exception here. Where the first array is made, importing NumPy panics of it.
+    py.import("numpy")?;
     error::add_to(module)?;
     results::add_to(module)?;
     ensemble::add_to(module)?;
