@@ -1,6 +1,6 @@
 //! The start of a run: whether the system is the one written.
 
-use nalgebra::SVector;
+use nalgebra::{ComplexField as _, SVector};
 
 use crate::numbers::{NewtonMatrix, Scalar};
 use crate::step::{Discrete, Momenta, State, StepError};
@@ -126,7 +126,7 @@ fn compare_momenta<L: Discrete<R, N> + ?Sized, R, const N: usize>(
     for i in 0..N {
         q1[i] += h * v[i];
     }
-    let precision = L::Scalar::EPSILON.widen().sqrt();
+    let precision = L::Scalar::EPSILON.sqrt().widen();
     let near = by_derivatives(system, q0, &q1, h);
     let far = by_derivatives(system, &beside(q0, precision, q0), &beside(&q1, -precision, &q1), h);
     for momenta in generated {

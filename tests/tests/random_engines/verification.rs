@@ -19,6 +19,8 @@ use dalembert::{
     Rayleigh, Splitting, State, StepError, Trajectory, Trapezoidal, rayleigh_system,
 };
 
+use super::Spread;
+
 /// L = ½v² − ½q², R = ½ r v², f = −¼q, with wrong values of one of them beside the derivatives.
 #[derive(Clone, Copy)]
 struct Mutated {
@@ -417,4 +419,54 @@ fn views_and_joint_rules_are_verified_at_their_own_input_and_time() -> anyhow::R
     Discrete::<FittedTrapezoidal, 1>::verify_segment(&joint, &q, &v, 0.1)?;
     Discrete::<dalembert::OneSided, 1>::verify_segment(&joint, &q, &v, 0.1)?;
     Ok(())
+}
+
+/// Differences of numbers that are almost equal: near rest they round to 0, or to a few last places of 1.
+struct Cancelling {
+    epsilon: f64,
+    c: f64,
+}
+
+#[rayleigh_system(derivatives = expanded)]
+impl Cancelling {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        let springs =
+            (1.0 + q[0] * q[0]) - 1.0 + (self.epsilon * self.epsilon + q[1].powi(3)) - self.epsilon.powi(2);
+        0.5 * self.c * (v[0] * v[0] + v[1] * v[1])
+            - springs
+            - (1.0 - (q[0] - q[1]).cos())
+            - 0.5 * self.c * q[0] * q[0]
+    }
+
+    fn rayleigh(&self, v: [f64; 2]) -> f64 {
+        let epsilon = self.epsilon;
+        let dry = |v: f64| (v * v + epsilon * epsilon).sqrt() - epsilon;
+        0.5 * self.c * v[0] * v[0] + dry(v[0]) + (v[1] / epsilon).cosh().ln() * epsilon + 0.1 * v[1] * v[1]
+    }
+
+    fn force(&self, q: [f64; 2], v: [f64; 2]) -> [f64; 2] {
+        [(1.0 + v[0]) - 1.0 - 0.1 * v[0], (self.epsilon + q[1]) - self.epsilon + self.c * q[1]]
+    }
+}
+
+/// A run that starts where another came to rest.
+#[test]
+fn rounding_near_rest_is_no_difference() {
+    let (mut random, mut tried) = (Spread(77), 0);
+    for exponent in 0..=18 {
+        for _ in 0..50 {
+            let mut small = |least: i32| {
+                let size = 10.0_f64.powi(least) * (0.2 + random.next());
+                if random.next() < 0.5 { size } else { -size }
+            };
+            let (q, p) =
+                (vector![small(-exponent), small(-exponent)], vector![small(-exponent), small(-exponent)]);
+            let system = Cancelling { epsilon: small(-(exponent % 7)).abs(), c: small(0).abs() };
+            let start = State { q, p };
+            assert_eq!(start.verify(&system), Ok(()), "{start:?} ε = {} c = {}", system.epsilon, system.c);
+            assert_eq!(Flow::<Midpoint, 2>::verify_momenta(&system, &start, 0.01), Ok(()), "{start:?}");
+            tried += 1;
+        }
+    }
+    println!("{tried} starts");
 }
