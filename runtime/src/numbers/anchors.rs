@@ -36,7 +36,7 @@ macro_rules! anchors {
             /// what rounding has made of x, the sum of x₀ and changes as large as δ. Angles farther off, and
             /// those of `f32`, have the sine and cosine of [`sin_cos`](crate::generated::Lanes::sin_cos), and
             /// the next start from there.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn sin_cos(&mut self, x: $numbers<T, K>) -> ($numbers<T, K>, $numbers<T, K>) {
                 let Self { angle, sine, cosine } = self;
@@ -49,7 +49,7 @@ macro_rules! anchors {
         impl<T: Scalar, const K: usize, const FUSED: bool> Reciprocal<$numbers<T, K>, FUSED> {
             /// The reciprocal r of x by one step from the last, r₀: r = r₀ + r₀ (1 − x r₀), off by the square
             /// of 1 − x r₀; where that is above 1/16, 1/x. For corrections that sweeps follow.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn of(&mut self, x: $numbers<T, K>) -> $numbers<T, K> {
                 self.0.0 = T::corrected_reciprocals::<K, FUSED>(x.0, self.0.0);
@@ -58,7 +58,7 @@ macro_rules! anchors {
         }
 
         impl<T: Scalar, const K: usize, const FUSED: bool> Blank for Angle<$numbers<T, K>, FUSED> {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn blank() -> Self {
                 let zero = $numbers::splat(T::zero());
                 Angle { angle: $numbers::splat(T::one() / T::zero()), sine: zero, cosine: zero }
@@ -66,7 +66,7 @@ macro_rules! anchors {
         }
 
         impl<T: Scalar, const K: usize, const FUSED: bool> Blank for Reciprocal<$numbers<T, K>, FUSED> {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn blank() -> Self {
                 Reciprocal($numbers::splat(T::zero()))
             }

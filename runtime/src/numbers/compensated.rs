@@ -46,7 +46,7 @@ impl<T: Scalar, const N: usize, const W: usize> CompensatedMembers<T, N, W> {
     }
 
     /// [`Compensated::new`] of each.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn new(value: MemberVector<T, N, W>) -> Self {
         Self { value, rest: [Members::splat(T::zero()); N] }
     }
@@ -61,7 +61,7 @@ impl<T: Scalar, const N: usize, const W: usize> CompensatedMembers<T, N, W> {
     }
 
     /// [`Compensated::plus`] of each.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn plus(&self, change: &MemberVector<T, N, W>) -> Self {
         let mut sum = *self;
         each_coordinate!(a => {
@@ -75,7 +75,7 @@ impl<T: Scalar, const N: usize, const W: usize> CompensatedMembers<T, N, W> {
     }
 
     /// [`Members::replace`] of each number.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn replace(&mut self, only_some: bool, condition: Mask<W>, other: &Self) {
         each_coordinate!(a => {
             self.value[a].replace(only_some, condition, other.value[a]);

@@ -54,7 +54,7 @@ pub trait Dual<F: Scalar>: DualNum<Primitive = F> + Copy {
     fn plus(self, right: Self) -> Self;
 
     /// self − right.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn minus(self, right: Self) -> Self {
         self.plus(right.negated())
     }
@@ -151,7 +151,7 @@ type Part<T, const R: usize, const C: usize> = Derivative<T, Const<R>, Const<C>>
 // of thirty operations would make hundreds of them.
 
 /// `operation` on every entry.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn map<T: DualNum + Copy, const R: usize, const C: usize>(
     part: Part<T, R, C>,
     operation: impl Fn(T) -> T,
@@ -165,7 +165,7 @@ fn map<T: DualNum + Copy, const R: usize, const C: usize>(
 }
 
 /// Sum of two parts, one of which may be absent.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn sum<F: Primitive, T: Dual<F>, const R: usize, const C: usize>(
     left: Part<T, R, C>,
     right: Part<T, R, C>,
@@ -183,7 +183,7 @@ fn sum<F: Primitive, T: Dual<F>, const R: usize, const C: usize>(
 }
 
 /// Every entry times `factor`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn scaled<F: Primitive, T: Dual<F>, const R: usize, const C: usize>(
     part: Part<T, R, C>,
     factor: T,
@@ -192,7 +192,7 @@ fn scaled<F: Primitive, T: Dual<F>, const R: usize, const C: usize>(
 }
 
 /// The product of a column and a row.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn outer<F: Primitive, T: Dual<F>, const R: usize, const C: usize>(
     column: Part<T, R, 1>,
     row: Part<T, 1, C>,
@@ -217,38 +217,38 @@ where
     T: Dual<F>,
     Self: DualNum<Primitive = F> + Copy,
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn primal(self) -> F {
         self.re.primal()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn with_primal(self, value: F) -> Self {
         Self { re: self.re.with_primal(value), ..self }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn is_constant(self) -> bool {
         self.eps.0.is_none() && self.re.is_constant()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn chain(self, [g, g1, g2, g3]: [F; 4]) -> Self {
         let slope = self.re.chain([g1, g2, g3, nalgebra::zero()]);
         Self { re: self.re.chain([g, g1, g2, g3]), eps: scaled(self.eps, slope) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn plus(self, right: Self) -> Self {
         Self { re: self.re.plus(right.re), eps: sum(self.eps, right.eps) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn times(self, right: Self) -> Self {
         Self { re: self.re.times(right.re), eps: sum(scaled(self.eps, right.re), scaled(right.eps, self.re)) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn over(self, right: Self) -> Self {
         // (a/b)′ = (a′ − (a/b) b′)/b.
         let re = self.re.over(right.re);
@@ -256,7 +256,7 @@ where
         Self { re, eps: map(numerator, |entry| entry.over(right.re)) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn negated(self) -> Self {
         Self { re: self.re.negated(), eps: map(self.eps, T::negated) }
     }
@@ -268,22 +268,22 @@ where
     T: Dual<F>,
     Self: DualNum<Primitive = F> + Copy,
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn primal(self) -> F {
         self.re.primal()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn with_primal(self, value: F) -> Self {
         Self { re: self.re.with_primal(value), ..self }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn is_constant(self) -> bool {
         self.eps1.0.is_none() && self.eps2.0.is_none() && self.re.is_constant()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn chain(self, [g, g1, g2, g3]: [F; 4]) -> Self {
         let slope = self.re.chain([g1, g2, g3, nalgebra::zero()]);
         let curvature = self.re.chain([g2, g3, nalgebra::zero(), nalgebra::zero()]);
@@ -295,7 +295,7 @@ where
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn plus(self, right: Self) -> Self {
         Self {
             re: self.re.plus(right.re),
@@ -305,7 +305,7 @@ where
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn times(self, right: Self) -> Self {
         let cross = sum(outer(self.eps1, right.eps2), outer(right.eps1, self.eps2));
         Self {
@@ -316,7 +316,7 @@ where
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn over(self, right: Self) -> Self {
         // q = a/b: q′ = (a′ − q b′)/b, and once more for the mixed derivative.
         let re = self.re.over(right.re);
@@ -328,7 +328,7 @@ where
         Self { re, eps1, eps2, eps1eps2: map(numerator, divided) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn negated(self) -> Self {
         Self {
             re: self.re.negated(),

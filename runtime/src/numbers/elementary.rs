@@ -99,14 +99,14 @@ macro_rules! elementary {
 
             /// The number with the methods of this trait, and none of its own that go by the same names.
             #[doc(hidden)]
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn elementary(self) -> Chosen<Self> {
                 Chosen(self)
             }
 
             /// The number with sine, cosine and exponential in the form that several numbers at once have.
             #[doc(hidden)]
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn branch_free(self) -> BranchFree<Self> {
                 BranchFree(self)
             }
@@ -115,7 +115,7 @@ macro_rules! elementary {
         impl<S: Elementary> Chosen<S> {
             $(
                 $(#[$doc])*
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 #[must_use]
                 pub fn $name(self $(, $argument: arguments!(S $type))*) -> S {
                     Elementary::$name(self.0 $(, $argument)*)
@@ -123,7 +123,7 @@ macro_rules! elementary {
             )*
 
             /// Sine and cosine.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn sin_cos(self) -> (S, S) {
                 Elementary::sin_cos(self.0)
@@ -156,7 +156,7 @@ pub struct BranchFree<S>(S);
 
 impl<S: Scalar> BranchFree<S> {
     /// Sine and cosine.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn sin_cos(self) -> (S, S) {
         let ([sine], [cosine]) = S::sines_and_cosines([self.0]);
@@ -164,21 +164,21 @@ impl<S: Scalar> BranchFree<S> {
     }
 
     /// Sine.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn sin(self) -> S {
         self.sin_cos().0
     }
 
     /// Cosine.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn cos(self) -> S {
         self.sin_cos().1
     }
 
     /// eˣ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn exp(self) -> S {
         let [exponential] = S::exponentials([self.0]);

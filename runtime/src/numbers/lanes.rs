@@ -30,14 +30,14 @@ pub type LaneVector<T, const N: usize, const S: usize> = [Lanes<T, S>; N];
 
 impl<T: Scalar, const S: usize> Lanes<T, S> {
     /// One number in every lane.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn splat(value: T) -> Self {
         Self([value; S])
     }
 
     /// The function of each lane.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn map(mut self, function: impl Fn(T) -> T) -> Self {
         for lane in &mut self.0 {
@@ -47,7 +47,7 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
     }
 
     /// The function of each lane of two.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn zip(mut self, other: Self, function: impl Fn(T, T) -> T) -> Self {
         for (lane, other) in self.0.iter_mut().zip(other.0) {
@@ -57,13 +57,13 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
     }
 
     /// self × factor + term, rounded once where that is asked for and where the target has an instruction for it.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn times_plus(self, is_fused: bool, factor: T, term: Self) -> Self {
         Self(T::products_plus(is_fused, self.0, [factor; S], term.0))
     }
 
     /// Constants of each lane.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn constants(values: &[f64; S]) -> Self {
         let mut constants = Self::splat(T::zero());
         for (constant, &value) in constants.0.iter_mut().zip(values) {
@@ -73,14 +73,14 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
     }
 
     /// Lane by lane, the larger; where one is NaN, either.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn larger(self, other: Self) -> Self {
         Self(T::larger(self.0, other.0))
     }
 
     /// Of all lanes what `combine` makes of two, halves with halves: the logarithm of S such steps wait for
     /// each other.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn folded(mut self, combine: impl Fn(T, T) -> T) -> T {
         let mut lanes = &mut self.0[..];
         while let Some((low, high)) = lanes.split_at_mut_checked(lanes.len().div_ceil(2))
@@ -96,75 +96,75 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
 
     /// The largest of the lanes, or the sum over all of `terms` where that is no finite number: NaN and infinity
     /// stay in a sum.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn largest_unless(self, terms: Self) -> T {
         let sum = terms.folded(|a, b| a + b);
         if sum.is_finite() { self.folded(|a, b| if a > b { a } else { b }) } else { sum }
     }
 
     /// The largest of the lanes' absolute values; not finite if one is not.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn amax(self) -> T {
         let sizes = self.abs();
         sizes.largest_unless(sizes)
     }
 
     /// Lane by lane, self < other.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn less(self, other: Self) -> Mask<S> {
         self.compared(other, |a, b| a < b)
     }
 
     /// Lane by lane, self ≤ other.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn less_or_equal(self, other: Self) -> Mask<S> {
         self.compared(other, |a, b| a <= b)
     }
 
     /// Lane by lane, self = other.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn equal(self, other: Self) -> Mask<S> {
         self.compared(other, |a, b| a == b)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn compared(self, other: Self, holds: impl Fn(T, T) -> bool) -> Mask<S> {
         Mask(array::from_fn(|i| holds(self.0[i], other.0[i])))
     }
 
     /// Which lanes are NaN.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn is_nan(self) -> Mask<S> {
         !self.equal(self)
     }
 
     /// Which lanes are finite.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn is_finite(self) -> Mask<S> {
         Mask(self.0.map(|lane| lane.is_finite()))
     }
 
     /// Which lanes are infinite.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn is_infinite(self) -> Mask<S> {
         !(self.is_finite() | self.is_nan())
     }
 
     /// Which lanes have the sign bit set.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn is_sign_negative(self) -> Mask<S> {
         Mask(self.0.map(|lane| lane.is_sign_negative()))
     }
 
     /// Which lanes do not have the sign bit set.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn is_sign_positive(self) -> Mask<S> {
         !self.is_sign_negative()
@@ -173,7 +173,7 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
 
 impl<const S: usize> Mask<S> {
     /// One truth value in every lane.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn splat(value: bool) -> Self {
         Self([value; S])
@@ -193,7 +193,7 @@ impl<const S: usize> Mask<S> {
     }
 
     /// Lane by lane, `a` where it holds and `b` where it does not.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn select<T: Scalar>(self, a: Lanes<T, S>, b: Lanes<T, S>) -> Lanes<T, S> {
         let mut selected = b;
@@ -206,7 +206,7 @@ impl<const S: usize> Mask<S> {
 
 impl<const S: usize> Not for Mask<S> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn not(mut self) -> Self {
         for i in 0..S {
             self.0[i] = !self.0[i];
@@ -217,7 +217,7 @@ impl<const S: usize> Not for Mask<S> {
 
 impl<const S: usize> BitAnd for Mask<S> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn bitand(mut self, other: Self) -> Self {
         for i in 0..S {
             self.0[i] &= other.0[i];
@@ -228,7 +228,7 @@ impl<const S: usize> BitAnd for Mask<S> {
 
 impl<const S: usize> BitOr for Mask<S> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn bitor(mut self, other: Self) -> Self {
         for i in 0..S {
             self.0[i] |= other.0[i];
@@ -238,7 +238,7 @@ impl<const S: usize> BitOr for Mask<S> {
 }
 
 /// The vector of one lane.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn lane<T: Scalar, const N: usize, const S: usize>(
     lanes: &LaneVector<T, N, S>,
     index: usize,
@@ -247,7 +247,7 @@ pub(crate) fn lane<T: Scalar, const N: usize, const S: usize>(
 }
 
 /// Writes the vector of one lane.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn write_lane<T: Scalar, const N: usize, const S: usize>(
     lanes: &mut LaneVector<T, N, S>,
     index: usize,
@@ -259,7 +259,7 @@ pub(crate) fn write_lane<T: Scalar, const N: usize, const S: usize>(
 }
 
 /// The lanes in as many as vectors hold: those beyond the S are copies of the last.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn widened<T: Scalar, const N: usize, const S: usize, const W: usize>(
     lanes: LaneVector<T, N, S>,
 ) -> LaneVector<T, N, W> {
@@ -273,7 +273,7 @@ pub(crate) fn widened<T: Scalar, const N: usize, const S: usize, const W: usize>
 }
 
 /// The first S of the lanes.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn narrowed<T: Scalar, const N: usize, const S: usize, const W: usize>(
     lanes: LaneVector<T, N, W>,
 ) -> LaneVector<T, N, S> {
@@ -287,7 +287,7 @@ pub(crate) fn narrowed<T: Scalar, const N: usize, const S: usize, const W: usize
 }
 
 /// One vector in every lane.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn splat<T: Scalar, const N: usize, const S: usize>(
     vector: &SVector<T, N>,
 ) -> LaneVector<T, N, S> {

@@ -130,28 +130,28 @@ impl Blank for () {
 }
 
 impl<T: Scalar, const W: usize> Blank for Members<T, W> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn blank() -> Self {
         Self::splat(T::zero())
     }
 }
 
 impl<const W: usize> Blank for Mask<W> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn blank() -> Self {
         Self::splat(false)
     }
 }
 
 impl<A: Blank, const K: usize> Blank for [A; K] {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn blank() -> Self {
         [A::blank(); K]
     }
 }
 
 impl<A: Blank, B: Blank> Blank for (A, B) {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn blank() -> Self {
         (A::blank(), B::blank())
     }
@@ -162,7 +162,7 @@ pub type MemberVector<T, const N: usize, const W: usize> = [Members<T, W>; N];
 
 impl<T: Scalar, const W: usize> Members<T, W> {
     /// One number for every member.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn splat(value: T) -> Self {
         Self([value; W])
@@ -184,7 +184,7 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     /// self × factor + term, rounded once where that is asked for or the target of the build has an instruction
     /// for it, as that of [`Lanes`](crate::generated::Lanes): not where a function is compiled for more than the
     /// build is.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn times_plus(self, is_fused: bool, factor: T, term: Self) -> Self {
         let mut result = term;
         each_member!(i => {
@@ -194,7 +194,7 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     }
 
     /// Member by member, the larger; where one is NaN, either.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn larger(self, other: Self) -> Self {
         let mut larger = other;
         each_member!(i => {
@@ -204,7 +204,7 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     }
 
     /// Member by member, `a` where the condition holds and `b` where it does not.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn select(condition: Mask<W>, a: Self, b: Self) -> Self {
         let mut selected = b;
@@ -216,13 +216,13 @@ impl<T: Scalar, const W: usize> Members<T, W> {
 
     /// The numbers of `other`; with `only_some` those alone that the condition holds for, otherwise all, without
     /// looking at it.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn replace(&mut self, only_some: bool, condition: Mask<W>, other: Self) {
         *self = if only_some { Self::select(condition, other, *self) } else { other };
     }
 
     /// self < other.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn less(self, other: Self) -> Mask<W> {
         let mut mask = Mask([false; W]);
@@ -233,7 +233,7 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     }
 
     /// self ≤ other.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn less_or_equal(self, other: Self) -> Mask<W> {
         let mut mask = Mask([false; W]);
@@ -244,7 +244,7 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     }
 
     /// self = other.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn equal(self, other: Self) -> Mask<W> {
         let mut mask = Mask([false; W]);
@@ -255,14 +255,14 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     }
 
     /// Which members are NaN.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn is_nan(self) -> Mask<W> {
         !self.equal(self)
     }
 
     /// Which members are finite.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn is_finite(self) -> Mask<W> {
         let mut mask = Mask([false; W]);
@@ -273,14 +273,14 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     }
 
     /// Which members are infinite.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn is_infinite(self) -> Mask<W> {
         !(self.is_finite() | self.is_nan())
     }
 
     /// Which members have the sign bit set.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn is_sign_negative(self) -> Mask<W> {
         let mut mask = Mask([false; W]);
@@ -291,7 +291,7 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     }
 
     /// Which members do not have the sign bit set.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn is_sign_positive(self) -> Mask<W> {
         !self.is_sign_negative()
@@ -299,7 +299,7 @@ impl<T: Scalar, const W: usize> Members<T, W> {
 }
 
 /// a − b.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn difference<T: Scalar, const N: usize, const W: usize>(
     a: &MemberVector<T, N, W>,
     b: &MemberVector<T, N, W>,
@@ -312,7 +312,7 @@ pub(crate) fn difference<T: Scalar, const N: usize, const W: usize>(
 }
 
 /// The vector of one member; 0 where there is no such member.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn member<T: Scalar, const N: usize, const W: usize>(
     members: &MemberVector<T, N, W>,
     index: usize,

@@ -86,13 +86,13 @@ impl<'t, T: Divisible<N>, const N: usize> Dense<'t, T, N> {
 
 impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
     /// Whether the method has a polynomial of its own that is better than the cubic through both ends.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn is_collocated(&self) -> bool {
         self.run.nodes().len() > 2
     }
 
     /// Shares of a step at which it is looked at between its ends.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn nodes(&self) -> &'static [f64] {
         if self.is_collocated() { self.run.nodes() } else { OF_CUBIC }
     }
@@ -172,7 +172,7 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
     }
 
     /// The time of the run at which the system has its own.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn since(&self) -> f64 {
         self.run.since()
     }
@@ -188,7 +188,7 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
     }
 
     /// Calls `visit` with moments on the chord of the last step, by its mean velocity.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn at_chord(
         &self,
         start: &Start<T::Scalar, N>,
@@ -204,7 +204,7 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
     }
 
     /// The moment at `time` by the cubic through the last step's ends with their velocities, beyond the step as well.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn on_cubic(
         &self,
         start: &Start<T::Scalar, N>,
@@ -218,7 +218,7 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
 
     /// Calls `visit` with the last step's moments at [`nodes`](Self::nodes); `ends` are the velocities there,
     /// asked for where the method has no polynomial.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn at_nodes(
         &self,
         start: &Start<T::Scalar, N>,
@@ -242,7 +242,7 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
 }
 
 /// (q, v) at a share τ of a step, by the cubic with q and v at both ends.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn cubic<S: Scalar, const N: usize>(
     start: &Start<S, N>,
     h: S,

@@ -238,14 +238,14 @@ where
     }
 
     /// Whether events of the last step wait to be reported.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn has_found(&self) -> bool {
         matches!(self.found.get(self.next), Some(Some(_)))
     }
 
     /// Takes a step: the step itself where it is clear of events, as it is by far the most often. Where it has some,
     /// it is kept until they are reported.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn take(&mut self) -> Option<Result<Option<Step<T::Scalar, N>>, EventError>> {
         let before = match self.present {
             Some(before) => before,

@@ -31,7 +31,7 @@ pub trait ExplicitInLanes<const N: usize>: Explicit<N, Scalar: Elementary> {
     fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W>;
 
     /// The fields of [`later`](crate::Lagrangian::later) of each system: at its own time plus `elapsed`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn later_in_lanes<const W: usize>(
         fields: &Self::Fields<W>,
         elapsed: &Members<Self::Scalar, W>,
@@ -211,7 +211,7 @@ where
     /// All runs on by this many steps: bit by bit the same, at once or in parts.
     ///
     /// Inlined into its caller, so that it is compiled for the caller's instruction set.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn advance(&mut self, steps: u64) {
         L::advance_in_lanes(&mut self.lanes, self.systems, steps);
     }
@@ -249,7 +249,7 @@ pub(crate) fn begins<L: Lagrangian<N>, const N: usize>(
 }
 
 /// The state of the member in a lane, if it is sound and its numbers are finite.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn state_if_sound<T: Scalar, const N: usize, const W: usize>(
     q: &MemberVector<T, N, W>,
     p: &MemberVector<T, N, W>,

@@ -242,7 +242,7 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
 
     /// The step from where `at` is, with `drift` for its drifts, from where the force is `force`; the force at its
     /// end. One that drifts first asks for no force at its ends.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn carry<L: Explicit<N, Scalar = T>, D, const COMPENSATED: bool>(
         &self,
         system: &L,
@@ -329,7 +329,7 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
 }
 
 /// G(q) when this share of a step of size `h` has passed.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn force_after<L: Explicit<N>, const N: usize>(
     system: &L,
     share: f64,

@@ -146,7 +146,7 @@ where
 
     /// Calls `visit` with the index of each node, with q there, and with v: of the last step, which led from
     /// `q0` by `h`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn at_nodes(
         &self,
         q0: &SVector<L::Scalar, N>,

@@ -27,7 +27,7 @@ pub trait DiscreteInLanes<R, const N: usize>:
     fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W>;
 
     /// The fields at the time `elapsed` after each system's own: [`later`](crate::Lagrangian::later) of each.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn later_in_lanes<const W: usize>(
         fields: &Self::Fields<W>,
         elapsed: &Members<Self::Scalar, W>,

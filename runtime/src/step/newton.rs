@@ -204,7 +204,7 @@ pub(crate) fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
 /// Whether the floor at `v` may be taken from the matrix of the iterate before, from which the
 /// `last_correction` led here: from a guess that is far out by many orders of magnitude that matrix can be
 /// larger by as many, and with it the floor.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn is_known_at<S: Scalar, const N: usize>(v: &SVector<S, N>, last_correction: S) -> bool {
     last_correction <= largest(v.as_slice()) * S::constant(SMALL)
 }

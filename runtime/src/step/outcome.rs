@@ -63,7 +63,7 @@ pub struct Step<S, const N: usize> {
 
 impl<S: Scalar, const N: usize> Step<S, N> {
     /// The step from `state` with mean velocity `velocity`, if it leads to finite numbers.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn completed(
         state: &State<S, N>,
         h: S,

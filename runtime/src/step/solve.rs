@@ -126,7 +126,7 @@ fn in_arguments<S: Scalar, const N: usize>(
 ///
 /// Both are asked for where they are needed: a function that asks for both would be another copy of the
 /// solver.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn or_without_guess<S, const N: usize>(
     has_guess: bool,
     mut found: Result<Step<S, N>, StepError>,

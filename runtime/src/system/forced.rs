@@ -53,7 +53,7 @@ pub trait ForcedLagrangian<const N: usize>: ActingForce<N> {
     }
 
     /// Evaluates the stages with each at its own time, `elapsed` from now.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stages_in_time<const S: usize>(
         &self,
         anchors: &mut Self::Anchors<S>,
@@ -95,7 +95,7 @@ pub trait ForcedLagrangianInLanes<const N: usize>: ForcedLagrangian<N, Scalar: E
     fn fields<const W: usize>(systems: [&Self; W]) -> Self::Fields<W>;
 
     /// The fields at the time `elapsed` after each system's own: [`later`](crate::Lagrangian::later) of each.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn later_in_lanes<const W: usize>(
         fields: &Self::Fields<W>,
         elapsed: &Members<Self::Scalar, W>,

@@ -33,7 +33,7 @@ const LARGEST_ANGLE: f64 = 1e6;
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
 
 /// Sine and cosine for |x| ≤ [`LARGEST_ANGLE`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[expect(clippy::excessive_precision, reason = "as fdlibm prints them")]
 fn sine_and_cosine(x: f64) -> (f64, f64) {
     const FIRST: f64 = 1.57079632673412561417e+00;
@@ -78,13 +78,13 @@ fn sine_and_cosine(x: f64) -> (f64, f64) {
 const LARGEST_TURN: f64 = 0.1875;
 
 /// a b + c, rounded once where that is asked for and where the target of the build has an instruction for it.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn product_plus<T: nalgebra::RealField>(is_fused: bool, a: T, b: T, c: T) -> T {
     if is_fused || cfg!(target_feature = "fma") { a.mul_add(b, c) } else { a * b + c }
 }
 
 /// sin δ and 1 − cos δ for |δ| ≤ [`LARGEST_TURN`]: interpolated at Chebyshev's nodes of δ², 0.05 ε off.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn sine_and_versine<const FUSED: bool>(delta: f64) -> (f64, f64) {
     let z = delta * delta;
     let p = product_plus(FUSED, -z, 2.7539709917498416e-06, 0.00019841265972408056);
@@ -98,7 +98,7 @@ fn sine_and_versine<const FUSED: bool>(delta: f64) -> (f64, f64) {
 }
 
 /// Sine and cosine of angles δ away from those of `sine` and `cosine`, each within [`LARGEST_TURN`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
 fn by_addition<const S: usize, const FUSED: bool>(
     delta: &[f64; S],
@@ -122,7 +122,7 @@ const LARGEST_DEFECT: f64 = 0.0625;
 const LARGEST_EXPONENT: f64 = 700.0;
 
 /// eˣ for |x| ≤ [`LARGEST_EXPONENT`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[expect(clippy::excessive_precision, reason = "as fdlibm prints them")]
 fn exponential(x: f64) -> f64 {
     const HIGH: f64 = 6.93147180369123816490e-01;
@@ -142,7 +142,7 @@ fn exponential(x: f64) -> f64 {
     f64::from_bits(mantissa.to_bits().wrapping_add(rounded.to_bits() << 52))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn all_within<const S: usize>(x: &[f64; S], limit: f64) -> bool {
     let mut within = true;
     for lane in x {
@@ -152,7 +152,7 @@ fn all_within<const S: usize>(x: &[f64; S], limit: f64) -> bool {
 }
 
 /// Whether a lane is larger than the limit; none that is NaN.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn some_above<const S: usize>(x: &[f64; S], limit: f64) -> bool {
     let mut is_above = false;
     for lane in x {
@@ -162,7 +162,7 @@ fn some_above<const S: usize>(x: &[f64; S], limit: f64) -> bool {
 }
 
 /// Whether every lane is larger than the limit.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn all_above<const S: usize>(x: &[f64; S], limit: f64) -> bool {
     let mut are_above = true;
     for lane in x {
@@ -217,7 +217,7 @@ fn beyond_largest_exponent<const S: usize>(x: &[f64; S], values: &mut [f64; S]) 
 
 #[allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
 impl Functions for f64 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sines_and_cosines<const S: usize>(x: [Self; S]) -> ([Self; S], [Self; S]) {
         let (mut sines, mut cosines) = (x, x);
         for i in 0..S {
@@ -232,7 +232,7 @@ impl Functions for f64 {
         (sines, cosines)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn exponentials<const S: usize>(x: [Self; S]) -> [Self; S] {
         let mut exponentials = x;
         for i in 0..S {
@@ -246,7 +246,7 @@ impl Functions for f64 {
         exponentials
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn turned<const S: usize, const FUSED: bool>(
         x: [Self; S],
         angle: &mut [Self; S],
@@ -278,7 +278,7 @@ impl Functions for f64 {
         (sines, cosines)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn corrected_reciprocals<const S: usize, const FUSED: bool>(x: [Self; S], near: [Self; S]) -> [Self; S] {
         let (mut reciprocals, mut defect) = (near, x);
         for i in 0..S {
@@ -300,19 +300,19 @@ impl Functions for f64 {
 }
 
 impl Functions for f32 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sines_and_cosines<const S: usize>(x: [Self; S]) -> ([Self; S], [Self; S]) {
         let (sines, cosines) = f64::sines_and_cosines(x.map(f64::from));
         (sines.map(|lane| lane as f32), cosines.map(|lane| lane as f32))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn exponentials<const S: usize>(x: [Self; S]) -> [Self; S] {
         f64::exponentials(x.map(f64::from)).map(|lane| lane as f32)
     }
 
     /// As many digits as an anchor would have to hold a number of this type has not.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn turned<const S: usize, const FUSED: bool>(
         x: [Self; S],
         _angle: &mut [Self; S],
@@ -322,7 +322,7 @@ impl Functions for f32 {
         Self::sines_and_cosines(x)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn corrected_reciprocals<const S: usize, const FUSED: bool>(x: [Self; S], _near: [Self; S]) -> [Self; S] {
         x.map(|x| 1.0 / x)
     }

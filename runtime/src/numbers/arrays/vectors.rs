@@ -72,27 +72,27 @@ macro_rules! in_chunks {
 macro_rules! vectors {
     ($scalar:ident: $vectors:tt) => {
         impl Vectors for $scalar {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn sums<const S: usize>(a: [Self; S], b: [Self; S]) -> [Self; S] {
                 in_chunks!($vectors (a, b) => a + b, a + b)
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn differences<const S: usize>(a: [Self; S], b: [Self; S]) -> [Self; S] {
                 in_chunks!($vectors (a, b) => a - b, a - b)
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn products<const S: usize>(a: [Self; S], b: [Self; S]) -> [Self; S] {
                 in_chunks!($vectors (a, b) => a * b, a * b)
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn quotients<const S: usize>(a: [Self; S], b: [Self; S]) -> [Self; S] {
                 in_chunks!($vectors (a, b) => a / b, a / b)
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn products_plus<const S: usize>(
                 is_fused: bool,
                 a: [Self; S],
@@ -109,17 +109,17 @@ macro_rules! vectors {
                 }
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn larger<const S: usize>(a: [Self; S], b: [Self; S]) -> [Self; S] {
                 in_chunks!($vectors (a, b) => a.fast_max(b), if a > b { a } else { b })
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn sizes<const S: usize>(a: [Self; S]) -> [Self; S] {
                 in_chunks!($vectors (a) => a.abs(), nalgebra::ComplexField::abs(a))
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn roots<const S: usize>(a: [Self; S]) -> [Self; S] {
                 in_chunks!($vectors (a) => a.sqrt(), nalgebra::ComplexField::sqrt(a))
             }

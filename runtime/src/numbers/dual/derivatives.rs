@@ -27,19 +27,19 @@ pub(super) type First<F, const M: usize> = DualSVec<F, M>;
 pub(super) type Second<F, const M: usize> = HyperDualSVec<F, M, M>;
 
 /// `factor` in entry `index`, zero elsewhere.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn seed<F: Primitive, const R: usize, const C: usize>(index: usize, factor: F) -> Part<F, R, C> {
     let mut entries = SMatrix::zeros();
     entries[index] = factor;
     Derivative(Some(entries))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn first<F: Primitive, const M: usize>(value: F, index: usize, factor: F) -> Real<First<F, M>> {
     Real(DualSVec { re: value, eps: seed(index, factor) })
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn second<F: Primitive, const M: usize>(
     value: F,
     eps1: Part<F, M, 1>,
@@ -49,7 +49,7 @@ pub(super) fn second<F: Primitive, const M: usize>(
 }
 
 /// The entries, zeros where absent.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn entries<F: Primitive, const R: usize, const C: usize>(part: Part<F, R, C>) -> SMatrix<F, R, C> {
     part.0.unwrap_or_else(SMatrix::zeros)
 }
@@ -207,7 +207,7 @@ pub fn covector_variation<F: Primitive, const N: usize>(
 }
 
 /// The block of `matrix` that starts at (`row`, `column`).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn block<F: Primitive, const R: usize, const C: usize, const A: usize, const B: usize>(
     matrix: &SMatrix<F, A, B>,
     row: usize,

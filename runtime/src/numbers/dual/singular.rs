@@ -23,7 +23,7 @@ pub type Alone<F> = Second<F, 1>;
 pub type AloneFirst<F> = First<F, 1>;
 
 /// Whether an entry is not a number.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn has_nan<F: Primitive, const R: usize, const C: usize>(entries: &SMatrix<F, R, C>) -> bool {
     // All are looked at: a loop that may end early is no vector operation.
     entries.data.0.as_flattened().iter().fold(false, |found, &entry| found | Primitive::is_nan(entry))
@@ -33,7 +33,7 @@ pub(super) fn has_nan<F: Primitive, const R: usize, const C: usize>(entries: &SM
 type Seeds<F> = [Option<F>; 2];
 
 /// `f` where qₖ carries `seeds(k)` and vₖ carries `seeds(N + k)`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn seeded<F: Primitive, const N: usize, R>(
     q: &SVector<F, N>,
     v: &SVector<F, N>,
@@ -115,7 +115,7 @@ pub(super) fn variations<F: Primitive, const N: usize>(
 }
 
 /// `f` where qₖ carries `seed(k)` and vₖ carries `seed(N + k)`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn seeded_first<F: Primitive, const N: usize, R>(
     q: &SVector<F, N>,
     v: &SVector<F, N>,
@@ -167,7 +167,7 @@ pub(super) fn covector_variation<F: Primitive, const N: usize>(
 }
 
 /// 1 for the variable that is seeded, nothing for the others.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn only<F: Primitive>(is_seeded: bool) -> Option<F> {
     is_seeded.then(nalgebra::one)
 }
@@ -175,7 +175,7 @@ fn only<F: Primitive>(is_seeded: bool) -> Option<F> {
 /// The derivative that variable `k` of (q, v) carries where the unit vector eᵢ is followed along `direction`;
 /// `None` of a variable that does not move: 0 × ∞ would be NaN, as of q at the first node of the trapezoidal
 /// rule, which q1 does not move.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn along<F: Primitive>(direction: Direction<F>, i: usize, k: usize, n: usize) -> Option<F> {
     let moves = if k == i {
         direction.first

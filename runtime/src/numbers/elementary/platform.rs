@@ -6,13 +6,13 @@ macro_rules! platform {
     ($float:ident: $($(#[$doc:meta])* $name:ident($($argument:ident: $type:tt),*))*) => {
         impl Elementary for $float {
             $(
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 fn $name(self $(, $argument: $type)*) -> Self {
                     $float::$name(self $(, $argument)*)
                 }
             )*
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn sin_cos(self) -> (Self, Self) {
                 $float::sin_cos(self)
             }

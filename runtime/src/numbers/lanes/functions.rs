@@ -10,7 +10,7 @@ macro_rules! one_by_one {
         impl<T: Elementary, const S: usize> Lanes<T, S> {
             $(
                 $(#[$doc])*
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 #[must_use]
                 pub fn $name(self) -> Self {
                     self.map(Elementary::$name)
@@ -59,7 +59,7 @@ one_by_one! {
 
 impl<T: Scalar, const S: usize> Lanes<T, S> {
     /// Sine and cosine.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn sin_cos(self) -> (Self, Self) {
         let (sines, cosines) = T::sines_and_cosines(self.0);
@@ -67,56 +67,56 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
     }
 
     /// The sine.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn sin(self) -> Self {
         self.sin_cos().0
     }
 
     /// The cosine.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn cos(self) -> Self {
         self.sin_cos().1
     }
 
     /// eˣ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn exp(self) -> Self {
         Self(T::exponentials(self.0))
     }
 
     /// The absolute value.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn abs(self) -> Self {
         Self(T::sizes(self.0))
     }
 
     /// The square root; NaN of a negative number.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn sqrt(self) -> Self {
         Self(T::roots(self.0))
     }
 
     /// 1 with the sign of x; NaN of NaN.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn signum(self) -> Self {
         self.is_nan().select(self, Self::splat(T::one()).copysign(self))
     }
 
     /// The absolute value of the one with the sign of the other.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn copysign(self, sign: Self) -> Self {
         self.zip(sign, nalgebra::RealField::copysign)
     }
 
     /// 1/x.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn recip(self) -> Self {
         Self::splat(T::one()) / self
@@ -125,35 +125,35 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
 
 impl<T: Elementary, const S: usize> Lanes<T, S> {
     /// xⁿ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn powi(self, n: i32) -> Self {
         self.map(|lane| Elementary::powi(lane, n))
     }
 
     /// x^y.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn powf(self, exponent: Self) -> Self {
         self.zip(exponent, Elementary::powf)
     }
 
     /// The angle of (x, y), y.atan2(x).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn atan2(self, x: Self) -> Self {
         self.zip(x, Elementary::atan2)
     }
 
     /// √(x² + y²).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn hypot(self, other: Self) -> Self {
         self.zip(other, Elementary::hypot)
     }
 
     /// x a + b, rounded once.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn mul_add(self, a: Self, b: Self) -> Self {
         let mut result = self;

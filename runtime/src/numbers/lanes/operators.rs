@@ -7,7 +7,7 @@ use crate::numbers::{Scalar, Vectors};
 
 impl<T: Scalar, const S: usize> Neg for Lanes<T, S> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn neg(self) -> Self {
         self.map(|lane| -lane)
     }
@@ -17,7 +17,7 @@ macro_rules! operators {
     ($($trait:ident $method:ident $operation:ident)*) => {$(
         impl<T: Scalar, const S: usize> $trait for Lanes<T, S> {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn $method(self, other: Self) -> Self {
                 Self(T::$operation(self.0, other.0))
             }
@@ -25,7 +25,7 @@ macro_rules! operators {
 
         impl<T: Scalar, const S: usize> $trait<T> for Lanes<T, S> {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn $method(self, other: T) -> Self {
                 Self(T::$operation(self.0, [other; S]))
             }
@@ -33,7 +33,7 @@ macro_rules! operators {
 
         impl<const S: usize> $trait<Lanes<f64, S>> for f64 {
             type Output = Lanes<f64, S>;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn $method(self, other: Lanes<f64, S>) -> Lanes<f64, S> {
                 Lanes(f64::$operation([self; S], other.0))
             }
@@ -41,7 +41,7 @@ macro_rules! operators {
 
         impl<const S: usize> $trait<Lanes<f32, S>> for f32 {
             type Output = Lanes<f32, S>;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn $method(self, other: Lanes<f32, S>) -> Lanes<f32, S> {
                 Lanes(f32::$operation([self; S], other.0))
             }

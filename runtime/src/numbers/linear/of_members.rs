@@ -81,7 +81,7 @@ impl<S: Scalar, const N: usize, const W: usize> MatricesOfMembers<S, N, W> for D
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn solve(&self, right: &MemberVector<S, N, W>) -> MemberVector<S, N, W> {
         let mut x = *right;
         for i in 0..N {
@@ -93,12 +93,12 @@ impl<S: Scalar, const N: usize, const W: usize> MatricesOfMembers<S, N, W> for D
         substituted(&self.rows, &self.reciprocals, x)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn magnitudes(&self, v: &MemberVector<S, N, W>) -> MemberVector<S, N, W> {
         Self::magnitudes_of(&self.matrix, v)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn solution(entries: &Self::Entries, right: &MemberVector<S, N, W>) -> (MemberVector<S, N, W>, Mask<W>) {
         match N {
             1 | 2 => closed_form(entries, right),
@@ -106,7 +106,7 @@ impl<S: Scalar, const N: usize, const W: usize> MatricesOfMembers<S, N, W> for D
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn magnitudes_of(entries: &Self::Entries, v: &MemberVector<S, N, W>) -> MemberVector<S, N, W> {
         let mut sums = [Members::splat(S::zero()); N];
         each_coordinate!(i => {
@@ -120,7 +120,7 @@ impl<S: Scalar, const N: usize, const W: usize> MatricesOfMembers<S, N, W> for D
 
 /// The solution with one or two coordinates in closed form, as [`dense`] has it; the mask is false where the
 /// determinant is 0, not finite or lost to cancellation.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn closed_form<S: Scalar, const N: usize, const W: usize>(
     entries: &[MemberVector<S, N, W>; N],
     right: &MemberVector<S, N, W>,
@@ -142,7 +142,7 @@ fn closed_form<S: Scalar, const N: usize, const W: usize>(
 }
 
 /// Elimination with the row exchanges of each member; the mask is false where a pivot is suspicious.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn eliminate<S: Scalar, const N: usize, const W: usize>(
     mut rows: [MemberVector<S, N, W>; N],
     mut x: MemberVector<S, N, W>,
@@ -197,7 +197,7 @@ fn eliminate<S: Scalar, const N: usize, const W: usize>(
 }
 
 /// The solution with the triangles, of the `x` on the right whose rows are in their order.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn substituted<S: Scalar, const N: usize, const W: usize>(
     rows: &[MemberVector<S, N, W>; N],
     reciprocals: &MemberVector<S, N, W>,
@@ -247,17 +247,17 @@ impl<S: Scalar, const N: usize, const B: usize, const W: usize> MatricesOfMember
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn solve(&self, right: &MemberVector<S, N, W>) -> MemberVector<S, N, W> {
         solved_by_band(&self.rows, right)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn magnitudes(&self, v: &MemberVector<S, N, W>) -> MemberVector<S, N, W> {
         Self::magnitudes_of(&self.matrix, v)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn solution(entries: &Self::Entries, right: &MemberVector<S, N, W>) -> (MemberVector<S, N, W>, Mask<W>) {
         let b = B / 2;
         let mut rows = *entries;
@@ -290,7 +290,7 @@ impl<S: Scalar, const N: usize, const B: usize, const W: usize> MatricesOfMember
         (solved_by_band(&rows, right), is_solved)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn magnitudes_of(entries: &Self::Entries, v: &MemberVector<S, N, W>) -> MemberVector<S, N, W> {
         let b = B / 2;
         let mut sums = [Members::splat(S::zero()); N];
@@ -306,7 +306,7 @@ impl<S: Scalar, const N: usize, const B: usize, const W: usize> MatricesOfMember
 }
 
 /// The solution with factored bands.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn solved_by_band<S: Scalar, const N: usize, const B: usize, const W: usize>(
     rows: &[MemberVector<S, B, W>; N],
     right: &MemberVector<S, N, W>,

@@ -11,7 +11,7 @@ macro_rules! of_one {
         impl<T: Elementary, const W: usize> Members<T, W> {
             $(
                 $(#[$doc])*
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 #[must_use]
                 pub fn $name(mut self) -> Self {
                     each_member!(i => {
@@ -30,7 +30,7 @@ macro_rules! of_two {
         impl<T: Elementary, const W: usize> Members<T, W> {
             $(
                 $(#[$doc])*
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 #[must_use]
                 pub fn $name(mut self, other: Self) -> Self {
                     each_member!(i => {
@@ -93,7 +93,7 @@ of_two! {
 
 impl<T: Elementary, const W: usize> Members<T, W> {
     /// Sine and cosine.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn sin_cos(self) -> (Self, Self) {
         let (sines, cosines) = T::sines_and_cosines(self.0);
@@ -101,28 +101,28 @@ impl<T: Elementary, const W: usize> Members<T, W> {
     }
 
     /// The sine.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn sin(self) -> Self {
         self.sin_cos().0
     }
 
     /// The cosine.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn cos(self) -> Self {
         self.sin_cos().1
     }
 
     /// eˣ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn exp(self) -> Self {
         Self(T::exponentials(self.0))
     }
 
     /// xⁿ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn powi(mut self, n: i32) -> Self {
         each_member!(i => {
@@ -132,7 +132,7 @@ impl<T: Elementary, const W: usize> Members<T, W> {
     }
 
     /// x a + b, rounded once.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn mul_add(mut self, a: Self, b: Self) -> Self {
         each_member!(i => {
@@ -144,14 +144,14 @@ impl<T: Elementary, const W: usize> Members<T, W> {
 
 impl<T: Scalar, const W: usize> Members<T, W> {
     /// 1/x.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn recip(self) -> Self {
         Self::splat(T::one()) / self
     }
 
     /// The absolute value.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn abs(mut self) -> Self {
         each_member!(i => {
@@ -161,7 +161,7 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     }
 
     /// The absolute value of the one with the sign of the other.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn copysign(mut self, sign: Self) -> Self {
         each_member!(i => {
@@ -171,7 +171,7 @@ impl<T: Scalar, const W: usize> Members<T, W> {
     }
 
     /// 1 with the sign of x; NaN of NaN.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn signum(self) -> Self {
         Self::select(self.is_nan(), self, Self::splat(T::one()).copysign(self))

@@ -7,7 +7,7 @@ use crate::numbers::Scalar;
 
 impl<T: Scalar, const W: usize> Neg for Members<T, W> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn neg(mut self) -> Self {
         each_member!(i => {
             self.0[i] = -self.0[i];
@@ -20,7 +20,7 @@ macro_rules! operators {
     ($($trait:ident $method:ident $operator:tt $assigning:tt)*) => {$(
         impl<T: Scalar, const W: usize> $trait for Members<T, W> {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn $method(mut self, other: Self) -> Self {
                 each_member!(i => {
                     self.0[i] $assigning other.0[i];
@@ -31,7 +31,7 @@ macro_rules! operators {
 
         impl<T: Scalar, const W: usize> $trait<T> for Members<T, W> {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn $method(mut self, other: T) -> Self {
                 each_member!(i => {
                     self.0[i] $assigning other;
@@ -45,7 +45,7 @@ macro_rules! operators {
     (@number $trait:ident $method:ident $operator:tt $($scalar:ident)*) => {$(
         impl<const W: usize> $trait<Members<$scalar, W>> for $scalar {
             type Output = Members<$scalar, W>;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn $method(self, other: Members<$scalar, W>) -> Members<$scalar, W> {
                 Members::splat(self) $operator other
             }

@@ -53,7 +53,7 @@ pub(crate) fn in_units_of<S: Precision>(residual: &[S], floor: &[S]) -> S {
 
 /// The larger in units of its floor, of the `worst` so far and of the residuals, with this floor; and whether
 /// all are those of a root: at most [`AT_FLOOR`] floors.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn held_one_by_one<S: Precision>(
     residuals: &[S],
     floors: &[S],
@@ -67,7 +67,7 @@ pub(crate) fn held_one_by_one<S: Precision>(
 
 /// The larger of the `worst` so far and of the residual, whose floor this is; and whether it is still that of
 /// a root.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn held<S: Precision>(residual: S, floor: S, worst: (S, S, bool)) -> (S, S, bool) {
     let (size, most) = (residual.abs(), floor * S::nearest(AT_FLOOR));
     // A floor that overflows explains nothing.

@@ -80,7 +80,7 @@ pub(super) fn subtract<S: Precision>(x: &mut [S], y: &[S]) {
 }
 
 /// max |xᵢ|; a loop of its own, which optimisation for size leaves one.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn largest<S: Precision>(x: &[S]) -> S {
     let mut largest = S::zero();
     for entry in x {

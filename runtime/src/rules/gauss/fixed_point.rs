@@ -55,7 +55,7 @@ impl<T: Scalar, const N: usize> Corrector<T, N> for ByMass {
     const SOLVER: Solver = Solver::FixedPoint;
     const LEAVES_RATES: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn correction<const W: usize>(&self, stages: &Stages<T, N, W>) -> LaneVector<T, N, W> {
         stages.correction
     }
@@ -71,7 +71,7 @@ pub(super) fn iterate<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: us
 }
 
 /// [`iterate`] with any `corrector`, such as the factored matrices of simplified Newton's method.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn iterate_by<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
     problem: &Problem<'_, L, N, S>,
     guess: &LaneVector<T, N, S>,
@@ -203,7 +203,7 @@ fn risen<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
 }
 
 /// The floor now, if the one that the residual was held against is much higher in a coordinate.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn fallen<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize, const W: usize>(
     problem: &Problem<'_, L, N, S>,
     rate: &LaneVector<T, N, W>,
@@ -216,7 +216,7 @@ fn fallen<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S
 }
 
 /// How an iteration ended whose last correction leaves the share `remaining` of the residual.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn report<T: Scalar, const N: usize, const S: usize>(
     stages: &Stages<T, N, S>,
     floor: &SVector<T, N>,

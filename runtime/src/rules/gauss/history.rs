@@ -136,7 +136,7 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
     }
 
     /// Q_i and V_i of the last step, from q0 by h.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn visit_stages(
         &self,
         q0: &SVector<T, N>,
@@ -313,7 +313,7 @@ where
 
     const NODES: &'static [f64] = &Gauss::<S>::NODES;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn at_nodes(&self, q0: &SVector<T, N>, h: T, visit: impl FnMut(usize, &SVector<T, N>, &SVector<T, N>)) {
         self.visit_stages(q0, h, visit);
     }

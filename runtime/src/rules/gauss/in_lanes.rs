@@ -123,7 +123,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
     }
 
     /// Advances the members that have begun and not failed by `count` steps.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn advance<L>(&mut self, systems: [&L; W], count: u64)
     where
         L: ForcedLagrangianInLanes<N, Scalar = T, Fields<W> = F>,
@@ -156,7 +156,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
     }
 
     /// Takes the step that was solved for, and returns which members have taken it.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn follow(&mut self, steps: &[T; S], solved: &Solved<T, N, S, W>) -> Mask<W> {
         let zero = [Members::splat(T::zero()); N];
         let (mut displacement, mut impulse) = (zero, zero);

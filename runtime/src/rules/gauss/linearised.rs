@@ -292,7 +292,7 @@ impl<T: Scalar, const N: usize, const S: usize> Factored<T, N, S> {
 }
 
 /// The place itself; says to the compiler that it is one, so that no index has to be checked.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn within<const N: usize, const S: usize>((stage, coordinate): Place) -> Place {
     (stage.min(S - 1), coordinate.min(N - 1))
 }

@@ -127,7 +127,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     ///
     /// Loops, not `array::from_fn`, whose closures are calls; two sums, for each of which the other's
     /// products need not wait.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn at_stages<const W: usize>(
         &self,
         start: &Compensated<T, N>,
@@ -149,13 +149,13 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     }
 
     /// Q_i.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn configurations<const W: usize>(&self, v: &LaneVector<T, N, W>) -> LaneVector<T, N, W> {
         self.at_stages(&self.q0, v)
     }
 
     /// P_i.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn momenta<const W: usize>(&self, rate: &LaneVector<T, N, W>) -> LaneVector<T, N, W> {
         self.at_stages(&self.p0, rate)
     }
@@ -175,7 +175,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
 
     /// The equations of motion at the stages with velocities `v`, with the `anchors` that the sweeps before have
     /// left.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn next_stages<const W: usize>(
         &self,
         anchors: &mut L::Anchors<W>,
@@ -184,7 +184,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         self.next_stages_at(anchors, &self.configurations(v), v)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn next_stages_at<const W: usize>(
         &self,
         anchors: &mut L::Anchors<W>,
@@ -196,7 +196,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     }
 
     /// c_i h, the time of a stage from the start of the step.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn elapsed(&self, i: usize) -> T {
         T::constant(Self::COEFFICIENTS.nodes[i]) * self.h
     }
@@ -210,13 +210,13 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     }
 
     /// h a_ij.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn share(&self, i: usize, j: usize) -> T {
         T::constant(Self::COEFFICIENTS.shares[j][i]) * self.steps[j]
     }
 
     /// Σ_j h b_j x_j.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn sum(&self, x: &LaneVector<T, N, S>) -> SVector<T, N> {
         SVector::from_fn(|a, _| {
             let mut sum = T::zero();
@@ -229,7 +229,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
 
     /// The round-off floor of the momentum equations: 4ε (|p0| + |h| max |G_i| + max |P_i − ∂L/∂v|),
     /// coordinate by coordinate.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn floor<const W: usize>(
         &self,
         rate: &LaneVector<T, N, W>,
@@ -245,7 +245,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
 }
 
 /// The largest residual in units of its floor; not finite where one is not.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn in_units_of<T: Scalar, const N: usize, const S: usize>(
     residual: &LaneVector<T, N, S>,
     floor: &SVector<T, N>,
@@ -254,13 +254,13 @@ pub(super) fn in_units_of<T: Scalar, const N: usize, const S: usize>(
 }
 
 /// 1/floor; not a number where the floor is none, so that no residual is small beside it.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn reciprocals<T: Scalar, const N: usize>(floor: &SVector<T, N>) -> SVector<T, N> {
     floor.map(|floor| T::one() / floor + floor * T::zero())
 }
 
 /// As [`in_units_of`], with the reciprocals of the floors.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn in_units<T: Scalar, const N: usize, const S: usize>(
     residual: &LaneVector<T, N, S>,
     per_floor: &SVector<T, N>,

@@ -10,7 +10,7 @@ use crate::step::newton::{AT_FLOOR, PLACES, add_finite_part, is_sensible};
 use crate::system::ForcedLagrangian;
 
 /// The residual that is largest in units of its floor, and this floor.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn worst<T: Scalar, const N: usize, const S: usize>(
     residual: &LaneVector<T, N, S>,
     floor: &SVector<T, N>,

@@ -123,12 +123,12 @@ impl<T: Scalar, const M: usize> Complex<T, M> {
         Self { re: Lanes::splat(T::zero()), im: Lanes::splat(T::zero()) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn times(self, other: Self) -> Self {
         Self { re: self.re * other.re - self.im * other.im, im: self.re * other.im + self.im * other.re }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn minus(self, other: Self) -> Self {
         Self { re: self.re - other.re, im: self.im - other.im }
     }
@@ -179,7 +179,7 @@ impl<T: Scalar, const N: usize, const S: usize, const M: usize> Factored<T, N, S
     }
 
     /// z with A z = `right`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn solve(&self, right: [Complex<T, M>; N]) -> [Complex<T, M>; N] {
         let mut z = right;
         for a in 0..N {

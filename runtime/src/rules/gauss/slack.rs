@@ -98,7 +98,7 @@ pub(crate) struct Allowance<T> {
 
 impl<T: Scalar> Allowance<T> {
     /// The largest residual and correction in these units; not finite where one is not.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn size<const N: usize, const S: usize>(&self, stages: &Stages<T, N, S>) -> T {
         let mut largest = Lanes::<T, S>::splat(T::zero());
         let mut sum = largest;
@@ -118,7 +118,7 @@ impl<T: Scalar> Allowance<T> {
 ///
 /// Where the mass depends on q, velocities follow momenta a sweep late, and every other sweep may take off
 /// less: of the last two contractions x and y the larger is expected of the next sweep, and x y of any two.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn remaining<T: Scalar>([before, last, now]: [T; 3]) -> T {
     let (x, y) = (last / before, now / last);
     let both = x * y;

@@ -19,7 +19,7 @@ pub trait Divisible<const N: usize>: Run<N> {
     fn system(&self) -> &Self::System;
 
     /// The time of the run at which the system has its own time.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn since(&self) -> f64 {
         0.0
     }
@@ -76,22 +76,22 @@ where
 {
     type System = L;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn system(&self) -> &L {
         self.system
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn step_size(&self) -> L::Scalar {
         self.step_size()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn nodes(&self) -> &'static [f64] {
         <L::RunMemory as Memory<L, M, N>>::NODES
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn at_nodes(
         &self,
         q0: &SVector<L::Scalar, N>,

@@ -29,7 +29,7 @@ impl<'a, L, const N: usize> Moment<'a, L, N>
 where
     L: Lagrangian<N>,
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn interpolated(
         system: &'a L,
         [time, since]: [f64; 2],
@@ -39,7 +39,7 @@ where
         Self { time, q, velocity: Some(velocity), momentum: None, system, since }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(in crate::run) fn of(
         system: &'a L,
         [time, since]: [f64; 2],

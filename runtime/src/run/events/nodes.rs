@@ -51,7 +51,7 @@ static OF_STAGES: [Nodes; 7] = [
 
 impl Nodes {
     /// The nodes of the Gauss rule whose nodes `interior` are.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of(interior: &'static [f64]) -> &'static Self {
         OF_STAGES.get(interior.len().wrapping_sub(2)).unwrap_or(&OF_STAGES[0])
     }

@@ -11,7 +11,7 @@ pub(super) const BY_CHORD: f64 = 8.0;
 const BY_MISS: f64 = 4.0;
 
 /// As far from the values before a step as the cubic's `beyond`, and further.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn missed<S: Scalar, const K: usize>(earlier: &[S; K], beyond: [S; K]) -> [S; K] {
     let mut values = *earlier;
     for (value, beyond) in values.iter_mut().zip(beyond) {
@@ -29,12 +29,12 @@ pub(super) struct Range<S, const K: usize> {
 }
 
 impl<S: Scalar, const K: usize> Range<S, K> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of(values: [S; K]) -> Self {
         Self { low: values, high: values, sum: S::constant(0.0) }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn widen(&mut self, values: &[S; K]) {
         for ((low, high), &value) in self.low.iter_mut().zip(&mut self.high).zip(values) {
             // Neither keeps a NaN out: the sum does.
@@ -49,7 +49,7 @@ impl<S: Scalar, const K: usize> Range<S, K> {
     }
 
     /// Whether all values are finite, and away from 0 by so many times half of their range.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn is_clear(&self, away: f64) -> bool {
         let away = S::constant(away);
         let is_clear = |(&low, &high): (&S, &S)| (low + high).widen().abs() > (away * (high - low)).widen();

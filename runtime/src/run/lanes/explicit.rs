@@ -174,7 +174,7 @@ fn first_steps<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: u
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn advance<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
     steps: &mut Of<L, N, S, W>,
     systems: [&L; W],
@@ -192,7 +192,7 @@ fn advance<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize
 }
 
 /// Steps of all members alike.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn carry<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
     steps: &mut Of<L, N, S, W>,
     count: u64,
@@ -226,7 +226,7 @@ fn carry<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
 
 impl<T: Scalar, A, const N: usize, const W: usize> Substep<T, A, N, W> {
     /// Takes the substep, with `fields` at its end. Returns the members for which v solves its equation.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<L, F>(
         &self,
         fields: &F,
@@ -292,7 +292,7 @@ where
         refill::<L, N, 1, W>(lanes, systems, starts, h);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn advance_in_lanes<const W: usize>(lanes: &mut Self::Lanes<W>, systems: [&Self; W], steps: u64) {
         advance::<L, N, 1, W>(lanes, systems, steps);
     }
@@ -326,7 +326,7 @@ where
         refill::<L, N, S, W>(lanes, systems, starts, h);
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn advance_in_lanes<const W: usize>(lanes: &mut Self::Lanes<W>, systems: [&Self; W], steps: u64) {
         advance::<L, N, S, W>(lanes, systems, steps);
     }

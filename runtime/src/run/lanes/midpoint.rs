@@ -91,7 +91,7 @@ where
     }
 
     /// [`VelocityHistory::extrapolation`] of each that has a velocity.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn extrapolation(&self) -> MemberVector<T, N, W> {
         let [a, b, c, d] = &self.velocities;
         let (two, three, four, six) =
@@ -113,7 +113,7 @@ where
     }
 
     /// Takes the steps to these roots, and returns the members that have taken them.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn follow(&mut self, roots: &Roots<T, N, W>) -> Mask<W> {
         let (mut q, mut p) = (self.q, self.p);
         let mut has_stepped = roots.is_solved;
@@ -141,7 +141,7 @@ where
 }
 
 /// All members on by so many steps.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn advance<L, const N: usize, const W: usize>(steps: &mut Of<L, N, W>, systems: [&L; W], count: u64)
 where
     L: DiscreteInLanes<Midpoint, N>,
@@ -300,7 +300,7 @@ where
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn advance_in_lanes<const W: usize>(lanes: &mut Self::Lanes<W>, systems: [&Self; W], steps: u64) {
         advance(lanes, systems, steps);
     }

@@ -14,7 +14,7 @@ use crate::step::newton::AT_FLOOR;
 
 /// The steps of `whose` by the matrices kept, and their corrections; unsolved are those whose corrections do
 /// not shrink fast, and those whose rounding has to be looked at.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn by_kept_matrices<L, R, const N: usize, const W: usize>(
     matrices: &MatricesOf<L, R, N, W>,
     fields: &L::Fields<W>,
@@ -80,7 +80,7 @@ where
 }
 
 /// The steps of `whose` where the equation is linear.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn by_linear_matrices<L, R, const N: usize, const W: usize>(
     matrices: &MatricesOf<L, R, N, W>,
     fields: &L::Fields<W>,
@@ -113,7 +113,7 @@ where
 }
 
 /// [`is_far`](super::kept_matrix::is_far) of each.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn is_far<T: Scalar, const N: usize, const W: usize>(
     residual: &MemberVector<T, N, W>,
     weights: &MemberVector<T, N, W>,
@@ -127,7 +127,7 @@ fn is_far<T: Scalar, const N: usize, const W: usize>(
 }
 
 /// [`is_shown`](super::kept_matrix::is_shown) of each.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn is_shown<T: Scalar, const N: usize, const W: usize>(
     residual: &MemberVector<T, N, W>,
     first: &MemberVector<T, N, W>,

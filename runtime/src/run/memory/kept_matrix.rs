@@ -337,7 +337,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
 /// Whether the residual of a guess is so large in every coordinate that corrections down to [`AT_FLOOR`]
 /// floors are seen to work, as [`is_shown`] asks at the price of a loop after every step. A floor that
 /// overflows has the weight 0: nothing is far beside it.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn is_far<S: Scalar, const N: usize>(residual: &SVector<S, N>, weights: &SVector<S, N>) -> bool {
     const LANES: usize = 4;
     // Lane by lane, as their largest is found: the compiler takes several at once, and the products of both

@@ -74,7 +74,7 @@ struct Undamped<'d, T, const N: usize, const S: usize, const W: usize>(&'d [Drif
 impl<T: Scalar, const N: usize, const S: usize, const W: usize> Drifting<T, N, W>
     for Undamped<'_, T, N, S, W>
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<'_, T, N, COMPENSATED, W>) {
         let drift = &self.0[i];
         each_coordinate!(a => {
@@ -89,7 +89,7 @@ struct Diagonal<'d, T, const N: usize, const S: usize, const W: usize>(&'d [Drif
 impl<T: Scalar, const N: usize, const S: usize, const W: usize> Drifting<T, N, W>
     for Diagonal<'_, T, N, S, W>
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<'_, T, N, COMPENSATED, W>) {
         let drift = &self.0[i];
         each_coordinate!(a => {
@@ -103,7 +103,7 @@ impl<T: Scalar, const N: usize, const S: usize, const W: usize> Drifting<T, N, W
 impl<T: Scalar, const N: usize, const S: usize, const W: usize> Drifting<T, N, W>
     for &FullDrifts<T, N, S, W>
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn drift<const COMPENSATED: bool>(&self, i: usize, at: &mut UnderwayInLanes<'_, T, N, COMPENSATED, W>) {
         let drift = &self.drifts[i];
         let mut before = [Members::splat(T::zero()); N];
@@ -121,7 +121,7 @@ impl<T: Scalar, const N: usize, const S: usize, const W: usize> Drifting<T, N, W
 
 impl<T: Scalar, const N: usize, const S: usize, const W: usize> FullDrifts<T, N, S, W> {
     /// The a-th row times p, column by column as matrices are multiplied.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn product(&self, row: &MemberVector<T, N, W>, p: &MemberVector<T, N, W>, a: usize) -> Members<T, W> {
         let mut sum = row[0] * p[0];
         for b in 1..N {
@@ -133,7 +133,7 @@ impl<T: Scalar, const N: usize, const S: usize, const W: usize> FullDrifts<T, N,
 
 impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> Kicked<T, F, N, S, W> {
     /// As many steps, with the force −∇V(q) + f(q) of all members.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn carry<L, D, const COMPENSATED: bool>(&mut self, steps: u64, drifts: D)
     where
         L: ExplicitInLanes<N, Scalar = T, Fields<W> = F>,
@@ -191,7 +191,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> Kicked<
 }
 
 /// G(q) of each after the i-th drift of the step, from the time that `fields` has.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn force_after<L: ExplicitInLanes<N>, const N: usize, const S: usize, const W: usize>(
     fields: &L::Fields<W>,
     i: usize,
@@ -364,7 +364,7 @@ where
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn advance_in_lanes<const W: usize>(lanes: &mut Self::Lanes<W>, _systems: [&Self; W], steps: u64) {
         let KicksInLanes { drifts, kicked } = lanes;
         match drifts {

@@ -21,7 +21,7 @@ pub(super) struct Underway<T, const N: usize, const COMPENSATED: bool> {
 
 impl<T: Scalar, const N: usize, const COMPENSATED: bool> Underway<T, N, COMPENSATED> {
     /// At `start`; with what sums have lost if the step before ended there.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(
         start: &State<T, N>,
         shift: &SVector<T, N>,
@@ -36,7 +36,7 @@ impl<T: Scalar, const N: usize, const COMPENSATED: bool> Underway<T, N, COMPENSA
     }
 
     /// q, itself or as the sum that is put into `sum`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn configuration<'s>(&'s self, sum: &'s mut SVector<T, N>) -> &'s SVector<T, N> {
         if COMPENSATED {
             *sum = self.start.q + self.q;
@@ -46,25 +46,25 @@ impl<T: Scalar, const N: usize, const COMPENSATED: bool> Underway<T, N, COMPENSA
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn momentum(&self) -> SVector<T, N> {
         if COMPENSATED { self.start.p - self.shift + self.p } else { self.p }
     }
 
     /// Moves q.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn drift(&mut self, displacement: &SVector<T, N>) {
         self.q += displacement;
     }
 
     /// Moves p.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn kick(&mut self, impulse: &SVector<T, N>) {
         self.p += impulse;
     }
 
     /// The state at the end, and what its sums have lost.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn end(&self) -> (State<T, N>, Option<[Compensated<T, N>; 2]>) {
         if COMPENSATED {
             let q = Compensated::new(self.start.q).plus(&self.q);
@@ -89,7 +89,7 @@ pub(super) struct UnderwayInLanes<'s, T, const N: usize, const COMPENSATED: bool
 impl<'s, T: Scalar, const N: usize, const COMPENSATED: bool, const W: usize>
     UnderwayInLanes<'s, T, N, COMPENSATED, W>
 {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(
         q: &'s mut CompensatedMembers<T, N, W>,
         p: &'s mut CompensatedMembers<T, N, W>,
@@ -103,7 +103,7 @@ impl<'s, T: Scalar, const N: usize, const COMPENSATED: bool, const W: usize>
     }
 
     /// q, itself or as the sum that is put into `sum`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn configuration<'a>(
         &'a self,
         sum: &'a mut MemberVector<T, N, W>,
@@ -118,27 +118,27 @@ impl<'s, T: Scalar, const N: usize, const COMPENSATED: bool, const W: usize>
     }
 
     /// The entry `a` of p.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn momentum(&self, a: usize) -> Members<T, W> {
         if COMPENSATED { self.start[a] + self.p.rest[a] } else { self.p.value[a] }
     }
 
     /// Moves the coordinate `a` of q.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn drift(&mut self, a: usize, displacement: Members<T, W>) {
         let moved = if COMPENSATED { &mut self.q.rest[a] } else { &mut self.q.value[a] };
         *moved = *moved + displacement;
     }
 
     /// Moves the coordinate `a` of p.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn kick(&mut self, a: usize, impulse: Members<T, W>) {
         let moved = if COMPENSATED { &mut self.p.rest[a] } else { &mut self.p.value[a] };
         *moved = *moved + impulse;
     }
 
     /// Leaves the members where the step ends.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn end(self) {
         let Self { q, p, shift, .. } = self;
         if COMPENSATED {

@@ -9,7 +9,7 @@ pub(crate) struct Clocks<const W: usize> {
 }
 
 /// h × the number of steps, as [`Checkpoint::time`](crate::run::Checkpoint::time) of a run with one step size.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn time<T: Scalar>(taken: u64, h: T) -> f64 {
     if taken == 0 { 0.0 } else { h.widen() * taken as f64 }
 }
@@ -26,7 +26,7 @@ impl<const W: usize> Clocks<W> {
     }
 
     /// Counts a step of the members of `whose`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn follow(&mut self, whose: Mask<W>) {
         for lane in 0..W {
             self.taken[lane] += u64::from(whose.0[lane]);
@@ -39,13 +39,13 @@ impl<const W: usize> Clocks<W> {
     }
 
     /// The time of each since its start.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn times<T: Scalar>(&self, h: T) -> Members<f64, W> {
         Members(self.taken.map(|taken| time(taken, h)))
     }
 
     /// [`times`](Self::times) in the numbers of the system.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn elapsed<T: Scalar>(&self, h: T) -> Members<T, W> {
         Members(self.times(h).0.map(T::constant))
     }

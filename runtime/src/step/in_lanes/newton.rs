@@ -17,13 +17,13 @@ pub(crate) struct Roots<T, const N: usize, const W: usize> {
 }
 
 impl<T: Scalar, const N: usize, const W: usize> Roots<T, N, W> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn none(guess: &MemberVector<T, N, W>) -> Self {
         Self { is_solved: Mask::splat(false), v: *guess, momenta: [*guess; 2] }
     }
 
     /// Adds the roots of the members of `whose`, with both momenta.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn add(
         &mut self,
         whose: Mask<W>,
@@ -45,7 +45,7 @@ pub(crate) type MatricesOf<L, R, const N: usize, const W: usize> =
 
 /// [`quick`](crate::step::newton::quick) of each of `whose`: it leaves those unsolved that quick leaves, and
 /// some with numbers near overflow.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn quick_in_lanes<L, R, const N: usize, const W: usize>(
     fields: &L::Fields<W>,
     [q, p]: [&MemberVector<L::Scalar, N, W>; 2],
@@ -106,7 +106,7 @@ where
 }
 
 /// v in units of which [`estimated_floor`] takes the magnitudes.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn scaled<T: Scalar, const N: usize, const W: usize>(
     v: &MemberVector<T, N, W>,
 ) -> MemberVector<T, N, W> {
@@ -119,7 +119,7 @@ pub(crate) fn scaled<T: Scalar, const N: usize, const W: usize>(
 }
 
 /// [`estimated_floor`](crate::step::newton::estimated_floor) of each, with the magnitudes of the [`scaled`] v.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn estimated_floor<T: Scalar, const N: usize, const W: usize>(
     p: &MemberVector<T, N, W>,
     magnitudes: &MemberVector<T, N, W>,
@@ -133,7 +133,7 @@ pub(crate) fn estimated_floor<T: Scalar, const N: usize, const W: usize>(
 }
 
 /// 1/x.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn reciprocals<T: Scalar, const N: usize, const W: usize>(
     x: &MemberVector<T, N, W>,
 ) -> MemberVector<T, N, W> {
@@ -146,7 +146,7 @@ pub(crate) fn reciprocals<T: Scalar, const N: usize, const W: usize>(
 
 /// [`weighted`](crate::step::newton::weighted) of each: NaN where a number is none, and where their sum, in
 /// whatever order, might overflow.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn weighted<T: Scalar, const N: usize, const W: usize>(
     residual: &MemberVector<T, N, W>,
     weights: &MemberVector<T, N, W>,
@@ -161,7 +161,7 @@ pub(crate) fn weighted<T: Scalar, const N: usize, const W: usize>(
 }
 
 /// max |vᵢ| of each.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn largest<T: Scalar, const N: usize, const W: usize>(v: &MemberVector<T, N, W>) -> Members<T, W> {
     let mut largest = Members::splat(T::zero());
     each_coordinate!(a => {
@@ -171,7 +171,7 @@ pub(crate) fn largest<T: Scalar, const N: usize, const W: usize>(v: &MemberVecto
 }
 
 /// Which members have the residual of a root, by [`held_against`](crate::step::newton::held_against).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn is_at_floor<T: Scalar, const N: usize, const W: usize>(
     residual: &MemberVector<T, N, W>,
     floor: &MemberVector<T, N, W>,

@@ -26,7 +26,7 @@ impl<T: Scalar, const W: usize> SlackOfMembers<T, W> {
     }
 
     /// [`Slack::follow`] of the members that have stepped, from and to these coordinates and momenta.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn follow<const N: usize>(
         &mut self,
         has_stepped: Mask<W>,
@@ -59,7 +59,7 @@ pub(super) struct Allowances<T, const W: usize> {
 impl<T: Scalar, const W: usize> Allowances<T, W> {
     /// [`Slack::allowance`] of each, for a step of size `h` from the momenta `p`; without a slack, known of
     /// no member.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new<const N: usize>(
         slack: Option<Slack<T>>,
         of_members: &SlackOfMembers<T, W>,
@@ -85,7 +85,7 @@ impl<T: Scalar, const W: usize> Allowances<T, W> {
 
     /// Which members with a known allowance are solved after sweep `iterations`. Clears `is_open` where their
     /// sweeps do not contract or numbers are not finite.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn solved<const N: usize>(
         &mut self,
         iterations: u32,

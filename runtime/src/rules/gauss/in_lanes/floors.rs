@@ -24,7 +24,7 @@ pub(super) struct Terms<'a, T, const N: usize, const S: usize, const W: usize> {
 impl<T: Scalar, const N: usize, const S: usize, const W: usize> Terms<'_, T, N, S, W> {
     /// [`Problem::floor`](crate::rules::gauss::problem::Problem::floor) of each, with the `largest` residual
     /// of each coordinate.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn floor(&self, largest: &MemberVector<T, N, W>) -> MemberVector<T, N, W> {
         let unit = T::EPSILON * T::constant(4.0);
         let of_rate = (self.h * unit).abs();
@@ -45,7 +45,7 @@ impl<T: Scalar, const N: usize, const S: usize, const W: usize> Terms<'_, T, N, 
 
 impl<T: Scalar, const N: usize, const W: usize> Floors<T, N, W> {
     /// Before the first sweep.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new() -> Self {
         let zero = [Members::splat(T::zero()); N];
         let one = Members::splat(T::one());
@@ -54,7 +54,7 @@ impl<T: Scalar, const N: usize, const W: usize> Floors<T, N, W> {
 
     /// Which members of `whose` are solved after sweep `iterations`, and where these apply the last
     /// correction too. Clears `is_open` for members of `whose` that have to take the step alone.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn solved<const S: usize>(
         &mut self,
         iterations: u32,
@@ -130,7 +130,7 @@ impl<T: Scalar, const N: usize, const W: usize> Floors<T, N, W> {
     }
 
     /// Measures residuals by the floors as they are now; restarts the sizes before for members of `whose`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn begin_anew(&mut self, whose: Mask<W>, largest: &MemberVector<T, N, W>) -> Members<T, W> {
         self.per_floor = reciprocals(&self.floor);
         let size = in_units(largest, &self.per_floor);
@@ -141,7 +141,7 @@ impl<T: Scalar, const N: usize, const W: usize> Floors<T, N, W> {
 }
 
 /// [`reciprocals`](crate::rules::gauss::problem::reciprocals) of each.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn reciprocals<T: Scalar, const N: usize, const W: usize>(
     floor: &MemberVector<T, N, W>,
 ) -> MemberVector<T, N, W> {
@@ -154,7 +154,7 @@ fn reciprocals<T: Scalar, const N: usize, const W: usize>(
 
 /// [`in_units`](crate::rules::gauss::problem::in_units) of each, of the `largest` residual of each
 /// coordinate; not finite where a floor is not.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn in_units<T: Scalar, const N: usize, const W: usize>(
     largest: &MemberVector<T, N, W>,
     per_floor: &MemberVector<T, N, W>,

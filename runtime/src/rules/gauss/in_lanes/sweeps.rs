@@ -20,7 +20,7 @@ pub(super) struct Sweeps<T, K, A, const N: usize, const S: usize, const W: usize
 }
 
 impl<T: Scalar, K: Blank, A: Blank, const N: usize, const S: usize, const W: usize> Sweeps<T, K, A, N, S, W> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new() -> Self {
         let zero = [[Members::splat(T::zero()); N]; S];
         Self {
@@ -56,13 +56,13 @@ pub(super) struct Seen<T, const N: usize, const W: usize> {
 }
 
 impl<T: Scalar, const N: usize, const W: usize> Seen<T, N, W> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn nothing() -> Self {
         let none = Members::splat(T::zero());
         Self { residual: [none; N], correction: none, sum: none }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of_both([a, b]: &[Self; 2]) -> Self {
         let mut residual = a.residual;
         coordinate_by_coordinate!(i => {
@@ -81,7 +81,7 @@ pub(super) struct Solved<T, const N: usize, const S: usize, const W: usize> {
 
 impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesInLanes<T, F, N, S, W> {
     /// The velocities of the last step, one step on; of members that have not stepped, those to start from.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn extrapolate(&self, is_fused: bool, extrapolated: &mut [MemberVector<T, N, W>; S]) {
         let columns = &Self::COEFFICIENTS.extrapolation;
         stage_by_stage!(i => {
@@ -103,7 +103,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
     }
 
     /// start + Σ_j μ_ij (h b_j x_j) at the stage i, the `terms` being h b_j x_j.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn at_stage(
         is_fused: bool,
         start: &CompensatedMembers<T, N, W>,
@@ -124,7 +124,7 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
 
     /// Solves the stages of the members `together`, as far as sweeps of the usual kind do:
     /// [`iterate`](crate::rules::gauss::fixed_point::iterate) of each.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn solve<L>(
         &self,
         steps: &[T; S],
