@@ -79,6 +79,11 @@ pub fn is_self(expression: &Expr) -> bool {
     matches!(expression, Expr::Path(path) if path.path.is_ident("self"))
 }
 
+/// Whether the word is the receiver: in `self::G` it begins a path.
+pub fn is_receiver(word: &Ident, next: Option<&TokenTree>) -> bool {
+    word == "self" && !matches!(next, Some(TokenTree::Punct(mark)) if mark.as_char() == ':')
+}
+
 /// `self.field`, `self.field[i]`, `self.field.0`.
 pub fn is_place_of_self(expression: &Expr) -> bool {
     match expression {

@@ -169,3 +169,48 @@ fn constants_in_small_letters_are_those_of_the_module() {
     check!(small_single within 1e-6);
     assert!(matches!(small_auto::Small::STRUCTURE.engine, Engine::Expanded));
 }
+
+/// `self::G` in functions that take an input or the time, and in lanes: the module, not the receiver.
+#[test]
+fn a_path_from_the_module_is_not_the_receiver() {
+    use dalembert::nalgebra::vector;
+    use dalembert::{Force, Lagrangian, Rayleigh};
+
+    macro_rules! by {
+        ($($name:ident: $engine:ident $(, $option:ident = $value:ident)*;)*) => {$(
+            mod $name {
+                const G: f64 = 2.0;
+                pub struct Seen {
+                    pub k: f64,
+                }
+
+                #[dalembert::rayleigh_system(derivatives = $engine $(, $option = $value)*)]
+                impl Seen {
+                    fn lagrangian(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
+                        0.5 * v[0] * v[0] - self::G * self.k * q[0] * t
+                    }
+                    fn rayleigh(&self, v: [f64; 1], t: f64) -> f64 {
+                        self::G * v[0] * v[0] * t
+                    }
+                    fn force(&self, q: [f64; 1], _v: [f64; 1], u: [f64; 1]) -> [f64; 1] {
+                        [self::G * q[0] * u[0]]
+                    }
+                }
+            }
+            let (q, v) = (vector![0.7], vector![-0.4]);
+            let system = $name::Seen { k: 3.0 };
+            let system = system.driven([5.0], 0.5);
+            let slopes = (
+                system.lagrangian_gradient(&q, &v).d1[0],
+                system.rayleigh_gradient(&q, &v).d2[0],
+                system.force_derivatives(&q, &v).d1[0],
+            );
+            assert_eq!(slopes, (-3.0, -0.8, 10.0));
+        )*};
+    }
+    by! {
+        written_out: expanded;
+        over_duals: num_dual;
+        in_lanes: expanded, rule = gauss, lanes = gauss;
+    }
+}
