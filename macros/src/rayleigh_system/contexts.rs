@@ -65,11 +65,13 @@ fn bound(item: &Item) -> BTreeSet<(String, String)> {
     bound.0
 }
 
-/// The tokens, names that `marks` has marked so many times, but for members and what belongs to a path.
+/// The tokens, names that `marks` has marked so many times, but for members and what belongs to a path. What
+/// ends a range is no member.
 fn marked(tokens: TokenStream, marks: &HashMap<(String, String), usize>) -> TokenStream {
     let mut before = [None; 2];
     let marked = tokens.into_iter().map(|token| {
-        let is_member = matches!(before, [_, Some('.')] | [Some(':'), Some(':')]);
+        let is_range = matches!(before, [Some('.'), Some('.')]);
+        let is_member = !is_range && matches!(before, [_, Some('.')] | [Some(':'), Some(':')]);
         let mark = if let TokenTree::Punct(mark) = &token { Some(mark.as_char()) } else { None };
         before = [before[1], mark];
         match token {

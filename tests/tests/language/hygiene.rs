@@ -87,7 +87,8 @@ mod in_bodies {
                 #[super::rayleigh_system(derivatives = $engine)]
                 impl Mask {
                     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
-                        let Lanes = D * v[0] * v[0];
+                        let within = if (-1.0..4.0).contains(&q[0]) { D } else { 0.0 };
+                        let Lanes = within * v[0] * v[0];
                         Lanes - dual::Real * q[0].powi(2)
                     }
                 }

@@ -137,7 +137,8 @@ macro_rules! by {
                 Shadowing inner { let k = 3.0; let k = k * 1.5; let inner = k; }
                 Closure inner { let k = |k: f64| k * 1.5; let inner = k(3.0); }
                 Looped k { let mut k = 0.0; for i in 1..3 { let k_of = |k: f64| k * i as f64; k += k_of(1.5); } }
-                Matched k { let (k, _) = match (2, 4.5) { (2, k) => (k, 0.0), _ => (1.0, 1.0) }; }
+                Ranged inner { let k = 3; let inner = (0..k).map(|i| i as f64 * 1.5).sum::<f64>(); }
+            Matched k { let (k, _) = match (2, 4.5) { (2, k) => (k, 0.0), _ => (1.0, 1.0) }; }
         }
     )*};
 }
@@ -157,10 +158,12 @@ fn names_of_a_macro_and_of_its_caller_are_two() {
     is_right(&expanded::Shadowing { k: 2.0 });
     is_right(&expanded::Closure { k: 2.0 });
     is_right(&expanded::Looped { k: 2.0 });
+    is_right(&expanded::Ranged { k: 2.0 });
     is_right(&expanded::Matched { k: 2.0 });
     is_right(&num_dual::Shadowing { k: 2.0 });
     is_right(&num_dual::Closure { k: 2.0 });
     is_right(&num_dual::Looped { k: 2.0 });
+    is_right(&num_dual::Ranged { k: 2.0 });
     is_right(&num_dual::Matched { k: 2.0 });
 }
 
