@@ -15,12 +15,19 @@ use super::{print, renamed};
 pub struct Computed {
     /// L, R and f of the plain functions; nothing where one of them panicked.
     pub plain: Option<Vec<f64>>,
+    /// The same of the functions that the attribute leaves, where they stand beside plain ones.
+    pub own: Option<Vec<f64>>,
     /// L, R and f of the generated code, from each function that tells a value.
     pub values: Vec<(&'static str, Vec<f64>)>,
     /// Gradients by (q, v) of L, R and every component of f.
     pub gradients: Vec<Vec<f64>>,
     /// Hessians of L and R, row by row.
     pub hessians: Vec<Vec<f64>>,
+    /// Differences of the plain copy, and of the generated gradients: those of a row, then their errors.
+    pub slopes: Vec<Vec<f64>>,
+    pub curvatures: Vec<Vec<f64>>,
+    /// Whether a run would tell that derivatives belong to another function.
+    pub is_told: bool,
     /// Of each lane 0 where it is not what its member does alone, else 1, or 2 where it was moved; nothing where
     /// a member panicked.
     pub lanes: Option<Vec<f64>>,
@@ -35,6 +42,38 @@ pub struct Outcome {
     pub errors: BTreeMap<usize, String>,
     /// Those among them that it refuses without the macro too.
     pub not_rust: BTreeSet<usize>,
+}
+
+/// A program of a batch.
+pub trait Source {
+    /// What its module calls.
+    const HARNESS: &'static str = include_str!("harness.txt");
+
+    fn coordinates(&self) -> usize;
+
+    /// Its module, with the macro and what calls it.
+    fn with_macro(&self, index: usize, engine: &str) -> String;
+
+    /// Its module without the macro.
+    fn without_macro(&self, index: usize, engine: &str) -> String;
+}
+
+impl Source for Program {
+    fn coordinates(&self) -> usize {
+        self.n
+    }
+
+    fn with_macro(&self, index: usize, engine: &str) -> String {
+        match members::Way::named(engine) {
+            Some(way) => members::module(self, index, way),
+            None => module(self, index, engine),
+        }
+    }
+
+    fn without_macro(&self, index: usize, engine: &str) -> String {
+        let plain = format!("{}{}", print::surroundings(self), print::block(self));
+        format!("mod p{index} {{\n{}\n}}\n", named(plain, self, engine))
+    }
 }
 
 /// What rustc's lints would refuse, the interpreter has an answer to.
@@ -60,7 +99,7 @@ impl Workshop {
     }
 
     /// Builds and runs the programs; those that rustc refuses are taken out and named.
-    pub fn run(&self, programs: &[Program], engine: &str) -> Result<Outcome, String> {
+    pub fn run<P: Source>(&self, programs: &[P], engine: &str) -> Result<Outcome, String> {
         let mut outcome = Outcome::default();
         let source = self.folder.join("src");
         std::fs::create_dir_all(&source).map_err(|error| error.to_string())?;
@@ -99,9 +138,9 @@ impl Workshop {
     }
 
     /// Which of the programs that rustc refuses it refuses without the macro as well.
-    fn not_rust(
+    fn not_rust<P: Source>(
         &self,
-        programs: &[Program],
+        programs: &[P],
         refused: &BTreeMap<usize, String>,
         engine: &str,
     ) -> Result<BTreeSet<usize>, String> {
@@ -166,16 +205,12 @@ fn write_if_changed(path: &Path, text: &str) -> Result<(), String> {
 }
 
 /// The programs with the macro, and what calls them.
-fn crate_text(programs: &[Program], kept: &[usize], engine: &str) -> CrateText {
-    let mut text = format!("{LINTS}\n{}", include_str!("harness.txt"));
+fn crate_text<P: Source>(programs: &[P], kept: &[usize], engine: &str) -> CrateText {
+    let mut text = format!("{LINTS}\n{}", P::HARNESS);
     let mut lines = Vec::new();
     for &index in kept {
         lines.push((text.lines().count() + 1, index));
-        let program = &programs[index];
-        text += &match members::Way::named(engine) {
-            Some(way) => members::module(program, index, way),
-            None => module(program, index, engine),
-        };
+        text += &programs[index].with_macro(index, engine);
     }
     text += "fn main() {\n    std::panic::set_hook(Box::new(|_| {}));\n";
     for index in kept {
@@ -185,14 +220,12 @@ fn crate_text(programs: &[Program], kept: &[usize], engine: &str) -> CrateText {
 }
 
 /// The programs without the macro.
-fn plain_text(programs: &[Program], kept: &[usize], engine: &str) -> CrateText {
+fn plain_text<P: Source>(programs: &[P], kept: &[usize], engine: &str) -> CrateText {
     let mut text = format!("{LINTS}\nfn main() {{}}\n");
     let mut lines = Vec::new();
     for &index in kept {
         lines.push((text.lines().count() + 1, index));
-        let program = &programs[index];
-        let plain = format!("{}{}", print::surroundings(program), print::block(program));
-        writeln!(text, "mod p{index} {{\n{}\n}}", named(plain, program, engine)).expect("a string takes all");
+        text += &programs[index].without_macro(index, engine);
     }
     CrateText { text, lines }
 }
@@ -250,7 +283,7 @@ fn module(program: &Program, index: usize, engine: &str) -> String {
     text + "}\n}\n}\n"
 }
 
-fn read(printed: &str, programs: &[Program], outcome: &mut Outcome) -> Result<(), String> {
+fn read<P: Source>(printed: &str, programs: &[P], outcome: &mut Outcome) -> Result<(), String> {
     for line in printed.lines() {
         let mut words = line.split(' ');
         let mut word = || words.next().unwrap_or_default();
@@ -260,12 +293,16 @@ fn read(printed: &str, programs: &[Program], outcome: &mut Outcome) -> Result<()
         let numbers: Option<Vec<f64>> =
             words.map(|word| u64::from_str_radix(word, 16).ok().map(f64::from_bits)).collect();
         let Some(numbers) = numbers else { return Err(format!("not understood: {line}")) };
-        let n = programs.get(index).map_or(0, |program: &Program| program.n);
+        let n = programs.get(index).map_or(0, Source::coordinates);
         let computed = outcome.computed.entry((index, point)).or_default();
         let (first, rest) = numbers.split_at(numbers.len().min(1));
         match tag.as_str() {
             "lanes" => computed.lanes = (!numbers.is_empty()).then_some(numbers),
             "plain" => computed.plain = (!numbers.is_empty()).then_some(numbers),
+            "own" => computed.own = (!numbers.is_empty()).then_some(numbers),
+            "slopes" => computed.slopes.push(numbers),
+            "curvatures" => computed.curvatures.push(numbers),
+            "verified" => computed.is_told = numbers == [1.0],
             "gradient" => computed.values.push(("gradient", first.to_vec())),
             "derivatives" => {
                 computed.values.push(("derivatives", first.to_vec()));

@@ -98,11 +98,11 @@ impl Expressions {
             told.push(("force", values[scalars..].to_vec()));
         }
         Ok(Computed {
-            lanes: None,
             plain: Some(plain.to_vec()),
             values: told,
             gradients: first.chunks(size).map(<[f64]>::to_vec).collect(),
             hessians: second.chunks(size * size).map(<[f64]>::to_vec).collect(),
+            ..Computed::default()
         })
     }
 

@@ -4,6 +4,7 @@
 //! ```sh
 //! cargo study random_programs -- <count> <seed>             # graphs evaluated
 //! cargo study random_programs -- <count> <seed> compiled    # built by rustc
+//! cargo study random_programs -- <count> <seed> written     # as people write them, built by rustc
 //! cargo study random_programs -- mutations                  # mistakes put back
 //! cargo study random_programs -- page                       # docs/random-programs.md
 //! ```
@@ -11,8 +12,8 @@
 //! `compiled` may be followed by an engine: `expanded` unless said, `auto`, `num_dual`, `fused` for sums rounded
 //! with their products, `portable` for the elementary functions of the runtime, `renamed` for programs under the
 //! names of generated code, or `lanes`, `midpoint_lanes` and `gauss_lanes`: several members at once, from the seed
-//! 1000000 on every other program with fused sums. `show <seed>` prints a program, `shrink <seed>` the smallest
-//! part of it that fails.
+//! 1000000 on every other program with fused sums. `written` may be followed by one of the first five.
+//! `show <seed>` prints a program, `shrink <seed>` the smallest part of it that fails.
 
 mod batch;
 mod class;
@@ -39,6 +40,7 @@ mod trial;
 mod types;
 mod verdict;
 mod visit;
+mod written;
 
 #[allow(dead_code, reason = "the macro's stages, of which some are for the macro alone")]
 #[path = "../../../macros/src"]
@@ -81,6 +83,16 @@ fn main() -> ExitCode {
             println!("{}", program.display());
             0
         }),
+        ["show", seed, "written"] => {
+            println!("{}", written::program(number(seed).unwrap_or(1)).annotated("expanded"));
+            Ok(0)
+        }
+        [count, seed, "written"] => {
+            written::run::compiled(number(count).unwrap_or(100), number(seed).unwrap_or(1), "expanded")
+        }
+        [count, seed, "written", engine] => {
+            written::run::compiled(number(count).unwrap_or(100), number(seed).unwrap_or(1), engine)
+        }
         [count, seed] if number(count).is_some() => {
             run::by_graph(number(count).unwrap_or(300), number(seed).unwrap_or(1))
         }

@@ -6,9 +6,10 @@ use super::class::Class;
 use super::mutation;
 use super::run::{folder, workspace};
 use super::tally::{Tally, general};
+use super::written;
 
 /// The ways that programs are tried, as files of runs begin, and as the page says it.
-const WAYS: [(&str, &str); 9] = [
+const WAYS: [(&str, &str); 14] = [
     ("graph-", "lowered, the graph evaluated"),
     ("compiled-expanded-", "compiled by rustc, `derivatives = expanded`"),
     ("compiled-auto-", "compiled by rustc, `derivatives = auto`"),
@@ -24,7 +25,15 @@ const WAYS: [(&str, &str); 9] = [
         "compiled-midpoint_lanes-",
         "compiled by rustc, eight members by the midpoint rule in lanes, each beside its own run",
     ),
+    ("written-expanded-", "as people write them, `derivatives = expanded`"),
+    ("written-auto-", "as people write them, `derivatives = auto`"),
+    ("written-num_dual-", "as people write them, `derivatives = num_dual`"),
+    ("written-fused-", "as people write them, `multiply_add = fused`"),
+    ("written-portable-", "as people write them, elementary functions of the runtime (`libm`)"),
 ];
+
+/// How files of runs begin whose programs are counted in a section of their own.
+const WRITTEN: &str = "written-";
 
 /// All counts of a way, and whether there are any.
 fn merged(way: &str) -> Result<Tally, String> {
@@ -52,7 +61,9 @@ pub fn write() -> Result<usize, String> {
             writeln!(page, "| {said} | {programs} | {agreed} | {refused} | {failed} | {unread} |")
                 .expect("a string takes all");
         }
-        all.merge(&tally);
+        if !way.starts_with(WRITTEN) {
+            all.merge(&tally);
+        }
     }
     let [compared, near, large, discarded] =
         ["points compared", "points near a branch", "points too large", "discarded"]
@@ -82,6 +93,7 @@ pub fn write() -> Result<usize, String> {
         let (written, agreed) = (all.count(&format!("written {name}")), all.count(&format!("agreed {name}")));
         writeln!(page, "| {name} | {written} | {agreed} |").expect("a string takes all");
     }
+    page += &written::page::section(&merged(WRITTEN)?);
     page += "\n";
     page += &mutation::table()?;
     let path = workspace().join("docs/random-programs.md");

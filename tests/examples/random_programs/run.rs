@@ -26,6 +26,11 @@ pub fn folder() -> Result<PathBuf, String> {
     Ok(folder)
 }
 
+/// The features of the runtime that an engine asks for.
+pub fn features(engine: &str) -> &'static str {
+    if engine == "portable" { "\"std\", \"libm\"" } else { "\"std\"" }
+}
+
 /// A failing program cut down, as Rust, with what is wrong.
 pub fn smallest(program: &Program) -> String {
     let kind = |trial: &Trial| match trial {
@@ -100,12 +105,12 @@ pub fn until(count: u64, seed: u64) {
 /// Programs built by rustc with the macro, and run.
 pub fn compiled(count: u64, seed: u64, engine: &str) -> Result<usize, String> {
     let folder = folder()?;
-    let (written, features, runtime) = match engine {
-        "portable" => ("expanded", "\"std\", \"libm\"", Runtime::PORTABLE),
-        "fused" => ("expanded, multiply_add = fused", "\"std\"", Runtime::STD),
-        engine => (engine, "\"std\"", Runtime::STD),
+    let (written, runtime) = match engine {
+        "portable" => ("expanded", Runtime::PORTABLE),
+        "fused" => ("expanded, multiply_add = fused", Runtime::STD),
+        engine => (engine, Runtime::STD),
     };
-    let workshop = Workshop::new(&folder.join(format!("batch-{engine}")), &workspace(), features);
+    let workshop = Workshop::new(&folder.join(format!("batch-{engine}")), &workspace(), features(engine));
     let mut failures = 0;
     let mut next = seed;
     while next < seed + count {
@@ -171,12 +176,12 @@ pub fn compiled(count: u64, seed: u64, engine: &str) -> Result<usize, String> {
     Ok(failures)
 }
 
-fn keep(tally: &Tally, way: &str, seed: u64, count: u64) -> Result<(), String> {
+pub fn keep(tally: &Tally, way: &str, seed: u64, count: u64) -> Result<(), String> {
     let path = folder()?.join(format!("runs/{way}-{seed}-{count}.txt"));
     tally.write(&path).map_err(|error| error.to_string())
 }
 
-fn summary(tally: &Tally) {
+pub fn summary(tally: &Tally) {
     let [programs, agreed, refused, failed, unread, discarded] =
         ["programs", "agreed", "refused", "failed", "unread", "discarded"].map(|name| tally.count(name));
     println!(

@@ -39,14 +39,18 @@ impl Tally {
 
     /// What became of one program.
     pub fn take(&mut self, program: &Program, trial: &Trial) {
+        let of_program = Class::ALL.iter().filter(|(class, _)| program.classes.contains(class));
+        self.took(of_program.map(|(class, _)| class.name()), trial);
+    }
+
+    /// What became of a program with these constructs.
+    pub fn took<'c>(&mut self, constructs: impl Iterator<Item = &'c str> + Clone, trial: &Trial) {
         if *trial == Trial::Discarded {
             return self.add("discarded", 1);
         }
         self.add("programs", 1);
-        for (class, _) in Class::ALL {
-            if program.classes.contains(class) {
-                self.add(format!("written {}", class.name()), 1);
-            }
+        for construct in constructs.clone() {
+            self.add(format!("written {construct}"), 1);
         }
         match trial {
             Trial::Discarded => {}
@@ -61,8 +65,8 @@ impl Tally {
                 self.add("points compared", *compared as u64);
                 self.add("points near a branch", *near_branch as u64);
                 self.add("points too large", *too_large as u64);
-                for class in &program.classes {
-                    self.add(format!("agreed {}", class.name()), 1);
+                for construct in constructs {
+                    self.add(format!("agreed {construct}"), 1);
                 }
             }
         }
