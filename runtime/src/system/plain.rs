@@ -1,13 +1,12 @@
 //! Types and methods that derivatives are taken of: where a name may be a user's own, rustc has to agree.
 
-/// The number type `S`, or references to it: what a field or constant of a system is where a body computes
-/// with it.
+/// The number type `S` or `bool`: what a field or constant of a system is where a body computes with it.
 ///
 /// `#[rayleigh_system]` sees the tokens of a body and not its types. A type with operators of its own, or a
 /// `Deref`, would be another function than the one that derivatives are taken of: rustc has to find this
 /// trait on all that is taken for a number, or for a `bool`.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is not `{S}`, and may have operators of its own",
+    message = "`{Self}` is not `{S}`: a reference, or a type that may have operators of its own",
     label = "derivatives are taken as if this were `{S}`",
     note = "take the number out of it where it stands, as in `self.k.0` or `*self.k`"
 )]
@@ -16,7 +15,6 @@ pub trait Plain<S> {}
 impl Plain<Self> for f64 {}
 impl Plain<Self> for f32 {}
 impl Plain<Self> for bool {}
-impl<S, T: Plain<S> + ?Sized> Plain<S> for &T {}
 
 /// The fields and constants that the derivatives of a system take for numbers and truth values, and the
 /// methods that they take for those of slices.

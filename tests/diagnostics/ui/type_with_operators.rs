@@ -42,4 +42,15 @@ impl Other {
     }
 }
 
+struct Borrowing {
+    k: &'static f64,
+}
+
+#[dalembert::rayleigh_system]
+impl Borrowing {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * v[0] * v[0] - self.k * q[0]
+    }
+}
+
 fn main() {}

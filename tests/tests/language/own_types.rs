@@ -42,7 +42,7 @@ impl Held {
     }
 }
 
-/// References are numbers.
+/// References, read with `*`.
 struct Borrowing {
     k: &'static f64,
     twice: &'static &'static f64,
@@ -54,8 +54,8 @@ impl Borrowing {
     const C: &'static f64 = &0.25;
 
     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
-        let push = if *self.on { Self::C * q[0] } else { 0.0 };
-        0.5 * v[0] * v[0] - 0.5 * self.k * q[0] * q[0] - **self.twice * q[0] - push
+        let push = if *self.on { *Self::C * q[0] } else { 0.0 };
+        0.5 * v[0] * v[0] - 0.5 * *self.k * q[0] * q[0] - **self.twice * q[0] - push
     }
 }
 

@@ -21,9 +21,17 @@ impl Lowering<'_> {
             return value;
         }
         let value = self.expression(&unary.expr)?;
-        // What is written `*self.k` is a reference, or a type with a `Deref` of its own.
+        // What is written `*self.k` or `*Self::C` is a reference, or a type with a `Deref` of its own.
+        let mut operand = without_parentheses(&unary.expr);
+        while let Expr::Unary(ExprUnary { op: UnOp::Deref(_), expr, .. }) = operand {
+            operand = without_parentheses(expr);
+        }
+        let is_constant = |operand: &Expr| {
+            let Expr::Path(path) = operand else { return false };
+            path.path.get_ident().is_none_or(|name| self.local(name).is_none())
+        };
         if let (UnOp::Deref(_), Value::Written(place)) = (&unary.op, &value)
-            && is_place_of_self(without_parentheses(&unary.expr))
+            && (is_place_of_self(operand) || is_constant(operand))
         {
             return Ok(Value::Written(place.derived(false, |place| quote!((*#place)))));
         }

@@ -33,7 +33,7 @@ pub fn told(error: &str) -> Trial {
     ];
     // Words of the runtime for what only types tell, the last by a trait that has the methods of slices.
     let by_types = [
-        ("may have operators of its own", "may have operators of its own"),
+        ("may have operators of its own", "a reference, or a type that may have operators of its own"),
         ("does not fit the scalar type of this system", "does not fit the scalar type of this system"),
         ("multiple applicable items in scope", "a method of a trait in scope has the name of one of slices'"),
     ];
