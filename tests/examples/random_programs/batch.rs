@@ -230,18 +230,18 @@ fn plain_text<P: Source>(programs: &[P], kept: &[usize], engine: &str) -> CrateT
     CrateText { text, lines }
 }
 
-/// The engine of programs under other names.
-pub const RENAMED: &str = "renamed";
-
 /// The text, under other names if the engine says so.
 fn named(text: String, program: &Program, engine: &str) -> String {
-    if engine == RENAMED { renamed::text(&text, program.seed) } else { text }
+    match renamed::by(engine) {
+        Some(rename) => rename(&text, program.seed),
+        None => text,
+    }
 }
 
 fn module(program: &Program, index: usize, engine: &str) -> String {
     let n = program.n;
     let scalar = if program.single { "f32" } else { "f64" };
-    let written = if engine == RENAMED { "expanded" } else { engine };
+    let written = renamed::derivatives(engine);
     let system = format!(
         "{}#[dalembert::rayleigh_system(derivatives = {written})]\n{}",
         print::surroundings(program),

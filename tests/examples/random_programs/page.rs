@@ -9,13 +9,15 @@ use super::tally::{Tally, general};
 use super::written;
 
 /// The ways that programs are tried, as files of runs begin, and as the page says it.
-const WAYS: [(&str, &str); 14] = [
+const WAYS: [(&str, &str); 16] = [
     ("graph-", "lowered, the graph evaluated"),
     ("compiled-expanded-", "compiled by rustc, `derivatives = expanded`"),
     ("compiled-auto-", "compiled by rustc, `derivatives = auto`"),
     ("compiled-num_dual-", "compiled by rustc, `derivatives = num_dual`"),
     ("compiled-fused-", "compiled by rustc, `multiply_add = fused`"),
     ("compiled-portable-", "compiled by rustc, elementary functions of the runtime (`libm`)"),
+    ("compiled-renamed-", "compiled by rustc, every name a word of generated code"),
+    ("compiled-one_word-", "compiled by rustc, one name a word of generated code, each word in turn"),
     ("compiled-lanes-", "compiled by rustc, as a force of eight members in lanes, each beside its own run"),
     (
         "compiled-gauss_lanes-",

@@ -51,27 +51,84 @@ const LOCALS: [&str; 34] = [
     "held",
 ];
 
+/// Another text of a program, by its seed.
+type Rename = fn(&str, u64) -> String;
+
+/// The new names that an engine of the study says.
+pub fn by(engine: &str) -> Option<Rename> {
+    match engine {
+        "renamed" => Some(text),
+        "one_word" => Some(one_word),
+        _ => None,
+    }
+}
+
+/// The engine of the attribute.
+pub fn derivatives(engine: &str) -> &str {
+    if by(engine).is_some() { "expanded" } else { engine }
+}
+
 /// The text, its names drawn anew by the seed: those that it declares within itself.
-pub fn text(text: &str, seed: u64) -> String {
-    let (Ok(file), Ok(tokens)) = (syn::parse_file(text), text.parse::<TokenStream>()) else {
-        return text.to_owned();
-    };
-    let mut names = Names::default();
-    names.visit_file(&file);
-    // A word that the program has already could be another name's.
-    let own: BTreeSet<&str> = text.split(|c: char| !c.is_alphanumeric() && c != '_').collect();
-    let free = |words: &[&'static str]| -> Vec<&'static str> {
-        words.iter().copied().filter(|word| !own.contains(word)).collect()
-    };
-    // Where a body does not name a constant of the module, the macro cannot know of it.
-    let constants = names.constants.intersection(&names.mentioned);
-    let others = names.declared.difference(&names.in_short);
-    let all = GENERATED.iter().chain(&LOCALS).copied();
-    let words: Vec<&str> = all.filter(|word| !CONSTANTS.contains(word)).collect();
+fn text(text: &str, seed: u64) -> String {
+    let Some(own) = Own::of(text) else { return text.to_owned() };
     let mut random = Random::new(seed ^ 0x6e61_6d65);
-    let mut map = drawn(constants, [free(&CONSTANTS), Vec::new()], &mut random);
-    map.extend(drawn(others, [free(&CONSTANTS_IN_SMALL), free(&words)], &mut random));
-    renamed(tokens, &map).to_string()
+    let words = words().filter(|word| !CONSTANTS.contains(word) && !CONSTANTS_IN_SMALL.contains(word));
+    let mut map = drawn(own.constants.iter(), [own.free(CONSTANTS), Vec::new()], &mut random);
+    let others = [own.free(CONSTANTS_IN_SMALL), own.free(words)];
+    map.extend(drawn(own.others.iter(), others, &mut random));
+    renamed(own.tokens, &map).to_string()
+}
+
+/// The text with one of its names under the word that the seed stands for: each of them in turn.
+fn one_word(text: &str, seed: u64) -> String {
+    let Some(own) = Own::of(text) else { return text.to_owned() };
+    let index = usize::try_from(seed).expect("a seed of a study") % words().count();
+    let word = own.free(words().skip(index).take(1));
+    let is_constant = word.first().is_some_and(|word| CONSTANTS.contains(word));
+    let mut names: Vec<&String> = if is_constant { &own.constants } else { &own.others }.iter().collect();
+    let mut random = Random::new(seed ^ 0x776f_7264);
+    if !names.is_empty() {
+        let drawn = random.below(names.len());
+        names.swap(0, drawn);
+    }
+    let map = drawn(names.into_iter(), [word, Vec::new()], &mut random);
+    renamed(own.tokens, &map).to_string()
+}
+
+/// All words, each once.
+fn words() -> impl Iterator<Item = &'static str> {
+    let generated = GENERATED.iter().copied().filter(|word| !CONSTANTS.contains(word));
+    CONSTANTS.into_iter().chain(CONSTANTS_IN_SMALL).chain(LOCALS).chain(generated)
+}
+
+/// A program, and the names that are its own.
+struct Own {
+    tokens: TokenStream,
+    /// All words of the text.
+    taken: BTreeSet<String>,
+    constants: BTreeSet<String>,
+    others: BTreeSet<String>,
+}
+
+impl Own {
+    fn of(text: &str) -> Option<Self> {
+        let (file, tokens) = (syn::parse_file(text).ok()?, text.parse().ok()?);
+        let mut names = Names::default();
+        names.visit_file(&file);
+        let words = text.split(|c: char| !c.is_alphanumeric() && c != '_');
+        Some(Self {
+            tokens,
+            taken: words.map(str::to_owned).collect(),
+            // Where a body does not name a constant of the module, the macro cannot know of it.
+            constants: names.constants.intersection(&names.mentioned).cloned().collect(),
+            others: names.declared.difference(&names.in_short).cloned().collect(),
+        })
+    }
+
+    /// The words that the program does not have already: one could be another name's.
+    fn free(&self, words: impl IntoIterator<Item = &'static str>) -> Vec<&'static str> {
+        words.into_iter().filter(|word| !self.taken.contains(*word)).collect()
+    }
 }
 
 /// A word for each name, of the first words until they are used up; none where there are no more.

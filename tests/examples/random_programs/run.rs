@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use super::batch::{RENAMED, Workshop};
+use super::batch::Workshop;
 use super::rayleigh_system::Runtime;
 use super::syntax::Program;
 use super::tally::Tally;
 use super::trial::{self, Trial};
-use super::{generate, members, mistake, print, shrink};
+use super::{generate, members, mistake, print, renamed, shrink};
 
 /// Programs of one crate.
 const BATCH: usize = 150;
@@ -124,7 +124,7 @@ pub fn compiled(count: u64, seed: u64, engine: &str) -> Result<usize, String> {
                 tally.take(&program, &Trial::Discarded);
                 continue;
             };
-            let by = if written == RENAMED { "expanded" } else { written };
+            let by = renamed::derivatives(written);
             match trial::reaction(&program, by, runtime) {
                 Some(end) => {
                     if let Trial::Failed(words) = &end {
@@ -153,7 +153,7 @@ pub fn compiled(count: u64, seed: u64, engine: &str) -> Result<usize, String> {
             let trial = match outcome.errors.get(&index) {
                 Some(_) if outcome.not_rust.contains(&index) => Trial::Discarded,
                 // Names in both kinds of letters are types to the macro.
-                Some(error) if engine == RENAMED && error.contains("cannot be written out") => {
+                Some(error) if renamed::by(engine).is_some() && error.contains("cannot be written out") => {
                     Trial::Refused(error.clone())
                 }
                 Some(error) => trial::told_by_rustc(error),
