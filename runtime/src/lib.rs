@@ -201,7 +201,8 @@ mod attributes {
 /// that of the same code outside the macro.
 ///
 /// - Fields that are `f64`, integers, `bool`, arrays or tuples of them, `Option`s, and enums and structs
-///   of your own; constants of the standard library, the module and the block; functions of the block.
+///   of your own, and with `*` references to such; constants of the standard library, the module and the
+///   block; functions of the block.
 /// - `let`, `let … else`, `mut` locals, arrays, tuples, references, closures that change nothing
 ///   outside, loops and iterators, `for x in a.iter_mut()`, `swap`, labels and blocks that `break` ends,
 ///   `if`, `if let`, `match` with guards, patterns with `|`, `matches!`, early return.
@@ -273,8 +274,8 @@ mod attributes {
 ///   `take_while`, and `reduce` without an `unwrap` behind it;
 /// - a `Vec`, and an `Option` made in the body.
 ///
-/// Bodies that programs write may be 6 000 operators and brackets deep, as a sum of 5 000 terms is; deeper
-/// ones are refused.
+/// Bodies that programs write may be 6 000 operators and brackets deep, as a sum of 5 000 terms is, or 100
+/// where the compiler runs on other processors than x86-64 and AArch64; deeper ones are refused.
 ///
 /// Refused, with a message at the token: `#[cfg]` inside the item, type aliases, items and macros inside
 /// a body, functions outside the block, generic helpers, assignment to a field, casts of coordinates to
