@@ -6,9 +6,8 @@ use nalgebra::SVector;
 use super::{ByDrift, DampedDrift, Fitted, FittedTrapezoidal};
 use crate::step::{
     BoundedFlow, BoundedStep, ClosedForm, Discrete, Flow, Linearization, State, Step, StepError, StepWith,
-    of_equation_and_step, verify_momenta,
 };
-use crate::system::{GeneratedDiffers, Rayleigh};
+use crate::system::Rayleigh;
 
 macro_rules! flow {
     ($($rule:ident)*) => {$(
@@ -38,14 +37,6 @@ macro_rules! flow {
             ) -> Result<StepWith<L::Scalar, N, Linearization<L::Scalar, N>>, StepError> {
                 let step = self.step(state, h, guess)?;
                 Ok((step, self.linearization(&state.q, &step.state.q, h)?))
-            }
-
-            fn verify_momenta(
-                &self,
-                state: &State<L::Scalar, N>,
-                h: L::Scalar,
-            ) -> Result<(), GeneratedDiffers> {
-                verify_momenta::<L, $rule, N>(self, state, h, &|q0, v| of_equation_and_step(self, q0, v, h))
             }
         }
 

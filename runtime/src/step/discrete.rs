@@ -40,6 +40,10 @@ pub trait Discrete<R, const N: usize>: Flow<R, N> {
     /// the state nor an input changes.
     const LINEAR: bool = false;
 
+    /// Whether the step's equation and both momenta are written out each at once, as `#[rayleigh_system]`
+    /// does: a run that starts then holds them against the derivatives of L_d and f_d.
+    const WRITTEN_OUT: bool = false;
+
     /// L_d(q0, q1, h).
     fn discrete_lagrangian(
         &self,

@@ -122,6 +122,8 @@ impl<S: Discrete<Midpoint, N>, const N: usize> Discrete<Midpoint, N> for Mixed<S
     type Matrix = S::Matrix;
     type Memory = VelocityHistory<S::Scalar, N>;
 
+    const WRITTEN_OUT: bool = true;
+
     fn discrete_lagrangian(
         &self,
         q0: &SVector<S::Scalar, N>,

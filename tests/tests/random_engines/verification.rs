@@ -122,6 +122,7 @@ macro_rules! discrete {
             impl Discrete<$rule, 1> for Mutated {
                 type Matrix = Matrix;
                 type Memory = dalembert::run::$memory<f64, Matrix, 1>;
+                const WRITTEN_OUT: bool = true;
 
                 fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
                     <$rule as DisplacementRule>::discrete_lagrangian(self, q0, q1, h)

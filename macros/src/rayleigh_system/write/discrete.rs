@@ -158,6 +158,11 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
         }
     });
     let verification = is_expanded.then(|| verify_segment(system, &quote!(#rule)));
+    let written_out = is_expanded.then(|| {
+        quote!(
+            const WRITTEN_OUT: bool = true;
+        )
+    });
     // p0 = −D1 L_d − f_d⁻: Midpoint::lagrangian_kernel(self, q0, v, h) + Midpoint::rayleigh_kernel(self, q0,
     // v, h)
     quote! {
@@ -166,6 +171,7 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
             type Matrix = #matrix;
             type Memory = #memory;
             #linear
+            #written_out
 
             #[doc = #lagrangian]
             fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {

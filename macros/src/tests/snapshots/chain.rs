@@ -156,6 +156,7 @@ const _: () = {
     impl Discrete<Midpoint, 4> for Chain {
         type Matrix = ::dalembert::generated::Banded<f64, 4, 3>;
         type Memory = ::dalembert::generated::KeptMatrix<f64, Self::Matrix, 4>;
+        const WRITTEN_OUT: bool = true;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)

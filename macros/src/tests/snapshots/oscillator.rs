@@ -153,6 +153,7 @@ const _: () = {
         type Matrix = SMatrix<f64, 1, 1>;
         type Memory = ::dalembert::generated::KeptMatrix<f64, Self::Matrix, 1>;
         const LINEAR: bool = true;
+        const WRITTEN_OUT: bool = true;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)
@@ -243,6 +244,7 @@ const _: () = {
         type Matrix = SMatrix<f64, 1, 1>;
         type Memory = ::dalembert::generated::ExplicitMemory<f64, Self::Matrix, 1>;
         const LINEAR: bool = true;
+        const WRITTEN_OUT: bool = true;
         /// L_d = (h/2) [L(q0, v̄) + L(q1, v̄)], with v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Trapezoidal::discrete_lagrangian(self, q0, q1, h)

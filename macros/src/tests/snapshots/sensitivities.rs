@@ -410,6 +410,7 @@ const _: () = {
     impl Discrete<Midpoint, 1> for DrivenJoint<'_> {
         type Matrix = SMatrix<f64, 1, 1>;
         type Memory = ::dalembert::generated::VelocityHistory<f64, 1>;
+        const WRITTEN_OUT: bool = true;
         /// L_d = h L(q̄, v̄), with q̄ = (q0 + q1)/2 and v̄ = (q1 − q0)/h.
         fn discrete_lagrangian(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::discrete_lagrangian(self, q0, q1, h)
