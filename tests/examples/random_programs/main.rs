@@ -14,7 +14,7 @@
 //! names of generated code, `one_word` for one such name, or `lanes`, `midpoint_lanes` and `gauss_lanes`:
 //! several members at once, from the seed 1000000 on every other program with fused sums. `written` may be
 //! followed by one of the first five.
-//! `show <seed>` prints a program, `shrink <seed>` the smallest part of it that fails.
+//! `show <seed>` prints a program, with an engine under its names, `shrink <seed>` the smallest part of it that fails.
 
 mod batch;
 mod class;
@@ -86,6 +86,12 @@ fn main() -> ExitCode {
         }),
         ["show", seed, "written"] => {
             println!("{}", written::program(number(seed).unwrap_or(1)).annotated("expanded"));
+            Ok(0)
+        }
+        ["show", seed, engine] => {
+            let program = generate::program(number(seed).unwrap_or(1));
+            let text = print::formatted(&program, renamed::derivatives(engine));
+            println!("{}", renamed::by(engine).map_or(text.clone(), |rename| rename(&text, program.seed)));
             Ok(0)
         }
         [count, seed, "written"] => {

@@ -185,7 +185,11 @@ impl<'ast> Visit<'ast> for Names {
     }
 
     fn visit_pat_ident(&mut self, pattern: &'ast syn::PatIdent) {
-        self.declared.insert(pattern.ident.to_string());
+        let name = pattern.ident.to_string();
+        // `None`, and constants: they bind nothing.
+        if !name.starts_with(char::is_uppercase) {
+            self.declared.insert(name);
+        }
         visit::visit_pat_ident(self, pattern);
     }
 
