@@ -2,7 +2,7 @@
 //! clock that no longer runs.
 
 use crate::numbers::Scalar;
-use crate::step::{Flow, State, StepError, verify_start};
+use crate::step::{Flow, Memory, State, StepError, verify_start};
 use crate::system::Lagrangian;
 
 /// A run as it can be saved; see [`Trajectory::checkpoint`](crate::Trajectory::checkpoint). With the feature
@@ -101,27 +101,27 @@ impl Course {
 
     /// As [`require`](Self::require), and before the first step also where that is another than the
     /// derivatives of L_d and f_d say.
-    pub(crate) fn require_step<L: Flow<M, N>, M, const N: usize>(
+    pub(crate) fn require_step<L: Flow<M, N>, K: Memory<L, M, N>, M, const N: usize>(
         &mut self,
         system: &L,
         at: &Checkpoint<L::Scalar, N>,
     ) -> Result<(), StepError> {
-        *self = self.of_step::<L, M, N>(system, at.time(), at)?;
+        *self = self.of_step::<L, K, M, N>(system, at.time(), at)?;
         Ok(())
     }
 
     /// As [`require_step`](Self::require_step), of a `system` that has the time of this step: the course once
     /// the step is taken.
     #[inline]
-    pub(crate) fn after<L: Flow<M, N>, M, const N: usize>(
+    pub(crate) fn after<L: Flow<M, N>, K: Memory<L, M, N>, M, const N: usize>(
         self,
         system: &L,
         at: &Checkpoint<L::Scalar, N>,
     ) -> Result<Self, StepError> {
-        if self == Self::Open { Ok(self) } else { self.of_step::<L, M, N>(system, 0.0, at) }
+        if self == Self::Open { Ok(self) } else { self.of_step::<L, K, M, N>(system, 0.0, at) }
     }
 
-    fn of_step<L: Flow<M, N>, M, const N: usize>(
+    fn of_step<L: Flow<M, N>, K: Memory<L, M, N>, M, const N: usize>(
         self,
         system: &L,
         elapsed: f64,
@@ -130,7 +130,7 @@ impl Course {
         let course = self.checked(system, elapsed, at)?;
         if self == Self::Starting {
             let elapsed = L::Scalar::constant(elapsed);
-            system.later(elapsed, |system| system.verify_momenta(&at.state, at.step_size))?;
+            system.later(elapsed, |system| K::verify_momenta(system, &at.state, at.step_size))?;
         }
         Ok(course)
     }

@@ -191,7 +191,7 @@ where
         L: Flow<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
         V::RunMemory: Memory<L, M, N>,
     {
-        let course = self.course.after::<L, M, N>(system, &self.at)?;
+        let course = self.course.after::<L, V::RunMemory, M, N>(system, &self.at)?;
         let step = self.take(system);
         if step.is_ok() {
             self.course = course;
@@ -212,7 +212,7 @@ where
         L: Flow<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
         V::RunMemory: Memory<L, M, N>,
     {
-        let course = self.course.after::<L, M, N>(system, &self.at)?;
+        let course = self.course.after::<L, V::RunMemory, M, N>(system, &self.at)?;
         let parted = in_parts(&mut self.memory, system, 0.0, &self.at, halvings)?;
         Memory::<L, M, N>::change_input(&mut self.memory);
         self.course = course;
@@ -232,7 +232,7 @@ where
         L: Linearizable<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
         V::RunMemory: Memory<L, M, N>,
     {
-        let course = self.course.after::<L, M, N>(system, &self.at)?;
+        let course = self.course.after::<L, V::RunMemory, M, N>(system, &self.at)?;
         let Checkpoint { state, step_size: h, .. } = self.at;
         let step = Memory::<L, M, N>::advance(&mut self.memory, system, &state, h)?;
         let taken = StepTaken::new(system, &self.memory, &state, step, h);

@@ -223,7 +223,7 @@ where
         if let Some(pace) = &mut self.pace {
             pace.next(self.system, &self.memory, &mut self.at)?;
         }
-        if let Err(error) = self.course.require_step::<L, M, N>(self.system, &self.at) {
+        if let Err(error) = self.course.require_step::<L, L::RunMemory, M, N>(self.system, &self.at) {
             self.take_back();
             return Err(error);
         }

@@ -117,6 +117,16 @@ where
         h: L::Scalar,
     ) -> Result<Step<L::Scalar, N>, StepError>;
 
+    /// Verifies the momenta that steps with this memory compute: [`Flow::verify_momenta`], and its own where it
+    /// has some.
+    ///
+    /// # Errors
+    /// [`GeneratedDiffers`].
+    #[cold]
+    fn verify_momenta(system: &L, state: &State<L::Scalar, N>, h: L::Scalar) -> Result<(), GeneratedDiffers> {
+        system.verify_momenta(state, h)
+    }
+
     /// Takes `velocity` for the mean velocity of the step before the first, of size `h`. Nothing where no
     /// guess serves.
     fn suggest(&mut self, velocity: &SVector<L::Scalar, N>, h: L::Scalar) {

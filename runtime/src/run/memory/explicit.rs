@@ -120,6 +120,11 @@ where
         self.start(system, state, h)
     }
 
+    fn verify_momenta(system: &L, state: &State<L::Scalar, N>, h: L::Scalar) -> Result<(), GeneratedDiffers> {
+        Flow::<Trapezoidal, N>::verify_momenta(system, state, h)?;
+        verify_explicit(system, state, h)
+    }
+
     /// The force.
     #[inline]
     fn follow(&mut self, previous: &Self) {
@@ -143,9 +148,6 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> ExplicitMemory<S, M, N> {
     where
         L: Explicit<N, Scalar = S, Matrix = M>,
     {
-        if self.prepared.is_none() {
-            verify_explicit(system, state, h)?;
-        }
         let step = Flow::<Trapezoidal, N>::step(system, state, h, None)?;
         if self.prepared.as_ref().is_none_or(|prepared| prepared.h != h) {
             let at_rest = system.velocity_momenta(&nalgebra::zero(), h).p0;
