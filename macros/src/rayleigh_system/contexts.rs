@@ -14,7 +14,7 @@ use proc_macro2::{Ident, TokenStream, TokenTree};
 use syn::visit::{self, Visit};
 use syn::{Item, PatIdent};
 
-use super::hygiene::MARK;
+use super::hygiene::{MARK, is_member};
 use super::syntax::regrouped;
 
 /// The item, each local marked that another hygiene has a name of the same text beside.
@@ -65,25 +65,18 @@ fn bound(item: &Item) -> BTreeSet<(String, String)> {
     bound.0
 }
 
-/// The tokens, names that `marks` has marked so many times, but for members and what belongs to a path. What
-/// ends a range is no member.
+/// The tokens, names that `marks` has marked so many times, but for members and what belongs to a path.
 fn marked(tokens: TokenStream, marks: &HashMap<(String, String), usize>) -> TokenStream {
-    let mut before = [None; 2];
-    let marked = tokens.into_iter().map(|token| {
-        let is_range = matches!(before, [Some('.'), Some('.')]);
-        let is_member = !is_range && matches!(before, [_, Some('.')] | [Some(':'), Some(':')]);
-        let mark = if let TokenTree::Punct(mark) = &token { Some(mark.as_char()) } else { None };
-        before = [before[1], mark];
-        match token {
-            TokenTree::Ident(name) => match marks.get(&(name.to_string(), context(&name))) {
-                Some(&count) if !is_member => {
-                    TokenTree::Ident(Ident::new(&format!("{name}{}", MARK.repeat(count)), name.span()))
-                }
-                _ => TokenTree::Ident(name),
-            },
-            TokenTree::Group(group) => regrouped(&group, marked(group.stream(), marks)),
-            other => other,
-        }
+    let tokens: Vec<TokenTree> = tokens.into_iter().collect();
+    let marked = tokens.iter().enumerate().map(|(index, token)| match token {
+        TokenTree::Ident(name) => match marks.get(&(name.to_string(), context(name))) {
+            Some(&count) if !is_member(&tokens[..index]) => {
+                TokenTree::Ident(Ident::new(&format!("{name}{}", MARK.repeat(count)), name.span()))
+            }
+            _ => token.clone(),
+        },
+        TokenTree::Group(group) => regrouped(group, marked(group.stream(), marks)),
+        other => other.clone(),
     });
     marked.collect()
 }

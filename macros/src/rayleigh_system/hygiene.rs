@@ -202,7 +202,7 @@ fn collect(tokens: TokenStream, names: &mut HashSet<String>) {
 }
 
 /// Whether what follows belongs to a path or a value: `::dalembert::`, `self.`; what ends a range does not.
-fn is_member(before: &[TokenTree]) -> bool {
+pub fn is_member(before: &[TokenTree]) -> bool {
     match before {
         [.., a, b] if is_punctuation(a, ':') && is_punctuation(b, ':') => true,
         [.., a, b] if is_punctuation(a, '.') && is_punctuation(b, '.') => false,

@@ -2,6 +2,7 @@
 //! library.
 
 use proc_macro2::{Group, Span, TokenStream, TokenTree};
+use quote::quote;
 use syn::parse::{Parse, ParseStream};
 use syn::visit_mut::VisitMut;
 use syn::{
@@ -77,11 +78,6 @@ pub fn is_assignment(operator: &BinOp) -> bool {
 
 pub fn is_self(expression: &Expr) -> bool {
     matches!(expression, Expr::Path(path) if path.path.is_ident("self"))
-}
-
-/// Whether the word is the receiver: in `self::G` it begins a path.
-pub fn is_receiver(word: &Ident, next: Option<&TokenTree>) -> bool {
-    word == "self" && !matches!(next, Some(TokenTree::Punct(mark)) if mark.as_char() == ':')
 }
 
 /// `self.field`, `self.field[i]`, `self.field.0`.
@@ -268,6 +264,24 @@ pub fn regrouped(group: &Group, tokens: TokenStream) -> TokenTree {
     let mut own = Group::new(group.delimiter(), tokens);
     own.set_span(group.span());
     TokenTree::Group(own)
+}
+
+/// The tokens, with others for words that `by` has some for. `self` that begins a path, as in `self::G`, is not
+/// asked for: it is no receiver.
+pub fn with_words(tokens: TokenStream, by: &dyn Fn(&Ident) -> Option<TokenStream>) -> TokenStream {
+    let mut replaced = TokenStream::new();
+    let mut tokens = tokens.into_iter().peekable();
+    while let Some(token) = tokens.next() {
+        let begins_path = matches!(tokens.peek(), Some(TokenTree::Punct(mark)) if mark.as_char() == ':');
+        match token {
+            TokenTree::Ident(word) if !(word == "self" && begins_path) => {
+                replaced.extend(by(&word).unwrap_or_else(|| quote!(#word)));
+            }
+            TokenTree::Group(group) => replaced.extend([regrouped(&group, with_words(group.stream(), by))]),
+            other => replaced.extend([other]),
+        }
+    }
+    replaced
 }
 
 /// The name of a type that is one plain identifier.

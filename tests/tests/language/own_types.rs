@@ -59,6 +59,18 @@ impl Borrowing {
     }
 }
 
+/// References in an array that is a constant.
+struct Listed;
+
+#[rayleigh_system(derivatives = expanded)]
+impl Listed {
+    const EACH: [&'static f64; 2] = [&0.5, &0.125];
+
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * v[0] * v[0] + *Self::EACH[0] * q[0] + (*Self::EACH[1]) * v[0]
+    }
+}
+
 #[test]
 fn what_is_dereferenced_is_what_it_holds() {
     let (q, v) = (vector![0.7], vector![-0.4]);
@@ -70,6 +82,8 @@ fn what_is_dereferenced_is_what_it_holds() {
     let of = borrowing.lagrangian_derivatives(&q, &v);
     assert!((of.d1[0] + 2.0 * q[0] + 0.5 + 0.25).abs() < 1e-15);
     assert_eq!(Lagrangian::lagrangian(&borrowing, &q, &v), of.value);
+    let of = Listed.lagrangian_derivatives(&q, &v);
+    assert_eq!((of.d1[0], of.d2[0]), (0.5, v[0] + 0.125));
 }
 
 /// `len` of arrays, two more than they have entries; before the one of slices.

@@ -6,7 +6,7 @@ use syn::{BinOp, Expr, ExprBinary, ExprLit, ExprUnary, Lit, UnOp};
 
 use super::super::diagnostics::span_of;
 use super::super::graph::{Comparison, Operation};
-use super::super::syntax::{is_place_of_self, without_parentheses};
+use super::super::syntax::without_parentheses;
 use super::integer::Integer;
 use super::value::{Truth, Value};
 use super::written::Written;
@@ -22,20 +22,27 @@ impl Lowering<'_> {
         }
         let value = self.expression(&unary.expr)?;
         // What is written `*self.k` or `*Self::C` is a reference, or a type with a `Deref` of its own.
-        let mut operand = without_parentheses(&unary.expr);
-        while let Expr::Unary(ExprUnary { op: UnOp::Deref(_), expr, .. }) = operand {
-            operand = without_parentheses(expr);
-        }
-        let is_constant = |operand: &Expr| {
-            let Expr::Path(path) = operand else { return false };
-            path.path.get_ident().is_none_or(|name| self.local(name).is_none())
-        };
         if let (UnOp::Deref(_), Value::Written(place)) = (&unary.op, &value)
-            && (is_place_of_self(operand) || is_constant(operand))
+            && self.is_outside(&unary.expr)
         {
             return Ok(Value::Written(place.derived(false, |place| quote!((*#place)))));
         }
         self.apply_unary(unary, value)
+    }
+
+    /// Whether it is a place of the system, or a constant: `self.k[0]`, `*self.k`, `Self::C`.
+    fn is_outside(&self, place: &Expr) -> bool {
+        match place {
+            Expr::Paren(inner) => self.is_outside(&inner.expr),
+            Expr::Unary(inner) if matches!(inner.op, UnOp::Deref(_)) => self.is_outside(&inner.expr),
+            Expr::Field(field) => self.is_outside(&field.base),
+            Expr::Index(index) => self.is_outside(&index.expr),
+            Expr::Path(path) => {
+                let local = path.path.get_ident().and_then(|name| self.local(name));
+                matches!(local, None | Some(Value::Import(_)))
+            }
+            _ => false,
+        }
     }
 
     fn apply_unary(&mut self, unary: &ExprUnary, value: Value) -> Result<Value> {

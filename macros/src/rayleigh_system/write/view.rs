@@ -2,11 +2,11 @@
 //!
 //! The comment above each quotation shows what it expands to.
 
-use proc_macro2::{Ident, TokenStream, TokenTree};
+use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::super::model::{Home, Part, System};
-use super::super::syntax::{is_receiver, regrouped};
+use super::super::syntax::with_words;
 use super::item::conditions;
 
 /// `DrivenArm` if the force takes an input, else `ArmAtTime`.
@@ -46,24 +46,15 @@ pub fn arguments(system: &System<'_>, part: Part) -> Vec<TokenStream> {
 
 /// Tokens of the user's functions, `self.k` and `Self::K`, as seen from the view.
 pub fn seen_from_view(tokens: TokenStream, system: &Ident) -> TokenStream {
-    let tokens: Vec<TokenTree> = tokens.into_iter().collect();
-    let next = |index: usize| tokens.get(index + 1);
-    tokens
-        .iter()
-        .enumerate()
-        .flat_map(|(index, token)| match token {
-            TokenTree::Ident(word) if is_receiver(word, next(index)) => quote!(#word.system),
-            TokenTree::Ident(word) if word == "Self" => {
-                let mut name = system.clone();
-                name.set_span(word.span());
-                quote!(#name)
-            }
-            TokenTree::Group(group) => {
-                TokenStream::from(regrouped(group, seen_from_view(group.stream(), system)))
-            }
-            other => TokenStream::from(other.clone()),
-        })
-        .collect()
+    with_words(tokens, &|word| match word {
+        word if word == "self" => Some(quote!(#word.system)),
+        word if word == "Self" => {
+            let mut name = system.clone();
+            name.set_span(word.span());
+            Some(quote!(#name))
+        }
+        _ => None,
+    })
 }
 
 /// The view's type and the function that makes it.

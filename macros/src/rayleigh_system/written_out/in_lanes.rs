@@ -8,11 +8,10 @@ mod explicit;
 mod midpoint;
 mod stages;
 
-use proc_macro2::TokenTree;
 use quote::ToTokens;
 
 use super::super::emit::{Anchored, Field, as_on_members, number_of_members, on_members, straight_line};
-use super::super::syntax::{is_receiver, regrouped};
+use super::super::syntax::with_words;
 use super::*;
 pub(super) use explicit::{ExplicitOutputs, TAKEN};
 pub(super) use midpoint::{MidpointOutputs, TAKEN_AT_MIDPOINT};
@@ -208,17 +207,7 @@ pub(super) fn tuple(parts: impl Iterator<Item = TokenStream>) -> TokenStream {
 
 /// The tokens with `system` for `self`.
 fn seen_from_member(tokens: TokenStream) -> TokenStream {
-    let tokens: Vec<TokenTree> = tokens.into_iter().collect();
-    let next = |index: usize| tokens.get(index + 1);
-    tokens
-        .iter()
-        .enumerate()
-        .map(|(index, token)| match token {
-            TokenTree::Ident(word) if is_receiver(word, next(index)) => {
-                Ident::new("system", word.span()).into()
-            }
-            TokenTree::Group(group) => regrouped(group, seen_from_member(group.stream())),
-            other => other.clone(),
-        })
-        .collect()
+    with_words(tokens, &|word| {
+        (word == "self").then(|| Ident::new("system", word.span()).into_token_stream())
+    })
 }
