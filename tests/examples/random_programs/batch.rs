@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use super::engine::options;
 use super::members;
 use super::point::{Point, points};
 use super::syntax::Program;
@@ -241,9 +242,9 @@ fn named(text: String, program: &Program, engine: &str) -> String {
 fn module(program: &Program, index: usize, engine: &str) -> String {
     let n = program.n;
     let scalar = if program.single { "f32" } else { "f64" };
-    let written = renamed::derivatives(engine);
+    let options = options(engine);
     let system = format!(
-        "{}#[dalembert::rayleigh_system(derivatives = {written})]\n{}",
+        "{}#[dalembert::rayleigh_system({options})]\n{}",
         print::surroundings(program),
         print::block(program)
     );

@@ -18,6 +18,7 @@
 
 mod batch;
 mod class;
+mod engine;
 mod expansion;
 mod expected;
 mod generate;
@@ -90,7 +91,7 @@ fn main() -> ExitCode {
         }
         ["show", seed, engine] => {
             let program = generate::program(number(seed).unwrap_or(1));
-            let text = print::formatted(&program, renamed::derivatives(engine));
+            let text = print::formatted(&program, engine);
             println!("{}", renamed::by(engine).map_or(text.clone(), |rename| rename(&text, program.seed)));
             Ok(0)
         }

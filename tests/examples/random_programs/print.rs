@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::engine::options;
 use super::syntax::*;
 use super::types::Type;
 
@@ -35,8 +36,9 @@ pub fn expression(program: &Program, expression: &Expression) -> String {
 /// All of it, formatted.
 pub fn formatted(program: &Program, engine: &str) -> String {
     let text = format!(
-        "{}\n#[dalembert::rayleigh_system(derivatives = {engine})]\n{}",
+        "{}\n#[dalembert::rayleigh_system({})]\n{}",
         surroundings(program),
+        options(engine),
         without_unused(&block(program))
     );
     match syn::parse_file(&text) {

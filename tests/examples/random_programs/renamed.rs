@@ -63,11 +63,6 @@ pub fn by(engine: &str) -> Option<Rename> {
     }
 }
 
-/// The engine of the attribute.
-pub fn derivatives(engine: &str) -> &str {
-    if by(engine).is_some() { "expanded" } else { engine }
-}
-
 /// The text, its names drawn anew by the seed: those that it declares within itself.
 fn text(text: &str, seed: u64) -> String {
     let Some(own) = Own::of(text) else { return text.to_owned() };

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::batch::Workshop;
+use super::engine::features;
 use super::rayleigh_system::Runtime;
 use super::syntax::Program;
 use super::tally::Tally;
@@ -24,11 +25,6 @@ pub fn folder() -> Result<PathBuf, String> {
     let folder = workspace().join("target/random-programs");
     std::fs::create_dir_all(folder.join("runs")).map_err(|error| error.to_string())?;
     Ok(folder)
-}
-
-/// The features of the runtime that an engine asks for.
-pub fn features(engine: &str) -> &'static str {
-    if engine == "portable" { "\"std\", \"libm\"" } else { "\"std\"" }
 }
 
 /// A failing program cut down, as Rust, with what is wrong.
@@ -105,11 +101,7 @@ pub fn until(count: u64, seed: u64) {
 /// Programs built by rustc with the macro, and run.
 pub fn compiled(count: u64, seed: u64, engine: &str) -> Result<usize, String> {
     let folder = folder()?;
-    let (written, runtime) = match engine {
-        "portable" => ("expanded", Runtime::PORTABLE),
-        "fused" => ("expanded, multiply_add = fused", Runtime::STD),
-        engine => (engine, Runtime::STD),
-    };
+    let runtime = if engine == "portable" { Runtime::PORTABLE } else { Runtime::STD };
     let workshop = Workshop::new(&folder.join(format!("batch-{engine}")), &workspace(), features(engine));
     let mut failures = 0;
     let mut next = seed;
@@ -124,8 +116,7 @@ pub fn compiled(count: u64, seed: u64, engine: &str) -> Result<usize, String> {
                 tally.take(&program, &Trial::Discarded);
                 continue;
             };
-            let by = renamed::derivatives(written);
-            match trial::reaction(&program, by, runtime) {
+            match trial::reaction(&program, engine, runtime) {
                 Some(end) => {
                     if let Trial::Failed(words) = &end {
                         println!("seed {}: {words}", program.seed);
@@ -139,7 +130,7 @@ pub fn compiled(count: u64, seed: u64, engine: &str) -> Result<usize, String> {
                 }
             }
         }
-        let outcome = workshop.run(&programs, written)?;
+        let outcome = workshop.run(&programs, engine)?;
         if runtime.is_portable {
             // The plain functions call the runtime's elementary functions, the interpreter those of std.
             for (index, expected) in all_expected.iter_mut().enumerate() {

@@ -3,6 +3,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use super::batch::Computed;
+use super::engine::options;
 use super::expansion::{self, Reaction};
 use super::expected::{self, Expected, Skipped};
 use super::lowered;
@@ -40,7 +41,7 @@ pub fn expected(program: &Program) -> Option<Vec<Expected>> {
 pub fn reaction(program: &Program, engine: &str, runtime: Runtime) -> Option<Trial> {
     let reaction = match members::Way::named(engine) {
         Some(way) => expansion::of(&members::block(program, way), way.options(), runtime),
-        None => expansion::of(&print::block(program), &format!("derivatives = {engine}"), runtime),
+        None => expansion::of(&print::block(program), &options(engine), runtime),
     };
     match reaction {
         Reaction::Refused(reason) => Some(Trial::Refused(reason)),

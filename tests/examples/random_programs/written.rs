@@ -21,6 +21,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use super::batch::Source;
+use super::engine::options;
 use super::random::Random;
 use functions::Seen;
 use manner::Manner;
@@ -46,7 +47,7 @@ pub struct Written {
 impl Written {
     /// The source under the attribute.
     pub fn annotated(&self, engine: &str) -> String {
-        self.text.replace(ATTRIBUTE, &format!("#[dalembert::rayleigh_system(derivatives = {engine})]"))
+        self.text.replace(ATTRIBUTE, &format!("#[dalembert::rayleigh_system({})]", options(engine)))
     }
 
     fn plain(&self) -> String {
@@ -137,11 +138,6 @@ impl Source for Written {
     }
 
     fn with_macro(&self, index: usize, engine: &str) -> String {
-        let derivatives = match engine {
-            "portable" => "expanded",
-            "fused" => "expanded, multiply_add = fused",
-            engine => engine,
-        };
         let wide = if self.single {
             format!("pub mod wide {{\n{}}}\n", self.plain().replace("f32", "f64"))
         } else {
@@ -150,7 +146,7 @@ impl Source for Written {
         format!(
             "mod p{index} {{\npub mod plain {{\n{}}}\n{wide}pub mod annotated {{\n{}}}\n{}}}\n",
             self.plain(),
-            self.annotated(derivatives),
+            self.annotated(engine),
             self.calls(index, engine)
         )
     }

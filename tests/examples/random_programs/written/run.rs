@@ -1,7 +1,8 @@
 //! Runs of programs as people write them.
 
 use super::super::batch::Workshop;
-use super::super::run::{features, folder, keep, summary, workspace};
+use super::super::engine::features;
+use super::super::run::{folder, keep, summary, workspace};
 use super::super::tally::Tally;
 use super::super::trial::Trial;
 use super::{Written, judgement, program};
