@@ -117,8 +117,8 @@ where
         h: L::Scalar,
     ) -> Result<Step<L::Scalar, N>, StepError>;
 
-    /// Verifies the momenta that steps with this memory compute: [`Flow::verify_momenta`], and its own where it
-    /// has some.
+    /// Verifies the momenta that steps with this memory compute: [`Flow::verify_momenta`], and its own where
+    /// it has some.
     ///
     /// # Errors
     /// [`GeneratedDiffers`].
