@@ -266,8 +266,8 @@ pub fn regrouped(group: &Group, tokens: TokenStream) -> TokenTree {
     TokenTree::Group(own)
 }
 
-/// The tokens, with others for words that `by` has some for. `self` that begins a path, as in `self::G`, is not
-/// asked for: it is no receiver.
+/// The tokens, with others for words that `by` has some for. `self` that begins a path, as in `self::G`, is
+/// not asked for: it is no receiver.
 pub fn with_words(tokens: TokenStream, by: &dyn Fn(&Ident) -> Option<TokenStream>) -> TokenStream {
     let mut replaced = TokenStream::new();
     let mut tokens = tokens.into_iter().peekable();
