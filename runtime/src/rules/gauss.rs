@@ -14,6 +14,7 @@ mod in_lanes;
 mod linearised;
 mod modes;
 mod newton;
+mod noise;
 mod problem;
 mod rounding;
 mod segment;

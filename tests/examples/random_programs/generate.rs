@@ -22,6 +22,9 @@ use super::types::{Enumeration, Integer, Structure, Type};
 /// Seeds from here on make programs with inputs and time as well.
 pub const VIEWS_FROM: u64 = 1_000_000;
 
+/// Seeds from here on make programs with ranges to the bounds of their types as well.
+const BOUNDS_FROM: u64 = 20_000_000;
+
 /// Options, enums and `matches!`: drawn where a program may hold them.
 pub fn program(seed: u64) -> Program {
     let mut random = Random::new(seed);

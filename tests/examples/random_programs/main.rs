@@ -101,9 +101,8 @@ fn main() -> ExitCode {
         [count, seed, "written", engine] => {
             written::run::compiled(number(count).unwrap_or(100), number(seed).unwrap_or(1), engine)
         }
-        [count, seed] if number(count).is_some() => {
-            run::by_graph(number(count).unwrap_or(300), number(seed).unwrap_or(1))
-        }
+        [count, seed] if number(count).is_some() => mutation::are_current()
+            .and_then(|()| run::by_graph(number(count).unwrap_or(300), number(seed).unwrap_or(1))),
         [count, seed, "compiled"] => {
             run::compiled(number(count).unwrap_or(300), number(seed).unwrap_or(1), "expanded")
         }

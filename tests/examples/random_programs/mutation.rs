@@ -36,7 +36,7 @@ const MUTATIONS: &[Mutation] = &[
     Mutation {
         mistake: "a name in a pattern matches everything, a constant's and a variant's too",
         edits: &[edit(
-            "lower/pattern.rs",
+            "lower/pattern/matching.rs",
             "let is_small = name.ident",
             "let is_small = crate::mutation::is_made(0) || name.ident",
         )],
@@ -52,7 +52,7 @@ const MUTATIONS: &[Mutation] = &[
     Mutation {
         mistake: "casts between integers do not wrap",
         edits: &[edit(
-            "lower/integer.rs",
+            "lower/integer/arithmetic.rs",
             "match ty.wrapped(value) {\n            Some(value) => self.integer(at, value, Some(ty)),",
             "match ty.wrapped(value) {\n            Some(_) if crate::mutation::is_made(2) => self.integer(at, value, None),\n            Some(value) => self.integer(at, value, Some(ty)),",
         )],
@@ -60,7 +60,7 @@ const MUTATIONS: &[Mutation] = &[
     Mutation {
         mistake: "`saturating_sub` stops at 0",
         edits: &[edit(
-            "lower/integer.rs",
+            "lower/integer/arithmetic.rs",
             "\"saturating\" => exact",
             "\"saturating\" if crate::mutation::is_made(3) => exact.map(|exact| exact.max(0)),\n                    \"saturating\" => exact",
         )],
@@ -68,7 +68,7 @@ const MUTATIONS: &[Mutation] = &[
     Mutation {
         mistake: "an `f32` is widened as if it had been an f64",
         edits: &[edit(
-            "lower/operator.rs",
+            "lower/expression.rs",
             "if is_float && !suffix.is_empty() && self.scalar != suffix {",
             "if is_float && !suffix.is_empty() && self.scalar != suffix && !crate::mutation::is_made(4) {",
         )],
@@ -107,9 +107,9 @@ const MUTATIONS: &[Mutation] = &[
     Mutation {
         mistake: "a closed range ends before its end",
         edits: &[edit(
-            "lower/operator.rs",
-            "i128::from(is_closed && range.end.is_some())",
-            "i128::from(is_closed && range.end.is_some() && !crate::mutation::is_made(8))",
+            "lower/access.rs",
+            "if is_closed && range.end.is_some() {",
+            "if is_closed && range.end.is_some() && !crate::mutation::is_made(8) {",
         )],
     },
     Mutation {
@@ -123,7 +123,7 @@ const MUTATIONS: &[Mutation] = &[
     Mutation {
         mistake: "an early return is taken where it is not",
         edits: &[edit(
-            "lower.rs",
+            "lower/call.rs",
             "Returned::Where(condition, value) => self.select(at, condition, value, tail),",
             "Returned::Where(condition, value) if crate::mutation::is_made(10) => self.select(at, condition, tail, value),\n            Returned::Where(condition, value) => self.select(at, condition, value, tail),",
         )],
@@ -136,7 +136,25 @@ const MUTATIONS: &[Mutation] = &[
             "Function::Sin if crate::mutation::is_made(11) => (graph.function(Function::Cos, x), y),\n        Function::Sin => (",
         )],
     },
+    Mutation {
+        mistake: "a closed range to the largest integer is empty",
+        edits: &[edit(
+            "lower/access.rs",
+            "let Some(behind) = end.value.checked_add(1) else {",
+            "let wrapped = crate::mutation::is_made(12).then_some(end.value.wrapping_add(1));\n            let Some(behind) = end.value.checked_add(1).or(wrapped) else {",
+        )],
+    },
 ];
+
+/// Makes sure that the macro's source still holds what each mistake replaces.
+pub fn are_current() -> Result<(), String> {
+    let edits = MUTATIONS.iter().flat_map(|mutation| mutation.edits);
+    edits.copied().try_for_each(|edit| {
+        let path = workspace().join("macros/src/rayleigh_system").join(edit.file);
+        let text = std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", edit.file))?;
+        edit.made_in(&text).map(drop)
+    })
+}
 
 /// Puts each mistake back in turn; the number of those that no program shows.
 pub fn try_all() -> Result<usize, String> {

@@ -13,6 +13,17 @@ pub struct Edit {
     pub new: &'static str,
 }
 
+impl Edit {
+    /// The text of the file with the replacement made.
+    pub fn made_in(self, text: &str) -> Result<String, String> {
+        if text.matches(self.old).count() == 1 {
+            Ok(text.replace(self.old, self.new))
+        } else {
+            Err(format!("{} does not hold once: {}", self.file, self.old))
+        }
+    }
+}
+
 fn copied(from: &Path, to: &Path) -> std::io::Result<()> {
     std::fs::create_dir_all(to)?;
     for entry in std::fs::read_dir(from)? {
@@ -41,10 +52,7 @@ pub fn study(macros: &Path, edits: &[Edit]) -> Result<PathBuf, String> {
     for edit in edits {
         let path = source.join("rayleigh_system").join(edit.file);
         let text = std::fs::read_to_string(&path).map_err(words)?;
-        if text.matches(edit.old).count() != 1 {
-            return Err(format!("{} does not hold once: {}", edit.file, edit.old));
-        }
-        std::fs::write(&path, text.replace(edit.old, edit.new)).map_err(words)?;
+        std::fs::write(&path, edit.made_in(&text)?).map_err(words)?;
     }
     let manifest = "[package]\nname = \"rebuilt-study\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n\
         [[bin]]\nname = \"rebuilt-study\"\npath = \"examples/random_programs/main.rs\"\n\n\

@@ -7,6 +7,7 @@
 
 use super::careful::{MAX_ITERATIONS, careful};
 use super::equations::{Equations, Root, Solved, Unsolved, Way};
+use super::noise::{Left, add_noise};
 use super::start::{from_rest, is_rest};
 use super::vectors::{Room, copy};
 use crate::numbers::Precision;
@@ -38,6 +39,15 @@ pub trait AtLength: Sized {
     /// in every coordinate, so that rest is its root.
     fn is_rest(residual: &mut dyn FnMut(&[Self], &mut [Self]), p: &[Self], room: Room<'_, Self>) -> bool;
 
+    /// Adds the noise of the residual, a `function` that writes to the second slice, to `floor`; whether that explains
+    /// what is left.
+    fn add_noise(
+        function: &mut dyn FnMut(&[Self], &mut [Self]),
+        left: &Left<'_, Self>,
+        floor: &mut [Self],
+        room: Room<'_, Self>,
+    ) -> bool;
+
     /// Whether the root is reached for the whole of h, part by part; `root` goes on to the root of this share
     /// of h from that of another, if it is near.
     fn along_h(root: &mut dyn FnMut(Self) -> bool) -> bool;
@@ -65,6 +75,17 @@ macro_rules! compiled_for {
                 room: Room<'_, Self>,
             ) -> bool {
                 is_rest(residual, p, room)
+            }
+
+            #[cold]
+            #[inline(never)]
+            fn add_noise(
+                function: &mut dyn FnMut(&[Self], &mut [Self]),
+                left: &Left<'_, Self>,
+                floor: &mut [Self],
+                room: Room<'_, Self>,
+            ) -> bool {
+                add_noise(function, left, floor, room)
             }
 
             #[cold]

@@ -2,10 +2,10 @@
 
 use crate::numbers::Precision;
 
-/// Vectors in use at once where calls are deepest: 4 from rest, 7 of the damped method, 4 for a verdict, 2 for
-/// forces at rest, 5 for rounding, 5 for a momentum where others are held. The damped method from rest itself
+/// Vectors in use at once where calls are deepest: 4 from rest, 7 of the damped method, 7 for a verdict, 9
+/// for noise, 5 for a momentum where others are held. The damped method from rest itself
 /// runs beside 4 more of those from rest, and takes 1 of the last 5.
-pub(crate) const VECTORS: usize = 27;
+pub(crate) const VECTORS: usize = 32;
 
 /// Room for vectors of one length, in a buffer of the caller's.
 ///
@@ -25,6 +25,13 @@ impl<'r, S: Precision> Room<'r, S> {
     /// The room that is left, for as long as it is borrowed.
     pub(super) fn inner(&mut self) -> Room<'_, S> {
         Room { left: self.left, length: self.length }
+    }
+
+    /// Room for so many vectors, and what is left.
+    pub(super) fn split(self, vectors: usize) -> (Room<'r, S>, Room<'r, S>) {
+        let at = (vectors * self.length).min(self.left.len());
+        let (left, rest) = self.left.split_at_mut(at);
+        (Room { left, length: self.length }, Room { left: rest, length: self.length })
     }
 
     /// A vector, of whatever is there.

@@ -2,10 +2,13 @@
 //! the matrix at the iterate itself.
 
 use super::equations::{Equations, Matrix, Root, Solved};
+use super::noise::{Left, WITHIN_NOISE, add_noise, is_same_around};
 use super::rounding::{
-    AT_FLOOR, add_finite_part, add_rounding, add_scatter, estimated_floor, held_against, is_sensible,
+    AT_FLOOR, SLOW, add_finite_part, add_rounding, add_scatter, estimated_floor, held_against, in_units_of,
+    is_sensible,
 };
-use super::vectors::{Room, add, copy, subtract};
+use super::twice::{Twice, is_rounded_twice, move_alike};
+use super::vectors::{Room, add, copy, subtract, sum};
 use crate::numbers::Precision;
 
 /// Adds the terms of the equation: |p| + |M||v|, with which the forces balance, and p0 at rest.
@@ -35,80 +38,145 @@ pub(super) struct Counts<S> {
     pub(super) last_correction: S,
 }
 
-/// The solution at `v`, where the Newton matrix is `matrix`; nothing if it is none. With `may_round`, the
-/// rounding of q and v may explain a residual that has stopped falling.
+/// The solution at `v`, where the Newton matrix is `matrix`; nothing if it is none. With `may_round`, whatever rounds may
+/// explain a residual that has stopped falling; the present matrix is another one then.
 #[inline(never)]
 pub(super) fn verified<S: Precision>(
-    of: &Equations<'_, S>,
+    of: &mut Equations<'_, S>,
     (v, matrix): (&[S], Matrix<'_, S>),
     Counts { iterations, damped, last_correction }: Counts<S>,
     may_round: bool,
     root: &mut Root<'_, S>,
     mut room: Room<'_, S>,
 ) -> Option<Solved<S>> {
-    let [remaining, floor, found] = room.vectors();
-    let terms = room.zeros();
+    let [remaining, floor] = room.vectors();
     of.momenta(of.q, v, root.p0, root.p1, room.inner());
     copy(remaining, root.p0);
     subtract(remaining, of.p);
     estimated_floor(of, matrix, v, floor, room.inner());
-    let mut held = held_against(remaining, floor);
+    let held = held_against(remaining, floor);
     if !held.2 && !may_round || !last_correction.is_finite() {
         return None;
     }
-    add_terms(of, v, terms, room.inner());
-    let mut has_forces = false;
-    if !held.2 {
-        of.evaluate.cancelling(of.q, v, of.h, found);
-        add_finite_part(floor, S::SPACING, found);
-        add_finite_part(terms, S::one(), found);
-        held = held_against(remaining, floor);
+    let is_root = if held.2 {
+        let terms = room.zeros();
+        add_terms(of, v, terms, room.inner());
+        is_sensible_at_rest(of, floor, terms, room.inner())
+    } else {
+        is_explained(of, v, remaining, floor, room.inner())
+    };
+    if !is_root {
+        return None;
     }
-    if !held.2 {
-        // Far above what any sensible floor explains, none is measured: of a step that fails, that would be
-        // most of the cost.
-        let least = &mut *found;
-        for (least, remaining) in least.iter_mut().zip(remaining.iter()) {
-            *least = *remaining * (S::one() / S::nearest(AT_FLOOR));
-        }
-        if !is_sensible(least, terms) {
-            add_forces_at_rest(of, terms, room.inner());
-            has_forces = true;
-            if !is_sensible(least, terms) {
-                return None;
-            }
-        }
-        // In J the momentum and the forces may cancel: both are rounded.
-        of.evaluate.magnitudes(Matrix::Mass { q: of.q, v }, v, found);
-        add_rounding(of, v, floor, room.inner());
-        add(floor, S::SPACING * S::nearest(8.0), found);
-        held = held_against(remaining, floor);
-        if !held.2 {
-            add_scatter(of, v, floor, room.inner());
-            held = held_against(remaining, floor);
-        }
-        if !held.2 {
-            return None;
-        }
-    }
-    if !is_sensible(floor, terms) {
-        if !has_forces {
-            add_forces_at_rest(of, terms, room);
-        }
-        if has_forces || !is_sensible(floor, terms) {
-            return None;
-        }
-    }
+    let held = held_against(remaining, floor);
     copy(root.v, v);
     let (residual, floor, _) = held;
     Some(Solved { iterations, damped, residual, floor, last_correction })
+}
+
+/// Whether the `floor` is small beside the `terms`, with the forces that cancel at rest where it is not beside the others.
+#[inline(never)]
+fn is_sensible_at_rest<S: Precision>(
+    of: &Equations<'_, S>,
+    floor: &[S],
+    terms: &mut [S],
+    room: Room<'_, S>,
+) -> bool {
+    if is_sensible(floor, terms) {
+        return true;
+    }
+    add_forces_at_rest(of, terms, room);
+    is_sensible(floor, terms)
+}
+
+/// Whether what rounds explains what is `remaining`, and is added to the `floor`: terms that cancel, noise, last places.
+#[inline(never)]
+fn is_explained<S: Precision>(
+    of: &mut Equations<'_, S>,
+    v: &[S],
+    remaining: &[S],
+    floor: &mut [S],
+    mut room: Room<'_, S>,
+) -> bool {
+    let found = room.vector();
+    let terms = room.zeros();
+    add_terms(of, v, terms, room.inner());
+    of.evaluate.cancelling(of.q, v, of.h, found);
+    add_finite_part(floor, S::SPACING, found);
+    add_finite_part(terms, S::one(), found);
+    if held_against(remaining, floor).2 {
+        return is_sensible_at_rest(of, floor, terms, room);
+    }
+    // Far above what any sensible floor explains, no last places are moved: of a step that fails, that would be
+    // most of the cost.
+    for (least, remaining) in found.iter_mut().zip(remaining.iter()) {
+        *least = *remaining * (S::one() / S::nearest(AT_FLOOR));
+    }
+    let may_be_places = is_sensible_at_rest(of, found, terms, room.inner());
+    if is_noise(of, v, remaining, floor, room.inner()) {
+        return true;
+    }
+    if !may_be_places {
+        return false;
+    }
+    // In J the momentum and the forces may cancel: both are rounded.
+    of.evaluate.magnitudes(Matrix::Mass { q: of.q, v }, v, found);
+    add_rounding(of, v, floor, room.inner());
+    add(floor, S::SPACING * S::nearest(8.0), found);
+    if !held_against(remaining, floor).2 {
+        add_scatter(of, v, floor, room.inner());
+        if !held_against(remaining, floor).2 {
+            return false;
+        }
+    }
+    is_sensible_at_rest(of, floor, terms, room)
+}
+
+/// Whether what is `remaining` at `at` is the noise of the equation, which is added to the `floor`.
+#[inline(never)]
+fn is_noise<S: Precision>(
+    of: &mut Equations<'_, S>,
+    at: &[S],
+    remaining: &[S],
+    floor: &mut [S],
+    mut room: Room<'_, S>,
+) -> bool {
+    let [correction, kernel, moved] = room.vectors();
+    of.evaluate(at, kernel);
+    if of.evaluate.solve(remaining, correction).is_err() {
+        return false;
+    }
+    if held_against(kernel, floor).2 {
+        let found = Twice { momenta: remaining, kernel };
+        if is_rounded_twice(of, (at, correction), &found, floor, room.inner()) {
+            for ((floor, momenta), kernel) in floor.iter_mut().zip(remaining).zip(kernel.iter()) {
+                *floor += (*momenta - *kernel).abs();
+            }
+            return true;
+        }
+    }
+    // By a matrix that is the same around, the next step takes off nearly all of what is no noise.
+    sum(moved, at, -S::one(), correction);
+    of.p0(of.q, moved, kernel, room.inner());
+    subtract(kernel, of.p);
+    let is_lower = in_units_of(kernel, floor) <= in_units_of(remaining, floor) * S::nearest(SLOW);
+    if is_lower || !is_same_around(of, at, remaining, correction, room.inner()) {
+        return false;
+    }
+    let (own, mut room) = room.split(WITHIN_NOISE);
+    let mut function = |v: &[S], residual: &mut [S]| {
+        move_alike(moved, of.q, of.h, v, at);
+        of.p0(moved, v, residual, room.inner());
+        subtract(residual, of.p);
+    };
+    add_noise(&mut function, &Left { at, residual: remaining, correction }, floor, own)
 }
 
 /// The root at an iterate whose residual has stopped falling, if rounding holds the residual up there: at
 /// `trial`, where the Newton step led, or, unless that still lowered it, at `last`.
 #[inline(never)]
 pub(super) fn stagnated<S: Precision>(
-    of: &Equations<'_, S>,
+    of: &mut Equations<'_, S>,
     last: &[S],
     (trial, lower): (&[S], bool),
     counts: Counts<S>,
@@ -116,10 +184,14 @@ pub(super) fn stagnated<S: Precision>(
     mut room: Room<'_, S>,
 ) -> Option<Solved<S>> {
     // One component that rounding holds up can hide that the step has brought the others down.
-    match verified(of, (trial, Matrix::Present), counts, true, root, room.inner()) {
-        None if !lower => verified(of, (last, Matrix::Before), counts, true, root, room),
-        found => found,
+    let mut found = verified(of, (trial, Matrix::Present), counts, true, root, room.inner());
+    if found.is_none() && !lower {
+        found = verified(of, (last, Matrix::Before), counts, true, root, room.inner());
     }
+    if found.is_none() {
+        of.evaluate(trial, room.vector());
+    }
+    found
 }
 
 #[cfg(test)]
@@ -144,8 +216,9 @@ mod tests {
         }
         fn kernel(&mut self, _: &[f64], _: &[f64], _: f64, _: &[f64], _: &mut [f64]) {}
         fn keep(&mut self) {}
-        fn solve(&self, _: &[f64], _: &mut [f64]) -> Result<(), Singular> {
-            Err(Singular { column: 0 })
+        fn solve(&self, right: &[f64], x: &mut [f64]) -> Result<(), Singular> {
+            x.copy_from_slice(right);
+            Ok(())
         }
         fn diagonal(&self, _: Matrix<'_, f64>, _: &mut [f64]) {}
         fn row_is_finite(&self, _: usize) -> bool {
@@ -158,11 +231,11 @@ mod tests {
     /// added to.
     fn is_solved(off: f64, stiffness: f64, last_correction: f64) -> bool {
         let mut evaluate = One { off: off * 8.0 * f64::EPSILON, matrix: 1.0 + stiffness };
-        let of = Equations { evaluate: &mut evaluate, q: &[1.0], p: &[1.0], h: 1.0, held: &[0.0] };
+        let mut of = Equations { evaluate: &mut evaluate, q: &[1.0], p: &[1.0], h: 1.0, held: &[0.0] };
         let counts = Counts { iterations: 1, damped: 0, last_correction };
         let mut root = Root { v: &mut [0.0], p0: &mut [0.0], p1: &mut [0.0] };
         let buffer = &mut [0.0; VECTORS];
-        verified(&of, (&[1.0], Matrix::Present), counts, false, &mut root, Room::new(buffer, 1)).is_some()
+        verified(&mut of, (&[1.0], Matrix::Present), counts, false, &mut root, Room::new(buffer, 1)).is_some()
     }
 
     #[test]
@@ -196,7 +269,7 @@ mod tests {
         let is_enough = |vectors: usize, from_rest: usize, held: [f64; 2]| {
             std::panic::catch_unwind(|| {
                 let mut evaluate = One { off: 1.0, matrix: 1.0 };
-                let of =
+                let mut of =
                     Equations { evaluate: &mut evaluate, q: &[1.0; 2], p: &[1.0; 2], h: 1.0, held: &held };
                 let counts = Counts { iterations: 1, damped: 0, last_correction: 1e-14 };
                 let mut root = Root { v: &mut [0.0; 2], p0: &mut [0.0; 2], p1: &mut [0.0; 2] };
@@ -205,7 +278,7 @@ mod tests {
                 for _ in 0..from_rest + 7 {
                     room.vector();
                 }
-                verified(&of, (&[1.0; 2], Matrix::Present), counts, true, &mut root, room);
+                verified(&mut of, (&[1.0; 2], Matrix::Present), counts, true, &mut root, room);
             })
             .is_ok()
         };

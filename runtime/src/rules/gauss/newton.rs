@@ -9,6 +9,7 @@
 use nalgebra::SVector;
 
 use super::linearised::{Factored, Local, StageVector, locals, non_finite};
+use super::noise::{Left, noise};
 use super::problem::{Problem, Solution, Solver, in_units_of};
 use super::rounding::{at_rounding, is_decided, worst};
 use crate::numbers::{
@@ -175,6 +176,22 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
                             solver: Solver::Newton,
                         });
                     }
+                }
+                let left = Left {
+                    v: &next.v,
+                    residual: &next.residual,
+                    floor: &next.floor,
+                    locals: &next.locals,
+                    correction: &correction,
+                };
+                if let Some(measured) = noise(problem, &left, &last.locals) {
+                    let (residual, floor) = worst(&next.residual, &measured);
+                    return Ok(Solution {
+                        v: next.v,
+                        rate: next.rate,
+                        report: report(residual, floor, damped),
+                        solver: Solver::Newton,
+                    });
                 }
             }
             if lower {

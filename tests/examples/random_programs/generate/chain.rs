@@ -85,8 +85,12 @@ impl Generator {
             .collect();
         if arrays.is_empty() || self.random.chance(if of_loop { 50 } else { 25 }) {
             let ty = if self.random.chance(75) { Integer::USIZE } else { *self.random.choice(&Integer::ALL) };
-            let closed = self.random.chance(25);
-            let (start, end) = (self.random.below(2) as i128, 2 + self.random.below(3) as i128);
+            let mut closed = self.random.chance(25);
+            let (mut start, mut end) = (self.random.below(2) as i128, 2 + self.random.below(3) as i128);
+            if self.program.seed >= BOUNDS_FROM && self.may(Class::IntegerBounds, 25) {
+                self.used(Class::IntegerBounds);
+                (start, end, closed) = (ty.greatest() - end, ty.greatest(), true);
+            }
             let source =
                 Source::Range { start: integer(start, ty, true), end: integer(end, ty, false), closed };
             let exact = !closed && (ty.size || ty.bits <= 32);
@@ -316,7 +320,7 @@ impl Generator {
             Source::Range { end: Expression::Integer { value, .. }, closed, .. }
                 if chain.adaptors.is_empty() =>
             {
-                Some(*value as usize + usize::from(*closed))
+                Some((*value as usize).saturating_add(usize::from(*closed)))
             }
             _ => None,
         };

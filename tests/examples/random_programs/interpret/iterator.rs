@@ -190,11 +190,11 @@ impl<S: Number> Interpreter<'_, S> {
             }
             Source::Range { start, end, closed } => {
                 let (start, end) = (self.expression(start)?.integer(), self.expression(end)?.integer());
-                let end = if *closed { end + 1 } else { end };
                 if end - start > 1000 {
                     return Err(Exit::Panic("too long"));
                 }
-                items((start..end).map(Value::Integer).collect())
+                let inner = (start..end).map(Value::Integer);
+                items(inner.chain((*closed && start <= end).then_some(Value::Integer(end))).collect())
             }
             Source::Windows(array, width) => {
                 let entries = self.expression(array)?.entries();

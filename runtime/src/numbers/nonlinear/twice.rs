@@ -1,0 +1,137 @@
+//! One equation computed in two ways, which differ by rounding.
+
+use super::equations::Equations;
+use super::noise::shift;
+use super::vectors::{Room, subtract};
+use crate::numbers::Precision;
+
+/// Moves in corrections: over these, what rounds differs as much as over none, and what is another function as much as
+/// they are long.
+const LENGTHS: [f64; 6] = [64.0, 4096.0, 262_144.0, 16_777_216.0, 1e9, 6.4e10];
+
+/// By how much rounding may be larger at other places.
+const ALIKE: f64 = 64.0;
+
+/// The residual by the momenta of a step, and by the kernel with the matrix.
+pub(super) struct Twice<'a, S> {
+    pub(super) momenta: &'a [S],
+    pub(super) kernel: &'a [S],
+}
+
+/// Whether both ways are one function but for rounding, although they differ by more than the `floor` at `at`: over
+/// moves of the correction the difference changes, and does not grow.
+#[cold]
+#[inline(never)]
+pub(super) fn is_rounded_twice<S: Precision>(
+    of: &mut Equations<'_, S>,
+    (at, correction): (&[S], &[S]),
+    found: &Twice<'_, S>,
+    floor: &[S],
+    mut room: Room<'_, S>,
+) -> bool {
+    let [v, q, kernel, momenta] = room.vectors();
+    let changes = room.zeros();
+    for (direction, length) in LENGTHS.into_iter().enumerate() {
+        for (i, ((v, at), correction)) in v.iter_mut().zip(at).zip(correction).enumerate() {
+            *v = *at + *correction * S::nearest(length * shift(direction, i));
+        }
+        move_alike(q, of.q, of.h, v, at);
+        of.evaluate.kernel(q, v, of.h, of.held, kernel);
+        of.p0(q, v, momenta, room.inner());
+        subtract(momenta, kernel);
+        let pairs =
+            found.momenta.iter().zip(found.kernel).zip(floor).zip(momenta.iter().zip(changes.iter_mut()));
+        for (((own, kernel), floor), (now, changes)) in pairs {
+            let before = (*own - *kernel).abs();
+            let most = if before > *floor { before } else { *floor };
+            // What is no number fails the comparison.
+            let is_alike = now.abs() <= most * S::nearest(ALIKE);
+            if !is_alike {
+                return false;
+            }
+            let is_other = (*now - (*own - *kernel)).abs() * S::nearest(2.0) >= before;
+            if is_other {
+                *changes = S::one();
+            }
+        }
+    }
+    changes.iter().all(|changes| *changes != S::zero())
+}
+
+/// Moves configurations as the velocities `v` are moved from `at`, over the time h, but for shares: what does not depend
+/// on v rounds as well.
+pub(super) fn move_alike<S: Precision>(moved: &mut [S], q: &[S], h: S, v: &[S], at: &[S]) {
+    for (i, ((moved, q), (v, at))) in moved.iter_mut().zip(q).zip(v.iter().zip(at)).enumerate() {
+        *moved = *q + (*v - *at) * h * S::nearest(shift(0, i + 1));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::equations::{Evaluate, Matrix};
+    use super::*;
+    use crate::numbers::Singular;
+
+    /// A momentum of mass 1 that the kernel computes in a way of its own.
+    struct Two<F> {
+        kernel: F,
+        a: f64,
+    }
+
+    impl<F: Fn(f64, f64) -> f64> Evaluate<f64> for Two<F> {
+        fn momenta(&self, q: &[f64], v: &[f64], _: f64, p0: &mut [f64], _: &mut [f64]) {
+            p0[0] = v[0] + 0.3 * ((q[0] - self.a) + (q[0] + self.a));
+        }
+        fn kernel(&mut self, q: &[f64], v: &[f64], _: f64, _: &[f64], p0: &mut [f64]) {
+            p0[0] = (self.kernel)(q[0], v[0]);
+        }
+        fn keep(&mut self) {}
+        fn solve(&self, _: &[f64], _: &mut [f64]) -> Result<(), Singular> {
+            Err(Singular { column: 0 })
+        }
+        fn magnitudes(&self, _: Matrix<'_, f64>, _: &[f64], _: &mut [f64]) {}
+        fn diagonal(&self, _: Matrix<'_, f64>, _: &mut [f64]) {}
+        fn row_is_finite(&self, _: usize) -> bool {
+            true
+        }
+        fn cancelling(&self, _: &[f64], _: &[f64], _: f64, _: &mut [f64]) {}
+    }
+
+    /// Whether both ways are the same but for rounding at the root of the kernel by v, from q.
+    fn is_rounded(kernel: impl Fn(f64, f64) -> f64, a: f64, q: f64) -> bool {
+        // Of slope 1 in v.
+        let v = -kernel(q, 0.0);
+        let mut two = Two { kernel, a };
+        let (mut momenta, mut own) = ([0.0], [0.0]);
+        two.momenta(&[q], &[v], 0.1, &mut momenta, &mut [0.0]);
+        two.kernel(&[q], &[v], 0.1, &[], &mut own);
+        let found = Twice { momenta: &momenta, kernel: &own };
+        let mut of = Equations { evaluate: &mut two, q: &[q], p: &[0.0], h: 0.1, held: &[] };
+        let floor = [f64::EPSILON * 4.0 * v.abs() + f64::MIN_POSITIVE];
+        is_rounded_twice(&mut of, (&[v], &momenta), &found, &floor, Room::new(&mut [0.0; 8], 1))
+    }
+
+    #[test]
+    fn two_ways_of_rounding_are_one_function() {
+        for a in [1e-6, 1.0, 3e5] {
+            let states = (1..400).map(|k| a * f64::EPSILON * 0.37 * f64::from(k));
+            let that_differ: Vec<f64> = states.filter(|q| (q - a) + (q + a) != 2.0 * q).collect();
+            let missed = that_differ.iter().filter(|&&q| !is_rounded(|q, v| v + 0.6 * q, a, q)).count();
+            // Of the few whose moves are all rounded alike the scatter tells.
+            assert!(that_differ.len() > 100 && missed < that_differ.len() / 20, "{a}: {missed}");
+        }
+    }
+
+    /// The control: a kernel that is another function, by its slope, a constant or a factor.
+    #[test]
+    fn two_functions_are_not() {
+        for q in [1.0, -3e-5, 1e-12] {
+            for wrong in [1e-1, 1e-3, -1e-6] {
+                assert!(!is_rounded(|q, v| v + 0.6 * q * (1.0 + wrong), 1e-30, q), "{q} {wrong}");
+                assert!(!is_rounded(|q, v| v + 0.6 * q + wrong, 1e-30, q), "{q} {wrong}");
+                assert!(!is_rounded(|q, v| v * (1.0 + wrong) + 0.6 * q, 1e-30, q), "{q} {wrong}");
+                assert!(!is_rounded(|q, v| v + 0.6 * q + wrong * v * v, 1e-30, q), "{q} {wrong}");
+            }
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! Noise of the stages' residuals, where neither the terms of their equations nor last places say how they round:
+//! `numbers/nonlinear/noise.rs` has the definition.
+
+use nalgebra::SVector;
+
+use super::linearised::{Local, StageVector, locals};
+use super::problem::Problem;
+use crate::numbers::nonlinear::{self, Room, WITHIN_NOISE, shift};
+use crate::numbers::{LaneVector, Scalar};
+use crate::system::ForcedLagrangian;
+
+/// The part of a coordinate's own second derivatives by which those nearby may differ, to be called the same.
+const SAME: f64 = 1.0 / 16.0;
+
+/// What is left at an iterate that the `correction` from the one before led to.
+pub(super) struct Left<'a, T, const N: usize, const S: usize> {
+    pub(super) v: &'a LaneVector<T, N, S>,
+    pub(super) residual: &'a LaneVector<T, N, S>,
+    pub(super) floor: &'a SVector<T, N>,
+    pub(super) locals: &'a [Local<T, N>; S],
+    pub(super) correction: &'a StageVector<T, N, S>,
+}
+
+/// The floor with the noise of the residual, if that explains what is left of it.
+#[cold]
+#[inline(never)]
+pub(super) fn noise<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    left: &Left<'_, T, N, S>,
+    before: &[Local<T, N>; S],
+) -> Option<SVector<T, N>> {
+    let Left { v: at_stages, residual: of_stages, locals: here, correction, .. } = *left;
+    let h = problem.h.abs();
+    let is_same = |now: &[Local<T, N>; S]| {
+        now.iter().zip(here).all(|(now, here)| {
+            (0..N).all(|a| {
+                (0..N).all(|b| {
+                    let scale = (size(here, h, (a, a)) * size(here, h, (b, b))).sqrt();
+                    is_near(now, here, h, (a, b), scale * T::constant(SAME / N as f64))
+                })
+            })
+        })
+    };
+    if !is_same(before) {
+        return None;
+    }
+    for direction in 0..2 {
+        let mut v = *at_stages;
+        for (i, correction) in correction.iter().enumerate() {
+            for a in 0..N {
+                v[a].0[i] += correction[a] * T::constant(shift(direction, a));
+            }
+        }
+        if !is_same(&locals(problem, &v)) {
+            return None;
+        }
+    }
+
+    let mut buffer = [[[T::zero(); N]; S]; WITHIN_NOISE];
+    let [mut at, mut residual] = [[[T::zero(); N]; S]; 2];
+    // One floor for a coordinate, in all stages.
+    let mut floor = [(*left.floor).into(); S];
+    for i in 0..S {
+        for a in 0..N {
+            (at[i][a], residual[i][a]) = (at_stages[a].0[i], of_stages[a].0[i]);
+        }
+    }
+    let correction: [[T; N]; S] = correction.map(Into::into);
+    let mut function = |at: &[T], residual: &mut [T]| {
+        let mut v = *at_stages;
+        for (i, at) in (0..S).zip(at.as_chunks::<N>().0) {
+            for a in 0..N {
+                v[a].0[i] = at[a];
+            }
+        }
+        let found = problem.stages(&v).residual;
+        for (i, residual) in (0..S).zip(residual.as_chunks_mut::<N>().0) {
+            for a in 0..N {
+                residual[a] = found[a].0[i];
+            }
+        }
+    };
+    let left = nonlinear::Left {
+        at: at.as_flattened(),
+        residual: residual.as_flattened(),
+        correction: correction.as_flattened(),
+    };
+    let room = Room::new(buffer.as_flattened_mut().as_flattened_mut(), N * S);
+    T::add_noise(&mut function, &left, floor.as_flattened_mut(), room)
+        .then(|| SVector::from_fn(|a, _| floor.iter().fold(T::zero(), |most, floor| most.max(floor[a]))))
+}
+
+/// |M| + h |B − C| + h² |K|, the terms of an entry of the matrix.
+fn size<T: Scalar, const N: usize>(local: &Local<T, N>, h: T, entry: (usize, usize)) -> T {
+    let terms = [
+        local.mass[entry],
+        local.momentum_by_q[entry] * h,
+        local.rate_by_v[entry] * h,
+        local.rate_by_q[entry] * (h * h),
+    ];
+    terms.iter().fold(T::zero(), |sum, term| sum + term.abs())
+}
+
+/// Whether the terms of an entry differ by at most `scale`.
+fn is_near<T: Scalar, const N: usize>(
+    now: &Local<T, N>,
+    last: &Local<T, N>,
+    h: T,
+    entry: (usize, usize),
+    scale: T,
+) -> bool {
+    let differences = [
+        now.mass[entry] - last.mass[entry],
+        (now.momentum_by_q[entry] - last.momentum_by_q[entry]) * h,
+        (now.rate_by_v[entry] - last.rate_by_v[entry]) * h,
+        (now.rate_by_q[entry] - last.rate_by_q[entry]) * (h * h),
+    ];
+    differences.iter().fold(T::zero(), |sum, term| sum + term.abs()) <= scale
+}
