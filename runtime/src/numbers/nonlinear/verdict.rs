@@ -30,6 +30,9 @@ fn add_forces_at_rest<S: Precision>(of: &Equations<'_, S>, terms: &mut [S], mut 
     add_finite_part(terms, S::one() / S::SPACING, measured);
 }
 
+/// Newton steps by the momenta at most, of which one nearly always does.
+const MOST_POLISHING: u32 = 3;
+
 /// How an iterate was reached.
 #[derive(Clone, Copy)]
 pub(super) struct Counts<S> {
@@ -58,20 +61,51 @@ pub(super) fn verified<S: Precision>(
     if !held.2 && !may_round || !last_correction.is_finite() {
         return None;
     }
+    copy(root.v, v);
     let is_root = if held.2 {
         let terms = room.zeros();
         add_terms(of, v, terms, room.inner());
         is_sensible_at_rest(of, floor, terms, room.inner())
     } else {
-        is_explained(of, v, remaining, floor, room.inner())
+        if is_polished(of, root.v, remaining, floor, room.inner()) {
+            of.momenta(of.q, root.v, root.p0, root.p1, room.inner());
+        }
+        is_explained(of, root.v, remaining, floor, room.inner())
     };
     if !is_root {
         return None;
     }
-    let held = held_against(remaining, floor);
-    copy(root.v, v);
-    let (residual, floor, _) = held;
+    let (residual, floor, _) = held_against(remaining, floor);
     Some(Solved { iterations, damped, residual, floor, last_correction })
+}
+
+/// Goes on from `v` as long as Newton steps take off what is `remaining` by the momenta, which may round otherwise than the
+/// kernel, whose residual has led here; whether they have.
+#[inline(never)]
+fn is_polished<S: Precision>(
+    of: &mut Equations<'_, S>,
+    v: &mut [S],
+    remaining: &mut [S],
+    floor: &[S],
+    mut room: Room<'_, S>,
+) -> bool {
+    let [correction, next, left] = room.vectors();
+    for step in 0..MOST_POLISHING {
+        of.evaluate(v, left);
+        if of.evaluate.solve(remaining, correction).is_err() {
+            return step > 0;
+        }
+        sum(next, v, -S::one(), correction);
+        of.p0(of.q, next, left, room.inner());
+        subtract(left, of.p);
+        let is_lower = in_units_of(left, floor) <= in_units_of(remaining, floor) * S::nearest(SLOW);
+        if !is_lower {
+            return step > 0;
+        }
+        copy(v, next);
+        copy(remaining, left);
+    }
+    true
 }
 
 /// Whether the `floor` is small beside the `terms`, with the forces that cancel at rest where it is not beside the others.
@@ -155,12 +189,8 @@ fn is_noise<S: Precision>(
             return true;
         }
     }
-    // By a matrix that is the same around, the next step takes off nearly all of what is no noise.
-    sum(moved, at, -S::one(), correction);
-    of.p0(of.q, moved, kernel, room.inner());
-    subtract(kernel, of.p);
-    let is_lower = in_units_of(kernel, floor) <= in_units_of(remaining, floor) * S::nearest(SLOW);
-    if is_lower || !is_same_around(of, at, remaining, correction, room.inner()) {
+    // By a matrix that is the same around, steps would have taken off all but noise.
+    if !is_same_around(of, at, remaining, correction, room.inner()) {
         return false;
     }
     let (own, mut room) = room.split(WITHIN_NOISE);
