@@ -21,7 +21,7 @@ pub use continuation::AtLength;
 pub(crate) use continuation::ITERATIONS;
 pub use equations::{Equations, Evaluate, Matrix, Root, Solved, Unsolved, Way};
 pub use noise::Left;
-pub(crate) use noise::{WITHIN_NOISE, shift};
+pub(crate) use noise::{AROUND, WITHIN_NOISE, shift};
 pub(crate) use rounding::{
     AT_FLOOR, PLACES, SLOW, SMALL, add_finite_part, held, held_one_by_one, in_units_of, is_sensible,
 };

@@ -2,10 +2,10 @@
 
 use crate::numbers::Precision;
 
-/// Vectors in use at once where calls are deepest: 4 from rest, 7 of the damped method, 7 for a verdict, 9
+/// Vectors in use at once where calls are deepest: 4 from rest, 7 of the damped method, 10 for a verdict, 7
 /// for noise, 5 for a momentum where others are held. The damped method from rest itself
 /// runs beside 4 more of those from rest, and takes 1 of the last 5.
-pub(crate) const VECTORS: usize = 32;
+pub(crate) const VECTORS: usize = 33;
 
 /// Room for vectors of one length, in a buffer of the caller's.
 ///

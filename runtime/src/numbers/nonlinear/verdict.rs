@@ -4,8 +4,7 @@
 use super::equations::{Equations, Matrix, Root, Solved};
 use super::noise::{Left, WITHIN_NOISE, add_noise, is_same_around};
 use super::rounding::{
-    AT_FLOOR, SLOW, add_finite_part, add_rounding, add_scatter, estimated_floor, held_against, in_units_of,
-    is_sensible,
+    AT_FLOOR, SLOW, add_finite_part, add_rounding, add_scatter, estimated_floor, held_against, is_sensible,
 };
 use super::twice::{Twice, is_rounded_twice, move_alike};
 use super::vectors::{Room, add, copy, subtract, sum};
@@ -52,11 +51,12 @@ pub(super) fn verified<S: Precision>(
     root: &mut Root<'_, S>,
     mut room: Room<'_, S>,
 ) -> Option<Solved<S>> {
-    let [remaining, floor] = room.vectors();
+    let [remaining, floor, estimated] = room.vectors();
     of.momenta(of.q, v, root.p0, root.p1, room.inner());
     copy(remaining, root.p0);
     subtract(remaining, of.p);
     estimated_floor(of, matrix, v, floor, room.inner());
+    copy(estimated, floor);
     let held = held_against(remaining, floor);
     if !held.2 && !may_round || !last_correction.is_finite() {
         return None;
@@ -67,16 +67,42 @@ pub(super) fn verified<S: Precision>(
         add_terms(of, v, terms, room.inner());
         is_sensible_at_rest(of, floor, terms, room.inner())
     } else {
-        if is_polished(of, root.v, remaining, floor, room.inner()) {
-            of.momenta(of.q, root.v, root.p0, root.p1, room.inner());
+        is_explained(of, v, remaining, floor, room.inner()) || {
+            is_polished(of, root.v, remaining, estimated, room.inner()) && {
+                of.momenta(of.q, root.v, root.p0, root.p1, room.inner());
+                // Not that of an iterate on the way.
+                of.evaluate(root.v, estimated);
+                estimated_floor(of, Matrix::Present, root.v, floor, room.inner());
+                is_explained(of, root.v, remaining, floor, room.inner())
+            }
         }
-        is_explained(of, root.v, remaining, floor, room.inner())
     };
     if !is_root {
         return None;
     }
     let (residual, floor, _) = held_against(remaining, floor);
     Some(Solved { iterations, damped, residual, floor, last_correction })
+}
+
+/// The Newton step from `v` to `next`, and what is `left` there by the momenta.
+fn step_by<S: Precision>(
+    of: &Equations<'_, S>,
+    v: &[S],
+    correction: &[S],
+    (next, left): (&mut [S], &mut [S]),
+    room: Room<'_, S>,
+) {
+    sum(next, v, -S::one(), correction);
+    of.p0(of.q, next, left, room);
+    subtract(left, of.p);
+}
+
+/// Whether Newton's method is seen to take down each residual that the floor does not explain.
+fn is_lower<S: Precision>(now: &[S], before: &[S], floor: &[S]) -> bool {
+    let mut entries = now.iter().zip(before).zip(floor);
+    entries.all(|((now, before), floor)| {
+        before.abs() <= *floor * S::nearest(AT_FLOOR) || now.abs() <= before.abs() * S::nearest(SLOW)
+    })
 }
 
 /// Goes on from `v` as long as Newton steps take off what is `remaining` by the momenta, which may round otherwise than the
@@ -95,11 +121,8 @@ fn is_polished<S: Precision>(
         if of.evaluate.solve(remaining, correction).is_err() {
             return step > 0;
         }
-        sum(next, v, -S::one(), correction);
-        of.p0(of.q, next, left, room.inner());
-        subtract(left, of.p);
-        let is_lower = in_units_of(left, floor) <= in_units_of(remaining, floor) * S::nearest(SLOW);
-        if !is_lower {
+        step_by(of, v, correction, (next, left), room.inner());
+        if !is_lower(left, remaining, floor) || !is_same_around(of, v, remaining, correction, room.inner()) {
             return step > 0;
         }
         copy(v, next);
@@ -180,6 +203,11 @@ fn is_noise<S: Precision>(
     if of.evaluate.solve(remaining, correction).is_err() {
         return false;
     }
+    // Where a product of step sizes underflows, the matrix is not that of the equation.
+    let is_matrix = of.h * of.h > S::LEAST_NORMAL;
+    if !is_matrix || !is_same_around(of, at, remaining, correction, room.inner()) {
+        return false;
+    }
     if held_against(kernel, floor).2 {
         let found = Twice { momenta: remaining, kernel };
         if is_rounded_twice(of, (at, correction), &found, floor, room.inner()) {
@@ -189,17 +217,23 @@ fn is_noise<S: Precision>(
             return true;
         }
     }
-    // By a matrix that is the same around, steps would have taken off all but noise.
-    if !is_same_around(of, at, remaining, correction, room.inner()) {
+    // By a matrix that is the same around, the next step takes off nearly all of what is no noise.
+    step_by(of, at, correction, (moved, kernel), room.inner());
+    if is_lower(kernel, remaining, floor) {
         return false;
     }
+    let [change, before] = room.vectors();
+    of.evaluate(at, change);
+    of.evaluate.magnitudes(Matrix::Present, correction, change);
+    copy(before, floor);
     let (own, mut room) = room.split(WITHIN_NOISE);
     let mut function = |v: &[S], residual: &mut [S]| {
         move_alike(moved, of.q, of.h, v, at);
         of.p0(moved, v, residual, room.inner());
         subtract(residual, of.p);
     };
-    add_noise(&mut function, &Left { at, residual: remaining, correction }, floor, own)
+    let left = Left { at, residual: remaining, correction, change, floor: before };
+    add_noise(&mut function, &left, floor, own)
 }
 
 /// The root at an iterate whose residual has stopped falling, if rounding holds the residual up there: at

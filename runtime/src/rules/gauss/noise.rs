@@ -5,7 +5,7 @@ use nalgebra::SVector;
 
 use super::linearised::{Local, StageVector, locals};
 use super::problem::Problem;
-use crate::numbers::nonlinear::{self, Room, WITHIN_NOISE, shift};
+use crate::numbers::nonlinear::{self, AROUND, Room, WITHIN_NOISE, shift};
 use crate::numbers::{LaneVector, Scalar};
 use crate::system::ForcedLagrangian;
 
@@ -35,20 +35,22 @@ pub(super) fn noise<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
         now.iter().zip(here).all(|(now, here)| {
             (0..N).all(|a| {
                 (0..N).all(|b| {
-                    let scale = (size(here, h, (a, a)) * size(here, h, (b, b))).sqrt();
+                    // Not their product, which may overflow.
+                    let scale = size(here, h, (a, a)).sqrt() * size(here, h, (b, b)).sqrt();
                     is_near(now, here, h, (a, b), scale * T::constant(SAME / N as f64))
                 })
             })
         })
     };
-    if !is_same(before) {
+    // Where a product of step sizes underflows, the matrix is not that of the equations.
+    if h * h <= T::SMALLEST_NORMAL || !is_same(before) {
         return None;
     }
-    for direction in 0..2 {
+    for (direction, away) in (0..2).flat_map(|direction| AROUND.map(|away| (direction, away))) {
         let mut v = *at_stages;
         for (i, correction) in correction.iter().enumerate() {
             for a in 0..N {
-                v[a].0[i] += correction[a] * T::constant(shift(direction, a));
+                v[a].0[i] += correction[a] * T::constant(away * shift(direction, a));
             }
         }
         if !is_same(&locals(problem, &v)) {
@@ -57,12 +59,17 @@ pub(super) fn noise<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
     }
 
     let mut buffer = [[[T::zero(); N]; S]; WITHIN_NOISE];
-    let [mut at, mut residual] = [[[T::zero(); N]; S]; 2];
+    let [mut at, mut residual, mut change, mut measured] = [[[T::zero(); N]; S]; 4];
     // One floor for a coordinate, in all stages.
-    let mut floor = [(*left.floor).into(); S];
+    let floor = [(*left.floor).into(); S];
     for i in 0..S {
         for a in 0..N {
             (at[i][a], residual[i][a]) = (at_stages[a].0[i], of_stages[a].0[i]);
+            for (here, correction) in here.iter().zip(correction) {
+                for b in 0..N {
+                    change[i][a] += size(here, h, (a, b)) * correction[b].abs();
+                }
+            }
         }
     }
     let correction: [[T; N]; S] = correction.map(Into::into);
@@ -84,10 +91,13 @@ pub(super) fn noise<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
         at: at.as_flattened(),
         residual: residual.as_flattened(),
         correction: correction.as_flattened(),
+        change: change.as_flattened(),
+        floor: floor.as_flattened(),
     };
     let room = Room::new(buffer.as_flattened_mut().as_flattened_mut(), N * S);
-    T::add_noise(&mut function, &left, floor.as_flattened_mut(), room)
-        .then(|| SVector::from_fn(|a, _| floor.iter().fold(T::zero(), |most, floor| most.max(floor[a]))))
+    T::add_noise(&mut function, &left, measured.as_flattened_mut(), room).then(|| {
+        SVector::from_fn(|a, _| measured.iter().fold(T::zero(), |most, of_stage| most.max(of_stage[a])))
+    })
 }
 
 /// |M| + h |B − C| + h² |K|, the terms of an entry of the matrix.
