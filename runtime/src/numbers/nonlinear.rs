@@ -26,4 +26,4 @@ pub(crate) use rounding::{
     AT_FLOOR, PLACES, SLOW, SMALL, add_finite_part, held, held_one_by_one, in_units_of, is_sensible,
 };
 pub use vectors::Room;
-pub(crate) use vectors::{VECTORS, largest};
+pub(crate) use vectors::{MEASURES_NOISE, VECTORS, largest};

@@ -53,7 +53,7 @@ pub fn run(count: u64, seed: u64, most: usize, time: f64) -> Result<usize> {
     Ok(all)
 }
 
-/// What the program prints.
+/// The output of the program.
 fn built(folder: &PathBuf, workspace: &Path, text: &str) -> Result<String> {
     std::fs::create_dir_all(folder.join("src"))?;
     let manifest = format!(

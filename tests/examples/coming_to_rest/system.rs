@@ -69,7 +69,7 @@ pub struct Term {
     way: usize,
 }
 
-/// What rules can step a system.
+/// The rules that can step a system.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// Any L and R.
@@ -195,12 +195,11 @@ impl System {
             }
         }
         let mut longest = f64::INFINITY;
-        for i in 0..self.n {
-            let [linear, quadratic, cubic] = self.drag[i];
+        for (i, (&[linear, quadratic, cubic], stiffness)) in self.drag.iter().zip(&stiffness).enumerate() {
             let neighbours = [i.checked_sub(1), Some(i)].into_iter().flatten();
             let between: f64 = neighbours.filter_map(|k| self.between.get(k)).sum();
             let r = linear + 2.0 * quadratic * EXTENT + 3.0 * cubic * EXTENT * EXTENT + 2.0 * between;
-            longest = longest.min((self.masses[i] / stiffness[i]).sqrt()).min(self.masses[i] / r.max(1e-3));
+            longest = longest.min((self.masses[i] / stiffness).sqrt()).min(self.masses[i] / r.max(1e-3));
         }
         longest
     }

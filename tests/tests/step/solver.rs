@@ -328,7 +328,8 @@ fn lost_precision() {
 fn a_momentum_with_noise_is_solved_to_that() {
     let noisy = Quantised { is_everywhere: true };
     let step = midpoint(&noisy, [0.0], [0.5 + 0.3 * STEP], 0.1).unwrap();
-    assert!((step.report.residual / STEP - 0.3).abs() < 1e-6, "{:?}", step.report);
+    // On either side of the step that the momentum lies in.
+    assert!((0.29..0.71).contains(&(step.report.residual / STEP)), "{:?}", step.report);
     assert!((0.1 * STEP..100.0 * STEP).contains(&step.report.floor), "{:?}", step.report);
     // A momentum that the table holds is reached.
     let step = midpoint(&noisy, [0.0], [0.5], 0.1).unwrap();

@@ -5,7 +5,7 @@
 //! scatter over nearby points says how it rounds (J. J. Moré and S. M. Wild, Estimating computational noise, SIAM J.
 //! Sci. Comput. 33, 2011).
 //!
-//! What is left at v, a residual r = F(v), with c for the Newton correction by it, is noise, and v a root but for that,
+//! A residual r = F(v) that is left at v, with c for the Newton correction by it, is noise, and v a root but for that,
 //! where
 //!
 //! 1. the Newton matrix is nearly the same at points 10⁶ c apart: |F(v − c)| ≤ max |J − J(v)||c| where F is smooth,
@@ -41,7 +41,7 @@ const SAME: f64 = 1.0 / 8.0;
 
 /// Corrections that points are away at which the matrix is still to be the same: noise is far below what a function
 /// varies over, and none of it may vary by chance as often as between the points.
-pub(crate) const AROUND: [f64; 4] = [1.0, 93.0, 8641.0, (1 << 20) as f64];
+pub(crate) static AROUND: [f64; 4] = [1.0, 93.0, 8641.0, (1 << 20) as f64];
 
 /// How much larger noise is at some points than it scatters at most: sums of numbers that have one last place in common
 /// round rarely, and then all at once.
@@ -89,24 +89,26 @@ pub(super) fn is_same_around<S: Precision>(
 ) -> bool {
     let [inertia, point, unused, own] = room.vectors();
     of.evaluate.diagonal(Matrix::Mass { q: of.q, v: at }, inertia);
-    for (direction, away) in (0..DIRECTIONS).flat_map(|direction| AROUND.map(|away| (direction, away))) {
-        for (i, ((point, at), correction)) in point.iter_mut().zip(at).zip(correction).enumerate() {
-            *point = *at + *correction * S::nearest(away * shift(direction, i));
-        }
-        of.evaluate(point, unused);
-        if of.evaluate.solve(residual, own).is_err() {
-            return false;
-        }
-        // Σ |Mᵢᵢ| vᵢ² for the square of a length: neither unit nor neighbour changes it.
-        let (mut apart, mut all) = (S::zero(), S::zero());
-        for ((own, correction), mass) in own.iter().zip(correction).zip(inertia.iter()) {
-            let difference = *own - *correction;
-            apart += difference * difference * *mass;
-            all += *correction * *correction * *mass;
-        }
-        let is_same = apart <= all * S::nearest(SAME * SAME) && all > S::LEAST_NORMAL && all.is_finite();
-        if !is_same {
-            return false;
+    for direction in 0..DIRECTIONS {
+        for away in &AROUND {
+            for (i, ((point, at), correction)) in point.iter_mut().zip(at).zip(correction).enumerate() {
+                *point = *at + *correction * S::nearest(*away * shift(direction, i));
+            }
+            of.evaluate(point, unused);
+            if of.evaluate.solve(residual, own).is_err() {
+                return false;
+            }
+            // Σ |Mᵢᵢ| vᵢ² for the square of a length: neither unit nor neighbour changes it.
+            let (mut apart, mut all) = (S::zero(), S::zero());
+            for ((own, correction), mass) in own.iter().zip(correction).zip(inertia.iter()) {
+                let difference = *own - *correction;
+                apart += difference * difference * *mass;
+                all += *correction * *correction * *mass;
+            }
+            let is_same = apart <= all * S::nearest(SAME * SAME) && all > S::LEAST_NORMAL && all.is_finite();
+            if !is_same {
+                return false;
+            }
         }
     }
     true
@@ -204,7 +206,7 @@ fn has_scatter<S: Precision>(
 /// The share of a move in a direction for coordinate i: between a half and three halves, no two alike, and of either
 /// sign in half of the directions.
 pub(crate) fn shift(direction: usize, i: usize) -> f64 {
-    let share = 0.5 + (0.37 * direction as f64 + 0.618 * i as f64) % 1.0;
+    let share = 0.5 + ((370 * direction + 618 * i) % 1000) as f64 * 1e-3;
     let is_back = if i.is_multiple_of(2) { direction % 2 == 1 } else { direction == 1 || direction == 2 };
     if is_back { -share } else { share }
 }

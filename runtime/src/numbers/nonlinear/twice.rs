@@ -7,7 +7,7 @@ use crate::numbers::Precision;
 
 /// Moves in corrections: over these, what rounds differs as much as over none, and what is another function as much as
 /// they are long.
-const LENGTHS: [f64; 6] = [64.0, 4096.0, 262_144.0, 16_777_216.0, 1e9, 6.4e10];
+static LENGTHS: [f64; 6] = [64.0, 4096.0, 262_144.0, 16_777_216.0, 1e9, 6.4e10];
 
 /// By how much rounding may be larger at other places.
 const ALIKE: f64 = 64.0;
@@ -31,9 +31,9 @@ pub(super) fn is_rounded_twice<S: Precision>(
 ) -> bool {
     let [v, q, kernel, momenta] = room.vectors();
     let changes = room.zeros();
-    for (direction, length) in LENGTHS.into_iter().enumerate() {
+    for (direction, length) in LENGTHS.iter().enumerate() {
         for (i, ((v, at), correction)) in v.iter_mut().zip(at).zip(correction).enumerate() {
-            *v = *at + *correction * S::nearest(length * shift(direction, i));
+            *v = *at + *correction * S::nearest(*length * shift(direction, i));
         }
         move_alike(q, of.q, of.h, v, at);
         of.evaluate.kernel(q, v, of.h, of.held, kernel);

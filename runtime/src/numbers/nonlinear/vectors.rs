@@ -2,10 +2,16 @@
 
 use crate::numbers::Precision;
 
+/// Whether noise is measured. On core it is not: a step is to take little code and room there, and derivatives that are
+/// written out come with the terms that cancel.
+pub(crate) const MEASURES_NOISE: bool = cfg!(feature = "std");
+
 /// Vectors in use at once where calls are deepest: 4 from rest, 7 of the damped method, 10 for a verdict, 7
 /// for noise, 5 for a momentum where others are held. The damped method from rest itself
 /// runs beside 4 more of those from rest, and takes 1 of the last 5.
-pub(crate) const VECTORS: usize = 33;
+///
+/// Where no noise is measured, 4 for a verdict, 2 for forces at rest and 5 for rounding.
+pub(crate) const VECTORS: usize = if MEASURES_NOISE { 33 } else { 27 };
 
 /// Room for vectors of one length, in a buffer of the caller's.
 ///
@@ -29,9 +35,9 @@ impl<'r, S: Precision> Room<'r, S> {
 
     /// Room for so many vectors, and what is left.
     pub(super) fn split(self, vectors: usize) -> (Room<'r, S>, Room<'r, S>) {
-        let at = (vectors * self.length).min(self.left.len());
-        let (left, rest) = self.left.split_at_mut(at);
-        (Room { left, length: self.length }, Room { left: rest, length: self.length })
+        let length = self.length;
+        let (left, rest) = self.left.split_at_mut_checked(vectors * length).unwrap_or_default();
+        (Room { left, length }, Room { left: rest, length })
     }
 
     /// A vector, of whatever is there.

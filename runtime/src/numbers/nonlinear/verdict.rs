@@ -7,7 +7,7 @@ use super::rounding::{
     AT_FLOOR, SLOW, add_finite_part, add_rounding, add_scatter, estimated_floor, held_against, is_sensible,
 };
 use super::twice::{Twice, is_rounded_twice, move_alike};
-use super::vectors::{Room, add, copy, subtract, sum};
+use super::vectors::{MEASURES_NOISE, Room, add, copy, subtract, sum};
 use crate::numbers::Precision;
 
 /// Adds the terms of the equation: |p| + |M||v|, with which the forces balance, and p0 at rest.
@@ -51,7 +51,8 @@ pub(super) fn verified<S: Precision>(
     root: &mut Root<'_, S>,
     mut room: Room<'_, S>,
 ) -> Option<Solved<S>> {
-    let [remaining, floor, estimated] = room.vectors();
+    let [remaining, floor] = room.vectors();
+    let estimated = if MEASURES_NOISE { room.vector() } else { &mut [] };
     of.momenta(of.q, v, root.p0, root.p1, room.inner());
     copy(remaining, root.p0);
     subtract(remaining, of.p);
@@ -67,15 +68,16 @@ pub(super) fn verified<S: Precision>(
         add_terms(of, v, terms, room.inner());
         is_sensible_at_rest(of, floor, terms, room.inner())
     } else {
-        is_explained(of, v, remaining, floor, room.inner()) || {
-            is_polished(of, root.v, remaining, estimated, room.inner()) && {
-                of.momenta(of.q, root.v, root.p0, root.p1, room.inner());
-                // Not that of an iterate on the way.
-                of.evaluate(root.v, estimated);
-                estimated_floor(of, Matrix::Present, root.v, floor, room.inner());
-                is_explained(of, root.v, remaining, floor, room.inner())
+        is_explained(of, v, remaining, floor, room.inner())
+            || MEASURES_NOISE && {
+                is_polished(of, root.v, remaining, estimated, room.inner()) && {
+                    of.momenta(of.q, root.v, root.p0, root.p1, room.inner());
+                    // Not that of an iterate on the way.
+                    of.evaluate(root.v, estimated);
+                    estimated_floor(of, Matrix::Present, root.v, floor, room.inner());
+                    is_explained(of, root.v, remaining, floor, room.inner())
+                }
             }
-        }
     };
     if !is_root {
         return None;
@@ -170,7 +172,7 @@ fn is_explained<S: Precision>(
         *least = *remaining * (S::one() / S::nearest(AT_FLOOR));
     }
     let may_be_places = is_sensible_at_rest(of, found, terms, room.inner());
-    if is_noise(of, v, remaining, floor, room.inner()) {
+    if MEASURES_NOISE && is_noise(of, v, remaining, floor, room.inner()) {
         return true;
     }
     if !may_be_places {

@@ -15,6 +15,7 @@ use super::rounding::{at_rounding, is_decided, worst};
 use crate::numbers::{
     LaneVector, Scalar,
     lanes::{splat, write_lane},
+    nonlinear::MEASURES_NOISE,
 };
 use crate::step::{
     Quantity, Report, StepError,
@@ -184,7 +185,7 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
                     locals: &next.locals,
                     correction: &correction,
                 };
-                if let Some(measured) = noise(problem, &left, &last.locals) {
+                if MEASURES_NOISE && let Some(measured) = noise(problem, &left, &last.locals) {
                     let (residual, floor) = worst(&next.residual, &measured);
                     return Ok(Solution {
                         v: next.v,

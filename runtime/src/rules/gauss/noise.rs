@@ -12,7 +12,7 @@ use crate::system::ForcedLagrangian;
 /// The part of a coordinate's own second derivatives by which those nearby may differ, to be called the same.
 const SAME: f64 = 1.0 / 16.0;
 
-/// What is left at an iterate that the `correction` from the one before led to.
+/// The residual that is left at an iterate that the `correction` from the one before led to.
 pub(super) struct Left<'a, T, const N: usize, const S: usize> {
     pub(super) v: &'a LaneVector<T, N, S>,
     pub(super) residual: &'a LaneVector<T, N, S>,
@@ -46,15 +46,17 @@ pub(super) fn noise<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
     if h * h <= T::SMALLEST_NORMAL || !is_same(before) {
         return None;
     }
-    for (direction, away) in (0..2).flat_map(|direction| AROUND.map(|away| (direction, away))) {
-        let mut v = *at_stages;
-        for (i, correction) in correction.iter().enumerate() {
-            for a in 0..N {
-                v[a].0[i] += correction[a] * T::constant(away * shift(direction, a));
+    for direction in 0..2 {
+        for away in &AROUND {
+            let mut v = *at_stages;
+            for (i, correction) in correction.iter().enumerate() {
+                for a in 0..N {
+                    v[a].0[i] += correction[a] * T::constant(*away * shift(direction, a));
+                }
             }
-        }
-        if !is_same(&locals(problem, &v)) {
-            return None;
+            if !is_same(&locals(problem, &v)) {
+                return None;
+            }
         }
     }
 
