@@ -12,8 +12,8 @@ use std::process::Command;
 /// The compiler whose messages stand in `ui/*.stderr`.
 const COMPILER: &str = "rustc 1.95.";
 
-/// The flags under which trybuild has the mistakes compiled, but for those of single lints. On its own it compiles
-/// the dependencies under others first, all of them a second time: half a minute.
+/// The flags under which trybuild has the mistakes compiled, but for those of single lints. On its own it
+/// compiles the dependencies under others first, all of them a second time: half a minute.
 const FLAGS: &str = "--cfg\u{1f}trybuild\u{1f}--verbose\u{1f}-A\u{1f}dead_code\u{1f}--diagnostic-width=140";
 
 #[test]

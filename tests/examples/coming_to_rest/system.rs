@@ -39,7 +39,8 @@ impl Law {
         }
     }
 
-    /// V as a Rust expression of `x`, a unit of length `l` and a factor `k`, one of several ways of writing it.
+    /// V as a Rust expression of `x`, a unit of length `l` and a factor `k`, one of several ways of writing
+    /// it.
     fn text(self, k: &str, x: &str, l: &str, way: usize) -> String {
         let squared = match way % 3 {
             0 => format!("({x}).powi(2)"),

@@ -242,8 +242,8 @@ fn not_converged() {
     assert!(error.to_string().contains("not converged after 100 iterations"), "{error}");
 }
 
-/// A mass whose momentum comes out of a table with steps of 1e-9, everywhere or at v = ½ alone: digits are lost where no
-/// rounding of q or v shows it.
+/// A mass whose momentum comes out of a table with steps of 1e-9, everywhere or at v = ½ alone: digits are
+/// lost where no rounding of q or v shows it.
 struct Quantised {
     is_everywhere: bool,
 }
@@ -323,7 +323,8 @@ fn lost_precision() {
     midpoint(&Quantised { is_everywhere: false }, [0.0], [0.5 + STEP], 0.1).unwrap();
 }
 
-/// Steps everywhere are the noise of the function: it is solved as far as it tells, and the report says how far.
+/// Steps everywhere are the noise of the function: it is solved as far as it tells, and the report says how
+/// far.
 #[test]
 fn a_momentum_with_noise_is_solved_to_that() {
     let noisy = Quantised { is_everywhere: true };

@@ -39,8 +39,8 @@ pub trait AtLength: Sized {
     /// in every coordinate, so that rest is its root.
     fn is_rest(residual: &mut dyn FnMut(&[Self], &mut [Self]), p: &[Self], room: Room<'_, Self>) -> bool;
 
-    /// The floor with the noise of the residual, a `function` that writes to the second slice; whether that explains what
-    /// is left.
+    /// The floor with the noise of the residual, a `function` that writes to the second slice; whether that
+    /// explains what is left.
     fn add_noise(
         function: &mut dyn FnMut(&[Self], &mut [Self]),
         left: &Left<'_, Self>,

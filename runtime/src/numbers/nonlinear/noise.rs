@@ -1,16 +1,18 @@
 //! Noise of a function near a root: how far it scatters about a smooth one, whatever it is that rounds.
 //!
-//! At rest forces cancel, and their rounding may stand above all that a state, its momenta and their last places tell:
-//! (q − 1) + (q + 1) rounds at ε where q = 0 has no places. Of a function that only can be asked for values, its
-//! scatter over nearby points says how it rounds (J. J. Moré and S. M. Wild, Estimating computational noise, SIAM J.
-//! Sci. Comput. 33, 2011).
+//! At rest forces cancel, and their rounding may stand above all that a state, its momenta and their last
+//! places tell: (q − 1) + (q + 1) rounds at ε where q = 0 has no places. Of a function that only can be asked
+//! for values, its scatter over nearby points says how it rounds (J. J. Moré and S. M. Wild, Estimating
+//! computational noise, SIAM J. Sci. Comput. 33, 2011).
 //!
-//! A residual r = F(v) that is left at v, with c for the Newton correction by it, is noise, and v a root but for that,
-//! where
+//! A residual r = F(v) that is left at v, with c for the Newton correction by it, is noise, and v a root but
+//! for that, where
 //!
-//! 1. the Newton matrix is nearly the same at points 10⁶ c apart: |F(v − c)| ≤ max |J − J(v)||c| where F is smooth,
+//! 1. the Newton matrix is nearly the same at points 10⁶ c apart: |F(v − c)| ≤ max |J − J(v)||c| where F is
+//!    smooth,
 //!    but F(v − c) is no lower than r: there is a root within some c, or a jump, and rounding or that keeps it from r;
-//! 2. F scatters about smooth functions by r/64 at least over moves of many c, and not much more over moves 32 times
+//! 2. F scatters about smooth functions by r/64 at least over moves of many c, and not much more over moves
+//!    32 times
 //!    as long: what is smooth scatters 32³ times as much then, a kink 32 times;
 //! 3. it does so in every direction from v, so that no jump is taken for noise.
 
@@ -19,8 +21,8 @@ use super::rounding::{AT_FLOOR, held_against};
 use super::vectors::{Room, add, copy};
 use crate::numbers::Precision;
 
-/// The shortest moves, in corrections, and how they grow. Noise shows where a move changes what rounds by its last
-/// place, 1/(hω)² corrections.
+/// The shortest moves, in corrections, and how they grow. Noise shows where a move changes what rounds by its
+/// last place, 1/(hω)² corrections.
 const SHORTEST: f64 = 1024.0;
 const LONGER: f64 = 32.0;
 
@@ -39,12 +41,12 @@ pub(crate) const WITHIN_NOISE: usize = 7;
 /// The part of a correction by which those of matrices around may differ from it.
 const SAME: f64 = 1.0 / 8.0;
 
-/// Corrections that points are away at which the matrix is still to be the same: noise is far below what a function
-/// varies over, and none of it may vary by chance as often as between the points.
+/// Corrections that points are away at which the matrix is still to be the same: noise is far below what a
+/// function varies over, and none of it may vary by chance as often as between the points.
 pub(crate) static AROUND: [f64; 4] = [1.0, 93.0, 8641.0, (1 << 20) as f64];
 
-/// How much larger noise is at some points than it scatters at most: sums of numbers that have one last place in common
-/// round rarely, and then all at once.
+/// How much larger noise is at some points than it scatters at most: sums of numbers that have one last place
+/// in common round rarely, and then all at once.
 const RARELY: f64 = 16.0;
 
 /// How many times what is left may be below the noise by chance.
@@ -61,7 +63,8 @@ pub struct Left<'a, S> {
     pub(crate) at: &'a [S],
     pub(crate) residual: &'a [S],
     pub(crate) correction: &'a [S],
-    /// By how much a correction changes the residual at most, and the floor that does not explain what is left of it.
+    /// By how much a correction changes the residual at most, and the floor that does not explain what is
+    /// left of it.
     pub(crate) change: &'a [S],
     pub(crate) floor: &'a [S],
 }
@@ -76,8 +79,8 @@ impl<S: Precision> Left<'_, S> {
     }
 }
 
-/// Whether matrices at points around `at` correct the `residual` as that did which gave the `correction`. The present
-/// matrix is another one then.
+/// Whether matrices at points around `at` correct the `residual` as that did which gave the `correction`. The
+/// present matrix is another one then.
 #[cold]
 #[inline(never)]
 pub(super) fn is_same_around<S: Precision>(
@@ -114,8 +117,8 @@ pub(super) fn is_same_around<S: Precision>(
     true
 }
 
-/// The floor with the noise of the residual, a `function` that writes to the second slice; whether that explains what is
-/// left of it.
+/// The floor with the noise of the residual, a `function` that writes to the second slice; whether that
+/// explains what is left of it.
 #[cold]
 #[inline(never)]
 pub(crate) fn add_noise<S: Precision>(
@@ -152,7 +155,8 @@ pub(crate) fn add_noise<S: Precision>(
     false
 }
 
-/// How the function scatters over moves of so many corrections, by its third differences: the least of all directions. Nothing where it is no line.
+/// How the function scatters over moves of so many corrections, by its third differences: the least of all
+/// directions. Nothing where it is no line.
 fn has_scatter<S: Precision>(
     function: &mut dyn FnMut(&[S], &mut [S]),
     left: &Left<'_, S>,
@@ -203,8 +207,8 @@ fn has_scatter<S: Precision>(
         .all(|(i, (scatter, change))| !left.is_open(i) || *scatter <= *change * length * S::nearest(STRAIGHT))
 }
 
-/// The share of a move in a direction for coordinate i: between a half and three halves, no two alike, and of either
-/// sign in half of the directions.
+/// The share of a move in a direction for coordinate i: between a half and three halves, no two alike, and of
+/// either sign in half of the directions.
 pub(crate) fn shift(direction: usize, i: usize) -> f64 {
     let share = 0.5 + ((370 * direction + 618 * i) % 1000) as f64 * 1e-3;
     let is_back = if i.is_multiple_of(2) { direction % 2 == 1 } else { direction == 1 || direction == 2 };
@@ -246,8 +250,8 @@ mod tests {
         }
     }
 
-    /// The controls: a residual far above the rounding, with a root that nobody went to, without one at a jump, on a
-    /// fold, and at a kink.
+    /// The controls: a residual far above the rounding, with a root that nobody went to, without one at a
+    /// jump, on a fold, and at a kink.
     #[test]
     fn what_is_smooth_or_jumps_is_not() {
         for a in [1.0, 1e4] {

@@ -5,8 +5,8 @@ use super::noise::shift;
 use super::vectors::{Room, subtract};
 use crate::numbers::Precision;
 
-/// Moves in corrections: over these, what rounds differs as much as over none, and what is another function as much as
-/// they are long.
+/// Moves in corrections: over these, what rounds differs as much as over none, and what is another function
+/// as much as they are long.
 static LENGTHS: [f64; 6] = [64.0, 4096.0, 262_144.0, 16_777_216.0, 1e9, 6.4e10];
 
 /// By how much rounding may be larger at other places.
@@ -18,8 +18,8 @@ pub(super) struct Twice<'a, S> {
     pub(super) kernel: &'a [S],
 }
 
-/// Whether both ways are one function but for rounding, although they differ by more than the `floor` at `at`: over
-/// moves of the correction the difference changes, and does not grow.
+/// Whether both ways are one function but for rounding, although they differ by more than the `floor` at
+/// `at`: over moves of the correction the difference changes, and does not grow.
 #[cold]
 #[inline(never)]
 pub(super) fn is_rounded_twice<S: Precision>(
@@ -61,8 +61,8 @@ pub(super) fn is_rounded_twice<S: Precision>(
     changes.iter().all(|changes| *changes != S::zero())
 }
 
-/// Moves configurations as the velocities `v` are moved from `at`, over the time h, but for shares: what does not depend
-/// on v rounds as well.
+/// Moves configurations as the velocities `v` are moved from `at`, over the time h, but for shares: what does
+/// not depend on v rounds as well.
 pub(super) fn move_alike<S: Precision>(moved: &mut [S], q: &[S], h: S, v: &[S], at: &[S]) {
     for (i, ((moved, q), (v, at))) in moved.iter_mut().zip(q).zip(v.iter().zip(at)).enumerate() {
         *moved = *q + (*v - *at) * h * S::nearest(shift(0, i + 1));

@@ -2,8 +2,8 @@
 
 use crate::numbers::Precision;
 
-/// Whether noise is measured. On core it is not: a step is to take little code and room there, and derivatives that are
-/// written out come with the terms that cancel.
+/// Whether noise is measured. On core it is not: a step is to take little code and room there, and
+/// derivatives that are written out come with the terms that cancel.
 pub(crate) const MEASURES_NOISE: bool = cfg!(feature = "std");
 
 /// Vectors in use at once where calls are deepest: 4 from rest, 7 of the damped method, 10 for a verdict, 7

@@ -40,8 +40,8 @@ pub(super) struct Counts<S> {
     pub(super) last_correction: S,
 }
 
-/// The solution at `v`, where the Newton matrix is `matrix`; nothing if it is none. With `may_round`, whatever rounds may
-/// explain a residual that has stopped falling; the present matrix is another one then.
+/// The solution at `v`, where the Newton matrix is `matrix`; nothing if it is none. With `may_round`,
+/// whatever rounds may explain a residual that has stopped falling; the present matrix is another one then.
 #[inline(never)]
 pub(super) fn verified<S: Precision>(
     of: &mut Equations<'_, S>,
@@ -107,8 +107,8 @@ fn is_lower<S: Precision>(now: &[S], before: &[S], floor: &[S]) -> bool {
     })
 }
 
-/// Goes on from `v` as long as Newton steps take off what is `remaining` by the momenta, which may round otherwise than the
-/// kernel, whose residual has led here; whether they have.
+/// Goes on from `v` as long as Newton steps take off what is `remaining` by the momenta, which may round
+/// otherwise than the kernel, whose residual has led here; whether they have.
 #[inline(never)]
 fn is_polished<S: Precision>(
     of: &mut Equations<'_, S>,
@@ -133,7 +133,8 @@ fn is_polished<S: Precision>(
     true
 }
 
-/// Whether the `floor` is small beside the `terms`, with the forces that cancel at rest where it is not beside the others.
+/// Whether the `floor` is small beside the `terms`, with the forces that cancel at rest where it is not
+/// beside the others.
 #[inline(never)]
 fn is_sensible_at_rest<S: Precision>(
     of: &Equations<'_, S>,
@@ -148,7 +149,8 @@ fn is_sensible_at_rest<S: Precision>(
     is_sensible(floor, terms)
 }
 
-/// Whether what rounds explains what is `remaining`, and is added to the `floor`: terms that cancel, noise, last places.
+/// Whether what rounds explains what is `remaining`, and is added to the `floor`: terms that cancel, noise,
+/// last places.
 #[inline(never)]
 fn is_explained<S: Precision>(
     of: &mut Equations<'_, S>,
@@ -166,8 +168,8 @@ fn is_explained<S: Precision>(
     if held_against(remaining, floor).2 {
         return is_sensible_at_rest(of, floor, terms, room);
     }
-    // Far above what any sensible floor explains, no last places are moved: of a step that fails, that would be
-    // most of the cost.
+    // Far above what any sensible floor explains, no last places are moved: of a step that fails, that would
+    // be most of the cost.
     for (least, remaining) in found.iter_mut().zip(remaining.iter()) {
         *least = *remaining * (S::one() / S::nearest(AT_FLOOR));
     }

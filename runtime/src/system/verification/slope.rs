@@ -42,7 +42,7 @@ pub fn largest(epsilon: f64) -> f64 {
     LARGEST[usize::from(is_single(epsilon))]
 }
 
-/// What differences say of a slope.
+/// The verdict of differences on a slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Told {
     /// Neither that it is the function's, nor that it is not.
