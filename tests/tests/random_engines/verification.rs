@@ -326,6 +326,22 @@ fn with_debug_assertions_second_derivatives_are_compared_where_a_run_starts() {
     }
 }
 
+/// At rest, at the origin and next to either a wrong slope is as small as the right one.
+#[test]
+fn a_wrong_slope_is_told_from_the_origin_and_next_to_rest() {
+    for q in [0.0, 1e-17, -1e-9, 0.3] {
+        for p in [0.0, -1e-17, 1e-9, 0.3] {
+            let start = State { q: vector![q], p: vector![p] };
+            for i in 0..3 {
+                let mut bent = [0.0; 3];
+                bent[i] = 0.01;
+                assert!(start.verify(&Mutated { bent, ..RIGHT }).is_err(), "{start:?}, {i}");
+            }
+            assert_eq!(start.verify(&RIGHT), Ok(()));
+        }
+    }
+}
+
 #[test]
 fn with_debug_assertions_steps_compare_slopes_at_some_of_their_points() {
     let bent = Mutated { bent: [0.01, 0.0, 0.0], ..RIGHT };

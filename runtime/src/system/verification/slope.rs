@@ -42,25 +42,14 @@ pub fn largest(epsilon: f64) -> f64 {
     LARGEST[usize::from(is_single(epsilon))]
 }
 
-/// The verdict of differences on a slope.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Told {
-    /// Neither that it is the function's, nor that it is not.
-    Nothing,
-    /// It is, to a sixteenth at least.
-    Same,
-    /// It is another than this one.
-    Other(f64),
-}
-
-/// Whether differences say that the slope is another than `slope`, or that it is this; by seven evaluations.
+/// The slope by differences, where it is certain that it is another than `slope`; by seven evaluations.
 ///
 /// `function` is along the line, at its argument; `epsilon` the spacing of its numbers at 1, and `size` that
 /// of the terms that it adds up. Two pairs of widths have to say so, each with certainty: in a pair, the
 /// central differences agree, and the bend of the narrow ones is that of a smooth function, a kink's being as
 /// large over any width. Kinks, jumps, noise and scales of the function between the widths leave a pair
 /// without a verdict; a ripple far below the narrowest would not be seen.
-pub fn told(slope: f64, epsilon: f64, size: f64, function: &mut dyn FnMut(f64) -> f64) -> Told {
+pub fn refuted(slope: f64, epsilon: f64, size: f64, function: &mut dyn FnMut(f64) -> f64) -> Option<f64> {
     let (widths, least) = (WIDTHS[usize::from(is_single(epsilon))], LEAST[usize::from(is_single(epsilon))]);
     let ratio = widths[0] / widths[1];
     let middle = function(0.0);
@@ -79,30 +68,14 @@ pub fn told(slope: f64, epsilon: f64, size: f64, function: &mut dyn FnMut(f64) -
         let is_smooth = apart <= (narrow.forward.abs() + narrow.backward.abs()) / CERTAIN + narrow.rounding;
         let uncertain = 4.0 * apart + narrow.rounding;
         let off = (narrow.central() - slope).abs();
-        let is_other = is_smooth && off > CERTAIN * uncertain && off > least;
-        [is_other, is_smooth && off <= uncertain && CERTAIN * uncertain < slope.abs()]
+        is_smooth && off > CERTAIN * uncertain && off > least
     };
-    let [wide, narrow] = [of_pair(over[0], over[1]), of_pair(over[1], over[2])];
-    if wide[0] && narrow[0] {
-        Told::Other(over[2].central())
-    } else if wide[1] || narrow[1] {
-        Told::Same
-    } else {
-        Told::Nothing
-    }
+    (of_pair(over[0], over[1]) && of_pair(over[1], over[2])).then(|| over[2].central())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Told, told};
-
-    /// The slope by differences, where it is another one.
-    fn refuted(slope: f64, epsilon: f64, size: f64, function: &mut dyn FnMut(f64) -> f64) -> Option<f64> {
-        match told(slope, epsilon, size, function) {
-            Told::Other(by_differences) => Some(by_differences),
-            _ => None,
-        }
-    }
+    use super::refuted;
 
     /// A smooth function, its slope at 0, and the wrong slopes that are told.
     #[test]
@@ -117,8 +90,7 @@ mod tests {
             (|s| 4.0 - 2.0 * s, -2.0),
         ];
         for (index, (function, slope)) in functions.into_iter().enumerate() {
-            let expected = if slope == 0.0 { Told::Nothing } else { Told::Same };
-            assert_eq!(told(slope, f64::EPSILON, 0.0, &mut { function }), expected, "{index}");
+            assert_eq!(refuted(slope, f64::EPSILON, 0.0, &mut { function }), None, "{index}");
             for wrong in [slope * 1.01 + 1e-3, -slope - 1.0, slope + 0.1 * (1.0 + slope.abs())] {
                 let by_differences = refuted(wrong, f64::EPSILON, 0.0, &mut { function });
                 assert!(
