@@ -1,5 +1,5 @@
 //! The study of motions that come to rest: damped systems drawn at random, each run to its end by every
-//! method that can step it; `docs/coming-to-rest.md`.
+//! method that can step it.
 //!
 //! ```text
 //! cargo study coming_to_rest -- 300 1              # systems from seed 1 on, by every method, to T = 10⁴

@@ -317,7 +317,9 @@ impl Discrete<Midpoint, 1> for Quantised {
 fn lost_precision() {
     let error = midpoint(&Quantised { is_everywhere: false }, [0.0], [0.5], 0.1).unwrap_err();
     let StepError::LostPrecision { residual, floor } = error else { panic!("{error:?}") };
-    assert!((0.29..0.61).contains(&(residual / STEP)) && floor < 1e-14, "{error:?}");
+    // Left of the jump, or right of it.
+    let is_near = |steps: f64| (residual / STEP - steps).abs() < 1e-6;
+    assert!((is_near(0.3) || is_near(0.6)) && floor < 1e-14, "{error:?}");
     assert!(error.to_string().contains("digits cancel"), "{error}");
     // Positive control: beside the jump there is a root.
     midpoint(&Quantised { is_everywhere: false }, [0.0], [0.5 + STEP], 0.1).unwrap();
@@ -330,7 +332,8 @@ fn a_momentum_with_noise_is_solved_to_that() {
     let noisy = Quantised { is_everywhere: true };
     let step = midpoint(&noisy, [0.0], [0.5 + 0.3 * STEP], 0.1).unwrap();
     // On either side of the step that the momentum lies in.
-    assert!((0.29..0.71).contains(&(step.report.residual / STEP)), "{:?}", step.report);
+    let is_near = |steps: f64| (step.report.residual / STEP - steps).abs() < 1e-6;
+    assert!(is_near(0.3) || is_near(0.7), "{:?}", step.report);
     assert!((0.1 * STEP..100.0 * STEP).contains(&step.report.floor), "{:?}", step.report);
     // A momentum that the table holds is reached.
     let step = midpoint(&noisy, [0.0], [0.5], 0.1).unwrap();

@@ -194,3 +194,30 @@ impl<S: Precision> Equations<'_, S> {
         entries.find(|(i, entry)| !entry.is_finite() || !self.evaluate.row_is_finite(*i)).map(|(i, _)| i)
     }
 }
+
+/// An equation for tests of what asks it for values alone: p0, and p0 as the kernel has it, by (q, v).
+#[cfg(test)]
+pub(super) struct Values<P, K> {
+    pub(super) momentum: P,
+    pub(super) kernel: K,
+}
+
+#[cfg(test)]
+impl<P: Fn(&[f64], &[f64], &mut [f64]), K: Fn(&[f64], &[f64], &mut [f64])> Evaluate<f64> for Values<P, K> {
+    fn momenta(&self, q: &[f64], v: &[f64], _: f64, p0: &mut [f64], _: &mut [f64]) {
+        (self.momentum)(q, v, p0);
+    }
+    fn kernel(&mut self, q: &[f64], v: &[f64], _: f64, _: &[f64], p0: &mut [f64]) {
+        (self.kernel)(q, v, p0);
+    }
+    fn keep(&mut self) {}
+    fn solve(&self, _: &[f64], _: &mut [f64]) -> Result<(), Singular> {
+        Err(Singular { column: 0 })
+    }
+    fn magnitudes(&self, _: Matrix<'_, f64>, _: &[f64], _: &mut [f64]) {}
+    fn diagonal(&self, _: Matrix<'_, f64>, _: &mut [f64]) {}
+    fn row_is_finite(&self, _: usize) -> bool {
+        true
+    }
+    fn cancelling(&self, _: &[f64], _: &[f64], _: f64, _: &mut [f64]) {}
+}

@@ -8,12 +8,11 @@
 //! A residual r = F(v) that is left at v, with c for the Newton correction by it, is noise, and v a root but
 //! for that, where
 //!
-//! 1. the Newton matrix is nearly the same at points 10⁶ c apart: |F(v − c)| ≤ max |J − J(v)||c| where F is
-//!    smooth,
-//!    but F(v − c) is no lower than r: there is a root within some c, or a jump, and rounding or that keeps it from r;
+//! 1. the Newton matrix is nearly the same at points up to 10⁶ c apart: |F(v − c)| ≤ max |J − J(v)||c| where F
+//!    is smooth, but F(v − c) is no lower than r: there is a root within some c, or a jump, and that or
+//!    rounding keeps F from it;
 //! 2. F scatters about smooth functions by r/64 at least over moves of many c, and not much more over moves
-//!    32 times
-//!    as long: what is smooth scatters 32³ times as much then, a kink 32 times;
+//!    32 times as long: what is smooth scatters 32³ times as much then, a kink 32 times;
 //! 3. it does so in every direction from v, so that no jump is taken for noise.
 
 use super::equations::{Equations, Matrix};
@@ -131,7 +130,7 @@ pub(crate) fn add_noise<S: Precision>(
     let now = room.vector();
     let mut length = S::nearest(SHORTEST);
     for _ in 0..LENGTHS {
-        let is_line = has_scatter(function, left, length, now, room.inner());
+        let is_line = scatters(function, left, length, now, room.inner());
         length *= S::nearest(LONGER);
         if !is_line {
             last.fill(S::zero());
@@ -155,9 +154,9 @@ pub(crate) fn add_noise<S: Precision>(
     false
 }
 
-/// How the function scatters over moves of so many corrections, by its third differences: the least of all
-/// directions. Nothing where it is no line.
-fn has_scatter<S: Precision>(
+/// How the function `scatter`s about a line over moves of so many corrections, by its third differences: the
+/// least of all directions. Whether it is a line but for that.
+fn scatters<S: Precision>(
     function: &mut dyn FnMut(&[S], &mut [S]),
     left: &Left<'_, S>,
     length: S,

@@ -198,9 +198,8 @@ pub(super) fn add_scatter<S: Precision>(
 
 #[cfg(test)]
 mod tests {
-    use super::super::equations::Evaluate;
+    use super::super::equations::Values;
     use super::*;
-    use crate::numbers::Singular;
 
     #[test]
     fn the_worst_residual_is_taken_in_units_of_its_own_floor() {
@@ -224,26 +223,6 @@ mod tests {
         assert!(!is_sensible(&[f64::NAN], &[1.0]));
     }
 
-    /// p0 as a function of (q, v).
-    struct Momentum<F>(F);
-
-    impl<F: Fn(&[f64], &[f64], &mut [f64])> Evaluate<f64> for Momentum<F> {
-        fn momenta(&self, q: &[f64], v: &[f64], _: f64, p0: &mut [f64], _: &mut [f64]) {
-            (self.0)(q, v, p0);
-        }
-        fn kernel(&mut self, _: &[f64], _: &[f64], _: f64, _: &[f64], _: &mut [f64]) {}
-        fn keep(&mut self) {}
-        fn solve(&self, _: &[f64], _: &mut [f64]) -> Result<(), Singular> {
-            Err(Singular { column: 0 })
-        }
-        fn magnitudes(&self, _: Matrix<'_, f64>, _: &[f64], _: &mut [f64]) {}
-        fn diagonal(&self, _: Matrix<'_, f64>, _: &mut [f64]) {}
-        fn row_is_finite(&self, _: usize) -> bool {
-            true
-        }
-        fn cancelling(&self, _: &[f64], _: &[f64], _: f64, _: &mut [f64]) {}
-    }
-
     /// The rounding of p0 at (q, v), and how far it scatters for this h.
     fn measured<const N: usize>(
         p0: impl Fn(&[f64], &[f64], &mut [f64]),
@@ -251,7 +230,8 @@ mod tests {
         v: [f64; N],
         h: f64,
     ) -> [[f64; N]; 2] {
-        let of = Equations { evaluate: &mut Momentum(p0), q: &q, p: &[0.0; N], h, held: &[0.0; N] };
+        let mut values = Values { momentum: p0, kernel: |_: &[f64], _: &[f64], _: &mut [f64]| {} };
+        let of = Equations { evaluate: &mut values, q: &q, p: &[0.0; N], h, held: &[0.0; N] };
         let [mut rounding, mut scatter] = [[0.0; N]; 2];
         add_rounding(&of, &v, &mut rounding, Room::new(&mut [0.0; 40], N));
         add_scatter(&of, &v, &mut scatter, Room::new(&mut [0.0; 40], N));

@@ -71,40 +71,17 @@ pub(super) fn move_alike<S: Precision>(moved: &mut [S], q: &[S], h: S, v: &[S], 
 
 #[cfg(test)]
 mod tests {
-    use super::super::equations::{Evaluate, Matrix};
+    use super::super::equations::{Evaluate, Values};
     use super::*;
-    use crate::numbers::Singular;
 
-    /// A momentum of mass 1 that the kernel computes in a way of its own.
-    struct Two<F> {
-        kernel: F,
-        a: f64,
-    }
-
-    impl<F: Fn(f64, f64) -> f64> Evaluate<f64> for Two<F> {
-        fn momenta(&self, q: &[f64], v: &[f64], _: f64, p0: &mut [f64], _: &mut [f64]) {
-            p0[0] = v[0] + 0.3 * ((q[0] - self.a) + (q[0] + self.a));
-        }
-        fn kernel(&mut self, q: &[f64], v: &[f64], _: f64, _: &[f64], p0: &mut [f64]) {
-            p0[0] = (self.kernel)(q[0], v[0]);
-        }
-        fn keep(&mut self) {}
-        fn solve(&self, _: &[f64], _: &mut [f64]) -> Result<(), Singular> {
-            Err(Singular { column: 0 })
-        }
-        fn magnitudes(&self, _: Matrix<'_, f64>, _: &[f64], _: &mut [f64]) {}
-        fn diagonal(&self, _: Matrix<'_, f64>, _: &mut [f64]) {}
-        fn row_is_finite(&self, _: usize) -> bool {
-            true
-        }
-        fn cancelling(&self, _: &[f64], _: &[f64], _: f64, _: &mut [f64]) {}
-    }
-
-    /// Whether both ways are the same but for rounding at the root of the kernel by v, from q.
+    /// Whether two ways are the same but for rounding, at the root of the kernel by v, from q: a momentum of mass 1,
+    /// and a kernel of slope 1 in v that computes it in a way of its own.
     fn is_rounded(kernel: impl Fn(f64, f64) -> f64, a: f64, q: f64) -> bool {
-        // Of slope 1 in v.
         let v = -kernel(q, 0.0);
-        let mut two = Two { kernel, a };
+        let mut two = Values {
+            momentum: |q: &[f64], v: &[f64], p0: &mut [f64]| p0[0] = v[0] + 0.3 * ((q[0] - a) + (q[0] + a)),
+            kernel: |q: &[f64], v: &[f64], p0: &mut [f64]| p0[0] = kernel(q[0], v[0]),
+        };
         let (mut momenta, mut own) = ([0.0], [0.0]);
         two.momenta(&[q], &[v], 0.1, &mut momenta, &mut [0.0]);
         two.kernel(&[q], &[v], 0.1, &[], &mut own);

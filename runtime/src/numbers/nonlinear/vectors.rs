@@ -7,8 +7,8 @@ use crate::numbers::Precision;
 pub(crate) const MEASURES_NOISE: bool = cfg!(feature = "std");
 
 /// Vectors in use at once where calls are deepest: 4 from rest, 7 of the damped method, 10 for a verdict, 7
-/// for noise, 5 for a momentum where others are held. The damped method from rest itself
-/// runs beside 4 more of those from rest, and takes 1 of the last 5.
+/// for noise, 5 for a momentum where others are held. The damped method from rest itself runs beside 4 more
+/// of those from rest, and takes 1 of the last 5.
 ///
 /// Where no noise is measured, 4 for a verdict, 2 for forces at rest and 5 for rounding.
 pub(crate) const VECTORS: usize = if MEASURES_NOISE { 33 } else { 27 };

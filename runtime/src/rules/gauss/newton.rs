@@ -136,12 +136,10 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
         })?;
         let correction = factored.solve(&last.residuals());
         let last_correction = correction.iter().fold(T::zero(), |largest, c| largest.max(c.amax()));
-        let report = |residual: T, floor, damped| Report {
-            iterations: iteration + 1,
-            damped,
-            residual,
-            floor,
-            last_correction,
+        let solution = |at: &Iterate<T, N, S>, floor: &SVector<T, N>, damped| {
+            let (residual, floor) = worst(&at.residual, floor);
+            let report = Report { iterations: iteration + 1, damped, residual, floor, last_correction };
+            Solution { v: at.v, rate: at.rate, report, solver: Solver::Newton }
         };
 
         let mut share = one;
@@ -169,13 +167,7 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
                 // others down.
                 for at in [&next, &last].into_iter().take(if lower { 1 } else { 2 }) {
                     if let Some(measured) = at_rounding(problem, &at.v, &at.residual, at.floor) {
-                        let (residual, floor) = worst(&at.residual, &measured);
-                        return Ok(Solution {
-                            v: at.v,
-                            rate: at.rate,
-                            report: report(residual, floor, damped),
-                            solver: Solver::Newton,
-                        });
+                        return Ok(solution(at, &measured, damped));
                     }
                 }
                 let left = Left {
@@ -186,13 +178,7 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
                     correction: &correction,
                 };
                 if MEASURES_NOISE && let Some(measured) = noise(problem, &left, &last.locals) {
-                    let (residual, floor) = worst(&next.residual, &measured);
-                    return Ok(Solution {
-                        v: next.v,
-                        rate: next.rate,
-                        report: report(residual, floor, damped),
-                        solver: Solver::Newton,
-                    });
+                    return Ok(solution(&next, &measured, damped));
                 }
             }
             if lower {
@@ -225,13 +211,7 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
             && (contraction > constant(0.01) || next.size <= constant(1.0 / 16.0))
             && is_decided(problem, &next.v, &next.floor)
         {
-            let (residual, floor) = worst(&next.residual, &next.floor);
-            return Ok(Solution {
-                v: next.v,
-                rate: next.rate,
-                report: report(residual, floor, damped),
-                solver: Solver::Newton,
-            });
+            return Ok(solution(&next, &next.floor, damped));
         }
         last = next;
     }

@@ -1,6 +1,5 @@
 //! Noise of the stages' residuals, where neither the terms of their equations nor last places say how they
-//! round:
-//! `numbers/nonlinear/noise.rs` has the definition.
+//! round: `numbers/nonlinear/noise.rs` has the definition.
 
 use nalgebra::SVector;
 

@@ -29,6 +29,11 @@
 //! are written out come with the sizes of such terms ([`cancelling_terms`](crate::Discrete::cancelling_terms)),
 //! which count before anything is measured: ε times them is floor, and they are terms of the equation.
 //!
+//! Of other derivatives, by dual numbers or by hand, and of Gauss rules the equation itself says how it rounds:
+//! with `std`, by its noise (`numbers/nonlinear/noise.rs`), to which the third condition does not apply, since
+//! at rest the noise is all that there is; and by what the momenta and the kernel of a step differ by
+//! (`twice.rs`).
+//!
 //! `tests/examples/verdicts` holds every rule against this definition in twice the precision.
 
 use nalgebra::SVector;
