@@ -1,5 +1,5 @@
-//! What it costs to watch a run of Hénon and Heiles' system for one event: where nothing happens, and on the section
-//! x = 0; times of interleaved runs.
+//! What it costs to watch a run of Hénon and Heiles' system for one event: where nothing happens, and on the
+//! section x = 0; times of interleaved runs.
 //!
 //! `cargo bench -p dalembert-benches --bench events`
 

@@ -29,8 +29,8 @@ impl Guess {
     }
 }
 
-/// Steps with `evaluate(q̄, v̄)` giving ∂L/∂v, G and their Jacobians by v̄ (`by_v` of ∂L/∂v and of G, along q̄ =
-/// q0 + h v̄/2).
+/// Steps with `evaluate(q̄, v̄)` giving ∂L/∂v, G and their Jacobians by v̄ (`by_v` of ∂L/∂v and of G, along
+/// q̄ = q0 + h v̄/2).
 #[inline(always)]
 fn run(
     h: f64,

@@ -1,5 +1,5 @@
-//! Prints runs of the systems of the Python package, a record a line, for `python/tests` to hold the package's against: a name, and t, q, v, p
-//! and energy as bits.
+//! Prints runs of the systems of the Python package, a record a line, for `python/tests` to hold the
+//! package's against: a name, and t, q, v, p and energy as bits.
 
 use dalembert::run::DrivenTrajectory;
 use dalembert::step::{Flow, MethodOf};

@@ -47,8 +47,8 @@
 /// | `at_time: CartAtTime` | where they take the time and no input |
 /// | `parameters: 1` | how many parameters the attribute lists: the linearised step has derivatives by them. May be left out |
 ///
-/// It makes a module of the prefix's name with the functions, which C calls and Rust cannot do without `unsafe`, and
-/// `HEADER`, which is written by `HEADER.to_string()`.
+/// It makes a module of the prefix's name with the functions, which C calls and Rust cannot do without
+/// `unsafe`, and `HEADER`, which is written by `HEADER.to_string()`.
 #[macro_export]
 macro_rules! c_api {
     ($prefix:ident: $system:ident, coordinates: $n:literal, rule: $rule:ty, driven: $view:ident, inputs: $inputs:literal, time
@@ -75,8 +75,8 @@ macro_rules! c_api {
         #[doc = concat!("The C functions of [`", stringify!($system), "`], `", stringify!($prefix), "_init` and so on; [`HEADER`](", stringify!($prefix), "::HEADER) declares them.")]
         ///
         /// # Safety
-        /// What the header asks of its caller: an address that is not NULL is that of an object of the type declared,
-        /// which no other thread uses meanwhile.
+        /// What the header asks of its caller: an address that is not NULL is that of an object of the type
+        /// declared, which no other thread uses meanwhile.
         #[allow(unsafe_code, clippy::missing_safety_doc, clippy::too_many_arguments)]
         pub mod $prefix {
             use super::*;

@@ -1,9 +1,9 @@
 //! The way between C's pointers and Rust's references: all `unsafe` of the crate.
 //!
-//! C passes addresses. Each is held against what can be seen of it, NULL and alignment, and what it points at is
-//! copied or, for the caller's memory, borrowed for one call after its signature has been found there. What cannot
-//! be seen stays the caller's to promise, and the header says so: an address that is not NULL is that of an
-//! object of the type declared, and no two threads use one memory at a time.
+//! C passes addresses. Each is held against what can be seen of it, NULL and alignment, and what it points at
+//! is copied or, for the caller's memory, borrowed for one call after its signature has been found there.
+//! What cannot be seen stays the caller's to promise, and the header says so: an address that is not NULL is
+//! that of an object of the type declared, and no two threads use one memory at a time.
 
 #![allow(unsafe_code)]
 
@@ -20,8 +20,8 @@ unsafe extern "C" {
     pub safe fn a_panic_is_left_in_the_program() -> !;
 }
 
-/// Types every pattern of bits of which is a value, without padding that is read: numbers, arrays of them, and
-/// structs of such fields as [`parameters!`](crate::parameters) declares.
+/// Types every pattern of bits of which is a value, without padding that is read: numbers, arrays of them,
+/// and structs of such fields as [`parameters!`](crate::parameters) declares.
 ///
 /// # Safety
 /// Every initialised pattern of bits is a value of the type.
@@ -141,16 +141,17 @@ pub unsafe fn place<T: 'static>(memory: *mut Held<T>, signature: u64, value: T) 
     Ok(())
 }
 
-/// Does `with` what [`place`] has placed into `memory` under `signature`, all of it or nothing: where `with` fails, every
-/// byte is put back as it was.
+/// Does `with` what [`place`] has placed into `memory` under `signature`, all of it or nothing: where `with`
+/// fails, every byte is put back as it was.
 ///
 /// # Errors
-/// [`Status::NullPointer`], [`Status::Misaligned`], [`Status::NotInitialised`] where another signature stands there, and
-/// those of `with`.
+/// [`Status::NullPointer`], [`Status::Misaligned`], [`Status::NotInitialised`] where another signature stands
+/// there, and those of `with`.
 ///
 /// # Safety
-/// An address that is neither NULL nor misaligned is that of a memory of this type, which nobody uses meanwhile;
-/// its bytes are of one [`place`], moved as a whole or not at all, or do not begin with `signature`.
+/// An address that is neither NULL nor misaligned is that of a memory of this type, which nobody uses
+/// meanwhile; its bytes are of one [`place`], moved as a whole or not at all, or do not begin with
+/// `signature`.
 pub unsafe fn change<T: 'static, R>(
     memory: *mut Held<T>,
     signature: u64,
@@ -159,7 +160,8 @@ pub unsafe fn change<T: 'static, R>(
     let all_or_nothing = |held: &mut T| {
         let held = core::ptr::from_mut(held);
         let mut before = MaybeUninit::<T>::uninit();
-        // SAFETY: both are size_of::<T>() bytes, and `before` is nobody else's. As bytes, so that padding is copied too.
+        // SAFETY: both are size_of::<T>() bytes, and `before` is nobody else's. As bytes, so that padding is
+        // copied too.
         unsafe { copy_nonoverlapping(held.cast::<u8>(), before.as_mut_ptr().cast::<u8>(), size_of::<T>()) };
         // SAFETY: the T that was borrowed.
         let done = with(unsafe { &mut *held });
@@ -188,8 +190,8 @@ pub unsafe fn advance<T: 'static, R>(
 ) -> Result<R, Status> {
     // SAFETY: the same promise.
     unsafe { signed(memory, signature) }?;
-    // SAFETY: the signature is written by `place` alone, together with a T, which the caller alone could have changed.
-    // The borrow ends with `with`.
+    // SAFETY: the signature is written by `place` alone, together with a T, which the caller alone could have
+    // changed. The borrow ends with `with`.
     with(unsafe { (*memory).held.assume_init_mut() })
 }
 
@@ -207,8 +209,8 @@ pub unsafe fn look<T: 'static, R>(
 ) -> Result<R, Status> {
     // SAFETY: the same promise.
     unsafe { signed(memory, signature) }?;
-    // SAFETY: the signature is written by `place` alone, together with a T, which the caller alone could have changed.
-    // The borrow ends with this call.
+    // SAFETY: the signature is written by `place` alone, together with a T, which the caller alone could have
+    // changed. The borrow ends with this call.
     of(unsafe { (*memory).held.assume_init_ref() })
 }
 
@@ -218,8 +220,8 @@ pub unsafe fn look<T: 'static, R>(
 /// An address that is neither NULL nor misaligned is that of 8 bytes that nobody writes meanwhile.
 unsafe fn signed<T>(memory: *const Held<T>, signature: u64) -> Result<(), Status> {
     seen(memory)?;
-    // SAFETY: not NULL, aligned, and by the promise above readable. Volatile: no compiler reasons about what a caller that
-    // never initialised it has there.
+    // SAFETY: not NULL, aligned, and by the promise above readable. Volatile: no compiler reasons about what
+    // a caller that never initialised it has there.
     let found = unsafe { (&raw const (*memory).signature).read_volatile() };
     if found == signature { Ok(()) } else { Err(refused(Status::NotInitialised)) }
 }

@@ -1,7 +1,7 @@
 //! The step of a system in C: the functions, and the header that declares them.
 //!
-//! In a crate of its own, `crate-type = ["staticlib"]`, [`parameters!`] declares the struct of the system's fields and
-//! [`c_api!`] names the system, its rule and a prefix. C gets
+//! In a crate of its own, `crate-type = ["staticlib"]`, [`parameters!`] declares the struct of the system's
+//! fields and [`c_api!`] names the system, its rule and a prefix. C gets
 //!
 //! | function | what it does |
 //! |---|---|
@@ -13,19 +13,20 @@
 //! | `p_set_state`, `p_set_parameters`, `p_set_step_size` | go on from there |
 //! | `p_text(status)` | what happened and what to do |
 //!
-//! u is there where the force takes an input, t where L, R or f take the time. The chapter *In C* of `docs/embedding.md` is a
-//! control loop from the model to the numbers, and `examples/c/` the template.
+//! u is there where the force takes an input, t where L, R or f take the time. The chapter *In C* of
+//! `docs/embedding.md` is a control loop from the model to the numbers, and `examples/c/` the template.
 //!
-//! On a microcontroller, without the feature `std`, [`no_panic!`] makes the linker prove that no call panics; `examples/firmware-c/`
-//! is the template.
+//! On a microcontroller, without the feature `std`, [`no_panic!`] makes the linker prove that no call panics;
+//! `examples/firmware-c/` is the template.
 //!
 //! The memory is the caller's: a static or a local variable of the type that the header declares. There is no
-//! allocation, no global state and no thread. A call that returns anything but `DALEMBERT_OK` has changed nothing, byte
-//! for byte. NULL, misaligned addresses, memory of another system or of none, layouts of another build and numbers that are NaN
-//! are refused. What cannot be seen of an address the header asks its caller to promise.
+//! allocation, no global state and no thread. A call that returns anything but `DALEMBERT_OK` has changed
+//! nothing, byte for byte. NULL, misaligned addresses, memory of another system or of none, layouts of
+//! another build and numbers that are NaN are refused. What cannot be seen of an address the header asks its
+//! caller to promise.
 //!
-//! Events are not passed on: a function of C's that is called from within the search for a root could not be held to these
-//! promises. Between steps `p_state_after` is what one would look for it with.
+//! Events are not passed on: a function of C's that is called from within the search for a root could not be
+//! held to these promises. Between steps `p_state_after` is what one would look for it with.
 
 #![no_std]
 

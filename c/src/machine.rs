@@ -27,7 +27,8 @@ impl<V: Linearizable<M, N>, M, const N: usize> Stepped<M, N> for V {}
 /// That a system is [`Stepped`], as a type: said before anything that follows from its not being so.
 pub struct Checked<V: Stepped<M, N>, M, const N: usize>(PhantomData<fn() -> (V, M)>);
 
-/// A system as C sees it: what [`c_api!`](crate::c_api) states once, so that the functions are the same for all.
+/// A system as C sees it: what [`c_api!`](crate::c_api) states once, so that the functions are the same for
+/// all.
 pub trait Interface<const N: usize>: Sized + 'static {
     /// The signature that a memory of this system begins with: [`layout`](crate::layout).
     const SIGNATURE: u64;
@@ -62,7 +63,8 @@ pub trait Interface<const N: usize>: Sized + 'static {
         taken: &StepTaken<'_, Self::View<'_>, Self::Rule, N>,
     ) -> Result<Self::Linearized, StepError>;
 
-    /// A, B and the derivatives by parameters, one row of (q1, p1) after the other; none where there are none.
+    /// A, B and the derivatives by parameters, one row of (q1, p1) after the other; none where there are
+    /// none.
     fn rows(linearized: &Self::Linearized) -> [&[Self::Scalar]; 3];
 }
 

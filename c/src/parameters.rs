@@ -121,8 +121,8 @@ pub struct Field {
     pub offset: usize,
 }
 
-/// A system that knows its fields by name and number: a struct that [`fields!`](crate::fields) declares, for whoever fills
-/// them in.
+/// A system that knows its fields by name and number: a struct that [`fields!`](crate::fields) declares, for
+/// whoever fills them in.
 pub trait Fields: Copy + 'static {
     /// The documentation of the struct, a line each.
     const DOCUMENTATION: &'static [&'static str];
@@ -152,8 +152,8 @@ impl<P: Fields + Plain> CParameters for P {}
 
 /// Declares the struct of a system whose fields C is to fill in, and lays it out as C does.
 ///
-/// Fields are numbers (`f64`, `f32`, `i8` … `u64`) or arrays of them, of one or two dimensions; their documentation
-/// goes into the header. There is at least one, as C has no empty struct.
+/// Fields are numbers (`f64`, `f32`, `i8` … `u64`) or arrays of them, of one or two dimensions; their
+/// documentation goes into the header. There is at least one, as C has no empty struct.
 ///
 /// ```
 /// dalembert_c::parameters! {
@@ -183,8 +183,8 @@ macro_rules! parameters {
     };
 }
 
-/// Declares the struct of a system as [`parameters!`](crate::parameters) does, for languages that fill it in by name: with no
-/// word about its bytes, and maybe without a field.
+/// Declares the struct of a system as [`parameters!`](crate::parameters) does, for languages that fill it in
+/// by name: with no word about its bytes, and maybe without a field.
 #[macro_export]
 macro_rules! fields {
     (
@@ -234,8 +234,8 @@ impl fmt::Display for Field {
     }
 }
 
-/// A number that stands for the layout of memory and parameters: FNV-1a over names, types and offsets, the method
-/// and the version of the library. Header and library of different builds differ in it.
+/// A number that stands for the layout of memory and parameters: FNV-1a over names, types and offsets, the
+/// method and the version of the library. Header and library of different builds differ in it.
 #[must_use]
 pub const fn layout(fields: &[Field], words: &[&str], sizes: &[usize]) -> u64 {
     let mut hash = 0xcbf2_9ce4_8422_2325;

@@ -1,6 +1,7 @@
 //! What C and C++ compilers make of the headers, and that programs in C have the bits of the run in Rust.
 //!
-//! gcc has to be there; clang and valgrind are used where they are, and where the variable CI is set they have to be.
+//! gcc has to be there; clang and valgrind are used where they are, and where the variable CI is set they
+//! have to be.
 
 #[allow(dead_code)]
 mod systems;

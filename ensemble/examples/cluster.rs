@@ -6,8 +6,8 @@
 //! sbatch --array=0-3 ensemble/examples/cluster.sbatch cloud/
 //! ```
 //!
-//! A cloud of 262 144 satellites of one orbit of eccentricity 0.1, scattered by an error in the velocity of a thousandth,
-//! with thin drag: where they are after 10 revolutions.
+//! A cloud of 262 144 satellites of one orbit of eccentricity 0.1, scattered by an error in the velocity of a
+//! thousandth, with thin drag: where they are after 10 revolutions.
 
 use std::ops::{ControlFlow, Range};
 use std::path::PathBuf;

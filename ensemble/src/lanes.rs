@@ -29,7 +29,8 @@ impl<M, S> InLanes<M, S> {
 
 /// Work that is compiled for several instruction sets.
 trait Versioned {
-    /// Does it, in a set that `MOST` members at a time keep the registers of full; returns `MOST`. To be inlined.
+    /// Does it, in a set that `MOST` members at a time keep the registers of full; returns `MOST`. To be
+    /// inlined.
     fn work<const MOST: usize>(self) -> usize;
 }
 

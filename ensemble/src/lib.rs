@@ -46,12 +46,13 @@
 //! **A member that fails** stands in the result as a [`Failure`], with its error and its last good state; the
 //! others go on.
 //!
-//! **Lanes.** A system whose attribute says `lanes = explicit`, `lanes = midpoint`, or `lanes = gauss` for Gauss rules, is stepped
-//! many members at a time by [`in_lanes`](Study::in_lanes), in the widest instructions of the machine, chosen when the program runs.
-//! Products and sums are rounded as they are alone: that changes no bit either. The lane of a member that is
-//! done is given to the next.
+//! **Lanes.** A system whose attribute says `lanes = explicit`, `lanes = midpoint`, or `lanes = gauss` for
+//! Gauss rules, is stepped many members at a time by [`in_lanes`](Study::in_lanes), in the widest
+//! instructions of the machine, chosen when the program runs. Products and sums are rounded as they are
+//! alone: that changes no bit either. The lane of a member that is done is given to the next.
 //!
-//! **Inputs and time.** A view is a member as well, in lanes too; each member has an input and a time of its own:
+//! **Inputs and time.** A view is a member as well, in lanes too; each member has an input and a time of its
+//! own:
 //!
 //! ```
 //! use dalembert::{Splitting, State, rayleigh_system};

@@ -39,8 +39,8 @@ pub enum MemberError {
     Step(StepError),
     /// No method was chosen for the error asked for, or no run that was tried keeps it.
     Tolerance(ToleranceError),
-    /// The error expected has passed the one asked for on the way: of a [`Stepping`](crate::Stepping) of one's own
-    /// that tries one run.
+    /// The error expected has passed the one asked for on the way: of a [`Stepping`](crate::Stepping) of
+    /// one's own that tries one run.
     Breach(Breach),
 }
 

@@ -59,8 +59,8 @@ impl<F> Ensemble<F> {
 
     /// All members to the error `tolerance`, in units of q, until `time`: each by the method and step size
     /// that keep it, found by one run or more with a guard
-    /// ([`TimedRequest::end`](dalembert::tolerance::TimedRequest::end)). The end alone is recorded. A member whose
-    /// error no run that was tried has kept is a [`Failure`].
+    /// ([`TimedRequest::end`](dalembert::tolerance::TimedRequest::end)). The end alone is recorded. A member
+    /// whose error no run that was tried has kept is a [`Failure`].
     pub fn to_error<'f, L, const N: usize>(self, tolerance: f64, time: f64) -> Study<'f, F, ToError, L, N>
     where
         F: Fn(u64) -> Result<(L, State<L::Scalar, N>), StepError> + Sync,
@@ -133,8 +133,8 @@ impl<F, M, L: Lagrangian<N>, const N: usize> Study<'_, F, OneByOne<M, L::Scalar>
 
 impl<F, L: Lagrangian<N>, const S: usize, const N: usize> Study<'_, F, OneByOne<Gauss<S>, L::Scalar>, L, N> {
     /// The stages are solved no further than an error of `error`, in units of q, at the last step asks for:
-    /// [`Trajectory::solved_for`](dalembert::Trajectory::solved_for) of each member, which says what that costs of
-    /// structure. Half the sweeps at three digits, two thirds at eight.
+    /// [`Trajectory::solved_for`](dalembert::Trajectory::solved_for) of each member, which says what that
+    /// costs of structure. Half the sweeps at three digits, two thirds at eight.
     ///
     /// ```
     /// use dalembert::{Gauss, State, rayleigh_system};
@@ -209,8 +209,8 @@ where
         self
     }
 
-    /// Cancels when another thread sets `flag`: sooner than the progress callback can, after the members that threads have in
-    /// hand, 64 each at first. What they came to is not counted.
+    /// Cancels when another thread sets `flag`: sooner than the progress callback can, after the members that
+    /// threads have in hand, 64 each at first. What they came to is not counted.
     ///
     /// ```
     /// use std::sync::atomic::{AtomicBool, Ordering};
@@ -341,8 +341,8 @@ where
         )
     }
 
-    /// As [`reduce`](Self::reduce), but what is kept of a chunk's members is put together where they were stepped, and
-    /// added to the total as one.
+    /// As [`reduce`](Self::reduce), but what is kept of a chunk's members is put together where they were
+    /// stepped, and added to the total as one.
     pub(crate) fn reduce_chunks<V, C: Send, A>(
         &self,
         numbers: Range<u64>,

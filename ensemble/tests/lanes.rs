@@ -85,7 +85,8 @@ fn lanes_change_no_bit_of_any_member() {
             .filter(|(_, kept, failure)| failure == "None" && kept.last().is_some_and(|last| last[0] < steps))
             .count();
     }
-    // Starts that are none, numbers that are none, motions to infinity, members that have left: all were there.
+    // Starts that are none, numbers that are none, motions to infinity, members that have left: all were
+    // there.
     assert!(compared == 1111 && failed > 100 && arrived > 50, "{compared} {failed} {arrived}");
 }
 
@@ -179,7 +180,8 @@ fn members_by_the_midpoint_rule_are_their_own_runs() {
     assert_eq!(in_lanes.iter().filter(|end| end.starts_with("Err")).count(), 3);
 }
 
-/// Gauss rules, solved to rounding and for an error: the ends of all members, by their bits, and their failures.
+/// Gauss rules, solved to rounding and for an error: the ends of all members, by their bits, and their
+/// failures.
 #[test]
 fn members_by_gauss_rules_are_their_own_runs() {
     let member = |number: u64| {

@@ -1,7 +1,8 @@
 //! A two-link arm whose tip follows a figure eight under a moving-horizon controller at 1 kHz: every
 //! millisecond one iteration of iterative LQR over the next 0.2 s, with the generated step as its model, from
 //! the state that an extended Kalman filter believes. The encoders give angles alone, and those by a clock of
-//! their own, every 1.3 ms: the filter steps its model to when they were read, and from there to the next period.
+//! their own, every 1.3 ms: the filter steps its model to when they were read, and from there to the next
+//! period.
 //!
 //! SI units. The motion itself is computed by another rule (trapezoidal) with steps of a quarter of a
 //! millisecond; between them the encoders are read.
@@ -86,8 +87,8 @@ impl Arm {
 pub const ARM: Arm = Arm { m: [1.0, 0.8], l: [0.5, 0.4], c: 0.05 };
 /// The period of the controller, s.
 pub const H: f64 = 1e-3;
-/// When the encoders are read first and the time from one reading to the next, s: never at the end of a step of the
-/// plant.
+/// When the encoders are read first and the time from one reading to the next, s: never at the end of a step
+/// of the plant.
 pub const ENCODERS: [f64; 2] = [0.37e-3, 1.3e-3];
 /// Periods of the run.
 pub const PERIODS: usize = 4000;
@@ -293,8 +294,8 @@ impl Run {
     }
 }
 
-/// The estimate some time on, under an input that is held, with what unknown torques add: they change from period to
-/// period, so that their share in the covariance grows with the time.
+/// The estimate some time on, under an input that is held, with what unknown torques add: they change from
+/// period to period, so that their share in the covariance grows with the time.
 fn predicted(estimate: &Estimate<4>, u: &SVector<f64, 2>, elapsed: f64) -> Result<Estimate<4>, StepError> {
     let model = control::linearised::<_, 2, 2, 4>(&ARM.driven(*u), &estimate.x, elapsed)?;
     let noise = model.b * model.b.transpose() * (UNKNOWN.powi(2) * H / elapsed);

@@ -1,6 +1,7 @@
-//! A pendulum against a stop that keeps 85 % of its speed at an impact, with friction in its joint: where its energy
-//! goes. Each impact ends the run at its own time, to rounding, and starts it anew; steps and the parts of steps up to
-//! impacts each have their ledger, and all together close to rounding. All quantities are dimensionless.
+//! A pendulum against a stop that keeps 85 % of its speed at an impact, with friction in its joint: where its
+//! energy goes. Each impact ends the run at its own time, to rounding, and starts it anew; steps and the
+//! parts of steps up to impacts each have their ledger, and all together close to rounding. All quantities
+//! are dimensionless.
 //!
 //! ```text
 //! cargo run --release --example bouncing -- [picture.svg]

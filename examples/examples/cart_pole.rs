@@ -3,8 +3,9 @@
 //! pushes.
 //!
 //! SI units. The motion itself is computed by another rule (trapezoidal) with steps ten times finer than the
-//! controller's. The sensors have a clock of their own, every 7.3 ms: they measure between the plant's steps, and
-//! what the controller knows is up to 7.3 ms old. One step of the model, as long as that, brings it up to date.
+//! controller's. The sensors have a clock of their own, every 7.3 ms: they measure between the plant's steps,
+//! and what the controller knows is up to 7.3 ms old. One step of the model, as long as that, brings it up to
+//! date.
 //!
 //! ```text
 //! cargo run --release --example cart_pole [picture.svg]

@@ -1,5 +1,5 @@
-//! The damped oscillator m q̈ + r q̇ + k q = 0: the variational midpoint rule, explicit Euler and the classical
-//! Runge–Kutta method against the exact solution.
+//! The damped oscillator m q̈ + r q̇ + k q = 0: the variational midpoint rule, explicit Euler and the
+//! classical Runge–Kutta method against the exact solution.
 //!
 //! Position, phase plane and energy as in figure 3 of the paper: explicit Euler is visibly off, and the other
 //! two lie on the curve. Their errors stand beside it: at this step size that of Runge–Kutta 4 is some 150

@@ -1,9 +1,9 @@
-//! Poincaré sections of the Hénon–Heiles system at three energies: where orbits pass the plane x = 0 with ẋ > 0,
-//! in y and its momentum. At 1/12 all lie on curves; at 1/8 a sea of chaos surrounds islands; at 1/6, where the
-//! potential opens, little but the sea is left (M. Hénon and C. Heiles, Astron. J. 69, 1964).
+//! Poincaré sections of the Hénon–Heiles system at three energies: where orbits pass the plane x = 0 with ẋ >
+//! 0, in y and its momentum. At 1/12 all lie on curves; at 1/8 a sea of chaos surrounds islands; at 1/6,
+//! where the potential opens, little but the sea is left (M. Hénon and C. Heiles, Astron. J. 69, 1964).
 //!
-//! 144 000 crossings, each a root of x along the run to rounding. An orbit is chaotic if a tangent carried along it
-//! grows exponentially. All quantities are dimensionless; nothing is random.
+//! 144 000 crossings, each a root of x along the run to rounding. An orbit is chaotic if a tangent carried
+//! along it grows exponentially. All quantities are dimensionless; nothing is random.
 //!
 //! ```text
 //! cargo run --release --example poincare -- [--crossings 1500] [picture.svg]
@@ -33,8 +33,8 @@ pub const ENERGIES: [(&str, f64); 3] = [("1/12", 1.0 / 12.0), ("1/8", 1.0 / 8.0)
 pub const H: f64 = 0.25;
 /// Orbits of each energy.
 pub const ORBITS: usize = 32;
-/// The logarithm of a tangent's growth from which an orbit is chaotic. On a curve the tangent grows as the time, and
-/// its logarithm comes to some 10, next to a separatrix to some 40.
+/// The logarithm of a tangent's growth from which an orbit is chaotic. On a curve the tangent grows as the
+/// time, and its logarithm comes to some 10, next to a separatrix to some 40.
 const GROWTH: f64 = 60.0;
 
 /// What is seen of one orbit.
@@ -98,7 +98,8 @@ fn interval(energy: f64) -> [f64; 2] {
     })
 }
 
-/// The starts of an energy: on the axis p_y = 0, and on y = 0 with p_y of both signs, which the system mirrors.
+/// The starts of an energy: on the axis p_y = 0, and on y = 0 with p_y of both signs, which the system
+/// mirrors.
 pub fn starts(energy: f64) -> Vec<State<f64, 2>> {
     let [low, high] = interval(energy);
     let on_axis = ORBITS / 2;

@@ -3,9 +3,9 @@
 //! tip's height against time, and of the time to settle.
 //!
 //! The controller is a spring to the angles wanted, a damper, and the torque that holds the payload expected:
-//! so it is part of L and R, and the arm ends where the spring holds the payload that it has. Both joints' friction
-//! is lognormal, its logarithm with the standard deviation ln 2; the payload is uniform, 0 to 1 kg. SI units;
-//! the seed is 7, with one stream of random numbers for each arm.
+//! so it is part of L and R, and the arm ends where the spring holds the payload that it has. Both joints'
+//! friction is lognormal, its logarithm with the standard deviation ln 2; the payload is uniform, 0 to 1 kg.
+//! SI units; the seed is 7, with one stream of random numbers for each arm.
 //!
 //! ```text
 //! cargo run --release --example settling -- [--members 20000] [picture.svg]

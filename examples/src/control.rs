@@ -1,6 +1,6 @@
 //! Controllers of the scenes with a closed loop, for states x = (q, p) and a model that gives its step with A
-//! and B: the linear-quadratic regulator, iterative LQR over a horizon, and the extended Kalman filter; and the
-//! clock of a sensor.
+//! and B: the linear-quadratic regulator, iterative LQR over a horizon, and the extended Kalman filter; and
+//! the clock of a sensor.
 
 use anyhow::{Context, Result};
 use dalembert::derivative::Linearization;
@@ -264,7 +264,8 @@ impl<const X: usize> Estimate<X> {
     }
 }
 
-/// A sensor that measures at times of its own, whatever the steps of the plant and the periods of the controller.
+/// A sensor that measures at times of its own, whatever the steps of the plant and the periods of the
+/// controller.
 #[derive(Clone, Copy, Debug)]
 pub struct SensorClock {
     /// The time of the first measurement.

@@ -129,9 +129,9 @@ fn the_functions_and_their_derivatives_are_equal() {
 
 /// How far the states after a step differ, in units of what the solver may leave.
 ///
-/// Newton's method stops where p0 is met to some roundings, 16 · 4ε (|p0| + |J||v̄|) with J = ∂p0/∂v̄. Then v̄
-/// is off by |J⁻¹| times that, on either side, and p1 by |∂p1/∂v̄| times more. Here ∂p1/∂v̄ = 2 − J and |J⁻¹| <
-/// 1.1, as h²/4 ∂²V/∂q² > −0.05.
+/// Newton's method stops where p0 is met to some roundings, 16 · 4ε (|p0| + |J||v̄|) with J = ∂p0/∂v̄. Then
+/// v̄ is off by |J⁻¹| times that, on either side, and p1 by |∂p1/∂v̄| times more. Here ∂p1/∂v̄ = 2 − J and
+/// |J⁻¹| < 1.1, as h²/4 ∂²V/∂q² > −0.05.
 fn of_steps<A, B>(a: &A, b: &B) -> f64
 where
     A: Discrete<Midpoint, 2, Scalar = f64, Matrix = Matrix2<f64>>,

@@ -55,8 +55,8 @@ fn the_arm_keeps_to_its_reference() {
     use arm::{Run, SETTLED, rms};
     let run = Run::new().unwrap();
     assert!(rms(&run.misses[SETTLED..]) < 5e-4);
-    // The model makes velocities of angles: an encoder alone has noise √2 · 0.5 mrad from one reading to the next,
-    // in two joints.
+    // The model makes velocities of angles: an encoder alone has noise √2 · 0.5 mrad from one reading to the
+    // next, in two joints.
     let by_noise = (2.0_f64 * 2.0).sqrt() * 5e-4 / arm::ENCODERS[1];
     assert!((rms(&run.difference_errors[SETTLED..]) / by_noise - 1.0).abs() < 0.05);
     assert!(20.0 * rms(&run.filter_errors[SETTLED..]) < by_noise);

@@ -1,5 +1,5 @@
-//! Prints runs of the template's system in Rust, for `tests/importer.py` to hold an importer's against: a line for each
-//! communication point, of the bits of q, v, p and the energy.
+//! Prints runs of the template's system in Rust, for `tests/importer.py` to hold an importer's against: a
+//! line for each communication point, of the bits of q, v, p and the energy.
 
 #[path = "../../examples/fmu/src/lib.rs"]
 mod template;

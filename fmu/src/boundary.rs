@@ -1,8 +1,8 @@
 //! The way between FMI's pointers and Rust's references: all `unsafe` of the crate.
 //!
-//! The importer promises what FMI asks of it: an instance is NULL or one that [`instantiate`] made and that has not been freed;
-//! an array that is not NULL is of the length given; nobody else uses either during the call. NULL, misaligned arrays and
-//! lengths that no memory has are refused.
+//! The importer promises what FMI asks of it: an instance is NULL or one that [`instantiate`] made and that
+//! has not been freed; an array that is not NULL is of the length given; nobody else uses either during the
+//! call. NULL, misaligned arrays and lengths that no memory has are refused.
 
 #![allow(unsafe_code)]
 
@@ -84,8 +84,8 @@ impl Log {
         };
         let (name, message) = (name.as_ptr(), message.as_ptr());
         match call {
-            // SAFETY: the importer's callback, with the environment that it gave for it; the texts end with a zero byte and
-            // live until the call has returned.
+            // SAFETY: the importer's callback, with the environment that it gave for it; the texts end with a
+            // zero byte and live until the call has returned.
             Call::Three(call) => unsafe { call(self.environment, status, name, message) },
             // SAFETY: as above; the format asks for no arguments.
             Call::Two(call, of) => unsafe { call(self.environment, of.as_ptr(), status, name, message) },
@@ -217,7 +217,8 @@ fn require_array<T>(address: *const T, length: usize, name: &'static str) -> Res
 /// The array at `address`; NULL is an array of nothing.
 ///
 /// # Safety
-/// An address that is neither NULL nor misaligned is that of `length` values that nobody changes while the result is used.
+/// An address that is neither NULL nor misaligned is that of `length` values that nobody changes while the
+/// result is used.
 unsafe fn array<'a, T>(address: *const T, length: usize, name: &'static str) -> Result<&'a [T], Refusal> {
     if length == 0 {
         return Ok(&[]);
@@ -244,8 +245,8 @@ unsafe fn write<T: Copy>(
     if values.len() != length {
         return Err(Refusal::Lengths { asked: values.len(), given: length });
     }
-    // SAFETY: as many values as there is room for by the promise; not NULL and aligned, or none. They are of our own making,
-    // so they do not overlap.
+    // SAFETY: as many values as there is room for by the promise; not NULL and aligned, or none. They are of
+    // our own making, so they do not overlap.
     unsafe { core::ptr::copy_nonoverlapping(values.as_ptr(), address, length) };
     Ok(())
 }

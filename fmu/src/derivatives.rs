@@ -1,13 +1,14 @@
 //! Directional derivatives.
 //!
-//! A communication step is k steps with one input: from A_i, B_i and C_i of each, by state, input and parameters, the
-//! differential (dq, dp) is carried from the beginning of the communication step to its end,
+//! A communication step is k steps with one input: from A_i, B_i and C_i of each, by state, input and
+//! parameters, the differential (dq, dp) is carried from the beginning of the communication step to its end,
 //!
 //! ```text
 //! d ← A_i d + B_i du + C_i dθ.
 //! ```
 //!
-//! At the end dv = ∂v/∂q dq + ∂v/∂p dp, and, as ∂E/∂q = −∂L/∂q and ∂E/∂p = v at constant p and q, dE = v·dp − ∂L/∂q·dq.
+//! At the end dv = ∂v/∂q dq + ∂v/∂p dp, and, as ∂E/∂q = −∂L/∂q and ∂E/∂p = v at constant p and q, dE = v·dp −
+//! ∂L/∂q·dq.
 
 use dalembert::nalgebra::SVector;
 use dalembert::step::PhaseMatrix;

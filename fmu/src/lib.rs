@@ -1,8 +1,9 @@
 //! A system as a functional mock-up unit: FMI 3.0 and 2.0, co-simulation.
 //!
-//! In a crate of its own, `crate-type = ["cdylib", "rlib"]`, [`parameters!`] declares the struct of the system's fields,
-//! [`c_api!`] names the system and its rule, and [`fmu!`] its step size and start. `UNIT.pack("cart_pole.fmu")` writes
-//! the unit; `examples/fmu/` is the template. `UNIT.pack_fmi2` writes one of FMI 2.0.
+//! In a crate of its own, `crate-type = ["cdylib", "rlib"]`, [`parameters!`] declares the struct of the
+//! system's fields, [`c_api!`] names the system and its rule, and [`fmu!`] its step size and start.
+//! `UNIT.pack("cart_pole.fmu")` writes the unit; `examples/fmu/` is the template. `UNIT.pack_fmi2` writes one
+//! of FMI 2.0.
 //!
 //! | variable | what it is |
 //! |---|---|
@@ -15,16 +16,18 @@
 //!
 //! A parameter that changes between steps leaves (q, p), so that momenta are continuous.
 //!
-//! The state of a unit can be read and set, and goes on bit by bit as it would have. Written as bytes it is (q, p), the clock,
-//! inputs and parameters, without what the solver remembers of earlier steps: read back, it goes on within rounding.
+//! The state of a unit can be read and set, and goes on bit by bit as it would have. Written as bytes it is
+//! (q, p), the clock, inputs and parameters, without what the solver remembers of earlier steps: read back,
+//! it goes on within rounding.
 //!
-//! Directional derivatives after a communication step are those of its end: by `u` held over it, by `q` and `p` at
-//! its beginning and by the parameters that `#[rayleigh_system(parameters = […])]` lists, of `q`, `p`, `v` and `energy`. In
-//! initialization mode they are those of `p` and `energy` by `q` and `v`.
+//! Directional derivatives after a communication step are those of its end: by `u` held over it, by `q` and
+//! `p` at its beginning and by the parameters that `#[rayleigh_system(parameters = […])]` lists, of `q`, `p`,
+//! `v` and `energy`. In initialization mode they are those of `p` and `energy` by `q` and `v`.
 //!
-//! A call that fails changes nothing and says why to the importer's log. A communication step that is no multiple of h is
-//! `fmi3Discard`; a step that cannot be solved is `fmi3Error` with the text of its [`StepError`](dalembert::StepError),
-//! and leaves the unit where the communication step began. In FMI 2.0 both are `fmi2Error`. A panic in L, R or f is `fmi3Fatal`.
+//! A call that fails changes nothing and says why to the importer's log. A communication step that is no
+//! multiple of h is `fmi3Discard`; a step that cannot be solved is `fmi3Error` with the text of its
+//! [`StepError`](dalembert::StepError), and leaves the unit where the communication step began. In FMI 2.0
+//! both are `fmi2Error`. A panic in L, R or f is `fmi3Fatal`.
 
 #[doc(hidden)]
 pub use dalembert;
@@ -85,8 +88,9 @@ pub use unit::Unit;
 /// }
 /// ```
 ///
-/// The entries are the module that [`c_api!`] has made, h, the parameters, and the start, each until the importer sets another. A
-/// library holds one unit: FMI names its functions alike in all. A field that has the name of another variable of the unit is refused:
+/// The entries are the module that [`c_api!`] has made, h, the parameters, and the start, each until the
+/// importer sets another. A library holds one unit: FMI names its functions alike in all. A field that has
+/// the name of another variable of the unit is refused:
 ///
 /// ```compile_fail,E0080
 /// # use dalembert::{Midpoint, rayleigh_system};

@@ -12,7 +12,8 @@ use zip::write::SimpleFileOptions;
 use crate::Unit;
 
 impl<I: Interface<N>, const N: usize> Unit<I, N> {
-    /// Writes the unit to `file`, with the library of this crate that Cargo has built beside the running program.
+    /// Writes the unit to `file`, with the library of this crate that Cargo has built beside the running
+    /// program.
     ///
     /// # Errors
     /// Where the library is not there, or `file` cannot be written; the message names either.

@@ -19,8 +19,8 @@ pub struct Unit<I: Interface<N>, const N: usize> {
 const TAKEN: [&str; 7] = ["time", "step_size", "u", "q", "v", "p", "energy"];
 
 impl<I: Interface<N>, const N: usize> Unit<I, N> {
-    /// The unit of a system in the library of this name. It does not compile where a field has the name of another
-    /// variable.
+    /// The unit of a system in the library of this name. It does not compile where a field has the name of
+    /// another variable.
     #[doc(hidden)]
     pub const fn new(
         header: Header,

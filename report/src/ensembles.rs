@@ -286,10 +286,11 @@ impl<'a, const K: usize> InLanesOf<'a, DoublePendulum, 2> for Fused<Gauss<K>> {
     }
 }
 
-/// Of rows of candidates, each row of more steps than the one before, those that may be the cheapest to an error.
+/// Of rows of candidates, each row of more steps than the one before, those that may be the cheapest to an
+/// error.
 ///
-/// A place in the rows is tried until its goal has been reached twice, until more steps no longer lower its error, or
-/// until it takes thrice as long as another with this goal.
+/// A place in the rows is tried until its goal has been reached twice, until more steps no longer lower its
+/// error, or until it takes thrice as long as another with this goal.
 fn worth<'a, const N: usize>(
     rows: impl Iterator<Item = Vec<Goal<'a, N>>>,
     worst: impl Fn(&Ends<N>) -> f64,

@@ -3,8 +3,9 @@
 //!
 //! `cargo speed-against-error` measures and writes `docs/speed-against-error.md`; `… page` writes the page
 //! again from the figures measured last, `… scenes` and `… long-run` measure one part again, `… scenes ring
-//! Kepler` these scenes; `… section` the crossings of a section. `… ensembles`, of many trajectories, is a page of its own. Peers with a Python interface are run where the interpreter that `PYTHON` names has
-//! them.
+//! Kepler` these scenes; `… section` the crossings of a section. `…
+//! ensembles`, of many trajectories, is a page of its own. Peers with a Python interface are run where the interpreter that `PYTHON`
+//! names has them.
 
 mod ensembles;
 mod figures;

@@ -1,6 +1,6 @@
-//! The library of vectors and matrices that states and derivatives are of, [nalgebra](https://docs.rs/nalgebra),
-//! with its [`vector!`] and [`matrix!`]: those of nalgebra itself name a crate `nalgebra`, which a crate that depends
-//! on dalembert alone has not.
+//! The library of vectors and matrices that states and derivatives are of,
+//! [nalgebra](https://docs.rs/nalgebra), with its [`vector!`] and [`matrix!`]: those of nalgebra itself name
+//! a crate `nalgebra`, which a crate that depends on dalembert alone has not.
 //!
 //! ```
 //! use dalembert::nalgebra::{Matrix2, Vector3, matrix, vector};

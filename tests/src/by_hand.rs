@@ -87,8 +87,8 @@ impl<S: ByHand<N>, const N: usize> TwoPoints<N> for Continuous<'_, S> {
 pub enum Rule {
     /// L_d = h L(q̄, v̄), R_d = (h²/2) R(q̄, v̄), f_d^± = (h/2) f(q̄, v̄).
     Midpoint,
-    /// L_d = (h/2)(L(q0, v̄) + L(q1, v̄)), R_d = (h²/4)(R(q0, v̄) + R(q1, v̄)), f_d⁻ = (h/2) f(q0, v̄), f_d⁺ =
-    /// (h/2) f(q1, v̄).
+    /// L_d = (h/2)(L(q0, v̄) + L(q1, v̄)), R_d = (h²/4)(R(q0, v̄) + R(q1, v̄)), f_d⁻ = (h/2) f(q0, v̄), f_d⁺
+    /// = (h/2) f(q1, v̄).
     Trapezoidal,
 }
 

@@ -95,7 +95,8 @@ fn the_end_asked_for_is_one_whose_error_was_kept() {
             runs += tried;
         }
     }
-    // Where nothing is smooth no step is short enough; elsewhere an end is found, as a rule by the second run.
+    // Where nothing is smooth no step is short enough; elsewhere an end is found, as a rule by the second
+    // run.
     assert!(without * 20 <= asked, "{without} of {asked}");
     assert!(runs <= 2 * asked as u32, "{runs} runs for {asked}");
     // Positive control: the first choice alone would have passed many errors.

@@ -5,9 +5,9 @@
 //! ∂L/∂vᵢ = P_i · (cos qᵢ, sin qᵢ),   ∂L/∂qᵢ = vᵢ P_i · (−sin qᵢ, cos qᵢ) − μᵢ g l sin qᵢ
 //! ```
 //!
-//! Varying v̄ᵢ as the step's equation does moves vᵢ (cos qᵢ, sin qᵢ) along x⁻ = (cos + a v sin, sin − a v cos)
-//! and x⁺ = (cos − a v sin, sin + a v cos), a = h/2: the Newton matrix is l² μ_max(i,j) x⁻ᵢ · x⁺ⱼ, what the
-//! diagonal adds, and the friction.
+//! Varying v̄ᵢ as the step's equation does moves vᵢ (cos qᵢ, sin qᵢ) along x⁻ = (cos + a v sin, sin − a v
+//! cos) and x⁺ = (cos − a v sin, sin + a v cos), a = h/2: the Newton matrix is l² μ_max(i,j) x⁻ᵢ · x⁺ⱼ, what
+//! the diagonal adds, and the friction.
 
 use dalembert::nalgebra::{SMatrix, SVector};
 use dalembert::run::KeptMatrix;

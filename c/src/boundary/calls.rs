@@ -1,7 +1,8 @@
 //! The functions of C, for every system: addresses in, a status out.
 //!
-//! In all of them the caller promises what the header asks: an address that is neither NULL nor misaligned is that of an
-//! object of the type declared; the objects of a call do not overlap; nobody else uses them meanwhile.
+//! In all of them the caller promises what the header asks: an address that is neither NULL nor misaligned is
+//! that of an object of the type declared; the objects of a call do not overlap; nobody else uses them
+//! meanwhile.
 
 use dalembert::run::DrivenTrajectory;
 use dalembert::step::{Flow, Report};
@@ -41,8 +42,8 @@ pub unsafe fn init<I: Interface<N>, const N: usize>(
     begin().into()
 }
 
-/// Writes how a step of `run` went, unless nobody asks: the time is a product in double precision, which costs where that is
-/// software.
+/// Writes how a step of `run` went, unless nobody asks: the time is a product in double precision, which
+/// costs where that is software.
 ///
 /// # Errors
 /// Those of [`write`].

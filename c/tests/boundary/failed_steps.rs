@@ -1,4 +1,5 @@
-//! A step that fails has written nothing, whatever its method remembers: no copy of the memory is kept to be put back.
+//! A step that fails has written nothing, whatever its method remembers: no copy of the memory is kept to be
+//! put back.
 
 use core::mem::MaybeUninit;
 use core::ptr::null_mut;
@@ -66,7 +67,8 @@ macro_rules! failures_by {
             assert_eq!(started, Status::Ok);
             let mut counts = [0; 2];
             for i in 0..30 {
-                // From another state now and then, the first step among them; some lie beyond any root or number.
+                // From another state now and then, the first step among them; some lie beyond any root or
+                // number.
                 if random.random_bool(0.4) {
                     let largest = if random.random_bool(0.5) { 1.0 } else { 300.0 };
                     let size = 10_f64.powf(random.random_range(0.0..largest));

@@ -1,4 +1,5 @@
-//! Random sequences of calls, right and wrong, against the run in Rust: every status foreseen, every state bit by bit.
+//! Random sequences of calls, right and wrong, against the run in Rust: every status foreseen, every state
+//! bit by bit.
 
 use core::ptr::null_mut;
 

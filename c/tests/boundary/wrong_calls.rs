@@ -1,4 +1,5 @@
-//! Each wrong call is refused by the status that says why, and changes no byte; the right call beside it is not.
+//! Each wrong call is refused by the status that says why, and changes no byte; the right call beside it is
+//! not.
 
 use core::mem::MaybeUninit;
 use core::ptr::{null, null_mut};

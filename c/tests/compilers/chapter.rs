@@ -1,5 +1,5 @@
-//! The chapters on C and on the browser of `docs/embedding.md` show the code of their templates. `cargo xtask`
-//! follows their commands: `page c`, `firmware`, `page browser`.
+//! The chapters on C and on the browser of `docs/embedding.md` show the code of their templates.
+//! `cargo xtask` follows their commands: `page c`, `firmware`, `page browser`.
 
 use std::fs;
 use std::path::Path;

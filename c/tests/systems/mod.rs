@@ -1,4 +1,5 @@
-//! Systems of every kind that C can be given: with and without input and time, in `f64` and `f32`, by three rules.
+//! Systems of every kind that C can be given: with and without input and time, in `f64` and `f32`, by three
+//! rules.
 
 #[path = "../../../examples/c/src/lib.rs"]
 mod template;

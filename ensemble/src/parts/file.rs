@@ -47,8 +47,8 @@ pub(super) fn require_apart(folder: &Path, planned: &[Range<u64>]) -> Result<(),
     Ok(())
 }
 
-/// Removes what a process that was killed between writing one of these parts and renaming it has left. It does
-/// no harm if that fails.
+/// Removes what a process that was killed between writing one of these parts and renaming it has left. It
+/// does no harm if that fails.
 pub(super) fn remove_leftovers(folder: &Path, planned: &[Range<u64>]) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name();

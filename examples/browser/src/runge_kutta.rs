@@ -1,5 +1,5 @@
-//! The classical Runge–Kutta method of order 4, beside which the page shows the rules. It knows nothing of L and R but
-//! the equations of motion:
+//! The classical Runge–Kutta method of order 4, beside which the page shows the rules. It knows nothing of L
+//! and R but the equations of motion:
 //!
 //! ```text
 //! q̇ = v,   (∂²L/∂v²) v̇ = ∂L/∂q − (∂²L/∂v∂q) v − ∂R/∂v
@@ -11,7 +11,8 @@ use dalembert::nalgebra::SMatrix;
 /// The columns q and v.
 pub type Motion<const N: usize> = SMatrix<f64, N, 2>;
 
-/// Where a step of size `h` leads; not finite where the mass matrix is singular or the motion leaves the numbers.
+/// Where a step of size `h` leads; not finite where the mass matrix is singular or the motion leaves the
+/// numbers.
 pub fn runge_kutta_4<L: Rayleigh<N, Scalar = f64>, const N: usize>(
     system: &L,
     h: f64,

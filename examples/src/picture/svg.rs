@@ -1,5 +1,5 @@
-//! What plotters cannot say in SVG: dashes, and images of another resolution than the drawing; and what it says
-//! needlessly.
+//! What plotters cannot say in SVG: dashes, and images of another resolution than the drawing; and what it
+//! says needlessly.
 
 use plotters::style::{Color, RGBColor, ShapeStyle};
 

@@ -1,6 +1,7 @@
 //! What a step costs through the functions of C, beside the same step in Rust.
 
-/// Most instructions of a step in C, in percent of those in Rust; at opt-level s the step is inlined less in C.
+/// Most instructions of a step in C, in percent of those in Rust; at opt-level s the step is inlined less in
+/// C.
 fn most(level: &str) -> u32 {
     if level == "3" { 103 } else { 110 }
 }

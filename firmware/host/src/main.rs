@@ -67,7 +67,8 @@ fn other_bits(name: &str, bits: &str, expected: &HashMap<&str, u64>) -> Option<S
     (own != bits).then(|| format!("{name}: bits {bits}, on the host {own}"))
 }
 
-/// What is wrong with a line of the report; nothing if it holds. `in_rust` is the mean of a scene's steps in Rust.
+/// What is wrong with a line of the report; nothing if it holds. `in_rust` is the mean of a scene's steps in
+/// Rust.
 fn mistake(
     words: &[&str],
     machine: &str,

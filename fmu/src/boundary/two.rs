@@ -1,7 +1,7 @@
 //! The functions of FMI 2.0, co-simulation, over the same instances.
 //!
-//! In all of them the importer promises what FMI asks, as said in [`boundary`](super). Real variables are those of `f64` and
-//! `f32`, Integer ones those of the integers that fit.
+//! In all of them the importer promises what FMI asks, as said in [`boundary`](super). Real variables are
+//! those of `f64` and `f32`, Integer ones those of the integers that fit.
 
 #![allow(non_snake_case, clippy::missing_safety_doc, clippy::too_many_arguments)]
 

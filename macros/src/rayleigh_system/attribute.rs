@@ -1,6 +1,6 @@
 //! The options of the attribute: `rule = midpoint`, `rule = [midpoint, trapezoidal]`, `derivatives =
-//! expanded`, `parameters = [m, c[0]]`, `step_derivatives = second`, `lanes = [explicit, gauss]`, `multiply_add =
-//! fused`, `crate = mechanics`.
+//! expanded`, `parameters = [m, c[0]]`, `step_derivatives = second`, `lanes = [explicit,
+//! gauss]`, `multiply_add = fused`, `crate = mechanics`.
 
 use proc_macro2::TokenStream;
 use syn::ext::IdentExt;

@@ -97,7 +97,8 @@ pub fn over_duals(graph: &Graph, scalar: &Ident, outputs: &[Node], taken: &[&str
     written(graph, scalar, outputs, taken, false, Kind::Duals)
 }
 
-/// Code of sweeps: sine and cosine are `angles[0].sin_cos(q[0])`, and these reciprocals `reciprocals[0].of(x)`.
+/// Code of sweeps: sine and cosine are `angles[0].sin_cos(q[0])`, and these reciprocals
+/// `reciprocals[0].of(x)`.
 #[derive(Clone, Copy)]
 pub struct Anchored<'l>(pub &'l [Node]);
 

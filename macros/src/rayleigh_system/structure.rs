@@ -168,8 +168,8 @@ pub fn findings(graph: &Graph, system: &System<'_>, n: usize, terms: &Terms<'_>)
         // A function of M⁻¹C is full, unless both are diagonal.
         let is_fitted = rule.joint().is_some_and(|joint| joint.is_fitted);
         let bandwidth = if is_fitted && bandwidth > 0 { n - 1 } else { bandwidth };
-        // The force at a point has nothing but q, the input, the time and fields in it, what v adds to the momenta
-        // nothing but v and fields.
+        // The force at a point has nothing but q, the input, the time and fields in it, what v adds to the
+        // momenta nothing but v and fields.
         let is_apart = |entry: Node, by_velocity: bool| {
             !contains(graph, entry, |operation| match operation {
                 Operation::Coordinate(_) => by_velocity,

@@ -21,7 +21,8 @@ impl Expressions {
         Self { graph, q }
     }
 
-    /// Sums, differences, products and signs of what is there, often of the same; some of the last are outputs.
+    /// Sums, differences, products and signs of what is there, often of the same; some of the last are
+    /// outputs.
     fn random(&mut self, random: &mut Random, count: usize) -> Vec<Node> {
         let mut all = self.q.to_vec();
         for _ in 0..count {

@@ -320,8 +320,8 @@ fn bead_in_lanes() {
     assert_snapshot("bead_in_lanes.rs", &formatted(expansion));
 }
 
-/// The time of each member beside its fields: read by the force of an explicit step, by the rates of a stage, and
-/// handed to what corrects where the mass holds it.
+/// The time of each member beside its fields: read by the force of an explicit step, by the rates of a stage,
+/// and handed to what corrects where the mass holds it.
 #[test]
 fn members_with_a_time() {
     let written = |options, item| {

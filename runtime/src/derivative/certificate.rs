@@ -9,14 +9,14 @@ use crate::step::{Discrete, Discretised, EquationAt, State, Step, StepError};
 /// Condition, remaining correction and branch of a step, by its Newton matrix ∂p0/∂v̄; see
 /// [`Discretised::certificate`](crate::Discretised::certificate).
 ///
-/// **When to worry.** The step finds v̄ from p0, and rounding of p0 reaches v̄ enlarged by up to the condition
-/// number: with `condition` = 10^d some d of the digits of v̄ may be lost, out of 16 in `f64` and 7 in `f32`.
-/// Up to 1/√ε (7e7 in `f64`, 3e3 in `f32`) at least half of them are left: nothing to do. Above, look for a
-/// fold close by (step size, negative damping), for a mass that is nearly singular, or for stiffness far
-/// beyond the step, where only some directions lose digits; a shorter step tells them apart: it brings
-/// the condition down to that of the mass matrix. From 1/ε on (5e15, 8e6) no digit is sure, and a step is
-/// liable to end with [`StepError::SingularNewtonMatrix`]. With one coordinate there is nothing to compare:
-/// the number is 1, also near a fold.
+/// **When to worry.** The step finds v̄ from p0, and rounding of p0 reaches v̄ enlarged by up to the
+/// condition number: with `condition` = 10^d some d of the digits of v̄ may be lost, out of 16 in `f64` and 7
+/// in `f32`. Up to 1/√ε (7e7 in `f64`, 3e3 in `f32`) at least half of them are left: nothing to do. Above,
+/// look for a fold close by (step size, negative damping), for a mass that is nearly singular, or for
+/// stiffness far beyond the step, where only some directions lose digits; a shorter step tells them apart: it
+/// brings the condition down to that of the mass matrix. From 1/ε on (5e15, 8e6) no digit is sure, and a step
+/// is liable to end with [`StepError::SingularNewtonMatrix`]. With one coordinate there is nothing to
+/// compare: the number is 1, also near a fold.
 ///
 /// For [`Gauss`](crate::Gauss) it is the matrix with the stages eliminated, not that of all stages which its
 /// solver factors: the same question of p0 and v̄.

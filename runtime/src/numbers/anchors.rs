@@ -32,10 +32,10 @@ macro_rules! anchors {
             /// cos x = cos x₀ − (sin x₀ sin δ + cos x₀ (1 − cos δ))
             /// ```
             ///
-            /// within 2 ε (|sin x| + |δ|), and the like of the cosine: next to a zero of the sine no worse than
-            /// what rounding has made of x, the sum of x₀ and changes as large as δ. Angles farther off, and
-            /// those of `f32`, have the sine and cosine of [`sin_cos`](crate::generated::Lanes::sin_cos), and
-            /// the next start from there.
+            /// within 2 ε (|sin x| + |δ|), and the like of the cosine: next to a zero of the sine no worse
+            /// than what rounding has made of x, the sum of x₀ and changes as large as δ. Angles farther off,
+            /// and those of `f32`, have the sine and cosine of [`sin_cos`](crate::generated::Lanes::sin_cos),
+            /// and the next start from there.
             #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn sin_cos(&mut self, x: $numbers<T, K>) -> ($numbers<T, K>, $numbers<T, K>) {

@@ -84,8 +84,9 @@ macro_rules! elementary {
     ($($(#[$doc:meta])* $name:ident($($argument:ident: $type:tt),*))*) => {
         /// The elementary functions of the scalar types, under the names of the standard library.
         ///
-        /// With `std`, methods of `f64` and `f32` come before those of a trait, and `x.sin()` is the standard library's. Without,
-        /// import this trait and `x.sin()` is here. `Elementary::sin(x)` is the one that generated systems evaluate, in any case.
+        /// With `std`, methods of `f64` and `f32` come before those of a trait, and `x.sin()` is the standard
+        /// library's. Without, import this trait and `x.sin()` is here. `Elementary::sin(x)` is the one that
+        /// generated systems evaluate, in any case.
         pub trait Elementary: Scalar {
             $(
                 $(#[$doc])*

@@ -56,7 +56,8 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
         self
     }
 
-    /// self × factor + term, rounded once where that is asked for and where the target has an instruction for it.
+    /// self × factor + term, rounded once where that is asked for and where the target has an instruction for
+    /// it.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn times_plus(self, is_fused: bool, factor: T, term: Self) -> Self {
         Self(T::products_plus(is_fused, self.0, [factor; S], term.0))
@@ -94,8 +95,8 @@ impl<T: Scalar, const S: usize> Lanes<T, S> {
         self.0[0]
     }
 
-    /// The largest of the lanes, or the sum over all of `terms` where that is no finite number: NaN and infinity
-    /// stay in a sum.
+    /// The largest of the lanes, or the sum over all of `terms` where that is no finite number: NaN and
+    /// infinity stay in a sum.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn largest_unless(self, terms: Self) -> T {
         let sum = terms.folded(|a, b| a + b);

@@ -38,7 +38,8 @@ macro_rules! each_coordinate {
 }
 
 /// The block for every coordinate, one after the other: of blocks that are long, or many in one function, and
-/// would take as many times as long to compile if they were unrolled. LLVM does not see that the index counts.
+/// would take as many times as long to compile if they were unrolled. LLVM does not see that the index
+/// counts.
 macro_rules! coordinate_by_coordinate {
     ($index:ident => $block:block) => {
         if const { N <= 2 } {
@@ -181,9 +182,9 @@ impl<T: Scalar, const W: usize> Members<T, W> {
         all
     }
 
-    /// self × factor + term, rounded once where that is asked for or the target of the build has an instruction
-    /// for it, as that of [`Lanes`](crate::generated::Lanes): not where a function is compiled for more than the
-    /// build is.
+    /// self × factor + term, rounded once where that is asked for or the target of the build has an
+    /// instruction for it, as that of [`Lanes`](crate::generated::Lanes): not where a function is compiled
+    /// for more than the build is.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn times_plus(self, is_fused: bool, factor: T, term: Self) -> Self {
         let mut result = term;
@@ -214,8 +215,8 @@ impl<T: Scalar, const W: usize> Members<T, W> {
         selected
     }
 
-    /// The numbers of `other`; with `only_some` those alone that the condition holds for, otherwise all, without
-    /// looking at it.
+    /// The numbers of `other`; with `only_some` those alone that the condition holds for, otherwise all,
+    /// without looking at it.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn replace(&mut self, only_some: bool, condition: Mask<W>, other: Self) {
         *self = if only_some { Self::select(condition, other, *self) } else { other };

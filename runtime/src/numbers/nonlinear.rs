@@ -1,10 +1,11 @@
-//! Nonlinear equations p0(q, v, h) = p for v, solved at length: by the damped method, from rest, in parts of h.
+//! Nonlinear equations p0(q, v, h) = p for v, solved at length: by the damped method, from rest, in parts of
+//! h.
 //!
-//! Where a step leaves the few iterations that nearly every step needs, nothing depends on speed any more, but
-//! whatever has the number of coordinates in its type is compiled in every program that has a system, for each
-//! of its systems. So everything here works on slices, asks the equation through pointers ([`Evaluate`]), and
-//! is compiled once for each scalar type, with this crate ([`AtLength`]). Its vectors are the caller's
-//! ([`Room`]); it neither allocates nor panics.
+//! Where a step leaves the few iterations that nearly every step needs, nothing depends on speed any more,
+//! but whatever has the number of coordinates in its type is compiled in every program that has a system, for
+//! each of its systems. So everything here works on slices, asks the equation through pointers
+//! ([`Evaluate`]), and is compiled once for each scalar type, with this crate ([`AtLength`]). Its vectors are
+//! the caller's ([`Room`]); it neither allocates nor panics.
 
 mod careful;
 mod continuation;

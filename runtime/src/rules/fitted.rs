@@ -6,7 +6,8 @@ use crate::numbers::{CovectorDerivatives, Derivatives, Scalar};
 use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel, newton::Equation};
 use crate::system::{Lagrangian, Rayleigh};
 
-/// The midpoint rule, exponentially fitted to linear damping: stiff damping, however stiff, makes it not ring.
+/// The midpoint rule, exponentially fitted to linear damping: stiff damping, however stiff, makes it not
+/// ring.
 ///
 /// For L = ½vᵀMv − V(q) and R = ½vᵀCv with constant M, positive definite, and C. With d = q1 − q0, Z = ½hM⁻¹C
 /// and the Langevin function ℒ(z) = coth z − 1/z:
@@ -24,10 +25,10 @@ use crate::system::{Lagrangian, Rayleigh};
 /// way; under a constant one the exact motion gives the shares (h/2)(1 ± ℒ(z)). Without them q falls to order
 /// 1 when the damping is stiff.
 ///
-/// **Properties.** Self-adjoint; L-stable in the damping: a free mass decays by e^{−2z} a step (stiff springs it
-/// follows as the midpoint rule does); equilibria and terminal
-/// velocities exact; equal to the midpoint rule where C = 0. q is of order 2, uniformly in the stiffness of
-/// the damping; p is of order 2, falling to 1 in the stiff limit, where it lags behind by half a step.
+/// **Properties.** Self-adjoint; L-stable in the damping: a free mass decays by e^{−2z} a step (stiff springs
+/// it follows as the midpoint rule does); equilibria and terminal velocities exact; equal to the midpoint
+/// rule where C = 0. q is of order 2, uniformly in the stiffness of the damping; p is of order 2, falling to
+/// 1 in the stiff limit, where it lags behind by half a step.
 ///
 /// The functions of Z depend on h alone, and cost several times what is left of a step: a
 /// [`Trajectory`](crate::Trajectory) works them out once for each step size, a single

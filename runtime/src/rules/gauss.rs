@@ -64,12 +64,13 @@ use solve::solve;
 /// ```
 ///
 /// L need not be quadratic in v. The stages come from a fixed-point iteration where it contracts, which is
-/// measured. Elsewhere, at large steps and with stiff forces, it is simplified Newton's method, with N equations
-/// for each pair of stages, where that contracts, and Newton's method for all S N equations where it does not.
-/// Without force the rule is symplectic and keeps the momentum maps of affine generators, ξ(q) = Aq + b, such as translations and
-/// rotations; of others to its order. With friction its step has an R_d for n = 1, and for linear systems
-/// with CM⁻¹K = KM⁻¹C; for S ≥ 2 in general for no others, not even for a nonlinear V with C = 2aM, where the
-/// exact motion has one ([`rayleigh_step`](crate::Discretised::rayleigh_step)).
+/// measured. Elsewhere, at large steps and with stiff forces, it is simplified Newton's method, with N
+/// equations for each pair of stages, where that contracts, and Newton's method for all S N equations where
+/// it does not. Without force the rule is symplectic and keeps the momentum maps of affine generators, ξ(q) =
+/// Aq + b, such as translations and rotations; of others to its order. With friction its step has an R_d for
+/// n = 1, and for linear systems with CM⁻¹K = KM⁻¹C; for S ≥ 2 in general for no others, not even for a
+/// nonlinear V with C = 2aM, where the exact motion has one
+/// ([`rayleigh_step`](crate::Discretised::rayleigh_step)).
 ///
 /// A [`Trajectory`](crate::Trajectory) keeps the stages of the last step ([`StageHistory`]), extrapolates
 /// them to those of the next, and adds up q and p with compensation.
@@ -374,7 +375,8 @@ fn solved_from<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, co
     }
 }
 
-/// The stages that those of shorter steps lead to, from the velocity `v` at the start ([`along_h`](crate::numbers::nonlinear::AtLength::along_h)).
+/// The stages that those of shorter steps lead to, from the velocity `v` at the start
+/// ([`along_h`](crate::numbers::nonlinear::AtLength::along_h)).
 #[cold]
 #[inline(never)]
 fn in_parts<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(

@@ -12,9 +12,9 @@ use crate::step::SolvedForVelocity;
 /// ```
 ///
 /// **Derivation of R_d.** If R does not depend on q, the force −∂R/∂v at the midpoint gives
-/// f_d^± = −(h/2) ∂R/∂v(v̄), and f_d⁻ = D1 R_d = −(1/h) ∂R_d/∂v̄ asks for R_d = (h²/2) R. With R(q, v) the same
-/// formula keeps the system discrete Rayleigh, self-adjoint and of order 2, and adds ±(h²/4) ∂R/∂q(q̄, v̄) to
-/// f_d^∓.
+/// f_d^± = −(h/2) ∂R/∂v(v̄), and f_d⁻ = D1 R_d = −(1/h) ∂R_d/∂v̄ asks for R_d = (h²/2) R. With R(q, v) the
+/// same formula keeps the system discrete Rayleigh, self-adjoint and of order 2, and adds ±(h²/4) ∂R/∂q(q̄,
+/// v̄) to f_d^∓.
 ///
 /// **The step.** In v̄, with q̄ = q0 + h v̄/2, the minus Legendre transform p0 = −D1 L_d⁺ reads
 ///

@@ -15,8 +15,8 @@ use crate::step::SolvedForVelocity;
 /// same rule, each endpoint's share going to its own variation. R_d follows as for
 /// [`Midpoint`](super::Midpoint), node by node.
 ///
-/// For L = ½vᵀMv − V(q) with constant M this is Störmer–Verlet: p0 = M v̄ + (h/2) ∇V(q0) and p1 = M v̄ − (h/2)
-/// ∇V(q1).
+/// For L = ½vᵀMv − V(q) with constant M this is Störmer–Verlet: p0 = M v̄ + (h/2) ∇V(q0) and p1 = M v̄ −
+/// (h/2) ∇V(q1).
 ///
 /// With R = ½vᵀCv and C = 2aM its step is conformally symplectic, AᵀΩA = cΩ with c = (1 − ah)/(1 + ah), for
 /// every V and n, and R_d is ah L_d up to functions of one end.

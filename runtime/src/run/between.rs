@@ -58,9 +58,10 @@ where
 /// | [`interpolated_at`](Self::interpolated_at), by a [`Gauss`] rule of S ≥ 3 stages | S + 1 | nothing but a polynomial |
 /// | the same by other methods | 4 at most, and that of the run | the velocities at both ends |
 ///
-/// Gauss rules of three stages and more have the collocation polynomial, v = Σ ℓ_j V_j and q = q0 + h Σ V_j ∫ℓ_j,
-/// the others the cubic through (q, v) at both ends. Where the run has structure to keep, the state between should be asked of
-/// [`state_at`](Self::state_at): a step keeps what steps keep, a polynomial does not.
+/// Gauss rules of three stages and more have the collocation polynomial, v = Σ ℓ_j V_j and q = q0 + h Σ V_j
+/// ∫ℓ_j, the others the cubic through (q, v) at both ends. Where the run has structure to keep, the state
+/// between should be asked of [`state_at`](Self::state_at): a step keeps what steps keep, a polynomial does
+/// not.
 pub struct Dense<'t, T: Divisible<N>, const N: usize> {
     run: &'t mut T,
     start: Option<Start<T::Scalar, N>>,
@@ -113,8 +114,8 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
     /// began. At the ends it is that of the grid, bit by bit.
     ///
     /// # Errors
-    /// [`TimeError::Outside`]; [`TimeError::Step`] where a shorter step has no solution although the whole one
-    /// has.
+    /// [`TimeError::Outside`]; [`TimeError::Step`] where a shorter step has no solution although the whole
+    /// one has.
     pub fn state_at(&self, time: f64) -> Result<State<T::Scalar, N>, TimeError> {
         let start = self.start_before(time)?;
         if time == self.run.time() {
@@ -203,7 +204,8 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
         }
     }
 
-    /// The moment at `time` by the cubic through the last step's ends with their velocities, beyond the step as well.
+    /// The moment at `time` by the cubic through the last step's ends with their velocities, beyond the step
+    /// as well.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn on_cubic(
         &self,

@@ -24,13 +24,14 @@ where
 
 /// A run of steps with an input each: the model in a control loop, in an estimator or in optimal control.
 ///
-/// It keeps what a [`Trajectory`](crate::Trajectory) keeps, the state, the clock and what the method remembers
-/// of earlier steps, and borrows no system: each step is given its own, `system.driven(u)`, and so may come from
-/// fields that have changed as well. Where L, R or f take the time, that is the view's, `system.driven(u, t)`,
-/// such as [`time`](Self::time). An error leaves the state as it was, and the next call tries again.
+/// It keeps what a [`Trajectory`](crate::Trajectory) keeps, the state, the clock and what the method
+/// remembers of earlier steps, and borrows no system: each step is given its own, `system.driven(u)`, and so
+/// may come from fields that have changed as well. Where L, R or f take the time, that is the view's,
+/// `system.driven(u, t)`, such as [`time`](Self::time). An error leaves the state as it was, and the next
+/// call tries again.
 ///
-/// V is the type of the views, and only says of what kind they are: a struct that owns its machine has the field
-/// `model: DrivenTrajectory<DrivenCart<'static>, Midpoint, 1>`, made by [`new`](Self::new).
+/// V is the type of the views, and only says of what kind they are: a struct that owns its machine has the
+/// field `model: DrivenTrajectory<DrivenCart<'static>, Midpoint, 1>`, made by [`new`](Self::new).
 ///
 /// ```
 /// use dalembert::{Discretise, Midpoint, State, rayleigh_system};
@@ -128,8 +129,8 @@ where
         self.course = self.course.resized();
     }
 
-    /// Goes on from `state`, near the present one: what an estimator makes of it by a measurement. The guess for
-    /// the next step is kept. One that is far off is a new run's start.
+    /// Goes on from `state`, near the present one: what an estimator makes of it by a measurement. The guess
+    /// for the next step is kept. One that is far off is a new run's start.
     pub fn correct(&mut self, state: State<V::Scalar, N>) {
         self.at.state = state;
         Memory::<V, M, N>::change_state(&mut self.memory);
@@ -141,15 +142,16 @@ where
         *self = Self::resume(at);
     }
 
-    /// State, step size and clock as they are now. A run that is resumed from them solves its first steps without
-    /// a guess, so that it may differ from this one by rounding, which [`checkpoint`](Self::checkpoint) avoids.
+    /// State, step size and clock as they are now. A run that is resumed from them solves its first steps
+    /// without a guess, so that it may differ from this one by rounding, which
+    /// [`checkpoint`](Self::checkpoint) avoids.
     #[must_use]
     pub fn present(&self) -> Checkpoint<V::Scalar, N> {
         self.at
     }
 
-    /// All that is needed to go on from here; the run forgets what its method remembers, as one that is resumed
-    /// has to: both go on bit by bit alike.
+    /// All that is needed to go on from here; the run forgets what its method remembers, as one that is
+    /// resumed has to: both go on bit by bit alike.
     pub fn checkpoint(&mut self) -> Checkpoint<V::Scalar, N> {
         self.memory = V::RunMemory::default();
         self.at
@@ -199,7 +201,8 @@ where
         step
     }
 
-    /// As [`advance`](Self::advance), in 2, 4, … 2^`halvings` parts with the same input where the whole one fails.
+    /// As [`advance`](Self::advance), in 2, 4, … 2^`halvings` parts with the same input where the whole one
+    /// fails.
     ///
     /// # Errors
     /// The [`StepError`] of the whole step; the state is untouched.
@@ -224,8 +227,8 @@ where
     /// one factorisation.
     ///
     /// # Errors
-    /// Those of [`advance`](Self::advance), and [`StepError::SingularNewtonMatrix`] where the step has no derivative:
-    /// the state is then untouched, and [`advance`](Self::advance) takes the step.
+    /// Those of [`advance`](Self::advance), and [`StepError::SingularNewtonMatrix`] where the step has no
+    /// derivative: the state is then untouched, and [`advance`](Self::advance) takes the step.
     #[inline]
     pub fn advance_linearized<'a, L>(&mut self, system: &'a L) -> Result<StepTaken<'a, L, M, N>, StepError>
     where

@@ -77,20 +77,20 @@ pub enum Crossing {
 /// between, at the stages of a [`Gauss`](crate::Gauss) rule (of three stages at least) or, by other methods,
 /// on the cubic through both ends with their velocities, which is held against the step before. Where the
 /// polynomial through these values has no root, even with what it may be off by, there is none; where it does
-/// not say, true values are asked for, by partial steps. So two roots within a step are found as one is. Each is
-/// refined by partial steps to rounding. They come in the order of time, several at one time in that of their
-/// functions.
+/// not say, true values are asked for, by partial steps. So two roots within a step are found as one is. Each
+/// is refined by partial steps to rounding. They come in the order of time, several at one time in that of
+/// their functions.
 ///
 /// The error of a polynomial is estimated, as functions have no bounds to ask for. Of two million random
-/// crossings by all methods, a third of them in steps with several, none was missed; of two million pairs that
-/// lie closer together than a fiftieth of a step, four were, all in steps of a radian and more.
+/// crossings by all methods, a third of them in steps with several, none was missed; of two million pairs
+/// that lie closer together than a fiftieth of a step, four were, all in steps of a radian and more.
 ///
 /// **What is not an event.** A start on the event: a run that begins where g is 0 to rounding. A root at the
 /// end of a step belongs to that step.
 ///
-/// **The run** takes the same steps as unwatched, bit by bit, unless it ends at a [`terminal`](Self::terminal)
-/// event: there it stands at the event's time and state, its memory forgotten. [`restart`](Self::restart) goes
-/// on from there, from another state perhaps.
+/// **The run** takes the same steps as unwatched, bit by bit, unless it ends at a
+/// [`terminal`](Self::terminal) event: there it stands at the event's time and state, its memory forgotten.
+/// [`restart`](Self::restart) goes on from there, from another state perhaps.
 ///
 /// A pendulum against a stop, with restitution:
 ///
@@ -187,8 +187,8 @@ where
 
     /// Ends the iteration over events at this time: the run takes no step from there on.
     ///
-    /// The events of the last step, which was begun before this time, are all told, those after this time too: the
-    /// run is past them, and another watch would not find them again.
+    /// The events of the last step, which was begun before this time, are all told, those after this time
+    /// too: the run is past them, and another watch would not find them again.
     #[must_use]
     pub fn until(self, time: f64) -> Self {
         Self { until: Some(time), ..self }
@@ -243,8 +243,8 @@ where
         matches!(self.found.get(self.next), Some(Some(_)))
     }
 
-    /// Takes a step: the step itself where it is clear of events, as it is by far the most often. Where it has some,
-    /// it is kept until they are reported.
+    /// Takes a step: the step itself where it is clear of events, as it is by far the most often. Where it
+    /// has some, it is kept until they are reported.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn take(&mut self) -> Option<Result<Option<Step<T::Scalar, N>>, EventError>> {
         let before = match self.present {
@@ -302,8 +302,8 @@ where
         (self.earlier, self.present, self.velocity) = (Some((start.time, before)), Some(after), velocity);
         range.widen(&after);
         self.dense.at_nodes(start, &ends, |_, at| range.widen(&(self.g)(at)));
-        // By more than a polynomial can leave the range of its values, and half a range besides. How the velocity
-        // changes within a step the cubic does not see, as the step before does.
+        // By more than a polynomial can leave the range of its values, and half a range besides. How the
+        // velocity changes within a step the cubic does not see, as the step before does.
         if (earlier.is_some() || self.dense.is_collocated()) && range.is_clear(lebesgue + 1.0) {
             if self.restarts > 0 {
                 self.restarts = 0;
@@ -366,8 +366,8 @@ where
         Self { terminal, stop: Some(stop), ..self }
     }
 
-    /// Goes on from another state at the present time of the run, that of a terminal event: an impact, a switch.
-    /// Events that happened there do not happen again at once.
+    /// Goes on from another state at the present time of the run, that of a terminal event: an impact, a
+    /// switch. Events that happened there do not happen again at once.
     pub fn restart(&mut self, state: State<T::Scalar, N>) {
         let time = self.run().time();
         if !self.ended {

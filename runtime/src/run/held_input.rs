@@ -54,9 +54,9 @@ where
 
 /// A run with inputs while one of them is held, for one step or for several: [`DrivenTrajectory::hold`].
 ///
-/// An iterator over steps, as a [`Trajectory`](crate::Trajectory) is: it can be looked into between them and watched
-/// for events, and it can be restarted at one. A view that has a time has it at the moment from which the
-/// input is held.
+/// An iterator over steps, as a [`Trajectory`](crate::Trajectory) is: it can be looked into between them and
+/// watched for events, and it can be restarted at one. A view that has a time has it at the moment from which
+/// the input is held.
 pub struct HeldInput<'r, 's, L, V, M, const N: usize>
 where
     V: Flow<M, N>,

@@ -47,8 +47,8 @@ pub trait ExplicitInLanes<const N: usize>: Explicit<N, Scalar: Elementary> {
         h: Self::Scalar,
     ) -> [MemberVector<Self::Scalar, N, W>; 2];
 
-    /// [`configuration_force`](Explicit::configuration_force) of each member, whose time `fields` has, to the last
-    /// bit.
+    /// [`configuration_force`](Explicit::configuration_force) of each member, whose time `fields` has, to the
+    /// last bit.
     fn configuration_force_in_lanes<const W: usize>(
         fields: &Self::Fields<W>,
         q: &MemberVector<Self::Scalar, N, W>,
@@ -63,8 +63,8 @@ pub trait InLanes<M, const N: usize>: Flow<M, N> {
     /// The largest W at which a member's step still got cheaper, on the machines measured.
     const MOST_LANES: usize = 32;
 
-    /// The members at their starts. One that no run can start from, or whose method cannot be prepared, has no
-    /// state.
+    /// The members at their starts. One that no run can start from, or whose method cannot be prepared, has
+    /// no state.
     fn in_lanes<const W: usize>(
         systems: [&Self; W],
         starts: &[State<Self::Scalar, N>; W],
@@ -80,7 +80,8 @@ pub trait InLanes<M, const N: usize>: Flow<M, N> {
         h: Self::Scalar,
     );
 
-    /// From each member's start on, what [`Memory::leave_unsolved`](crate::step::Memory::leave_unsolved) says.
+    /// From each member's start on, what [`Memory::leave_unsolved`](crate::step::Memory::leave_unsolved)
+    /// says.
     fn leave_unsolved<const W: usize>(lanes: &mut Self::Lanes<W>, error: f64, steps: u64) {
         let _ = (lanes, error, steps);
     }
@@ -92,8 +93,8 @@ pub trait InLanes<M, const N: usize>: Flow<M, N> {
     fn state_of_lane<const W: usize>(lanes: &Self::Lanes<W>, lane: usize) -> Option<State<Self::Scalar, N>>;
 }
 
-/// W runs at once, by method `M` with one step size. Views are systems as well, each with the input that it holds
-/// and at its own time: that of the view and of the steps that its run has taken.
+/// W runs at once, by method `M` with one step size. Views are systems as well, each with the input that it
+/// holds and at its own time: that of the view and of the steps that its run has taken.
 ///
 /// A member that fails leaves the others as they are, and has no state from then on: its own run,
 /// `system.by(method, h).run(start)`, says why.
@@ -134,9 +135,9 @@ where
 {
     /// One run for each system, from the state of the same index.
     ///
-    /// The value is large: room for 2·N²·S·W numbers by a [`Splitting`](crate::Splitting) of S drifts, of which
-    /// N·S·W are used where M and C are diagonal. How many lanes pay depends on the registers of the machine and,
-    /// for many coordinates, on its caches.
+    /// The value is large: room for 2·N²·S·W numbers by a [`Splitting`](crate::Splitting) of S drifts, of
+    /// which N·S·W are used where M and C are diagonal. How many lanes pay depends on the registers of the
+    /// machine and, for many coordinates, on its caches.
     #[must_use]
     pub fn new(method: M, systems: [&'a L; W], starts: &[State<L::Scalar, N>; W], h: L::Scalar) -> Self {
         let _ = method;
@@ -216,9 +217,10 @@ where
         L::advance_in_lanes(&mut self.lanes, self.systems, steps);
     }
 
-    /// The state of the run in this lane: that of the scalar run after as many steps, to the last bit. Nothing
-    /// if that run would have ended with an error by now, if it alone can tell (an explicit step whose
-    /// rounding has to be measured, a matrix that has to be factored otherwise), or if there is no such lane.
+    /// The state of the run in this lane: that of the scalar run after as many steps, to the last bit.
+    /// Nothing if that run would have ended with an error by now, if it alone can tell (an explicit step
+    /// whose rounding has to be measured, a matrix that has to be factored otherwise), or if there is no such
+    /// lane.
     #[inline]
     #[must_use]
     pub fn state(&self, lane: usize) -> Option<State<L::Scalar, N>> {
@@ -234,8 +236,8 @@ impl<L: InLanes<M, N>, M, const N: usize, const W: usize> Clone for LaneRuns<'_,
 
 impl<L: InLanes<M, N>, M, const N: usize, const W: usize> Copy for LaneRuns<'_, L, M, N, W> {}
 
-/// Whether the run in a lane begins from `start`, and its clock needs no watching. Of the first lane slopes are
-/// looked at too: they cost as much as some steps of all.
+/// Whether the run in a lane begins from `start`, and its clock needs no watching. Of the first lane slopes
+/// are looked at too: they cost as much as some steps of all.
 pub(crate) fn begins<L: Lagrangian<N>, const N: usize>(
     lane: usize,
     system: &L,

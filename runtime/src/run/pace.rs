@@ -8,7 +8,8 @@ use crate::system::{Lagrangian, TimeScale};
 
 type Scalars<L, const N: usize> = <L as Lagrangian<N>>::Scalar;
 
-/// [`Pace::next`] of a system that has a time scale: compiled where a run follows it, and in no other program.
+/// [`Pace::next`] of a system that has a time scale: compiled where a run follows it, and in no other
+/// program.
 type Next<L, M, const N: usize> = fn(
     &mut Pace<L, M, N>,
     &L,

@@ -25,16 +25,17 @@ where
     /// what bounds the error of the energy; the map of a step is not symplectic, as its h depends on the
     /// state.
     ///
-    /// **Why not in τ.** σ(q)(L(q, w/σ(q)) + E) is the Lagrangian, in τ with w = dq/dτ, of the motions of energy
-    /// E (H. Poincaré's transformation); its steps of one size are symplectic. It can be written as a system of
-    /// its own. Measured on orbits of eccentricity 0.99 and 0.999 over 10⁴ rounds, with σ = |q|^{3/2}, at
-    /// equal cost: what is here has less error of the energy, by 30 and 80 times, as no rounding of E is
-    /// divided by σ; it needs no E, has forces, and keeps momentum maps that σ does not. With (t, −E) for
-    /// coordinates, s L(q, w/s) + (s/σ − 1)²/2c, s = dt/dτ, it has forces too, and costs 3 to 100 times as much,
-    /// by c.
+    /// **Why not in τ.** σ(q)(L(q, w/σ(q)) + E) is the Lagrangian, in τ with w = dq/dτ, of the motions of
+    /// energy E (H. Poincaré's transformation); its steps of one size are symplectic. It can be written as a
+    /// system of its own. Measured on orbits of eccentricity 0.99 and 0.999 over 10⁴ rounds, with σ =
+    /// |q|^{3/2}, at equal cost: what is here has less error of the energy, by 30 and 80 times, as no
+    /// rounding of E is divided by σ; it needs no E, has forces, and keeps momentum maps that σ does not.
+    /// With (t, −E) for coordinates, s L(q, w/s) + (s/σ − 1)²/2c, s = dt/dτ, it has forces too, and costs 3
+    /// to 100 times as much, by c.
     ///
     /// [`step_size`](Trajectory::step_size) is that of the last step, and the time the sum of all, with
-    /// compensation. Errors: [`StepError::TimeScale`](crate::StepError::TimeScale) besides those of the steps.
+    /// compensation. Errors: [`StepError::TimeScale`](crate::StepError::TimeScale) besides those of the
+    /// steps.
     ///
     /// An orbit of eccentricity 0.99, whose speeds differ by a factor of 199:
     ///

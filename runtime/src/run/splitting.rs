@@ -38,16 +38,16 @@ use crate::system::GeneratedDiffers;
 /// alone, which commute. Without damping nothing else vanishes in brackets of up to eight letters (they span
 /// 2, 1, 2, 2, 4, 5, 10, 14 dimensions by R. I. McLachlan and B. Ryland, The algebraic entropy of classical
 /// mechanics, J. Math. Phys. 44, 2003, and there are as many conditions). So the conditions of these orders
-/// are those without damping, fewer than for fields of any kind: 8 of order 6, 18 of order 8. The coefficients
-/// are those of S. Blanes and P. C. Moan (Practical symplectic partitioned Runge–Kutta and Runge–Kutta–Nyström
-/// methods, J. Comput. Appl. Math. 142, 2002, 313–330) and of S. Blanes, F. Casas and A. Escorihuela-Tomàs
-/// (Runge–Kutta–Nyström symplectic splitting methods of order 8, Appl. Numer. Math. 2022, arXiv:2202.01541).
-/// A step costs S gradients and no equation is solved.
+/// are those without damping, fewer than for fields of any kind: 8 of order 6, 18 of order 8. The
+/// coefficients are those of S. Blanes and P. C. Moan (Practical symplectic partitioned Runge–Kutta and
+/// Runge–Kutta–Nyström methods, J. Comput. Appl. Math. 142, 2002, 313–330) and of S. Blanes, F. Casas and A.
+/// Escorihuela-Tomàs (Runge–Kutta–Nyström symplectic splitting methods of order 8, Appl. Numer. Math. 2022,
+/// arXiv:2202.01541). A step costs S gradients and no equation is solved.
 ///
 /// **Time.** With t as one more coordinate A adds ṫ = 1, so that t moves with the drifts and stands still in
-/// kicks, whose forces are then functions of (q, t): brackets vanish as before, and the conditions are the same.
-/// The kick after the drifts a₁ … aᵢ sees the time t + (a₁ + … + aᵢ)h. Order 4 and 6 then cost one gradient more,
-/// since the next step's clock starts at a rounding of its own.
+/// kicks, whose forces are then functions of (q, t): brackets vanish as before, and the conditions are the
+/// same. The kick after the drifts a₁ … aᵢ sees the time t + (a₁ + … + aᵢ)h. Order 4 and 6 then cost one
+/// gradient more, since the next step's clock starts at a rounding of its own.
 ///
 /// **Structure.** Each kick with the drift after it is the flow of a discrete Lagrangian system with force.
 /// Self-adjoint. Symplectic where C = 0. The determinant of the step is e^{−h tr M⁻¹C}, that of the flow, for
@@ -64,14 +64,15 @@ use crate::system::GeneratedDiffers;
 /// | order 6 | hω < 9.073 | 3.1414 < hω < 3.1424, 6.3478 < hω < 6.3493, by 0.07 % a step at most |
 /// | order 8 | hω < 5.962 | 3.1398 < hω < 3.1429, by 0.16 % a step at most |
 ///
-/// and decay up to hω = 5, 9 and 5.9 with damping of 0.01 ≤ hr/m ≤ 10. Where damping is stiff the error falls more
-/// slowly than the order says, as by all splittings; there [`Fitted`](crate::Fitted) and
+/// and decay up to hω = 5, 9 and 5.9 with damping of 0.01 ≤ hr/m ≤ 10. Where damping is stiff the error falls
+/// more slowly than the order says, as by all splittings; there [`Fitted`](crate::Fitted) and
 /// [`Gauss`](crate::Gauss) rules serve.
 ///
-/// **Rounding.** A step rounds q and p once for each drift and kick, and those roundings add up over a run: for
-/// errors of some 1e-11 and below more steps do not help. With [`compensated`](Self::compensated) a step sums what
-/// it adds apart from where it starts, and what the sum of both loses is added in the next step, as in
-/// [`Gauss`](crate::Gauss) rules (E. Hairer, C. Lubich and G. Wanner, Geometric Numerical Integration, 2006, VIII.5).
+/// **Rounding.** A step rounds q and p once for each drift and kick, and those roundings add up over a run:
+/// for errors of some 1e-11 and below more steps do not help. With [`compensated`](Self::compensated) a step
+/// sums what it adds apart from where it starts, and what the sum of both loses is added in the next step, as
+/// in [`Gauss`](crate::Gauss) rules (E. Hairer, C. Lubich and G. Wanner, Geometric Numerical Integration,
+/// 2006, VIII.5).
 ///
 /// **Errors.** [`StepError::MassNotPositiveDefinite`]; [`StepError::NonFinite`], of derivatives where damping
 /// overflows over a drift backwards, of the state where it overflows; [`StepError::StepSize`].
@@ -102,7 +103,8 @@ impl<const S: usize> Splitting<S> {
     /// roundings do not move in long runs. In lanes a step of order 8 takes 1.15 to 1.2 times as long, of
     /// order 4 and 6 up to 1.8 times.
     ///
-    /// Kepler's problem with e = 0.6 over 16 revolutions, by 5 000 steps of order 8: off by 4e-13, else by 2e-11.
+    /// Kepler's problem with e = 0.6 over 16 revolutions, by 5 000 steps of order 8: off by 4e-13, else by
+    /// 2e-11.
     ///
     /// ```
     /// use dalembert::{Discretise, Splitting, State, rayleigh_system};
@@ -164,8 +166,8 @@ where
 /// The kicks and drifts of a [`Splitting`].
 ///
 /// The drifts are worked out in the first step of a size. Where kicks come first, the force at the end
-/// of a step is that at the start of the next, unless an input is held, which may be another by then, or the force
-/// takes the time. It belongs to one system.
+/// of a step is that at the start of the next, unless an input is held, which may be another by then, or the
+/// force takes the time. It belongs to one system.
 #[derive(Clone, Copy, Debug)]
 pub struct Kicks<T, const N: usize, const S: usize, const COMPENSATED: bool> {
     prepared: Option<Prepared<T, N, S>>,
@@ -240,8 +242,8 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
         })
     }
 
-    /// The step from where `at` is, with `drift` for its drifts, from where the force is `force`; the force at its
-    /// end. One that drifts first asks for no force at its ends.
+    /// The step from where `at` is, with `drift` for its drifts, from where the force is `force`; the force
+    /// at its end. One that drifts first asks for no force at its ends.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn carry<L: Explicit<N, Scalar = T>, D, const COMPENSATED: bool>(
         &self,

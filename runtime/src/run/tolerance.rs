@@ -141,8 +141,8 @@ pub enum ToleranceError {
     /// A step at the chosen size failed at the start, or the system is not that written. Of
     /// [`TimedRequest::end`]: or a step on the way, of the last run that was tried.
     Step(StepError),
-    /// Of [`TimedRequest::end`]: each run that was tried has passed the error; this is what the last one's guard
-    /// reported.
+    /// Of [`TimedRequest::end`]: each run that was tried has passed the error; this is what the last one's
+    /// guard reported.
     Breach(Breach),
 }
 

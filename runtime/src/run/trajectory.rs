@@ -16,7 +16,8 @@ where
     L: Flow<M, N>,
 {
     /// The steps from `state`, one after the other: each is cheaper than [`step`](Self::step), by what is
-    /// known of those before. The first starts from the velocity of [`near`](Self::near), where one was given.
+    /// known of those before. The first starts from the velocity of [`near`](Self::near), where one was
+    /// given.
     #[must_use = "a run is an iterator: it takes a step when it is asked for the next"]
     pub fn run(&self, state: State<L::Scalar, N>) -> Trajectory<'a, L, M, N> {
         let mut run = Trajectory::from_checkpoint(self.system, Checkpoint::new(self.h, state));
@@ -68,8 +69,8 @@ where
         self.at.time()
     }
 
-    /// Goes on with another step size from the present state, also after an error. Where steps follow the motion
-    /// it is Δτ.
+    /// Goes on with another step size from the present state, also after an error. Where steps follow the
+    /// motion it is Δτ.
     pub fn change_step_size(&mut self, h: L::Scalar) {
         self.at = Checkpoint { step_size: h, origin: self.time(), steps: 0, state: self.at.state };
         self.course = self.course.resized();
@@ -78,8 +79,8 @@ where
         }
     }
 
-    /// Goes on from another state at the present time, after an impact for instance: what the method remembers
-    /// is forgotten. The steps that follow are counted from here.
+    /// Goes on from another state at the present time, after an impact for instance: what the method
+    /// remembers is forgotten. The steps that follow are counted from here.
     ///
     /// ```
     /// use dalembert::{Discretise, Midpoint, State, rayleigh_system};
@@ -323,9 +324,9 @@ impl<L, M, const N: usize> Trajectory<'_, L, M, N>
 where
     L: Flow<M, N>,
 {
-    /// Solves the stages of a [`Gauss`](crate::Gauss) rule no further than an error of `error`, in units of q, at
-    /// the time `time` asks for; other methods solve to rounding as ever. What a step's sweeps leave unsolved is
-    /// held below
+    /// Solves the stages of a [`Gauss`](crate::Gauss) rule no further than an error of `error`, in units of
+    /// q, at the time `time` asks for; other methods solve to rounding as ever. What a step's sweeps leave
+    /// unsolved is held below
     ///
     /// ```text
     /// |δq| ≤ ε/(100 n),   w |δp| ≤ ε/(100 n)        ε the error, n the steps from here to `time`

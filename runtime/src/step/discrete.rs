@@ -36,8 +36,8 @@ pub trait Discrete<R, const N: usize>: Flow<R, N> {
     /// rule has something better.
     type Memory: Memory<Self, R, N>;
 
-    /// Whether the step's equation is linear in v̄, so that one correction solves it, with a matrix that neither
-    /// the state nor an input changes.
+    /// Whether the step's equation is linear in v̄, so that one correction solves it, with a matrix that
+    /// neither the state nor an input changes.
     const LINEAR: bool = false;
 
     /// Whether the step's equation and both momenta are written out each at once, as `#[rayleigh_system]`
@@ -76,11 +76,11 @@ pub trait Discrete<R, const N: usize>: Flow<R, N> {
         h: Self::Scalar,
     ) -> Momenta<Self::Scalar, N>;
 
-    /// Sizes of the terms that may cancel in p0, component by component: p0 as computed is off by ε times that, where
-    /// last places of q0 and v̄ do not show it, as in (q − 1) + (q + 1) at rest.
+    /// Sizes of the terms that may cancel in p0, component by component: p0 as computed is off by ε times
+    /// that, where last places of q0 and v̄ do not show it, as in (q − 1) + (q + 1) at rest.
     ///
-    /// Generated where L, R or f have such terms; 0 otherwise. A step whose residual stops falling asks for it, no
-    /// other.
+    /// Generated where L, R or f have such terms; 0 otherwise. A step whose residual stops falling asks for
+    /// it, no other.
     #[cold]
     fn cancelling_terms(
         &self,

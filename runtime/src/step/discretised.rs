@@ -108,8 +108,8 @@ where
         Discretised { system, h: self.h, guess: self.guess, rule: PhantomData }
     }
 
-    /// Steps whose mean velocity v̄ = (q1 − q0)/h is near `velocity`, such as that of the step before: Newton's
-    /// method starts there, and not at the velocity of the state.
+    /// Steps whose mean velocity v̄ = (q1 − q0)/h is near `velocity`, such as that of the step before:
+    /// Newton's method starts there, and not at the velocity of the state.
     #[must_use]
     pub fn near(self, velocity: &SVector<L::Scalar, N>) -> Self {
         Self { guess: Some(*velocity), ..self }

@@ -42,8 +42,8 @@ pub enum StepError {
         /// The step size.
         h: f64,
     },
-    /// A run whose steps follow a time scale has no next step size: σ is not positive there, or grows by more in
-    /// a step than a step size can follow.
+    /// A run whose steps follow a time scale has no next step size: σ is not positive there, or grows by more
+    /// in a step than a step size can follow.
     TimeScale {
         /// σ at the state.
         scale: f64,

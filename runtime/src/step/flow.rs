@@ -137,15 +137,15 @@ where
     /// that ended there. In a composition that is the one of the substep before.
     fn follow(&mut self, _previous: &Self) {}
 
-    /// The next step is of a system with another input: what was remembered of forces no longer holds, and the
-    /// Newton matrix may have changed. A memory that does not say better forgets all. A run with inputs says so
-    /// at the end of each step.
+    /// The next step is of a system with another input: what was remembered of forces no longer holds, and
+    /// the Newton matrix may have changed. A memory that does not say better forgets all. A run with inputs
+    /// says so at the end of each step.
     fn change_input(&mut self) {
         *self = Self::default();
     }
 
-    /// The next step starts near where the last one ended, not there, as at a state corrected by a measurement.
-    /// A memory that does not say better forgets all.
+    /// The next step starts near where the last one ended, not there, as at a state corrected by a
+    /// measurement. A memory that does not say better forgets all.
     fn change_state(&mut self) {
         *self = Self::default();
     }
@@ -179,8 +179,8 @@ where
         None
     }
 
-    /// Where a step of size `elapsed` leads from `state`, from which the last one, of size `h`, was taken: by what
-    /// is known of that, where it makes this one cheaper.
+    /// Where a step of size `elapsed` leads from `state`, from which the last one, of size `h`, was taken: by
+    /// what is known of that, where it makes this one cheaper.
     #[inline]
     fn beginning(
         &self,
@@ -200,9 +200,9 @@ where
         None
     }
 
-    /// From here on equations are solved no further than an error of `error` after so many steps asks for, where
-    /// the method has use for that: [`Trajectory::solved_for`](crate::Trajectory::solved_for). Derivatives that are
-    /// taken with this memory are then those at what was left.
+    /// From here on equations are solved no further than an error of `error` after so many steps asks for,
+    /// where the method has use for that: [`Trajectory::solved_for`](crate::Trajectory::solved_for).
+    /// Derivatives that are taken with this memory are then those at what was left.
     fn leave_unsolved(&mut self, error: f64, steps: u64) {
         let _ = (error, steps);
     }

@@ -130,8 +130,8 @@ impl<S: Scalar, const N: usize> LegendreDerivatives<S, N> {
     /// fixed configurations.
     ///
     /// # Errors
-    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular; [`StepError::NonFinite`] where a derivative is
-    /// no number.
+    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular; [`StepError::NonFinite`] where a
+    /// derivative is no number.
     pub fn answer<const M: usize>(
         &self,
         momenta: &MomentaBy<S, N, M>,
@@ -171,8 +171,8 @@ impl<S: Scalar, const N: usize> Linearization<S, N> {
     /// The step matrix from the derivatives of both Legendre transforms.
     ///
     /// # Errors
-    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular; [`StepError::NonFinite`] where a derivative is
-    /// no number.
+    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular; [`StepError::NonFinite`] where a
+    /// derivative is no number.
     pub fn from_legendre(k: &LegendreDerivatives<S, N>) -> Result<Self, StepError> {
         Self::with_input(k, &MomentaBy::zero())
     }
@@ -182,8 +182,8 @@ impl<S: Scalar, const N: usize, const M: usize> Linearization<S, N, M> {
     /// The derivatives of the step from those of both Legendre transforms, and of the momenta by the input.
     ///
     /// # Errors
-    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular; [`StepError::NonFinite`] where a derivative is
-    /// no number.
+    /// [`StepError::SingularNewtonMatrix`] if ∂p0/∂q1 is singular; [`StepError::NonFinite`] where a
+    /// derivative is no number.
     pub fn with_input(
         k: &LegendreDerivatives<S, N>,
         by_input: &MomentaBy<S, N, M>,

@@ -47,11 +47,12 @@ pub(crate) enum Equation {
     General,
 }
 
-/// The v with `momentum`(q, v) = p at the `state` (q, p): an equation alone, at whose root no other momentum is
-/// asked for.
+/// The v with `momentum`(q, v) = p at the `state` (q, p): an equation alone, at whose root no other momentum
+/// is asked for.
 ///
-/// `evaluate` gives the momentum and the Newton matrix, `inertia` the mass matrix, the metric that tells which
-/// of two velocities is longer; configurations on the way are q plus a share of `h` v, with h = 0 at q itself.
+/// `evaluate` gives the momentum and the Newton matrix, `inertia` the mass matrix, the metric that tells
+/// which of two velocities is longer; configurations on the way are q plus a share of `h` v, with h = 0 at q
+/// itself.
 ///
 /// Functions by reference: with `F = &G` for one of them, calls of it would not be inlined where `F` is
 /// behind a pointer as well.
@@ -73,8 +74,8 @@ pub(crate) fn root<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     }
 }
 
-/// The root of an equation alone, from rest by the damped method. Where that has led to an `error`, a matrix that
-/// is singular there or not finite, from away from rest.
+/// The root of an equation alone, from rest by the damped method. Where that has led to an `error`, a matrix
+/// that is singular there or not finite, from away from rest.
 pub(crate) fn root_from_rest<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     evaluate: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
     momentum: &impl Fn(&SVector<S, N>, &SVector<S, N>) -> SVector<S, N>,

@@ -25,8 +25,8 @@ pub trait Linearizable<M, const N: usize>: Flow<M, N> {
         Self: 'a;
 
     /// The equations at `step`, which was taken from `state` with what `memory` now remembers. Where that was
-    /// told to leave stages unsolved ([`Memory::leave_unsolved`](crate::step::Memory::leave_unsolved)), they are
-    /// the equations at the stages as they were left, and so are the derivatives.
+    /// told to leave stages unsolved ([`Memory::leave_unsolved`](crate::step::Memory::leave_unsolved)), they
+    /// are the equations at the stages as they were left, and so are the derivatives.
     ///
     /// # Errors
     /// [`StepError::SingularNewtonMatrix`] where the step has no derivative, [`StepError::NonFinite`].

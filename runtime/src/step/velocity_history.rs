@@ -42,7 +42,8 @@ impl<S: Scalar, const N: usize> VelocityHistory<S, N> {
             self.known = (self.known + 1).min(4);
             return;
         }
-        // Velocities a step apart are known for one step size alone: on the line through the two, one step back.
+        // Velocities a step apart are known for one step size alone: on the line through the two, one step
+        // back.
         let is_ahead = self.known > 0 && h * self.h > S::zero();
         let before = if is_ahead { velocity + (a - velocity) * (h / half_of(h + self.h)) } else { velocity };
         self.velocities = [velocity, before, b, c];
@@ -75,8 +76,8 @@ impl<S: Scalar, const N: usize> VelocityHistory<S, N> {
         }
     }
 
-    /// Of the `known` velocities those by whose polynomial, a step back, the newest would have been told best:
-    /// inputs that jump are carried on by none, and enlarged by a cubic 10 times.
+    /// Of the `known` velocities those by whose polynomial, a step back, the newest would have been told
+    /// best: inputs that jump are carried on by none, and enlarged by a cubic 10 times.
     fn telling(&self, known: usize) -> usize {
         let [a, b, c, d] = &self.velocities;
         let mut best = (known.min(1), a - b);

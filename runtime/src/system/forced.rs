@@ -104,8 +104,8 @@ pub trait ForcedLagrangianInLanes<const N: usize>: ForcedLagrangian<N, Scalar: E
         *fields
     }
 
-    /// g = ∂L/∂q + f_L of each member at one stage, whose time `fields` has, and what its correction needs: as in
-    /// [`stages_in_time`](ForcedLagrangian::stages_in_time), to the last bit.
+    /// g = ∂L/∂q + f_L of each member at one stage, whose time `fields` has, and what its correction needs:
+    /// as in [`stages_in_time`](ForcedLagrangian::stages_in_time), to the last bit.
     fn rates_in_lanes<const W: usize>(
         fields: &Self::Fields<W>,
         anchors: &mut Self::AnchorsInLanes<W>,

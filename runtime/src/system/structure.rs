@@ -35,8 +35,8 @@ pub struct Structure {
     pub quadratic_lagrangian: bool,
     /// L(q, v) = T(v) − V(q).
     pub separable_lagrangian: bool,
-    /// Products are rounded with the sums that they stand in, `multiply_add = fused`: in the derivatives and in the
-    /// sums over stages of Gauss rules.
+    /// Products are rounded with the sums that they stand in, `multiply_add = fused`: in the derivatives and
+    /// in the sums over stages of Gauss rules.
     pub fused_multiply_add: bool,
     /// The kind of the force −∂R/∂v.
     pub damping: Damping,

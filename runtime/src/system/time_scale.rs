@@ -5,8 +5,8 @@ use nalgebra::SVector;
 use crate::system::Lagrangian;
 
 /// A system with a time scale σ(q) > 0: steps that follow it are equal in τ, dt = σ(q) dτ
-/// ([`Trajectory::in_scaled_time`](crate::Trajectory::in_scaled_time)). `fn time_scale(&self, q: [f64; N]) -> f64`
-/// in the annotated block writes it.
+/// ([`Trajectory::in_scaled_time`](crate::Trajectory::in_scaled_time)).
+/// `fn time_scale(&self, q: [f64; N]) -> f64` in the annotated block writes it.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no time scale",
     label = "no time scale",

@@ -117,8 +117,8 @@ fn compare<S: Scalar>(function: Function, generated: S, written: S) -> Result<()
     }
 }
 
-/// The size of each entry of a point, but 1 where it is small: what a function of terms such as √(v² + ε²) − ε
-/// loses to rounding there, its differences do not show.
+/// The size of each entry of a point, but 1 where it is small: what a function of terms such as √(v² + ε²) −
+/// ε loses to rounding there, its differences do not show.
 pub(crate) fn sizes<S: Scalar, const N: usize>(point: &SVector<S, N>) -> SVector<S, N> {
     let small = if S::EPSILON.widen() > 1e-10 { 0.1 } else { 1e-3 };
     let mut sizes = *point;

@@ -19,8 +19,8 @@
 //! | L_d^ex, D1 L_d^ex, D2 L_d^ex, f_d^ex±, p0, p1, ∂p/∂q | second derivatives of L, first of f: no differences | 1e-14 |
 //! | D11, D12, D22 of L_d^ex; D1, D2 of f_d^ex± | third derivatives of L by differences of the second ones | 1e-12 |
 //!
-//! Each result states its own error estimates: [`ExactSegment::report`], [`SecondDerivatives::force_error`]. What
-//! would be wrong by more than [`Exact::WORST`] is an error, and so is a question that takes more than
+//! Each result states its own error estimates: [`ExactSegment::report`], [`SecondDerivatives::force_error`].
+//! What would be wrong by more than [`Exact::WORST`] is an error, and so is a question that takes more than
 //! [`Exact::EVALUATIONS`] evaluations of L and f.
 //!
 //! ```

@@ -15,9 +15,9 @@
 //! J is conserved iff the defect vanishes: a symmetry of L_d on which the force does no work, or the two
 //! cancelling.
 //!
-//! **Rules with interior points**, [`Gauss`](crate::Gauss): the forced equations eliminate those points, so that
-//! ξ(L_d) and f_d(ξ) mix what L and the force do; only their sum is J⁺ − J⁻. There the causes are taken at the
-//! stages,
+//! **Rules with interior points**, [`Gauss`](crate::Gauss): the forced equations eliminate those points, so
+//! that ξ(L_d) and f_d(ξ) mix what L and the force do; only their sum is J⁺ − J⁻. There the causes are taken
+//! at the stages,
 //!
 //! ```text
 //! J⁺ − J⁻ = h Σ bᵢ ξ(L)(Qᵢ, Vᵢ) + h Σ bᵢ f_L·ξ(Qᵢ)               ξ affine, ξ(q) = A q + b

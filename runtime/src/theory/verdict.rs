@@ -57,8 +57,8 @@ impl<P> Finding<P> {
         Self { value, tolerance, terms, at, tells: tells(tolerance, terms) }
     }
 
-    /// Whether the value is zero to rounding. What is NaN or infinite is not, nor is anything beside a tolerance
-    /// that the terms cannot exceed: it says nothing.
+    /// Whether the value is zero to rounding. What is NaN or infinite is not, nor is anything beside a
+    /// tolerance that the terms cannot exceed: it says nothing.
     #[must_use]
     pub fn vanishes(&self) -> bool {
         self.tells && is_zero(self.value, self.tolerance)

@@ -26,7 +26,8 @@ impl Kepler {
     }
 }
 
-/// Kepler's problem in τ, dt = |q|^{3/2} dτ, on orbits of energy `e`: σ (L(q, w/σ) + E), w = dq/dτ, the same p.
+/// Kepler's problem in τ, dt = |q|^{3/2} dτ, on orbits of energy `e`: σ (L(q, w/σ) + E), w = dq/dτ, the same
+/// p.
 #[rayleigh_system(rule = gauss)]
 pub fn kepler_of_energy(q: [f64; 2], w: [f64; 2], e: f64) -> f64 {
     let r = (q[0] * q[0] + q[1] * q[1]).sqrt();
@@ -34,8 +35,8 @@ pub fn kepler_of_energy(q: [f64; 2], w: [f64; 2], e: f64) -> f64 {
     0.5 * (w[0] * w[0] + w[1] * w[1]) / scale + scale * (1.0 / r + e)
 }
 
-/// The same with a time scale: of steps equal in τ, dt = |q|^{3/2} dτ, an orbit needs some 2√2 arsinh(π/δ)/Δτ, δ² =
-/// 2(1 − e): more than a circle by a logarithm.
+/// The same with a time scale: of steps equal in τ, dt = |q|^{3/2} dτ, an orbit needs some 2√2
+/// arsinh(π/δ)/Δτ, δ² = 2(1 − e): more than a circle by a logarithm.
 pub struct EccentricKepler {
     /// Drag.
     pub k: f64,

@@ -7,7 +7,8 @@ macro_rules! systems {
     ($engine:ident $(, $parameters:tt)?) => {
         use dalembert::rayleigh_system;
 
-        /// Linear in q, v, u and t: a mass matrix with coupling, a gyroscopic term, springs, dampers, a circulatory force.
+        /// Linear in q, v, u and t: a mass matrix with coupling, a gyroscopic term, springs, dampers, a
+        /// circulatory force.
         #[derive(Clone, Copy)]
         pub struct Linear {
             pub m: [f64; 2],

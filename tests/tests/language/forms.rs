@@ -94,7 +94,8 @@ fn rayleigh_and_general_force_add_up_by_both_rules() {
     assert_close(&(half + d1(middle) * (h * h / 4.0)), &f.minus);
     assert_close(&(half - d1(middle) * (h * h / 4.0)), &f.plus);
 
-    // R_d = (h²/4) [𝓡(q0, v̄) + 𝓡(q1, v̄)]: varying q0 moves the first node and v̄, varying q1 the second and v̄.
+    // R_d = (h²/4) [𝓡(q0, v̄) + 𝓡(q1, v̄)]: varying q0 moves the first node and v̄, varying q1 the second and
+    // v̄.
     let f = system.by(Trapezoidal, h).discrete_force(&q0, &q1);
     let shared = (minus_d2(q0) + minus_d2(q1)) * (h / 4.0);
     assert_close(&(shared + d1(q0) * (h * h / 4.0) + general(q0) * (h / 2.0)), &f.minus);

@@ -155,8 +155,8 @@ mod of_functions {
     }
 }
 
-/// A body's constants are named by one letter as generated code's types are, and its locals by the same letter in
-/// lower case, which is what temporaries are named after that hold an entry of the constant.
+/// A body's constants are named by one letter as generated code's types are, and its locals by the same
+/// letter in lower case, which is what temporaries are named after that hold an entry of the constant.
 #[allow(clippy::manual_range_contains, reason = "the body that was reported")]
 mod letters {
     use dalembert::nalgebra::vector;
@@ -197,7 +197,8 @@ mod letters {
                 + dalembert::step::Flow<Gauss<2>, 1>
                 + dalembert::Discrete<Gauss<2>, 1>,
         {
-            // Midpoint, h = 0.01, from (0.2, 2): at 50 steps the mass is on the third piece, q, p as of an own program.
+            // Midpoint, h = 0.01, from (0.2, 2): at 50 steps the mass is on the third piece, q, p as of an
+            // own program.
             let state = State { q: vector![0.2], p: vector![2.0] };
             let mut run = system.by(Midpoint, 0.01).run(state);
             let end = run.nth(49).unwrap().unwrap().state;

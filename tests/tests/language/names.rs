@@ -66,7 +66,8 @@ case! {
 }
 
 case! {
-    /// The user's own types and traits of the names that the implementations import, in functions of the same block.
+    /// The user's own types and traits of the names that the implementations import, in functions of the same
+    /// block.
     types_of_the_user: [1] at [([0.3], [1.1])]
     definitions {
         #[derive(Clone, Copy)]

@@ -177,7 +177,8 @@ case! {
 }
 
 case! {
-    /// By value, by reference, through `self` and `Self`, handed on, recursive, with integers and tuples, without arguments.
+    /// By value, by reference, through `self` and `Self`, handed on, recursive, with integers and tuples,
+    /// without arguments.
     helpers: [2] at [([0.3, 0.8], [1.1, 0.4])]
     definitions {
         pub struct System { k: f64, l: [f64; 2] }

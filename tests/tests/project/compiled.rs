@@ -1,15 +1,15 @@
-//! The code that a program of one system has to compile, the functions that it instantiates and their KiB of LLVM
-//! IR before optimisation, below a ceiling. Both count the same on every machine; seconds do not.
+//! The code that a program of one system has to compile, the functions that it instantiates and their KiB of
+//! LLVM IR before optimisation, below a ceiling. Both count the same on every machine; seconds do not.
 //!
-//! `cargo test -p dalembert-tests --test project compiled -- --nocapture` prints the table. The ceilings are a
-//! twentieth above what was found; what no program asked for should never raise them.
+//! `cargo test -p dalembert-tests --test project compiled -- --nocapture` prints the table. The ceilings are
+//! a twentieth above what was found; what no program asked for should never raise them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// A system, and the most functions and KiB of code of two programs: by the midpoint rule and by three rules, or
-/// by one and by two Gauss rules in eight lanes.
+/// A system, and the most functions and KiB of code of two programs: by the midpoint rule and by three rules,
+/// or by one and by two Gauss rules in eight lanes.
 struct Ceiling {
     name: &'static str,
     n: usize,

@@ -85,8 +85,8 @@ fn of_the_double_pendulum_is_bounded_over_many_steps() {
     assert!(account.drift() < 0.05 && account.growth() < 1.2, "{account:?}");
 }
 
-/// Positive control: a friction that takes one part in 10⁷ a unit of time over a million steps, or as much in all
-/// over fewer, is seen as a drift.
+/// Positive control: a friction that takes one part in 10⁷ a unit of time over a million steps, or as much in
+/// all over fewer, is seen as a drift.
 #[test]
 fn drifts_under_the_least_friction() {
     let system = Pendulum { m: 1.3, l: 1.0, g: 1.0, r: 1.3e-7 * 1e6 / STEPS as f64 };

@@ -138,8 +138,8 @@ struct Blown {
 }
 
 impl Blown {
-    /// p0 and p1 of `Gauss<2>` at the mean velocity v̄. The stages v̄ ± w satisfy sk w² + 2mw + s(g + kv̄²) = 0
-    /// with s = h/√3: where m² < s²k(g + kv̄²) there are none.
+    /// p0 and p1 of `Gauss<2>` at the mean velocity v̄. The stages v̄ ± w satisfy sk w² + 2mw + s(g + kv̄²) =
+    /// 0 with s = h/√3: where m² < s²k(g + kv̄²) there are none.
     fn momenta(&self, mean: f64, h: f64) -> Option<[f64; 2]> {
         let s = h / 3.0_f64.sqrt();
         let constant = s * (self.g + self.k * mean * mean);

@@ -1,5 +1,5 @@
-//! Sines, cosines and reciprocals that start from those of the sweep before: how far off they may be, beside 31
-//! digits, and that each lane is what it is alone.
+//! Sines, cosines and reciprocals that start from those of the sweep before: how far off they may be, beside
+//! 31 digits, and that each lane is what it is alone.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -22,7 +22,8 @@ fn angle(random: &mut StdRng) -> f64 {
     }
 }
 
-/// Errors of sine and cosine at x + δ from those at x, in units of ε (|sine| + |δ|) and of ε (|cosine| + |δ|).
+/// Errors of sine and cosine at x + δ from those at x, in units of ε (|sine| + |δ|) and of ε (|cosine| +
+/// |δ|).
 fn errors(x: f64, by: f64) -> [f64; 2] {
     let mut near = Angle::<Lanes<f64, 1>>::blank();
     let _ = near.sin_cos(Lanes([x]));

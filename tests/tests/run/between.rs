@@ -48,7 +48,8 @@ macro_rules! for_all_methods {
     };
 }
 
-/// A run that is looked into, at random times by both answers, takes the steps of one that is not, bit by bit.
+/// A run that is looked into, at random times by both answers, takes the steps of one that is not, bit by
+/// bit.
 #[test]
 fn looking_between_steps_leaves_the_grid_as_it_is() {
     fn check<L: Flow<M, 2, Scalar = f64>, M: Copy>(system: &L, method: M, h: f64) {
@@ -73,8 +74,8 @@ fn looking_between_steps_leaves_the_grid_as_it_is() {
     for_all_methods!(check);
 }
 
-/// Samples at times of the grid are the grid's, bit by bit; between, they are steps from it; and the run goes on
-/// as if nobody had asked.
+/// Samples at times of the grid are the grid's, bit by bit; between, they are steps from it; and the run goes
+/// on as if nobody had asked.
 #[test]
 fn samples_on_the_grid_are_the_grids_own() {
     fn check<L: Flow<M, 2, Scalar = f64>, M: Copy>(system: &L, method: M, h: f64) {
@@ -134,8 +135,8 @@ where
     errors
 }
 
-/// By a step: the order of the run. By a polynomial: S + 1 of Gauss rules of three stages on, 4 of the cubic, where
-/// the run has it.
+/// By a step: the order of the run. By a polynomial: S + 1 of Gauss rules of three stages on, 4 of the cubic,
+/// where the run has it.
 #[test]
 fn both_answers_have_their_orders() {
     fn check<M: Copy>(method: M, h: f64, orders: [f64; 2])
@@ -210,8 +211,8 @@ fn single_precision_is_looked_into_as_well() {
     check(Splitting::blanes_moan_6(), 0.25);
 }
 
-/// Times by another arithmetic miss the clock by their rounding, to either side: they are the grid's all the same. Nor does a
-/// sensor at the end of a period take the run, or come after it, into another period's step.
+/// Times by another arithmetic miss the clock by their rounding, to either side: they are the grid's all the
+/// same. Nor does a sensor at the end of a period take the run, or come after it, into another period's step.
 #[test]
 fn a_time_that_rounding_takes_off_the_grid_is_on_it() {
     let mut ahead = 0;

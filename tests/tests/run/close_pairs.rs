@@ -1,5 +1,5 @@
-//! Pairs of crossings that lie close together, within one step: a function that the motion all but touches. Three
-//! values by partial steps say that there is a pair, and none of the step's ends does.
+//! Pairs of crossings that lie close together, within one step: a function that the motion all but touches.
+//! Three values by partial steps say that there is a pair, and none of the step's ends does.
 
 use dalembert::nalgebra::{Vector4, vector};
 use dalembert::run::between::Moment;

@@ -42,8 +42,8 @@ fn pendulum(q: [f64; 1], v: [f64; 1], r: f64) -> (f64, f64) {
 
 const UP: State<f64, 1> = State { q: vector![1.0], p: vector![0.0] };
 
-/// A quarter of a turn lies between a zero of q and one of p, 1000 times, forwards and backwards, by steps of any
-/// method that has the motion; two functions come in the order of time.
+/// A quarter of a turn lies between a zero of q and one of p, 1000 times, forwards and backwards, by steps of
+/// any method that has the motion; two functions come in the order of time.
 #[test]
 fn an_oscillator_passes_zero_every_quarter_of_a_turn() {
     fn check<M: Copy>(method: M, h: f64, turns: f64, relative: f64)
@@ -99,8 +99,8 @@ fn a_planet_is_at_perihelion_once_a_turn() {
     assert_eq!(passed, 60.0);
 }
 
-/// Impacts 1 to 50 of a ball that keeps nine tenths of its velocity, against the sum of its flights. The last ones
-/// are nearer to each other than a step is long.
+/// Impacts 1 to 50 of a ball that keeps nine tenths of its velocity, against the sum of its flights. The last
+/// ones are nearer to each other than a step is long.
 #[test]
 fn a_ball_bounces_fifty_times() {
     fn check<M: Copy>(method: M, h: f64)
@@ -136,7 +136,8 @@ fn a_ball_bounces_fifty_times() {
     check(Trapezoidal, 0.015625);
 }
 
-/// Impacts that accumulate end in an error, after so many that their flights are too short to be told from none.
+/// Impacts that accumulate end in an error, after so many that their flights are too short to be told from
+/// none.
 #[test]
 fn impacts_that_accumulate_are_chattering() {
     let mut run = Ball {}.by(Splitting::blanes_moan_6(), 0.125).run(UP);
@@ -220,8 +221,8 @@ fn a_start_on_the_event_is_none() {
         assert_eq!(times.len(), 2, "{times:?}");
         assert!((times[0] - PI).abs() < 1e-14 && (times[1] - TAU).abs() < 1e-14);
     }
-    // It turns there, and does so again after a turn: touching or, as rounding has it, two crossings or none, and
-    // nothing at the start.
+    // It turns there, and does so again after a turn: touching or, as rounding has it, two crossings or none,
+    // and nothing at the start.
     for h in [0.25, 0.0078125] {
         let mut run = Oscillator {}.by(Gauss::<8>, h).run(UP);
         let touching: Vec<_> =
@@ -287,8 +288,8 @@ fn an_event_on_the_grid_counts_once() {
     check(Splitting::blanes_moan_6());
 }
 
-/// Several in one step come in order, those at one time in the order of their functions; a terminal one lets what
-/// happens with it happen, and nothing later.
+/// Several in one step come in order, those at one time in the order of their functions; a terminal one lets
+/// what happens with it happen, and nothing later.
 #[test]
 fn several_events_of_one_step_come_in_order() {
     let mut run = Free {}.by(Gauss::<3>, 4.0).run(STRAIGHT);
@@ -337,8 +338,8 @@ fn two_crossings_within_a_step_are_found() {
     assert_eq!(run.watch(|at| [at.q[0] + 1.0 + 1e-13]).until(4.0).count(), 0);
 }
 
-/// The kinetic energy that a stop takes, and what friction takes between: all of the energy's change, by whole steps
-/// and those up to the impacts.
+/// The kinetic energy that a stop takes, and what friction takes between: all of the energy's change, by
+/// whole steps and those up to the impacts.
 #[test]
 fn the_ledger_closes_over_impacts() {
     fn check<M: Copy>(method: M, h: f64, remainder: f64)
@@ -476,8 +477,8 @@ fn single_precision_has_events() {
     check(Splitting::blanes_moan_6(), 0.25);
 }
 
-/// A guarded run has the events and the states between of its steps, by every method that it may choose; those of
-/// an oscillator are where they are to its error.
+/// A guarded run has the events and the states between of its steps, by every method that it may choose;
+/// those of an oscillator are where they are to its error.
 #[test]
 fn guarded_runs_have_events_and_states_between() {
     fn check<L, M>(system: &L, methods: M, tolerance: f64)
@@ -514,8 +515,8 @@ fn guarded_runs_have_events_and_states_between() {
     }
 }
 
-/// An input that is held: events and samples are those of a run by that input, one step or many; and the view's
-/// time goes on while it is.
+/// An input that is held: events and samples are those of a run by that input, one step or many; and the
+/// view's time goes on while it is.
 #[test]
 fn held_inputs_have_events_and_states_between() {
     struct Pushed;
@@ -603,9 +604,9 @@ fn events_and_samples_say_what_they_are() {
     );
 }
 
-/// A ball that bounces on q = 0 under a controller, which hands it an input at its own ticks: the last step before a
-/// tick ends after it, and an impact in between is the ball's all the same. 30 balls, three periods that are no
-/// multiple of the step, and three that are; none falls through the floor.
+/// A ball that bounces on q = 0 under a controller, which hands it an input at its own ticks: the last step
+/// before a tick ends after it, and an impact in between is the ball's all the same. 30 balls, three periods
+/// that are no multiple of the step, and three that are; none falls through the floor.
 #[test]
 fn impacts_between_a_tick_and_the_end_of_its_step_are_told() {
     /// L = ½v² − g q, with a force.

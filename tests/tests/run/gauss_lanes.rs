@@ -1,5 +1,6 @@
-//! Gauss rules in lanes: every member's state is bit by bit that of its own run, whatever the number of stages
-//! and of lanes, whatever runs beside it: stiff members, members on their way to infinity, members that fail.
+//! Gauss rules in lanes: every member's state is bit by bit that of its own run, whatever the number of
+//! stages and of lanes, whatever runs beside it: stiff members, members on their way to infinity, members
+//! that fail.
 
 use std::fmt::Debug;
 

@@ -72,8 +72,8 @@ impl Bead {
     }
 }
 
-/// Three pendulums, one at the end of the other: a dense matrix, kept while it serves. Where they swing wildly
-/// it soon does not, and Newton's method takes over.
+/// Three pendulums, one at the end of the other: a dense matrix, kept while it serves. Where they swing
+/// wildly it soon does not, and Newton's method takes over.
 #[derive(Clone, Debug)]
 struct ThreePendulums {
     g: f64,

@@ -1,5 +1,5 @@
-//! Crossings within one step, of random systems by random methods with random event functions, are all found: as
-//! many as a fine scan by partial steps sees change the sign, and each where it does.
+//! Crossings within one step, of random systems by random methods with random event functions, are all found:
+//! as many as a fine scan by partial steps sees change the sign, and each where it does.
 //!
 //! Functions are planes through the motion, planes that it all but touches, circles that it all but touches,
 //! products of two planes that lie near to each other, and planes that move.

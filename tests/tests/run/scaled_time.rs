@@ -169,7 +169,8 @@ fn what_stands_in_the_way_has_a_name() {
         assert!(matches!(error, StepError::StepSize { .. }), "{error}");
     }
 
-    // On the way: q = −1, where σ is 0, is infinitely far in τ; the clock stops before. The state is the last good one.
+    // On the way: q = −1, where σ is 0, is infinitely far in τ; the clock stops before. The state is the last
+    // good one.
     let system = Falling { a: 1.0, b: 1.0 };
     let mut run = system.by(Midpoint, 0.1).run(start).in_scaled_time();
     let mut last = start;

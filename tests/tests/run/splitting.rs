@@ -1,4 +1,5 @@
-//! The splittings of Blanes and his coauthors: the order, what free motion and damping keep, and where they are stable.
+//! The splittings of Blanes and his coauthors: the order, what free motion and damping keep, and where they
+//! are stable.
 
 use std::f64::consts::PI;
 
@@ -371,8 +372,8 @@ fn compensated_sums_keep_what_rounding_takes() {
     assert!(rounded.iter().all(|&lost| lost > 1e-14), "{rounded:?}");
 }
 
-/// With terms of first degree in L and R, coupled masses and damping, the same motion to rounding; and a run that
-/// is taken up at its state, which knows nothing of what its sums have lost, to a rounding.
+/// With terms of first degree in L and R, coupled masses and damping, the same motion to rounding; and a run
+/// that is taken up at its state, which knows nothing of what its sums have lost, to a rounding.
 #[test]
 fn compensated_sums_are_of_the_same_step() {
     let system = Two { damping: [0.5, -0.2, 0.7], k: 1.0 };

@@ -1,6 +1,6 @@
-//! Systems that take the time, in lanes of explicit methods and of Gauss rules: every member stands at a time of
-//! its own, that of its view and the steps since it was put into its lane, and its state is bit by bit that of its
-//! own run, whatever the number of lanes and whatever runs beside it.
+//! Systems that take the time, in lanes of explicit methods and of Gauss rules: every member stands at a time
+//! of its own, that of its view and the steps since it was put into its lane, and its state is bit by bit
+//! that of its own run, whatever the number of lanes and whatever runs beside it.
 
 use dalembert::nalgebra::vector;
 use dalembert::run::{InLanes, LaneRuns};
@@ -282,7 +282,8 @@ fn solved_for_an_error() {
     assert!(differ, "what is left shows");
 }
 
-/// The control: a time that is another by one rounding, or by a step, is seen by the bits, in that lane alone.
+/// The control: a time that is another by one rounding, or by a step, is seen by the bits, in that lane
+/// alone.
 #[test]
 fn bits_see_another_time() {
     fn sees<'s, M, L, const N: usize>(method: M, right: [L; 4], wrong: [L; 2], starts: [State<f64, N>; 4])

@@ -1,5 +1,5 @@
-//! Explicit steps of systems that take the time: splittings, Störmer–Verlet and its compositions, beside the same
-//! system with the time as one more coordinate, whose steps ask for no clock.
+//! Explicit steps of systems that take the time: splittings, Störmer–Verlet and its compositions, beside the
+//! same system with the time as one more coordinate, whose steps ask for no clock.
 
 use dalembert::nalgebra::vector;
 use dalembert::step::{Flow, ForceWork};
@@ -60,8 +60,8 @@ fn beside(state: &State<f64, 2>, t: f64) -> State<f64, 3> {
     State { q: vector![state.q[0], state.q[1], t], p: vector![state.p[0], state.p[1], 1.0] }
 }
 
-/// How far runs with a clock are from those with a coordinate, over so many random systems; `late` is added to
-/// the clock.
+/// How far runs with a clock are from those with a coordinate, over so many random systems; `late` is added
+/// to the clock.
 fn apart<M>(method: M, h: f64, late: f64) -> f64
 where
     M: Copy,

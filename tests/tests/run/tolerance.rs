@@ -196,9 +196,9 @@ fn from_the_pericentre_the_error_asked_for_is_kept() {
         let end = run.by_ref().last().unwrap().unwrap().state;
         let error = (end.q - start.q).amax();
         assert!(error <= tolerance, "{error:e}\n{choice}");
-        // Positive control: judged as a choice judges, by a step beside two halves of it, the way out alone errs by
-        // a fraction of what the start does; and steps longer by 1.5, three times over, as it then asked for, miss the
-        // error by far.
+        // Positive control: judged as a choice judges, by a step beside two halves of it, the way out alone
+        // errs by a fraction of what the start does; and steps longer by 1.5, three times over, as it then
+        // asked for, miss the error by far.
         let step = |h| Methods::<Planet, 2>::step(among, choice.method(), h).unwrap();
         let advanced = |h, state: &_| step(h).advance(&Planet {}, 0.0, state).unwrap().step.state;
         let local = |h: f64, state: &_| {

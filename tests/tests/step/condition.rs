@@ -71,7 +71,8 @@ macro_rules! chains {
 
             const N: usize = $n;
 
-            /// Masses m(i + 1) and springs between walls, with friction between neighbours: banded from some n on.
+            /// Masses m(i + 1) and springs between walls, with friction between neighbours: banded from some
+            /// n on.
             #[rayleigh_system(rule = [midpoint, trapezoidal, gauss, fitted])]
             pub fn springs(q: [f64; $n], v: [f64; $n], m: f64, k: f64, c: f64) -> (f64, f64) {
                 let mut l = -0.5 * k * (q[0] * q[0] + q[$n - 1] * q[$n - 1]);
@@ -251,7 +252,8 @@ fn at_the_edges() {
         let found = certified(&NearlySingular { m }, Midpoint, &state, 0.1);
         assert!((found * m / 4.0 - 1.0).abs() < m + 1e-6, "{m}: {found:e}");
     }
-    // Derivatives that do not exist return a named `StepError`: at q̄ = 0, exactly, the curvature is infinite.
+    // Derivatives that do not exist return a named `StepError`: at q̄ = 0, exactly, the curvature is
+    // infinite.
     let state = State { q: vector![1.0], p: vector![0.3] };
     let mut step = Wall {}.by(Midpoint, 0.5).step(&state).unwrap();
     assert!(Wall {}.by(Midpoint, 0.5).certificate(&state, &step).is_ok());

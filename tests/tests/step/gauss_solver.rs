@@ -135,7 +135,8 @@ fn pade_of_matrix(s: u32, z: SMatrix<f64, 6, 6>, y: SVector<f64, 6>) -> SVector<
     below.full_piv_lu().solve(&(above * y)).unwrap()
 }
 
-/// The largest error of the stiff steps of random linear systems by S stages, in units of what they start from.
+/// The largest error of the stiff steps of random linear systems by S stages, in units of what they start
+/// from.
 fn worst_of_stiff_linear_systems<const S: usize>(random: &mut StdRng, steps: u32) -> f64 {
     let mut worst = 0.0_f64;
     for _ in 0..steps {

@@ -548,8 +548,8 @@ impl<L: Discrete<Midpoint, 1, Scalar = f64>> MomentaOfMidpoint for L {
     }
 }
 
-/// Linear in v̄ and, but for the time, explicit by the trapezoidal rule: what a run keeps must not keep an old
-/// force.
+/// Linear in v̄ and, but for the time, explicit by the trapezoidal rule: what a run keeps must not keep an
+/// old force.
 struct Rocking;
 
 #[dalembert::rayleigh_system(rule = [midpoint, trapezoidal])]

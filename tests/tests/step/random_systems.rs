@@ -234,7 +234,8 @@ proptest! {
         }
     }
 
-    /// Without springs to the walls p₀ + p₁ changes by what friction against the wall takes, h ∂R/∂v(v̄), and by nothing else.
+    /// Without springs to the walls p₀ + p₁ changes by what friction against the wall takes, h ∂R/∂v(v̄), and
+    /// by nothing else.
     #[test]
     fn the_total_momentum_balances(
         system in masses(3.0), q in pair(-2.0, 0.5), p in pair(-2.0, 0.5), share in 0.01..0.5,
@@ -245,7 +246,8 @@ proptest! {
         prop_assert!(missed <= bound, "{:e} {:e}", missed, bound);
     }
 
-    /// By the midpoint rule the ledger of a linear system has no remainder; of any system, its entries add up.
+    /// By the midpoint rule the ledger of a linear system has no remainder; of any system, its entries add
+    /// up.
     #[test]
     fn the_energy_ledger_adds_up(
         system in masses(3.0), q in pair(-2.0, 0.5), p in pair(-2.0, 0.5), share in 0.01..0.5,

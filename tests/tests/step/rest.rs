@@ -1,5 +1,5 @@
-//! Damped motion to its end: forces that cancel at q = 0 round by their own size, of which last places of q, v and p
-//! show nothing there.
+//! Damped motion to its end: forces that cancel at q = 0 round by their own size, of which last places of q,
+//! v and p show nothing there.
 
 use dalembert::nalgebra::{Vector2, matrix, vector};
 use dalembert::{Discrete, Discretise, Midpoint, State, StepError, rayleigh_system};
@@ -40,11 +40,13 @@ fn pair(q: [f64; 2], v: [f64; 2], a: f64) -> (f64, f64) {
     )
 }
 
-/// Fifty starts between rest and rest: each step is that of the rule in closed form, to rounding of the forces.
+/// Fifty starts between rest and rest: each step is that of the rule in closed form, to rounding of the
+/// forces.
 #[test]
 fn a_mass_between_two_springs_comes_to_rest() {
     const H: f64 = 0.1;
-    // v̄ = (p0 − (h/2) k q0)/(1 + (h/2) c + (h²/4) k), q1 = q0 + h v̄, p1 = 2 m v̄ − p0 − h c v̄ − …: by k = 2, c = ½.
+    // v̄ = (p0 − (h/2) k q0)/(1 + (h/2) c + (h²/4) k), q1 = q0 + h v̄, p1 = 2 m v̄ − p0 − h c v̄ − …: by k =
+    // 2, c = ½.
     let inverse = 1.0 / (1.0 + 0.25 * H + 0.5 * H * H);
     let v = vector![-H * inverse, inverse].transpose();
     let q = vector![1.0, 0.0].transpose() + v * H;
@@ -101,8 +103,8 @@ fn the_terms_are_those_that_cancel_and_there_are_none_where_none_do() {
     }
 }
 
-/// The rounding of lengths that are 10⁶ times the motion explains no residual that is larger: the solver does not
-/// take what a short guess leaves.
+/// The rounding of lengths that are 10⁶ times the motion explains no residual that is larger: the solver does
+/// not take what a short guess leaves.
 #[test]
 fn what_terms_do_not_explain_is_solved_for() {
     let pair = Pair { a: 1e6 };

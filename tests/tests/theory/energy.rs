@@ -57,7 +57,8 @@ fn a_gauss_rule_loses_what_friction_takes() {
     assert!(missed < -1e-4 && (missed / predicted - 1.0).abs() < 0.01, "{missed:e} {predicted:e}");
 }
 
-/// Two bodies, a nonlinear spring between, linear damping with cross terms, a force that depends on q and on v.
+/// Two bodies, a nonlinear spring between, linear damping with cross terms, a force that depends on q and on
+/// v.
 #[derive(Clone, Copy, Debug)]
 struct Bodies {
     m: [f64; 2],
@@ -98,7 +99,8 @@ impl Bodies {
         [[-self.k[0] * q[0] - d, -self.k[0] * q[1] + d], drag, force]
     }
 
-    /// dissipated and work over the time T, by the classical Runge–Kutta method for all of (q, v, ∫ v·∂R/∂v, ∫ v·f).
+    /// dissipated and work over the time T, by the classical Runge–Kutta method for all of (q, v, ∫ v·∂R/∂v,
+    /// ∫ v·f).
     fn exact(&self, model: usize, start: &State<f64, 2>, time: f64) -> [f64; 2] {
         const STEPS: usize = 4000;
         let rate = |y: &SVector<f64, 6>| {
@@ -253,7 +255,8 @@ fn every_method_takes_account_to_its_order() {
     }
 }
 
-/// L of second degree: what the midpoint and the Gauss rules do to the energy is what forces do, whatever they are.
+/// L of second degree: what the midpoint and the Gauss rules do to the energy is what forces do, whatever
+/// they are.
 #[rayleigh_system(rule = [midpoint, gauss])]
 fn buffer(q: [f64; 1], v: [f64; 1], k: f64, dry: f64) -> (f64, f64) {
     (

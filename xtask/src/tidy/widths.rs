@@ -10,17 +10,15 @@ use crate::project;
 /// Folders with comments that are wider today, and how many lines. It only ever goes down.
 const CEILINGS: &[(&str, usize)] = &[
     ("benches", 3),
-    ("c", 42),
-    ("ensemble", 18),
-    ("examples", 31),
-    ("firmware", 4),
-    ("fmu", 24),
-    ("macros", 26),
-    ("python", 28),
+    ("c", 6),
+    ("ensemble", 3),
+    ("fmu", 1),
+    ("macros", 5),
+    ("python", 2),
     ("report", 3),
-    ("runtime", 227),
-    ("scenes", 5),
-    ("tests", 80),
+    ("runtime", 45),
+    ("scenes", 1),
+    ("tests", 6),
 ];
 
 /// So many fewer there may be in a folder before its ceiling has to follow.

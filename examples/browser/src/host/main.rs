@@ -1,5 +1,5 @@
-//! What this machine says of the module: `host interface` prints how the page's script finds its way in it, `host runs` the
-//! runs of the page, bit by bit.
+//! What this machine says of the module: `host interface` prints how the page's script finds its way in it,
+//! `host runs` the runs of the page, bit by bit.
 
 mod interface;
 #[path = "../lib.rs"]

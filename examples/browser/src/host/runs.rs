@@ -1,7 +1,8 @@
-//! The runs of the page as this machine makes them, a line a step: the run, the number of the step, and the bits of q, p and
-//! the energy. The variational ones are runs in Rust, not the functions that the page calls.
+//! The runs of the page as this machine makes them, a line a step: the run, the number of the step, and the
+//! bits of q, p and the energy. The variational ones are runs in Rust, not the functions that the page calls.
 //!
-//! Each begins as the page's does; after [`STEPS`] steps the friction changes, after [`MORE`] further ones the step size.
+//! Each begins as the page's does; after [`STEPS`] steps the friction changes, after [`MORE`] further ones
+//! the step size.
 
 use crate::model::{DoublePendulum, Motion, Ring, runge_kutta_4};
 use dalembert::run::DrivenTrajectory;

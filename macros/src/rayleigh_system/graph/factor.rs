@@ -95,7 +95,8 @@ impl Graph {
         outputs.iter().map(|output| factoring.rewritten[output]).collect()
     }
 
-    /// Of `nodes` and what they need, what stays as it is: the first `written` and what conditions are made of.
+    /// Of `nodes` and what they need, what stays as it is: the first `written` and what conditions are made
+    /// of.
     pub(super) fn kept(&self, nodes: &[Node], written: usize) -> HashSet<Node> {
         let is_condition =
             |node: &Node| matches!(self.operation(*node), Operation::Compare(..) | Operation::Is(..));

@@ -9,8 +9,8 @@ use super::value::Value;
 use super::written::Written;
 use super::{Lowering, Result, refuse};
 
-/// Names of arguments and locals that generated functions have whatever the expressions: no constant can stand
-/// beside them.
+/// Names of arguments and locals that generated functions have whatever the expressions: no constant can
+/// stand beside them.
 const LOCALS: [&str; 22] = [
     "_q",
     "_v",

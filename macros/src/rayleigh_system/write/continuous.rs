@@ -214,9 +214,9 @@ pub fn acting_force(system: &System<'_>) -> TokenStream {
     }
 }
 
-/// `impl ForcedLagrangian<2> for Ring`. The equations of motion at the stages are those that the runtime makes
-/// of L and the acting force, unless an engine gives them. `impl ForcedLagrangianInLanes<2> for Ring`, where it
-/// is asked for.
+/// `impl ForcedLagrangian<2> for Ring`. The equations of motion at the stages are those that the runtime
+/// makes of L and the acting force, unless an engine gives them. `impl ForcedLagrangianInLanes<2> for Ring`,
+/// where it is asked for.
 pub fn forced_lagrangian(
     system: &System<'_>,
     stages: Option<TokenStream>,

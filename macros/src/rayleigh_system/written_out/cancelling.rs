@@ -1,7 +1,8 @@
 //! Terms that cancel in p0: what rounding takes of it where last places of q and v do not show it.
 //!
-//! At an equilibrium forces cancel. Where they do at q ≠ 0, a last place of q moves them by what they round by; not
-//! so at q = 0, where (q − 1) + (q + 1) rounds at ε and q has no places. Three kinds of expressions tell these apart:
+//! At an equilibrium forces cancel. Where they do at q ≠ 0, a last place of q moves them by what they round
+//! by; not so at q = 0, where (q − 1) + (q + 1) rounds at ε and q has no places. Three kinds of expressions
+//! tell these apart:
 //!
 //! ```text
 //! vanishing    0 with q and v: its rounding is a share of what last places of q and v do         q, k q, sin q, q cos q
@@ -9,9 +10,9 @@
 //! cancelling   a sum of two that are nonzero, and what is made of it; sin (q − 1)                 (q − 1) + (q + 1)
 //! ```
 //!
-//! One nonzero term of p0 is balanced by p and v, whose rounding is known. Of a component that is cancelling the
-//! running error bound is written out, over ε (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2002,
-//! section 3.3): the sizes of what each operation rounds, carried to the result.
+//! One nonzero term of p0 is balanced by p and v, whose rounding is known. Of a component that is cancelling
+//! the running error bound is written out, over ε (N. J. Higham, Accuracy and Stability of Numerical
+//! Algorithms, 2002, section 3.3): the sizes of what each operation rounds, carried to the result.
 
 use std::collections::HashMap;
 
@@ -27,8 +28,8 @@ enum Kind {
     Cancelling,
 }
 
-/// The most operations of p0 whose terms are looked at: sizes take up to eight times as many, and no system is to be
-/// refused for their length.
+/// The most operations of p0 whose terms are looked at: sizes take up to eight times as many, and no system
+/// is to be refused for their length.
 const MOST: usize = MOST_OPERATIONS / 8;
 
 impl Kind {

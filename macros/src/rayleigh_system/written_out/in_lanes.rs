@@ -16,8 +16,8 @@ use super::*;
 pub(super) use explicit::{ExplicitOutputs, TAKEN};
 pub(super) use midpoint::{MidpointOutputs, TAKEN_AT_MIDPOINT};
 
-/// Numbers and truth values of members, in one value that functions hand on: `([Members<f64, W>; 3], [Mask<W>;
-/// 1])`.
+/// Numbers and truth values of members, in one value that functions hand on:
+/// `([Members<f64, W>; 3], [Mask<W>; 1])`.
 struct OfMembers {
     scalar: Ident,
     /// W.
@@ -84,8 +84,8 @@ impl OfMembers {
         self.pattern(line).map(|pattern| quote!(let #pattern = *#name;))
     }
 
-    /// `let ([k, _], t) = *fields;`, with the present time by the name `time`, where the system has one and the
-    /// line reads it; nothing where it reads neither.
+    /// `let ([k, _], t) = *fields;`, with the present time by the name `time`, where the system has one and
+    /// the line reads it; nothing where it reads neither.
     fn read_by(&self, line: &StraightLine, is_timed: bool, time: &str) -> Option<TokenStream> {
         let (pattern, reads_time) = (self.pattern(line), line.uses("t"));
         (pattern.is_some() || reads_time).then(|| {
@@ -144,8 +144,8 @@ impl Code<'_> {
         self.seen(line)
     }
 
-    /// `type Fields` and the function that fills it; where there is a time, with the present one beside what is
-    /// known, and the function that moves it.
+    /// `type Fields` and the function that fills it; where there is a time, with the present one beside what
+    /// is known, and the function that moves it.
     fn gathered(&mut self, fields: &OfMembers) -> TokenStream {
         let (ty, members) = (fields.ty(), &fields.members);
         let (scalar, is_timed) = (self.system.scalar.clone(), self.system.timed.any());

@@ -101,7 +101,8 @@ impl Code<'_> {
         total
     }
 
-    /// The code with h/2 and q̄ in front, as far as it reads them; `now` is the time at the start of the step.
+    /// The code with h/2 and q̄ in front, as far as it reads them; `now` is the time at the start of the
+    /// step.
     pub(super) fn at_midpoint(
         &self,
         line: &StraightLine,

@@ -175,7 +175,8 @@ impl Code<'_> {
         Ok(StagesWritten { function, in_lanes })
     }
 
-    /// The reciprocals that corrections need and nothing else does: what they are off by, the next sweep sees.
+    /// The reciprocals that corrections need and nothing else does: what they are off by, the next sweep
+    /// sees.
     fn of_corrections_alone(&self, outputs: &[Node]) -> Vec<Node> {
         let (others, corrections) = outputs.split_at(2 * self.n);
         let others: BTreeSet<Node> = self.graph.reachable(others.iter().copied()).into_iter().collect();

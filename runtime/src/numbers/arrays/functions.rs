@@ -171,8 +171,8 @@ fn all_above<const S: usize>(x: &[f64; S], limit: f64) -> bool {
     are_above
 }
 
-/// Sine and cosine of a number, those of [`Elementary`](crate::numbers::Elementary), which stands on this module:
-/// the platform's, or libm's where there is no platform or every machine is to compute the same.
+/// Sine and cosine of a number, those of [`Elementary`](crate::numbers::Elementary), which stands on this
+/// module: the platform's, or libm's where there is no platform or every machine is to compute the same.
 fn of_any_angle(x: f64) -> (f64, f64) {
     if cfg!(all(feature = "std", not(feature = "libm"))) {
         nalgebra::ComplexField::sin_cos(x)

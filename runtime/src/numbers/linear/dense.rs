@@ -147,7 +147,8 @@ pub(super) fn factored<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,
 ) -> Result<FactoredDense<S, N>, Singular> {
     let (mut rows, mut order, mut scale) = ([[S::zero(); N]; N], [0; N], [S::zero(); N]);
-    // Of arrays: an index into the matrix that is not shown to be within bounds would bring a panic into the step.
+    // Of arrays: an index into the matrix that is not shown to be within bounds would bring a panic into the
+    // step.
     for j in 0..N {
         for i in 0..N {
             rows[i][j] = matrix.data.0[j][i];

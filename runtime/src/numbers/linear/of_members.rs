@@ -344,8 +344,8 @@ mod tests {
 
     const W: usize = 8;
 
-    /// Matrices of all sizes and shapes: diagonals that call for exchanges in some members, rows that lose all
-    /// digits, rows of zeros.
+    /// Matrices of all sizes and shapes: diagonals that call for exchanges in some members, rows that lose
+    /// all digits, rows of zeros.
     fn entry(member: usize, i: usize, j: usize) -> f64 {
         let any = ((13 * member + 5 * i + 3 * j * j + 7 * i * i * j) as f64 + 0.7).sin();
         match member {

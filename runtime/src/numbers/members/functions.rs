@@ -1,6 +1,6 @@
 //! Elementary functions of members: sine, cosine and exponential in the form that
-//! [`branch_free`](crate::numbers::Elementary::branch_free) gives of one number, the others one by one through
-//! those of numbers; so they are rounded alike.
+//! [`branch_free`](crate::numbers::Elementary::branch_free) gives of one number, the others one by one
+//! through those of numbers; so they are rounded alike.
 
 use super::{Members, each_member};
 use crate::numbers::{Elementary, Scalar};

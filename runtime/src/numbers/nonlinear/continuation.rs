@@ -1,9 +1,9 @@
 //! Steps in parts: the root that Newton's method misses from the state alone.
 //!
-//! The root of a step is a curve v̄(h) that starts at the velocity of the state; the step continues the motion
-//! if it lies on it. Where no iteration from the state leads to the root, h grows part by part, each solved
-//! from the root before: a short homotopy (E. L. Allgower and K. Georg, Numerical Continuation Methods, 1990,
-//! chapter 2). It ends where the curve turns back, and then there is no such root.
+//! The root of a step is a curve v̄(h) that starts at the velocity of the state; the step continues the
+//! motion if it lies on it. Where no iteration from the state leads to the root, h grows part by part, each
+//! solved from the root before: a short homotopy (E. L. Allgower and K. Georg, Numerical Continuation
+//! Methods, 1990, chapter 2). It ends where the curve turns back, and then there is no such root.
 
 use super::careful::{MAX_ITERATIONS, careful};
 use super::equations::{Equations, Root, Solved, Unsolved, Way};
@@ -35,8 +35,8 @@ pub trait AtLength: Sized {
         room: Room<'_, Self>,
     ) -> Result<Solved<Self>, Unsolved<Self>>;
 
-    /// Whether the `residual`, a function of v that is written to the second slice, vanishes with the velocity
-    /// in every coordinate, so that rest is its root.
+    /// Whether the `residual`, a function of v that is written to the second slice, vanishes with the
+    /// velocity in every coordinate, so that rest is its root.
     fn is_rest(residual: &mut dyn FnMut(&[Self], &mut [Self]), p: &[Self], room: Room<'_, Self>) -> bool;
 
     /// The floor with the noise of the residual, a `function` that writes to the second slice; whether that

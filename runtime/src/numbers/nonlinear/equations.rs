@@ -3,8 +3,8 @@
 use super::vectors::{Room, subtract};
 use crate::numbers::{Precision, Singular};
 
-/// The equation p0(q, v, h) = p, for who knows neither how many coordinates it has nor in which form its matrix
-/// is kept.
+/// The equation p0(q, v, h) = p, for who knows neither how many coordinates it has nor in which form its
+/// matrix is kept.
 pub trait Evaluate<S> {
     /// p0(q, v, h). The present matrix is ∂p0/∂v there from then on; rows and columns of the coordinates
     /// `held` (those with an entry there that is not 0) are those of the unit matrix.
@@ -160,8 +160,8 @@ impl<S: Precision> Equations<'_, S> {
         self.momenta(q, v, p0, p1, room);
     }
 
-    /// p1 − p0 where some coordinates of `v` are next to rest, as the mean of both sides: what is odd in their
-    /// velocities vanishes.
+    /// p1 − p0 where some coordinates of `v` are next to rest, as the mean of both sides: what is odd in
+    /// their velocities vanishes.
     #[cold]
     #[inline(never)]
     pub(super) fn change_at_rest(

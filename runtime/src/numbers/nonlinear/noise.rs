@@ -8,8 +8,8 @@
 //! A residual r = F(v) that is left at v, with c for the Newton correction by it, is noise, and v a root but
 //! for that, where
 //!
-//! 1. the Newton matrix is nearly the same at points up to 10⁶ c apart: |F(v − c)| ≤ max |J − J(v)||c| where F
-//!    is smooth, but F(v − c) is no lower than r: there is a root within some c, or a jump, and that or
+//! 1. the Newton matrix is nearly the same at points up to 10⁶ c apart: |F(v − c)| ≤ max |J − J(v)||c| where
+//!    F is smooth, but F(v − c) is no lower than r: there is a root within some c, or a jump, and that or
 //!    rounding keeps F from it;
 //! 2. F scatters about smooth functions by r/64 at least over moves of many c, and not much more over moves
 //!    32 times as long: what is smooth scatters 32³ times as much then, a kink 32 times;

@@ -78,8 +78,8 @@ pub(crate) fn held<S: Precision>(residual: S, floor: S, worst: (S, S, bool)) -> 
 /// [`held_one_by_one`] of all.
 pub(super) fn held_against<S: Precision>(residual: &[S], floor: &[S]) -> (S, S, bool) {
     match (residual.first(), floor.first()) {
-        // One of the residuals from the start: products with one that is tiny, or with a floor that overflows,
-        // decide nothing.
+        // One of the residuals from the start: products with one that is tiny, or with a floor that
+        // overflows, decide nothing.
         (Some(first), Some(of)) => held_one_by_one(residual, floor, (first.abs(), *of, true)),
         _ => (S::zero(), S::zero(), true),
     }
@@ -119,8 +119,8 @@ pub(super) fn estimated_floor<S: Precision>(
 /// swallow a single one.
 pub(crate) const PLACES: f64 = 8.0;
 
-/// Adds to `sums` the rounding of p0 at `v`: its changes when each entry of q and of v moves by its last place,
-/// added up.
+/// Adds to `sums` the rounding of p0 at `v`: its changes when each entry of q and of v moves by its last
+/// place, added up.
 #[inline(never)]
 pub(super) fn add_rounding<S: Precision>(
     of: &Equations<'_, S>,
@@ -155,8 +155,8 @@ pub(super) fn add_rounding<S: Precision>(
     add(sums, S::one() / places, sum);
 }
 
-/// The most that [`add_scatter`] moves a velocity, as a share of it: what is left of a smooth function's fourth
-/// differences is below ε.
+/// The most that [`add_scatter`] moves a velocity, as a share of it: what is left of a smooth function's
+/// fourth differences is below ε.
 const NEXT_TO: f64 = 1.0 / (1 << 24) as f64;
 
 /// Places and weights of a fourth difference. Static: an array of the loop would take room on a small stack.

@@ -103,9 +103,9 @@ fn near_rest<S: Precision>(residual: &mut Residual<'_, S>, near: &mut [S], found
     }
 }
 
-/// The coordinates whose residual vanishes as they come to rest, the others as in `v`: theirs of `near`, which
-/// is next to rest, and 0 for the others. Where derivatives do not exist at rest, p has to be 0: one that is
-/// small beside that of `near` could not be told from it.
+/// The coordinates whose residual vanishes as they come to rest, the others as in `v`: theirs of `near`,
+/// which is next to rest, and 0 for the others. Where derivatives do not exist at rest, p has to be 0: one
+/// that is small beside that of `near` could not be told from it.
 #[inline(never)]
 fn vanishing<S: Precision>(
     residual: &mut Residual<'_, S>,

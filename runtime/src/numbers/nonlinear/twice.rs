@@ -74,8 +74,8 @@ mod tests {
     use super::super::equations::{Evaluate, Values};
     use super::*;
 
-    /// Whether two ways are the same but for rounding, at the root of the kernel by v, from q: a momentum of mass 1,
-    /// and a kernel of slope 1 in v that computes it in a way of its own.
+    /// Whether two ways are the same but for rounding, at the root of the kernel by v, from q: a momentum of
+    /// mass 1, and a kernel of slope 1 in v that computes it in a way of its own.
     fn is_rounded(kernel: impl Fn(f64, f64) -> f64, a: f64, q: f64) -> bool {
         let v = -kernel(q, 0.0);
         let mut two = Values {

@@ -15,8 +15,8 @@ pub(crate) const VECTORS: usize = if MEASURES_NOISE { 33 } else { 27 };
 
 /// Room for vectors of one length, in a buffer of the caller's.
 ///
-/// A vector that is taken is given back when the `Room` that it was taken from ends: an [`inner`](Room::inner)
-/// one for each function that is called.
+/// A vector that is taken is given back when the `Room` that it was taken from ends: an
+/// [`inner`](Room::inner) one for each function that is called.
 pub struct Room<'r, S> {
     left: &'r mut [S],
     length: usize,

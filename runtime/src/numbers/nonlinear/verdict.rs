@@ -340,8 +340,8 @@ mod tests {
     }
 
     /// The deepest calls, behind those that hold 4 vectors from rest and 7 of the damped method: rounding is
-    /// measured of an equation in which another coordinate rests; or of the whole equation, with 4 vectors more
-    /// held from rest. Room for one vector less does not do.
+    /// measured of an equation in which another coordinate rests; or of the whole equation, with 4 vectors
+    /// more held from rest. Room for one vector less does not do.
     #[test]
     fn there_is_room_for_the_deepest_calls() {
         let is_enough = |vectors: usize, from_rest: usize, held: [f64; 2]| {

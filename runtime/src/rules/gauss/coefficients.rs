@@ -27,7 +27,8 @@ pub(crate) struct Coefficients<const S: usize> {
     /// `extrapolation[j][i]` = ℓ_j(1 + c_i): the polynomial through the stages of one step at those of the
     /// next.
     pub(crate) extrapolation: [[f64; S]; S],
-    /// `legendre[k][j]` = (2k + 1) b_j P_k(x_j): the coefficients in P_k(2τ − 1) of the polynomial through the stages.
+    /// `legendre[k][j]` = (2k + 1) b_j P_k(x_j): the coefficients in P_k(2τ − 1) of the polynomial through
+    /// the stages.
     pub(crate) legendre: [[f64; S]; S],
 }
 

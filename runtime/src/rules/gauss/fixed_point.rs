@@ -40,8 +40,8 @@ pub(super) trait Corrector<T, const N: usize> {
     /// The method, as a [`Solution`] names it.
     const SOLVER: Solver;
 
-    /// Whether a correction changes the rates much less than the velocities: then the last one is made without
-    /// another evaluation, as far as the contraction measured promises.
+    /// Whether a correction changes the rates much less than the velocities: then the last one is made
+    /// without another evaluation, as far as the contraction measured promises.
     const LEAVES_RATES: bool;
 
     /// The correction by the stages' residuals.

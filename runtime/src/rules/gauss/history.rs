@@ -189,7 +189,8 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
         [q0 + q * h, v]
     }
 
-    /// The velocities at the stages of a step that is the beginning of the last, its `share`: of the polynomial.
+    /// The velocities at the stages of a step that is the beginning of the last, its `share`: of the
+    /// polynomial.
     fn of_beginning(&self, share: T) -> LaneVector<T, N, S> {
         let Coefficients { nodes, legendre, .. } = &Gauss::<S>::COEFFICIENTS;
         let one = Lanes::splat(T::one());
@@ -223,8 +224,8 @@ impl<T: Scalar, const N: usize, const S: usize> StageHistory<T, N, S> {
         extrapolated
     }
 
-    /// The extrapolation, moved by what the velocity `v` at the start of the next step differs from that at the
-    /// end of the last.
+    /// The extrapolation, moved by what the velocity `v` at the start of the next step differs from that at
+    /// the end of the last.
     #[cold]
     #[inline(never)]
     fn moved_extrapolation(&self, is_fused: bool, v: &SVector<T, N>) -> LaneVector<T, N, S> {

@@ -142,8 +142,8 @@ const fn scaled([a, b]: Complex, factor: f64) -> Complex {
 mod tests {
     use super::*;
 
-    /// Σ_j a_ij u_j by the modes and by the coefficients; u back from its modes. The modes of 8 stages are nearly
-    /// parallel: rounding grows by about 10⁷ in taking numbers apart and putting them together.
+    /// Σ_j a_ij u_j by the modes and by the coefficients; u back from its modes. The modes of 8 stages are
+    /// nearly parallel: rounding grows by about 10⁷ in taking numbers apart and putting them together.
     fn takes_the_matrix_apart<const S: usize>() {
         let c = Coefficients::<S>::new();
         let modes = modes(&c);

@@ -160,7 +160,8 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         self.at_stages(&self.p0, rate)
     }
 
-    /// The equations of motion at the stages with velocities `v`, where that is seldom asked for: out of line.
+    /// The equations of motion at the stages with velocities `v`, where that is seldom asked for: out of
+    /// line.
     #[cold]
     pub(super) fn stages(&self, v: &LaneVector<T, N, S>) -> Stages<T, N, S> {
         self.stages_at(&self.configurations(v), v)
@@ -173,8 +174,8 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         self.next_stages_at(&mut Blank::blank(), q, v)
     }
 
-    /// The equations of motion at the stages with velocities `v`, with the `anchors` that the sweeps before have
-    /// left.
+    /// The equations of motion at the stages with velocities `v`, with the `anchors` that the sweeps before
+    /// have left.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn next_stages<const W: usize>(
         &self,

@@ -6,14 +6,14 @@
 //! I ⊗ M + h A ⊗ (B − C) − h² A² ⊗ K
 //! ```
 //!
-//! and the modes of A take them apart: for each eigenvalue λ the N equations of M + hλ (B − C) − (hλ)² K (J. Butcher
-//! 1976; E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, section IV.8). That is N³ operations
-//! for each pair of stages instead of (S N)³ for all. The sweeps contract where the second derivatives change
-//! little in the course of a step, however large they are.
+//! and the modes of A take them apart: for each eigenvalue λ the N equations of M + hλ (B − C) − (hλ)² K (J.
+//! Butcher 1976; E. Hairer, G. Wanner, *Solving Ordinary Differential Equations II*, section IV.8). That is
+//! N³ operations for each pair of stages instead of (S N)³ for all. The sweeps contract where the second
+//! derivatives change little in the course of a step, however large they are.
 //!
-//! Modes stand side by side and are eliminated together, without exchanges of rows. Turned by the angle of λ, the
-//! real part of M − (hλ)² K is positive definite where masses and stiffnesses −K are, so that no pivot vanishes.
-//! What elimination loses elsewhere is contraction, and Newton's method takes over.
+//! Modes stand side by side and are eliminated together, without exchanges of rows. Turned by the angle of λ,
+//! the real part of M − (hλ)² K is positive definite where masses and stiffnesses −K are, so that no pivot
+//! vanishes. What elimination loses elsewhere is contraction, and Newton's method takes over.
 
 use nalgebra::SVector;
 

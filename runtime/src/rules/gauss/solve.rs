@@ -1,6 +1,6 @@
-//! The stages from one velocity, by the first method that solves for them: the fixed point where it contracts,
-//! else simplified Newton's method, else Newton's. From an extrapolation that is far off the last two may find
-//! another root than the motion's: they start at a velocity of the state.
+//! The stages from one velocity, by the first method that solves for them: the fixed point where it
+//! contracts, else simplified Newton's method, else Newton's. From an extrapolation that is far off the last
+//! two may find another root than the motion's: they start at a velocity of the state.
 
 use nalgebra::SVector;
 

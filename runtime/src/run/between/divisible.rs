@@ -50,8 +50,8 @@ pub trait Divisible<const N: usize>: Run<N> {
         state: &State<Self::Scalar, N>,
     ) -> Result<SVector<Self::Scalar, N>, StepError>;
 
-    /// Where a step of size `elapsed` leads from where the last one began: `state` at `time`, `mean` being the
-    /// mean velocity of that.
+    /// Where a step of size `elapsed` leads from where the last one began: `state` at `time`, `mean` being
+    /// the mean velocity of that.
     ///
     /// # Errors
     /// Those of the step.

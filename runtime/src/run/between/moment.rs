@@ -49,7 +49,8 @@ where
         Self { time, q: state.q, velocity, momentum: Some(state.p), system, since }
     }
 
-    /// The velocity v. Of a state it is solved for (NaN where there is none), of an interpolation it is known.
+    /// The velocity v. Of a state it is solved for (NaN where there is none), of an interpolation it is
+    /// known.
     #[must_use]
     #[inline]
     pub fn velocity(&self) -> SVector<L::Scalar, N> {

@@ -40,11 +40,11 @@ where
 
 /// The states of a run at given times: [`Trajectory::sample_at`].
 ///
-/// Each is [`Dense::state_at`] that time; on the grid it is the grid's own, and a time that is off the run's clock by
-/// no more than a few roundings is on it: 0.1 + 0.2 neither takes another step than 0.3 nor comes too late. (A sum of
-/// a thousand periods is off by more: multiply.) The run stands at the end of the
-/// step that the last time lies in, bit by bit where it would stand without having been asked. Times follow
-/// the run, backwards where h < 0; one may be asked for twice. An error is the last item.
+/// Each is [`Dense::state_at`] that time; on the grid it is the grid's own, and a time that is off the run's
+/// clock by no more than a few roundings is on it: 0.1 + 0.2 neither takes another step than 0.3 nor comes
+/// too late. (A sum of a thousand periods is off by more: multiply.) The run stands at the end of the step
+/// that the last time lies in, bit by bit where it would stand without having been asked. Times follow the
+/// run, backwards where h < 0; one may be asked for twice. An error is the last item.
 pub struct SampledAt<'t, T: Divisible<N>, const N: usize, I> {
     dense: Dense<'t, T, N>,
     times: I,

@@ -17,14 +17,14 @@ pub enum EventError {
         /// When.
         time: f64,
     },
-    /// More than 16 events lie in one step, or 256 restarts in none: they accumulate, or the function is noise
-    /// there.
+    /// More than 16 events lie in one step, or 256 restarts in none: they accumulate, or the function is
+    /// noise there.
     Chattering {
         /// The start of the step.
         time: f64,
     },
-    /// Several hundred steps within one step do not tell how often the function vanishes: it is not smooth, or
-    /// stays at 0 but for rounding.
+    /// Several hundred steps within one step do not tell how often the function vanishes: it is not smooth,
+    /// or stays at 0 but for rounding.
     Unresolved {
         /// Which function.
         index: usize,

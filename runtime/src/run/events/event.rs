@@ -65,15 +65,16 @@ impl<S: Scalar, const N: usize> EventDerivatives<S, N> {
 }
 
 impl<S: Scalar, const N: usize> Event<S, N> {
-    /// The derivatives of time and state of the event by the state from which its step was taken, `g` being the
-    /// derivative of the event function there:
+    /// The derivatives of time and state of the event by the state from which its step was taken, `g` being
+    /// the derivative of the event function there:
     ///
     /// ```text
     /// dt = −∇g·A dx0 / ġ,   dx = A dx0 + ẋ dt,   ẋ = (v, ∂L/∂q + f_L),   ġ = ∇g·ẋ + ∂g/∂t
     /// ```
     ///
-    /// with A of the partial step. They make the derivatives of return maps and sections, and of whatever ends
-    /// at an event. A is exact; ẋ is that of the motion, from which the steps' own differs by their error.
+    /// with A of the partial step. They make the derivatives of return maps and sections, and of whatever
+    /// ends at an event. A is exact; ẋ is that of the motion, from which the steps' own differs by their
+    /// error.
     ///
     /// ```
     /// use dalembert::nalgebra::vector;

@@ -124,7 +124,8 @@ impl Nodes {
         }
     }
 
-    /// (2d + 1) ∫ p P_d(2τ − 1) dτ, with P_d = Σ_i (−1)^{d+i} C(d,i) of the Bernstein polynomial i of degree d.
+    /// (2d + 1) ∫ p P_d(2τ − 1) dτ, with P_d = Σ_i (−1)^{d+i} C(d,i) of the Bernstein polynomial i of degree
+    /// d.
     const fn set_tails(&mut self) {
         let n = self.degree;
         let mut row = 0;

@@ -2,12 +2,12 @@
 
 use crate::numbers::Scalar;
 
-/// By how much further from 0 values have to be that belong to the chord of a step: q and v are off there by what a step
-/// changes of v.
+/// By how much further from 0 values have to be that belong to the chord of a step: q and v are off there by
+/// what a step changes of v.
 pub(super) const BY_CHORD: f64 = 8.0;
 
-/// By how much the distance counts by which the cubic of a step, followed backwards, misses the values before it. Its
-/// error goes as τ²(1 − τ)²: one step back 64 times the largest within.
+/// By how much the distance counts by which the cubic of a step, followed backwards, misses the values before
+/// it. Its error goes as τ²(1 − τ)²: one step back 64 times the largest within.
 const BY_MISS: f64 = 4.0;
 
 /// As far from the values before a step as the cubic's `beyond`, and further.

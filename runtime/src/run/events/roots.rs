@@ -1,9 +1,9 @@
 //! All roots of an event function on one step, isolated and refined.
 //!
-//! The polynomial through values on the step that cost nothing decides where it can: with its error it is held
-//! away from 0, or it is monotone there. A part where it cannot, near two roots or none, is asked for true
-//! values, by partial steps, at ten nodes of its own, and so on with ever shorter parts, until signs decide or
-//! a part is too short for them to.
+//! The polynomial through values on the step that cost nothing decides where it can: with its error it is
+//! held away from 0, or it is monotone there. A part where it cannot, near two roots or none, is asked for
+//! true values, by partial steps, at ten nodes of its own, and so on with ever shorter parts, until signs
+//! decide or a part is too short for them to.
 
 mod cluster;
 mod part;
@@ -78,9 +78,9 @@ impl Roots {
     }
 }
 
-/// By how much polynomials may be further off than their last coefficients say: at times all of these are small by
-/// chance. Of 420 000 random pairs of crossings close together 26 were missed at 1, 2 at 8, and at 32 one of twice
-/// as many.
+/// By how much polynomials may be further off than their last coefficients say: at times all of these are
+/// small by chance. Of 420 000 random pairs of crossings close together 26 were missed at 1, 2 at 8, and at
+/// 32 one of twice as many.
 const DOUBT: f64 = 32.0;
 
 /// By how much the slope of a cubic's error may be larger than the error, on [0, 1].
@@ -141,7 +141,8 @@ impl Search<'_> {
             return Ok(Some(roots));
         }
         if let Origin::Cubic(_) = origin {
-            // No error of the cubic, in q or in v, by its degree or as the rule is of order 2, is small at both.
+            // No error of the cubic, in q or in v, by its degree or as the rule is of order 2, is small at
+            // both.
             let mut off = 0.0_f64;
             for share in [0.25, 0.7] {
                 off = off.max((self.curve.value(share)? - whole.polynomial.value(share)).abs());
@@ -246,8 +247,8 @@ impl Search<'_> {
         shares.into_iter().find(clear).map_or(Verdict::Unknown, Verdict::Split)
     }
 
-    /// Asks for true values on a part; on both its halves, where it has them. Whether its polynomial is as near
-    /// to them as it says.
+    /// Asks for true values on a part; on both its halves, where it has them. Whether its polynomial is as
+    /// near to them as it says.
     fn look(&mut self, waiting: &mut Waiting, part: &Part) -> Result<bool, EventError> {
         if part.is_true() {
             let middle = part.from + 0.5 * part.width();

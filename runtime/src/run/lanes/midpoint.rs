@@ -1,9 +1,9 @@
 //! Steps by the midpoint rule of several members at once.
 //!
 //! All members start from the guesses of their own runs and are solved together, by Newton's method or by the
-//! matrices that they keep. A step that leaves the usual path (the first of a run, one whose matrix is renewed
-//! or whose rounding has to be measured, a guess that leads nowhere) the member takes alone, by the functions
-//! of its own run, and comes back to the others.
+//! matrices that they keep. A step that leaves the usual path (the first of a run, one whose matrix is
+//! renewed or whose rounding has to be measured, a guess that leads nowhere) the member takes alone, by the
+//! functions of its own run, and comes back to the others.
 
 #![allow(clippy::needless_range_loop, reason = "one index runs through several arrays together")]
 

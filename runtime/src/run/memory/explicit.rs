@@ -5,8 +5,8 @@
 //! P v̄ = p0 + (h/2) G(q0),   q1 = q0 + h v̄,   p1 = ∂L/∂v(v̄) − (h/2) ∂R/∂v(v̄) + (h/2) G(q1)
 //! ```
 //!
-//! P depends on h alone and is factored once; G(q1) is the next step's G(q0). So a step costs one gradient; where
-//! the force takes the time, two: the next step's clock starts at a rounding of its own.
+//! P depends on h alone and is factored once; G(q1) is the next step's G(q0). So a step costs one gradient;
+//! where the force takes the time, two: the next step's clock starts at a rounding of its own.
 
 use nalgebra::SVector;
 
@@ -19,8 +19,8 @@ use crate::step::{
 };
 use crate::system::{ActingForce, GeneratedDiffers};
 
-/// A system that the trapezoidal rule steps explicitly: L = T(v) − V(q, t) with T quadratic, R quadratic in v,
-/// both with constant coefficients, and a force f(q, t).
+/// A system that the trapezoidal rule steps explicitly: L = T(v) − V(q, t) with T quadratic, R quadratic in
+/// v, both with constant coefficients, and a force f(q, t).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no explicit steps",
     label = "the equations of `{Self}` are not known to be explicit",

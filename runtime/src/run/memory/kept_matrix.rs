@@ -120,7 +120,8 @@ where
         self.history.push(*velocity, h);
     }
 
-    /// A matrix that is another's is given up where it does not serve; one of a linear equation holds no input.
+    /// A matrix that is another's is given up where it does not serve; one of a linear equation holds no
+    /// input.
     fn change_input(&mut self) {
         Memory::<L, R, N>::change_input(&mut self.history);
     }

@@ -8,8 +8,8 @@ use crate::step::State;
 
 /// (q, p − ∂L/∂v(0)) on the way through a step.
 ///
-/// With compensated sums they are the sums of where the step began and of what it has added since, which is rounded
-/// as the small number that it is; what the last sum loses is added in the next step.
+/// With compensated sums they are the sums of where the step began and of what it has added since, which is
+/// rounded as the small number that it is; what the last sum loses is added in the next step.
 pub(super) struct Underway<T, const N: usize, const COMPENSATED: bool> {
     /// With compensated sums what has been added, otherwise where it is.
     q: SVector<T, N>,
@@ -76,8 +76,8 @@ impl<T: Scalar, const N: usize, const COMPENSATED: bool> Underway<T, N, COMPENSA
     }
 }
 
-/// [`Underway`] of each member: with compensated sums what is added joins what they have lost, otherwise the values
-/// themselves move.
+/// [`Underway`] of each member: with compensated sums what is added joins what they have lost, otherwise the
+/// values themselves move.
 pub(super) struct UnderwayInLanes<'s, T, const N: usize, const COMPENSATED: bool, const W: usize> {
     q: &'s mut CompensatedMembers<T, N, W>,
     p: &'s mut CompensatedMembers<T, N, W>,

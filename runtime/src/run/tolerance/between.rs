@@ -10,7 +10,8 @@ use crate::step::{State, StepError};
 use crate::system::Lagrangian;
 
 /// Between the steps, and events: as of every run, but that it cannot be restarted, since the error that it
-/// carries along is that of one motion. Where a motion goes on from an impact, ask for a run of its own there.
+/// carries along is that of one motion. Where a motion goes on from an impact, ask for a run of its own
+/// there.
 impl<'a, L, M, const N: usize> GuardedTrajectory<'a, L, M, N>
 where
     L: Lagrangian<N> + 'a,

@@ -222,8 +222,8 @@ where
 
     /// Every `stride`-th step only, with what the steps between reported: long runs in constant memory.
     ///
-    /// A stride of 0 counts as 1; the last sample is of the last step, however many lie before it. An error on
-    /// any step is returned at once.
+    /// A stride of 0 counts as 1; the last sample is of the last step, however many lie before it. An error
+    /// on any step is returned at once.
     pub fn sample_every(&mut self, stride: u64) -> Samples<'_, Self, N> {
         Samples::new(self, stride)
     }

@@ -87,8 +87,8 @@ pub trait MethodStep<L: Lagrangian<N>, const N: usize> {
 /// A function called with the index of a node, with q there and with v.
 type Visit<'v, S, const N: usize> = dyn FnMut(usize, &SVector<S, N>, &SVector<S, N>) + 'v;
 
-/// The last step of a method as it can be looked into: what [`Memory`] has, of a method that is not known when the
-/// program is compiled.
+/// The last step of a method as it can be looked into: what [`Memory`] has, of a method that is not known
+/// when the program is compiled.
 pub trait LastStep<L: Lagrangian<N>, const N: usize> {
     /// Shares of the step at which the method itself knows q and v.
     fn nodes(&self) -> &'static [f64];
@@ -110,8 +110,8 @@ pub trait LastStep<L: Lagrangian<N>, const N: usize> {
         state: &State<L::Scalar, N>,
     ) -> Result<SVector<L::Scalar, N>, StepError>;
 
-    /// Where a step of size `size` leads from `state`, from which the last one was taken, `elapsed` after the time of
-    /// `system`; `mean` is its mean velocity.
+    /// Where a step of size `size` leads from `state`, from which the last one was taken, `elapsed` after the
+    /// time of `system`; `mean` is its mean velocity.
     ///
     /// # Errors
     /// Those of the step.
@@ -420,7 +420,8 @@ fn staged<L: ForcedLagrangian<N>, const N: usize, const S: usize>(
     let by_stage = match step.memory.solver() {
         Solver::FixedPoint => iterations,
         Solver::Simplified => iterations * (BY_MODES + SOLVING * entries(1)),
-        // All stages are differentiated before each iteration and after the last, and their matrix is factored.
+        // All stages are differentiated before each iteration and after the last, and their matrix is
+        // factored.
         Solver::Newton => DERIVATIVE + iterations * (DERIVATIVE + FACTORING * entries(S)),
     };
     Ok(Taken { step: taken, evaluations: S as f64 * by_stage, unresolved: Some(step.memory.unresolved()) })

@@ -88,11 +88,12 @@ impl<'a, L, M> TimedRequest<'a, L, M> {
     /// The end of a run whose error is kept on the whole way, as far as its guard can tell.
     ///
     /// The first steps do not always show what comes: a run that starts at the apocentre of a long ellipse
-    /// passes its error at the pericentre. So as long as a run ends in a breach, or a step of it fails, another
-    /// one starts from the beginning. Its method and step size are chosen for an error that is smaller by as much
-    /// as the guard found the last one too large; where no method is expected to reach that, the last one takes
-    /// shorter steps. What is kept is the error asked for. Most motions need one run or two; eight are tried. The
-    /// page `docs/error-asked-for.md` counts how often none of them keeps it: at kinks, as a rule.
+    /// passes its error at the pericentre. So as long as a run ends in a breach, or a step of it fails,
+    /// another one starts from the beginning. Its method and step size are chosen for an error that is
+    /// smaller by as much as the guard found the last one too large; where no method is expected to reach
+    /// that, the last one takes shorter steps. What is kept is the error asked for. Most motions need one run
+    /// or two; eight are tried. The page `docs/error-asked-for.md` counts how often none of them keeps it: at
+    /// kinks, as a rule.
     ///
     /// ```
     /// use dalembert::{Discretise, State, rayleigh_system};

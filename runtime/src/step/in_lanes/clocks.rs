@@ -8,7 +8,8 @@ pub(crate) struct Clocks<const W: usize> {
     taken: [u64; W],
 }
 
-/// h × the number of steps, as [`Checkpoint::time`](crate::run::Checkpoint::time) of a run with one step size.
+/// h × the number of steps, as [`Checkpoint::time`](crate::run::Checkpoint::time) of a run with one step
+/// size.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn time<T: Scalar>(taken: u64, h: T) -> f64 {
     if taken == 0 { 0.0 } else { h.widen() * taken as f64 }

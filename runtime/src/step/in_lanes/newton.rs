@@ -118,7 +118,8 @@ pub(crate) fn scaled<T: Scalar, const N: usize, const W: usize>(
     scaled
 }
 
-/// [`estimated_floor`](crate::step::newton::estimated_floor) of each, with the magnitudes of the [`scaled`] v.
+/// [`estimated_floor`](crate::step::newton::estimated_floor) of each, with the magnitudes of the [`scaled`]
+/// v.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn estimated_floor<T: Scalar, const N: usize, const W: usize>(
     p: &MemberVector<T, N, W>,

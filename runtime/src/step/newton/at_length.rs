@@ -1,5 +1,5 @@
-//! The equation of a step as it is solved at length, with neither the number of coordinates nor the form of the
-//! matrix in its type ([`nonlinear`](crate::numbers::nonlinear)).
+//! The equation of a step as it is solved at length, with neither the number of coordinates nor the form of
+//! the matrix in its type ([`nonlinear`](crate::numbers::nonlinear)).
 
 use nalgebra::{SMatrix, SVector};
 

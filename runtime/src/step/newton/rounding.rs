@@ -7,7 +7,8 @@
 //!    not small beside v̄ ([`SMALL`](super::SMALL)), the matrix is evaluated again at the solution;
 //! 2. is finite;
 //! 3. where the residual had stopped falling, or Newton steps had to be shortened: is at most
-//!    a thousandth of the terms that the equation is made of ([`is_sensible`](super::is_sensible)). Otherwise rounding would explain any residual.
+//!    a thousandth of the terms that the equation is made of ([`is_sensible`](super::is_sensible)). Otherwise
+//!    rounding would explain any residual.
 //!
 //! Then the solution satisfies exactly the equation with q, v̄ and p changed by some units of their last
 //! places. Each component has a floor of its own,
@@ -21,18 +22,20 @@
 //! what q contributes: near an equilibrium away from q = 0 large forces cancel, and v and p go to 0 while the
 //! rounding of those forces stays. Where the residual stops falling above the estimate, its rounding is
 //! therefore measured: by what the last places of q and v change (`add_rounding`), and, where that does not
-//! explain it, by how it scatters (`add_scatter`). The latter sees each configuration on the way rounded on its
-//! own: far from q = 0, say after 10³ turns of an angle, q0 and q1 are known to ε|q|, and where what their
-//! errors do cancels if both are moved together, as under the trapezoidal rule, moving q shows nothing of it.
+//! explain it, by how it scatters (`add_scatter`). The latter sees each configuration on the way rounded on
+//! its own: far from q = 0, say after 10³ turns of an angle, q0 and q1 are known to ε|q|, and where what
+//! their errors do cancels if both are moved together, as under the trapezoidal rule, moving q shows nothing
+//! of it.
 //!
-//! Where forces cancel at q = 0, as (q − 1) + (q + 1) do, no place of q shows their rounding. Derivatives that
-//! are written out come with the sizes of such terms ([`cancelling_terms`](crate::Discrete::cancelling_terms)),
-//! which count before anything is measured: ε times them is floor, and they are terms of the equation.
+//! Where forces cancel at q = 0, as (q − 1) + (q + 1) do, no place of q shows their rounding. Derivatives
+//! that are written out come with the sizes of such terms
+//! ([`cancelling_terms`](crate::Discrete::cancelling_terms)), which count before anything is measured: ε
+//! times them is floor, and they are terms of the equation.
 //!
-//! Of other derivatives, by dual numbers or by hand, and of Gauss rules the equation itself says how it rounds:
-//! with `std`, by its noise (`numbers/nonlinear/noise.rs`), to which the third condition does not apply, since
-//! at rest the noise is all that there is; and by what the momenta and the kernel of a step differ by
-//! (`twice.rs`).
+//! Of other derivatives, by dual numbers or by hand, and of Gauss rules the equation itself says how it
+//! rounds: with `std`, by its noise (`numbers/nonlinear/noise.rs`), to which the third condition does not
+//! apply, since at rest the noise is all that there is; and by what the momenta and the kernel of a step
+//! differ by (`twice.rs`).
 //!
 //! `tests/examples/verdicts` holds every rule against this definition in twice the precision.
 

@@ -54,7 +54,8 @@ fn hold<S: Scalar, const N: usize>(
 }
 
 /// The gradient of a function held against its differences; with `debug_assertions` also its second
-/// derivatives, along another direction against differences of the gradient, and the first that come with them.
+/// derivatives, along another direction against differences of the gradient, and the first that come with
+/// them.
 fn hold_function<S: Scalar, const N: usize>(
     function: Function,
     at: [&SVector<S, N>; 2],

@@ -266,8 +266,8 @@ impl Blocks {
         blocks
     }
 
-    /// ∂r_i/∂V_j = δ_ij L_vv + τ a_ij (L_vq,i − G_v,j) − τ² Σ_k a_ik G_q,k a_kj of r_i = ∂L/∂v − P_i, both sides
-    /// in `unit`s. On slices: compiled once, not for each number of coordinates.
+    /// ∂r_i/∂V_j = δ_ij L_vv + τ a_ij (L_vq,i − G_v,j) − τ² Σ_k a_ik G_q,k a_kj of r_i = ∂L/∂v − P_i, both
+    /// sides in `unit`s. On slices: compiled once, not for each number of coordinates.
     fn jacobian(&self, unit: &[f64], length: f64) -> DMatrix<f64> {
         let Coefficients { matrix, .. } = coefficients();
         let n = unit.len();

@@ -131,8 +131,8 @@ where
     }
 }
 
-/// The size of the terms of a definition, with the `rounding` of the momentum that H_d^± and the `shift` by the
-/// force are taken at; `slope` is that of the shift.
+/// The size of the terms of a definition, with the `rounding` of the momentum that H_d^± and the `shift` by
+/// the force are taken at; `slope` is that of the shift.
 fn magnitude<S: Scalar, const N: usize>(
     at: &SVector<S, N>,
     hamiltonian: &DiscreteHamiltonian<S, N>,

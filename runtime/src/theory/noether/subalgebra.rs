@@ -113,10 +113,10 @@ where
     /// The largest subspaces of the span of `generators` that keep L_d, J and f_d, judged on `segments`.
     ///
     /// Every condition is linear in ξ and becomes rows of a matrix, one a segment (2N for ι_ξ df_d = (F −
-    /// Fᵀ)(ξ(q0), ξ(q1)), F = ∂(f_d⁻, f_d⁺)/∂(q0, q1); 2N for each stage of a rule with interior points, where
-    /// all are taken at the stages: [`Defect`](super::Defect)); the subspace is its null space, its dimension a
-    /// [`RankDecision`]. Brackets [ξ, η] = Dη ξ − Dξ η are taken at the ends of the segments and fitted
-    /// by the span.
+    /// Fᵀ)(ξ(q0), ξ(q1)), F = ∂(f_d⁻, f_d⁺)/∂(q0, q1); 2N for each stage of a rule with interior points,
+    /// where all are taken at the stages: [`Defect`](super::Defect)); the subspace is its null space, its
+    /// dimension a [`RankDecision`]. Brackets [ξ, η] = Dη ξ − Dξ η are taken at the ends of the segments and
+    /// fitted by the span.
     ///
     /// **Segments it needs.** Two for each generator that move by more than rounding and lie apart
     /// ([`samples`](crate::samples)).

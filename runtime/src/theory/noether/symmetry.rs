@@ -24,7 +24,8 @@ pub struct Symmetry<const N: usize> {
     pub h: f64,
     /// Number of segments looked at.
     pub samples: usize,
-    /// Whether the causes are taken at the stages, as those of rules with interior points are: [`Defect`](super::Defect).
+    /// Whether the causes are taken at the stages, as those of rules with interior points are:
+    /// [`Defect`](super::Defect).
     pub at_stages: bool,
     /// ξ(L_d), or ξ(L) at the stages.
     pub lagrangian: Contribution<N>,

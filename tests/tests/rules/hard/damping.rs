@@ -21,8 +21,8 @@ where
     b / a
 }
 
-/// Midpoint and trapezoidal rule multiply v̄ by (2m − hr)/(2m + hr): past hr = 2m the sign alternates, and for
-/// hr/m → ∞ nothing is damped any more.
+/// Midpoint and trapezoidal rule multiply v̄ by (2m − hr)/(2m + hr): past hr = 2m the sign alternates, and
+/// for hr/m → ∞ nothing is damped any more.
 #[test]
 fn midpoint_rings_past_twice_the_mass_over_h() {
     for hr_over_m in [0.1, 1.0, 1.99, 2.01, 10.0, 1e2, 1e4, 1e6] {
@@ -140,8 +140,8 @@ fn sliding_to_rest_without_ringing() {
     assert!(before < 1e-15, "{before:e}");
 }
 
-/// What the obvious formulas of the same friction do: an overflow is named; 1 − 1 near rest rounds as 1 does, and
-/// there is rest to that rounding.
+/// What the obvious formulas of the same friction do: an overflow is named; 1 − 1 near rest rounds as 1 does,
+/// and there is rest to that rounding.
 #[test]
 fn friction_written_carelessly_is_named() {
     let (mu, epsilon, h) = (0.7, 1e-4, 1e-3);

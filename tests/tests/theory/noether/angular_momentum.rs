@@ -69,7 +69,8 @@ fn isotropic_drag_has_the_defect_minus_k_q1_j_q0() {
     defect_is_as_derived(Trapezoidal);
 }
 
-/// In the example's own coordinates and rule: ξ̂(R_d) = −k r̄² (θ1 − θ0), since R_d is no function of θ0 + θ1.
+/// In the example's own coordinates and rule: ξ̂(R_d) = −k r̄² (θ1 − θ0), since R_d is no function of θ0 +
+/// θ1.
 #[test]
 fn the_polar_instance_loses_angular_momentum_too() {
     let (k, h) = (0.3, 0.2);

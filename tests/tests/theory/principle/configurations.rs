@@ -1,5 +1,5 @@
-//! The discrete Lagrange–d'Alembert principle (paper, section 3.1) by finite variations: of L_d and f_d values
-//! alone are used on the left of
+//! The discrete Lagrange–d'Alembert principle (paper, section 3.1) by finite variations: of L_d and f_d
+//! values alone are used on the left of
 //!
 //! ```text
 //! δ Σ L_d(q_k, q_{k+1}) + Σ [f_d⁻·δq_k + f_d⁺·δq_{k+1}]

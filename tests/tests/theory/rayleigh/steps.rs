@@ -154,8 +154,8 @@ fn the_order_barrier() {
     }
 }
 
-/// a bᵀ − b aᵀ = −(h⁴/12)[C, K] + …, bᵀd − dᵀb = +(h⁴/12)[C, K] + … (M = I), by extrapolation, of the exact flow
-/// and of a method of order 6.
+/// a bᵀ − b aᵀ = −(h⁴/12)[C, K] + …, bᵀd − dᵀb = +(h⁴/12)[C, K] + … (M = I), by extrapolation, of the exact
+/// flow and of a method of order 6.
 #[test]
 fn the_leading_coefficient_is_a_twelfth_of_the_bracket() {
     let state = [State { q: vector![0.3, -0.4], p: vector![0.1, 0.2] }];
@@ -178,8 +178,8 @@ fn the_leading_coefficient_is_a_twelfth_of_the_bracket() {
     }
 }
 
-/// A method fitted to damping has the exact asymmetry of order 2 in it, or none: R_d where C is a multiple of M
-/// alone. And one coordinate is always enough.
+/// A method fitted to damping has the exact asymmetry of order 2 in it, or none: R_d where C is a multiple of
+/// M alone. And one coordinate is always enough.
 #[test]
 fn fitted_rules_and_one_coordinate() {
     let mut random = StdRng::seed_from_u64(10);
@@ -199,8 +199,8 @@ fn fitted_rules_and_one_coordinate() {
     assert!(Single {}.energy(&state[0].q, &vector![0.4]).is_finite());
 }
 
-/// C = 2aM: AᵀΩA = cΩ, c = (1 − ah)/(1 + ah) by the trapezoidal rule, e^{−2ah} by splittings, for a nonlinear V. By the
-/// midpoint rule there is no such c unless V″ is a multiple of M.
+/// C = 2aM: AᵀΩA = cΩ, c = (1 − ah)/(1 + ah) by the trapezoidal rule, e^{−2ah} by splittings, for a nonlinear
+/// V. By the midpoint rule there is no such c unless V″ is a multiple of M.
 #[test]
 fn proportional_to_mass_damping_makes_steps_conformally_symplectic() {
     fn defect<M>(system: &Pair, method: M, h: f64, c: f64) -> f64

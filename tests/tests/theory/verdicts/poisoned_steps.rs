@@ -7,7 +7,8 @@ use dalembert::rayleigh::{ConformalStep, RayleighStep};
 use dalembert::samples::{Segment, segments};
 use dalembert::{Discretise, Midpoint, State, Trapezoidal, rayleigh_system};
 
-/// Linear, and nothing that is asked of it holds: friction that drives, and unevenly; a force that circulates.
+/// Linear, and nothing that is asked of it holds: friction that drives, and unevenly; a force that
+/// circulates.
 #[derive(Clone, Copy)]
 struct Driven {
     friction: [f64; 2],
@@ -96,7 +97,8 @@ fn poisoned_derivatives_get_no_yes() {
                     assert!(found.is_empty(), "{poison:e} at {block}, {entry}: {found:?}, {one:?}");
                     tried += 1;
                 }
-                // Beside one of which all holds: what is NaN, infinite or lost in its neighbours says nothing.
+                // Beside one of which all holds: what is NaN, infinite or lost in its neighbours says
+                // nothing.
                 let mut one = right;
                 let blocks = [&mut one.q_by_q, &mut one.q_by_p, &mut one.p_by_q, &mut one.p_by_p];
                 blocks.into_iter().nth(block).unwrap()[entry] = poison;

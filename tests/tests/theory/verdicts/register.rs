@@ -1,5 +1,5 @@
-//! Every verdict of a public type is tried on nonsense, in the files `poisoned` of this folder: what the source
-//! of the checkers answers with a bool, and what it says otherwise.
+//! Every verdict of a public type is tried on nonsense, in the files `poisoned` of this folder: what the
+//! source of the checkers answers with a bool, and what it says otherwise.
 
 use std::collections::BTreeSet;
 use std::fs;

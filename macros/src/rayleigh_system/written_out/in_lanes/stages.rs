@@ -9,8 +9,8 @@ use super::*;
 const TAKEN: [&str; 9] = ["q", "v", "p", "kept", "fields", "systems", "anchors", "angles", "reciprocals"];
 
 impl Code<'_> {
-    /// The functions of `ForcedLagrangianInLanes`, of what `stages` computes: rates, residuals and corrections,
-    /// the last two from the momenta `late`.
+    /// The functions of `ForcedLagrangianInLanes`, of what `stages` computes: rates, residuals and
+    /// corrections, the last two from the momenta `late`.
     pub(in super::super) fn stages_in_lanes(
         &mut self,
         outputs: &[Node],

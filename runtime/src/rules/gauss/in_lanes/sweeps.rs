@@ -171,8 +171,8 @@ impl<T: Scalar, F: Copy, const N: usize, const S: usize, const W: usize> StagesI
                     of_rate[i][a] = rate[i][a] * steps[i];
                 });
             });
-            // Of every other stage, by an index that LLVM does not know: as variables, not in memory, they would
-            // become vectors of numbers that do not belong together.
+            // Of every other stage, by an index that LLVM does not know: as variables, not in memory, they
+            // would become vectors of numbers that do not belong together.
             let mut seen = [Seen::nothing(); 2];
             stage_by_stage!(i => {
                 let p = Self::at_stage(is_fused, &self.p, of_rate, i);

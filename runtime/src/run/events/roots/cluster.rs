@@ -30,7 +30,8 @@ impl Search<'_> {
             self.close(cluster, roots)?;
         }
         let Part { from, to, .. } = *part;
-        // The parabola through them, as the place of an extremum is known to √ε only, its value to all digits.
+        // The parabola through them, as the place of an extremum is known to √ε only, its value to all
+        // digits.
         let bend = before - 2.0 * between + after;
         let vertex = between - (after - before) * (after - before) / (8.0 * bend);
         let size = before.abs().max(between.abs()).max(after.abs());

@@ -7,8 +7,8 @@ use crate::run::events::nodes::Bernstein;
 /// Where values come from, which says how far a polynomial through them may be trusted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::run::events) enum Origin {
-    /// The cubic through (q, v) at both ends, which may be off by this, and more of a curve that it does not show:
-    /// then a partial step says.
+    /// The cubic through (q, v) at both ends, which may be off by this, and more of a curve that it does not
+    /// show: then a partial step says.
     Cubic(f64),
     /// The stages of a Gauss rule.
     Stages,
