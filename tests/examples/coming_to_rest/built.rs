@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use anyhow::{Context as _, Result, ensure};
 
+use super::beside::Beside;
 use super::methods::{self, METHODS};
 use super::system::System;
 
@@ -28,7 +28,7 @@ pub fn run(count: u64, seed: u64, most: usize, time: f64) -> Result<usize> {
             calls += &format!("s{}::all(); ", system.seed);
         }
         text += &format!("fn main() {{ {calls} }}\n");
-        let printed = built(&folder.join(format!("batch-{most}")), workspace, &text)?;
+        let printed = built(folder.join(format!("batch-{most}")), workspace, &text)?;
         for line in printed.lines() {
             let mut words = line.split(' ');
             let (end, _, name) = (words.next(), words.next(), words.next());
@@ -54,24 +54,17 @@ pub fn run(count: u64, seed: u64, most: usize, time: f64) -> Result<usize> {
 }
 
 /// The output of the program.
-fn built(folder: &PathBuf, workspace: &Path, text: &str) -> Result<String> {
-    std::fs::create_dir_all(folder.join("src"))?;
+fn built(folder: PathBuf, workspace: &Path, text: &str) -> Result<String> {
     let manifest = format!(
         "[package]\nname = \"coming-to-rest\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n[dependencies]\n\
          dalembert = {{ path = {:?} }}\n\n[profile.dev]\nopt-level = 2\ndebug = false\nincremental = false\n",
         workspace.join("runtime")
     );
-    std::fs::write(folder.join("Cargo.toml"), manifest)?;
-    if !folder.join("Cargo.lock").exists() {
-        std::fs::copy(workspace.join("Cargo.lock"), folder.join("Cargo.lock"))?;
-    }
-    std::fs::write(folder.join("src/main.rs"), text)?;
-    let output = Command::new(env!("CARGO"))
-        .args(["run", "--offline", "--quiet"])
-        .current_dir(folder)
-        .env("CARGO_TARGET_DIR", folder.join("../target"))
-        .env("RUSTFLAGS", "-Awarnings")
-        .output()?;
+    let target = folder.join("../target");
+    let beside = Beside { folder, target };
+    beside.begin(workspace, &manifest)?;
+    std::fs::write(beside.folder.join("src/main.rs"), text)?;
+    let output = beside.cargo(&["run"])?;
     ensure!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     Ok(String::from_utf8(output.stdout)?)
 }

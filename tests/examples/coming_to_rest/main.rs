@@ -7,6 +7,8 @@
 //! cargo study coming_to_rest -- show 7             # the program of a system
 //! ```
 
+#[path = "../random_programs/beside.rs"]
+mod beside;
 mod built;
 mod methods;
 mod system;

@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
+use super::beside::Beside;
 use super::engine::options;
 use super::members;
 use super::point::{Point, points};
@@ -29,8 +29,8 @@ pub struct Computed {
     pub curvatures: Vec<Vec<f64>>,
     /// Whether a run would tell that derivatives belong to another function.
     pub is_told: bool,
-    /// Of each lane 0 where it is not what its member does alone, else 1, or 2 where it was moved; nothing where
-    /// a member panicked.
+    /// Of each lane 0 where it is not what its member does alone, else 1, or 2 where it was moved; nothing
+    /// where a member panicked.
     pub lanes: Option<Vec<f64>>,
 }
 
@@ -88,7 +88,7 @@ const FEW: usize = 50;
 
 /// Where batches are built.
 pub struct Workshop {
-    folder: PathBuf,
+    beside: Beside,
     workspace: PathBuf,
     /// Features of the runtime.
     features: &'static str,
@@ -96,14 +96,13 @@ pub struct Workshop {
 
 impl Workshop {
     pub fn new(folder: &Path, workspace: &Path, features: &'static str) -> Self {
-        Self { folder: folder.to_owned(), workspace: workspace.to_owned(), features }
+        let beside = Beside { folder: folder.to_owned(), target: folder.join("../target") };
+        Self { beside, workspace: workspace.to_owned(), features }
     }
 
     /// Builds and runs the programs; those that rustc refuses are taken out and named.
     pub fn run<P: Source>(&self, programs: &[P], engine: &str) -> Result<Outcome, String> {
         let mut outcome = Outcome::default();
-        let source = self.folder.join("src");
-        std::fs::create_dir_all(&source).map_err(|error| error.to_string())?;
         let runtime = self.workspace.join("runtime");
         let mut manifest = format!(
             "[package]\nname = \"random-programs\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n\
@@ -118,11 +117,7 @@ impl Workshop {
                 manifest += &format!("[profile.dev.package.{name}]\nopt-level = 3\n\n");
             }
         }
-        write_if_changed(&self.folder.join("Cargo.toml"), &manifest)?;
-        let lock = self.workspace.join("Cargo.lock");
-        if lock.exists() && !self.folder.join("Cargo.lock").exists() {
-            std::fs::copy(lock, self.folder.join("Cargo.lock")).map_err(|error| error.to_string())?;
-        }
+        self.beside.begin(&self.workspace, &manifest).map_err(|error| error.to_string())?;
         for _ in 0..MOST_BUILDS {
             let kept: Vec<usize> =
                 (0..programs.len()).filter(|index| !outcome.errors.contains_key(index)).collect();
@@ -158,15 +153,9 @@ impl Workshop {
 
     /// Builds and runs a crate.
     fn built(&self, text: &CrateText) -> Result<Built, String> {
-        std::fs::write(self.folder.join("src/main.rs"), &text.text).map_err(|error| error.to_string())?;
-        let build = Command::new(env!("CARGO"))
-            .args(["run", "--offline", "--quiet", "--message-format", "short"])
-            .current_dir(&self.folder)
-            .env("CARGO_TARGET_DIR", self.folder.join("../target"))
-            .env_remove("CARGO_PROFILE_DEV_DEBUG")
-            .env("RUSTFLAGS", "-Awarnings")
-            .output()
-            .map_err(|error| error.to_string())?;
+        let words = |error: std::io::Error| error.to_string();
+        std::fs::write(self.beside.folder.join("src/main.rs"), &text.text).map_err(words)?;
+        let build = self.beside.cargo(&["run", "--message-format", "short"]).map_err(words)?;
         if build.status.success() {
             return Ok(Built::Printed(String::from_utf8_lossy(&build.stdout).into_owned()));
         }
@@ -196,13 +185,6 @@ enum Built {
 struct CrateText {
     text: String,
     lines: Vec<(usize, usize)>,
-}
-
-fn write_if_changed(path: &Path, text: &str) -> Result<(), String> {
-    if std::fs::read_to_string(path).is_ok_and(|old| old == text) {
-        return Ok(());
-    }
-    std::fs::write(path, text).map_err(|error| error.to_string())
 }
 
 /// The programs with the macro, and what calls them.

@@ -110,7 +110,8 @@ pub fn block(program: &Program, way: Way) -> String {
     text.replacen("impl System {\n", &format!("impl System {{\n{own}"), 1)
 }
 
-/// Whether the program's sums are fused; none below the seeds that take times, which are those of earlier counts.
+/// Whether the program's sums are fused; none below the seeds that take times, which are those of earlier
+/// counts.
 fn is_fused(program: &Program) -> bool {
     program.seed >= VIEWS_FROM && program.seed % 2 == 1
 }

@@ -10,6 +10,9 @@ use super::run::{folder, workspace};
 /// Programs tried at most.
 const PROGRAMS: &str = "8000";
 
+/// The first of them: of those that know ranges to the bounds of their types.
+const FIRST: &str = "20000001";
+
 /// A mistake, as edits of `macros/src/rayleigh_system`, each of which asks [`is_made`] whether it is in
 /// force.
 struct Mutation {
@@ -163,7 +166,7 @@ pub fn try_all() -> Result<usize, String> {
     let study = rebuilt::study(&workspace().join("macros/src"), &edits)?;
     for (number, Mutation { mistake, .. }) in MUTATIONS.iter().enumerate() {
         let output = Command::new(&study)
-            .args(["until", PROGRAMS, "1"])
+            .args(["until", PROGRAMS, FIRST])
             .env(VARIABLE, number.to_string())
             .output()
             .map_err(|error| error.to_string())?;

@@ -1,8 +1,8 @@
 //! The study itself, built with another source of the macro: with a mistake put back, for instance.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
+use super::beside::Beside;
 use super::run::{folder, workspace};
 
 /// A replacement of text in a file of `macros/src/rayleigh_system`.
@@ -54,28 +54,21 @@ pub fn study(macros: &Path, edits: &[Edit]) -> Result<PathBuf, String> {
         let text = std::fs::read_to_string(&path).map_err(words)?;
         std::fs::write(&path, edit.made_in(&text)?).map_err(words)?;
     }
-    let manifest = "[package]\nname = \"rebuilt-study\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n\
+    let manifest = format!(
+        "[package]\nname = \"rebuilt-study\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n\
         [[bin]]\nname = \"rebuilt-study\"\npath = \"examples/random_programs/main.rs\"\n\n\
-        [dependencies]\nnalgebra = { version = \"0.35\", default-features = false, features = [\"libm\", \"std\"] }\n\
-        num-dual = \"0.15.1\"\nprettyplease = \"0.3.0\"\nproc-macro2 = { version = \"1.0.107\", features = [\"span-locations\"] }\n\
-        quote = \"1.0.47\"\nsyn = { version = \"3\", features = [\"full\", \"visit\", \"visit-mut\"] }\n\n\
-        [profile.dev]\nopt-level = 1\ndebug = false\nincremental = false\n";
-    let crate_folder = root.join("tests");
-    std::fs::write(crate_folder.join("Cargo.toml"), manifest).map_err(words)?;
-    let lock = workspace().join("Cargo.lock");
-    if lock.exists() && !crate_folder.join("Cargo.lock").exists() {
-        std::fs::copy(lock, crate_folder.join("Cargo.lock")).map_err(words)?;
-    }
-    let target = folder()?.join("target");
-    let build = Command::new(env!("CARGO"))
-        .args(["build", "--offline", "--quiet"])
-        .current_dir(&crate_folder)
-        .env("CARGO_TARGET_DIR", &target)
-        .env("RUSTFLAGS", "-Awarnings")
-        .output()
-        .map_err(words)?;
+        [dependencies]\ncorosensei = \"0.3.4\"\ndalembert-tests = {{ path = {:?}, default-features = false }}\n\
+        nalgebra = {{ version = \"0.35\", default-features = false, features = [\"libm\", \"std\"] }}\n\
+        num-dual = \"0.15.1\"\nprettyplease = \"0.3.0\"\nproc-macro2 = {{ version = \"1.0.107\", features = [\"span-locations\"] }}\n\
+        quote = \"1.0.47\"\nsyn = {{ version = \"3\", features = [\"full\", \"visit\", \"visit-mut\"] }}\n\n\
+        [profile.dev]\nopt-level = 1\ndebug = false\nincremental = false\n",
+        workspace().join("tests")
+    );
+    let beside = Beside { folder: root.join("tests"), target: folder()?.join("target") };
+    beside.begin(&workspace(), &manifest).map_err(words)?;
+    let build = beside.cargo(&["build"]).map_err(words)?;
     if !build.status.success() {
         return Err(String::from_utf8_lossy(&build.stderr).into_owned());
     }
-    Ok(target.join("debug/rebuilt-study"))
+    Ok(beside.target.join("debug/rebuilt-study"))
 }
