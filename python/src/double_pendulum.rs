@@ -3,8 +3,8 @@
 use dalembert::rayleigh_system;
 
 crate::parameters! {
-    /// Two point masses on massless rods, one hung from the other, with friction in both joints; q are the
-    /// angles from below in rad.
+    /// Two point masses on massless rods, one hung from the other, with friction in both joints; q are the angles from
+    /// below in rad.
     pub struct DoublePendulum {
         /// Masses, kg.
         pub m: [f64; 2],

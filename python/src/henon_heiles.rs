@@ -3,8 +3,7 @@
 use dalembert::rayleigh_system;
 
 crate::parameters! {
-    /// A star of unit mass in the potential ½(x² + y²) + x²y − ⅓y³, without friction; q = (x, y).
-    /// Dimensionless.
+    /// A star of unit mass in the potential ½(x² + y²) + x²y − ⅓y³, without friction; q = (x, y). Dimensionless.
     pub struct HenonHeiles {}
 }
 

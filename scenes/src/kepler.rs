@@ -8,8 +8,7 @@ pub fn kepler(q: [f64; 2], v: [f64; 2], k: f64) -> (f64, f64) {
     (0.5 * speed + 1.0 / (q[0] * q[0] + q[1] * q[1]).sqrt(), 0.5 * k * speed)
 }
 
-/// The same with a time scale σ = |q|^{3/2}, which for any eccentricity makes the same steps of the near
-/// side.
+/// The same with a time scale σ = |q|^{3/2}, which for any eccentricity makes the same steps of the near side.
 #[derive(Clone, Copy)]
 pub struct EccentricKepler {
     /// Drag.

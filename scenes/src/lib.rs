@@ -1,8 +1,8 @@
 //! Mechanical systems that more than one package of the workspace steps, each written once, one file a scene
 //! with its formula and its parameters.
 //!
-//! A scene that is wanted in several sizes, in `f32` or by the other engine is a macro, to which this file
-//! gives the name, these choices and the rules.
+//! A scene that is wanted in several sizes, in `f32` or by the other engine is a macro, to which this file gives
+//! the name, these choices and the rules.
 
 #![no_std]
 

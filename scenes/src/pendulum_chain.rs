@@ -1,5 +1,5 @@
-//! A planar chain of n point masses on equal massless links, absolute angles from the vertical, with friction
-//! in every joint: xᵢ, yᵢ the masses' places, v₀ = 0.
+//! A planar chain of n point masses on equal massless links, absolute angles from the vertical, with friction in
+//! every joint: xᵢ, yᵢ the masses' places, v₀ = 0.
 //!
 //! ```text
 //! L = Σ ½mᵢ(ẋᵢ² + ẏᵢ²) − mᵢ g yᵢ,   R = ½c Σ (vᵢ − vᵢ₋₁)²

@@ -1,5 +1,5 @@
-//! A chain of n masses hung from a wall, each on a hardening spring and a dashpot to the one before it: q₀ =
-//! 0, dᵢ = qᵢ − qᵢ₋₁.
+//! A chain of n masses hung from a wall, each on a hardening spring and a dashpot to the one before it: q₀ = 0,
+//! dᵢ = qᵢ − qᵢ₋₁.
 //!
 //! ```text
 //! L = Σ ½mᵢvᵢ² − Σ (½k dᵢ² + ¼κdᵢ⁴),   R = ½c Σ ḋᵢ²

@@ -9,8 +9,7 @@ use dalembert::{Gauss, Midpoint, Trapezoidal, rayleigh_system};
 pub use runge_kutta::{Motion, runge_kutta_4};
 
 dalembert_c::parameters! {
-    /// A particle of unit mass in the plane, in the potential s(s − 1)², s = |q|². All quantities are
-    /// dimensionless.
+    /// A particle of unit mass in the plane, in the potential s(s − 1)², s = |q|². All quantities are dimensionless.
     pub struct Ring {
         /// Coefficient of the drag.
         pub friction: f64,
@@ -30,8 +29,7 @@ impl Ring {
 }
 
 dalembert_c::parameters! {
-    /// Two masses of 1 kg on massless rods of 1 m, one hung from the other; q are the angles from the
-    /// vertical, in rad.
+    /// Two masses of 1 kg on massless rods of 1 m, one hung from the other; q are the angles from the vertical, in rad.
     pub struct DoublePendulum {
         /// Friction of either joint, N m s.
         pub friction: f64,

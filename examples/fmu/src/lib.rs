@@ -3,8 +3,7 @@
 use dalembert::{Midpoint, rayleigh_system};
 
 dalembert_fmu::parameters! {
-    /// A rod hinged to a cart on a rail; q is (position in m, angle from upright in rad), u the force on the
-    /// cart in N.
+    /// A rod hinged to a cart on a rail; q is (position in m, angle from upright in rad), u the force on the cart in N.
     pub struct CartPole {
         /// Mass of the cart.
         /// Unit: kg

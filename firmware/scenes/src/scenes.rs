@@ -1,5 +1,4 @@
-//! What the machines step: the double pendulum that all packages share, and a cart-pole with friction, left
-//! alone and pushed.
+//! What the machines step: the double pendulum that all packages share, and a cart-pole with friction, left alone and pushed.
 
 use dalembert::{Discrete, Midpoint, State, StepError, rayleigh_system};
 
@@ -21,8 +20,7 @@ pub trait Stepped: Discrete<Midpoint, 2> + Sized {
 macro_rules! cart_pole {
     ($name:ident $float:ident $($force:item)?) => {
         dalembert_c::parameters! {
-            /// A pole hinged on a cart: q is the cart's position and the pole's angle from the upright;
-            /// friction in both.
+            /// A pole hinged on a cart: q is the cart's position and the pole's angle from the upright; friction in both.
             pub struct $name {
                 /// Mass of the cart in kg.
                 pub cart: $float,

@@ -264,9 +264,9 @@ impl System {
 
     /// The motion from (q, v), or from (q, p).
     ///
-    /// By steps of one size, h and steps, or to an error: with a tolerance, in units of q, method and step
-    /// size are chosen for the motion until the time `until` from the start. Python is free to do other
-    /// things meanwhile; Ctrl-C ends the run.
+    /// By steps of one size, h and steps, or to an error: with a tolerance, in units of q, method and step size
+    /// are chosen for the motion until the time `until` from the start. Python is free to do other things
+    /// meanwhile; Ctrl-C ends the run.
     ///
     /// Parameters
     /// ----------
@@ -280,10 +280,9 @@ impl System {
     /// u : the input, or an array with one for each step
     /// t : the time at the start, of a system that takes it; 0 unless said
     /// derivatives : whether records have derivatives by start and parameters
-    /// events : up to eight functions whose zeros are found, to rounding: each a Plane, or a callable of (t,
-    /// q, v) that returns a number; with an attribute `direction`, 1 or -1, crossings one way alone count,
-    /// and one with `terminal` ends the run progress : is called with the steps taken and to take, some
-    /// twenty times a second
+    /// events : up to eight functions whose zeros are found, to rounding: each a Plane, or a callable of (t, q, v) that returns a
+    ///     number; with an attribute `direction`, 1 or -1, crossings one way alone count, and one with `terminal` ends the run
+    /// progress : is called with the steps taken and to take, some twenty times a second
     ///
     /// Raises
     /// ------
@@ -368,22 +367,24 @@ impl System {
 
     /// Many members, each a system and a start of its own, on all cores: each is bit by bit its own `run`.
     ///
-    /// q, v, p and u are one row for all, or one for each member; `fields` has fields that differ, one row
-    /// for each. Members that fail do not stop the others: their rows are NaN, and `failures` says why.
+    /// q, v, p and u are one row for all, or one for each member; `fields` has fields that differ, one row for each. Members
+    /// that fail do not stop the others: their rows are NaN, and `failures` says why.
     ///
-    /// With a folder the results go there as Parquet files, one for each part of the members. A part is there
-    /// whole or not at all, and one that is there is not computed again: killed and started again, the same
-    /// call does what is missing.
+    /// With a folder the results go there as Parquet files, one for each part of the members. A part is there whole or
+    /// not at all, and one that is there is not computed again: killed and started again, the same call does what is missing.
     ///
     /// Parameters
     /// ----------
     /// q, v, p, u, t, h, steps, tolerance, until, rule : as of `run`
     /// every : steps from one record to the next; unless said, the end alone is recorded
     /// fields : a dict of fields that differ from member to member
-    /// events : as of `run`; `events` of the result has those of all members, `t` the end of each. Members
-    /// are then run one by one, and have no folder folder : where parts go members_per_part : members of a
-    /// part first : the number of the first member, which begins a part threads : how many; one a core unless
-    /// said progress : is called with the members that are done and all, some twenty times a second
+    /// events : as of `run`; `events` of the result has those of all members, `t` the end of each. Members are then run one by
+    ///     one, and have no folder
+    /// folder : where parts go
+    /// members_per_part : members of a part
+    /// first : the number of the first member, which begins a part
+    /// threads : how many; one a core unless said
+    /// progress : is called with the members that are done and all, some twenty times a second
     ///
     /// Returns
     /// -------
@@ -446,8 +447,8 @@ impl System {
         ensemble::run(py, &*model, given)
     }
 
-    /// A step from (q, v), or from (q, p), with its derivatives: A, by rules also B and by the parameters
-    /// that the attribute lists.
+    /// A step from (q, v), or from (q, p), with its derivatives: A, by rules also B and by the parameters that the
+    /// attribute lists.
     ///
     /// Parameters
     /// ----------
@@ -519,11 +520,10 @@ impl System {
         }
     }
 
-    /// What translations and rotations do to the discrete Lagrangian, to the force and to their momenta: a
-    /// report for each.
+    /// What translations and rotations do to the discrete Lagrangian, to the force and to their momenta: a report for each.
     ///
-    /// They are judged on segments (q0, q1) that are spread evenly: q0 in the box from low to high, each
-    /// coordinate of q1 − q0 within ∓reach, about h times the speed.
+    /// They are judged on segments (q0, q1) that are spread evenly: q0 in the box from low to high, each coordinate of
+    /// q1 − q0 within ∓reach, about h times the speed.
     ///
     /// Parameters
     /// ----------

@@ -41,8 +41,7 @@ pub struct Ends {
     energy: Py<PyArrayDyn<f64>>,
     /// The events of each function that was given, member by member.
     events: Vec<Py<Crossings>>,
-    /// Why members are not what was asked for, by their numbers: exceptions that were not raised. Their rows
-    /// are NaN.
+    /// Why members are not what was asked for, by their numbers: exceptions that were not raised. Their rows are NaN.
     failures: Py<PyDict>,
 }
 

@@ -1,9 +1,7 @@
-//! Python modules of systems that `#[rayleigh_system]` generates: runs, derivatives and energies as NumPy
-//! arrays.
+//! Python modules of systems that `#[rayleigh_system]` generates: runs, derivatives and energies as NumPy arrays.
 //!
-//! In a crate of its own, `crate-type = ["cdylib"]`, [`parameters!`] declares the struct of a system's fields
-//! and [`module!`] names the systems; maturin builds the module. `examples/python/` is the template, and
-//! `docs/python.md` its guide.
+//! In a crate of its own, `crate-type = ["cdylib"]`, [`parameters!`] declares the struct of a system's fields and [`module!`]
+//! names the systems; maturin builds the module. `examples/python/` is the template, and `docs/python.md` its guide.
 //!
 //! | in Python | |
 //! |---|---|
@@ -15,9 +13,9 @@
 //! | `ring.energy(q=…, v=…)` | energies |
 //! | `Ring.RULES`, `Ring.STRUCTURE`, … | what is known of the class |
 //!
-//! A run is one call: it takes its steps without the lock of the interpreter, hands its arrays over without a
-//! copy, and ends at Ctrl-C. Steps are those of the run in Rust, bit by bit. A step that fails is the
-//! exception `StepError` with what the error of Rust knows.
+//! A run is one call: it takes its steps without the lock of the interpreter, hands its arrays over without a copy, and
+//! ends at Ctrl-C. Steps are those of the run in Rust, bit by bit. A step that fails is the exception `StepError` with
+//! what the error of Rust knows.
 
 #[doc(hidden)]
 pub use dalembert;
@@ -90,8 +88,8 @@ mod watching;
 /// # fn main() {}
 /// ```
 ///
-/// The name is that of the library, which Python imports. A system without an input and without the time is
-/// its name alone; in braces behind others stands
+/// The name is that of the library, which Python imports. A system without an input and without the time is its name
+/// alone; in braces behind others stands
 ///
 /// | entry | what it says |
 /// |---|---|

@@ -132,8 +132,8 @@ pub trait StepsToError<S: System<N>, const N: usize>: Send + Sync {
     fn together<'a>(&self, asked: ErrorAsked) -> Box<dyn Together<S::View<'a>, N> + 'a>;
 }
 
-/// Asks what a system and a method offer: a function of the trait named beside it answers `None` where the
-/// one of `Probe` itself has bounds that do not hold. It decides for types that are known, as in what
+/// Asks what a system and a method offer: a function of the trait named beside it answers `None` where the one of
+/// `Probe` itself has bounds that do not hold. It decides for types that are known, as in what
 /// [`module!`](crate::module) writes, and there without a word about the methods of a system.
 pub struct Probe<S, M, const N: usize> {
     pub(crate) method: M,

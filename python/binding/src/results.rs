@@ -241,8 +241,7 @@ pub struct Linearization {
     p: Py<PyArray1<f64>>,
     /// A = ∂(q1, p1)/∂(q0, p0), shape (2n, 2n).
     a: Py<PyArray2<f64>>,
-    /// B = ∂(q1, p1)/∂u, the input being held over the step, shape (2n, inputs); None where there is no
-    /// input.
+    /// B = ∂(q1, p1)/∂u, the input being held over the step, shape (2n, inputs); None where there is no input.
     b: Option<Py<PyArray2<f64>>>,
     /// ∂(q1, p1)/∂θ, shape (2n, parameters); None where the attribute lists none.
     by_parameters: Option<Py<PyArray2<f64>>>,

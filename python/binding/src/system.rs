@@ -30,8 +30,7 @@ pub trait System<const N: usize>: Sized + 'static {
     /// The views as a run names them, which borrows none.
     type Kind: Lagrangian<N, Scalar = f64> + 'static;
 
-    /// The system with the input `u` at the time `t`, as far as it takes them; u has the length that it
-    /// takes.
+    /// The system with the input `u` at the time `t`, as far as it takes them; u has the length that it takes.
     fn view<'a>(fields: &'a Self::Fields, u: &[f64], t: f64) -> Self::View<'a>;
 
     /// The offers of all methods, to this system.

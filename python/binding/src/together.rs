@@ -1,5 +1,4 @@
-//! Steps of many members without the type of their method: one study is compiled for a system, not one for
-//! each method.
+//! Steps of many members without the type of their method: one study is compiled for a system, not one for each method.
 
 use core::cell::RefCell;
 use core::mem::replace;

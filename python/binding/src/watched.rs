@@ -42,8 +42,7 @@ pub fn kept(
             held.into_par_iter().map(|member| run(model, asked, events, control, member)).collect();
         for (member, ran) in (first..).zip(members) {
             let Member { record, has_end, events, failed } = ran?;
-            // Where the end alone is asked for there is none of a run that failed, and the last row of
-            // others.
+            // Where the end alone is asked for there is none of a run that failed, and the last row of others.
             let first = match (asked.every, has_end) {
                 (Some(_), _) => 0,
                 (None, false) => record.t.len(),

@@ -52,8 +52,8 @@ impl Plane {
     }
 }
 
-/// The functions that `events=` lists, for a system with `n` coordinates: planes and callables of (t, q, v).
-/// What a callable raises is put into `raised`.
+/// The functions that `events=` lists, for a system with `n` coordinates: planes and callables of (t, q, v). What a callable raises is put
+/// into `raised`.
 ///
 /// # Errors
 /// `TypeError`, `ValueError`.

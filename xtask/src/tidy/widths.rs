@@ -12,12 +12,14 @@ const CEILINGS: &[(&str, usize)] = &[
     ("benches", 3),
     ("c", 6),
     ("ensemble", 3),
+    ("examples", 5),
+    ("firmware", 2),
     ("fmu", 1),
     ("macros", 5),
-    ("python", 2),
+    ("python", 28),
     ("report", 3),
     ("runtime", 45),
-    ("scenes", 1),
+    ("scenes", 5),
     ("tests", 6),
 ];
 
