@@ -227,7 +227,8 @@ where
         let (k, rate) = self.segment(&shape.q, &v, *momentum, guess.get()).map_err(RouthError::NoAngle)?;
         invert(&k.p0_by_q1).map_err(RouthError::Step)?;
         let next = self.next_momentum(*momentum)?;
-        self.require_condition(k.momenta.p1[theta], next, *momentum)?;
+        let ends = [with(&shape.q, nalgebra::zero(), theta), with(&(shape.q + v * h), rate * h, theta)];
+        self.require_condition(&k, *momentum, [&ends[0], &ends[1]])?;
         let shape = State { q: shape.q + v * h, p: without(&k.momenta.p1, theta) };
         Ok(ReducedStep { state: ReducedState { shape, momentum: next }, angle: rate * h })
     }

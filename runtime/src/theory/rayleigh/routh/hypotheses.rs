@@ -1,7 +1,9 @@
 //! The hypotheses of a reduction, on a segment.
 
+use nalgebra::SVector;
+
 use crate::numbers::Scalar;
-use crate::step::Discrete;
+use crate::step::{Discrete, LegendreDerivatives};
 use crate::theory::rayleigh::routh::{Routh, RouthError};
 use crate::theory::samples::{Segment, at_segment, is_timed};
 use crate::theory::verdict::{Finding, Tolerance};
@@ -60,24 +62,34 @@ where
                 }
             }
         }
-        let [before, after] = [k.momenta.p0[theta], k.momenta.p1[theta]];
-        self.require_condition(after, self.next_momentum(before)?, before)?;
-        Ok(before.widen() != 0.0)
+        let before = k.momenta.p0[theta];
+        let terms = self.require_condition(&k, before, [&segment.q0, &segment.q1])?;
+        Ok(before.widen().abs() > Tolerance::rounding::<L::Scalar>() * terms)
     }
 
-    /// That p1_θ is g(p0_θ).
+    /// That p1_θ is g(p0_θ), `before`, on the segment between `ends`, whose derivatives are `k`; the terms of
+    /// these momenta, which are differences of configurations.
     pub(super) fn require_condition(
         &self,
-        found: L::Scalar,
-        expected: L::Scalar,
+        k: &LegendreDerivatives<L::Scalar, N>,
         before: L::Scalar,
-    ) -> Result<(), RouthError> {
+        [q0, q1]: [&SVector<L::Scalar, N>; 2],
+    ) -> Result<f64, RouthError> {
+        let theta = self.cyclic;
+        let (found, expected) = (k.momenta.p1[theta], self.next_momentum(before)?);
         let [found, expected, before] = [found, expected, before].map(Scalar::widen);
-        let scale = found.abs() + expected.abs() + before.abs();
+        let size = |a: L::Scalar, b: L::Scalar| (a * b).widen().abs();
+        let terms = (0..N)
+            .map(|j| {
+                let at_start = size(k.p0_by_q0[(theta, j)], q0[j]) + size(k.p0_by_q1[(theta, j)], q1[j]);
+                at_start + size(k.p1_by_q0[(theta, j)], q0[j]) + size(k.p1_by_q1[(theta, j)], q1[j])
+            })
+            .sum::<f64>();
+        let scale = found.abs() + expected.abs() + before.abs() + terms;
         let tolerance = Tolerance { relative: Tolerance::rounding::<L::Scalar>(), scale };
         let held = Finding::relative(found - expected, tolerance, ());
         if held.vanishes() {
-            Ok(())
+            Ok(terms)
         } else {
             Err(RouthError::NotReducible { momentum: before, found, expected })
         }
