@@ -12,6 +12,7 @@
 
 mod factor;
 pub mod partials;
+mod vanishing;
 
 use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
@@ -20,6 +21,7 @@ use super::graph::{Graph, Node, Operation};
 use factor::{Factor, Local};
 pub use partials::extremum;
 use partials::partials;
+use vanishing::Vanishing;
 
 /// First derivatives by the variables, where there are any.
 pub type Gradient = BTreeMap<Node, Node>;
@@ -120,6 +122,7 @@ impl Differentiation {
         }
         // Derivatives are made of nodes later than the root, and so never met by the sweep.
         let nodes = self.open_nodes(graph, root);
+        let vanishing = Vanishing::of(graph, root);
         for node in nodes.into_iter().rev() {
             // Nothing is made of derivatives that are too long: they need not be right, but soon done.
             if graph.is_full() {
@@ -136,7 +139,11 @@ impl Differentiation {
             let local = match graph.operation(node) {
                 operation if graph.is_variable(operation) => continue,
                 Operation::Select(condition, a, b) => self.selected(graph, condition, a, b, order),
-                operation => Local::from(partials(graph, node, operation, order)),
+                operation => {
+                    let mut partials = partials(graph, node, operation, order);
+                    vanishing.apply(graph, node, &mut partials);
+                    Local::from(partials)
+                }
             };
             sweep.adjoints.remove(&node);
             if order == Order::Second {

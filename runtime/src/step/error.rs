@@ -179,8 +179,9 @@ impl fmt::Display for StepError {
             ),
             Self::NonFinite { quantity: Quantity::Derivatives, index } => write!(
                 f,
-                "derivative of L, R or f {index} is NaN or infinite; look at L, R and f at the state given: if they have \
-                 finite derivatives there, try a smaller step"
+                "derivative of L, R or f {index} is NaN or infinite; look at L, R and f at the state given: √s has no \
+                 derivative at s = 0 (√(s + ε²) has), a power below 1 and a logarithm have none at 0; if theirs are finite \
+                 there, try a smaller step"
             ),
             Self::NonFinite { quantity, index } => write!(
                 f,

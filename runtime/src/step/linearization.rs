@@ -90,6 +90,18 @@ impl<S: Scalar, const N: usize> Mul for PhaseMatrix<S, N> {
     }
 }
 
+/// The product: how a state follows what moves an earlier one by `other`.
+impl<S: Scalar, const N: usize, const M: usize> Mul<StateBy<S, N, M>> for PhaseMatrix<S, N> {
+    type Output = StateBy<S, N, M>;
+
+    fn mul(self, other: StateBy<S, N, M>) -> StateBy<S, N, M> {
+        StateBy {
+            q: self.q_by_q * other.q + self.q_by_p * other.p,
+            p: self.p_by_q * other.q + self.p_by_p * other.p,
+        }
+    }
+}
+
 /// Derivatives of a state (q1, p1) by M quantities, such as inputs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StateBy<S, const N: usize, const M: usize> {
@@ -261,6 +273,10 @@ impl<S: Scalar, const N: usize> PhaseMatrix<S, N> {
 pub(crate) fn invert<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,
 ) -> Result<SMatrix<S, N, N>, StepError> {
-    linear::inverse(matrix)
-        .map_err(|singular| StepError::SingularNewtonMatrix { iteration: 0, column: singular.column })
+    linear::inverse(matrix).map_err(|singular| {
+        match StepError::require_finite(matrix, Quantity::Derivatives) {
+            Err(error) => error,
+            Ok(()) => StepError::SingularNewtonMatrix { iteration: 0, column: singular.column },
+        }
+    })
 }

@@ -1,5 +1,6 @@
 //! Derivatives of the step.
 
+mod at_rest;
 mod gauss_derivatives;
 mod linearization;
 mod sensitivities;
