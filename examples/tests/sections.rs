@@ -1,5 +1,9 @@
-//! What the scenes `poincare` and `bouncing` claim, against computations that share no code with them.
+//! What the scenes `poincare`, `bouncing` and `backlash` claim, against computations that share no code with
+//! them.
 
+#[path = "../examples/backlash.rs"]
+#[expect(dead_code, reason = "of the scene, what it computes is tested here, not what it prints")]
+mod backlash;
 #[path = "../examples/bouncing.rs"]
 #[expect(dead_code, reason = "of the scene, what it computes is tested here, not what it prints")]
 mod bouncing;
@@ -75,4 +79,49 @@ fn the_account_of_a_bouncing_pendulum_closes() {
     assert!(bouncing.accounts.iter().all(|account| account.angle > STOP - 1e-15));
     let last = bouncing.accounts.last().unwrap();
     assert!(last.taken[1] > 0.3 && last.taken[0] > 0.01 && last.energy < 0.2);
+}
+
+/// The load never passes the stop, and rests on it while the motor presses, wound up by as much as the teeth
+/// give; the first impact is that of Runge–Kutta steps of a microsecond.
+#[test]
+fn a_load_pressed_on_its_stop_stays_there_until_it_is_pulled_away() {
+    let motion = backlash::drive().unwrap();
+    assert!(motion.angles.iter().all(|(_, [_, load])| *load <= backlash::STOP + 1e-14));
+    let held: Vec<f64> = motion
+        .angles
+        .iter()
+        .filter(|(time, _)| (0.7..backlash::TURNS).contains(time))
+        .map(|(_, [motor, load])| {
+            assert_eq!(*load, backlash::STOP);
+            *motor
+        })
+        .collect();
+    let mean = held.iter().sum::<f64>() / held.len() as f64;
+    let still = backlash::STOP + backlash::PLAY + backlash::TORQUE / backlash::STIFFNESS;
+    assert!((mean - still).abs() < 2e-5, "{mean} {still}");
+    assert!(motion.releases.last().unwrap() > &backlash::TURNS);
+
+    // (q0, q1, v0, v1) by hand.
+    let rate = |z: &Vector4<f64>| {
+        let by = z[0] - z[1];
+        let tooth = backlash::STIFFNESS * (by - by.clamp(-backlash::PLAY, backlash::PLAY));
+        Vector4::new(
+            z[2],
+            z[3],
+            (backlash::TORQUE - 2e-3 * z[2] - tooth) / 2e-4,
+            (tooth - 4e-3 * z[3]) / 1e-3,
+        )
+    };
+    let (mut z, mut time, h) = (Vector4::new(backlash::PLAY, 0.0, 0.0, 0.0), 0.0, 1e-6);
+    while z[1] < backlash::STOP {
+        let a = rate(&z);
+        let b = rate(&(z + a * (0.5 * h)));
+        let c = rate(&(z + b * (0.5 * h)));
+        let d = rate(&(z + c * h));
+        z += (a + (b + c) * 2.0 + d) * (h / 6.0);
+        time += h;
+    }
+    time -= (z[1] - backlash::STOP) / z[3];
+    // Corners of the force leave its order.
+    assert!((motion.impacts[0] - time).abs() < 2e-5, "{} {time}", motion.impacts[0]);
 }

@@ -87,15 +87,15 @@ pub(crate) trait Divided<L, const N: usize> {
     fn since(&self) -> f64;
     fn step_size(&self) -> f64;
     fn nodes(&self) -> &'static [f64];
-    fn at_nodes(&self, q0: &SVector<f64, N>, visit: &mut Visit<'_, N>);
-    fn between(&self, q0: &SVector<f64, N>, share: f64) -> Option<[SVector<f64, N>; 2]>;
+    fn at_nodes(&self, q0: &SVector<f64, N>, h: f64, visit: &mut Visit<'_, N>);
+    fn between(&self, q0: &SVector<f64, N>, h: f64, share: f64) -> Option<[SVector<f64, N>; 2]>;
     fn velocity(&self, time: f64, state: &State<f64, N>) -> Result<SVector<f64, N>, StepError>;
     fn beginning(
         &self,
         time: f64,
         state: &State<f64, N>,
         mean: &SVector<f64, N>,
-        elapsed: f64,
+        sizes: [f64; 2],
     ) -> Result<State<f64, N>, StepError>;
 }
 
@@ -131,12 +131,12 @@ where
         Divisible::nodes(self)
     }
 
-    fn at_nodes(&self, q0: &SVector<f64, N>, visit: &mut Visit<'_, N>) {
-        Divisible::at_nodes(self, q0, visit);
+    fn at_nodes(&self, q0: &SVector<f64, N>, h: f64, visit: &mut Visit<'_, N>) {
+        Divisible::at_nodes(self, q0, h, visit);
     }
 
-    fn between(&self, q0: &SVector<f64, N>, share: f64) -> Option<[SVector<f64, N>; 2]> {
-        Divisible::between(self, q0, share)
+    fn between(&self, q0: &SVector<f64, N>, h: f64, share: f64) -> Option<[SVector<f64, N>; 2]> {
+        Divisible::between(self, q0, h, share)
     }
 
     fn velocity(&self, time: f64, state: &State<f64, N>) -> Result<SVector<f64, N>, StepError> {
@@ -148,9 +148,9 @@ where
         time: f64,
         state: &State<f64, N>,
         mean: &SVector<f64, N>,
-        elapsed: f64,
+        sizes: [f64; 2],
     ) -> Result<State<f64, N>, StepError> {
-        Divisible::beginning(self, time, state, mean, elapsed)
+        Divisible::beginning(self, time, state, mean, sizes)
     }
 }
 
@@ -199,13 +199,14 @@ impl<L: Lagrangian<N, Scalar = f64>, const N: usize> Divisible<N> for BySome<'_,
     fn at_nodes(
         &self,
         q0: &SVector<f64, N>,
+        h: f64,
         mut visit: impl FnMut(usize, &SVector<f64, N>, &SVector<f64, N>),
     ) {
-        self.0.at_nodes(q0, &mut visit);
+        self.0.at_nodes(q0, h, &mut visit);
     }
 
-    fn between(&self, q0: &SVector<f64, N>, share: f64) -> Option<[SVector<f64, N>; 2]> {
-        self.0.between(q0, share)
+    fn between(&self, q0: &SVector<f64, N>, h: f64, share: f64) -> Option<[SVector<f64, N>; 2]> {
+        self.0.between(q0, h, share)
     }
 
     fn velocity(&self, time: f64, state: &State<f64, N>) -> Result<SVector<f64, N>, StepError> {
@@ -217,9 +218,9 @@ impl<L: Lagrangian<N, Scalar = f64>, const N: usize> Divisible<N> for BySome<'_,
         time: f64,
         state: &State<f64, N>,
         mean: &SVector<f64, N>,
-        elapsed: f64,
+        sizes: [f64; 2],
     ) -> Result<State<f64, N>, StepError> {
-        self.0.beginning(time, state, mean, elapsed)
+        self.0.beginning(time, state, mean, sizes)
     }
 }
 

@@ -3,6 +3,7 @@
 mod divisible;
 mod moment;
 mod times;
+mod until;
 
 use nalgebra::SVector;
 
@@ -14,6 +15,7 @@ pub(in crate::run) use divisible::beginning;
 pub use divisible::{Divisible, Restartable};
 pub use moment::Moment;
 pub use times::{SampledAt, TimeError};
+pub use until::Until;
 
 /// Looking between the steps.
 impl<L, M, const N: usize> Trajectory<'_, L, M, N>
@@ -74,6 +76,8 @@ pub(super) struct Start<S, const N: usize> {
     pub(super) time: f64,
     /// The step's mean velocity.
     pub(super) mean: SVector<S, N>,
+    /// The step's size: less than that of the run where it was shortened.
+    pub(super) size: S,
 }
 
 /// The nodes of the cubic.
@@ -130,14 +134,15 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
     /// [`TimeError::Outside`]; those of [`State::velocity`], as [`TimeError::Step`].
     pub fn interpolated_at(&self, time: f64) -> Result<Moment<'_, T::System, N>, TimeError> {
         let start = self.start_before(time)?;
-        let share = (time - start.time) / self.run.step_size().widen();
-        let of_method = if self.is_collocated() { self.run.between(&start.state.q, share) } else { None };
+        let share = (time - start.time) / start.size.widen();
+        let of_method =
+            if self.is_collocated() { self.run.between(&start.state.q, start.size, share) } else { None };
         let [q, v] = match of_method {
             Some(at) => at,
             None => {
                 let at_start = self.velocity(start.time, &start.state)?;
                 let at_end = self.velocity(self.run.time(), self.run.state())?;
-                cubic(&start, self.run.step_size(), &[at_start, at_end], share)
+                cubic(&start, &[at_start, at_end], share)
             }
         };
         Ok(Moment::interpolated(self.run.system(), [time, self.run.since()], q, v))
@@ -147,8 +152,14 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
         let now = self.run.time();
         match self.start {
             Some(start) if start.time.min(now) <= time && time <= start.time.max(now) => Ok(start),
-            start => Err(TimeError::Outside { time, from: start.map_or(now, |start| start.time), to: now }),
+            _ => Err(self.outside(time)),
         }
+    }
+
+    /// The error of a time that is not one of the last step.
+    pub(super) fn outside(&self, time: f64) -> TimeError {
+        let now = self.run.time();
+        TimeError::Outside { time, from: self.start.map_or(now, |start| start.time), to: now }
     }
 
     /// The system.
@@ -169,7 +180,7 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
         if elapsed == T::Scalar::constant(0.0) {
             return Ok(start.state);
         }
-        self.run.beginning(start.time, &start.state, &start.mean, elapsed)
+        self.run.beginning(start.time, &start.state, &start.mean, [start.size, elapsed])
     }
 
     /// The time of the run at which the system has its own.
@@ -195,7 +206,7 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
         start: &Start<T::Scalar, N>,
         mut visit: impl FnMut(&Moment<'_, T::System, N>),
     ) {
-        let (system, since, h) = (self.run.system(), self.run.since(), self.run.step_size());
+        let (system, since, h) = (self.run.system(), self.run.since(), start.size);
         for &share in OF_CUBIC {
             let elapsed = h * T::Scalar::constant(share);
             let time = start.time + elapsed.widen();
@@ -213,8 +224,7 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
         ends: &[SVector<T::Scalar, N>; 2],
         time: f64,
     ) -> Moment<'_, T::System, N> {
-        let h = self.run.step_size();
-        let [q, v] = cubic(start, h, ends, (time - start.time) / h.widen());
+        let [q, v] = cubic(start, ends, (time - start.time) / start.size.widen());
         Moment::interpolated(self.run.system(), [time, self.run.since()], q, v)
     }
 
@@ -227,16 +237,16 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
         ends: &[SVector<T::Scalar, N>; 2],
         mut visit: impl FnMut(usize, &Moment<'_, T::System, N>),
     ) {
-        let (system, since, h) = (self.run.system(), self.run.since(), self.run.step_size());
+        let (system, since, h) = (self.run.system(), self.run.since(), start.size);
         let time = |share: f64| start.time + share * h.widen();
         if self.is_collocated() {
-            self.run.at_nodes(&start.state.q, |i, q, v| {
+            self.run.at_nodes(&start.state.q, h, |i, q, v| {
                 let share = self.nodes().get(i).copied().unwrap_or(1.0);
                 visit(i, &Moment::interpolated(system, [time(share), since], *q, *v));
             });
         } else {
             for (i, &share) in self.nodes().iter().enumerate() {
-                let [q, v] = cubic(start, h, ends, share);
+                let [q, v] = cubic(start, ends, share);
                 visit(i, &Moment::interpolated(system, [time(share), since], q, v));
             }
         }
@@ -247,7 +257,6 @@ impl<T: Divisible<N>, const N: usize> Dense<'_, T, N> {
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn cubic<S: Scalar, const N: usize>(
     start: &Start<S, N>,
-    h: S,
     [v0, v1]: &[SVector<S, N>; 2],
     share: f64,
 ) -> [SVector<S, N>; 2] {
@@ -258,7 +267,7 @@ fn cubic<S: Scalar, const N: usize>(
     let (at_start, at_end) = (v0 - mean, v1 - mean);
     let q = mean * of(share) + at_start * of(bend * rest) - at_end * of(bend * share);
     let v = mean + at_start * of(rest * (1.0 - 3.0 * share)) + at_end * of(share * (3.0 * share - 2.0));
-    [start.state.q + q * h, v]
+    [start.state.q + q * start.size, v]
 }
 
 impl<T: Restartable<N>, const N: usize> Dense<'_, T, N> {
@@ -266,6 +275,16 @@ impl<T: Restartable<N>, const N: usize> Dense<'_, T, N> {
     pub(super) fn restart_at(&mut self, time: f64, state: State<T::Scalar, N>) {
         self.run.restart_at(time, state);
         self.start = None;
+    }
+
+    /// The next step, no further than `end`; `None` where the run is there, or has ended.
+    pub(super) fn next_until(&mut self, end: f64) -> Option<Result<Step<T::Scalar, N>, StepError>> {
+        let (state, time) = (*self.run.state(), self.run.time());
+        let step = self.run.next_until(end)?;
+        Some(step.map(|(step, size)| {
+            self.start = Some(Start { state, time, mean: step.velocity, size });
+            step
+        }))
     }
 }
 
@@ -277,7 +296,7 @@ impl<T: Divisible<N>, const N: usize> Iterator for Dense<'_, T, N> {
         let (state, time) = (*self.run.state(), self.run.time());
         let step = self.run.next();
         if let Some(Ok(step)) = &step {
-            self.start = Some(Start { state, time, mean: step.velocity });
+            self.start = Some(Start { state, time, mean: step.velocity, size: self.run.step_size() });
         }
         step
     }

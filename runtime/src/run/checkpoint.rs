@@ -5,6 +5,10 @@ use crate::numbers::Scalar;
 use crate::step::{Flow, Memory, State, StepError, verify_start};
 use crate::system::Lagrangian;
 
+/// By how much of its size a step may be longer so that it ends at a time: a step of what would be left is no
+/// step that anyone asked for.
+const LONGER: f64 = 1.0 / 1024.0;
+
 /// A run as it can be saved; see [`Trajectory::checkpoint`](crate::Trajectory::checkpoint). With the feature
 /// `serde` it can be written and read.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,11 +47,51 @@ impl<S: Scalar, const N: usize> Checkpoint<S, N> {
         self.origin + self.step_size.widen() * steps
     }
 
+    /// The next step on the way to `end`.
+    pub(super) fn toward(&self, end: f64) -> Toward<S> {
+        let (now, h) = (self.time(), self.step_size.widen());
+        let left = end - now;
+        let steps = left / h;
+        if h == 0.0 || !h.is_finite() || steps > 1.0 + LONGER {
+            // A step size that is none is the step's to refuse.
+            Toward::Grid
+        } else if is_same(end, now) || steps < 0.0 {
+            Toward::Nowhere
+        } else if is_same(end, self.time_after(self.steps as f64 + 1.0)) {
+            Toward::Last(self.step_size)
+        } else {
+            Toward::Last(S::constant(left))
+        }
+    }
+
+    /// Takes the clock for `end` where it differs by a few roundings.
+    pub(super) fn settle(&mut self, end: f64) {
+        if is_same(end, self.time()) {
+            (self.origin, self.steps) = (end, 0);
+        }
+    }
+
     /// One step further. [`Course`] keeps the number of steps far from its largest value.
     pub(crate) fn follow(&mut self, state: &State<S, N>) {
         self.state = *state;
         self.steps += 1;
     }
+}
+
+/// The next step on the way to a time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Toward<S> {
+    /// None: the run is past it, or stands there.
+    Nowhere,
+    /// One of the run's own size, which does not lead there.
+    Grid,
+    /// The last, of this size.
+    Last(S),
+}
+
+/// Whether a time is that of the clock but for a few roundings.
+pub(super) fn is_same(time: f64, clock: f64) -> bool {
+    nalgebra::ComplexField::abs(time - clock) <= 8.0 * f64::EPSILON * nalgebra::ComplexField::abs(clock)
 }
 
 /// The stage of a run: which check its next step needs.
@@ -85,6 +129,14 @@ impl Course {
             Self::Open | Self::Watched => Self::Beginning,
             // A run that has ended may not have begun.
             Self::Starting | Self::Beginning | Self::Ended => Self::Starting,
+        }
+    }
+
+    /// The course once the clock is another.
+    pub(crate) fn moved<S: Scalar, const N: usize>(self, at: &Checkpoint<S, N>) -> Self {
+        match self {
+            Self::Open | Self::Watched => Self::of(at),
+            Self::Starting | Self::Beginning | Self::Ended => self,
         }
     }
 

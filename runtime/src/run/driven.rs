@@ -2,7 +2,8 @@
 
 use core::marker::PhantomData;
 
-use crate::run::trajectory::{Parted, in_parts};
+use crate::run::checkpoint::Toward;
+use crate::run::trajectory::{Parted, TakenUntil, in_parts};
 use crate::run::{Checkpoint, Course};
 use crate::step::{Discretised, Flow, Linearizable, Memory, State, Step, StepError, StepTaken};
 
@@ -12,7 +13,9 @@ where
     L: Flow<M, N>,
 {
     /// A run from `state` that is given its system, with the input held over the step, anew at each step. The
-    /// input held here says no more than of what kind the systems are.
+    /// input held here says no more than of what kind the systems are; its type, with the lifetime of the
+    /// view, does, so that a machine whose fields change under the run is better given to
+    /// [`DrivenTrajectory::new`].
     pub fn run_with_inputs(&self, state: State<L::Scalar, N>) -> DrivenTrajectory<L, M, N> {
         let mut run = DrivenTrajectory::new(self.h, state);
         if let Some(velocity) = &self.guess {
@@ -30,8 +33,43 @@ where
 /// `system.driven(u, t)`, such as [`time`](Self::time). An error leaves the state as it was, and the next
 /// call tries again.
 ///
-/// V is the type of the views, and only says of what kind they are: a struct that owns its machine has the
-/// field `model: DrivenTrajectory<DrivenCart<'static>, Midpoint, 1>`, made by [`new`](Self::new).
+/// V is the type of the views, and only says of what kind they are. That of
+/// [`run_with_inputs`](Discretised::run_with_inputs) names the lifetime of the view that it was asked of, and
+/// the machine stays borrowed. [`new`](Self::new) makes a run that names none: for a struct that owns its
+/// machine, and wherever fields change,
+///
+/// ```
+/// use dalembert::run::DrivenTrajectory;
+/// use dalembert::{Midpoint, State, rayleigh_system};
+///
+/// struct Cart {
+///     m: f64,
+/// }
+///
+/// #[rayleigh_system]
+/// impl Cart {
+///     fn lagrangian(&self, _q: [f64; 1], v: [f64; 1]) -> f64 {
+///         0.5 * self.m * v[0] * v[0]
+///     }
+///     fn force(&self, _q: [f64; 1], _v: [f64; 1], u: [f64; 1]) -> [f64; 1] {
+///         u
+///     }
+/// }
+///
+/// struct Controller {
+///     cart: Cart,
+///     model: DrivenTrajectory<DrivenCart<'static>, Midpoint, 1>,
+/// }
+///
+/// let cart = Cart { m: 2.0 };
+/// let start = State::from_velocity(&cart, [0.0], [1.0])?;
+/// let mut controller = Controller { cart, model: DrivenTrajectory::new(0.01, start) };
+/// controller.model.advance(&controller.cart.driven([0.0]))?;
+/// controller.cart.m = 3.0; // it has picked something up
+/// controller.model.advance(&controller.cart.driven([0.0]))?;
+/// assert!((controller.model.state().q[0] - 0.01 * (1.0 + 2.0 / 3.0)).abs() < 1e-15);
+/// # Ok::<(), dalembert::StepError>(())
+/// ```
 ///
 /// ```
 /// use dalembert::{Discretise, Midpoint, State, rayleigh_system};
@@ -136,8 +174,9 @@ where
         Memory::<V, M, N>::change_state(&mut self.memory);
     }
 
-    /// Goes on from another state at another time; what the method remembers is forgotten.
-    pub(super) fn restart_at(&mut self, time: f64, state: State<V::Scalar, N>) {
+    /// Goes on from another state at another time, as after an impact or a rest; what the method remembers is
+    /// forgotten.
+    pub fn restart_at(&mut self, time: f64, state: State<V::Scalar, N>) {
         let at = Checkpoint { state, step_size: self.at.step_size, origin: time, steps: 0 };
         *self = Self::resume(at);
     }
@@ -168,6 +207,31 @@ where
         V::RunMemory: Memory<L, M, N>,
     {
         if self.course == Course::Open { self.take(system) } else { self.take_watched(system) }
+    }
+
+    /// The next step of `system` on the way to `end`, with its size.
+    pub(super) fn next_until<L>(&mut self, system: &L, end: f64) -> Option<TakenUntil<V::Scalar, N>>
+    where
+        L: Flow<M, N, Scalar = V::Scalar, RunMemory = V::RunMemory>,
+        V::RunMemory: Memory<L, M, N>,
+    {
+        let own = self.at.step_size;
+        let size = match self.at.toward(end) {
+            Toward::Nowhere => {
+                self.at.settle(end);
+                return None;
+            }
+            Toward::Grid => return Some(self.advance(system).map(|step| (step, own))),
+            Toward::Last(size) => size,
+        };
+        self.at.step_size = size;
+        let step = self.advance(system);
+        self.at.step_size = own;
+        Some(step.map(|step| {
+            (self.at.origin, self.at.steps) = (end, 0);
+            self.course = self.course.moved(&self.at);
+            (step, size)
+        }))
     }
 
     /// Changes nothing before the step is taken: one that fails then leaves every byte.

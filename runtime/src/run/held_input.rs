@@ -1,13 +1,17 @@
 //! A run with inputs while one of them is held.
 
+mod period;
+
 use nalgebra::SVector;
 
 use crate::numbers::Scalar;
-use crate::run::between::{Dense, Divisible, Moment, Restartable, SampledAt, beginning};
+use crate::run::between::{Dense, Divisible, Moment, Restartable, SampledAt, Until, beginning};
 use crate::run::events::Watch;
-use crate::run::{DrivenTrajectory, Run};
+use crate::run::{DrivenTrajectory, Run, TakenUntil};
 use crate::step::flow::velocity;
 use crate::step::{Flow, Memory, State, Step, StepError};
+
+pub use period::{Carried, InPeriod, Period, Sensitivities};
 
 /// Steps with one input.
 impl<V, M, const N: usize> DrivenTrajectory<V, M, N>
@@ -75,6 +79,12 @@ where
     /// This run as one that answers for all times of its last step: [`Dense`].
     pub fn dense(&mut self) -> Dense<'_, Self, N> {
         Dense::of(self)
+    }
+
+    /// The steps up to `end`, where the run then stands: [`Until`]. A control period is one call, of any
+    /// length beside that of the steps.
+    pub fn until(&mut self, end: f64) -> Until<'_, Self, N> {
+        Until::of(self, end)
     }
 
     /// The states at `times`, in the order of the run: [`SampledAt`].
@@ -154,13 +164,19 @@ where
     fn at_nodes(
         &self,
         q0: &SVector<L::Scalar, N>,
+        h: L::Scalar,
         visit: impl FnMut(usize, &SVector<L::Scalar, N>, &SVector<L::Scalar, N>),
     ) {
-        Memory::<L, M, N>::at_nodes(&self.run.memory, q0, self.run.step_size(), visit);
+        Memory::<L, M, N>::at_nodes(&self.run.memory, q0, h, visit);
     }
 
-    fn between(&self, q0: &SVector<L::Scalar, N>, share: f64) -> Option<[SVector<L::Scalar, N>; 2]> {
-        Memory::<L, M, N>::between(&self.run.memory, q0, self.run.step_size(), share)
+    fn between(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+        share: f64,
+    ) -> Option<[SVector<L::Scalar, N>; 2]> {
+        Memory::<L, M, N>::between(&self.run.memory, q0, h, share)
     }
 
     fn velocity(&self, time: f64, state: &State<L::Scalar, N>) -> Result<SVector<L::Scalar, N>, StepError> {
@@ -172,10 +188,9 @@ where
         time: f64,
         state: &State<L::Scalar, N>,
         mean: &SVector<L::Scalar, N>,
-        elapsed: L::Scalar,
+        sizes: [L::Scalar; 2],
     ) -> Result<State<L::Scalar, N>, StepError> {
-        let time = [time - self.since, self.run.step_size().widen()];
-        beginning::<L, M, N>(self.system, &self.run.memory, time, state, mean, elapsed)
+        beginning::<L, M, N>(self.system, &self.run.memory, time - self.since, state, mean, sizes)
     }
 }
 
@@ -187,5 +202,11 @@ where
 {
     fn restart_at(&mut self, time: f64, state: State<L::Scalar, N>) {
         self.run.restart_at(time, state);
+    }
+
+    fn next_until(&mut self, end: f64) -> Option<TakenUntil<L::Scalar, N>> {
+        let elapsed = L::Scalar::constant(self.run.time() - self.since);
+        let run = &mut *self.run;
+        self.system.later(elapsed, |system| run.next_until(system, end))
     }
 }

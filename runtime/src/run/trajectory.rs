@@ -6,6 +6,7 @@ use nalgebra::SVector;
 
 use crate::numbers::Scalar;
 use crate::rules::steps_until;
+use crate::run::checkpoint::Toward;
 use crate::run::pace::Pace;
 use crate::run::{Checkpoint, Course};
 use crate::step::{Discretised, Flow, Memory, State, Step, StepError};
@@ -101,8 +102,8 @@ where
         self.restart_at(self.time(), state);
     }
 
-    /// Goes on from another state at another time.
-    pub(super) fn restart_at(&mut self, time: f64, state: State<L::Scalar, N>) {
+    /// Goes on from another state at another time: after a motion has rested for a while, for instance.
+    pub fn restart_at(&mut self, time: f64, state: State<L::Scalar, N>) {
         self.at = Checkpoint { state, step_size: self.at.step_size, origin: time, steps: 0 };
         self.memory = L::RunMemory::default();
         self.course = Course::Starting;
@@ -205,6 +206,52 @@ where
         }
     }
 
+    /// Takes a step that was prepared.
+    #[inline]
+    fn take(&mut self, size: L::Scalar) -> Result<Step<L::Scalar, N>, StepError> {
+        let step = self.memory.advance_later(self.system, self.time(), &self.at.state, size);
+        match &step {
+            Ok(step) => {
+                self.at.follow(&step.state);
+            }
+            Err(_) => {
+                self.take_back();
+                self.course = Course::Ended;
+            }
+        }
+        step
+    }
+
+    /// The next step on the way to `end`, with its size.
+    pub(super) fn next_until(&mut self, end: f64) -> Option<TakenUntil<L::Scalar, N>> {
+        if self.at.toward(end) == Toward::Nowhere {
+            self.at.settle(end);
+            return None;
+        }
+        if self.course != Course::Open
+            && let Some(stop) = self.stop()
+        {
+            return stop.map(Err);
+        }
+        // Where steps follow the motion, the size is known now.
+        let Toward::Last(size) = self.at.toward(end) else {
+            let size = self.at.step_size;
+            return Some(self.take(size).map(|step| (step, size)));
+        };
+        let step = match self.take(size) {
+            Ok(step) => step,
+            Err(error) => return Some(Err(error)),
+        };
+        self.at = Checkpoint { origin: end, steps: 0, ..self.at };
+        self.course = self.course.moved(&self.at);
+        if size != self.at.step_size
+            && let Some(pace) = &mut self.pace
+        {
+            pace.begin_again();
+        }
+        Some(Ok((step, size)))
+    }
+
     /// The reason not to take the next step: `Some(None)` at the end of the run or, once, `Some` of an error.
     #[cold]
     #[inline(never)]
@@ -263,17 +310,7 @@ where
         {
             return stop.map(Err);
         }
-        let step = self.memory.advance_later(self.system, self.time(), &self.at.state, self.at.step_size);
-        match &step {
-            Ok(step) => {
-                self.at.follow(&step.state);
-            }
-            Err(_) => {
-                self.take_back();
-                self.course = Course::Ended;
-            }
-        }
-        Some(step)
+        Some(self.take(self.at.step_size))
     }
 }
 
@@ -400,6 +437,9 @@ pub struct Sample<S, const N: usize> {
     /// Largest residual since the last sample, in units of its round-off floor.
     pub worst_residual: f64,
 }
+
+/// A step and its size.
+pub(crate) type TakenUntil<S, const N: usize> = Result<(Step<S, N>, S), StepError>;
 
 /// A run of steps, whatever makes them: a [`Trajectory`], or one that carries its error along
 /// ([`GuardedTrajectory`](crate::tolerance::GuardedTrajectory)).

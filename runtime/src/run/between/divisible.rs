@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use crate::numbers::Scalar;
-use crate::run::{Run, Trajectory};
+use crate::run::{Run, TakenUntil, Trajectory};
 use crate::step::flow::velocity;
 use crate::step::{Flow, Memory, State, StepError};
 use crate::system::Lagrangian;
@@ -24,21 +24,27 @@ pub trait Divisible<const N: usize>: Run<N> {
         0.0
     }
 
-    /// The size of the last step, and of the next.
+    /// The size of the next step, and of the last where that was not shortened.
     fn step_size(&self) -> Self::Scalar;
 
     /// Shares of a step at which the method itself knows q and v ([`Memory::NODES`]).
     fn nodes(&self) -> &'static [f64];
 
-    /// Calls `visit` with q and v at the nodes of the last step, which led from `q0`.
+    /// Calls `visit` with q and v at the nodes of the last step, of size `h`, which led from `q0`.
     fn at_nodes(
         &self,
         q0: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
         visit: impl FnMut(usize, &SVector<Self::Scalar, N>, &SVector<Self::Scalar, N>),
     );
 
-    /// (q, v) at a share of the last step, which led from `q0`, by the method's own polynomial.
-    fn between(&self, q0: &SVector<Self::Scalar, N>, share: f64) -> Option<[SVector<Self::Scalar, N>; 2]>;
+    /// (q, v) at a share of the last step, of size `h`, which led from `q0`, by the method's own polynomial.
+    fn between(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+        share: f64,
+    ) -> Option<[SVector<Self::Scalar, N>; 2]>;
 
     /// The velocity of a state of the run at that time.
     ///
@@ -50,8 +56,8 @@ pub trait Divisible<const N: usize>: Run<N> {
         state: &State<Self::Scalar, N>,
     ) -> Result<SVector<Self::Scalar, N>, StepError>;
 
-    /// Where a step of size `elapsed` leads from where the last one began: `state` at `time`, `mean` being
-    /// the mean velocity of that.
+    /// Where a step leads from where the last one began: `state` at `time`, `mean` being the mean velocity of
+    /// that, `sizes` its size and that of this one.
     ///
     /// # Errors
     /// Those of the step.
@@ -60,14 +66,19 @@ pub trait Divisible<const N: usize>: Run<N> {
         time: f64,
         state: &State<Self::Scalar, N>,
         mean: &SVector<Self::Scalar, N>,
-        elapsed: Self::Scalar,
+        sizes: [Self::Scalar; 2],
     ) -> Result<State<Self::Scalar, N>, StepError>;
 }
 
-/// A run that goes on from another state at another time, as after an impact.
+/// A run that can leave its grid: it goes on from another state at another time, as after an impact, or ends
+/// at a time.
 pub trait Restartable<const N: usize>: Divisible<N> {
     /// Goes on from `state` at `time`; what the method remembers is forgotten.
     fn restart_at(&mut self, time: f64, state: State<Self::Scalar, N>);
+
+    /// The next step with its size, as [`Until`](super::Until) says; `None` where the run is at `end` or past
+    /// it, or has ended.
+    fn next_until(&mut self, end: f64) -> Option<TakenUntil<Self::Scalar, N>>;
 }
 
 impl<L, M, const N: usize> Divisible<N> for Trajectory<'_, L, M, N>
@@ -95,13 +106,19 @@ where
     fn at_nodes(
         &self,
         q0: &SVector<L::Scalar, N>,
+        h: L::Scalar,
         visit: impl FnMut(usize, &SVector<L::Scalar, N>, &SVector<L::Scalar, N>),
     ) {
-        self.memory.at_nodes(q0, self.step_size(), visit);
+        self.memory.at_nodes(q0, h, visit);
     }
 
-    fn between(&self, q0: &SVector<L::Scalar, N>, share: f64) -> Option<[SVector<L::Scalar, N>; 2]> {
-        self.memory.between(q0, self.step_size(), share)
+    fn between(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+        share: f64,
+    ) -> Option<[SVector<L::Scalar, N>; 2]> {
+        self.memory.between(q0, h, share)
     }
 
     #[inline]
@@ -114,9 +131,9 @@ where
         time: f64,
         state: &State<L::Scalar, N>,
         mean: &SVector<L::Scalar, N>,
-        elapsed: L::Scalar,
+        sizes: [L::Scalar; 2],
     ) -> Result<State<L::Scalar, N>, StepError> {
-        beginning(self.system, &self.memory, [time, self.step_size().widen()], state, mean, elapsed)
+        beginning(self.system, &self.memory, time, state, mean, sizes)
     }
 }
 
@@ -127,19 +144,23 @@ where
     fn restart_at(&mut self, time: f64, state: State<L::Scalar, N>) {
         self.restart_at(time, state);
     }
+
+    fn next_until(&mut self, end: f64) -> Option<TakenUntil<L::Scalar, N>> {
+        self.next_until(end)
+    }
 }
 
 /// A step of size `elapsed` from `state` at `time`, from which the last one, of size `h`, was taken.
 pub(in crate::run) fn beginning<L: Flow<M, N>, M, const N: usize>(
     system: &L,
     memory: &L::RunMemory,
-    [time, h]: [f64; 2],
+    time: f64,
     state: &State<L::Scalar, N>,
     mean: &SVector<L::Scalar, N>,
-    elapsed: L::Scalar,
+    [h, elapsed]: [L::Scalar; 2],
 ) -> Result<State<L::Scalar, N>, StepError> {
-    let of = L::Scalar::constant;
-    system.later(of(time), |system| match memory.beginning(system, state, of(h), elapsed) {
+    let time = L::Scalar::constant(time);
+    system.later(time, |system| match memory.beginning(system, state, h, elapsed) {
         Some(state) => Ok(state),
         None => system.step(state, elapsed, Some(mean)).map(|step| step.state),
     })

@@ -4,6 +4,7 @@ use core::fmt;
 
 use crate::numbers::Scalar;
 use crate::run::between::{Dense, Divisible};
+use crate::run::checkpoint::is_same;
 use crate::run::{Sample, Trajectory};
 use crate::step::{Flow, StepError};
 
@@ -114,8 +115,7 @@ where
 
 /// The time, or the clock where they differ by a few roundings of either.
 fn on_clock(time: f64, clock: f64) -> f64 {
-    let rounding = 8.0 * f64::EPSILON * nalgebra::ComplexField::abs(clock);
-    if nalgebra::ComplexField::abs(time - clock) <= rounding { clock } else { time }
+    if is_same(time, clock) { clock } else { time }
 }
 
 /// Why there is no state at a time.

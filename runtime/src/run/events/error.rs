@@ -2,9 +2,11 @@
 
 use core::fmt;
 
+use crate::run::between::TimeError;
 use crate::step::StepError;
 
-/// Why a run could not be watched any further. The run itself stands at the end of its last step.
+/// Why a run could not be watched any further. The run stands where the step began that could not be watched,
+/// at the last event perhaps; one that cannot go back, for want of an end or of terminal events, at its end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum EventError {
@@ -17,18 +19,27 @@ pub enum EventError {
         /// When.
         time: f64,
     },
-    /// More than 16 events lie in one step, or 256 restarts in none: they accumulate, or the function is
-    /// noise there.
+    /// More than 16 events lie in one step, or 256 restarts in none: they accumulate, the function is noise
+    /// there, or the state after an impact presses against the surface that it is on.
     Chattering {
-        /// The start of the step.
+        /// The start of the step: the last event where they accumulate.
         time: f64,
     },
-    /// Several hundred steps within one step do not tell how often the function vanishes: it is not smooth,
+    /// Thousands of steps within one step do not tell how often the function vanishes: it is not smooth,
     /// or stays at 0 but for rounding.
     Unresolved {
         /// Which function.
         index: usize,
         /// The start of the step.
+        time: f64,
+    },
+    /// There is no state at a time that was asked for.
+    Time(TimeError),
+    /// The derivatives of a control period end at the event from which the run went on.
+    Restarted {
+        /// Which function.
+        index: usize,
+        /// The time of the event.
         time: f64,
     },
     /// The function has no slope along the motion: the event's time has no derivative.
@@ -57,13 +68,19 @@ impl fmt::Display for EventError {
             ),
             Self::Chattering { time } => write!(
                 f,
-                "more events than can be told apart near the time {time}: go on with the constraint that they \
-                 lead to, or with shorter steps"
+                "more events than can be told apart near the time {time}: the motion rests on the surface; go on when \
+                 something pushes it away, or, of a function that is noise, with shorter steps"
             ),
             Self::Unresolved { index, time } => write!(
                 f,
                 "event function {index} cannot be followed in the step from {time}: give a smooth one that does \
                  not stay at 0, or shorten the step"
+            ),
+            Self::Time(error) => error.fmt(f),
+            Self::Restarted { index, time } => write!(
+                f,
+                "event function {index} ended the motion at {time}: the period has no derivatives beyond, which are those \
+                 of the event and of the motion from there"
             ),
             Self::Tangent { index, time } => write!(
                 f,
@@ -76,6 +93,10 @@ impl fmt::Display for EventError {
 
 impl core::error::Error for EventError {
     fn source(&self) -> Option<&(dyn core::error::Error + 'static)> {
-        if let Self::Step(error) = self { Some(error) } else { None }
+        match self {
+            Self::Step(error) => Some(error),
+            Self::Time(error) => Some(error),
+            _ => None,
+        }
     }
 }

@@ -4,20 +4,20 @@ use nalgebra::SVector;
 
 use super::nodes::{MOST, Nodes};
 use super::range::missed;
-use super::roots::{Curve, Origin, ROOTS, Search};
+use super::roots::{CLEAR, Curve, Origin, ROOTS, Search, Settled};
 use super::{Crossing, Event, EventError, Passage, RESTARTS, Watch};
 use crate::numbers::Scalar;
 use crate::run::between::{Dense, Divisible, Moment, Start};
 use crate::step::State;
 
 /// Partial steps in one step at most, for all functions together.
-const PARTIAL_STEPS: u32 = 2000;
+const PARTIAL_STEPS: u32 = 10_000;
 
 /// An event that was found and has not been reported.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Found<S, const N: usize> {
     pub(super) index: usize,
-    passage: Passage,
+    pub(super) passage: Passage,
     pub(super) time: f64,
     pub(super) state: State<S, N>,
     from: State<S, N>,
@@ -56,13 +56,13 @@ where
             }
             let happened = self.happened.get(index).copied().unwrap_or(false);
             let moves = State { q: velocity * h, p: state.p };
-            if happened
-                || value.widen().abs() <= rounding(&self.g, self.dense.system(), times, &state, &moves, index)
-            {
+            let floor = || rounding(&self.g, self.dense.system(), times, &state, &moves, index);
+            if happened || value.widen().abs() <= CLEAR * floor() {
                 *value = zero;
             }
         }
         self.happened = [false; K];
+        self.rested = [0.0; K];
         self.velocity = Some(velocity);
         self.present = Some(present);
         Ok(present)
@@ -127,10 +127,22 @@ where
                 }))
             };
             let crossing = self.crossings.get(index).copied().unwrap_or_default();
-            let starts_there = first == 0.0;
-            let roots =
-                Search { curve: &mut curve, epsilon, resolution, crossing, starts_there, caution: 1.0 }
-                    .roots(nodes, values, origin)?;
+            let came_from = if curve.is_restarted { self.came_from[index] } else { 0.0 };
+            let mut search = Search {
+                curve: &mut curve,
+                epsilon,
+                resolution,
+                crossing,
+                starts_there: first == 0.0,
+                before: self.rested[index],
+                came_from,
+                caution: 1.0,
+            };
+            let Settled { roots, ends_there, before } = search.roots(nodes, values, origin)?;
+            self.rested[index] = before;
+            if ends_there && let Some(present) = &mut self.present {
+                present[index] = T::Scalar::constant(0.0);
+            }
             for root in roots.iter() {
                 let counts = match crossing {
                     Crossing::Rising => root.passage == Passage::Rising,
@@ -155,6 +167,7 @@ where
             }
             left = curve.left;
         }
+        self.came_from = [0.0; K];
         if let Some(found) = self.found.get_mut(..count) {
             in_order(found);
         }
@@ -239,9 +252,19 @@ where
     T: Divisible<N>,
     G: Fn(&Moment<'_, T::System, N>) -> [T::Scalar; K],
 {
+    /// The error where partial steps do not tell: after an impact it is the next one that they do not see.
+    fn unresolved(&self) -> EventError {
+        let (index, time) = (self.index, self.start.time);
+        if self.is_restarted {
+            EventError::Chattering { time }
+        } else {
+            EventError::Unresolved { index, time }
+        }
+    }
+
     /// The time and the state at a share of the step.
     fn at(&mut self, share: f64) -> Result<At<T::Scalar, N>, EventError> {
-        let h = self.dense.run().step_size();
+        let h = self.start.size;
         let elapsed = T::Scalar::constant(share * h.widen());
         if share == 1.0 || elapsed == h {
             return Ok(At { time: self.dense.run().time(), elapsed: h, state: *self.dense.run().state() });
@@ -252,8 +275,7 @@ where
         {
             return Ok(At { time, elapsed, state });
         }
-        let (index, from) = (self.index, self.start.time);
-        self.left = self.left.checked_sub(1).ok_or(EventError::Unresolved { index, time: from })?;
+        self.left = self.left.checked_sub(1).ok_or(self.unresolved())?;
         let state = self.dense.partial(&self.start, elapsed)?;
         self.latest = Some((share, state));
         Ok(At { time, elapsed, state })
@@ -282,14 +304,13 @@ where
 
     fn floor(&mut self, share: f64) -> Result<f64, EventError> {
         let At { time, state, .. } = self.at(share)?;
-        let end = self.dense.run().state();
-        let moves = State { q: end.q - self.start.state.q, p: end.p - self.start.state.p };
+        let moves = State { q: state.q - self.start.state.q, p: state.p - self.start.state.p };
         let times = [time, self.dense.since()];
         Ok(rounding(self.g, self.dense.system(), times, &state, &moves, self.index))
     }
 
     fn unresolved(&self) -> EventError {
-        EventError::Unresolved { index: self.index, time: self.start.time }
+        self.unresolved()
     }
 
     fn too_many(&self) -> EventError {

@@ -6,6 +6,10 @@ use crate::numbers::Scalar;
 /// what a step changes of v.
 pub(super) const BY_CHORD: f64 = 8.0;
 
+/// By how many times half their range the values of a cubic have to be away from 0. A corner that touches 0
+/// between its nodes, 0.577 of the step apart, makes the largest of four values 1.7 times the smallest.
+pub(super) const BY_CUBIC: f64 = 6.0;
+
 /// By how much the distance counts by which the cubic of a step, followed backwards, misses the values before
 /// it. Its error goes as τ²(1 − τ)²: one step back 64 times the largest within.
 const BY_MISS: f64 = 4.0;

@@ -8,12 +8,14 @@
 mod cluster;
 mod part;
 mod refine;
+mod settle;
 
 use super::nodes::{MOST, Nodes};
 use super::{Crossing, EventError};
 use crate::rules::Gauss;
 pub(super) use part::Origin;
 use part::{Part, Verdict, Waiting, crosses};
+pub(super) use settle::Settled;
 
 /// An event function along one step, by shares of it: the ends are those of the grid.
 pub(super) trait Curve {
@@ -38,6 +40,11 @@ pub(super) trait Curve {
 pub(super) struct Root {
     pub(super) share: f64,
     pub(super) passage: Passage,
+    /// Where it was found to lie: from here to there the function is 0 as far as is known.
+    from: f64,
+    to: f64,
+    /// Whether rounding may have parted it from others, so that only its surroundings say how it is passed.
+    is_doubtful: bool,
 }
 
 /// How an event function passes 0, in the direction in which the run goes.
@@ -47,8 +54,8 @@ pub enum Passage {
     Rising,
     /// From above.
     Falling,
-    /// It touches 0 and turns back, or passes twice so quickly that rounding does not tell: at two times that
-    /// differ by less than √ε of the step.
+    /// It touches 0 and turns back, passes twice so quickly that rounding does not tell (at two times that
+    /// differ by less than √ε of the step), or comes to 0 and stays.
     Touching,
 }
 
@@ -64,7 +71,7 @@ pub(super) struct Roots {
 
 impl Roots {
     pub(super) fn new() -> Self {
-        Self { list: [Root { share: 0.0, passage: Passage::Touching }; ROOTS], count: 0 }
+        Self { list: [Root::touching(0.0); ROOTS], count: 0 }
     }
 
     pub(super) fn iter(&self) -> impl Iterator<Item = &Root> {
@@ -76,7 +83,26 @@ impl Roots {
         self.count += 1;
         Ok(())
     }
+
+    fn last_mut(&mut self) -> Option<&mut Root> {
+        self.list.get_mut(self.count.checked_sub(1)?)
+    }
+
+    /// Doubts neighbours that are no further apart than `distance`.
+    fn doubt(&mut self, distance: f64) {
+        for index in 1..self.count {
+            if let Some([one, other]) = self.list.get_mut(index - 1..=index)
+                && other.from - one.to <= distance
+            {
+                (one.is_doubtful, other.is_doubtful) = (true, true);
+            }
+        }
+    }
 }
+
+/// So many rounding errors away from 0 a function is clear of it: those of the state, and what the steps
+/// before have added.
+pub(super) const CLEAR: f64 = 8.0;
 
 /// By how much polynomials may be further off than their last coefficients say: at times all of these are
 /// small by chance. Of 420 000 random pairs of crossings close together 26 were missed at 1, 2 at 8, and at
@@ -85,6 +111,9 @@ const DOUBT: f64 = 32.0;
 
 /// By how much the slope of a cubic's error may be larger than the error, on [0, 1].
 const STEEPER: f64 = 16.0;
+
+/// An error below so many times what is clear of 0 is one of rounding.
+const NOISE: f64 = 16.0;
 
 /// The nodes of true values.
 const OWN: Nodes = Nodes::new(&Gauss::<8>::NODES);
@@ -100,6 +129,10 @@ pub(super) struct Search<'c> {
     pub(super) crossing: Crossing,
     /// Whether the step starts on the event.
     pub(super) starts_there: bool,
+    /// Of a function that has rested at 0 up to the step a value from before; 0 of others.
+    pub(super) before: f64,
+    /// The side of 0 from which the function came to where the run was restarted; 0 where it was not.
+    pub(super) came_from: f64,
     /// By how much polynomials may be further off than they say.
     pub(super) caution: f64,
 }
@@ -113,15 +146,14 @@ impl Search<'_> {
         nodes: &Nodes,
         values: &[f64; MOST],
         origin: Origin,
-    ) -> Result<Roots, EventError> {
+    ) -> Result<Settled, EventError> {
         if values.iter().all(|value| *value == 0.0) {
-            // It rests there.
-            return Ok(Roots::new());
+            return Ok(Settled::resting(self.before));
         }
         for caution in [1.0, 8.0, 64.0] {
             self.caution = caution;
             if let Some(roots) = self.trusting(nodes, values, origin)? {
-                return Ok(roots);
+                return self.settle(roots);
             }
         }
         Err(self.curve.unresolved())
@@ -135,7 +167,8 @@ impl Search<'_> {
         origin: Origin,
     ) -> Result<Option<Roots>, EventError> {
         let mut roots = Roots::new();
-        let mut whole = self.part([0.0, 1.0], nodes, values, origin);
+        let floor = self.curve.floor(0.0)?.max(self.curve.floor(1.0)?);
+        let mut whole = self.part([0.0, 1.0], nodes, values, floor, origin);
         let mut verdict = self.judge(&whole);
         if matches!(verdict, Verdict::Nothing) {
             return Ok(Some(roots));
@@ -148,7 +181,7 @@ impl Search<'_> {
                 off = off.max((self.curve.value(share)? - whole.polynomial.value(share)).abs());
             }
             let error = 4.0 * off + 0.25 * whole.polynomial.bend();
-            whole.error = self.caution * error + self.rounding(nodes, values);
+            whole.error = self.caution * error + self.rounding(nodes, values) + CLEAR * floor;
             whole.slope_error = STEEPER * whole.error;
             verdict = self.judge(&whole);
         }
@@ -203,7 +236,9 @@ impl Search<'_> {
             return Ok(is_short);
         }
         let [low, high] = part.polynomial.range();
-        Ok(low.abs().max(high) <= 2.0 * self.curve.floor(part.from + 0.5 * part.width())?)
+        let (size, floor) = (low.abs().max(high), CLEAR * self.curve.floor(part.from + 0.5 * part.width())?);
+        // Of rounding the polynomial makes its last coefficients, and of those its error.
+        Ok(size <= floor || (size <= 2.0 * part.error && part.error <= NOISE * floor))
     }
 
     fn rounding(&self, nodes: &Nodes, values: &[f64; MOST]) -> f64 {
@@ -211,7 +246,15 @@ impl Search<'_> {
         nodes.rounding(self.epsilon, size)
     }
 
-    fn part(&self, [from, to]: [f64; 2], nodes: &Nodes, values: &[f64; MOST], origin: Origin) -> Part {
+    /// A part by `values` at its `nodes`, where rounding is `floor`.
+    fn part(
+        &self,
+        [from, to]: [f64; 2],
+        nodes: &Nodes,
+        values: &[f64; MOST],
+        floor: f64,
+        origin: Origin,
+    ) -> Part {
         let polynomial = nodes.polynomial(values);
         let [last, before, third] = nodes.tails(&polynomial).map(f64::abs);
         let degree = nodes.degree as f64;
@@ -222,7 +265,7 @@ impl Search<'_> {
             Origin::Stages => (DOUBT * (last + before + third * 4.0 / (degree * degree)), 4.0 * degree),
             Origin::Steps => (DOUBT * (last + before), 4.0 * degree),
         };
-        let error = self.caution * error + self.rounding(nodes, values);
+        let error = self.caution * error + self.rounding(nodes, values) + CLEAR * floor;
         let sampled = to - from;
         Part { from, to, polynomial, error, slope_error: steeper * error / sampled, sampled, origin }
     }
@@ -272,6 +315,7 @@ impl Search<'_> {
             let at = if share == 1.0 { to } else { from + share * (to - from) };
             *value = self.curve.value(at)?;
         }
-        Ok((self.part([from, to], &OWN, &values, Origin::Steps), values))
+        let floor = self.curve.floor(to)?;
+        Ok((self.part([from, to], &OWN, &values, floor, Origin::Steps), values))
     }
 }

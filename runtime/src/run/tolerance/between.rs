@@ -76,13 +76,19 @@ where
     fn at_nodes(
         &self,
         q0: &SVector<L::Scalar, N>,
+        h: L::Scalar,
         mut visit: impl FnMut(usize, &SVector<L::Scalar, N>, &SVector<L::Scalar, N>),
     ) {
-        self.last().at_nodes(q0, &mut visit);
+        self.last().at_nodes(q0, h, &mut visit);
     }
 
-    fn between(&self, q0: &SVector<L::Scalar, N>, share: f64) -> Option<[SVector<L::Scalar, N>; 2]> {
-        self.last().between(q0, share)
+    fn between(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+        share: f64,
+    ) -> Option<[SVector<L::Scalar, N>; 2]> {
+        self.last().between(q0, h, share)
     }
 
     fn velocity(&self, time: f64, state: &State<L::Scalar, N>) -> Result<SVector<L::Scalar, N>, StepError> {
@@ -94,8 +100,8 @@ where
         time: f64,
         state: &State<L::Scalar, N>,
         mean: &SVector<L::Scalar, N>,
-        elapsed: L::Scalar,
+        sizes: [L::Scalar; 2],
     ) -> Result<State<L::Scalar, N>, StepError> {
-        self.last().beginning(self.choice.system, time, state, mean, elapsed)
+        self.last().beginning(self.choice.system, time, state, mean, sizes)
     }
 }

@@ -3,7 +3,6 @@
 use nalgebra::SVector;
 
 use super::Method;
-use crate::numbers::Scalar;
 use crate::rules::{Fitted, FittedTrapezoidal, Gauss, Midpoint, SelfAdjoint, Solver, Trapezoidal};
 use crate::run::between::beginning;
 use crate::run::{Composition, Explicit, Splitting};
@@ -93,11 +92,16 @@ pub trait LastStep<L: Lagrangian<N>, const N: usize> {
     /// Shares of the step at which the method itself knows q and v.
     fn nodes(&self) -> &'static [f64];
 
-    /// Calls `visit` with q and v there; the step led from `q0`.
-    fn at_nodes(&self, q0: &SVector<L::Scalar, N>, visit: &mut Visit<'_, L::Scalar, N>);
+    /// Calls `visit` with q and v there; the step led from `q0` by `h`.
+    fn at_nodes(&self, q0: &SVector<L::Scalar, N>, h: L::Scalar, visit: &mut Visit<'_, L::Scalar, N>);
 
     /// (q, v) at a share of the step, by the method's own polynomial.
-    fn between(&self, q0: &SVector<L::Scalar, N>, share: f64) -> Option<[SVector<L::Scalar, N>; 2]>;
+    fn between(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+        share: f64,
+    ) -> Option<[SVector<L::Scalar, N>; 2]>;
 
     /// The velocity of a state of the run, `elapsed` after the time of `system`.
     ///
@@ -110,8 +114,8 @@ pub trait LastStep<L: Lagrangian<N>, const N: usize> {
         state: &State<L::Scalar, N>,
     ) -> Result<SVector<L::Scalar, N>, StepError>;
 
-    /// Where a step of size `size` leads from `state`, from which the last one was taken, `elapsed` after the
-    /// time of `system`; `mean` is its mean velocity.
+    /// Where a step leads from `state`, from which the last one was taken, `elapsed` after the time of
+    /// `system`; `mean` is the mean velocity of that, `sizes` its size and that of this one.
     ///
     /// # Errors
     /// Those of the step.
@@ -121,7 +125,7 @@ pub trait LastStep<L: Lagrangian<N>, const N: usize> {
         elapsed: f64,
         state: &State<L::Scalar, N>,
         mean: &SVector<L::Scalar, N>,
-        size: L::Scalar,
+        sizes: [L::Scalar; 2],
     ) -> Result<State<L::Scalar, N>, StepError>;
 }
 
@@ -177,12 +181,17 @@ impl<L: Flow<M, N>, M, const N: usize> LastStep<L, N> for OfSize<L, M, N> {
         <L::RunMemory as Memory<L, M, N>>::NODES
     }
 
-    fn at_nodes(&self, q0: &SVector<L::Scalar, N>, visit: &mut Visit<'_, L::Scalar, N>) {
-        self.memory.at_nodes(q0, self.h, visit);
+    fn at_nodes(&self, q0: &SVector<L::Scalar, N>, h: L::Scalar, visit: &mut Visit<'_, L::Scalar, N>) {
+        self.memory.at_nodes(q0, h, visit);
     }
 
-    fn between(&self, q0: &SVector<L::Scalar, N>, share: f64) -> Option<[SVector<L::Scalar, N>; 2]> {
-        self.memory.between(q0, self.h, share)
+    fn between(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+        share: f64,
+    ) -> Option<[SVector<L::Scalar, N>; 2]> {
+        self.memory.between(q0, h, share)
     }
 
     fn velocity(
@@ -200,9 +209,9 @@ impl<L: Flow<M, N>, M, const N: usize> LastStep<L, N> for OfSize<L, M, N> {
         elapsed: f64,
         state: &State<L::Scalar, N>,
         mean: &SVector<L::Scalar, N>,
-        size: L::Scalar,
+        sizes: [L::Scalar; 2],
     ) -> Result<State<L::Scalar, N>, StepError> {
-        beginning(system, &self.memory, [elapsed, self.h.widen()], state, mean, size)
+        beginning(system, &self.memory, elapsed, state, mean, sizes)
     }
 }
 

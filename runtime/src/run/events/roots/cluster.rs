@@ -1,7 +1,7 @@
 //! Neighbouring parts that are too short to be told more of than their signs.
 
 use super::part::{Origin, Part, crosses};
-use super::{EventError, MOST, Passage, Root, Roots, Search};
+use super::{CLEAR, EventError, MOST, Root, Roots, Search};
 use crate::run::events::nodes::Bernstein;
 
 /// Neighbouring parts, each too short to be told more of than its signs.
@@ -11,9 +11,12 @@ pub(super) struct Cluster {
     to: f64,
     before: f64,
     after: f64,
-    /// Whether one of them comes as near to 0 as can be told.
-    touches: bool,
+    /// Where one of them comes as near to 0 as can be told.
+    touching: Option<f64>,
 }
+
+/// Rounds of the search for where a function that bends comes nearest to 0: from √ε of the step to ε.
+const ROUNDS: u32 = 40;
 
 impl Search<'_> {
     /// Adds a part to the cluster that it continues.
@@ -36,12 +39,45 @@ impl Search<'_> {
         let vertex = between - (after - before) * (after - before) / (8.0 * bend);
         let size = before.abs().max(between.abs()).max(after.abs());
         let is_inside = (after - before).abs() <= 6.0 * bend.abs();
-        let touches = (is_inside && vertex.abs() <= 1e-3 * size)
-            || before.abs().min(between.abs()).min(after.abs()) <= self.curve.floor(middle)?;
-        let gathered = cluster.get_or_insert(Cluster { from, to, before, after, touches });
+        let near = before.abs().min(between.abs()).min(after.abs());
+        let touching =
+            if (is_inside && vertex.abs() <= 1e-3 * size) || near <= CLEAR * self.curve.floor(middle)? {
+                Some(middle)
+            } else {
+                self.bending(from, to)?
+            };
+        let gathered = cluster.get_or_insert(Cluster { from, to, before, after, touching });
         (gathered.to, gathered.after) = (to, after);
-        gathered.touches |= touches;
+        gathered.touching = gathered.touching.or(touching);
         Ok(())
+    }
+
+    /// Where the function touches 0 at a corner between, by golden sections.
+    fn bending(&mut self, mut from: f64, mut to: f64) -> Result<Option<f64>, EventError> {
+        const SHARE: f64 = 0.381_966_011_250_105_1;
+        let mut size = |share: f64| self.curve.value(share).map(f64::abs);
+        let (mut left, mut right) = (from + SHARE * (to - from), to - SHARE * (to - from));
+        let mut values = [size(from)?, size(left)?, size(right)?, size(to)?];
+        for _ in 0..ROUNDS {
+            let [start, one, other, end] = values;
+            let least = start.min(one).min(other).min(end);
+            if least > 2.0 * (start.max(end) - least) {
+                // It is not steep enough to come to 0 between.
+                break;
+            }
+            if one < other {
+                (to, right) = (right, left);
+                left = from + SHARE * (to - from);
+                values = [start, size(left)?, one, other];
+            } else {
+                (from, left) = (left, right);
+                right = to - SHARE * (to - from);
+                values = [one, other, size(right)?, end];
+            }
+        }
+        let middle = 0.5 * (from + to);
+        let is_there = self.curve.value(middle)?.abs() <= CLEAR * self.curve.floor(middle)?;
+        Ok(is_there.then_some(middle))
     }
 
     /// Decides on a cluster by the signs at its ends.
@@ -50,7 +86,7 @@ impl Search<'_> {
         cluster: &mut Option<Cluster>,
         roots: &mut Roots,
     ) -> Result<(), EventError> {
-        let Some(Cluster { from, to, before, after, touches }) = cluster.take() else { return Ok(()) };
+        let Some(Cluster { from, to, before, after, touching }) = cluster.take() else { return Ok(()) };
         if crosses([before, after]) {
             let mut values = [before; MOST];
             values[1] = after;
@@ -66,7 +102,7 @@ impl Search<'_> {
                 origin: Origin::Steps,
             };
             return match self.refine(&part)? {
-                Some(root) => roots.push(root, self.curve),
+                Some(root) => roots.push(Root { from, to, is_doubtful: true, ..root }, self.curve),
                 None => Ok(()),
             };
         }
@@ -74,23 +110,9 @@ impl Search<'_> {
             // It happens again at once.
             return Err(self.curve.too_many());
         }
-        // At the start it is the business of the step before.
-        if from > 0.0 && touches {
-            let middle = 0.5 * (from + to);
-            let last = match roots.iter().last() {
-                Some(Root { share, passage: Passage::Touching }) => Some(*share),
-                None if self.starts_there => Some(0.0),
-                _ => None,
-            };
-            if let Some(last) = last {
-                let between = 0.5 * (last + middle);
-                if self.curve.value(between)?.abs() <= 4.0 * self.curve.floor(between)? {
-                    // The same, parted by rounding.
-                    return Ok(());
-                }
-            }
-            return roots.push(Root { share: middle, passage: Passage::Touching }, self.curve);
+        match touching.or((before == 0.0).then_some(from)) {
+            Some(share) => roots.push(Root { from, to, ..Root::touching(share) }, self.curve),
+            None => Ok(()),
         }
-        Ok(())
     }
 }

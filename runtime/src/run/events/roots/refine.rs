@@ -6,6 +6,9 @@ use super::{Crossing, EventError, Passage, Root, Roots, Search};
 /// Rounds of refinement at most: halving alone takes 52.
 const ROUNDS: u32 = 120;
 
+/// A root that rounding moves by less, in shares of the step, is no part of a double one: those move by √ε.
+const STEEP: f64 = 1e-10;
+
 impl Search<'_> {
     /// Adds the crossing on a part that has one, if it counts; whether the polynomial was right of it.
     pub(super) fn add(&mut self, part: &Part, roots: &mut Roots) -> Result<bool, EventError> {
@@ -27,7 +30,7 @@ impl Search<'_> {
         let rises = end > start;
         let passage = if rises { Passage::Rising } else { Passage::Falling };
         if end == 0.0 {
-            return Ok(Some(Root { share: part.to, passage }));
+            return Ok(Some(Root { passage, ..Root::touching(part.to) }));
         }
         let verified = part.is_true();
         let (mut low, mut high) = (part.from, part.to);
@@ -84,11 +87,22 @@ impl Search<'_> {
             }
             at = next;
         }
+        if best.0 > self.curve.floor(best.1)? && best.0 > 1e-6 * start.abs().max(end.abs()) {
+            // It jumps.
+            best = (best.0, high);
+        }
         // The bracket of a polynomial was one in truth if the root is not at an end of its own.
         let margin = 4.0 * self.epsilon * part.to;
         let after_start = best.1 > part.from + margin || part.from == 0.0;
         let before_end = best.1 < part.to - margin || part.to == 1.0;
         let trusted = verified || (after_start && before_end);
-        Ok(trusted.then_some(Root { share: best.1, passage }))
+        let root = Root { passage, ..Root::touching(best.1) };
+        if !trusted {
+            return Ok(None);
+        }
+        // By the tangent, which has no second root within rounding where it is steep.
+        let floor = self.curve.floor(best.1)?;
+        let is_steep = floor > 0.0 && floor <= STEEP * slope.abs();
+        Ok(Some(Root { is_doubtful: !is_steep, ..root }))
     }
 }
