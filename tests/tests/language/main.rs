@@ -11,6 +11,7 @@ mod constants;
 mod control_flow;
 mod derivatives;
 mod differentiable;
+mod early_returns;
 mod engines;
 mod enums;
 mod fields;

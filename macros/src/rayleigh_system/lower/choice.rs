@@ -53,7 +53,7 @@ impl Lowering<'_> {
         let returned_before = self.returned.clone();
         let a = self.under(condition, true, a)?;
         let locals_a = std::mem::replace(&mut self.locals, before);
-        let returned_a = std::mem::replace(&mut self.returned, returned_before);
+        let returned_a = std::mem::replace(&mut self.returned, returned_before.clone());
         let leaving_a = self.leaving.take();
         let b = self.under(condition, false, b)?;
         if leaving_a.or(self.leaving.take()).is_some() {
@@ -75,7 +75,7 @@ impl Lowering<'_> {
             }
         }
         let returned_b = std::mem::replace(&mut self.returned, Returned::Never);
-        self.returned = self.joined(at, condition, returned_a, returned_b)?;
+        self.returned = self.joined(at, condition, &returned_before, returned_a, returned_b)?;
         // What follows is reached where nothing has been returned.
         if let Returned::Where(returned, _) = self.returned {
             self.guards.push((returned, false));
@@ -83,8 +83,16 @@ impl Lowering<'_> {
         Ok((a, b, always))
     }
 
-    /// Joins what the two ways of a condition have returned.
-    fn joined(&mut self, at: &impl ToTokens, condition: Node, a: Returned, b: Returned) -> Result<Returned> {
+    /// Joins what the two ways of a condition have returned, which may be no more than was `before`.
+    fn joined(
+        &mut self,
+        at: &impl ToTokens,
+        condition: Node,
+        before: &Returned,
+        a: Returned,
+        b: Returned,
+    ) -> Result<Returned> {
+        let is_before = |value: &Value| matches!(before, Returned::Where(_, before) if value.same(before));
         let parts = |returned| match returned {
             Returned::Never => (Truth::Known(false), None),
             Returned::Where(node, value) => (Truth::Where(node), Some(value)),
@@ -93,6 +101,9 @@ impl Lowering<'_> {
         let ((where_a, a), (where_b, b)) = (parts(a), parts(b));
         let value = match (a, b) {
             (None, None) => return Ok(Returned::Never),
+            // A way that returns where nothing was has what was before beside it: once, not once a return.
+            (Some(a), Some(b)) if is_before(&b) => a,
+            (Some(a), Some(b)) if is_before(&a) => b,
             (Some(a), Some(b)) => self.select(at, condition, a, b)?,
             (Some(value), None) | (None, Some(value)) => value,
         };

@@ -7,6 +7,9 @@
 
 mod arithmetic;
 
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
 use proc_macro2::Span;
 use quote::ToTokens;
 use syn::Type;
@@ -14,7 +17,7 @@ use syn::Type;
 use super::super::diagnostics::span_of;
 use super::super::syntax::simple_name;
 use super::refusal::one_line;
-use super::value::Value;
+use super::value::{Chosen, Value};
 use super::{Lowering, Refusal, Result, refuse};
 
 /// An integer and the class that its type belongs to.
@@ -297,9 +300,10 @@ impl Lowering<'_> {
             (Value::Tuple(a), Value::Tuple(b)) => {
                 a.iter().zip(b).try_for_each(|(a, b)| self.unify_values(a, b))
             }
-            (Value::Chosen(a), b) | (b, Value::Chosen(a)) => {
-                self.unify_values(&a.a, b)?;
-                self.unify_values(&a.b, b)
+            // Those of one choice are of one type since it was made.
+            (Value::Chosen(chosen), other) | (other, Value::Chosen(chosen)) => {
+                let one = typed(chosen);
+                self.unify_values(&one, other)
             }
             _ => Ok(()),
         }
@@ -312,4 +316,22 @@ impl Lowering<'_> {
             None => refuse(at, "the type of this integer decides the result; write it out, as in `2_u8`"),
         }
     }
+}
+
+/// One of the values of a choice: of a type that is known, if one of them is. Each is looked at once, in however
+/// many choices it stands.
+fn typed(chosen: &Rc<Chosen>) -> Value {
+    let (mut open, mut seen) = (vec![Rc::clone(chosen)], BTreeSet::from([Rc::as_ptr(chosen)]));
+    let mut written = None;
+    while let Some(chosen) = open.pop() {
+        for value in [&chosen.a, &chosen.b] {
+            match value {
+                Value::Chosen(inner) if !seen.insert(Rc::as_ptr(inner)) => {}
+                Value::Chosen(inner) => open.push(Rc::clone(inner)),
+                Value::Written(_) => written = Some(value.clone()),
+                value => return value.clone(),
+            }
+        }
+    }
+    written.unwrap_or(Value::Unset)
 }
