@@ -293,8 +293,8 @@ where
         Some((found.time, self.terminal.get(found.index).copied().unwrap_or(false)))
     }
 
-    /// The step that was taken, once.
-    pub(super) fn has_taken(&mut self) -> Option<Step<T::Scalar, N>> {
+    /// Takes the step that was kept beside its events.
+    pub(super) fn take_kept(&mut self) -> Option<Step<T::Scalar, N>> {
         self.step.take()
     }
 

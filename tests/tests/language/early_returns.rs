@@ -1,5 +1,5 @@
-//! Tables that are read by early returns, as deep as they are long: each way out has its own value, and what a
-//! return reads is read where it is taken alone.
+//! Tables that are read by early returns, as deep as they are long: each way out has its own value, and what
+//! a return reads is read where it is taken alone.
 
 use dalembert::nalgebra::SVector;
 use dalembert::{Force, rayleigh_system};

@@ -318,8 +318,8 @@ impl Lowering<'_> {
     }
 }
 
-/// One of the values of a choice: of a type that is known, if one of them is. Each is looked at once, in however
-/// many choices it stands.
+/// One of the values of a choice: of a type that is known, if one of them is. Each is looked at once, in
+/// however many choices it stands.
 fn typed(chosen: &Rc<Chosen>) -> Value {
     let (mut open, mut seen) = (vec![Rc::clone(chosen)], BTreeSet::from([Rc::as_ptr(chosen)]));
     let mut written = None;

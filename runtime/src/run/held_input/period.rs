@@ -233,7 +233,7 @@ where
                 }
                 return Ok(event.map(InPeriod::Event));
             }
-            if let Some(step) = self.watch.has_taken() {
+            if let Some(step) = self.watch.take_kept() {
                 self.shown = self.at_end;
                 return Ok(Some(InPeriod::Step(step)));
             }
