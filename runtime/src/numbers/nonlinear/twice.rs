@@ -9,8 +9,12 @@ use crate::numbers::Precision;
 /// as much as they are long.
 static LENGTHS: [f64; 6] = [64.0, 4096.0, 262_144.0, 16_777_216.0, 1e9, 6.4e10];
 
-/// By how much rounding may be larger at other places.
+/// By how much rounding may be larger at other places than at the point and over the shortest moves, of which
+/// any one may round little by chance.
 const ALIKE: f64 = 64.0;
+
+/// How many of the moves are short: another function shows over the longer ones.
+const SHORT: usize = 2;
 
 /// The residual by the momenta of a step, and by the kernel with the matrix.
 pub(super) struct Twice<'a, S> {
@@ -30,7 +34,7 @@ pub(super) fn is_rounded_twice<S: Precision>(
     mut room: Room<'_, S>,
 ) -> bool {
     let [v, q, kernel, momenta] = room.vectors();
-    let changes = room.zeros();
+    let [changes, most] = [room.zeros(), room.zeros()];
     for (direction, length) in LENGTHS.iter().enumerate() {
         for (i, ((v, at), correction)) in v.iter_mut().zip(at).zip(correction).enumerate() {
             *v = *at + *correction * S::nearest(*length * shift(direction, i));
@@ -39,16 +43,20 @@ pub(super) fn is_rounded_twice<S: Precision>(
         of.evaluate.kernel(q, v, of.h, of.held, kernel);
         of.p0(q, v, momenta, room.inner());
         subtract(momenta, kernel);
-        let pairs =
-            found.momenta.iter().zip(found.kernel).zip(floor).zip(momenta.iter().zip(changes.iter_mut()));
-        for (((own, kernel), floor), (now, changes)) in pairs {
+        let written = momenta.iter().zip(changes.iter_mut().zip(most.iter_mut()));
+        for (((own, kernel), floor), (now, (changes, most))) in
+            found.momenta.iter().zip(found.kernel).zip(floor).zip(written)
+        {
             let before = (*own - *kernel).abs();
             if before <= *floor {
                 *changes = S::one();
                 continue;
             }
+            if direction < SHORT {
+                *most = most.max(now.abs()).max(before);
+            }
             // What is no number fails the comparison.
-            let is_alike = now.abs() <= before * S::nearest(ALIKE);
+            let is_alike = now.abs() <= *most * S::nearest(ALIKE);
             if !is_alike {
                 return false;
             }
