@@ -55,7 +55,7 @@ impl<S: Scalar, const N: usize> Checkpoint<S, N> {
         if h == 0.0 || !h.is_finite() || steps > 1.0 + LONGER {
             // A step size that is none is the step's to refuse.
             Toward::Grid
-        } else if is_same(end, now) || steps < 0.0 {
+        } else if steps <= 0.0 {
             Toward::Nowhere
         } else if is_same(end, self.time_after(self.steps as f64 + 1.0)) {
             Toward::Last(self.step_size)

@@ -151,6 +151,8 @@ pub struct Watch<'t, T: Divisible<N>, G, const N: usize, const K: usize> {
     happened: [bool; K],
     /// On which side of 0 their functions were before, where they are passed: 1 or −1, else 0.
     came_from: [f64; K],
+    /// By how much their values at the start of the run are off 0 that count as 0 there.
+    residues: [f64; K],
     /// Events found in the last step, in order.
     found: [Option<Found<T::Scalar, N>>; ROOTS],
     /// Which of them comes next.
@@ -206,6 +208,7 @@ where
             rested: [0.0; K],
             happened: [false; K],
             came_from: [0.0; K],
+            residues: [0.0; K],
             found: [None; ROOTS],
             next: 0,
             step: None,
@@ -414,12 +417,16 @@ where
         } else if let Some(stop) = self.stop
             && self.terminal.get(found.index).copied().unwrap_or(false)
         {
+            let is_here = self.restarts > 0 && self.dense.run().time() == found.time;
             stop(&mut self.dense, found.time, found.state);
             self.ended = true;
             (self.step, self.present) = (None, None);
-            (self.happened, self.came_from) = ([false; K], [0.0; K]);
+            if !is_here {
+                (self.happened, self.came_from) = ([false; K], [0.0; K]);
+            }
             self.mark(found);
-            let width = 8.0 * T::Scalar::EPSILON.widen() * found.elapsed.widen().abs();
+            let size = found.elapsed.widen().abs().max(self.dense.run().step_size().widen().abs());
+            let width = 64.0 * T::Scalar::EPSILON.widen() * size;
             let later = |other: &Found<T::Scalar, N>| (other.elapsed - found.elapsed).widen().abs() > width;
             for place in self.found.iter_mut().skip(self.next) {
                 if place.as_ref().is_some_and(later) {
@@ -463,16 +470,19 @@ where
     }
 
     /// Goes on from another state at the present time of the run, that of a terminal event: an impact, a
-    /// switch. Events that happened there do not happen again at once.
+    /// switch. Events that happened there do not happen again at once; others at that time that have not been
+    /// asked for come next, and of this state.
     pub fn restart(&mut self, state: State<T::Scalar, N>) {
         let time = self.run().time();
-        if !self.ended {
+        if self.ended {
+            self.found.iter_mut().flatten().for_each(|found| (found.time, found.state) = (time, state));
+        } else {
             (self.happened, self.came_from) = ([false; K], [0.0; K]);
+            self.found = [None; ROOTS];
         }
         self.dense.restart_at(time, state);
         (self.present, self.earlier, self.velocity) = (None, None, None);
         (self.step, self.ended) = (None, false);
-        self.found = [None; ROOTS];
         self.restarts = self.restarts.saturating_add(1);
     }
 }

@@ -243,7 +243,10 @@ where
             Err(error) => return Some(Err(error)),
         };
         self.at = Checkpoint { origin: end, steps: 0, ..self.at };
-        self.course = self.course.moved(&self.at);
+        // Steps that follow the motion are prepared, each of them.
+        if self.pace.is_none() {
+            self.course = self.course.moved(&self.at);
+        }
         if size != self.at.step_size
             && let Some(pace) = &mut self.pace
         {

@@ -48,6 +48,7 @@ where
         let velocity = self.dense.velocity(time, &state)?;
         let h = self.dense.run().step_size();
         let times = [time, self.dense.since()];
+        self.residues = [0.0; K];
         let mut present = (self.g)(&Moment::of(self.dense.system(), times, &state, Some(velocity)));
         let zero = T::Scalar::constant(0.0);
         for (index, value) in present.iter_mut().enumerate() {
@@ -57,7 +58,9 @@ where
             let happened = self.happened.get(index).copied().unwrap_or(false);
             let moves = State { q: velocity * h, p: state.p };
             let floor = || rounding(&self.g, self.dense.system(), times, &state, &moves, index);
-            if happened || value.widen().abs() <= CLEAR * floor() {
+            // After an impact what did not happen is to come.
+            if happened || (self.restarts == 0 && value.widen().abs() <= CLEAR * floor()) {
+                self.residues[index] = value.widen().abs();
                 *value = zero;
             }
         }
@@ -108,6 +111,7 @@ where
                 index,
                 ends: [first, last],
                 is_restarted: self.restarts > 0 && first == 0.0,
+                residue: if first == 0.0 { self.residues[index] } else { 0.0 },
                 left,
                 latest: None,
             };
@@ -140,6 +144,9 @@ where
             };
             let Settled { roots, ends_there, before } = search.roots(nodes, values, origin)?;
             self.rested[index] = before;
+            if !ends_there || roots.iter().next().is_some() {
+                self.came_from[index] = 0.0;
+            }
             if ends_there && let Some(present) = &mut self.present {
                 present[index] = T::Scalar::constant(0.0);
             }
@@ -167,7 +174,6 @@ where
             }
             left = curve.left;
         }
-        self.came_from = [0.0; K];
         if let Some(found) = self.found.get_mut(..count) {
             in_order(found);
         }
@@ -241,6 +247,8 @@ struct OnStep<'s, 't, T: Divisible<N>, G, const N: usize> {
     index: usize,
     ends: [f64; 2],
     is_restarted: bool,
+    /// The distance from 0 of a value at the start that counts as 0.
+    residue: f64,
     /// Partial steps left.
     left: u32,
     /// The share asked for last, and the state there.
@@ -304,9 +312,14 @@ where
 
     fn floor(&mut self, share: f64) -> Result<f64, EventError> {
         let At { time, state, .. } = self.at(share)?;
-        let moves = State { q: state.q - self.start.state.q, p: state.p - self.start.state.p };
+        // At the end as at the start of a watch there: what the one counts the other does not.
+        let moves = if share == 1.0 {
+            State { q: self.dense.velocity(time, &state)? * self.dense.run().step_size(), p: state.p }
+        } else {
+            State { q: state.q - self.start.state.q, p: state.p - self.start.state.p }
+        };
         let times = [time, self.dense.since()];
-        Ok(rounding(self.g, self.dense.system(), times, &state, &moves, self.index))
+        Ok(self.residue + rounding(self.g, self.dense.system(), times, &state, &moves, self.index))
     }
 
     fn unresolved(&self) -> EventError {

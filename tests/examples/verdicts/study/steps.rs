@@ -290,7 +290,12 @@ where
     let mut memories: [L::Memory; 9] = std::array::from_fn(|_| L::Memory::default());
     let mut at = *state;
     for _ in 0..2 {
-        let end = run.next().and_then(Result::ok);
+        let end = match run.next() {
+            // Of lengths below 1e-19 the start of a run has no slope to compare: its verdict is not this
+            // one's.
+            Some(Err(StepError::GeneratedDiffers { .. })) => return,
+            end => end.and_then(Result::ok),
+        };
         for (k, share) in shares.iter().enumerate() {
             let (before, rest) = memories.split_at_mut(k);
             let (memory, after) = rest.split_first_mut().expect("there are as many memories as shares");

@@ -106,10 +106,6 @@ impl Search<'_> {
                 None => Ok(()),
             };
         }
-        if from == 0.0 && before == 0.0 && self.curve.is_restarted() {
-            // It happens again at once.
-            return Err(self.curve.too_many());
-        }
         match touching.or((before == 0.0).then_some(from)) {
             Some(share) => roots.push(Root { from, to, ..Root::touching(share) }, self.curve),
             None => Ok(()),

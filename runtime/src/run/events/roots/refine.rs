@@ -33,6 +33,8 @@ impl Search<'_> {
             return Ok(Some(Root { passage, ..Root::touching(part.to) }));
         }
         let verified = part.is_true();
+        // Beside what the function is at the ends of the part; of single precision, more.
+        let little = self.resolution.max(1e-6) * start.abs().max(end.abs());
         let (mut low, mut high) = (part.from, part.to);
         let (share, slope) = root(&part.polynomial);
         let mut at = part.from + share * part.width();
@@ -43,7 +45,7 @@ impl Search<'_> {
         for round in 0..ROUNDS {
             let value = self.curve.value(at)?;
             // The secants mend what is off by little.
-            let allowed = (2.0 * part.error).max(1e-6 * start.abs().max(end.abs()));
+            let allowed = (2.0 * part.error).max(little);
             if round == 0 && !verified && value.abs() > allowed {
                 return Ok(None);
             }
@@ -71,7 +73,7 @@ impl Search<'_> {
             let mut next = at - value / slope;
             let correction = (next - at).abs();
             // Below rounding; or as small as noise, where it no longer shrinks.
-            let is_noise = value.abs() <= 1e-6 * start.abs().max(end.abs());
+            let is_noise = value.abs() <= little;
             if correction <= unit || (is_noise && moved <= self.resolution && correction > 0.25 * moved) {
                 break;
             }
@@ -87,7 +89,7 @@ impl Search<'_> {
             }
             at = next;
         }
-        if best.0 > self.curve.floor(best.1)? && best.0 > 1e-6 * start.abs().max(end.abs()) {
+        if best.0 > self.curve.floor(best.1)? && best.0 > little {
             // It jumps.
             best = (best.0, high);
         }

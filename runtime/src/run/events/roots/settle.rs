@@ -65,8 +65,9 @@ impl Search<'_> {
         for root in found.iter() {
             let begins = if root.passage == Passage::Touching { root.from } else { root.share };
             if begins <= clear.share {
-                // Of the start, or of the one before.
-                if settled.roots.count == 0 && self.starts_there && self.curve.is_restarted() {
+                // Of the start, or of the one before: after an impact the next, if it leads through the
+                // surface.
+                if settled.roots.count == 0 && self.starts_there && clear.value * self.came_from < 0.0 {
                     return Err(self.curve.too_many());
                 }
                 continue;
