@@ -242,19 +242,23 @@ where
         if let Some(step) = self.step.take() {
             return Some(Ok(Watched::Step(step)));
         }
+        match self.take_or_end()? {
+            Ok(Some(step)) => Some(Ok(Watched::Step(step))),
+            Ok(None) => self.advance_to_found(),
+            Err(error) => Some(Err(error)),
+        }
+    }
+
+    /// Takes a step, unless the watch has ended; ends it where there is none.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn take_or_end(&mut self) -> Option<Result<Option<Step<T::Scalar, N>>, EventError>> {
         if self.ended {
             return None;
         }
         let time = self.dense.run().time();
-        match self.take() {
-            Some(Ok(Some(step))) => Some(Ok(Watched::Step(step))),
-            Some(Ok(None)) => self.advance_to_found(),
-            Some(Err(error)) => Some(Err(self.refuse(error, time))),
-            None => {
-                self.ended = true;
-                None
-            }
-        }
+        let taken = self.take();
+        self.ended = taken.is_none();
+        taken.map(|taken| taken.map_err(|error| self.refuse(error, time)))
     }
 
     /// Ends the watch with `error`; a step from `time` that cannot be watched is not taken, where the run can
@@ -262,6 +266,8 @@ where
     #[cold]
     pub(super) fn refuse(&mut self, error: EventError, time: f64) -> EventError {
         self.ended = true;
+        // What was found of other functions before the error was met.
+        (self.found, self.step) = ([None; ROOTS], None);
         if let (Some(stop), Some(&Start { time: from, state, .. })) = (self.stop, self.dense.start())
             && from == time
             && self.dense.run().time() != time
@@ -273,20 +279,12 @@ where
 
     /// Takes a step, and keeps it beside its events until it is reported; `None` where the run has ended.
     pub(super) fn look(&mut self) -> Option<Result<Step<T::Scalar, N>, EventError>> {
-        if self.ended {
-            return None;
-        }
-        let time = self.dense.run().time();
-        match self.take() {
-            Some(Ok(taken)) => {
+        match self.take_or_end()? {
+            Ok(taken) => {
                 self.step = taken.or(self.step);
                 self.step.map(Ok)
             }
-            Some(Err(error)) => Some(Err(self.refuse(error, time))),
-            None => {
-                self.ended = true;
-                None
-            }
+            Err(error) => Some(Err(error)),
         }
     }
 

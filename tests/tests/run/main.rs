@@ -6,6 +6,7 @@ mod close_pairs;
 mod composition;
 mod driven;
 mod events;
+mod found_by_breaking;
 mod gauss_lanes;
 mod kept;
 mod kept_matrix;

@@ -46,7 +46,7 @@ where
             return Err(EventError::Chattering { time });
         }
         let velocity = self.dense.velocity(time, &state)?;
-        let h = self.dense.run().step_size();
+        let moves = State { q: velocity * self.dense.run().step_size(), p: state.p };
         let times = [time, self.dense.since()];
         self.residues = [0.0; K];
         let mut present = (self.g)(&Moment::of(self.dense.system(), times, &state, Some(velocity)));
@@ -56,7 +56,6 @@ where
                 return Err(EventError::NotFinite { index, time });
             }
             let happened = self.happened.get(index).copied().unwrap_or(false);
-            let moves = State { q: velocity * h, p: state.p };
             let floor = || rounding(&self.g, self.dense.system(), times, &state, &moves, index);
             // After an impact what did not happen is to come.
             if happened || (self.restarts == 0 && value.widen().abs() <= CLEAR * floor()) {
@@ -82,6 +81,10 @@ where
         ends: &[SVector<T::Scalar, N>; 2],
     ) -> Result<bool, EventError> {
         let Some(&start) = self.dense.start() else { return Ok(true) };
+        // As a watch measures that begins there: what the one counts the other does not.
+        let end = *self.dense.run().state();
+        let velocity = self.dense.velocity(self.dense.run().time(), &end)?;
+        let moves = State { q: velocity * self.dense.run().step_size(), p: end.p };
         let nodes = Nodes::of(self.dense.nodes());
         let mut between = [[0.0; MOST]; K];
         self.dense.at_nodes(&start, ends, |i, at| {
@@ -110,6 +113,7 @@ where
                 start,
                 index,
                 ends: [first, last],
+                moves,
                 is_restarted: self.restarts > 0 && first == 0.0,
                 residue: if first == 0.0 { self.residues[index] } else { 0.0 },
                 left,
@@ -131,7 +135,6 @@ where
                 }))
             };
             let crossing = self.crossings.get(index).copied().unwrap_or_default();
-            let came_from = if curve.is_restarted { self.came_from[index] } else { 0.0 };
             let mut search = Search {
                 curve: &mut curve,
                 epsilon,
@@ -139,7 +142,7 @@ where
                 crossing,
                 starts_there: first == 0.0,
                 before: self.rested[index],
-                came_from,
+                came_from: self.came_from[index],
                 caution: 1.0,
             };
             let Settled { roots, ends_there, before } = search.roots(nodes, values, origin)?;
@@ -246,6 +249,8 @@ struct OnStep<'s, 't, T: Divisible<N>, G, const N: usize> {
     start: Start<T::Scalar, N>,
     index: usize,
     ends: [f64; 2],
+    /// By how much a step of the run's own size moves the state at the end.
+    moves: State<T::Scalar, N>,
     is_restarted: bool,
     /// The distance from 0 of a value at the start that counts as 0.
     residue: f64,
@@ -312,9 +317,8 @@ where
 
     fn floor(&mut self, share: f64) -> Result<f64, EventError> {
         let At { time, state, .. } = self.at(share)?;
-        // At the end as at the start of a watch there: what the one counts the other does not.
         let moves = if share == 1.0 {
-            State { q: self.dense.velocity(time, &state)? * self.dense.run().step_size(), p: state.p }
+            self.moves
         } else {
             State { q: state.q - self.start.state.q, p: state.p - self.start.state.p }
         };

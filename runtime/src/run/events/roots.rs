@@ -131,7 +131,8 @@ pub(super) struct Search<'c> {
     pub(super) starts_there: bool,
     /// Of a function that has rested at 0 up to the step a value from before; 0 of others.
     pub(super) before: f64,
-    /// The side of 0 from which the function came to where the run was restarted; 0 where it was not.
+    /// The side of 0 from which the function came to where the run was restarted, as long as it has not left;
+    /// else 0.
     pub(super) came_from: f64,
     /// By how much polynomials may be further off than they say.
     pub(super) caution: f64,

@@ -67,6 +67,14 @@ impl Search<'_> {
             if begins <= clear.share {
                 // Of the start, or of the one before: after an impact the next, if it leads through the
                 // surface.
+                if root.to > clear.share {
+                    let after = self.following(root.to)?;
+                    if clear.value * after.value < 0.0 && self.came_from == 0.0 {
+                        settled.roots.push(Root::passing(root.to.min(1.0), after.value), self.curve)?;
+                    }
+                    settled.ends_there |= after.share >= 1.0;
+                    clear = after;
+                }
                 if settled.roots.count == 0 && self.starts_there && clear.value * self.came_from < 0.0 {
                     return Err(self.curve.too_many());
                 }
