@@ -64,10 +64,15 @@ impl<S: Scalar, const N: usize> Checkpoint<S, N> {
         }
     }
 
+    /// Goes on from `end` by the clock.
+    pub(super) fn arrive(&mut self, end: f64) {
+        (self.origin, self.steps) = (end, 0);
+    }
+
     /// Takes the clock for `end` where it differs by a few roundings.
     pub(super) fn settle(&mut self, end: f64) {
         if is_same(end, self.time()) {
-            (self.origin, self.steps) = (end, 0);
+            self.arrive(end);
         }
     }
 

@@ -228,7 +228,7 @@ where
         let step = self.advance(system);
         self.at.step_size = own;
         Some(step.map(|step| {
-            (self.at.origin, self.at.steps) = (end, 0);
+            self.at.arrive(end);
             self.course = self.course.moved(&self.at);
             (step, size)
         }))

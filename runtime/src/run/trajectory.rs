@@ -242,7 +242,7 @@ where
             Ok(step) => step,
             Err(error) => return Some(Err(error)),
         };
-        self.at = Checkpoint { origin: end, steps: 0, ..self.at };
+        self.at.arrive(end);
         // Steps that follow the motion are prepared, each of them.
         if self.pace.is_none() {
             self.course = self.course.moved(&self.at);

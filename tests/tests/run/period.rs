@@ -6,7 +6,7 @@ use dalembert::nalgebra::{SMatrix, SVector, vector};
 use dalembert::run::between::TimeError;
 use dalembert::run::events::{Crossing, EventError};
 use dalembert::run::{Carried, HeldInput, InPeriod, Run, Sensitivities};
-use dalembert::step::{Flow, Linearization, PhaseMatrix};
+use dalembert::step::{Linearizable, Linearization, PhaseMatrix};
 use dalembert::{Discretise, Discretised, Gauss, Midpoint, State, Trapezoidal, rayleigh_system};
 use dalembert_tests::draws::Draws;
 
@@ -230,7 +230,7 @@ fn times_beside_the_period_are_refused() {
         assert!(matches!(error, Some(EventError::Time(TimeError::Outside { .. }))), "{times:?} {error:?}");
     }
     // A alone; it begins as the identity.
-    fn identity<D: Carried<L, M, 1>, L: Flow<M, 1>, M>(_: &Discretised<'_, L, M, 1>) -> D {
+    fn identity<D: Carried<L, M, 1>, L: Linearizable<M, 1>, M>(_: &Discretised<'_, L, M, 1>) -> D {
         D::identity()
     }
     assert_eq!(identity::<PhaseMatrix<f64, 1>, _, _>(&by), PhaseMatrix::identity());

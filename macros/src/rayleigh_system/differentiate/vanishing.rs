@@ -63,26 +63,17 @@ fn bases(graph: &Graph, node: Node) -> Option<BTreeSet<Node>> {
             graph.constant_value(exponent).is_some_and(|exponent| exponent > 0.0)
                 && squares(graph, sum, &mut bases)
         }
-        Operation::Pair(PairFunction::Hypot, a, b) => {
-            [a, b].into_iter().for_each(|side| {
-                // A norm of norms has the sides of all.
-                if !matches!(graph.operation(side), Operation::Pair(PairFunction::Hypot, ..))
-                    || !squares_of_norm(graph, side, &mut bases)
-                {
-                    bases.insert(side);
-                }
-            });
-            true
-        }
+        Operation::Pair(PairFunction::Hypot, ..) => sides(graph, node, &mut bases),
         _ => false,
     };
     (is_one && graph.depends(node)).then_some(bases)
 }
 
-fn squares_of_norm(graph: &Graph, norm: Node, bases: &mut BTreeSet<Node>) -> bool {
+/// Whether a node is a norm; its sides, those of a norm of norms being the sides of all.
+fn sides(graph: &Graph, norm: Node, bases: &mut BTreeSet<Node>) -> bool {
     let Operation::Pair(PairFunction::Hypot, a, b) = graph.operation(norm) else { return false };
     for side in [a, b] {
-        if !squares_of_norm(graph, side, bases) {
+        if !sides(graph, side, bases) {
             bases.insert(side);
         }
     }

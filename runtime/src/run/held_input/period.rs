@@ -11,6 +11,7 @@ use crate::step::{
     DiscreteDriven, DiscreteParameters, Flow, Linearizable, Linearization, Memory, PhaseMatrix, State,
     StateBy, Step, StepError,
 };
+use crate::system::Lagrangian;
 
 /// One control period.
 impl<'r, 's, L, V, M, const N: usize> HeldInput<'r, 's, L, V, M, N>
@@ -70,6 +71,7 @@ where
         Period {
             watch: Watch::new(self, g).until(end),
             times: samples.into_iter().peekable(),
+            carry: None,
             at_start: (),
             at_end: (),
             shown: (),
@@ -94,6 +96,8 @@ where
 {
     watch: Watch<'t, HeldInput<'r, 's, L, V, M, N>, G, N, K>,
     times: Peekable<I>,
+    /// How derivatives are carried over a step, where they are.
+    carry: Option<Carry<L, M, D, N>>,
     /// Derivatives by the start of the period, of where the last step began and ended.
     at_start: D,
     at_end: D,
@@ -103,6 +107,16 @@ where
     interrupted: Option<(usize, f64)>,
     has_failed: bool,
 }
+
+/// The derivatives after a step that led from a state by h and left the memory.
+type Carry<L, M, D, const N: usize> = fn(
+    &D,
+    &L,
+    &<L as Flow<M, N>>::RunMemory,
+    &State<<L as Lagrangian<N>>::Scalar, N>,
+    &Step<<L as Lagrangian<N>>::Scalar, N>,
+    <L as Lagrangian<N>>::Scalar,
+) -> Result<D, StepError>;
 
 /// An item of a control period.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,23 +135,16 @@ pub enum InPeriod<S, const N: usize> {
 }
 
 /// Derivatives that are carried along a control period, by its start: A ([`PhaseMatrix`]), with B
-/// ([`Linearization`]), with B and those by parameters ([`Sensitivities`]); or none, `()`.
-pub trait Carried<L: Flow<M, N>, M, const N: usize>: Copy {
+/// ([`Linearization`]), with B and those by parameters ([`Sensitivities`]).
+pub trait Carried<L: Linearizable<M, N>, M, const N: usize>: Copy {
     /// The derivatives of the start itself.
     fn identity() -> Self;
 
-    /// The derivatives after `step`, which led from `state` by `h` and left `memory`.
+    /// The derivatives after a step with these equations.
     ///
     /// # Errors
-    /// Those of [`Linearizable::linearized`].
-    fn after(
-        &self,
-        system: &L,
-        memory: &L::RunMemory,
-        state: &State<L::Scalar, N>,
-        step: &Step<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> Result<Self, StepError>;
+    /// [`StepError::NonFinite`].
+    fn after(&self, step: &L::Linearized<'_>) -> Result<Self, StepError>;
 }
 
 /// Derivatives of a state by the start of its control period, the input u and the parameters θ.
@@ -158,7 +165,7 @@ where
     V::RunMemory: Memory<L, M, N>,
     G: Fn(&Moment<'_, L, N>) -> [L::Scalar; K],
     I: Iterator<Item = f64>,
-    D: Carried<L, M, N>,
+    D: Copy,
 {
     /// Counts of each function the events of one direction only.
     #[must_use]
@@ -174,10 +181,16 @@ where
 
     /// Carries derivatives along, `E` saying which: one linearisation a step and a sample.
     #[must_use]
-    pub fn linearized<E: Carried<L, M, N>>(self) -> Period<'t, 'r, 's, L, V, M, G, I, E, N, K> {
+    pub fn linearized<E>(self) -> Period<'t, 'r, 's, L, V, M, G, I, E, N, K>
+    where
+        L: Linearizable<M, N>,
+        E: Carried<L, M, N>,
+    {
         let Self { watch, times, interrupted, has_failed, .. } = self;
         let [at_start, at_end, shown] = [E::identity(); 3];
-        Period { watch, times, at_start, at_end, shown, interrupted, has_failed }
+        let carry: Carry<L, M, E, N> =
+            |by, system, memory, state, step, h| by.after(&system.linearized(memory, state, step, h)?);
+        Period { watch, times, carry: Some(carry), at_start, at_end, shown, interrupted, has_failed }
     }
 
     /// Goes on from another state at the present time of the run, that of a terminal event.
@@ -251,11 +264,14 @@ where
 
     /// Carries the derivatives over the step that was taken.
     fn follow(&mut self, step: Step<L::Scalar, N>) -> Result<(), EventError> {
+        let (Some(carry), Some(&Start { state, time, size, .. })) = (self.carry, self.watch.dense().start())
+        else {
+            return Ok(());
+        };
         self.at_start = self.at_end;
-        let Some(&Start { state, time, size, .. }) = self.watch.dense().start() else { return Ok(()) };
         let HeldInput { run, system, since } = self.watch.run();
         let elapsed = L::Scalar::constant(time - since);
-        let after = |system: &L| self.at_start.after(system, &run.memory, &state, &step, size);
+        let after = |system: &L| carry(&self.at_start, system, &run.memory, &state, &step, size);
         match system.later(elapsed, after) {
             Ok(after) => self.at_end = after,
             Err(error) => return Err(self.watch.refuse(error.into(), time)),
@@ -272,31 +288,16 @@ where
             return Ok(InPeriod::Sample { time: asked, state });
         }
         let state = dense.state_at(time).map_err(EventError::Time)?;
-        if let (Some(&Start { state: from, time: begun, .. }), true) = (dense.start(), size_of::<D>() > 0) {
+        if let (Some(carry), Some(&Start { state: from, time: begun, .. })) = (self.carry, dense.start()) {
             let HeldInput { system, since, .. } = dense.run();
             let size = L::Scalar::constant(time - begun);
             let mut memory = L::RunMemory::default();
             self.shown = system.later(L::Scalar::constant(begun - since), |system| {
                 let step = Memory::<L, M, N>::advance(&mut memory, system, &from, size)?;
-                self.at_start.after(system, &memory, &from, &step, size)
+                carry(&self.at_start, system, &memory, &from, &step, size)
             })?;
         }
         Ok(InPeriod::Sample { time: asked, state })
-    }
-}
-
-impl<L: Flow<M, N>, M, const N: usize> Carried<L, M, N> for () {
-    fn identity() -> Self {}
-
-    fn after(
-        &self,
-        _: &L,
-        _: &L::RunMemory,
-        _: &State<L::Scalar, N>,
-        _: &Step<L::Scalar, N>,
-        _: L::Scalar,
-    ) -> Result<Self, StepError> {
-        Ok(())
     }
 }
 
@@ -305,15 +306,8 @@ impl<L: Linearizable<M, N>, M, const N: usize> Carried<L, M, N> for PhaseMatrix<
         PhaseMatrix::identity()
     }
 
-    fn after(
-        &self,
-        system: &L,
-        memory: &L::RunMemory,
-        state: &State<L::Scalar, N>,
-        step: &Step<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> Result<Self, StepError> {
-        Ok(L::by_state(&system.linearized(memory, state, step, h)?)? * *self)
+    fn after(&self, step: &L::Linearized<'_>) -> Result<Self, StepError> {
+        Ok(L::by_state(step)? * *self)
     }
 }
 
@@ -325,17 +319,9 @@ where
         Self { a: PhaseMatrix::identity(), b: StateBy::zero() }
     }
 
-    fn after(
-        &self,
-        system: &L,
-        memory: &L::RunMemory,
-        state: &State<L::Scalar, N>,
-        step: &Step<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> Result<Self, StepError> {
-        let at = system.linearized(memory, state, step, h)?;
-        let a = L::by_state(&at)?;
-        Ok(Self { a: a * self.a, b: L::by_input(&at)? + a * self.b })
+    fn after(&self, step: &L::Linearized<'_>) -> Result<Self, StepError> {
+        let a = L::by_state(step)?;
+        Ok(Self { a: a * self.a, b: L::by_input(step)? + a * self.b })
     }
 }
 
@@ -348,20 +334,12 @@ where
         Self { a: PhaseMatrix::identity(), b: StateBy::zero(), by_parameters: StateBy::zero() }
     }
 
-    fn after(
-        &self,
-        system: &L,
-        memory: &L::RunMemory,
-        state: &State<L::Scalar, N>,
-        step: &Step<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> Result<Self, StepError> {
-        let at = system.linearized(memory, state, step, h)?;
-        let a = L::by_state(&at)?;
+    fn after(&self, step: &L::Linearized<'_>) -> Result<Self, StepError> {
+        let a = L::by_state(step)?;
         Ok(Self {
             a: a * self.a,
-            b: L::by_input(&at)? + a * self.b,
-            by_parameters: L::by_parameters(&at)? + a * self.by_parameters,
+            b: L::by_input(step)? + a * self.b,
+            by_parameters: L::by_parameters(step)? + a * self.by_parameters,
         })
     }
 }
