@@ -56,7 +56,8 @@ fn text(output: &Output) -> String {
     [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes).into_owned()).concat()
 }
 
-const SCHEDULE: Schedule = Schedule { row: 50, rows_to_checkpoint: 10, end: 200_000 };
+const SCHEDULE: Schedule =
+    Schedule { row: 50, rows_to_checkpoint: 10, end: if cfg!(debug_assertions) { 80_000 } else { 200_000 } };
 
 const START: State<f64, 2> = State { q: vector![2.5, 1.5], p: vector![0.1, -0.2] };
 

@@ -13,7 +13,8 @@ fn inputs_kept_by_the_fuzzer_are_answered() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("fuzz").join("corpus/macro_tokens.txt");
     let (mut items, mut others) = (0, 0);
     let every = if cfg!(debug_assertions) { 4 } else { 1 };
-    for line in fs::read_to_string(path).unwrap().lines().step_by(every) {
+    // Past a loop of 400 turns, which takes half of all the time.
+    for line in fs::read_to_string(path).unwrap().lines().skip(every / 2).step_by(every) {
         // Hexadecimal digits, one input a line.
         let byte = |at| u8::from_str_radix(&line[at..at + 2], 16).unwrap();
         let text = String::from_utf8((0..line.len()).step_by(2).map(byte).collect()).unwrap_or_default();

@@ -166,7 +166,7 @@ fn config(cases: u32) -> ProptestConfig {
 
 proptest! {
     // These take long without optimisation.
-    #![proptest_config(config(if cfg!(debug_assertions) { 60 } else { MANY.max(ProptestConfig::default().cases) }))]
+    #![proptest_config(config(if cfg!(debug_assertions) { 24 } else { MANY.max(ProptestConfig::default().cases) }))]
 
     #[test]
     fn a_step_is_taken_or_named(

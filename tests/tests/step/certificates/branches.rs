@@ -215,7 +215,7 @@ fn follow<L, R: Copy, const N: usize>(
 fn what_small_steps_lead_to_is_on_the_branch() {
     let mut draws = Draws::new(2);
     let mut followed: [Followed; 5] = Default::default();
-    let all = if cfg!(debug_assertions) { 16 } else { 120 };
+    let all = if cfg!(debug_assertions) { 8 } else { 120 };
     for _ in 0..all {
         let (h, r) = (draws.between(0.2, 6.0), draws.between(-0.3, 0.8));
         let (pendulum, state) = (
