@@ -19,7 +19,7 @@ use syn::Ident;
 
 use super::graph::{Graph, Node, Operation};
 use expression::{Writer, partner};
-pub use inlined::inlined;
+pub use inlined::{inlined, inlined_on_lanes};
 use names::Names;
 
 /// How deep an expression is nested before a part of it becomes a `let`: a sum of thousands of terms is as

@@ -103,7 +103,20 @@ pub(crate) fn inverse<S: Scalar, const N: usize>(
     Ok(inverse)
 }
 
+/// [`NewtonMatrix::solve`] in one copy a program, for what is solved seldom.
+///
+/// # Errors
+/// [`Singular`].
+#[cold]
+#[inline(never)]
+pub(crate) fn solve_apart<S: Scalar, const N: usize>(
+    matrix: &SMatrix<S, N, N>,
+    right: &SVector<S, N>,
+) -> Result<SVector<S, N>, Singular> {
+    matrix.solve(right)
+}
+
 /// Says whether `matrix` can be solved with.
 pub(crate) fn require_regular<S: Scalar, const N: usize>(matrix: &SMatrix<S, N, N>) -> Result<(), Singular> {
-    matrix.solve(&SVector::zeros()).map(|_| ())
+    solve_apart(matrix, &SVector::zeros()).map(|_| ())
 }

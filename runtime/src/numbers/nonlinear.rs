@@ -9,6 +9,7 @@
 
 mod careful;
 mod continuation;
+mod elimination;
 mod equations;
 mod noise;
 mod rounding;

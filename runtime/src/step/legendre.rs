@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::numbers::{NewtonMatrix, Scalar, linear};
+use crate::numbers::{Scalar, linear};
 use crate::step::{
     Quantity, State, StepError, StepKernel, newton,
     newton::{estimated_floor, held_against},
@@ -50,12 +50,12 @@ impl<S: Scalar, const N: usize> State<S, N> {
             require_regular_nearby(system, &self.q, &rest, error)?;
             return self.velocity_by_newton(system, Some(error));
         }
-        let mut v = at_rest.d22.solve(&(self.p - at_rest.d2)).unwrap_or(rest);
+        let mut v = linear::solve_apart(&at_rest.d22, &(self.p - at_rest.d2)).unwrap_or(rest);
         let mut mass = at_rest.d22;
         if !L::STRUCTURE.constant_mass_matrix {
             // Where L is quadratic in v, this takes the rounding of the first solution back.
             let l = system.lagrangian_derivatives(&self.q, &v);
-            v += l.d22.solve(&(self.p - l.d2)).unwrap_or(rest);
+            v += linear::solve_apart(&l.d22, &(self.p - l.d2)).unwrap_or(rest);
             mass = l.d22;
         }
         let residual = system.lagrangian_gradient(&self.q, &v).d2 - self.p;

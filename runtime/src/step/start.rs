@@ -2,7 +2,7 @@
 
 use nalgebra::{ComplexField as _, SVector};
 
-use crate::numbers::{NewtonMatrix, Scalar};
+use crate::numbers::{Scalar, linear};
 use crate::step::{Discrete, Momenta, State, StepError};
 use crate::system::{
     Compared, Function, GeneratedDiffers, Lagrangian, derivatives_apart,
@@ -73,7 +73,7 @@ fn velocity<L: Lagrangian<N> + ?Sized, const N: usize>(
 ) -> SVector<L::Scalar, N> {
     let rest = SVector::zeros();
     let l = derivatives_apart(system, &state.q, &rest);
-    l.d22.solve(&(state.p - l.d2)).unwrap_or(rest)
+    linear::solve_apart(&l.d22, &(state.p - l.d2)).unwrap_or(rest)
 }
 
 /// Momenta of a segment from q0 with mean velocity v̄, by two ways to compute them.

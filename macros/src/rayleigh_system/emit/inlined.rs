@@ -4,23 +4,40 @@
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::quote;
 
+use super::super::portable::is_elementary;
+
 /// Operations and calls of the longest function that is marked: more than LLVM inlines where it is asked to.
 const LONGEST: usize = 100;
 
 /// `#[inline]` for a function of this body, unless it is long.
 pub fn inlined(body: &TokenStream) -> Option<TokenStream> {
-    (operations(body) <= LONGEST).then(|| quote!(#[inline]))
+    (operations(body, 0) <= LONGEST).then(|| quote!(#[inline]))
 }
 
-fn operations(code: &TokenStream) -> usize {
+/// [`inlined`] for a body on lanes, where one sine is long: it is written out for all of them.
+pub fn inlined_on_lanes(body: &TokenStream) -> Option<TokenStream> {
+    (operations(body, LONGEST) <= LONGEST).then(|| quote!(#[inline]))
+}
+
+/// Operations and calls, and so many more for each elementary function but those of a few instructions.
+fn operations(code: &TokenStream, elementary: usize) -> usize {
+    let is_long = |name: &str| is_elementary(name) && !["sqrt", "powi", "mul_add"].contains(&name);
     code.clone()
         .into_iter()
         .map(|token| match token {
             TokenTree::Punct(punct) => usize::from(matches!(punct.as_char(), '+' | '-' | '*' | '/')),
             TokenTree::Group(group) => {
-                operations(&group.stream()) + usize::from(group.delimiter() == Delimiter::Parenthesis)
+                operations(&group.stream(), elementary)
+                    + usize::from(group.delimiter() == Delimiter::Parenthesis)
             }
-            TokenTree::Ident(_) | TokenTree::Literal(_) => 0,
+            TokenTree::Ident(name) => {
+                if is_long(&name.to_string()) {
+                    elementary
+                } else {
+                    0
+                }
+            }
+            TokenTree::Literal(_) => 0,
         })
         .sum()
 }
@@ -34,9 +51,13 @@ mod tests {
     fn long_functions_are_not_marked() {
         let sums = |count: usize| -> TokenStream { vec![quote!(+ x); count].into_iter().collect() };
         let (short, long) = (sums(99), sums(100));
-        assert_eq!(operations(&quote!(let a = (#short);)), 100);
+        assert_eq!(operations(&quote!(let a = (#short);), 0), 100);
         assert!(
             inlined(&quote!(let a = (#short);)).is_some() && inlined(&quote!(let a = (#long);)).is_none()
         );
+        assert!(inlined_on_lanes(&short).is_some() && inlined_on_lanes(&quote!((#long))).is_none());
+        let [root, sine] = [quote!(let a = (q[0].sqrt());), quote!(let a = (angles[0].sin_cos(q[0]));)];
+        assert!(inlined_on_lanes(&root).is_some() && inlined_on_lanes(&sine).is_none());
+        assert!(inlined(&sine).is_some());
     }
 }

@@ -12,7 +12,7 @@
 
 use std::collections::BTreeSet;
 
-use super::super::emit::{self, Anchored, number_of_stages};
+use super::super::emit::{self, Anchored, inlined_on_lanes, number_of_stages};
 use super::in_lanes::tuple;
 use super::*;
 
@@ -150,7 +150,7 @@ impl Code<'_> {
         };
         let lanes = quote!(Lanes<#scalar, #stages>);
         let Anchors { ty, parameter: anchors, apart } = Anchors::new(&line, &lanes, self.system.is_fused);
-        let inline = inlined(&quote!(#statements #later));
+        let inline = inlined_on_lanes(&quote!(#statements #later));
         let function = quote! {
             type Anchors<const #stages: usize> = #ty;
 

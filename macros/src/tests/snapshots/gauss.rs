@@ -215,7 +215,6 @@ const _: () = {
             [::dalembert::generated::Reciprocal<Lanes<f64, S>>; 1],
         );
         /// G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages.
-        #[inline]
         fn stages<const S: usize>(
             &self,
             anchors: &mut Self::Anchors<S>,

@@ -210,7 +210,6 @@ const _: () = {
     impl ForcedLagrangian<1> for DrivenArm<'_> {
         type Anchors<const S: usize> = [::dalembert::generated::Angle<Lanes<f64, S>>; 2];
         /// G, P − ∂L/∂v and (∂²L/∂v²)⁻¹ (P − ∂L/∂v) at all stages, each at its own time.
-        #[inline]
         fn stages_in_time<const S: usize>(
             &self,
             angles: &mut Self::Anchors<S>,

@@ -37,11 +37,26 @@ pub trait Vectors: Sized {
 macro_rules! in_chunks {
     ([$($vector:ident $width:literal)*] $arguments:tt => $wide:expr, $alone:expr) => {{
         $(
+            if const { S == $width } {
+                return in_chunks!(@chunk $vector $width $arguments => $wide);
+            }
             if const { S.is_multiple_of($width) } {
                 return in_chunks!(@chunks $vector $width $arguments => $wide);
             }
         )*
         in_chunks!(@alone $arguments => $alone)
+    }};
+    // Without the iterators, which take most of the time that the operation takes to compile.
+    (@chunk $vector:ident $width:literal ($x:ident $(, $y:ident)*) => $wide:expr) => {{
+        let mut result = $x;
+        if let [chunk] = result.as_chunks_mut::<$width>().0
+            $(&& let [$y] = $y.as_chunks::<$width>().0)*
+        {
+            let $x = $vector::new(*chunk);
+            $(let $y = $vector::new(*$y);)*
+            *chunk = $wide.to_array();
+        }
+        result
     }};
     (@chunks $vector:ident $width:literal ($x:ident $(, $y:ident)*) => $wide:expr) => {{
         let mut result = $x;
