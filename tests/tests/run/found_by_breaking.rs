@@ -1,6 +1,8 @@
 //! Events and ends that were once lost or refused, found by random runs of one who read the guide and no
 //! code.
 
+use std::f64::consts::PI;
+
 use dalembert::nalgebra::vector;
 use dalembert::run::events::{Crossing, EventError, Passage};
 use dalembert::step::Flow;
@@ -259,4 +261,35 @@ fn a_watch_that_has_failed_tells_no_events() {
     let mut watch = run.watch(|at| [at.q[0], noise(at.q[0])]).crossing([Crossing::Falling, Crossing::Either]);
     assert!(watch.by_ref().any(|event| event.is_err()));
     assert!(watch.next().is_none());
+}
+
+/// A damped oscillator is watched to its rest: to where its numbers have no digits left, and beyond. Zeros of
+/// e^{−t/2} cos(ωt + φ) are π/ω apart.
+#[test]
+fn an_oscillator_is_watched_to_its_rest() {
+    #[rayleigh_system(rule = [midpoint, trapezoidal, gauss])]
+    fn oscillator(q: [f64; 1], v: [f64; 1]) -> (f64, f64) {
+        (0.5 * (v[0] * v[0] - q[0] * q[0]), 0.5 * v[0] * v[0])
+    }
+    fn check<M: Copy>(method: M)
+    where
+        Oscillator: Flow<M, 1, Scalar = f64>,
+    {
+        let mut run = Oscillator {}.by(method, 0.1).run(State { q: vector![1e-200], p: vector![0.0] });
+        let (mut told, mut last) = (0, None::<f64>);
+        for crossing in run.watch(|at| [at.q[0]]).until(650.0) {
+            let crossing = crossing.unwrap_or_else(|error| panic!("{error}"));
+            if crossing.state.p.amax() > 1e-300 {
+                let apart = last.map_or(1.0, |last| (crossing.time - last) * 0.75_f64.sqrt() / PI);
+                assert!((apart - 1.0).abs() < 2e-3, "{crossing:?} {apart}");
+                (told, last) = (told + 1, Some(crossing.time));
+            }
+        }
+        // 1e-200 e^{−t/2} is 1e-300 at t = 460.
+        assert!((125..=128).contains(&told), "{told}");
+        assert!(run.time() == 650.0 && run.state().q.amax() < 1e-320, "{:?}", run.state());
+    }
+    check(Midpoint);
+    check(Trapezoidal);
+    check(Gauss::<2>);
 }

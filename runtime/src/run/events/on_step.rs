@@ -223,13 +223,15 @@ where
     };
     let here = value(state);
     let places = S::EPSILON * S::constant(4.0);
+    // Those of the smallest numbers are no smaller.
+    let least = places * S::SMALLEST_NORMAL;
     let mut sum = 0.0;
     for i in 0..N {
         let mut moved = *state;
-        moved.q[i] += places * (state.q[i].abs() + moves.q[i].abs());
+        moved.q[i] += places * (state.q[i].abs() + moves.q[i].abs()) + least;
         sum += (value(&moved) - here).abs();
         let mut moved = *state;
-        moved.p[i] += places * (state.p[i].abs() + moves.p[i].abs());
+        moved.p[i] += places * (state.p[i].abs() + moves.p[i].abs()) + least;
         sum += (value(&moved) - here).abs();
     }
     sum
