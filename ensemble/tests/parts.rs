@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::thread;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use dalembert::{Midpoint, State, StepError, rayleigh_system};
 use dalembert_ensemble::Ensemble;
@@ -181,18 +181,24 @@ fn killed_at_random_moments_it_ends_with_the_same_bits() {
     let time = started.elapsed();
     let mut random = StdRng::seed_from_u64(8);
     let (mut kills, mut parts) = (0, Vec::new());
+    let there = || fs::read_dir(&killed).map_or(0, Iterator::count);
     for _ in 0..20 {
+        // By what it has written, not by time: other programs may take the processor.
+        let enough = there() + random.random_range(0..6);
         let mut process = Command::new(std::env::current_exe().unwrap())
             .args(["--exact", "child"])
             .env(CHILD, &killed)
             .stdout(Stdio::null())
             .spawn()
             .unwrap();
-        thread::sleep(time.mul_f64(random.random_range(0.02..0.3)));
+        while there() < enough && process.try_wait().unwrap().is_none() {
+            thread::sleep(Duration::from_millis(1));
+        }
+        thread::sleep(time.mul_f64(random.random_range(0.0..0.03)));
         kills += u32::from(process.try_wait().unwrap().is_none());
         process.kill().unwrap();
         process.wait().unwrap();
-        parts.push(fs::read_dir(&killed).map_or(0, Iterator::count));
+        parts.push(there());
     }
     let written = long(&killed);
     assert_eq!(bytes(&killed), bytes(&whole));
