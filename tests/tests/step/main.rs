@@ -12,5 +12,6 @@ mod legendre;
 mod oscillator_flow;
 mod random_systems;
 mod rest;
+mod rest_by_gauss;
 mod solver;
 mod special_steps;

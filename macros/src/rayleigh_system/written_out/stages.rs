@@ -106,6 +106,7 @@ impl Code<'_> {
             .collect();
         let corrections = self.solved(&of_lagrangian, &residuals).ok_or(NOT_FACTORED)?;
 
+        let of_rates = rates.clone();
         let outputs = [rates, residuals, corrections].concat();
         if self.graph.is_full() {
             return Err(NOT_FACTORED);
@@ -151,6 +152,7 @@ impl Code<'_> {
         let lanes = quote!(Lanes<#scalar, #stages>);
         let Anchors { ty, parameter: anchors, apart } = Anchors::new(&line, &lanes, self.system.is_fused);
         let inline = inlined_on_lanes(&quote!(#statements #later));
+        let rate_terms = self.rate_terms(&of_rates);
         let function = quote! {
             type Anchors<const #stages: usize> = #ty;
 
@@ -171,8 +173,27 @@ impl Code<'_> {
                 #later
                 Stages { rate, residual: [#(#residuals),*], correction: [#(#corrections),*] }
             }
+
+            #rate_terms
         };
         Ok(StagesWritten { function, in_lanes })
+    }
+
+    /// Sizes of the terms that cancel in G, where some can.
+    fn rate_terms(&mut self, rates: &[Node]) -> Option<TokenStream> {
+        let terms = self.cancelling_terms(rates)?;
+        let line = self.code(&terms);
+        let [terms] = self.parts(&line.outputs, [Shape::Vector]);
+        let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
+        let statements = &line.statements;
+        Some(quote! {
+            /// Sizes of the terms that cancel in G, at rest for instance.
+            #[cold]
+            fn rate_terms(&self, #q: &Vector, #v: &Vector) -> Vector {
+                #statements
+                #terms
+            }
+        })
     }
 
     /// The reciprocals that corrections need and nothing else does: what they are off by, the next sweep

@@ -5,7 +5,10 @@ use core::array;
 use nalgebra::SVector;
 
 use super::problem::{Problem, in_units_of};
-use crate::numbers::{LaneVector, Lanes, Scalar, lanes::splat};
+use crate::numbers::{
+    LaneVector, Lanes, Scalar,
+    lanes::{lane, splat},
+};
 use crate::step::newton::{AT_FLOOR, PLACES, add_finite_part, is_sensible};
 use crate::system::ForcedLagrangian;
 
@@ -39,13 +42,33 @@ pub(super) fn at_rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N
     if !is_decided(problem, v, &least) {
         return None;
     }
-    let measured = floor + rounding(problem, v);
+    let measured = floor + rounding(problem, v) + cancelling(problem, v);
     let is_explained = in_units_of(residual, &measured) <= T::constant(AT_FLOOR);
     (is_explained && is_decided(problem, v, &measured)).then_some(measured)
 }
 
+/// The rounding of terms that cancel in G at the stages, as far as they are written out.
+#[cold]
+#[inline(never)]
+fn cancelling<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
+    problem: &Problem<'_, L, N, S>,
+    v: &LaneVector<T, N, S>,
+) -> SVector<T, N> {
+    let q = problem.configurations(v);
+    let unit = (problem.h * T::EPSILON).abs();
+    (0..S).fold(nalgebra::zero(), |sum: SVector<T, N>, i| {
+        let (q, v) = (lane(&q, i), lane(v, i));
+        let terms = problem.system.later(problem.elapsed(i), |system| system.rate_terms(&q, &v));
+        sum.zip_map(&terms, |sum, terms| {
+            let size = terms * unit;
+            // What is no number says nothing.
+            if size > sum && size.is_finite() { size } else { sum }
+        })
+    })
+}
+
 /// Whether the `floor` at the stages is small beside what their equations are made of: |p0| + |h| max |G|
-/// there and at rest, and forces at rest that cancel.
+/// there and at rest, terms that cancel, and forces at rest that do.
 #[cold]
 #[inline(never)]
 pub(super) fn is_decided<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
@@ -68,7 +91,9 @@ pub(super) fn is_decided<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N:
         problem.momenta(&stages.rate).map(|stages| stages.amax())
     };
     add(&size(&rest), T::one());
-    add(&size(v), T::one()) || add(rounding(problem, &rest).as_slice(), T::one() / T::EPSILON)
+    add(&size(v), T::one())
+        || add(cancelling(problem, v).as_slice(), T::one() / T::EPSILON)
+        || add(rounding(problem, &rest).as_slice(), T::one() / T::EPSILON)
 }
 
 /// The rounding of the residuals at the stages, measured: each coordinate of Q is moved by [`PLACES`] last
