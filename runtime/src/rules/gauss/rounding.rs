@@ -56,15 +56,21 @@ fn cancelling<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, con
 ) -> SVector<T, N> {
     let q = problem.configurations(v);
     let unit = (problem.h * T::EPSILON).abs();
-    (0..S).fold(nalgebra::zero(), |sum: SVector<T, N>, i| {
+    let at_stages: [SVector<T, N>; S] = array::from_fn(|i| {
         let (q, v) = (lane(&q, i), lane(v, i));
-        let terms = problem.system.later(problem.elapsed(i), |system| system.rate_terms(&q, &v));
-        sum.zip_map(&terms, |sum, terms| {
-            let size = terms * unit;
+        problem.system.later(problem.elapsed(i), |system| system.rate_terms(&q, &v))
+    });
+    let mut largest = SVector::<T, N>::zeros();
+    for terms in &at_stages {
+        for a in 0..N {
+            let size = terms[a] * unit;
             // What is no number says nothing.
-            if size > sum && size.is_finite() { size } else { sum }
-        })
-    })
+            if size > largest[a] && size.is_finite() {
+                largest[a] = size;
+            }
+        }
+    }
+    largest
 }
 
 /// Whether the `floor` at the stages is small beside what their equations are made of: |p0| + |h| max |G|
