@@ -9,7 +9,6 @@
 
 mod careful;
 mod continuation;
-mod elimination;
 mod equations;
 mod noise;
 mod rounding;

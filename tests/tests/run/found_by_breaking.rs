@@ -209,31 +209,6 @@ fn a_passage_in_single_precision_is_no_jump() {
     assert!(seen > 50, "{seen}");
 }
 
-/// Steps in scaled time follow σ after a run has ended at a time, too.
-#[test]
-fn steps_follow_the_motion_after_an_end() {
-    struct Planet;
-    #[rayleigh_system(rule = gauss)]
-    impl Planet {
-        fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
-            0.5 * (v[0] * v[0] + v[1] * v[1]) + 1.0 / (q[0] * q[0] + q[1] * q[1]).sqrt()
-        }
-        fn time_scale(&self, q: [f64; 2]) -> f64 {
-            (q[0] * q[0] + q[1] * q[1]).powf(0.75)
-        }
-    }
-    // σ grows eightfold from pericentre to apocentre.
-    let start = State { q: vector![0.4, 0.0], p: vector![0.0, 2.0] };
-    let mut run = Planet.by(Gauss::<6>, 0.2).run(start).in_scaled_time();
-    assert!(run.until(3.1).all(|step| step.is_ok()));
-    let (mut least, mut largest) = (f64::INFINITY, 0.0_f64);
-    while run.time() < 20.0 {
-        run.next().unwrap().unwrap();
-        (least, largest) = (least.min(run.step_size()), largest.max(run.step_size()));
-    }
-    assert!(largest > 6.0 * least, "{least} {largest}");
-}
-
 /// The motion goes as its clock does, where ticks are few roundings of that apart.
 #[test]
 fn ticks_a_few_roundings_apart_move_the_motion() {

@@ -180,20 +180,23 @@ fn a_shortened_step_is_looked_into() {
     check(Gauss::<8>, 1e-14);
 }
 
+/// A planet in time scaled by r^{3/2}.
+struct Planet;
+
+#[rayleigh_system(rule = gauss)]
+impl Planet {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        0.5 * (v[0] * v[0] + v[1] * v[1]) + 1.0 / (q[0] * q[0] + q[1] * q[1]).sqrt()
+    }
+    fn time_scale(&self, q: [f64; 2]) -> f64 {
+        (q[0] * q[0] + q[1] * q[1]).powf(0.75)
+    }
+}
+
 /// Steps that follow the motion end at a time as well, and go on from σ there.
 #[test]
 fn steps_that_follow_the_motion_end_at_a_time() {
     use dalembert::run::Run;
-    #[rayleigh_system(rule = gauss)]
-    impl Planet {
-        fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
-            0.5 * (v[0] * v[0] + v[1] * v[1]) + 1.0 / (q[0] * q[0] + q[1] * q[1]).sqrt()
-        }
-        fn time_scale(&self, q: [f64; 2]) -> f64 {
-            (q[0] * q[0] + q[1] * q[1]).powf(0.75)
-        }
-    }
-    struct Planet;
     let start = State { q: vector![0.4, 0.0], p: vector![0.0, 2.0] };
     let mut run = Planet.by(Gauss::<6>, 0.1).run(start).in_scaled_time();
     let ticks: Vec<f64> = (1..30).map(|k| 0.21 * f64::from(k)).chain([std::f64::consts::TAU]).collect();
@@ -203,4 +206,19 @@ fn steps_that_follow_the_motion_end_at_a_time() {
     }
     // A period later it is where it was.
     assert!((run.state().q - start.q).norm() < 1e-9, "{:?}", run.state());
+}
+
+/// Steps in scaled time follow σ after a run has ended at a time, too.
+#[test]
+fn steps_follow_the_motion_after_an_end() {
+    // σ grows eightfold from pericentre to apocentre.
+    let start = State { q: vector![0.4, 0.0], p: vector![0.0, 2.0] };
+    let mut run = Planet.by(Gauss::<6>, 0.2).run(start).in_scaled_time();
+    assert!(run.until(3.1).all(|step| step.is_ok()));
+    let (mut least, mut largest) = (f64::INFINITY, 0.0_f64);
+    while run.time() < 20.0 {
+        run.next().unwrap().unwrap();
+        (least, largest) = (least.min(run.step_size()), largest.max(run.step_size()));
+    }
+    assert!(largest > 6.0 * least, "{least} {largest}");
 }

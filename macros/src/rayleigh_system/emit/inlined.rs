@@ -30,14 +30,8 @@ fn operations(code: &TokenStream, elementary: usize) -> usize {
                 operations(&group.stream(), elementary)
                     + usize::from(group.delimiter() == Delimiter::Parenthesis)
             }
-            TokenTree::Ident(name) => {
-                if is_long(&name.to_string()) {
-                    elementary
-                } else {
-                    0
-                }
-            }
-            TokenTree::Literal(_) => 0,
+            TokenTree::Ident(name) if is_long(&name.to_string()) => elementary,
+            TokenTree::Ident(_) | TokenTree::Literal(_) => 0,
         })
         .sum()
 }

@@ -96,6 +96,7 @@ fn closed_form<S: Scalar, const N: usize>(
 pub(super) const SUSPICIOUS: f64 = 1e-6;
 
 /// Elimination with row exchanges; pivots are chosen relative to their rows.
+#[inline]
 pub(super) fn eliminate<S: Scalar, const N: usize>(
     matrix: &SMatrix<S, N, N>,
     right: &SVector<S, N>,

@@ -6,12 +6,11 @@
 //! Methods, 1990, chapter 2). It ends where the curve turns back, and then there is no such root.
 
 use super::careful::{MAX_ITERATIONS, careful};
-use super::elimination;
 use super::equations::{Equations, Root, Solved, Unsolved, Way};
 use super::noise::{Left, add_noise};
 use super::start::{from_rest, is_rest};
 use super::vectors::{Room, copy};
-use crate::numbers::{Precision, Singular};
+use crate::numbers::Precision;
 
 /// The first part of h, from which parts double, and the least.
 const FIRST: f64 = 1.0 / 1024.0;
@@ -52,16 +51,6 @@ pub trait AtLength: Sized {
     /// Whether the root is reached for the whole of h, part by part; `root` goes on to the root of this share
     /// of h from that of another, if it is near.
     fn along_h(root: &mut dyn FnMut(Self) -> bool) -> bool;
-
-    /// Factors a matrix whose rows stand one after the other, P A = L U, in place: `order[i]` is the row that
-    /// stands in place i.
-    ///
-    /// # Errors
-    /// [`Singular`], with the column of which rounding has left no pivot.
-    fn factor(rows: &mut [Self], order: &mut [usize], scale: &mut [Self]) -> Result<(), Singular>;
-
-    /// Solves L U x = `x` in place, for a right side in the order of the rows.
-    fn substitute(rows: &[Self], x: &mut [Self]);
 }
 
 macro_rules! compiled_for {
@@ -103,18 +92,6 @@ macro_rules! compiled_for {
             #[inline(never)]
             fn along_h(root: &mut dyn FnMut(Self) -> bool) -> bool {
                 along_h(root)
-            }
-
-            #[cold]
-            #[inline(never)]
-            fn factor(rows: &mut [Self], order: &mut [usize], scale: &mut [Self]) -> Result<(), Singular> {
-                elimination::factor(rows, order, scale)
-            }
-
-            #[cold]
-            #[inline(never)]
-            fn substitute(rows: &[Self], x: &mut [Self]) {
-                elimination::substitute(rows, x);
             }
         }
     )*};

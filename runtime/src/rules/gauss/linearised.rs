@@ -103,12 +103,15 @@ pub(super) fn non_finite<T: Scalar, const N: usize, const S: usize>(
     None
 }
 
+/// Stage and coordinate.
+type Place = (usize, usize);
+
 /// ∂r/∂V of all stages, factored: P A = L U, rows and columns by stage and coordinate.
 pub(super) struct Factored<T, const N: usize, const S: usize> {
     /// `rows[i][a][j][b]`: the row of stage i and coordinate a, the column of stage j and coordinate b.
     rows: [[[[T; N]; S]; N]; S],
-    /// Which row stands in each place, counted through all stages.
-    order: [[usize; N]; S],
+    /// Which row stands in each place.
+    order: [[Place; N]; S],
 }
 
 impl<T: Scalar, const N: usize, const S: usize> Factored<T, N, S> {
@@ -138,22 +141,79 @@ impl<T: Scalar, const N: usize, const S: usize> Factored<T, N, S> {
                 }
             }
         }
-        let (mut order, mut scale) = ([[0; N]; S], [[T::zero(); N]; S]);
-        let all = rows.as_flattened_mut().as_flattened_mut().as_flattened_mut();
-        T::factor(all, order.as_flattened_mut(), scale.as_flattened_mut())
-            .map_err(|Singular { column }| Singular { column: column % N })?;
-        Ok(Self { rows, order })
+        let mut factored = Self { rows, order: array::from_fn(|i| array::from_fn(|a| (i, a))) };
+        factored.eliminate()?;
+        Ok(factored)
+    }
+
+    /// Elimination with row exchanges, pivots chosen relative to their rows as they were.
+    fn eliminate(&mut self) -> Result<(), Singular> {
+        let lost = T::EPSILON * T::constant(8.0 * (S * N) as f64);
+        let mut scale = [[T::zero(); N]; S];
+        for i in 0..S {
+            for a in 0..N {
+                let entries = self.rows[i][a].iter().flatten();
+                let largest = entries.fold(T::zero(), |largest, entry| largest.max(entry.abs()));
+                if largest > T::zero() {
+                    scale[i][a] = T::one() / largest;
+                }
+            }
+        }
+        for i in 0..S {
+            for a in 0..N {
+                let (mut pivot, mut best) = ((i, a), T::zero());
+                for k in i..S {
+                    for c in if k == i { a } else { 0 }..N {
+                        let candidate = self.rows[k][c][i][a].abs() * scale[k][c];
+                        if candidate > best {
+                            (pivot, best) = ((k, c), candidate);
+                        }
+                    }
+                }
+                // Rounding has left nothing of the pivot; a NaN fails the comparison.
+                if best.partial_cmp(&lost) != Some(core::cmp::Ordering::Greater) {
+                    return Err(Singular { column: a });
+                }
+                let (k, c) = within::<N, S>(pivot);
+                if (k, c) != (i, a) {
+                    (self.rows[i][a], self.rows[k][c]) = (self.rows[k][c], self.rows[i][a]);
+                    (self.order[i][a], self.order[k][c]) = (self.order[k][c], self.order[i][a]);
+                    (scale[i][a], scale[k][c]) = (scale[k][c], scale[i][a]);
+                }
+                let upper = self.rows[i][a];
+                let reciprocal = T::one() / upper[i][a];
+                for k in i..S {
+                    for c in if k == i { a + 1 } else { 0 }..N {
+                        let row = &mut self.rows[k][c];
+                        let factor = row[i][a] * reciprocal;
+                        row[i][a] = factor;
+                        if factor != T::zero() {
+                            for j in i..S {
+                                for b in if j == i { a + 1 } else { 0 }..N {
+                                    row[j][b] -= factor * upper[j][b];
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Whether det A > 0.
     pub(super) fn has_positive_determinant(&self) -> bool {
-        let pivots = (0..S).flat_map(|i| (0..N).map(move |a| self.rows[i][a][i][a]));
-        let mut positive = pivots.fold(true, |positive, pivot| positive ^ (pivot < T::zero()));
-        let mut order = self.order.as_flattened();
-        // Pairs of rows that stand in reverse.
-        while let [row, after @ ..] = order {
-            positive ^= after.iter().filter(|other| *other < row).count() % 2 == 1;
-            order = after;
+        let mut positive = true;
+        for i in 0..S {
+            for a in 0..N {
+                positive ^= self.rows[i][a][i][a] < T::zero();
+                // Pairs of rows that stand in reverse.
+                for k in 0..S {
+                    for c in 0..N {
+                        positive ^= (k, c) > (i, a) && self.order[k][c] < self.order[i][a];
+                    }
+                }
+            }
         }
         positive
     }
@@ -161,18 +221,38 @@ impl<T: Scalar, const N: usize, const S: usize> Factored<T, N, S> {
     /// X with A X = `right`.
     pub(super) fn solve<const K: usize>(&self, right: &StageColumns<T, N, S, K>) -> StageColumns<T, N, S, K> {
         let mut x = [SMatrix::<T, N, K>::zeros(); S];
-        for k in 0..K {
-            let mut column = self.order.map(|rows| {
-                rows.map(|row| {
-                    let (stage, coordinate) = within::<N, S>(row);
-                    right[stage][(coordinate, k)]
-                })
-            });
-            let rows = self.rows.as_flattened().as_flattened().as_flattened();
-            T::substitute(rows, column.as_flattened_mut());
-            for (x, column) in x.iter_mut().zip(column) {
-                for (a, entry) in column.into_iter().enumerate() {
-                    x[(a, k)] = entry;
+        for i in 0..S {
+            for a in 0..N {
+                let (stage, coordinate) = within::<N, S>(self.order[i][a]);
+                for k in 0..K {
+                    x[i][(a, k)] = right[stage][(coordinate, k)];
+                }
+                for j in (0..S).take(i + 1) {
+                    for b in (0..N).take(if j == i { a } else { N }) {
+                        let lower = self.rows[i][a][j][b];
+                        for k in 0..K {
+                            let known = x[j][(b, k)];
+                            x[i][(a, k)] -= lower * known;
+                        }
+                    }
+                }
+            }
+        }
+        for i in (0..S).rev() {
+            for a in (0..N).rev() {
+                let (i, a) = within::<N, S>((i, a));
+                for j in i..S {
+                    for b in if j == i { a + 1 } else { 0 }..N {
+                        let upper = self.rows[i][a][j][b];
+                        for k in 0..K {
+                            let known = x[j][(b, k)];
+                            x[i][(a, k)] -= upper * known;
+                        }
+                    }
+                }
+                let pivot = self.rows[i][a][i][a];
+                for k in 0..K {
+                    x[i][(a, k)] /= pivot;
                 }
             }
         }
@@ -196,7 +276,7 @@ impl<T: Scalar, const N: usize, const S: usize> Factored<T, N, S> {
         let mut x = y;
         for i in (0..S).rev() {
             for a in (0..N).rev() {
-                let (i, a) = (i.min(S - 1), a.min(N - 1));
+                let (i, a) = within::<N, S>((i, a));
                 for j in i..S {
                     for b in if j == i { a + 1 } else { 0 }..N {
                         let known = y[j][b];
@@ -211,9 +291,8 @@ impl<T: Scalar, const N: usize, const S: usize> Factored<T, N, S> {
     }
 }
 
-/// The stage and the coordinate of a row; says to the compiler that they are, so that no index has to be
-/// checked.
+/// The place itself; says to the compiler that it is one, so that no index has to be checked.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn within<const N: usize, const S: usize>(row: usize) -> (usize, usize) {
-    ((row / N).min(S - 1), (row % N).min(N - 1))
+fn within<const N: usize, const S: usize>((stage, coordinate): Place) -> Place {
+    (stage.min(S - 1), coordinate.min(N - 1))
 }
