@@ -28,8 +28,8 @@ pub use crate::step::{
 };
 #[doc(no_inline)]
 pub use crate::system::{
-    ActingForce, CyclicCoordinate, Damping, Driven, Engine, Force, ForcedLagrangian, ForcedLagrangianInLanes,
-    GeneratedDiffers, GradientBy, Input, Lagrangian, NewtonStructure, OfSlice, Parameters, Plain,
-    PlainFields, Rayleigh, Refusal, ScalarField, SecondOrder, SliceMethods, Stages, Structure, TimeScale,
-    VectorField,
+    ActingForce, CancellingTerms, CyclicCoordinate, Damping, Driven, Engine, Force, ForcedLagrangian,
+    ForcedLagrangianInLanes, GeneratedDiffers, GradientBy, Input, Lagrangian, NewtonStructure, OfSlice,
+    Parameters, Plain, PlainFields, Rayleigh, Refusal, ScalarField, SecondOrder, SliceMethods, Stages,
+    Structure, TimeScale, VectorField,
 };

@@ -25,7 +25,7 @@ pub use crate::numbers::{
     Blank, CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, LaneVector, Lanes, Mask, Scalar,
     Variations,
 };
-pub use acting_force::ActingForce;
+pub use acting_force::{ActingForce, CancellingTerms};
 pub(crate) use continuous::derivatives_apart;
 pub use continuous::{Force, Lagrangian, Rayleigh};
 pub use driven::{Driven, Input};

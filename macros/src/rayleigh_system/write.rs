@@ -31,6 +31,8 @@ pub struct EngineFunctions {
     pub time_scale: Option<TokenStream>,
     /// The derivative of f by the input.
     pub by_input: Option<TokenStream>,
+    /// Sizes of the terms that cancel in the equations of motion, where some can.
+    pub cancelling_terms: Option<TokenStream>,
     /// The equations at the stages of Gauss rules, where they are not those that the runtime makes.
     pub stages: Option<TokenStream>,
     /// The stages' equations of several members at once.
@@ -63,7 +65,8 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
         .map(|(arguments, derivatives)| continuous::rayleigh(system, arguments, derivatives));
     let force = functions.force.map(|derivatives| continuous::force(system, derivatives));
     let time_scale = functions.time_scale.map(|function| continuous::time_scale(system, function));
-    let acting = continuous::acting_force(system);
+    let may_cancel = functions.cancelling_terms.is_some();
+    let acting = continuous::acting_force(system, functions.cancelling_terms);
     let forced = system
         .rules
         .gauss
@@ -73,7 +76,7 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
     let second_order = functions.second_order.map(|functions| on_request::second_order(system, functions));
     let rules = system.rules.of_displacement.iter().zip(functions.kernels);
     let discrete = rules.map(|(&rule, kernel)| {
-        let discrete = discrete::discrete(system, rule, is_expanded, kernel);
+        let discrete = discrete::discrete(system, rule, (is_expanded, may_cancel), kernel);
         let rayleigh = system.rayleigh.map(|_| discrete::discrete_rayleigh(system, rule));
         quote!(#discrete #rayleigh)
     });

@@ -15,7 +15,7 @@ use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{NewtonMatrix, Scalar};
 use crate::step::{
-    BoundedStep, Momenta, Quantity, State, Step, StepError, StepKernel, newton::Equation, step_by,
+    BoundedStep, Discrete, Momenta, Quantity, State, Step, StepError, StepKernel, newton::Equation, step_by,
     step_within_by,
 };
 use crate::system::{GeneratedDiffers, Rayleigh};
@@ -121,7 +121,7 @@ impl<S: Scalar, const N: usize> Drift<SMatrix<S, N, N>> {
 }
 
 /// A rule fitted to linear damping: its equation, given the free motion.
-pub(crate) trait ByDrift {
+pub(crate) trait ByDrift: Sized {
     /// The kind of the step's equation: linear in v̄, or general.
     const EQUATION: Equation;
 
@@ -148,7 +148,7 @@ pub(crate) trait ByDrift {
 
     /// The step from `state`.
     #[inline]
-    fn step_by<L: Rayleigh<N> + ?Sized, const N: usize>(
+    fn step_by<L: Discrete<Self, N> + Rayleigh<N> + ?Sized, const N: usize>(
         drift: &DampedDrift<L::Scalar, N>,
         system: &L,
         state: &State<L::Scalar, N>,
@@ -160,7 +160,7 @@ pub(crate) trait ByDrift {
         let momenta = |q0: &_, v: &_, h| Self::momenta(drift, system, q0, v, h);
         // Under damping that excites, what is left of M in p0 is below any share of it.
         let inertia = |_: &_, _: &_| drift.before;
-        let cancelling = |_: &_, _: &_, _| nalgebra::zero();
+        let cancelling = |q0: &_, v: &_, h| system.cancelling_terms(q0, v, h);
         let step = step_by(system, Self::EQUATION, (kernel, momenta, inertia, cancelling), state, h, guess)
             .map_err(|error| of_mass(system, &state.q, error));
         if cfg!(debug_assertions)

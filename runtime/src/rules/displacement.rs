@@ -13,7 +13,9 @@ use nalgebra::SVector;
 use crate::numbers::{CovectorDerivatives, Derivatives, Direction, Hessian, Scalar};
 use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, MomentaBy, StepKernel};
 use crate::system::verification::verify_node;
-use crate::system::{Driven, Force, GeneratedDiffers, Lagrangian, Parameters, Rayleigh, SecondOrder};
+use crate::system::{
+    ActingForce, Driven, Force, GeneratedDiffers, Lagrangian, Parameters, Rayleigh, SecondOrder,
+};
 
 /// A node of the quadrature over one segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -248,6 +250,20 @@ pub trait DisplacementRule: Copy {
         on_velocity::<Self, _, N>(q0, v, h).fold(Momenta::zero(), |sum, node| {
             let l = system.later(node.time(h), |system| system.lagrangian_gradient(&node.q, v));
             sum + Momenta { p0: l.along(node.minus) * node.weight, p1: l.along(node.plus) * node.weight }
+        })
+    }
+
+    /// Sizes of the terms that may cancel in p0 ([`ActingForce::cancelling_terms`]), added up over the nodes.
+    #[cold]
+    fn cancelling_terms<L: ActingForce<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> SVector<L::Scalar, N> {
+        on_velocity::<Self, _, N>(q0, v, h).fold(nalgebra::zero(), |sum: SVector<L::Scalar, N>, node| {
+            let terms = system.later(node.time(h), |system| system.cancelling_terms(&node.q, v));
+            sum + (terms.momentum + terms.rate * nalgebra::ComplexField::abs(node.minus.first)) * node.weight
         })
     }
 

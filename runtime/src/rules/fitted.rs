@@ -4,7 +4,7 @@ use super::damped_drift::{ByDrift, DampedDrift};
 use super::{JointRayleighRule, JointRule};
 use crate::numbers::{CovectorDerivatives, Derivatives, Scalar};
 use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel, newton::Equation};
-use crate::system::{Lagrangian, Rayleigh};
+use crate::system::{ActingForce, Lagrangian, Rayleigh};
 
 /// The midpoint rule, exponentially fitted to linear damping: stiff damping, however stiff, makes it not
 /// ring.
@@ -187,6 +187,17 @@ impl JointRule for Fitted {
         h: L::Scalar,
     ) -> Momenta<L::Scalar, N> {
         <Self as ByDrift>::momenta(&DampedDrift::of(system, q0, h), system, q0, v, h)
+    }
+
+    #[cold]
+    fn cancelling_terms<L: ActingForce<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> SVector<L::Scalar, N> {
+        // I + ℒ is at most 2; the drag is in `before`.
+        system.cancelling_terms(&(q0 + v * half(h)), &nalgebra::zero()).rate * nalgebra::ComplexField::abs(h)
     }
 
     #[inline]

@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use super::{DisplacementRule, Midpoint};
 use crate::numbers::Derivatives;
 use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
-use crate::system::{GeneratedDiffers, Rayleigh};
+use crate::system::{ActingForce, GeneratedDiffers, Rayleigh};
 
 /// A rule whose discrete objects need L and R at once.
 ///
@@ -59,6 +59,19 @@ pub trait JointRule: Copy {
         v: &SVector<L::Scalar, N>,
         h: L::Scalar,
     ) -> Momenta<L::Scalar, N>;
+
+    /// Sizes of the terms that may cancel in p0 ([`ActingForce::cancelling_terms`]); 0 unless the rule says
+    /// otherwise.
+    #[cold]
+    fn cancelling_terms<L: ActingForce<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> SVector<L::Scalar, N> {
+        let _ = (system, q0, v, h);
+        nalgebra::zero()
+    }
 
     /// E_L on the segment.
     fn segment_energy<L: Rayleigh<N>, const N: usize>(

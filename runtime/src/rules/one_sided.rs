@@ -1,9 +1,9 @@
 use nalgebra::SVector;
 
 use super::{DisplacementRule, JointRayleighRule, JointRule, Midpoint};
-use crate::numbers::Derivatives;
+use crate::numbers::{Derivatives, Scalar};
 use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, SolvedForVelocity, StepKernel};
-use crate::system::Rayleigh;
+use crate::system::{ActingForce, Rayleigh};
 
 /// The midpoint rule with all of the damping at the start of the segment: L-stable in the damping for every
 /// convex R(v) (stiff springs it follows as the midpoint rule does), of order 1.
@@ -86,6 +86,17 @@ impl JointRule for OneSided {
     ) -> Momenta<L::Scalar, N> {
         let drag = system.rayleigh_gradient(q0, v).d2 * h;
         Midpoint::lagrangian_momenta(system, q0, v, h) + Momenta { p0: drag, p1: nalgebra::zero() }
+    }
+
+    #[cold]
+    fn cancelling_terms<L: ActingForce<N>, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> SVector<L::Scalar, N> {
+        // Half of the potential's force, the whole of the drag.
+        Midpoint::cancelling_terms(system, q0, v, h) * L::Scalar::constant(2.0)
     }
 
     #[inline]

@@ -145,6 +145,15 @@ where
         momenta
     }
 
+    fn cancelling_terms(
+        &self,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> SVector<L::Scalar, N> {
+        Q::cancelling_terms(self, q0, v, h)
+    }
+
     fn segment_energy(
         &self,
         q0: &SVector<L::Scalar, N>,

@@ -108,4 +108,29 @@ pub trait ActingForce<const N: usize>: Lagrangian<N> {
             (false, false) => CovectorDerivatives::zero(),
         }
     }
+
+    /// Sizes of the terms that may cancel in ∂L/∂v and in g = ∂L/∂q + f_L, component by component: each as
+    /// computed is off by ε times that, where last places of q and v do not show it, as in (q − 1) + (q + 1)
+    /// at rest.
+    ///
+    /// Generated where L, R or f have such terms; 0 otherwise. A step whose residual stops falling asks for
+    /// it, no other.
+    #[cold]
+    fn cancelling_terms(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> CancellingTerms<Self::Scalar, N> {
+        let _ = (q, v);
+        CancellingTerms { momentum: nalgebra::zero(), rate: nalgebra::zero() }
+    }
+}
+
+/// Sizes of the terms that may cancel in the equation of motion d/dt ∂L/∂v = g, over ε.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CancellingTerms<T, const N: usize> {
+    /// In ∂L/∂v.
+    pub momentum: SVector<T, N>,
+    /// In g = ∂L/∂q + f_L.
+    pub rate: SVector<T, N>,
 }

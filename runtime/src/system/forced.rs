@@ -52,20 +52,6 @@ pub trait ForcedLagrangian<const N: usize>: ActingForce<N> {
         one_by_one(self, &Lanes::splat(nalgebra::zero()), q, v, momenta)
     }
 
-    /// Sizes of the terms that may cancel in g, component by component: g as computed is off by ε times that,
-    /// where last places of q and v do not show it, as in (q − 1) + (q + 1) at rest.
-    ///
-    /// Generated where L, R or f have such terms; 0 otherwise.
-    #[cold]
-    fn rate_terms(
-        &self,
-        q: &SVector<Self::Scalar, N>,
-        v: &SVector<Self::Scalar, N>,
-    ) -> SVector<Self::Scalar, N> {
-        let _ = (q, v);
-        nalgebra::zero()
-    }
-
     /// Evaluates the stages with each at its own time, `elapsed` from now.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn stages_in_time<const S: usize>(

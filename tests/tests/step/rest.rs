@@ -2,7 +2,9 @@
 //! v and p show nothing there.
 
 use dalembert::nalgebra::{Vector2, matrix, vector};
-use dalembert::{Discrete, Discretise, Midpoint, State, StepError, rayleigh_system};
+use dalembert::step::Flow;
+use dalembert::{Discrete, Discretise, Fitted, Midpoint, OneSided, State, StepError, rayleigh_system};
+use dalembert_tests::draws::Draws;
 
 /// A mass between two springs.
 #[rayleigh_system]
@@ -11,7 +13,7 @@ fn springs(q: [f64; 1], v: [f64; 1]) -> (f64, f64) {
 }
 
 /// A mass between two points that attract it.
-#[rayleigh_system]
+#[rayleigh_system(rule = [midpoint, one_sided, fitted])]
 fn wells(q: [f64; 1], v: [f64; 1], a: f64) -> (f64, f64) {
     let (left, right) = (q[0] + a, q[0] - a);
     (
@@ -80,6 +82,27 @@ fn a_mass_between_two_attracting_points_comes_to_rest() {
                 }
             }
             assert!(run.state().q[0].abs() < 1e-13, "{:e}", run.state().q[0]);
+        }
+    }
+}
+
+/// By the rules that take L and R together: points between which the forces cancel exactly, nearly, and that
+/// are far apart.
+#[test]
+fn a_mass_comes_to_rest_by_rules_that_take_the_damping_in_their_own_way() {
+    fn refused<M: Copy>(wells: &Wells, method: M, h: f64, q: f64) -> Option<String>
+    where
+        Wells: Flow<M, 1, Scalar = f64>,
+    {
+        let mut run = wells.by(method, h).run(State { q: vector![q], p: vector![0.0] });
+        (0..2000).find_map(|index| run.next()?.err().map(|error| format!("step {index}: {error}")))
+    }
+    let mut draws = Draws::new(40);
+    for _ in 0..if cfg!(debug_assertions) { 10 } else { 400 } {
+        let wells = Wells { a: draws.between(0.1, 0.7) };
+        let (h, q) = (draws.between(0.05, 0.5), draws.between(-1.0, 1.0));
+        for refused in [refused(&wells, OneSided, h, q), refused(&wells, Fitted, h, q)] {
+            assert_eq!(refused, None, "{wells:?} {h} {q}");
         }
     }
 }

@@ -160,8 +160,8 @@ pub fn time_scale(system: &System<'_>, gradient: TokenStream) -> TokenStream {
     }
 }
 
-/// `impl ActingForce<2> for Ring`: R and f, as far as the system has them.
-pub fn acting_force(system: &System<'_>) -> TokenStream {
+/// `impl ActingForce<2> for Ring`: R and f, as far as the system has them, and terms that cancel.
+pub fn acting_force(system: &System<'_>, cancelling_terms: Option<TokenStream>) -> TokenStream {
     let scalar = &system.scalar;
     let n = system.degrees.times(1);
     let subject = subject(system, system.home());
@@ -210,6 +210,7 @@ pub fn acting_force(system: &System<'_>) -> TokenStream {
             #rayleigh
             #force
             #timed
+            #cancelling_terms
         }
     }
 }

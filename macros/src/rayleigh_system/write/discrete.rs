@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 
 use super::super::emit::inlined;
 use super::super::model::System;
-use super::super::rules::Rule;
+use super::super::rules::{Points, Rule};
 use super::joint;
 use super::verify_segment;
 use super::view::subject;
@@ -16,8 +16,6 @@ use super::view::subject;
 pub struct Kernel {
     pub step_kernel: TokenStream,
     pub momenta: TokenStream,
-    /// Sizes of the terms that cancel in p0, where some can.
-    pub cancelling_terms: Option<TokenStream>,
     /// The diagonals of a banded Newton matrix.
     pub diagonals: Option<usize>,
     /// The step is one linear solve.
@@ -40,10 +38,18 @@ pub enum Memory {
 }
 
 /// `impl Discrete<Midpoint, 2> for Ring`: one term for each of L, R and f that the system has, unless an
-/// engine gives the kernel's bodies.
-pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Option<Kernel>) -> TokenStream {
+/// engine gives the kernel's bodies. `may_cancel`: whether terms of the equations of motion can.
+pub fn discrete(
+    system: &System<'_>,
+    rule: Rule,
+    (is_expanded, may_cancel): (bool, bool),
+    kernel: Option<Kernel>,
+) -> TokenStream {
+    // The forces at the ends do not change with v̄.
+    let cancelling_terms =
+        (may_cancel && rule.entry().points == Points::Middle).then(|| cancelling_terms(system, rule));
     if let Some(shared) = rule.joint() {
-        return joint::discrete(system, rule, shared, is_expanded);
+        return joint::discrete(system, rule, shared, is_expanded, cancelling_terms);
     }
     let scalar = &system.scalar;
     let n = system.degrees.times(1);
@@ -82,7 +88,6 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
     let Kernel {
         step_kernel,
         momenta,
-        cancelling_terms,
         diagonals,
         is_linear,
         memory,
@@ -92,7 +97,6 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
     } = kernel.unwrap_or_else(|| Kernel {
         step_kernel: quote!(#rule::lagrangian_kernel(self, q0, v, h) #(+ #rule::#kernels(self, q0, v, h))*),
         momenta: quote!(#rule::lagrangian_momenta(self, q0, v, h) #(+ #rule::#momenta(self, q0, v, h))*),
-        cancelling_terms: None,
         diagonals: None,
         is_linear: false,
         memory: Memory::Velocities,
@@ -145,15 +149,6 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
             #[automatically_derived]
             impl ::dalembert::generated::DiscreteInLanes<#rule, #n> for #subject {
                 #functions
-            }
-        }
-    });
-    let cancelling_terms = cancelling_terms.map(|terms| {
-        quote! {
-            /// Sizes of the terms that cancel in p0, at rest for instance.
-            #[cold]
-            fn cancelling_terms(&self, q0: &Vector, v: &Vector, h: #scalar) -> Vector {
-                #terms
             }
         }
     });
@@ -217,6 +212,19 @@ pub fn discrete(system: &System<'_>, rule: Rule, is_expanded: bool, kernel: Opti
         #explicit
 
         #explicit_in_lanes
+    }
+}
+
+/// `fn cancelling_terms`, by the rule.
+fn cancelling_terms(system: &System<'_>, rule: Rule) -> TokenStream {
+    let (scalar, name) = (&system.scalar, rule.ident());
+    let functions = rule.joint().map_or_else(|| quote!(#name), |_| quote!(<#name as JointRule>));
+    quote! {
+        /// Sizes of the terms that cancel in p0, at rest for instance.
+        #[cold]
+        fn cancelling_terms(&self, q0: &Vector, v: &Vector, h: #scalar) -> Vector {
+            #functions::cancelling_terms(self, q0, v, h)
+        }
     }
 }
 

@@ -8,7 +8,13 @@ use super::super::rules::{Joint, Rule};
 use super::verify_segment;
 
 /// `impl Discrete<Fitted, 2> for Ring`: L and R together, one call each.
-pub fn discrete(system: &System<'_>, rule: Rule, joint: Joint, is_expanded: bool) -> TokenStream {
+pub fn discrete(
+    system: &System<'_>,
+    rule: Rule,
+    joint: Joint,
+    is_expanded: bool,
+    cancelling_terms: Option<TokenStream>,
+) -> TokenStream {
     let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
     let (lagrangian, force) = (rule.entry().lagrangian, rule.entry().force);
@@ -69,6 +75,8 @@ pub fn discrete(system: &System<'_>, rule: Rule, joint: Joint, is_expanded: bool
             fn momenta(&self, q0: &Vector, v: &Vector, h: #scalar) -> Momenta<#scalar, #n> {
                 <#rule as JointRule>::momenta(self, q0, v, h)
             }
+
+            #cancelling_terms
 
             /// E_L on the segment.
             fn segment_energy(&self, q0: &Vector, q1: &Vector, h: #scalar) -> #scalar {

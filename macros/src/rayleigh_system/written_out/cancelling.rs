@@ -1,4 +1,5 @@
-//! Terms that cancel in p0: what rounding takes of it where last places of q and v do not show it.
+//! Terms that cancel in ∂L/∂v and in G = ∂L/∂q − ∂R/∂v + f, of which the equations of all implicit steps are
+//! made: what rounding takes of them where last places of q and v do not show it.
 //!
 //! At an equilibrium forces cancel. Where they do at q ≠ 0, a last place of q moves them by what they round
 //! by; not so at q = 0, where (q − 1) + (q + 1) rounds at ε and q has no places. Three kinds of expressions
@@ -10,7 +11,7 @@
 //! cancelling   a sum of two that are nonzero, and what is made of it; sin (q − 1)                 (q − 1) + (q + 1)
 //! ```
 //!
-//! One nonzero term of p0 is balanced by p and v, whose rounding is known. Of a component that is cancelling
+//! One nonzero term is balanced by p and v, whose rounding is known. Of a component that is cancelling
 //! the running error bound is written out, over ε (N. J. Higham, Accuracy and Stability of Numerical
 //! Algorithms, 2002, section 3.3): the sizes of what each operation rounds, carried to the result.
 
@@ -28,7 +29,7 @@ enum Kind {
     Cancelling,
 }
 
-/// The most operations of p0 whose terms are looked at: sizes take up to eight times as many, and no system
+/// The most operations whose terms are looked at: sizes take up to eight times as many, and no system
 /// is to be refused for their length.
 const MOST: usize = MOST_OPERATIONS / 8;
 
@@ -53,24 +54,53 @@ impl Kind {
 }
 
 impl Code<'_> {
-    /// Sizes of the terms that cancel, for each component of p0; nothing where none can, or where p0 is long.
-    pub(super) fn cancelling_terms(&mut self, p0: &[Node]) -> Option<Vec<Node>> {
-        let kinds = self.kinds(p0);
-        let may_cancel = |component: &Node| kinds[component] == Kind::Cancelling;
+    /// `ActingForce::cancelling_terms`; nothing where none can cancel, or where the equations are long.
+    pub(super) fn cancelling_terms(
+        &mut self,
+        lagrangian: Node,
+        rayleigh: Option<Node>,
+        force: Option<&[Node]>,
+    ) -> Option<TokenStream> {
+        let of_lagrangian = self.derivation.hessian(&mut self.graph, lagrangian, "l").gradient;
+        let momenta = self.covector(&of_lagrangian, true);
+        let terms = [momenta, self.rates(&of_lagrangian, rayleigh, force)].concat();
+        let sizes = self.sizes_of_cancelling(&terms)?;
+        let line = self.code(&sizes);
+        let [momentum, rate] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
+        let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
+        let (statements, scalar, n) = (&line.statements, &self.system.scalar, self.system.degrees.times(1));
+        Some(quote! {
+            /// Sizes of the terms that cancel in ∂L/∂v and in ∂L/∂q + f_L, at rest for instance.
+            #[cold]
+            fn cancelling_terms(
+                &self,
+                #q: &Vector,
+                #v: &Vector,
+            ) -> ::dalembert::generated::CancellingTerms<#scalar, #n> {
+                #statements
+                ::dalembert::generated::CancellingTerms { momentum: #momentum, rate: #rate }
+            }
+        })
+    }
+
+    /// Sizes of the terms that cancel, for each of `roots`.
+    fn sizes_of_cancelling(&mut self, roots: &[Node]) -> Option<Vec<Node>> {
+        let kinds = self.kinds(roots);
+        let may_cancel = |root: &Node| kinds[root] == Kind::Cancelling;
         let has_room = self.graph.len() < MOST_EXPRESSIONS / 2;
-        if !p0.iter().any(may_cancel) || !has_room || self.graph.operations(p0.iter().copied()) > MOST {
+        if !roots.iter().any(may_cancel) || !has_room || self.graph.operations(roots.iter().copied()) > MOST {
             return None;
         }
         let mut sizes: HashMap<Node, Node> = HashMap::new();
-        for node in self.graph.reachable(p0.iter().copied().filter(may_cancel)) {
+        for node in self.graph.reachable(roots.iter().copied().filter(may_cancel)) {
             if kinds[&node] != Kind::Vanishing
                 && let Some(size) = self.rounded_in(node, &sizes)
             {
                 sizes.insert(node, size);
             }
         }
-        let of = |component: &Node| sizes.get(component).filter(|_| may_cancel(component)).copied();
-        Some(p0.iter().map(|component| self.or_zero(of(component))).collect())
+        let of = |root: &Node| sizes.get(root).filter(|_| may_cancel(root)).copied();
+        Some(roots.iter().map(|root| self.or_zero(of(root))).collect())
     }
 
     /// The kinds of all that `roots` are made of.

@@ -67,17 +67,6 @@ impl Code<'_> {
         let [p0, p1] = self.parts(&line.outputs, [Shape::Vector, Shape::Vector]);
         let momenta = framed(self, &line, quote!(Momenta { p0: #p0, p1: #p1 }));
 
-        let cancelling = match points {
-            Points::Middle => self.cancelling_terms(&both[..self.n]),
-            // The forces at the start do not change with v̄.
-            Points::Ends => None,
-        };
-        let cancelling_terms = cancelling.map(|terms| {
-            let line = self.code_at_node(&terms, &[]);
-            let [terms] = self.parts(&line.outputs, [Shape::Vector]);
-            framed(self, &line, terms)
-        });
-
         let outputs = MidpointOutputs { kernel: &kernel, momenta: &both, diagonals };
         let in_lanes = is_in_lanes.then(|| self.midpoint_in_lanes(&outputs)).flatten();
         let (explicit, explicit_in_lanes) =
@@ -90,7 +79,6 @@ impl Code<'_> {
         Kernel {
             step_kernel,
             momenta,
-            cancelling_terms,
             diagonals,
             is_linear: newton.constant,
             memory,

@@ -74,23 +74,7 @@ impl Code<'_> {
         force: Option<&[Node]>,
     ) -> Result<StagesWritten, &'static str> {
         let of_lagrangian = self.derivation.hessian(&mut self.graph, lagrangian, "l");
-        let of_rayleigh =
-            rayleigh.map(|root| self.derivation.gradient(&mut self.graph, root)).unwrap_or_default();
-        let rates: Vec<Node> = (0..self.n)
-            .map(|index| {
-                let (q, v) = (self.variable(index, false), self.variable(index, true));
-                let mut rate = of_lagrangian.gradient.get(&q).copied();
-                if let Some(&friction) = of_rayleigh.get(&v) {
-                    let opposite = self.graph.negated(friction);
-                    rate = Some(self.added(rate, opposite));
-                }
-                let component = force.map(|components| components[index]);
-                if let Some(component) = component.filter(|&f| self.graph.constant_value(f) != Some(0.0)) {
-                    rate = Some(self.added(rate, component));
-                }
-                self.or_zero(rate)
-            })
-            .collect();
+        let rates = self.rates(&of_lagrangian.gradient, rayleigh, force);
         let momenta = self.covector(&of_lagrangian.gradient, true);
         // What the closure returns is known after the rates.
         let late: Vec<Node> = (0..self.n).map(|index| self.graph.entry("p", index)).collect();
@@ -106,7 +90,6 @@ impl Code<'_> {
             .collect();
         let corrections = self.solved(&of_lagrangian, &residuals).ok_or(NOT_FACTORED)?;
 
-        let of_rates = rates.clone();
         let outputs = [rates, residuals, corrections].concat();
         if self.graph.is_full() {
             return Err(NOT_FACTORED);
@@ -152,7 +135,6 @@ impl Code<'_> {
         let lanes = quote!(Lanes<#scalar, #stages>);
         let Anchors { ty, parameter: anchors, apart } = Anchors::new(&line, &lanes, self.system.is_fused);
         let inline = inlined_on_lanes(&quote!(#statements #later));
-        let rate_terms = self.rate_terms(&of_rates);
         let function = quote! {
             type Anchors<const #stages: usize> = #ty;
 
@@ -173,27 +155,34 @@ impl Code<'_> {
                 #later
                 Stages { rate, residual: [#(#residuals),*], correction: [#(#corrections),*] }
             }
-
-            #rate_terms
         };
         Ok(StagesWritten { function, in_lanes })
     }
 
-    /// Sizes of the terms that cancel in G, where some can.
-    fn rate_terms(&mut self, rates: &[Node]) -> Option<TokenStream> {
-        let terms = self.cancelling_terms(rates)?;
-        let line = self.code(&terms);
-        let [terms] = self.parts(&line.outputs, [Shape::Vector]);
-        let (q, v) = (parameter("q", line.uses_coordinates), parameter("v", line.uses_velocities));
-        let statements = &line.statements;
-        Some(quote! {
-            /// Sizes of the terms that cancel in G, at rest for instance.
-            #[cold]
-            fn rate_terms(&self, #q: &Vector, #v: &Vector) -> Vector {
-                #statements
-                #terms
-            }
-        })
+    /// G = ∂L/∂q − ∂R/∂v + f.
+    pub(super) fn rates(
+        &mut self,
+        of_lagrangian: &Gradient,
+        rayleigh: Option<Node>,
+        force: Option<&[Node]>,
+    ) -> Vec<Node> {
+        let of_rayleigh =
+            rayleigh.map(|root| self.derivation.gradient(&mut self.graph, root)).unwrap_or_default();
+        (0..self.n)
+            .map(|index| {
+                let (q, v) = (self.variable(index, false), self.variable(index, true));
+                let mut rate = of_lagrangian.get(&q).copied();
+                if let Some(&friction) = of_rayleigh.get(&v) {
+                    let opposite = self.graph.negated(friction);
+                    rate = Some(self.added(rate, opposite));
+                }
+                let component = force.map(|components| components[index]);
+                if let Some(component) = component.filter(|&f| self.graph.constant_value(f) != Some(0.0)) {
+                    rate = Some(self.added(rate, component));
+                }
+                self.or_zero(rate)
+            })
+            .collect()
     }
 
     /// The reciprocals that corrections need and nothing else does: what they are off by, the next sweep

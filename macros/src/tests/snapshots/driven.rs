@@ -283,6 +283,27 @@ const _: () = {
             self.force_derivatives(q, v)
         }
         const IS_TIMED: bool = true;
+        /// Sizes of the terms that cancel in ∂L/∂v and in ∂L/∂q + f_L, at rest for instance.
+        #[cold]
+        fn cancelling_terms(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::dalembert::generated::CancellingTerms<f64, 1> {
+            let t = self.t;
+            let u = self.u;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            let t1 = self.system.gain * u[0];
+            let t2 = cos_q0 * t1;
+            let t3 = t2 + (t * Arm::RATE).sin();
+            ::dalembert::generated::CancellingTerms {
+                momentum: SVector::zeros(),
+                rate: SVector::from([
+                    t2.abs() + 2.0 * (cos_q0.abs() * t1.abs()) + t3.abs()
+                        + (t3 - sin_q0 - self.system.c * v[0]).abs(),
+                ]),
+            }
+        }
     }
     #[automatically_derived]
     impl Driven<1, 1> for DrivenArm<'_> {
@@ -381,23 +402,7 @@ const _: () = {
         /// Sizes of the terms that cancel in p0, at rest for instance.
         #[cold]
         fn cancelling_terms(&self, q0: &Vector, v: &Vector, h: f64) -> Vector {
-            let half = 0.5 * h;
-            let q = [q0[0] + half * v[0]];
-            let t = self.t + half;
-            let u = self.u;
-            let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1 = self.system.gain * u[0];
-            let t2 = cos_q0 * t1;
-            let t3 = t2 + (t * Arm::RATE).sin();
-            let t4 = t3 - sin_q0;
-            let t5 = t4 - self.system.c * v[0];
-            let t6 = half * t5;
-            SVector::from([
-                t6.abs()
-                    + half.abs()
-                        * (t2.abs() + 2.0 * (cos_q0.abs() * t1.abs()) + t3.abs()
-                            + t4.abs() + t5.abs()) + (self.system.m * v[0] - t6).abs(),
-            ])
+            Midpoint::cancelling_terms(self, q0, v, h)
         }
         /// E_L on the segment.
         fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {

@@ -207,6 +207,26 @@ const _: () = {
         ) -> CovectorDerivatives<f64, 2> {
             self.force_derivatives(q, v)
         }
+        /// Sizes of the terms that cancel in ∂L/∂v and in ∂L/∂q + f_L, at rest for instance.
+        #[cold]
+        fn cancelling_terms(
+            &self,
+            q: &Vector,
+            _v: &Vector,
+        ) -> ::dalembert::generated::CancellingTerms<f64, 2> {
+            let end = self.end;
+            let t1 = q[0] > end;
+            let k = self.k;
+            let t2 = q[0] - end;
+            let t3 = self.a.powf(q[0]);
+            let t4 = k * t2;
+            let t5 = if t1 { -t4 } else { 0.0 };
+            let t6 = if t1 { t4.abs() + k.abs() * t2.abs() } else { 0.0 };
+            ::dalembert::generated::CancellingTerms {
+                momentum: SVector::zeros(),
+                rate: SVector::from([t3.abs() + t6 + (t3 + t5).abs(), 0.0]),
+            }
+        }
     }
     #[automatically_derived]
     impl ForcedLagrangian<2> for Cart {
@@ -249,19 +269,6 @@ const _: () = {
                 residual: [residual0, residual1],
                 correction: [t2 * residual0 - t3 * t5, t5],
             }
-        }
-        /// Sizes of the terms that cancel in G, at rest for instance.
-        #[cold]
-        fn rate_terms(&self, q: &Vector, _v: &Vector) -> Vector {
-            let end = self.end;
-            let t1 = q[0] > end;
-            let k = self.k;
-            let t2 = q[0] - end;
-            let t3 = self.a.powf(q[0]);
-            let t4 = k * t2;
-            let t5 = if t1 { -t4 } else { 0.0 };
-            let t6 = if t1 { t4.abs() + k.abs() * t2.abs() } else { 0.0 };
-            SVector::from([t3.abs() + t6 + (t3 + t5).abs(), 0.0])
         }
     }
 };

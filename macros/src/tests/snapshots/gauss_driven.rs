@@ -205,6 +205,32 @@ const _: () = {
             self.force_derivatives(q, v)
         }
         const IS_TIMED: bool = true;
+        /// Sizes of the terms that cancel in ∂L/∂v and in ∂L/∂q + f_L, at rest for instance.
+        #[cold]
+        fn cancelling_terms(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::dalembert::generated::CancellingTerms<f64, 1> {
+            let t = self.t;
+            let u = self.u;
+            let gain = self.system.gain;
+            let (sin_q0, cos_q0) = q[0].sin_cos();
+            let t1 = u[0] > 0.0;
+            let t2 = gain * u[0];
+            let push = if t1 { t2 } else { 0.0 };
+            let t3 = cos_q0 * push;
+            let t4 = t3 - v[0];
+            let t5 = t4 + (t * Arm::RATE).sin();
+            let t6 = if t1 { t2.abs() + gain.abs() * u[0].abs() } else { 0.0 };
+            ::dalembert::generated::CancellingTerms {
+                momentum: SVector::zeros(),
+                rate: SVector::from([
+                    t3.abs() + cos_q0.abs() * (t6 + push.abs()) + t4.abs() + t5.abs()
+                        + (t5 - sin_q0).abs(),
+                ]),
+            }
+        }
     }
     #[automatically_derived]
     impl ForcedLagrangian<1> for DrivenArm<'_> {
@@ -232,25 +258,6 @@ const _: () = {
                 residual: [residual0],
                 correction: [1.0 / m * residual0],
             }
-        }
-        /// Sizes of the terms that cancel in G, at rest for instance.
-        #[cold]
-        fn rate_terms(&self, q: &Vector, v: &Vector) -> Vector {
-            let t = self.t;
-            let u = self.u;
-            let gain = self.system.gain;
-            let (sin_q0, cos_q0) = q[0].sin_cos();
-            let t1 = u[0] > 0.0;
-            let t2 = gain * u[0];
-            let push = if t1 { t2 } else { 0.0 };
-            let t3 = cos_q0 * push;
-            let t4 = t3 - v[0];
-            let t5 = t4 + (t * Arm::RATE).sin();
-            let t6 = if t1 { t2.abs() + gain.abs() * u[0].abs() } else { 0.0 };
-            SVector::from([
-                t3.abs() + cos_q0.abs() * (t6 + push.abs()) + t4.abs() + t5.abs()
-                    + (t5 - sin_q0).abs(),
-            ])
         }
     }
     #[automatically_derived]

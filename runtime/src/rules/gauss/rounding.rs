@@ -10,7 +10,7 @@ use crate::numbers::{
     lanes::{lane, splat},
 };
 use crate::step::newton::{AT_FLOOR, PLACES, add_finite_part, is_sensible};
-use crate::system::ForcedLagrangian;
+use crate::system::{CancellingTerms, ForcedLagrangian};
 
 /// The residual that is largest in units of its floor, and this floor.
 #[cfg_attr(not(debug_assertions), inline(always))]
@@ -47,7 +47,7 @@ pub(super) fn at_rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N
     (is_explained && is_decided(problem, v, &measured)).then_some(measured)
 }
 
-/// The rounding of terms that cancel in G at the stages, as far as they are written out.
+/// The rounding of terms that cancel in ∂L/∂v and G at the stages, as far as they are written out.
 #[cold]
 #[inline(never)]
 fn cancelling<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize>(
@@ -55,15 +55,14 @@ fn cancelling<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, con
     v: &LaneVector<T, N, S>,
 ) -> SVector<T, N> {
     let q = problem.configurations(v);
-    let unit = (problem.h * T::EPSILON).abs();
-    let at_stages: [SVector<T, N>; S] = array::from_fn(|i| {
+    let at_stages: [CancellingTerms<T, N>; S] = array::from_fn(|i| {
         let (q, v) = (lane(&q, i), lane(v, i));
-        problem.system.later(problem.elapsed(i), |system| system.rate_terms(&q, &v))
+        problem.system.later(problem.elapsed(i), |system| system.cancelling_terms(&q, &v))
     });
     let mut largest = SVector::<T, N>::zeros();
-    for terms in &at_stages {
+    for CancellingTerms { momentum, rate } in &at_stages {
         for a in 0..N {
-            let size = terms[a] * unit;
+            let size = (momentum[a] + rate[a] * problem.h.abs()) * T::EPSILON;
             // What is no number says nothing.
             if size > largest[a] && size.is_finite() {
                 largest[a] = size;

@@ -120,7 +120,7 @@ impl<S: Scalar, const N: usize> ExplicitDriftMemory<S, N> {
     #[inline(never)]
     fn start<L>(&mut self, system: &L, state: &State<S, N>, h: S) -> Result<Step<S, N>, StepError>
     where
-        L: Rayleigh<N, Scalar = S> + ?Sized,
+        L: Discrete<FittedTrapezoidal, N> + Rayleigh<N, Scalar = S> + ?Sized,
     {
         let (is_kept, drift) = match self.kept {
             Some((prepared, drift)) if prepared.h == h => (true, drift),
