@@ -272,7 +272,7 @@ fn rustc_decides_what_a_name_in_a_pattern_is() {
                 FIRST => 0.0,
                 _ => q[0],
             }),
-            "2 == FIRST",
+            "matches ! (2 , FIRST)",
         ),
         (
             quote!(match self.n {

@@ -132,6 +132,9 @@ impl Expressions {
                         Known::Other => return Err(format!("`{tokens}` is no number")),
                     }
                 }
+                Operation::Constant(bits) if program.single => {
+                    S::constant(f64::from(f64::from_bits(bits) as f32))
+                }
                 Operation::Constant(bits) => S::constant(f64::from_bits(bits)),
                 Operation::Add(a, b) => at(a).plus(at(b)),
                 Operation::Subtract(a, b) => at(a).minus(at(b)),

@@ -69,6 +69,32 @@ case! {
     }
 }
 
+// A `None` alone has the type that is written beside it, or that of what else a value may be.
+case! {
+    nothing_of_a_type: [1] at [([0.4], [1.1]), ([-0.3], [1.1])]
+    definitions {
+        pub struct System { k: Option<f64>, is_off: bool }
+        fn system() -> System { System { k: Some(0.7), is_off: true } }
+    }
+    functions {
+        fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+            let alone: Option<f64> = None;
+            let potential = match alone { Some(k) => k * q[0], None => q[0] };
+            let beside = if q[0] > 0.3 { self.k } else { None };
+            let potential = potential + match beside { Some(k) => k * q[0], None => 2.0 * q[0] };
+            let before = if self.is_off { None } else { self.k };
+            let potential = potential + if before.is_some() { q[0] } else { 3.0 * q[0] };
+            let mut later = None;
+            if q[0] > 0.1 { later = self.k; }
+            let potential = potential + match later { Some(k) => k * q[0] * q[0], None => 0.5 * q[0] };
+            0.5 * v[0] * v[0] - potential - Self::of(None, q[0]) - Self::of(self.k, q[0])
+        }
+        fn of(k: Option<f64>, x: f64) -> f64 {
+            match k { Some(k) => k * x * x, None => x }
+        }
+    }
+}
+
 case! {
     laws_within_laws: [1] at [([0.3], [1.1]), ([-0.3], [1.1])]
     definitions {

@@ -30,6 +30,31 @@ case! {
     }
 }
 
+// Names in capitals are bindings or constants, as rustc has it, of numbers that are known as well.
+case! {
+    bindings_in_capitals: [1] at [([0.3], [1.1])]
+    definitions {
+        const TWO: i32 = 2;
+        const THREE: i32 = 3;
+        pub struct System { n: i32 }
+        fn system() -> System { System { n: 3 } }
+    }
+    functions {
+        fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+            let mut sum = 0.0;
+            for i in 0..5 {
+                sum += match i {
+                    1 => q[0],
+                    TWO => 3.0 * q[0],
+                    Turn @ THREE => Turn as f64 * q[0].sin(),
+                    Turn => { if (match true { true => Turn, _ => Turn }) <= 3 { v[0] } else { q[0] * Turn as f64 } }
+                };
+            }
+            sum + match self.n { 1 => q[0], Turns => 0.5 * Turns as f64 * v[0] }
+        }
+    }
+}
+
 case! {
     fields_named_like_parameters_and_locals: [2] at [([0.3, -0.8], [1.1, 0.4])]
     definitions {

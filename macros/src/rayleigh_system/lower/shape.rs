@@ -50,6 +50,7 @@ impl Lowering<'_> {
                 ty,
                 format!("this system is written in `{}`; write the type out, an alias hides it", self.scalar),
             ),
+            (Value::Written(written), Type::Path(_)) => Ok(Value::Written(written.none_of_type(ty))),
             (Value::Written(array), Type::Array(ty)) => {
                 self.entries_of(&Type::Array(ty.clone()))?;
                 let length = self.length(&ty.len)?;

@@ -4,7 +4,7 @@ use std::rc::Rc;
 
 use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::{ToTokens, quote};
-use syn::{BinOp, Index, UnOp};
+use syn::{BinOp, Index, Type, UnOp};
 
 use super::indexed;
 
@@ -137,6 +137,31 @@ impl Written {
             Self::Named(_, inner) => inner.is_bound(),
             _ => false,
         }
+    }
+
+    /// Whether it is a `None` that stands alone, of which rustc is not told of what type it is.
+    fn is_none(&self) -> bool {
+        match self {
+            Self::Leaf(leaf) => leaf.tokens.to_string() == "None",
+            Self::Named(_, inner) => inner.is_none(),
+            _ => false,
+        }
+    }
+
+    /// `<Option<f64>>::None` for a `None` that stands alone, of the type that is written beside it.
+    pub fn none_of_type(self, ty: &Type) -> Self {
+        if self.is_none() { Self::leaf(quote!(<#ty>::None)) } else { self }
+    }
+
+    /// `if true { None } else { Some(self.k) }`, whose type is known, for a `None` that stands alone, where
+    /// `other` is what else a value may be.
+    pub fn none_beside(self, other: &Self) -> Self {
+        let other = other.as_leaf();
+        if !self.is_none() || !other.arms.is_empty() {
+            return self;
+        }
+        let other = other.tokens;
+        Self::leaf(quote!((if true { None } else { #other })))
     }
 
     fn leaves<'w>(&'w self, leaves: &mut Vec<&'w Leaf>) {

@@ -160,6 +160,7 @@ impl<S: Number> Evaluation<'_, S> {
             }
             Lit::Float(float) => {
                 let value: f64 = float.base10_parse().map_err(|error| error.to_string())?;
+                let value = if self.program.single { f64::from(value as f32) } else { value };
                 if float.suffix() == "f32" && !self.program.single {
                     Typed { value: Value::Single(value as f32), ty: Some(Type::Single) }
                 } else {

@@ -170,18 +170,21 @@ impl Lowering<'_> {
         Ok((truth, Vec::new()))
     }
 
-    /// An integer against what can be no binding, or is a constant: it would not compile otherwise.
+    /// An integer against a constant, or against what rustc knows to be one or a binding.
     fn test_constant(&mut self, at: &Pat, path: &ExprPath, value: Integer) -> Result<Test> {
         let truth = match self.expression(&Expr::Path(path.clone()))? {
             Value::Integer(constant) => {
                 self.unify(constant.class, value.class)?;
                 Truth::Known(constant.value == value.value)
             }
-            Value::Written(constant) => {
+            Value::Written(_) => {
                 self.beside_field(value);
-                let equal = syn::BinOp::Eq(Default::default());
-                let equal = Written::Binary(equal, Box::new(literal(value)), Box::new(constant));
-                Truth::Where(self.written_truth(at, &equal)?)
+                let (truth, names) = self.test_written(at, &literal(value))?;
+                // A constant or a binding, as rustc knows: where the pattern matches, it is this integer.
+                return Ok((
+                    truth,
+                    names.into_iter().map(|(name, _)| (name, Value::Integer(value))).collect(),
+                ));
             }
             _ => return refuse(at, "only integers and bools can be matched here"),
         };
