@@ -7,8 +7,8 @@ pub use crate::system::verification;
 
 #[doc(no_inline)]
 pub use crate::numbers::{
-    Angle, Banded, CovectorDerivatives, Derivatives, Direction, Elementary, Gradient, Hessian, LaneVector,
-    Lanes, Mask, MemberVector, Members, Reciprocal, Variations,
+    Angle, Banded, CancellingTerms, CovectorDerivatives, Derivatives, Direction, Elementary, Gradient,
+    Hessian, LaneVector, Lanes, Mask, MemberVector, Members, Reciprocal, Variations,
 };
 #[doc(no_inline)]
 pub use crate::rules::{
@@ -28,8 +28,8 @@ pub use crate::step::{
 };
 #[doc(no_inline)]
 pub use crate::system::{
-    ActingForce, CancellingTerms, CyclicCoordinate, Damping, Driven, Engine, Force, ForcedLagrangian,
-    ForcedLagrangianInLanes, GeneratedDiffers, GradientBy, Input, Lagrangian, NewtonStructure, OfSlice,
-    Parameters, Plain, PlainFields, Rayleigh, Refusal, ScalarField, SecondOrder, SliceMethods, Stages,
-    Structure, TimeScale, VectorField,
+    ActingForce, CyclicCoordinate, Damping, Driven, Engine, Force, ForcedLagrangian, ForcedLagrangianInLanes,
+    GeneratedDiffers, GradientBy, Input, Lagrangian, NewtonStructure, OfSlice, Parameters, Plain,
+    PlainFields, Rayleigh, Refusal, ScalarField, SecondOrder, SliceMethods, Stages, Structure, TimeScale,
+    VectorField,
 };

@@ -21,7 +21,9 @@ mod singular;
 pub use anchors::{Angle, Reciprocal};
 pub(crate) use arrays::{Functions, Vectors, product_plus};
 pub(crate) use compensated::{Compensated, CompensatedMembers};
-pub use derivatives::{CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, Variations};
+pub use derivatives::{
+    CancellingTerms, CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, Variations,
+};
 pub use elementary::Elementary;
 pub use lanes::{LaneVector, Lanes, Mask};
 pub use linear::{Banded, EntriesOfMembers, Factored, MatricesOfMembers, NewtonMatrix};

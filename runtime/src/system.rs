@@ -22,10 +22,10 @@ mod time_scale;
 pub mod verification;
 
 pub use crate::numbers::{
-    Blank, CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, LaneVector, Lanes, Mask, Scalar,
-    Variations,
+    Blank, CancellingTerms, CovectorDerivatives, Derivatives, Direction, Gradient, Hessian, LaneVector,
+    Lanes, Mask, Scalar, Variations,
 };
-pub use acting_force::{ActingForce, CancellingTerms};
+pub use acting_force::ActingForce;
 pub(crate) use continuous::derivatives_apart;
 pub use continuous::{Force, Lagrangian, Rayleigh};
 pub use driven::{Driven, Input};

@@ -59,6 +59,15 @@ pub struct Direction<S> {
     pub second: S,
 }
 
+/// Sizes of the terms that may cancel in the equation of motion d/dt ∂L/∂v = g, over ε.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CancellingTerms<T, const N: usize> {
+    /// In ∂L/∂v.
+    pub momentum: SVector<T, N>,
+    /// In g = ∂L/∂q + f_L.
+    pub rate: SVector<T, N>,
+}
+
 /// Derivatives of f(x, y) along two families of directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Variations<S, const N: usize> {

@@ -12,6 +12,7 @@ mod lift;
 mod operators;
 mod primitive;
 mod real;
+mod rounded;
 mod second_order;
 mod singular;
 
@@ -29,15 +30,27 @@ pub use lift::{
 };
 pub use primitive::Primitive;
 pub use real::Real;
+pub use rounded::{Rounded, terms_of_force, terms_of_lagrangian, terms_of_rayleigh};
 pub use second_order::{hessian_along, hessian_of_product};
 
-/// A number that carries derivatives, over the scalar `F`: `f64`, `f32` or a num-dual number on them.
+/// A number over a plain one, by which its operators are told.
+pub trait Over: Copy {
+    /// `f64` or `f32`.
+    type Primitive: Primitive;
+}
+
+impl<D: DualNum<Primitive: Primitive> + Copy> Over for D {
+    type Primitive = <D as DualNum>::Primitive;
+}
+
+/// A number that carries derivatives, over the scalar `F`: `f64`, `f32` or a num-dual number on them, or one
+/// that carries what rounding took of its derivatives.
 #[diagnostic::on_unimplemented(
     message = "`{F}` does not fit the scalar type of this system",
     label = "another scalar type than the system's",
     note = "write fields, constants and literals in the scalar type of `q` and `v`"
 )]
-pub trait Dual<F: Scalar>: DualNum<Primitive = F> + Copy {
+pub trait Dual<F: Scalar>: Over<Primitive = F> + From<F> {
     /// The value without derivatives.
     fn primal(self) -> F;
 
@@ -166,7 +179,7 @@ fn map<T: DualNum + Copy, const R: usize, const C: usize>(
 
 /// Sum of two parts, one of which may be absent.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn sum<F: Primitive, T: Dual<F>, const R: usize, const C: usize>(
+fn sum<F: Primitive, T: Dual<F> + DualNum, const R: usize, const C: usize>(
     left: Part<T, R, C>,
     right: Part<T, R, C>,
 ) -> Part<T, R, C> {
@@ -184,7 +197,7 @@ fn sum<F: Primitive, T: Dual<F>, const R: usize, const C: usize>(
 
 /// Every entry times `factor`.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn scaled<F: Primitive, T: Dual<F>, const R: usize, const C: usize>(
+fn scaled<F: Primitive, T: Dual<F> + DualNum, const R: usize, const C: usize>(
     part: Part<T, R, C>,
     factor: T,
 ) -> Part<T, R, C> {
@@ -193,7 +206,7 @@ fn scaled<F: Primitive, T: Dual<F>, const R: usize, const C: usize>(
 
 /// The product of a column and a row.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn outer<F: Primitive, T: Dual<F>, const R: usize, const C: usize>(
+fn outer<F: Primitive, T: Dual<F> + DualNum, const R: usize, const C: usize>(
     column: Part<T, R, 1>,
     row: Part<T, 1, C>,
 ) -> Part<T, R, C> {
@@ -214,7 +227,7 @@ fn outer<F: Primitive, T: Dual<F>, const R: usize, const C: usize>(
 impl<F, T, const M: usize> Dual<F> for DualSVec<T, M>
 where
     F: Primitive,
-    T: Dual<F>,
+    T: Dual<F> + DualNum,
     Self: DualNum<Primitive = F> + Copy,
 {
     #[cfg_attr(not(debug_assertions), inline(always))]
@@ -265,7 +278,7 @@ where
 impl<F, T, const M: usize, const N: usize> Dual<F> for HyperDualSVec<T, M, N>
 where
     F: Primitive,
-    T: Dual<F>,
+    T: Dual<F> + DualNum,
     Self: DualNum<Primitive = F> + Copy,
 {
     #[cfg_attr(not(debug_assertions), inline(always))]

@@ -6,7 +6,7 @@
 
 use nalgebra::SVector;
 
-use crate::numbers::{CovectorDerivatives, Derivatives, Gradient};
+use crate::numbers::{CancellingTerms, CovectorDerivatives, Derivatives, Gradient};
 use crate::system::Lagrangian;
 
 /// The force f_L(q, v) = −∂R/∂v + f that acts on a system: of R and f the terms that it has.
@@ -124,13 +124,4 @@ pub trait ActingForce<const N: usize>: Lagrangian<N> {
         let _ = (q, v);
         CancellingTerms { momentum: nalgebra::zero(), rate: nalgebra::zero() }
     }
-}
-
-/// Sizes of the terms that may cancel in the equation of motion d/dt ∂L/∂v = g, over ε.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CancellingTerms<T, const N: usize> {
-    /// In ∂L/∂v.
-    pub momentum: SVector<T, N>,
-    /// In g = ∂L/∂q + f_L.
-    pub rate: SVector<T, N>,
 }

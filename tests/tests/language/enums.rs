@@ -78,6 +78,7 @@ case! {
     }
     functions {
         fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+            let _unused: Option<f64> = None;
             let alone: Option<f64> = None;
             let potential = match alone { Some(k) => k * q[0], None => q[0] };
             let beside = if q[0] > 0.3 { self.k } else { None };

@@ -1,8 +1,9 @@
 //! Damped motion to its end: forces that cancel at q = 0 round by their own size, of which last places of q,
 //! v and p show nothing there.
 
-use dalembert::nalgebra::{Vector2, matrix, vector};
+use dalembert::nalgebra::{Vector2, Vector3, matrix, vector};
 use dalembert::step::Flow;
+use dalembert::system::ActingForce;
 use dalembert::{Discrete, Discretise, Fitted, Midpoint, OneSided, State, StepError, rayleigh_system};
 use dalembert_tests::draws::Draws;
 
@@ -41,6 +42,42 @@ fn pair(q: [f64; 2], v: [f64; 2], a: f64) -> (f64, f64) {
         0.2 * (v[0] * v[0] + v[1] * v[1]),
     )
 }
+
+/// Masses that two laws hold in two ways each, by dual numbers: what rounds is carried with the derivatives.
+macro_rules! held {
+    ($name:ident $engine:ident) => {
+        mod $name {
+            use dalembert::rayleigh_system;
+            #[derive(Debug)]
+            pub struct Held {
+                pub a: [f64; 3],
+                pub k: [f64; 3],
+                pub r: f64,
+            }
+            #[rayleigh_system(rule = midpoint, derivatives = $engine)]
+            impl Held {
+                fn lagrangian(&self, q: [f64; 3], v: [f64; 3]) -> f64 {
+                    let mut l = 0.0;
+                    for i in 0..3 {
+                        l += 0.5 * v[i] * v[i] * (1.0 + 0.3 * (q[i] / 400.0).sin().powi(2))
+                            - 0.5 * self.k[i] * (q[i] - self.a[i]).powi(2)
+                            - 0.5 * self.k[i] * (q[i] + self.a[i]) * (self.a[i] + q[i])
+                            - 1e4 * ((q[i] + 300.0) / 400.0).cosh().ln()
+                            + 1e4 * ((q[i] - self.a[i] * 1e-3) / 400.0).cos();
+                    }
+                    l - 0.1 * (q[1] - q[0] - 700.0).powi(2) + 1e5 / ((q[2] - q[1]).powi(2) + 4e4).sqrt()
+                }
+                fn rayleigh(&self, v: [f64; 3]) -> f64 {
+                    0.5 * self.r * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+                        + 1e-3 * v[0].abs().powi(3)
+                        + 0.2 * (v[1] - v[0]).powi(2)
+                }
+            }
+        }
+    };
+}
+held!(written_out expanded);
+held!(by_num_dual num_dual);
 
 /// Fifty starts between rest and rest: each step is that of the rule in closed form, to rounding of the
 /// forces.
@@ -82,6 +119,34 @@ fn a_mass_between_two_attracting_points_comes_to_rest() {
                 }
             }
             assert!(run.state().q[0].abs() < 1e-13, "{:e}", run.state().q[0]);
+        }
+    }
+}
+
+/// Springs some 10⁶ as long as the motion: rounding of the forces is far above that of p and v.
+#[test]
+fn masses_come_to_rest_by_dual_numbers_too() {
+    let mut draws = Draws::new(41);
+    let (all, steps) = if cfg!(debug_assertions) { (2, 600) } else { (60, 3000) };
+    for _ in 0..all {
+        let a = [0; 3].map(|_| 10_f64.powf(draws.between(5.0, 6.5)));
+        let k = [0; 3].map(|_| draws.between(0.1, 1.0));
+        let (r, h) = (draws.between(0.3, 0.8), draws.between(0.1, 0.3));
+        let held = by_num_dual::Held { a, k, r };
+        let start = State { q: [0; 3].map(|_| draws.between(-300.0, 300.0)).into(), p: Vector3::zeros() };
+        let mut run = held.by(Midpoint, h).run(start);
+        for index in 0..steps {
+            if let Some(Err(error)) = run.next() {
+                panic!("{held:?} {h}, step {index}: {error}");
+            }
+        }
+        // Of each spring at least, and as many as those that are written out but for a few.
+        let (q, v) = (run.state().q, Vector3::repeat(1e-9));
+        let carried = ActingForce::cancelling_terms(&held, &q, &v);
+        let written = ActingForce::cancelling_terms(&written_out::Held { a, k, r }, &q, &v);
+        for i in 0..3 {
+            let share = carried.rate[i] / written.rate[i];
+            assert!(carried.rate[i] >= 2.0 * k[i] * a[i] && (0.5..3.0).contains(&share), "{share}");
         }
     }
 }

@@ -76,6 +76,46 @@ pub fn of_force(system: &System<'_>) -> TokenStream {
     }
 }
 
+/// `ActingForce::cancelling_terms`.
+pub fn cancelling_terms(system: &System<'_>) -> TokenStream {
+    let scalar = &system.scalar;
+    let (n, twice) = (system.degrees.times(1), system.degrees.times(2));
+    let owner = owner(system.home());
+    let closure = |part: Part, point: RayleighArguments| {
+        let (over, after) = (format_ident!("{}_over", part.name()), lifted(system, part));
+        match point {
+            RayleighArguments::Velocity => quote!(|_, v| #owner.#over(v #(, #after)*)),
+            RayleighArguments::ConfigurationAndVelocity => quote!(|q, v| #owner.#over(q, v #(, #after)*)),
+        }
+    };
+    let both = RayleighArguments::ConfigurationAndVelocity;
+    let lagrangian = closure(Part::Lagrangian, both);
+    let rayleigh = system.rayleigh.map(|point| {
+        let closure = closure(Part::Rayleigh, point);
+        quote!(terms.rate += dual::terms_of_rayleigh::<#scalar, #n, #twice>(q, v, #closure);)
+    });
+    let force = system.has_force.then(|| {
+        let closure = closure(Part::Force, both);
+        quote!(terms.rate += dual::terms_of_force::<#scalar, #n, #twice>(q, v, #closure);)
+    });
+    let is_changed = rayleigh.is_some() || force.is_some();
+    let mutable = is_changed.then(|| quote!(mut));
+    quote! {
+        /// Sizes of the terms that cancel in ∂L/∂v and in ∂L/∂q + f_L, at rest for instance.
+        #[cold]
+        fn cancelling_terms(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::dalembert::generated::CancellingTerms<#scalar, #n> {
+            let #mutable terms = dual::terms_of_lagrangian::<#scalar, #n, #twice>(q, v, #lagrangian);
+            #rayleigh
+            #force
+            terms
+        }
+    }
+}
+
 /// σ and ∇σ.
 pub fn of_time_scale(system: &System<'_>) -> TokenStream {
     let (scalar, owner) = (&system.scalar, owner(system.home()));

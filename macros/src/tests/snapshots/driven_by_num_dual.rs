@@ -352,6 +352,40 @@ const _: () = {
             self.force_derivatives(q, v)
         }
         const IS_TIMED: bool = true;
+        /// Sizes of the terms that cancel in ∂L/∂v and in ∂L/∂q + f_L, at rest for instance.
+        #[cold]
+        fn cancelling_terms(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::dalembert::generated::CancellingTerms<f64, 1> {
+            let mut terms = dual::terms_of_lagrangian::<
+                f64,
+                1,
+                2,
+            >(q, v, |q, v| self.system.lagrangian_over(q, v));
+            terms.rate
+                += dual::terms_of_rayleigh::<
+                    f64,
+                    1,
+                    2,
+                >(q, v, |_, v| self.system.rayleigh_over(v));
+            terms.rate
+                += dual::terms_of_force::<
+                    f64,
+                    1,
+                    2,
+                >(
+                    q,
+                    v,
+                    |q, v| {
+                        self
+                            .system
+                            .force_over(q, v, dual::lift(self.u), dual::lift(self.t))
+                    },
+                );
+            terms
+        }
     }
     #[automatically_derived]
     impl Driven<1, 1> for DrivenArm<'_> {
@@ -426,6 +460,11 @@ const _: () = {
             Midpoint::lagrangian_momenta(self, q0, v, h)
                 + Midpoint::rayleigh_momenta(self, q0, v, h)
                 + Midpoint::force_momenta(self, q0, v, h)
+        }
+        /// Sizes of the terms that cancel in p0, at rest for instance.
+        #[cold]
+        fn cancelling_terms(&self, q0: &Vector, v: &Vector, h: f64) -> Vector {
+            Midpoint::cancelling_terms(self, q0, v, h)
         }
         /// E_L on the segment.
         fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {

@@ -204,6 +204,26 @@ const _: () = {
         ) -> Derivatives<f64, 1> {
             self.rayleigh_derivatives(q, v)
         }
+        /// Sizes of the terms that cancel in ∂L/∂v and in ∂L/∂q + f_L, at rest for instance.
+        #[cold]
+        fn cancelling_terms(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::dalembert::generated::CancellingTerms<f64, 1> {
+            let mut terms = dual::terms_of_lagrangian::<
+                f64,
+                1,
+                2,
+            >(q, v, |q, v| self.lagrangian_over(q, v));
+            terms.rate
+                += dual::terms_of_rayleigh::<
+                    f64,
+                    1,
+                    2,
+                >(q, v, |q, v| self.rayleigh_over(q, v));
+            terms
+        }
     }
     #[automatically_derived]
     impl Discrete<Midpoint, 1> for Oscillator {
@@ -251,6 +271,11 @@ const _: () = {
         fn momenta(&self, q0: &Vector, v: &Vector, h: f64) -> Momenta<f64, 1> {
             Midpoint::lagrangian_momenta(self, q0, v, h)
                 + Midpoint::rayleigh_momenta(self, q0, v, h)
+        }
+        /// Sizes of the terms that cancel in p0, at rest for instance.
+        #[cold]
+        fn cancelling_terms(&self, q0: &Vector, v: &Vector, h: f64) -> Vector {
+            Midpoint::cancelling_terms(self, q0, v, h)
         }
         /// E_L on the segment.
         fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {

@@ -1,6 +1,7 @@
 //! From the user's types to those over `Real<D>` and back; and the operations that have no derivative.
 
-use super::{Dual, Real};
+use super::primitive::Primitive as Plain;
+use super::{Dual, Over, Real};
 
 /// A value that can be taken into a differentiated body: numbers, `bool`, arrays, tuples and options of them.
 #[diagnostic::on_unimplemented(
@@ -185,13 +186,14 @@ macro_rules! integers {
         }
 
         #[diagnostic::do_not_recommend]
-        impl<D: num_dual::DualNum> Number<D> for $int
+        impl<D, F> Number<D> for $int
         where
-            D::Primitive: FromInteger<$int>,
+            F: Plain + FromInteger<$int>,
+            D: Dual<F> + Over<Primitive = F>,
         {
             #[inline]
             fn number(self) -> Real<D> {
-                Real(D::from(D::Primitive::from_integer(self)))
+                Real(D::from(F::from_integer(self)))
             }
         }
 

@@ -6,10 +6,8 @@ use core::fmt;
 use core::iter::{Product, Sum};
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAssign, Sub, SubAssign};
 
-use num_dual::DualNum;
-
 use super::primitive::Primitive;
-use super::{Dual, Real};
+use super::{Dual, Over, Real};
 
 /// x % y = x − y·trunc(x/y). Bodies are refused it by [`Remainder`](super::lift::Remainder); that it exists
 /// for all numbers lets the compiler infer the integers that it is for.
@@ -20,7 +18,7 @@ trait Modulo<F>: Sized {
 impl<D, F> Modulo<F> for D
 where
     F: Primitive,
-    D: Dual<F> + DualNum<Primitive = F>,
+    D: Dual<F> + Over<Primitive = F>,
 {
     fn modulo(self, right: Self) -> Self {
         let (x, y) = (self.primal(), right.primal());
@@ -36,7 +34,7 @@ macro_rules! operator {
         impl<D, F> $trait for Real<D>
         where
             F: Primitive,
-            D: Dual<F> + DualNum<Primitive = F>,
+            D: Dual<F> + Over<Primitive = F>,
         {
             type Output = Self;
             #[inline]
@@ -48,7 +46,7 @@ macro_rules! operator {
         impl<D, F> $trait<&Self> for Real<D>
         where
             F: Primitive,
-            D: Dual<F> + DualNum<Primitive = F>,
+            D: Dual<F> + Over<Primitive = F>,
         {
             type Output = Self;
             #[inline]
@@ -60,7 +58,7 @@ macro_rules! operator {
         impl<D, F> $trait<Real<D>> for &Real<D>
         where
             F: Primitive,
-            D: Dual<F> + DualNum<Primitive = F>,
+            D: Dual<F> + Over<Primitive = F>,
         {
             type Output = Real<D>;
             #[inline]
@@ -72,7 +70,7 @@ macro_rules! operator {
         impl<D, F> $trait for &Real<D>
         where
             F: Primitive,
-            D: Dual<F> + DualNum<Primitive = F>,
+            D: Dual<F> + Over<Primitive = F>,
         {
             type Output = Real<D>;
             #[inline]
@@ -84,7 +82,7 @@ macro_rules! operator {
         impl<D, F> $assign for Real<D>
         where
             F: Primitive,
-            D: Dual<F> + DualNum<Primitive = F>,
+            D: Dual<F> + Over<Primitive = F>,
         {
             #[inline]
             fn $assign_name(&mut self, right: Self) {
@@ -95,7 +93,7 @@ macro_rules! operator {
         impl<D, F> $assign<&Self> for Real<D>
         where
             F: Primitive,
-            D: Dual<F> + DualNum<Primitive = F>,
+            D: Dual<F> + Over<Primitive = F>,
         {
             #[inline]
             fn $assign_name(&mut self, right: &Self) {
@@ -158,7 +156,7 @@ operator! {
 impl<D, F> Neg for Real<D>
 where
     F: Primitive,
-    D: Dual<F> + DualNum<Primitive = F>,
+    D: Dual<F> + Over<Primitive = F>,
 {
     type Output = Self;
     #[inline]
@@ -170,7 +168,7 @@ where
 impl<D, F> Neg for &Real<D>
 where
     F: Primitive,
-    D: Dual<F> + DualNum<Primitive = F>,
+    D: Dual<F> + Over<Primitive = F>,
 {
     type Output = Real<D>;
     #[inline]
@@ -182,7 +180,7 @@ where
 impl<D, F> Sum for Real<D>
 where
     F: Primitive,
-    D: Dual<F> + DualNum<Primitive = F>,
+    D: Dual<F> + Over<Primitive = F>,
 {
     // From −0, as the standard library does: the sum of nothing, and of zeros, has its sign.
     #[inline]
@@ -194,7 +192,7 @@ where
 impl<'a, D, F> Sum<&'a Self> for Real<D>
 where
     F: Primitive,
-    D: Dual<F> + DualNum<Primitive = F>,
+    D: Dual<F> + Over<Primitive = F>,
 {
     #[inline]
     fn sum<I: Iterator<Item = &'a Self>>(numbers: I) -> Self {
@@ -205,18 +203,18 @@ where
 impl<D, F> Product for Real<D>
 where
     F: Primitive,
-    D: Dual<F> + DualNum<Primitive = F>,
+    D: Dual<F> + Over<Primitive = F>,
 {
     #[inline]
     fn product<I: Iterator<Item = Self>>(numbers: I) -> Self {
-        Self(numbers.fold(D::one(), |product, x| product.times(x.0)))
+        Self(numbers.fold(D::from(nalgebra::one()), |product, x| product.times(x.0)))
     }
 }
 
 impl<'a, D, F> Product<&'a Self> for Real<D>
 where
     F: Primitive,
-    D: Dual<F> + DualNum<Primitive = F>,
+    D: Dual<F> + Over<Primitive = F>,
 {
     #[inline]
     fn product<I: Iterator<Item = &'a Self>>(numbers: I) -> Self {
@@ -225,17 +223,25 @@ where
 }
 
 /// Comparisons see the value alone.
-impl<D: DualNum> PartialEq for Real<D> {
+impl<D, F> PartialEq for Real<D>
+where
+    F: Primitive,
+    D: Dual<F> + Over<Primitive = F>,
+{
     #[inline]
     fn eq(&self, other: &Self) -> bool {
-        self.0.re() == other.0.re()
+        self.0.primal() == other.0.primal()
     }
 }
 
-impl<D: DualNum> PartialOrd for Real<D> {
+impl<D, F> PartialOrd for Real<D>
+where
+    F: Primitive,
+    D: Dual<F> + Over<Primitive = F>,
+{
     #[inline]
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        self.0.re().partial_cmp(&other.0.re())
+        self.0.primal().partial_cmp(&other.0.primal())
     }
 }
 
@@ -283,26 +289,31 @@ primitive!(f64 f32);
 /// `f64::from(i)` for the integers that `f64` takes.
 macro_rules! from_integer {
     ($($int:ty)*) => {$(
-        impl<D: DualNum> From<$int> for Real<D>
+        impl<D, F> From<$int> for Real<D>
         where
-            D::Primitive: From<$int>,
+            F: Primitive + From<$int>,
+            D: Dual<F> + Over<Primitive = F>,
         {
             #[inline]
             fn from(value: $int) -> Self {
-                Self(D::from(D::Primitive::from(value)))
+                Self(D::from(<F as From<$int>>::from(value)))
             }
         }
     )*};
 }
 from_integer!(i8 i16 i32 u8 u16 u32 bool);
 
-impl<D: DualNum> Default for Real<D> {
+impl<D, F> Default for Real<D>
+where
+    F: Primitive,
+    D: Dual<F> + Over<Primitive = F>,
+{
     fn default() -> Self {
-        Self(D::zero())
+        Self(D::from(nalgebra::zero()))
     }
 }
 
-impl<D: DualNum> fmt::Debug for Real<D> {
+impl<D: fmt::Debug> fmt::Debug for Real<D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Debug::fmt(&self.0, f)
     }

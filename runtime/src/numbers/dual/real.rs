@@ -2,11 +2,9 @@
 
 use core::cmp::Ordering;
 
-use num_dual::DualNum;
-
-use super::Dual;
 use super::lift::Roundable;
 use super::primitive::Primitive;
+use super::{Dual, Over};
 use crate::numbers::Elementary;
 
 /// The number that stands for `f64` (or `f32`) in a differentiated body: of type `D`, plain or dual.
@@ -64,7 +62,7 @@ macro_rules! refuse {
 impl<D, F> Real<D>
 where
     F: Primitive,
-    D: Dual<F> + DualNum<Primitive = F>,
+    D: Dual<F> + Over<Primitive = F>,
 {
     refuse! {
         floor() ceil() round() round_ties_even() trunc() fract() next_up() next_down() to_bits()

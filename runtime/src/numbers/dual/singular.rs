@@ -184,5 +184,5 @@ fn along<F: Primitive>(direction: Direction<F>, i: usize, k: usize, n: usize) ->
     } else {
         return None;
     };
-    (moves != nalgebra::zero()).then_some(moves)
+    (moves != F::constant(0.0)).then_some(moves)
 }

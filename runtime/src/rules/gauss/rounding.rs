@@ -6,11 +6,11 @@ use nalgebra::SVector;
 
 use super::problem::{Problem, in_units_of};
 use crate::numbers::{
-    LaneVector, Lanes, Scalar,
+    CancellingTerms, LaneVector, Lanes, Scalar,
     lanes::{lane, splat},
 };
 use crate::step::newton::{AT_FLOOR, PLACES, add_finite_part, is_sensible};
-use crate::system::{CancellingTerms, ForcedLagrangian};
+use crate::system::ForcedLagrangian;
 
 /// The residual that is largest in units of its floor, and this floor.
 #[cfg_attr(not(debug_assertions), inline(always))]

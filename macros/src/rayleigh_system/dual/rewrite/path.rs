@@ -68,6 +68,10 @@ impl Rewriter<'_> {
             return Some(replacement);
         }
         let last = &path.path.segments.last()?.ident;
+        // It is of every type; lifted, it would be of none that rustc knows.
+        if path.path.is_ident("None") {
+            return None;
+        }
         if is_constant_name(last) {
             if self.system.source.integer_constants().any(|constant| constant == last) {
                 return None;
