@@ -1,30 +1,41 @@
 //! Systems built as a crate beside the workspace, and run.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result, ensure};
 
 use super::beside::Beside;
+use super::counts::Counts;
 use super::methods::{self, METHODS};
 use super::system::System;
 
 /// Systems of one crate.
 const BATCH: u64 = 10;
 
-/// Builds and runs so many systems from `seed` on; how many runs were refused.
-pub fn run(count: u64, seed: u64, most: usize, time: f64) -> Result<usize> {
-    let workspace =
-        Path::new(env!("CARGO_MANIFEST_DIR")).parent().context("the tests stand in a workspace")?;
+/// Which systems, and how they are run.
+pub struct Draw<'a> {
+    pub count: u64,
+    pub seed: u64,
+    /// The most methods of each.
+    pub most: usize,
+    /// In units of time.
+    pub time: f64,
+    /// The workspace that has the runtime.
+    pub workspace: &'a Path,
+}
+
+/// Builds and runs the systems.
+pub fn run(Draw { count, seed, most, time, workspace }: &Draw<'_>) -> Result<Counts> {
+    let (count, seed) = (*count, *seed);
     let folder = workspace.join("target/coming_to_rest");
-    let mut counts: BTreeMap<&str, [usize; 3]> = BTreeMap::new();
+    let mut counts = Counts::default();
     for first in (seed..seed + count).step_by(BATCH as usize) {
         let systems: Vec<System> = (first..(first + BATCH).min(seed + count)).map(System::of).collect();
         let mut text = include_str!("harness.txt").to_owned();
         let mut calls = String::new();
         for system in &systems {
-            let methods = methods::of_system(system, most);
-            text += &methods::module(system, &methods, time);
+            let methods = methods::of_system(system, *most);
+            text += &methods::module(system, &methods, *time);
             calls += &format!("s{}::all(); ", system.seed);
         }
         text += &format!("fn main() {{ {calls} }}\n");
@@ -34,23 +45,17 @@ pub fn run(count: u64, seed: u64, most: usize, time: f64) -> Result<usize> {
             let (end, _, name) = (words.next(), words.next(), words.next());
             let method =
                 METHODS.iter().find(|method| Some(method.name) == name).context("an unknown method")?;
-            let [runs, refused, steps] = counts.entry(method.name).or_default();
-            *runs += 1;
-            match end {
-                Some("ended") => *steps += words.next().and_then(|word| word.parse().ok()).unwrap_or(0),
+            let steps = match end {
+                Some("ended") => words.next().and_then(|word| word.parse().ok()),
                 _ => {
-                    *refused += 1;
                     println!("{line}");
+                    None
                 }
-            }
+            };
+            counts.add(method.name, steps);
         }
     }
-    let mut all = 0;
-    for (method, [runs, refused, steps]) in &counts {
-        println!("{method}: {runs} runs, {refused} refused, {steps} steps");
-        all += refused;
-    }
-    Ok(all)
+    Ok(counts)
 }
 
 /// The output of the program.

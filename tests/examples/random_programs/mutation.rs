@@ -7,11 +7,9 @@ use std::sync::OnceLock;
 use super::rebuilt::{self, Edit};
 use super::run::{folder, workspace};
 
-/// Programs tried at most.
-const PROGRAMS: &str = "8000";
-
-/// The first of them: of those that know ranges to the bounds of their types.
-const FIRST: &str = "20000001";
+/// Programs tried at most, and the first of them: after the oldest those that know ranges to the bounds of
+/// their types.
+const PROGRAMS: [[&str; 2]; 2] = [["8000", "1"], ["16000", "20000001"]];
 
 /// A mistake, as edits of `macros/src/rayleigh_system`, each of which asks [`is_made`] whether it is in
 /// force.
@@ -165,16 +163,24 @@ pub fn try_all() -> Result<usize, String> {
     let edits: Vec<Edit> = MUTATIONS.iter().flat_map(|mutation| mutation.edits).copied().collect();
     let study = rebuilt::study(&workspace().join("macros/src"), &edits)?;
     for (number, Mutation { mistake, .. }) in MUTATIONS.iter().enumerate() {
-        let output = Command::new(&study)
-            .args(["until", PROGRAMS, FIRST])
-            .env(VARIABLE, number.to_string())
-            .output()
-            .map_err(|error| error.to_string())?;
-        let text = String::from_utf8_lossy(&output.stdout).into_owned();
-        let (tried, smallest) = text.split_once('\n').unwrap_or((&text, ""));
-        println!("{mistake}: {tried}\n{smallest}");
-        missed += usize::from(smallest.trim().is_empty());
-        let found = if smallest.trim().is_empty() { "not found in" } else { "" };
+        let (mut tried, mut is_found) = (0, false);
+        for [count, first] in PROGRAMS {
+            let output = Command::new(&study)
+                .args(["until", count, first])
+                .env(VARIABLE, number.to_string())
+                .output()
+                .map_err(|error| error.to_string())?;
+            let text = String::from_utf8_lossy(&output.stdout).into_owned();
+            let (count, smallest) = text.split_once('\n').unwrap_or((&text, ""));
+            tried += count.trim().parse::<u64>().map_err(|error| format!("{count}: {error}"))?;
+            is_found = !smallest.trim().is_empty();
+            println!("{mistake}: {tried}\n{smallest}");
+            if is_found {
+                break;
+            }
+        }
+        missed += usize::from(!is_found);
+        let found = if is_found { "" } else { "not found in" };
         writeln!(rows, "| {mistake} | {found} {tried} |").expect("a string takes all");
         std::fs::write(folder()?.join("mutations.md"), &rows).map_err(|error| error.to_string())?;
     }
