@@ -27,15 +27,15 @@
 //! their errors do cancels if both are moved together, as under the trapezoidal rule, moving q shows nothing
 //! of it.
 //!
-//! Where forces cancel at q = 0, as (q − 1) + (q + 1) do, no place of q shows their rounding. Derivatives
-//! that are written out come with the sizes of such terms
-//! ([`cancelling_terms`](crate::Discrete::cancelling_terms)), which count before anything is measured: ε
-//! times them is floor, and they are terms of the equation.
+//! Where forces cancel at q = 0, as (q − 1) + (q + 1) do, no place of q shows their rounding. The sizes of
+//! such terms of the equation of motion ([`cancelling_terms`](crate::system::ActingForce::cancelling_terms))
+//! are written out, or carried by dual numbers with the derivatives; each rule weighs them as its equation
+//! does, and they count before anything is measured: ε times them is floor, and they are terms of the
+//! equation.
 //!
-//! Of other derivatives, by dual numbers or by hand, and of Gauss rules the equation itself says how it
-//! rounds: with `std`, by its noise (`numbers/nonlinear/noise.rs`), to which the third condition does not
-//! apply, since at rest the noise is all that there is; and by what the momenta and the kernel of a step
-//! differ by (`twice.rs`).
+//! By hand, and beyond that, the equation itself says how it rounds: with `std`, by its noise
+//! (`numbers/nonlinear/noise.rs`), to which the third condition does not apply, since at rest the noise is
+//! all that there is; and by what the momenta and the kernel of a step differ by (`twice.rs`).
 //!
 //! `tests/examples/verdicts` holds every rule against this definition in twice the precision.
 
