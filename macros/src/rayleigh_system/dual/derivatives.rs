@@ -5,21 +5,26 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::super::model::{Degrees, Part, RayleighArguments, System};
+use super::super::model::{Degrees, Home, Part, RayleighArguments, System};
 use super::super::write::view::{arguments, owner};
+
+/// `|q, v| self.lagrangian_over(q, v)`: L, R or f over other numbers, on the type of this home.
+fn closure(system: &System<'_>, home: Home, part: Part, point: RayleighArguments) -> TokenStream {
+    let (over, owner, after) = (format_ident!("{}_over", part.name()), owner(home), lifted(system, part));
+    match point {
+        RayleighArguments::Velocity => quote!(|_, v| #owner.#over(v #(, #after)*)),
+        RayleighArguments::ConfigurationAndVelocity => quote!(|q, v| #owner.#over(q, v #(, #after)*)),
+    }
+}
 
 /// Gradient, derivatives and variations of L or R.
 pub fn of_function(system: &System<'_>, part: Part, point: RayleighArguments) -> TokenStream {
     let System { scalar, .. } = system;
     let (n, twice) = (system.degrees.times(1), system.degrees.times(2));
     let function = part.name();
-    let (owner, after) = (owner(system.home_of(part)), lifted(system, part));
-    let [over, gradient, derivatives, variations] = ["_over", "_gradient", "_derivatives", "_variations"]
-        .map(|suffix| format_ident!("{function}{suffix}"));
-    let closure = match point {
-        RayleighArguments::Velocity => quote!(|_, v| #owner.#over(v #(, #after)*)),
-        RayleighArguments::ConfigurationAndVelocity => quote!(|q, v| #owner.#over(q, v #(, #after)*)),
-    };
+    let [gradient, derivatives, variations] =
+        ["gradient", "derivatives", "variations"].map(|suffix| format_ident!("{function}_{suffix}"));
+    let closure = closure(system, system.home_of(part), part, point);
     // fn lagrangian_gradient(&self, q: …, v: …) -> Gradient<f64, 2> {
     //     dual::gradient(q, v, |q, v| self.lagrangian_over(q, v), |q, v| self.lagrangian_over(q, v))
     // }
@@ -80,14 +85,7 @@ pub fn of_force(system: &System<'_>) -> TokenStream {
 pub fn cancelling_terms(system: &System<'_>) -> TokenStream {
     let scalar = &system.scalar;
     let (n, twice) = (system.degrees.times(1), system.degrees.times(2));
-    let owner = owner(system.home());
-    let closure = |part: Part, point: RayleighArguments| {
-        let (over, after) = (format_ident!("{}_over", part.name()), lifted(system, part));
-        match point {
-            RayleighArguments::Velocity => quote!(|_, v| #owner.#over(v #(, #after)*)),
-            RayleighArguments::ConfigurationAndVelocity => quote!(|q, v| #owner.#over(q, v #(, #after)*)),
-        }
-    };
+    let closure = |part, point| closure(system, system.home(), part, point);
     let both = RayleighArguments::ConfigurationAndVelocity;
     let lagrangian = closure(Part::Lagrangian, both);
     let rayleigh = system.rayleigh.map(|point| {
@@ -153,15 +151,11 @@ pub fn along_vectors(system: &System<'_>) -> TokenStream {
         .into_iter()
         .chain([system.rayleigh.map(|point| (Part::Rayleigh, point))])
         .flatten();
-    // The trait stands on the view, wherever L and R do.
     let owner = owner(system.home());
     let functions = parts.map(|(part, point)| {
-        let [function, over] = ["along", "over"].map(|suffix| format_ident!("{}_{suffix}", part.name()));
-        let after = lifted(system, part);
-        let closure = match point {
-            RayleighArguments::Velocity => quote!(|_, v| #owner.#over(v #(, #after)*)),
-            RayleighArguments::ConfigurationAndVelocity => quote!(|q, v| #owner.#over(q, v #(, #after)*)),
-        };
+        let function = format_ident!("{}_along", part.name());
+        // The trait stands on the view, wherever L and R do.
+        let closure = closure(system, system.home(), part, point);
         quote! {
             fn #function(
                 &self,
