@@ -156,12 +156,11 @@ impl Written {
     /// `if true { None } else { Some(self.k) }`, whose type is known, for a `None` that stands alone, where
     /// `other` is what else a value may be.
     pub fn none_beside(self, other: &Self) -> Self {
-        let other = other.as_leaf();
-        if !self.is_none() || !other.arms.is_empty() {
+        if !self.is_none() {
             return self;
         }
-        let other = other.tokens;
-        Self::leaf(quote!((if true { None } else { #other })))
+        let Leaf { tokens, arms, .. } = other.as_leaf();
+        if arms.is_empty() { Self::leaf(quote!((if true { None } else { #tokens }))) } else { self }
     }
 
     fn leaves<'w>(&'w self, leaves: &mut Vec<&'w Leaf>) {
