@@ -87,7 +87,10 @@ fn engine(system: &System<'_>, refusal: Option<Refusal>) -> EngineFunctions {
         force: system.has_force.then(|| derivatives::of_force(system)),
         time_scale: system.has_time_scale.then(|| derivatives::of_time_scale(system)),
         by_input: system.input.as_ref().map(|input| derivatives::by_input(system, input)),
-        cancelling_terms: Some(derivatives::cancelling_terms(system)),
+        cancelling_terms: system
+            .rules
+            .ask_for_cancelling_terms()
+            .then(|| derivatives::cancelling_terms(system)),
         stages: None,
         stages_in_lanes: None,
         kernels: system.rules.of_displacement.iter().map(|_| None).collect(),

@@ -15,6 +15,11 @@ pub struct Rules {
 }
 
 impl Rules {
+    /// Whether one asks for the sizes of terms that cancel.
+    pub fn ask_for_cancelling_terms(&self) -> bool {
+        self.gauss || self.of_displacement.iter().any(|rule| rule.asks_for_cancelling_terms())
+    }
+
     /// Whether one asks for derivatives of L along its directions; other kernels have them folded in.
     pub fn ask_for_variations(&self) -> bool {
         let asks = |rule: &Rule| rule.joint().is_some_and(|joint| joint.asks_for_variations);
@@ -232,6 +237,11 @@ impl Rule {
     /// Whether its step may be one that needs the force at one point only.
     pub fn may_be_explicit(self) -> bool {
         matches!(self.entry().terms, Terms::Separate { may_be_explicit: true, .. })
+    }
+
+    /// Whether its equation has forces that change with v̄: those at the ends do not.
+    pub fn asks_for_cancelling_terms(self) -> bool {
+        self.entry().points == Points::Middle
     }
 
     /// The formula of f_d, by the parts that the system has.

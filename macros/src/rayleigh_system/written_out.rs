@@ -24,7 +24,7 @@ use super::emit::{StraightLine, inlined, straight_line};
 use super::graph::{Graph, MOST_OPERATIONS, Node, Operation, Taken};
 use super::lower::{Length, Load, Lowered, Refusal};
 use super::model::{Degrees, Home, Part, System};
-use super::rules::{Points, Rule};
+use super::rules::Points;
 use super::structure::{self, Differentiated, Findings, Structure, Terms};
 use super::write::item::{are_plain, as_written};
 use super::write::{self, EngineFunctions, Kernel, view};
@@ -140,8 +140,9 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
         kernels.push(is_own.then(|| code.kernel(newton, lagrangian, rayleigh, force)));
         code.bounded(heaviest)?;
     }
-    let solves_at_middle = |rule: &Rule| rule.entry().points == Points::Middle;
-    let cancelling_terms = (system.rules.gauss || system.rules.of_displacement.iter().any(solves_at_middle))
+    let cancelling_terms = system
+        .rules
+        .ask_for_cancelling_terms()
         .then(|| code.cancelling_terms(lagrangian, rayleigh, force))
         .flatten();
     let in_lanes =

@@ -1,4 +1,4 @@
-//! Terms that cancel in p0 are written out where they can, and nowhere else.
+//! Terms that cancel in the equation of motion are written out where they can, and nowhere else.
 
 use proc_macro2::TokenStream;
 

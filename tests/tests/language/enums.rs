@@ -85,6 +85,8 @@ case! {
             let potential = potential + match beside { Some(k) => k * q[0], None => 2.0 * q[0] };
             let before = if self.is_off { None } else { self.k };
             let potential = potential + if before.is_some() { q[0] } else { 3.0 * q[0] };
+            let one_of_three = if q[0] > 0.6 { None } else if q[0] > 0.3 { self.k } else { None };
+            let potential = potential + match one_of_three { Some(k) => k * q[0], None => 4.0 * q[0] };
             let mut later = None;
             if q[0] > 0.1 { later = self.k; }
             let potential = potential + match later { Some(k) => k * q[0] * q[0], None => 0.5 * q[0] };

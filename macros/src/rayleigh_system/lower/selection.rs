@@ -106,16 +106,15 @@ impl Lowering<'_> {
                 self.select_all(at, condition, a, b).map(Value::Sequence)
             }
             (Value::Integer(a), Value::Integer(b)) if a.value == b.value => Ok(Value::Integer(a)),
-            (Value::Written(a), Value::Written(b)) => {
-                let (a, b) = (a.clone().none_beside(&b), b.none_beside(&a));
-                let (a, b) = (Value::Written(a), Value::Written(b));
-                Ok(Value::Chosen(Rc::new(Chosen { condition, a, b, name: None })))
-            }
             // Integers, or fields that may be.
             (
                 a @ (Value::Integer(_) | Value::Written(_) | Value::Chosen(_)),
                 b @ (Value::Integer(_) | Value::Written(_) | Value::Chosen(_)),
-            ) => Ok(Value::Chosen(Rc::new(Chosen { condition, a, b, name: None }))),
+            ) => {
+                let b = b.none_beside(&a);
+                let a = a.none_beside(&b);
+                Ok(Value::Chosen(Rc::new(Chosen { condition, a, b, name: None })))
+            }
             (Value::Unset, _) | (_, Value::Unset) => Ok(Value::Unset),
             (a, b) => {
                 let a = self.under(condition, true, |this| this.scalar(at, a))?;

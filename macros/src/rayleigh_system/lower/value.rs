@@ -107,6 +107,25 @@ impl Value {
         Self::Tuple(Vec::new())
     }
 
+    /// A `None` that stands alone, with the type of what else the value may be; others as they are.
+    pub fn none_beside(self, other: &Self) -> Self {
+        match &self {
+            Self::Written(written) if written.is_none() => {
+                other.none_of_its_type().map_or(self, Self::Written)
+            }
+            _ => self,
+        }
+    }
+
+    /// A `None` of the type that this value has, where it is one of rustc's.
+    fn none_of_its_type(&self) -> Option<Written> {
+        match self {
+            Self::Written(written) if !written.is_none() => written.none_beside(),
+            Self::Chosen(chosen) => chosen.a.none_of_its_type().or_else(|| chosen.b.none_of_its_type()),
+            _ => None,
+        }
+    }
+
     /// Whether the two are surely equal.
     pub fn same(&self, other: &Self) -> bool {
         let all = |a: &[Self], b: &[Self]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.same(b));

@@ -140,7 +140,7 @@ impl Written {
     }
 
     /// Whether it is a `None` that stands alone, of which rustc is not told of what type it is.
-    fn is_none(&self) -> bool {
+    pub fn is_none(&self) -> bool {
         match self {
             Self::Leaf(leaf) => leaf.tokens.to_string() == "None",
             Self::Named(_, inner) => inner.is_none(),
@@ -153,14 +153,11 @@ impl Written {
         if self.is_none() { Self::leaf(quote!(<#ty>::None)) } else { self }
     }
 
-    /// `if true { None } else { Some(self.k) }`, whose type is known, for a `None` that stands alone, where
-    /// `other` is what else a value may be.
-    pub fn none_beside(self, other: &Self) -> Self {
-        if !self.is_none() {
-            return self;
-        }
-        let Leaf { tokens, arms, .. } = other.as_leaf();
-        if arms.is_empty() { Self::leaf(quote!((if true { None } else { #tokens }))) } else { self }
+    /// `if true { None } else { self.k }`: a `None` that has the type of this expression; nothing where it
+    /// stands within arms.
+    pub fn none_beside(&self) -> Option<Self> {
+        let Leaf { tokens, arms, .. } = self.as_leaf();
+        arms.is_empty().then(|| Self::leaf(quote!((if true { None } else { #tokens }))))
     }
 
     fn leaves<'w>(&'w self, leaves: &mut Vec<&'w Leaf>) {

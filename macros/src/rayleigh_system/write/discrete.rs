@@ -6,7 +6,7 @@ use quote::{format_ident, quote};
 
 use super::super::emit::inlined;
 use super::super::model::System;
-use super::super::rules::{Points, Rule};
+use super::super::rules::Rule;
 use super::joint;
 use super::verify_segment;
 use super::view::subject;
@@ -45,9 +45,8 @@ pub fn discrete(
     (is_expanded, may_cancel): (bool, bool),
     kernel: Option<Kernel>,
 ) -> TokenStream {
-    // The forces at the ends do not change with v̄.
     let cancelling_terms =
-        (may_cancel && rule.entry().points == Points::Middle).then(|| cancelling_terms(system, rule));
+        (may_cancel && rule.asks_for_cancelling_terms()).then(|| cancelling_terms(system, rule));
     if let Some(shared) = rule.joint() {
         return joint::discrete(system, rule, shared, is_expanded, cancelling_terms);
     }
