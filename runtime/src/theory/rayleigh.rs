@@ -68,7 +68,7 @@ mod structure;
 
 pub use comparison::{Comparison, Equivalence};
 pub use conformal_step::{ConformalStep, ConformalStepError};
-pub use dissipation::{Dissipation, dissipation};
+pub use dissipation::{Dissipation, dissipation, dissipation_over};
 pub use potential::{Potential, Recovery};
 pub use proportion::{Proportion, ProportionError, ProportionalSplit};
 pub use quadrature::Integral;

@@ -14,8 +14,11 @@ const BATCH: u64 = 10;
 
 /// Which systems, and how they are run.
 pub struct Draw<'a> {
+    /// Texts of systems.
     pub count: u64,
     pub seed: u64,
+    /// Systems that read the same, where the constants are fields.
+    pub members: u64,
     /// The most methods of each.
     pub most: usize,
     /// In units of time.
@@ -25,18 +28,18 @@ pub struct Draw<'a> {
 }
 
 /// Builds and runs the systems.
-pub fn run(Draw { count, seed, most, time, workspace }: &Draw<'_>) -> Result<Counts> {
+pub fn run(Draw { count, seed, members, most, time, workspace }: &Draw<'_>) -> Result<Counts> {
     let (count, seed) = (*count, *seed);
     let folder = workspace.join("target/coming_to_rest");
     let mut counts = Counts::default();
     for first in (seed..seed + count).step_by(BATCH as usize) {
-        let systems: Vec<System> = (first..(first + BATCH).min(seed + count)).map(System::of).collect();
         let mut text = include_str!("harness.txt").to_owned();
         let mut calls = String::new();
-        for system in &systems {
-            let methods = methods::of_system(system, *most);
-            text += &methods::module(system, &methods, *time);
-            calls += &format!("s{}::all(); ", system.seed);
+        for seed in first..(first + BATCH).min(seed + count) {
+            let systems = System::all_of(seed, *members);
+            text += &methods::module(&systems, &methods::of_system(&systems[0], *most), *time);
+            calls += &format!("s{seed}::all(); ");
+            counts.systems += systems.len() as u64;
         }
         text += &format!("fn main() {{ {calls} }}\n");
         let printed = built(folder.join(format!("batch-{most}")), workspace, &text)?;

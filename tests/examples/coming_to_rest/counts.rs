@@ -6,27 +6,32 @@ use std::path::Path;
 
 use anyhow::{Context as _, Result};
 
-/// Runs, refused ones among them, and steps of the others, by method.
+/// Counts of some draws.
 #[derive(Default)]
-pub struct Counts(pub BTreeMap<String, [u64; 3]>);
+pub struct Counts {
+    /// Systems drawn.
+    pub systems: u64,
+    /// Runs, refused ones among them, and steps of the others, by method.
+    pub runs: BTreeMap<String, [u64; 3]>,
+}
 
 impl Counts {
     /// A run of so many steps, or a refused one.
     pub fn add(&mut self, method: &str, steps: Option<u64>) {
-        let [runs, refused, all] = self.0.entry(method.to_owned()).or_default();
+        let [runs, refused, all] = self.runs.entry(method.to_owned()).or_default();
         *runs += 1;
         *refused += u64::from(steps.is_none());
         *all += steps.unwrap_or(0);
     }
 
     pub fn refused(&self) -> u64 {
-        self.0.values().map(|[_, refused, _]| refused).sum()
+        self.runs.values().map(|[_, refused, _]| refused).sum()
     }
 
-    /// `method runs refused steps`, a line each.
+    /// `systems count`, and `method runs refused steps`, a line each.
     pub fn text(&self) -> String {
-        let mut text = String::new();
-        for (method, [runs, refused, steps]) in &self.0 {
+        let mut text = format!("systems {}\n", self.systems);
+        for (method, [runs, refused, steps]) in &self.runs {
             writeln!(text, "{method} {runs} {refused} {steps}").expect("a string takes all");
         }
         text
@@ -39,7 +44,11 @@ impl Counts {
             for line in std::fs::read_to_string(file?.path())?.lines() {
                 let mut words = line.split(' ');
                 let method = words.next().context("a method")?;
-                let sums = counts.0.entry(method.to_owned()).or_default();
+                if method == "systems" {
+                    counts.systems += words.next().context("a count")?.parse::<u64>()?;
+                    continue;
+                }
+                let sums = counts.runs.entry(method.to_owned()).or_default();
                 for (sum, word) in sums.iter_mut().zip(words) {
                     *sum += word.parse::<u64>()?;
                 }

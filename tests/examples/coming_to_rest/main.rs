@@ -2,7 +2,7 @@
 //! method that can step it.
 //!
 //! ```text
-//! cargo study coming_to_rest -- 300 1              # systems from seed 1 on, by every method, to T = 10⁴
+//! cargo study coming_to_rest -- 40 1               # 40 texts from seed 1 on, by every method, to T = 10⁴
 //! cargo study coming_to_rest -- 20 1 some          # to T = 10³, each by four methods
 //! cargo study coming_to_rest -- 20 1 before ../old # the same by the runtime of another checkout
 //! cargo study coming_to_rest -- show 7             # the program of a system
@@ -24,6 +24,9 @@ use anyhow::{Context as _, Result, bail};
 use built::Draw;
 use system::System;
 
+/// Systems of a text whose constants are fields, where all methods run them.
+const MEMBERS: u64 = 12;
+
 fn main() -> Result<ExitCode> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
@@ -31,8 +34,8 @@ fn main() -> Result<ExitCode> {
     let folder = own.join("target/coming_to_rest/counts");
     let (draw, runtime) = match words[..] {
         ["show", seed] => {
-            let system = System::of(seed.parse()?);
-            println!("{}", methods::module(&system, &methods::of_system(&system, usize::MAX), 1e4));
+            let systems = System::all_of(seed.parse()?, MEMBERS);
+            println!("{}", methods::module(&systems, &methods::of_system(&systems[0], usize::MAX), 1e4));
             return Ok(ExitCode::SUCCESS);
         }
         ["page"] => {
@@ -41,15 +44,15 @@ fn main() -> Result<ExitCode> {
         }
         [count, seed] => {
             let (count, seed) = (count.parse()?, seed.parse()?);
-            (Draw { count, seed, most: usize::MAX, time: 1e4, workspace: own }, "now")
+            (Draw { count, seed, members: MEMBERS, most: usize::MAX, time: 1e4, workspace: own }, "now")
         }
         [count, seed, "some"] => {
             let (count, seed) = (count.parse()?, seed.parse()?);
-            (Draw { count, seed, most: 4, time: 1e3, workspace: own }, "now")
+            (Draw { count, seed, members: 1, most: 4, time: 1e3, workspace: own }, "now")
         }
         [count, seed, "before", other] => {
             let (count, seed) = (count.parse()?, seed.parse()?);
-            (Draw { count, seed, most: 4, time: 1e3, workspace: Path::new(other) }, "before")
+            (Draw { count, seed, members: 1, most: 4, time: 1e3, workspace: Path::new(other) }, "before")
         }
         _ => bail!("write `<count> <seed>`, and `some` for some methods of each"),
     };

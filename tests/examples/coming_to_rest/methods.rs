@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
-use super::system::{Kind, System};
+use super::system::{Kind, System, Text};
 
 /// Steps of a run at most: long after it has come to rest.
-const MOST_STEPS: u64 = 100_000;
+const MOST_STEPS: u64 = 1_000_000;
 
 /// Its name, what it asks of the attribute, and how it is made.
 pub struct Method {
@@ -63,8 +63,9 @@ pub fn of_system(system: &System, most: usize) -> Vec<&'static Method> {
     all.into_iter().skip(system.seed as usize % stride).step_by(stride).collect()
 }
 
-/// The module of a system: its text, and a function that runs it for so long, in its unit of time.
-pub fn module(system: &System, methods: &[&Method], time: f64) -> String {
+/// The module of some systems that differ in their numbers alone: their text, and a function that runs each
+/// for so long, in its unit of time.
+pub fn module(systems: &[System], methods: &[&Method], time: f64) -> String {
     let listed = |of: &dyn Fn(&Method) -> &'static str| {
         let mut words: Vec<_> =
             methods.iter().map(|method| of(method)).filter(|word| !word.is_empty()).collect();
@@ -73,22 +74,29 @@ pub fn module(system: &System, methods: &[&Method], time: f64) -> String {
         words.join(", ")
     };
     let (rules, lanes) = (listed(&|method| method.rule), listed(&|method| method.lanes));
-    let mut attribute = format!("rule = [{rules}], derivatives = {}", system.engine);
+    let System { seed, n, engine, .. } = systems[0];
+    let mut attribute = format!("rule = [{rules}], derivatives = {engine}");
     if !lanes.is_empty() {
         write!(attribute, ", lanes = [{lanes}]").expect("a string takes all");
     }
-    let (q, v, h) = system.start();
-    let steps = ((time / system.h).ceil() as u64).min(MOST_STEPS);
-    let seed = system.seed;
+    let Text { declared, block, values } = Text::of(systems, &attribute);
+    let mut drawn = String::new();
+    for (system, value) in systems.iter().zip(&values) {
+        let (q, v, h) = system.start();
+        let steps = ((time / system.h).ceil() as u64).min(MOST_STEPS);
+        writeln!(drawn, "({value}, {q:?}, {v:?}, {h:e}, {steps}),").expect("a string takes all");
+    }
     let mut calls = String::new();
     for Method { name, lanes, made, .. } in methods {
         let run = if lanes.is_empty() { "run" } else { "lanes" };
-        writeln!(calls, "{run}({seed}, {name:?}, &SYSTEM, {made}, &start, {h:e}, {steps});")
+        writeln!(calls, "{run}({seed}, member, {name:?}, system, {made}, &start, h, steps);")
             .expect("a string takes all");
     }
+    let count = systems.len();
     format!(
-        "mod s{seed} {{\nuse super::*;\nuse dalembert::rayleigh_system;\n{}\
-         pub fn all() {{\nlet start = start(&SYSTEM, {q:?}, {v:?});\n{calls}}}\n}}\n",
-        system.text(&attribute)
+        "mod s{seed} {{\nuse super::*;\nuse dalembert::rayleigh_system;\n{declared}\n{block}\n\
+         const SYSTEMS: [(System, [f64; {n}], [f64; {n}], f64, u64); {count}] = [\n{drawn}];\n\
+         pub fn all() {{\nfor (member, (system, q, v, h, steps)) in SYSTEMS.iter().enumerate() {{\n\
+         let (h, steps) = (*h, *steps);\nlet start = start(system, *q, *v);\n{calls}}}\n}}\n}}\n"
     )
 }

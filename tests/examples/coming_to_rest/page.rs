@@ -14,8 +14,8 @@ pub fn write(workspace: &Path, counts: &Path) -> Result<PathBuf> {
     let mut page = include_str!("page.md").to_owned();
     page += "| method | runs | refused | steps | before: runs | refused |\n|---|--:|--:|--:|--:|--:|\n";
     let mut all = [0; 5];
-    for (method, [runs, refused, steps]) in &now.0 {
-        let [runs_before, refused_before, _] = before.0.get(method).copied().unwrap_or_default();
+    for (method, [runs, refused, steps]) in &now.runs {
+        let [runs_before, refused_before, _] = before.runs.get(method).copied().unwrap_or_default();
         let row = [*runs, *refused, *steps, runs_before, refused_before];
         for (sum, count) in all.iter_mut().zip(row) {
             *sum += count;

@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use crate::numbers::Scalar;
 use crate::system::Rayleigh;
 use crate::theory::{
-    samples::{SampleError, TangentPoint, Tolerance, coordinates, is_felt},
+    samples::{SampleError, TangentPoint, Tolerance, coordinates, is_felt, region},
     verdict::largest,
 };
 
@@ -19,6 +19,8 @@ pub struct Dissipation<const N: usize> {
     pub least_power: f64,
     /// Where that is.
     pub at: TangentPoint<f64, N>,
+    /// When that is, from the time of a view on; 0 of a system without time.
+    pub after: f64,
     /// Number of points where v·∂R/∂v is negative: the force drives the motion there.
     pub driven: usize,
     /// The tolerance within which a power counts as zero.
@@ -44,8 +46,9 @@ impl<const N: usize> Dissipation<N> {
 ///
 /// A power counts as negative below −1024 ε Σ|vᵢ ∂R/∂vᵢ|, the terms of its own sum.
 ///
-/// **Points it needs.** One with v ≠ 0. Each is judged by itself, at the time of a view: the answer is
-/// about these points and this time.
+/// **Points it needs.** One with v ≠ 0. Each is judged by itself: the answer is about these points.
+///
+/// A view that takes the time is judged over a duration, by [`dissipation_over`].
 ///
 /// ```
 /// use dalembert::rayleigh::dissipation;
@@ -63,10 +66,81 @@ impl<const N: usize> Dissipation<N> {
 /// ```
 ///
 /// # Errors
-/// [`SampleError`] if there is no point, none with v ≠ 0, or a derivative or a power is not finite.
+/// [`SampleError`] if there is no point, none with v ≠ 0, or a derivative or a power is not finite;
+/// [`SampleError::OneTime`] of a view that takes the time.
 pub fn dissipation<L, const N: usize>(
     system: &L,
     points: &[TangentPoint<L::Scalar, N>],
+) -> Result<Dissipation<N>, SampleError>
+where
+    L: Rayleigh<N>,
+{
+    // A system without time is handed on itself.
+    if system.later(L::Scalar::constant(1.0), |later| !core::ptr::eq(later, system)) {
+        return Err(SampleError::OneTime);
+    }
+    judged(system, points, &[0.0])
+}
+
+/// Tests v·∂R/∂v ≥ 0 at `points`, each at 32 times from that of a view on: at both ends of `duration`, and
+/// between them.
+///
+/// The answer is about these points and times: friction that reverses for less than a thirtieth of the
+/// duration can pass between them.
+///
+/// ```
+/// use dalembert::rayleigh::{dissipation, dissipation_over};
+/// use dalembert::samples::{SampleError, tangent_points};
+/// use dalembert::rayleigh_system;
+///
+/// struct Damper { c: f64 }
+///
+/// #[rayleigh_system]
+/// impl Damper {
+///     fn lagrangian(&self, _q: [f64; 1], v: [f64; 1]) -> f64 {
+///         0.5 * v[0] * v[0]
+///     }
+///     // It brakes at t = 0, and drives from t = π/2 on.
+///     fn rayleigh(&self, _q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
+///         0.5 * self.c * t.cos() * v[0] * v[0]
+///     }
+/// }
+///
+/// let damper = Damper { c: 0.3 };
+/// let view = damper.at_time(0.0);
+/// let points = tangent_points([0.0], [1.0], [2.0], 100);
+/// assert_eq!(dissipation(&view, &points).unwrap_err(), SampleError::OneTime);
+/// assert!(dissipation_over(&view, &points, 1.5)?.is_dissipative());
+/// let report = dissipation_over(&view, &points, 3.0)?;
+/// assert!(!report.is_dissipative() && report.after == 3.0);
+/// # Ok::<(), SampleError>(())
+/// ```
+///
+/// # Errors
+/// [`SampleError`] if there is no point, none with v ≠ 0, or a derivative or a power is not finite, as at a
+/// time that is none.
+pub fn dissipation_over<L, const N: usize>(
+    system: &L,
+    points: &[TangentPoint<L::Scalar, N>],
+    duration: f64,
+) -> Result<Dissipation<N>, SampleError>
+where
+    L: Rayleigh<N>,
+{
+    // Between the ends no two are evenly apart, so that no period hides from them.
+    let between = region::<f64, 1>([0.0], [duration], TIMES - 2);
+    let times: Vec<f64> = [0.0, duration].into_iter().chain(between.iter().map(|time| time[0])).collect();
+    judged(system, points, &times)
+}
+
+/// Times of a duration.
+const TIMES: usize = 32;
+
+/// The powers at all points and times, from that of the system on.
+fn judged<L, const N: usize>(
+    system: &L,
+    points: &[TangentPoint<L::Scalar, N>],
+    times: &[f64],
 ) -> Result<Dissipation<N>, SampleError>
 where
     L: Rayleigh<N>,
@@ -78,31 +152,39 @@ where
     let mut report: Option<Dissipation<N>> = None;
     for (index, point) in points.iter().enumerate() {
         let TangentPoint { q, v } = point;
-        let slope = system.rayleigh_gradient(q, v).d2;
-        let power = slope.dot(v).widen();
-        let tolerance = Tolerance { relative, scale: slope.abs().dot(&v.abs()).widen() };
-        let at_rest = system.rayleigh_gradient(q, &nalgebra::zero()).d1;
-        let gradient = largest(at_rest.iter().map(|entry| entry.widen()));
-        if !(power.is_finite() && tolerance.bound().is_finite() && gradient.is_finite()) {
-            return Err(SampleError::NonFinite { index });
-        }
-        let driven = usize::from(power < -tolerance.bound());
         let at = TangentPoint { q: q.map(Scalar::widen), v: v.map(Scalar::widen) };
-        let report = report.get_or_insert(Dissipation {
-            samples: points.len(),
-            least_power: power,
-            at,
-            driven: 0,
-            tolerance,
-            gradient_at_rest: gradient,
-            gradient_at: at.q,
-        });
-        report.driven += driven;
-        if power < report.least_power {
-            (report.least_power, report.at, report.tolerance) = (power, at, tolerance);
+        let mut is_driven = false;
+        for &after in times {
+            let [slope, at_rest] = system.later(L::Scalar::constant(after), |system| {
+                [system.rayleigh_gradient(q, v).d2, system.rayleigh_gradient(q, &nalgebra::zero()).d1]
+            });
+            let power = slope.dot(v).widen();
+            let tolerance = Tolerance { relative, scale: slope.abs().dot(&v.abs()).widen() };
+            let gradient = largest(at_rest.iter().map(|entry| entry.widen()));
+            if !(power.is_finite() && tolerance.bound().is_finite() && gradient.is_finite()) {
+                return Err(SampleError::NonFinite { index });
+            }
+            is_driven |= power < -tolerance.bound();
+            let report = report.get_or_insert(Dissipation {
+                samples: points.len(),
+                least_power: power,
+                at,
+                after,
+                driven: 0,
+                tolerance,
+                gradient_at_rest: gradient,
+                gradient_at: at.q,
+            });
+            if power < report.least_power {
+                (report.least_power, report.at, report.after) = (power, at, after);
+                report.tolerance = tolerance;
+            }
+            if gradient > report.gradient_at_rest {
+                (report.gradient_at_rest, report.gradient_at) = (gradient, at.q);
+            }
         }
-        if gradient > report.gradient_at_rest {
-            (report.gradient_at_rest, report.gradient_at) = (gradient, at.q);
+        if let Some(report) = &mut report {
+            report.driven += usize::from(is_driven);
         }
     }
     report.ok_or(SampleError::TooFew { given: 0, needed: 1 })
@@ -121,6 +203,9 @@ impl<const N: usize> fmt::Display for Dissipation<N> {
             coordinates(f, &self.at.q)?;
             f.write_str(", v = ")?;
             coordinates(f, &self.at.v)?;
+            if self.after != 0.0 {
+                write!(f, ", {:.4} later", self.after)?;
+            }
         }
         if self.gradient_at_rest > 0.0 {
             write!(f, "\n  ∂R/∂q(q, 0) is up to {:.2e}, at q = ", self.gradient_at_rest)?;

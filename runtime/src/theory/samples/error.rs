@@ -23,6 +23,8 @@ pub enum SampleError {
         /// Samples given.
         given: usize,
     },
+    /// A view that takes the time was asked at one time, which says nothing of others.
+    OneTime,
     /// The step size is NaN, infinite, 0 or below the normal numbers.
     StepSize,
 }
@@ -40,6 +42,9 @@ impl fmt::Display for SampleError {
                 f,
                 "none of the {given} samples can tell yes from no: they move by no more than rounding, or the generator \
                  vanishes there; give samples that move"
+            ),
+            Self::OneTime => f.write_str(
+                "this view takes the time, and one time says nothing of others; ask over a duration, as by `dissipation_over`",
             ),
             Self::StepSize => f.write_str("the step size is not a normal number; give a finite h ≠ 0"),
             Self::NonFinite { index } => write!(

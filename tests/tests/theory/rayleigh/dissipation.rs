@@ -1,6 +1,6 @@
 //! Whether v·∂R/∂v ≥ 0 on the sampled region, with the point where it is not.
 
-use dalembert::rayleigh::dissipation;
+use dalembert::rayleigh::{dissipation, dissipation_over};
 use dalembert::samples::{SampleError, TangentPoint, tangent_points};
 use dalembert::{Discretise, Midpoint, State, rayleigh_system};
 
@@ -79,4 +79,47 @@ fn points_that_decide_nothing_are_refused() {
     assert_eq!(dissipation(&system, &[]).unwrap_err(), SampleError::TooFew { given: 0, needed: 1 });
     let point = TangentPoint { q: [0.0].into(), v: [f64::NAN].into() };
     assert_eq!(dissipation(&system, &[point]).unwrap_err(), SampleError::NonFinite { index: 0 });
+}
+
+/// R = ½ c (b + cos ωt) v².
+struct Reversing {
+    b: f64,
+    omega: f64,
+}
+
+#[rayleigh_system]
+impl Reversing {
+    fn lagrangian(&self, _q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.5 * v[0] * v[0]
+    }
+    fn rayleigh(&self, _q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
+        0.5 * (self.b + (self.omega * t).cos()) * v[0] * v[0]
+    }
+}
+
+/// At each of its own times alone a view would brake: friction that reverses is seen over a duration.
+#[test]
+fn a_view_is_asked_over_a_duration() {
+    let points = tangent_points([-1.0], [1.0], [2.0], 50);
+    let reverses = Reversing { b: 0.0, omega: 3.0 };
+    for start in [0.0, 2.1, 40.0] {
+        let view = reverses.at_time(start);
+        assert_eq!(dissipation(&view, &points).unwrap_err(), SampleError::OneTime);
+        let report = dissipation_over(&view, &points, 2.1).unwrap();
+        let power = (3.0 * (start + report.after)).cos() * report.at.v[0].powi(2);
+        assert!(!report.is_dissipative() && (report.least_power - power).abs() < 1e-12, "{report}");
+        assert!(report.to_string().contains("later"), "{report}");
+        // Both ends are among the times, and a period that divides the duration does not hide.
+        for periods in [1.0, 2.0, 4.0, 8.0, 16.0] {
+            let duration = periods * core::f64::consts::TAU / 3.0;
+            assert!(!dissipation_over(&view, &points, duration).unwrap().is_dissipative(), "{periods}");
+        }
+        // Positive control: what does not reverse brakes all the time.
+        let brakes = Reversing { b: 1.5, omega: 3.0 };
+        assert!(dissipation_over(&brakes.at_time(start), &points, 40.0).unwrap().is_dissipative());
+    }
+    let early = dissipation_over(&reverses.at_time(0.0), &points, 0.5).unwrap();
+    assert!(early.is_dissipative(), "{early}");
+    let never = dissipation_over(&reverses.at_time(0.0), &points, f64::NAN).unwrap_err();
+    assert_eq!(never, SampleError::NonFinite { index: 0 });
 }
