@@ -26,7 +26,7 @@ pub(crate) use crate::numbers::nonlinear::{
 use crate::numbers::nonlinear::{Room, Unsolved, Way, largest};
 pub(crate) use at_length::StepEquations;
 pub(crate) use bounded::bounded;
-pub(crate) use rounding::{estimated_floor, held_against, held_by_weights};
+pub(crate) use rounding::{estimated_floor, held_against, held_by_weights, is_small_beside};
 
 /// A root, with both momenta there.
 pub(crate) struct Solution<S, const N: usize> {
@@ -191,9 +191,12 @@ pub(crate) fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
             let residual = momenta.p0 - p;
             let floor = estimated_floor(p, &kernel.matrix, &v);
             let (residual, floor, is_root) = held_against(&residual, &floor);
-            let last_correction = largest(correction.as_slice());
-            if is_root && (kind == Equation::Linear || is_known_at(&v, last_correction)) {
+            let is_known = kind == Equation::Linear
+                || is_small_beside(&(momenta.p0 - p), p)
+                || is_known_at(&v, &correction);
+            if is_root && is_known {
                 let iterations = iterations + 1;
+                let last_correction = largest(correction.as_slice());
                 let report = Report { iterations, damped: 0, residual, floor, last_correction };
                 return Ok(Solution { unknown: v, momenta, report });
             }
@@ -202,12 +205,16 @@ pub(crate) fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     Err(reached)
 }
 
-/// Whether the floor at `v` may be taken from the matrix of the iterate before, from which the
-/// `last_correction` led here: from a guess that is far out by many orders of magnitude that matrix can be
-/// larger by as many, and with it the floor.
+/// Whether the floor at `v` may be taken from the matrix of the iterate before, from which the last
+/// `correction` led here: from a guess that is far out by many orders of magnitude, be it in one coordinate,
+/// that matrix can be larger by as many, and with it the floor.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn is_known_at<S: Scalar, const N: usize>(v: &SVector<S, N>, last_correction: S) -> bool {
-    last_correction <= largest(v.as_slice()) * S::constant(SMALL)
+fn is_known_at<S: Scalar, const N: usize>(v: &SVector<S, N>, correction: &SVector<S, N>) -> bool {
+    let mut is_known = true;
+    for i in 0..N {
+        is_known &= correction[i].abs() <= v[i].abs() * S::constant(SMALL);
+    }
+    is_known
 }
 
 /// max |residualᵢ| weightᵢ; NaN if one of them is no finite number.

@@ -8,7 +8,7 @@
 //!
 //! The first takes so many draws of every system with each seed from FIRST to LAST, adds the counts of every
 //! seed to `target/verdicts/NAME.txt`, from which a later run goes on, and fails if a step violates its
-//! equations; the second writes the page from the counts under the names `now` and `before`.
+//! equations; the second writes the page from the counts under the name `now`.
 
 mod counts;
 mod page;
@@ -17,12 +17,15 @@ mod study;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, ensure};
-use study::steps::{Job, Tally, study, study_all, study_composed, study_fitted};
+use study::steps::{Job, Tally, study, study_all, study_by_dual, study_composed, study_fitted};
 use study::systems::*;
 
-/// Every system, each with a Gauss rule; a composition of some, and the fitted rules of those that have them.
-const JOBS: [Job; 33] = [
+/// Every system, each with a Gauss rule; a composition of some, the fitted rules of those that have them, and
+/// some by dual numbers.
+const JOBS: [Job; 45] = [
     study::<Harmonic, 1, 4>,
+    study::<Springs, 1, 4>,
+    study::<Magnets, 2, 3>,
     study::<Chain, 4, 5>,
     study::<Quartic, 1, 6>,
     study::<Ring, 2, 7>,
@@ -55,6 +58,16 @@ const JOBS: [Job; 33] = [
     study_fitted::<Exponential, 1>,
     study_fitted::<Toda, 3>,
     study_fitted::<Kepler, 2>,
+    study_by_dual::<SpringsByDual, 1, 2>,
+    study_by_dual::<MagnetsByDual, 2, 4>,
+    study_by_dual::<ChainByDual, 4, 3>,
+    study_by_dual::<RingByDual, 2, 4>,
+    study_by_dual::<PendulumByDual, 1, 6>,
+    study_by_dual::<DoublePendulumByDual, 2, 2>,
+    study_by_dual::<LennardJonesByDual, 1, 3>,
+    study_by_dual::<TodaByDual, 3, 2>,
+    study_by_dual::<KeplerDragByDual, 3, 1>,
+    study_by_dual::<PolarByDual, 2, 5>,
 ];
 
 fn main() -> Result<ExitCode> {

@@ -135,7 +135,8 @@ fn a_matrix_that_changes_fast_is_not_kept() {
 fn a_matrix_that_hardly_changes_is_kept() {
     let (v, h) = ([3e-3, 5e-3, -4e-3], 0.05);
     let (keeping, renewing) = (Keeping::run(TURNED, v, h), Renewing::run(TURNED, v, h));
-    assert!(keeping[0] < renewing[0] / 20, "{keeping:?} against {renewing:?}");
+    // One step in five looks at the matrix once more: what is left is not small beside momenta of 10⁻³.
+    assert!(keeping[0] < renewing[0] / 8, "{keeping:?} against {renewing:?}");
 }
 
 /// On a long wave the forces of neighbouring springs cancel, and their rounding holds up the residuals of

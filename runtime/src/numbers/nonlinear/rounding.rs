@@ -11,7 +11,7 @@ pub(crate) const AT_FLOOR: f64 = 4.0;
 pub(crate) const SLOW: f64 = 0.25;
 
 /// A correction of at most this share of v̄ leads to a point where the floor is that of the point before.
-pub(crate) const SMALL: f64 = 1.0 / 16.0;
+pub(crate) const SMALL: f64 = 1.0 / 65536.0;
 
 /// A floor above this share of the terms of the equation says that rounding decides it.
 const SENSIBLE: f64 = 1.0 / 1024.0;

@@ -32,7 +32,7 @@ pub(super) const AT_REST: f64 = 1.0 / 64.0;
 pub(super) const NEAR: f64 = 1024.0;
 
 /// If the floor has risen or fallen by this factor, sizes measured with the old floor are not comparable with
-/// new ones.
+/// new ones. What a contraction promises is far enough below the floor to be below it by this factor more.
 pub(super) const CHANGED: f64 = 8.0;
 
 /// A method that corrects the stages' velocities in each sweep.
@@ -147,13 +147,20 @@ where
         let mut is_done = is_at_rest || is_low || (has_stopped && size <= constant(AT_FLOOR));
         if is_done && iterations > 1 {
             // The floor of the guess says nothing of rounding at the root if it was far out, where forces are
-            // larger.
-            let (rate, residual) = (stages.rate, stages.residual);
-            if let Some(fallen) = fallen(problem, &rate, &residual, &floor) {
+            // larger. A residual that is left as it is, is held against the floor where it is left.
+            let fallen = if is_at_rest {
+                let (rate, residual) = (stages.rate, stages.residual);
+                fallen(problem, &rate, &residual, &floor, CHANGED)
+            } else {
+                let (rate, residual, floor) = (stages.rate, stages.residual, floor);
+                fallen_at_all(problem, &rate, &residual, &floor)
+            };
+            if let Some(fallen) = fallen {
                 floor = fallen;
                 per_floor = reciprocals(&floor);
                 size = in_units(&stages.residual, &per_floor);
-                (is_done, is_at_rest) = (false, false);
+                is_done = !is_at_rest && size <= if is_low { T::one() } else { constant(AT_FLOOR) };
+                is_at_rest = false;
                 (before, last) = (size * constant(4.0), size);
             }
         }
@@ -202,17 +209,36 @@ fn risen<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     has_risen.then_some(now)
 }
 
-/// The floor now, if the one that the residual was held against is much higher in a coordinate.
+/// The floor now, if the one that the residual was held against is higher in a coordinate by this factor.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn fallen<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S: usize, const W: usize>(
     problem: &Problem<'_, L, N, S>,
     rate: &LaneVector<T, N, W>,
     residual: &LaneVector<T, N, W>,
     floor: &SVector<T, N>,
+    factor: f64,
 ) -> Option<SVector<T, N>> {
     let now = problem.floor(rate, residual);
-    let has_fallen = (0..N).any(|a| floor[a] > now[a] * T::constant(CHANGED));
+    let has_fallen = (0..N).any(|a| floor[a] > now[a] * T::constant(factor));
     has_fallen.then_some(now)
+}
+
+/// [`fallen`] by any factor, for the few sweeps that end at the floor: apart from the others.
+#[cold]
+#[inline(never)]
+fn fallen_at_all<
+    T: Scalar,
+    L: ForcedLagrangian<N, Scalar = T>,
+    const N: usize,
+    const S: usize,
+    const W: usize,
+>(
+    problem: &Problem<'_, L, N, S>,
+    rate: &LaneVector<T, N, W>,
+    residual: &LaneVector<T, N, W>,
+    floor: &SVector<T, N>,
+) -> Option<SVector<T, N>> {
+    fallen(problem, rate, residual, floor, 1.0)
 }
 
 /// How an iteration ended whose last correction leaves the share `remaining` of the residual.

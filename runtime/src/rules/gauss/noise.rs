@@ -37,13 +37,14 @@ pub(super) fn noise<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
                 (0..N).all(|b| {
                     // Not their product, which may overflow.
                     let scale = size(here, h, (a, a)).sqrt() * size(here, h, (b, b)).sqrt();
-                    is_near(now, here, h, (a, b), scale * T::constant(SAME / N as f64))
+                    // Beside what overflows everything is near.
+                    scale.is_finite() && is_near(now, here, h, (a, b), scale * T::constant(SAME / N as f64))
                 })
             })
         })
     };
-    // Where a product of step sizes underflows, the matrix is not that of the equations.
-    if h * h <= T::SMALLEST_NORMAL || !is_same(before) {
+    // Where a product of step sizes underflows or overflows, the matrix is not that of the equations.
+    if h * h <= T::SMALLEST_NORMAL || !(h * h).is_finite() || !is_same(before) {
         return None;
     }
     for direction in 0..2 {

@@ -113,18 +113,19 @@ fn rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const
     let q = problem.configurations(v);
     let residual = |q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>| problem.stages_at(q, v).residual;
     let value = residual(&q, v);
-    let mut sum: SVector<T, N> = nalgebra::zero();
-    let mut add = |q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>| {
-        let moved = residual(q, v);
-        for a in 0..N {
-            sum[a] += (moved[a] - value[a]).amax();
-        }
-    };
+    let mut largest: SVector<T, N> = nalgebra::zero();
     let places = T::constant(PLACES);
     let unit = T::EPSILON * places;
     // All stages alike, then the halves of the step apart: a force that changes sign within it must not
-    // cancel.
+    // cancel. The larger counts.
     for opposed in [unit, -unit] {
+        let mut sum: SVector<T, N> = nalgebra::zero();
+        let mut add = |q: &LaneVector<T, N, S>, v: &LaneVector<T, N, S>| {
+            let moved = residual(q, v);
+            for a in 0..N {
+                sum[a] += (moved[a] - value[a]).amax();
+            }
+        };
         let unit = Lanes::<T, S>(array::from_fn(|i| if 2 * i < S { unit } else { opposed }));
         for a in 0..N {
             let speed = v[a].amax();
@@ -137,6 +138,7 @@ fn rounding<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const
             moved[a] = moved[a] + unit * v[a].abs();
             add(&q, &moved);
         }
+        largest = largest.sup(&sum);
     }
-    sum / places
+    largest / places
 }

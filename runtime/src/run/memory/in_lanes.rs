@@ -8,7 +8,7 @@ use crate::numbers::members::{coordinate_by_coordinate, difference};
 use crate::numbers::{Mask, MatricesOfMembers, MemberVector, Members, Scalar};
 use crate::step::DiscreteInLanes;
 use crate::step::in_lanes::newton::{
-    MatricesOf, Roots, estimated_floor, is_at_floor, largest, reciprocals, scaled, weighted,
+    MatricesOf, Roots, estimated_floor, is_at_floor, is_small_beside, largest, reciprocals, scaled, weighted,
 };
 use crate::step::newton::AT_FLOOR;
 
@@ -33,33 +33,22 @@ where
     let mut corrections = [0; W];
     let mut v = *guess;
     let mut is_open = whose;
-    let mut first = *guess;
-    let mut was_far = Mask::splat(true);
     let mut last_size = Members::splat(constant(CLOSE) / (L::Scalar::EPSILON * constant(CONTRACTION)));
     for iterations in 0..=MOST {
         let momenta = L::momenta_in_lanes(fields, q, &v, h);
         let residual = difference(&momenta[0], p);
         let size = weighted(&residual, &weights);
-        if iterations == 0 {
-            first = residual;
-            was_far = is_far(&residual, &weights);
-        } else {
+        if iterations > 0 {
             let is_small = is_open & size.less_or_equal(Members::splat(constant(AT_FLOOR)));
             if is_small.0.contains(&true) {
                 let below = constant(AT_FLOOR) * (constant(1.0) - L::Scalar::EPSILON * constant(2.0));
-                let mut is_root = was_far & size.less_or_equal(Members::splat(below));
-                if (is_small & !was_far).0.contains(&true) {
-                    let is_shown = is_shown(&residual, &first, p);
-                    let mut floor = floor;
-                    if (is_small & !was_far & !is_shown).0.contains(&true) {
-                        let (_, there) = L::step_kernel_in_lanes(fields, q, &v, h);
-                        let magnitudes = MatricesOf::<L, R, N, W>::magnitudes_of(&there, &scaled(&v));
-                        let own = estimated_floor(p, &magnitudes);
-                        coordinate_by_coordinate!(a => {
-                            floor[a] = Members::select(is_shown, floor[a], own[a]);
-                        });
-                    }
-                    is_root = is_root | (!was_far & is_at_floor(&residual, &floor));
+                let is_known = is_small_beside(&residual, p);
+                let mut is_root = size.less_or_equal(Members::splat(below));
+                if (is_small & !is_known).0.contains(&true) {
+                    let (_, there) = L::step_kernel_in_lanes(fields, q, &v, h);
+                    let magnitudes = MatricesOf::<L, R, N, W>::magnitudes_of(&there, &scaled(&v));
+                    let held = is_at_floor(&residual, &estimated_floor(p, &magnitudes));
+                    is_root = (is_known & is_root) | (!is_known & held);
                 }
                 is_root = is_root & is_small;
                 roots.add(is_root, &v, &momenta);
@@ -110,35 +99,4 @@ where
     let mut roots = Roots::none(guess);
     roots.add(whose & is_at_floor(&difference(&momenta[0], p), &floor), &v, &momenta);
     (roots, again.0.map(|again| 1 + u32::from(again)))
-}
-
-/// [`is_far`](super::kept_matrix::is_far) of each.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn is_far<T: Scalar, const N: usize, const W: usize>(
-    residual: &MemberVector<T, N, W>,
-    weights: &MemberVector<T, N, W>,
-) -> Mask<W> {
-    let mut least = Members::splat(T::one() / T::zero());
-    coordinate_by_coordinate!(a => {
-        let units = residual[a].abs() * weights[a];
-        least = Members::select(units.less(least), units, least);
-    });
-    Members::splat(T::constant(AT_FLOOR / CONTRACTION)).less_or_equal(least)
-}
-
-/// [`is_shown`](super::kept_matrix::is_shown) of each.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn is_shown<T: Scalar, const N: usize, const W: usize>(
-    residual: &MemberVector<T, N, W>,
-    first: &MemberVector<T, N, W>,
-    p: &MemberVector<T, N, W>,
-) -> Mask<W> {
-    let unit = T::EPSILON * T::constant(4.0);
-    let mut is_shown = Mask::splat(true);
-    coordinate_by_coordinate!(a => {
-        let size = residual[a].abs();
-        let has_fallen = size.less_or_equal(first[a].abs() * T::constant(CONTRACTION));
-        is_shown = is_shown & (has_fallen | size.less_or_equal(p[a].abs() * unit));
-    });
-    is_shown
 }

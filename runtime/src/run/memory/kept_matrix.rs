@@ -14,7 +14,8 @@ use crate::numbers::{Factored, NewtonMatrix, Scalar};
 use crate::step::{
     Discrete, KeptOf, Memory, MemoryInLanes, Momenta, Report, State, Step, StepError, VelocityHistory,
     newton::{
-        AT_FLOOR, add_finite_part, estimated_floor, held_against, held_by_weights, is_sensible, weighted,
+        AT_FLOOR, add_finite_part, estimated_floor, held_against, held_by_weights, is_sensible,
+        is_small_beside, weighted,
     },
 };
 
@@ -204,8 +205,6 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         let floor = estimated_floor(p, &self.matrix, &guess);
         let weights = floor.map(|floor| S::one() / floor);
         let mut v = guess;
-        let mut first: SVector<S, N> = nalgebra::zero();
-        let mut was_far = false;
         let mut correction: SVector<S, N> = nalgebra::zero();
         let mut last_size = S::constant(CLOSE) / (S::EPSILON * S::constant(CONTRACTION));
         // At least one correction: extrapolation alone, step after step, would let rounding grow.
@@ -213,14 +212,11 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
             let momenta = system.momenta(q, &v, self.h);
             let residual = momenta.p0 - p;
             let size = weighted(&residual, &weights);
-            if iterations == 0 {
-                first = residual;
-                was_far = is_far(&residual, &weights);
-            } else if size <= S::constant(AT_FLOOR) {
-                let (residual, floor) = if was_far {
+            if iterations > 0 && size <= S::constant(AT_FLOOR) {
+                let (residual, floor) = if is_small_beside(&residual, p) {
                     held_by_weights(&residual, &floor, &weights, size)
                 } else {
-                    self.held_with_care(system, state, v, [first, residual], floor)
+                    self.held_with_care(system, state, v, residual)
                 }?;
                 let last_correction = correction.amax();
                 let report = Report { iterations, damped: 0, residual, floor, last_correction };
@@ -240,8 +236,8 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         None
     }
 
-    /// The `residual` at `v` and its floor, by the matrix there unless that kept is shown to do; nothing
-    /// where it is no root's. `first` is the residual of the guess.
+    /// The `residual` at `v` and its floor, by the matrix there: one of a collision that is over is larger by
+    /// any factor, and with it the floor. Nothing where the residual is no root's.
     #[cold]
     #[inline(never)]
     fn held_with_care<L, R>(
@@ -249,15 +245,12 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         system: &L,
         State { q, p }: &State<S, N>,
         v: SVector<S, N>,
-        [first, residual]: [SVector<S, N>; 2],
-        mut floor: SVector<S, N>,
+        residual: SVector<S, N>,
     ) -> Option<(S, S)>
     where
         L: Discrete<R, N, Scalar = S, Matrix = M>,
     {
-        if !is_shown(&residual, &first, p) {
-            floor = estimated_floor(p, &system.step_kernel(q, &v, self.h).matrix, &v);
-        }
+        let floor = estimated_floor(p, &system.step_kernel(q, &v, self.h).matrix, &v);
         let (residual, floor, is_root) = held_against(&residual, &floor);
         is_root.then_some((residual, floor))
     }
@@ -332,73 +325,5 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Kept<S, M, N> {
         }
         let report = Report { iterations, damped: 0, residual, floor, last_correction: correction.amax() };
         Step::completed(state, self.h, v, &momenta, report).ok()
-    }
-}
-
-/// Whether the residual of a guess is so large in every coordinate that corrections down to [`AT_FLOOR`]
-/// floors are seen to work, as [`is_shown`] asks at the price of a loop after every step. A floor that
-/// overflows has the weight 0: nothing is far beside it.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn is_far<S: Scalar, const N: usize>(residual: &SVector<S, N>, weights: &SVector<S, N>) -> bool {
-    const LANES: usize = 4;
-    // Lane by lane, as their largest is found: the compiler takes several at once, and the products of both
-    // once.
-    let mut least = [S::one() / S::zero(); LANES];
-    let (of, rest_of) = residual.as_slice().as_chunks::<LANES>();
-    let (by, rest_by) = weights.as_slice().as_chunks::<LANES>();
-    for (of, by) in of.iter().zip(by) {
-        for lane in 0..LANES {
-            let units = of[lane].abs() * by[lane];
-            least[lane] = if units < least[lane] { units } else { least[lane] };
-        }
-    }
-    for (of, by) in rest_of.iter().zip(rest_by) {
-        let units = of.abs() * *by;
-        least[0] = if units < least[0] { units } else { least[0] };
-    }
-    least.iter().all(|units| *units >= S::constant(AT_FLOOR / CONTRACTION))
-}
-
-/// Whether the kept matrix may say what the floor of `residual` is: where its corrections have taken the
-/// `first` residual down, the equation still has it; after a guess too good for that, only what is small
-/// beside the momentum needs no matrix. A matrix of a collision that is over is larger by any factor, and
-/// with it the floor.
-fn is_shown<S: Scalar, const N: usize>(
-    residual: &SVector<S, N>,
-    first: &SVector<S, N>,
-    p: &SVector<S, N>,
-) -> bool {
-    let unit = S::EPSILON * S::constant(4.0);
-    let mut is_shown = true;
-    for i in 0..N {
-        let size = residual[i].abs();
-        is_shown &= size <= first[i].abs() * S::constant(CONTRACTION) || size <= p[i].abs() * unit;
-    }
-    is_shown
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use nalgebra::vector;
-
-    /// Below four floors at the end: a tenth of what it was, at most. A floor that overflows is no measure.
-    #[test]
-    fn a_guess_far_off_in_every_coordinate_shows_that_corrections_work() {
-        assert!(is_far(&vector![41.0, -82.0], &vector![1.0, 0.5]));
-        assert!(!is_far(&vector![39.0, 82.0], &vector![1.0, 0.5]));
-        assert!(!is_far(&vector![41.0, 1e300], &vector![1.0, 0.0]));
-    }
-
-    #[test]
-    fn a_kept_matrix_that_took_nothing_off_says_nothing_of_rounding() {
-        let p = vector![1.0, 0.0];
-        // Taken down, small beside the momentum, or 0.
-        assert!(is_shown(&vector![1e-9, 0.0], &vector![1e-7, 0.0], &p));
-        assert!(is_shown(&vector![5e-16, 1e-12], &vector![1e-16, 1e-10], &p));
-        // Neither, in any coordinate.
-        assert!(!is_shown(&vector![15.0, 0.0], &vector![16.0, 0.0], &p));
-        assert!(!is_shown(&vector![5e-16, 1e-12], &vector![1e-16, 2e-12], &p));
-        assert!(!is_shown(&vector![f64::NAN, 0.0], &vector![16.0, 0.0], &p));
     }
 }

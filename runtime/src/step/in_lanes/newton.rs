@@ -91,8 +91,7 @@ where
             let floor = estimated_floor(p, &MatricesOf::<L, R, N, W>::magnitudes_of(&matrix, &scaled(&next)));
             let mut is_root = is_close & is_at_floor(&residual, &floor);
             if !L::LINEAR {
-                let most = largest(&next) * L::Scalar::constant(SMALL);
-                is_root = is_root & largest(&correction).less_or_equal(most);
+                is_root = is_root & (is_known_at(&next, &correction) | is_small_beside(&residual, p));
             }
             roots.add(is_root, &next, &momenta);
             is_open = is_open & !is_root;
@@ -103,6 +102,33 @@ where
         v = next;
     }
     roots
+}
+
+/// [`is_known_at`](crate::step::newton) of each.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn is_known_at<T: Scalar, const N: usize, const W: usize>(
+    v: &MemberVector<T, N, W>,
+    correction: &MemberVector<T, N, W>,
+) -> Mask<W> {
+    let mut is_known = Mask::splat(true);
+    each_coordinate!(a => {
+        is_known = is_known & correction[a].abs().less_or_equal(v[a].abs() * T::constant(SMALL));
+    });
+    is_known
+}
+
+/// [`is_small_beside`](crate::step::newton::is_small_beside) of each.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn is_small_beside<T: Scalar, const N: usize, const W: usize>(
+    residual: &MemberVector<T, N, W>,
+    p: &MemberVector<T, N, W>,
+) -> Mask<W> {
+    let unit = T::EPSILON * T::constant(8.0 * AT_FLOOR);
+    let mut is_small = Mask::splat(true);
+    each_coordinate!(a => {
+        is_small = is_small & residual[a].abs().less_or_equal(p[a].abs() * unit);
+    });
+    is_small
 }
 
 /// v in units of which [`estimated_floor`] takes the magnitudes.

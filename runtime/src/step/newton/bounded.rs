@@ -3,7 +3,7 @@
 use nalgebra::SVector;
 
 use super::rounding::{estimated_floor, held_against};
-use super::{Equation, Solution, is_known_at, largest};
+use super::{Equation, Solution, is_known_at, is_small_beside, largest};
 use crate::numbers::{NewtonMatrix, Scalar, Singular, nonlinear::in_units_of};
 use crate::step::{Momenta, Quantity, Report, State, StepError, StepKernel};
 
@@ -50,7 +50,9 @@ pub(crate) fn bounded<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         }
         let (residual, floor, is_root) = held_against(&remaining, &floor);
         let last_correction = largest(correction.as_slice());
-        let is_solved = is_root && (kind == Equation::Linear || is_known_at(&next, last_correction));
+        let is_known =
+            kind == Equation::Linear || is_known_at(&next, &correction) || is_small_beside(&remaining, p);
+        let is_solved = is_root && is_known;
         if is_solved || best.as_ref().is_none_or(|(least, ..)| size < *least) {
             let report = Report { iterations: iteration + 1, damped: 0, residual, floor, last_correction };
             best = Some((size, Solution { unknown: next, momenta, report }, is_solved));

@@ -3,8 +3,10 @@
 //! **Definition.** A step is solved where each component of the residual of its equation is at most
 //! [`AT_FLOOR`] times its round-off floor, and this floor
 //!
-//! 1. belongs to the solution that is returned, not to an iterate on the way: where the last correction was
-//!    not small beside v̄ ([`SMALL`](super::SMALL)), the matrix is evaluated again at the solution;
+//! 1. belongs to the solution that is returned, not to an iterate on the way or to an earlier step: where in
+//!    a coordinate the last correction was not small beside v̄ ([`SMALL`](super::SMALL)), or the matrix is
+//!    one kept, the matrix is evaluated again at the solution, unless the residual is small beside p
+//!    ([`is_small_beside`]), which is a term of the equation whatever the matrix is;
 //! 2. is finite;
 //! 3. where the residual had stopped falling, or Newton steps had to be shortened: is at most
 //!    a thousandth of the terms that the equation is made of ([`is_sensible`](super::is_sensible)). Otherwise
@@ -61,6 +63,21 @@ pub(crate) fn estimated_floor<S: Scalar, const N: usize>(
         floor[i] += p[i].abs() * unit + S::SMALLEST_NORMAL;
     }
     floor
+}
+
+/// Whether the residual is within [`AT_FLOOR`] floors in every coordinate whatever the matrix is there: the
+/// terms of p0 add up to p at a root, so that each floor is at least 8ε |pᵢ|.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn is_small_beside<S: Scalar, const N: usize>(
+    residual: &SVector<S, N>,
+    p: &SVector<S, N>,
+) -> bool {
+    let unit = S::EPSILON * S::constant(8.0 * AT_FLOOR);
+    let mut is_small = true;
+    for i in 0..N {
+        is_small &= residual[i].abs() <= p[i].abs() * unit;
+    }
+    is_small
 }
 
 /// The residual that is largest in units of its floor, this floor, and whether it is a root's: at most
@@ -124,6 +141,22 @@ mod tests {
         let floor = |p: f64| estimated_floor(&vector![p], &matrix![1.0], &vector![p])[0];
         assert_eq!(floor(1.0), 8.0 * f64::EPSILON + f64::MIN_POSITIVE);
         assert!(floor(1e308) < 1e294 && floor(1e-320) == f64::MIN_POSITIVE);
+    }
+
+    /// A residual that needs no matrix is below four floors by every matrix whose terms add up to p.
+    #[test]
+    fn what_is_small_beside_p_is_a_root_by_every_matrix() {
+        let p = vector![1.0, -1e-9];
+        for part in [0.0, 0.5, 1.0, 1.0 + 1e-9, 2.0] {
+            let residual = p * (part * 32.0 * f64::EPSILON);
+            assert_eq!(is_small_beside(&residual, &p), part <= 1.0, "{part}");
+            let floor = estimated_floor(&p, &matrix![1.0, 0.0; 0.0, 1.0], &p);
+            assert!(!is_small_beside(&residual, &p) || held_against(&residual, &floor).2);
+        }
+        // In each coordinate, and only of numbers.
+        assert!(!is_small_beside(&vector![0.0, 1e-20], &p));
+        assert!(!is_small_beside(&vector![0.0, f64::NAN], &p));
+        assert!(is_small_beside(&vector![0.0, 0.0], &vector![1.0, 0.0]));
     }
 
     #[test]

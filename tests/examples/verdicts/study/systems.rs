@@ -39,11 +39,36 @@ pub trait Studied<const N: usize>: Reference<N> + Copy + std::fmt::Debug {
 macro_rules! study {
     ($(
         $(#[$doc:meta])*
-        $name:ident($n:literal, $title:literal, $range:expr, [$($rule:ident),*])
+        $name:ident $(+ $by_dual:ident)? ($n:literal, $title:literal, $range:expr, [$($rule:ident),*])
         l = |$x:ident, $u:ident, $a:ident| $l:expr;
         r = |$w:ident, $c:ident| $r:expr;
         slopes = |$sx:ident, $su:ident, $sa:ident, $sc:ident| $slopes:expr;
     )*) => {$(
+        system! {
+            $(#[$doc])*
+            $name($n, $title, $range, [$($rule),*], expanded)
+            l = |$x, $u, $a| $l;
+            r = |$w, $c| $r;
+            slopes = |$sx, $su, $sa, $sc| $slopes;
+        }
+        $(system! {
+            /// The system above, by dual numbers.
+            $by_dual($n, concat!($title, ", by dual numbers"), $range, [midpoint, trapezoidal, gauss], num_dual)
+            l = |$x, $u, $a| $l;
+            r = |$w, $c| $r;
+            slopes = |$sx, $su, $sa, $sc| $slopes;
+        })?
+    )*};
+}
+
+macro_rules! system {
+    (
+        $(#[$doc:meta])*
+        $name:ident($n:literal, $title:expr, $range:expr, [$($rule:ident),*], $engine:ident)
+        l = |$x:ident, $u:ident, $a:ident| $l:expr;
+        r = |$w:ident, $c:ident| $r:expr;
+        slopes = |$sx:ident, $su:ident, $sa:ident, $sc:ident| $slopes:expr;
+    ) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $name {
@@ -55,7 +80,7 @@ macro_rules! study {
             rate: f64,
         }
 
-        #[rayleigh_system(rule = [$($rule),*], derivatives = expanded)]
+        #[rayleigh_system(rule = [$($rule),*], derivatives = $engine)]
         impl $name {
             fn lagrangian(&self, q: [f64; $n], v: [f64; $n]) -> f64 {
                 self.action * Self::l(q.map(|q| q * self.length), v.map(|v| v * self.speed), self.a)
@@ -103,7 +128,7 @@ macro_rules! study {
                 Self { a, c, action, length, speed, rate }
             }
         }
-    )*};
+    };
 }
 
 /// A slope in its `units`, with what underflows if it is multiplied by some of them before the others.
@@ -139,8 +164,38 @@ study! {
     r = |u, c| 0.5 * c * u[0] * u[0];
     slopes = |x, u, a, c| ([-(a * x[0])], [u[0]], [c * u[0]]);
 
+    /// A mass between two springs, whose forces cancel at 0.
+    Springs + SpringsByDual(1, "between two springs", [-1.5, 1.5], [midpoint, trapezoidal, one_sided, gauss])
+    l = |x, u, a| {
+        let (left, right) = (x[0] + a, x[0] - a);
+        0.5 * u[0] * u[0] - 0.5 * a * (left * left + right * right)
+    };
+    r = |u, c| 0.5 * c * u[0] * u[0];
+    slopes = |x, u, a, c| ([-(a * (x[0] + a)) - a * (x[0] - a)], [u[0]], [c * u[0]]);
+
+    /// A bob over three magnets, whose forces cancel at 0 and wherever it comes to rest.
+    Magnets + MagnetsByDual(2, "three magnets", [-1.5, 1.5], [midpoint, trapezoidal, one_sided, gauss])
+    l = |x, u, a| {
+        let mut sum = 0.5 * (u[0] * u[0] + u[1] * u[1]);
+        for [mx, my] in [[1.0, 0.0], [-0.5, 0.75], [-0.5, -0.75]] {
+            let (d, e) = (x[0] - mx, x[1] - my);
+            sum += a / (d * d + e * e + 0.25).sqrt();
+        }
+        sum - 0.5 * (x[0] * x[0] + x[1] * x[1])
+    };
+    r = |u, c| 0.5 * c * (u[0] * u[0] + u[1] * u[1]);
+    slopes = |x, u, a, c| {
+        let mut force = x.map(|x| -x);
+        for [mx, my] in [[1.0, 0.0], [-0.5, 0.75], [-0.5, -0.75]] {
+            let d = [x[0] + -mx, x[1] + -my];
+            let cube = (square(&d) + 0.25).sqrt().power(3);
+            force = [force[0] - a * d[0] / cube, force[1] - a * d[1] / cube];
+        }
+        (force, u, u.map(|u| c * u))
+    };
+
     /// A chain of four springs with dampers between.
-    Chain(4, "chain of springs", [-3.0, 3.0], [midpoint, trapezoidal, one_sided, gauss])
+    Chain + ChainByDual(4, "chain of springs", [-3.0, 3.0], [midpoint, trapezoidal, one_sided, gauss])
     l = |x, u, a| {
         let mut sum = 0.5 * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2] + u[3] * u[3]) - 0.5 * a * x[0] * x[0];
         for i in 1..4 {
@@ -175,7 +230,7 @@ study! {
     slopes = |x, u, a, c| ([-(a * x[0].power(3))], [u[0]], [c * u[0].power(3)]);
 
     /// The ring of Marsden and West, s(s − 1)².
-    Ring(2, "ring", [-1.5, 1.5], [midpoint, trapezoidal, one_sided, gauss, fitted, fitted_trapezoidal])
+    Ring + RingByDual(2, "ring", [-1.5, 1.5], [midpoint, trapezoidal, one_sided, gauss, fitted, fitted_trapezoidal])
     l = |x, u, a| {
         let s = x[0] * x[0] + x[1] * x[1];
         0.5 * (u[0] * u[0] + u[1] * u[1]) - a * s * (s - 1.0) * (s - 1.0)
@@ -188,13 +243,13 @@ study! {
     };
 
     /// A pendulum.
-    Pendulum(1, "pendulum", [-7.0, 7.0], [midpoint, trapezoidal, one_sided, gauss, fitted, fitted_trapezoidal])
+    Pendulum + PendulumByDual(1, "pendulum", [-7.0, 7.0], [midpoint, trapezoidal, one_sided, gauss, fitted, fitted_trapezoidal])
     l = |x, u, a| 0.5 * u[0] * u[0] + a * x[0].cos();
     r = |u, c| 0.5 * c * u[0] * u[0];
     slopes = |x, u, a, c| ([-(a * x[0].sin_cos().0)], [u[0]], [c * u[0]]);
 
     /// A double pendulum, whose masses depend on the angles.
-    DoublePendulum(2, "double pendulum", [-3.0, 3.0], [midpoint, trapezoidal, one_sided, gauss])
+    DoublePendulum + DoublePendulumByDual(2, "double pendulum", [-3.0, 3.0], [midpoint, trapezoidal, one_sided, gauss])
     l = |x, u, a| {
         u[0] * u[0] + 0.5 * u[1] * u[1] + u[0] * u[1] * (x[0] - x[1]).cos()
             + a * (2.0 * x[0].cos() + x[1].cos())
@@ -208,7 +263,7 @@ study! {
     };
 
     /// Lennard-Jones, 4a(x⁻¹² − x⁻⁶).
-    LennardJones(1, "Lennard-Jones", [0.6, 3.0], [midpoint, trapezoidal, one_sided, gauss, fitted, fitted_trapezoidal])
+    LennardJones + LennardJonesByDual(1, "Lennard-Jones", [0.6, 3.0], [midpoint, trapezoidal, one_sided, gauss, fitted, fitted_trapezoidal])
     l = |x, u, a| 0.5 * u[0] * u[0] - 4.0 * a * (x[0].powi(-12) - x[0].powi(-6));
     r = |u, c| 0.5 * c * u[0] * u[0];
     slopes = |x, u, a, c| ([lennard_jones(x[0], a)], [u[0]], [c * u[0]]);
@@ -242,7 +297,7 @@ study! {
     slopes = |x, u, a, c| ([a * (-(a * x[0])).exp()], [u[0]], [c * u[0]]);
 
     /// Toda's lattice, e^{x₀ − x₁} + e^{x₁ − x₂}.
-    Toda(3, "Toda lattice", [-3.0, 3.0], [midpoint, trapezoidal, one_sided, gauss, fitted, fitted_trapezoidal])
+    Toda + TodaByDual(3, "Toda lattice", [-3.0, 3.0], [midpoint, trapezoidal, one_sided, gauss, fitted, fitted_trapezoidal])
     l = |x, u, a| {
         0.5 * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) - a * ((x[0] - x[1]).exp() + (x[1] - x[2]).exp())
     };
@@ -287,7 +342,7 @@ study! {
     };
 
     /// In space, with quadratic air drag.
-    KeplerDrag(3, "Kepler, space, air", [-2.0, 2.0], [midpoint, trapezoidal, one_sided, gauss])
+    KeplerDrag + KeplerDragByDual(3, "Kepler, space, air", [-2.0, 2.0], [midpoint, trapezoidal, one_sided, gauss])
     l = |x, u, a| {
         0.5 * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2])
             + a / (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).sqrt()
@@ -333,7 +388,7 @@ study! {
     };
 
     /// Kepler in polar coordinates: a mass that depends on x.
-    Polar(2, "Kepler, polar", [0.2, 3.0], [midpoint, trapezoidal, one_sided, gauss])
+    Polar + PolarByDual(2, "Kepler, polar", [0.2, 3.0], [midpoint, trapezoidal, one_sided, gauss])
     l = |x, u, a| 0.5 * (u[0] * u[0] + x[0] * x[0] * u[1] * u[1]) + a / x[0];
     r = |u, c| 0.5 * c * (u[0] * u[0] + u[1] * u[1]);
     slopes = |x, u, a, c| {

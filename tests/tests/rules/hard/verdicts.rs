@@ -16,7 +16,8 @@ mod study;
 use study::equations::{OneStage, fitted, gauss, one_stage};
 use study::steps::{Job, Tally, study, study_all, study_composed, study_fitted};
 use study::systems::{
-    DoublePendulum, Exponential, Kepler, KeplerDrag, LennardJones, Morse, Pendulum, Polar, Studied, Units,
+    Barrier, DoublePendulum, Exponential, Kepler, KeplerDrag, LennardJones, Morse, Pendulum, Polar, Studied,
+    Units,
 };
 use study::tableau::Tableau;
 
@@ -72,6 +73,38 @@ fn a_step_that_is_off_is_seen() {
     // A number that is none is not judged, and that is counted.
     v[1][0] = f64::NAN;
     assert!(gauss(&tableau, &system, &start, 0.3, &v, &step.state).is_beyond);
+}
+
+/// In units where h² overflows, everything was near beside what is infinite, and any residual noise: p went
+/// from 1 to 224 units. Multiplied out, the step is that in units of 1.
+#[test]
+fn where_the_square_of_the_step_overflows_no_residual_is_noise() {
+    let units = Units {
+        action: 2.0_f64.powi(-62),
+        length: 2.0_f64.powi(-333),
+        speed: 2.0_f64.powi(181),
+        rate: 2.0_f64.powi(-514),
+    };
+    let [one, scaled] = [ONE, units].map(|units| Barrier::new(0.6946535334868458, 0.0, units));
+    let [h, unit_of_p] = [units.speed / units.length, units.action * units.speed];
+    assert!((0.437 * h).powi(2).is_infinite());
+    let by = |system: &Barrier, q: f64, p: f64, h: f64| {
+        let mut memory = StageHistory::<f64, 1, 8>::default();
+        Memory::<_, Gauss<8>, 1>::advance(&mut memory, system, &state([q], [p]), h)
+    };
+    let mut compared = 0;
+    for k in 0..40 {
+        let (q, p) = (0.9 + 0.02 * f64::from(k), 1.09 - 0.05 * f64::from(k));
+        let (Ok(expected), Ok(step)) =
+            (by(&one, q, p, 0.437), by(&scaled, q / units.length, p * unit_of_p, 0.437 * h))
+        else {
+            continue;
+        };
+        let off = (step.state.p[0] / unit_of_p - expected.state.p[0]).abs();
+        assert!(off < 1e-9, "{q} {p}: {step:?}, {expected:?}");
+        compared += 1;
+    }
+    assert!(compared > 20, "{compared}");
 }
 
 /// The floor of the guess, next to the wall of 10⁶⁰, was taken for that of the root: q1 = 8.35e6, with a last

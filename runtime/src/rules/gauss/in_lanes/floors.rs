@@ -110,16 +110,19 @@ impl<T: Scalar, const N: usize, const W: usize> Floors<T, N, W> {
         let mut is_done = *is_open & whose & (is_at_rest | (has_stopped & at_floor));
         if iterations > 1 && is_done.0.contains(&true) {
             let now = terms.floor(largest);
+            let factor =
+                Members::select(is_at_rest, Members::splat(constant(CHANGED)), Members::splat(T::one()));
             let mut has_fallen = Mask::splat(false);
             coordinate_by_coordinate!(a => {
-                has_fallen = has_fallen | (now[a] * constant(CHANGED)).less(self.floor[a]);
+                has_fallen = has_fallen | (now[a] * factor).less(self.floor[a]);
             });
             let has_fallen = is_done & has_fallen;
-            is_done = is_done & !has_fallen;
             coordinate_by_coordinate!(a => {
                 self.floor[a] = Members::select(has_fallen, now[a], self.floor[a]);
             });
             size = self.begin_anew(has_fallen, largest);
+            let at_floor = size.less_or_equal(Members::splat(constant(AT_FLOOR)));
+            is_done = is_done & (!has_fallen | (!is_at_rest & at_floor));
         }
         if iterations > 2 {
             // Rounding has to be measured, or Newton's method takes over.
