@@ -18,6 +18,8 @@ pub struct Rounded<F, const M: usize> {
     value: Part<F>,
     /// `None` for a number that depends on no variable.
     slopes: Option<[Part<F>; M]>,
+    /// Whether it is a multiple of variables, or a sum of such.
+    is_linear: bool,
 }
 
 /// A number, and what rounding took of it, over ε.
@@ -68,7 +70,13 @@ impl<F: Primitive> Part<F> {
 impl<F: Primitive, const M: usize> Rounded<F, M> {
     fn variable(value: F, index: usize) -> Self {
         let slope = |i| Part::exact(if i == index { nalgebra::one() } else { nalgebra::zero() });
-        Self { value: Part::exact(value), slopes: Some(array::from_fn(slope)) }
+        Self { value: Part::exact(value), slopes: Some(array::from_fn(slope)), is_linear: true }
+    }
+
+    /// A number that is linear in the variables where `is_linear`: exact then.
+    fn of(value: Part<F>, slopes: Option<[Part<F>; M]>, is_linear: bool) -> Self {
+        let value = if is_linear { Part::exact(value.value) } else { value };
+        Self { value, slopes, is_linear }
     }
 
     /// The rounding of the derivative by variable `index`, over ε.
@@ -85,7 +93,7 @@ macro_rules! from {
     ($($float:ty)*) => {$(
         impl<const M: usize> From<$float> for Rounded<$float, M> {
             fn from(value: $float) -> Self {
-                Self { value: Part::exact(value), slopes: None }
+                Self { value: Part::exact(value), slopes: None, is_linear: false }
             }
         }
     )*};
@@ -107,7 +115,7 @@ where
     fn chain(self, [g, g1, g2, _]: [F; 4]) -> Self {
         let slope = self.value.chain(g1, g2);
         let slopes = self.slopes.map(|slopes| slopes.map(|own| own.times(slope)));
-        Self { value: self.value.chain(g, g1), slopes }
+        Self::of(self.value.chain(g, g1), slopes, false)
     }
 
     fn is_constant(self) -> bool {
@@ -119,7 +127,7 @@ where
             (Some(a), Some(b)) => Some(array::from_fn(|i| a[i].plus(b[i]))),
             (a, b) => a.or(b),
         };
-        Self { value: self.value.plus(right.value), slopes }
+        Self::of(self.value.plus(right.value), slopes, self.is_linear && right.is_linear)
     }
 
     fn times(self, right: Self) -> Self {
@@ -130,7 +138,8 @@ where
             (Some(a), None) => Some(a.map(|a| a.times(right.value))),
             (None, b) => b.map(|b| b.map(|b| self.value.times(b))),
         };
-        Self { value: self.value.times(right.value), slopes }
+        let is_linear = self.is_linear && right.is_constant() || self.is_constant() && right.is_linear;
+        Self::of(self.value.times(right.value), slopes, is_linear)
     }
 
     fn over(self, right: Self) -> Self {
@@ -142,12 +151,12 @@ where
             (Some(a), None) => Some(a.map(|a| a.over(right.value))),
             (None, b) => b.map(|b| b.map(|b| taken(b).over(right.value))),
         };
-        Self { value, slopes }
+        Self::of(value, slopes, self.is_linear && right.is_constant())
     }
 
     fn negated(self) -> Self {
         let slopes = self.slopes.map(|slopes| slopes.map(Part::negated));
-        Self { value: self.value.negated(), slopes }
+        Self { value: self.value.negated(), slopes, ..self }
     }
 }
 

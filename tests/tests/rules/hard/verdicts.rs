@@ -17,7 +17,7 @@ use study::equations::{OneStage, fitted, gauss, one_stage};
 use study::steps::{Job, Tally, study, study_all, study_composed, study_fitted};
 use study::systems::{
     Barrier, DoublePendulum, Exponential, Kepler, KeplerDrag, LennardJones, Morse, Pendulum, Polar, Studied,
-    Units,
+    TodaByDual, Units,
 };
 use study::tableau::Tableau;
 
@@ -73,6 +73,28 @@ fn a_step_that_is_off_is_seen() {
     // A number that is none is not judged, and that is counted.
     v[1][0] = f64::NAN;
     assert!(gauss(&tableau, &system, &start, 0.3, &v, &step.state).is_beyond);
+}
+
+/// Far out multiples of q round by more than the equation has terms: by dual numbers they passed for terms,
+/// beside which a residual of 10²⁶, with p between 10⁹ and 10²⁵, was rounding.
+#[test]
+fn far_out_the_rounding_of_coordinates_is_no_term() {
+    let units = Units {
+        action: 0.017983726916010193,
+        length: 0.0038830669471445227,
+        speed: 1843071938199.8918,
+        rate: 2.1068450268615512e-15,
+    };
+    let system = TodaByDual::new(0.17838036438629892, 0.02006520845869391, units);
+    let start = state(
+        [746.9887333697836, 251.24404554342945, -417.11995250733634],
+        [6297961633.696036, 382939359797.1918, -1472049622.3902483],
+    );
+    let h = 5228048093648828.0;
+    let mut memory = StageHistory::<f64, 3, 2>::default();
+    let step = Memory::<_, Gauss<2>, 3>::advance(&mut memory, &system, &start, h).unwrap();
+    let judged = gauss(&Tableau::new(2), &system, &start, h, &memory.velocities(), &step.state);
+    assert!(!judged.is_violation() && step.state.p.amax() < 1e13, "{judged:?} {step:?}");
 }
 
 /// In units where h² overflows, everything was near beside what is infinite, and any residual noise: p went
