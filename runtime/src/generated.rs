@@ -3,7 +3,7 @@
 
 #[cfg(feature = "std")]
 pub use crate::numbers::dual;
-pub use crate::system::verification;
+pub use crate::system::{missing, verification};
 
 #[doc(no_inline)]
 pub use crate::numbers::{
@@ -29,7 +29,7 @@ pub use crate::step::{
 #[doc(no_inline)]
 pub use crate::system::{
     ActingForce, CyclicCoordinate, Damping, Driven, Engine, Force, ForcedLagrangian, ForcedLagrangianInLanes,
-    GeneratedDiffers, GradientBy, Input, Lagrangian, NewtonStructure, OfSlice, Parameters, Plain,
-    PlainFields, Rayleigh, Refusal, ScalarField, SecondOrder, SliceMethods, Stages, Structure, TimeScale,
-    VectorField,
+    Function, GeneratedDiffers, GradientBy, Input, Lagrangian, NewtonStructure, NoDerivative, OfSlice,
+    Operation, Parameters, Place, Plain, PlainFields, Rayleigh, Refusal, ScalarField, SecondOrder,
+    SliceMethods, Stages, Structure, TimeScale, VectorField, Written,
 };

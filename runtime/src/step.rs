@@ -2,6 +2,7 @@
 //!
 //! Uses numbers and systems. What rules there are, it does not know.
 
+pub(crate) mod cause;
 mod defect;
 mod discrete;
 mod discrete_force;

@@ -91,6 +91,7 @@ fn engine(system: &System<'_>, refusal: Option<Refusal>) -> EngineFunctions {
             .rules
             .ask_for_cancelling_terms()
             .then(|| derivatives::cancelling_terms(system)),
+        places: [None, None],
         stages: None,
         stages_in_lanes: None,
         kernels: system.rules.of_displacement.iter().map(|_| None).collect(),

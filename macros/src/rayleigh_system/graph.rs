@@ -11,6 +11,7 @@ mod angles;
 mod factor;
 mod fused;
 mod operation;
+mod spelled;
 mod text;
 mod zeros;
 

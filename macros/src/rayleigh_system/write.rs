@@ -33,6 +33,8 @@ pub struct EngineFunctions {
     pub by_input: Option<TokenStream>,
     /// Sizes of the terms that cancel in the equations of motion, where some can.
     pub cancelling_terms: Option<TokenStream>,
+    /// The operations without a derivative, where there can be some: of the system and of its view.
+    pub places: [Option<TokenStream>; 2],
     /// The equations at the stages of Gauss rules, where they are not those that the runtime makes.
     pub stages: Option<TokenStream>,
     /// The stages' equations of several members at once.
@@ -58,7 +60,8 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
     let is_expanded = matches!(functions.structure.engine, Engine::Expanded);
     let is_explicit = functions.kernels.iter().flatten().any(|kernel| kernel.explicit.is_some());
     let imports = imports::imports(system, &functions.names, functions.calls_elementary);
-    let lagrangian = continuous::lagrangian(system, &functions.structure, functions.lagrangian);
+    let lagrangian =
+        continuous::lagrangian(system, &functions.structure, functions.lagrangian, &functions.places);
     let rayleigh = system
         .rayleigh
         .zip(functions.rayleigh)
@@ -110,17 +113,18 @@ pub fn system(system: &System<'_>, functions: EngineFunctions) -> TokenStream {
     }
 }
 
-/// `fn verify_segment`, by the nodes of the rule.
-fn verify_segment(system: &System<'_>, rule: &TokenStream) -> TokenStream {
+/// `fn at_nodes`, by the nodes of the rule.
+fn at_nodes(system: &System<'_>, rule: &TokenStream) -> TokenStream {
     let scalar = &system.scalar;
     quote! {
-        fn verify_segment(
+        fn at_nodes(
             &self,
             q0: &Vector,
             v: &Vector,
             h: #scalar,
-        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
-            #rule::verify_segment(self, q0, v, h)
+            visit: &mut dyn FnMut(&Self, &Vector, &Vector),
+        ) {
+            #rule::at_nodes(self, q0, v, h, visit);
         }
     }
 }

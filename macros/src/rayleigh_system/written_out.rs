@@ -11,6 +11,7 @@ mod explicit;
 mod in_lanes;
 mod kernel;
 mod midpoint;
+mod missing;
 mod sensitivity;
 mod stages;
 mod trapezoidal;
@@ -145,6 +146,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
         .ask_for_cancelling_terms()
         .then(|| code.cancelling_terms(lagrangian, rayleigh, force))
         .flatten();
+    let places = code.places(lagrangian, rayleigh, force);
     let in_lanes =
         kernels.iter().flatten().flat_map(|kernel| [&kernel.explicit_in_lanes, &kernel.in_lanes]).flatten();
     let names = names_of_lanes(stages.iter().chain(&stages_in_lanes).chain(in_lanes));
@@ -156,6 +158,7 @@ pub fn functions(system: &System<'_>, lowered: Lowered, is_portable: bool) -> Re
         time_scale,
         by_input,
         cancelling_terms,
+        places,
         stages,
         stages_in_lanes,
         kernels,

@@ -18,7 +18,7 @@ use crate::step::{
     BoundedStep, Discrete, Momenta, Quantity, State, Step, StepError, StepKernel, newton::Equation, step_by,
     step_within_by,
 };
-use crate::system::{GeneratedDiffers, Rayleigh};
+use crate::system::{GeneratedDiffers, Lagrangian, NoDerivative, Rayleigh};
 
 /// The matrices of a damped free segment, and the terms of first degree: what a step by a fitted rule needs
 /// of the system, but for the potential. They depend on h alone.
@@ -161,7 +161,9 @@ pub(crate) trait ByDrift: Sized {
         // Under damping that excites, what is left of M in p0 is below any share of it.
         let inertia = |_: &_, _: &_| drift.before;
         let cancelling = |q0: &_, v: &_, h| system.cancelling_terms(q0, v, h);
-        let step = step_by(system, Self::EQUATION, (kernel, momenta, inertia, cancelling), state, h, guess)
+        let cause = |q0: &_, v: &_, h| Self::cause(system, q0, v, h);
+        let equation = (kernel, momenta, inertia, cancelling, cause);
+        let step = step_by(system, Self::EQUATION, equation, state, h, guess)
             .map_err(|error| of_mass(system, &state.q, error));
         if cfg!(debug_assertions)
             && let Ok(step) = &step
@@ -184,6 +186,25 @@ pub(crate) trait ByDrift: Sized {
         })
     }
 
+    /// The function without a derivative at rest: at the start, where the free motion is taken from, or at a
+    /// node.
+    #[cold]
+    fn cause<L: Lagrangian<N> + ?Sized, const N: usize>(
+        system: &L,
+        q0: &SVector<L::Scalar, N>,
+        v: &SVector<L::Scalar, N>,
+        h: L::Scalar,
+    ) -> Option<NoDerivative> {
+        let at = |share: f64| {
+            system.without_derivative(&(q0 + v * (h * L::Scalar::constant(share))), &nalgebra::zero())
+        };
+        if cfg!(feature = "std") {
+            at(0.0).or_else(|| Self::NODES.iter().find_map(|&share| at(share)))
+        } else {
+            None
+        }
+    }
+
     /// The step by a bounded number of iterations.
     fn step_within_by<L: Rayleigh<N> + ?Sized, const N: usize>(
         system: &L,
@@ -195,7 +216,8 @@ pub(crate) trait ByDrift: Sized {
         let drift = DampedDrift::of(system, &state.q, h);
         let kernel = |q0: &_, v: &_| Self::kernel(&drift, system, q0, v, h);
         let momenta = |q0: &_, v: &_| Self::momenta(&drift, system, q0, v, h);
-        let bounded = step_within_by(system, Self::EQUATION, kernel, momenta, state, h, guess, iterations)
+        let equation = (kernel, momenta, |q0: &_, v: &_| Self::cause(system, q0, v, h));
+        let bounded = step_within_by(system, Self::EQUATION, equation, state, h, guess, iterations)
             .map_err(|error| of_mass(system, &state.q, error));
         if cfg!(debug_assertions)
             && let Ok(bounded) = &bounded

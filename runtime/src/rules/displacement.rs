@@ -12,10 +12,7 @@ use nalgebra::SVector;
 
 use crate::numbers::{CovectorDerivatives, Derivatives, Direction, Hessian, Scalar};
 use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, MomentaBy, StepKernel};
-use crate::system::verification::verify_node;
-use crate::system::{
-    ActingForce, Driven, Force, GeneratedDiffers, Lagrangian, Parameters, Rayleigh, SecondOrder,
-};
+use crate::system::{ActingForce, Driven, Force, Lagrangian, Parameters, Rayleigh, SecondOrder};
 
 /// A node of the quadrature over one segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -408,19 +405,17 @@ pub trait DisplacementRule: Copy {
         })
     }
 
-    /// Verifies the system at the nodes of the segment: [`Lagrangian::verify_generated`]; with
-    /// `debug_assertions` slopes as well near one node of 64.
-    ///
-    /// # Errors
-    /// [`GeneratedDiffers`].
-    fn verify_segment<L: Lagrangian<N>, const N: usize>(
+    /// Calls `visit` with the system and (q, v) at the nodes of the segment.
+    #[expect(clippy::type_complexity, reason = "a visitor, in full: an alias would hide its lifetime")]
+    fn at_nodes<L: Lagrangian<N>, const N: usize>(
         system: &L,
         q0: &SVector<L::Scalar, N>,
         v: &SVector<L::Scalar, N>,
         h: L::Scalar,
-    ) -> Result<(), GeneratedDiffers> {
+        visit: &mut dyn FnMut(&L, &SVector<L::Scalar, N>, &SVector<L::Scalar, N>),
+    ) {
         on_velocity::<Self, _, N>(q0, v, h)
-            .try_for_each(|node| system.later(node.time(h), |system| verify_node(system, &node.q, v)))
+            .for_each(|node| system.later(node.time(h), |system| visit(system, &node.q, v)));
     }
 
     /// Energy on the segment, Σ bᵢ E_L(qᵢ, v̄).

@@ -4,7 +4,7 @@ use super::damped_drift::{ByDrift, DampedDrift};
 use super::{DisplacementRule, JointRayleighRule, JointRule, Trapezoidal};
 use crate::numbers::{CovectorDerivatives, Derivatives, Scalar};
 use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel, newton::Equation};
-use crate::system::{GeneratedDiffers, Rayleigh};
+use crate::system::Rayleigh;
 
 /// The trapezoidal rule, exponentially fitted to linear damping: explicit, and exact where there is no
 /// potential.
@@ -156,13 +156,14 @@ impl JointRule for FittedTrapezoidal {
         (system.energy(q0, &v) + system.energy(q1, &v)) * L::Scalar::constant(0.5)
     }
 
-    fn verify_segment<L: Rayleigh<N>, const N: usize>(
+    fn at_nodes<L: Rayleigh<N>, const N: usize>(
         system: &L,
         q0: &SVector<L::Scalar, N>,
         v: &SVector<L::Scalar, N>,
         h: L::Scalar,
-    ) -> Result<(), GeneratedDiffers> {
-        Trapezoidal::verify_segment(system, q0, v, h)
+        visit: &mut dyn FnMut(&L, &SVector<L::Scalar, N>, &SVector<L::Scalar, N>),
+    ) {
+        Trapezoidal::at_nodes(system, q0, v, h, visit);
     }
 }
 

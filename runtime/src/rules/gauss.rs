@@ -33,7 +33,7 @@ use crate::step::{
     Linearization, Momenta, Quantity, Report, State, StateBy, Step, StepError, StepKernel,
     newton::ITERATIONS,
 };
-use crate::system::{ForcedLagrangian, GeneratedDiffers, VectorField};
+use crate::system::{ForcedLagrangian, VectorField};
 use coefficients::Coefficients;
 pub use history::StageHistory;
 pub use in_lanes::StagesInLanes;
@@ -299,11 +299,17 @@ where
 
     /// At the nodes of the segment with the mean velocity: near the stages, which would have to be solved
     /// for. A step verifies its own.
-    fn verify_segment(&self, q0: &SVector<T, N>, v: &SVector<T, N>, h: T) -> Result<(), GeneratedDiffers> {
-        Gauss::<S>::NODES.iter().try_for_each(|&node| {
+    fn at_nodes(
+        &self,
+        q0: &SVector<T, N>,
+        v: &SVector<T, N>,
+        h: T,
+        visit: &mut dyn FnMut(&Self, &SVector<T, N>, &SVector<T, N>),
+    ) {
+        for node in Gauss::<S>::NODES {
             let elapsed = h * T::constant(node);
-            self.later(elapsed, |system| system.verify_generated(&(q0 + v * elapsed), v))
-        })
+            self.later(elapsed, |system| visit(system, &(q0 + v * elapsed), v));
+        }
     }
 }
 
@@ -367,9 +373,10 @@ fn solved_from<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, co
 ) -> Result<Solution<T, N, S>, StepError> {
     let v = state.velocity(problem.system)?;
     match solve(problem, &v) {
-        Err(error @ StepError::NonFinite { quantity: Quantity::Derivatives, .. }) => {
-            from_singular(problem, state, &v).ok_or(error)
-        }
+        Err(
+            error @ (StepError::NonFinite { quantity: Quantity::Derivatives, .. }
+            | StepError::NoDerivative { .. }),
+        ) => from_singular(problem, state, &v).ok_or(error),
         Err(error) => in_parts(problem, &v).ok_or(error),
         solved => solved,
     }

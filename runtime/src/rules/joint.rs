@@ -5,7 +5,7 @@ use nalgebra::SVector;
 use super::{DisplacementRule, Midpoint};
 use crate::numbers::Derivatives;
 use crate::step::{DiscreteForce, DiscreteForceDerivatives, Momenta, StepKernel};
-use crate::system::{ActingForce, GeneratedDiffers, Rayleigh};
+use crate::system::{ActingForce, Rayleigh};
 
 /// A rule whose discrete objects need L and R at once.
 ///
@@ -81,17 +81,16 @@ pub trait JointRule: Copy {
         h: L::Scalar,
     ) -> L::Scalar;
 
-    /// Verifies the system at the middle of the segment.
-    ///
-    /// # Errors
-    /// [`GeneratedDiffers`].
-    fn verify_segment<L: Rayleigh<N>, const N: usize>(
+    /// Calls `visit` with the system and (q, v) at the middle of the segment.
+    #[expect(clippy::type_complexity, reason = "a visitor, in full: an alias would hide its lifetime")]
+    fn at_nodes<L: Rayleigh<N>, const N: usize>(
         system: &L,
         q0: &SVector<L::Scalar, N>,
         v: &SVector<L::Scalar, N>,
         h: L::Scalar,
-    ) -> Result<(), GeneratedDiffers> {
-        Midpoint::verify_segment(system, q0, v, h)
+        visit: &mut dyn FnMut(&L, &SVector<L::Scalar, N>, &SVector<L::Scalar, N>),
+    ) {
+        Midpoint::at_nodes(system, q0, v, h, visit);
     }
 }
 

@@ -8,7 +8,7 @@ use crate::step::{
     Discrete, DiscreteDriven, DiscreteForce, DiscreteForceDerivatives, DiscreteParameters, DiscreteRayleigh,
     Momenta, MomentaBy, SolvedForVelocity, StepKernel, VelocityHistory,
 };
-use crate::system::{ActingForce, Driven, Force, GeneratedDiffers, Lagrangian, Parameters, Rayleigh};
+use crate::system::{ActingForce, Driven, Force, Lagrangian, Parameters, Rayleigh};
 
 /// The rule of one's own `Q`, for every system: nodes and weights on the straight line from q0 to q1.
 ///
@@ -163,13 +163,14 @@ where
         Q::segment_energy(self, q0, q1, h)
     }
 
-    fn verify_segment(
+    fn at_nodes(
         &self,
         q0: &SVector<L::Scalar, N>,
         v: &SVector<L::Scalar, N>,
         h: L::Scalar,
-    ) -> Result<(), GeneratedDiffers> {
-        Q::verify_segment(self, q0, v, h)
+        visit: &mut dyn FnMut(&Self, &SVector<L::Scalar, N>, &SVector<L::Scalar, N>),
+    ) {
+        Q::at_nodes(self, q0, v, h, visit);
     }
 }
 

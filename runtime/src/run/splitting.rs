@@ -325,8 +325,44 @@ impl<T: Scalar, const N: usize, const S: usize> Prepared<T, N, S> {
             }
         }
         let entries = [&a.q_by_q, &a.q_by_p, &a.p_by_q, &a.p_by_p];
-        entries.into_iter().try_for_each(|block| StepError::require_finite(block, Quantity::Derivatives))?;
-        Ok(a)
+        let finite =
+            entries.into_iter().try_for_each(|of| StepError::require_finite(of, Quantity::Derivatives));
+        finite.map(|()| a).map_err(|error| self.explained(system, state, error))
+    }
+
+    /// The `error` of numbers that are not finite on the way from `state`, or in place of it the function
+    /// that has no derivative where a kick evaluates it.
+    #[cfg_attr(feature = "std", cold)]
+    #[cfg_attr(not(feature = "std"), inline(always))]
+    fn explained<L: Explicit<N, Scalar = T>>(
+        &self,
+        system: &L,
+        state: &State<T, N>,
+        error: StepError,
+    ) -> StepError {
+        if !cfg!(feature = "std") {
+            return error;
+        }
+        let (mut q, mut p) = (state.q, state.p - self.shift);
+        for part in Splitting::<S>::parts() {
+            match part {
+                Part::Kick(i, share) => {
+                    let found = system.later(T::constant(share) * self.h, |system| {
+                        p += (system.configuration_force(&q) - self.thrust) * self.kicks[i];
+                        system.without_derivative(&q, &nalgebra::zero())
+                    });
+                    if let Some(found) = found {
+                        return found.into();
+                    }
+                }
+                Part::Drift(i) => {
+                    let Drift { displacement, loss } = self.drift(i);
+                    q += displacement * p;
+                    p += loss * p;
+                }
+            }
+        }
+        error
     }
 }
 
@@ -413,7 +449,7 @@ where
             }),
         };
         let (end, rests) = at.end();
-        end.require_finite()?;
+        end.require_finite().map_err(|error| prepared.explained(system, state, error))?;
         let velocity = (end.q - state.q) / h;
         if cfg!(debug_assertions) {
             system.verify_segment(&state.q, &velocity, h)?;

@@ -10,12 +10,13 @@
 use nalgebra::SVector;
 
 use crate::numbers::{Derivatives, NewtonMatrix, determinant_sign};
+use crate::step::cause::explained;
 use crate::step::defect;
 use crate::step::{
     Defect, DiscreteForce, DiscreteForceDerivatives, EquationAt, Flow, LegendreDerivatives, Linearization,
     Memory, Momenta, Quantity, State, Step, StepError, StepKernel,
 };
-use crate::system::{GeneratedDiffers, VectorField};
+use crate::system::{Engine, GeneratedDiffers, NoDerivative, VectorField, verification::verify_node};
 
 /// A system discretised by rule `R`: L_d, f_d and what follows from them.
 ///
@@ -230,6 +231,39 @@ pub trait Discrete<R, const N: usize>: Flow<R, N> {
         Ok(())
     }
 
+    /// Calls `visit` with (q, v) at each point where the rule evaluates the system on the segment from q0
+    /// with mean velocity `v`, and with the system as it is then.
+    ///
+    /// Asked for by what looks at a segment from outside: [`verify_segment`](Self::verify_segment), and the
+    /// errors of derivatives that do not exist. A system written by hand may leave it out.
+    #[expect(clippy::type_complexity, reason = "a visitor, in full: an alias would hide its lifetime")]
+    fn at_nodes(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+        visit: &mut dyn FnMut(&Self, &SVector<Self::Scalar, N>, &SVector<Self::Scalar, N>),
+    ) {
+        let _ = (q0, v, h, visit);
+    }
+
+    /// The first derivative of L, R or f that is NaN or infinite where the rule evaluates it on the segment
+    /// from q0 with mean velocity `v`:
+    /// [`Lagrangian::without_derivative`](crate::Lagrangian::without_derivative) at the nodes.
+    #[cold]
+    fn without_derivative_on(
+        &self,
+        q0: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+        h: Self::Scalar,
+    ) -> Option<NoDerivative> {
+        let mut found = None;
+        self.at_nodes(q0, v, h, &mut |system, q, v| {
+            found = found.or_else(|| system.without_derivative(q, v));
+        });
+        found
+    }
+
     /// Compares L, R and f as generated to those as written
     /// ([`Lagrangian::verify_generated`](crate::Lagrangian::verify_generated)) at the points
     /// where the rule evaluates them on the segment from q0 with mean velocity `v`.
@@ -244,8 +278,14 @@ pub trait Discrete<R, const N: usize>: Flow<R, N> {
         v: &SVector<Self::Scalar, N>,
         h: Self::Scalar,
     ) -> Result<(), GeneratedDiffers> {
-        let _ = (q0, v, h);
-        Ok(())
+        let mut verified = Ok(());
+        if !matches!(Self::STRUCTURE.engine, Engine::Expanded) {
+            return verified;
+        }
+        self.at_nodes(q0, v, h, &mut |system, q, v| {
+            verified = verified.and_then(|()| verify_node(system, q, v));
+        });
+        verified
     }
 
     /// Both momenta of the segment (`q0`, `q1`) with their derivatives by the two.
@@ -276,9 +316,10 @@ pub trait Discrete<R, const N: usize>: Flow<R, N> {
     ) -> Result<EquationAt<Self::Scalar, N, Self::Matrix>, StepError> {
         let kernel = self.step_kernel(&state.q, &step.velocity, h);
         let mass = self.lagrangian_derivatives(&state.q, &step.velocity).d22;
-        StepError::require_finite(&kernel.p0, Quantity::Derivatives)?;
+        let explained = |error| explained(error, || self.without_derivative_on(&state.q, &step.velocity, h));
+        StepError::require_finite(&kernel.p0, Quantity::Derivatives).map_err(explained)?;
         if let Some(index) = (0..N).find(|&i| !(kernel.matrix.row_is_finite(i) && mass.row_is_finite(i))) {
-            return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
+            return Err(explained(StepError::NonFinite { quantity: Quantity::Derivatives, index }));
         }
         let signs = [determinant_sign(kernel.matrix.dense()), determinant_sign(mass)];
         Ok(EquationAt { kernel, mass, on_the_branch_of_the_flow: signs[0] == signs[1] && signs[0].is_ne() })
@@ -296,5 +337,6 @@ pub trait Discrete<R, const N: usize>: Flow<R, N> {
         h: Self::Scalar,
     ) -> Result<Linearization<Self::Scalar, N>, StepError> {
         Linearization::from_legendre(&self.legendre_derivatives(q0, q1, h))
+            .map_err(|error| explained(error, || self.without_derivative_on(q0, &((q1 - q0) / h), h)))
     }
 }

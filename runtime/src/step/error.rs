@@ -5,7 +5,7 @@ use core::fmt;
 use nalgebra::SMatrix;
 
 use crate::numbers::Scalar;
-use crate::system::{Compared, Function, GeneratedDiffers};
+use crate::system::{Compared, Function, GeneratedDiffers, NoDerivative, Place};
 
 /// A quantity that an error speaks of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,6 +56,17 @@ pub enum StepError {
         quantity: Quantity,
         /// Its coordinate.
         index: usize,
+    },
+    /// A derivative of L, R or f is NaN or infinite at a point where the step evaluated it
+    /// ([`Lagrangian::without_derivative`](crate::Lagrangian::without_derivative)). Without the standard
+    /// library the error is [`NonFinite`](Self::NonFinite) in its place.
+    NoDerivative {
+        /// Which function.
+        function: Function,
+        /// The coordinate i of the derivative by qᵢ or vᵢ.
+        coordinate: usize,
+        /// The operation that has no derivative there, where it is known.
+        place: Option<Place>,
     },
     /// ∂²L/∂v² is singular: momenta do not determine velocities.
     DegenerateLagrangian {
@@ -148,6 +159,12 @@ impl From<GeneratedDiffers> for StepError {
     }
 }
 
+impl From<NoDerivative> for StepError {
+    fn from(NoDerivative { function, coordinate, place }: NoDerivative) -> Self {
+        Self::NoDerivative { function, coordinate, place }
+    }
+}
+
 impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -183,6 +200,9 @@ impl fmt::Display for StepError {
                  derivative at s = 0 (√(s + ε²) has), a power below 1 and a logarithm have none at 0; if theirs are finite \
                  there, try a smaller step"
             ),
+            &Self::NoDerivative { function, coordinate, place } => {
+                NoDerivative { function, coordinate, place }.fmt(f)
+            }
             Self::NonFinite { quantity, index } => write!(
                 f,
                 "{quantity} {index} is NaN or infinite; look at the state given: if it is finite, try a smaller step"

@@ -3,11 +3,12 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{Scalar, linear};
+use crate::step::cause::explained_by_lagrangian;
 use crate::step::{
     Quantity, State, StepError, StepKernel, newton,
     newton::{estimated_floor, held_against},
 };
-use crate::system::{Lagrangian, derivatives_apart, verification::around};
+use crate::system::{Lagrangian, derivatives_apart, missing, verification::around};
 
 impl<S: Scalar, const N: usize> State<S, N> {
     /// The state (q, ∂L/∂v(q, v)), by the Legendre transform of L.
@@ -26,7 +27,10 @@ impl<S: Scalar, const N: usize> State<S, N> {
         StepError::require_finite(&v, Quantity::Velocity)?;
         around(system, &q, &v)?;
         let l = derivatives_apart(system, &q, &v);
-        StepError::require_finite(&l.d2, Quantity::Momentum)?;
+        StepError::require_finite(&l.d2, Quantity::Momentum).map_err(|error| {
+            let cause = || missing::lagrangian(system, &q, &v);
+            if cfg!(feature = "std") { cause().map_or(error, StepError::from) } else { error }
+        })?;
         require_regular(&l.d22).or_else(|error| require_regular_nearby(system, &q, &v, error))?;
         Ok(Self { q, p: l.d2 })
     }
@@ -81,7 +85,7 @@ impl<S: Scalar, const N: usize> State<S, N> {
         newton::root_from_rest(&transform, &momentum, &mass, self, error).map_err(|error| match error {
             StepError::SingularNewtonMatrix { column, .. } => StepError::DegenerateLagrangian { column },
             StepError::NoRealSolution { residual, .. } => StepError::NoVelocity { residual },
-            other => other,
+            other => explained_by_lagrangian(system, &self.q, &nalgebra::zero(), other),
         })
     }
 
@@ -110,7 +114,8 @@ fn require_regular_nearby<L: Lagrangian<N> + ?Sized, const N: usize>(
     let nearby = SVector::from_fn(|i, _| {
         v[i] + size * constant(1.0 / 8.0) * (constant(1.0) + constant(i as f64) / constant(N as f64 + 1.0))
     });
-    require_regular(&derivatives_apart(system, q, &nearby).d22).map_err(|_| error)
+    require_regular(&derivatives_apart(system, q, &nearby).d22)
+        .map_err(|_| explained_by_lagrangian(system, q, v, error))
 }
 
 /// Fails where ∂²L/∂v² is not finite or cannot be inverted.

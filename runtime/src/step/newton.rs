@@ -109,6 +109,8 @@ fn root_by<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         momenta: &|q, v, _| alone(q, v),
         inertia,
         cancelling: &|_, _, _| nalgebra::zero(),
+        #[cfg(feature = "std")]
+        cause: &|_, _, _| None,
         state,
         h,
     };

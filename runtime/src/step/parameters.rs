@@ -2,6 +2,7 @@
 
 use nalgebra::SVector;
 
+use crate::step::cause::explained;
 use crate::step::{Discrete, MomentaBy, State, StateBy, StepError, StepWith};
 use crate::system::Parameters;
 
@@ -32,7 +33,9 @@ pub trait DiscreteParameters<R, const N: usize, const P: usize>: Discrete<R, N> 
         h: Self::Scalar,
     ) -> Result<StateBy<Self::Scalar, N, P>, StepError> {
         let by_parameters = self.momenta_by_parameters(q0, &((q1 - q0) / h), h);
-        self.legendre_derivatives(q0, q1, h).answer(&by_parameters)
+        self.legendre_derivatives(q0, q1, h)
+            .answer(&by_parameters)
+            .map_err(|error| explained(error, || self.without_derivative_on(q0, &((q1 - q0) / h), h)))
     }
 
     /// The step with ∂(q1, p1)/∂θ:

@@ -5,6 +5,7 @@ use core::marker::PhantomData;
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{CovectorDerivatives, Derivatives, Scalar};
+use crate::step::cause::explained;
 use crate::step::{
     Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, LegendreDerivatives, Quantity,
     State, StepError, require_step_size,
@@ -48,7 +49,7 @@ where
     /// [`StepError::NonFinite`].
     pub fn discrete_lagrangian(&self) -> Result<L::Scalar, StepError> {
         let value = self.system.discrete_lagrangian(&self.q0, &self.q1, self.h);
-        required(value, |value| number(*value))
+        self.required(value, |value| number(*value))
     }
 
     /// L_d with D1, D2, D11, D12, D22.
@@ -57,7 +58,7 @@ where
     /// [`StepError::NonFinite`].
     pub fn discrete_lagrangian_derivatives(&self) -> Result<Derivatives<L::Scalar, N>, StepError> {
         let l = self.system.discrete_lagrangian_derivatives(&self.q0, &self.q1, self.h);
-        required(l, derivatives)
+        self.required(l, derivatives)
     }
 
     /// f_d = (f_d⁻, f_d⁺); 0 where no force acts.
@@ -66,7 +67,7 @@ where
     /// [`StepError::NonFinite`].
     pub fn discrete_force(&self) -> Result<DiscreteForce<L::Scalar, N>, StepError> {
         let force = self.system.discrete_force(&self.q0, &self.q1, self.h);
-        required(force, |force| finite(&force.minus).and(finite(&force.plus)))
+        self.required(force, |force| finite(&force.minus).and(finite(&force.plus)))
     }
 
     /// f_d with its derivatives by q0 and q1.
@@ -75,7 +76,7 @@ where
     /// [`StepError::NonFinite`].
     pub fn discrete_force_derivatives(&self) -> Result<DiscreteForceDerivatives<L::Scalar, N>, StepError> {
         let force = self.system.discrete_force_derivatives(&self.q0, &self.q1, self.h);
-        required(force, |force| covector(&force.minus).and(covector(&force.plus)))
+        self.required(force, |force| covector(&force.minus).and(covector(&force.plus)))
     }
 
     /// 𝔽⁻: (q0, −D1 L_d − f_d⁻).
@@ -102,7 +103,7 @@ where
     /// [`StepError::NonFinite`].
     pub fn legendre_derivatives(&self) -> Result<LegendreDerivatives<L::Scalar, N>, StepError> {
         let k = self.system.legendre_derivatives(&self.q0, &self.q1, self.h);
-        required(k, |k| {
+        self.required(k, |k| {
             let blocks = [&k.p0_by_q0, &k.p0_by_q1, &k.p1_by_q0, &k.p1_by_q1];
             finite(&k.momenta.p0)?;
             finite(&k.momenta.p1)?;
@@ -116,7 +117,7 @@ where
     /// [`StepError::NonFinite`].
     pub fn energy(&self) -> Result<L::Scalar, StepError> {
         let energy = self.system.segment_energy(&self.q0, &self.q1, self.h);
-        required(energy, |energy| number(*energy))
+        self.required(energy, |energy| number(*energy))
     }
 
     /// R_d with D1, D2, D11, D12, D22.
@@ -127,12 +128,18 @@ where
     where
         L: DiscreteRayleigh<R, N>,
     {
-        required(self.system.discrete_rayleigh_derivatives(&self.q0, &self.q1, self.h), derivatives)
+        self.required(self.system.discrete_rayleigh_derivatives(&self.q0, &self.q1, self.h), derivatives)
     }
-}
 
-fn required<T>(value: T, check: impl FnOnce(&T) -> Result<(), StepError>) -> Result<T, StepError> {
-    check(&value).map(|()| value)
+    fn required<T>(&self, value: T, check: impl FnOnce(&T) -> Result<(), StepError>) -> Result<T, StepError> {
+        match check(&value) {
+            Ok(()) => Ok(value),
+            Err(error) => Err(explained(error, || {
+                let v = (self.q1 - self.q0) / self.h;
+                self.system.without_derivative_on(&self.q0, &v, self.h)
+            })),
+        }
+    }
 }
 
 fn number<S: Scalar>(value: S) -> Result<(), StepError> {

@@ -3,24 +3,27 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{NewtonMatrix, Scalar, nonlinear::Way};
+use crate::step::cause::explained_by_lagrangian;
 use crate::step::{
     BoundedStep, Momenta, Quantity, State, Step, StepError, StepKernel, newton,
     newton::{Equation, StepEquations},
     require_regular,
 };
-use crate::system::{Lagrangian, derivatives_apart};
+use crate::system::{Lagrangian, NoDerivative, derivatives_apart};
 
 /// [`Flow::step`](crate::step::Flow::step) with the step's equation and both momenta as functions of (q0, v̄,
-/// h), the mass that the velocity has in them, and the sizes of terms that cancel in p0.
+/// h), the mass that the velocity has in them, the sizes of terms that cancel in p0, and the
+/// function without a derivative where one is not finite.
 #[inline]
 pub(crate) fn step_by<L, M, const N: usize>(
     system: &L,
     kind: Equation,
-    (kernel, momenta, inertia, cancelling): (
+    (kernel, momenta, inertia, cancelling, cause): (
         impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> StepKernel<L::Scalar, N, M>,
         impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> Momenta<L::Scalar, N>,
         impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> SMatrix<L::Scalar, N, N>,
         impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> SVector<L::Scalar, N>,
+        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>, L::Scalar) -> Option<NoDerivative>,
     ),
     state: &State<L::Scalar, N>,
     h: L::Scalar,
@@ -35,13 +38,24 @@ where
         Some(v) => *v,
         None => first_guess(system, kind, state)?,
     };
+    #[cfg(not(feature = "std"))]
+    let _ = &cause;
     let evaluate = |q: &_, v: &_| kernel(q, v, h);
     let finish = |q: &_, v: &_| momenta(q, v, h);
     let solution = match newton::quick(kind, &evaluate, &finish, state, start) {
         Ok(solution) => solution,
         Err(reached) => {
             let (kernel, momenta, inertia, cancelling) = (&kernel, &momenta, &inertia, &cancelling);
-            let of = StepEquations { kernel, momenta, inertia, cancelling, state, h };
+            let of = StepEquations {
+                kernel,
+                momenta,
+                inertia,
+                cancelling,
+                #[cfg(feature = "std")]
+                cause: &cause,
+                state,
+                h,
+            };
             // A guess is the caller's: from elsewhere there may be another root.
             let way = match guess {
                 Some(_) => Way::Damped { iterations: reached.iterations },
@@ -68,12 +82,15 @@ fn first_guess<L: Lagrangian<N> + ?Sized, const N: usize>(
     let rest = nalgebra::zero();
     if kind == Equation::Linear {
         state.require_finite()?;
-        return require_regular(&derivatives_apart(system, &state.q, &rest).d22).map(|()| rest);
+        return require_regular(&derivatives_apart(system, &state.q, &rest).d22)
+            .map(|()| rest)
+            .map_err(|error| explained_by_lagrangian(system, &state.q, &rest, error));
     }
     match state.velocity(system) {
         Ok(v) if StepError::require_finite(&v, Quantity::Velocity).is_ok() => Ok(v),
         Err(
             error @ (StepError::DegenerateLagrangian { .. }
+            | StepError::NoDerivative { .. }
             | StepError::NonFinite {
                 quantity: Quantity::Configuration | Quantity::Momentum | Quantity::Derivatives,
                 ..
@@ -84,12 +101,14 @@ fn first_guess<L: Lagrangian<N> + ?Sized, const N: usize>(
 }
 
 /// [`BoundedFlow::step_within`](crate::step::BoundedFlow::step_within), likewise.
-#[expect(clippy::too_many_arguments, reason = "those of the step, and the number of iterations")]
 pub(crate) fn step_within_by<L, M, const N: usize>(
     system: &L,
     kind: Equation,
-    kernel: impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> StepKernel<L::Scalar, N, M>,
-    momenta: impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> Momenta<L::Scalar, N>,
+    (kernel, momenta, cause): (
+        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> StepKernel<L::Scalar, N, M>,
+        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> Momenta<L::Scalar, N>,
+        impl Fn(&SVector<L::Scalar, N>, &SVector<L::Scalar, N>) -> Option<NoDerivative>,
+    ),
     state: &State<L::Scalar, N>,
     h: L::Scalar,
     guess: Option<&SVector<L::Scalar, N>>,
@@ -106,7 +125,7 @@ where
         None => first_guess(system, kind, state)?,
     };
     StepError::require_finite(&guess, Quantity::Velocity)?;
-    let (solution, converged) = newton::bounded(kind, iterations, kernel, momenta, state, guess)?;
+    let (solution, converged) = newton::bounded(kind, iterations, (kernel, momenta, cause), state, guess)?;
     let step = Step::completed(state, h, solution.unknown, &solution.momenta, solution.report)?;
     Ok(BoundedStep { step, converged })
 }

@@ -65,6 +65,7 @@ where
             |q0: &_, v: &_, h| self.momenta(q0, v, h),
             |q0: &_, v: &_| derivatives_apart(self, q0, v).d22,
             |q0: &_, v: &_, h| self.cancelling_terms(q0, v, h),
+            |q0: &_, v: &_, h| self.without_derivative_on(q0, v, h),
         );
         let step = step_by(self, kind::<L, R, N>(), equation, state, h, guess);
         if cfg!(debug_assertions)
@@ -105,8 +106,11 @@ where
         let bounded = step_within_by(
             self,
             kind::<L, R, N>(),
-            |q0, v| self.step_kernel(q0, v, h),
-            |q0, v| self.momenta(q0, v, h),
+            (
+                |q0: &_, v: &_| self.step_kernel(q0, v, h),
+                |q0: &_, v: &_| self.momenta(q0, v, h),
+                |q0: &_, v: &_| self.without_derivative_on(q0, v, h),
+            ),
             state,
             h,
             guess,

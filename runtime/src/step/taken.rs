@@ -4,6 +4,7 @@ use core::marker::PhantomData;
 
 use nalgebra::SMatrix;
 
+use crate::step::cause::explained;
 use crate::step::{
     Discrete, DiscreteDriven, DiscreteParameters, Flow, LegendreDerivatives, PhaseMatrix, SolvedForVelocity,
     State, StateBy, Step, StepError, invert,
@@ -75,6 +76,14 @@ pub struct LinearizedSegment<'a, L: Flow<R, N>, R, const N: usize> {
     q_by_p: SMatrix<L::Scalar, N, N>,
 }
 
+impl<L: Discrete<R, N>, R, const N: usize> LinearizedSegment<'_, L, R, N> {
+    #[cfg_attr(feature = "std", cold)]
+    #[cfg_attr(not(feature = "std"), inline(always))]
+    fn explained(&self, error: StepError) -> StepError {
+        explained(error, || self.system.without_derivative_on(&self.start.q, &self.step.velocity, self.h))
+    }
+}
+
 impl<L, R, const N: usize> Linearizable<R, N> for L
 where
     R: SolvedForVelocity,
@@ -93,12 +102,13 @@ where
         h: L::Scalar,
     ) -> Result<LinearizedSegment<'a, L, R, N>, StepError> {
         let k = self.legendre_derivatives(&state.q, &step.state.q, h);
-        let q_by_p = invert(&k.p0_by_q1)?;
+        let q_by_p = invert(&k.p0_by_q1)
+            .map_err(|error| explained(error, || self.without_derivative_on(&state.q, &step.velocity, h)))?;
         Ok(LinearizedSegment { system: self, rule: PhantomData, start: *state, step: *step, h, k, q_by_p })
     }
 
     fn by_state(at: &LinearizedSegment<'_, L, R, N>) -> Result<PhaseMatrix<L::Scalar, N>, StepError> {
-        at.k.step_matrix(&at.q_by_p)
+        at.k.step_matrix(&at.q_by_p).map_err(|error| at.explained(error))
     }
 
     fn by_input<const U: usize>(
@@ -108,7 +118,7 @@ where
         L: DiscreteDriven<R, N, U>,
     {
         let by_input = at.system.momenta_by_input(&at.start.q, &at.step.velocity, at.h);
-        at.k.answer_with(&at.q_by_p, &by_input)
+        at.k.answer_with(&at.q_by_p, &by_input).map_err(|error| at.explained(error))
     }
 
     fn by_parameters<const P: usize>(
@@ -118,7 +128,7 @@ where
         L: DiscreteParameters<R, N, P>,
     {
         let by_parameters = at.system.momenta_by_parameters(&at.start.q, &at.step.velocity, at.h);
-        at.k.answer_with(&at.q_by_p, &by_parameters)
+        at.k.answer_with(&at.q_by_p, &by_parameters).map_err(|error| at.explained(error))
     }
 }
 

@@ -9,7 +9,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{CovectorDerivatives, Derivatives, Direction, Gradient, Scalar, Variations, dot};
-use crate::system::{GeneratedDiffers, Structure};
+use crate::system::{Function, GeneratedDiffers, NoDerivative, Place, Structure};
 
 /// A Lagrangian L(q, v) on TQ, Q = ℝᴺ, with its derivatives.
 #[diagnostic::on_unimplemented(
@@ -101,6 +101,57 @@ pub trait Lagrangian<const N: usize> {
     ) -> Result<(), GeneratedDiffers> {
         let _ = (q, v);
         Ok(())
+    }
+
+    /// The first of L, R and f with a derivative that is NaN or infinite at (q, v); none where all are
+    /// finite.
+    ///
+    /// First and second derivatives, as steps and their derivatives take them. With the standard library a
+    /// step that fails asks for it where it evaluated the system, and says so in its error
+    /// ([`StepError::NoDerivative`](crate::StepError::NoDerivative)); without it the caller does.
+    ///
+    /// Generated where L, R or f can lack a derivative, and by num-dual; none otherwise. A system written by
+    /// hand makes it of the functions of [`missing`](crate::system::missing).
+    ///
+    /// ```
+    /// use dalembert::{Lagrangian, nalgebra::vector, rayleigh_system};
+    ///
+    /// #[rayleigh_system(rule = midpoint)]
+    /// fn block(q: [f64; 1], v: [f64; 1], c: f64) -> (f64, f64) {
+    ///     (0.5 * v[0] * v[0] - q[0], c * (v[0] * v[0]).sqrt())
+    /// }
+    ///
+    /// let found = Block { c: 0.1 }.without_derivative(&vector![1.0], &vector![0.0]);
+    /// assert_eq!(
+    ///     found.unwrap().to_string(),
+    ///     "the derivative of R by coordinate 0 is NaN or infinite: √s has none at s = 0, \
+    ///      in `(v[0] * v[0]).sqrt()`; write √(s + ε²)"
+    /// );
+    /// assert_eq!(Block { c: 0.1 }.without_derivative(&vector![1.0], &vector![1e-3]), None);
+    /// ```
+    #[cold]
+    fn without_derivative(
+        &self,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> Option<NoDerivative> {
+        let _ = (q, v);
+        None
+    }
+
+    /// The first operation of L, R or a component of f that has no derivative at (q, v), such as √s at s = 0.
+    ///
+    /// Generated where derivatives are written out and the function has such operations; none otherwise. An
+    /// error of a step asks for it, no step does: [`without_derivative`](Self::without_derivative).
+    #[cold]
+    fn place_without_derivative(
+        &self,
+        function: Function,
+        q: &SVector<Self::Scalar, N>,
+        v: &SVector<Self::Scalar, N>,
+    ) -> Option<Place> {
+        let _ = (function, q, v);
+        None
     }
 
     /// E_L(q, v) = v·∂L/∂v − L, the energy. Along the motion dE_L/dt = v·f_L.

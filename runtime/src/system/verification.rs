@@ -150,7 +150,7 @@ pub(crate) fn around<L: Lagrangian<N>, const N: usize>(
 
 /// Verifies slopes near (q, v) and farther away: at the point itself a body may take a way of its own, as at
 /// 0.
-pub(crate) fn slopes_around<L: Lagrangian<N>, const N: usize>(
+pub(crate) fn slopes_around<L: Lagrangian<N> + ?Sized, const N: usize>(
     system: &L,
     q: &SVector<L::Scalar, N>,
     v: &SVector<L::Scalar, N>,
@@ -163,7 +163,7 @@ pub(crate) fn slopes_around<L: Lagrangian<N>, const N: usize>(
 }
 
 /// Verifies values at a node of a step, and slopes near one of 64.
-pub(crate) fn verify_node<L: Lagrangian<N>, const N: usize>(
+pub(crate) fn verify_node<L: Lagrangian<N> + ?Sized, const N: usize>(
     system: &L,
     q: &SVector<L::Scalar, N>,
     v: &SVector<L::Scalar, N>,

@@ -17,9 +17,9 @@ const ALSO_TESTED: &str = "## Also tested\n\n\
 | --- | --- | --- |\n\
 | negative damping, z = hr/2m → −1 | grows by (1 + z)/(1 − z); at z = 1 `SingularNewtonMatrix`; past it the root exists and has the wrong sign: choose h < 2m/\\|r\\| | `damping.rs` |\n\
 | damping of both signs (van der Pol, μ = 1, 50) | period and amplitude of the cycle to order 2 | `damping.rs` |\n\
-| friction written carelessly: `cosh` overflows, 1 − 1 cancels | `NonFinite` of a derivative; rest to the rounding of 1 | `damping.rs` |\n\
+| friction written carelessly: `cosh` overflows, 1 − 1 cancels | `NoDerivative`, with R; rest to the rounding of 1 | `damping.rs` |\n\
 | ∂²L/∂v² singular, L linear in v | `DegenerateLagrangian` with its coordinate, at the first step | `singular.rs` |\n\
-| \\|q\\|, \\|q\\|^{3/2}, √\\|q\\|, drag \\|v\\|^{3/2} at 0 | rest where the equations hold next to it, `NonFinite` where no derivative exists, roots next to it | `singular.rs` |\n\
+| \\|q\\|, \\|q\\|^{3/2}, √\\|q\\|, drag \\|v\\|^{3/2} at 0 | rest where the equations hold next to it, `NoDerivative` where none exists, roots next to it | `singular.rs` |\n\
 | coordinates in units of 2^{∓40} | the same motion to rounding, the same iterations | `scales.rs` |\n\
 | h from ±1e-12 to ±1e12 | a step or an error; without friction −h leads back to rounding | `scales.rs` |\n\
 | NaN, ±∞, subnormal and huge values in every argument | an error that names the argument, or a finite step | `scales.rs` |\n\

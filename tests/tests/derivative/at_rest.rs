@@ -2,7 +2,7 @@
 //! drag is written; and a friction that has none there says so.
 
 use dalembert::nalgebra::{SVector, vector};
-use dalembert::step::Quantity;
+use dalembert::system::Function;
 use dalembert::{Discretise, Gauss, Midpoint, State, StepError, Trapezoidal, rayleigh_system};
 
 /// The drag of this module's systems, as `$r` of `self.c` and v, beside a spring and an input.
@@ -111,14 +111,14 @@ fn drag_that_grows_faster_has_the_derivatives_of_none_at_rest() {
     check!(Gauss::<4>, RootTimesSum Power NormCubed NormTimesSquares RootCubed Loop Forced);
 }
 
-/// Dry friction has no derivative at rest, and the error says what kind of function has none, and what to
-/// write.
+/// Dry friction has no derivative at rest, and the error says that it is R that has none, and what to write.
 #[test]
 fn a_friction_without_derivatives_at_rest_says_so() {
     macro_rules! check {
         ($method:expr) => {
             let error = derivatives!(Dry { c: 0.7 }, $method, REST).unwrap_err();
-            let is_named = matches!(error, StepError::NonFinite { quantity: Quantity::Derivatives, .. });
+            let is_named =
+                matches!(error, StepError::NoDerivative { function: Function::Rayleigh, place: Some(_), .. });
             assert!(is_named && error.to_string().contains("√(s + ε²)"), "{error}");
             // Positive control: it has some where it moves.
             let moving = State { q: vector![0.0, 0.0], p: vector![1.0, 2.0] };

@@ -156,8 +156,8 @@ macro_rules! discrete {
                     <$rule as DisplacementRule>::segment_energy(self, q0, q1, h)
                 }
 
-                fn verify_segment(&self, q0: &Vector, v: &Vector, h: f64) -> Result<(), GeneratedDiffers> {
-                    <$rule as DisplacementRule>::verify_segment(self, q0, v, h)
+                fn at_nodes(&self, q0: &Vector, v: &Vector, h: f64, visit: &mut dyn FnMut(&Self, &Vector, &Vector)) {
+                    <$rule as DisplacementRule>::at_nodes(self, q0, v, h, visit);
                 }
             }
         )*

@@ -15,3 +15,4 @@ mod rest;
 mod rest_by_gauss;
 mod solver;
 mod special_steps;
+mod without_derivative;

@@ -4,7 +4,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 use super::super::model::{Home, Part, RayleighArguments, Source, System};
-use super::super::structure::Structure;
+use super::super::structure::{Engine, Structure};
 use super::view::{self, arguments, owner, subject};
 
 /// The plain value of L (0) or R (1) at the vectors q and v.
@@ -35,15 +35,27 @@ fn value(system: &System<'_>, part: Part, point: RayleighArguments) -> TokenStre
 }
 
 /// `impl Lagrangian<2> for Ring`, with the derivatives of either engine.
-pub fn lagrangian(system: &System<'_>, structure: &Structure, derivatives: TokenStream) -> TokenStream {
+/// `places` are the functions of the system and of its view that find operations without a derivative.
+pub fn lagrangian(
+    system: &System<'_>,
+    structure: &Structure,
+    derivatives: TokenStream,
+    places: &[Option<TokenStream>; 2],
+) -> TokenStream {
     let scalar = &system.scalar;
     let n = system.degrees.times(1);
     let home = system.home_of(Part::Lagrangian);
     let subject = subject(system, home);
     let later = if home == Home::View { view::later(system) } else { None };
     let value = value(system, Part::Lagrangian, RayleighArguments::ConfigurationAndVelocity);
-    let of_view = system.has_view().then(|| verification(system, Home::View));
-    let verification = verification(system, home);
+    let asked = |home: Home| {
+        let (verification, places) = (verification(system, home), &places[usize::from(home == Home::View)]);
+        let is_expanded = matches!(structure.engine, Engine::Expanded);
+        let missing = (!is_expanded || places.is_some()).then(|| without_derivative(system, home));
+        quote!(#verification #missing #places)
+    };
+    let of_view = system.has_view().then(|| asked(Home::View));
+    let asked = asked(home);
     let delegation = view::delegation(system, Part::Lagrangian, of_view);
     let (documentation, constant) = (structure.documentation(), structure.constant());
     quote! {
@@ -61,12 +73,30 @@ pub fn lagrangian(system: &System<'_>, structure: &Structure, derivatives: Token
 
             #derivatives
 
-            #verification
+            #asked
 
             #later
         }
 
         #delegation
+    }
+}
+
+/// `fn without_derivative`: of L, R and f, as far as `home` has them.
+fn without_derivative(system: &System<'_>, home: Home) -> TokenStream {
+    let parts = system.parts().filter(|&part| home == Home::View || system.home_of(part) == home);
+    let others = parts.skip(1).map(|part| format_ident!("{}", part.name()));
+    // missing::lagrangian(self, q, v).or_else(|| missing::rayleigh(self, q, v))
+    quote! {
+        #[cold]
+        fn without_derivative(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::option::Option<::dalembert::generated::NoDerivative> {
+            ::dalembert::generated::missing::lagrangian(self, q, v)
+                #(.or_else(|| ::dalembert::generated::missing::#others(self, q, v)))*
+        }
     }
 }
 

@@ -7,8 +7,8 @@ use quote::{format_ident, quote};
 use super::super::emit::inlined;
 use super::super::model::System;
 use super::super::rules::Rule;
+use super::at_nodes;
 use super::joint;
-use super::verify_segment;
 use super::view::subject;
 
 /// The step's equation as an engine makes it: bodies of the functions that a step calls, L, R and f
@@ -48,7 +48,7 @@ pub fn discrete(
     let cancelling_terms =
         (may_cancel && rule.asks_for_cancelling_terms()).then(|| cancelling_terms(system, rule));
     if let Some(shared) = rule.joint() {
-        return joint::discrete(system, rule, shared, is_expanded, cancelling_terms);
+        return joint::discrete(system, rule, shared, cancelling_terms);
     }
     let scalar = &system.scalar;
     let n = system.degrees.times(1);
@@ -151,7 +151,7 @@ pub fn discrete(
             }
         }
     });
-    let verification = is_expanded.then(|| verify_segment(system, &quote!(#rule)));
+    let nodes = at_nodes(system, &quote!(#rule));
     let written_out = is_expanded.then(|| {
         quote!(
             const WRITTEN_OUT: bool = true;
@@ -203,7 +203,7 @@ pub fn discrete(
                 #rule::segment_energy(self, q0, q1, h)
             }
 
-            #verification
+            #nodes
         }
 
         #in_lanes

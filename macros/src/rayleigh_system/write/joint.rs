@@ -5,14 +5,13 @@ use quote::{format_ident, quote};
 
 use super::super::model::System;
 use super::super::rules::{Joint, Rule};
-use super::verify_segment;
+use super::at_nodes;
 
 /// `impl Discrete<Fitted, 2> for Ring`: L and R together, one call each.
 pub fn discrete(
     system: &System<'_>,
     rule: Rule,
     joint: Joint,
-    is_expanded: bool,
     cancelling_terms: Option<TokenStream>,
 ) -> TokenStream {
     let System { name, scalar, .. } = system;
@@ -26,7 +25,7 @@ pub fn discrete(
     let memory = format_ident!("{}", joint.memory);
     let memory = quote!(::dalembert::generated::#memory<#scalar, #n>);
     let rule = rule.ident();
-    let verification = is_expanded.then(|| verify_segment(system, &quote!(<#rule as JointRule>)));
+    let nodes = at_nodes(system, &quote!(<#rule as JointRule>));
     quote! {
         #[automatically_derived]
         impl Discrete<#rule, #n> for #name {
@@ -83,7 +82,7 @@ pub fn discrete(
                 <#rule as JointRule>::segment_energy(self, q0, q1, h)
             }
 
-            #verification
+            #nodes
         }
     }
 }

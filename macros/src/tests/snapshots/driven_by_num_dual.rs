@@ -158,6 +158,15 @@ const _: () = {
             ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
             ::dalembert::generated::verification::rayleigh_slope(self, q, v)
         }
+        #[cold]
+        fn without_derivative(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::option::Option<::dalembert::generated::NoDerivative> {
+            ::dalembert::generated::missing::lagrangian(self, q, v)
+                .or_else(|| ::dalembert::generated::missing::rayleigh(self, q, v))
+        }
     }
     #[automatically_derived]
     impl Lagrangian<1> for DrivenArm<'_> {
@@ -204,6 +213,16 @@ const _: () = {
             ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
             ::dalembert::generated::verification::rayleigh_slope(self, q, v)?;
             ::dalembert::generated::verification::force_slope(self, q, v)
+        }
+        #[cold]
+        fn without_derivative(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::option::Option<::dalembert::generated::NoDerivative> {
+            ::dalembert::generated::missing::lagrangian(self, q, v)
+                .or_else(|| ::dalembert::generated::missing::rayleigh(self, q, v))
+                .or_else(|| ::dalembert::generated::missing::force(self, q, v))
         }
         #[inline]
         fn later<T>(&self, elapsed: f64, evaluate: impl FnOnce(&Self) -> T) -> T {
@@ -469,6 +488,15 @@ const _: () = {
         /// E_L on the segment.
         fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::segment_energy(self, q0, q1, h)
+        }
+        fn at_nodes(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+            visit: &mut dyn FnMut(&Self, &Vector, &Vector),
+        ) {
+            Midpoint::at_nodes(self, q0, v, h, visit);
         }
     }
     #[automatically_derived]

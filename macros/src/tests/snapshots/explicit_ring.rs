@@ -234,13 +234,14 @@ const _: () = {
         fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Trapezoidal::segment_energy(self, q0, q1, h)
         }
-        fn verify_segment(
+        fn at_nodes(
             &self,
             q0: &Vector,
             v: &Vector,
             h: f64,
-        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
-            Trapezoidal::verify_segment(self, q0, v, h)
+            visit: &mut dyn FnMut(&Self, &Vector, &Vector),
+        ) {
+            Trapezoidal::at_nodes(self, q0, v, h, visit);
         }
     }
     #[automatically_derived]

@@ -129,6 +129,41 @@ const _: () = {
             ::dalembert::generated::verification::rayleigh_slope(self, q, v)?;
             ::dalembert::generated::verification::force_slope(self, q, v)
         }
+        #[cold]
+        fn without_derivative(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::option::Option<::dalembert::generated::NoDerivative> {
+            ::dalembert::generated::missing::lagrangian(self, q, v)
+                .or_else(|| ::dalembert::generated::missing::rayleigh(self, q, v))
+                .or_else(|| ::dalembert::generated::missing::force(self, q, v))
+        }
+        /// The first operation that has no derivative there, as √s at s = 0.
+        #[cold]
+        fn place_without_derivative(
+            &self,
+            function: ::dalembert::generated::Function,
+            q: &Vector,
+            _v: &Vector,
+        ) -> ::core::option::Option<::dalembert::generated::Place> {
+            match function {
+                ::dalembert::generated::Function::Force { index: 0 } => {
+                    ::dalembert::generated::Place::first(
+                        &[
+                            (
+                                &::dalembert::generated::Written {
+                                    operation: ::dalembert::generated::Operation::Power,
+                                    text: "self.a.powf(q[0])",
+                                },
+                                [self.a, q[0]],
+                            ),
+                        ],
+                    )
+                }
+                _ => ::core::option::Option::None,
+            }
+        }
     }
     #[automatically_derived]
     impl Rayleigh<2> for Cart {

@@ -150,6 +150,15 @@ const _: () = {
             ::dalembert::generated::verification::lagrangian_slope(self, q, v)?;
             ::dalembert::generated::verification::rayleigh_slope(self, q, v)
         }
+        #[cold]
+        fn without_derivative(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::option::Option<::dalembert::generated::NoDerivative> {
+            ::dalembert::generated::missing::lagrangian(self, q, v)
+                .or_else(|| ::dalembert::generated::missing::rayleigh(self, q, v))
+        }
     }
     #[automatically_derived]
     impl Rayleigh<1> for Oscillator {
@@ -280,6 +289,15 @@ const _: () = {
         /// E_L on the segment.
         fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::segment_energy(self, q0, q1, h)
+        }
+        fn at_nodes(
+            &self,
+            q0: &Vector,
+            v: &Vector,
+            h: f64,
+            visit: &mut dyn FnMut(&Self, &Vector, &Vector),
+        ) {
+            Midpoint::at_nodes(self, q0, v, h, visit);
         }
     }
     #[automatically_derived]

@@ -490,13 +490,14 @@ const _: () = {
         fn segment_energy(&self, q0: &Vector, q1: &Vector, h: f64) -> f64 {
             Midpoint::segment_energy(self, q0, q1, h)
         }
-        fn verify_segment(
+        fn at_nodes(
             &self,
             q0: &Vector,
             v: &Vector,
             h: f64,
-        ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
-            Midpoint::verify_segment(self, q0, v, h)
+            visit: &mut dyn FnMut(&Self, &Vector, &Vector),
+        ) {
+            Midpoint::at_nodes(self, q0, v, h, visit);
         }
     }
     #[automatically_derived]

@@ -91,6 +91,48 @@ const _: () = {
         ) -> ::core::result::Result<(), ::dalembert::generated::GeneratedDiffers> {
             ::dalembert::generated::verification::lagrangian_slope(self, q, v)
         }
+        #[cold]
+        fn without_derivative(
+            &self,
+            q: &Vector,
+            v: &Vector,
+        ) -> ::core::option::Option<::dalembert::generated::NoDerivative> {
+            ::dalembert::generated::missing::lagrangian(self, q, v)
+        }
+        /// The first operation that has no derivative there, as √s at s = 0.
+        #[cold]
+        fn place_without_derivative(
+            &self,
+            function: ::dalembert::generated::Function,
+            q: &Vector,
+            _v: &Vector,
+        ) -> ::core::option::Option<::dalembert::generated::Place> {
+            match function {
+                ::dalembert::generated::Function::Lagrangian => {
+                    let t1 = q[0] * q[0] + q[1] * q[1];
+                    let r = t1.sqrt();
+                    ::dalembert::generated::Place::first(
+                        &[
+                            (
+                                &::dalembert::generated::Written {
+                                    operation: ::dalembert::generated::Operation::SquareRoot,
+                                    text: "(q[0] * q[0] + q[1] * q[1]).sqrt()",
+                                },
+                                [t1, 0.0],
+                            ),
+                            (
+                                &::dalembert::generated::Written {
+                                    operation: ::dalembert::generated::Operation::Division,
+                                    text: "1.0 / r",
+                                },
+                                [r, 0.0],
+                            ),
+                        ],
+                    )
+                }
+                _ => ::core::option::Option::None,
+            }
+        }
     }
     #[automatically_derived]
     impl ::dalembert::generated::TimeScale<2> for Kepler {

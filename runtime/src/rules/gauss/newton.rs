@@ -18,7 +18,7 @@ use crate::numbers::{
     nonlinear::MEASURES_NOISE,
 };
 use crate::step::{
-    Quantity, Report, StepError,
+    Report, StepError,
     newton::{AT_FLOOR, SLOW},
 };
 use crate::system::ForcedLagrangian;
@@ -124,7 +124,7 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
     let mut damped = 0;
     for iteration in 0..most_iterations {
         if let Some(index) = last.non_finite() {
-            return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
+            return Err(problem.not_finite(index, &last.v));
         }
         let factored = Factored::new(problem, &last.locals).map_err(|singular| {
             if damped > 0 {

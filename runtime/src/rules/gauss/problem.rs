@@ -11,7 +11,8 @@ use nalgebra::SVector;
 use super::Gauss;
 use super::coefficients::Coefficients;
 use crate::numbers::{Blank, Compensated, LaneVector, Lanes, Scalar, lanes::lane};
-use crate::step::Report;
+use crate::step::cause::explained;
+use crate::step::{Quantity, Report, StepError};
 use crate::system::{ForcedLagrangian, GeneratedDiffers, Stages};
 
 /// How many lanes the sweeps of S stages take: as many as vectors hold, where an S in between would be
@@ -207,6 +208,18 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         let q = self.configurations(v);
         (0..S).try_for_each(|i| {
             self.system.later(self.elapsed(i), |system| system.verify_generated(&lane(&q, i), &lane(v, i)))
+        })
+    }
+
+    /// The error of the equations at stages with velocities `v`, whose coordinate `index` is not finite.
+    #[cfg_attr(feature = "std", cold)]
+    #[cfg_attr(not(feature = "std"), inline(always))]
+    pub(super) fn not_finite(&self, index: usize, v: &LaneVector<T, N, S>) -> StepError {
+        explained(StepError::NonFinite { quantity: Quantity::Derivatives, index }, || {
+            let q = self.configurations(v);
+            (0..S).find_map(|i| {
+                self.system.later(self.elapsed(i), |at| at.without_derivative(&lane(&q, i), &lane(v, i)))
+            })
         })
     }
 

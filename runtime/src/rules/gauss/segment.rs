@@ -80,7 +80,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
         let mut is_damped = false;
         for iteration in 0..MAX_ITERATIONS {
             if let Some(index) = last.non_finite() {
-                return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
+                return Err(problem.not_finite(index, &last.v));
             }
             let singular =
                 |singular: Singular| StepError::SingularNewtonMatrix { iteration, column: singular.column };
@@ -146,7 +146,7 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     ) -> Result<Self, StepError> {
         let locals = locals(&problem, &v);
         if let Some(index) = non_finite(&locals) {
-            return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
+            return Err(problem.not_finite(index, &v));
         }
         let factored = Factored::new(&problem, &locals)
             .map_err(|singular| StepError::SingularNewtonMatrix { iteration: 0, column: singular.column })?;

@@ -8,7 +8,11 @@ use crate::numbers::{
     NewtonMatrix, Scalar, Singular,
     nonlinear::{Equations, Evaluate, Matrix, Room, Root, Solved, Unsolved, VECTORS, Way},
 };
+#[cfg(feature = "std")]
+use crate::step::cause::explained;
 use crate::step::{Momenta, Quantity, Report, State, StepError, StepKernel};
+#[cfg(feature = "std")]
+use crate::system::NoDerivative;
 
 /// A function of (q, v̄, h).
 type OfStep<'f, S, const N: usize, T> = dyn Fn(&SVector<S, N>, &SVector<S, N>, S) -> T + 'f;
@@ -23,6 +27,9 @@ pub(crate) struct StepEquations<'f, S, M, const N: usize> {
     pub(crate) momenta: &'f OfStep<'f, S, N, Momenta<S, N>>,
     pub(crate) inertia: &'f Inertia<'f, S, N>,
     pub(crate) cancelling: &'f OfStep<'f, S, N, SVector<S, N>>,
+    /// The function without a derivative, where there is one.
+    #[cfg(feature = "std")]
+    pub(crate) cause: &'f OfStep<'f, S, N, Option<NoDerivative>>,
     pub(crate) state: &'f State<S, N>,
     pub(crate) h: S,
 }
@@ -36,7 +43,13 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> StepEquations<'_, S, M, N
     #[inline(never)]
     pub(crate) fn solved(&self, way: Way<'_, S>, v: &SVector<S, N>) -> Result<Solution<S, N>, StepError> {
         let mut buffer = room::<S, N>();
-        let mut evaluate = Evaluations { of: self, present: M::zero(), before: M::zero() };
+        let mut evaluate = Evaluations {
+            of: self,
+            present: M::zero(),
+            before: M::zero(),
+            #[cfg(feature = "std")]
+            lost: None,
+        };
         let momenta = Momenta { p0: nalgebra::zero(), p1: nalgebra::zero() };
         let mut solution = Solution { unknown: *v, momenta, report: Report::of_no_equation() };
         let of = Equations {
@@ -48,7 +61,18 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> StepEquations<'_, S, M, N
         };
         let Momenta { p0, p1 } = &mut solution.momenta;
         let root = Root { v: solution.unknown.as_mut_slice(), p0: p0.as_mut_slice(), p1: p1.as_mut_slice() };
-        solution.report = S::at_length(of, way, root, Room::new(buffer.as_flattened_mut(), N))?.into();
+        match S::at_length(of, way, root, Room::new(buffer.as_flattened_mut(), N)) {
+            Ok(report) => solution.report = report.into(),
+            Err(error) => {
+                let error = StepError::from(error);
+                #[cfg(feature = "std")]
+                let error = explained(error, || {
+                    let (v, h) = evaluate.lost?;
+                    (self.cause)(&self.state.q, &v, h)
+                });
+                return Err(error);
+            }
+        }
         Ok(solution)
     }
 }
@@ -63,6 +87,9 @@ struct Evaluations<'f, 'e, S, M, const N: usize> {
     of: &'e StepEquations<'f, S, M, N>,
     present: M,
     before: M,
+    /// v̄ and h where a derivative was last no finite number.
+    #[cfg(feature = "std")]
+    lost: Option<(SVector<S, N>, S)>,
 }
 
 /// A slice as the vector that it is: of N entries, known to the compiler, which then copies them at once.
@@ -88,6 +115,10 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Evaluate<S> for Evaluatio
     fn kernel(&mut self, q: &[S], v: &[S], h: S, held: &[S], p0: &mut [S]) {
         let kernel = (self.of.kernel)(&vector(q), &vector(v), h);
         self.present = kernel.matrix;
+        #[cfg(feature = "std")]
+        if (0..N).any(|i| !kernel.p0[i].is_finite() || !kernel.matrix.row_is_finite(i)) {
+            self.lost = Some((vector(v), h));
+        }
         if held.iter().any(|held| *held != S::zero()) {
             self.present.hold(held);
         }

@@ -5,7 +5,9 @@ use nalgebra::SVector;
 use super::rounding::{estimated_floor, held_against};
 use super::{Equation, Solution, is_known_at, is_small_beside, largest};
 use crate::numbers::{NewtonMatrix, Scalar, Singular, nonlinear::in_units_of};
+use crate::step::cause::explained;
 use crate::step::{Momenta, Quantity, Report, State, StepError, StepKernel};
+use crate::system::NoDerivative;
 
 /// The best iterate of at most `bound` undamped Newton iterations, and whether it is the solution, by the
 /// definition of `rounding.rs`.
@@ -15,8 +17,11 @@ use crate::step::{Momenta, Quantity, Report, State, StepError, StepKernel};
 pub(crate) fn bounded<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
     kind: Equation,
     bound: u32,
-    evaluate: impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
-    finish: impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
+    (evaluate, finish, cause): (
+        impl Fn(&SVector<S, N>, &SVector<S, N>) -> StepKernel<S, N, M>,
+        impl Fn(&SVector<S, N>, &SVector<S, N>) -> Momenta<S, N>,
+        impl Fn(&SVector<S, N>, &SVector<S, N>) -> Option<NoDerivative>,
+    ),
     State { q, p }: &State<S, N>,
     guess: SVector<S, N>,
 ) -> Result<(Solution<S, N>, bool), StepError> {
@@ -30,10 +35,11 @@ pub(crate) fn bounded<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
             // What was reached before stands.
             Err(_) if best.is_some() => break,
             Err(Singular { column }) => {
-                return Err(match first_non_finite(&residual, &kernel.matrix) {
+                let error = match first_non_finite(&residual, &kernel.matrix) {
                     Some(index) => StepError::NonFinite { quantity: Quantity::Derivatives, index },
                     None => StepError::SingularNewtonMatrix { iteration, column },
-                });
+                };
+                return Err(explained(error, || cause(q, &v)));
             }
         };
         let next = v - correction;
@@ -46,7 +52,8 @@ pub(crate) fn bounded<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
             let index = first_non_finite(&residual, &kernel.matrix)
                 .or_else(|| (0..N).find(|&i| !remaining[i].is_finite()))
                 .unwrap_or(0);
-            return Err(StepError::NonFinite { quantity: Quantity::Derivatives, index });
+            let error = StepError::NonFinite { quantity: Quantity::Derivatives, index };
+            return Err(explained(error, || cause(q, &v).or_else(|| cause(q, &next))));
         }
         let (residual, floor, is_root) = held_against(&remaining, &floor);
         let last_correction = largest(correction.as_slice());

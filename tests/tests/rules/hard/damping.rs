@@ -1,7 +1,7 @@
 //! Friction that is stiff, not smooth, of the wrong sign, or without a real step.
 
 use dalembert::nalgebra::vector;
-use dalembert::step::Quantity;
+use dalembert::system::Function;
 use dalembert::{
     Discrete, Discretise, Fitted, FittedTrapezoidal, Midpoint, OneSided, State, StepError, Trapezoidal,
 };
@@ -147,7 +147,8 @@ fn friction_written_carelessly_is_named() {
     let (mu, epsilon, h) = (0.7, 1e-4, 1e-3);
     let start = State { q: vector![0.0], p: vector![1.3] };
     let step = Overflowing { mu, epsilon }.by(Midpoint, h).near(&start.p).step(&start);
-    assert_eq!(step.unwrap_err(), StepError::NonFinite { quantity: Quantity::Derivatives, index: 0 });
+    let error = step.unwrap_err();
+    assert_eq!(error, StepError::NoDerivative { function: Function::Rayleigh, coordinate: 0, place: None });
 
     let system = Cancelling { mu, epsilon };
     let last = system.by(Midpoint, h).run(start).take(10_000).last().unwrap().unwrap().state.p[0];

@@ -1,0 +1,34 @@
+//! The error of a derivative of L, R or f that does not exist.
+
+use core::fmt;
+
+use crate::system::{Function, Place};
+
+/// A derivative of L, R or f that is NaN or infinite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NoDerivative {
+    /// Which function.
+    pub function: Function,
+    /// The coordinate i of the derivative by qᵢ or vᵢ.
+    pub coordinate: usize,
+    /// The operation that has no derivative there: of a system whose derivatives are written out, where it is
+    /// an operation of the body that has none, and not a number that became too large.
+    pub place: Option<Place>,
+}
+
+impl fmt::Display for NoDerivative {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { function, coordinate, place } = self;
+        write!(f, "the derivative of {function} by coordinate {coordinate} is NaN or infinite")?;
+        match place {
+            Some(place) => write!(f, ": {place}"),
+            None => write!(
+                f,
+                "; look at {function} at the state given: √s has no derivative at s = 0 (√(s + ε²) has), a power below 1 \
+                 and a logarithm have none at 0; if its derivatives are finite there, try a smaller step"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for NoDerivative {}
