@@ -4,6 +4,7 @@ use core::fmt;
 
 use dalembert::StepError;
 use dalembert::step::Quantity;
+use dalembert::system::Function;
 
 macro_rules! statuses {
     ($($(#[doc = $doc:literal])* $name:ident = $number:literal, $c:literal, $text:literal;)*) => {
@@ -61,7 +62,7 @@ statuses! {
     /// A parameter is NaN.
     ParameterNan = 9, "DALEMBERT_PARAMETER_NAN", "a parameter is NaN: fill in every field of the parameters";
     /// L, R or f, or a derivative of theirs, is NaN or infinite.
-    DerivativesNotFinite = 10, "DALEMBERT_DERIVATIVES_NOT_FINITE", "a derivative of L, R or f is NaN or infinite: look at parameters, input and state";
+    DerivativesNotFinite = 10, "DALEMBERT_DERIVATIVES_NOT_FINITE", "a derivative of L, R or f is NaN or infinite: look at parameters, input and state; sqrt(s) has no derivative at s = 0, sqrt(s + eps^2) has";
     /// The mass matrix is singular.
     DegenerateLagrangian = 11, "DALEMBERT_DEGENERATE_LAGRANGIAN", "the mass matrix is singular: look at the masses among the parameters";
     /// The mass matrix is not positive definite.
@@ -80,6 +81,12 @@ statuses! {
     GeneratedDiffers = 18, "DALEMBERT_GENERATED_DIFFERS", "the derivatives generated are not those of L, R and f as written: report this as a mistake of the generator";
     /// An error that this version has no number for.
     Other = 19, "DALEMBERT_OTHER", "the step was not taken";
+    /// L has no derivative where the step evaluated it.
+    NoDerivativeOfLagrangian = 20, "DALEMBERT_NO_DERIVATIVE_OF_L", "L has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in L; or a number in it is too large: try a smaller step";
+    /// R has no derivative where the step evaluated it.
+    NoDerivativeOfRayleigh = 21, "DALEMBERT_NO_DERIVATIVE_OF_R", "R has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in R; or a number in it is too large: try a smaller step";
+    /// f has no derivative where the step evaluated it.
+    NoDerivativeOfForce = 22, "DALEMBERT_NO_DERIVATIVE_OF_F", "f has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in f; or a number in it is too large: try a smaller step";
 }
 
 impl From<StepError> for Status {
@@ -98,6 +105,12 @@ impl From<&StepError> for Status {
             StepError::Time { .. } => Self::Time,
             StepError::NonFinite { quantity: Quantity::Derivatives, .. } => Self::DerivativesNotFinite,
             StepError::NonFinite { .. } => Self::NotFinite,
+            StepError::NoDerivative { function, .. } => match function {
+                Function::Lagrangian => Self::NoDerivativeOfLagrangian,
+                Function::Rayleigh => Self::NoDerivativeOfRayleigh,
+                Function::Force { .. } => Self::NoDerivativeOfForce,
+                _ => Self::DerivativesNotFinite,
+            },
             StepError::DegenerateLagrangian { .. } => Self::DegenerateLagrangian,
             StepError::MassNotPositiveDefinite { .. } => Self::MassNotPositiveDefinite,
             StepError::NoVelocity { .. } => Self::NoVelocity,
@@ -128,4 +141,47 @@ impl fmt::Display for Status {
 pub fn text(status: i32) -> *const core::ffi::c_char {
     let known = Status::ALL.iter().find(|known| **known as i32 == status);
     known.map_or("no status of this library\0", |known| known.text_for_c()).as_ptr().cast()
+}
+
+#[cfg(test)]
+mod tests {
+    use dalembert::{Discretise, Midpoint, State, rayleigh_system};
+
+    use super::*;
+
+    /// A root of v² in R or f, or of q² in L.
+    #[rayleigh_system(rule = midpoint)]
+    impl Rough {
+        fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+            0.5 * v[0] * v[0] - self.shares[0] * (q[0] * q[0] + self.soft[0]).sqrt()
+        }
+
+        fn rayleigh(&self, v: [f64; 1]) -> f64 {
+            self.shares[1] * (v[0] * v[0] + self.soft[1]).sqrt()
+        }
+
+        fn force(&self, _q: [f64; 1], v: [f64; 1]) -> [f64; 1] {
+            [-self.shares[2] * (v[0] * v[0] + self.soft[2]).sqrt()]
+        }
+    }
+
+    struct Rough {
+        shares: [f64; 3],
+        soft: [f64; 3],
+    }
+
+    #[test]
+    fn a_derivative_that_is_none_has_the_status_of_its_function() {
+        let rest = State { q: [0.0].into(), p: [0.0].into() };
+        let statuses =
+            [Status::NoDerivativeOfLagrangian, Status::NoDerivativeOfRayleigh, Status::NoDerivativeOfForce];
+        for (i, status) in statuses.into_iter().enumerate() {
+            let mut system = Rough { shares: [1.0; 3], soft: [1.0; 3] };
+            assert!(system.by(Midpoint, 0.1).linearization(&rest.q, &rest.q).is_ok());
+            system.soft[i] = 0.0;
+            let error = system.by(Midpoint, 0.1).linearization(&rest.q, &rest.q).unwrap_err();
+            assert_eq!(Status::from(error), status);
+            assert!(status.text_for_c().contains("sqrt(s + eps^2)"), "{status}");
+        }
+    }
 }

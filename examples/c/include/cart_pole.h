@@ -20,7 +20,7 @@ typedef enum dalembert_status {
     DALEMBERT_NOT_FINITE = 7, /**< a configuration, velocity or momentum is NaN or infinite: look at the state and the input given; if they are finite, try a smaller step */
     DALEMBERT_INPUT_NOT_FINITE = 8, /**< the input or the time given is NaN or infinite: look at the controller */
     DALEMBERT_PARAMETER_NAN = 9, /**< a parameter is NaN: fill in every field of the parameters */
-    DALEMBERT_DERIVATIVES_NOT_FINITE = 10, /**< a derivative of L, R or f is NaN or infinite: look at parameters, input and state */
+    DALEMBERT_DERIVATIVES_NOT_FINITE = 10, /**< a derivative of L, R or f is NaN or infinite: look at parameters, input and state; sqrt(s) has no derivative at s = 0, sqrt(s + eps^2) has */
     DALEMBERT_DEGENERATE_LAGRANGIAN = 11, /**< the mass matrix is singular: look at the masses among the parameters */
     DALEMBERT_MASS_NOT_POSITIVE_DEFINITE = 12, /**< the mass matrix is not positive definite: look at the masses among the parameters */
     DALEMBERT_NO_VELOCITY = 13, /**< no velocity in reach has this momentum: look at the state given */
@@ -29,7 +29,10 @@ typedef enum dalembert_status {
     DALEMBERT_LOST_PRECISION = 16, /**< digits cancel in L, R or f: shift or rescale the coordinates */
     DALEMBERT_NOT_CONVERGED = 17, /**< the equations of the step were not solved within the iteration limit: try a smaller step */
     DALEMBERT_GENERATED_DIFFERS = 18, /**< the derivatives generated are not those of L, R and f as written: report this as a mistake of the generator */
-    DALEMBERT_OTHER = 19 /**< the step was not taken */
+    DALEMBERT_OTHER = 19, /**< the step was not taken */
+    DALEMBERT_NO_DERIVATIVE_OF_L = 20, /**< L has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in L; or a number in it is too large: try a smaller step */
+    DALEMBERT_NO_DERIVATIVE_OF_R = 21, /**< R has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in R; or a number in it is too large: try a smaller step */
+    DALEMBERT_NO_DERIVATIVE_OF_F = 22 /**< f has no derivative there, as sqrt(s), a power below 1 or a logarithm at s = 0: write sqrt(s + eps^2) in f; or a number in it is too large: try a smaller step */
 } dalembert_status;
 
 /** How a step went. */

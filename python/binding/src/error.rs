@@ -25,7 +25,7 @@ static CLASSES: PyOnceLock<Classes> = PyOnceLock::new();
 
 const STEP_ERROR: &str = "A step that could not be taken.
 
-kind     which error: 'NoRealSolution', 'NonFinite', …
+kind     which error: 'NoRealSolution', 'NoDerivative', …
 data     what is known of it: a dict
 step     the step that failed, counted from 0; None of a member of an ensemble
 t        the time of the last good state
@@ -141,6 +141,14 @@ fn described<'py>(py: Python<'py>, error: &StepError) -> PyResult<(&'static str,
             data.set_item("quantity", quantity.to_string())?;
             data.set_item("index", index)?;
             "NonFinite"
+        }
+        StepError::NoDerivative { function, coordinate, place } => {
+            data.set_item("function", function.to_string())?;
+            data.set_item("coordinate", coordinate)?;
+            data.set_item("operation", place.map(|place| format!("{:?}", place.written.operation)))?;
+            data.set_item("written", place.map(|place| place.written.text))?;
+            data.set_item("argument", place.map(|place| place.argument))?;
+            "NoDerivative"
         }
         StepError::DegenerateLagrangian { column } => {
             data.set_item("column", column)?;
