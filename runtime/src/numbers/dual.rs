@@ -26,7 +26,8 @@ pub use derivatives::{
 };
 pub use fields::{differential, hessian, jacobian};
 pub use lift::{
-    FromInteger, Integer, Lift, Lower, Number, Remainder, Roundable, integer, lift, lower, remainder,
+    Beside, FromCast, Given, Integer, Lift, Lower, Number, Remainder, Roundable, integer, lift, lower,
+    remainder,
 };
 pub use primitive::Primitive;
 pub use real::Real;

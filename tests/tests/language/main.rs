@@ -9,6 +9,7 @@
 
 mod constants;
 mod control_flow;
+mod conversions;
 mod derivatives;
 mod differentiable;
 mod early_returns;

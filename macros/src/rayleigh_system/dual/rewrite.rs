@@ -11,6 +11,7 @@
 //! | `f64::sin(x)` | `Real::<D>::sin(x)` |
 //! | `i as f64` | `D::number(i)` |
 //! | `i as usize`, `i % n` | `dual::integer::<_, usize>(i)`, `dual::remainder(i % n)`: for integers alone |
+//! | `f64::from(1.5_f32 * self.c)` | `D::real(f64::from(1.5_f32 * self.c))`: constants alone |
 //! | `self.k.floor()`, `self.k % 2.0` | `D::lift(self.k.floor())`, `D::lift(self.k % 2.0)`: constants alone |
 
 mod call;
@@ -55,12 +56,12 @@ pub fn over_duals(system: &System<'_>, report: &mut Report) -> Vec<Twin> {
     let mut twins: Vec<Twin> = Vec::new();
     while let Some(body) = bodies.get(twins.len()).cloned() {
         let before = report.count();
-        let Rewritten { over, functions } = rewrite(system, &body, report);
+        let Rewritten { over, functions, is_doubtful } = rewrite(system, &body, report);
         let plain = body.function;
         if report.count() > before {
             report.mark_body(&plain.sig.ident);
         }
-        let is_doubtful = doubt::hands_on_fields(&plain);
+        let is_doubtful = is_doubtful || doubt::hands_on_fields(&plain);
         twins.push(Twin { plain, over, is_doubtful });
         for name in functions {
             let known = bodies.iter().any(|body| body.function.sig.ident == name);
@@ -89,6 +90,7 @@ pub fn over(name: &Ident) -> Ident {
 struct Rewritten {
     over: ImplItemFn,
     functions: Vec<Ident>,
+    is_doubtful: bool,
 }
 
 fn rewrite(system: &System<'_>, body: &Body, report: &mut Report) -> Rewritten {
@@ -99,6 +101,7 @@ fn rewrite(system: &System<'_>, body: &Body, report: &mut Report) -> Rewritten {
         bound: bound_names(&over_function),
         fields: BTreeMap::new(),
         functions: Vec::new(),
+        is_doubtful: false,
     };
     // Docs and lints of the plain function would be said twice.
     over_function.attrs.clear();
@@ -119,7 +122,7 @@ fn rewrite(system: &System<'_>, body: &Body, report: &mut Report) -> Rewritten {
         }
     }
     rewriter.visit_block_mut(&mut over_function.block);
-    let Rewriter { fields, functions, .. } = rewriter;
+    let Rewriter { fields, functions, is_doubtful, .. } = rewriter;
     let prologue = fields.into_values().map(|field| -> Stmt {
         let Field { local, access } = field;
         // One span for all tokens: a field of a wrong type is then reported once.
@@ -131,7 +134,7 @@ fn rewrite(system: &System<'_>, body: &Body, report: &mut Report) -> Rewritten {
     });
     let statements = std::mem::take(&mut over_function.block.stmts);
     over_function.block.stmts = prologue.chain(statements).collect();
-    Rewritten { over: over_function, functions }
+    Rewritten { over: over_function, functions, is_doubtful }
 }
 
 /// The tokens, all seen at `span` but resolved where they were.
@@ -158,6 +161,8 @@ struct Rewriter<'r> {
     /// By the members on the way from `self`.
     fields: BTreeMap<Vec<String>, Field>,
     functions: Vec<Ident>,
+    /// Whether a number is converted whose precision only its literals may tell.
+    is_doubtful: bool,
 }
 
 impl VisitMut for Rewriter<'_> {
@@ -197,7 +202,10 @@ impl VisitMut for Rewriter<'_> {
                 None => self.visit_expr_mut(&mut field.base),
             },
             Expr::MethodCall(call) => self.method_call(call),
-            Expr::Call(call) => self.call(call),
+            Expr::Call(call) => match self.conversion(call) {
+                Some(replacement) => *expression = replacement,
+                None => self.call(call),
+            },
             Expr::Path(path) => {
                 if let Some(replacement) = self.path(path) {
                     *expression = replacement;

@@ -26,7 +26,7 @@ pub trait Lower: Sized {
     fn lower(self) -> Self::Lowered;
 }
 
-/// A number that `as f64` accepts: an integer, or a floating-point number of the system.
+/// A number that `as f64` accepts: an integer or a floating-point number.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` cannot be cast to the scalar type of this system",
     label = "neither an integer nor a floating-point number of this system"
@@ -63,9 +63,18 @@ pub trait Remainder {}
 )]
 pub trait Roundable {}
 
-/// [`Lift::lift`] as a function.
+/// An input or a time, of the scalar's precision: where it is lifted, D is told by the lifted value alone.
+pub trait Given<D> {
+    /// A type of this shape, with `Real<D>` for numbers.
+    type Lifted;
+
+    /// The value with constants for numbers.
+    fn lift(self) -> Self::Lifted;
+}
+
+/// [`Given::lift`] as a function.
 #[inline]
-pub fn lift<D, T: Lift<D>>(value: T) -> T::Lifted {
+pub fn lift<D, T: Given<D>>(value: T) -> T::Lifted {
     value.lift()
 }
 
@@ -87,9 +96,27 @@ pub fn remainder<T: Remainder>(remainder: T) -> T {
     remainder
 }
 
+/// The type that a floating-point number `T` has beside numbers over the scalar `Self`: [`Real`] if it is of
+/// the scalar's precision, its own if it is of the other one, until it is converted.
+pub trait Beside<T, D> {
+    /// [`Real`], or `T`.
+    type Held;
+
+    /// The number there.
+    fn hold(value: T) -> Self::Held;
+}
+
 macro_rules! floats {
-    ($($float:ty)*) => {$(
-        impl<D: Dual<$float>> Lift<D> for $float {
+    ($($float:ident beside $other:ident)*) => {$(
+        impl<D: Over<Primitive: Beside<$float, D>>> Lift<D> for $float {
+            type Lifted = <D::Primitive as Beside<$float, D>>::Held;
+            #[inline]
+            fn lift(self) -> Self::Lifted {
+                <D::Primitive as Beside<$float, D>>::hold(self)
+            }
+        }
+
+        impl<D: Dual<$float>> Given<D> for $float {
             type Lifted = Real<D>;
             #[inline]
             fn lift(self) -> Real<D> {
@@ -97,11 +124,45 @@ macro_rules! floats {
             }
         }
 
+        impl<D: Dual<$float>> Beside<$float, D> for $float {
+            type Held = Real<D>;
+            #[inline]
+            fn hold(value: $float) -> Real<D> {
+                D::real(value)
+            }
+        }
+
+        impl<D> Beside<$float, D> for $other {
+            type Held = $float;
+            #[inline]
+            fn hold(value: $float) -> $float {
+                value
+            }
+        }
+
+        impl FromCast<$float> for $float {
+            #[inline]
+            fn from_cast(value: $float) -> Self {
+                value
+            }
+        }
+
+        impl FromCast<$float> for $other {
+            #[inline]
+            fn from_cast(value: $float) -> Self {
+                value as Self
+            }
+        }
+
         #[diagnostic::do_not_recommend]
-        impl<D: Dual<$float>> Number<D> for $float {
+        impl<D, F> Number<D> for $float
+        where
+            F: Plain + FromCast<$float>,
+            D: Dual<F> + Over<Primitive = F>,
+        {
             #[inline]
             fn number(self) -> Real<D> {
-                D::real(self)
+                D::real(F::from_cast(self))
             }
         }
 
@@ -114,7 +175,7 @@ macro_rules! floats {
         }
     )*};
 }
-floats!(f64 f32);
+floats!(f64 beside f32 f32 beside f64);
 
 #[diagnostic::do_not_recommend]
 impl<D> Lift<D> for Real<D> {
@@ -171,16 +232,16 @@ macro_rules! integers {
     ($($int:ty)*) => {$(
         casts!($int => i8 i16 i32 i64 i128 isize u8 u16 u32 u64 u128 usize);
 
-        impl FromInteger<$int> for f64 {
+        impl FromCast<$int> for f64 {
             #[inline]
-            fn from_integer(value: $int) -> Self {
+            fn from_cast(value: $int) -> Self {
                 value as Self
             }
         }
 
-        impl FromInteger<$int> for f32 {
+        impl FromCast<$int> for f32 {
             #[inline]
-            fn from_integer(value: $int) -> Self {
+            fn from_cast(value: $int) -> Self {
                 value as Self
             }
         }
@@ -188,12 +249,12 @@ macro_rules! integers {
         #[diagnostic::do_not_recommend]
         impl<D, F> Number<D> for $int
         where
-            F: Plain + FromInteger<$int>,
+            F: Plain + FromCast<$int>,
             D: Dual<F> + Over<Primitive = F>,
         {
             #[inline]
             fn number(self) -> Real<D> {
-                Real(D::from(F::from_integer(self)))
+                Real(D::from(F::from_cast(self)))
             }
         }
 
@@ -204,14 +265,22 @@ macro_rules! integers {
 integers!(i8 i16 i32 i64 i128 isize u8 u16 u32 u64 u128 usize);
 casts!(bool => i8 i16 i32 i64 i128 isize u8 u16 u32 u64 u128 usize);
 
-/// `integer as f64`, `integer as f32`.
-pub trait FromInteger<I> {
+/// `number as f64`, `number as f32`.
+pub trait FromCast<T> {
     /// The nearest number.
-    fn from_integer(value: I) -> Self;
+    fn from_cast(value: T) -> Self;
 }
 
 #[diagnostic::do_not_recommend]
 impl<D, T: Lift<D>, const M: usize> Lift<D> for [T; M] {
+    type Lifted = [T::Lifted; M];
+    #[inline]
+    fn lift(self) -> Self::Lifted {
+        self.map(T::lift)
+    }
+}
+
+impl<D, T: Given<D>, const M: usize> Given<D> for [T; M] {
     type Lifted = [T::Lifted; M];
     #[inline]
     fn lift(self) -> Self::Lifted {

@@ -245,16 +245,9 @@ where
     }
 }
 
-/// Conversions and comparisons with the plain numbers of the system.
+/// Comparisons with the plain numbers of the system.
 macro_rules! primitive {
     ($($float:ty)*) => {$(
-        impl<D: Dual<$float>> From<$float> for Real<D> {
-            #[inline]
-            fn from(value: $float) -> Self {
-                D::real(value)
-            }
-        }
-
         impl<D: Dual<$float>> PartialEq<$float> for Real<D> {
             #[inline]
             fn eq(&self, other: &$float) -> bool {
@@ -286,22 +279,22 @@ macro_rules! primitive {
 }
 primitive!(f64 f32);
 
-/// `f64::from(i)` for the integers that `f64` takes.
-macro_rules! from_integer {
-    ($($int:ty)*) => {$(
-        impl<D, F> From<$int> for Real<D>
+/// `f64::from(x)` for the plain numbers that `f64` takes, those of single precision among them.
+macro_rules! from_plain {
+    ($($plain:ty)*) => {$(
+        impl<D, F> From<$plain> for Real<D>
         where
-            F: Primitive + From<$int>,
+            F: Primitive + From<$plain>,
             D: Dual<F> + Over<Primitive = F>,
         {
             #[inline]
-            fn from(value: $int) -> Self {
-                Self(D::from(<F as From<$int>>::from(value)))
+            fn from(value: $plain) -> Self {
+                Self(D::from(<F as From<$plain>>::from(value)))
             }
         }
     )*};
 }
-from_integer!(i8 i16 i32 u8 u16 u32 bool);
+from_plain!(f64 f32 i8 i16 i32 u8 u16 u32 bool);
 
 impl<D, F> Default for Real<D>
 where

@@ -3,6 +3,7 @@
 use syn::visit_mut::VisitMut;
 use syn::{Expr, ExprCall, ExprMethodCall, Ident, Path, parse_quote};
 
+use super::cast::is_from;
 use super::{Rewriter, over};
 use crate::rayleigh_system::diagnostics::Mistake;
 use crate::rayleigh_system::syntax::{ROUNDING, is_constant_name, is_self, takes_function};
@@ -24,7 +25,10 @@ impl Rewriter<'_> {
             if ROUNDING.iter().any(|rounding| call.method == rounding) {
                 self.report.at(&call.method, Mistake::Rounding(call.method.to_string()));
             }
-            self.visit_expr_mut(&mut call.receiver);
+            match self.converted(call) {
+                Some(receiver) => *call.receiver = receiver,
+                None => self.visit_expr_mut(&mut call.receiver),
+            }
         }
         if let Some(turbofish) = &mut call.turbofish
             && !is_self(&call.receiver)
@@ -54,6 +58,8 @@ impl Rewriter<'_> {
     }
 
     pub fn call(&mut self, call: &mut ExprCall) {
+        // In `f64::from(if on { self.c } else { 1.5 })` the literal may be of another precision.
+        self.is_doubtful |= is_from(&call.func, &self.system.scalar) && !call.args.iter().all(is_place);
         match &mut *call.func {
             Expr::Path(path) => {
                 let without_arguments = call.args.is_empty();
@@ -69,5 +75,13 @@ impl Rewriter<'_> {
                 self.visit_expr_mut(argument);
             }
         }
+    }
+}
+
+/// A local, a field or an entry, behind a `*` or not.
+fn is_place(value: &Expr) -> bool {
+    match value {
+        Expr::Unary(unary) => is_place(&unary.expr),
+        value => matches!(value, Expr::Path(_) | Expr::Index(_) | Expr::Field(_)),
     }
 }

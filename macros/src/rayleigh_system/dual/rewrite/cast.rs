@@ -1,6 +1,9 @@
 //! Casts and functions that jump: of what does not depend on q and v they are left to rustc.
 
-use syn::{BinOp, Expr, ExprCast, UnOp, parse_quote_spanned, visit_mut};
+use syn::{
+    BinOp, Expr, ExprCall, ExprCast, ExprMethodCall, ExprPath, Ident, Type, UnOp, parse_quote_spanned,
+    visit_mut,
+};
 
 use super::Rewriter;
 use crate::rayleigh_system::diagnostics::{Mistake, span_of};
@@ -49,6 +52,22 @@ impl Rewriter<'_> {
         }
     }
 
+    /// `f64::from(self.c)` → `D::real(f64::from(self.c))`, whatever the type of `self.c`.
+    pub fn conversion(&self, call: &ExprCall) -> Option<Expr> {
+        let is_constant =
+            is_from(&call.func, &self.system.scalar) && call.args.iter().all(|value| self.is_constant(value));
+        let span = span_of(&call.func);
+        is_constant.then(|| parse_quote_spanned!(span=> D::real(#call)))
+    }
+
+    /// The receiver in `self.c.max(0.5).into()`, `D::lift(self.c.max(0.5))`, whatever its type.
+    pub fn converted(&self, call: &ExprMethodCall) -> Option<Expr> {
+        let receiver = &call.receiver;
+        let is_constant = call.method == "into" && !is_of_literals(receiver) && self.is_constant(receiver);
+        let span = span_of(receiver);
+        is_constant.then(|| parse_quote_spanned!(span=> D::lift(#receiver)))
+    }
+
     /// `self.k.floor()` → `D::lift(self.k.floor())`, and the remainder `self.k % 2.0` so too.
     pub fn constant_that_jumps(&self, expression: &Expr) -> Option<Expr> {
         let (operands, span) = match expression {
@@ -84,17 +103,23 @@ impl Rewriter<'_> {
                     && call.args.iter().all(|argument| self.is_constant(argument))
             }
             Expr::Call(call) => {
-                let segments = match &*call.func {
-                    Expr::Path(path) => &path.path.segments,
-                    _ => return false,
+                let scalar = &self.system.scalar;
+                let jumps = match &*call.func {
+                    Expr::Path(path) => {
+                        let segments = &path.path.segments;
+                        segments.len() == 2 && segments[0].ident == *scalar && jumps(&segments[1].ident)
+                    }
+                    _ => false,
                 };
-                segments.len() == 2
-                    && segments[0].ident == self.system.scalar
-                    && jumps(&segments[1].ident)
+                (jumps || is_from(&call.func, scalar))
                     && call.args.iter().all(|argument| self.is_constant(argument))
             }
             Expr::Field(field) => is_self(&field.base) || self.is_constant(&field.base),
-            Expr::Index(entry) => self.is_constant(&entry.expr) && self.is_constant(&entry.index),
+            // A local that is an index is an integer.
+            Expr::Index(entry) => {
+                self.is_constant(&entry.expr)
+                    && (self.is_constant(&entry.index) || matches!(*entry.index, Expr::Path(_)))
+            }
             Expr::Path(path) => path.path.segments.last().is_some_and(|last| {
                 let is_local =
                     path.path.get_ident().is_some_and(|name| self.bound.contains(&name.to_string()));
@@ -104,6 +129,20 @@ impl Rewriter<'_> {
             _ => false,
         }
     }
+}
+
+/// `f64::from`, `<f64>::from`, `<f64 as From<f32>>::from`.
+pub fn is_from(function: &Expr, scalar: &Ident) -> bool {
+    let Expr::Path(ExprPath { qself, path, .. }) = function else { return false };
+    let of_scalar = |ty: &Type| simple_name(ty).is_some_and(|name| name == scalar);
+    let mut segments = path.segments.iter().rev();
+    let (last, before) = (segments.next(), segments.next());
+    last.is_some_and(|last| last.ident == "from")
+        && match (qself, before) {
+            (Some(qself), None) => of_scalar(&qself.ty),
+            (Some(qself), Some(from)) => of_scalar(&qself.ty) && from.ident == "From",
+            (None, before) => before.is_some_and(|ty| ty.ident == *scalar),
+        }
 }
 
 /// Whether the expression is arithmetic of literals.
