@@ -272,7 +272,9 @@ mod attributes {
 /// - `&mut` but for `for x in &mut a` and `std::mem::swap`, and `iter_mut` but with `enumerate` and `zip`;
 /// - `sort_by`, `partial_cmp`, `total_cmp`, `min_by`, `max_by`, `find`, `position`, `last`, `nth`, `scan`,
 ///   `take_while`, and `reduce` without an `unwrap` behind it;
-/// - a `Vec`, and an `Option` made in the body.
+/// - a `Vec`, and an `Option` made in the body;
+/// - methods of traits and structs of your own on fields and constants alone. On coordinates they have no
+///   derivative over dual numbers either, unless the trait is one of any number: a function of the block has.
 ///
 /// Bodies that programs write may be 6 000 operators and brackets deep, as a sum of 5 000 terms is, or 100
 /// where the compiler runs on other processors than x86-64 and AArch64; deeper ones are refused.

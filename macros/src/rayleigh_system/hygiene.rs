@@ -57,6 +57,7 @@ pub const GENERATED: &[&str] = &[
     "MomentaBy",
     "Never",
     "OneSided",
+    "OwnMethods",
     "Parameters",
     "Rayleigh",
     "Real",

@@ -37,6 +37,9 @@ fn names(tokens: TokenStream, in_constant: bool, found: &mut BTreeSet<String>) {
                 if name == "type" && word(index + 2) == "=" && word(index + 1) == "Vector" {
                     found.insert(word(index + 1));
                 }
+                if name == "trait" {
+                    found.insert(word(index + 1));
+                }
                 // fn over<D: …>(…)
                 if name == "fn" && word(index + 2) == "<" {
                     found.insert(word(index + 3));
@@ -69,6 +72,12 @@ fn every_name_that_generated_code_brings_along_is_listed() {
             fn rayleigh(&self, v: [f64; 1]) -> f64 { 0.5 * self.k * v[0] * v[0] }
         }
     };
+    let with_own_methods = quote! {
+        impl System {
+            fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 { 0.5 * v[0] * v[0] - q[0].curve() }
+        }
+    };
+    names(rayleigh_system(Runtime::STD, quote!(derivatives = num_dual), with_own_methods), false, &mut found);
     let options = [
         quote!(rule = [midpoint, trapezoidal, gauss], parameters = [k], step_derivatives = second),
         quote!(rule = [midpoint, gauss], derivatives = num_dual, step_derivatives = second),

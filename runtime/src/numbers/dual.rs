@@ -26,8 +26,8 @@ pub use derivatives::{
 };
 pub use fields::{differential, hessian, jacobian};
 pub use lift::{
-    Beside, FromCast, Given, Integer, Lift, Lower, Number, Remainder, Roundable, integer, lift, lower,
-    remainder,
+    Beside, Differentiated, FromCast, Given, Integer, Lift, Lower, Number, Remainder, Roundable, integer,
+    lift, lower, remainder,
 };
 pub use primitive::Primitive;
 pub use real::Real;

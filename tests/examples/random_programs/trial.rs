@@ -56,12 +56,13 @@ pub fn reaction(program: &Program, engine: &str, runtime: Runtime) -> Option<Tri
 /// What rustc said: the runtime's own words for what dual numbers cannot follow are a refusal, anything else
 /// is a mistake in generated code.
 pub fn told_by_rustc(error: &str) -> Trial {
-    const WORDS: [&str; 5] = [
+    const WORDS: [&str; 6] = [
         "cannot be used in a differentiated body",
         "a floating-point number of a differentiated body cannot become an integer",
         "`%` cannot be used on floating-point numbers of a differentiated body",
         "rounding and bit methods cannot be used in a differentiated body",
         "cannot be cast to the scalar type of this system",
+        "this method has no derivative over dual numbers",
     ];
     match WORDS.iter().find(|words| error.contains(*words)) {
         Some(words) => Trial::Refused(format!("told by rustc: {words}")),

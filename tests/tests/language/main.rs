@@ -24,6 +24,7 @@ mod hygiene;
 mod jumps;
 mod methods;
 mod names;
+mod own_methods;
 mod own_types;
 mod quiet;
 mod semantics;

@@ -25,6 +25,7 @@ pub fn field(
     let conditions = conditions(system.source);
     let (quiet, quiet_twins) = (quiet(), quiet_twins());
     let twin_name = &twin.over.sig.ident;
+    let told = twin.own_methods.told();
     let twin = written(twin, true);
     let lifted: Vec<_> = function.fields().map(|(field, _)| quote!(D::lift(self.#field))).collect();
     let result = match kind {
@@ -86,6 +87,8 @@ pub fn field(
         #quiet_twins
         const _: () = {
             use ::dalembert::generated::dual::{self, Dual, Real};
+
+            #told
 
             #[allow(dead_code)]
             impl #name {

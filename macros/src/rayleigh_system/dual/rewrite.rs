@@ -12,12 +12,14 @@
 //! | `i as f64` | `D::number(i)` |
 //! | `i as usize`, `i % n` | `dual::integer::<_, usize>(i)`, `dual::remainder(i % n)`: for integers alone |
 //! | `f64::from(1.5_f32 * self.c)` | `D::real(f64::from(1.5_f32 * self.c))`: constants alone |
+//! | `self.k.curve()`, of a trait or a struct of the user's | `D::lift(self.k.curve())`: of constants alone |
 //! | `self.k.floor()`, `self.k % 2.0` | `D::lift(self.k.floor())`, `D::lift(self.k % 2.0)`: constants alone |
 
 mod call;
 mod cast;
 mod doubt;
 mod field;
+mod method;
 mod operand;
 mod path;
 mod signature;
@@ -39,6 +41,7 @@ use super::super::syntax::{
     Matches, is_assignment, is_float_literal, is_generic_of_std, is_integer, is_of_other_float,
     is_place_of_self, is_plain, is_variant, is_variant_with_fields, real_type, simple_name,
 };
+pub use method::OwnMethods;
 use signature::helper_signature;
 
 /// A function and what it becomes over `Real<D>`.
@@ -48,6 +51,8 @@ pub struct Twin {
     pub over: ImplItemFn,
     /// Whether rustc may still refuse it, by types that the body does not tell.
     pub is_doubtful: bool,
+    /// Methods that it may call on dual numbers, which have none.
+    pub own_methods: OwnMethods,
 }
 
 /// L, R, f and, transitively, the functions of the block that they call.
@@ -56,13 +61,13 @@ pub fn over_duals(system: &System<'_>, report: &mut Report) -> Vec<Twin> {
     let mut twins: Vec<Twin> = Vec::new();
     while let Some(body) = bodies.get(twins.len()).cloned() {
         let before = report.count();
-        let Rewritten { over, functions, is_doubtful } = rewrite(system, &body, report);
+        let Rewritten { over, functions, is_doubtful, own_methods } = rewrite(system, &body, report);
         let plain = body.function;
         if report.count() > before {
             report.mark_body(&plain.sig.ident);
         }
         let is_doubtful = is_doubtful || doubt::hands_on_fields(&plain);
-        twins.push(Twin { plain, over, is_doubtful });
+        twins.push(Twin { plain, over, is_doubtful, own_methods });
         for name in functions {
             let known = bodies.iter().any(|body| body.function.sig.ident == name);
             if !known && let Some(helper) = system.source.functions().find(|f| f.sig.ident == name) {
@@ -91,6 +96,7 @@ struct Rewritten {
     over: ImplItemFn,
     functions: Vec<Ident>,
     is_doubtful: bool,
+    own_methods: OwnMethods,
 }
 
 fn rewrite(system: &System<'_>, body: &Body, report: &mut Report) -> Rewritten {
@@ -99,9 +105,11 @@ fn rewrite(system: &System<'_>, body: &Body, report: &mut Report) -> Rewritten {
         system,
         report,
         bound: bound_names(&over_function),
+        numbers: method::numbers(&over_function),
         fields: BTreeMap::new(),
         functions: Vec::new(),
         is_doubtful: false,
+        own_methods: OwnMethods::default(),
     };
     // Docs and lints of the plain function would be said twice.
     over_function.attrs.clear();
@@ -122,7 +130,7 @@ fn rewrite(system: &System<'_>, body: &Body, report: &mut Report) -> Rewritten {
         }
     }
     rewriter.visit_block_mut(&mut over_function.block);
-    let Rewriter { fields, functions, is_doubtful, .. } = rewriter;
+    let Rewriter { fields, functions, is_doubtful, own_methods, .. } = rewriter;
     let prologue = fields.into_values().map(|field| -> Stmt {
         let Field { local, access } = field;
         // One span for all tokens: a field of a wrong type is then reported once.
@@ -134,7 +142,7 @@ fn rewrite(system: &System<'_>, body: &Body, report: &mut Report) -> Rewritten {
     });
     let statements = std::mem::take(&mut over_function.block.stmts);
     over_function.block.stmts = prologue.chain(statements).collect();
-    Rewritten { over: over_function, functions, is_doubtful }
+    Rewritten { over: over_function, functions, is_doubtful, own_methods }
 }
 
 /// The tokens, all seen at `span` but resolved where they were.
@@ -158,11 +166,14 @@ struct Rewriter<'r> {
     system: &'r System<'r>,
     report: &'r mut Report,
     bound: HashSet<String>,
+    /// Locals that are numbers, as far as their form tells.
+    numbers: HashSet<Ident>,
     /// By the members on the way from `self`.
     fields: BTreeMap<Vec<String>, Field>,
     functions: Vec<Ident>,
     /// Whether a number is converted whose precision only its literals may tell.
     is_doubtful: bool,
+    own_methods: OwnMethods,
 }
 
 impl VisitMut for Rewriter<'_> {
@@ -201,7 +212,10 @@ impl VisitMut for Rewriter<'_> {
                 Some(replacement) => *expression = replacement,
                 None => self.visit_expr_mut(&mut field.base),
             },
-            Expr::MethodCall(call) => self.method_call(call),
+            Expr::MethodCall(call) => match self.of_constants(call) {
+                Some(replacement) => *expression = replacement,
+                None => self.method_call(call, true),
+            },
             Expr::Call(call) => match self.conversion(call) {
                 Some(replacement) => *expression = replacement,
                 None => self.call(call),
@@ -244,6 +258,10 @@ impl VisitMut for Rewriter<'_> {
                 self.report.at(item, Mistake::LocalConst)
             }
             Stmt::Item(item) => self.report.at(item, Mistake::NestedItem),
+            // What is called for what it changes has no value to differentiate.
+            Stmt::Expr(Expr::MethodCall(call), Some(_)) if self.of_constants(call).is_none() => {
+                self.method_call(call, false);
+            }
             Stmt::Macro(statement) => self.report.at(&statement.mac, Mistake::Macro),
             _ => visit_mut::visit_stmt_mut(self, statement),
         }

@@ -7,17 +7,22 @@ use syn::ImplItemFn;
 
 use super::super::model::{Function, System};
 use super::super::write::item::conditions_of;
-use super::rewrite::Twin;
+use super::rewrite::{OwnMethods, Twin};
 
 /// The differentiated functions over `Real<D>`, in the order of the block.
 pub fn twins_of_block(system: &System<'_>, twins: &[Twin]) -> TokenStream {
     let name = &system.name;
+    let mut own_methods = OwnMethods::default();
+    twins.iter().for_each(|twin| own_methods.extend(&twin.own_methods));
+    let told = own_methods.told();
     let twins = system.source.functions().filter_map(|function| {
         let twin = twins.iter().find(|twin| twin.plain.sig.ident == function.sig.ident)?;
         Some(written(twin, is_root(function)))
     });
     // Where nobody makes a value of the type, rustc says so at the type; the twins add nothing to that.
     quote! {
+        #told
+
         #[allow(dead_code)]
         impl #name { #(#twins)* }
     }
@@ -49,6 +54,7 @@ pub fn twins_of_function(system: &System<'_>, function: &Function, twin: &Twin) 
     let System { name, scalar, .. } = system;
     let n = system.degrees.times(1);
     let twin_name = &twin.over.sig.ident;
+    let told = twin.own_methods.told();
     let twin = written(twin, true);
     let lifted: Vec<_> = function.fields().map(|(field, _)| quote!(D::lift(self.#field))).collect();
     let part = |name: &str, text: &str, index: Option<TokenStream>| {
@@ -69,6 +75,8 @@ pub fn twins_of_function(system: &System<'_>, function: &Function, twin: &Twin) 
     let rayleigh = of_pair
         .then(|| part("rayleigh", " The Rayleigh function over plain and dual numbers.", Some(quote!(1))));
     quote! {
+        #told
+
         #[allow(dead_code)]
         impl #name {
             #twin

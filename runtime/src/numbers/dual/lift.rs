@@ -63,6 +63,14 @@ pub trait Remainder {}
 )]
 pub trait Roundable {}
 
+/// A receiver of methods of one's own: no dual number is one, since such a method has no derivative.
+#[diagnostic::on_unimplemented(
+    message = "this method has no derivative over dual numbers",
+    label = "no method of floating-point numbers that is differentiated",
+    note = "of a trait of your own it is known for plain numbers alone: write it as a function of the annotated block, `fn curve(x: f64) -> f64`, and call that, `Self::curve(q[0])`; on fields and constants alone it can stay"
+)]
+pub trait Differentiated {}
+
 /// An input or a time, of the scalar's precision: where it is lifted, D is told by the lifted value alone.
 pub trait Given<D> {
     /// A type of this shape, with `Real<D>` for numbers.

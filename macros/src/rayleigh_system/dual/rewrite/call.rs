@@ -9,7 +9,7 @@ use crate::rayleigh_system::diagnostics::Mistake;
 use crate::rayleigh_system::syntax::{ROUNDING, is_constant_name, is_self, takes_function};
 
 impl Rewriter<'_> {
-    pub fn method_call(&mut self, call: &mut ExprMethodCall) {
+    pub fn method_call(&mut self, call: &mut ExprMethodCall, has_value: bool) {
         if is_self(&call.receiver) {
             if self.is_function_of_block(&call.method) {
                 self.functions.push(call.method.clone());
@@ -24,6 +24,9 @@ impl Rewriter<'_> {
         } else {
             if ROUNDING.iter().any(|rounding| call.method == rounding) {
                 self.report.at(&call.method, Mistake::Rounding(call.method.to_string()));
+            }
+            if has_value {
+                self.own_methods.note(call, &self.numbers);
             }
             match self.converted(call) {
                 Some(receiver) => *call.receiver = receiver,

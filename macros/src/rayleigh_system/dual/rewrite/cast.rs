@@ -6,6 +6,7 @@ use syn::{
 };
 
 use super::Rewriter;
+use super::method::may_be_of_ones_own;
 use crate::rayleigh_system::diagnostics::{Mistake, span_of};
 use crate::rayleigh_system::syntax::{METHODS, is_integer, jumps, simple_name};
 use crate::rayleigh_system::syntax::{is_arithmetic, is_constant_name, is_self, without_parentheses};
@@ -60,6 +61,15 @@ impl Rewriter<'_> {
         is_constant.then(|| parse_quote_spanned!(span=> D::real(#call)))
     }
 
+    /// `self.k.curve()` → `D::lift(self.k.curve())`, for a method of the user's.
+    pub fn of_constants(&self, call: &ExprMethodCall) -> Option<Expr> {
+        let is_constant = may_be_of_ones_own(&call.method)
+            && self.is_constant(&call.receiver)
+            && call.args.iter().all(|argument| self.is_constant(argument));
+        let span = call.method.span();
+        is_constant.then(|| parse_quote_spanned!(span=> D::lift(#call)))
+    }
+
     /// The receiver in `self.c.max(0.5).into()`, `D::lift(self.c.max(0.5))`, whatever its type.
     pub fn converted(&self, call: &ExprMethodCall) -> Option<Expr> {
         let receiver = &call.receiver;
@@ -98,7 +108,10 @@ impl Rewriter<'_> {
                     && self.is_constant(&binary.right)
             }
             Expr::MethodCall(call) => {
-                (jumps(&call.method) || METHODS.iter().any(|method| call.method == method))
+                let may_be_plain = jumps(&call.method)
+                    || METHODS.iter().any(|method| call.method == method)
+                    || may_be_of_ones_own(&call.method);
+                may_be_plain
                     && self.is_constant(&call.receiver)
                     && call.args.iter().all(|argument| self.is_constant(argument))
             }
