@@ -90,7 +90,10 @@ pub(crate) fn verify_momenta<L: Discrete<R, N> + ?Sized, R, const N: usize>(
     h: L::Scalar,
     generated: TwoWays<'_, L::Scalar, N>,
 ) -> Result<(), GeneratedDiffers> {
-    if !L::WRITTEN_OUT || !cfg!(feature = "std") {
+    // A mass times a step size below these may be none.
+    let least = if L::Scalar::EPSILON.widen() > 1e-10 { 1e-12 } else { 1e-100 };
+    let is_extreme = !(least..1.0 / least).contains(&h.widen().abs());
+    if !L::WRITTEN_OUT || !cfg!(feature = "std") || is_extreme {
         return Ok(());
     }
     let v = velocity(system, state);
@@ -137,7 +140,15 @@ fn compare_momenta<L: Discrete<R, N> + ?Sized, R, const N: usize>(
             for (side, (function, generated)) in sides.into_iter().enumerate() {
                 let (generated, (written, size)) = (generated.widen(), near[index][side]);
                 let tolerance = precision * size + 16.0 * (far[index][side].0 - written).abs();
-                if (generated - written).abs() > tolerance {
+                let off = (generated - written).abs();
+                // What overflows on one of two ways tells nothing.
+                if off > tolerance
+                    && off.is_finite()
+                    && is_steady(off, L::Scalar::EPSILON.widen(), &|width| {
+                        let near = (beside(q0, width, q0), beside(&q1, 0.6 * width, &q1));
+                        (by_derivatives(system, &near.0, &near.1, h)[index][side].0 - written).abs()
+                    })
+                {
                     let compared = Compared::Value;
                     return Err(GeneratedDiffers { function, compared, generated, written });
                 }
@@ -145,6 +156,14 @@ fn compare_momenta<L: Discrete<R, N> + ?Sized, R, const N: usize>(
         }
     }
     Ok(())
+}
+
+/// Whether momenta change by less than a sixteenth of what two ways are `off` by, over widths from one last
+/// place to half the digits: in `change`, by the width.
+fn is_steady(off: f64, epsilon: f64, change: &dyn Fn(f64) -> f64) -> bool {
+    let places = [1.0, 2.0, 3.0, 5.0, 8.0, 13.0, 40.0].map(|places| places * epsilon);
+    let half = [0.1, 0.3, 1.0].map(|share| share * epsilon.sqrt());
+    places.into_iter().chain(half).all(|width| 16.0 * change(width) < off && 16.0 * change(-width) < off)
 }
 
 /// −D1 L_d − f_d⁻ and D2 L_d + f_d⁺, component by component, each with the size of its terms.

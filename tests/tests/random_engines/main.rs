@@ -19,6 +19,7 @@ use generator::COEFFICIENTS;
 include!("systems.rs");
 
 mod many_coordinates;
+mod scales;
 mod values;
 mod verification;
 

@@ -5,8 +5,11 @@
 const WIDTHS: [[f64; 3]; 2] =
     [[9.765_625e-4, 9.536_743_164_062_5e-7, 9.313_225_746_154_785e-10], [0.125, 0.015_625, 1.953_125e-3]];
 
-/// The largest coordinates and velocities whose sine is smooth over the narrowest of the widths.
-const LARGEST: [f64; 2] = [1e9, 1e3];
+/// The largest coordinates and velocities whose fourth powers are finite.
+const LARGEST: [f64; 2] = [1e70, 1e9];
+
+/// How much larger than where it is a coordinate becomes, to see whether a slope is refuted there too.
+const FACTORS: [[f64; 3]; 2] = [[1.0, 1e3, 1e6], [1.0, 32.0, 1024.0]];
 
 /// The least difference of slopes that is none of numbers too small to carry their digits.
 const LEAST: [f64; 2] = [1e-200, 1e-25];
@@ -42,6 +45,11 @@ pub fn largest(epsilon: f64) -> f64 {
     LARGEST[usize::from(is_single(epsilon))]
 }
 
+/// The factors of a coordinate at which a partial derivative has to be refuted.
+pub fn factors(epsilon: f64) -> [f64; 3] {
+    FACTORS[usize::from(is_single(epsilon))]
+}
+
 /// The slope by differences, where it is certain that it is another than `slope`; by seven evaluations.
 ///
 /// `function` is along the line, at its argument; `epsilon` the spacing of its numbers at 1, and `size` that
@@ -70,7 +78,24 @@ pub fn refuted(slope: f64, epsilon: f64, size: f64, function: &mut dyn FnMut(f64
         let off = (narrow.central() - slope).abs();
         is_smooth && off > CERTAIN * uncertain && off > least
     };
-    (of_pair(over[0], over[1]) && of_pair(over[1], over[2])).then(|| over[2].central())
+    // All values are one where the terms cancel, or are too small to be told from 0.
+    let is_flat = over.iter().all(|over| over.forward == 0.0 && over.backward == 0.0);
+    (!is_flat && of_pair(over[0], over[1]) && of_pair(over[1], over[2])).then(|| over[2].central())
+}
+
+/// Whether the `slope` that is refuted is one over the narrowest width, to a quarter of what it is off by.
+///
+/// A function that changes far below it, as sin(q/1e-20) does, has no steady slope, nor has one that is
+/// mostly rounding: differences cannot tell it.
+pub fn is_steady(slope: f64, written: f64, epsilon: f64, slope_at: &mut dyn FnMut(f64) -> f64) -> bool {
+    /// Shares of the width, spread without a pattern.
+    const PLACES: u32 = 24;
+    let narrowest = WIDTHS[usize::from(is_single(epsilon))][2];
+    let off = 0.25 * (slope - written).abs();
+    (1..=PLACES).all(|place| {
+        let share = (f64::from(place) * 0.618_033_988_749_895).fract() * 2.0 - 1.0;
+        (slope_at(share * narrowest) - slope).abs() <= off
+    })
 }
 
 #[cfg(test)]
