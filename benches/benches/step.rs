@@ -22,6 +22,8 @@ fn main() {
     }
     times(&scenes);
     println!();
+    starts(&scenes);
+    println!();
     counts(&scenes);
     println!();
     costs_per_degree();
@@ -69,6 +71,26 @@ fn times(scenes: &[Scene]) {
         );
     }
     println!("\ngeometric mean of generated / by hand: {:.2}", geometric_mean(&ratios));
+}
+
+/// What a run verifies before its first step, beside a thousand steps.
+fn starts(scenes: &[Scene]) {
+    println!("| scene | n | engine | start, ns | 1000 steps, ns | start / 1000 steps, % |");
+    println!("|---|--:|---|--:|--:|--:|");
+    for scene in scenes {
+        for way in [Way::Generated, Way::NumDual] {
+            let (Some(start), Some(steps)) = (scene.starts(way), scene.way(way)) else { continue };
+            let medians = interleaved::medians(&[start, &steps]);
+            let [start, steps] = [medians[0] * 1e9, medians[1] * 1e12];
+            println!(
+                "| {} | {} | {} | {start:.0} | {steps:.0} | {:.2} |",
+                scene.name,
+                scene.degrees,
+                way.name(),
+                100.0 * start / steps
+            );
+        }
+    }
 }
 
 /// Instructions per step, and of one evaluation of what a step evaluates.

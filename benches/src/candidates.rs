@@ -4,6 +4,7 @@ use std::hint::black_box;
 use std::rc::Rc;
 
 use dalembert::nalgebra::SVector;
+use dalembert::step::Flow;
 use dalembert::{Discrete, Discretise, Midpoint, State};
 use dalembert_scenes::{
     Arm, DoublePendulum, FputChain8, FputChain32, PendulumChain16, Ring, SpringChain8, SpringChain16,
@@ -55,6 +56,7 @@ pub struct Scene {
     pub degrees: usize,
     ways: Vec<(Way, Run)>,
     evaluations: Vec<(Way, Evaluation)>,
+    starts: Vec<(Way, Evaluation)>,
 }
 
 /// After how many steps the ways of one scene are compared.
@@ -65,17 +67,26 @@ const TOLERANCE: f64 = 1e-12;
 
 impl Scene {
     fn new(name: &'static str, degrees: usize) -> Self {
-        Self { name, degrees, ways: Vec::new(), evaluations: Vec::new() }
+        Self { name, degrees, ways: Vec::new(), evaluations: Vec::new(), starts: Vec::new() }
     }
 
     /// Adds a way on the runtime's trajectory.
     fn with<L, const N: usize>(mut self, way: Way, system: L, start: Start<N>) -> Self
     where
-        L: Discrete<Midpoint, N, Scalar = f64> + 'static,
+        L: Flow<Midpoint, N> + Discrete<Midpoint, N, Scalar = f64> + 'static,
     {
         let Start { q, v, h } = start;
         let start = State::from_velocity(&system, q, v).expect("the scene is regular");
         let system = Rc::new(system);
+        let checked = Rc::clone(&system);
+        let verify = move |times: usize| {
+            for _ in 0..times {
+                let (system, start) = black_box((&*checked, &start));
+                start.verify(system).expect("the scene is as written");
+                system.verify_momenta(start, h).expect("the scene's step is");
+            }
+        };
+        self.starts.push((way, Box::new(verify)));
         self.evaluations.push((way, Box::new(evaluations(Rc::clone(&system), start.q, v.into(), h))));
         let run = move |steps: usize| {
             let mut trajectory = black_box(&*system).by(Midpoint, h).run(black_box(start));
@@ -120,6 +131,12 @@ impl Scene {
     /// What a step evaluates, alone: a number of times the step's equation with its matrix, and both momenta.
     pub fn evaluations(&self, way: Way) -> Option<&dyn Fn(usize)> {
         let (_, run) = self.evaluations.iter().find(|(known, _)| *known == way)?;
+        Some(&**run)
+    }
+
+    /// What a run verifies before its first step, alone: a number of times.
+    pub fn starts(&self, way: Way) -> Option<&dyn Fn(usize)> {
+        let (_, run) = self.starts.iter().find(|(known, _)| *known == way)?;
         Some(&**run)
     }
 

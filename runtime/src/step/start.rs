@@ -73,6 +73,11 @@ fn velocity<L: Lagrangian<N> + ?Sized, const N: usize>(
 ) -> SVector<L::Scalar, N> {
     let rest = SVector::zeros();
     let l = derivatives_apart(system, &state.q, &rest);
+    let zero = L::Scalar::constant(0.0);
+    let is_diagonal = (0..N).all(|i| (0..N).all(|j| (l.d22[(j, i)] != zero) == (i == j)));
+    if is_diagonal {
+        return (state.p - l.d2).component_div(&l.d22.diagonal());
+    }
     linear::solve_apart(&l.d22, &(state.p - l.d2)).unwrap_or(rest)
 }
 
@@ -130,7 +135,8 @@ fn compare_momenta<L: Discrete<R, N> + ?Sized, R, const N: usize>(
     }
     let precision = L::Scalar::EPSILON.sqrt().widen();
     let near = by_derivatives(system, q0, &q1, h);
-    let far = by_derivatives(system, &beside(q0, precision, q0), &beside(&q1, -precision, &q1), h);
+    // Asked for where they differ alone.
+    let far = || by_derivatives(system, &beside(q0, precision, q0), &beside(&q1, -precision, &q1), h);
     for momenta in generated {
         for index in 0..N {
             let sides = [
@@ -139,8 +145,11 @@ fn compare_momenta<L: Discrete<R, N> + ?Sized, R, const N: usize>(
             ];
             for (side, (function, generated)) in sides.into_iter().enumerate() {
                 let (generated, (written, size)) = (generated.widen(), near[index][side]);
-                let tolerance = precision * size + 16.0 * (far[index][side].0 - written).abs();
                 let off = (generated - written).abs();
+                if off <= precision * size {
+                    continue;
+                }
+                let tolerance = precision * size + 16.0 * (far()[index][side].0 - written).abs();
                 // What overflows on one of two ways tells nothing.
                 if off > tolerance
                     && off.is_finite()
