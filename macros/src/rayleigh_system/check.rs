@@ -1,5 +1,6 @@
 //! From the annotated item to the system that its signatures state.
 
+mod place;
 mod shape;
 mod signature;
 
@@ -9,6 +10,7 @@ use syn::{Ident, ImplItemFn, Type};
 use super::attribute::Options;
 use super::diagnostics::{Mistake, Report};
 use super::model::{Body, Degrees, Function, RayleighArguments, Source, System, Timed};
+use place::{Place, at_place};
 use shape::{Shape, is, same_shape, shape_of};
 pub use signature::qualifiers;
 use signature::{
@@ -105,6 +107,12 @@ fn free_function<'a>(
         return None;
     }
     let fields = parameters.split_off(2);
+    for ((name, _), place) in parameters.iter().zip([Place::Configuration, Place::Velocity]) {
+        at_place(name, place, report);
+    }
+    for (name, _) in &fields {
+        at_place(name, Place::Field, report);
+    }
     let shape = shape_of(parameters[0].1, "q", &function.name, report)?;
     same_shape(parameters[1].1, "v", &shape, report);
     owned_parameters(&fields, report);
@@ -138,10 +146,11 @@ pub fn field<'a>(source: &'a Source, report: &mut Report) -> Option<(System<'a>,
     let signature = &function.item.sig;
     qualifiers(signature, report);
     let parameters = typed_parameters(signature, report);
-    let [(_, q), fields @ ..] = &parameters[..] else {
+    let [(of_q, q), fields @ ..] = &parameters[..] else {
         report.at(&signature.ident, Mistake::FieldParameters);
         return None;
     };
+    at_place(of_q, Place::Configuration, report);
     if signature.receiver().is_some() {
         report.at(&signature.ident, Mistake::FieldParameters);
         return None;

@@ -71,6 +71,7 @@ fn text(text: &str, seed: u64) -> String {
     let mut map = drawn(own.constants.iter(), [own.free(CONSTANTS), Vec::new()], &mut random);
     let others = [own.free(CONSTANTS_IN_SMALL), own.free(words)];
     map.extend(drawn(own.others.iter(), others, &mut random));
+    own.keep_places(&mut map);
     renamed(own.tokens, &map).to_string()
 }
 
@@ -86,7 +87,8 @@ fn one_word(text: &str, seed: u64) -> String {
         let drawn = random.below(names.len());
         names.swap(0, drawn);
     }
-    let map = drawn(names.into_iter(), [word, Vec::new()], &mut random);
+    let mut map = drawn(names.into_iter(), [word, Vec::new()], &mut random);
+    own.keep_places(&mut map);
     renamed(own.tokens, &map).to_string()
 }
 
@@ -103,6 +105,8 @@ struct Own {
     taken: BTreeSet<String>,
     constants: BTreeSet<String>,
     others: BTreeSet<String>,
+    /// Arguments of L, R and f.
+    arguments: BTreeSet<String>,
 }
 
 impl Own {
@@ -117,7 +121,14 @@ impl Own {
             // Where a body does not name a constant of the module, the macro cannot know of it.
             constants: names.constants.intersection(&names.mentioned).cloned().collect(),
             others: names.declared.difference(&names.in_short).cloned().collect(),
+            arguments: names.arguments,
         })
+    }
+
+    /// Leaves an argument its name where another would be that of another place: the time is called `t`, and
+    /// nothing else is, nor `u`.
+    fn keep_places(&self, map: &mut BTreeMap<String, &'static str>) {
+        map.retain(|name, word| !self.arguments.contains(name) || name != "t" && !["t", "u"].contains(word));
     }
 
     /// The words that the program does not have already: one could be another name's.
@@ -149,6 +160,8 @@ struct Names {
     constants: BTreeSet<String>,
     /// Names in paths.
     mentioned: BTreeSet<String>,
+    /// Names of arguments of L, R and f.
+    arguments: BTreeSet<String>,
 }
 
 impl<'ast> Visit<'ast> for Names {
@@ -161,7 +174,16 @@ impl<'ast> Visit<'ast> for Names {
 
     fn visit_impl_item_fn(&mut self, function: &'ast syn::ImplItemFn) {
         let name = function.sig.ident.to_string();
-        if !["lagrangian", "rayleigh", "force"].contains(&name.as_str()) {
+        if ["lagrangian", "rayleigh", "force"].contains(&name.as_str()) {
+            let names = function.sig.inputs.iter().filter_map(|input| match input {
+                syn::FnArg::Typed(argument) => match &*argument.pat {
+                    syn::Pat::Ident(pattern) => Some(pattern.ident.to_string()),
+                    _ => None,
+                },
+                syn::FnArg::Receiver(_) => None,
+            });
+            self.arguments.extend(names);
+        } else {
             self.declared.insert(name);
         }
         visit::visit_impl_item_fn(self, function);

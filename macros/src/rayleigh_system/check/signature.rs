@@ -6,6 +6,7 @@ use syn::{Expr, FnArg, Ident, Pat, ReceiverKind, ReturnType, Safety, Signature, 
 
 use super::super::diagnostics::{Mistake, Report};
 use super::super::model::RayleighArguments;
+use super::place::{Place, at_place};
 use super::shape::{Shape, is, is_zero, same_shape, shape_of};
 
 /// The shape of the system, and whether L takes the time.
@@ -18,10 +19,12 @@ pub fn lagrangian_signature(
     qualifiers(signature, report);
     receiver(signature, FUNCTION, report);
     let parameters = typed_parameters(signature, report);
-    let [(_, q), (_, v), ref after @ ..] = parameters[..] else {
+    let [(of_q, q), (of_v, v), ref after @ ..] = parameters[..] else {
         report.at(&signature.ident, Mistake::Parameters { function: FUNCTION, expected: LAGRANGIAN });
         return None;
     };
+    at_place(of_q, Place::Configuration, report);
+    at_place(of_v, Place::Velocity, report);
     let shape = shape_of(q, "q", system, report);
     let Some(shape) = shape else {
         shape_of(v, "v", system, report);
@@ -30,7 +33,7 @@ pub fn lagrangian_signature(
     same_shape(v, "v", &shape, report);
     let is_timed = match after {
         [] => false,
-        [(_, t)] => time_without_input(t, &shape, report),
+        [t] => time_without_input(*t, &shape, report),
         _ => {
             report.at(&signature.ident, Mistake::Parameters { function: FUNCTION, expected: LAGRANGIAN });
             false
@@ -48,27 +51,30 @@ const FORCE: &str =
 const TIME_SCALE: &str = "`(&self, q: [f64; N])` alone: steps follow the configuration";
 
 /// Whether the parameter after the others is a time; if not, says so.
-fn time(ty: &Type, shape: &Shape, report: &mut Report) -> bool {
+fn time((name, ty): Parameter<'_>, shape: &Shape, report: &mut Report) -> bool {
     let is_time = is(ty, &shape.scalar);
-    if !is_time {
+    if is_time {
+        at_place(name, Place::Time, report);
+    } else {
         report.at(ty, Mistake::NotATime { scalar: shape.scalar.to_string() });
     }
     is_time
 }
 
 /// [`time`] for L and R; an array is reported as an input, which they do not take.
-fn time_without_input(ty: &Type, shape: &Shape, report: &mut Report) -> bool {
-    match ty {
-        Type::Array(_) => {
+fn time_without_input(parameter: Parameter<'_>, shape: &Shape, report: &mut Report) -> bool {
+    match parameter.1 {
+        ty @ Type::Array(_) => {
             report.at(ty, Mistake::InputOfFunction);
             false
         }
-        ty => time(ty, shape, report),
+        _ => time(parameter, shape, report),
     }
 }
 
 /// The length of an input's array.
-fn input(ty: &Type, shape: &Shape, report: &mut Report) -> Option<Expr> {
+fn input((name, ty): Parameter<'_>, shape: &Shape, report: &mut Report) -> Option<Expr> {
+    at_place(name, Place::Input, report);
     let Type::Array(array) = ty else {
         report.at(ty, Mistake::NotAnInput { scalar: shape.scalar.to_string() });
         return None;
@@ -93,22 +99,25 @@ pub fn rayleigh_signature(
     receiver(signature, FUNCTION, report);
     scalar_result(signature, FUNCTION, shape, report);
     let parameters = typed_parameters(signature, report);
-    let of_both = |q, v, report: &mut Report| {
-        same_shape(q, "q", shape, report);
+    let of_velocity = |(name, v): Parameter<'_>, report: &mut Report| {
+        at_place(name, Place::Velocity, report);
         same_shape(v, "v", shape, report);
+        RayleighArguments::Velocity
+    };
+    let of_both = |(of_q, q): Parameter<'_>, v, report: &mut Report| {
+        at_place(of_q, Place::Configuration, report);
+        same_shape(q, "q", shape, report);
+        of_velocity(v, report);
         RayleighArguments::ConfigurationAndVelocity
     };
     match parameters[..] {
-        [(_, v)] => {
-            same_shape(v, "v", shape, report);
-            Some((RayleighArguments::Velocity, false))
+        [v] => Some((of_velocity(v, report), false)),
+        [v, t] if is(t.1, &shape.scalar) => {
+            let arguments = of_velocity(v, report);
+            Some((arguments, time(t, shape, report)))
         }
-        [(_, v), (_, t)] if is(t, &shape.scalar) => {
-            same_shape(v, "v", shape, report);
-            Some((RayleighArguments::Velocity, true))
-        }
-        [(_, q), (_, v)] => Some((of_both(q, v, report), false)),
-        [(_, q), (_, v), (_, t)] => {
+        [q, v] => Some((of_both(q, v, report), false)),
+        [q, v, t] => {
             let arguments = of_both(q, v, report);
             Some((arguments, time_without_input(t, shape, report)))
         }
@@ -130,20 +139,20 @@ pub fn force_signature(
     receiver(signature, FUNCTION, report);
     let parameters = typed_parameters(signature, report);
     let arguments = match parameters[..] {
-        [(_, q), (_, v), ref after @ ..] if after.len() <= 2 => {
+        [(of_q, q), (of_v, v), ref after @ ..] if after.len() <= 2 => {
+            at_place(of_q, Place::Configuration, report);
+            at_place(of_v, Place::Velocity, report);
             same_shape(q, "q", shape, report);
             same_shape(v, "v", shape, report);
-            Some(match after {
+            Some(match *after {
                 [] => (None, false),
-                [(_, t)] if is(t, &shape.scalar) => (None, true),
-                [(_, u)] => (input(u, shape, report), false),
+                [t] if is(t.1, &shape.scalar) => (None, time(t, shape, report)),
+                [u] => (input(u, shape, report), false),
                 [(_, t), (_, Type::Array(_))] if is(t, &shape.scalar) => {
                     report.at(t, Mistake::NotAnInput { scalar: shape.scalar.to_string() });
                     (None, true)
                 }
-                [(_, u), rest @ ..] => {
-                    (input(u, shape, report), rest.iter().all(|(_, t)| time(t, shape, report)))
-                }
+                [u, ref rest @ ..] => (input(u, shape, report), rest.iter().all(|t| time(*t, shape, report))),
             })
         }
         _ => {
@@ -167,7 +176,10 @@ pub fn time_scale_signature(signature: &Signature, shape: &Shape, report: &mut R
     qualifiers(signature, report);
     receiver(signature, FUNCTION, report);
     match typed_parameters(signature, report)[..] {
-        [(_, q)] => same_shape(q, "q", shape, report),
+        [(name, q)] => {
+            at_place(name, Place::Configuration, report);
+            same_shape(q, "q", shape, report);
+        }
         _ => report.at(&signature.ident, Mistake::Parameters { function: FUNCTION, expected: TIME_SCALE }),
     }
     scalar_result(signature, FUNCTION, shape, report);
@@ -200,8 +212,11 @@ fn receiver(signature: &Signature, function: &'static str, report: &mut Report) 
     }
 }
 
-/// Patterns and types of the parameters after the receiver.
-pub fn typed_parameters<'s>(signature: &'s Signature, report: &mut Report) -> Vec<(&'s Ident, &'s Type)> {
+/// The name of a parameter and its type; the name of the function where the parameter has none.
+pub type Parameter<'s> = (&'s Ident, &'s Type);
+
+/// The parameters after the receiver.
+pub fn typed_parameters<'s>(signature: &'s Signature, report: &mut Report) -> Vec<Parameter<'s>> {
     let mut parameters = Vec::new();
     for parameter in &signature.inputs {
         if let FnArg::Typed(parameter) = parameter {

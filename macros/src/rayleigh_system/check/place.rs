@@ -1,0 +1,63 @@
+//! Arguments go by their place, and names tell a reader which is which: the two must not disagree.
+
+use syn::Ident;
+
+use super::super::diagnostics::{Mistake, Report};
+use super::super::hygiene::unmarked;
+
+/// The place of an argument.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    Configuration,
+    Velocity,
+    Input,
+    Time,
+    /// A parameter of a free function, which becomes a field.
+    Field,
+}
+
+impl Place {
+    /// The name by which a system's argument is known.
+    fn of_name(name: &str) -> Option<Self> {
+        Some(match name.strip_prefix('_').unwrap_or(name) {
+            "q" => Self::Configuration,
+            "v" => Self::Velocity,
+            "u" => Self::Input,
+            "t" | "time" => Self::Time,
+            _ => return None,
+        })
+    }
+
+    /// The argument in words.
+    fn told(self) -> &'static str {
+        match self {
+            Self::Configuration => "the configuration q",
+            Self::Velocity => "the velocity v",
+            Self::Input => "the input u",
+            Self::Time => "the time t",
+            Self::Field => "a constant, a field of the system",
+        }
+    }
+}
+
+/// Reports a name that is known for another argument, and a time that is not called so: a number after v
+/// might be meant as anything.
+pub fn at_place(name: &Ident, place: Place, report: &mut Report) {
+    let text = unmarked(&name.to_string());
+    match Place::of_name(&text) {
+        Some(Place::Input | Place::Time) if place == Place::Field => {
+            report.at(name, Mistake::NoConstant(text));
+        }
+        Some(Place::Input) if place == Place::Time => report.at(name, Mistake::TimeByAnotherName(text)),
+        Some(known) if known != place => {
+            report.at(name, Mistake::OtherPlace { name: text, known: known.told(), place: place.told() });
+        }
+        None if place == Place::Time && !OWN.contains(&&*text) => {
+            report.at(name, Mistake::TimeByAnotherName(text));
+        }
+        _ => {}
+    }
+}
+
+/// Names of the functions, which a parameter without a name is told by.
+const OWN: [&str; 3] = ["lagrangian", "rayleigh", "force"];
