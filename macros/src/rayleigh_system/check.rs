@@ -10,7 +10,7 @@ use syn::{Ident, ImplItemFn, Type};
 use super::attribute::Options;
 use super::diagnostics::{Mistake, Report};
 use super::model::{Body, Degrees, Function, RayleighArguments, Source, System, Timed};
-use place::{Place, at_place};
+use place::{Place, at_field, at_place};
 use shape::{Shape, is, same_shape, shape_of};
 pub use signature::qualifiers;
 use signature::{
@@ -110,8 +110,8 @@ fn free_function<'a>(
     for ((name, _), place) in parameters.iter().zip([Place::Configuration, Place::Velocity]) {
         at_place(name, place, report);
     }
-    for (name, _) in &fields {
-        at_place(name, Place::Field, report);
+    for field in &fields {
+        at_field(*field, report);
     }
     let shape = shape_of(parameters[0].1, "q", &function.name, report)?;
     same_shape(parameters[1].1, "v", &shape, report);

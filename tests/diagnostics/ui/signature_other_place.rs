@@ -58,8 +58,14 @@ impl Scaled {
 }
 
 #[rayleigh_system]
-fn shaken(q: [f64; 1], v: [f64; 1], t: f64, u: f64) -> f64 {
-    0.5 * v[0] * v[0] - q[0] * (t + u)
+fn shaken(q: [f64; 1], v: [f64; 1], t: f64, u: [f64; 1]) -> f64 {
+    0.5 * v[0] * v[0] - q[0] * (t + u[0])
+}
+
+// A number may be called u, as a speed is.
+#[rayleigh_system]
+fn drawn(_q: [f64; 1], v: [f64; 1], u: f64) -> f64 {
+    0.5 * (v[0] - u).powi(2)
 }
 
 #[rayleigh_system]

@@ -1,6 +1,6 @@
 //! Arguments go by their place, and names tell a reader which is which: the two must not disagree.
 
-use syn::Ident;
+use syn::{Ident, Type};
 
 use super::super::diagnostics::{Mistake, Report};
 use super::super::hygiene::unmarked;
@@ -12,7 +12,7 @@ pub enum Place {
     Velocity,
     Input,
     Time,
-    /// A parameter of a free function, which becomes a field.
+    /// A parameter of a free function.
     Field,
 }
 
@@ -45,9 +45,6 @@ impl Place {
 pub fn at_place(name: &Ident, place: Place, report: &mut Report) {
     let text = unmarked(&name.to_string());
     match Place::of_name(&text) {
-        Some(Place::Input | Place::Time) if place == Place::Field => {
-            report.at(name, Mistake::NoConstant(text));
-        }
         Some(Place::Input) if place == Place::Time => report.at(name, Mistake::TimeByAnotherName(text)),
         Some(known) if known != place => {
             report.at(name, Mistake::OtherPlace { name: text, known: known.told(), place: place.told() });
@@ -56,6 +53,18 @@ pub fn at_place(name: &Ident, place: Place, report: &mut Report) {
             report.at(name, Mistake::TimeByAnotherName(text));
         }
         _ => {}
+    }
+}
+
+/// Reports a parameter of a free function, which becomes a field, by the name of an argument that it does not
+/// take. A number may be called u, as a speed is.
+pub fn at_field((name, ty): (&Ident, &Type), report: &mut Report) {
+    let text = unmarked(&name.to_string());
+    match Place::of_name(&text) {
+        Some(Place::Input) if !matches!(ty, Type::Array(_)) => {}
+        Some(Place::Input | Place::Time) => report.at(name, Mistake::NoConstant(text)),
+        Some(_) => at_place(name, Place::Field, report),
+        None => {}
     }
 }
 

@@ -170,13 +170,8 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
                         return Ok(solution(at, &measured, damped));
                     }
                 }
-                let left = Left {
-                    v: &next.v,
-                    residual: &next.residual,
-                    floor: &next.floor,
-                    locals: &next.locals,
-                    correction: &correction,
-                };
+                let left =
+                    Left { v: &next.v, residual: &next.residual, floor: &next.floor, locals: &next.locals };
                 if MEASURES_NOISE && let Some(measured) = noise(problem, &left, &last.locals) {
                     return Ok(solution(&next, &measured, damped));
                 }
