@@ -1,10 +1,11 @@
 //! Numbers: scalars, numbers side by side and numbers that carry derivatives; elementary functions,
-//! derivatives as data, matrices, nonlinear equations at length.
+//! derivatives as data, matrices, nonlinear equations at length, comparisons of two ways to one quantity.
 //!
 //! The lowest floor: it uses nothing else of this crate.
 
 mod anchors;
 mod arrays;
+pub(crate) mod comparison;
 mod compensated;
 pub(crate) mod derivatives;
 #[cfg(feature = "std")]
@@ -17,6 +18,7 @@ pub(crate) mod nonlinear;
 mod precision;
 mod scalar;
 mod singular;
+pub(crate) mod slices;
 
 pub use anchors::{Angle, Reciprocal};
 pub(crate) use arrays::{Functions, Vectors, product_plus};

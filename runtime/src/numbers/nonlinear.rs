@@ -27,4 +27,5 @@ pub(crate) use rounding::{
     AT_FLOOR, PLACES, SLOW, SMALL, add_finite_part, held, held_one_by_one, in_units_of, is_sensible,
 };
 pub use vectors::Room;
+pub(in crate::numbers) use vectors::copy;
 pub(crate) use vectors::{MEASURES_NOISE, VECTORS, largest};

@@ -14,6 +14,9 @@ pub trait Precision: RealField + Copy {
 
     /// The nearest number to an `f64`.
     fn nearest(value: f64) -> Self;
+
+    /// This number in `f64`, exact for both types.
+    fn widened(self) -> f64;
 }
 
 impl Precision for f64 {
@@ -24,6 +27,11 @@ impl Precision for f64 {
     fn nearest(value: f64) -> Self {
         value
     }
+
+    #[inline]
+    fn widened(self) -> f64 {
+        self
+    }
 }
 
 impl Precision for f32 {
@@ -33,5 +41,10 @@ impl Precision for f32 {
     #[inline]
     fn nearest(value: f64) -> Self {
         value as f32
+    }
+
+    #[inline]
+    fn widened(self) -> f64 {
+        f64::from(self)
     }
 }

@@ -1,6 +1,6 @@
 //! The scalar type of a system: `f64` or `f32`.
 
-use crate::numbers::{Functions, Precision, Vectors, nonlinear::AtLength};
+use crate::numbers::{Functions, Precision, Vectors, comparison::Compares, nonlinear::AtLength};
 
 mod sealed {
     pub trait Sealed {}
@@ -11,7 +11,7 @@ mod sealed {
 /// The scalar type that a system is written in: `f64` or `f32`.
 ///
 /// Sealed: tolerances are derived from [`EPSILON`](Scalar::EPSILON) and hold for IEEE formats only.
-pub trait Scalar: Precision + Functions + Vectors + AtLength + sealed::Sealed {
+pub trait Scalar: Precision + Functions + Vectors + AtLength + Compares + sealed::Sealed {
     /// Distance from 1 to the next larger number.
     const EPSILON: Self = Self::SPACING;
 
@@ -25,19 +25,11 @@ pub trait Scalar: Precision + Functions + Vectors + AtLength + sealed::Sealed {
     }
 
     /// This number in `f64`, exact for both types.
-    fn widen(self) -> f64;
-}
-
-impl Scalar for f64 {
     #[inline]
     fn widen(self) -> f64 {
-        self
+        self.widened()
     }
 }
 
-impl Scalar for f32 {
-    #[inline]
-    fn widen(self) -> f64 {
-        f64::from(self)
-    }
-}
+impl Scalar for f64 {}
+impl Scalar for f32 {}

@@ -13,7 +13,8 @@ use crate::system::{Lagrangian, NoDerivative, missing};
 /// The `error`, if it is one of derivatives that are not finite, with its `cause` in place of it.
 #[cfg(feature = "std")]
 #[cold]
-pub(crate) fn explained(error: StepError, cause: impl FnOnce() -> Option<NoDerivative>) -> StepError {
+#[inline(never)]
+pub(crate) fn explained(error: StepError, cause: &dyn Fn() -> Option<NoDerivative>) -> StepError {
     match error {
         StepError::NonFinite { quantity: Quantity::Derivatives, .. } => {
             cause().map_or(error, StepError::from)
@@ -25,7 +26,7 @@ pub(crate) fn explained(error: StepError, cause: impl FnOnce() -> Option<NoDeriv
 /// The `error`: nothing looks for its cause.
 #[cfg(not(feature = "std"))]
 #[inline(always)]
-pub(crate) fn explained(error: StepError, _: impl FnOnce() -> Option<NoDerivative>) -> StepError {
+pub(crate) fn explained(error: StepError, _: &dyn Fn() -> Option<NoDerivative>) -> StepError {
     error
 }
 
@@ -38,5 +39,5 @@ pub(crate) fn explained_by_lagrangian<L: Lagrangian<N> + ?Sized, const N: usize>
     v: &SVector<L::Scalar, N>,
     error: StepError,
 ) -> StepError {
-    explained(error, || missing::lagrangian(system, q, v))
+    explained(error, &|| missing::lagrangian(system, q, v))
 }

@@ -259,7 +259,9 @@ pub trait Discrete<R, const N: usize>: Flow<R, N> {
     ) -> Option<NoDerivative> {
         let mut found = None;
         self.at_nodes(q0, v, h, &mut |system, q, v| {
-            found = found.or_else(|| system.without_derivative(q, v));
+            if found.is_none() {
+                found = system.without_derivative(q, v);
+            }
         });
         found
     }
@@ -316,7 +318,7 @@ pub trait Discrete<R, const N: usize>: Flow<R, N> {
     ) -> Result<EquationAt<Self::Scalar, N, Self::Matrix>, StepError> {
         let kernel = self.step_kernel(&state.q, &step.velocity, h);
         let mass = self.lagrangian_derivatives(&state.q, &step.velocity).d22;
-        let explained = |error| explained(error, || self.without_derivative_on(&state.q, &step.velocity, h));
+        let explained = |error| explained(error, &|| self.without_derivative_on(&state.q, &step.velocity, h));
         StepError::require_finite(&kernel.p0, Quantity::Derivatives).map_err(explained)?;
         if let Some(index) = (0..N).find(|&i| !(kernel.matrix.row_is_finite(i) && mass.row_is_finite(i))) {
             return Err(explained(StepError::NonFinite { quantity: Quantity::Derivatives, index }));
@@ -337,6 +339,6 @@ pub trait Discrete<R, const N: usize>: Flow<R, N> {
         h: Self::Scalar,
     ) -> Result<Linearization<Self::Scalar, N>, StepError> {
         Linearization::from_legendre(&self.legendre_derivatives(q0, q1, h))
-            .map_err(|error| explained(error, || self.without_derivative_on(q0, &((q1 - q0) / h), h)))
+            .map_err(|error| explained(error, &|| self.without_derivative_on(q0, &((q1 - q0) / h), h)))
     }
 }

@@ -24,6 +24,7 @@ pub(crate) use crate::numbers::nonlinear::{
     AT_FLOOR, ITERATIONS, PLACES, SLOW, SMALL, add_finite_part, is_sensible, shorter,
 };
 use crate::numbers::nonlinear::{Room, Unsolved, Way, largest};
+use crate::numbers::slices::{vector, write};
 pub(crate) use at_length::StepEquations;
 pub(crate) use bounded::bounded;
 pub(crate) use rounding::{estimated_floor, held_against, held_by_weights, is_small_beside};
@@ -124,7 +125,7 @@ pub(crate) fn is_rest<S: Scalar, const N: usize>(
     p: &SVector<S, N>,
 ) -> bool {
     let residual = &mut |v: &[S], into: &mut [S]| {
-        at_length::write(into, &residual(&at_length::vector(v)));
+        write(into, &residual(&vector(v)));
     };
     S::is_rest(residual, p.as_slice(), Room::new(at_length::room::<S, N>().as_flattened_mut(), N))
 }

@@ -35,7 +35,7 @@ pub trait DiscreteParameters<R, const N: usize, const P: usize>: Discrete<R, N> 
         let by_parameters = self.momenta_by_parameters(q0, &((q1 - q0) / h), h);
         self.legendre_derivatives(q0, q1, h)
             .answer(&by_parameters)
-            .map_err(|error| explained(error, || self.without_derivative_on(q0, &((q1 - q0) / h), h)))
+            .map_err(|error| explained(error, &|| self.without_derivative_on(q0, &((q1 - q0) / h), h)))
     }
 
     /// The step with ∂(q1, p1)/∂θ:

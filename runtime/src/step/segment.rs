@@ -134,7 +134,7 @@ where
     fn required<T>(&self, value: T, check: impl FnOnce(&T) -> Result<(), StepError>) -> Result<T, StepError> {
         match check(&value) {
             Ok(()) => Ok(value),
-            Err(error) => Err(explained(error, || {
+            Err(error) => Err(explained(error, &|| {
                 let v = (self.q1 - self.q0) / self.h;
                 self.system.without_derivative_on(&self.q0, &v, self.h)
             })),

@@ -80,7 +80,7 @@ impl<L: Discrete<R, N>, R, const N: usize> LinearizedSegment<'_, L, R, N> {
     #[cfg_attr(feature = "std", cold)]
     #[cfg_attr(not(feature = "std"), inline(always))]
     fn explained(&self, error: StepError) -> StepError {
-        explained(error, || self.system.without_derivative_on(&self.start.q, &self.step.velocity, self.h))
+        explained(error, &|| self.system.without_derivative_on(&self.start.q, &self.step.velocity, self.h))
     }
 }
 
@@ -103,7 +103,7 @@ where
     ) -> Result<LinearizedSegment<'a, L, R, N>, StepError> {
         let k = self.legendre_derivatives(&state.q, &step.state.q, h);
         let q_by_p = invert(&k.p0_by_q1)
-            .map_err(|error| explained(error, || self.without_derivative_on(&state.q, &step.velocity, h)))?;
+            .map_err(|error| explained(error, &|| self.without_derivative_on(&state.q, &step.velocity, h)))?;
         Ok(LinearizedSegment { system: self, rule: PhantomData, start: *state, step: *step, h, k, q_by_p })
     }
 

@@ -28,7 +28,6 @@
 //! registers round differently each time.
 
 mod along;
-mod slope;
 
 pub use along::{force_slope, lagrangian_slope, rayleigh_slope};
 
@@ -36,7 +35,7 @@ use core::hint::black_box;
 
 use nalgebra::SVector;
 
-use crate::numbers::Scalar;
+use crate::numbers::{Scalar, comparison::Unit};
 use crate::system::{Compared, Engine, Force, Function, GeneratedDiffers, Lagrangian, Rayleigh, TimeScale};
 
 /// Whether the same operations give the same bits.
@@ -118,25 +117,6 @@ fn compare<S: Scalar>(function: Function, generated: S, written: S) -> Result<()
     }
 }
 
-/// The entries whose own size differences may have, where they are far below 1: their fourth powers carry
-/// their digits.
-fn is_tiny<S: Scalar>(entry: S) -> bool {
-    let least = if S::EPSILON.widen() > 1e-10 { 1e-7 } else { 1e-70 };
-    (least..1e-4).contains(&entry.widen().abs())
-}
-
-/// The size of each entry of a point, but 1 where it is small: what a function of terms such as √(v² + ε²) −
-/// ε loses to rounding there, its differences do not show.
-pub(crate) fn sizes<S: Scalar, const N: usize>(point: &SVector<S, N>) -> SVector<S, N> {
-    let small = if S::EPSILON.widen() > 1e-10 { 0.1 } else { 1e-3 };
-    let mut sizes = *point;
-    for i in 0..N {
-        let size = point[i].widen().abs();
-        sizes[i] = S::constant(if size >= small { size } else { 1.0 });
-    }
-    sizes
-}
-
 /// Whether there are two values of each function.
 pub(crate) const fn has_two_values(engine: Engine) -> bool {
     matches!(engine, Engine::Expanded | Engine::NumDual { .. })
@@ -152,25 +132,39 @@ pub(crate) fn around<L: Lagrangian<N>, const N: usize>(
         return Ok(());
     }
     system.verify_generated(q, v)?;
-    let one = SVector::repeat(L::Scalar::constant(1.0));
-    system.verify_generated(&beside(q, 0.75, &one), &beside(v, -1.25, &one))
+    let [q, v] = place(q, v, [0.75, -1.25], Unit::One);
+    system.verify_generated(&q, &v)
 }
 
 /// Verifies slopes near (q, v) and farther away: at the point itself a body may take a way of its own, as at
 /// 0.
+#[cold]
+#[inline(never)]
 pub(crate) fn slopes_around<L: Lagrangian<N> + ?Sized, const N: usize>(
     system: &L,
     q: &SVector<L::Scalar, N>,
     v: &SVector<L::Scalar, N>,
 ) -> Result<(), GeneratedDiffers> {
-    let at = |[of_q, of_v]: [f64; 2]| {
-        system.verify_slopes(&beside(q, of_q, &sizes(q)), &beside(v, of_v, &sizes(v)))
+    slopes_at_places(q, v, &|q, v| system.verify_slopes(q, v))
+}
+
+#[cold]
+#[inline(never)]
+#[expect(clippy::type_complexity, reason = "a function, in full: an alias would hide its lifetime")]
+fn slopes_at_places<S: Scalar, const N: usize>(
+    q: &SVector<S, N>,
+    v: &SVector<S, N>,
+    verify: &dyn Fn(&SVector<S, N>, &SVector<S, N>) -> Result<(), GeneratedDiffers>,
+) -> Result<(), GeneratedDiffers> {
+    let at = |distances, unit| {
+        let [q, v] = place(q, v, distances, unit);
+        verify(&q, &v)
     };
-    at([0.011, -0.017])?;
-    at([0.75, -1.25])?;
+    at([0.011, -0.017], Unit::Size)?;
+    at([0.75, -1.25], Unit::Size)?;
     // Where lengths are 1e-20, or velocities, nothing at 1 is smooth.
-    if q.iter().chain(v.iter()).any(|x| is_tiny(*x)) {
-        system.verify_slopes(&beside(q, 0.011, q), &beside(v, -0.017, v))?;
+    if S::has_tiny(q.as_slice()) || S::has_tiny(v.as_slice()) {
+        at([0.011, -0.017], Unit::Own)?;
     }
     Ok(())
 }
@@ -197,15 +191,17 @@ fn is_one_of_64<S: Scalar, const N: usize>(point: &SVector<S, N>) -> bool {
     hash & 63 == 0
 }
 
-/// A point away from `x`, in no special direction.
-pub(crate) fn beside<S: Scalar, const N: usize>(
-    x: &SVector<S, N>,
-    distance: f64,
-    unit: &SVector<S, N>,
-) -> SVector<S, N> {
-    let mut beside = *x;
-    for i in 0..N {
-        beside[i] += S::constant(distance * (1.0 + 0.125 * i as f64)) * unit[i];
-    }
-    beside
+/// A place at these distances from (q, v), in no special direction.
+#[cold]
+#[inline(never)]
+fn place<S: Scalar, const N: usize>(
+    q: &SVector<S, N>,
+    v: &SVector<S, N>,
+    distances: [f64; 2],
+    unit: Unit,
+) -> [SVector<S, N>; 2] {
+    let mut place = [*q, *v];
+    S::beside(q.as_slice(), distances[0], unit, place[0].as_mut_slice());
+    S::beside(v.as_slice(), distances[1], unit, place[1].as_mut_slice());
+    place
 }

@@ -29,7 +29,7 @@ impl<'r, S: Precision> Room<'r, S> {
     }
 
     /// The room that is left, for as long as it is borrowed.
-    pub(super) fn inner(&mut self) -> Room<'_, S> {
+    pub(in crate::numbers) fn inner(&mut self) -> Room<'_, S> {
         Room { left: self.left, length: self.length }
     }
 
@@ -52,7 +52,7 @@ impl<'r, S: Precision> Room<'r, S> {
     }
 
     /// Several vectors, of whatever is there.
-    pub(super) fn vectors<const K: usize>(&mut self) -> [&'r mut [S]; K] {
+    pub(in crate::numbers) fn vectors<const K: usize>(&mut self) -> [&'r mut [S]; K] {
         core::array::from_fn(|_| self.vector())
     }
 
@@ -65,7 +65,7 @@ impl<'r, S: Precision> Room<'r, S> {
 }
 
 /// `to` = `from`.
-pub(super) fn copy<S: Copy>(to: &mut [S], from: &[S]) {
+pub(in crate::numbers) fn copy<S: Copy>(to: &mut [S], from: &[S]) {
     for (to, from) in to.iter_mut().zip(from) {
         *to = *from;
     }

@@ -215,11 +215,17 @@ impl<'a, T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usize, const S:
     #[cfg_attr(feature = "std", cold)]
     #[cfg_attr(not(feature = "std"), inline(always))]
     pub(super) fn not_finite(&self, index: usize, v: &LaneVector<T, N, S>) -> StepError {
-        explained(StepError::NonFinite { quantity: Quantity::Derivatives, index }, || {
+        explained(StepError::NonFinite { quantity: Quantity::Derivatives, index }, &|| {
             let q = self.configurations(v);
-            (0..S).find_map(|i| {
-                self.system.later(self.elapsed(i), |at| at.without_derivative(&lane(&q, i), &lane(v, i)))
-            })
+            // A loop: an iterator's would be many functions more to compile for each system.
+            for i in 0..S {
+                let (q, v) = (lane(&q, i), lane(v, i));
+                let found = self.system.later(self.elapsed(i), |at| at.without_derivative(&q, &v));
+                if found.is_some() {
+                    return found;
+                }
+            }
+            None
         })
     }
 

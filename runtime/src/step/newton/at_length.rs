@@ -7,6 +7,7 @@ use super::Solution;
 use crate::numbers::{
     NewtonMatrix, Scalar, Singular,
     nonlinear::{Equations, Evaluate, Matrix, Room, Root, Solved, Unsolved, VECTORS, Way},
+    slices::{vector, write},
 };
 #[cfg(feature = "std")]
 use crate::step::cause::explained;
@@ -66,7 +67,7 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> StepEquations<'_, S, M, N
             Err(error) => {
                 let error = StepError::from(error);
                 #[cfg(feature = "std")]
-                let error = explained(error, || {
+                let error = explained(error, &|| {
                     let (v, h) = evaluate.lost?;
                     (self.cause)(&self.state.q, &v, h)
                 });
@@ -92,18 +93,6 @@ struct Evaluations<'f, 'e, S, M, const N: usize> {
     lost: Option<(SVector<S, N>, S)>,
 }
 
-/// A slice as the vector that it is: of N entries, known to the compiler, which then copies them at once.
-pub(super) fn vector<S: Scalar, const N: usize>(slice: &[S]) -> SVector<S, N> {
-    <&[S; N]>::try_from(slice).map_or_else(|_| nalgebra::zero(), |entries| SVector::from(*entries))
-}
-
-/// Writes a vector to a slice of N entries.
-pub(super) fn write<S: Scalar, const N: usize>(to: &mut [S], from: &SVector<S, N>) {
-    if let Ok(to) = <&mut [S; N]>::try_from(to) {
-        *to = (*from).into();
-    }
-}
-
 /// Writes |Aᵢᵢ| for each i.
 fn write_sizes<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(entries: &mut [S], matrix: &M) {
     for (i, entry) in entries.iter_mut().enumerate() {
@@ -116,8 +105,10 @@ impl<S: Scalar, M: NewtonMatrix<S, N>, const N: usize> Evaluate<S> for Evaluatio
         let kernel = (self.of.kernel)(&vector(q), &vector(v), h);
         self.present = kernel.matrix;
         #[cfg(feature = "std")]
-        if (0..N).any(|i| !kernel.p0[i].is_finite() || !kernel.matrix.row_is_finite(i)) {
-            self.lost = Some((vector(v), h));
+        for i in 0..N {
+            if !kernel.p0[i].is_finite() || !kernel.matrix.row_is_finite(i) {
+                self.lost = Some((vector(v), h));
+            }
         }
         if held.iter().any(|held| *held != S::zero()) {
             self.present.hold(held);

@@ -39,7 +39,7 @@ pub(crate) fn bounded<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
                     Some(index) => StepError::NonFinite { quantity: Quantity::Derivatives, index },
                     None => StepError::SingularNewtonMatrix { iteration, column },
                 };
-                return Err(explained(error, || cause(q, &v)));
+                return Err(explained(error, &|| cause(q, &v)));
             }
         };
         let next = v - correction;
@@ -53,7 +53,7 @@ pub(crate) fn bounded<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
                 .or_else(|| (0..N).find(|&i| !remaining[i].is_finite()))
                 .unwrap_or(0);
             let error = StepError::NonFinite { quantity: Quantity::Derivatives, index };
-            return Err(explained(error, || cause(q, &v).or_else(|| cause(q, &next))));
+            return Err(explained(error, &|| cause(q, &v).or_else(|| cause(q, &next))));
         }
         let (residual, floor, is_root) = held_against(&remaining, &floor);
         let last_correction = largest(correction.as_slice());

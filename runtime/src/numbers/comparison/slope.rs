@@ -93,7 +93,9 @@ pub fn is_steady(slope: f64, written: f64, epsilon: f64, slope_at: &mut dyn FnMu
     let narrowest = WIDTHS[usize::from(is_single(epsilon))][2];
     let off = 0.25 * (slope - written).abs();
     (1..=PLACES).all(|place| {
-        let share = (f64::from(place) * 0.618_033_988_749_895).fract() * 2.0 - 1.0;
+        let turns = f64::from(place) * 0.618_033_988_749_895;
+        // Without the whole turns: core has no `fract`.
+        let share = (turns - f64::from(turns as u32)) * 2.0 - 1.0;
         (slope_at(share * narrowest) - slope).abs() <= off
     })
 }
