@@ -38,7 +38,8 @@ impl<S: Scalar, const N: usize> State<S, N> {
     /// The velocity v with ∂L/∂v(q, v) = p, by Newton's method (one iteration where L is quadratic in v).
     ///
     /// It starts at v = 0; where ∂²L/∂v² is singular or not finite there, as that of |v|⁴ and of |v|³ is,
-    /// away from it.
+    /// away from it. Such an L has velocities and steps, but a run through a turning point, v = 0, does not
+    /// have the order of its rule: v = p^{1/3} for ¼|v|⁴ has no derivative there.
     ///
     /// # Errors
     /// As [`Discretised::step`](crate::Discretised::step); [`StepError::DegenerateLagrangian`] if ∂²L/∂v² is

@@ -19,9 +19,14 @@ use crate::system::ActingForce;
 /// **By the method's own quadrature**, [`ledger`](Discretised::ledger): h Σ bᵢ Vᵢ·∂R/∂v(Qᵢ, Vᵢ) at the points
 /// where a rule evaluates the forces, the stages of a Gauss rule among them; the loss of kinetic energy in
 /// the drifts of splittings and fitted rules, which is exact; of a composition the sum over its substeps.
-/// What remains is then the method's doing, not the account's: 0 to rounding by the midpoint and Gauss
-/// rules where L is of second degree and R and f whatever they are, and elsewhere h^p over a fixed time
-/// for a method of order p. A remainder that keeps its sign from step to step is a method that drifts.
+/// What remains is then the method's doing, not the account's. Where L is of second degree it is 0 to
+/// rounding by Gauss rules for any R and f, and by the midpoint rule for any f and R(v); where R depends on
+/// q the midpoint rule leaves (h³/4) ∂R/∂q·M⁻¹(∇V + ∂R/∂v − f) a step, at q̄ and v̄. Elsewhere it is h^p over
+/// a fixed time for a method of order p.
+///
+/// **Drift.** Without friction the remainder of a method that drifts adds up with one sign over many periods.
+/// Within a period any method's may keep its sign. With friction it may keep it for good and drift nowhere:
+/// the sum stays of the size h^p as the motion comes to rest.
 ///
 /// **Of a step made otherwise**, [`of`](Self::of): Simpson's rule on the cubic through both ends with their
 /// velocities. Below h⁴ over a fixed time the remainder is then the account's own.

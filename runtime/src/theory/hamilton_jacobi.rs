@@ -37,8 +37,10 @@
 //! characteristic, and [`HamiltonJacobi::characteristics_report`] its closedness defect Q_kᵀP_k − P_kᵀQ_k and
 //! its caustics det Q_k = 0.
 //!
-//! For n = 1 W_k exists for every S_k. For n ≥ 2 it does not: the right side of dW_k has to be closed, and
-//! that of **every** S_0 is so only if the step is conformally symplectic, AᵀΩA = cΩ.
+//! For n = 1 every S_k has a W_k, and an S_{k+1} on the image of an interval where DF_k ≠ 0. Where F_k folds,
+//! at a caustic, two momenta belong to one q1, and no S_{k+1} has both. For n ≥ 2 the right side of dW_k has
+//! to be closed as well, and that of **every** S_0 is so only if the step is conformally symplectic,
+//! AᵀΩA = cΩ.
 //!
 //! **Theorem.** For a regular pair (L_d, R_d), n ≥ 2, on connected regions, these are equivalent: (i) every
 //! closed section γ_0 = dS_0 stays closed; (ii) AᵀΩA = cΩ; (iii) D1D2R_d = κ D1D2L_d, κ constant. Then

@@ -129,3 +129,30 @@ fn velocity_is_found_where_newton_steps_leave_the_domain() {
         assert_eq!(velocity[1], 0.0);
     }
 }
+
+/// L = ¼v⁴ − ½q² has velocities and steps, and order 2 as long as it does not come to rest. Through the
+/// turning point, where v = p^{1/3} has no derivative, the error falls about as h^{4/3}, and not evenly.
+#[test]
+fn a_mass_that_vanishes_at_rest_has_no_order_through_turning_points() {
+    #[rayleigh_system]
+    fn quartic(q: [f64; 1], v: [f64; 1]) -> f64 {
+        0.25 * v[0].powi(4) - 0.5 * q[0] * q[0]
+    }
+    let start = State { q: vector![0.0], p: vector![1.0] };
+    // v = p^{1/3} falls from 1 to 0 at t = 1.2.
+    let end = |time: f64, steps: usize| {
+        let run = Quartic {}.by(Midpoint, time / steps as f64).run(start);
+        run.take(steps).last().unwrap().unwrap().state
+    };
+    let order = |time: f64| {
+        let exact = end(time, 40_000);
+        assert_eq!(exact.p[0] < 0.0, time > 1.5);
+        let error = |steps: usize| {
+            let found = end(time, steps);
+            (found.q - exact.q).amax().max((found.p - exact.p).amax())
+        };
+        (error(20) / error(320)).log2() / 4.0
+    };
+    let [before, through] = [order(0.5), order(2.0)];
+    assert!((before - 2.0).abs() < 0.02 && through < 1.7, "{before} {through}");
+}

@@ -172,6 +172,45 @@ fn for_two_degrees_of_freedom_a_quadratic_potential_violates_it() {
     }
 }
 
+/// V = ½q₀²q₁², M = diag(2, 1), C = diag(c, 1/5).
+#[rayleigh_system]
+fn product(q: [f64; 2], v: [f64; 2], c: f64) -> (f64, f64) {
+    let kinetic = 0.5 * (2.0 * v[0] * v[0] + v[1] * v[1]);
+    let x = q[0] * q[1];
+    (kinetic - 0.5 * x * x, 0.5 * (c * v[0] * v[0] + 0.2 * v[1] * v[1]))
+}
+
+/// V nonlinear, q0 and q1 fixed: h² ∫₀¹ τ²(1−τ)(CM⁻¹V″ − V″M⁻¹C)(q0 + τ(q1−q0)) dτ. With V″ at one place,
+/// h²/12 times the bracket, the remainder stays of order 2.
+#[test]
+fn for_a_nonlinear_potential_the_asymmetry_is_an_integral_along_the_segment() {
+    let (c, q0, q1) = (0.9, vector![0.3, -0.2], vector![0.5, 0.6]);
+    let bracket = |tau: f64| {
+        let q = q0 + (q1 - q0) * tau;
+        // Only ∂²V/∂q₀∂q₁ = 2q₀q₁ does not cancel.
+        (c / 2.0 - 0.2) * 2.0 * q[0] * q[1]
+    };
+    // A polynomial of degree 5: three nodes of Gauss.
+    let integral: f64 = [(-0.6_f64.sqrt(), 5.0), (0.0, 8.0), (0.6_f64.sqrt(), 5.0)]
+        .map(|(x, weight)| (0.5 * (1.0 + x), weight / 18.0))
+        .iter()
+        .map(|(tau, weight)| weight * tau * tau * (1.0 - tau) * bracket(*tau))
+        .sum();
+    let asymmetry = |h: f64| {
+        let existence = Exact::new(&Product { c }).existence(q0, q1, h).unwrap();
+        assert_ne!(existence.verdict(), ExistenceVerdict::Holds, "{existence}");
+        existence.plus[(0, 1)]
+    };
+    let [wide, narrow] = [0.1, 0.05].map(|h| (h * h, asymmetry(h)));
+    let order =
+        |coefficient: f64| halving_order(wide.1 - coefficient * wide.0, narrow.1 - coefficient * narrow.0);
+    assert!(order(integral) > 2.8, "{} {integral}: {wide:?} {narrow:?}", order(integral));
+    for tau in [0.0, 0.5, 1.0] {
+        let order = order(bracket(tau) / 12.0);
+        assert!(order < 2.2, "{tau}: {order}");
+    }
+}
+
 #[test]
 fn proportional_damping_keeps_it_for_a_quadratic_potential() {
     // Positive control of the last test: C = c M commutes, the normal modes are damped oscillators each.

@@ -1,6 +1,6 @@
 //! The energy ledger: each method's own account of what forces did, against an integration beside it.
 
-use dalembert::nalgebra::{SVector, vector};
+use dalembert::nalgebra::{Matrix2, SVector, vector};
 use dalembert::rules::{DisplacementRule, Node, Quadrature};
 use dalembert::step::{Discretised, EnergyExchange, ForceWork, Quantity};
 use dalembert::{
@@ -255,8 +255,7 @@ fn every_method_takes_account_to_its_order() {
     }
 }
 
-/// L of second degree: what the midpoint and the Gauss rules do to the energy is what forces do, whatever
-/// they are.
+/// L of second degree, R(v): what the midpoint and the Gauss rules do to the energy is what forces do.
 #[rayleigh_system(rule = [midpoint, gauss])]
 fn buffer(q: [f64; 1], v: [f64; 1], k: f64, dry: f64) -> (f64, f64) {
     (
@@ -283,6 +282,118 @@ fn nothing_remains_where_energy_is_of_second_degree() {
         Gauss::<8>,
         Composition::kahan_li_6(Midpoint)
     );
+}
+
+/// V = q²/2, R = 0.15(1 + q²)v².
+#[rayleigh_system(rule = [midpoint, gauss])]
+fn thickening(q: [f64; 1], v: [f64; 1]) -> (f64, f64) {
+    (0.5 * v[0] * v[0] - 0.5 * q[0] * q[0], 0.15 * (1.0 + q[0] * q[0]) * v[0] * v[0])
+}
+
+/// Two masses in a well, friction that depends on q, and a force.
+#[rayleigh_system(rule = [midpoint, gauss])]
+impl Smeared {
+    fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        0.65 * v[0] * v[0] + 0.2 * v[0] * v[1] + 0.45 * v[1] * v[1] - 0.5 * q[0] * q[0] - q[1] * q[1]
+    }
+    fn rayleigh(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+        (0.1 + 0.3 * q[0] * q[0] + 0.2 * q[1].sin()) * (v[0] * v[0] + 0.5 * v[1].powi(4))
+    }
+    fn force(&self, q: [f64; 2], v: [f64; 2]) -> [f64; 2] {
+        [-0.3 * q[1], 0.3 * q[0] + 0.1 * v[1]]
+    }
+}
+struct Smeared;
+
+/// (h³/4) ∂R/∂q·M⁻¹(∇V + ∂R/∂v − f) a step by the midpoint rule, nothing by Gauss rules.
+#[test]
+fn friction_that_depends_on_q_leaves_the_midpoint_rule_a_remainder() {
+    let start = State::from_velocity(&Thickening {}, [1.0], [0.0]).unwrap();
+    for (steps, known) in [(50, 4.520_656_0e-4), (100, 1.135_686e-4), (200, 2.842_701e-5)] {
+        let h = 10.0 / steps as f64;
+        let remainder = account(Thickening {}.by(Midpoint, h), start, steps).remainder();
+        assert!((remainder / known - 1.0).abs() < 1e-6, "{h}: {remainder:e}");
+        let remainder = account(Thickening {}.by(Gauss::<1>, h), start, steps).remainder();
+        assert!(remainder.abs() < 1e-14, "{h}: {remainder:e}");
+    }
+
+    let (h, mut state) = (0.1, State { q: vector![0.7, -0.4], p: vector![0.9, 0.5] });
+    let inverse = Matrix2::new(1.3, 0.2, 0.2, 0.9).try_inverse().unwrap();
+    for _ in 0..50 {
+        let next = Smeared.by(Midpoint, h).step(&state).unwrap().state;
+        let (q, v) = ((state.q + next.q) * 0.5, (next.q - state.q) / h);
+        let (thickness, speed) =
+            (0.1 + 0.3 * q[0] * q[0] + 0.2 * q[1].sin(), v[0] * v[0] + 0.5 * v[1].powi(4));
+        let by_q = vector![0.6 * q[0], 0.2 * q[1].cos()] * speed;
+        let drag = vector![2.0 * v[0], 2.0 * v[1].powi(3)] * thickness;
+        let force = vector![-0.3 * q[1], 0.3 * q[0] + 0.1 * v[1]];
+        let expected = 0.25 * h.powi(3) * by_q.dot(&(inverse * (vector![q[0], 2.0 * q[1]] + drag - force)));
+        let found = Smeared.by(Midpoint, h).ledger(&state, &next).unwrap().remainder();
+        assert!((found - expected).abs() < 1e-15, "{found:e} {expected:e}");
+        let gauss = Smeared.by(Gauss::<1>, h).step(&state).unwrap().state;
+        let nothing = Smeared.by(Gauss::<1>, h).ledger(&state, &gauss).unwrap().remainder();
+        assert!(nothing.abs() < 1e-15 && expected.abs() > 1e-8, "{nothing:e} {expected:e}");
+        state = next;
+    }
+}
+
+/// Remainders of one sign: without friction, over many periods, of a method that drifts; within a period, and
+/// with friction for good, of one that does not.
+#[test]
+fn one_sign_is_a_drift_only_without_friction_over_many_periods() {
+    let remainders = |r: f64, h: f64, steps: usize| {
+        let system = Pendulum { r };
+        let by = system.by(Midpoint, h);
+        let mut state = State::from_velocity(&system, [1.0], [0.0]).unwrap();
+        let of_step = |_| {
+            let next = by.step(&state).unwrap().state;
+            let remainder = by.ledger(&state, &next).unwrap().remainder();
+            state = next;
+            remainder
+        };
+        (0..steps).map(of_step).collect::<Vec<f64>>()
+    };
+    let sum = |all: &[f64]| all.iter().sum::<f64>();
+    // Overdamped: one sign, and what has added up at t = 40 is all there will be, C h².
+    let overdamped = remainders(3.0, 0.1, 80);
+    assert!(
+        overdamped.iter().all(|remainder| remainder.signum() == overdamped[0].signum()),
+        "{overdamped:?}"
+    );
+    let [wide, longer, narrow] =
+        [(0.1, 400), (0.1, 800), (0.05, 800)].map(|(h, n)| sum(&remainders(3.0, h, n)));
+    let order = (wide / narrow).log2();
+    assert!(
+        wide.abs() > 1e-6 && (longer - wide).abs() < 1e-12 && (order - 2.0).abs() < 0.1,
+        "{wide:e} {order}"
+    );
+    // Without friction: one sign for a quarter of the period, 6.7, and no more by the midpoint rule.
+    let swinging = remainders(0.0, 0.1, 4000);
+    assert!(swinging[1..15].iter().all(|remainder| remainder.signum() == swinging[1].signum()));
+    let after = |steps: usize| sum(&swinging[..steps]);
+    let largest = |from: usize| (from..from + 400).map(|k| after(k).abs()).fold(0.0, f64::max);
+    assert!(largest(3600) < 1.01 * largest(0), "{:e} {:e}", largest(0), largest(3600));
+    // The control, the classical Runge–Kutta method: each stretch of many periods loses the same.
+    let (system, h) = (Pendulum { r: 0.0 }, 0.2);
+    let mut state = State::from_velocity(&system, [1.0], [0.0]).unwrap();
+    let rate = |y: [f64; 2]| [y[1], -y[0].sin()];
+    let lost = [(); 4].map(|()| {
+        let mut ledger = EnergyLedger::default();
+        for _ in 0..1000 {
+            let y = [state.q[0], state.p[0]];
+            let by = |k: [f64; 2], share: f64| rate([y[0] + share * h * k[0], y[1] + share * h * k[1]]);
+            let k1 = rate(y);
+            let k2 = by(k1, 0.5);
+            let k3 = by(k2, 0.5);
+            let k4 = by(k3, 1.0);
+            let end = |i: usize| y[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
+            let next = State { q: vector![end(0)], p: vector![end(1)] };
+            ledger += EnergyLedger::of(&system, &state, &next, h).unwrap();
+            state = next;
+        }
+        ledger.remainder()
+    });
+    assert!(lost.iter().all(|one| *one < -1e-6 && (one / lost[0] - 1.0).abs() < 0.2), "{lost:?}");
 }
 
 /// Damping however stiff, a constant force, and friction with a term of first degree.

@@ -201,6 +201,39 @@ fn the_carried_values_are_those_of_the_closed_form() {
     }
 }
 
+/// R = ½γq² exerts no force; by the trapezoidal rule R_d = (h²/8)γ(q0² + q1²) = α(q0) + β(q1): κ = 0, c = 1,
+/// and momenta that differ from those without R. S_1∘F_0 = S_0 + L_d, the equation without force, does not
+/// give p1; with G = L_d + α − β it does, and with γ = 0 both do.
+#[test]
+fn kappa_0_alone_is_not_the_unforced_equation() {
+    #[rayleigh_system(rule = trapezoidal)]
+    fn gauged(q: [f64; 1], v: [f64; 1], gamma: f64) -> (f64, f64) {
+        (0.5 * v[0] * v[0] - 0.5 * q[0] * q[0], 0.5 * gamma * q[0] * q[0])
+    }
+    let misses = |gamma: f64| {
+        let system = Gauged { gamma };
+        let by = system.by(Trapezoidal, H);
+        let start = |q: f64| State { q: vector![q], p: vector![0.4 * q + 0.7] };
+        let step = |q: f64| by.step(&start(q)).unwrap().state;
+        let found = by.conformal_step(&[start(0.3), start(-0.8)]).unwrap();
+        assert!(found.is_conformal() && (found.factor - 1.0).abs() < 1e-14, "{found}");
+        let alpha = |q: f64| H * H / 8.0 * gamma * q * q;
+        // p1·DF_0 against the derivative of S_1∘F_0 by the label; all is quadratic, and differences exact.
+        let (label, d) = (0.3, 0.5);
+        let slope = |of: &dyn Fn(f64) -> f64| (of(label + d) - of(label - d)) / (2.0 * d);
+        let s = |q: f64| 0.2 * q * q + 0.7 * q;
+        let l = |q: f64| by.discrete_lagrangian(&vector![q], &step(q).q);
+        let by_label = step(label).p[0] * slope(&|q| step(q).q[0]);
+        [
+            (slope(&|q| s(q) + l(q)) - by_label).abs(),
+            (slope(&|q| s(q) + l(q) + alpha(q) - alpha(step(q).q[0])) - by_label).abs(),
+        ]
+    };
+    let [unforced, whole] = misses(2.0);
+    assert!(unforced > 1e-3 && whole < 1e-14, "{unforced:e} {whole:e}");
+    assert!(misses(0.0).iter().all(|miss| *miss < 1e-14));
+}
+
 /// Characteristics, frames and caustics are those of the theory of pairs (L_d, f_d), and sections stay
 /// closed.
 #[test]

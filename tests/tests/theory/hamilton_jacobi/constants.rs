@@ -47,7 +47,7 @@ fn lambda_0_is_a_constant_of_motion() {
 /// The additive constant of S_k may depend on λ_0, so that two trajectories with the same λ_0 are compared:
 /// if ∂S/∂λ_0 were a constant of motion, so would be its difference. It is δ^k times what it was.
 #[test]
-fn the_derivative_by_the_parameter_is_constant_without_force_alone() {
+fn the_derivative_by_the_parameter_is_constant_only_where_no_force_acts() {
     for system in [DAMPED, UNDAMPED] {
         let closed = CompleteSolution::new(&system, H, -0.2, 0.7);
         let difference = |k: usize, [a, b]: [f64; 2]| by_lambda_0(&closed, k, a) - by_lambda_0(&closed, k, b);
@@ -59,7 +59,7 @@ fn the_derivative_by_the_parameter_is_constant_without_force_alone() {
             assert!((ratio - closed.delta.powi(k as i32)).abs() < 1e-14 * (k + 1) as f64 * near_caustic);
         }
     }
-    // Where force acts it falls by half within some steps; without, δ = 1.
+    // Where force acts it falls to a twentieth within thirty steps; without, δ = 1.
     let delta = |system| CompleteSolution::new(system, H, 0.0, 0.0).delta;
     assert!(delta(&DAMPED).powi(30) < 0.05);
     assert_eq!(delta(&UNDAMPED), 1.0);

@@ -2,7 +2,7 @@
 //! and its check rejects what is no solution.
 
 use dalembert::nalgebra::vector;
-use dalembert::{Discretise, Midpoint, ScalarField};
+use dalembert::{Discretise, Midpoint, ScalarField, State};
 use dalembert_tests::damped_oscillator::{CompleteSolution, DAMPED, H, Oscillator, UNDAMPED, Vector};
 
 const STEPS: usize = 12;
@@ -78,6 +78,35 @@ fn virtual_work_is_the_closed_form() {
     let (s0, s1) = (closed.function(0), closed.function(1));
     let work = |q: f64| theory.virtual_work(&s0, &s1, &vector![q]).unwrap().value;
     assert!((work(2.1) - 0.5 * closed.work(0, 2.1)).abs() > 0.1 * closed.work(0, 2.1).abs());
+}
+
+/// n = 1: S_{k+1} needs DF_k ≠ 0. S_0 = A cos q gives momenta −A sin q, and F_0 folds at cos q = ½. Across
+/// the folds three labels lead to one q1 with three momenta p1; between them F_0 is monotone, and p1 a
+/// function of q1.
+#[test]
+fn for_one_coordinate_a_function_exists_up_to_the_fold_and_not_across() {
+    let end = |amplitude: f64, q: f64| {
+        let state = State { q: vector![q], p: vector![-amplitude * q.sin()] };
+        let next = DAMPED.by(Midpoint, H).step(&state).unwrap().state;
+        (next.q[0], next.p[0])
+    };
+    // F_0 = (step of q) − (step of p) A sin q, linear in both.
+    let by_q = end(0.0, 1.0).0;
+    let by_p = DAMPED.by(Midpoint, H).step(&State { q: vector![0.0], p: vector![1.0] }).unwrap().state.q[0];
+    let amplitude = 2.0 * by_q / by_p;
+    let fold = 0.5_f64.acos();
+    // Across the folds: F_0 = 0 at 0 and at ±q, where sin q = q/2.
+    let (mut low, mut high) = (fold, 3.0);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if end(amplitude, middle).0 < 0.0 { low = middle } else { high = middle }
+    }
+    let [left, centre, right] = [-low, 0.0, low].map(|q| end(amplitude, q));
+    assert!(left.0.abs().max(centre.0.abs()).max(right.0.abs()) < 1e-14, "{left:?} {centre:?} {right:?}");
+    assert!(left.1 - centre.1 > 0.1 && centre.1 - right.1 > 0.1, "{left:?} {centre:?} {right:?}");
+    // Between them: q1 falls with q throughout, so that p1 is a function of it.
+    let within: Vec<_> = (-50..=50).map(|k| end(amplitude, fold * f64::from(k) / 50.0).0).collect();
+    assert!(within.windows(2).all(|pair| pair[1] < pair[0]), "{within:?}");
 }
 
 #[test]
