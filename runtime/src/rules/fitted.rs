@@ -34,8 +34,10 @@ use crate::system::{ActingForce, Lagrangian, Rayleigh};
 /// [`Trajectory`](crate::Trajectory) works them out once for each step size, a single
 /// [`step`](crate::Discretised::step) once.
 ///
-/// For one coordinate, and where C is a multiple of M, it is a Rayleigh system with R_d = ¼ dᵀCd − h ℒ(z)
-/// V(q̄); otherwise its force has no R_d.
+/// Its force has an R_d if and only if CM⁻¹V″(q) is symmetric for all q: R_d = ¼ dᵀCd − h W(q̄) with ∇W =
+/// ℒ(Z)ᵀ∇V. For one coordinate, and where C is a multiple of M, W = ℒ(z) V; for coordinates that M, C and V
+/// leave uncoupled, as of pendula with different damping, W is the sum of such terms. The attribute writes
+/// R_d for one coordinate alone.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Fitted;
 

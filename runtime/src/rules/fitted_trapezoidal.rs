@@ -21,8 +21,8 @@ use crate::system::Rayleigh;
 ///
 /// **Properties.** Self-adjoint, of order 2, falling to 1 where the damping is stiff. One linear solve with a
 /// constant matrix. The determinant of the step is e^{−h tr M⁻¹C}, that of the flow, for every V; where C =
-/// 2aM, AᵀΩA = e^{−2ah}Ω (conformally symplectic), and an angular momentum of a radial V falls by e^{−2ah} a
-/// step, exactly. Stable for the oscillator iff h²k/m < 4 z coth z.
+/// 2aM, AᵀΩA = e^{−2ah}Ω (conformally symplectic), and an angular momentum falls by e^{−2ah} a step, exactly,
+/// where the rotation leaves V and M as they are. Stable for the oscillator iff h²k/m < 4 z coth z.
 ///
 /// In a [`Trajectory`](crate::Trajectory) the functions of Z are worked out once for each step size, and a
 /// step costs one gradient and one solve with factors that are kept.

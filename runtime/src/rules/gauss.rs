@@ -44,7 +44,7 @@ pub(crate) use slack::{SLACK, steps_until};
 use solve::solve;
 
 /// The Gauss–Galerkin rule of S stages, 1 ≤ S ≤ 8: order 2S, self-adjoint, A-stable; S = 1 is
-/// [`Midpoint`](crate::Midpoint).
+/// [`Midpoint`](crate::Midpoint) where R does not depend on q, and differs from it by O(h³) a step elsewhere.
 ///
 /// On polynomials q(t) of degree S from q0 to q1, quadrature with the Gauss–Legendre nodes c_i and weights
 /// b_i gives L_d = h Σ b_i L(Q_i, V_i). The interior points solve the **forced** equations

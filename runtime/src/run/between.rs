@@ -57,8 +57,8 @@ where
 /// | | order | costs |
 /// |---|---|---|
 /// | [`state_at`](Self::state_at) | that of the run | a step, from the start of the last one |
-/// | [`interpolated_at`](Self::interpolated_at), by a [`Gauss`] rule of S ≥ 3 stages | S + 1 | nothing but a polynomial |
-/// | the same by other methods | 4 at most, and that of the run | the velocities at both ends |
+/// | [`interpolated_at`](Self::interpolated_at), by a [`Gauss`] rule of S ≥ 3 stages | q: S + 1, v: S | nothing but a polynomial |
+/// | the same by other methods | q: 4, v: 3, the run's where it is less | the velocities at both ends |
 ///
 /// Gauss rules of three stages and more have the collocation polynomial, v = Σ ℓ_j V_j and q = q0 + h Σ V_j
 /// ∫ℓ_j, the others the cubic through (q, v) at both ends. Where the run has structure to keep, the state

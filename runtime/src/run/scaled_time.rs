@@ -21,8 +21,10 @@ where
     ///
     /// **What is kept.** Each step is one of the method, with a size of its own: momentum maps are kept to
     /// rounding, and forces take what the rule says they take, at any Δτ and with any σ, whatever its
-    /// symmetry. A run of a symmetric method is reversible: from p reversed the same steps lead back. That is
-    /// what bounds the error of the energy; the map of a step is not symplectic, as its h depends on the
+    /// symmetry. By a self-adjoint method the steps lead back from the state and the 1/h that a run ends
+    /// with: with −1/h for any L, R and f, and with p reversed and that 1/h where L is even in v and no
+    /// friction acts. A run begun anew from σ takes other steps. Reversibility keeps the error of the energy
+    /// small over long times without friction; the map of a step is not symplectic, as its h depends on the
     /// state.
     ///
     /// **Why not in τ.** σ(q)(L(q, w/σ(q)) + E) is the Lagrangian, in τ with w = dq/dτ, of the motions of

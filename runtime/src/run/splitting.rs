@@ -51,8 +51,8 @@ use crate::system::GeneratedDiffers;
 ///
 /// **Structure.** Each kick with the drift after it is the flow of a discrete Lagrangian system with force.
 /// Self-adjoint. Symplectic where C = 0. The determinant of the step is e^{−h tr M⁻¹C}, that of the flow, for
-/// every V; where C = 2aM, AᵀΩA = e^{−2ah}Ω, and an angular momentum of a radial V falls by e^{−2ah} a step,
-/// exactly.
+/// every V; where C = 2aM, AᵀΩA = e^{−2ah}Ω, and an angular momentum falls by e^{−2ah} a step, exactly, where
+/// the rotation leaves V and M as they are.
 ///
 /// **Stability.** A free mass decays as its motion does, for any hr/m and without ringing, although some
 /// drifts lead backwards: those are undone exactly. With ω² = k/m, the powers of the step are bounded for an

@@ -77,6 +77,29 @@ fn of_the_pendulum_is_bounded_over_many_steps_by_the_trapezoidal_rule() {
     assert!(account.drift() < 0.01 && account.growth() < 1.01, "{account:?}");
 }
 
+/// The amplitude is of the rule's order, after many steps as at first.
+#[test]
+fn of_the_pendulum_errs_by_h_squared_over_many_steps() {
+    let account = |h: f64| Account::of(&energies(&SWING, Midpoint, h, swing_start(), [STEPS, 7]));
+    let [wide, narrow] = [account(0.1), account(0.05)];
+    for part in 0..2 {
+        let order = (wide.amplitudes[part] / narrow.amplitudes[part]).log2();
+        assert!((order - 2.0).abs() < 0.15, "{order}: {wide:?} {narrow:?}");
+    }
+}
+
+/// Control: a step that does not resolve the fastest motion loses the energy at once, with no friction and a
+/// symplectic step. Störmer–Verlet is stable for hω < 2.
+#[test]
+fn of_a_spring_is_lost_where_h_does_not_resolve_it() {
+    let start = State { q: vector![1.0, 0.0], p: vector![0.0, 0.0] };
+    let energy = |h: f64| {
+        let all = energies(&Spring { m: 1.0, k: 1.0 }, Trapezoidal, h, start, [200, 1]);
+        all.iter().fold(0.0, |worst: f64, e| worst.max((e / 0.5 - 1.0).abs()))
+    };
+    assert!(energy(0.1) < 3e-3 && energy(2.1) > 1e50, "{:e} {:e}", energy(0.1), energy(2.1));
+}
+
 /// Two degrees of freedom, a mass matrix that depends on q: the rule is implicit.
 #[test]
 fn of_the_double_pendulum_is_bounded_over_many_steps() {
@@ -141,7 +164,7 @@ fn on_a_segment_it_is_that_of_the_points_and_the_velocity_which_the_rule_sees() 
 }
 
 /// A spring of stiffness k: the midpoint rule conserves its energy exactly, at the nodes and on the segments.
-#[rayleigh_system]
+#[rayleigh_system(rule = [midpoint, trapezoidal])]
 fn spring(q: [f64; 2], v: [f64; 2], m: f64, k: f64) -> f64 {
     0.5 * m * (v[0] * v[0] + v[1] * v[1]) - 0.5 * k * (q[0] * q[0] + q[1] * q[1])
 }

@@ -192,6 +192,49 @@ fn the_force_of_the_implicit_one_is_rayleigh_where_damping_is_proportional() {
     assert!(defect(C) > 1e-3);
 }
 
+/// And so it is wherever CM⁻¹V″ is symmetric: pendula that nothing couples, with damping of their own, also
+/// in coordinates turned by an angle, which couples all three matrices. R_d = ¼dᵀCd − hΣ ℒ(z_i)V_i(q̄).
+#[test]
+fn the_force_of_the_implicit_one_is_rayleigh_where_damping_and_springs_have_common_modes() {
+    #[rayleigh_system(rule = fitted)]
+    fn pendula(q: [f64; 2], v: [f64; 2], r: [f64; 2], turn: [f64; 2], coupling: f64) -> (f64, f64) {
+        let [c, s] = turn;
+        let (x, y) = (c * q[0] - s * q[1], s * q[0] + c * q[1]);
+        let (u, w) = (c * v[0] - s * v[1], s * v[0] + c * v[1]);
+        let potential = -x.cos() - 2.0 * y.cos() + coupling * x * y;
+        (0.5 * (u * u + 1.4 * w * w) - potential, 0.5 * (r[0] * u * u + r[1] * w * w))
+    }
+    let (q0, q1, h) = (vector![0.7, -0.3], vector![0.9, 0.2], 0.3);
+    let skew = |a: SMatrix<f64, 2, 2>| (a - a.transpose()).amax();
+    for angle in [0.0_f64, 0.6] {
+        let defect = |r: [f64; 2], coupling: f64| {
+            let system = Pendula { r, turn: [angle.cos(), angle.sin()], coupling };
+            let f = Discrete::<Fitted, 2>::discrete_force_derivatives(&system, &q0, &q1, h);
+            skew(f.minus.d1).max(skew(f.plus.d2)).max((f.plus.d1 + f.minus.d2.transpose()).amax())
+        };
+        assert!(defect([0.3, 4.0], 0.0) < 1e-15, "{angle}");
+        // The controls: a coupling of pendula with different damping, and of pendula with C = 0.3 M.
+        assert!(defect([0.3, 4.0], 0.5) > 1e-3, "{angle}");
+        assert!(defect([0.3, 0.3 * 1.4], 0.5) < 1e-15, "{angle}");
+    }
+    let r = [0.3, 4.0];
+    let system = Pendula { r, turn: [1.0, 0.0], coupling: 0.0 };
+    let potential = |a: &SVector<f64, 2>, b: &SVector<f64, 2>| {
+        let (d, q) = (b - a, (a + b) * 0.5);
+        let lag = [r[0] * h / 2.0, r[1] * h / 2.8].map(|z| 1.0 / z.tanh() - 1.0 / z);
+        0.25 * (r[0] * d[0] * d[0] + r[1] * d[1] * d[1])
+            + h * (lag[0] * q[0].cos() + lag[1] * 2.0 * q[1].cos())
+    };
+    let f = Discrete::<Fitted, 2>::discrete_force(&system, &q0, &q1, h);
+    for i in 0..2 {
+        let mut e = SVector::<f64, 2>::zeros();
+        e[i] = 1e-5;
+        let by_q0 = (potential(&(q0 + e), &q1) - potential(&(q0 - e), &q1)) / 2e-5;
+        let by_q1 = (potential(&q0, &(q1 + e)) - potential(&q0, &(q1 - e))) / 2e-5;
+        assert!((by_q0 - f.minus[i]).abs() < 1e-9 && (by_q1 + f.plus[i]).abs() < 1e-9, "{i}: {f:?}");
+    }
+}
+
 /// Without damping they are midpoint and trapezoidal rule, and go there as C does.
 #[test]
 fn they_tend_to_the_plain_rules_without_damping() {

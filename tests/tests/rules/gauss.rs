@@ -212,6 +212,27 @@ fn one_stage_is_the_midpoint_rule() {
     check(&Chain::EXAMPLE, [0.5, -0.2, 0.7, 0.1, -0.6], [0.0, 0.9, -0.3, 0.4, 0.2]);
 }
 
+/// R(q, v): the midpoint rule's R_d differentiates R by q too, and p0 and p1 differ by (h²/4)∂R/∂q, q1 by
+/// O(h³).
+#[test]
+fn one_stage_is_not_the_midpoint_rule_where_r_depends_on_q() {
+    #[rayleigh_system(rule = [midpoint, gauss])]
+    fn thickening(q: [f64; 1], v: [f64; 1], share: f64) -> (f64, f64) {
+        let r = 0.3 * (1.0 + share * q[0] * q[0]);
+        (0.5 * v[0] * v[0] - 0.5 * q[0] * q[0], 0.5 * r * v[0] * v[0])
+    }
+    let apart = |share: f64, h: f64| {
+        let system = Thickening { share };
+        let start = State::from_velocity(&system, [1.0], [0.7]).unwrap();
+        let gauss = system.by(Gauss::<1>, h).step(&start).unwrap().state;
+        let midpoint = system.by(Midpoint, h).step(&start).unwrap().state;
+        (gauss.q - midpoint.q).amax().max((gauss.p - midpoint.p).amax())
+    };
+    assert!(apart(0.0, 0.1) < 1e-15);
+    let [wide, narrow] = [apart(1.0, 0.1), apart(1.0, 0.05)];
+    assert!(wide > 1e-5 && ((wide / narrow).log2() - 3.0).abs() < 0.2, "{wide:e} {narrow:e}");
+}
+
 /// The Lagrange basis on the control points k/s, k = 0…s, with its derivative.
 fn basis(s: usize, nu: usize, x: f64) -> [f64; 2] {
     let node = |k: usize| k as f64 / s as f64;

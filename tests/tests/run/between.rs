@@ -106,8 +106,8 @@ fn samples_on_the_grid_are_the_grids_own() {
     for_all_methods!(check);
 }
 
-/// The largest errors of both answers between the steps over one time, in q.
-fn errors<M: Copy>(method: M, h: f64) -> [f64; 2]
+/// The largest errors of both answers between the steps over one time, in q, and of the polynomial in p.
+fn errors<M: Copy>(method: M, h: f64) -> [f64; 3]
 where
     Well: Flow<M, 2, Scalar = f64>,
 {
@@ -115,7 +115,7 @@ where
     let mut exact = WELL.by(Gauss::<8>, 0.05).run(START);
     let mut exact = exact.dense();
     let mut dense = run.dense();
-    let mut errors = [0.0_f64; 2];
+    let mut errors = [0.0_f64; 3];
     for _ in 0..(2.4 / h).round() as u32 {
         dense.next().unwrap().unwrap();
         let [from, _] = dense.interval().unwrap();
@@ -126,25 +126,27 @@ where
                 exact.next().unwrap().unwrap();
             }
             let state = exact.state_at(time).unwrap();
-            let found = [dense.state_at(time).unwrap().q, dense.interpolated_at(time).unwrap().q];
-            for (error, q) in errors.iter_mut().zip(found) {
-                *error = error.max((q - state.q).amax());
+            let near = dense.interpolated_at(time).unwrap();
+            let found =
+                [dense.state_at(time).unwrap().q - state.q, near.q - state.q, near.momentum() - state.p];
+            for (error, miss) in errors.iter_mut().zip(found) {
+                *error = error.max(miss.amax());
             }
         }
     }
     errors
 }
 
-/// By a step: the order of the run. By a polynomial: S + 1 of Gauss rules of three stages on, 4 of the cubic,
-/// where the run has it.
+/// By a step: the order of the run. By a polynomial: of Gauss rules of three stages on S + 1 in q and S in v,
+/// of the cubic 4 and 3, where the run has it.
 #[test]
 fn both_answers_have_their_orders() {
-    fn check<M: Copy>(method: M, h: f64, orders: [f64; 2])
+    fn check<M: Copy>(method: M, h: f64, orders: [f64; 3])
     where
         Well: Flow<M, 2, Scalar = f64>,
     {
         let (coarse, fine) = (errors(method, h), errors(method, 0.5 * h));
-        for k in 0..2 {
+        for k in 0..3 {
             let order = (coarse[k] / fine[k]).log2();
             assert!(
                 (order - orders[k]).abs() < 0.35,
@@ -153,13 +155,13 @@ fn both_answers_have_their_orders() {
             );
         }
     }
-    check(Midpoint, 0.01, [2.0, 2.0]);
-    check(Gauss::<2>, 0.05, [4.0, 4.0]);
-    check(Gauss::<3>, 0.1, [6.0, 4.0]);
-    check(Gauss::<4>, 0.15, [8.0, 5.0]);
-    check(Composition::kahan_li_6(Trapezoidal), 0.08, [6.0, 4.0]);
-    check(Splitting::blanes_moan_4(), 0.1, [4.0, 4.0]);
-    check(Splitting::blanes_moan_6(), 0.15, [6.0, 4.0]);
+    check(Midpoint, 0.01, [2.0, 2.0, 2.0]);
+    check(Gauss::<2>, 0.05, [4.0, 4.0, 3.0]);
+    check(Gauss::<3>, 0.1, [6.0, 4.0, 3.0]);
+    check(Gauss::<4>, 0.15, [8.0, 5.0, 4.0]);
+    check(Composition::kahan_li_6(Trapezoidal), 0.08, [6.0, 4.0, 3.0]);
+    check(Splitting::blanes_moan_4(), 0.1, [4.0, 4.0, 3.0]);
+    check(Splitting::blanes_moan_6(), 0.15, [6.0, 4.0, 3.0]);
 }
 
 /// A force that changes with time is seen at its own time.

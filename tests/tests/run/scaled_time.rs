@@ -100,6 +100,68 @@ fn a_run_is_reversible() {
     assert!((back.state().p + start.p).norm() < 1e-10, "{:?}", back.state());
 }
 
+/// The way back from the end of 100 steps, with the 1/h that would have come next: with p reversed and h > 0,
+/// and with p as it is and h < 0. The largest distances from the start, of q and p.
+fn ways_back<L>(system: &L, start: State<f64, 2>) -> [f64; 2]
+where
+    L: TimeScale<2> + Flow<Gauss<4>, 2, Scalar = f64>,
+{
+    let mut run = system.by(Gauss::<4>, 0.4).run(start).in_scaled_time();
+    let end = run.by_ref().take(100).last().unwrap().unwrap().state;
+    run.next().unwrap().unwrap();
+    [-1.0, 1.0].map(|sign| {
+        let checkpoint = Checkpoint {
+            state: State { q: end.q, p: end.p * sign },
+            step_size: -sign * run.step_size(),
+            origin: 0.0,
+            steps: 1,
+        };
+        let back = Trajectory::resume(system, Gauss::<4>, checkpoint).in_scaled_time();
+        let back = back.take(100).last().unwrap().unwrap().state;
+        (back.q - start.q).amax().max((back.p - start.p * sign).amax())
+    })
+}
+
+/// Reversed momenta lead back where L is even in v and no friction acts; −1/h leads back always; a run begun
+/// anew from σ does neither.
+#[test]
+fn friction_and_gyroscopic_terms_take_the_way_back_by_reversed_momenta() {
+    /// A term linear in v, of a uniform magnetic field.
+    struct Charge {
+        field: f64,
+    }
+
+    #[rayleigh_system(rule = gauss)]
+    impl Charge {
+        fn lagrangian(&self, q: [f64; 2], v: [f64; 2]) -> f64 {
+            0.5 * (v[0] * v[0] + v[1] * v[1])
+                + 0.5 * self.field * (q[0] * v[1] - q[1] * v[0])
+                + 1.0 / (q[0] * q[0] + q[1] * q[1]).sqrt()
+        }
+        fn time_scale(&self, q: [f64; 2]) -> f64 {
+            (q[0] * q[0] + q[1] * q[1]).powf(0.75)
+        }
+    }
+
+    let start = Kepler::aphelion(0.5);
+    for [reversed, backwards] in [ways_back(&FREE, start), ways_back(&Charge { field: 0.0 }, start)] {
+        assert!(reversed < 1e-11 && backwards < 1e-11, "{reversed:e} {backwards:e}");
+    }
+    for [reversed, backwards] in
+        [ways_back(&EccentricKepler { k: 1e-2 }, start), ways_back(&Charge { field: 0.3 }, start)]
+    {
+        assert!(reversed > 1e-2 && backwards < 1e-11, "{reversed:e} {backwards:e}");
+    }
+
+    // Begun anew, with 1/h from σ: other steps, even without friction.
+    let mut run = FREE.by(Gauss::<4>, 0.4).run(start).in_scaled_time();
+    let end = run.by_ref().take(100).last().unwrap().unwrap().state;
+    let anew = FREE.by(Gauss::<4>, 0.4).run(State { p: -end.p, ..end }).in_scaled_time();
+    let back = anew.take(100).last().unwrap().unwrap().state;
+    let miss = (back.q - start.q).amax();
+    assert!(miss > 1e-6, "{miss:e}");
+}
+
 /// J is kept where σ does not have the symmetry either: a step of any size keeps it.
 #[test]
 fn the_scale_need_not_have_the_symmetry() {

@@ -8,7 +8,8 @@ use dalembert::run::Explicit;
 use dalembert::step::{Flow, Memory, MethodOf, Quantity};
 use dalembert::system::Function;
 use dalembert::{
-    Composition, Discretise, Splitting, State, StepError, Trajectory, Trapezoidal, rayleigh_system,
+    Composition, Discretise, FittedTrapezoidal, Splitting, State, StepError, Trajectory, Trapezoidal,
+    rayleigh_system,
 };
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::convergence::orders;
@@ -324,6 +325,30 @@ fn an_angular_momentum_falls_as_it_does_along_the_motion() {
     ] {
         let expected = j(&start) * (-0.01 * h * steps).exp();
         assert!((j(&end) / expected - 1.0).abs() < 1e-13, "{:e}", j(&end) / expected - 1.0);
+    }
+}
+
+/// V radial and C = 2aM are not enough: the rotation has to leave M as it is.
+#[test]
+fn an_angular_momentum_follows_no_law_where_masses_differ() {
+    #[rayleigh_system(rule = [trapezoidal, fitted_trapezoidal])]
+    fn uneven(q: [f64; 2], v: [f64; 2], m: f64, a: f64) -> (f64, f64) {
+        let (s, kinetic) = (q[0] * q[0] + q[1] * q[1], 0.5 * (v[0] * v[0] + m * v[1] * v[1]));
+        (kinetic - s * (s - 1.0).powi(2), 2.0 * a * kinetic)
+    }
+    let (a, h) = (0.05, 0.1);
+    let j = |state: &State<f64, 2>| state.q[0] * state.p[1] - state.q[1] * state.p[0];
+    let start = State { q: vector![1.1, 0.0], p: vector![0.2, 0.9] };
+    for (m, low, high) in [(1.0, 0.0, 1e-14), (2.0, 1e-3, 1.0)] {
+        let system = Uneven { m, a };
+        for state in [
+            end(Splitting::blanes_moan_4(), &system, h, start, 1),
+            end(Splitting::blanes_moan_6(), &system, h, start, 1),
+            system.by(FittedTrapezoidal, h).step(&start).unwrap().state,
+        ] {
+            let off = (j(&state) / j(&start) - (-2.0 * a * h).exp()).abs();
+            assert!((low..high).contains(&off), "{m}: {off:e}");
+        }
     }
 }
 
