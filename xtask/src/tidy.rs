@@ -32,7 +32,7 @@ const CHECKS: [(&str, Check); 9] = [
     ("openings of documentation", |_| prose::check()),
     ("links of pages", links::check),
     ("tests that pages name", |_| corrections_page::check()),
-    ("speeds in the README", |_| pages::check()),
+    ("figures and dependencies in the README", |_| pages::check()),
     ("the table of tests", |shell| crate::quick::check(shell)),
 ];
 

@@ -1,4 +1,4 @@
-//! The README's table of speed says what it is copied from.
+//! The README's figures are those of the pages that they are copied from, and its dependency is there.
 
 use anyhow::{Context, Result, ensure};
 
@@ -15,9 +15,54 @@ fn rows_of_scenes(page: &str) -> Result<Vec<String>> {
     Ok(cells.filter(|cells| scenes.contains(&cells[0])).map(|cells| cells.join(" | ")).collect())
 }
 
-/// Rows of the README's table of speed that are not those of the page of performance, which the bench prints.
+const LONG_RUN: &str = "| µs per unit of time, with the energy within | 4e-3 | 1e-4 | 1e-6 |";
+const LONG_RUN_OF_PAGE: &str = "| 4e-3, T = 200 | 4e-3, T = 2000 | 4e-3, T = 20000 | 1e-4, T = 200 |";
+
+/// Claims of the README that are not so: rows of its tables that are not those of their pages, which programs
+/// print, and a dependency that a reader would not find.
 pub fn check() -> Result<Vec<String>> {
-    differences(&project::text("README.md")?, &project::text("docs/performance.md")?)
+    let readme = project::text("README.md")?;
+    let mut found = differences(&readme, &project::text("docs/performance.md")?)?;
+    found.extend(other_long_runs(&readme, &project::text("docs/speed-against-error.md")?)?);
+    found.extend(dependencies_not_found(&readme)?);
+    Ok(found)
+}
+
+/// The cells of the table below the heading that has this text.
+fn table<'a>(page: &'a str, heading: &str) -> Result<Vec<Vec<&'a str>>> {
+    let table = page.split_once(heading).with_context(|| format!("the table {heading} is gone"))?.1;
+    let rows = table.lines().skip(2).take_while(|line| line.starts_with('|'));
+    Ok(rows.map(|row| row.trim_matches('|').split('|').map(str::trim).collect()).collect())
+}
+
+/// Rows of the README's long run that are not those of the page up to its last time.
+fn other_long_runs(readme: &str, page: &str) -> Result<Vec<String>> {
+    let (rows, page) = (table(readme, LONG_RUN)?, table(page, LONG_RUN_OF_PAGE)?);
+    ensure!(rows.len() > 3 && page.len() > rows.len(), "{} and {} rows", rows.len(), page.len());
+    let last =
+        |row: &Vec<&str>| [0, 3, 6, 9].map(|cell| row.get(cell).copied().unwrap_or_default().to_owned());
+    let page: Vec<_> = page.iter().map(last).collect();
+    let other = rows.iter().filter(|row| !page.iter().any(|of| of[..] == row[..]));
+    Ok(other
+        .map(|row| format!("README.md: not in docs/speed-against-error.md: {}", row.join(" | ")))
+        .collect())
+}
+
+/// Dependencies on this project's crates that lead to none of them from a project beside a clone, and
+/// versions asked for without a path before the crates have a public address.
+fn dependencies_not_found(readme: &str) -> Result<Vec<String>> {
+    let lines: Vec<_> =
+        readme.lines().filter(|line| line.starts_with("dalembert") && line.contains(" = ")).collect();
+    ensure!(!lines.is_empty(), "the README names no dependency");
+    let is_published = project::text("Cargo.toml")?.lines().any(|line| line.starts_with("repository = "));
+    let is_there = |line: &str| {
+        let name = line.split(' ').next().unwrap_or_default();
+        let Some((_, path)) = line.split_once("path = \"../dalembert/") else { return is_published };
+        let manifest = format!("{}/Cargo.toml", path.split('"').next().unwrap_or_default());
+        project::text(manifest).is_ok_and(|manifest| manifest.contains(&format!("name = \"{name}\"\n")))
+    };
+    let missing = lines.iter().filter(|line| !is_there(line));
+    Ok(missing.map(|line| format!("README.md: a stranger does not find {line}")).collect())
 }
 
 fn differences(readme: &str, performance: &str) -> Result<Vec<String>> {
@@ -41,5 +86,23 @@ mod tests {
         let readme = project::text("README.md").unwrap();
         let other = readme.replacen("| ring | 2 | ", "| ring | 2 | 1", 1);
         assert_eq!(differences(&other, &readme).unwrap().len(), 1);
+    }
+
+    #[test]
+    fn another_long_run_is_seen() {
+        let [readme, page] =
+            ["README.md", "docs/speed-against-error.md"].map(|page| project::text(page).unwrap());
+        assert_eq!(other_long_runs(&readme, &page).unwrap(), [""; 0]);
+        let other = readme.replacen("| heyoka | 1", "| heyoka | 2", 1);
+        assert_eq!(other_long_runs(&other, &page).unwrap().len(), 1);
+    }
+
+    #[test]
+    fn a_dependency_that_nobody_finds_is_seen() {
+        let of = |line: &str| dependencies_not_found(line).unwrap().len();
+        assert_eq!(of("dalembert = { path = \"../dalembert/runtime\" }"), 0);
+        assert_eq!(of("dalembert = { path = \"../dalembert\" }"), 1);
+        assert_eq!(of("dalembert-c = { path = \"../dalembert/runtime\" }"), 1);
+        assert_eq!(of("dalembert = \"0.1\""), 1);
     }
 }
