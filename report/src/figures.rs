@@ -54,7 +54,7 @@ pub fn write(folder: &Path, measured: &Measured<'_>) -> Result<()> {
         return Ok(());
     }
     let energy = |label| logarithmic(label).with_floor(FLOORS[1]).from_to(FLOORS[1], 1.0);
-    let title = format!("Runs of about {} ms each: who keeps the energy?", long_run::SHOWN * 1e3);
+    let title = format!("Of each method the run nearest to {} ms", long_run::SHOWN * 1e3);
     let along = curves(|method| {
         let mut largest = 0.0_f64;
         let samples = measured.samples.iter().filter(|sample| sample.method == method);
