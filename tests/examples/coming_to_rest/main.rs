@@ -44,7 +44,7 @@ fn main() -> Result<ExitCode> {
         }
         [count, seed] => {
             let (count, seed) = (count.parse()?, seed.parse()?);
-            (Draw { count, seed, members: MEMBERS, most: usize::MAX, time: 1e4, workspace: own }, "now")
+            (Draw { count, seed, members: MEMBERS, most: usize::MAX, time: 1e4, workspace: own }, "all")
         }
         [count, seed, "some"] => {
             let (count, seed) = (count.parse()?, seed.parse()?);

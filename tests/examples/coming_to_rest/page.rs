@@ -9,27 +9,37 @@ use super::counts::Counts;
 
 /// Writes `docs/coming-to-rest.md` from the counts of all draws.
 pub fn write(workspace: &Path, counts: &Path) -> Result<PathBuf> {
-    let [now, before] = ["now", "before"].map(|runtime| Counts::of_folder(&counts.join(runtime)));
-    let (now, before) = (now?, before?);
+    let of = |runtime: &str| Counts::of_folder(&counts.join(runtime));
+    let (all, now, before) = (of("all")?, of("now")?, of("before")?);
     let mut page = include_str!("page.md").to_owned();
+    let [runs, refused, steps] = sum(&all);
+    write!(
+        page,
+        "## Every method, to T = 10⁴\n\n{} systems, {runs} runs of {steps} steps, **{refused} refused**.\n\n\
+         | method | runs | refused | steps |\n|---|--:|--:|--:|\n",
+        all.systems
+    )?;
+    for (method, [runs, refused, steps]) in &all.runs {
+        writeln!(page, "| {} | {runs} | {refused} | {steps} |", spaced(method))?;
+    }
+    page += include_str!("before.md");
     page += "| method | runs | refused | steps | before: runs | refused |\n|---|--:|--:|--:|--:|--:|\n";
-    let mut all = [0; 5];
     for (method, [runs, refused, steps]) in &now.runs {
         let [runs_before, refused_before, _] = before.runs.get(method).copied().unwrap_or_default();
-        let row = [*runs, *refused, *steps, runs_before, refused_before];
-        for (sum, count) in all.iter_mut().zip(row) {
-            *sum += count;
-        }
-        write_row(&mut page, method, row);
+        let name = spaced(method);
+        writeln!(page, "| {name} | {runs} | {refused} | {steps} | {runs_before} | {refused_before} |")?;
     }
-    write_row(&mut page, "all", all);
+    let ([runs, refused, steps], [runs_before, refused_before, _]) = (sum(&now), sum(&before));
+    writeln!(page, "| all | {runs} | {refused} | {steps} | {runs_before} | {refused_before} |")?;
     let path = workspace.join("docs/coming-to-rest.md");
     std::fs::write(&path, page)?;
     Ok(path)
 }
 
-fn write_row(page: &mut String, name: &str, [runs, refused, steps, before, refused_before]: [u64; 5]) {
-    let name = name.replace('_', " ");
-    writeln!(page, "| {name} | {runs} | {refused} | {steps} | {before} | {refused_before} |")
-        .expect("a string takes all");
+fn spaced(method: &str) -> String {
+    method.replace('_', " ")
+}
+
+fn sum(counts: &Counts) -> [u64; 3] {
+    counts.runs.values().fold([0; 3], |sum, row| std::array::from_fn(|i| sum[i] + row[i]))
 }

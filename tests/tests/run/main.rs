@@ -7,6 +7,7 @@ mod composition;
 mod driven;
 mod events;
 mod found_by_breaking;
+mod from_rest;
 mod gauss_lanes;
 mod kept;
 mod kept_matrix;
