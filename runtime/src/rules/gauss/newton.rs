@@ -170,8 +170,13 @@ pub(super) fn solve<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
                         return Ok(solution(at, &measured, damped));
                     }
                 }
-                let left =
-                    Left { v: &next.v, residual: &next.residual, floor: &next.floor, locals: &next.locals };
+                let left = Left {
+                    v: &next.v,
+                    residual: &next.residual,
+                    floor: &next.floor,
+                    locals: &next.locals,
+                    correction: &correction,
+                };
                 if MEASURES_NOISE && let Some(measured) = noise(problem, &left, &last.locals) {
                     return Ok(solution(&next, &measured, damped));
                 }

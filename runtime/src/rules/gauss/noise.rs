@@ -5,21 +5,25 @@ use core::array;
 
 use nalgebra::SVector;
 
-use super::linearised::{Factored, Local, locals};
+use super::linearised::{Factored, Local, StageVector, locals};
 use super::problem::Problem;
 use crate::numbers::nonlinear::{self, AROUND, Room, WITHIN_NOISE, shift};
 use crate::numbers::{LaneVector, Scalar, lanes::lane};
 use crate::system::ForcedLagrangian;
 
-/// The part of a correction by which those of matrices nearby may differ from it.
-const SAME: f64 = 1.0 / 8.0;
+/// The part of a coordinate's own second derivatives by which those nearby may differ, to be called the same.
+const SAME: f64 = 1.0 / 16.0;
 
-/// The residual that is left at an iterate.
+/// The part of a correction by which those of matrices nearby may differ from it.
+const ALIKE: f64 = 1.0 / 8.0;
+
+/// The residual that is left at an iterate that the `correction` from the one before led to.
 pub(super) struct Left<'a, T, const N: usize, const S: usize> {
     pub(super) v: &'a LaneVector<T, N, S>,
     pub(super) residual: &'a LaneVector<T, N, S>,
     pub(super) floor: &'a SVector<T, N>,
     pub(super) locals: &'a [Local<T, N>; S],
+    pub(super) correction: &'a StageVector<T, N, S>,
 }
 
 /// The floor with the noise of the residual, if that explains what is left of it.
@@ -30,29 +34,37 @@ pub(super) fn noise<T: Scalar, L: ForcedLagrangian<N, Scalar = T>, const N: usiz
     left: &Left<'_, T, N, S>,
     before: &[Local<T, N>; S],
 ) -> Option<SVector<T, N>> {
-    let Left { v: at_stages, residual: of_stages, locals: here, .. } = *left;
+    let Left { v: at_stages, residual: of_stages, locals: here, correction, .. } = *left;
     let h = problem.h.abs();
-    // Where a product of step sizes underflows or overflows, the matrix is not that of the equations.
-    if h * h <= T::SMALLEST_NORMAL || !(h * h).is_finite() {
-        return None;
-    }
     let residuals = array::from_fn(|i| lane(of_stages, i));
-    let correction = &Factored::new(problem, here).ok()?.solve(&residuals);
-    // Whether another matrix corrects the residual as the one here does: where it is nearly singular, entries
-    // that hardly change change that.
-    let is_same = |locals: &[Local<T, N>; S]| {
-        let Ok(factored) = Factored::new(problem, locals) else { return false };
+    let own = Factored::new(problem, here).ok()?.solve(&residuals);
+    // Entries that hardly change, where the matrix is nearly singular, change what it corrects altogether.
+    let corrects_alike = |now: &[Local<T, N>; S]| {
+        let Ok(factored) = Factored::new(problem, now) else { return false };
         let (mut apart, mut all) = (T::zero(), T::zero());
-        for ((other, own), here) in factored.solve(&residuals).iter().zip(correction).zip(here) {
+        for ((other, own), here) in factored.solve(&residuals).iter().zip(&own).zip(here) {
             for a in 0..N {
                 let (weight, difference) = (size(here, h, (a, a)), other[a] - own[a]);
                 apart += difference * difference * weight;
                 all += own[a] * own[a] * weight;
             }
         }
-        apart <= all * T::constant(SAME * SAME) && all > T::SMALLEST_NORMAL && all.is_finite()
+        apart <= all * T::constant(ALIKE * ALIKE) && all > T::SMALLEST_NORMAL && all.is_finite()
     };
-    if !is_same(before) {
+    let is_same = |now: &[Local<T, N>; S]| {
+        now.iter().zip(here).all(|(now, here)| {
+            (0..N).all(|a| {
+                (0..N).all(|b| {
+                    // Not their product, which may overflow.
+                    let scale = size(here, h, (a, a)).sqrt() * size(here, h, (b, b)).sqrt();
+                    // Beside what overflows everything is near.
+                    scale.is_finite() && is_near(now, here, h, (a, b), scale * T::constant(SAME / N as f64))
+                })
+            })
+        }) && corrects_alike(now)
+    };
+    // Where a product of step sizes underflows or overflows, the matrix is not that of the equations.
+    if h * h <= T::SMALLEST_NORMAL || !(h * h).is_finite() || !is_same(before) {
         return None;
     }
     for direction in 0..2 {
@@ -120,4 +132,21 @@ fn size<T: Scalar, const N: usize>(local: &Local<T, N>, h: T, entry: (usize, usi
         local.rate_by_q[entry] * (h * h),
     ];
     terms.iter().fold(T::zero(), |sum, term| sum + term.abs())
+}
+
+/// Whether the terms of an entry differ by at most `scale`.
+fn is_near<T: Scalar, const N: usize>(
+    now: &Local<T, N>,
+    last: &Local<T, N>,
+    h: T,
+    entry: (usize, usize),
+    scale: T,
+) -> bool {
+    let differences = [
+        now.mass[entry] - last.mass[entry],
+        (now.momentum_by_q[entry] - last.momentum_by_q[entry]) * h,
+        (now.rate_by_v[entry] - last.rate_by_v[entry]) * h,
+        (now.rate_by_q[entry] - last.rate_by_q[entry]) * (h * h),
+    ];
+    differences.iter().fold(T::zero(), |sum, term| sum + term.abs()) <= scale
 }
