@@ -5,12 +5,12 @@ mod shape;
 mod signature;
 
 use quote::ToTokens;
-use syn::{Ident, ImplItemFn, Type};
+use syn::{ImplItemFn, Type};
 
 use super::attribute::Options;
 use super::diagnostics::{Mistake, Report};
 use super::model::{Body, Degrees, Function, RayleighArguments, Source, System, Timed};
-use place::{Place, at_field, at_place};
+use place::{Parameter, Place, at_field, at_place};
 use shape::{Shape, is, same_shape, shape_of};
 pub use signature::qualifiers;
 use signature::{
@@ -108,7 +108,7 @@ fn free_function<'a>(
     }
     let fields = parameters.split_off(2);
     for ((name, _), place) in parameters.iter().zip([Place::Configuration, Place::Velocity]) {
-        at_place(name, place, report);
+        at_place(*name, place, report);
     }
     for field in &fields {
         at_field(*field, report);
@@ -150,7 +150,7 @@ pub fn field<'a>(source: &'a Source, report: &mut Report) -> Option<(System<'a>,
         report.at(&signature.ident, Mistake::FieldParameters);
         return None;
     };
-    at_place(of_q, Place::Configuration, report);
+    at_place(*of_q, Place::Configuration, report);
     if signature.receiver().is_some() {
         report.at(&signature.ident, Mistake::FieldParameters);
         return None;
@@ -175,7 +175,7 @@ pub fn field<'a>(source: &'a Source, report: &mut Report) -> Option<(System<'a>,
 }
 
 /// Parameters that become fields cannot be references.
-fn owned_parameters(parameters: &[(&Ident, &Type)], report: &mut Report) {
+fn owned_parameters(parameters: &[Parameter<'_>], report: &mut Report) {
     for (_, ty) in parameters {
         if matches!(ty, Type::Reference(_)) {
             report.at(ty, Mistake::FieldByReference);

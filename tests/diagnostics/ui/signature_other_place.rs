@@ -45,6 +45,18 @@ impl Damped {
     }
 }
 
+struct Loaded;
+
+#[rayleigh_system]
+impl Loaded {
+    fn lagrangian(&self, _q: [f64; 1], v: [f64; 1], _: f64) -> f64 {
+        0.5 * v[0] * v[0]
+    }
+    fn force(&self, _q: [f64; 1], _v: [f64; 1], force: f64) -> [f64; 1] {
+        [force]
+    }
+}
+
 struct Scaled;
 
 #[rayleigh_system]

@@ -5,6 +5,9 @@ use syn::{Ident, Type};
 use super::super::diagnostics::{Mistake, Report};
 use super::super::hygiene::unmarked;
 
+/// The name of a parameter, if it has one, and its type.
+pub type Parameter<'s> = (Option<&'s Ident>, &'s Type);
+
 /// The place of an argument.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Place {
@@ -42,15 +45,15 @@ impl Place {
 
 /// Reports a name that is known for another argument, and a time that is not called so: a number after v
 /// might be meant as anything.
-pub fn at_place(name: &Ident, place: Place, report: &mut Report) {
+pub fn at_place(name: Option<&Ident>, place: Place, report: &mut Report) {
+    let Some(name) = name else { return };
     let text = unmarked(&name.to_string());
     match Place::of_name(&text) {
-        Some(Place::Input) if place == Place::Time => report.at(name, Mistake::TimeByAnotherName(text)),
+        None | Some(Place::Input) if place == Place::Time => {
+            report.at(name, Mistake::TimeByAnotherName(text));
+        }
         Some(known) if known != place => {
             report.at(name, Mistake::OtherPlace { name: text, known: known.told(), place: place.told() });
-        }
-        None if place == Place::Time && !OWN.contains(&&*text) => {
-            report.at(name, Mistake::TimeByAnotherName(text));
         }
         _ => {}
     }
@@ -58,15 +61,13 @@ pub fn at_place(name: &Ident, place: Place, report: &mut Report) {
 
 /// Reports a parameter of a free function, which becomes a field, by the name of an argument that it does not
 /// take. A number may be called u, as a speed is.
-pub fn at_field((name, ty): (&Ident, &Type), report: &mut Report) {
+pub fn at_field((name, ty): Parameter<'_>, report: &mut Report) {
+    let Some(name) = name else { return };
     let text = unmarked(&name.to_string());
     match Place::of_name(&text) {
         Some(Place::Input) if !matches!(ty, Type::Array(_)) => {}
         Some(Place::Input | Place::Time) => report.at(name, Mistake::NoConstant(text)),
-        Some(_) => at_place(name, Place::Field, report),
+        Some(_) => at_place(Some(name), Place::Field, report),
         None => {}
     }
 }
-
-/// Names of the functions, which a parameter without a name is told by.
-const OWN: [&str; 3] = ["lagrangian", "rayleigh", "force"];

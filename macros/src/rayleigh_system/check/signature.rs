@@ -6,7 +6,7 @@ use syn::{Expr, FnArg, Ident, Pat, ReceiverKind, ReturnType, Safety, Signature, 
 
 use super::super::diagnostics::{Mistake, Report};
 use super::super::model::RayleighArguments;
-use super::place::{Place, at_place};
+use super::place::{Parameter, Place, at_place};
 use super::shape::{Shape, is, is_zero, same_shape, shape_of};
 
 /// The shape of the system, and whether L takes the time.
@@ -212,9 +212,6 @@ fn receiver(signature: &Signature, function: &'static str, report: &mut Report) 
     }
 }
 
-/// The name of a parameter and its type; the name of the function where the parameter has none.
-pub type Parameter<'s> = (&'s Ident, &'s Type);
-
 /// The parameters after the receiver.
 pub fn typed_parameters<'s>(signature: &'s Signature, report: &mut Report) -> Vec<Parameter<'s>> {
     let mut parameters = Vec::new();
@@ -222,12 +219,12 @@ pub fn typed_parameters<'s>(signature: &'s Signature, report: &mut Report) -> Ve
         if let FnArg::Typed(parameter) = parameter {
             match &*parameter.pat {
                 Pat::Ident(pattern) if pattern.subpat.is_none() && pattern.by_ref.is_none() => {
-                    parameters.push((&pattern.ident, &*parameter.ty));
+                    parameters.push((Some(&pattern.ident), &*parameter.ty));
                 }
-                Pat::Wild(_) => parameters.push((&signature.ident, &*parameter.ty)),
+                Pat::Wild(_) => parameters.push((None, &*parameter.ty)),
                 pattern => {
                     report.at(pattern, Mistake::ParameterPattern);
-                    parameters.push((&signature.ident, &*parameter.ty));
+                    parameters.push((None, &*parameter.ty));
                 }
             }
         }
