@@ -29,8 +29,8 @@ pub use crate::numbers::{
     Lanes, Mask, Scalar, Variations,
 };
 pub use acting_force::ActingForce;
-pub(crate) use continuous::derivatives_apart;
 pub use continuous::{Force, Lagrangian, Rayleigh};
+pub(crate) use continuous::{derivatives_apart, is_timed};
 pub use driven::{Driven, Input};
 pub use error::{Compared, Function, GeneratedDiffers};
 pub use fields::{ScalarField, VectorField};

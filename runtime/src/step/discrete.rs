@@ -318,7 +318,7 @@ pub trait Discrete<R, const N: usize>: Flow<R, N> {
     ) -> Result<EquationAt<Self::Scalar, N, Self::Matrix>, StepError> {
         let kernel = self.step_kernel(&state.q, &step.velocity, h);
         let mass = self.lagrangian_derivatives(&state.q, &step.velocity).d22;
-        let explained = |error| explained(error, &|| self.without_derivative_on(&state.q, &step.velocity, h));
+        let explained = |error| explained_on(self, &state.q, &step.velocity, h, error);
         StepError::require_finite(&kernel.p0, Quantity::Derivatives).map_err(explained)?;
         if let Some(index) = (0..N).find(|&i| !(kernel.matrix.row_is_finite(i) && mass.row_is_finite(i))) {
             return Err(explained(StepError::NonFinite { quantity: Quantity::Derivatives, index }));
@@ -339,6 +339,20 @@ pub trait Discrete<R, const N: usize>: Flow<R, N> {
         h: Self::Scalar,
     ) -> Result<Linearization<Self::Scalar, N>, StepError> {
         Linearization::from_legendre(&self.legendre_derivatives(q0, q1, h))
-            .map_err(|error| explained(error, &|| self.without_derivative_on(q0, &((q1 - q0) / h), h)))
+            .map_err(|error| explained_on(self, q0, &((q1 - q0) / h), h, error))
     }
+}
+
+/// The `error`, if it is one of derivatives that are not finite, with what lacks one on the segment from q0
+/// with mean velocity `v` in place of it.
+#[cfg_attr(feature = "std", cold)]
+#[cfg_attr(not(feature = "std"), inline(always))]
+pub(crate) fn explained_on<L: Discrete<R, N> + ?Sized, R, const N: usize>(
+    system: &L,
+    q0: &SVector<L::Scalar, N>,
+    v: &SVector<L::Scalar, N>,
+    h: L::Scalar,
+    error: StepError,
+) -> StepError {
+    explained(error, &|| system.without_derivative_on(q0, v, h))
 }

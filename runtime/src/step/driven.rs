@@ -7,7 +7,7 @@
 
 use nalgebra::SVector;
 
-use crate::step::cause::explained;
+use crate::step::discrete::explained_on;
 use crate::step::{Discrete, Linearization, MomentaBy, State, StepError, StepWith};
 use crate::system::Driven;
 
@@ -39,7 +39,7 @@ pub trait DiscreteDriven<R, const N: usize, const M: usize>: Discrete<R, N> + Dr
     ) -> Result<Linearization<Self::Scalar, N, M>, StepError> {
         let by_input = self.momenta_by_input(q0, &((q1 - q0) / h), h);
         Linearization::with_input(&self.legendre_derivatives(q0, q1, h), &by_input)
-            .map_err(|error| explained(error, &|| self.without_derivative_on(q0, &((q1 - q0) / h), h)))
+            .map_err(|error| explained_on(self, q0, &((q1 - q0) / h), h, error))
     }
 
     /// The step with its derivatives by state and input:

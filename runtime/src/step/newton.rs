@@ -191,13 +191,10 @@ pub(crate) fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         v = next;
         if close {
             let momenta = finish(q, &v);
-            let residual = momenta.p0 - p;
+            let left = momenta.p0 - p;
             let floor = estimated_floor(p, &kernel.matrix, &v);
-            let (residual, floor, is_root) = held_against(&residual, &floor);
-            let is_known = kind == Equation::Linear
-                || is_small_beside(&(momenta.p0 - p), p)
-                || is_known_at(&v, &correction);
-            if is_root && is_known {
+            let (residual, floor, is_root) = held_against(&left, &floor);
+            if is_root && (is_small_beside(&left, p) || is_known_at(kind, &v, &correction)) {
                 let iterations = iterations + 1;
                 let last_correction = largest(correction.as_slice());
                 let report = Report { iterations, damped: 0, residual, floor, last_correction };
@@ -210,14 +207,18 @@ pub(crate) fn quick<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
 
 /// Whether the floor at `v` may be taken from the matrix of the iterate before, from which the last
 /// `correction` led here: from a guess that is far out by many orders of magnitude, be it in one coordinate,
-/// that matrix can be larger by as many, and with it the floor.
+/// that matrix can be larger by as many, and with it the floor. That of a linear equation is one everywhere.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn is_known_at<S: Scalar, const N: usize>(v: &SVector<S, N>, correction: &SVector<S, N>) -> bool {
+fn is_known_at<S: Scalar, const N: usize>(
+    kind: Equation,
+    v: &SVector<S, N>,
+    correction: &SVector<S, N>,
+) -> bool {
     let mut is_known = true;
     for i in 0..N {
         is_known &= correction[i].abs() <= v[i].abs() * S::constant(SMALL);
     }
-    is_known
+    is_known || kind == Equation::Linear
 }
 
 /// max |residualᵢ| weightᵢ; NaN if one of them is no finite number.

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::step::cause::explained;
+use crate::step::discrete::explained_on;
 use crate::step::{Discrete, MomentaBy, State, StateBy, StepError, StepWith};
 use crate::system::Parameters;
 
@@ -35,7 +35,7 @@ pub trait DiscreteParameters<R, const N: usize, const P: usize>: Discrete<R, N> 
         let by_parameters = self.momenta_by_parameters(q0, &((q1 - q0) / h), h);
         self.legendre_derivatives(q0, q1, h)
             .answer(&by_parameters)
-            .map_err(|error| explained(error, &|| self.without_derivative_on(q0, &((q1 - q0) / h), h)))
+            .map_err(|error| explained_on(self, q0, &((q1 - q0) / h), h, error))
     }
 
     /// The step with ∂(q1, p1)/∂θ:

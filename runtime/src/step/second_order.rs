@@ -16,7 +16,7 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::Hessian;
-use crate::step::cause::explained;
+use crate::step::discrete::explained_on;
 use crate::step::{Discrete, SolvedForVelocity, State, StepError, StepWith, invert};
 use crate::system::{Lagrangian, SecondOrder};
 
@@ -83,8 +83,7 @@ pub trait DiscreteSecondOrder<R, const N: usize, const M: usize>:
     ) -> Result<StepHessian<Self::Scalar, N, M>, StepError> {
         let k = self.legendre_derivatives(q0, q1, h);
         // ∂q1/∂p0, ∂q1/∂q0, ∂q1/∂u.
-        let by_p = invert(&k.p0_by_q1)
-            .map_err(|error| explained(error, &|| self.without_derivative_on(q0, &((q1 - q0) / h), h)))?;
+        let by_p = invert(&k.p0_by_q1).map_err(|error| explained_on(self, q0, &((q1 - q0) / h), h, error))?;
         let by_q = -(by_p * k.p0_by_q0);
         let v = (q1 - q0) / h;
         let by_u = -(by_p * self.p0_by_input(q0, &v, h));

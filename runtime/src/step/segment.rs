@@ -5,7 +5,7 @@ use core::marker::PhantomData;
 use nalgebra::{SMatrix, SVector};
 
 use crate::numbers::{CovectorDerivatives, Derivatives, Scalar};
-use crate::step::cause::explained;
+use crate::step::discrete::explained_on;
 use crate::step::{
     Discrete, DiscreteForce, DiscreteForceDerivatives, DiscreteRayleigh, LegendreDerivatives, Quantity,
     State, StepError, require_step_size,
@@ -134,10 +134,10 @@ where
     fn required<T>(&self, value: T, check: impl FnOnce(&T) -> Result<(), StepError>) -> Result<T, StepError> {
         match check(&value) {
             Ok(()) => Ok(value),
-            Err(error) => Err(explained(error, &|| {
+            Err(error) => {
                 let v = (self.q1 - self.q0) / self.h;
-                self.system.without_derivative_on(&self.q0, &v, self.h)
-            })),
+                Err(explained_on(self.system, &self.q0, &v, self.h, error))
+            }
         }
     }
 }

@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use nalgebra::SMatrix;
 
-use crate::step::cause::explained;
+use crate::step::discrete::explained_on;
 use crate::step::{
     Discrete, DiscreteDriven, DiscreteParameters, Flow, LegendreDerivatives, PhaseMatrix, SolvedForVelocity,
     State, StateBy, Step, StepError, invert,
@@ -77,10 +77,8 @@ pub struct LinearizedSegment<'a, L: Flow<R, N>, R, const N: usize> {
 }
 
 impl<L: Discrete<R, N>, R, const N: usize> LinearizedSegment<'_, L, R, N> {
-    #[cfg_attr(feature = "std", cold)]
-    #[cfg_attr(not(feature = "std"), inline(always))]
     fn explained(&self, error: StepError) -> StepError {
-        explained(error, &|| self.system.without_derivative_on(&self.start.q, &self.step.velocity, self.h))
+        explained_on(self.system, &self.start.q, &self.step.velocity, self.h, error)
     }
 }
 
@@ -102,8 +100,8 @@ where
         h: L::Scalar,
     ) -> Result<LinearizedSegment<'a, L, R, N>, StepError> {
         let k = self.legendre_derivatives(&state.q, &step.state.q, h);
-        let q_by_p = invert(&k.p0_by_q1)
-            .map_err(|error| explained(error, &|| self.without_derivative_on(&state.q, &step.velocity, h)))?;
+        let q_by_p =
+            invert(&k.p0_by_q1).map_err(|error| explained_on(self, &state.q, &step.velocity, h, error))?;
         Ok(LinearizedSegment { system: self, rule: PhantomData, start: *state, step: *step, h, k, q_by_p })
     }
 

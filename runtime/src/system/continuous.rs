@@ -162,6 +162,11 @@ pub trait Lagrangian<const N: usize> {
     }
 }
 
+/// Whether L, R or f take a time: a system without is handed on itself.
+pub(crate) fn is_timed<L: Lagrangian<N>, const N: usize>(system: &L) -> bool {
+    system.later(L::Scalar::constant(1.0), |later| !core::ptr::eq(later, system))
+}
+
 /// [`lagrangian_derivatives`](Lagrangian::lagrangian_derivatives) out of line: each place that inlines them
 /// is one more copy of all their operations to compile.
 #[inline(never)]

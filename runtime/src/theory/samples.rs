@@ -32,7 +32,7 @@ use nalgebra::SVector;
 
 use crate::numbers::Scalar;
 use crate::step::Discretised;
-use crate::system::Lagrangian;
+use crate::system::{Lagrangian, is_timed};
 pub use crate::theory::verdict::{Finding, Tolerance, Verdict};
 pub(crate) use apart::{Sizes, around, different};
 pub use error::SampleError;
@@ -196,12 +196,6 @@ pub(crate) fn at_segment<L: Lagrangian<N>, R, T, const N: usize>(
     by.system.later(time, |system| evaluate(&by.of(system)))
 }
 
-/// Whether the system is another one a step later, a view with the time.
-pub(crate) fn is_timed<L: Lagrangian<N>, R, const N: usize>(by: &Discretised<'_, L, R, N>) -> bool {
-    // A system without time is handed on itself.
-    by.system.later(by.h, |later| !core::ptr::eq(later, by.system))
-}
-
 /// Times at which a view is asked, at least.
 const TIMES: usize = 3;
 
@@ -210,7 +204,7 @@ pub(crate) fn at_several_times<'s, L: Lagrangian<N>, R, const N: usize>(
     by: &Discretised<'_, L, R, N>,
     segments: &'s [Segment<L::Scalar, N>],
 ) -> Cow<'s, [Segment<L::Scalar, N>]> {
-    if segments.len() < TIMES && is_timed(by) {
+    if segments.len() < TIMES && is_timed(by.system) {
         segments.iter().cycle().take(if segments.is_empty() { 0 } else { TIMES }).copied().collect()
     } else {
         Cow::Borrowed(segments)

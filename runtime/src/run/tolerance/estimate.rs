@@ -16,7 +16,7 @@ use super::twin;
 use super::variation::Variation;
 use crate::numbers::Scalar;
 use crate::step::State;
-use crate::system::Lagrangian;
+use crate::system::{Lagrangian, is_timed};
 
 /// The angle by which an error turns between two derivatives at most, without states between and with them.
 pub(super) const ANGLE: [f64; 2] = [0.3, 2.0];
@@ -106,8 +106,7 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
             rounding: 0.0,
             energy: None,
             growth: 1.0,
-            // A system that changes with time is another one later.
-            is_timed: system.later(S::one(), |later| !core::ptr::eq(later, system)),
+            is_timed: is_timed(system),
             share: 0.0,
             speed: f64::INFINITY,
             evaluations: 0.0,

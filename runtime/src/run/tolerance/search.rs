@@ -7,7 +7,7 @@ use super::variation::Variation;
 use super::{Choice, Chosen, Method, MethodStep, Methods, ToleranceError, Trial};
 use crate::numbers::Scalar;
 use crate::step::{State, StepError};
-use crate::system::Lagrangian;
+use crate::system::{Lagrangian, is_timed};
 
 /// The share of the tolerance that the error expected from the start may fill.
 const SAFETY: f64 = 0.15;
@@ -195,8 +195,7 @@ where
                 None => length *= L::Scalar::constant(1e-2),
             }
         }
-        // A system without time is handed on itself.
-        if system.later(length, |later| !core::ptr::eq(later, system)) {
+        if is_timed(system) {
             for share in DRIVES {
                 start.spent += 2.0;
                 let at = |system: &L| Variation::at(system, methods, &state, &velocity, length);

@@ -57,9 +57,7 @@ pub(crate) fn bounded<S: Scalar, M: NewtonMatrix<S, N>, const N: usize>(
         }
         let (residual, floor, is_root) = held_against(&remaining, &floor);
         let last_correction = largest(correction.as_slice());
-        let is_known =
-            kind == Equation::Linear || is_known_at(&next, &correction) || is_small_beside(&remaining, p);
-        let is_solved = is_root && is_known;
+        let is_solved = is_root && (is_small_beside(&remaining, p) || is_known_at(kind, &next, &correction));
         if is_solved || best.as_ref().is_none_or(|(least, ..)| size < *least) {
             let report = Report { iterations: iteration + 1, damped: 0, residual, floor, last_correction };
             best = Some((size, Solution { unknown: next, momenta, report }, is_solved));

@@ -3,7 +3,7 @@ use core::fmt;
 use nalgebra::SVector;
 
 use crate::numbers::Scalar;
-use crate::system::Rayleigh;
+use crate::system::{Rayleigh, is_timed};
 use crate::theory::{
     samples::{SampleError, TangentPoint, Tolerance, coordinates, is_felt, region},
     verdict::largest,
@@ -75,8 +75,7 @@ pub fn dissipation<L, const N: usize>(
 where
     L: Rayleigh<N>,
 {
-    // A system without time is handed on itself.
-    if system.later(L::Scalar::constant(1.0), |later| !core::ptr::eq(later, system)) {
+    if is_timed(system) {
         return Err(SampleError::OneTime);
     }
     judged(system, points, &[0.0])

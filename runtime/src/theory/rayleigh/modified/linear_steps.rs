@@ -7,9 +7,10 @@ use super::logarithm::eigenvalues;
 use super::scaled::{assembled, require_finite, rescaled, scales, widened};
 use crate::numbers::Scalar;
 use crate::step::{Discretised, Flow, PhaseMatrix, State};
+use crate::system::is_timed;
 use crate::theory::rayleigh::asked::ask;
 use crate::theory::rayleigh::modified::{ModifiedLinearSystem, ModifiedLinearSystemError};
-use crate::theory::samples::{at_segment, is_timed};
+use crate::theory::samples::at_segment;
 use crate::theory::verdict::Tolerance;
 
 /// Modified systems of linear steps.
@@ -71,7 +72,7 @@ where
         let s = scales(&wide, L::Scalar::EPSILON.widen()).map(f64::recip);
         let whole = |a: &PhaseMatrix<f64, N>| assembled(&rescaled(a, &s));
         let size = whole(&wide).amax();
-        if is_timed(self) {
+        if is_timed(self.system) {
             self.require_one_step(first, asked.derivatives.len(), &s)?;
         }
         for (sample, other) in (1..).zip(others) {

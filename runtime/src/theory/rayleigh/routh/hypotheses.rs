@@ -4,8 +4,9 @@ use nalgebra::SVector;
 
 use crate::numbers::Scalar;
 use crate::step::{Discrete, LegendreDerivatives};
+use crate::system::is_timed;
 use crate::theory::rayleigh::routh::{Routh, RouthError};
-use crate::theory::samples::{Segment, at_segment, is_timed};
+use crate::theory::samples::{Segment, at_segment};
 use crate::theory::verdict::{Finding, Tolerance};
 
 /// Hypotheses on one segment.
@@ -19,7 +20,7 @@ where
         sample: usize,
         segment: &Segment<L::Scalar, N>,
     ) -> Result<(), RouthError> {
-        if !is_timed(&self.by) {
+        if !is_timed(self.by.system) {
             return Ok(());
         }
         let momenta = |k: usize| {
