@@ -7,6 +7,6 @@ mod measured;
 mod reference;
 mod systems;
 
-pub use collection::{FAMILIES, collection, of_family};
+pub use collection::{collection, driven, of_family};
 pub use measured::{Cheapest, Motion, Outcome, Verdict};
 pub use reference::extrapolated;

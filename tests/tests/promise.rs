@@ -1,7 +1,7 @@
 //! The error asked for, over a random collection of motions: `cargo study tolerance_study` tries more of
 //! them.
 
-use dalembert_tests::motions::{Verdict, collection};
+use dalembert_tests::motions::{Verdict, collection, driven};
 
 #[test]
 fn of_random_motions_none_passes_its_error_in_silence() {
@@ -101,4 +101,21 @@ fn the_end_asked_for_is_one_whose_error_was_kept() {
     assert!(runs <= 2 * asked as u32, "{runs} runs for {asked}");
     // Positive control: the first choice alone would have passed many errors.
     assert!(breached * 10 >= asked, "{breached} of {asked}");
+}
+
+#[test]
+fn drives_of_l_are_followed_whatever_their_frequency() {
+    let (mut kept, mut runs) = (0, 0);
+    for motion in driven(91, 20) {
+        for tolerance in [1e-4, 1e-9] {
+            let (outcome, _) = motion.reach(tolerance);
+            let what = || format!("{}, {}, {tolerance:e}: {outcome:?}", motion.family, motion.what);
+            assert!(outcome.verdict != Verdict::Silent || outcome.error <= 2.0, "{}", what());
+            runs += 1;
+            kept += usize::from(outcome.verdict == Verdict::Silent);
+        }
+    }
+    // Before drives were followed, half of Mathieu's equations were said to have passed an error that they
+    // kept.
+    assert!(kept * 20 >= runs * 19, "{kept} of {runs}");
 }

@@ -2,7 +2,9 @@
 
 mod between;
 mod display;
+mod drive;
 mod estimate;
+mod grid;
 mod guard;
 mod methods;
 mod phase;
@@ -22,7 +24,8 @@ use nalgebra::ComplexField;
 use crate::numbers::Scalar;
 use crate::rules::SLACK;
 use crate::step::{State, StepError, verify_start};
-use crate::system::Lagrangian;
+use crate::system::{ActingForce, Lagrangian};
+use grid::{Bounds, Breaks, Segment};
 pub use guard::{GuardedCheckpoint, GuardedTrajectory};
 pub use methods::{LastStep, MethodStep, Methods, Taken, WithGauss, WithSplittings};
 pub use reached::Reached;
@@ -88,15 +91,25 @@ pub struct Choice<'a, L: Lagrangian<N>, M, const N: usize> {
 struct Chosen<S, const N: usize> {
     start: State<S, N>,
     method: Method,
+    /// The whole time.
+    time: f64,
+    breaks: Breaks,
+    /// The longest step: the only size where nothing breaks.
     step_size: f64,
     steps: u64,
+    /// Whether the longest step was given, so that no part of it may go unseen.
+    is_watchful: bool,
     tolerance: f64,
+    /// The error that the steps are meant for: less than the tolerance where a run before has passed that.
+    aim: f64,
     expected: f64,
     /// The local error at the start.
     local: f64,
     evaluations_per_step: f64,
     /// Roundings of a step.
     roundings: f64,
+    /// The fastest rate of the motion at the start.
+    rate: f64,
     /// The cost of choosing, in evaluations of the forces.
     spent: f64,
     trials: [Option<Trial>; Method::ALL.len()],
@@ -133,6 +146,35 @@ pub enum ToleranceError {
         /// The method that comes closest; `None` where no step could be taken.
         closest: Option<Trial>,
     },
+    /// The longest step allowed is no number above 0.
+    LongestStep {
+        /// The step size given.
+        step_size: f64,
+    },
+    /// A time at which the system is said to break is not finite.
+    Break {
+        /// The time given.
+        time: f64,
+    },
+    /// The error takes more steps than the limit ([`TimedRequest::at_most`]): none was taken but to choose.
+    TooManySteps {
+        /// Of the methods that reach the error the one of fewest steps.
+        needed: Trial,
+        /// How many steps.
+        steps: f64,
+        /// The limit.
+        most: u64,
+        /// The fastest rate at which the motion changes at the start.
+        rate: f64,
+    },
+    /// Of a system that takes the time and starts at rest: it has not moved wherever it was looked at, so
+    /// that nothing can be said of an error.
+    NothingMoves {
+        /// How often the force was looked at.
+        looks: u32,
+        /// The time from one to the next.
+        apart: f64,
+    },
     /// A run cannot be resumed by a system that does not offer its method.
     NotOffered {
         /// The method.
@@ -146,10 +188,35 @@ pub enum ToleranceError {
     Breach(Breach),
 }
 
+/// The choice for a run over `time` with this error.
+fn bounded<'a, L, M, const N: usize>(
+    (system, methods): (&'a L, M),
+    start: &State<L::Scalar, N>,
+    [time, tolerance]: [f64; 2],
+    bounds: Bounds,
+) -> Result<Choice<'a, L, M, N>, ToleranceError>
+where
+    L: ActingForce<N>,
+    M: Methods<L, N>,
+{
+    let valid = |x: f64| x.is_finite() && x > 0.0;
+    if !valid(time) || !valid(tolerance) {
+        return Err(ToleranceError::Request { time, tolerance });
+    }
+    bounds.check()?;
+    verify_start(system, 0.0, start, true).map_err(ToleranceError::Step)?;
+    search::choice((system, methods), start, [time, tolerance], bounds)
+}
+
 impl<S, const N: usize> Chosen<S, N> {
+    /// The first segment of its grid.
+    fn first_segment(&self) -> Segment {
+        Segment::first(self.time, self.step_size, &self.breaks)
+    }
+
     fn slack(&self) -> Option<f64> {
         let is_left = matches!(self.method, Method::Gauss4 | Method::Gauss8);
-        is_left.then(|| SLACK * self.tolerance / self.steps as f64)
+        is_left.then(|| SLACK * self.aim / self.steps as f64)
     }
 }
 
@@ -183,6 +250,12 @@ impl Method {
     /// `methods` is the rule of order 2, which stands for itself and its compositions; [`WithSplittings`] of
     /// it adds splittings, where the trapezoidal rule is explicit, and [`WithGauss`] Gauss methods, where
     /// the system has `rule = [trapezoidal, gauss]`.
+    ///
+    /// **What is seen.** Steps, half steps at some of them, and the force in the middle and at the ends of
+    /// some. What happens between these and is over by then is not: a short pulse of force, a contact
+    /// shorter than a step, a pole of the coordinates or a singular mass that a step passes over. Where that
+    /// may be, bound the step ([`TimedRequest::longest_step`]), or say when
+    /// ([`TimedRequest::breaking_at`]).
     ///
     /// **What is promised.** With the error (δq, δp) of a state, at every step of [`Choice::trajectory`]
     ///
@@ -245,15 +318,10 @@ impl Method {
         tolerance: f64,
     ) -> Result<Choice<'a, L, M, N>, ToleranceError>
     where
-        L: Lagrangian<N>,
+        L: ActingForce<N>,
         M: Methods<L, N>,
     {
-        let valid = |x: f64| x.is_finite() && x > 0.0;
-        if !valid(time) || !valid(tolerance) {
-            return Err(ToleranceError::Request { time, tolerance });
-        }
-        verify_start(system, 0.0, start, true).map_err(ToleranceError::Step)?;
-        search::choice(system, methods, start, time, tolerance)
+        bounded((system, methods), start, [time, tolerance], Bounds::default())
     }
 
     /// The local error of a step, from its end and that of two half ones.
@@ -265,6 +333,12 @@ impl Method {
         let power = f64::from(1_u32 << self.order());
         let factor = S::constant(power / (power - 1.0));
         State { q: (whole.q - halves.q) * factor, p: (whole.p - halves.p) * factor }
+    }
+
+    /// The local error of a step over a jump: of order 1, whatever the method's order.
+    fn error_at_a_jump<S: Scalar, const N: usize>(whole: &State<S, N>, halves: &State<S, N>) -> State<S, N> {
+        let two = S::constant(2.0);
+        State { q: (whole.q - halves.q) * two, p: (whole.p - halves.p) * two }
     }
 
     /// Roundings of q in a step.
@@ -328,7 +402,7 @@ impl<L: Lagrangian<N>, M: Copy, const N: usize> Copy for Choice<'_, L, M, N> {}
 
 impl<'a, L, M, const N: usize> Choice<'a, L, M, N>
 where
-    L: Lagrangian<N>,
+    L: ActingForce<N>,
     M: Methods<L, N>,
 {
     /// The method chosen: of those that reach the error, the one of least cost.
@@ -336,7 +410,8 @@ where
         self.chosen.method
     }
 
-    /// The step size, a whole fraction of the time.
+    /// The step size, a whole fraction of the time; where the system breaks on the way
+    /// ([`TimedRequest::breaking_at`]) the longest one.
     pub fn step_size(&self) -> f64 {
         self.chosen.step_size
     }
@@ -376,20 +451,29 @@ where
 
     /// The run of this choice, with its guard.
     pub fn trajectory(&self) -> GuardedTrajectory<'a, L, M, N> {
-        match self.fresh_steps() {
+        match self.fresh_steps(self.chosen.first_segment().step_size()) {
             Some(steps) => GuardedTrajectory::new(*self, steps),
             _ => unreachable!("the method was tried before it was chosen"),
         }
     }
 
-    /// Its step and a half one, before the first.
+    /// The run of this choice without its guard, for who knows the motion: nothing is held against the error,
+    /// and nothing is spent on it.
+    pub fn unguarded(&self) -> GuardedTrajectory<'a, L, M, N> {
+        match self.fresh_steps(self.chosen.first_segment().step_size()) {
+            Some(steps) => GuardedTrajectory::unguarded(*self, steps),
+            _ => unreachable!("the method was tried before it was chosen"),
+        }
+    }
+
+    /// A step of this size and a half one, before the first.
     ///
     /// The half steps are solved to rounding: beside them it shows what is left of the whole step's stages.
-    fn fresh_steps(&self) -> Option<[M::Step; 2]> {
-        let Chosen { method, step_size, tolerance, steps, .. } = self.chosen;
+    fn fresh_steps(&self, step_size: f64) -> Option<[M::Step; 2]> {
+        let Chosen { method, aim, steps, .. } = self.chosen;
         let step = |h: f64| self.methods.step(method, L::Scalar::constant(h));
         let [mut whole, half] = [step(step_size)?, step(0.5 * step_size)?];
-        whole.leave(tolerance, steps, 0.0);
+        whole.leave(aim, steps, 0.0);
         Some([whole, half])
     }
 }

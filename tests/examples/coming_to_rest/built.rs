@@ -65,7 +65,7 @@ pub fn run(Draw { count, seed, members, most, time, workspace }: &Draw<'_>) -> R
 fn built(folder: PathBuf, workspace: &Path, text: &str) -> Result<String> {
     let manifest = format!(
         "[package]\nname = \"coming-to-rest\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n[workspace]\n\n[dependencies]\n\
-         dalembert = {{ path = {:?} }}\n\n[profile.dev]\nopt-level = 2\ndebug = false\nincremental = false\n",
+         dalembert = {{ path = {:?} }}\n\n[profile.dev]\nopt-level = 2\ndebug = false\ndebug-assertions = false\nincremental = false\n",
         workspace.join("runtime")
     );
     let target = folder.join("../target");

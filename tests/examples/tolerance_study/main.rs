@@ -1,10 +1,10 @@
 //! What came of the errors asked for, over random motions: writes `docs/error-asked-for.md`.
 //!
 //! ```text
-//! cargo study tolerance_study [seed motions]
+//! cargo study tolerance_study [seed motions [family]]
 //! ```
 //!
-//! With a seed and a number of motions it prints every run of that collection instead.
+//! With a seed and a number of motions it prints every run of that collection, or family, instead.
 
 mod page;
 
@@ -57,9 +57,12 @@ fn runs(motion: &Motion, is_compared: bool) -> Vec<Run> {
 }
 
 fn main() -> Result<()> {
-    let mut numbers = args().skip(1).map(|text| text.parse::<u64>());
-    if let (Some(seed), Some(count)) = (numbers.next(), numbers.next()) {
-        for motion in collection(seed?, count? as usize) {
+    let words: Vec<String> = args().skip(1).collect();
+    if let [seed, count, family @ ..] = &words[..] {
+        let (seed, count) = (seed.parse()?, count.parse()?);
+        let motions =
+            family.first().map_or_else(|| collection(seed, count), |name| of_family(name, seed, count));
+        for motion in motions {
             for Run { family, tolerance, chosen, reached: (reached, runs), .. } in runs(&motion, false) {
                 println!("{family}, {}: {tolerance:.0e}: {chosen:?}", motion.what);
                 println!("    in {runs} runs: {reached:?}");

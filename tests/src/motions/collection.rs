@@ -9,7 +9,8 @@ use super::Motion;
 use super::measured::Reference;
 use super::reference::{Phase, extrapolated};
 use super::systems::{
-    Chain, DoublePendulum, Forced, HenonHeiles, Kepler, LINKS, Oscillator, Pair, Pendulum, Struck, TwoSprings,
+    Chain, DoublePendulum, Falling, Forced, HenonHeiles, Kepler, LINKS, Mathieu, Oscillator, Pair, Pendulum,
+    ShakenPivot, Struck, Swing, TwoSprings,
 };
 use crate::double_double::DoubleDouble;
 
@@ -57,8 +58,8 @@ fn nearest<const N: usize>([q, p]: Phase<N>) -> State<f64, N> {
 /// A family and how one of its motions is made.
 type Family = (&'static str, fn(&mut Random) -> Motion);
 
-/// The families.
-pub const FAMILIES: [Family; 14] = [
+/// The families of a collection.
+const FAMILIES: [Family; 14] = [
     ("oscillator", oscillator),
     ("oscillator, damped", damped_oscillator),
     ("pendulum", pendulum),
@@ -75,17 +76,29 @@ pub const FAMILIES: [Family; 14] = [
     ("chain of 6", chain),
 ];
 
+/// Those of another: what the motion's derivative does is told by the time, or its size by the motion alone.
+const DRIVEN: [Family; 4] =
+    [("Mathieu", mathieu), ("shaken pivot", shaken_pivot), ("swing", swing), ("falling from rest", falling)];
+
+fn of(families: &[Family], seed: u64, count: usize) -> Vec<Motion> {
+    let mut random = Random(seed);
+    families.iter().cycle().take(count).map(|family| (family.1)(&mut random)).collect()
+}
+
 /// `count` motions, of each family in turn, from `seed`.
 pub fn collection(seed: u64, count: usize) -> Vec<Motion> {
-    let mut random = Random(seed);
-    (0..count).map(|i| (FAMILIES[i % FAMILIES.len()].1)(&mut random)).collect()
+    of(&FAMILIES, seed, count)
+}
+
+/// `count` motions under parametric drives or from rest, of each of their families in turn, from `seed`.
+pub fn driven(seed: u64, count: usize) -> Vec<Motion> {
+    of(&DRIVEN, seed, count)
 }
 
 /// `count` motions of one family from `seed`; none where there is no such family.
 pub fn of_family(name: &str, seed: u64, count: usize) -> Vec<Motion> {
-    let mut random = Random(seed);
-    let of = FAMILIES.iter().find(|family| family.0 == name);
-    of.map_or_else(Vec::new, |family| (0..count).map(|_| (family.1)(&mut random)).collect())
+    let of_name = FAMILIES.iter().chain(&DRIVEN).find(|family| family.0 == name);
+    of_name.map_or_else(Vec::new, |&family| of(&[family], seed, count))
 }
 
 fn oscillator(random: &mut Random) -> Motion {
@@ -420,4 +433,102 @@ fn chain(random: &mut Random) -> Motion {
     });
     let what = format!("beta {beta:.2}, r {r:.3}, T {time:.2}");
     Motion::new("chain of 6", what, Chain { beta, r }, EXPLICIT, start, time, reference)
+}
+
+/// A drive by its frequency, from that of the motion to 300 times as fast, and the time: 2000 radians of the
+/// drive at most.
+fn drive(random: &mut Random) -> [f64; 2] {
+    let frequency = random.of_size(1.0, 300.0);
+    [frequency, random.of_size(3.0, 60.0).min(2000.0 / frequency)]
+}
+
+fn mathieu(random: &mut Random) -> Motion {
+    let [frequency, time] = drive(random);
+    let a = random.of_size(0.05, 1.0) * if frequency > 3.0 { frequency } else { 1.0 };
+    let r = if random.next().is_multiple_of(2) { 0.0 } else { random.of_size(0.003, 0.3) };
+    let start = State { q: [random.within(-1.0, 1.0)].into(), p: [random.within(-1.0, 1.0)].into() };
+    let acceleration = move |[q]: [DoubleDouble; 1], [v]: [DoubleDouble; 1], t: DoubleDouble| {
+        let stiffness = double(1.0) + double(a) * (double(frequency) * t).sin_cos().1;
+        [-(stiffness * q) - double(r) * v]
+    };
+    let reference: Reference<1> = Box::new(move |times| {
+        let from = [[double(start.q[0])], [double(start.p[0])]];
+        extrapolated(&acceleration, from, times, 2.0 / frequency).into_iter().map(nearest).collect()
+    });
+    let what = format!("a {a:.3}, frequency {frequency:.2}, r {r:.3}, T {time:.2}");
+    let system: &'static Mathieu = Box::leak(Box::new(Mathieu { a, frequency, r }));
+    Motion::new("Mathieu", what, system.at_time(0.0), IMPLICIT, start, time, reference)
+}
+
+fn shaken_pivot(random: &mut Random) -> Motion {
+    let [frequency, time] = drive(random);
+    // The upper equilibrium is stable from aΩ = √2 on.
+    let a = random.of_size(0.1, 4.0) / frequency;
+    let r = if random.next().is_multiple_of(2) { 0.0 } else { random.of_size(0.003, 0.3) };
+    let around = if random.next().is_multiple_of(2) { 0.0 } else { PI };
+    let start = State { q: [around + random.within(-1.0, 1.0)].into(), p: [random.within(-1.0, 1.0)].into() };
+    // sin Ωt is 0 at the start, so that p is v there.
+    let speed = move |t: DoubleDouble| -(double(a) * double(frequency) * (double(frequency) * t).sin_cos().0);
+    let acceleration = move |[q]: [DoubleDouble; 1], [v]: [DoubleDouble; 1], t: DoubleDouble| {
+        let push = double(a) * double(frequency) * double(frequency) * (double(frequency) * t).sin_cos().1;
+        [(push - double(1.0)) * q.sin_cos().0 - double(r) * v]
+    };
+    let reference: Reference<1> = Box::new(move |times| {
+        let from = [[double(start.q[0])], [double(start.p[0])]];
+        let states = extrapolated(&acceleration, from, times, 2.0 / frequency).into_iter().zip(times);
+        let to_state =
+            |([[q], [v]], &t): (Phase<1>, &f64)| nearest([[q], [v + speed(double(t)) * q.sin_cos().0]]);
+        states.map(to_state).collect()
+    });
+    let what = format!("a {a:.3}, frequency {frequency:.2}, r {r:.3}, about {around:.2}, T {time:.2}");
+    let system: &'static ShakenPivot = Box::leak(Box::new(ShakenPivot { a, frequency, r }));
+    Motion::new("shaken pivot", what, system.at_time(0.0), IMPLICIT, start, time, reference)
+}
+
+fn swing(random: &mut Random) -> Motion {
+    let [frequency, time] = drive(random);
+    let b = random.of_size(0.003, 0.3) / frequency.sqrt();
+    let start = State { q: [random.within(-1.5, 1.5)].into(), p: [random.within(-1.0, 1.0)].into() };
+    let length = move |t: DoubleDouble| {
+        let (s, c) = (double(frequency) * t).sin_cos();
+        [double(1.0) + double(b) * s, double(b) * double(frequency) * c]
+    };
+    let acceleration = move |[q]: [DoubleDouble; 1], [v]: [DoubleDouble; 1], t: DoubleDouble| {
+        let [length, rate] = length(t);
+        [-(q.sin_cos().0 + double(2.0) * rate * v) / length]
+    };
+    let reference: Reference<1> = Box::new(move |times| {
+        let from = [[double(start.q[0])], [double(start.p[0])]];
+        let states = extrapolated(&acceleration, from, times, 2.0 / frequency).into_iter().zip(times);
+        let to_state = |([[q], [v]], &t): (Phase<1>, &f64)| {
+            let [length, _] = length(double(t));
+            nearest([[q], [length * length * v]])
+        };
+        states.map(to_state).collect()
+    });
+    let what = format!("b {b:.4}, frequency {frequency:.2}, T {time:.2}");
+    let system: &'static Swing = Box::leak(Box::new(Swing { b, frequency }));
+    Motion::new("swing", what, system.at_time(0.0), IMPLICIT, start, time, reference)
+}
+
+fn falling(random: &mut Random) -> Motion {
+    let (g, c) = (random.of_size(0.1, 100.0), random.of_size(1e-3, 1.0));
+    // At the origin, where its size is that of the motion alone, or elsewhere.
+    let q = if random.next().is_multiple_of(2) { 0.0 } else { random.within(-10.0, 10.0) };
+    let start = State { q: [q].into(), p: [0.0].into() };
+    // Up to 30 times the time in which it comes to its final speed.
+    let time = random.of_size(0.3, 30.0) / (g * c).sqrt();
+    let acceleration = move |_: [DoubleDouble; 1], [v]: [DoubleDouble; 1], _: DoubleDouble| {
+        let drag = double(c) * v * v;
+        [if v.high < 0.0 { drag - double(g) } else { -drag - double(g) }]
+    };
+    let reference: Reference<1> = Box::new(move |times| {
+        let longest = 1.0 / (g * c).sqrt();
+        extrapolated(&acceleration, [[double(q)], [double(0.0)]], times, longest)
+            .into_iter()
+            .map(nearest)
+            .collect()
+    });
+    let what = format!("g {g:.3}, c {c:.4}, from {q:.2}, T {time:.2}");
+    Motion::new("falling from rest", what, Falling { g, c }, IMPLICIT, start, time, reference)
 }

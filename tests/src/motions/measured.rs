@@ -2,6 +2,7 @@
 
 use dalembert::nalgebra::SVector;
 use dalembert::step::Step;
+use dalembert::system::ActingForce;
 use dalembert::tolerance::{Choice, Method, MethodStep, Methods, OffersMethods, ToleranceError};
 use dalembert::{Discretise, Lagrangian, State};
 
@@ -167,7 +168,7 @@ fn measured<L, M, const N: usize>(
     reference: &Reference<N>,
 ) -> Outcome
 where
-    L: Lagrangian<N, Scalar = f64>,
+    L: ActingForce<N, Scalar = f64>,
     M: Methods<L, N>,
 {
     let refused = Outcome {
@@ -238,7 +239,7 @@ fn cheapest<L, M, const N: usize>(
     reference: &Reference<N>,
 ) -> Vec<Cheapest>
 where
-    L: Lagrangian<N, Scalar = f64>,
+    L: ActingForce<N, Scalar = f64>,
     M: Methods<L, N>,
 {
     let instants: Vec<f64> = (1..=16).map(|k| time * f64::from(k) / 16.0).collect();

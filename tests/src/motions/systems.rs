@@ -107,3 +107,58 @@ pub fn chain(q: [f64; 6], v: [f64; 6], beta: f64, r: f64) -> (f64, f64) {
     }
     (0.5 * speed - potential, 0.5 * r * speed)
 }
+
+/// A particle on a spring whose stiffness changes with time, k = 1 + a cos Ωt (Mathieu's equation), R = ½rv².
+pub struct Mathieu {
+    pub a: f64,
+    pub frequency: f64,
+    pub r: f64,
+}
+
+#[rayleigh_system(rule = [trapezoidal, gauss])]
+impl Mathieu {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
+        0.5 * v[0] * v[0] - 0.5 * (1.0 + self.a * (self.frequency * t).cos()) * q[0] * q[0]
+    }
+    fn rayleigh(&self, v: [f64; 1]) -> f64 {
+        0.5 * self.r * v[0] * v[0]
+    }
+}
+
+/// A pendulum with its pivot shaken up and down, y = a cos Ωt (Kapitza's pendulum), R = ½rv².
+pub struct ShakenPivot {
+    pub a: f64,
+    pub frequency: f64,
+    pub r: f64,
+}
+
+#[rayleigh_system(rule = [trapezoidal, gauss])]
+impl ShakenPivot {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
+        let speed = -self.a * self.frequency * (self.frequency * t).sin();
+        0.5 * v[0] * v[0] + speed * q[0].sin() * v[0] + q[0].cos()
+    }
+    fn rayleigh(&self, v: [f64; 1]) -> f64 {
+        0.5 * self.r * v[0] * v[0]
+    }
+}
+
+/// A pendulum of length 1 + b sin Ωt.
+pub struct Swing {
+    pub b: f64,
+    pub frequency: f64,
+}
+
+#[rayleigh_system(rule = [trapezoidal, gauss])]
+impl Swing {
+    fn lagrangian(&self, q: [f64; 1], v: [f64; 1], t: f64) -> f64 {
+        let length = 1.0 + self.b * (self.frequency * t).sin();
+        0.5 * length * length * v[0] * v[0] + length * q[0].cos()
+    }
+}
+
+/// A body that falls through air: L = ½v² − gq, R = ⅓c|v|³.
+#[rayleigh_system(rule = [trapezoidal, gauss])]
+pub fn falling(q: [f64; 1], v: [f64; 1], g: f64, c: f64) -> (f64, f64) {
+    (0.5 * v[0] * v[0] - g * q[0], c / 3.0 * v[0].abs().powi(3))
+}

@@ -483,7 +483,7 @@ fn single_precision_has_events() {
 fn guarded_runs_have_events_and_states_between() {
     fn check<L, M>(system: &L, methods: M, tolerance: f64)
     where
-        L: dalembert::Lagrangian<1, Scalar = f64>,
+        L: dalembert::system::ActingForce<1, Scalar = f64>,
         M: Methods<L, 1>,
     {
         let choice = Method::for_tolerance(system, methods, &UP, 40.0, tolerance).unwrap();

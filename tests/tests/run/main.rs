@@ -2,6 +2,7 @@
 
 mod anchors;
 mod between;
+mod bounded_requests;
 mod close_pairs;
 mod composition;
 mod driven;

@@ -2,8 +2,9 @@
 //! run.
 
 use dalembert::nalgebra::{SVector, vector};
+use dalembert::system::ActingForce;
 use dalembert::tolerance::{Method, MethodStep, Methods, ToleranceError, WithGauss, WithSplittings};
-use dalembert::{Discretise, Gauss, Lagrangian, State, Trapezoidal, rayleigh_system};
+use dalembert::{Discretise, Gauss, State, Trapezoidal, rayleigh_system};
 use dalembert_tests::by_hand::ByHand;
 use dalembert_tests::reference;
 use dalembert_tests::systems::{Chain, DoublePendulum, Pendulum};
@@ -28,7 +29,7 @@ impl<'a, L: ByHand<N>, const N: usize> Motion<'a, L, N> {
 /// The error at the end of the choice for `tolerance` and its method; one that is passed has to be reported.
 fn reached_among<L, M, const N: usize>(motion: &Motion<'_, L, N>, methods: M, tolerance: f64) -> (f64, Method)
 where
-    L: ByHand<N> + Lagrangian<N, Scalar = f64>,
+    L: ByHand<N> + ActingForce<N, Scalar = f64>,
     M: Methods<L, N>,
 {
     let choice = Method::for_tolerance(motion.system, methods, &motion.start, TIME, tolerance).unwrap();

@@ -7,14 +7,14 @@ use crate::numbers::Scalar;
 use crate::run::between::{Dense, Divisible, Moment, SampledAt};
 use crate::run::events::Watch;
 use crate::step::{State, StepError};
-use crate::system::Lagrangian;
+use crate::system::ActingForce;
 
 /// Between the steps, and events: as of every run, but that it cannot be restarted, since the error that it
 /// carries along is that of one motion. Where a motion goes on from an impact, ask for a run of its own
 /// there.
 impl<'a, L, M, const N: usize> GuardedTrajectory<'a, L, M, N>
 where
-    L: Lagrangian<N> + 'a,
+    L: ActingForce<N> + 'a,
     M: Methods<L, N>,
 {
     /// This run as one that answers for all times of its last step: [`Dense`].
@@ -56,7 +56,7 @@ where
 
 impl<'a, L, M, const N: usize> Divisible<N> for GuardedTrajectory<'a, L, M, N>
 where
-    L: Lagrangian<N> + 'a,
+    L: ActingForce<N> + 'a,
     M: Methods<L, N>,
 {
     type System = L;
@@ -66,7 +66,7 @@ where
     }
 
     fn step_size(&self) -> L::Scalar {
-        L::Scalar::constant(self.choice.chosen.step_size)
+        L::Scalar::constant(self.step_size())
     }
 
     fn nodes(&self) -> &'static [f64] {

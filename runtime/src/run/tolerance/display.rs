@@ -60,6 +60,20 @@ impl fmt::Display for ToleranceError {
                     None => f.write_str("; none can take a step"),
                 }
             }
+            Self::LongestStep { step_size } => {
+                write!(f, "the longest step {step_size} has to be a number above 0")
+            }
+            Self::Break { time } => {
+                write!(f, "the system cannot break at the time {time}: give finite times")
+            }
+            Self::TooManySteps { needed, steps, most, rate } => write!(
+                f,
+                "the error takes {steps:.1e} steps, and {most:.1e} are allowed: {needed}. At the start the motion                  changes at the rate {rate:.1e}. Allow more by `at_most`, ask for less, or for a shorter time;                  where the rate is that of a pole of the coordinates, take others"
+            ),
+            Self::NothingMoves { looks, apart } => write!(
+                f,
+                "the system starts at rest, and at {looks} times, {apart:.1e} apart, no force moves it: nothing                  says how long steps may be. Say when its force sets in by `breaking_at`, or how long it lasts by                  `longest_step`"
+            ),
             Self::NotOffered { method } => {
                 write!(f, "the system does not offer the method of the run: {method}; list its rule")
             }
@@ -68,8 +82,14 @@ impl fmt::Display for ToleranceError {
                 let Breach { time, expected, tolerance, .. } = breach;
                 write!(
                     f,
-                    "no run that was tried keeps the error of {tolerance:.1e}; at t = {time:.4} the last one comes to {expected:.1e}"
-                )
+                    "no run that was tried keeps the error of {tolerance:.1e}; at t = {time:.4} the last one "
+                )?;
+                if expected.is_finite() {
+                    write!(f, "comes to {expected:.1e}")?;
+                } else {
+                    f.write_str("meets a step that errs by no number, as near a pole of the coordinates or where a mass vanishes")?;
+                }
+                f.write_str("; where the force or a slope jumps with time, give the times by `breaking_at`")
             }
         }
     }

@@ -7,29 +7,33 @@
 use nalgebra::SVector;
 
 use super::Methods;
+use super::drive::{DRIVES, Drive};
 use super::phase::plus;
 use super::random::Random;
 use super::scale::Scale;
 use super::shift::{along_the_motion, shift};
-use super::tangent::{INNER, carried};
+use super::tangent::carried;
 use super::twin;
 use super::variation::Variation;
 use crate::numbers::Scalar;
 use crate::step::State;
-use crate::system::{Lagrangian, is_timed};
+use crate::system::{ActingForce, Lagrangian, is_timed};
 
 /// The angle by which an error turns between two derivatives at most, without states between and with them.
-pub(super) const ANGLE: [f64; 2] = [0.3, 2.0];
+pub(super) const ANGLE: [f64; 2] = [0.3, 1.0];
 
 /// An error of the energy beyond so many times what was foreseen is news.
 const UNFORESEEN: f64 = 10.0;
 
-/// Parts of the way between two states at most, and what a part costs: J at its end and at two states within.
+/// Parts of the way between two states at most, and what a part costs: J at its end and at a state within.
 const MOST_PARTS: f64 = 8.0;
-const PART: f64 = 6.0;
+const PART: f64 = 4.0;
 
 /// Shares that are unsure: of the local errors added up, and of an error carried over the larger [`ANGLE`].
 const UNSURE: [f64; 2] = [0.3, 0.02];
+
+/// A share of J, squared, that is no more than rounding.
+const SLIGHTEST: f64 = 1e-4;
 
 /// Where J changes by less than this, squared, its mean serves for any number of turns.
 const SLIGHT: f64 = 0.1;
@@ -44,17 +48,21 @@ const MOST_GROWTH: f64 = 4.0;
 const SAMPLES: usize = 2;
 
 /// The run between two states that were looked at.
-pub(super) struct Since {
+pub(super) struct Since<S, const N: usize> {
     /// Steps.
     pub(super) steps: f64,
     /// Roundings of q in each.
     pub(super) roundings: f64,
+    /// The error of those of a Gauss method not looked at: one, and how often it may have been made.
+    pub(super) passed: (State<S, N>, f64),
     /// The error of the energy foreseen.
     pub(super) foreseen: f64,
     /// The evaluations that derivatives on the way may take.
     pub(super) affordable: f64,
     /// Whether the energy is asked for.
     pub(super) is_energy: bool,
+    /// The time to the end of the run.
+    pub(super) ahead: f64,
 }
 
 /// The error of a run so far.
@@ -84,6 +92,8 @@ pub(super) struct Estimate<S, const N: usize> {
     growth: f64,
     /// Whether the system changes with time.
     is_timed: bool,
+    /// How J changes with it, where it does.
+    drive: Option<Drive<S, N>>,
     is_coarse: bool,
     /// The share of J that has changed between two states, as far as one J does not serve over them.
     share: f64,
@@ -107,10 +117,16 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
             energy: None,
             growth: 1.0,
             is_timed: is_timed(system),
+            drive: None,
             share: 0.0,
             speed: f64::INFINITY,
             evaluations: 0.0,
         }
+    }
+
+    /// Whether J changes with time.
+    pub(super) fn is_driven(&self) -> bool {
+        self.drive.is_some()
     }
 
     /// Whether the error is not followed in every turn.
@@ -132,7 +148,7 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         [elapsed, time]: [f64; 2],
         scale: &Scale<S, N>,
     ) where
-        L: Lagrangian<N, Scalar = S>,
+        L: ActingForce<N, Scalar = S>,
         M: Methods<L, N>,
     {
         let Some((last, _)) = &self.last else { return };
@@ -175,73 +191,67 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
     }
 
     /// By how much the force at the state last looked at is another at `time`.
-    pub(super) fn change_of_force<L, M>(&mut self, system: &L, methods: M, time: f64) -> f64
+    pub(super) fn change_of_force<L>(&mut self, system: &L, time: f64) -> f64
     where
-        L: Lagrangian<N, Scalar = S>,
-        M: Methods<L, N>,
+        L: ActingForce<N, Scalar = S>,
     {
-        let Some((last, before)) = &self.last else { return 0.0 };
-        self.evaluations += 2.0;
-        let length = (S::one() / last.fastest).min(S::constant(time - before));
-        system.later(S::constant(time), |later| last.change_of_force(later, methods, length))
+        let Some((last, _)) = &self.last else { return 0.0 };
+        self.evaluations += 1.0;
+        system.later(S::constant(time), |later| last.change_of_force(later))
     }
 
     /// The motion at `state`.
-    fn variation<L, M>(
-        &mut self,
-        system: &L,
-        methods: M,
-        state: &State<S, N>,
-        time: f64,
-    ) -> Option<Variation<S, N>>
+    fn variation<L>(&mut self, system: &L, state: &State<S, N>, time: f64) -> Option<Variation<S, N>>
     where
-        L: Lagrangian<N, Scalar = S>,
-        M: Methods<L, N>,
+        L: ActingForce<N, Scalar = S>,
     {
         self.evaluations += 2.0;
-        let (guess, length) = if let Some((last, before)) = &self.last {
-            (last.velocity_at(state), (S::one() / last.fastest).min(S::constant(time - before)))
-        } else {
-            let guess = state.velocity(system).unwrap_or_else(|_| SVector::zeros());
-            let mut length = S::one();
-            // A time in which the motion changes: of the second try, by the first.
-            for _ in 0..3 {
-                if let Some(first) = Variation::at(system, methods, state, &guess, length) {
-                    length = (S::one() / first.fastest.max(S::SMALLEST_NORMAL)).min(S::constant(1e6));
-                } else {
-                    length *= S::constant(1e-3);
-                }
-            }
-            (guess, length)
-        };
+        let guess = self.last.map(|(last, _)| last.velocity_at(state));
         system.later(S::constant(time), |system| {
-            Variation::at(system, methods, state, &guess, length)
-                .or_else(|| Variation::at(system, methods, state, &state.velocity(system).ok()?, length))
+            let near = guess.and_then(|guess| Variation::at(system, state, &guess));
+            near.or_else(|| Variation::at(system, state, &state.velocity(system).ok()?))
         })
+    }
+
+    /// Goes on from `state` at `time`, where the system has become another.
+    pub(super) fn resume<L>(&mut self, system: &L, state: &State<S, N>, time: f64)
+    where
+        L: ActingForce<N, Scalar = S>,
+    {
+        if let Some(variation) = self.variation(system, state, time) {
+            self.last = Some((variation, time));
+        }
+        self.speed = f64::INFINITY;
     }
 
     /// Carries the error on to `state` at `time`. An error of the energy beyond what is foreseen stands for
     /// others besides, of a step that was not looked at.
-    pub(super) fn carry<L, M>(
+    pub(super) fn carry<L>(
         &mut self,
         system: &L,
-        methods: M,
         state: &State<S, N>,
         time: f64,
         scale: &Scale<S, N>,
-        since: &Since,
+        since: &Since<S, N>,
     ) where
-        L: Lagrangian<N, Scalar = S>,
-        M: Methods<L, N>,
+        L: ActingForce<N, Scalar = S>,
     {
-        let Some(variation) = self.variation(system, methods, state, time) else { return };
+        let Some(variation) = self.variation(system, state, time) else { return };
         if let Some((last, before)) = self.last {
-            self.transport(system, methods, [&last, &variation], [before, time], scale, since);
+            self.transport(system, [&last, &variation], [before, time], scale, since);
         }
         let elapsed = time - self.last.map_or(0.0, |last| last.1);
+        if self.is_timed && self.last.is_none() {
+            self.drive = self.driven(system, &variation, since.ahead);
+        }
         let rounding = rounding(&variation, state, scale, elapsed, since);
         self.rounding = nalgebra::ComplexField::hypot(self.rounding, scale.norm(&rounding));
         self.err(&rounding, 2.0);
+        // Until the next look all that has passed may have grown.
+        let (local, times) = &since.passed;
+        if *times > 0.0 {
+            self.err(local, *times);
+        }
         if self.is_timed || variation.is_forced {
             self.energy = None;
         } else if self.last.is_none() {
@@ -262,61 +272,79 @@ impl<S: Scalar, const N: usize> Estimate<S, N> {
         self.last = Some((variation, time));
     }
 
+    /// How J changes with time at the state where the run starts, over the time `ahead`; `None` where it does
+    /// not.
+    fn driven<L>(&mut self, system: &L, start: &Variation<S, N>, ahead: f64) -> Option<Drive<S, N>>
+    where
+        L: ActingForce<N, Scalar = S>,
+    {
+        let is_other = DRIVES.into_iter().any(|share| {
+            self.evaluations += 2.0;
+            let later = |system: &L| start.in_time(system);
+            let later = system.later(S::constant(share * ahead), later);
+            later.is_none_or(|later| start.change_to(&later).1 > SLIGHTEST)
+        });
+        is_other.then(|| Drive::from(start))
+    }
+
     /// The errors `from` one state `to` another: where they turn far, by way of states between.
-    fn transport<L, M>(
+    fn transport<L>(
         &mut self,
         system: &L,
-        methods: M,
         [last, to]: [&Variation<S, N>; 2],
         [before, time]: [f64; 2],
         scale: &Scale<S, N>,
-        since: &Since,
+        since: &Since<S, N>,
     ) where
-        L: Lagrangian<N, Scalar = S>,
-        M: Methods<L, N>,
+        L: ActingForce<N, Scalar = S>,
     {
         let size = scale.norm(&self.error);
         let t = S::constant(time - before);
-        let length = (S::one() / last.fastest).min(t);
         // Once around, J is what it was: what has been seen to change is forgotten by little.
         let (fastest, share) = last.change_to(to);
         self.share = share.max(REMEMBERED * self.share);
         // What changes by more than slightly is followed within a turn.
         let share = if self.share < SLIGHT { self.share } else { self.share.max(0.5) };
         self.speed = fastest * share;
+        if let Some(drive) = &mut self.drive {
+            drive.forget();
+            drive.follow([last, to], time - before);
+            self.speed = self.speed.max(drive.rate());
+        }
         let angle = self.speed * t.widen();
         let most = if self.is_coarse { 1.0 } else { (since.affordable / PART).clamp(1.0, MOST_PARTS) };
         let parts = nalgebra::ComplexField::ceil((angle / ANGLE[1]).min(nalgebra::ComplexField::floor(most)))
             .max(1.0);
         let part = t / S::constant(parts);
-        let is_short = self.is_coarse || self.share < SLIGHT || angle < ANGLE[0] || since.affordable < PART;
+        let is_slight = self.share < SLIGHT && self.drive.is_none();
+        let is_short = self.is_coarse || is_slight || angle < ANGLE[0] || since.affordable < PART;
         let is_timed = self.is_timed;
+        let drive = &mut self.drive;
         let evaluations = &mut self.evaluations;
-        let mut between = |from: &Variation<S, N>, share: f64| {
+        let mut between = |from: &Variation<S, N>, [since, share]: [f64; 2]| {
+            let after = (share - since) * part.widen();
             let share = S::constant(share / parts);
             let state = last.between(to, t, share, is_timed);
             let guess = from.velocity_at(&state);
             *evaluations += 2.0;
-            system.later(S::constant(before) + share * t, |system| {
-                Variation::at(system, methods, &state, &guess, length)
-            })
+            let at = |system: &L| Variation::at(system, &state, &guess);
+            let found = system.later(S::constant(before) + share * t, at);
+            if let (Some(drive), Some(found)) = (drive.as_mut(), &found) {
+                drive.follow([from, found], after);
+            }
+            found
         };
         let [a, b] = self.unsure;
         let (mut from, mut errors) = (*last, [self.error, a, b]);
         for k in 0..parts as u32 {
             let k = f64::from(k);
-            let inner = if is_short {
-                None
-            } else {
-                let first = between(&from, k + INNER[0]);
-                first.and_then(|first| Some([first, between(&first, k + INNER[1])?]))
-            };
-            let end = if k + 1.0 < parts { between(&from, k + 1.0) } else { None };
+            let middle = if is_short { None } else { between(&from, [k, k + 0.5]) };
+            let end = if k + 1.0 < parts { between(&from, [k, k + 1.0]) } else { None };
             let end = end.unwrap_or(*to);
             errors = if is_timed {
-                carried(errors, &from, inner.as_ref(), &end, part)
+                carried(errors, &from, middle.as_ref(), &end, part)
             } else {
-                along_the_motion(errors, &from, inner.as_ref(), &end, part, scale)
+                along_the_motion(errors, &from, middle.as_ref(), &end, part, scale)
             };
             from = end;
         }
@@ -360,7 +388,7 @@ fn rounding<S: Scalar, const N: usize>(
     state: &State<S, N>,
     scale: &Scale<S, N>,
     time: f64,
-    since: &Since,
+    since: &Since<S, N>,
 ) -> State<S, N> {
     let root = nalgebra::ComplexField::sqrt;
     let each =

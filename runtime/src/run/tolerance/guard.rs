@@ -3,14 +3,15 @@
 use nalgebra::SVector;
 
 use super::estimate::{ANGLE, Estimate, Since};
+use super::grid::Segment;
 use super::random::Random;
 use super::scale::Scale;
 use super::unresolved::Unresolved;
-use super::{Breach, Choice, Chosen, LastStep, MethodStep, Methods, OffersMethods, ToleranceError};
+use super::{Breach, Choice, Chosen, LastStep, Method, MethodStep, Methods, OffersMethods, ToleranceError};
 use crate::numbers::Scalar;
 use crate::run::{Run, Samples};
 use crate::step::{State, Step, StepError};
-use crate::system::Lagrangian;
+use crate::system::ActingForce;
 
 /// Steps between two looks at most.
 const STRIDE: u64 = 40;
@@ -73,7 +74,7 @@ const STROKE: f64 = 0.05;
 /// closely, at up to three times their cost.
 pub struct GuardedTrajectory<'a, L, M, const N: usize>
 where
-    L: Lagrangian<N> + 'a,
+    L: ActingForce<N> + 'a,
     M: Methods<L, N>,
 {
     pub(super) choice: Choice<'a, L, M, N>,
@@ -112,6 +113,9 @@ pub struct GuardedCheckpoint<S, const N: usize> {
 struct Guard<S, const N: usize> {
     state: State<S, N>,
     taken: u64,
+    segment: Segment,
+    /// Whether it looks at the steps at all.
+    is_on: bool,
     scale: Scale<S, N>,
     estimate: Estimate<S, N>,
     /// The average cost of a step, in evaluations.
@@ -127,7 +131,7 @@ struct Guard<S, const N: usize> {
     local: f64,
     roughness: f64,
     recent: [SVector<S, N>; 4],
-    /// The largest change of the force with time.
+    /// The largest change of the force with time; of the last step where the longest step was given.
     stroke: f64,
     unresolved: Unresolved<S, N>,
     /// The step after which the energy was asked for.
@@ -140,20 +144,31 @@ struct Guard<S, const N: usize> {
 
 impl<'a, L, M, const N: usize> GuardedTrajectory<'a, L, M, N>
 where
-    L: Lagrangian<N>,
+    L: ActingForce<N>,
     M: Methods<L, N>,
 {
     pub(super) fn new(choice: Choice<'a, L, M, N>, [step, half]: [M::Step; 2]) -> Self {
-        let Choice { system, methods, chosen } = choice;
+        let Choice { system, chosen, .. } = choice;
         let (start, scale) = (chosen.start, Scale::new(&chosen.start));
-        let is_coarse = chosen.steps >= FEW && N > RESOLVED && derivatives(N) > chosen.evaluations_per_step;
+        let is_coarse = N > RESOLVED && derivatives(N) > chosen.evaluations_per_step;
         let mut estimate = Estimate::new(system, is_coarse);
-        let none = Since { steps: 0.0, roundings: 0.0, foreseen: 0.0, affordable: 0.0, is_energy: true };
-        estimate.carry(system, methods, &start, 0.0, &scale, &none);
+        let ahead = chosen.time;
+        let none = Since {
+            steps: 0.0,
+            roundings: 0.0,
+            passed: (State { q: SVector::zeros(), p: SVector::zeros() }, 0.0),
+            foreseen: 0.0,
+            affordable: 0.0,
+            is_energy: true,
+            ahead,
+        };
+        estimate.carry(system, &start, 0.0, &scale, &none);
         let guard = Guard {
             estimate,
             state: start,
             taken: 0,
+            segment: chosen.first_segment(),
+            is_on: true,
             scale,
             evaluations: 0.0,
             looked: 0.0,
@@ -173,6 +188,13 @@ where
         let mut guarded = Self { choice, step, half, guard, failed: false };
         guarded.schedule_derivatives();
         guarded
+    }
+
+    /// The run without its guard.
+    pub(super) fn unguarded(choice: Choice<'a, L, M, N>, steps: [M::Step; 2]) -> Self {
+        let mut run = Self::new(choice, steps);
+        run.guard.is_on = false;
+        run
     }
 
     /// All that is needed to go on from here, in this process or another ([`GuardedTrajectory::resume`]): the
@@ -198,7 +220,7 @@ where
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn checkpoint(&mut self) -> GuardedCheckpoint<L::Scalar, N> {
-        if let Some(fresh) = self.choice.fresh_steps() {
+        if let Some(fresh) = self.choice.fresh_steps(self.step_size()) {
             [self.step, self.half] = fresh;
         }
         GuardedCheckpoint { chosen: self.choice.chosen, guard: self.guard }
@@ -215,7 +237,9 @@ where
     {
         let GuardedCheckpoint { chosen, guard } = *checkpoint;
         let choice = Choice { system, methods: M::default(), chosen };
-        let steps = choice.fresh_steps().ok_or(ToleranceError::NotOffered { method: chosen.method })?;
+        let steps = choice
+            .fresh_steps(guard.segment.step_size())
+            .ok_or(ToleranceError::NotOffered { method: chosen.method })?;
         let [step, half] = steps;
         Ok(Self { choice, step, half, guard, failed: false })
     }
@@ -233,14 +257,23 @@ where
         &self.guard.state
     }
 
-    /// The time, h × the number of steps taken.
+    /// The time: where nothing breaks on the way, h × the number of steps taken.
     pub fn time(&self) -> f64 {
-        self.choice.chosen.step_size * self.guard.taken as f64
+        self.guard.segment.time(self.guard.taken)
+    }
+
+    /// The size of the last step: one where nothing breaks on the way.
+    pub(super) fn step_size(&self) -> f64 {
+        self.guard.segment.step_size()
     }
 
     /// The error expected of the state, in the norm of the promise
-    /// ([`Method::for_tolerance`](super::Method::for_tolerance)).
+    /// ([`Method::for_tolerance`](super::Method::for_tolerance)); NaN where the guard is off
+    /// ([`Choice::unguarded`]).
     pub fn expected(&self) -> f64 {
+        if !self.guard.is_on {
+            return f64::NAN;
+        }
         let unseen = (self.guard.taken - self.guard.looks[0]) as f64;
         self.guard.estimate.size(&self.guard.scale) + unseen * self.guard.local
     }
@@ -268,6 +301,32 @@ where
         )
     }
 
+    fn is_in_last_segment(&self) -> bool {
+        self.guard.segment.steps[1] == self.choice.chosen.steps
+    }
+
+    /// Goes on behind a time at which the system breaks: nothing of the motion before tells of that after it.
+    #[cold]
+    fn begin_segment(&mut self) {
+        let Chosen { time, step_size, breaks, .. } = self.choice.chosen;
+        let Some(next) = self.guard.segment.next(time, step_size, &breaks) else { return };
+        self.guard.segment = next;
+        if let Some(fresh) = self.choice.fresh_steps(next.step_size()) {
+            [self.step, self.half] = fresh;
+        }
+        if !self.guard.is_on {
+            return;
+        }
+        self.guard.estimate.resume(self.choice.system, &self.guard.state, next.from());
+        self.guard.roughness = 0.0;
+        self.guard.stroke = 0.0;
+        self.guard.unresolved = Unresolved::new();
+        self.guard.recent = [self.guard.state.q; 4];
+        self.guard.twin = (self.guard.state, self.guard.taken);
+        self.guard.carried = [self.guard.taken, self.guard.taken + 1, self.guard.taken];
+        self.guard.looks[1] = self.guard.taken + 1;
+    }
+
     /// The next look: at most [`STRIDE`] steps on, at no period.
     fn schedule_look(&mut self) {
         let stride = if self.choice.chosen.steps < FEW { 1 } else { STRIDE };
@@ -277,12 +336,12 @@ where
 
     /// The evaluations that the derivatives may take for each step.
     fn affordable(&self) -> f64 {
-        let share = if self.choice.chosen.steps < FEW || N <= RESOLVED { f64::INFINITY } else { SHARE };
+        let share = if N <= RESOLVED { f64::INFINITY } else { SHARE };
         share * self.choice.chosen.evaluations_per_step
     }
 
     fn schedule_derivatives(&mut self) {
-        let angle = self.guard.estimate.speed * self.choice.chosen.step_size;
+        let angle = self.guard.estimate.speed * self.step_size();
         let resolved = if angle > 0.0 { ANGLE[1] / angle } else { f64::INFINITY };
         // Seldom where the step is long already; twice the last distance at most, as a period may look like
         // rest.
@@ -304,17 +363,17 @@ where
         let (four, six) = (L::Scalar::constant(4.0), L::Scalar::constant(6.0));
         let difference = ((q + d) - (a + c) * four + b * six).amax();
         self.guard.recent = [q, a, b, c];
-        if self.guard.taken >= 4 { difference.widen() } else { 0.0 }
+        if self.guard.taken >= self.guard.segment.steps[0] + 4 { difference.widen() } else { 0.0 }
     }
 
     /// Carries the error by a twin to the present state, where that is far enough or must be.
     fn carry_by_twin(&mut self, must: bool) {
-        let Choice { system, methods, chosen } = self.choice;
-        let Chosen { step_size, .. } = chosen;
+        let Choice { system, methods, .. } = self.choice;
+        let step_size = self.step_size();
         let (from, taken) = self.guard.twin;
         let steps = self.guard.taken - taken;
         if must || steps >= self.guard.estimate.twin_stride(step_size, STRIDE) {
-            let span = [step_size * taken as f64, step_size * steps as f64];
+            let span = [self.time() - step_size * steps as f64, step_size * steps as f64];
             self.guard.estimate.carry_by_twin(system, methods, &from, span, &self.guard.scale);
             self.guard.twin = (self.guard.state, self.guard.taken);
         }
@@ -323,7 +382,7 @@ where
     /// Carries the error on to the present state.
     fn carry(&mut self) {
         let steps = (self.guard.taken - self.guard.carried[0]) as f64;
-        let Choice { system, methods, chosen } = self.choice;
+        let Choice { system, chosen, .. } = self.choice;
         let Chosen { roundings, .. } = chosen;
         let is_energy = self.choice.chosen.steps < FEW
             || self.guard.taken <= STRIDE
@@ -331,15 +390,18 @@ where
         if is_energy {
             self.guard.energy = self.guard.taken;
         }
+        let is_driven = self.guard.estimate.is_driven();
         let since = Since {
             steps,
             roundings,
+            passed: self.guard.unresolved.passed(is_driven),
             foreseen: (self.guard.taken - self.guard.looks[0]).max(1) as f64 * self.guard.local,
             affordable: steps * self.affordable(),
             is_energy,
+            ahead: chosen.time - self.time(),
         };
         let time = self.time();
-        self.guard.estimate.carry(system, methods, &self.guard.state, time, &self.guard.scale, &since);
+        self.guard.estimate.carry(system, &self.guard.state, time, &self.guard.scale, &since);
         self.guard.carried[2] = self.guard.carried[0];
         self.guard.carried[0] = self.guard.taken;
         self.schedule_derivatives();
@@ -347,10 +409,10 @@ where
 
     /// Holds the last step, from `before`, against its halves; halves that cannot be taken are a breach.
     ///
-    /// `unresolved` is what a Gauss method has left so.
-    fn look(&mut self, before: &State<L::Scalar, N>, unresolved: Option<[f64; 2]>) {
-        let h = self.choice.chosen.step_size;
-        let elapsed = h * (self.guard.taken - 1) as f64;
+    /// `unresolved` is what a Gauss method has left so. A step that is struck by a force errs as by a jump.
+    fn look(&mut self, before: &State<L::Scalar, N>, unresolved: Option<[f64; 2]>, is_struck: bool) {
+        let h = self.step_size();
+        let elapsed = self.guard.segment.time(self.guard.taken - 1);
         self.half.forget();
         let halves = self.half.advance(self.choice.system, elapsed, before).and_then(|first| {
             let second = self.half.advance(self.choice.system, elapsed + 0.5 * h, &first.step.state)?;
@@ -362,13 +424,18 @@ where
             self.report(f64::INFINITY);
             return;
         };
-        let local = self.choice.chosen.method.local_error(&self.guard.state, &halves);
+        let local = if is_struck {
+            Method::error_at_a_jump(&self.guard.state, &halves)
+        } else {
+            self.choice.chosen.method.local_error(&self.guard.state, &halves)
+        };
         let over_a_turn = self.guard.estimate.over_a_turn(&local, &self.guard.scale);
         let size = self.guard.scale.largest(&over_a_turn);
         let unseen = match unresolved {
             Some(_) if size == 0.0 => 0.0,
             Some(coefficients) => {
-                self.guard.unresolved.look(coefficients, over_a_turn, &self.guard.scale) / size
+                let is_driven = self.guard.estimate.is_driven();
+                self.guard.unresolved.look(coefficients, over_a_turn, &self.guard.scale, is_driven) / size
             }
             // Those not looked at lie between the last one that was and this one.
             None if size > 0.0 => 0.5 * (steps - 1.0) * (1.0 + (self.guard.local / size).min(steps)),
@@ -383,9 +450,11 @@ where
     /// Whether the force, where it changes with time, has done so within the last step as it did not before:
     /// between the nodes of the step.
     fn is_struck(&mut self) -> bool {
-        let Choice { system, methods, chosen } = self.choice;
-        let Chosen { step_size, tolerance, evaluations_per_step, .. } = chosen;
-        let is_seldom = self.choice.chosen.steps >= FEW
+        let Choice { system, chosen, .. } = self.choice;
+        let Chosen { tolerance, evaluations_per_step, is_watchful, .. } = chosen;
+        let step_size = self.step_size();
+        let is_seldom = !is_watchful
+            && self.choice.chosen.steps >= FEW
             && 4.0 > SHARE * evaluations_per_step * (1 + self.guard.taken % 8) as f64;
         if !self.guard.estimate.is_timed() || is_seldom {
             return false;
@@ -393,11 +462,12 @@ where
         // In the middle of the step, and where it ends: what strikes there is shared by two steps.
         let change = [0.5, 0.0].map(|share| {
             let time = self.time() - share * step_size;
-            self.guard.estimate.change_of_force(system, methods, time)
+            self.guard.estimate.change_of_force(system, time)
         });
         let change = change[0].max(change[1]);
         let is_more = change > ROUGHER * self.guard.stroke;
-        self.guard.stroke = self.guard.stroke.max(change);
+        // Who bounds the step expects more than one.
+        self.guard.stroke = if is_watchful { change } else { self.guard.stroke.max(change) };
         is_more && change * step_size * self.guard.scale.weight() > STROKE * tolerance
     }
 
@@ -415,7 +485,7 @@ where
 
 impl<L, M, const N: usize> Iterator for GuardedTrajectory<'_, L, M, N>
 where
-    L: Lagrangian<N>,
+    L: ActingForce<N>,
     M: Methods<L, N>,
 {
     type Item = Result<Step<L::Scalar, N>, StepError>;
@@ -423,6 +493,9 @@ where
     fn next(&mut self) -> Option<Self::Item> {
         if self.failed || self.guard.taken == self.choice.chosen.steps {
             return None;
+        }
+        if self.guard.taken == self.guard.segment.steps[1] {
+            self.begin_segment();
         }
         let before = self.guard.state;
         let taken = match self.step.advance(self.choice.system, self.time(), &before) {
@@ -435,12 +508,21 @@ where
         self.guard.state = taken.step.state;
         self.guard.taken += 1;
         self.guard.evaluations += (taken.evaluations - self.guard.evaluations) / self.guard.taken as f64;
+        if !self.guard.is_on {
+            return Some(Ok(taken.step));
+        }
         self.guard.scale.follow(&before, &taken.step.state);
         let difference = self.fourth_difference();
         let roughness = taken.unresolved.map_or(difference, |[before, last]| before.max(last));
-        let is_rougher = roughness > ROUGHER * self.guard.roughness && self.guard.taken > 5;
-        let looks = self.is_struck() || is_rougher || self.guard.taken >= self.guard.looks[1];
-        if self.guard.roughness == 0.0 && self.guard.taken <= 5 {
+        // Fourth differences take five states, coefficients are known of the first step.
+        let first = if taken.unresolved.is_some() { 1 } else { 5 };
+        let within = self.guard.taken - self.guard.segment.steps[0];
+        let is_rougher = roughness > ROUGHER * self.guard.roughness && within > first;
+        let is_last = self.guard.taken == self.guard.segment.steps[1] && !self.is_in_last_segment();
+        let is_due = is_last || self.guard.taken >= self.guard.looks[1];
+        let is_struck = self.is_struck();
+        let looks = is_struck || is_rougher || is_due;
+        if self.guard.roughness == 0.0 && within <= first {
             self.guard.roughness = roughness;
         }
         let carries =
@@ -453,7 +535,7 @@ where
         }
         if looks {
             self.guard.roughness = if is_rougher { roughness } else { self.guard.roughness.max(roughness) };
-            self.look(&before, taken.unresolved);
+            self.look(&before, taken.unresolved, is_struck);
         } else if let Some(unresolved) = taken.unresolved {
             self.guard.unresolved.pass(unresolved);
         }
@@ -467,7 +549,7 @@ where
 
 impl<'a, L, M, const N: usize> Run<N> for GuardedTrajectory<'a, L, M, N>
 where
-    L: Lagrangian<N> + 'a,
+    L: ActingForce<N> + 'a,
     M: Methods<L, N>,
 {
     type Scalar = L::Scalar;

@@ -7,12 +7,12 @@ use crate::rules::{Fitted, FittedTrapezoidal, Gauss, Midpoint, SelfAdjoint, Solv
 use crate::run::between::beginning;
 use crate::run::{Composition, Explicit, Splitting};
 use crate::step::flow::velocity;
-use crate::step::{Discrete, Flow, LegendreDerivatives, Memory, State, Step, StepError};
-use crate::system::{ForcedLagrangian, Lagrangian};
+use crate::step::{Discrete, Flow, Memory, State, Step, StepError};
+use crate::system::{ActingForce, ForcedLagrangian, Lagrangian};
 
 /// The methods that a system offers to [`Method::for_tolerance`]: a rule of order 2 stands for itself and its
 /// compositions; [`WithSplittings`] and [`WithGauss`] add to those of another.
-pub trait Methods<L: Lagrangian<N>, const N: usize>: Copy {
+pub trait Methods<L: ActingForce<N>, const N: usize>: Copy {
     /// A step by any of the methods.
     type Step: MethodStep<L, N>;
 
@@ -21,24 +21,6 @@ pub trait Methods<L: Lagrangian<N>, const N: usize>: Copy {
 
     /// The step of size `h` by `method`; nothing where the method is none of these.
     fn step(self, method: Method, h: L::Scalar) -> Option<Self::Step>;
-
-    /// Both momenta on the segment (`q0`, `q1`) by the rule of order 2, with their derivatives.
-    fn legendre_derivatives(
-        self,
-        system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> LegendreDerivatives<L::Scalar, N>;
-
-    /// Whether a force acts on the segment (`q0`, `q1`).
-    fn is_forced(
-        self,
-        system: &L,
-        q0: &SVector<L::Scalar, N>,
-        q1: &SVector<L::Scalar, N>,
-        h: L::Scalar,
-    ) -> bool;
 }
 
 /// A step taken, and what it cost.
@@ -265,7 +247,7 @@ impl<L: Discrete<R, N>, R: SelfAdjoint, const N: usize> MethodStep<L, N> for Com
 
 macro_rules! rules {
     ($($rule:ident)*) => {$(
-        impl<L: Discrete<$rule, N>, const N: usize> Methods<L, N> for $rule {
+        impl<L: Discrete<$rule, N> + ActingForce<N>, const N: usize> Methods<L, N> for $rule {
             type Step = Composed<L, Self, N>;
 
             fn offers(method: Method) -> bool {
@@ -279,27 +261,6 @@ macro_rules! rules {
                     Method::KahanLi8 => Some(Composed::KahanLi8(OfSize::new(h))),
                     _ => None,
                 }
-            }
-
-            fn legendre_derivatives(
-                self,
-                system: &L,
-                q0: &SVector<L::Scalar, N>,
-                q1: &SVector<L::Scalar, N>,
-                h: L::Scalar,
-            ) -> LegendreDerivatives<L::Scalar, N> {
-                Discrete::<$rule, N>::legendre_derivatives(system, q0, q1, h)
-            }
-
-            fn is_forced(
-                self,
-                system: &L,
-                q0: &SVector<L::Scalar, N>,
-                q1: &SVector<L::Scalar, N>,
-                h: L::Scalar,
-            ) -> bool {
-                let force = Discrete::<$rule, N>::discrete_force(system, q0, q1, h);
-                force.minus.iter().chain(force.plus.iter()).any(|&entry| entry != nalgebra::zero())
             }
         }
     )*};
@@ -356,7 +317,7 @@ macro_rules! added {
             }
         }
 
-        impl<L: $system<N>, M: Methods<L, N>, const N: usize> Methods<L, N> for $with<M> {
+        impl<L: $system<N> + ActingForce<N>, M: Methods<L, N>, const N: usize> Methods<L, N> for $with<M> {
             type Step = $or<L, M::Step, N>;
 
             fn offers(method: Method) -> bool {
@@ -368,26 +329,6 @@ macro_rules! added {
                     $(Method::$method => Some($or::$method(OfSize::new(h))),)*
                     _ => self.0.step(method, h).map($or::Other),
                 }
-            }
-
-            fn legendre_derivatives(
-                self,
-                system: &L,
-                q0: &SVector<L::Scalar, N>,
-                q1: &SVector<L::Scalar, N>,
-                h: L::Scalar,
-            ) -> LegendreDerivatives<L::Scalar, N> {
-                self.0.legendre_derivatives(system, q0, q1, h)
-            }
-
-            fn is_forced(
-                self,
-                system: &L,
-                q0: &SVector<L::Scalar, N>,
-                q1: &SVector<L::Scalar, N>,
-                h: L::Scalar,
-            ) -> bool {
-                self.0.is_forced(system, q0, q1, h)
             }
         }
     };

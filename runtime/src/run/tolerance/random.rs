@@ -19,8 +19,13 @@ impl Random {
         self.0
     }
 
+    /// The next one, between 0 and 1.
+    pub(super) fn unit(&mut self) -> f64 {
+        (self.draw() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
     /// The next one, between −1 and 1.
     pub(super) fn sign(&mut self) -> f64 {
-        (self.draw() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        2.0 * self.unit() - 1.0
     }
 }

@@ -2,9 +2,10 @@
 
 use nalgebra::ComplexField;
 
-use super::{Choice, Method, Methods, ToleranceError};
+use super::grid::{Bounds, segments};
+use super::{Choice, Chosen, Methods, ToleranceError, Trial, bounded};
 use crate::step::State;
-use crate::system::Lagrangian;
+use crate::system::{ActingForce, Lagrangian};
 
 /// Runs to the end at most.
 const RUNS: u32 = 8;
@@ -35,6 +36,8 @@ pub struct Reached<'a, L: Lagrangian<N>, M, const N: usize> {
     pub choice: Choice<'a, L, M, N>,
     /// How many runs it took, this one among them.
     pub runs: u32,
+    /// The cost of them all, with choices and guards, in evaluations of the forces.
+    pub evaluations: f64,
 }
 
 /// Runs to the end with smaller and smaller errors aimed at, until the guard finds that one keeps the
@@ -42,23 +45,30 @@ pub struct Reached<'a, L: Lagrangian<N>, M, const N: usize> {
 pub(super) fn reached<'a, L, M, const N: usize>(
     (system, methods): (&'a L, M),
     start: &State<L::Scalar, N>,
-    time: f64,
-    tolerance: f64,
+    [time, tolerance]: [f64; 2],
+    bounds: Bounds,
 ) -> Result<Reached<'a, L, M, N>, ToleranceError>
 where
-    L: Lagrangian<N>,
+    L: ActingForce<N>,
     M: Methods<L, N>,
 {
     let mut aim = tolerance;
-    let mut choice = Method::for_tolerance(system, methods, start, time, tolerance)?;
-    let mut runs = 1;
+    let mut choice = bounded((system, methods), start, [time, tolerance], bounds)?;
+    let (mut runs, mut evaluations) = (1, 0.0);
     loop {
         let mut run = choice.trajectory();
         let failure = run.by_ref().find_map(Result::err);
+        evaluations += choice.chosen.spent + run.evaluations().0 + run.evaluations().1;
         let is_clear = run.largest() <= ACCEPTED * tolerance;
         let (largest, error) = match (failure, run.breach()) {
             (None, None) if runs == 1 || runs == RUNS || is_clear => {
-                return Ok(Reached { state: *run.state(), expected: run.expected(), choice, runs });
+                return Ok(Reached {
+                    state: *run.state(),
+                    expected: run.expected(),
+                    choice,
+                    runs,
+                    evaluations,
+                });
             }
             (None, None) => (run.largest(), None),
             (None, Some(&breach)) => (run.largest(), Some(ToleranceError::Breach(breach))),
@@ -70,31 +80,51 @@ where
         runs += 1;
         let share = AIM * tolerance / largest;
         aim *= share.clamp(LEAST, AIM);
-        choice = match Method::for_tolerance(system, methods, start, time, aim) {
-            Ok(mut next) => {
-                next.chosen.tolerance = tolerance;
-                next
-            }
+        choice = match bounded((system, methods), start, [time, aim], bounds) {
+            // The start may show nothing of what comes: the same run would only end as the last one did.
+            Ok(next) if !choice.is_no_shorter(&next) => next,
+            Ok(_) => choice.shortened(share, aim),
             // The rounding of so many steps, or a step that fails.
-            Err(_) => choice.shortened(share, time),
+            Err(_) => choice.shortened(share, aim),
         };
+        choice.chosen.tolerance = tolerance;
+        if choice.chosen.steps > bounds.most {
+            return Err(error.unwrap_or_else(|| choice.too_many(bounds.most)));
+        }
     }
 }
 
 impl<L, M, const N: usize> Choice<'_, L, M, N>
 where
-    L: Lagrangian<N>,
+    L: ActingForce<N>,
     M: Methods<L, N>,
 {
+    /// Whether `next` takes the same steps, or as long ones.
+    fn is_no_shorter(&self, next: &Self) -> bool {
+        let (last, next) = (&self.chosen, &next.chosen);
+        next.method == last.method && next.step_size * SHORTER[0] > last.step_size
+    }
+
+    /// The error of more steps than are allowed.
+    fn too_many(&self, most: u64) -> ToleranceError {
+        let Chosen { method, step_size, steps, expected, evaluations_per_step, .. } = self.chosen;
+        let steps = steps as f64;
+        let needed = Trial { method, step_size, evaluations: steps * evaluations_per_step, expected };
+        ToleranceError::TooManySteps { needed, steps, most, rate: self.chosen.rate }
+    }
+
     /// This choice with h divided by share^(−1/p), p the order; the divisor is kept within [`SHORTER`].
-    fn shortened(mut self, share: f64, time: f64) -> Self {
+    fn shortened(mut self, share: f64, aim: f64) -> Self {
         let p = f64::from(self.chosen.method.order());
         let [least, most] = SHORTER;
         let factor = ComplexField::powf(share, -1.0 / p).clamp(least, most);
-        let steps = ComplexField::ceil(self.chosen.steps as f64 * factor);
         self.chosen.local *= ComplexField::powf(factor, -1.0 - p);
         self.chosen.expected *= ComplexField::powf(factor, -p);
-        (self.chosen.steps, self.chosen.step_size) = (steps as u64, time / steps);
+        let chosen = &mut self.chosen;
+        let nominal = ComplexField::ceil(chosen.time / chosen.step_size * factor);
+        (chosen.step_size, chosen.aim) = (chosen.time / nominal, aim);
+        let last = segments(chosen.time, chosen.step_size, &chosen.breaks).last();
+        chosen.steps = last.map_or(chosen.steps, |segment| segment.steps[1]);
         self
     }
 }

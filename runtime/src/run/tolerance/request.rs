@@ -1,9 +1,12 @@
 //! An error asked for, of the methods that a system offers.
 
+use core::fmt;
+
+use super::grid::{Bounds, Breaks};
 use super::reached::{Reached, reached};
-use super::{Choice, GuardedTrajectory, Method, Methods, ToleranceError};
+use super::{Choice, GuardedTrajectory, Methods, ToleranceError, bounded};
 use crate::step::State;
-use crate::system::Lagrangian;
+use crate::system::ActingForce;
 
 /// A system that offers methods where an error is asked for: those of the rules that its attribute lists.
 ///
@@ -15,13 +18,12 @@ use crate::system::Lagrangian;
     label = "no self-adjoint rule of order 2 is listed for this system",
     note = "list one: `#[rayleigh_system(rule = midpoint)]`, or `rule = [trapezoidal, gauss]` for small errors"
 )]
-pub trait OffersMethods<const N: usize>: Lagrangian<N> + Sized {
+pub trait OffersMethods<const N: usize>: ActingForce<N> + Sized {
     /// The methods.
     type Methods: Methods<Self, N> + Default;
 }
 
 /// An error asked for of a system: [`to_error`](crate::Discretise::to_error).
-#[derive(Clone, Copy, Debug)]
 #[must_use = "nothing is chosen before `until`"]
 pub struct Request<'a, L, M> {
     system: &'a L,
@@ -30,11 +32,43 @@ pub struct Request<'a, L, M> {
 }
 
 /// An error asked for of a system over a time: [`Request::until`].
-#[derive(Clone, Copy, Debug)]
 #[must_use = "nothing is chosen before `choice` or `run`"]
 pub struct TimedRequest<'a, L, M> {
     request: Request<'a, L, M>,
     time: f64,
+    bounds: Bounds,
+}
+
+// By hand: derived, they would ask for a system that is copied.
+impl<L, M: Copy> Clone for Request<'_, L, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<L, M: Copy> Copy for Request<'_, L, M> {}
+
+impl<L, M: Copy> Clone for TimedRequest<'_, L, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<L, M: Copy> Copy for TimedRequest<'_, L, M> {}
+
+impl<L, M> fmt::Debug for Request<'_, L, M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Request").field("tolerance", &self.tolerance).finish_non_exhaustive()
+    }
+}
+
+impl<L, M> fmt::Debug for TimedRequest<'_, L, M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { request, time, bounds } = self;
+        let mut shown = f.debug_struct("TimedRequest");
+        shown.field("tolerance", &request.tolerance).field("time", time).field("bounds", bounds);
+        shown.finish_non_exhaustive()
+    }
 }
 
 impl<'a, L, M> Request<'a, L, M> {
@@ -49,11 +83,60 @@ impl<'a, L, M> Request<'a, L, M> {
 
     /// Over the time `time`.
     pub fn until(self, time: f64) -> TimedRequest<'a, L, M> {
-        TimedRequest { request: self, time }
+        TimedRequest { request: self, time, bounds: Bounds::default() }
     }
 }
 
 impl<'a, L, M> TimedRequest<'a, L, M> {
+    /// In no more than so many steps, 10⁷ unless said: more are [`ToleranceError::TooManySteps`], which
+    /// says how long a step would be needed. It is told before the run, so that no call goes on for ever.
+    pub fn at_most(mut self, steps: u64) -> Self {
+        self.bounds.most = steps;
+        self
+    }
+
+    /// By steps no longer than `step_size`, each of them looked into.
+    ///
+    /// Choice and guard look at the system at the nodes of steps, and at the force in the middle of each.
+    /// Where something happens between them and is over by then, as a short pulse of force, they cannot see
+    /// it: a step of a third of its length sees it.
+    pub fn longest_step(mut self, step_size: f64) -> Self {
+        self.bounds.longest = step_size;
+        self
+    }
+
+    /// With these times as ends of steps: those at which the force or another function of the system jumps,
+    /// or its slope does. Times outside the run are left out; the order does not matter.
+    ///
+    /// A step over a jump errs by its size times h, whatever the method's order. So steps end there, and the
+    /// next ones, of a size of their own, start on the other side; the choice looks at each side, and so does
+    /// the guard.
+    ///
+    /// ```
+    /// use dalembert::{Discretise, State, rayleigh_system};
+    ///
+    /// struct Pushed;
+    /// #[rayleigh_system(rule = [trapezoidal, gauss])]
+    /// impl Pushed {
+    ///     fn lagrangian(&self, q: [f64; 1], v: [f64; 1]) -> f64 {
+    ///         0.5 * v[0] * v[0]
+    ///     }
+    ///     fn force(&self, _q: [f64; 1], _v: [f64; 1], t: f64) -> [f64; 1] {
+    ///         [if t > 4.0 && t < 4.1 { 10.0 } else { 0.0 }]
+    ///     }
+    /// }
+    /// let system = Pushed.at_time(0.0);
+    /// let start = State::from_velocity(&system, [0.0], [0.0])?;
+    /// let reached = system.to_error(1e-9).until(10.0).breaking_at([4.0, 4.1]).end(&start)?;
+    /// // A velocity of 1, from the middle of the push on.
+    /// assert!((reached.state.q[0] - (10.0 - 4.05)).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn breaking_at<const K: usize>(mut self, times: [f64; K]) -> Self {
+        self.bounds.breaks = Breaks::new(times);
+        self
+    }
+
     /// The method and step size for the motion from `start`, with the reasons.
     ///
     /// # Errors
@@ -63,11 +146,11 @@ impl<'a, L, M> TimedRequest<'a, L, M> {
         start: &State<L::Scalar, N>,
     ) -> Result<Choice<'a, L, M, N>, ToleranceError>
     where
-        L: Lagrangian<N>,
+        L: ActingForce<N>,
         M: Methods<L, N>,
     {
         let Request { system, methods, tolerance } = self.request;
-        Method::for_tolerance(system, methods, start, self.time, tolerance)
+        bounded((system, methods), start, [self.time, tolerance], self.bounds)
     }
 
     /// The run from `start` by the method and step size chosen for it, with its guard.
@@ -79,7 +162,7 @@ impl<'a, L, M> TimedRequest<'a, L, M> {
         start: State<L::Scalar, N>,
     ) -> Result<GuardedTrajectory<'a, L, M, N>, ToleranceError>
     where
-        L: Lagrangian<N>,
+        L: ActingForce<N>,
         M: Methods<L, N>,
     {
         self.choice(&start).map(|choice| choice.trajectory())
@@ -122,10 +205,10 @@ impl<'a, L, M> TimedRequest<'a, L, M> {
         start: &State<L::Scalar, N>,
     ) -> Result<Reached<'a, L, M, N>, ToleranceError>
     where
-        L: Lagrangian<N>,
+        L: ActingForce<N>,
         M: Methods<L, N>,
     {
         let Request { system, methods, tolerance } = self.request;
-        reached((system, methods), start, self.time, tolerance)
+        reached((system, methods), start, [self.time, tolerance], self.bounds)
     }
 }

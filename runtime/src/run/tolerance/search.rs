@@ -2,12 +2,14 @@
 
 use nalgebra::ComplexField;
 
+use super::grid::{Bounds, segments};
+use super::random::Random;
 use super::scale::Scale;
 use super::variation::Variation;
 use super::{Choice, Chosen, Method, MethodStep, Methods, ToleranceError, Trial};
 use crate::numbers::Scalar;
 use crate::step::{State, StepError};
-use crate::system::{Lagrangian, is_timed};
+use crate::system::{ActingForce, Lagrangian, is_timed};
 
 /// The share of the tolerance that the error expected from the start may fill.
 const SAFETY: f64 = 0.15;
@@ -36,6 +38,9 @@ struct Start<'a, L: Lagrangian<N>, M, const N: usize> {
     state: State<L::Scalar, N>,
     time: f64,
     tolerance: f64,
+    bounds: Bounds,
+    /// The fewest steps by what is known before any is tried.
+    fewest: f64,
     /// The fastest rate at which the motion changes.
     fastest: f64,
     /// The factor of an error of p beside one of q.
@@ -48,6 +53,9 @@ struct Start<'a, L: Lagrangian<N>, M, const N: usize> {
 
 /// When a drive is looked at, as shares of the run: at its start it may do nothing yet.
 const DRIVES: [f64; 4] = [0.17, 0.41, 0.67, 0.89];
+
+/// How often a force is looked for where a motion starts at rest.
+const LOOKS: u32 = 256;
 
 /// The local error and the cost of one step of a method.
 #[derive(Clone, Copy)]
@@ -72,20 +80,21 @@ impl Candidate {
 }
 
 pub(super) fn choice<'a, L, M, const N: usize>(
-    system: &'a L,
-    methods: M,
+    (system, methods): (&'a L, M),
     state: &State<L::Scalar, N>,
-    time: f64,
-    tolerance: f64,
+    [time, tolerance]: [f64; 2],
+    bounds: Bounds,
 ) -> Result<Choice<'a, L, M, N>, ToleranceError>
 where
-    L: Lagrangian<N>,
+    L: ActingForce<N>,
     M: Methods<L, N>,
 {
     state.require_finite().map_err(ToleranceError::Step)?;
-    let mut start = Start::new(system, methods, *state, time, tolerance).map_err(ToleranceError::Step)?;
+    let mut start =
+        Start::new((system, methods), *state, [time, tolerance], bounds).map_err(ToleranceError::Step)?;
+    start.look_for_motion()?;
     let mut trials = [None; Method::ALL.len()];
-    let mut best: Option<Candidate> = None;
+    let (mut best, mut too_many) = (None::<Candidate>, None::<Candidate>);
     // Those first that are known to be good at the error: the others need not be tried far.
     let mut order = Method::ALL;
     let asked = start.relative();
@@ -116,7 +125,11 @@ where
                     *trial = Some(start.trial(&candidate));
                 }
                 let reaches = candidate.expected <= tolerance;
-                if reaches && best.is_none_or(|best| candidate.cost() < best.cost()) {
+                if reaches && candidate.steps > bounds.most as f64 {
+                    if too_many.is_none_or(|least| candidate.steps < least.steps) {
+                        too_many = Some(candidate);
+                    }
+                } else if reaches && best.is_none_or(|best| candidate.cost() < best.cost()) {
                     best = Some(candidate);
                 }
             }
@@ -124,6 +137,9 @@ where
         }
     }
     let Some(mut best) = best else {
+        if let Some(least) = too_many {
+            return Err(start.too_many(&least));
+        }
         let shown = trials.iter().flatten();
         let closest = shown.min_by(|a, b| a.expected.total_cmp(&b.expected)).copied();
         return Err(match (closest, failure) {
@@ -136,16 +152,25 @@ where
         return Err(ToleranceError::OutOfReach { closest: Some(start.trial(&best)) });
     }
     let step_size = time / best.steps;
+    let steps = segments(time, step_size, &bounds.breaks).last().map_or(0, |segment| segment.steps[1]);
+    if steps > bounds.most {
+        return Err(start.too_many(&best));
+    }
     let chosen = Chosen {
         start: *state,
         method: best.method,
+        time,
+        breaks: bounds.breaks,
         step_size,
-        steps: best.steps as u64,
+        steps,
+        is_watchful: bounds.longest.is_finite(),
         tolerance,
+        aim: tolerance,
         expected: best.expected,
         local: best.measured.local,
         evaluations_per_step: best.measured.evaluations,
         roundings: best.method.roundings(),
+        rate: start.fastest,
         spent: start.spent,
         trials,
     };
@@ -154,15 +179,14 @@ where
 
 impl<'a, L, M, const N: usize> Start<'a, L, M, N>
 where
-    L: Lagrangian<N>,
+    L: ActingForce<N>,
     M: Methods<L, N>,
 {
     fn new(
-        system: &'a L,
-        methods: M,
+        (system, methods): (&'a L, M),
         state: State<L::Scalar, N>,
-        time: f64,
-        tolerance: f64,
+        [time, tolerance]: [f64; 2],
+        bounds: Bounds,
     ) -> Result<Self, StepError> {
         let velocity = state.velocity(system)?;
         let mut start = Self {
@@ -171,40 +195,57 @@ where
             state,
             time,
             tolerance,
+            bounds,
+            fewest: ComplexField::ceil(time / bounds.longest * (1.0 - 1e-12)).max(1.0),
             fastest: 1.0 / time,
             weight: 0.0,
             reach: 0.0,
             spent: 4.0,
         };
-        let mut length = L::Scalar::constant(time);
-        for _ in 0..4 {
-            start.spent += 2.0;
-            match Variation::at(system, methods, &state, &velocity, length) {
-                Some(variation) => {
-                    let fastest = variation.fastest;
-                    start.fastest = fastest.widen().max(1.0 / time);
-                    start.weight = variation.matrix.q_by_p.norm().widen() / start.fastest;
-                    start.reach = start.reach_of(&variation);
-                    let next = L::Scalar::constant(1.0 / start.fastest);
-                    let is_known = next > length * L::Scalar::constant(0.5);
-                    length = next;
-                    if is_known {
-                        break;
-                    }
-                }
-                None => length *= L::Scalar::constant(1e-2),
-            }
+        start.spent += 2.0;
+        if let Some(variation) = Variation::at(system, &state, &velocity) {
+            start.fastest = variation.fastest.widen().max(1.0 / time);
+            start.weight = variation.matrix.q_by_p.norm().widen() / start.fastest;
+            start.reach = start.reach_of(&variation);
         }
         if is_timed(system) {
             for share in DRIVES {
                 start.spent += 2.0;
-                let at = |system: &L| Variation::at(system, methods, &state, &velocity, length);
+                let at = |system: &L| Variation::at(system, &state, &velocity);
                 if let Some(variation) = system.later(L::Scalar::constant(share * time), at) {
                     start.reach = start.reach.max(start.reach_of(&variation));
                 }
             }
         }
         Ok(start)
+    }
+
+    /// Looks for a force that comes later, where the system takes the time and the motion starts at rest: at
+    /// the start every step errs by nothing.
+    fn look_for_motion(&mut self) -> Result<(), ToleranceError> {
+        if self.bounds.are_given() || !is_timed(self.system) || self.reach > 0.0 {
+            return Ok(());
+        }
+        let zero = nalgebra::SVector::zeros();
+        let Some(rest) = Variation::at(self.system, &self.state, &zero) else { return Ok(()) };
+        let mut seen = 0;
+        let mut random = Random::new(0x5851_f42d_4c95_7f2d);
+        for look in 0..LOOKS {
+            self.spent += 2.0;
+            let within = (f64::from(look) + random.unit()) / f64::from(LOOKS);
+            let at = |system: &L| rest.change_of_force(system);
+            let change = self.system.later(L::Scalar::constant(within * self.time), at);
+            seen += u32::from(change > 0.0);
+            let acceleration = (rest.matrix.q_by_p.norm().widen()) * change;
+            self.reach = self.reach.max(0.5 * acceleration / (self.fastest * self.fastest));
+        }
+        if seen == 0 {
+            let apart = self.time / f64::from(LOOKS);
+            return Err(ToleranceError::NothingMoves { looks: LOOKS, apart });
+        }
+        // Seen so often, it is seen by a guard that looks twice a step.
+        self.fewest = self.fewest.max(ComplexField::ceil(f64::from(LOOKS) / f64::from(seen)));
+        Ok(())
     }
 
     /// |v| τ, and from rest |M⁻¹ ṗ| τ²/2, with τ the time in which the motion changes.
@@ -228,6 +269,15 @@ where
 
     fn norm(&self, error: &State<L::Scalar, N>) -> f64 {
         error.q.amax().widen().max(error.p.amax().widen() * self.weight)
+    }
+
+    fn too_many(&self, least: &Candidate) -> ToleranceError {
+        ToleranceError::TooManySteps {
+            needed: self.trial(least),
+            steps: least.steps,
+            most: self.bounds.most,
+            rate: self.fastest,
+        }
     }
 
     fn trial(&self, candidate: &Candidate) -> Trial {
@@ -261,6 +311,21 @@ where
         Ok(Measured { local, evaluations: whole.evaluations })
     }
 
+    /// One step from the start against two half ones, and where the system breaks on the way one from the
+    /// same state there: what steps err by in the mean.
+    fn measure_along(&mut self, method: Method, steps: f64) -> Result<Measured, Option<StepError>> {
+        let (state, mut local, mut evaluations) = (self.state, 0.0, 0.0);
+        let h = self.time / steps;
+        let (time, breaks) = (self.time, self.bounds.breaks);
+        for segment in segments(time, h, &breaks) {
+            let measured = self.measure(method, self.time / segment.step_size(), &state, segment.from())?;
+            let share = (segment.steps[1] - segment.steps[0]) as f64 / steps;
+            local += measured.local * share;
+            evaluations += measured.evaluations * share;
+        }
+        Ok(Measured { local, evaluations })
+    }
+
     /// The error over so many steps that err by `local`.
     fn expected(&self, method: Method, steps: f64, local: f64) -> f64 {
         let rounding = L::Scalar::EPSILON.widen() * self.size();
@@ -281,12 +346,11 @@ where
     ) -> Result<Candidate, Option<StepError>> {
         let p = f64::from(method.order());
         let angle = method.usual_angle(self.relative());
-        let mut steps = ComplexField::ceil(self.fastest * self.time / angle).max(1.0);
+        let mut steps = ComplexField::ceil(self.fastest * self.time / angle).max(self.fewest);
         let (mut good, mut least, mut failure) = (None::<Candidate>, 0.0, None);
         let mut closest = None::<Candidate>;
         for _ in 0..TRIES {
-            let state = self.state;
-            let next = match self.measure(method, steps, &state, 0.0) {
+            let next = match self.measure_along(method, steps) {
                 Err(error) => {
                     failure = error;
                     least = steps;
@@ -302,10 +366,10 @@ where
                     let factor = ComplexField::powf(ratio, 1.0 / p);
                     if ratio >= 1.0 {
                         good = Some(candidate);
-                        if factor < 1.15 || steps <= 1.0 {
+                        if factor < 1.15 || steps <= self.fewest {
                             break;
                         }
-                        ComplexField::ceil(steps / factor.min(3.0) * 1.02).max(1.0)
+                        ComplexField::ceil(steps / factor.min(3.0) * 1.02).max(self.fewest)
                     } else {
                         least = steps;
                         let next = ComplexField::ceil(steps / factor.max(0.1) * 1.03).max(steps + 1.0);
@@ -348,7 +412,9 @@ where
     /// pericentre outwards, and alone it would ask for steps that the start does not bear. After the step has
     /// changed, the error there is taken to have gone with its power.
     fn explore(&mut self, best: &mut Candidate) {
-        let budget = (self.spent + EXPLORING * best.cost()).max(CHOOSING * best.cost());
+        let most = self.bounds.most as f64;
+        let cost = best.steps.min(most) * best.measured.evaluations;
+        let budget = (self.spent + EXPLORING * cost).max(CHOOSING * cost);
         let p = f64::from(best.method.order());
         let (at_start, of_steps) = (best.measured.local, best.steps);
         let mut remaining = 3;
@@ -405,7 +471,7 @@ where
             if (0.95..1.3).contains(&factor) {
                 return;
             }
-            best.steps = ComplexField::ceil(best.steps / factor.clamp(0.3, 1.5) * 1.02).max(1.0);
+            best.steps = ComplexField::ceil(best.steps / factor.clamp(0.3, 1.5) * 1.02).max(self.fewest);
         }
     }
 }

@@ -23,7 +23,7 @@ pub(super) fn shift<S: Scalar, const N: usize>(
 pub(super) fn along_the_motion<S: Scalar, const N: usize, const K: usize>(
     errors: [State<S, N>; K],
     from: &Variation<S, N>,
-    inner: Option<&[Variation<S, N>; 2]>,
+    middle: Option<&Variation<S, N>>,
     to: &Variation<S, N>,
     t: S,
     scale: &Scale<S, N>,
@@ -31,6 +31,6 @@ pub(super) fn along_the_motion<S: Scalar, const N: usize, const K: usize>(
     let (f, g) = (&from.rate, &to.rate);
     let shifts = errors.each_ref().map(|error| shift(error, f, scale));
     let across: [State<S, N>; K] = core::array::from_fn(|k| plus(&errors[k], f, -shifts[k]));
-    let across = carried(across, from, inner, to, t);
+    let across = carried(across, from, middle, to, t);
     core::array::from_fn(|k| plus(&across[k], g, shifts[k]))
 }

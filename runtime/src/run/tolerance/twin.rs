@@ -7,7 +7,7 @@ use super::scale::Scale;
 use super::{Method, MethodStep, Methods};
 use crate::numbers::Scalar;
 use crate::step::State;
-use crate::system::Lagrangian;
+use crate::system::ActingForce;
 
 /// The angle in one step of the rule at most, by a rate that is one to two times that of the fastest mode.
 const ANGLE: f64 = 2.0;
@@ -31,7 +31,7 @@ pub(super) fn carried<L, M, const N: usize>(
     scale: &Scale<L::Scalar, N>,
 ) -> Option<(State<L::Scalar, N>, f64)>
 where
-    L: Lagrangian<N>,
+    L: ActingForce<N>,
     M: Methods<L, N>,
 {
     let number = L::Scalar::constant;

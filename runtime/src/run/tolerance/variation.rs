@@ -4,16 +4,20 @@
 //! ẏ = f(y),  y = (q, p)        an error obeys  δ̇ = J δ,  J = ∂f/∂y
 //! ```
 //!
-//! The rule of order 2 gives both, on a segment so short that it is a point: A = exp(τJ) up to τ³.
+//! Both are made of the derivatives of L and of f_L, with M = ∂²L/∂v² and C = ∂²L/∂v∂q:
+//!
+//! ```text
+//! q̇ = v,  ∂L/∂v(q, v) = p      ∂q̇/∂p = M⁻¹,  ∂q̇/∂q = −M⁻¹C
+//! ṗ = ∂L/∂q + f_L               ∂ṗ/∂p = B M⁻¹,  ∂ṗ/∂q = ∂²L/∂q² + ∂f_L/∂q + B ∂q̇/∂q,  B = Cᵀ + ∂f_L/∂v
+//! ```
 
 use nalgebra::{SMatrix, SVector};
 
-use super::Methods;
 use super::phase::{norm, plus, times};
 use super::scale::Scale;
 use crate::numbers::Scalar;
-use crate::step::{Linearization, PhaseMatrix, State};
-use crate::system::Lagrangian;
+use crate::step::{PhaseMatrix, State};
+use crate::system::{ActingForce, Lagrangian};
 
 /// The motion at one state.
 #[derive(Clone, Copy, Debug)]
@@ -38,49 +42,60 @@ pub(super) struct Variation<S, const N: usize> {
     pub(super) is_forced: bool,
 }
 
-/// The length of the segment, as a share of the time in which the motion changes.
-const SEGMENT: f64 = 1.0 / 32.0;
-
-/// A velocity whose momentum differs from the state's by less than this share is its velocity.
-const VELOCITY: f64 = 1e-4;
+/// A velocity that Newton's method changes by less than this share is that of the state.
+const VELOCITY: f64 = 1e-3;
 
 impl<S: Scalar, const N: usize> Variation<S, N> {
-    /// At `state`, with a guess for the velocity; `time` is one in which the motion changes little more than
-    /// by itself. Nothing where the derivatives do not exist.
-    pub(super) fn at<L, M>(
-        system: &L,
-        methods: M,
-        state: &State<S, N>,
-        guess: &SVector<S, N>,
-        time: S,
-    ) -> Option<Self>
+    /// At `state`, with a guess for the velocity. Nothing where the derivatives do not exist.
+    pub(super) fn at<L>(system: &L, state: &State<S, N>, guess: &SVector<S, N>) -> Option<Self>
     where
-        L: Lagrangian<N, Scalar = S>,
-        M: Methods<L, N>,
+        L: ActingForce<N, Scalar = S>,
     {
-        let tau = time * S::constant(SEGMENT);
-        let half = S::constant(0.5);
         let mut v = *guess;
         for _ in 0..4 {
-            let (q0, q1) = (state.q - v * (tau * half), state.q + v * (tau * half));
-            let legendre = methods.legendre_derivatives(system, &q0, &q1, tau);
-            let a = Linearization::from_legendre(&legendre).ok()?.a;
-            let momenta = legendre.momenta;
-            let p = (momenta.p0 + momenta.p1) * half;
-            let matrix = generator(&a, tau);
-            let rate = State { q: v, p: (momenta.p1 - momenta.p0) / tau };
-            let missing = state.p - p;
-            v += matrix.q_by_p * missing;
-            if !v.iter().chain(rate.p.iter()).all(|x| x.is_finite()) {
+            let l = system.lagrangian_derivatives(&state.q, &v);
+            let inverse = l.d22.try_inverse()?;
+            let correction = inverse * (state.p - l.d2);
+            if !correction.iter().all(|x| x.is_finite()) {
                 return None;
             }
-            if missing.amax() <= S::constant(VELOCITY) * (state.p.amax() + rate.p.amax() * time) {
-                let is_forced = methods.is_forced(system, &q0, &q1, tau);
-                let fastest = norm(&matrix);
-                return Some(Self { rate: State { q: v, ..rate }, matrix, fastest, at: *state, is_forced });
+            v += correction;
+            if correction.amax() > S::constant(VELOCITY) * v.amax() {
+                continue;
             }
+            let (mut rate, mut by_q, mut by_v) = (l.d1, l.d11, l.d12);
+            let mut is_forced = false;
+            if L::IS_FORCED {
+                let force = system.acting_force_derivatives(&state.q, &v);
+                is_forced = force.value.iter().any(|&entry| entry != S::zero());
+                rate += force.value;
+                by_q += force.d1;
+                by_v += force.d2;
+            }
+            // L is differentiated beside v by less than VELOCITY, and ṗ there taken to v.
+            rate += l.d12 * correction;
+            let q_by_q = -(inverse * l.d12.transpose());
+            let matrix =
+                PhaseMatrix { q_by_q, q_by_p: inverse, p_by_q: by_q + by_v * q_by_q, p_by_p: by_v * inverse };
+            let fastest = norm(&matrix);
+            let is_finite = fastest.is_finite() && rate.iter().all(|x| x.is_finite());
+            return is_finite.then_some(Self {
+                rate: State { q: v, p: rate },
+                matrix,
+                fastest,
+                at: *state,
+                is_forced,
+            });
         }
         None
+    }
+
+    /// At the same state of `later`, the system at another time.
+    pub(super) fn in_time<L>(&self, later: &L) -> Option<Self>
+    where
+        L: ActingForce<N, Scalar = S>,
+    {
+        Self::at(later, &self.at, &self.rate.q)
     }
 
     /// The velocity at another state near by.
@@ -161,18 +176,13 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
         if ratio.is_finite() { nalgebra::ComplexField::sqrt(ratio) } else { 0.0 }
     }
 
-    /// By how much ṗ at this state is another in `later`, the system at another time; a segment takes a share
-    /// of `length`.
-    pub(super) fn change_of_force<L, M>(&self, later: &L, methods: M, length: S) -> f64
+    /// By how much ṗ at this state is another in `later`, the system at another time.
+    pub(super) fn change_of_force<L>(&self, later: &L) -> f64
     where
-        L: Lagrangian<N, Scalar = S>,
-        M: Methods<L, N>,
+        L: ActingForce<N, Scalar = S>,
     {
-        let tau = length * S::constant(SEGMENT);
-        let half = self.rate.q * (tau * S::constant(0.5));
-        let momenta =
-            methods.legendre_derivatives(later, &(self.at.q - half), &(self.at.q + half), tau).momenta;
-        ((momenta.p1 - momenta.p0) / tau - self.rate.p).amax().widen()
+        let (q, v) = (&self.at.q, &self.rate.q);
+        (later.lagrangian_gradient(q, v).d1 + later.acting_force(q, v) - self.rate.p).amax().widen()
     }
 
     /// ∂H/∂y·δ = v·δp − ṗ·δq where no force acts.
@@ -194,22 +204,6 @@ impl<S: Scalar, const N: usize> Variation<S, N> {
         let slope = self.energy_of(&direction);
         let share = if slope > S::zero() { energy / slope } else { S::zero() };
         State { q: direction.q * share, p: direction.p * share }
-    }
-}
-
-/// J from A = (I − τJ/2)⁻¹(I + τJ/2), by two terms of the series of the logarithm.
-fn generator<S: Scalar, const N: usize>(a: &PhaseMatrix<S, N>, tau: S) -> PhaseMatrix<S, N> {
-    let unit = SMatrix::<S, N, N>::identity();
-    let d =
-        PhaseMatrix { q_by_q: a.q_by_q - unit, q_by_p: a.q_by_p, p_by_q: a.p_by_q, p_by_p: a.p_by_p - unit };
-    let half = S::constant(0.5);
-    let square = d * d;
-    let entry = |x: &SMatrix<S, N, N>, y: &SMatrix<S, N, N>| (x - y * half) / tau;
-    PhaseMatrix {
-        q_by_q: entry(&d.q_by_q, &square.q_by_q),
-        q_by_p: entry(&d.q_by_p, &square.q_by_p),
-        p_by_q: entry(&d.p_by_q, &square.p_by_q),
-        p_by_p: entry(&d.p_by_p, &square.p_by_p),
     }
 }
 
