@@ -2,9 +2,9 @@
 //! expanded`, `parameters = [m, c[0]]`, `step_derivatives = second`, `lanes = [explicit,
 //! gauss]`, `multiply_add = fused`, `crate = mechanics`.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{TokenStream, TokenTree};
 use syn::ext::IdentExt;
-use syn::parse::{Parse, ParseStream, Parser};
+use syn::parse::{Parse, ParseStream};
 use syn::punctuated::Punctuated;
 use syn::{Expr, Ident, Path, Token, bracketed, token};
 
@@ -73,13 +73,7 @@ pub struct Options {
 /// The options said, and defaults for the others.
 pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) -> Options {
     let mut options = Options::default();
-    let settings = match Punctuated::<Setting, Token![,]>::parse_terminated.parse2(attribute) {
-        Ok(settings) => settings,
-        Err(error) => {
-            report.at_span(error.span(), Mistake::UnknownOption);
-            return options;
-        }
-    };
+    let settings = settings(attribute, report);
     let mut said: Vec<Ident> = Vec::new();
     for setting in settings {
         let Setting { name, values } = setting;
@@ -126,6 +120,27 @@ pub fn options(attribute: TokenStream, runtime: Runtime, report: &mut Report) ->
         options.rules.of_displacement.push(Rule::Midpoint);
     }
     options
+}
+
+/// The settings between commas. One that is none hides none of the others, nor what is wrong with the item.
+fn settings(attribute: TokenStream, report: &mut Report) -> Vec<Setting> {
+    let tokens: Vec<TokenTree> = attribute.into_iter().collect();
+    let is_comma = |token: &TokenTree| matches!(token, TokenTree::Punct(punct) if punct.as_char() == ',');
+    let mut settings = Vec::new();
+    for part in tokens.split_inclusive(is_comma) {
+        let (comma, words) = match part.split_last() {
+            Some((last, words)) if is_comma(last) => (Some(last), words),
+            _ => (None, part),
+        };
+        match syn::parse2(words.iter().cloned().collect()) {
+            Ok(setting) => settings.push(setting),
+            Err(error) => {
+                let span = comma.filter(|_| words.is_empty()).map_or_else(|| error.span(), TokenTree::span);
+                report.at_span(span, Mistake::UnknownOption);
+            }
+        }
+    }
+    settings
 }
 
 /// The one option of a field, `crate = mechanics`.

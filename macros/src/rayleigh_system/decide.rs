@@ -27,12 +27,10 @@ pub fn engine(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Dec
     if !report.is_empty() {
         // The mistakes in bodies are shown beside those found so far.
         rewrite::over_duals(system, report);
+        parameters::check_unread(system, report);
         return Decision::Refused;
     }
     lanes::check(system, report);
-    if !report.is_empty() {
-        return Decision::Refused;
-    }
     match system.engine {
         Engine::NumDual => by_duals(system, report),
         Engine::Auto if !asks_for_code(system) => by_either(system, runtime, report),
@@ -69,7 +67,8 @@ fn by_either(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Deci
 fn written_out(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Decision {
     expansion(system, runtime, report).unwrap_or_else(|refusal| {
         // Advice that the system could not follow is none.
-        let by_duals = !refusal.is_final && !asks_for_code(system) && runtime.has_std && {
+        let is_sound = report.is_empty() && !refusal.is_final && !asks_for_code(system);
+        let by_duals = is_sound && runtime.has_std && {
             let mut mistakes = Report::default();
             rewrite::over_duals(system, &mut mistakes);
             mistakes.is_empty()
@@ -82,15 +81,19 @@ fn written_out(system: &System<'_>, runtime: Runtime, report: &mut Report) -> De
 fn expansion(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Result<Decision, Refusal> {
     let lowered = lower::system(system);
     joint::check(system, lowered.as_ref().ok(), report);
-    if report.is_empty()
-        && let Ok(lowered) = &lowered
-    {
-        parameters::check(system, lowered, report);
+    let is_sound = report.is_empty();
+    match &lowered {
+        Ok(lowered) => parameters::check(system, lowered, report),
+        Err(_) => parameters::check_unread(system, report),
     }
-    if !report.is_empty() {
+    let lowered = lowered?;
+    if !is_sound {
         return Ok(Decision::Refused);
     }
-    let written = written_out::functions(system, lowered?, runtime.is_portable)?;
+    // Parameters that are none hide nothing of what is found in the expressions.
+    let without_parameters = System { parameters: Vec::new(), ..system.clone() };
+    let system = if report.is_empty() { system } else { &without_parameters };
+    let written = written_out::functions(system, lowered, runtime.is_portable)?;
     lanes::check_written(system, &written, report);
     if !report.is_empty() {
         return Ok(Decision::Refused);
@@ -102,6 +105,7 @@ fn expansion(system: &System<'_>, runtime: Runtime, report: &mut Report) -> Resu
 fn by_duals(system: &System<'_>, report: &mut Report) -> Decision {
     joint::check(system, None, report);
     if !report.is_empty() {
+        rewrite::over_duals(system, report);
         return Decision::Refused;
     }
     let mut mistakes = Report::default();

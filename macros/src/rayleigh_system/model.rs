@@ -95,6 +95,7 @@ impl Degrees {
 }
 
 /// A checked system.
+#[derive(Clone)]
 pub struct System<'a> {
     pub source: &'a Source,
     /// The name of the type.

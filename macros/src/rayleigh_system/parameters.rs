@@ -6,7 +6,7 @@ use quote::{ToTokens, quote};
 use super::diagnostics::{Mistake, Report};
 use super::graph::Operation;
 use super::lower::Lowered;
-use super::model::System;
+use super::model::{Source, System};
 
 /// Reports parameters that nothing reads, and those that are read where no derivative reaches them.
 pub fn check(system: &System<'_>, lowered: &Lowered, report: &mut Report) {
@@ -30,6 +30,21 @@ pub fn check(system: &System<'_>, lowered: &Lowered, report: &mut Report) {
                 (parameter.to_token_stream().to_string(), within.to_string().replace(" . ", "."));
             report.at(parameter, Mistake::HiddenParameter { parameter: parameter_text, within });
         } else if !read.contains(&quote!(self.#parameter).to_string()) {
+            report.at(parameter, Mistake::NoSuchParameter(parameter.to_token_stream().to_string()));
+        }
+    }
+}
+
+/// Reports the parameters that nothing can read, where no expressions tell what is read: the item names no
+/// such field.
+pub fn check_unread(system: &System<'_>, report: &mut Report) {
+    for parameter in &system.parameters {
+        let root = first_word(parameter.to_token_stream());
+        let is_read = match system.source {
+            Source::Block(block) => reads_field(block.item.to_token_stream(), &root),
+            Source::Function(function) => function.fields().any(|(field, _)| *field == root),
+        };
+        if !is_read {
             report.at(parameter, Mistake::NoSuchParameter(parameter.to_token_stream().to_string()));
         }
     }

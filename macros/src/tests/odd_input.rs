@@ -88,7 +88,7 @@ fn the_struct_is_named_after_the_function() {
 
 #[test]
 fn wrong_attributes_say_what_is_right() {
-    let item = format!("impl System {{ fn lagrangian{SIGNATURE} {{ q[0] * v[0] }} }}");
+    let item = format!("impl System {{ fn lagrangian{SIGNATURE} {{ self.k * q[0] * v[0] }} }}");
     for right in [
         "",
         "rule = midpoint",
