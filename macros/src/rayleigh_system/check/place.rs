@@ -43,6 +43,11 @@ impl Place {
     }
 }
 
+/// The place that the name of a parameter is known for.
+pub fn known_place((name, _): Parameter<'_>) -> Option<Place> {
+    Place::of_name(&unmarked(&name?.to_string()))
+}
+
 /// Reports a name that is known for another argument, and a time that is not called so: a number after v
 /// might be meant as anything.
 pub fn at_place(name: Option<&Ident>, place: Place, report: &mut Report) {

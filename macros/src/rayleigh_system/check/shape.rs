@@ -51,6 +51,12 @@ pub fn same_shape(ty: &Type, name: &'static str, shape: &Shape, report: &mut Rep
     }
 }
 
+/// Whether the type is an array as long as q.
+pub fn has_shape(ty: &Type, shape: &Shape) -> bool {
+    let expected = shape.degrees.length.to_token_stream().to_string();
+    matches!(ty, Type::Array(array) if array.len.to_token_stream().to_string() == expected)
+}
+
 pub fn is(ty: &Type, scalar: &Ident) -> bool {
     simple_name(ty) == Some(scalar)
 }

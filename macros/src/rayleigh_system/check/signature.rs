@@ -6,8 +6,8 @@ use syn::{Expr, FnArg, Ident, Pat, ReceiverKind, ReturnType, Safety, Signature, 
 
 use super::super::diagnostics::{Mistake, Report};
 use super::super::model::RayleighArguments;
-use super::place::{Parameter, Place, at_place};
-use super::shape::{Shape, is, is_zero, same_shape, shape_of};
+use super::place::{Parameter, Place, at_place, known_place};
+use super::shape::{Shape, has_shape, is, is_zero, same_shape, shape_of};
 
 /// The shape of the system, and whether L takes the time.
 pub fn lagrangian_signature(
@@ -116,6 +116,10 @@ pub fn rayleigh_signature(
             let arguments = of_velocity(v, report);
             Some((arguments, time(t, shape, report)))
         }
+        [v, (_, u)] if known_place(parameters[1]) == Some(Place::Input) => {
+            report.at(u, Mistake::InputOfFunction);
+            Some((of_velocity(v, report), false))
+        }
         [q, v] => Some((of_both(q, v, report), false)),
         [q, v, t] => {
             let arguments = of_both(q, v, report);
@@ -139,7 +143,8 @@ pub fn force_signature(
     receiver(signature, FUNCTION, report);
     let parameters = typed_parameters(signature, report);
     let arguments = match parameters[..] {
-        [(of_q, q), (of_v, v), ref after @ ..] if after.len() <= 2 => {
+        [q, v, ref after @ ..] if after.len() <= 2 && !lacks_point(q, v, shape) => {
+            let ((of_q, q), (of_v, v)) = (q, v);
             at_place(of_q, Place::Configuration, report);
             at_place(of_v, Place::Velocity, report);
             same_shape(q, "q", shape, report);
@@ -168,6 +173,16 @@ pub fn force_signature(
         }
     }
     arguments
+}
+
+/// Whether q or v was left out before an input or a time: the names say so, or the length of the second.
+fn lacks_point(first: Parameter<'_>, second: Parameter<'_>, shape: &Shape) -> bool {
+    match [known_place(first), known_place(second)] {
+        [_, Some(Place::Input | Place::Time)] => true,
+        [Some(Place::Velocity), place] => place != Some(Place::Configuration),
+        [_, None] => !has_shape(second.1, shape),
+        _ => false,
+    }
 }
 
 /// Says what is wrong with the signature of σ, if anything.
